@@ -1,0 +1,7 @@
+# Compile options that every target of the project shares. No contraction: the error bounds of the
+# exact module assume that a*b+c rounds twice (Shewchuk 1997), so fused multiply-add is off.
+function(holdfast_compile_options target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -ffp-contract=off
+                         $<$<BOOL:${HOLDFAST_WERROR}>:-Werror>)
+  target_compile_definitions(${target} PRIVATE $<$<BOOL:${HOLDFAST_VALIDATE}>:HOLDFAST_VALIDATE=1>)
+endfunction()

@@ -1,0 +1,34 @@
+// Holdfast: an exact check of the promise (design §1), independent of the mesher's own state.
+#pragma once
+
+#include "holdfast/types.h"
+
+namespace holdfast {
+
+/// One rule of the promise and whether it holds.
+struct Rule {
+  std::string name;    ///< stable, e.g. "facets kept"
+  bool holds;
+  std::string detail;  ///< counts where it holds; the first offending entities where it does not
+};
+
+struct CheckResult {
+  std::vector<Rule> rules;
+  [[nodiscard]] bool holds() const {
+    for (const Rule& rule : rules)
+      if (!rule.holds) return false;
+    return true;
+  }
+};
+
+/// What a check may take as given.
+struct CheckOptions {
+  bool outside_dropped = false;  ///< input facets outside every tetrahedron are accepted
+  bool box = false;              ///< the mesh may extend to an enclosing box (--keep box)
+};
+
+/// Checks a volume against the surface that it should keep, exactly.
+[[nodiscard]] CheckResult check(const Complex& surface, const Volume& volume,
+                                const CheckOptions& options = {});
+
+}  // namespace holdfast

@@ -1,0 +1,117 @@
+// Holdfast: fills any triangulated surface with tetrahedra and keeps every input triangle.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <map>
+
+#include "holdfast/types.h"
+
+namespace holdfast {
+
+/// Stages of the pipeline (design §2), in order.
+enum class Stage { validate, delaunay, flips, partition, eliminate, classify, suppress };
+
+/// Name of a stage as the command line and the report spell it.
+[[nodiscard]] const char* name(Stage stage);
+
+/// Which regions stay in the volume (design §2.6).
+enum class Keep {
+  automatic,  ///< winding number where the surface is consistently oriented, else every bounded region
+  bounded,    ///< every bounded region
+  winding,    ///< bounded regions of non-zero winding number
+  box,        ///< everything out to an enclosing box
+};
+
+/// A region to number: the region that holds `where` gets `id`.
+using RegionSeed = Surface::RegionSeed;
+
+/// What a running call tells, and may be told.
+struct Progress {
+  Stage stage;
+  double fraction;  ///< of this stage, 0 to 1
+};
+
+/// Options of `mesh`. Every default gives the promise of design §1.
+struct Options {
+  bool flips = true;  ///< recover by flips before partition; without, partition does all the work
+  Keep keep = Keep::automatic;
+  double box_margin = 0.1;  ///< of the largest extent, for Keep::box
+  std::vector<Point> holes;
+  std::vector<RegionSeed> regions;
+  bool drop_outside = false;  ///< facets outside every kept region are dropped instead of refused
+  std::optional<Stage> stop_after;
+  std::uint64_t seed = 1;                  ///< of the random orders
+  double time_limit = 0;                   ///< seconds; 0: none
+  std::uint64_t memory_limit = 0;          ///< bytes of the process; 0: none
+  /// Called now and then from the calling thread; returns false to cancel.
+  std::function<bool(const Progress&)> progress;
+};
+
+enum class Outcome {
+  done,
+  invalid_input,      ///< `defects` says which rule is broken and where
+  time_limit,         ///< `options.time_limit` ran out
+  memory_limit,       ///< `options.memory_limit` ran out
+  cancelled,          ///< the progress callback returned false
+  not_representable,  ///< valid, but some Steiner point has no position in doubles
+};
+
+/// Numbers of a run; the paper's Tables I and II (design §3.3).
+struct Report {
+  struct Input {
+    std::size_t vertices = 0, segments = 0, facets = 0, components = 0;
+    bool closed = false;
+    std::size_t nonmanifold_segments = 0, dangling_facets = 0;
+  } input;
+  struct Missing {
+    std::size_t segments = 0, facets = 0;
+  } delaunay, flips;  ///< missing after Delaunay, and after the flips
+  std::size_t segment_points = 0, facet_points = 0;  ///< added by the partition
+  std::size_t steiner_points = 0;                    ///< left in the volume
+  std::size_t unrounded_points = 0;                  ///< of these, without a position in doubles
+  std::size_t vertices = 0, tetrahedra = 0, regions = 0;
+  struct Quality {
+    double target = 0, worst = 0;  ///< the paper's Q = sqrt(6)/12 h_max / inradius, 1 is regular
+    double min_dihedral_deg = 0, max_dihedral_deg = 0;
+    std::array<std::size_t, 18> histogram{};  ///< dihedral angles in bins of 10 degrees
+  } quality;
+  std::map<std::string, double> seconds;  ///< by stage, and "total"
+  std::uint64_t peak_memory_bytes = 0;
+};
+
+/// A vertex position that no double holds, as exact binary fractions.
+struct ExactVertex {
+  Index vertex;
+  std::array<std::string, 3> coordinates;  ///< "m*2^e", both decimal integers
+};
+
+struct Result {
+  Outcome outcome = Outcome::done;
+  Volume volume;  ///< empty unless `outcome` is done or not_representable
+  Report report;
+  std::vector<Defect> defects;
+  std::vector<ExactVertex> exact_vertices;  ///< for not_representable
+  std::string message;                      ///< one sentence when the outcome is not done
+};
+
+/// Fills a complex with tetrahedra, keeping every facet and segment (the promise of design §1).
+///
+/// Expected endings are outcomes. Throws std::bad_alloc when memory runs out without a limit, and
+/// std::logic_error if an internal invariant breaks (please report it).
+[[nodiscard]] Result mesh(const Complex& complex, const Options& options = {});
+
+/// Every broken rule of a valid input (design §1), exactly; empty for a valid complex.
+/// `most` bounds the number of defects returned.
+[[nodiscard]] std::vector<Defect> diagnose(const Complex& complex, std::size_t most = SIZE_MAX);
+
+/// Delaunay tetrahedra of the convex hull of `points`; repeated points are left unused.
+///
+/// Throws std::invalid_argument for non-finite coordinates. All points coplanar: no tetrahedra.
+[[nodiscard]] std::vector<Tetrahedron> delaunay(std::span<const Point> points,
+                                                std::uint64_t seed = 1);
+
+/// Library version, "major.minor.patch".
+[[nodiscard]] const char* version();
+
+}  // namespace holdfast

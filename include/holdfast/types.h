@@ -1,0 +1,96 @@
+// Holdfast: public value types. Everything here is plain data without invariants of its own.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace holdfast {
+
+/// Index of a vertex, facet, segment or tetrahedron; always zero-based.
+using Index = std::uint32_t;
+/// x, y, z in the input's own unit.
+using Point = std::array<double, 3>;
+/// Vertex indices of an input segment.
+using Segment = std::array<Index, 2>;
+/// Vertex indices of an input triangle (facet).
+using Triangle = std::array<Index, 3>;
+/// Vertex indices of a tetrahedron with det(b-a, c-a, d-a) > 0.
+using Tetrahedron = std::array<Index, 4>;
+
+/// A piecewise linear complex as non-owning views: what the mesher takes.
+///
+/// Vertices that no facet and no segment uses are isolated points and become mesh vertices too.
+/// Marker spans are either empty or as long as the entities that they mark.
+struct Complex {
+  std::span<const Point> vertices;
+  std::span<const Triangle> facets;
+  std::span<const Segment> segments;
+  std::span<const int> facet_markers;
+  std::span<const int> segment_markers;
+};
+
+/// A piecewise linear complex that owns its arrays: what the readers give.
+struct Surface {
+  std::vector<Point> vertices;
+  std::vector<Triangle> facets;
+  std::vector<Segment> segments;
+  std::vector<int> facet_markers;    ///< empty, or one a facet
+  std::vector<int> segment_markers;  ///< empty, or one a segment
+  /// Region seeds and hole seeds that some formats carry (.poly, .smesh).
+  struct RegionSeed {
+    Point where;
+    int id;
+  };
+  std::vector<RegionSeed> regions;
+  std::vector<Point> holes;
+
+  [[nodiscard]] Complex view() const {
+    return {vertices, facets, segments, facet_markers, segment_markers};
+  }
+};
+
+/// A tetrahedral mesh that conforms to a complex.
+struct Volume {
+  std::vector<Point> vertices;  ///< 0..n-1 are the input's, bit for bit; then the Steiner points
+  std::vector<Tetrahedron> tetrahedra;
+  std::vector<int> regions;  ///< region id, one a tetrahedron
+  std::vector<Triangle> facets;
+  std::vector<int> facet_markers;  ///< empty, or one a facet
+  std::vector<Segment> segments;
+  std::vector<int> segment_markers;  ///< empty, or one a segment
+};
+
+/// Which rule of a valid input is broken (design §1). The numbers are stable.
+enum class DefectKind : int {
+  non_finite_coordinate = 1,  ///< a vertex with NaN or infinity
+  index_out_of_range = 2,     ///< a facet or segment that names a vertex which does not exist
+  repeated_vertex = 3,        ///< two vertices with identical coordinates
+  degenerate_facet = 4,       ///< a facet that names one vertex twice, or of zero area
+  degenerate_segment = 5,     ///< a segment that names one vertex twice
+  repeated_facet = 6,         ///< two facets with the same three vertices
+  vertex_in_segment = 7,      ///< a vertex in the interior of a segment or facet side (T-junction)
+  vertex_in_facet = 8,        ///< a vertex in the interior of a facet
+  segments_cross = 9,         ///< two segments or sides that meet in an interior point
+  segment_pierces_facet = 10, ///< a segment or side that pierces a facet's interior
+  facets_cross = 11,          ///< two facets that meet outside a common face
+  facets_overlap = 12,        ///< two coplanar facets that share area
+  segments_overlap = 13,      ///< two collinear segments or sides that share length
+  encloses_nothing = 14,      ///< no region is bounded by the facets
+  outside_region = 15,        ///< facets or segments that lie outside every kept region
+};
+
+/// One broken rule, with the entities that break it.
+struct Defect {
+  DefectKind kind;
+  std::vector<Index> vertices;
+  std::vector<Index> facets;
+  std::vector<Index> segments;
+  std::vector<Point> where;  ///< 1 point, or the 2 ends of the intersection, rounded to doubles
+  std::string message;       ///< one sentence with indices, coordinates and what to do
+};
+
+}  // namespace holdfast
