@@ -1,0 +1,103 @@
+#include "mesh/tet_mesh.h"
+
+#include <cassert>
+
+namespace holdfast {
+
+Vertex TetMesh::add_vertex(const Point& p) {
+  positions_.push_back(p);
+  exact_of_.push_back(kNone);
+  incident_.push_back(kNone);
+  return static_cast<Vertex>(positions_.size() - 1);
+}
+
+Vertex TetMesh::add_vertex(const exact::ExactPoint& p) {
+  const Vertex v = add_vertex(Point{});
+  set_exact(v, p);
+  return v;
+}
+
+void TetMesh::move_vertex(Vertex v, const Point& p) {
+  release_exact(v);
+  positions_[v] = p;
+}
+
+void TetMesh::move_vertex(Vertex v, const exact::ExactPoint& p) { set_exact(v, p); }
+
+void TetMesh::remove_vertex(Vertex v) {
+  release_exact(v);
+  incident_[v] = kNone;
+}
+
+void TetMesh::release_exact(Vertex v) {
+  if (exact_of_[v] == kNone) return;
+  exact_[exact_of_[v]] = {};
+  exact_free_.push_back(exact_of_[v]);
+  exact_of_[v] = kNone;
+  --exact_in_use_;
+}
+
+void TetMesh::set_exact(Vertex v, const exact::ExactPoint& p) {
+  const exact::ExactPoint copy = p;  // p may live in exact_, which is about to change
+  release_exact(v);
+  positions_[v] = {copy.c[0].to_double(), copy.c[1].to_double(), copy.c[2].to_double()};
+  if (copy.c[0].is_double() && copy.c[1].is_double() && copy.c[2].is_double()) return;
+  if (exact_free_.empty()) {
+    exact_of_[v] = static_cast<std::uint32_t>(exact_.size());
+    exact_.push_back(copy);
+  } else {
+    exact_of_[v] = exact_free_.back();
+    exact_free_.pop_back();
+    exact_[exact_of_[v]] = copy;
+  }
+  ++exact_in_use_;
+}
+
+exact::ExactPoint TetMesh::exact_position(Vertex v) const {
+  return is_explicit(v) ? exact::lift(positions_[v].data()) : exact_[exact_of_[v]];
+}
+
+Tet TetMesh::add_tet(const Corners& v) {
+  if (free_.empty()) {
+    corners_.push_back(v);
+    neighbours_.push_back({kNone, kNone, kNone, kNone});
+    flags_.push_back(0);
+    return static_cast<Tet>(corners_.size() - 1);
+  }
+  const Tet t = free_.back();
+  free_.pop_back();
+  corners_[t] = v;
+  neighbours_[t] = {kNone, kNone, kNone, kNone};
+  flags_[t] = 0;
+  return t;
+}
+
+void TetMesh::remove_tet(Tet t) {
+  assert(alive(t));
+  flags_[t] = kDead;
+  free_.push_back(t);
+}
+
+void TetMesh::set_facet(Face f) {
+  set_flags(tet_of(f), facet_bit(side_of(f)));
+  const Face g = neighbour(f);
+  set_flags(tet_of(g), facet_bit(side_of(g)));
+}
+
+std::size_t TetMesh::memory_bytes() const {
+  return corners_.capacity() * (sizeof(Corners) + sizeof(Neighbours) + sizeof(Flags)) +
+         free_.capacity() * sizeof(Tet) +
+         positions_.capacity() * (sizeof(Point) + 2 * sizeof(std::uint32_t)) +
+         exact_.capacity() * sizeof(exact::ExactPoint);
+}
+
+void TetMesh::reserve(std::size_t vertices, std::size_t tets) {
+  positions_.reserve(vertices);
+  exact_of_.reserve(vertices);
+  incident_.reserve(vertices);
+  corners_.reserve(tets);
+  neighbours_.reserve(tets);
+  flags_.reserve(tets);
+}
+
+}  // namespace holdfast

@@ -1,0 +1,121 @@
+// The tetrahedral mesh: struct of arrays, four vertices and four neighbours a tetrahedron.
+//
+// The shape follows the kernel of HXT (Marot, Pellerin, Remacle 2019): flat arrays indexed by
+// tetrahedron, neighbour codes that name the shared face, ghost tetrahedra on the hull so that every
+// face has a neighbour. 34 bytes a tetrahedron and 32 a vertex.
+//
+// Invariants (validate.h checks them):
+//   1. neighbour(neighbour(f)) == f, and both tetrahedra hold the same three vertices there;
+//   2. every tetrahedron without a ghost is strictly positive, decided exactly;
+//   3. a facet bit is set on both sides of a face, a segment bit in the whole shell of an edge;
+//   4. incident(v) is a living tetrahedron that holds v, or kNone for a vertex that is not in the mesh.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "exact/point.h"
+#include "exact/predicates.h"
+#include "holdfast/types.h"
+#include "mesh/anatomy.h"
+
+namespace holdfast {
+
+class TetMesh {
+ public:
+  using Corners = std::array<Vertex, 4>;
+  using Neighbours = std::array<Face, 4>;
+
+  // --- vertices
+  Vertex add_vertex(const Point& p);
+  /// A vertex at an exact position; becomes explicit when doubles hold it.
+  Vertex add_vertex(const exact::ExactPoint& p);
+  void move_vertex(Vertex v, const Point& p);
+  void move_vertex(Vertex v, const exact::ExactPoint& p);
+  /// Takes back the position of a vertex that is in no tetrahedron.
+  void remove_vertex(Vertex v);
+  [[nodiscard]] std::size_t vertex_count() const { return positions_.size(); }
+  [[nodiscard]] bool is_explicit(Vertex v) const { return exact_of_[v] == kNone; }
+  /// The position, or the doubles nearest to it.
+  [[nodiscard]] const Point& position(Vertex v) const { return positions_[v]; }
+  [[nodiscard]] exact::PointRef point(Vertex v) const {
+    const std::uint32_t e = exact_of_[v];
+    return {positions_[v].data(), e == kNone ? nullptr : &exact_[e]};
+  }
+  [[nodiscard]] exact::ExactPoint exact_position(Vertex v) const;
+  [[nodiscard]] Tet incident(Vertex v) const { return incident_[v]; }
+  [[nodiscard]] bool in_mesh(Vertex v) const { return incident_[v] != kNone; }
+  void set_incident(Vertex v, Tet t) { incident_[v] = t; }
+
+  // --- tetrahedra
+  /// A slot for a tetrahedron; its neighbours are the caller's to set.
+  Tet add_tet(const Corners& v);
+  void remove_tet(Tet t);
+  [[nodiscard]] std::size_t slot_count() const { return corners_.size(); }
+  [[nodiscard]] std::size_t tet_count() const { return corners_.size() - free_.size(); }
+  [[nodiscard]] bool alive(Tet t) const { return (flags_[t] & kDead) == 0; }
+  [[nodiscard]] bool is_ghost(Tet t) const { return corners_[t][3] == kGhost; }
+  [[nodiscard]] const Corners& corners(Tet t) const { return corners_[t]; }
+  [[nodiscard]] Vertex corner(Tet t, int i) const { return corners_[t][static_cast<std::size_t>(i)]; }
+  [[nodiscard]] Face neighbour(Tet t, int i) const { return neighbours_[t][static_cast<std::size_t>(i)]; }
+  [[nodiscard]] Face neighbour(Face f) const { return neighbour(tet_of(f), side_of(f)); }
+  void link(Face f, Face g) {
+    neighbours_[tet_of(f)][f & 3u] = g;
+    neighbours_[tet_of(g)][g & 3u] = f;
+  }
+  [[nodiscard]] Flags flags(Tet t) const { return flags_[t]; }
+  void set_flags(Tet t, Flags f) { flags_[t] = static_cast<Flags>(flags_[t] | f); }
+  void clear_flags(Tet t, Flags f) { flags_[t] = static_cast<Flags>(flags_[t] & ~f); }
+  [[nodiscard]] bool is_facet(Face f) const { return (flags_[tet_of(f)] & facet_bit(side_of(f))) != 0; }
+  [[nodiscard]] bool is_segment(Tet t, int edge) const { return (flags_[t] & segment_bit(edge)) != 0; }
+  /// Marks a face on both sides.
+  void set_facet(Face f);
+
+  [[nodiscard]] Vertex apex(Face f) const { return corner(tet_of(f), side_of(f)); }
+  [[nodiscard]] std::array<Vertex, 3> face_vertices(Face f) const {
+    const Corners& v = corners_[tet_of(f)];
+    const auto& k = kFaceVertex[f & 3u];
+    return {v[static_cast<std::size_t>(k[0])], v[static_cast<std::size_t>(k[1])],
+            v[static_cast<std::size_t>(k[2])]};
+  }
+  /// Local index of v in t, or -1.
+  [[nodiscard]] int index_of(Tet t, Vertex v) const {
+    const Corners& c = corners_[t];
+    return c[0] == v ? 0 : c[1] == v ? 1 : c[2] == v ? 2 : c[3] == v ? 3 : -1;
+  }
+
+  /// Sign of det(b-a, c-a, d-a), exactly.
+  [[nodiscard]] int orient(Vertex a, Vertex b, Vertex c, Vertex d) const {
+    if (exact_in_use_ == 0)
+      return exact::orient3d(positions_[a].data(), positions_[b].data(), positions_[c].data(),
+                             positions_[d].data());
+    return exact::orient3d(point(a), point(b), point(c), point(d));
+  }
+  [[nodiscard]] int orient(Vertex a, Vertex b, Vertex c, exact::PointRef d) const {
+    return exact::orient3d(point(a), point(b), point(c), d);
+  }
+
+  /// Vertices whose position no double holds.
+  [[nodiscard]] std::size_t exact_vertex_count() const { return exact_in_use_; }
+  [[nodiscard]] std::size_t memory_bytes() const;
+  void reserve(std::size_t vertices, std::size_t tets);
+
+ private:
+  void release_exact(Vertex v);
+  void set_exact(Vertex v, const exact::ExactPoint& p);
+
+  std::vector<Corners> corners_;
+  std::vector<Neighbours> neighbours_;
+  std::vector<Flags> flags_;
+  std::vector<Tet> free_;
+
+  std::vector<Point> positions_;
+  std::vector<std::uint32_t> exact_of_;  // index in exact_, or kNone
+  std::vector<Tet> incident_;
+  std::vector<exact::ExactPoint> exact_;
+  std::vector<std::uint32_t> exact_free_;
+  std::size_t exact_in_use_ = 0;
+};
+
+}  // namespace holdfast

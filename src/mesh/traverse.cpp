@@ -1,0 +1,73 @@
+#include "mesh/traverse.h"
+
+namespace holdfast {
+namespace {
+
+// Visits the ball of v in breadth-first order until `stop` says so; returns where it stopped.
+template <typename Stop>
+Tet visit_ball(TetMesh& mesh, Vertex v, std::vector<Tet>& out, Stop stop) {
+  const std::size_t first = out.size();
+  Tet found = kNone;
+  const Tet start = mesh.incident(v);
+  if (start == kNone) return kNone;
+  out.push_back(start);
+  mesh.set_flags(start, kVisited);
+  for (std::size_t k = first; k < out.size() && found == kNone; ++k) {
+    const Tet t = out[k];
+    if (stop(t)) found = t;
+    for (int i = 0; i < 4; ++i) {
+      if (mesh.corner(t, i) == v) continue;
+      const Tet s = tet_of(mesh.neighbour(t, i));
+      if ((mesh.flags(s) & kVisited) != 0) continue;
+      mesh.set_flags(s, kVisited);
+      out.push_back(s);
+    }
+  }
+  for (std::size_t k = first; k < out.size(); ++k) mesh.clear_flags(out[k], kVisited);
+  return found;
+}
+
+}  // namespace
+
+void ball(TetMesh& mesh, Vertex v, std::vector<Tet>& out) {
+  visit_ball(mesh, v, out, [](Tet) { return false; });
+}
+
+void shell(const TetMesh& mesh, Tet t, Vertex a, Vertex b, std::vector<Tet>& out) {
+  const Tet start = t;
+  do {
+    out.push_back(t);
+    const auto& cd = kOpposite[static_cast<std::size_t>(mesh.index_of(t, a))]
+                              [static_cast<std::size_t>(mesh.index_of(t, b))];
+    t = tet_of(mesh.neighbour(t, cd[0]));
+  } while (t != start);
+}
+
+Tet find_edge(TetMesh& mesh, Vertex a, Vertex b) {
+  std::vector<Tet> scratch;
+  return visit_ball(mesh, a, scratch, [&](Tet t) { return mesh.index_of(t, b) >= 0; });
+}
+
+Face find_face(TetMesh& mesh, Vertex a, Vertex b, Vertex c) {
+  const Tet start = find_edge(mesh, a, b);
+  if (start == kNone) return kNone;
+  Tet t = start;
+  do {
+    const int k = mesh.index_of(t, c);
+    const auto& cd = kOpposite[static_cast<std::size_t>(mesh.index_of(t, a))]
+                              [static_cast<std::size_t>(mesh.index_of(t, b))];
+    if (k >= 0) return face_code(t, cd[0] == k ? cd[1] : cd[0]);
+    t = tet_of(mesh.neighbour(t, cd[0]));
+  } while (t != start);
+  return kNone;
+}
+
+void set_segment(TetMesh& mesh, Tet t, Vertex a, Vertex b) {
+  std::vector<Tet> tets;
+  shell(mesh, t, a, b, tets);
+  for (const Tet s : tets)
+    mesh.set_flags(s, segment_bit(kEdgeOf[static_cast<std::size_t>(mesh.index_of(s, a))]
+                                         [static_cast<std::size_t>(mesh.index_of(s, b))]));
+}
+
+}  // namespace holdfast

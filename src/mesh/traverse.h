@@ -1,0 +1,26 @@
+// Balls, shells and look-ups: the neighbourhoods that every stage asks for.
+#pragma once
+
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+
+namespace holdfast {
+
+/// Tetrahedra at v (ghosts included), appended to `out`. The mesh's visited bits serve as scratch.
+void ball(TetMesh& mesh, Vertex v, std::vector<Tet>& out);
+
+/// The shell of edge ab, starting with t, turning from the face (a b c) to (a b d) where
+/// (a b c d) is an even permutation of t's corners. Appended to `out`.
+void shell(const TetMesh& mesh, Tet t, Vertex a, Vertex b, std::vector<Tet>& out);
+
+/// A tetrahedron that holds edge ab, or kNone.
+[[nodiscard]] Tet find_edge(TetMesh& mesh, Vertex a, Vertex b);
+
+/// The face abc (one of its two codes), or kNone.
+[[nodiscard]] Face find_face(TetMesh& mesh, Vertex a, Vertex b, Vertex c);
+
+/// Marks edge ab in its whole shell as part of an input segment.
+void set_segment(TetMesh& mesh, Tet t, Vertex a, Vertex b);
+
+}  // namespace holdfast
