@@ -1,0 +1,31 @@
+// Points: explicit (three doubles) or exact (three binary fractions with their nearest doubles).
+#pragma once
+
+#include <array>
+
+#include "exact/dyadic.h"
+
+namespace holdfast::exact {
+
+struct ExactPoint {
+  std::array<Dyadic, 3> c;
+};
+
+/// A point as the predicates take it; a view that owns nothing.
+///
+/// `exact == nullptr`: the three doubles are the coordinates. Otherwise `exact` holds the coordinates
+/// and `approx` the double nearest to each (Dyadic::to_double), which the filters rely on.
+struct PointRef {
+  const double* approx = nullptr;
+  const ExactPoint* exact = nullptr;
+};
+
+/// The exact coordinates of a point.
+[[nodiscard]] ExactPoint lift(const double* p);
+[[nodiscard]] ExactPoint lift(PointRef p);
+
+/// a - b, computed exactly, then rounded to nearest: the relative error of each coordinate is at most
+/// 2^-53 (above the denormals), also where a and b share all their leading bits.
+void difference(PointRef a, PointRef b, double out[3]);
+
+}  // namespace holdfast::exact
