@@ -1,0 +1,54 @@
+// The kernel of a star-shaped cavity: the open set of points that see all of its faces (design §2.5).
+//
+// Asked by enforce (where may an apex go), suppress (which neighbour can take a point's place, where is
+// its best place) and optimise alike. Floating point proposes, the exact predicate decides.
+#pragma once
+
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+
+namespace holdfast {
+
+/// Where a vertex goes: in doubles, or at an exact position that no double holds.
+using Position = std::variant<Point, exact::ExactPoint>;
+
+[[nodiscard]] Vertex add_vertex(TetMesh& mesh, const Position& position);
+void move_vertex(TetMesh& mesh, Vertex v, const Position& position);
+
+class Kernel {
+ public:
+  explicit Kernel(const TetMesh& mesh) : mesh_(mesh) {}
+
+  /// A point x of the kernel has orient(a, b, c, x) > 0.
+  void add(Vertex a, Vertex b, Vertex c) { faces_.push_back({a, b, c}); }
+  [[nodiscard]] const std::vector<std::array<Vertex, 3>>& faces() const { return faces_; }
+
+  /// Whether x lies in the kernel.
+  [[nodiscard]] bool holds(exact::PointRef x) const;
+  /// Whether v sees every face that it is not a corner of.
+  [[nodiscard]] bool seen_from(Vertex v) const;
+
+  /// A point of the kernel: the centre of its largest inscribed ball where doubles hold one, else a point
+  /// of the coarsest dyadic grid that reaches inside. `origin` must lie in the kernel's closure; at most
+  /// two of the faces may lie in planes through it (then the kernel is not empty: design §2.5, and the
+  /// result never is), or none.
+  [[nodiscard]] std::optional<Position> find(exact::PointRef origin) const;
+
+ private:
+  struct Guess {
+    std::array<double, 3> offset{};  ///< from the origin
+    double radius = 0;               ///< of the inscribed ball
+    double size = 0;                 ///< of the cavity
+  };
+  [[nodiscard]] Guess guess(exact::PointRef origin) const;
+  [[nodiscard]] std::optional<Position> on_grid(exact::PointRef origin, const Guess& guess) const;
+  [[nodiscard]] std::optional<Position> along_direction(exact::PointRef origin, double size) const;
+
+  const TetMesh& mesh_;
+  std::vector<std::array<Vertex, 3>> faces_;
+};
+
+}  // namespace holdfast
