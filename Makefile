@@ -1,0 +1,61 @@
+# Holdfast: one word for every common job. `make help` lists them.
+JOBS ?= $(shell nproc)
+CORPUS ?=
+RELEASE := build/release
+
+.PHONY: help setup build demo test corpus bench format tidy debug asan install clean
+.DEFAULT_GOAL := help
+
+help:  ## this list
+	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 16
+
+setup:  ## installs what is missing of the Debian packages that building and testing need
+	@scripts/setup.sh build
+
+$(RELEASE)/build.ninja: CMakePresets.json | setup
+	@cmake --preset release
+
+build: setup $(RELEASE)/build.ninja  ## the program, build/release/holdfast
+	@cmake --build $(RELEASE) -j $(JOBS) --target holdfast_cli
+
+demo: build  ## makes a mechanical part, meshes it and checks the mesh
+	@python3 scripts/demo.py $(RELEASE)/holdfast build/demo
+
+test: build  ## every test, with a subset of the corpus where there is one
+	@cmake --build $(RELEASE) -j $(JOBS)
+	@HOLDFAST_CORPUS="$(CORPUS)" ctest --preset release -j $(JOBS)
+
+corpus: build  ## meshes and verifies every surface of CORPUS=dir (options: ARGS="--only 'gen_*'")
+	@python3 scripts/corpus.py --holdfast $(RELEASE)/holdfast --corpus "$(or $(CORPUS),../shared/corpus)" \
+	  --jobs $(JOBS) $(ARGS)
+
+bench:  ## speed against TetGen and CGAL, written to docs/benchmarks.md
+	@scripts/setup.sh build bench
+	@cmake --preset release -DHOLDFAST_BUILD_BENCH=ON
+	@cmake --build $(RELEASE) -j $(JOBS) --target holdfast_cli cgal_delaunay
+	@python3 bench/run.py --build $(RELEASE) --corpus "$(or $(CORPUS),../shared/corpus)" $(ARGS)
+
+format:  ## clang-format on every source
+	@scripts/setup.sh lint
+	@git ls-files '*.cpp' '*.h' | xargs clang-format -i
+
+tidy: $(RELEASE)/build.ninja  ## clang-tidy on every source (FILES="..." for some)
+	@scripts/setup.sh build lint
+	@echo $(or $(FILES),$$(git ls-files 'src/*.cpp')) | xargs -n 1 -P $(JOBS) clang-tidy -p $(RELEASE) --quiet
+
+debug: setup  ## the tests with assertions and a mesh validated after every operation
+	@cmake --preset debug
+	@cmake --build build/debug -j $(JOBS)
+	@HOLDFAST_CORPUS=none ctest --preset debug -j $(JOBS)
+
+asan: setup  ## the tests under the address and undefined behaviour sanitizers
+	@cmake --preset asan
+	@cmake --build build/asan -j $(JOBS)
+	@HOLDFAST_CORPUS=none ctest --preset asan -j $(JOBS)
+
+install: build  ## library, headers and program to PREFIX (default /usr/local)
+	@cmake --build $(RELEASE) -j $(JOBS) --target holdfast holdfast_cli
+	@cmake --install $(RELEASE) --prefix $(or $(PREFIX),/usr/local)
+
+clean:  ## removes build/
+	@rm -rf build

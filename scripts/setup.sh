@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that a job needs and that are missing; says nothing when none is.
+# Usage: scripts/setup.sh [build|bench|lint]...
+set -euo pipefail
+
+declare -A packages=(
+  [build]="ca-certificates cmake ninja-build g++ ccache python3 xz-utils zlib1g-dev libboost-dev libcli11-dev
+           libfmt-dev nlohmann-json3-dev libgtest-dev librapidcheck-dev libgmp-dev"
+  [bench]="tetgen libcgal-dev libgmp-dev libmpfr-dev"
+  [lint]="clang-format clang-tidy"
+)
+
+wanted=""
+for group in "${@:-build}"; do
+  [ -n "${packages[$group]:-}" ] || { echo "setup.sh: no group '$group'; there are: ${!packages[*]}" >&2; exit 2; }
+  wanted+=" ${packages[$group]}"
+done
+
+if ! command -v dpkg-query >/dev/null; then
+  echo "setup.sh: not a Debian system, so nothing is installed; the build needs the likes of:$wanted" >&2
+  exit 0
+fi
+missing=""
+for package in $wanted; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok' || missing+=" $package"
+done
+[ -n "$missing" ] || exit 0
+
+as_root=""
+if [ "$(id -u)" -ne 0 ]; then
+  as_root="sudo"
+  command -v sudo >/dev/null || { echo "setup.sh: as root, run: apt-get install$missing" >&2; exit 1; }
+fi
+echo "setup.sh: installing$missing"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+install() {
+  # shellcheck disable=SC2086
+  $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -y install --no-install-recommends $missing >"$log" 2>&1
+}
+# The package lists of a fresh machine are empty or old; refresh them only when they are of no use.
+install || { $as_root apt-get -qq update >"$log" 2>&1 && install; } || { cat "$log" >&2; exit 1; }

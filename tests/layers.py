@@ -1,0 +1,83 @@
+"""Fails when a layer of src/ includes a header of a layer above it, or when library code prints or exits.
+
+    layers.py ROOT LAYER...      LAYER... from the lowest to the highest (HOLDFAST_LAYERS of CMakeLists.txt)
+    layers.py --selftest
+"""
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+# Layers that may use less than everything below them.
+ONLY = {"check": {"exact"}, "io": set()}
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]', re.M)
+COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|R"\((?:.*?)\)"|"(?:\\.|[^"\\\n])*"', re.S)
+FORBIDDEN = re.compile(
+    r"std::(?:cout|cerr|clog|terminate|quick_exit)\b|#\s*include\s*<iostream>"
+    r"|(?<![\w.>:])(?:std::)?(?:printf|puts|putchar|perror|exit|_exit|abort)\s*\("
+    r"|(?<!\w)f(?:printf|puts|putc)\s*\(\s*(?:stdout|stderr)|(?:(?<!\w)std(?:out|err)(?!\w))")
+
+
+def blank(match):
+    return re.sub(r"[^\n]", " ", match.group())
+
+
+def broken_rules(root, layers):
+    """One line for every broken rule under root/src and root/include."""
+    for path in sorted([*root.glob("src/**/*.cpp"), *root.glob("src/**/*.h"), *root.glob("include/**/*.h")]):
+        layer = path.relative_to(root).parts[1]
+        public = path.is_relative_to(root / "include")
+        if not public and layer != "cli" and layer not in layers:
+            yield f"{path}: folder '{layer}' is not in HOLDFAST_LAYERS"
+            continue
+        text = path.read_text()
+        if public or layer == "cli":
+            allowed = set()
+        else:
+            allowed = ONLY.get(layer, set(layers[: layers.index(layer)])) | {layer}
+        for match in INCLUDE.finditer(text):
+            used = match.group(1).split("/")[0]
+            line = text.count("\n", 0, match.start(1)) + 1
+            if used in layers and used not in allowed:
+                yield f"{path}:{line}: {'a public header' if public else layer} must not include {match.group(1)}"
+        if layer != "cli":
+            code = COMMENT_OR_STRING.sub(blank, text)
+            for match in FORBIDDEN.finditer(code):
+                line = code.count("\n", 0, match.start()) + 1
+                yield f"{path}:{line}: library code must not print or exit: {match.group().strip()}"
+
+
+def selftest():
+    layers = ["exact", "mesh", "check", "io", "api"]
+    cases = [  # file, text, number of broken rules
+        ("src/mesh/a.h", '#include "exact/b.h"\n#include <vector>\n#include "mesh/c.h"\n', 0),
+        ("src/exact/a.h", '#include "mesh/b.h"\n', 1),
+        ("src/check/a.cpp", '#include "mesh/b.h"\n', 1),
+        ("src/check/b.cpp", '#include "exact/b.h"\n', 0),
+        ("src/io/a.cpp", '#include "exact/b.h"\n', 1),
+        ("src/io/b.cpp", '#include "holdfast/io.h"\nint n = std::snprintf(b, 2, "exit(1)");  // exit(1)\n', 0),
+        ("src/mesh/b.cpp", "void f() { std::exit(1); }\n", 1),
+        ("src/mesh/c.cpp", 'void f() { std::fprintf(stderr, "x"); }\n', 1),
+        ("src/mesh/d.cpp", "void f() { on_exit(1); q.exit(); std::cout << 1; }\n", 1),
+        ("src/cli/a.cpp", '#include "api/b.h"\nint main() { exit(1); }\n', 1),
+        ("src/other/a.cpp", "", 1),
+        ("include/holdfast/a.h", '#include "mesh/b.h"\n', 1),
+    ]
+    for name, text, expected in cases:
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / name
+            path.parent.mkdir(parents=True)
+            path.write_text(text)
+            found = list(broken_rules(Path(folder), layers))
+            assert len(found) == expected, (name, text, found)
+    print(f"{len(cases)} cases")
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["--selftest"]:
+        selftest()
+        sys.exit(0)
+    problems = list(broken_rules(Path(sys.argv[1]).resolve(), sys.argv[2:]))
+    print("\n".join(problems) or "every layer includes only what lies below it")
+    sys.exit(1 if problems else 0)
