@@ -25,8 +25,7 @@ std::size_t trailing_zeros(const BigInt& m) {
   return i * kLimbBits + static_cast<std::size_t>(std::countr_zero(limbs[i]));
 }
 
-/// Bits [at, at + 64) of |m|.
-std::uint64_t window(const BigInt& m, std::size_t at) {
+std::uint64_t magnitude_window(const BigInt& m, std::size_t at) {
   const auto* limbs = m.backend().limbs();
   const std::size_t size = m.backend().size();
   std::uint64_t result = 0;
@@ -36,6 +35,21 @@ std::uint64_t window(const BigInt& m, std::size_t at) {
     result |= position >= at ? limb << (position - at) : limb >> (at - position);
   }
   return result;
+}
+
+/// Decimal digits by groups of 18 (BigInt::str trips -Wrestrict of g++ 12).
+std::string decimal(BigInt m) {
+  constexpr std::uint64_t kGroup = 1'000'000'000'000'000'000;
+  const bool negative = m.sign() < 0;
+  if (negative) m.backend().negate();
+  std::string digits;
+  while (m >= kGroup) {
+    const std::string group = std::to_string(static_cast<std::uint64_t>(m % kGroup));
+    digits.insert(0, std::string(18 - group.size(), '0') + group);
+    m /= kGroup;
+  }
+  digits.insert(0, std::to_string(static_cast<std::uint64_t>(m)));
+  return negative ? "-" + digits : digits;
 }
 
 }  // namespace
@@ -69,6 +83,8 @@ void Dyadic::normalise() {
 
 std::size_t Dyadic::bits() const { return magnitude_bits(mantissa_); }
 
+std::uint64_t Dyadic::window(std::size_t at) const { return magnitude_window(mantissa_, at); }
+
 double Dyadic::to_double() const {
   if (mantissa_.is_zero()) return 0;
   const double sign = mantissa_.sign() < 0 ? -1.0 : 1.0;
@@ -79,11 +95,11 @@ double Dyadic::to_double() const {
   if (precision < 0) return sign * 0.0;
   const std::int64_t dropped = size - precision;
   if (dropped <= 0) {
-    return sign * std::ldexp(static_cast<double>(window(mantissa_, 0)), static_cast<int>(exponent_));
+    return sign * std::ldexp(static_cast<double>(window(0)), static_cast<int>(exponent_));
   }
   const auto position = static_cast<std::size_t>(dropped);
-  std::uint64_t kept = precision == 0 ? 0 : window(mantissa_, position);
-  const bool half = (window(mantissa_, position - 1) & 1) != 0;
+  std::uint64_t kept = precision == 0 ? 0 : window(position);
+  const bool half = (window(position - 1) & 1) != 0;
   // The mantissa is odd: when two bits or more are dropped, the lowest of them is set, so no tie.
   if (half && (dropped >= 2 || (kept & 1) != 0)) ++kept;
   return sign * std::ldexp(static_cast<double>(kept), static_cast<int>(exponent_ + dropped));
@@ -95,7 +111,7 @@ bool Dyadic::is_double() const {
   return size <= 53 && exponent_ >= -1074 && exponent_ + size <= 1024;
 }
 
-std::string Dyadic::to_string() const { return mantissa_.str() + "*2^" + std::to_string(exponent_); }
+std::string Dyadic::to_string() const { return decimal(mantissa_) + "*2^" + std::to_string(exponent_); }
 
 Dyadic Dyadic::scaled(std::int64_t k) const {
   Dyadic result = *this;

@@ -36,6 +36,8 @@ class Dyadic {
   [[nodiscard]] int sign() const { return mantissa_.sign(); }
   /// Number of bits of |mantissa|; 0 for zero.
   [[nodiscard]] std::size_t bits() const;
+  /// Bits [at, at + 64) of |mantissa|; zeros beyond its end.
+  [[nodiscard]] std::uint64_t window(std::size_t at) const;
   /// The nearest double, ties to even; infinity beyond the range, denormals where needed.
   [[nodiscard]] double to_double() const;
   /// Whether some finite double has exactly this value.

@@ -1,60 +1,98 @@
-// The exact tiers of the predicates.
+// The predicates beyond their inline filters: filter for exact points, order of the tiers.
 #include "exact/predicates.h"
 
-#include <array>
+#include "exact/tiers.h"
 
 namespace holdfast::exact {
+namespace detail {
 namespace {
 
-using Vector = std::array<Dyadic, 3>;
+// One instruction each, where references (std::max) may become branches.
+double larger(double a, double b) { return a < b ? b : a; }
+double smaller(double a, double b) { return b < a ? b : a; }
 
-Vector minus(const ExactPoint& a, const ExactPoint& b) {
-  return {a.c[0] - b.c[0], a.c[1] - b.c[1], a.c[2] - b.c[2]};
+/// Decides orient3d of exact points from their approximations, or 0.
+///
+/// Let M be the largest coordinate along an axis, D the largest computed difference. A coordinate errs
+/// by eps M at most, hence a difference by 2 eps M and a rounding eps D. Each of the six terms of the
+/// determinant then errs by 2 eps (Mx Dy Dz + Dx My Dz + Dx Dy Mz) (1 + O(eps)) for the coordinates and
+/// 7 eps Dx Dy Dz for all roundings (Shewchuk). With every D above 2^-300 underflow is far below that.
+int orient3d_mixed_filter(const double* a, const double* b, const double* c, const double* d) {
+  double m[3], extent[3], u[3], v[3], w[3];
+  for (int i = 0; i < 3; ++i) {
+    u[i] = b[i] - a[i];
+    v[i] = c[i] - a[i];
+    w[i] = d[i] - a[i];
+    m[i] = larger(larger(std::fabs(a[i]), std::fabs(b[i])), larger(std::fabs(c[i]), std::fabs(d[i])));
+    extent[i] = larger(larger(std::fabs(u[i]), std::fabs(v[i])), std::fabs(w[i]));
+  }
+  if (!(smaller(smaller(extent[0], extent[1]), extent[2]) > 0x1p-300)) return 0;
+  const double det = u[2] * (v[0] * w[1] - w[0] * v[1]) + v[2] * (w[0] * u[1] - u[0] * w[1]) +
+                     w[2] * (u[0] * v[1] - v[0] * u[1]);
+  const double xy = extent[0] * extent[1];
+  const double from_coordinates = xy * m[2] + (extent[0] * m[1] + m[0] * extent[1]) * extent[2];
+  const double bound = kEpsilon * (12.5 * from_coordinates + 42.5 * (xy * extent[2]));
+  if (det > bound) return 1;
+  if (-det > bound) return -1;
+  return 0;
 }
 
-Dyadic det(const Vector& u, const Vector& v, const Vector& w) {
-  return u[2] * (v[0] * w[1] - w[0] * v[1]) + v[2] * (w[0] * u[1] - u[0] * w[1]) +
-         w[2] * (u[0] * v[1] - v[0] * u[1]);
-}
-
-Dyadic square(const Vector& u) { return u[0] * u[0] + u[1] * u[1] + u[2] * u[2]; }
-
-int orient3d_exact(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, const ExactPoint& d) {
-  return det(minus(b, a), minus(c, a), minus(d, a)).sign();
-}
-
-Dyadic coordinate(PointRef p, int i) {
-  return p.exact != nullptr ? p.exact->c[static_cast<std::size_t>(i)] : Dyadic(p.approx[i]);
-}
-
-int orient2d_exact(const Dyadic& ax, const Dyadic& ay, const Dyadic& bx, const Dyadic& by, const Dyadic& cx,
-                   const Dyadic& cy) {
-  return ((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)).sign();
+/// The same in the plane: terms err by 2 eps (Mx Dy + Dx My) for the coordinates, 4 eps Dx Dy for the
+/// roundings.
+int orient2d_mixed_filter(const double* a, const double* b, const double* c, int x, int y) {
+  const double ux = b[x] - a[x], uy = b[y] - a[y];
+  const double vx = c[x] - a[x], vy = c[y] - a[y];
+  const double mx = larger(larger(std::fabs(a[x]), std::fabs(b[x])), std::fabs(c[x]));
+  const double my = larger(larger(std::fabs(a[y]), std::fabs(b[y])), std::fabs(c[y]));
+  const double dx = larger(std::fabs(ux), std::fabs(vx));
+  const double dy = larger(std::fabs(uy), std::fabs(vy));
+  if (!(smaller(dx, dy) > 0x1p-300)) return 0;
+  const double det = ux * vy - uy * vx;
+  const double bound = kEpsilon * (4.5 * (mx * dy + dx * my) + 8.5 * (dx * dy));
+  if (det > bound) return 1;
+  if (-det > bound) return -1;
+  return 0;
 }
 
 }  // namespace
 
-namespace detail {
+Decision decide_orient3d(const double* a, const double* b, const double* c, const double* d) {
+  if (const auto sign = integer_orient3d<1>(a, b, c, d)) return {*sign, Tier::integer64};
+  if (const auto sign = integer_orient3d<2>(a, b, c, d)) return {*sign, Tier::integer128};
+  if (const auto sign = expansion_orient3d(a, b, c, d)) return {*sign, Tier::expansion};
+  return {big_orient3d({a}, {b}, {c}, {d}), Tier::big_integer};
+}
+
+Decision decide_orient2d(const double* a, const double* b, const double* c) {
+  if (const auto sign = integer_orient2d<1>(a, b, c)) return {*sign, Tier::integer64};
+  if (const auto sign = integer_orient2d<2>(a, b, c)) return {*sign, Tier::integer128};
+  if (const auto sign = expansion_orient2d(a, b, c)) return {*sign, Tier::expansion};
+  // A third coordinate serves the interface only.
+  const double pa[3] = {a[0], a[1], 0}, pb[3] = {b[0], b[1], 0}, pc[3] = {c[0], c[1], 0};
+  return {big_orient2d({pa}, {pb}, {pc}, 2), Tier::big_integer};
+}
+
+Decision decide_insphere(const double* a, const double* b, const double* c, const double* d,
+                         const double* e) {
+  if (const auto sign = integer_insphere<1>(a, b, c, d, e)) return {*sign, Tier::integer64};
+  if (const auto sign = integer_insphere<2>(a, b, c, d, e)) return {*sign, Tier::integer128};
+  if (const auto sign = expansion_insphere(a, b, c, d, e)) return {*sign, Tier::expansion};
+  return {big_insphere(a, b, c, d, e), Tier::big_integer};
+}
 
 int orient3d_slow(const double* a, const double* b, const double* c, const double* d) {
-  return orient3d_exact(lift(a), lift(b), lift(c), lift(d));
+  return decide_orient3d(a, b, c, d).sign;
 }
 
 int orient3d_mixed(PointRef a, PointRef b, PointRef c, PointRef d) {
-  return orient3d_exact(lift(a), lift(b), lift(c), lift(d));
+  const int sign = orient3d_mixed_filter(a.approx, b.approx, c.approx, d.approx);
+  return sign != 0 ? sign : decide_orient3d(a, b, c, d).sign;
 }
 
-int orient2d_slow(const double* a, const double* b, const double* c) {
-  return orient2d_exact(a[0], a[1], b[0], b[1], c[0], c[1]);
-}
+int orient2d_slow(const double* a, const double* b, const double* c) { return decide_orient2d(a, b, c).sign; }
 
 int insphere_slow(const double* a, const double* b, const double* c, const double* d, const double* e) {
-  const ExactPoint origin = lift(e);
-  const Vector u = minus(lift(a), origin), v = minus(lift(b), origin);
-  const Vector w = minus(lift(c), origin), x = minus(lift(d), origin);
-  const Dyadic left = square(u) * det(v, w, x) - square(v) * det(w, x, u);
-  const Dyadic right = square(w) * det(x, u, v) - square(x) * det(u, v, w);
-  return (left + right).sign();
+  return decide_insphere(a, b, c, d, e).sign;
 }
 
 }  // namespace detail
@@ -67,8 +105,8 @@ int orient2d(PointRef a, PointRef b, PointRef c, int axis) {
     const double pc[2] = {c.approx[x], c.approx[y]};
     return orient2d(pa, pb, pc);
   }
-  return orient2d_exact(coordinate(a, x), coordinate(a, y), coordinate(b, x), coordinate(b, y),
-                        coordinate(c, x), coordinate(c, y));
+  const int sign = detail::orient2d_mixed_filter(a.approx, b.approx, c.approx, x, y);
+  return sign != 0 ? sign : detail::decide_orient2d(a, b, c, axis).sign;
 }
 
 }  // namespace holdfast::exact
