@@ -1,0 +1,72 @@
+// `holdfast check`: does a volume keep the promise for a surface?
+#include "holdfast/check.h"
+
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "command.h"
+#include "files.h"
+#include "report.h"
+#include "signals.h"
+
+namespace holdfast::cli {
+namespace {
+
+struct CheckArguments {
+  std::vector<std::filesystem::path> files;  // surfaces, then the volume
+  std::filesystem::path report;
+  std::string format;
+  CheckOptions options;
+  bool quiet = false;
+};
+
+Json report_of(const CheckResult& result) {
+  Json rules = Json::array();
+  for (const Rule& rule : result.rules)
+    rules.push_back({{"name", rule.name}, {"holds", rule.holds}, {"detail", rule.detail}});
+  return {{"holds", result.holds()}, {"rules", rules}, {"version", version()}};
+}
+
+int run(const CheckArguments& arguments) {
+  if (arguments.files.size() < 2)
+    throw UsageError("check: a surface and a volume are expected, as in `holdfast check part.stl part.vtu`");
+  require_writable(arguments.report);
+  cancel_at_once();
+  const std::filesystem::path& volume_path = arguments.files.back();
+  const Surface surface = read_surfaces({arguments.files.begin(), arguments.files.end() - 1}, {});
+  const Volume volume = read_volume(volume_path, arguments.format);
+
+  const CheckResult result = check(surface.view(), volume, arguments.options);
+  if (!arguments.quiet)
+    for (const Rule& rule : result.rules)
+      fmt::print("{}  {}{}{}\n", rule.holds ? "holds " : "BROKEN", rule.name, rule.detail.empty() ? "" : ": ",
+                 rule.detail);
+  write_json(arguments.report, report_of(result));
+  if (result.holds()) return exit_done;
+  fmt::print(stderr, "holdfast: {} does not keep the surface; the rules marked BROKEN say where\n",
+             volume_path.string());
+  return exit_check_failed;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Command& chosen) {
+  const auto arguments = std::make_shared<CheckArguments>();
+  CLI::App* command = app.add_subcommand("check", "Verify exactly that a volume keeps a surface");
+  command
+      ->add_option("SURFACE VOLUME", arguments->files,
+                   "The surfaces that were meshed, then the volume (.vtu .vtk .mesh .msh .node)")
+      ->required();
+  command->add_flag("--outside-dropped", arguments->options.outside_dropped,
+                    "Accept missing facets that lie outside every tetrahedron (mesh --drop-outside)");
+  command->add_flag("--box", arguments->options.box,
+                    "The mesh goes out to an enclosing box (mesh --keep box)");
+  command->add_option("--format", arguments->format, "Volume format, instead of by ending")
+      ->option_text("FORMAT");
+  command->add_option("--report", arguments->report, "Write the rules as JSON")->option_text("FILE.json");
+  command->add_flag("-q,--quiet", arguments->quiet, "Only the exit code and failures");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace holdfast::cli

@@ -1,0 +1,38 @@
+// What every command of the program shares: exit codes, failures, how a command is registered.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace holdfast::cli {
+
+/// Exit codes (design §3.1). They are part of the interface: scripts depend on them.
+enum ExitCode : int {
+  exit_done = 0,
+  exit_internal_error = 1,
+  exit_usage = 2,
+  exit_file = 3,
+  exit_invalid_surface = 4,
+  exit_limit = 5,
+  exit_check_failed = 6,
+  exit_not_representable = 7,
+};
+
+/// The command line asks for something that does not exist or makes no sense.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What `main` runs once the command line is read; returns the exit code.
+using Command = std::function<int()>;
+
+/// Each adds its subcommand to `app`; when the user names it, `chosen` becomes the command to run.
+void add_mesh(CLI::App& app, Command& chosen);
+void add_check(CLI::App& app, Command& chosen);
+void add_diagnose(CLI::App& app, Command& chosen);
+void add_delaunay(CLI::App& app, Command& chosen);
+
+}  // namespace holdfast::cli

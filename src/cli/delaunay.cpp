@@ -1,0 +1,97 @@
+// `holdfast delaunay`: the Delaunay tetrahedra of points.
+#include <fmt/core.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <memory>
+
+#include "command.h"
+#include "files.h"
+#include "report.h"
+#include "signals.h"
+
+namespace holdfast::cli {
+namespace {
+
+struct DelaunayArguments {
+  std::filesystem::path points, output, report;
+  std::string format;
+  std::uint64_t seed = 1;
+  bool quiet = false;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts kilobytes
+}
+
+int run(const DelaunayArguments& arguments) {
+  const auto whole = std::chrono::steady_clock::now();
+  const VolumeTarget target = volume_target(arguments.output, arguments.format, {arguments.points});
+  require_writable(arguments.report);
+  cancel_at_once();
+  Volume volume;
+  volume.vertices = read_points(arguments.points);
+  const double reading = seconds_since(whole);
+
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    volume.tetrahedra = delaunay(volume.vertices, arguments.seed);
+  } catch (const std::invalid_argument& error) {
+    fmt::print(stderr, "holdfast: {}: {}\n", arguments.points.string(), error.what());
+    return exit_invalid_surface;
+  }
+  const double seconds = seconds_since(start);
+  if (volume.tetrahedra.empty())
+    fmt::print(stderr, "holdfast: {}: all {} points lie in one plane, so there is no tetrahedron\n",
+               arguments.points.string(), volume.vertices.size());
+
+  cancel_by_flag();  // from here on files are open
+  volume.regions.assign(volume.tetrahedra.size(), 1);
+  const auto writing = std::chrono::steady_clock::now();
+  write_volume(target.path, volume, target.options);
+  write_json(arguments.report,
+             {{"input", {{"vertices", volume.vertices.size()}}},
+              {"mesh", {{"vertices", volume.vertices.size()}, {"tetrahedra", volume.tetrahedra.size()}}},
+              {"seconds",
+               {{"read", reading},
+                {"delaunay", seconds},
+                {"write", seconds_since(writing)},
+                {"total", seconds_since(whole)}}},
+              {"peak_memory_bytes", peak_memory_bytes()},
+              {"version", version()},
+              {"options", {{"points", arguments.points.string()}, {"seed", arguments.seed}}},
+              {"outcome", "done"}});
+  if (!arguments.quiet)
+    fmt::print(stderr, "{}: {} points, {} tetrahedra, {:.2f} s ({:.2f} s Delaunay)\n", target.path.string(),
+               volume.vertices.size(), volume.tetrahedra.size(), seconds_since(whole), seconds);
+  return exit_done;
+}
+
+}  // namespace
+
+void add_delaunay(CLI::App& app, Command& chosen) {
+  const auto arguments = std::make_shared<DelaunayArguments>();
+  CLI::App* command = app.add_subcommand("delaunay", "Delaunay tetrahedra of the convex hull of points");
+  command
+      ->add_option("POINTS", arguments->points,
+                   "Points: .xyz (three numbers a line), .node (TetGen), or the vertices of a surface file")
+      ->required();
+  command->add_option("-o,--output", arguments->output, "Volume file (.vtu .vtk .mesh .msh .node)")
+      ->required()
+      ->option_text("VOLUME");
+  command->add_option("--seed", arguments->seed, "Seed of the random order (default 1)")->option_text("N");
+  command->add_option("--report", arguments->report, "Write counts and times as JSON")
+      ->option_text("FILE.json");
+  command->add_option("--format", arguments->format, "Volume format, instead of by ending; msh2 is .msh 2.2")
+      ->option_text("FORMAT");
+  command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace holdfast::cli

@@ -1,0 +1,80 @@
+// `holdfast diagnose`: what is wrong with a surface, and where.
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "command.h"
+#include "files.h"
+#include "report.h"
+#include "signals.h"
+
+namespace holdfast::cli {
+namespace {
+
+struct DiagnoseArguments {
+  std::vector<std::filesystem::path> surfaces;
+  std::filesystem::path marks, report;
+  std::string input_format;
+  bool json = false, quiet = false;
+};
+
+Json report_of(const Surface& surface, const std::vector<Defect>& defects) {
+  return {{"valid", defects.empty()},
+          {"input",
+           {{"vertices", surface.vertices.size()},
+            {"segments", surface.segments.size()},
+            {"facets", surface.facets.size()}}},
+          {"version", version()},
+          {"defects", to_json(defects)}};
+}
+
+int run(const DiagnoseArguments& arguments) {
+  require_writable(arguments.marks);
+  require_writable(arguments.report);
+  cancel_at_once();
+  const Surface surface = read_surfaces(arguments.surfaces, arguments.input_format);
+  const std::vector<Defect> defects = diagnose(surface.view());
+
+  cancel_by_flag();  // from here on files are open
+  if (!arguments.marks.empty()) write_marks(arguments.marks, surface.view(), defects);
+  const Json report = report_of(surface, defects);
+  write_json(arguments.report, report);
+  if (arguments.json)
+    fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
+  else if (!arguments.quiet)
+    print_defects(stdout, defects, defects.size());
+  if (defects.empty()) {
+    if (!arguments.quiet && !arguments.json)
+      fmt::print("valid: {} vertices, {} segments, {} facets\n", surface.vertices.size(),
+                 surface.segments.size(), surface.facets.size());
+    return exit_done;
+  }
+  std::fflush(stdout);
+  fmt::print(stderr, "holdfast: the surface is not valid: {} defect{}{}\n", defects.size(),
+             defects.size() == 1 ? "" : "s",
+             arguments.marks.empty() ? "; --marks FILE.vtu writes the places for a viewer" : "");
+  return exit_invalid_surface;
+}
+
+}  // namespace
+
+void add_diagnose(CLI::App& app, Command& chosen) {
+  const auto arguments = std::make_shared<DiagnoseArguments>();
+  CLI::App* command =
+      app.add_subcommand("diagnose", "List what is wrong with a surface (exit 4), or nothing");
+  command
+      ->add_option("SURFACE", arguments->surfaces,
+                   "Surface files (.stl .off .obj .ply .mesh .poly .smesh); several are joined where "
+                   "coordinates are identical")
+      ->required();
+  command->add_option("--marks", arguments->marks, "Write the places of the defects for a viewer")
+      ->option_text("FILE.vtu");
+  command->add_option("--report", arguments->report, "Write the defects as JSON")->option_text("FILE.json");
+  command->add_flag("--json", arguments->json, "Print the defects as JSON");
+  command->add_option("--input-format", arguments->input_format, "Surface format, instead of by ending")
+      ->option_text("FORMAT");
+  command->add_flag("-q,--quiet", arguments->quiet, "Only the exit code and a closing line");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace holdfast::cli

@@ -1,0 +1,215 @@
+// `holdfast mesh`: surfaces in, tetrahedra out.
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <memory>
+
+#include "command.h"
+#include "exact_file.h"
+#include "files.h"
+#include "mesh_options.h"
+#include "progress.h"
+#include "report.h"
+#include "signals.h"
+
+namespace holdfast::cli {
+namespace {
+
+constexpr std::size_t defects_shown = 20;
+
+class Stopwatch {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+Show how_to_show(const MeshArguments& arguments) {
+  if (arguments.quiet) return Show::nothing;
+  if (arguments.verbose) return Show::lines;
+  return isatty(STDERR_FILENO) != 0 ? Show::bar : Show::nothing;
+}
+
+std::string counted(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+void print_details(const Report& report) {
+  fmt::print(stderr, "input      {} vertices, {} segments, {} facets in {}, {}\n", report.input.vertices,
+             report.input.segments, report.input.facets, counted(report.input.components, "component"),
+             report.input.closed ? "closed" : "not closed");
+  fmt::print(stderr, "delaunay   missing: {}, {}\n", counted(report.delaunay.segments, "segment"),
+             counted(report.delaunay.facets, "facet"));
+  fmt::print(stderr, "flips      missing: {}, {}\n", counted(report.flips.segments, "segment"),
+             counted(report.flips.facets, "facet"));
+  fmt::print(stderr, "partition  {} on segments, {} in facets\n", counted(report.segment_points, "point"),
+             counted(report.facet_points, "point"));
+  fmt::print(stderr, "steiner    {} left, {} of them without a position in doubles\n",
+             counted(report.steiner_points, "point"), report.unrounded_points);
+  fmt::print(stderr, "quality    worst {:.4g}, dihedral angles {:.3g} to {:.3g} degrees\n",
+             report.quality.worst, report.quality.min_dihedral_deg, report.quality.max_dihedral_deg);
+  for (const auto& [stage, seconds] : report.seconds)
+    fmt::print(stderr, "seconds    {} {:.3f}\n", stage, seconds);
+}
+
+/// Says how the run ended and what the user can do; returns the exit code.
+int conclude(const MeshArguments& arguments, const Result& result) {
+  const std::string message = result.message.empty() ? name(result.outcome) : result.message;
+  switch (result.outcome) {
+    case Outcome::done:
+      return exit_done;
+    case Outcome::invalid_input: {
+      fmt::print(stderr, "holdfast: the surface is not valid: {}\n", message);
+      print_defects(stderr, result.defects, defects_shown);
+      if (result.defects.size() > defects_shown)
+        fmt::print(stderr, "... and {} more\n", result.defects.size() - defects_shown);
+      fmt::print(stderr, "`holdfast diagnose` lists every defect; --marks FILE.vtu shows them in a viewer\n");
+      return exit_invalid_surface;
+    }
+    case Outcome::time_limit:
+      fmt::print(stderr, "holdfast: {}; nothing was written; give a longer --time-limit\n", message);
+      return exit_limit;
+    case Outcome::memory_limit:
+      fmt::print(stderr, "holdfast: {}; nothing was written; give a larger --memory-limit\n", message);
+      return exit_limit;
+    case Outcome::cancelled:
+      fmt::print(stderr, "holdfast: cancelled; nothing was written\n");
+      return exit_limit;
+    case Outcome::not_representable:
+      fmt::print(
+          stderr, "holdfast: {} ({} of {} added points have no position in doubles); {} was not written\n",
+          message, result.report.unrounded_points, result.report.steiner_points, arguments.output.string());
+      if (arguments.exact.empty())
+        fmt::print(stderr,
+                   "--exact FILE writes the mesh with exact coordinates; a surface in finer units or "
+                   "nearer to the origin may have a mesh in doubles\n");
+      else
+        fmt::print(stderr, "the mesh with exact coordinates is in {}\n", arguments.exact.string());
+      return exit_not_representable;
+  }
+  return exit_internal_error;
+}
+
+void write_result(const MeshArguments& arguments, const VolumeTarget& target, const Result& result) {
+  if (result.outcome == Outcome::done) write_volume(target.path, result.volume, target.options);
+  if (result.outcome == Outcome::not_representable && !arguments.exact.empty())
+    write_exact(arguments.exact, result);
+}
+
+void print_summary(const MeshArguments& arguments, const Result& result, double seconds) {
+  if (arguments.verbose) print_details(result.report);
+  if (result.outcome != Outcome::done) return;
+  if (!result.defects.empty()) {
+    print_defects(stderr, result.defects, defects_shown);
+    if (result.defects.size() > defects_shown)
+      fmt::print(stderr, "... and {} more in the report (--report FILE.json)\n",
+                 result.defects.size() - defects_shown);
+  }
+  fmt::print(stderr, "{}: {} vertices ({} added), {} in {}, {:.2f} s\n", arguments.output.string(),
+             result.volume.vertices.size(), result.report.steiner_points,
+             result.volume.tetrahedra.size() == 1
+                 ? "1 tetrahedron"
+                 : fmt::format("{} tetrahedra", result.volume.tetrahedra.size()),
+             counted(result.report.regions, "region"), seconds);
+}
+
+int run(const MeshArguments& arguments) {
+  const Stopwatch whole;
+  Options options = to_options(arguments);
+  const VolumeTarget target = volume_target(arguments.output, arguments.format, arguments.surfaces);
+  require_writable(arguments.report);
+  require_writable(arguments.exact);
+  cancel_by_flag();
+
+  const Surface surface = read_surfaces(arguments.surfaces, arguments.input_format);
+  options.holes.insert(options.holes.end(), surface.holes.begin(), surface.holes.end());
+  options.regions.insert(options.regions.end(), surface.regions.begin(), surface.regions.end());
+  if (!arguments.fill && !arguments.quiet)
+    fmt::print(stderr,
+               "holdfast: field points are not built yet: only the points that the surface forces are "
+               "added, as with --fill\n");
+  const double reading = whole.seconds();
+  // The limit is on the whole command; 0 would mean none.
+  if (options.time_limit > 0) options.time_limit = std::max(1e-6, options.time_limit - reading);
+
+  ProgressView progress(how_to_show(arguments));
+  options.progress = std::ref(progress);
+  Result result = holdfast::mesh(surface.view(), options);
+  progress.finish();
+
+  const Stopwatch writing;
+  write_result(arguments, target, result);
+  result.report.seconds["read"] = reading;
+  result.report.seconds["write"] = writing.seconds();
+  result.report.seconds["total"] = whole.seconds();
+  write_json(arguments.report, to_json(result, to_json(arguments)));
+  if (!arguments.quiet) print_summary(arguments, result, whole.seconds());
+  return conclude(arguments, result);
+}
+
+}  // namespace
+
+void add_mesh(CLI::App& app, Command& chosen) {
+  const auto arguments = std::make_shared<MeshArguments>();
+  CLI::App* command = app.add_subcommand("mesh", "Fill surfaces with tetrahedra, keeping every triangle");
+  command
+      ->add_option("SURFACE", arguments->surfaces,
+                   "Surface files (.stl .off .obj .ply .mesh .poly .smesh); several are joined where "
+                   "coordinates are identical")
+      ->required();
+  command->add_option("-o,--output", arguments->output, "Volume file (.vtu .vtk .mesh .msh .node)")
+      ->required()
+      ->option_text("VOLUME");
+  command->add_flag("--fill", arguments->fill, "Add only the points that the surface forces");
+  command
+      ->add_option("--keep", arguments->keep,
+                   "Regions to keep: auto (default), bounded, winding, box or box=MARGIN (of the largest "
+                   "extent, default 0.1)")
+      ->option_text("RULE");
+  command->add_option("--hole", arguments->holes, "Leave the region that holds this point empty (repeatable)")
+      ->allow_extra_args(false)
+      ->option_text("x,y,z");
+  command->add_option("--region", arguments->regions, "Number the region that holds this point (repeatable)")
+      ->allow_extra_args(false)
+      ->option_text("x,y,z,ID");
+  command->add_flag("--drop-outside", arguments->drop_outside,
+                    "Drop facets outside every kept region instead of refusing them");
+  command
+      ->add_option("--without", arguments->without,
+                   "Leave out a step: 'flips' (then partition and elimination do all the work)")
+      ->allow_extra_args(false)
+      ->option_text("STEP");
+  command->add_option("--seed", arguments->seed, "Seed of the random orders (default 1)")->option_text("N");
+  command->add_option("--threads", arguments->threads, "Threads; the result does not depend on them")
+      ->check(CLI::Range(1u, 4096u))
+      ->option_text("N");
+  command->add_option("--time-limit", arguments->time_limit, "Give up after so many seconds (exit 5)")
+      ->option_text("S");
+  command->add_option("--memory-limit", arguments->memory_limit, "Give up beyond so much memory (exit 5)")
+      ->option_text("GB");
+  command->add_option("--report", arguments->report, "Write counts, times and quality as JSON")
+      ->option_text("FILE.json");
+  command
+      ->add_option("--exact", arguments->exact,
+                   "Where no positive mesh in doubles is found (exit 7), write the exact one as JSON lines")
+      ->option_text("FILE");
+  command
+      ->add_option("--stop-after", arguments->stop_after,
+                   "Write what stands after validate, delaunay, flips, partition, eliminate, classify or "
+                   "suppress")
+      ->option_text("STAGE");
+  command->add_option("--format", arguments->format, "Volume format, instead of by ending; msh2 is .msh 2.2")
+      ->option_text("FORMAT");
+  command->add_option("--input-format", arguments->input_format, "Surface format, instead of by ending")
+      ->option_text("FORMAT");
+  CLI::Option* quiet =
+      command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
+  command->add_flag("-v,--verbose", arguments->verbose, "Tell every stage")->excludes(quiet);
+  command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace holdfast::cli

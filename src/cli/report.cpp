@@ -1,0 +1,128 @@
+#include "report.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "files.h"
+
+namespace holdfast::cli {
+
+const char* name(DefectKind kind) {
+  switch (kind) {
+    case DefectKind::non_finite_coordinate:
+      return "non-finite coordinate";
+    case DefectKind::index_out_of_range:
+      return "index out of range";
+    case DefectKind::repeated_vertex:
+      return "repeated vertex";
+    case DefectKind::degenerate_facet:
+      return "degenerate facet";
+    case DefectKind::degenerate_segment:
+      return "degenerate segment";
+    case DefectKind::repeated_facet:
+      return "repeated facet";
+    case DefectKind::vertex_in_segment:
+      return "vertex in segment";
+    case DefectKind::vertex_in_facet:
+      return "vertex in facet";
+    case DefectKind::segments_cross:
+      return "segments cross";
+    case DefectKind::segment_pierces_facet:
+      return "segment pierces facet";
+    case DefectKind::facets_cross:
+      return "facets cross";
+    case DefectKind::facets_overlap:
+      return "facets overlap";
+    case DefectKind::segments_overlap:
+      return "segments overlap";
+    case DefectKind::encloses_nothing:
+      return "encloses nothing";
+    case DefectKind::outside_region:
+      return "outside every region";
+  }
+  return "unknown";
+}
+
+const char* name(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::done:
+      return "done";
+    case Outcome::invalid_input:
+      return "invalid_input";
+    case Outcome::time_limit:
+      return "time_limit";
+    case Outcome::memory_limit:
+      return "memory_limit";
+    case Outcome::cancelled:
+      return "cancelled";
+    case Outcome::not_representable:
+      return "not_representable";
+  }
+  return "unknown";
+}
+
+Json to_json(const Defect& defect) {
+  return {{"rule", static_cast<int>(defect.kind)},
+          {"name", name(defect.kind)},
+          {"vertices", defect.vertices},
+          {"facets", defect.facets},
+          {"segments", defect.segments},
+          {"where", defect.where},
+          {"message", defect.message}};
+}
+
+Json to_json(const std::vector<Defect>& defects) {
+  Json list = Json::array();
+  for (const Defect& defect : defects) list.push_back(to_json(defect));
+  return list;
+}
+
+Json to_json(const Result& result, Json options) {
+  const Report& report = result.report;
+  const auto missing = [](const Report::Missing& m) {
+    return Json{{"missing_segments", m.segments}, {"missing_facets", m.facets}};
+  };
+  return {
+      {"input",
+       {{"vertices", report.input.vertices},
+        {"segments", report.input.segments},
+        {"facets", report.input.facets},
+        {"components", report.input.components},
+        {"closed", report.input.closed},
+        {"nonmanifold_segments", report.input.nonmanifold_segments},
+        {"dangling_facets", report.input.dangling_facets}}},
+      {"delaunay", missing(report.delaunay)},
+      {"flips", missing(report.flips)},
+      {"partition", {{"segment_points", report.segment_points}, {"facet_points", report.facet_points}}},
+      {"steiner", {{"count", report.steiner_points}, {"unrounded", report.unrounded_points}}},
+      {"mesh",
+       {{"vertices", report.vertices}, {"tetrahedra", report.tetrahedra}, {"regions", report.regions}}},
+      {"quality",
+       {{"target", report.quality.target},
+        {"worst", report.quality.worst},
+        {"min_dihedral_deg", report.quality.min_dihedral_deg},
+        {"max_dihedral_deg", report.quality.max_dihedral_deg},
+        {"histogram", report.quality.histogram}}},
+      {"seconds", report.seconds},
+      {"peak_memory_bytes", report.peak_memory_bytes},
+      {"version", version()},
+      {"options", std::move(options)},
+      {"outcome", name(result.outcome)},
+      {"message", result.message},
+      {"defects", to_json(result.defects)},
+  };
+}
+
+void write_json(const std::filesystem::path& path, const Json& json) {
+  // Paths on the command line need not be UTF-8, so bytes that are not are replaced.
+  if (!path.empty()) write_text(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void print_defects(std::FILE* stream, const std::vector<Defect>& defects, std::size_t most) {
+  const std::size_t shown = std::min(most, defects.size());
+  for (std::size_t i = 0; i < shown; ++i)
+    fmt::print(stream, "{}: {}\n", name(defects[i].kind), defects[i].message);
+}
+
+}  // namespace holdfast::cli

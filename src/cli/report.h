@@ -1,0 +1,31 @@
+// The report of a run as JSON, with the stable keys of design §3.3, and names for defects.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "holdfast/holdfast.h"
+
+namespace holdfast::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// "facets cross" and so on, for people and for the report.
+[[nodiscard]] const char* name(DefectKind kind);
+
+/// "done", "invalid_input", ... as the report spells it.
+[[nodiscard]] const char* name(Outcome outcome);
+
+[[nodiscard]] Json to_json(const Defect& defect);
+[[nodiscard]] Json to_json(const std::vector<Defect>& defects);
+
+/// The whole report of `mesh`; `options` is what the user asked for.
+[[nodiscard]] Json to_json(const Result& result, Json options);
+
+/// Writes JSON as text; nothing when `path` is empty. Throws FileError.
+void write_json(const std::filesystem::path& path, const Json& json);
+
+/// Prints at most `most` defects to `stream`, one a line.
+void print_defects(std::FILE* stream, const std::vector<Defect>& defects, std::size_t most);
+
+}  // namespace holdfast::cli
