@@ -1,0 +1,88 @@
+// Surface layer: a tree of axis-aligned boxes that finds all pairs of boxes that overlap.
+//
+// Built top-down at the middle of the boxes' centres along the longest axis (at the median where that
+// would be lopsided), depth O(log n). Boxes are closed and compared as they are, so that nothing is
+// rounded: simplices that touch have boxes that overlap.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "holdfast/types.h"
+
+namespace holdfast {
+
+/// A closed box; low <= high in each coordinate, all finite.
+struct Box {
+  std::array<double, 3> low, high;
+
+  [[nodiscard]] bool overlaps(const Box& other) const {
+    return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] &&
+           other.low[1] <= high[1] && low[2] <= other.high[2] && other.low[2] <= high[2];
+  }
+};
+
+class AabbTree {
+ public:
+  /// Item i is boxes[i]. O(n log n) time, O(n) memory.
+  explicit AabbTree(std::span<const Box> boxes);
+
+  /// Calls visit(i, j) once for each pair of items i != j whose boxes overlap, in an order that depends
+  /// on the boxes alone, until it returns false. Calls `step(fraction)` every few thousand tests, where
+  /// `fraction` is the share of items whose pairs are done.
+  template <class Visit, class Step>
+  void for_each_overlap(Visit&& visit, Step&& step) const;
+
+ private:
+  struct Item {
+    Box box;
+    Index id;
+  };
+  // Items first .. first + count - 1; children are nodes `left` and left + 1, or none if left is 0.
+  struct Node {
+    Box box;
+    Index first, count, left;
+  };
+  static constexpr Index kLeafItems = 4;
+
+  void build(Index node);
+  Index partition(const Node& node);
+
+  std::vector<Item> items_;
+  std::vector<Node> nodes_;
+};
+
+template <class Visit, class Step>
+void AabbTree::for_each_overlap(Visit&& visit, Step&& step) const {
+  if (items_.empty()) return;
+  std::vector<std::pair<Index, Index>> stack{{0, 0}};
+  std::size_t tests = 0, done = 0;
+  while (!stack.empty()) {
+    const auto [a, b] = stack.back();
+    stack.pop_back();
+    const Node& m = nodes_[a];
+    const Node& n = nodes_[b];
+    if ((++tests & 0xFFF) == 0) step(static_cast<double>(done) / static_cast<double>(items_.size()));
+    if (a == b && m.left != 0) {
+      stack.insert(stack.end(), {{m.left, m.left + 1}, {m.left + 1, m.left + 1}, {m.left, m.left}});
+    } else if (!m.box.overlaps(n.box)) {
+      continue;
+    } else if (m.left != 0 && (n.left == 0 || m.count >= n.count)) {
+      stack.insert(stack.end(), {{m.left + 1, b}, {m.left, b}});
+    } else if (n.left != 0) {
+      stack.insert(stack.end(), {{a, n.left + 1}, {a, n.left}});
+    } else {
+      if (a == b) done += m.count;
+      for (Index i = m.first; i < m.first + m.count; ++i) {
+        for (Index j = a == b ? i + 1 : n.first; j < n.first + n.count; ++j) {
+          if (items_[i].box.overlaps(items_[j].box) && !visit(items_[i].id, items_[j].id)) return;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace holdfast

@@ -1,0 +1,41 @@
+// Surface layer: the test of a valid input (design §1) and its diagnosis.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "holdfast/types.h"
+#include "surface/search.h"
+
+namespace holdfast {
+
+/// Every broken rule of a valid input, exactly and by root cause: first of single entities and identical
+/// vertices, then of elements that do not fit together (search.h), ordered by the least pair of elements
+/// concerned (facets before segments before vertices). Empty for a valid complex.
+///
+/// `most` bounds the number of defects; then they are the first that turn up. `step` is called now and
+/// then with the share of the work that is done and may throw to stop (a Monitor's poll does).
+///
+/// Of a defect of two simplices, `facets` and `segments` hold
+///   - for two facets, or a dangling segment and a facet or segment, whose interiors meet: that pair;
+///   - else (a vertex in a side or facet, sides that cross, a side through a facet) all those that have the
+///     containing or second simplex as a face, then all those that have the first. Each of the former
+///     with each of the latter is a pair that does not fit.
+[[nodiscard]] std::vector<Defect> find_defects(const Complex& complex, std::size_t most, const Step& step);
+
+/// An element of the complex: a facet, a segment that is no facet's side, a vertex that neither uses.
+struct ElementRef {
+  unsigned corners;  ///< 3: a facet, 2: a segment, 1: a vertex
+  Index id;          ///< of the facet, segment or vertex
+
+  friend bool operator==(const ElementRef&, const ElementRef&) = default;
+};
+
+/// Every pair of elements that do not meet in a common face or not at all, one by one: what an all-pairs
+/// test would find once identical vertices are identified and facets of zero area left out. Ordered;
+/// facets before segments before vertices. May be quadratic in size: `most` bounds it.
+[[nodiscard]] std::vector<std::array<ElementRef, 2>> offending_pairs(const Complex& complex, std::size_t most,
+                                                                     const Step& step);
+
+}  // namespace holdfast

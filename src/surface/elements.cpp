@@ -1,0 +1,172 @@
+// Surface layer: sorting out the elements of a complex.
+#include "surface/elements.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace holdfast {
+namespace {
+
+bool finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
+
+// A segment of the complex by its representatives, the lesser first.
+struct Candidate {
+  Segment ends;
+  Index id;
+  bool side = false;  // of some facet
+
+  bool operator<(const Candidate& other) const {
+    return std::pair(ends, id) < std::pair(other.ends, other.id);
+  }
+};
+
+class Sorter {
+ public:
+  explicit Sorter(const Complex& complex) : complex_(complex) {}
+
+  Elements run() {
+    find_identical_vertices();
+    used_.assign(complex_.vertices.size(), 0);
+    result_.all.reserve(complex_.facets.size() + complex_.segments.size());
+    for (Index f = 0; f < complex_.facets.size(); ++f) add_facet(f);
+    add_segments();
+    add_vertices();
+    return std::move(result_);
+  }
+
+ private:
+  void flaw(DefectKind kind, unsigned corners, Index id) { result_.flaws.push_back({kind, corners, id}); }
+
+  // Sets `representative`; flaws of vertices.
+  void find_identical_vertices() {
+    const auto& points = complex_.vertices;
+    result_.representative.resize(points.size());
+    std::iota(result_.representative.begin(), result_.representative.end(), Index{0});
+    // Sorted by x beside the index, which saves most look-ups.
+    std::vector<std::pair<double, Index>> order;
+    order.reserve(points.size());
+    for (Index v = 0; v < points.size(); ++v) {
+      if (finite(points[v])) order.emplace_back(points[v][0], v);
+    }
+    std::sort(order.begin(), order.end(), [&points](const auto& a, const auto& b) {
+      if (a.first != b.first) return a.first < b.first;
+      const Point &p = points[a.second], &q = points[b.second];
+      if (p[1] != q[1]) return p[1] < q[1];
+      if (p[2] != q[2]) return p[2] < q[2];
+      return a.second < b.second;
+    });
+    for (std::size_t i = 1; i < order.size(); ++i) {
+      const Index before = order[i - 1].second, v = order[i].second;
+      if (points[before] == points[v]) result_.representative[v] = result_.representative[before];
+    }
+    for (Index v = 0; v < points.size(); ++v) {
+      if (!finite(points[v])) {
+        flaw(DefectKind::non_finite_coordinate, 1, v);
+      } else if (result_.representative[v] != v) {
+        result_.flaws.push_back({DefectKind::repeated_vertex, 1, v, result_.representative[v]});
+      }
+    }
+  }
+
+  // Replaces the corners by representatives; false, with a flaw or without, if they are no good.
+  template <std::size_t N>
+  bool resolve(std::array<Index, N>& corners, Index id) {
+    for (const Index v : corners) {
+      if (v >= complex_.vertices.size()) {
+        flaw(DefectKind::index_out_of_range, N, id);
+        return false;
+      }
+    }
+    bool good = true;
+    for (Index& v : corners) {
+      good = good && finite(complex_.vertices[v]);
+      v = result_.representative[v];
+    }
+    return good;
+  }
+
+  void add_facet(Index f) {
+    Triangle corners = complex_.facets[f];
+    if (!resolve(corners, f)) return;
+    Element element{corners, f, 3};
+    Simplex simplex = Elements::simplex(element, complex_);
+    const bool repeats = corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
+    if (repeats || !set_projection(simplex)) {
+      flaw(DefectKind::degenerate_facet, 3, f);
+      return;
+    }
+    element.axis = static_cast<std::uint8_t>(simplex.axis);
+    element.turn = static_cast<std::int8_t>(simplex.turn);
+    add(element);
+  }
+
+  void add_segments() {
+    std::vector<Candidate> candidates;
+    for (Index s = 0; s < complex_.segments.size(); ++s) {
+      Segment ends = complex_.segments[s];
+      if (!resolve(ends, s)) continue;
+      if (ends[0] == ends[1]) {
+        flaw(DefectKind::degenerate_segment, 2, s);
+      } else {
+        candidates.push_back({{std::min(ends[0], ends[1]), std::max(ends[0], ends[1])}, s});
+      }
+    }
+    std::sort(candidates.begin(), candidates.end());
+    const auto repeats = [](const Candidate& a, const Candidate& b) { return a.ends == b.ends; };
+    candidates.erase(std::unique(candidates.begin(), candidates.end(), repeats), candidates.end());
+    mark_sides(candidates);
+    std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+    for (const Candidate& c : candidates) {
+      if (!c.side) add({{c.ends[0], c.ends[1], 0}, c.id, 2});
+    }
+  }
+
+  // Marks the candidates that are a facet's side; `all` holds nothing but facets yet.
+  void mark_sides(std::vector<Candidate>& candidates) const {
+    if (candidates.empty()) return;
+    std::vector<char> is_end(complex_.vertices.size(), 0);
+    for (const Candidate& c : candidates) is_end[c.ends[0]] = is_end[c.ends[1]] = 1;
+    for (const Element& facet : result_.all) {
+      for (unsigned i = 0; i < 3; ++i) {
+        const Index a = facet.vertex[i], b = facet.vertex[(i + 1) % 3];
+        if (!is_end[a] || !is_end[b]) continue;
+        const Candidate side{{std::min(a, b), std::max(a, b)}, 0};
+        const auto at = std::lower_bound(candidates.begin(), candidates.end(), side);
+        if (at != candidates.end() && at->ends == side.ends) at->side = true;
+      }
+    }
+  }
+
+  void add_vertices() {
+    for (Index v = 0; v < complex_.vertices.size(); ++v) {
+      if (!used_[v] && result_.representative[v] == v && finite(complex_.vertices[v])) add({{v, 0, 0}, v, 1});
+    }
+  }
+
+  void add(const Element& element) {
+    result_.all.push_back(element);
+    for (unsigned i = 0; i < element.corners; ++i) used_[element.vertex[i]] = 1;
+  }
+
+  const Complex& complex_;
+  Elements result_;
+  std::vector<char> used_;  // by some element
+};
+
+}  // namespace
+
+Simplex Elements::simplex(const Element& element, const Complex& complex) {
+  Simplex simplex;
+  simplex.corners = element.corners;
+  simplex.vertex = element.vertex;
+  for (unsigned i = 0; i < element.corners; ++i)
+    simplex.point[i] = complex.vertices[element.vertex[i]].data();
+  simplex.axis = element.axis;
+  simplex.turn = element.turn;
+  return simplex;
+}
+
+Elements elements_of(const Complex& complex) { return Sorter(complex).run(); }
+
+}  // namespace holdfast

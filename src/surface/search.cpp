@@ -1,0 +1,169 @@
+// Surface layer: the search for elements that do not fit together.
+#include "surface/search.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "surface/aabb_tree.h"
+#include "surface/complex.h"
+
+namespace holdfast {
+namespace {
+
+std::vector<Box> boxes_of(const Complex& complex, const std::vector<Element>& elements) {
+  std::vector<Box> boxes;
+  boxes.reserve(elements.size());
+  for (const Element& element : elements) {
+    const Point& p = complex.vertices[element.vertex[0]];
+    Box box{p, p};
+    for (unsigned i = 1; i < element.corners; ++i) {
+      const Point& q = complex.vertices[element.vertex[i]];
+      for (unsigned k = 0; k < 3; ++k) {
+        box.low[k] = std::min(box.low[k], q[k]);
+        box.high[k] = std::max(box.high[k], q[k]);
+      }
+    }
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+// The face of an element with the given mask of corners.
+Corners face_of(const Element& element, unsigned mask) {
+  Corners corners{no_index, no_index, no_index};
+  unsigned count = 0;
+  for (unsigned i = 0; i < element.corners; ++i) {
+    if ((mask >> i & 1u) != 0) corners[count++] = element.vertex[i];
+  }
+  std::sort(corners.begin(), corners.end());  // no_index sorts last
+  return corners;
+}
+
+unsigned count_of(const Corners& corners) {
+  return corners[1] == no_index ? 1 : corners[2] == no_index ? 2 : 3;
+}
+
+unsigned whole(const Element& element) { return (1u << element.corners) - 1; }
+
+// Gathers findings from pairs of elements.
+class RootCauses {
+ public:
+  RootCauses(const Complex& complex, const Elements& elements) : complex_(complex), elements_(elements) {}
+
+  void add(Index i, Index j, const Contacts& contacts) {
+    const Element &a = elements_.all[i], &b = elements_.all[j];
+    const bool whole_pair = add_whole(i, j, contacts);
+    bool at_vertex = false;
+    for_each_distinct(a, b, contacts, [&](const Corners& first, const Corners& second) {
+      if (count_of(first) != 1) return;
+      at_vertex = true;
+      const bool in_segment = count_of(second) == 2;
+      add_cause(in_segment ? DefectKind::vertex_in_segment : DefectKind::vertex_in_facet, first, second,
+                {i, j});
+    });
+    if (whole_pair || at_vertex) return;
+    // Sides that overlap share an end or have one inside the other, so what is left does not overlap.
+    for_each_distinct(a, b, contacts, [&](const Corners& first, const Corners& second) {
+      const bool cross = count_of(second) == 2;
+      add_cause(cross ? DefectKind::segments_cross : DefectKind::segment_pierces_facet, first, second,
+                {i, j});
+    });
+  }
+
+  [[nodiscard]] std::size_t size() const { return pairs_.size() + causes_.size(); }
+
+  [[nodiscard]] std::vector<Finding> sorted() const {
+    std::vector<Finding> findings = pairs_;
+    for (const auto& [key, pair] : causes_) {
+      findings.push_back({std::get<0>(key), std::get<1>(key), std::get<2>(key), pair, false});
+    }
+    std::sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
+      return std::tie(a.pair, a.kind, a.first, a.second) < std::tie(b.pair, b.kind, b.first, b.second);
+    });
+    return findings;
+  }
+
+ private:
+  using Key = std::tuple<DefectKind, Corners, Corners>;
+
+  // Calls visit(first, second) for pairs of different faces that meet; the one with fewer corners first.
+  template <class Visit>
+  static void for_each_distinct(const Element& a, const Element& b, const Contacts& contacts, Visit&& visit) {
+    for (unsigned mask_a = 1; mask_a <= whole(a); ++mask_a) {
+      for (unsigned mask_b = 1; mask_b <= whole(b); ++mask_b) {
+        if ((contacts.distinct & Contacts::bit(mask_a, mask_b)) == 0) continue;
+        Corners first = face_of(a, mask_a), second = face_of(b, mask_b);
+        if (std::pair(count_of(second), second) < std::pair(count_of(first), first)) std::swap(first, second);
+        visit(first, second);
+      }
+    }
+  }
+
+  // Adds the pair itself if it is one facet twice or if the interiors meet; elements are no vertices.
+  bool add_whole(Index i, Index j, const Contacts& contacts) {
+    const Element &a = elements_.all[i], &b = elements_.all[j];
+    const std::uint64_t bit = Contacts::bit(whole(a), whole(b));
+    if (((contacts.common | contacts.distinct) & bit) == 0 || a.corners == 1 || b.corners == 1) return false;
+    const Simplex p = Elements::simplex(a, complex_), q = Elements::simplex(b, complex_);
+    DefectKind kind = DefectKind::segment_pierces_facet;
+    if ((contacts.common & bit) != 0) {
+      kind = DefectKind::repeated_facet;
+    } else if (a.corners == 3 && b.corners == 3) {
+      kind = facets_meet(p, q) == Meet::area ? DefectKind::facets_overlap : DefectKind::facets_cross;
+    } else if (a.corners == 2 && b.corners == 2) {
+      const Meet meet = segments_meet(p.point[0], p.point[1], q.point[0], q.point[1]);
+      kind = meet == Meet::length ? DefectKind::segments_overlap : DefectKind::segments_cross;
+    }
+    Corners first = face_of(a, whole(a)), second = face_of(b, whole(b));
+    if (b.corners < a.corners) std::swap(first, second);
+    pairs_.push_back({kind, first, second, {i, j}, true});
+    return true;
+  }
+
+  void add_cause(DefectKind kind, const Corners& first, const Corners& second, std::array<Index, 2> pair) {
+    const auto [at, is_new] = causes_.try_emplace(Key{kind, first, second}, pair);
+    if (!is_new) at->second = std::min(at->second, pair);
+  }
+
+  const Complex& complex_;
+  const Elements& elements_;
+  std::vector<Finding> pairs_;
+  std::map<Key, std::array<Index, 2>> causes_;
+};
+
+}  // namespace
+
+void for_each_offending_pair(const Complex& complex, const Elements& elements, const VisitPair& visit,
+                             const Step& step) {
+  const AabbTree tree(boxes_of(complex, elements.all));
+  const auto test = [&](Index i, Index j) {
+    const Simplex a = Elements::simplex(elements.all[i], complex);
+    const Simplex b = Elements::simplex(elements.all[j], complex);
+    if (surely_fit(a, b)) return true;
+    if (i > j) std::swap(i, j);
+    const Contacts found =
+        contacts(Elements::simplex(elements.all[i], complex), Elements::simplex(elements.all[j], complex));
+    const bool repeated = elements.all[i].corners == elements.all[j].corners &&
+                          (found.common & Contacts::bit(whole(elements.all[i]), whole(elements.all[j]))) != 0;
+    return (found.distinct == 0 && !repeated) || visit(i, j, found);
+  };
+  tree.for_each_overlap(test, step);
+}
+
+std::vector<Finding> find_root_causes(const Complex& complex, const Elements& elements, std::size_t most,
+                                      const Step& step) {
+  if (most == 0) return {};
+  RootCauses causes(complex, elements);
+  const auto visit = [&](Index i, Index j, const Contacts& contacts) {
+    causes.add(i, j, contacts);
+    return causes.size() < most;
+  };
+  for_each_offending_pair(complex, elements, visit, step);
+  std::vector<Finding> findings = causes.sorted();
+  if (findings.size() > most) findings.resize(most);
+  return findings;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,51 @@
+// Surface layer: the search for elements of a complex that do not fit together.
+//
+// Candidate pairs come from the tree of boxes, nearly all pass the certificates, and the rest is decided
+// by its contacts. What breaks the complex is told by its root cause, once:
+//   - a vertex inside a side or segment (T-junction) or inside a facet: one finding, however many elements
+//     meet there;
+//   - two elements whose own interiors meet: one finding for the pair;
+//   - where neither says it, two sides that cross, or a side that runs through a facet's interior.
+// Every pair of elements that does not fit follows from some finding: one element has the first of the
+// finding's two simplices as a face (or is it), the other one the second. And every pair that follows so
+// does not fit: a point of two interiors is in no common face.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "holdfast/types.h"
+#include "surface/contacts.h"
+#include "surface/elements.h"
+
+namespace holdfast {
+
+/// Vertices of a vertex, side, segment or facet in ascending order; unused places hold `no_index`.
+using Corners = std::array<Index, 3>;
+
+/// Two simplices whose interiors meet.
+struct Finding {
+  DefectKind kind;
+  Corners first, second;  ///< the simplex with fewer corners first, else the lexicographically lesser
+  /// The first offending pair of elements that follows from it, as indices of Elements::all.
+  std::array<Index, 2> pair;
+  /// The two simplices are the elements of `pair`, and the finding says nothing of other elements.
+  bool is_pair;
+};
+
+/// Called for each pair i < j of Elements::all that does not fit; returns false to stop.
+using VisitPair = std::function<bool(Index i, Index j, const Contacts& contacts)>;
+/// Called now and then with the share of the work that is done; throws to stop.
+using Step = std::function<void(double fraction)>;
+
+/// Visits every pair of elements that do not meet in a common face or not at all, in no useful order.
+void for_each_offending_pair(const Complex& complex, const Elements& elements, const VisitPair& visit,
+                             const Step& step);
+
+/// Root causes, ordered by `pair`; `most` of them at most, the first that turn up.
+[[nodiscard]] std::vector<Finding> find_root_causes(const Complex& complex, const Elements& elements,
+                                                    std::size_t most, const Step& step);
+
+}  // namespace holdfast
