@@ -1,6 +1,7 @@
 #include "mesh/tet_mesh.h"
 
 #include <cassert>
+#include <utility>
 
 namespace holdfast {
 
@@ -76,6 +77,17 @@ void TetMesh::remove_tet(Tet t) {
   assert(alive(t));
   flags_[t] = kDead;
   free_.push_back(t);
+}
+
+void TetMesh::set_tets(std::vector<Corners> corners, std::vector<Neighbours> neighbours) {
+  assert(tet_count() == 0 && corners.size() == neighbours.size());
+  corners_ = std::move(corners);
+  neighbours_ = std::move(neighbours);
+  flags_.assign(corners_.size(), 0);
+  free_.clear();
+  for (Tet t = 0; t < corners_.size(); ++t)
+    for (const Vertex v : corners_[t])
+      if (v != kGhost) incident_[v] = t;
 }
 
 void TetMesh::set_facet(Face f) {

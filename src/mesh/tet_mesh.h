@@ -39,6 +39,7 @@ class TetMesh {
   [[nodiscard]] bool is_explicit(Vertex v) const { return exact_of_[v] == kNone; }
   /// The position, or the doubles nearest to it.
   [[nodiscard]] const Point& position(Vertex v) const { return positions_[v]; }
+  [[nodiscard]] std::span<const Point> positions() const { return positions_; }
   [[nodiscard]] exact::PointRef point(Vertex v) const {
     const std::uint32_t e = exact_of_[v];
     return {positions_[v].data(), e == kNone ? nullptr : &exact_[e]};
@@ -52,6 +53,9 @@ class TetMesh {
   /// A slot for a tetrahedron; its neighbours are the caller's to set.
   Tet add_tet(const Corners& v);
   void remove_tet(Tet t);
+  /// All tetrahedra of a mesh that had none, at once. The two arrays are as long as each other and
+  /// satisfy the invariants above; flags are cleared and incident tetrahedra set here.
+  void set_tets(std::vector<Corners> corners, std::vector<Neighbours> neighbours);
   [[nodiscard]] std::size_t slot_count() const { return corners_.size(); }
   [[nodiscard]] std::size_t tet_count() const { return corners_.size() - free_.size(); }
   [[nodiscard]] bool alive(Tet t) const { return (flags_[t] & kDead) == 0; }

@@ -1,0 +1,28 @@
+// Delaunay tetrahedralisation of the vertices of a mesh (design §2.2, paper §5.1).
+#pragma once
+
+#include <cstdint>
+
+#include "mesh/monitor.h"
+#include "mesh/tet_mesh.h"
+
+namespace holdfast {
+
+struct DelaunayOptions {
+  std::uint64_t seed = 1;  ///< of the insertion order and the walks
+};
+
+/// Triangulates all vertices of a mesh that has no tetrahedra yet. Every vertex must be explicit and
+/// finite.
+///
+/// Afterwards every tetrahedron is strictly positive and no vertex lies strictly inside its sphere;
+/// ghosts (kGhost in slot 3) stand on the hull faces, so that every face has a neighbour; a ghost's
+/// first three corners turn so that a point d beyond the hull face has orient(v0, v1, v2, d) > 0.
+/// Of equal points the first is used, the others keep incident() == kNone.
+///
+/// Returns false, with no tetrahedra made, if all vertices are coplanar (or fewer than four).
+/// Throws Interrupted through the monitor, which may be null, and std::length_error beyond 2^28
+/// vertices; the mesh then has no tetrahedra.
+bool build_delaunay(TetMesh& mesh, const DelaunayOptions& options, Monitor* monitor);
+
+}  // namespace holdfast

@@ -1,0 +1,178 @@
+#include "delaunay/order.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace holdfast {
+namespace {
+
+struct Entry {
+  std::uint64_t key;
+  std::uint32_t point;
+};
+
+constexpr unsigned kMostBits = 20;    // of the curve, an axis; leaves four bits of the key to the round
+constexpr unsigned kMostRounds = 15;  // fits those four bits
+constexpr unsigned kRoundShift = 3;   // a round holds 2^3 times the points of all rounds before it
+constexpr std::size_t kFirstRound = 256;
+constexpr std::size_t kLongRun = 16;  // points in one cell of the curve's grid that are worth another sort
+
+std::uint64_t scramble(std::uint64_t x) {
+  x += 0x9E3779B97F4A7C15ull;
+  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ull;
+  x = (x ^ (x >> 27)) * 0x94D049BB133111EBull;
+  return x ^ (x >> 31);
+}
+
+// Bits an axis that tell n points on a surface apart, more or less; runs that still share a cell are
+// sorted again in a grid of their own.
+unsigned bits_for(std::size_t n) {
+  return std::clamp((static_cast<unsigned>(std::bit_width(n)) + 1) / 2 + 1, 4u, kMostBits);
+}
+
+// The cube round a set of points, as a map to integers. Halving keeps extents near the end of the
+// exponent range finite and is exact above the denormals, whose last bit does not matter here.
+class Grid {
+ public:
+  Grid(std::span<const Point> points, std::span<const Entry> entries, unsigned bits) : bits_(bits) {
+    low_ = points[entries.front().point];
+    Point high = low_;
+    for (const Entry& e : entries) {
+      const Point& p = points[e.point];
+      for (std::size_t i = 0; i < 3; ++i) {
+        low_[i] = std::min(low_[i], p[i]);
+        high[i] = std::max(high[i], p[i]);
+      }
+    }
+    double extent = 0;
+    for (std::size_t i = 0; i < 3; ++i) extent = std::max(extent, high[i] - low_[i]);
+    flat_ = !(extent > 0);
+    if (!std::isfinite(extent)) {
+      shrink_ = 0.5;
+      extent = 0;
+      for (std::size_t i = 0; i < 3; ++i) extent = std::max(extent, 0.5 * high[i] - 0.5 * low_[i]);
+    }
+    extent_ = extent;
+    cells_ = std::ldexp(1.0, static_cast<int>(bits));
+  }
+
+  // All points are one.
+  [[nodiscard]] bool flat() const { return flat_; }
+
+  [[nodiscard]] std::uint64_t key(const Point& p) const {
+    std::array<std::uint32_t, 3> x{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double t = (shrink_ * p[i] - shrink_ * low_[i]) / extent_ * cells_;
+      x[i] = static_cast<std::uint32_t>(std::min(t, cells_ - 1));
+    }
+    return hilbert(x);
+  }
+
+ private:
+  // Skilling's transform of coordinates into the transposed Hilbert index, then the interleaving.
+  [[nodiscard]] std::uint64_t hilbert(std::array<std::uint32_t, 3> x) const {
+    for (std::uint32_t q = 1u << (bits_ - 1); q > 1; q >>= 1) {
+      const std::uint32_t p = q - 1;
+      for (std::uint32_t& xi : x) {
+        const std::uint32_t low_set = (xi & q) != 0 ? p : 0u;
+        const std::uint32_t swap = (x[0] ^ xi) & (p & ~low_set);
+        x[0] ^= low_set | swap;
+        xi ^= swap;
+      }
+    }
+    x[1] ^= x[0];
+    x[2] ^= x[1];
+    std::uint32_t t = 0;
+    for (std::uint32_t q = 1u << (bits_ - 1); q > 1; q >>= 1)
+      if ((x[2] & q) != 0) t ^= q - 1;
+    for (std::uint32_t& xi : x) xi ^= t;
+    return spread(x[0]) << 2 | spread(x[1]) << 1 | spread(x[2]);
+  }
+
+  // Puts bit i at bit 3 i.
+  static std::uint64_t spread(std::uint64_t x) {
+    x = (x | x << 32) & 0x1F00000000FFFFull;
+    x = (x | x << 16) & 0x1F0000FF0000FFull;
+    x = (x | x << 8) & 0x100F00F00F00F00Full;
+    x = (x | x << 4) & 0x10C30C30C30C30C3ull;
+    x = (x | x << 2) & 0x1249249249249249ull;
+    return x;
+  }
+
+  unsigned bits_;
+  Point low_{};
+  double shrink_ = 1;
+  double extent_ = 0;
+  double cells_ = 0;
+  bool flat_ = false;
+};
+
+// Stable sort by the low `bits` bits of the keys, least significant digit first.
+void radix_sort(std::span<Entry> entries, unsigned bits) {
+  constexpr unsigned kDigit = 11;
+  constexpr std::size_t kSmall = 512;
+  if (entries.size() < kSmall) {
+    std::stable_sort(entries.begin(), entries.end(),
+                     [](const Entry& a, const Entry& b) { return a.key < b.key; });
+    return;
+  }
+  std::vector<Entry> other(entries.size());
+  std::span<Entry> from = entries;
+  std::span<Entry> to = other;
+  for (unsigned shift = 0; shift < bits; shift += kDigit) {
+    std::array<std::size_t, std::size_t{1} << kDigit> start{};
+    const auto digit = [shift](const Entry& e) { return (e.key >> shift) & ((1u << kDigit) - 1); };
+    for (const Entry& e : from) ++start[digit(e)];
+    std::size_t sum = 0;
+    for (std::size_t& s : start) s = std::exchange(sum, sum + s);
+    for (const Entry& e : from) to[start[digit(e)]++] = e;
+    std::swap(from, to);
+  }
+  if (from.data() != entries.data()) std::copy(from.begin(), from.end(), entries.begin());
+}
+
+// Sorts entries whose keys hold their round above the curve's bits; then each run of points that share
+// a cell of the grid again, in the grid of their own extent. That keeps clusters at any scale local.
+// Every run is a proper subset, for the extreme points of an extent lie in different cells.
+void sort_along_curve(std::span<const Point> points, std::span<Entry> entries, unsigned round_bits) {
+  const unsigned bits = bits_for(entries.size());
+  const Grid grid(points, entries, bits);
+  if (grid.flat() && round_bits == 0) return;
+  for (Entry& e : entries) e.key = (e.key << (3 * bits)) | (grid.flat() ? 0u : grid.key(points[e.point]));
+  radix_sort(entries, 3 * bits + round_bits);
+  for (std::size_t first = 0; first < entries.size();) {
+    std::size_t last = first + 1;
+    while (last < entries.size() && entries[last].key == entries[first].key) ++last;
+    if (last - first > kLongRun) {
+      const std::span<Entry> run = entries.subspan(first, last - first);
+      for (Entry& e : run) e.key = 0;
+      sort_along_curve(points, run, 0);
+    }
+    first = last;
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> insertion_order(std::span<const Point> points, std::uint64_t seed) {
+  const std::size_t n = points.size();
+  if (n == 0) return {};
+  unsigned rounds = 0;
+  for (std::size_t m = n; m > kFirstRound && rounds < kMostRounds; m >>= kRoundShift) ++rounds;
+  std::vector<Entry> entries(n);
+  const std::uint64_t salt = scramble(seed);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto zeros = static_cast<unsigned>(std::countr_zero(scramble(i ^ salt)));
+    entries[i] = {rounds - std::min(zeros / kRoundShift, rounds), static_cast<std::uint32_t>(i)};
+  }
+  sort_along_curve(points, entries, static_cast<unsigned>(std::bit_width(rounds)));
+  std::vector<std::uint32_t> order(n);
+  for (std::size_t i = 0; i < n; ++i) order[i] = entries[i].point;
+  return order;
+}
+
+}  // namespace holdfast
