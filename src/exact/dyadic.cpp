@@ -1,40 +1,36 @@
 // Exact binary fractions m * 2^e.
 #include "exact/dyadic.h"
 
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "exact/float_bits.h"
+
 namespace holdfast::exact {
 namespace {
-
-using Limb = boost::multiprecision::limb_type;
-constexpr std::size_t kLimbBits = std::numeric_limits<Limb>::digits;
-
-std::size_t magnitude_bits(const BigInt& m) {
-  const auto& backend = m.backend();
-  const std::size_t last = backend.size() - 1;
-  return last * kLimbBits + static_cast<std::size_t>(std::bit_width(backend.limbs()[last]));
-}
 
 std::size_t trailing_zeros(const BigInt& m) {
   const auto* limbs = m.backend().limbs();
   std::size_t i = 0;
   while (limbs[i] == 0) ++i;
-  return i * kLimbBits + static_cast<std::size_t>(std::countr_zero(limbs[i]));
+  return i * 64 + static_cast<std::size_t>(std::countr_zero(limbs[i]));
 }
 
-std::uint64_t magnitude_window(const BigInt& m, std::size_t at) {
-  const auto* limbs = m.backend().limbs();
-  const std::size_t size = m.backend().size();
-  std::uint64_t result = 0;
-  for (std::size_t i = at / kLimbBits; i < size && i * kLimbBits < at + 64; ++i) {
-    const std::size_t position = i * kLimbBits;
-    const auto limb = static_cast<std::uint64_t>(limbs[i]);
-    result |= position >= at ? limb << (position - at) : limb >> (at - position);
-  }
-  return result;
+/// The leading 128 bits of a non-zero mantissa, the uppermost one set.
+struct Leading {
+  Limb first;
+  Limb second;
+};
+
+Leading leading_bits(const Dyadic& x) {
+  const Limb* limbs = x.limbs();
+  const std::size_t size = x.bits();
+  const std::size_t last = (size - 1) / 64;
+  const auto limb = [&](std::size_t below) { return below <= last ? limbs[last - below] : Limb{0}; };
+  const std::size_t shift = 63 - (size - 1) % 64;
+  if (shift == 0) return {limb(0), limb(1)};
+  return {limb(0) << shift | limb(1) >> (64 - shift), limb(1) << shift | limb(2) >> (64 - shift)};
 }
 
 /// Decimal digits by groups of 18 (BigInt::str trips -Wrestrict of g++ 12).
@@ -55,14 +51,12 @@ std::string decimal(BigInt m) {
 }  // namespace
 
 Dyadic::Dyadic(double value) {
-  if (value == 0) return;
-  int exponent = 0;
-  const double fraction = std::frexp(value, &exponent);
-  auto integer = static_cast<std::int64_t>(std::ldexp(fraction, 53));
-  const int zeros = std::countr_zero(static_cast<std::uint64_t>(integer));
-  integer >>= zeros;
-  mantissa_ = integer;
-  exponent_ = exponent - 53 + zeros;
+  FloatParts parts = float_parts(magnitude_bits(value));
+  if (parts.mantissa == 0) return;
+  const int zeros = std::countr_zero(parts.mantissa);
+  mantissa_ = parts.mantissa >> zeros;
+  if (value < 0) mantissa_.backend().negate();
+  exponent_ = parts.exponent + zeros;
 }
 
 Dyadic::Dyadic(BigInt mantissa, std::int64_t exponent) : mantissa_(std::move(mantissa)), exponent_(exponent) {
@@ -76,33 +70,45 @@ void Dyadic::normalise() {
   }
   const std::size_t zeros = trailing_zeros(mantissa_);
   if (zeros == 0) return;
-  // Towards zero and minus infinity agree, since only zeros are shifted out.
+  // Rounding towards zero and to minus infinity agree, since only zeros are shifted out.
   mantissa_ >>= zeros;
   exponent_ += static_cast<std::int64_t>(zeros);
 }
-
-std::size_t Dyadic::bits() const { return magnitude_bits(mantissa_); }
-
-std::uint64_t Dyadic::window(std::size_t at) const { return magnitude_window(mantissa_, at); }
 
 double Dyadic::to_double() const {
   if (mantissa_.is_zero()) return 0;
   const double sign = mantissa_.sign() < 0 ? -1.0 : 1.0;
   const auto size = static_cast<std::int64_t>(bits());
-  const std::int64_t top = exponent_ + size - 1;
+  const std::int64_t top = exponent_ + size - 1;  // 2^top <= |value| < 2^(top + 1)
   if (top > 1023) return sign * std::numeric_limits<double>::infinity();
   const std::int64_t precision = top >= -1022 ? 53 : top + 1075;
   if (precision < 0) return sign * 0.0;
-  const std::int64_t dropped = size - precision;
-  if (dropped <= 0) {
-    return sign * std::ldexp(static_cast<double>(window(0)), static_cast<int>(exponent_));
+  std::uint64_t leading = leading_bits(*this).first;
+  const bool half = precision < size && (leading << precision) >> 63 != 0;
+  leading = precision == 0 ? 0 : leading >> (64 - precision);
+  // The mantissa is odd: where two bits or more are dropped the lowest of them is set, so no tie.
+  if (half && (size - precision >= 2 || (leading & 1) != 0)) ++leading;
+  const std::int64_t exponent = top + 1 - precision;
+  if (exponent >= -1022 && exponent <= 970) {
+    return sign * static_cast<double>(leading) * power_of_two(static_cast<int>(exponent));
   }
-  const auto position = static_cast<std::size_t>(dropped);
-  std::uint64_t kept = precision == 0 ? 0 : window(position);
-  const bool half = (window(position - 1) & 1) != 0;
-  // The mantissa is odd: when two bits or more are dropped, the lowest of them is set, so no tie.
-  if (half && (dropped >= 2 || (kept & 1) != 0)) ++kept;
-  return sign * std::ldexp(static_cast<double>(kept), static_cast<int>(exponent_ + dropped));
+  return sign * std::ldexp(static_cast<double>(leading), static_cast<int>(exponent));
+}
+
+TwoTerms Dyadic::to_two_doubles() const {
+  if (mantissa_.is_zero()) return {0, 0};
+  const std::int64_t top = exponent_ + static_cast<std::int64_t>(bits());
+  if (top < -900 || top > 1023) {
+    const double high = to_double();
+    return {high, (*this - Dyadic(high)).to_double()};
+  }
+  const Leading leading = leading_bits(*this);
+  const double scale = mantissa_.sign() < 0 ? -power_of_two(static_cast<int>(top - 53))
+                                            : power_of_two(static_cast<int>(top - 53));
+  // 53 bits each, the rest cut off.
+  const std::uint64_t second = (leading.first << 53 | leading.second >> 11) >> 11;
+  return fast_two_sum(static_cast<double>(leading.first >> 11) * scale,
+                      static_cast<double>(second) * (0x1p-53 * scale));
 }
 
 bool Dyadic::is_double() const {
@@ -121,24 +127,36 @@ Dyadic Dyadic::scaled(std::int64_t k) const {
 
 Dyadic Dyadic::operator-() const {
   Dyadic result = *this;
-  result.mantissa_.backend().negate();
+  if (!result.mantissa_.is_zero()) result.mantissa_.backend().negate();
   return result;
 }
 
-Dyadic& Dyadic::operator+=(const Dyadic& other) { return *this = *this + other; }
-Dyadic& Dyadic::operator-=(const Dyadic& other) { return *this = *this - other; }
-Dyadic& Dyadic::operator*=(const Dyadic& other) { return *this = *this * other; }
-
-Dyadic operator+(const Dyadic& a, const Dyadic& b) {
-  if (a.mantissa_.is_zero()) return b;
+Dyadic Dyadic::sum(const Dyadic& a, const Dyadic& b, bool negate_b) {
   if (b.mantissa_.is_zero()) return a;
-  if (a.exponent_ < b.exponent_) return b + a;
-  BigInt aligned = a.mantissa_ << static_cast<std::size_t>(a.exponent_ - b.exponent_);
-  aligned += b.mantissa_;
-  return {std::move(aligned), b.exponent_};
+  if (a.mantissa_.is_zero()) return negate_b ? -b : b;
+  Dyadic result;
+  if (a.exponent_ >= b.exponent_) {
+    result.mantissa_ = a.mantissa_ << static_cast<std::size_t>(a.exponent_ - b.exponent_);
+    if (negate_b) {
+      result.mantissa_ -= b.mantissa_;
+    } else {
+      result.mantissa_ += b.mantissa_;
+    }
+    result.exponent_ = b.exponent_;
+  } else {
+    result.mantissa_ = b.mantissa_ << static_cast<std::size_t>(b.exponent_ - a.exponent_);
+    if (negate_b) result.mantissa_.backend().negate();
+    result.mantissa_ += a.mantissa_;
+    result.exponent_ = a.exponent_;
+  }
+  // With different exponents an odd number was added to an even one.
+  if (a.exponent_ == b.exponent_) result.normalise();
+  return result;
 }
 
-Dyadic operator-(const Dyadic& a, const Dyadic& b) { return a + -b; }
+Dyadic& Dyadic::operator+=(const Dyadic& other) { return *this = sum(*this, other, false); }
+Dyadic& Dyadic::operator-=(const Dyadic& other) { return *this = sum(*this, other, true); }
+Dyadic& Dyadic::operator*=(const Dyadic& other) { return *this = *this * other; }
 
 Dyadic operator*(const Dyadic& a, const Dyadic& b) {
   Dyadic result;

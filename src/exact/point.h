@@ -24,8 +24,8 @@ struct PointRef {
 [[nodiscard]] ExactPoint lift(const double* p);
 [[nodiscard]] ExactPoint lift(PointRef p);
 
-/// a - b, computed exactly, then rounded to nearest: the relative error of each coordinate is at most
-/// 2^-53 (above the denormals), also where a and b share all their leading bits.
+/// a - b with a relative error of at most 2^-52 in each coordinate (above the denormals), also where a
+/// and b share all their leading bits; exact where the difference is 0.
 void difference(PointRef a, PointRef b, double out[3]);
 
 }  // namespace holdfast::exact

@@ -6,6 +6,7 @@
 // expansions. Expansions take what spans more, unbounded integers what would over- or underflow.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include "exact/point.h"
@@ -28,8 +29,13 @@ struct Decision {
 [[nodiscard]] Decision decide_insphere(const double* a, const double* b, const double* c, const double* d,
                                        const double* e);
 
-// Fixed-width integers of N limbs (coordinates below 2^(64 N - 3) in a common unit; N = 1, 2 for
-// doubles, 2, 3, 4 for exact points); none where the coordinates span more bits.
+/// Bits of a coordinate in N limbs. The headroom of three bits lets all sums in the determinants fit:
+/// differences stay below 2^(64 N - 2), a sum of three squares below 3 * 2^(128 N - 4), and so on.
+template <std::size_t N>
+inline constexpr int kFixedWidth = 64 * static_cast<int>(N) - 3;
+
+// Fixed-width integers of N limbs (N = 1, 2 for doubles, 1 to 4 for exact points); none where the
+// coordinates span more than kFixedWidth<N> bits.
 template <std::size_t N>
 [[nodiscard]] std::optional<int> integer_orient3d(const double* a, const double* b, const double* c,
                                                   const double* d);
