@@ -7,7 +7,7 @@ namespace holdfast {
 
 /// One rule of the promise and whether it holds.
 struct Rule {
-  std::string name;    ///< stable, e.g. "facets kept"
+  std::string name;  ///< stable, e.g. "facets kept"
   bool holds;
   std::string detail;  ///< counts where it holds; the first offending entities where it does not
 };
@@ -28,6 +28,12 @@ struct CheckOptions {
 };
 
 /// Checks a volume against the surface that it should keep, exactly.
+///
+/// The rules, always all of them and in this order: "input vertices kept", "well formed", "no vertex
+/// unused", "volumes positive", "facets kept", "segments kept", "faces matched", "boundary is input",
+/// "no overlap", "Steiner points inside regions", "regions numbered", "markers kept", "nothing dropped".
+/// A rule that cannot be decided because another is broken does not hold, and its detail begins with
+/// "not examined". Any arrays are accepted, however wrong. Throws std::bad_alloc only.
 [[nodiscard]] CheckResult check(const Complex& surface, const Volume& volume,
                                 const CheckOptions& options = {});
 

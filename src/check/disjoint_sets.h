@@ -1,0 +1,40 @@
+// Check: disjoint sets of indices, joined in pairs (path halving, Tarjan and van Leeuwen 1984).
+#pragma once
+
+#include <cstddef>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "holdfast/types.h"
+
+namespace holdfast::checking {
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t size) : parent_(size), size_(size, 1) {
+    std::iota(parent_.begin(), parent_.end(), Index{0});
+  }
+  /// The representative of the set that holds x.
+  [[nodiscard]] Index find(Index x) {
+    while (parent_[x] != x) {
+      parent_[x] = parent_[parent_[x]];
+      x = parent_[x];
+    }
+    return x;
+  }
+  void join(Index x, Index y) {
+    x = find(x);
+    y = find(y);
+    if (x == y) return;
+    if (size_[x] < size_[y]) std::swap(x, y);
+    parent_[y] = x;
+    size_[x] += size_[y];
+  }
+
+ private:
+  std::vector<Index> parent_;
+  std::vector<Index> size_;
+};
+
+}  // namespace holdfast::checking

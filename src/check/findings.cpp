@@ -1,0 +1,64 @@
+// Check: what a rule finds, in words.
+#include "check/findings.h"
+
+#include <array>
+#include <charconv>
+
+namespace holdfast::checking {
+
+void Findings::append(const std::string& words) {
+  if (!described_.empty()) described_ += "; ";
+  described_ += words;
+}
+
+std::string Findings::text(std::string_view what) const {
+  std::string text = std::to_string(count_) + " ";
+  text += what;
+  text += ": ";
+  text += described_;
+  if (count_ > most_described) text += "; and " + std::to_string(count_ - most_described) + " more";
+  return text;
+}
+
+Rule judge(std::string name, const Findings& findings, std::string_view what, std::string good) {
+  if (findings.empty()) return {std::move(name), true, std::move(good)};
+  return {std::move(name), false, findings.text(what)};
+}
+
+Rule not_examined(std::string name, const std::string& reason) {
+  return {std::move(name), false, "not examined: " + reason};
+}
+
+namespace {
+
+std::string number(double value) {
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  return {digits.data(), end};
+}
+
+}  // namespace
+
+std::string words(const Point& point) {
+  return "(" + number(point[0]) + ", " + number(point[1]) + ", " + number(point[2]) + ")";
+}
+
+std::string words(std::string_view kind, std::span<const Index> corners, std::span<const Point> vertices) {
+  std::string text(kind);
+  std::string places;
+  text += " (";
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (i > 0) text += ", ";
+    text += std::to_string(corners[i]);
+    if (i > 0) places += ", ";
+    places += corners[i] < vertices.size() ? words(vertices[corners[i]]) : std::string("no such vertex");
+  }
+  return text + ") at " + places;
+}
+
+std::string words(std::string_view kind, std::size_t index, std::span<const Index> corners,
+                  std::span<const Point> vertices) {
+  return words(std::string(kind) + " " + std::to_string(index), corners, vertices);
+}
+
+}  // namespace holdfast::checking

@@ -1,0 +1,190 @@
+// Check: exact tests of how points, segments and triangles meet.
+//
+// Two triangles meet in a convex set. If they share a vertex v and the set holds another point p, the
+// ray from v through p leaves one of the triangles, still inside the other, on the side opposite v:
+// that side then meets the other triangle. If they share nothing, a side of one meets the other. So all
+// reduces to a closed segment against a closed triangle that have no vertex in common.
+#include "check/intersect.h"
+
+#include <algorithm>
+
+#include "exact/predicates.h"
+
+namespace holdfast::checking {
+
+using exact::orient3d;
+
+int orient_along(std::size_t axis, const double* a, const double* b, const double* c) {
+  const std::size_t u = (axis + 1) % 3;
+  const std::size_t v = (axis + 2) % 3;
+  const std::array<double, 2> pa{a[u], a[v]};
+  const std::array<double, 2> pb{b[u], b[v]};
+  const std::array<double, 2> pc{c[u], c[v]};
+  return exact::orient2d(pa.data(), pb.data(), pc.data());
+}
+
+namespace {
+
+/// A coordinate axis along which a triangle keeps an area, and the sign of that area (0: has none).
+struct Projection {
+  std::size_t axis;
+  int sign;
+};
+
+Projection projection(const Corners& t) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (const int sign = orient_along(axis, t[0], t[1], t[2]); sign != 0) return {axis, sign};
+  return {0, 0};
+}
+
+/// Whether p, in the plane of the triangle, lies on it.
+bool inside(const double* p, const Corners& t, const Projection& along) {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (orient_along(along.axis, t[i], t[(i + 1) % 3], p) == -along.sign) return false;
+  return true;
+}
+
+bool between(double low, double x, double high) {
+  return std::min(low, high) <= x && x <= std::max(low, high);
+}
+
+/// Whether two segments of one plane meet; `axis` is one along which the plane keeps areas.
+bool segments_meet(const double* p, const double* q, const double* a, const double* b, std::size_t axis) {
+  const int pq_a = orient_along(axis, p, q, a);
+  const int pq_b = orient_along(axis, p, q, b);
+  const int ab_p = orient_along(axis, a, b, p);
+  const int ab_q = orient_along(axis, a, b, q);
+  if (pq_a * pq_b < 0 && ab_p * ab_q < 0) return true;
+  const auto touches = [&](int sign, const double* x, const double* s, const double* e) {
+    const std::size_t u = (axis + 1) % 3;
+    const std::size_t v = (axis + 2) % 3;
+    return sign == 0 && between(s[u], x[u], e[u]) && between(s[v], x[v], e[v]);
+  };
+  return touches(pq_a, a, p, q) || touches(pq_b, b, p, q) || touches(ab_p, p, a, b) || touches(ab_q, q, a, b);
+}
+
+/// Whether the closed segment pq meets the closed triangle, given the sides of its plane that the ends
+/// are on; they have no vertex in common.
+bool segment_meets(const double* p, const double* q, int side_p, int side_q, const Corners& t) {
+  if (side_p * side_q > 0) return false;
+  if (side_p != 0 && side_q != 0) {
+    const int s0 = orient3d(p, q, t[0], t[1]);
+    const int s1 = orient3d(p, q, t[1], t[2]);
+    if (s0 * s1 < 0) return false;
+    const int s2 = orient3d(p, q, t[2], t[0]);
+    return s0 * s2 >= 0 && s1 * s2 >= 0;
+  }
+  const Projection along = projection(t);
+  if (side_p == 0 && inside(p, t, along)) return true;
+  if (side_q == 0 && inside(q, t, along)) return true;
+  if (side_p != 0 || side_q != 0) return false;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (segments_meet(p, q, t[i], t[(i + 1) % 3], along.axis)) return true;
+  return false;
+}
+
+/// Whether, in the triangle's plane, the direction from its corner i to w points into the closed corner.
+bool points_into_corner(const double* w, const Corners& t, std::size_t i) {
+  const Projection along = projection(t);
+  const double* v = t[i];
+  return orient_along(along.axis, v, t[(i + 1) % 3], w) != -along.sign &&
+         orient_along(along.axis, v, w, t[(i + 2) % 3]) != -along.sign;
+}
+
+/// The corners of x that y has too come first.
+struct Shared {
+  std::size_t count = 0;
+  std::array<std::size_t, 3> in_x{}, in_y{};  ///< positions: shared ones in the same order, then the rest
+};
+
+Shared match(const Triangle& x, const Triangle& y) {
+  Shared shared;
+  std::array<bool, 3> used{};
+  std::size_t rest = 2;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto j = static_cast<std::size_t>(std::find(y.begin(), y.end(), x[i]) - y.begin());
+    if (j == 3) {
+      shared.in_x[rest--] = i;
+    } else {
+      shared.in_x[shared.count] = i;
+      shared.in_y[shared.count++] = j;
+      used[j] = true;
+    }
+  }
+  rest = 2;
+  for (std::size_t j = 0; j < 3; ++j)
+    if (!used[j]) shared.in_y[rest--] = j;
+  return shared;
+}
+
+int side_of_plane(const Corners& t, const double* p) { return orient3d(t[0], t[1], t[2], p); }
+
+/// Two triangles with the side ab in common, and the third corners c and d.
+bool hinge_meets(const double* a, const double* b, const double* c, const double* d) {
+  if (orient3d(a, b, c, d) != 0) return false;
+  const Projection along = projection({a, b, c});
+  return orient_along(along.axis, a, b, d) == along.sign;
+}
+
+}  // namespace
+
+bool collinear(const double* a, const double* b, const double* c) { return projection({a, b, c}).sign == 0; }
+
+bool on_segment(const double* p, const double* a, const double* b) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (!between(a[axis], p[axis], b[axis])) return false;
+  return collinear(p, a, b);
+}
+
+bool on_triangle(const double* p, const Corners& t) {
+  if (side_of_plane(t, p) != 0) return false;
+  const Projection along = projection(t);
+  if (along.sign != 0) return inside(p, t, along);
+  return on_segment(p, t[0], t[1]) || on_segment(p, t[1], t[2]) || on_segment(p, t[2], t[0]);
+}
+
+bool meet_badly(const Triangle& x, const Corners& x_corners, const Triangle& y, const Corners& y_corners) {
+  const Shared shared = match(x, y);
+  const std::size_t common = shared.count;
+  Corners s, t;
+  for (std::size_t i = 0; i < 3; ++i) {
+    s[i] = x_corners[shared.in_x[i]];
+    t[i] = y_corners[shared.in_y[i]];
+  }
+  if (common == 2) return hinge_meets(s[0], s[1], s[2], t[2]);
+
+  // Signs of the corners of each that are not shared; those all strictly on one side end it.
+  std::array<int, 3> sides_t{}, sides_s{};
+  const auto separated = [&](std::array<int, 3>& sides, const Corners& plane, const Corners& corners) {
+    for (std::size_t i = common; i < 3; ++i) sides[i] = side_of_plane(plane, corners[i]);
+    const auto [least, most] =
+        std::minmax_element(sides.begin() + static_cast<std::ptrdiff_t>(common), sides.end());
+    return *least > 0 || *most < 0;
+  };
+  if (separated(sides_t, s, t) || separated(sides_s, t, s)) return false;
+  if (common == 1)
+    return segment_meets(t[1], t[2], sides_t[1], sides_t[2], s) ||
+           segment_meets(s[1], s[2], sides_s[1], sides_s[2], t);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    if (segment_meets(t[i], t[j], sides_t[i], sides_t[j], s)) return true;
+    if (segment_meets(s[i], s[j], sides_s[i], sides_s[j], t)) return true;
+  }
+  return false;
+}
+
+bool meet_badly(const Segment& segment, const double* p, const double* q, const Triangle& triangle,
+                const Corners& corners) {
+  const auto at_p =
+      static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), segment[0]) - triangle.begin());
+  const auto at_q =
+      static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), segment[1]) - triangle.begin());
+  if (at_p < 3 && at_q < 3) return false;
+  const int side_p = at_p < 3 ? 0 : side_of_plane(corners, p);
+  const int side_q = at_q < 3 ? 0 : side_of_plane(corners, q);
+  if (at_p < 3) return side_q == 0 && points_into_corner(q, corners, at_p);
+  if (at_q < 3) return side_p == 0 && points_into_corner(p, corners, at_q);
+  return segment_meets(p, q, side_p, side_q, corners);
+}
+
+}  // namespace holdfast::checking

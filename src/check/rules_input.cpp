@@ -1,0 +1,166 @@
+// Check: rules on the input's facets and segments. A missing one is "lost" if tetrahedra are where it
+// should be (split, swapped, moved), and "dropped" if it lies outside all of them; the difference is
+// decided exactly, and not at all (lost) where the mesh is not one that has an outside.
+#include <algorithm>
+#include <string>
+
+#include "check/examination.h"
+#include "check/findings.h"
+
+namespace holdfast::checking {
+
+namespace {
+
+/// Whether the edges of a list are edges of tetrahedra.
+std::vector<bool> edges_exist(const std::vector<Segment>& wanted, const Volume& volume) {
+  if (wanted.empty()) return {};
+  std::vector<Segment> edges;
+  std::vector<bool> is_end(volume.vertices.size(), false);
+  for (const auto& [x, y] : wanted) {
+    if (std::max(x, y) >= volume.vertices.size()) continue;
+    edges.push_back({std::min(x, y), std::max(x, y)});
+    is_end[x] = is_end[y] = true;
+  }
+  std::sort(edges.begin(), edges.end());
+  std::vector<bool> seen(edges.size(), false);
+  for (const Tetrahedron& t : volume.tetrahedra)
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!is_end[t[i]]) continue;
+      for (std::size_t j = i + 1; j < 4; ++j) {
+        if (!is_end[t[j]]) continue;
+        const Segment edge{std::min(t[i], t[j]), std::max(t[i], t[j])};
+        const auto place = std::lower_bound(edges.begin(), edges.end(), edge);
+        if (place != edges.end() && *place == edge)
+          seen[static_cast<std::size_t>(place - edges.begin())] = true;
+      }
+    }
+  std::vector<bool> exist;
+  exist.reserve(wanted.size());
+  for (const auto& [x, y] : wanted) {
+    const Segment edge{std::min(x, y), std::max(x, y)};
+    const auto place = std::lower_bound(edges.begin(), edges.end(), edge);
+    exist.push_back(place != edges.end() && *place == edge &&
+                    seen[static_cast<std::size_t>(place - edges.begin())]);
+  }
+  return exist;
+}
+
+/// The fate of an entity that is not in the mesh.
+template <class Entity>
+Fate fate_of_missing(const Examination& on, const Entity& entity) {
+  const bool decidable = on.disjoint && on.vertices_kept;
+  return decidable && on.boundary->outside(entity) ? Fate::dropped : Fate::lost;
+}
+
+std::string facet_words(const Examination& on, std::size_t facet) {
+  return words("input facet", facet, on.surface.facets[facet], on.surface.vertices);
+}
+
+std::string segment_words(const Examination& on, std::size_t segment) {
+  return words("input segment", segment, on.surface.segments[segment], on.surface.vertices);
+}
+
+std::string voids_words(const Examination& on) {
+  if (!on.disjoint) return {};
+  const std::vector<Index> voids = on.boundary->voids();
+  if (voids.empty()) return {};
+  Findings findings;
+  for (const Index face : voids)
+    findings.add(
+        [&] { return words("one beside face", on.boundary->faces()[face].corners, on.volume.vertices); });
+  return "; " + findings.text("enclosed regions are left empty");
+}
+
+}  // namespace
+
+void find_input_faces(Examination& on) {
+  if (!on.well_formed) return;
+  on.faces = FaceTable(on.volume.tetrahedra, on.volume.vertices.size());
+  on.input_face.assign(on.faces.size(), false);
+  on.facets.assign(on.surface.facets.size(), Fate::lost);
+  for (std::size_t i = 0; i < on.surface.facets.size(); ++i)
+    if (const std::size_t place = on.faces.find(on.surface.facets[i]); place != FaceTable::none) {
+      on.input_face[place] = true;
+      on.facets[i] = Fate::kept;
+    }
+}
+
+void find_fates(Examination& on) {
+  if (!on.well_formed) return;
+  for (std::size_t i = 0; i < on.facets.size(); ++i)
+    if (on.facets[i] == Fate::lost) on.facets[i] = fate_of_missing(on, on.surface.facets[i]);
+
+  const std::vector<Segment> wanted(on.surface.segments.begin(), on.surface.segments.end());
+  for (const bool exists : edges_exist(wanted, on.volume))
+    on.segments.push_back(exists ? Fate::kept : fate_of_missing(on, wanted[on.segments.size()]));
+
+  on.vertices.assign(on.volume.vertices.size(), Fate::lost);
+  for (const Tetrahedron& tetrahedron : on.volume.tetrahedra)
+    for (const Index vertex : tetrahedron) on.vertices[vertex] = Fate::kept;
+  const std::size_t input = std::min(on.input_vertices(), on.vertices.size());
+  for (std::size_t i = 0; i < input; ++i)
+    if (on.vertices[i] == Fate::lost) on.vertices[i] = fate_of_missing(on, static_cast<Index>(i));
+}
+
+Rule facets_kept(const Examination& on) {
+  const std::string name = "facets kept";
+  if (!on.well_formed) return not_examined(name, not_well_formed);
+  Findings findings;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < on.facets.size(); ++i) {
+    if (on.facets[i] == Fate::kept) ++kept;
+    if (on.facets[i] == Fate::lost)
+      findings.add([&] { return facet_words(on, i) + " is no face of the mesh"; });
+  }
+  return judge(name, findings, "input facets lost",
+               std::to_string(kept) + " input facets, each one face of the mesh");
+}
+
+Rule segments_kept(const Examination& on) {
+  const std::string name = "segments kept";
+  if (!on.well_formed) return not_examined(name, not_well_formed);
+  Findings findings;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < on.segments.size(); ++i) {
+    if (on.segments[i] == Fate::kept) ++kept;
+    if (on.segments[i] == Fate::lost)
+      findings.add([&] { return segment_words(on, i) + " is no edge of the mesh"; });
+  }
+  // The sides of kept facets are edges since a face's are.
+  std::vector<Segment> sides;
+  for (std::size_t i = 0; i < on.facets.size(); ++i)
+    if (const Triangle& facet = on.surface.facets[i]; on.facets[i] == Fate::lost)
+      for (std::size_t k = 0; k < 3; ++k)
+        sides.push_back({std::min(facet[k], facet[(k + 1) % 3]), std::max(facet[k], facet[(k + 1) % 3])});
+  std::sort(sides.begin(), sides.end());
+  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+  const std::vector<bool> exist = edges_exist(sides, on.volume);
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    if (!exist[i])
+      findings.add(
+          [&] { return words("facet side", sides[i], on.surface.vertices) + " is no edge of the mesh"; });
+  return judge(name, findings, "input segments or facet sides lost",
+               std::to_string(kept) + " input segments and all facet sides are edges of the mesh");
+}
+
+Rule nothing_dropped(const Examination& on) {
+  const std::string name = "nothing dropped";
+  if (!on.well_formed) return not_examined(name, not_well_formed);
+  Findings findings;
+  const auto lost = [&](const std::vector<Fate>& fates) { return std::ranges::count(fates, Fate::lost) > 0; };
+  if ((lost(on.facets) || lost(on.segments)) && !(on.disjoint && on.vertices_kept))
+    return not_examined(name,
+                        "facets or segments are missing, and the mesh has no outside that could be told");
+  for (std::size_t i = 0; i < on.facets.size(); ++i)
+    if (on.facets[i] == Fate::dropped) findings.add([&] { return facet_words(on, i); });
+  for (std::size_t i = 0; i < on.segments.size(); ++i)
+    if (on.segments[i] == Fate::dropped) findings.add([&] { return segment_words(on, i); });
+  const std::string_view what = "input facets and segments lie outside all tetrahedra";
+  if (on.options.outside_dropped && !findings.empty())
+    return {name, true, findings.text(what) + voids_words(on)};
+  Rule rule = judge(name, findings, what, "no input facet or segment is outside");
+  rule.detail += voids_words(on);
+  return rule;
+}
+
+}  // namespace holdfast::checking

@@ -1,0 +1,148 @@
+// Check: rules on region ids and markers.
+#include <algorithm>
+#include <numeric>
+#include <string>
+
+#include "check/disjoint_sets.h"
+#include "check/examination.h"
+#include "check/findings.h"
+
+namespace holdfast::checking {
+
+namespace {
+
+/// Input entities by their sorted vertices.
+template <class Entity>
+class Lookup {
+ public:
+  explicit Lookup(std::span<const Entity> entities)
+      : sorted_(entities.begin(), entities.end()), index_(entities.size()) {
+    for (Entity& entity : sorted_) std::sort(entity.begin(), entity.end());
+    std::iota(index_.begin(), index_.end(), std::size_t{0});
+    std::sort(index_.begin(), index_.end(), [&](std::size_t x, std::size_t y) {
+      return sorted_[x] != sorted_[y] ? sorted_[x] < sorted_[y] : x < y;
+    });
+  }
+  /// All entities with these vertices, in any order.
+  [[nodiscard]] std::span<const std::size_t> find(Entity entity) const {
+    std::sort(entity.begin(), entity.end());
+    const auto range =
+        std::ranges::equal_range(index_, entity, {}, [&](std::size_t i) { return sorted_[i]; });
+    return {range.begin(), range.end()};
+  }
+
+ private:
+  std::vector<Entity> sorted_;
+  std::vector<std::size_t> index_;
+};
+
+/// One kind of entity of the input, as the input and as the volume list it.
+template <class Entity>
+struct Listing {
+  std::string_view kind;
+  std::span<const Entity> input;
+  std::span<const int> input_markers;
+  std::span<const Entity> listed;
+  std::span<const int> listed_markers;
+  const std::vector<Fate>& fates;  ///< of the input's; empty where they are not known
+};
+
+template <class Entity>
+void find_wrong_markers(const Listing<Entity>& on, std::span<const Point> vertices, Findings& findings) {
+  const auto bad_length = [&](std::string_view whose, std::size_t markers, std::size_t entities) {
+    if (markers == 0 || markers == entities) return false;
+    findings.add([&] {
+      return std::string(whose) + " " + std::to_string(markers) + " markers for " + std::to_string(entities) +
+             " " + std::string(on.kind) + "s";
+    });
+    return true;
+  };
+  if (bad_length("the input has", on.input_markers.size(), on.input.size())) return;
+  if (bad_length("the mesh has", on.listed_markers.size(), on.listed.size())) return;
+  const bool marked = !on.input_markers.empty();
+  if (on.listed.empty() && !marked) return;
+  if (marked && on.listed_markers.empty() && !on.listed.empty())
+    findings.add([&] { return "the mesh lists " + std::string(on.kind) + "s without the input's markers"; });
+
+  const auto in_mesh = [&](std::size_t i) { return on.fates.empty() || on.fates[i] == Fate::kept; };
+  const Lookup<Entity> lookup(on.input);
+  std::vector<bool> seen(on.input.size(), false);
+  for (std::size_t i = 0; i < on.listed.size(); ++i) {
+    const auto say = [&](const std::string& what) {
+      findings.add([&] { return words("listed " + std::string(on.kind), i, on.listed[i], vertices) + what; });
+    };
+    const std::span<const std::size_t> same = lookup.find(on.listed[i]);
+    if (same.empty()) {
+      say(" is not in the input");
+      continue;
+    }
+    if (!in_mesh(same[0])) say(" is not in the mesh");
+    if (seen[same[0]]) say(" is listed twice");
+    for (const std::size_t j : same) seen[j] = true;
+    if (!marked || on.listed_markers.empty()) continue;
+    const int marker = on.listed_markers[i];
+    if (std::ranges::none_of(same, [&](std::size_t j) { return on.input_markers[j] == marker; }))
+      say(" has marker " + std::to_string(marker) + " instead of " +
+          std::to_string(on.input_markers[same[0]]));
+  }
+  if (!marked) return;
+  for (std::size_t i = 0; i < on.input.size(); ++i)
+    if (!seen[i] && in_mesh(i))
+      findings.add([&] {
+        return words("input " + std::string(on.kind), i, on.input[i], vertices) + " of marker " +
+               std::to_string(on.input_markers[i]) + " is not listed";
+      });
+}
+
+}  // namespace
+
+Rule regions_numbered(const Examination& on) {
+  const std::string name = "regions numbered";
+  const std::vector<int>& ids = on.volume.regions;
+  if (ids.size() != on.volume.tetrahedra.size())
+    return {name, false,
+            std::to_string(ids.size()) + " region ids for " + std::to_string(on.volume.tetrahedra.size()) +
+                " tetrahedra"};
+  if (!on.well_formed) return not_examined(name, not_well_formed);
+
+  Findings findings;
+  DisjointSets regions(ids.size());
+  on.faces.for_each([&](std::size_t begin, const Triangle& face, std::span<const HalfFace> halves) {
+    if (on.input_face[begin]) return;
+    for (const HalfFace& half : halves.subspan(1)) {
+      const Index x = halves[0].tetrahedron(), y = half.tetrahedron();
+      regions.join(x, y);
+      if (ids[x] != ids[y])
+        findings.add([&] {
+          return "no facet separates tetrahedron " + std::to_string(x) + " (id " + std::to_string(ids[x]) +
+                 ") from tetrahedron " + std::to_string(y) + " (id " + std::to_string(ids[y]) +
+                 "): " + words("face", face, on.volume.vertices);
+        });
+    }
+  });
+  std::vector<int> of_region;
+  for (Index t = 0; t < ids.size(); ++t)
+    if (regions.find(t) == t) of_region.push_back(ids[t]);
+  const std::size_t count = of_region.size();
+  std::sort(of_region.begin(), of_region.end());
+  of_region.erase(std::unique(of_region.begin(), of_region.end()), of_region.end());
+  return judge(name, findings, "places where ids change inside a region",
+               std::to_string(count) + " regions, " + std::to_string(of_region.size()) + " different ids");
+}
+
+Rule markers_kept(const Examination& on) {
+  const Complex& surface = on.surface;
+  const Volume& volume = on.volume;
+  Findings findings;
+  find_wrong_markers<Triangle>(
+      {"facet", surface.facets, surface.facet_markers, volume.facets, volume.facet_markers, on.facets},
+      surface.vertices, findings);
+  find_wrong_markers<Segment>({"segment", surface.segments, surface.segment_markers, volume.segments,
+                               volume.segment_markers, on.segments},
+                              surface.vertices, findings);
+  return judge("markers kept", findings, "wrong facets, segments or markers",
+               std::to_string(volume.facets.size()) + " facets and " +
+                   std::to_string(volume.segments.size()) + " segments listed");
+}
+
+}  // namespace holdfast::checking

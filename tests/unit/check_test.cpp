@@ -1,0 +1,680 @@
+// check(): good meshes hold; a mesh that breaks a rule is told by that rule.
+#include "holdfast/check.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace holdfast {
+namespace {
+
+struct Case {
+  Surface surface;
+  Volume volume;
+  CheckOptions options;
+
+  [[nodiscard]] CheckResult checked() const { return check(surface.view(), volume, options); }
+};
+
+using Names = std::set<std::string>;
+
+Names broken(const CheckResult& result) {
+  Names names;
+  for (const Rule& rule : result.rules)
+    if (!rule.holds) names.insert(rule.name);
+  return names;
+}
+
+Names broken(const Case& c) { return broken(c.checked()); }
+
+std::string detail(const Case& c, const std::string& name) {
+  for (const Rule& rule : c.checked().rules)
+    if (rule.name == name) return rule.detail;
+  return "no such rule";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+using Cell = std::array<int, 3>;
+/// Region id of the cell at (x, y, z), or 0 to leave it out.
+using RegionOf = std::function<int(int, int, int)>;
+
+const RegionOf one_region = [](int, int, int) { return 1; };
+
+/// Adds a box of unit cells, six tetrahedra each (Kuhn): all cells are cut along parallel diagonals.
+void add_grid(Volume& volume, Cell cells, const RegionOf& region_of, Point origin = {0, 0, 0}) {
+  std::map<Cell, Index> index;
+  const auto vertex = [&](const Cell& at) {
+    const auto [place, added] = index.try_emplace(at, static_cast<Index>(volume.vertices.size()));
+    if (added) volume.vertices.push_back({origin[0] + at[0], origin[1] + at[1], origin[2] + at[2]});
+    return place->second;
+  };
+  const auto add_cell = [&](const Cell& cell, int id) {
+    std::array<std::size_t, 3> order{0, 1, 2};
+    do {
+      Cell at = cell;
+      Tetrahedron t{vertex(at)};
+      for (std::size_t i = 0; i < 3; ++i) {
+        ++at[order[i]];
+        t[i + 1] = vertex(at);
+      }
+      const bool even = (order[1] + 3 - order[0]) % 3 == 1;
+      if (!even) std::swap(t[2], t[3]);
+      volume.tetrahedra.push_back(t);
+      volume.regions.push_back(id);
+    } while (std::next_permutation(order.begin(), order.end()));
+  };
+  for (int z = 0; z < cells[2]; ++z)
+    for (int y = 0; y < cells[1]; ++y)
+      for (int x = 0; x < cells[0]; ++x)
+        if (const int id = region_of(x, y, z); id != 0) add_cell({x, y, z}, id);
+}
+
+Triangle sorted(Triangle t) {
+  std::sort(t.begin(), t.end());
+  return t;
+}
+
+/// The surface that a volume fills: faces of one tetrahedron, and of two with different ids.
+Surface surface_of(const Volume& volume) {
+  std::map<Triangle, std::vector<int>> ids;
+  for (std::size_t i = 0; i < volume.tetrahedra.size(); ++i) {
+    const Tetrahedron& t = volume.tetrahedra[i];
+    for (const Triangle& face : {Triangle{t[0], t[1], t[2]}, Triangle{t[0], t[1], t[3]},
+                                 Triangle{t[0], t[2], t[3]}, Triangle{t[1], t[2], t[3]}})
+      ids[sorted(face)].push_back(volume.regions[i]);
+  }
+  Surface surface;
+  surface.vertices = volume.vertices;
+  for (const auto& [face, of] : ids)
+    if (of.size() == 1 || of[0] != of[1]) surface.facets.push_back(face);
+  return surface;
+}
+
+Case filled(Volume volume) {
+  Case c;
+  c.surface = surface_of(volume);
+  c.volume = std::move(volume);
+  return c;
+}
+
+Case grid(Cell cells, const RegionOf& region_of = one_region) {
+  Volume volume;
+  add_grid(volume, cells, region_of);
+  return filled(std::move(volume));
+}
+
+Index vertex_at(const Volume& volume, const Point& point) {
+  return static_cast<Index>(std::find(volume.vertices.begin(), volume.vertices.end(), point) -
+                            volume.vertices.begin());
+}
+
+/// Exchanges two vertices' indices in the volume.
+void exchange(Volume& volume, Index x, Index y) {
+  std::swap(volume.vertices[x], volume.vertices[y]);
+  for (Tetrahedron& t : volume.tetrahedra)
+    for (Index& v : t) v = v == x ? y : v == y ? x : v;
+}
+
+/// A 2x2x2 grid whose middle is a Steiner point, the last vertex.
+Case with_steiner() {
+  Case c = grid({2, 2, 2});
+  exchange(c.volume, vertex_at(c.volume, {1, 1, 1}), static_cast<Index>(c.volume.vertices.size() - 1));
+  c.surface = surface_of(c.volume);
+  c.surface.vertices.pop_back();
+  return c;
+}
+
+/// A 3x3x3 grid in which the input is the middle cell only: the rest reaches to a box.
+Case in_box() {
+  Case c = grid({3, 3, 3}, [](int x, int y, int z) { return x == 1 && y == 1 && z == 1 ? 2 : 1; });
+  const auto outer = [&](Index v) {
+    return std::ranges::any_of(c.volume.vertices[v], [](double x) { return x < 1 || x > 2; });
+  };
+  std::erase_if(c.surface.facets, [&](const Triangle& facet) { return std::ranges::any_of(facet, outer); });
+  return c;
+}
+
+void append_grid(Volume& to, Cell cells, const Point& origin) { add_grid(to, cells, one_region, origin); }
+
+void drop_tetrahedron(Volume& volume, std::size_t i) {
+  volume.tetrahedra.erase(volume.tetrahedra.begin() + static_cast<std::ptrdiff_t>(i));
+  volume.regions.erase(volume.regions.begin() + static_cast<std::ptrdiff_t>(i));
+}
+
+/// One tetrahedron with the surface that it fills.
+Case one_tetrahedron() {
+  Volume volume;
+  volume.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  volume.tetrahedra = {{0, 1, 2, 3}};
+  volume.regions = {1};
+  return filled(std::move(volume));
+}
+
+int from_border(int i, int cells) { return std::min(i, cells - 1 - i); }
+
+int depth(int x, int y, int z, int cells) {
+  return std::min({from_border(x, cells), from_border(y, cells), from_border(z, cells)});
+}
+
+// ---- Good meshes
+
+TEST(GoodMesh, OneTetrahedronHolds) {
+  const Case c = one_tetrahedron();
+  EXPECT_EQ(broken(c), Names{});
+  EXPECT_EQ(c.checked().rules.size(), 13U);
+  EXPECT_TRUE(c.checked().holds());
+}
+
+TEST(GoodMesh, GridWithIsolatedPointHolds) {
+  const Case c = grid({2, 2, 2});  // the middle vertex is on no facet
+  EXPECT_EQ(broken(c), Names{});
+  EXPECT_EQ(detail(c, "regions numbered"), "1 regions, 1 different ids");
+}
+
+TEST(GoodMesh, SteinerPointInsideHolds) {
+  const Case c = with_steiner();
+  EXPECT_EQ(broken(c), Names{});
+  EXPECT_EQ(detail(c, "Steiner points inside regions"), "1 Steiner points");
+}
+
+TEST(GoodMesh, RegionsHold) {
+  Case c = grid({3, 1, 1}, [](int x, int, int) { return x + 1; });
+  EXPECT_EQ(broken(c), Names{});
+  EXPECT_EQ(detail(c, "regions numbered"), "3 regions, 3 different ids");
+  std::ranges::replace(c.volume.regions, 3, 1);  // two regions with one id, as a user may ask for
+  EXPECT_EQ(broken(c), Names{});
+  EXPECT_EQ(detail(c, "regions numbered"), "3 regions, 2 different ids");
+}
+
+TEST(GoodMesh, DanglingFacetAndSegmentHold) {
+  Case c = grid({2, 2, 2});
+  const Tetrahedron& t = c.volume.tetrahedra[0];
+  c.surface.facets.push_back({t[3], t[0], t[1]});
+  c.surface.segments.push_back({vertex_at(c.volume, {1, 1, 1}), vertex_at(c.volume, {2, 1, 1})});
+  c.surface.segments.push_back({c.surface.facets[0][0], c.surface.facets[0][1]});  // a facet's side
+  EXPECT_EQ(broken(c), Names{});
+}
+
+TEST(GoodMesh, NestedShellsHold) {
+  const Case c = grid({5, 5, 5}, [](int x, int y, int z) { return 1 + depth(x, y, z, 5); });
+  EXPECT_EQ(broken(c), Names{});
+  EXPECT_EQ(detail(c, "nothing dropped"), "no input facet or segment is outside");
+}
+
+TEST(GoodMesh, EnclosedVoidsHoldAndAreReported) {
+  const auto hollow = [](int x, int y, int z) { return (x == 1 || x == 3) && y == 1 && z == 1 ? 0 : 1; };
+  const Case c = grid({5, 3, 3}, hollow);
+  EXPECT_EQ(broken(c), Names{});
+  EXPECT_TRUE(contains(detail(c, "nothing dropped"), "; 2 enclosed regions are left empty"));
+}
+
+TEST(GoodMesh, VoidWithAnIslandIsOneVoid) {
+  const Case c = grid({5, 5, 5}, [](int x, int y, int z) { return depth(x, y, z, 5) == 1 ? 0 : 1; });
+  EXPECT_EQ(broken(c), Names{});
+  EXPECT_TRUE(contains(detail(c, "nothing dropped"), "; 1 enclosed regions are left empty"));
+}
+
+TEST(GoodMesh, CheckerboardHolds) {
+  // Every inner side belongs to two blocks, and no two blocks share a face.
+  const Case c = grid({4, 4, 4}, [](int x, int y, int z) { return (x + y + z) % 2; });
+  EXPECT_EQ(broken(c), Names{});
+  EXPECT_EQ(detail(c, "regions numbered"), "32 regions, 1 different ids");
+  // The empty cells that are closed on all sides are half of the inner 2x2x2.
+  EXPECT_TRUE(contains(detail(c, "nothing dropped"), "; 4 enclosed regions are left empty"));
+}
+
+TEST(GoodMesh, BlocksThatTouchInOneEdgeOrVertexHold) {
+  const Case edge = grid({2, 2, 1}, [](int x, int y, int) { return x == y ? 1 : 0; });
+  EXPECT_EQ(broken(edge), Names{});
+  const Case vertex = grid({2, 2, 2}, [](int x, int y, int z) { return x == y && y == z ? 1 : 0; });
+  EXPECT_EQ(broken(vertex), Names{});
+  EXPECT_EQ(detail(vertex, "nothing dropped"), "no input facet or segment is outside");
+}
+
+TEST(GoodMesh, BoxHoldsOnlyWhenAllowed) {
+  Case c = in_box();
+  ASSERT_EQ(c.surface.facets.size(), 12U);
+  EXPECT_EQ(broken(c), (Names{"boundary is input"}));
+  c.options.box = true;
+  EXPECT_EQ(broken(c), Names{});
+  EXPECT_EQ(detail(c, "regions numbered"), "2 regions, 2 different ids");
+  EXPECT_EQ(detail(c, "boundary is input"), "0 boundary faces are input facets, 108 in the sides of the box");
+  drop_tetrahedron(c.volume, 0);
+  EXPECT_EQ(broken(c), (Names{"boundary is input"})) << "a piece of the box is missing";
+}
+
+TEST(GoodMesh, BoxMayHaveSteinerPointsOnItsSides) {
+  Case c = in_box();
+  for (int i = 0; i < 8; ++i)  // input vertices first
+    exchange(c.volume, vertex_at(c.volume, {1.0 + i % 2, 1.0 + i / 2 % 2, 1.0 + i / 4}),
+             static_cast<Index>(i));
+  c.surface = surface_of(c.volume);
+  std::erase_if(c.surface.facets,
+                [](const Triangle& facet) { return *std::ranges::max_element(facet) >= 8; });
+  c.surface.vertices.resize(8);
+  c.options.box = true;
+  EXPECT_EQ(broken(c), Names{});
+  EXPECT_EQ(detail(c, "Steiner points inside regions"), "56 Steiner points, 56 of them on the box");
+  c.options.box = false;
+  EXPECT_EQ(broken(c), (Names{"boundary is input", "Steiner points inside regions"}));
+}
+
+TEST(GoodMesh, ExtremeCoordinatesHold) {
+  for (const double scale : {0x1p-1060, 0x1p-400, 0x1p400, 0x1p1020}) {
+    Case c = with_steiner();
+    for (auto* vertices : {&c.volume.vertices, &c.surface.vertices})
+      for (Point& p : *vertices)
+        for (double& x : p) x *= scale;
+    EXPECT_EQ(broken(c), Names{}) << scale;
+  }
+}
+
+// ---- Vertices and form
+
+TEST(Vertices, ChangeByOneUlpIsTold) {
+  Case c = grid({2, 1, 1});
+  double& x = c.volume.vertices[3][0];
+  x = std::nextafter(x, 10);
+  EXPECT_EQ(broken(c), (Names{"input vertices kept"}));
+  EXPECT_TRUE(
+      contains(detail(c, "input vertices kept"), "1 input vertices changed or missing: input vertex 3 ("));
+}
+
+TEST(Vertices, SignOfZeroIsTold) {
+  Case c = one_tetrahedron();
+  c.volume.vertices[1][1] = -0.0;
+  EXPECT_EQ(broken(c), (Names{"input vertices kept"}));
+}
+
+TEST(Vertices, PermutationIsTold) {
+  Case c = grid({2, 1, 1});
+  exchange(c.volume, 2, 5);
+  EXPECT_TRUE(broken(c).contains("input vertices kept"));
+  EXPECT_TRUE(broken(c).contains("facets kept"));
+}
+
+TEST(Vertices, MissingIsTold) {
+  Case c = one_tetrahedron();
+  c.surface.vertices.push_back({5, 5, 5});
+  EXPECT_EQ(broken(c), (Names{"input vertices kept"}));
+  EXPECT_EQ(detail(c, "input vertices kept"),
+            "1 input vertices changed or missing: input vertex 4 (5, 5, 5) is missing");
+}
+
+TEST(Vertices, UnusedIsTold) {
+  Case steiner = one_tetrahedron();
+  steiner.volume.vertices.push_back({0.125, 0.125, 0.125});
+  EXPECT_EQ(broken(steiner), (Names{"no vertex unused"}));
+  Case isolated = steiner;
+  isolated.surface.vertices = isolated.volume.vertices;
+  EXPECT_EQ(broken(isolated), (Names{"no vertex unused"}));
+  isolated.options.outside_dropped = true;
+  EXPECT_EQ(broken(isolated), (Names{"no vertex unused"})) << "it is not outside";
+}
+
+TEST(Vertices, UnusedIsAcceptedOutsideOnlyAndWhenDropped) {
+  const auto with_point = [](const Point& point) {
+    Case c = one_tetrahedron();
+    c.volume.vertices.push_back(point);
+    c.surface.vertices.push_back(point);
+    return c;
+  };
+  const std::vector<Point> outside{{2, 2, 2}, {-1, 0, 0}, {0.25, -1, 0.25}, {2, 0, 0}, {0.5, 0.5, 0.5}};
+  for (const Point& point : outside) {
+    Case c = with_point(point);
+    EXPECT_EQ(broken(c), (Names{"no vertex unused"}));
+    c.options.outside_dropped = true;
+    EXPECT_EQ(broken(c), Names{});
+  }
+  const std::vector<Point> touching{{0.25, 0.25, 0.25}, {0.25, 0.25, 0}, {0, 0, 0.5}, {0.25, 0.25, 0.5}};
+  for (const Point& point : touching) {
+    Case c = with_point(point);
+    c.options.outside_dropped = true;
+    EXPECT_EQ(broken(c), (Names{"no vertex unused"}));
+  }
+}
+
+TEST(Form, GarbageIsToldAndNeverFollowed) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  constexpr Index huge = std::numeric_limits<Index>::max();
+  const std::vector<std::function<void(Case&)>> spoils{
+      [](Case& c) { c.volume.tetrahedra[0][2] = 4; },
+      [](Case& c) { c.volume.tetrahedra[0][2] = huge; },
+      [](Case& c) { c.volume.tetrahedra[0][2] = 1; },
+      [](Case& c) { drop_tetrahedron(c.volume, 0); },
+      [](Case& c) { c.volume = {}; },
+      [](Case& c) { c.volume.vertices[2][1] = nan; },
+      [](Case& c) {
+        c.volume.vertices.push_back({0, inf, 0});
+      },
+      [](Case& c) { c.surface.vertices[3][2] = -inf; },
+      [](Case& c) { c.surface.facets[3][0] = 77; },
+      [](Case& c) {
+        c.surface.segments.push_back({0, huge});
+      },
+  };
+  for (std::size_t i = 0; i < spoils.size(); ++i) {
+    Case c = one_tetrahedron();
+    c.surface.facet_markers.assign(4, 7);
+    c.volume.facets = c.surface.facets;
+    c.volume.facet_markers = c.surface.facet_markers;
+    spoils[i](c);
+    EXPECT_TRUE(broken(c).contains("well formed")) << i;
+    EXPECT_TRUE(contains(detail(c, "no overlap"), "not examined")) << i;
+  }
+}
+
+TEST(Form, DegenerateInputEntitiesAreLost) {
+  Case c = one_tetrahedron();
+  c.surface.facets.push_back({1, 1, 2});
+  c.surface.segments.push_back({3, 3});
+  c.options.outside_dropped = true;
+  EXPECT_EQ(broken(c), (Names{"facets kept", "segments kept"}));
+}
+
+TEST(Form, EmptyIsNotAMesh) {
+  EXPECT_TRUE(broken(check({}, {})).contains("well formed"));
+  EXPECT_FALSE(check({}, {}, {.outside_dropped = true, .box = true}).holds());
+}
+
+// ---- Tetrahedra
+
+TEST(Volumes, NegativeIsTold) {
+  Case c = grid({2, 1, 1});
+  std::swap(c.volume.tetrahedra[4][0], c.volume.tetrahedra[4][1]);
+  EXPECT_EQ(broken(c), (Names{"volumes positive", "no overlap"}));
+  EXPECT_EQ(detail(c, "no overlap"), "not examined: some tetrahedra are not positive");
+  EXPECT_TRUE(contains(detail(c, "volumes positive"), "1 tetrahedra are not positive: tetrahedron 4 ("));
+}
+
+TEST(Volumes, ZeroIsTold) {
+  Case c = with_steiner();
+  c.volume.vertices.back() = {1, 1, 0};
+  EXPECT_TRUE(broken(c).contains("volumes positive"));
+  EXPECT_TRUE(broken(c).contains("Steiner points inside regions"));
+}
+
+TEST(Volumes, TinyPositiveVolumeIsPositive) {
+  Volume volume = one_tetrahedron().volume;
+  volume.vertices = {{1, 1, 1}, {2, 1, 1}, {1, 2, 1}, {1.5, 1.5, std::nextafter(1.0, 2.0)}};
+  EXPECT_EQ(broken(filled(volume)), Names{});
+  volume.vertices[3][2] = 1;
+  EXPECT_TRUE(broken(filled(volume)).contains("volumes positive"));
+}
+
+TEST(Faces, DuplicateTetrahedronIsTold) {
+  Case inside = grid({2, 2, 2});
+  inside.volume.tetrahedra.push_back(inside.volume.tetrahedra[7]);
+  inside.volume.regions.push_back(1);
+  EXPECT_TRUE(broken(inside).contains("faces matched"));
+  Case alone = one_tetrahedron();
+  alone.volume.tetrahedra.push_back({1, 2, 0, 3});
+  alone.volume.regions.push_back(1);
+  EXPECT_TRUE(broken(alone).contains("faces matched"));
+  EXPECT_TRUE(contains(detail(alone, "faces matched"), "4 faces with both tetrahedra on one side"));
+}
+
+TEST(Faces, ThreeTetrahedraAtOneFaceAreTold) {
+  Volume volume = one_tetrahedron().volume;
+  volume.vertices.push_back({1, 1, 1});
+  volume.vertices.push_back({2, 2, 2});
+  volume.tetrahedra.push_back({1, 2, 3, 4});
+  volume.tetrahedra.push_back({1, 2, 3, 5});
+  volume.regions.assign(3, 1);
+  Case c = filled(std::move(volume));
+  c.surface.facets.push_back({1, 2, 3});
+  EXPECT_EQ(broken(c), (Names{"faces matched", "no overlap"}));
+  EXPECT_TRUE(contains(detail(c, "faces matched"), "1 faces of more than two tetrahedra: face (1, 2, 3)"));
+}
+
+TEST(Faces, TwoTetrahedraOnOneSideAreTold) {
+  Volume volume = one_tetrahedron().volume;
+  volume.vertices.push_back({0.25, 0.25, 2});
+  volume.tetrahedra.push_back({0, 1, 2, 4});
+  volume.regions.push_back(1);
+  EXPECT_EQ(broken(filled(std::move(volume))), (Names{"faces matched", "no overlap"}));
+}
+
+TEST(Faces, MissingTetrahedronIsTold) {
+  const Case whole = with_steiner();
+  for (std::size_t i = 0; i < whole.volume.tetrahedra.size(); ++i) {
+    Case c = whole;
+    const bool at_steiner = std::ranges::max(c.volume.tetrahedra[i]) == c.surface.vertices.size();
+    drop_tetrahedron(c.volume, i);
+    EXPECT_TRUE(broken(c).contains("boundary is input")) << i;
+    EXPECT_EQ(broken(c).contains("Steiner points inside regions"), at_steiner) << i;
+  }
+}
+
+// ---- Overlap
+
+TEST(Overlap, BlocksThatCrossAreTold) {
+  Volume volume = grid({2, 2, 2}).volume;
+  append_grid(volume, {2, 2, 2}, {0.5, 0.25, 0.125});
+  const Case c = filled(std::move(volume));
+  EXPECT_EQ(broken(c), (Names{"no overlap"}));
+  EXPECT_TRUE(contains(detail(c, "no overlap"), "pairs of boundary faces intersect"));
+}
+
+TEST(Overlap, BlockInsideAnotherIsTold) {
+  Volume volume = grid({3, 3, 3}).volume;
+  append_grid(volume, {1, 1, 1}, {1.25, 0.5, 0.75});
+  const Case c = filled(std::move(volume));
+  EXPECT_EQ(broken(c), (Names{"no overlap"}));
+  EXPECT_TRUE(contains(detail(c, "no overlap"), "there are 2 tetrahedra"));
+}
+
+TEST(Overlap, BlockInsideAVoidHolds) {
+  Volume volume = grid({5, 5, 5}, [](int x, int y, int z) { return depth(x, y, z, 5) > 0 ? 0 : 1; }).volume;
+  append_grid(volume, {1, 1, 1}, {1.25, 2.5, 1.75});
+  EXPECT_EQ(broken(filled(std::move(volume))), Names{});
+}
+
+TEST(Overlap, BlocksThatTouchWithoutSharingFacesAreTold) {
+  Volume volume = grid({1, 1, 1}).volume;
+  append_grid(volume, {1, 1, 1}, {1, 0, 0});
+  EXPECT_EQ(broken(filled(std::move(volume))), (Names{"no overlap"}));
+}
+
+TEST(Overlap, OneVertexWithTwoIndicesIsTold) {
+  Volume volume = grid({1, 1, 1}).volume;
+  append_grid(volume, {1, 1, 1}, {1, 1, 1});
+  EXPECT_EQ(broken(filled(std::move(volume))), (Names{"no overlap"}));
+}
+
+TEST(Overlap, TwoTurnsAboutAnEdgeAreTold) {
+  // A fan of tetrahedra that closes after two turns: every face is matched and all are positive.
+  Volume volume;
+  constexpr int corners = 12;
+  volume.vertices = {{0, 0, -1}, {0, 0, 1}};
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 4 * M_PI * i / corners;
+    const double radius = 1 + 0.1 * i;
+    volume.vertices.push_back({radius * std::cos(angle), radius * std::sin(angle), 0.3 * i});
+    volume.tetrahedra.push_back({0, 1, static_cast<Index>(2 + i), static_cast<Index>(2 + (i + 1) % corners)});
+  }
+  volume.regions.assign(corners, 1);
+  const Case c = filled(std::move(volume));
+  ASSERT_EQ(c.surface.facets.size(), 2U * corners);
+  EXPECT_EQ(broken(c), (Names{"no overlap"}));
+}
+
+// ---- Input facets and segments
+
+TEST(Facets, SwappedDiagonalIsTold) {
+  Case c = grid({1, 1, 1});
+  // The bottom is cut from (0, 0) to (1, 1); the input shall have the other diagonal.
+  const Index a = vertex_at(c.volume, {0, 0, 0}), b = vertex_at(c.volume, {1, 0, 0});
+  const Index d = vertex_at(c.volume, {1, 1, 0}), e = vertex_at(c.volume, {0, 1, 0});
+  std::erase_if(c.surface.facets, [&](const Triangle& t) {
+    return t == sorted({a, b, d}) || t == sorted({a, d, e});
+  });
+  ASSERT_EQ(c.surface.facets.size(), 10U);
+  c.surface.facets.push_back({a, b, e});
+  c.surface.facets.push_back({b, d, e});
+  EXPECT_EQ(broken(c), (Names{"facets kept", "segments kept", "boundary is input"}));
+  EXPECT_TRUE(contains(detail(c, "facets kept"), "2 input facets lost: input facet 10 ("));
+  EXPECT_TRUE(contains(detail(c, "segments kept"), "1 input segments or facet sides lost: facet side ("));
+}
+
+TEST(Facets, SplitFacetAndSteinerPointOnItAreTold) {
+  Case c = one_tetrahedron();  // three times as large, and split at the middle of its face 123
+  c.surface.vertices = {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0, 3}};
+  c.volume.vertices = c.surface.vertices;
+  c.volume.vertices.push_back({1, 1, 1});
+  c.volume.tetrahedra = {{0, 1, 2, 4}, {0, 2, 3, 4}, {0, 3, 1, 4}};
+  c.volume.regions.assign(3, 1);
+  EXPECT_EQ(broken(c), (Names{"facets kept", "boundary is input", "Steiner points inside regions"}));
+  EXPECT_TRUE(contains(detail(c, "Steiner points inside regions"), "lies on input facet"));
+}
+
+TEST(Facets, SplitSideIsTold) {
+  Case c = one_tetrahedron();
+  c.volume.vertices.push_back({0.5, 0, 0});
+  c.volume.tetrahedra = {{0, 4, 2, 3}, {4, 1, 2, 3}};
+  c.volume.regions.assign(2, 1);
+  EXPECT_EQ(broken(c),
+            (Names{"facets kept", "segments kept", "boundary is input", "Steiner points inside regions"}));
+}
+
+TEST(Facets, SteinerPointOnDanglingSegmentIsTold) {
+  Case c = with_steiner();
+  c.surface.segments.push_back({vertex_at(c.volume, {0, 0, 0}), vertex_at(c.volume, {2, 2, 2})});
+  EXPECT_EQ(broken(c), (Names{"segments kept", "Steiner points inside regions"}));
+}
+
+TEST(Facets, DroppedRegionIsTold) {
+  Case c = grid({3, 1, 1}, [](int x, int, int) { return x + 1; });
+  c.volume.tetrahedra.resize(12);
+  c.volume.regions.resize(12);
+  EXPECT_EQ(broken(c), (Names{"no vertex unused", "nothing dropped"}));
+  EXPECT_TRUE(
+      contains(detail(c, "nothing dropped"), "10 input facets and segments lie outside all tetrahedra"));
+  c.options.outside_dropped = true;
+  EXPECT_EQ(broken(c), Names{});
+}
+
+TEST(Facets, DanglingOutsideIsDroppedNotLost) {
+  Case c = grid({2, 2, 2});
+  const auto add = [&](const Point& p) {
+    c.volume.vertices.push_back(p);
+    c.surface.vertices.push_back(p);
+    return static_cast<Index>(c.volume.vertices.size() - 1);
+  };
+  const Index corner = vertex_at(c.volume, {2, 2, 2}), below = vertex_at(c.volume, {2, 2, 1});
+  c.surface.facets.push_back({corner, below, add({3, 3, 2})});
+  c.surface.segments.push_back({corner, add({2, 3, 4})});
+  EXPECT_EQ(broken(c), (Names{"no vertex unused", "nothing dropped"}));
+  c.options.outside_dropped = true;
+  EXPECT_EQ(broken(c), Names{});
+  EXPECT_EQ(detail(c, "no vertex unused"), "27 vertices used, 2 input vertices outside");
+  // Those that reach into the mesh are lost, with the option too.
+  c.surface.facets.back() = {corner, below, add({0.5, 0.75, 1.25})};
+  c.surface.segments.back() = {vertex_at(c.volume, {0, 0, 0}), add({3, 2.5, 2.75})};
+  EXPECT_EQ(broken(c), (Names{"no vertex unused", "facets kept", "segments kept"}));
+}
+
+TEST(Facets, OutsideCannotBeToldInABrokenMesh) {
+  Case c = grid({2, 1, 1}, [](int x, int, int) { return x + 1; });
+  c.volume.tetrahedra.resize(6);
+  c.volume.regions.resize(6);
+  c.options.outside_dropped = true;
+  EXPECT_EQ(broken(c), Names{});
+  std::swap(c.volume.tetrahedra[1][0], c.volume.tetrahedra[1][1]);
+  EXPECT_TRUE(broken(c).contains("facets kept"));
+  EXPECT_TRUE(contains(detail(c, "nothing dropped"), "not examined"));
+}
+
+// ---- Regions and markers
+
+TEST(Regions, WrongIdsAreTold) {
+  Case c = grid({2, 1, 1}, [](int x, int, int) { return x + 1; });
+  c.volume.regions[2] = 2;
+  EXPECT_EQ(broken(c), (Names{"regions numbered"}));
+  c.volume.regions.pop_back();
+  EXPECT_EQ(broken(c), (Names{"regions numbered"}));
+  EXPECT_EQ(detail(c, "regions numbered"), "11 region ids for 12 tetrahedra");
+}
+
+TEST(Regions, DanglingFacetDoesNotSeparate) {
+  Case c = grid({2, 1, 1}, [](int x, int, int) { return x + 1; });
+  const auto interface = std::ranges::find_if(c.surface.facets, [&](const Triangle& facet) {
+    return std::ranges::all_of(facet, [&](Index v) { return c.surface.vertices[v][0] == 1; });
+  });
+  ASSERT_NE(interface, c.surface.facets.end());
+  c.surface.facets.erase(interface);  // the other half of the interface dangles now
+  EXPECT_EQ(broken(c), (Names{"regions numbered"}));
+  std::ranges::fill(c.volume.regions, 9);
+  EXPECT_EQ(broken(c), Names{});
+}
+
+Case marked() {
+  Case c = grid({1, 1, 1});
+  for (std::size_t i = 0; i < c.surface.facets.size(); ++i)
+    c.surface.facet_markers.push_back(10 + static_cast<int>(i / 2));
+  c.surface.segments = {{0, 1}, {0, 2}, {1, 0}};  // the first is repeated, with another marker
+  c.surface.segment_markers = {5, 6, 7};
+  c.volume.facets = c.surface.facets;
+  c.volume.facet_markers = c.surface.facet_markers;
+  std::swap(c.volume.facets[0], c.volume.facets[7]);  // any order, any rotation
+  std::swap(c.volume.facet_markers[0], c.volume.facet_markers[7]);
+  std::ranges::rotate(c.volume.facets[3], c.volume.facets[3].begin() + 1);
+  c.volume.segments = {{2, 0}, {0, 1}};
+  c.volume.segment_markers = {6, 5};
+  return c;
+}
+
+TEST(Markers, KeptOnesHold) {
+  EXPECT_EQ(broken(marked()), Names{});
+  Case unmarked = marked();  // an input without markers leaves the list free
+  unmarked.surface.facet_markers.clear();
+  unmarked.surface.segment_markers.clear();
+  EXPECT_EQ(broken(unmarked), Names{});
+}
+
+TEST(Markers, EveryWrongListIsTold) {
+  const std::vector<std::function<void(Case&)>> spoils{
+      [](Case& c) { c.volume.facet_markers[5] += 1; },
+      [](Case& c) { c.volume.segment_markers[1] = 8; },
+      [](Case& c) { c.volume.facets.pop_back(), c.volume.facet_markers.pop_back(); },
+      [](Case& c) { c.volume.segments.pop_back(), c.volume.segment_markers.pop_back(); },
+      [](Case& c) { c.volume.facets.clear(), c.volume.facet_markers.clear(); },
+      [](Case& c) { c.volume.facet_markers.clear(); },
+      [](Case& c) { c.volume.facet_markers.pop_back(); },
+      [](Case& c) { c.surface.facet_markers.pop_back(); },
+      [](Case& c) {
+        c.volume.facets[4] = {0, 1, 99};
+      },
+      [](Case& c) { c.volume.facets[4] = c.volume.facets[5]; },
+      [](Case& c) {
+        c.volume.segments[0] = {3, 4};
+      },
+  };
+  for (std::size_t i = 0; i < spoils.size(); ++i) {
+    Case c = marked();
+    spoils[i](c);
+    EXPECT_EQ(broken(c), (Names{"markers kept"})) << i;
+  }
+}
+
+TEST(Detail, NamesTheFirstAndCountsTheRest) {
+  Case c = grid({3, 1, 1});
+  for (Tetrahedron& t : c.volume.tetrahedra) std::swap(t[0], t[1]);
+  const std::string text = detail(c, "volumes positive");
+  EXPECT_TRUE(contains(text, "18 tetrahedra are not positive: tetrahedron 0 ("));
+  EXPECT_TRUE(contains(text, "tetrahedron 2 ("));
+  EXPECT_FALSE(contains(text, "tetrahedron 3 ("));
+  EXPECT_TRUE(text.ends_with("; and 15 more"));
+}
+
+}  // namespace
+}  // namespace holdfast
