@@ -1,0 +1,364 @@
+"""The program `holdfast` from outside: exit codes (design §3.1), messages, files and signals.
+
+    cli_test.py PROGRAM [unittest options]
+"""
+import json
+import os
+import re
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+PROGRAM = ""
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+
+CUBE_POINTS = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+CUBE_FACETS = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4),
+               (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2), (1, 3, 7), (1, 7, 5)]
+
+
+def off(points, facets):
+    return (f"OFF\n{len(points)} {len(facets)} 0\n" + "".join("%r %r %r\n" % tuple(p) for p in points)
+            + "".join(f"{len(f)} {' '.join(map(str, f))}\n" for f in facets))
+
+
+def cube(corner=(0, 0, 0), size=1):
+    return [tuple(c + size * x for c, x in zip(corner, p)) for p in CUBE_POINTS]
+
+
+def shifted(facets, by):
+    return [tuple(v + by for v in f) for f in facets]
+
+
+class CliTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.write("cube.off", off(CUBE_POINTS, CUBE_FACETS))
+
+    def write(self, name, content):
+        path = self.folder / name
+        path.write_bytes(content) if isinstance(content, bytes) else path.write_text(content)
+        return path
+
+    def run_program(self, *arguments, expect=0):
+        ended = subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE, text=True, timeout=120, check=False)
+        self.assertEqual(ended.returncode, expect, ended.stdout + ended.stderr)
+        return ended
+
+    def files(self):
+        return sorted(p.name for p in self.folder.iterdir())
+
+
+class Usage(CliTest):
+    def test_version_and_help(self):
+        self.assertRegex(self.run_program("--version").stdout, r"^holdfast \d+\.\d+\.\d+\n$")
+        for command in ("mesh", "check", "diagnose", "delaunay"):
+            self.assertIn("Exit codes", self.run_program(command, "--help").stdout)
+
+    def test_wrong_usage_is_2_and_says_what_is_wrong(self):
+        for arguments, word in [
+            ([], "subcommand"),
+            (["nonsense"], "nonsense"),
+            (["mesh"], "SURFACE"),
+            (["mesh", "cube.off"], "--output"),
+            (["mesh", "cube.off", "-o", "out.vtu", "--bogus"], "--bogus"),
+            (["mesh", "cube.off", "-o", "out.txt"], "format"),
+            (["mesh", "cube.off", "-o", "out.vtu", "--keep", "some"], "some"),
+            (["mesh", "cube.off", "-o", "out.vtu", "--keep", "box=-1"], "margin"),
+            (["mesh", "cube.off", "-o", "out.vtu", "--hole", "1,2"], "x,y,z"),
+            (["mesh", "cube.off", "-o", "out.vtu", "--hole", "1,2,nan"], "x,y,z"),
+            (["mesh", "cube.off", "-o", "out.vtu", "--region", "1,2,3,0.5"], "integer"),
+            (["mesh", "cube.off", "-o", "out.vtu", "--without", "everything"], "flips"),
+            (["mesh", "cube.off", "-o", "out.vtu", "--stop-after", "lunch"], "delaunay"),
+            (["mesh", "cube.off", "-o", "out.vtu", "--time-limit", "-1"], "--time-limit"),
+            (["mesh", "cube.off", "-o", "out.vtu", "--memory-limit", "nan"], "--memory-limit"),
+            (["mesh", "cube.off", "-o", "out.vtu", "--threads", "0"], "--threads"),
+            (["mesh", "cube.off", "-o", "out.vtu", "-q", "-v"], "excludes"),
+            (["check", "cube.off"], "volume"),
+        ]:
+            with self.subTest(arguments):
+                self.assertIn(word, self.run_program(*arguments, expect=2).stderr)
+                self.assertEqual(self.files(), ["cube.off"])
+
+    def test_an_output_never_overwrites_an_input(self):
+        text = (self.folder / "cube.off").read_text()
+        self.write("cube.mesh", text)
+        self.run_program("mesh", "cube.mesh", "-o", "./cube.mesh", expect=2)
+        self.assertEqual((self.folder / "cube.mesh").read_text(), text)
+
+
+class Files(CliTest):
+    def test_unreadable_input_is_3_and_names_the_file(self):
+        (self.folder / "folder.off").mkdir()
+        for name, content in [
+            ("missing.off", None), ("folder.off", None), ("empty.off", ""), ("empty.stl", b""),
+            ("no_numbers.off", "OFF\n3 1 0\n0 0 zero\n"),
+            ("cut.off", off(CUBE_POINTS, CUBE_FACETS)[:60]),
+            ("many.off", "OFF\n4000000000 4000000000 0\n0 0 0\n"),
+            ("negative.off", "OFF\n-8 12 0\n"),
+            ("cut.stl", bytes(80) + struct.pack("<I", 1000) + bytes(100)),
+            ("unknown.xyzw", "1 2 3"),
+        ]:
+            with self.subTest(name):
+                if content is not None:
+                    self.write(name, content)
+                for command in (["mesh", name, "-o", "out.vtu"], ["diagnose", name]):
+                    self.assertIn(name, self.run_program(*command, expect=3).stderr)
+                self.assertNotIn("out.vtu", self.files())
+
+    def test_unreadable_text_names_the_line(self):
+        self.write("bad.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 oops 0\n3 0 1 2\n")
+        self.assertIn("line 5", self.run_program("diagnose", "bad.off", expect=3).stderr)
+
+    def test_unwritable_output_is_3_before_any_work(self):
+        (self.folder / "volume.vtu").mkdir()
+        for output in ("nowhere/out.vtu", "volume.vtu"):
+            self.assertIn(output, self.run_program("mesh", "missing.off", "-o", output, expect=3).stderr)
+        self.assertIn("nowhere", self.run_program("mesh", "cube.off", "-o", "out.vtu", "--report",
+                                                  "nowhere/r.json", expect=3).stderr)
+        self.assertNotIn("out.vtu", self.files())
+
+    def test_every_volume_format_is_written_and_checked(self):
+        for name in ("a.vtu", "a.vtk", "a.mesh", "a.msh", "a.node"):
+            with self.subTest(name):
+                self.run_program("mesh", "cube.off", "-o", name, "--fill", "--quiet")
+                self.run_program("check", "cube.off", name)
+        self.run_program("mesh", "cube.off", "-o", "old.msh", "--format", "msh2", "--fill", "-q")
+        self.assertIn("2.2", (self.folder / "old.msh").read_text(errors="replace")[:40])
+        self.assertFalse([f for f in self.files() if "part" in f or "tmp" in f])
+
+
+class Mesh(CliTest):
+    def test_a_cube(self):
+        ended = self.run_program("mesh", "cube.off", "-o", "cube.vtu", "--fill", "--report", "r.json")
+        self.assertEqual(ended.stdout, "")
+        self.assertRegex(ended.stderr, r"cube\.vtu: 8 vertices \(0 added\), \d+ tetrahedra in 1 region")
+        report = json.loads((self.folder / "r.json").read_text())
+        for key in ("input delaunay flips partition steiner mesh quality seconds peak_memory_bytes version "
+                    "options outcome defects").split():
+            self.assertIn(key, report)
+        self.assertEqual(report["outcome"], "done")
+        self.assertEqual(report["input"]["facets"], 12)
+        self.assertEqual(report["input"]["segments"], 18)
+        self.assertTrue(report["input"]["closed"])
+        self.assertEqual(report["steiner"], {"count": 0, "unrounded": 0})
+        self.assertEqual(report["mesh"]["vertices"], 8)
+        self.assertIn("total", report["seconds"])
+        self.assertIn(report["mesh"]["tetrahedra"], (5, 6))
+
+    def test_quiet_is_silent_and_verbose_is_not(self):
+        self.assertEqual(self.run_program("mesh", "cube.off", "-o", "a.vtu", "--quiet").stderr, "")
+        told = self.run_program("mesh", "cube.off", "-o", "a.vtu", "--fill", "--verbose").stderr
+        self.assertIn("missing", told)
+        self.assertNotIn("\r", told)
+
+    def test_without_fill_it_says_that_there_are_no_field_points(self):
+        self.assertIn("field points", self.run_program("mesh", "cube.off", "-o", "a.vtu").stderr)
+        self.assertNotIn("field points", self.run_program("mesh", "cube.off", "-o", "a.vtu", "--fill").stderr)
+
+    def test_same_result_for_any_number_of_threads_and_twice(self):
+        self.make("chazelle", "hard.off", "-n", "2")
+        volumes = []
+        for threads in (1, 1, 4):
+            self.run_program("mesh", "hard.off", "-o", "a.mesh", "--fill", "-q", "--threads", threads)
+            volumes.append((self.folder / "a.mesh").read_bytes())
+        self.assertEqual(len(set(volumes)), 1)
+
+    def make(self, kind, name, *arguments):
+        subprocess.run([sys.executable, EXAMPLES / "make_hard.py", kind, self.folder / name, *arguments],
+                       stdout=subprocess.DEVNULL, check=True)
+
+    def test_hard_surfaces_with_and_without_flips(self):
+        self.make("schonhardt", "prism.off", "--twist", "50")
+        self.make("chazelle", "chazelle.off", "-n", "2")
+        for name in ("prism.off", "chazelle.off"):
+            for extra in ([], ["--without", "flips"]):
+                with self.subTest(name, extra=extra):
+                    self.run_program("mesh", name, "-o", "a.vtu", "--fill", "--report", "r.json", *extra)
+                    self.assertGreater(json.loads((self.folder / "r.json").read_text())["steiner"]["count"], 0)
+                    self.run_program("check", name, "a.vtu")
+
+    def test_surfaces_are_joined_where_coordinates_are_identical(self):
+        self.write("right.off", off(cube((1, 0, 0)), [f for f in CUBE_FACETS if f not in ((0, 4, 6), (0, 6, 2))]))
+        self.run_program("mesh", "cube.off", "right.off", "-o", "two.vtu", "--fill", "--report", "r.json")
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertEqual(report["input"]["vertices"], 12)
+        self.assertEqual(report["mesh"]["regions"], 2)
+        self.run_program("check", "cube.off", "right.off", "two.vtu")
+
+    def test_holes_and_regions(self):
+        inner = cube((0.25, 0.25, 0.25), 0.5)
+        self.write("nested.off", off(CUBE_POINTS + inner, CUBE_FACETS + shifted(CUBE_FACETS, 8)))
+        self.run_program("mesh", "nested.off", "-o", "a.mesh", "--fill", "--keep", "bounded", "--report", "r.json")
+        self.assertEqual(json.loads((self.folder / "r.json").read_text())["mesh"]["regions"], 2)
+        self.run_program("mesh", "nested.off", "-o", "a.mesh", "--fill", "--keep", "bounded", "--hole",
+                         "0.5,0.5,0.5", "--report", "r.json")
+        self.assertEqual(json.loads((self.folder / "r.json").read_text())["mesh"]["regions"], 1)
+        self.run_program("check", "nested.off", "a.mesh")
+        self.run_program("mesh", "nested.off", "-o", "a.mesh", "--fill", "--keep", "bounded", "--region",
+                         "0.5,0.5,0.5,77")
+        text = (self.folder / "a.mesh").read_text()
+        tetrahedra = text[text.index("Tetrahedra"):].split()
+        self.assertIn("77", tetrahedra[6::5])
+
+    def test_invalid_surfaces_are_4_and_named(self):
+        crossing = off(CUBE_POINTS + cube((0.5, 0.5, 0.5)), CUBE_FACETS + shifted(CUBE_FACETS, 8))
+        for name, content in [
+            ("crossing.off", crossing),
+            ("repeated.off", off(CUBE_POINTS, CUBE_FACETS + [CUBE_FACETS[0]])),
+            ("flat.off", off([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)])),
+            ("open.off", off(CUBE_POINTS, CUBE_FACETS[:-1])),
+        ]:
+            with self.subTest(name):
+                self.write(name, content)
+                told = self.run_program("mesh", name, "-o", "a.vtu", "--fill", "--report", "r.json", expect=4)
+                self.assertIn("not valid", told.stderr)
+                report = json.loads((self.folder / "r.json").read_text())
+                self.assertEqual(report["outcome"], "invalid_input")
+                self.assertTrue(report["defects"])
+                self.assertNotIn("a.vtu", self.files())
+
+    def test_an_open_surface_in_a_box(self):
+        self.write("open.off", off(CUBE_POINTS, CUBE_FACETS[:-2]))
+        self.run_program("mesh", "open.off", "-o", "a.vtu", "--fill", "--keep", "box=0.5")
+        self.run_program("check", "open.off", "a.vtu", "--box")
+
+    def test_not_representable_is_7_and_offers_the_exact_mesh(self):
+        far = 2**52  # design §4: valid, and no double lies inside
+        points = [(2, 1, 0), (1, 1, 3), (1, 2, 1), (3, 2, 2), (0, 0, 3), (2, 1, 3)]
+        facets = [(0, 1, 2), (3, 4, 5)]
+        for k in range(3):
+            j = (k + 1) % 3
+            facets += [(k, j, 3 + j), (k, 3 + j, 3 + k)]
+        self.write("far.off", off([tuple(float(far + x) for x in p) for p in points], facets))
+        told = self.run_program("mesh", "far.off", "-o", "a.vtu", "--fill", expect=7)
+        self.assertIn("--exact", told.stderr)
+        self.run_program("mesh", "far.off", "-o", "a.vtu", "--fill", "--exact", "far.jsonl", expect=7)
+        self.assertNotIn("a.vtu", self.files())
+        lines = [json.loads(line) for line in (self.folder / "far.jsonl").read_text().splitlines()]
+        exact = [x for line in lines for x in line.get("coordinates", []) if isinstance(x, str)]
+        self.assertTrue(exact)
+        for x in exact:
+            self.assertRegex(x, r"^-?\d+\*2\^-?\d+$")
+        self.assertTrue([line for line in lines if "tetrahedron" in line])
+
+
+class Limits(CliTest):
+    def setUp(self):
+        super().setUp()
+        subprocess.run([sys.executable, EXAMPLES / "make_part.py", self.folder / "part.stl", "--detail", "3"],
+                       stdout=subprocess.DEVNULL, check=True)
+        self.before = self.files()
+
+    def test_time_limit_is_5(self):
+        told = self.run_program("mesh", "part.stl", "-o", "a.vtu", "--fill", "--time-limit", "0.05", expect=5)
+        self.assertIn("--time-limit", told.stderr)
+        self.assertEqual(self.files(), self.before)
+
+    def test_memory_limit_is_5(self):
+        told = self.run_program("mesh", "part.stl", "-o", "a.vtu", "--fill", "--memory-limit", "0.005", expect=5)
+        self.assertIn("--memory-limit", told.stderr)
+        self.assertEqual(self.files(), self.before)
+
+    def test_interrupt_and_termination_are_5_and_leave_nothing(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(number):
+                process = subprocess.Popen([PROGRAM, "mesh", "part.stl", "-o", "a.vtu", "--fill", "--without", "flips",
+                                            "--verbose"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+                process.stderr.readline()  # the first stage has begun
+                os.kill(process.pid, number)
+                started = time.monotonic()
+                told = process.communicate(timeout=60)[1]
+                self.assertLess(time.monotonic() - started, 20)
+                self.assertEqual(process.returncode, 5, told)
+                self.assertIn("cancelled", told)
+                self.assertEqual(self.files(), self.before)
+
+
+class Check(CliTest):
+    def test_every_rule_has_a_line(self):
+        self.run_program("mesh", "cube.off", "-o", "a.mesh", "--fill", "-q")
+        lines = self.run_program("check", "cube.off", "a.mesh").stdout.splitlines()
+        self.assertGreater(len(lines), 4)
+        for line in lines:
+            self.assertTrue(line.startswith("holds"), line)
+
+    def test_violations_are_6(self):
+        self.run_program("mesh", "cube.off", "-o", "a.mesh", "--fill", "-q")
+        text = (self.folder / "a.mesh").read_text()
+        head, tail = text.split("Tetrahedra", 1)
+        count, *rows = tail.strip().split("\n")[0:1] + tail.strip().split("\n")[1:]
+        rows = [r for r in rows if re.match(r"^\s*\d+ \d+ \d+ \d+", r)]
+        self.assertEqual(len(rows), int(count))
+        a, b, *rest = rows[0].split()
+        turned = [" ".join([b, a, *rest]), *rows[1:]]
+        for name, broken in [("gap.mesh", rows[1:]), ("twice.mesh", [*rows, rows[0]]), ("turned.mesh", turned)]:
+            with self.subTest(name):
+                self.write(name, head + f"Tetrahedra\n{len(broken)}\n" + "\n".join(broken) + "\nEnd\n")
+                told = self.run_program("check", "cube.off", name, "--report", "r.json", expect=6)
+                self.assertIn("BROKEN", told.stdout)
+                self.assertFalse(json.loads((self.folder / "r.json").read_text())["holds"])
+        self.write("moved.off", off([(0, 0, 2.0**-60), *CUBE_POINTS[1:]], CUBE_FACETS))
+        self.run_program("check", "moved.off", "a.mesh", expect=6)
+
+    def test_a_damaged_volume_is_3(self):
+        self.run_program("mesh", "cube.off", "-o", "a.vtu", "--fill", "-q")
+        whole = (self.folder / "a.vtu").read_bytes()
+        self.write("cut.vtu", whole[: len(whole) // 2])
+        self.assertIn("cut.vtu", self.run_program("check", "cube.off", "cut.vtu", expect=3).stderr)
+
+
+class Diagnose(CliTest):
+    def test_a_valid_surface_is_0(self):
+        self.assertIn("valid", self.run_program("diagnose", "cube.off").stdout)
+
+    def test_all_defects_are_listed_and_marked(self):
+        self.write("crossing.off",
+                   off(CUBE_POINTS + cube((0.5, 0.25, 0.125)), CUBE_FACETS + shifted(CUBE_FACETS, 8)))
+        told = self.run_program("diagnose", "crossing.off", "--marks", "m.vtu", "--report", "r.json", expect=4)
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertFalse(report["valid"])
+        self.assertEqual(len(report["defects"]), len(told.stdout.splitlines()))
+        for defect in report["defects"]:
+            self.assertTrue(defect["message"])
+        self.assertGreater((self.folder / "m.vtu").stat().st_size, 0)
+        self.assertEqual(json.loads(self.run_program("diagnose", "crossing.off", "--json", expect=4).stdout), report)
+
+
+class Delaunay(CliTest):
+    def test_points_of_every_kind(self):
+        rows = [f"{x} {y} {z}" for x, y, z in [(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (1, 1, 1)]]
+        self.write("p.xyz", "# five points\n" + "\n".join(rows) + "\n")
+        self.write("p.node", "5 3 0 0\n" + "\n".join(f"{i + 1} {r}" for i, r in enumerate(rows)) + "\n")
+        for name in ("p.xyz", "p.node", "cube.off"):
+            with self.subTest(name):
+                self.run_program("delaunay", name, "-o", "d.vtu", "--report", "r.json")
+                report = json.loads((self.folder / "r.json").read_text())
+                self.assertIn("delaunay", report["seconds"])
+                self.assertGreaterEqual(report["mesh"]["tetrahedra"], 4)
+
+    def test_coplanar_points_give_no_tetrahedra(self):
+        self.write("flat.xyz", "0 0 0\n1 0 0\n0 1 0\n1 1 0\n")
+        self.assertIn("plane", self.run_program("delaunay", "flat.xyz", "-o", "d.vtu").stderr)
+
+    def test_bad_points(self):
+        self.write("short.xyz", "0 0 0\n1 2\n")
+        self.assertIn("line 2", self.run_program("delaunay", "short.xyz", "-o", "d.vtu", expect=3).stderr)
+        self.write("cut.node", "5 3 0 0\n1 0 0 0\n")
+        self.run_program("delaunay", "cut.node", "-o", "d.vtu", expect=3)
+        self.write("nan.xyz", "0 0 0\n1 0 0\n0 1 0\n0 0 nan\n")
+        self.run_program("delaunay", "nan.xyz", "-o", "d.vtu", expect=4)
+        self.assertNotIn("d.vtu", self.files())
+
+
+if __name__ == "__main__":
+    PROGRAM = str(Path(sys.argv.pop(1)).resolve())
+    unittest.main()
