@@ -1,0 +1,148 @@
+// Writes a file beside its name and renames it, so that a partial file never has that name.
+#include "io/atomic_writer.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include "holdfast/io.h"
+
+namespace holdfast::io {
+namespace {
+
+/// Numbers the temporaries of this process; two writers never share one.
+std::atomic<unsigned> temporaries{0};
+
+/// Makes a rename durable. A file system that cannot is no reason to refuse a file that is there.
+void sync_folder(const std::filesystem::path& folder) {
+  const int handle = ::open(folder.c_str(), O_RDONLY | O_CLOEXEC);
+  if (handle < 0) return;
+  ::fsync(handle);
+  ::close(handle);
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+}
+
+}  // namespace
+
+AtomicWriter::AtomicWriter(std::filesystem::path target)
+    : target_(std::move(target)),
+      written_(target_),
+      buffer_(std::make_unique_for_overwrite<char[]>(kBuffer)) {
+  std::error_code error;
+  // A link is followed, as every program that opens a file for writing does; renaming onto the
+  // link itself would replace it.
+  if (std::filesystem::is_symlink(target_, error)) {
+    written_ = std::filesystem::weakly_canonical(target_, error);
+    if (error) fail("cannot be written", error.value());
+  }
+  const auto type = std::filesystem::status(written_, error).type();
+  using std::filesystem::file_type;
+  if (type == file_type::directory) throw FileError(target_, "", "cannot be written: it is a directory");
+  if (type == file_type::regular || type == file_type::not_found || type == file_type::none) {
+    open_temporary();
+  } else {
+    file_ = ::open(written_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file_ < 0) fail("cannot be opened for writing", errno);
+  }
+}
+
+AtomicWriter::~AtomicWriter() {
+  if (file_ >= 0) ::close(file_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void AtomicWriter::open_temporary() {
+  constexpr int kAttempts = 100;
+  const std::filesystem::path folder = folder_of(written_);
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    const std::string name =
+        ".holdfast-" + std::to_string(::getpid()) + "-" + std::to_string(temporaries++) + ".tmp";
+    const std::filesystem::path candidate = folder / name;
+    file_ = ::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file_ >= 0) {
+      temporary_ = candidate;
+      break;
+    }
+    if (errno != EEXIST) break;
+  }
+  if (file_ < 0) {
+    if (errno == ENOENT) throw FileError(target_, "", "cannot be written: its folder does not exist");
+    fail("cannot be written: no file can be made in its folder", errno);
+  }
+  // A file that is replaced hands on its permissions; a file system without any is no error.
+  struct stat existing {};
+  if (::stat(written_.c_str(), &existing) == 0) static_cast<void>(::fchmod(file_, existing.st_mode & 07777));
+}
+
+void AtomicWriter::write_through(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file_, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail("cannot be written", errno);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void AtomicWriter::flush() {
+  const std::size_t used = std::exchange(used_, 0);
+  write_through({buffer_.get(), used});
+}
+
+void AtomicWriter::write_large(std::string_view bytes) {
+  flush();
+  if (bytes.size() >= kBuffer) return write_through(bytes);
+  bytes.copy(buffer_.get(), bytes.size());
+  used_ = bytes.size();
+}
+
+AtomicWriter& AtomicWriter::operator<<(double value) {
+  char text[32];
+  const auto result = std::to_chars(text, text + sizeof text, value);
+  return *this << std::string_view(text, static_cast<std::size_t>(result.ptr - text));
+}
+
+AtomicWriter& AtomicWriter::operator<<(std::int64_t value) {
+  char text[24];
+  const auto result = std::to_chars(text, text + sizeof text, value);
+  return *this << std::string_view(text, static_cast<std::size_t>(result.ptr - text));
+}
+
+AtomicWriter& AtomicWriter::operator<<(std::uint64_t value) {
+  char text[24];
+  const auto result = std::to_chars(text, text + sizeof text, value);
+  return *this << std::string_view(text, static_cast<std::size_t>(result.ptr - text));
+}
+
+void AtomicWriter::finish() {
+  if (file_ < 0) return;
+  flush();
+  // Pipes cannot be synchronised (EINVAL, ENOTSUP); only a temporary must be on the disk.
+  if (!temporary_.empty() && ::fsync(file_) != 0) fail("cannot be written", errno);
+  const int handle = std::exchange(file_, -1);
+  if (::close(handle) != 0 && errno != EINTR) fail("cannot be written", errno);
+}
+
+void AtomicWriter::commit() {
+  finish();
+  if (temporary_.empty()) return;
+  if (::rename(temporary_.c_str(), written_.c_str()) != 0)
+    fail("cannot be written: the finished file cannot be renamed", errno);
+  temporary_.clear();
+  sync_folder(folder_of(written_));
+}
+
+void AtomicWriter::fail(const char* what, int error) const {
+  throw FileError(target_, "", std::string(what) + ": " + std::strerror(error));
+}
+
+}  // namespace holdfast::io

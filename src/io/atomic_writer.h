@@ -1,0 +1,61 @@
+// Writes a file beside its name and renames it, so that a partial file never has that name.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace holdfast::io {
+
+/// A file that appears under its name complete or not at all.
+///
+/// Bytes go to a temporary in the target's folder; `commit` makes it durable and renames it. Until
+/// then the destructor removes it, so that an exception or a cancellation leaves nothing behind.
+/// A target that is a pipe or a device ("/dev/stdout") is written directly. Every function throws
+/// FileError.
+class AtomicWriter {
+ public:
+  explicit AtomicWriter(std::filesystem::path target);
+  ~AtomicWriter();
+  AtomicWriter(AtomicWriter&&) = delete;
+
+  void write(std::string_view bytes) {
+    if (bytes.size() > kBuffer - used_) return write_large(bytes);
+    bytes.copy(buffer_.get() + used_, bytes.size());
+    used_ += bytes.size();
+  }
+  AtomicWriter& operator<<(std::string_view text) { return write(text), *this; }
+  AtomicWriter& operator<<(char c) { return write({&c, 1}), *this; }
+  /// The shortest text that reads back as the same double.
+  AtomicWriter& operator<<(double value);
+  AtomicWriter& operator<<(std::int64_t value);
+  AtomicWriter& operator<<(std::uint64_t value);
+  AtomicWriter& operator<<(int value) { return *this << std::int64_t{value}; }
+  AtomicWriter& operator<<(std::uint32_t value) { return *this << std::uint64_t{value}; }
+
+  /// Puts every byte on the disk; after it only `commit` may follow. Files that belong together are
+  /// all finished before the first is committed.
+  void finish();
+  /// Finishes the file and gives it its name.
+  void commit();
+
+ private:
+  static constexpr std::size_t kBuffer = std::size_t{1} << 18;
+
+  void open_temporary();
+  void write_large(std::string_view bytes);
+  void flush();
+  void write_through(std::string_view bytes);
+  [[noreturn]] void fail(const char* what, int error) const;
+
+  std::filesystem::path target_;
+  std::filesystem::path written_;    ///< the target where its links lead
+  std::filesystem::path temporary_;  ///< empty when written directly, or committed
+  int file_ = -1;
+  std::unique_ptr<char[]> buffer_;
+  std::size_t used_ = 0;
+};
+
+}  // namespace holdfast::io

@@ -1,0 +1,119 @@
+// Medit's .mesh, the ASCII form of GMF (Frey, Medit: an interactive mesh visualization software,
+// INRIA RT-0253, 2001).
+#include "io/formats.h"
+#include "io/text_reader.h"
+
+namespace holdfast::io {
+namespace {
+
+/// Reads `count` entities of N vertices and a reference each.
+template <std::size_t N, typename Add>
+void read_entities(TextReader& text, const char* what, std::size_t vertices, Add&& add) {
+  const std::size_t count = text.count(what, 2 * N + 2);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::array<Index, N> corners{};
+    for (Index& corner : corners) corner = text.index("a vertex index", 1, vertices);
+    add(corners, text.tag("a reference"));
+  }
+}
+
+void read_vertices(TextReader& text, MeshData& mesh) {
+  if (!mesh.vertices.empty()) text.fail("a second section of vertices");
+  const std::size_t count = text.count("the number of vertices", 8);
+  mesh.vertices.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    mesh.vertices.push_back(text.point());
+    static_cast<void>(text.real("a reference"));  // integers, but some programs write reals
+  }
+}
+
+/// Skips a section that Holdfast has no use for: everything up to the next keyword.
+void skip_section(TextReader& text) {
+  while (!text.at_end()) {
+    const std::size_t start = text.position();
+    const std::string word = lower(text.word("a number"));
+    const bool number = word.find_first_of("0123456789") == 0 || word.find_first_of("+-.") == 0 ||
+                        word == "nan" || word == "inf" || word == "infinity";
+    if (number) continue;
+    text.seek(start);
+    return;
+  }
+}
+
+/// Refuses elements that cannot be turned into facets or tetrahedra.
+void refuse_elements(TextReader& text, const std::string& keyword) {
+  if (text.count("the number of elements", 2) == 0) return;
+  text.fail("the section " + in_quotes(keyword) +
+            " is not read; split its elements into triangles or tetrahedra");
+}
+
+/// Reads the section of a keyword in lower case; whether it was the last one.
+bool read_section(TextReader& text, const std::string& keyword, MeshData& mesh) {
+  const std::size_t vertices = mesh.vertices.size();
+  if (keyword == "end") return true;
+  if (keyword == "meshversionformatted") {
+    static_cast<void>(text.integer("the version"));
+  } else if (keyword == "dimension") {
+    if (text.integer("the dimension") != 3) text.fail("the dimension is not 3");
+  } else if (keyword == "vertices") {
+    read_vertices(text, mesh);
+  } else if (keyword == "triangles") {
+    read_entities<3>(text, "the number of triangles", vertices,
+                     [&](const Triangle& corners, int tag) { mesh.add_facet(corners, tag); });
+  } else if (keyword == "edges") {
+    read_entities<2>(text, "the number of edges", vertices,
+                     [&](const Segment& corners, int tag) { mesh.add_segment(corners, tag); });
+  } else if (keyword == "tetrahedra") {
+    read_entities<4>(text, "the number of tetrahedra", vertices,
+                     [&](const Tetrahedron& corners, int tag) { mesh.add_tetrahedron(corners, tag); });
+  } else if (keyword == "quadrilaterals" || keyword == "hexahedra" || keyword == "hexaedra" ||
+             keyword == "prisms" || keyword == "pyramids" || keyword.ends_with("p2")) {
+    refuse_elements(text, keyword);
+  } else {
+    skip_section(text);
+  }
+  return false;
+}
+
+}  // namespace
+
+MeshData read_medit(const Source& source) {
+  TextReader text(source);
+  if (lower(text.word("MeshVersionFormatted")) != "meshversionformatted")
+    text.fail("not a Medit mesh: it does not start with MeshVersionFormatted");
+  static_cast<void>(text.integer("the version"));
+  MeshData mesh;
+  for (;;) {
+    const std::string keyword = lower(text.word("a keyword or End"));
+    if (keyword.empty() || keyword[0] < 'a' || keyword[0] > 'z')
+      text.fail("expected a keyword, found " + in_quotes(keyword));
+    if (read_section(text, keyword, mesh)) return mesh;
+  }
+}
+
+namespace {
+
+template <std::size_t N>
+void write_entities(AtomicWriter& out, std::string_view keyword,
+                    const std::vector<std::array<Index, N>>& entities, const std::vector<int>& tags) {
+  if (entities.empty()) return;
+  out << '\n' << keyword << '\n' << std::uint64_t{entities.size()} << '\n';
+  for (std::size_t i = 0; i < entities.size(); ++i) {
+    for (const Index corner : entities[i]) out << std::uint64_t{corner} + 1 << ' ';
+    out << tag_of(tags, i) << '\n';
+  }
+}
+
+}  // namespace
+
+void write_medit(AtomicWriter& out, const Volume& volume) {
+  out << "MeshVersionFormatted 2\n\nDimension 3\n\nVertices\n"
+      << std::uint64_t{volume.vertices.size()} << '\n';
+  for (const Point& p : volume.vertices) out << p[0] << ' ' << p[1] << ' ' << p[2] << " 0\n";
+  write_entities(out, "Edges", volume.segments, volume.segment_markers);
+  write_entities(out, "Triangles", volume.facets, volume.facet_markers);
+  write_entities(out, "Tetrahedra", volume.tetrahedra, volume.regions);
+  out << "\nEnd\n";
+}
+
+}  // namespace holdfast::io

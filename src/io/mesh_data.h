@@ -1,0 +1,63 @@
+// What every reader fills: the union of a surface and a volume. A file format seldom says which of
+// the two it holds, so one reader serves `read_surface` and `read_volume`.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "holdfast/io.h"
+
+namespace holdfast::io {
+
+/// A file's bytes and the name that errors give it.
+struct Source {
+  const std::filesystem::path& path;
+  std::string_view bytes;
+};
+
+/// Tags of entities of one kind that stay empty as long as every tag is 0.
+///
+/// Most files carry no markers, and "no markers" and "all markers are 0" mean the same everywhere.
+class Tags {
+ public:
+  /// Records the tag of the next entity, of which `before` precede it.
+  void add(std::size_t before, int tag) {
+    if (tag == 0 && values_.empty()) return;
+    values_.resize(before, 0);
+    values_.push_back(tag);
+  }
+  /// The tags, one an entity, or empty if all are 0.
+  [[nodiscard]] std::vector<int> take(std::size_t count) {
+    if (!values_.empty()) values_.resize(count, 0);
+    return std::move(values_);
+  }
+
+ private:
+  std::vector<int> values_;
+};
+
+struct MeshData {
+  std::vector<Point> vertices;
+  std::vector<Triangle> facets;
+  std::vector<Segment> segments;
+  std::vector<Tetrahedron> tetrahedra;
+  Tags facet_markers, segment_markers, regions;
+  std::vector<Surface::RegionSeed> region_seeds;
+  std::vector<Point> holes;
+
+  void add_facet(const Triangle& facet, int marker = 0) {
+    facet_markers.add(facets.size(), marker);
+    facets.push_back(facet);
+  }
+  void add_segment(const Segment& segment, int marker = 0) {
+    segment_markers.add(segments.size(), marker);
+    segments.push_back(segment);
+  }
+  void add_tetrahedron(const Tetrahedron& tetrahedron, int region = 0) {
+    regions.add(tetrahedra.size(), region);
+    tetrahedra.push_back(tetrahedron);
+  }
+};
+
+}  // namespace holdfast::io

@@ -1,0 +1,43 @@
+// What the VTK formats have in common: cell types and the arrays that tell the cells apart.
+//
+// Holdfast writes tetrahedra first, then facets as triangles, then segments as lines, with three
+// integers a cell: "kind" (its dimension: 3 tetrahedron, 2 facet, 1 segment), "region" (of a
+// tetrahedron, else 0) and "marker" (of a facet or segment, else 0).
+#pragma once
+
+#include <cstdint>
+
+#include "io/formats.h"
+
+namespace holdfast::io {
+
+/// Cell types of vtkCellType.h.
+enum class VtkCell : std::uint8_t {
+  vertex = 1,
+  poly_vertex = 2,
+  line = 3,
+  poly_line = 4,
+  triangle = 5,
+  triangle_strip = 6,
+  polygon = 7,
+  quad = 9,
+  tetrahedron = 10,
+};
+
+/// The cells of a volume in the order in which they are written.
+template <typename Visit>
+void visit_vtk_cells(const Volume& volume, Visit&& visit) {
+  for (std::size_t i = 0; i < volume.tetrahedra.size(); ++i)
+    visit(VtkCell::tetrahedron, std::span<const Index>(volume.tetrahedra[i]), 3, tag_of(volume.regions, i),
+          0);
+  for (std::size_t i = 0; i < volume.facets.size(); ++i)
+    visit(VtkCell::triangle, std::span<const Index>(volume.facets[i]), 2, 0, tag_of(volume.facet_markers, i));
+  for (std::size_t i = 0; i < volume.segments.size(); ++i)
+    visit(VtkCell::line, std::span<const Index>(volume.segments[i]), 1, 0, tag_of(volume.segment_markers, i));
+}
+
+[[nodiscard]] inline std::size_t vtk_cell_count(const Volume& volume) {
+  return volume.tetrahedra.size() + volume.facets.size() + volume.segments.size();
+}
+
+}  // namespace holdfast::io

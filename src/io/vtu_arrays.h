@@ -1,0 +1,74 @@
+// The arrays of an XML unstructured grid, for the writers of volumes and of marks.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "io/atomic_writer.h"
+#include "io/vtk_cells.h"
+
+namespace holdfast::io {
+
+/// One array in the machine's own byte order; its values stay with the caller.
+struct VtuArray {
+  const char* type;
+  const char* name;
+  std::size_t components;
+  std::span<const std::byte> bytes;
+};
+
+template <typename T>
+[[nodiscard]] VtuArray vtu_array(const char* name, const std::vector<T>& values) {
+  const char* type = std::is_same_v<T, Point>          ? "Float64"
+                     : std::is_same_v<T, std::int64_t> ? "Int64"
+                     : std::is_same_v<T, std::uint8_t> ? "UInt8"
+                                                       : "Int32";
+  static_assert(std::is_same_v<T, Point> || std::is_same_v<T, std::int64_t> ||
+                std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::int32_t>);
+  return {type, name, std::is_same_v<T, Point> ? std::size_t{3} : std::size_t{1},
+          std::as_bytes(std::span(values))};
+}
+
+struct VtuArrays {
+  std::size_t points, cells;
+  VtuArray coordinates, connectivity, offsets, types;
+  std::vector<VtuArray> cell_data;
+};
+
+/// Cells in VTK's flat form.
+class VtuCells {
+ public:
+  void reserve(std::size_t cells, std::size_t corners) {
+    connectivity_.reserve(corners);
+    offsets_.reserve(cells);
+    types_.reserve(cells);
+  }
+  void add(VtkCell type, std::span<const Index> corners) {
+    for (const Index corner : corners) connectivity_.push_back(corner);
+    offsets_.push_back(static_cast<std::int64_t>(connectivity_.size()));
+    types_.push_back(static_cast<std::uint8_t>(type));
+  }
+  [[nodiscard]] VtuArrays arrays(const std::vector<Point>& points, std::vector<VtuArray> cell_data) const {
+    return {points.size(),
+            types_.size(),
+            vtu_array("Points", points),
+            vtu_array("connectivity", connectivity_),
+            vtu_array("offsets", offsets_),
+            vtu_array("types", types_),
+            std::move(cell_data)};
+  }
+
+ private:
+  // 64 bits, which VTK uses inside, so that any number of cells fits; zlib removes the zeros.
+  std::vector<std::int64_t> connectivity_, offsets_;
+  std::vector<std::uint8_t> types_;
+};
+
+/// Writes an unstructured grid of one piece.
+void write_vtu_arrays(AtomicWriter& out, const VtuArrays& arrays, bool compress);
+
+}  // namespace holdfast::io
