@@ -26,9 +26,10 @@ class Lookup {
   /// All entities with these vertices, in any order.
   [[nodiscard]] std::span<const std::size_t> find(Entity entity) const {
     std::sort(entity.begin(), entity.end());
-    const auto range =
-        std::ranges::equal_range(index_, entity, {}, [&](std::size_t i) { return sorted_[i]; });
-    return {range.begin(), range.end()};
+    const auto begin =
+        std::partition_point(index_.begin(), index_.end(), [&](auto i) { return sorted_[i] < entity; });
+    const auto end = std::find_if(begin, index_.end(), [&](auto i) { return sorted_[i] != entity; });
+    return {begin, end};
   }
 
  private:

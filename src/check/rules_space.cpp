@@ -125,7 +125,7 @@ Rule no_overlap(Examination& on) {
 
   Findings crossing;
   for (const auto& [x, y] : on.boundary->crossing_pairs())
-    crossing.add([&] { return face_words(on, faces[x]) + " and " + face_words(on, faces[y]); });
+    crossing.add([&, x = x, y = y] { return face_words(on, faces[x]) + " and " + face_words(on, faces[y]); });
   if (!crossing.empty()) return judge(name, crossing, "pairs of boundary faces intersect", {});
 
   Findings multiple;
