@@ -50,6 +50,10 @@ int main(int count, char** arguments) {
   add_diagnose(app, chosen);
   add_delaunay(app, chosen);
   try {
+    if (count > 1 && arguments[1][0] != '-' && app.get_subcommand_no_throw(arguments[1]) == nullptr) {
+      fmt::print(stderr, "holdfast: there is no command '{}'; `holdfast --help` lists them\n", arguments[1]);
+      return exit_usage;
+    }
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
     // Help and version are "errors" of code 0 here.

@@ -1,0 +1,222 @@
+"""Speed against TetGen and CGAL, measured in one go: programs take turns, medians and ratios are told.
+
+    run.py --build build/release [--corpus DIR] [--runs 5] [--surfaces 200] [--part delaunay|mesh]
+
+Delaunay: 1 million uniformly random points, the vertices of a rippled torus, and of the largest surface of the
+corpus; seconds that each program takes for the triangulation alone (spatial sort included), one thread.
+Mesh: surfaces of the corpus, evenly over all sizes, `holdfast mesh --fill` against `tetgen -pY`; seconds of the
+whole process with reading and writing. Writes docs/benchmarks.md.
+"""
+import argparse
+import json
+import os
+import random
+import re
+import subprocess
+import sys
+import tempfile
+import time
+from math import cos, pi, sin
+from pathlib import Path
+from statistics import median
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "scripts"))
+import corpus  # noqa: E402  (finds the surfaces)
+
+
+def run(command, timeout=600):
+    """(exit code or None after a timeout, output, wall seconds, peak bytes) of a process."""
+    with tempfile.TemporaryFile() as output:
+        started = time.monotonic()
+        process = subprocess.Popen([str(word) for word in command], stdout=output, stderr=subprocess.STDOUT)
+        late = False
+        while True:
+            pid, status, usage = os.wait4(process.pid, os.WNOHANG)
+            if pid:
+                break
+            if not late and time.monotonic() - started > timeout:
+                process.kill()
+                late = True
+            time.sleep(0.0005)
+        seconds = time.monotonic() - started
+        process.returncode = os.waitstatus_to_exitcode(status)
+        output.seek(0)
+        text = output.read().decode(errors="replace")
+    return None if late else process.returncode, text, seconds, usage.ru_maxrss * 1024
+
+
+# ------------------------------------------------------------------------------------------------- Delaunay
+
+
+def write_node(path, points):
+    with open(path, "w", encoding="ascii") as file:
+        file.write(f"{len(points)} 3 0 0\n")
+        file.writelines(f"{i} {x!r} {y!r} {z!r}\n" for i, (x, y, z) in enumerate(points))
+
+
+def random_points(count):
+    generator = random.Random(1)
+    return [(generator.random(), generator.random(), generator.random()) for _ in range(count)]
+
+
+def torus_points(rows, columns):
+    """Vertices of a torus with ripples, as a fine scanned or subdivided surface has them."""
+    points = []
+    for i in range(rows):
+        for j in range(columns):
+            u, v = 2 * pi * i / rows, 2 * pi * (j + 0.5 * (i % 2)) / columns
+            r = 1 + 0.05 * sin(9 * u) * cos(7 * v)
+            points.append(((3 + r * cos(v)) * cos(u), (3 + r * cos(v)) * sin(u), r * sin(v)))
+    return points
+
+
+def largest_surface(folder):
+    """Distinct vertices of the valid surface with the most, and its name."""
+    path = max((p for p in folder.rglob("*.off") if p.parent.name != "invalid"), key=lambda p: p.stat().st_size)
+    words = path.read_text(encoding="ascii", errors="replace").split("\n", 2)
+    count = int(words[1].split()[0])
+    rows = words[2].split("\n", count)[:count]
+    return path.stem, list(dict.fromkeys(tuple(float(x) for x in row.split()[:3]) for row in rows))
+
+
+def delaunay_tools(build, folder):
+    """name -> function of a .node file: (seconds, tetrahedra, peak bytes)."""
+    def holdfast(node):
+        report = folder / "report.json"
+        code, text, _, peak = run([build / "holdfast", "delaunay", node, "-o", folder / "out.vtu", "-q", "--report", report])
+        if code != 0:
+            sys.exit(f"holdfast delaunay ended with {code}: {text}")
+        told = json.loads(report.read_text())
+        return told["seconds"]["delaunay"], told["mesh"]["tetrahedra"], told["peak_memory_bytes"] or peak
+
+    def cgal(node):
+        _, text, _, peak = run([build / "cgal_delaunay", node])
+        found = re.search(r"seconds (\S+) tetrahedra (\d+)", text)
+        return float(found[1]), int(found[2]), peak
+
+    def tetgen(node):
+        _, text, _, peak = run(["tetgen", "-NEF", node])
+        return (float(re.search(r"Delaunay seconds:\s+(\S+)", text)[1]),
+                int(re.search(r"Mesh tetrahedra:\s+(\d+)", text)[1]), peak)
+
+    return {"holdfast": holdfast, "CGAL": cgal, "TetGen": tetgen}
+
+
+def bench_delaunay(options, folder, surfaces):
+    sets = [("1 000 000 random points in a cube", random_points(options.points)),
+            ("rippled torus", torus_points(1000, 500))]
+    if surfaces:
+        name, points = largest_surface(surfaces)
+        sets.append((f"corpus: {name}", points))
+    lines = ["| points | program | seconds (median) | points/s | tetrahedra | bytes a tetrahedron, whole process "
+             "| time against holdfast |", "|---|---|---|---|---|---|---|"]
+    for title, points in sets:
+        node = folder / "points.node"
+        write_node(node, points)
+        tools = delaunay_tools(options.build, folder)
+        results = {name: [] for name in tools}
+        for _ in range(options.runs):
+            for name, tool in tools.items():
+                results[name].append(tool(node))
+        base = median(r[0] for r in results["holdfast"])
+        for name, rows in results.items():
+            seconds = median(r[0] for r in rows)
+            lines.append(f"| {title} ({len(points)}) | {name} | {seconds:.3f} | {len(points) / seconds:,.0f} | {rows[0][1]} "
+                         f"| {rows[0][2] / rows[0][1]:.0f} | {seconds / base:.2f} |")
+            print(lines[-1], flush=True)
+    return lines
+
+
+# ----------------------------------------------------------------------------------------------------- mesh
+
+
+def bench_mesh(options, folder, surfaces):
+    paths = sorted((surfaces / "valid").glob("*.off"), key=lambda p: (p.stat().st_size, p.name))
+    paths = paths[:: max(1, len(paths) // options.surfaces)]
+    manifest = corpus.manifest_of(surfaces)
+    ratios, failed, rows = [], {"holdfast": [], "TetGen": []}, []
+    for path in paths:
+        if corpus.describe(path, manifest.get(path.stem))[1] != "closed":
+            continue
+        local = folder / "surface.off"
+        local.write_bytes(path.read_bytes())
+        times = {"holdfast": [], "TetGen": []}
+        for _ in range(options.mesh_runs):
+            code, _, seconds, _ = run([options.build / "holdfast", "mesh", local, "-o", folder / "out.node", "--fill", "-q"],
+                                      options.timeout)
+            times["holdfast"].append(seconds if code == 0 else None)
+            for old in folder.glob("surface.1.*"):
+                old.unlink()
+            code, _, seconds, _ = run(["tetgen", "-pYQ", local], options.timeout)
+            times["TetGen"].append(seconds if code == 0 and (folder / "surface.1.ele").exists() else None)
+        for name, values in times.items():
+            if None in values:
+                failed[name].append(path.stem)
+        if not any(None in values for values in times.values()):
+            ours, theirs = median(times["holdfast"]), median(times["TetGen"])
+            ratios.append(ours / theirs)
+            rows.append((path.stem, ours, theirs))
+    if not ratios:
+        return ["No surface was meshed by both."]
+    ratios.sort()
+    quartile = [ratios[len(ratios) * k // 4] for k in (1, 2, 3)]
+    total = [sum(r[i] for r in rows) for i in (1, 2)]
+    lines = [f"{len(ratios)} closed valid surfaces, evenly over all sizes, that both meshed ({options.mesh_runs} turns "
+             "each, the median counts). Time of holdfast over time of TetGen: "
+             f"median **{quartile[1]:.2f}**, quartiles {quartile[0]:.2f} and {quartile[2]:.2f}. "
+             f"Sum of times: holdfast {total[0]:.1f} s, TetGen {total[1]:.1f} s.", "",
+             f"Not meshed: holdfast {len(failed['holdfast'])}, TetGen {len(failed['TetGen'])} "
+             "(its result was not checked further).", "",
+             "| slowest against TetGen | holdfast s | TetGen s | ratio |", "|---|---|---|---|"]
+    for name, ours, theirs in sorted(rows, key=lambda r: r[2] / r[1])[:10]:
+        lines.append(f"| {name} | {ours:.3f} | {theirs:.3f} | {ours / theirs:.2f} |")
+    if failed["holdfast"]:
+        lines += ["", "holdfast failed on: " + ", ".join(failed["holdfast"])]
+    print("\n".join(lines))
+    return lines
+
+
+def machine():
+    names = re.findall(r"model name\s*:\s*(.*)", Path("/proc/cpuinfo").read_text(encoding="utf-8"))
+    return f"{names[0] if names else 'unknown processor'}, {os.cpu_count()} cores seen"
+
+
+def version_of(package):
+    done = subprocess.run(["dpkg-query", "-W", "-f=${Version}", package], capture_output=True, text=True, check=False)
+    return done.stdout or "?"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", type=Path, required=True)
+    parser.add_argument("--corpus", default=os.environ.get("HOLDFAST_CORPUS", ""))
+    parser.add_argument("--runs", type=int, default=5, help="turns of every Delaunay program")
+    parser.add_argument("--points", type=int, default=1_000_000)
+    parser.add_argument("--surfaces", type=int, default=200, help="about so many surfaces of the corpus")
+    parser.add_argument("--mesh-runs", type=int, default=3)
+    parser.add_argument("--timeout", type=float, default=120)
+    parser.add_argument("--part", choices=["delaunay", "mesh"], action="append", help="default: both")
+    parser.add_argument("--output", type=Path, default=ROOT / "docs" / "benchmarks.md")
+    options = parser.parse_args()
+    surfaces = corpus.locate(options.corpus, core_only=False)
+    parts = options.part or ["delaunay", "mesh"]
+    version = run([options.build / "holdfast", "--version"])[1].strip()
+    commit = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=False).stdout.strip()
+    lines = ["# Benchmarks", "", f"Written by `make bench` on {time.strftime('%Y-%m-%d')}: {version} at {commit}, against Debian's "
+             f"TetGen {version_of('tetgen')} and CGAL {version_of('libcgal-dev')}; {machine()}. The programs took turns.", ""]
+    with tempfile.TemporaryDirectory(prefix="holdfast-bench-") as name:
+        folder = Path(name)
+        if "delaunay" in parts:
+            lines += ["## Delaunay", "", f"One thread; the triangulation alone, spatial sort included; median of {options.runs} "
+                      "turns.", "", *bench_delaunay(options, folder, surfaces), ""]
+        if "mesh" in parts:
+            lines += ["## `holdfast mesh --fill` against `tetgen -pY`", ""]
+            lines += [*bench_mesh(options, folder, surfaces), ""] if surfaces else ["No corpus: not measured.", ""]
+    options.output.parent.mkdir(exist_ok=True)
+    options.output.write_text("\n".join(lines), encoding="utf-8")
+    print(f"written: {options.output}")
+
+
+if __name__ == "__main__":
+    main()
