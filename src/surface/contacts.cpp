@@ -1,8 +1,11 @@
 // Surface layer: pairs of faces of two simplices that meet, and where.
 #include "surface/contacts.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
+#include <utility>
 
 #include "exact/dyadic.h"
 #include "surface/signs.h"
@@ -19,10 +22,86 @@ constexpr std::array<unsigned, 8> kCount = {0, 1, 1, 2, 1, 2, 2, 3};
 
 // --- Certificates -----------------------------------------------------------------------------------
 
-// Corners of two facets that are one vertex: t's corners in `mine`, u's in `theirs`, same order.
+// Corners of a simplex as a mask, narrowed down to those that the common part can depend on.
+struct Narrowed {
+  const Simplex& simplex;
+  unsigned mask;
+
+  // Keeps the corners whose coordinate k is `value`.
+  void keep(unsigned k, double value) {
+    for (unsigned i = 0; i < simplex.corners; ++i) {
+      if (simplex.point[i][k] != value) mask &= ~(1u << i);
+    }
+  }
+  // Least and greatest coordinate k.
+  [[nodiscard]] std::pair<double, double> range(unsigned k) const {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (unsigned i = 0; i < simplex.corners; ++i) {
+      if ((mask >> i & 1u) == 0) continue;
+      low = std::min(low, simplex.point[i][k]);
+      high = std::max(high, simplex.point[i][k]);
+    }
+    return {low, high};
+  }
+  // Whether each of its corners is one of the other's.
+  [[nodiscard]] bool is_face_of(const Narrowed& other) const {
+    for (unsigned i = 0; i < simplex.corners; ++i) {
+      bool found = (mask >> i & 1u) == 0;
+      for (unsigned j = 0; j < other.simplex.corners; ++j) {
+        found = found || ((other.mask >> j & 1u) != 0 && other.simplex.vertex[j] == simplex.vertex[i]);
+      }
+      if (!found) return false;
+    }
+    return true;
+  }
+};
+
+// Comparisons of coordinates alone. Where two boxes only touch, at x_k = c, the simplices meet in the common
+// part of their faces in this plane, and another coordinate may tell these apart: the normal case in
+// grids and in parts that are parallel to the axes, where the signs below are mostly zero.
+bool coordinates_separate(const Simplex& a, const Simplex& b) {
+  Narrowed m{a, (1u << a.corners) - 1}, n{b, (1u << b.corners) - 1};
+  for (unsigned k = 0, settled = 0; settled < 3; k = (k + 1) % 3) {
+    const auto [low_m, high_m] = m.range(k);
+    const auto [low_n, high_n] = n.range(k);
+    if (high_m < low_n || high_n < low_m) return true;
+    ++settled;
+    const bool flat = low_m == high_m && low_n == high_n;
+    if (flat || (high_m != low_n && high_n != low_m)) continue;
+    const double value = high_m == low_n ? high_m : low_m;
+    m.keep(k, value);
+    n.keep(k, value);
+    settled = 0;
+  }
+  return m.is_face_of(n) || n.is_face_of(m);
+}
+
+// The signs as the filters give them, where 0 means "not known", or as they are. Certificates that rest on
+// strict signs hold with both, and most pairs need no sign that is zero.
+struct Filtered {
+  static constexpr bool kZeroIsKnown = false;
+  static int turn(const double* a, const double* b, const double* c, unsigned axis) {
+    const unsigned x = (axis + 1) % 3, y = (axis + 2) % 3;
+    return exact::detail::orient2d_filter(a[x], a[y], b[x], b[y], c[x], c[y]);
+  }
+  static int volume(const double* a, const double* b, const double* c, const double* d) {
+    return exact::detail::orient3d_filter(a, b, c, d);
+  }
+};
+struct Exact {
+  static constexpr bool kZeroIsKnown = true;
+  static int turn(const double* a, const double* b, const double* c, unsigned axis) {
+    return turn_of(a, b, c, axis);
+  }
+  static int volume(const double* a, const double* b, const double* c, const double* d) {
+    return exact::orient3d(a, b, c, d);
+  }
+};
+
+// Two facets that share `Shared::count` corners.
 struct Shared {
   unsigned count = 0;
-  std::array<unsigned, 3> mine{}, theirs{};
+  std::array<unsigned, 3> mine{}, theirs{};  // t's corners, and u's in the same order
 };
 
 Shared shared_corners(const Simplex& t, const Simplex& u) {
@@ -38,58 +117,89 @@ Shared shared_corners(const Simplex& t, const Simplex& u) {
   return shared;
 }
 
-// In the projection of `t`, all of `u` lies strictly beyond one side.
-bool projection_separates(const Simplex& t, const Simplex& u) {
-  for (unsigned i = 0; i < 3; ++i) {
-    if (inside_of(t, i, u.point[0]) < 0 && inside_of(t, i, u.point[1]) < 0 && inside_of(t, i, u.point[2]) < 0)
-      return true;
+template <class Signs>
+struct Certificates {
+  // Whether `p`, projected along t's axis, lies strictly beyond side i of `t`.
+  static bool beyond(const Simplex& t, unsigned i, const double* p) {
+    return t.turn * Signs::turn(t.point[i], t.point[(i + 1) % 3], p, t.axis) < 0;
   }
-  return false;
-}
+  static int side(const Simplex& t, const double* p) {
+    return Signs::volume(t.point[0], t.point[1], t.point[2], p);
+  }
+  static Sides sides(const Simplex& t, const Simplex& u) {
+    return {side(t, u.point[0]), side(t, u.point[1]), side(t, u.point[2])};
+  }
+  static bool one_strict_side(const Sides& s) { return s[0] != 0 && s[0] == s[1] && s[0] == s[2]; }
 
-// In the projection of `t`, all of `u` but corner j lies strictly beyond a side through corner i, the
-// same vertex.
-bool projection_separates_at(const Simplex& t, unsigned i, const Simplex& u, unsigned j) {
-  const double* p = u.point[(j + 1) % 3];
-  const double* q = u.point[(j + 2) % 3];
-  return (inside_of(t, i, p) < 0 && inside_of(t, i, q) < 0) ||
-         (inside_of(t, (i + 2) % 3, p) < 0 && inside_of(t, (i + 2) % 3, q) < 0);
-}
+  // In the projection of `t`, all of `u` lies strictly beyond one side.
+  static bool projection_separates(const Simplex& t, const Simplex& u) {
+    for (unsigned i = 0; i < 3; ++i) {
+      if (beyond(t, i, u.point[0]) && beyond(t, i, u.point[1]) && beyond(t, i, u.point[2])) return true;
+    }
+    return false;
+  }
 
-bool one_strict_side(const Sides& s) { return s[0] != 0 && s[0] == s[1] && s[0] == s[2]; }
+  static bool apart(const Simplex& t, const Simplex& u) {
+    if (projection_separates(t, u) || projection_separates(u, t)) return true;
+    const Sides sides_u = sides(t, u);
+    if (one_strict_side(sides_u)) return true;
+    const Sides sides_t = sides(u, t);
+    if (one_strict_side(sides_t)) return true;
+    const auto known = [](const Sides& s) { return s[0] * s[1] * s[2] != 0; };
+    if (!Signs::kZeroIsKnown && !(known(sides_t) && known(sides_u))) return false;
+    // The closed intervals that the facets cut out of the common line are disjoint (LineOrder).
+    const unsigned i = lone_corner(sides_t), j = lone_corner(sides_u);
+    if (i == 3 || j == 3) return false;
+    const auto order = [&](unsigned m, unsigned n) {
+      return Signs::volume(t.point[i], t.point[(i + m) % 3], u.point[j], u.point[(j + n) % 3]);
+    };
+    const int sign = order(1, 1);
+    return sign != 0 && order(2, 2) == sign && order(1, 2) == sign && order(2, 1) == sign;
+  }
 
-bool disjoint_facets_surely_fit(const Simplex& t, const Simplex& u) {
-  if (projection_separates(t, u) || projection_separates(u, t)) return true;
-  const Sides sides_u = sides_of(t, u);
-  if (one_strict_side(sides_u)) return true;
-  const Sides sides_t = sides_of(u, t);
-  if (one_strict_side(sides_t)) return true;
-  const LineOrder order{t, u, lone_corner(sides_t), lone_corner(sides_u)};
-  if (order.i == 3 || order.j == 3) return false;
-  // The closed intervals on the common line are disjoint.
-  const int sign = order(1, 1);
-  return sign != 0 && order(2, 2) == sign && order(1, 2) == sign && order(2, 1) == sign;
-}
+  // In the projection of `t`, all of `u` but its corner j lies strictly beyond a side through corner i.
+  static bool projection_separates_at(const Simplex& t, unsigned i, const Simplex& u, unsigned j) {
+    const double* p = u.point[(j + 1) % 3];
+    const double* q = u.point[(j + 2) % 3];
+    const unsigned before = (i + 2) % 3;
+    return (beyond(t, i, p) && beyond(t, i, q)) || (beyond(t, before, p) && beyond(t, before, q));
+  }
 
-bool facets_at_vertex_surely_fit(const Simplex& t, unsigned i, const Simplex& u, unsigned j) {
-  if (projection_separates_at(t, i, u, j) || projection_separates_at(u, j, t, i)) return true;
-  const unsigned u1 = (j + 1) % 3, u2 = (j + 2) % 3, t1 = (i + 1) % 3, t2 = (i + 2) % 3;
-  const int side_u1 = side_of(t, u.point[u1]), side_u2 = side_of(t, u.point[u2]);
-  if (side_u1 * side_u2 > 0) return true;
-  const int side_t1 = side_of(u, t.point[t1]), side_t2 = side_of(u, t.point[t2]);
-  if (side_t1 * side_t2 > 0) return true;
-  if (side_u1 * side_u2 == 0 || side_t1 * side_t2 == 0) return false;
-  // Both cross the other's plane: on the common line each is an interval that ends at the vertex v. They
-  // leave it in opposite directions if v - p and q - v have one sign, p and q being the other ends.
-  const int v_after_p = exact::orient3d(t.point[t1], t.point[t2], u.point[u1], u.point[j]);
-  return v_after_p != 0 && v_after_p == exact::orient3d(t.point[t1], t.point[i], u.point[u1], u.point[u2]);
-}
+  // Corner i of `t` is corner j of `u`.
+  static bool fit_at_vertex(const Simplex& t, unsigned i, const Simplex& u, unsigned j) {
+    if (projection_separates_at(t, i, u, j) || projection_separates_at(u, j, t, i)) return true;
+    const unsigned u1 = (j + 1) % 3, u2 = (j + 2) % 3, t1 = (i + 1) % 3, t2 = (i + 2) % 3;
+    const int side_u = side(t, u.point[u1]) * side(t, u.point[u2]);
+    if (side_u > 0) return true;
+    const int side_t = side(u, t.point[t1]) * side(u, t.point[t2]);
+    if (side_t > 0) return true;
+    if (side_u == 0 || side_t == 0) return false;
+    // Each cuts an interval out of the common line that ends at the vertex v. They leave it in opposite
+    // directions if v - p and q - v have one sign, p and q being the other ends (LineOrder).
+    const int v_minus_p = Signs::volume(t.point[t1], t.point[t2], u.point[u1], u.point[j]);
+    return v_minus_p != 0 && v_minus_p == Signs::volume(t.point[t1], t.point[i], u.point[u1], u.point[u2]);
+  }
 
-bool facets_at_side_surely_fit(const Simplex& t, const Simplex& u, const Shared& shared) {
-  const unsigned i = 3 - shared.mine[0] - shared.mine[1], j = 3 - shared.theirs[0] - shared.theirs[1];
-  if (inside_of(t, (i + 1) % 3, u.point[j]) < 0 || inside_of(u, (j + 1) % 3, t.point[i]) < 0) return true;
-  return side_of(t, u.point[j]) != 0;
-}
+  // All corners but i of `t` and j of `u` are the same.
+  static bool fit_at_side(const Simplex& t, unsigned i, const Simplex& u, unsigned j) {
+    if (beyond(t, (i + 1) % 3, u.point[j]) || beyond(u, (j + 1) % 3, t.point[i])) return true;
+    return side(t, u.point[j]) != 0;
+  }
+
+  static bool fit(const Simplex& t, const Simplex& u, const Shared& shared) {
+    const auto &mine = shared.mine, &theirs = shared.theirs;
+    switch (shared.count) {
+      case 0:
+        return apart(t, u);
+      case 1:
+        return fit_at_vertex(t, mine[0], u, theirs[0]);
+      case 2:
+        return fit_at_side(t, 3 - mine[0] - mine[1], u, 3 - theirs[0] - theirs[1]);
+      default:
+        return false;
+    }
+  }
+};
 
 // --- All pairs of faces -----------------------------------------------------------------------------
 
@@ -199,16 +309,8 @@ Point piercing(const double* a, const double* b, const Simplex& t) {
 bool surely_fit(const Simplex& a, const Simplex& b) {
   if (a.corners != 3 || b.corners != 3) return false;
   const Shared shared = shared_corners(a, b);
-  switch (shared.count) {
-    case 0:
-      return disjoint_facets_surely_fit(a, b);
-    case 1:
-      return facets_at_vertex_surely_fit(a, shared.mine[0], b, shared.theirs[0]);
-    case 2:
-      return facets_at_side_surely_fit(a, b, shared);
-    default:
-      return false;
-  }
+  return Certificates<Filtered>::fit(a, b, shared) || coordinates_separate(a, b) ||
+         Certificates<Exact>::fit(a, b, shared);
 }
 
 Contacts contacts(const Simplex& a, const Simplex& b) {
