@@ -309,6 +309,7 @@ Point piercing(const double* a, const double* b, const Simplex& t) {
 bool surely_fit(const Simplex& a, const Simplex& b) {
   if (a.corners != 3 || b.corners != 3) return false;
   const Shared shared = shared_corners(a, b);
+  if (shared.count == 3) return false;
   return Certificates<Filtered>::fit(a, b, shared) || coordinates_separate(a, b) ||
          Certificates<Exact>::fit(a, b, shared);
 }

@@ -24,7 +24,7 @@ struct Contacts {
   }
 };
 
-/// True only if A and B fit; false says nothing.
+/// True only if A and B are different and fit; false says nothing.
 [[nodiscard]] bool surely_fit(const Simplex& a, const Simplex& b);
 
 /// All pairs of faces that meet. A and B fit if and only if `distinct` is zero.

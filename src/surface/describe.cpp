@@ -102,12 +102,10 @@ void append(const Elements& elements, const Stars& stars, const Corners& corners
   }
 }
 
-// "side 3-4 of triangles 7 and 9", "segment 5 (3-4)".
-std::string name(const Elements& elements, const Stars& stars, const Corners& corners) {
+// "triangles 7 and 9", "side 3-4 of triangle 7", "segment 5 (3-4)": a simplex by the elements that hold it.
+std::string name(const Elements& elements, std::span<const Index> at, const Corners& corners) {
   std::vector<Index> facets, segments;
-  for (const Index i : stars.elements_at(corners)) {
-    (elements.all[i].corners == 3 ? facets : segments).push_back(elements.all[i].id);
-  }
+  for (const Index i : at) (elements.all[i].corners == 3 ? facets : segments).push_back(elements.all[i].id);
   if (count_of(corners) == 3) return list("triangle", facets);
   const std::string ends = text(corners[0]) + "-" + text(corners[1]);
   if (facets.empty()) return list("segment", segments) + " (" + ends + ")";
@@ -117,7 +115,15 @@ std::string name(const Elements& elements, const Stars& stars, const Corners& co
 std::string message_of(const Complex& complex, const Elements& elements, const Stars& stars,
                        const Finding& finding, const Defect& defect) {
   const std::string where = places(defect.where);
-  const std::string second = name(elements, stars, finding.second);
+  // Of a pair each is named alone, even if another element has the same corners.
+  const bool swapped = elements.all[finding.pair[1]].corners < elements.all[finding.pair[0]].corners;
+  const auto name_of = [&](const Corners& corners, std::size_t which) {
+    const std::array<Index, 1> alone{finding.pair[swapped ? 1 - which : which]};
+    return finding.is_pair ? name(elements, alone, corners)
+                           : name(elements, stars.elements_at(corners), corners);
+  };
+  const std::string first = count_of(finding.first) == 1 ? "" : name_of(finding.first, 0);
+  const std::string second = name_of(finding.second, 1);
   switch (finding.kind) {
     case DefectKind::vertex_in_segment:
     case DefectKind::vertex_in_facet: {
@@ -127,14 +133,11 @@ std::string message_of(const Complex& complex, const Elements& elements, const S
              ": split what it lies in at this vertex, or move the vertex";
     }
     case DefectKind::segments_cross:
-      return name(elements, stars, finding.first) + " and " + second + " cross" + where +
-             ": split both at a new vertex there";
+      return first + " and " + second + " cross" + where + ": split both at a new vertex there";
     case DefectKind::segments_overlap:
-      return name(elements, stars, finding.first) + " and " + second + " overlap" + where +
-             ": split the longer one, or remove one";
+      return first + " and " + second + " overlap" + where + ": split the longer one, or remove one";
     case DefectKind::segment_pierces_facet:
-      return name(elements, stars, finding.first) + " passes through " + second + where +
-             ": split both where they meet, or move one";
+      return first + " passes through " + second + where + ": split both where they meet, or move one";
     case DefectKind::repeated_facet:
       return list("triangle", defect.facets) + " have the same vertices " + text(finding.first[0]) + ", " +
              text(finding.first[1]) + ", " + text(finding.first[2]) + ": remove one of them";
