@@ -3,5 +3,9 @@
 function(holdfast_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -ffp-contract=off
                          $<$<BOOL:${HOLDFAST_WERROR}>:-Werror>)
+  # g++ 12 sees overlaps in string concatenation where there are none (GCC bug 105651).
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    target_compile_options(${target} PRIVATE -Wno-restrict)
+  endif()
   target_compile_definitions(${target} PRIVATE $<$<BOOL:${HOLDFAST_VALIDATE}>:HOLDFAST_VALIDATE=1>)
 endfunction()

@@ -49,11 +49,14 @@ int main(int count, char** arguments) {
   add_check(app, chosen);
   add_diagnose(app, chosen);
   add_delaunay(app, chosen);
+  // CLI11 would only say that a command is missing.
+  const std::string first = count > 1 ? arguments[1] : "-";
+  if (!first.starts_with('-') &&
+      app.get_subcommands([&](const CLI::App* c) { return c->check_name(first); }).empty()) {
+    fmt::print(stderr, "holdfast: there is no command '{}'; `holdfast --help` lists them\n", first);
+    return exit_usage;
+  }
   try {
-    if (count > 1 && arguments[1][0] != '-' && app.get_subcommand_no_throw(arguments[1]) == nullptr) {
-      fmt::print(stderr, "holdfast: there is no command '{}'; `holdfast --help` lists them\n", arguments[1]);
-      return exit_usage;
-    }
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
     // Help and version are "errors" of code 0 here.
