@@ -11,12 +11,17 @@ namespace {
 double larger(double a, double b) { return a < b ? b : a; }
 double smaller(double a, double b) { return b < a ? b : a; }
 
+}  // namespace
+
 /// Decides orient3d of exact points from their approximations, or 0.
 ///
-/// Let M be the largest coordinate along an axis, D the largest computed difference. A coordinate errs
-/// by eps M at most, hence a difference by 2 eps M and a rounding eps D. Each of the six terms of the
-/// determinant then errs by 2 eps (Mx Dy Dz + Dx My Dz + Dx Dy Mz) (1 + O(eps)) for the coordinates and
-/// 7 eps Dx Dy Dz for all roundings (Shewchuk). With every D above 2^-300 underflow is far below that.
+/// Along each axis i let M be the largest coordinate and D the largest computed difference. Coordinates
+/// err by eps M, so differences by 2 eps M and eps D for their rounding: x_i D with x_i = eps (2 M / D
+/// + 1). The determinant has six terms of three differences, hence it errs by 6 Dx Dy Dz times
+/// (1 + x_0) (1 + x_1) (1 + x_2) - 1 <= exp(x) - 1, x the sum of the x_i, which is at most 1.35 x while
+/// x <= 0.5. That holds wherever the filter decides: then 6 * 1.35 x Dx Dy Dz <= |det| <= 4 Dx Dy Dz
+/// (Hadamard). So 16.2 eps (Mx Dy Dz + ...) + 24.3 eps Dx Dy Dz bounds this part, and the other four
+/// roundings of every term add 24 eps Dx Dy Dz. With every D above 2^-300, underflow is far below that.
 int orient3d_mixed_filter(const double* a, const double* b, const double* c, const double* d) {
   double m[3], extent[3], u[3], v[3], w[3];
   for (int i = 0; i < 3; ++i) {
@@ -31,14 +36,12 @@ int orient3d_mixed_filter(const double* a, const double* b, const double* c, con
                      w[2] * (u[0] * v[1] - v[0] * u[1]);
   const double xy = extent[0] * extent[1];
   const double from_coordinates = xy * m[2] + (extent[0] * m[1] + m[0] * extent[1]) * extent[2];
-  const double bound = kEpsilon * (12.5 * from_coordinates + 42.5 * (xy * extent[2]));
-  if (det > bound) return 1;
-  if (-det > bound) return -1;
-  return 0;
+  const double bound = kEpsilon * (16.5 * from_coordinates + 49 * (xy * extent[2]));
+  return filtered_sign(det, bound);
 }
 
-/// The same in the plane: terms err by 2 eps (Mx Dy + Dx My) for the coordinates, 4 eps Dx Dy for the
-/// roundings.
+/// The same in the plane: two terms of two differences err by 2 Dx Dy times (1 + x_0) (1 + x_1) - 1, at
+/// most 1.25 x while x <= 0.8, which holds since |det| <= 2 Dx Dy; two more roundings a term.
 int orient2d_mixed_filter(const double* a, const double* b, const double* c, int x, int y) {
   const double ux = b[x] - a[x], uy = b[y] - a[y];
   const double vx = c[x] - a[x], vy = c[y] - a[y];
@@ -48,13 +51,9 @@ int orient2d_mixed_filter(const double* a, const double* b, const double* c, int
   const double dy = larger(std::fabs(uy), std::fabs(vy));
   if (!(smaller(dx, dy) > 0x1p-300)) return 0;
   const double det = ux * vy - uy * vx;
-  const double bound = kEpsilon * (4.5 * (mx * dy + dx * my) + 8.5 * (dx * dy));
-  if (det > bound) return 1;
-  if (-det > bound) return -1;
-  return 0;
+  const double bound = kEpsilon * (5.1 * (mx * dy + dx * my) + 9.5 * (dx * dy));
+  return filtered_sign(det, bound);
 }
-
-}  // namespace
 
 Decision decide_orient3d(const double* a, const double* b, const double* c, const double* d) {
   if (const auto sign = integer_orient3d<1>(a, b, c, d)) return {*sign, Tier::integer64};

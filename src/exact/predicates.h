@@ -16,17 +16,27 @@ namespace detail {
 inline constexpr double kEpsilon = 0x1p-53;
 
 [[nodiscard]] int orient3d_slow(const double* a, const double* b, const double* c, const double* d);
+[[nodiscard]] int orient3d_mixed_filter(const double* a, const double* b, const double* c, const double* d);
+[[nodiscard]] int orient2d_mixed_filter(const double* a, const double* b, const double* c, int x, int y);
 [[nodiscard]] int orient3d_mixed(PointRef a, PointRef b, PointRef c, PointRef d);
 [[nodiscard]] int orient2d_slow(const double* a, const double* b, const double* c);
 [[nodiscard]] int insphere_slow(const double* a, const double* b, const double* c, const double* d,
                                 const double* e);
 
+/// The sign of a value that errs by at most `bound`, or 0. One branch that is taken nearly always: two,
+/// on det > bound and -det > bound, are mispredicted half of the time.
+[[nodiscard]] inline int filtered_sign(double value, double bound) {
+  if (std::fabs(value) > bound) return value > 0 ? 1 : -1;
+  return 0;
+}
+
 /// Decides orient3d in floating point: +1 or -1, or 0 where it cannot tell.
 ///
-/// Error bound: (7 + 56 eps) eps times the permanent (Shewchuk 1997, section 4.3). Where a product of
-/// two differences underflows it errs by up to 2^-1075 more, which its factor z magnifies; that part
-/// is checked apart since results above 2^-40 are beyond its reach whatever z is. An overflow makes
-/// the bound infinite or NaN, and no comparison with it holds.
+/// Error bound: (7 + 56 eps) eps times the permanent (Shewchuk 1997, section 4.3). Besides, each of the
+/// six products of differences may underflow and then errs by up to 2^-1075, magnified by its factor z,
+/// and so may the three products with z: 2^-1073 (1 + heights). The bound takes 2^-900 instead, since
+/// denormals cost a hundred cycles. An overflow makes the bound infinite or NaN, and no comparison with
+/// it holds.
 [[nodiscard]] inline int orient3d_filter(const double* a, const double* b, const double* c, const double* d) {
   const double bx = b[0] - a[0], by = b[1] - a[1], bz = b[2] - a[2];
   const double cx = c[0] - a[0], cy = c[1] - a[1], cz = c[2] - a[2];
@@ -38,14 +48,9 @@ inline constexpr double kEpsilon = 0x1p-53;
   const double permanent = (std::fabs(cxdy) + std::fabs(dxcy)) * std::fabs(bz) +
                            (std::fabs(dxby) + std::fabs(bxdy)) * std::fabs(cz) +
                            (std::fabs(bxcy) + std::fabs(cxby)) * std::fabs(dz);
-  const double bound = (7 + 64 * kEpsilon) * kEpsilon * permanent;
-  const double size = std::fabs(det);
-  if (!(size > bound)) return 0;
-  if (size < 0x1p-40) {
-    const double underflow = 0x1p-1070 * (1 + std::fabs(bz) + std::fabs(cz) + std::fabs(dz));
-    if (!(size > bound + underflow)) return 0;
-  }
-  return det > 0 ? 1 : -1;
+  const double heights = std::fabs(bz) + std::fabs(cz) + std::fabs(dz);
+  const double bound = (7 + 64 * kEpsilon) * kEpsilon * permanent + (0x1p-900 + 0x1p-900 * heights);
+  return filtered_sign(det, bound);
 }
 
 /// Decides orient2d in floating point: +1 or -1, or 0 where it cannot tell.
@@ -54,10 +59,8 @@ inline constexpr double kEpsilon = 0x1p-53;
   const double left = (ax - cx) * (by - cy);
   const double right = (ay - cy) * (bx - cx);
   const double det = left - right;
-  const double bound = (3 + 16 * kEpsilon) * kEpsilon * (std::fabs(left) + std::fabs(right)) + 0x1p-1070;
-  if (det > bound) return 1;
-  if (-det > bound) return -1;
-  return 0;
+  const double bound = (3 + 16 * kEpsilon) * kEpsilon * (std::fabs(left) + std::fabs(right)) + 0x1p-900;
+  return filtered_sign(det, bound);
 }
 
 /// Decides insphere in floating point: +1 or -1, or 0 where it cannot tell.
@@ -90,9 +93,7 @@ inline constexpr double kEpsilon = 0x1p-53;
   const double det = (c2 * dab - d2 * abc) + (a2 * bcd - b2 * cda);
   const double s = (a2 + b2) + (c2 + d2);
   const double bound = 3 * kEpsilon * (s * s * std::sqrt(s)) + 0x1p-700;
-  if (det > bound) return 1;
-  if (-det > bound) return -1;
-  return 0;
+  return filtered_sign(det, bound);
 }
 
 }  // namespace detail
