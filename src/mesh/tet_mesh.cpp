@@ -30,6 +30,13 @@ void TetMesh::remove_vertex(Vertex v) {
   incident_[v] = kNone;
 }
 
+void TetMesh::remove_last_vertex() {
+  release_exact(static_cast<Vertex>(positions_.size() - 1));
+  positions_.pop_back();
+  exact_of_.pop_back();
+  incident_.pop_back();
+}
+
 void TetMesh::release_exact(Vertex v) {
   if (exact_of_[v] == kNone) return;
   exact_[exact_of_[v]] = {};

@@ -35,6 +35,8 @@ class TetMesh {
   void move_vertex(Vertex v, const exact::ExactPoint& p);
   /// Takes back the position of a vertex that is in no tetrahedron.
   void remove_vertex(Vertex v);
+  /// Takes back the vertex added last, which no tetrahedron may hold.
+  void remove_last_vertex();
   [[nodiscard]] std::size_t vertex_count() const { return positions_.size(); }
   [[nodiscard]] bool is_explicit(Vertex v) const { return exact_of_[v] == kNone; }
   /// The position, or the doubles nearest to it.

@@ -1,0 +1,37 @@
+// How the mesh meets a facet: the section cells of its inside (paper §6.1, Fig. 9; design §2.4).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+
+namespace holdfast {
+
+/// A facet whose three sides are chains of mesh edges.
+struct FacetFrame {
+  std::array<Vertex, 3> corners;
+  /// Consecutive vertices from corner i+1 to corner i+2 (mod 3), both included.
+  std::array<std::vector<Vertex>, 3> sides;
+};
+
+struct FacetSection {
+  struct PiercingEdge {
+    Vertex above, below;  ///< strictly on either side of the facet's plane; above sees it positively
+    Tet tet;              ///< one of its shell
+  };
+  std::vector<Face> faces;             ///< mesh faces inside the facet, one code each
+  std::vector<PiercingEdge> piercing;  ///< each edge once
+  std::vector<Vertex> inner;           ///< mesh vertices strictly inside the facet
+  [[nodiscard]] bool stands() const { return piercing.empty(); }
+};
+
+/// Floods the facet's inside across tetrahedra that straddle its plane and across mesh faces that lie in
+/// it: sides alone would miss holes whose surroundings already stand.
+///
+/// The sides being mesh edges, a section cell is inside the facet or disjoint from it, so that the flood
+/// needs no point-in-triangle test: it starts inside and never crosses a side. Without piercing edges the
+/// faces found cover the facet, since the flood reaches every cell of its connected inside.
+[[nodiscard]] FacetSection facet_section(TetMesh& mesh, const FacetFrame& frame);
+
+}  // namespace holdfast

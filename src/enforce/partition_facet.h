@@ -1,0 +1,17 @@
+// Partition of a missing facet (paper §5.2; design §2.4).
+#pragma once
+
+#include "enforce/facet_section.h"
+
+namespace holdfast {
+
+/// Makes the facet a union of mesh faces by splitting every edge that pierces its inside, and sets the
+/// facet bits of those faces. The new points lie exactly in the facet's plane, at A + u (B - A) + v (C - A)
+/// with short dyadic u, v, near the piercing edge: somewhere in the kernel of its shell.
+///
+/// Returns the vertices strictly inside the facet: new ones, and Steiner points that an earlier relocation
+/// happened to put there. Every new edge has an end in the plane, so one pass is enough (design §2.4).
+/// `added` is increased by the number of new points.
+std::vector<Vertex> partition_facet(TetMesh& mesh, const FacetFrame& frame, std::size_t& added);
+
+}  // namespace holdfast
