@@ -120,9 +120,9 @@ void mark_chain_edge(TetMesh& mesh, Vertex a, Vertex b) {
   set_segment(mesh, t, a, b);
 }
 
-}  // namespace
+enum class Mark { none, segment };
 
-std::vector<Vertex> partition_segment(TetMesh& mesh, Vertex a, Vertex b, Vertex first_free) {
+std::vector<Vertex> walk(TetMesh& mesh, Vertex a, Vertex b, Vertex first_free, Mark mark) {
   const Slide slide(mesh, a, b);
   std::vector<Vertex> chain{a};
   std::vector<TetMesh::Corners> fresh;
@@ -132,7 +132,7 @@ std::vector<Vertex> partition_segment(TetMesh& mesh, Vertex a, Vertex b, Vertex 
     if (exit.count == 1) {
       const Vertex v = exit.corners[0];
       if (v != b && v < first_free) throw std::logic_error("holdfast: an input vertex lies inside a segment");
-      mark_chain_edge(mesh, from, v);
+      if (mark == Mark::segment) mark_chain_edge(mesh, from, v);
       chain.push_back(v);
       continue;
     }
@@ -141,10 +141,21 @@ std::vector<Vertex> partition_segment(TetMesh& mesh, Vertex a, Vertex b, Vertex 
     fresh.clear();
     for (const auto& f : cavity.faces) fresh.push_back({f[0], f[1], f[2], p});
     const std::array<std::array<Vertex, 2>, 1> edge{{{from, p}}};
-    replace(mesh, {.old_tets = cavity.tets, .new_tets = fresh, .segments = edge});
+    const auto segments = std::span(edge).first(mark == Mark::segment ? 1 : 0);
+    replace(mesh, {.old_tets = cavity.tets, .new_tets = fresh, .segments = segments});
     chain.push_back(p);
   }
   return chain;
+}
+
+}  // namespace
+
+std::vector<Vertex> partition_segment(TetMesh& mesh, Vertex a, Vertex b, Vertex first_free) {
+  return walk(mesh, a, b, first_free, Mark::segment);
+}
+
+std::vector<Vertex> partition_line(TetMesh& mesh, Vertex a, Vertex b) {
+  return walk(mesh, a, b, 0, Mark::none);
 }
 
 }  // namespace holdfast

@@ -16,4 +16,7 @@ namespace holdfast {
 /// (index < first_free) lies inside AB, which valid input rules out.
 std::vector<Vertex> partition_segment(TetMesh& mesh, Vertex a, Vertex b, Vertex first_free);
 
+/// The same for any two vertices whose connecting line crosses no constraint, without segment bits.
+std::vector<Vertex> partition_line(TetMesh& mesh, Vertex a, Vertex b);
+
 }  // namespace holdfast

@@ -1,0 +1,30 @@
+// Enforcing what flips left missing: partition and elimination (paper §5, §6; design §2.4, §2.5).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/monitor.h"
+#include "mesh/tet_mesh.h"
+#include "recover/recover.h"
+#include "surface/complex.h"
+
+namespace holdfast {
+
+struct EnforceStats {
+  std::size_t segment_points = 0;  ///< partition points put on segments
+  std::size_t facet_points = 0;    ///< partition points put inside facets
+};
+
+/// Makes every facet one face and every segment one edge of the mesh, by partition and elimination,
+/// suppressing and recentring the points that it moves off the constraints as it goes.
+///
+/// `standing` says what stands before, and all of it stands afterwards. Vertices 0 .. first_free-1 are
+/// the input's and the box's. With `eliminate` false the partition points stay on their constraints
+/// (for `--stop-after partition`). In exact arithmetic this cannot fail on a valid complex.
+EnforceStats enforce(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets,
+                     Standing& standing, Vertex first_free, std::uint64_t seed, Monitor& monitor,
+                     bool eliminate = true);
+
+}  // namespace holdfast

@@ -1,0 +1,64 @@
+#include "mesh/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace holdfast {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+Vector from_to(const TetMesh& mesh, Vertex a, exact::PointRef b) {
+  Vector d{};
+  exact::difference(b, mesh.point(a), d.data());
+  return d;
+}
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+}  // namespace
+
+double height_over(const TetMesh& mesh, Vertex a, Vertex b, Vertex c, Vertex d) {
+  const Vector n = cross(from_to(mesh, a, mesh.point(b)), from_to(mesh, a, mesh.point(c)));
+  const double length = std::sqrt(dot(n, n));
+  return length > 0 ? std::abs(dot(n, from_to(mesh, a, mesh.point(d)))) / length : 0;
+}
+
+double fatness(const TetMesh& mesh, Vertex a, Vertex b, Vertex c, exact::PointRef d) {
+  const Vector u = from_to(mesh, a, mesh.point(b));
+  const Vector v = from_to(mesh, a, mesh.point(c));
+  const Vector w = from_to(mesh, a, d);
+  const Vector bc = from_to(mesh, b, mesh.point(c));
+  const Vector bd = from_to(mesh, b, d);
+  const Vector cd = from_to(mesh, c, d);
+  const double longest = std::max({dot(u, u), dot(v, v), dot(w, w), dot(bc, bc), dot(bd, bd), dot(cd, cd)});
+  if (!(longest > 0)) return 0;
+  return dot(cross(u, v), w) / (longest * std::sqrt(longest));
+}
+
+Vertex best_apex(const TetMesh& mesh, const Kernel& kernel) {
+  std::vector<Vertex> candidates;
+  for (const auto& f : kernel.faces()) candidates.insert(candidates.end(), f.begin(), f.end());
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  Vertex best = kNone;
+  double best_fatness = -1;
+  for (const Vertex v : candidates) {
+    if (!kernel.seen_from(v)) continue;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& f : kernel.faces()) {
+      if (f[0] == v || f[1] == v || f[2] == v) continue;
+      least = std::min(least, fatness(mesh, f[0], f[1], f[2], mesh.point(v)));
+    }
+    if (best == kNone || least > best_fatness) {
+      best = v;
+      best_fatness = least;
+    }
+  }
+  return best;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,45 @@
+#include "suppress/collapse.h"
+
+#include "mesh/kernel.h"
+#include "mesh/measure.h"
+#include "mesh/replace.h"
+#include "mesh/traverse.h"
+
+namespace holdfast {
+namespace {
+
+Kernel kernel_of(const TetMesh& mesh, Vertex p, const std::vector<Tet>& tets) {
+  Kernel kernel(mesh);
+  for (const Tet t : tets) {
+    const auto f = mesh.face_vertices(face_code(t, mesh.index_of(t, p)));
+    kernel.add(f[0], f[1], f[2]);
+  }
+  return kernel;
+}
+
+}  // namespace
+
+bool collapse_vertex(TetMesh& mesh, Vertex p) {
+  std::vector<Tet> tets;
+  ball(mesh, p, tets);
+  const Kernel kernel = kernel_of(mesh, p, tets);
+  const Vertex apex = best_apex(mesh, kernel);
+  if (apex == kNone) return false;
+  std::vector<TetMesh::Corners> fresh;
+  for (const auto& f : kernel.faces())
+    if (f[0] != apex && f[1] != apex && f[2] != apex) fresh.push_back({f[0], f[1], f[2], apex});
+  replace(mesh, {.old_tets = tets, .new_tets = fresh});
+  mesh.remove_vertex(p);
+  return true;
+}
+
+bool recentre_vertex(TetMesh& mesh, Vertex p) {
+  std::vector<Tet> tets;
+  ball(mesh, p, tets);
+  const auto position = kernel_of(mesh, p, tets).find(mesh.point(p));
+  if (!position) return false;
+  move_vertex(mesh, p, *position);
+  return true;
+}
+
+}  // namespace holdfast
