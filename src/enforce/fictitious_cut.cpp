@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "enforce/partition_segment.h"
-#include "exact/determinant.h"
+#include "exact/volume.h"
 #include "exact/rounding.h"
 #include "mesh/kernel.h"
 #include "mesh/replace.h"
