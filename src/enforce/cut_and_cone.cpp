@@ -46,7 +46,8 @@ class BallCutter {
     ends ? trace_paths() : trace_cycle();
     for (const CutPath& path : fictitious) {
       cuts_.push_back({path, false, {}});
-      for (std::size_t k = 0; k + 1 < path.size(); ++k) fictitious_edges_.push_back(sorted({path[k], path[k + 1]}));
+      for (std::size_t k = 0; k + 1 < path.size(); ++k)
+        fictitious_edges_.push_back(sorted({path[k], path[k + 1]}));
     }
     flood_sectors();
     for (std::size_t c = 0; c < cuts_.size(); ++c)
@@ -242,7 +243,7 @@ std::vector<Vertex> cut_and_cone(TetMesh& mesh, Vertex p, std::optional<std::arr
       if (f[0] != apex && f[1] != apex && f[2] != apex) fresh.push_back({f[0], f[1], f[2], apex});
   }
   for (const Cut& cut : cutter.cuts())
-    facets.insert(facets.end(), cut.triangles.begin(), cut.triangles.end());
+    if (cut.facet) facets.insert(facets.end(), cut.triangles.begin(), cut.triangles.end());
   std::vector<std::array<Vertex, 2>> segments;
   if (ends) segments.push_back(*ends);
   replace(mesh, {.old_tets = cutter.tets(), .new_tets = fresh, .facets = facets, .segments = segments});

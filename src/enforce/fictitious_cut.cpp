@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "enforce/partition_segment.h"
-#include "exact/volume.h"
 #include "exact/rounding.h"
+#include "exact/volume.h"
 #include "mesh/kernel.h"
 #include "mesh/replace.h"
 #include "mesh/traverse.h"

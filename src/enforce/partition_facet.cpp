@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
-#include "exact/volume.h"
 #include "exact/rounding.h"
+#include "exact/volume.h"
 #include "mesh/kernel.h"
 #include "mesh/replace.h"
 #include "mesh/traverse.h"

@@ -3,8 +3,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "exact/volume.h"
 #include "exact/rounding.h"
+#include "exact/volume.h"
 #include "mesh/replace.h"
 #include "mesh/traverse.h"
 
