@@ -139,9 +139,10 @@ class Enforcer {
       for (const Vertex p : now) {
         if (!mesh_.in_mesh(p)) continue;
         const std::vector<Vertex> around = steiner_neighbours(p);
-        if (collapse_vertex(mesh_, p))
+        const Fate fate = remove_or_recentre(mesh_, p);
+        if (fate == Fate::collapsed || fate == Fate::filled)
           restless_.insert(restless_.end(), around.begin(), around.end());
-        else if (recentre_vertex(mesh_, p) && round + 1 < kRounds)
+        else if (fate == Fate::moved && round + 1 < kRounds)
           restless_.push_back(p);
       }
     }

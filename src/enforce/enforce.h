@@ -7,7 +7,7 @@
 
 #include "mesh/monitor.h"
 #include "mesh/tet_mesh.h"
-#include "recover/recover.h"
+#include "recover/standing.h"
 #include "surface/complex.h"
 
 namespace holdfast {

@@ -4,6 +4,7 @@
 #include "mesh/measure.h"
 #include "mesh/replace.h"
 #include "mesh/traverse.h"
+#include "suppress/small_polyhedron.h"
 
 namespace holdfast {
 namespace {
@@ -19,27 +20,29 @@ Kernel kernel_of(const TetMesh& mesh, Vertex p, const std::vector<Tet>& tets) {
 
 }  // namespace
 
-bool collapse_vertex(TetMesh& mesh, Vertex p) {
+Fate remove_or_recentre(TetMesh& mesh, Vertex p) {
   std::vector<Tet> tets;
   ball(mesh, p, tets);
   const Kernel kernel = kernel_of(mesh, p, tets);
-  const Vertex apex = best_apex(mesh, kernel);
-  if (apex == kNone) return false;
-  std::vector<TetMesh::Corners> fresh;
-  for (const auto& f : kernel.faces())
-    if (f[0] != apex && f[1] != apex && f[2] != apex) fresh.push_back({f[0], f[1], f[2], apex});
-  replace(mesh, {.old_tets = tets, .new_tets = fresh});
-  mesh.remove_vertex(p);
-  return true;
-}
-
-bool recentre_vertex(TetMesh& mesh, Vertex p) {
-  std::vector<Tet> tets;
-  ball(mesh, p, tets);
-  const auto position = kernel_of(mesh, p, tets).find(mesh.point(p));
-  if (!position) return false;
+  const auto refill = [&](const std::vector<TetMesh::Corners>& fresh) {
+    replace(mesh, {.old_tets = tets, .new_tets = fresh});
+    mesh.remove_vertex(p);
+  };
+  if (const Vertex apex = best_apex(mesh, kernel); apex != kNone) {
+    std::vector<TetMesh::Corners> fresh;
+    for (const auto& f : kernel.faces())
+      if (f[0] != apex && f[1] != apex && f[2] != apex) fresh.push_back({f[0], f[1], f[2], apex});
+    refill(fresh);
+    return Fate::collapsed;
+  }
+  if (const auto fresh = fill_polyhedron(mesh, kernel.faces())) {
+    refill(*fresh);
+    return Fate::filled;
+  }
+  const auto position = kernel.find(mesh.point(p));
+  if (!position) return Fate::stays;
   move_vertex(mesh, p, *position);
-  return true;
+  return Fate::moved;
 }
 
 }  // namespace holdfast

@@ -1,0 +1,26 @@
+// Which constraints stand: segments that are one edge, facets that are one face.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+#include "surface/complex.h"
+
+namespace holdfast {
+
+/// One flag a segment of the table and one a facet.
+struct Standing {
+  std::vector<std::uint8_t> segments, facets;
+
+  [[nodiscard]] std::size_t missing_segments() const;
+  [[nodiscard]] std::size_t missing_facets() const;
+};
+
+/// Finds the segments and facets that the mesh holds and sets their bits there. One ball a vertex: linear
+/// in the size of the mesh.
+[[nodiscard]] Standing mark_present(TetMesh& mesh, const SegmentTable& table,
+                                    std::span<const Triangle> facets);
+
+}  // namespace holdfast

@@ -1,0 +1,27 @@
+// Small polyhedron reconnection: tetrahedra without new points for a small cavity, by branch and bound
+// (Liu, Chen, Chen 2007; Marot, Remacle 2020).
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+
+namespace holdfast {
+
+struct PolyhedronOptions {
+  std::size_t most_vertices = 24;
+  std::size_t most_nodes = 3000;  ///< of the search tree
+};
+
+/// Fills a polyhedron with strictly positive tetrahedra on its own vertices. Its faces are given so that a
+/// point x inside sees them with orient(f0, f1, f2, x) > 0.
+///
+/// Positive tetrahedra whose faces cancel in pairs but for the polyhedron's own, as oriented chains,
+/// cover every point as often as the boundary winds round it, that is once inside and never outside: no
+/// intersection test is needed. Returns nothing when the search ends, or its budget does, without one.
+[[nodiscard]] std::optional<std::vector<TetMesh::Corners>> fill_polyhedron(
+    const TetMesh& mesh, std::span<const std::array<Vertex, 3>> faces, const PolyhedronOptions& options = {});
+
+}  // namespace holdfast
