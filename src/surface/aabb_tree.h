@@ -23,40 +23,56 @@ struct Box {
     return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] &&
            other.low[1] <= high[1] && low[2] <= other.high[2] && other.low[2] <= high[2];
   }
+  void extend(const Box& other);
+  /// The middle in coordinate k.
+  [[nodiscard]] double centre(std::size_t k) const { return low[k] / 2 + high[k] / 2; }
 };
 
 class AabbTree {
  public:
-  /// Item i is boxes[i]. O(n log n) time, O(n) memory.
-  explicit AabbTree(std::span<const Box> boxes);
-
-  /// Calls visit(i, j) once for each pair of items i != j whose boxes overlap, in an order that depends
-  /// on the boxes alone, until it returns false. Calls `step(fraction)` every few thousand tests, where
-  /// `fraction` is the share of items whose pairs are done.
-  template <class Visit, class Step>
-  void for_each_overlap(Visit&& visit, Step&& step) const;
-
- private:
   struct Item {
     Box box;
     Index id;
   };
+
+  /// Item i is boxes[i]. Items with the same entry of `group`, if given, other than ~0 get a subtree of
+  /// their own (as a rule: groups with the same centre may mix). O(n log n) time, O(n) memory.
+  explicit AabbTree(std::span<const Box> boxes, std::span<const Index> group = {});
+
+  /// Number of nodes.
+  [[nodiscard]] std::size_t nodes() const { return nodes_.size(); }
+  /// Items of a node's subtree.
+  [[nodiscard]] std::span<const Item> items(Index node) const {
+    return {items_.data() + nodes_[node].first, nodes_[node].count};
+  }
+
+  /// Calls visit(i, j) once for each pair of items i != j whose boxes overlap, in an order that depends on
+  /// the boxes alone, until it returns false. Leaves out what lies in nodes for which skip(node, node) is
+  /// true. Calls step(fraction) every few thousand tests with the share of items whose pairs are done.
+  template <class Visit, class Skip, class Step>
+  void for_each_overlap(Visit&& visit, Skip&& skip, Step&& step) const;
+
+ private:
   // Items first .. first + count - 1; children are nodes `left` and left + 1, or none if left is 0.
   struct Node {
     Box box;
     Index first, count, left;
+    bool one_group;  // or no groups: split by the items' own centres
   };
   static constexpr Index kLeafItems = 4;
 
   void build(Index node);
-  Index partition(const Node& node);
+  Index partition(Node& node);
+  [[nodiscard]] double centre(const Node& node, const Item& item, std::size_t k) const;
 
   std::vector<Item> items_;
   std::vector<Node> nodes_;
+  std::span<const Index> group_;  // while building
+  std::vector<Box> group_boxes_;
 };
 
-template <class Visit, class Step>
-void AabbTree::for_each_overlap(Visit&& visit, Step&& step) const {
+template <class Visit, class Skip, class Step>
+void AabbTree::for_each_overlap(Visit&& visit, Skip&& skip, Step&& step) const {
   if (items_.empty()) return;
   std::vector<std::pair<Index, Index>> stack{{0, 0}};
   std::size_t tests = 0, done = 0;
@@ -66,10 +82,11 @@ void AabbTree::for_each_overlap(Visit&& visit, Step&& step) const {
     const Node& m = nodes_[a];
     const Node& n = nodes_[b];
     if ((++tests & 0xFFF) == 0) step(static_cast<double>(done) / static_cast<double>(items_.size()));
-    if (a == b && m.left != 0) {
+    if (!m.box.overlaps(n.box)) continue;
+    if (skip(a, b)) {
+      if (a == b) done += m.count;
+    } else if (a == b && m.left != 0) {
       stack.insert(stack.end(), {{m.left, m.left + 1}, {m.left + 1, m.left + 1}, {m.left, m.left}});
-    } else if (!m.box.overlaps(n.box)) {
-      continue;
     } else if (m.left != 0 && (n.left == 0 || m.count >= n.count)) {
       stack.insert(stack.end(), {{m.left + 1, b}, {m.left, b}});
     } else if (n.left != 0) {

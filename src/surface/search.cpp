@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "surface/aabb_tree.h"
 #include "surface/complex.h"
+#include "surface/hubs.h"
+#include "surface/oriented_box.h"
 
 namespace holdfast {
 namespace {
@@ -133,23 +136,158 @@ class RootCauses {
   std::map<Key, std::array<Index, 2>> causes_;
 };
 
+// Decides which pairs of nodes of the tree need not be looked at.
+class Skip {
+ public:
+  Skip(const Complex& complex, const Elements& elements, const Hubs& hubs, const AabbTree& tree,
+       const Box& all, std::size_t patience)
+      : complex_(complex),
+        elements_(elements),
+        hubs_(hubs),
+        tree_(tree),
+        frame_(all),
+        patience_(patience * elements.all.size()),
+        common_(hubs.all().empty() ? 0 : tree.nodes()) {}
+
+  // All elements of node a share a hub with all elements of node b, or oriented boxes separate them.
+  bool operator()(Index a, Index b) {
+    if (!common_.empty() && share_hub(common_hubs(a), common_hubs(b))) return true;
+    if (a == b || ++calls_ <= patience_) return false;
+    boxes_.resize(tree_.nodes());
+    return surely_apart(oriented(a), oriented(b));
+  }
+
+ private:
+  using HubSet = std::array<Index, 3>;
+
+  static bool share_hub(const HubSet& a, const HubSet& b) {
+    for (const Index hub : a) {
+      if (hub != no_index && std::find(b.begin(), b.end(), hub) != b.end()) return true;
+    }
+    return false;
+  }
+
+  const HubSet& common_hubs(Index node) {
+    std::optional<HubSet>& common = common_[node];
+    if (common) return *common;
+    const auto items = tree_.items(node);
+    common = hubs_.of(items[0].id);
+    for (const AabbTree::Item& item : items) {
+      const HubSet& hubs = hubs_.of(item.id);
+      bool none = true;
+      for (Index& hub : *common) {
+        if (std::find(hubs.begin(), hubs.end(), hub) == hubs.end()) hub = no_index;
+        none = none && hub == no_index;
+      }
+      if (none) break;
+    }
+    return *common;
+  }
+
+  const OrientedBox& oriented(Index node) {
+    std::optional<OrientedBox>& box = boxes_[node];
+    if (box) return *box;
+    corners_.clear();
+    for (const AabbTree::Item& item : tree_.items(node)) {
+      const Element& element = elements_.all[item.id];
+      std::array<Point, 3>& corners = corners_.emplace_back();
+      for (unsigned i = 0; i < 3; ++i) {
+        const Index v = element.vertex[std::min<unsigned>(i, element.corners - 1u)];
+        corners[i] = frame_(complex_.vertices[v].data());
+      }
+    }
+    box = oriented_box(corners_);
+    return *box;
+  }
+
+  const Complex& complex_;
+  const Elements& elements_;
+  const Hubs& hubs_;
+  const AabbTree& tree_;
+  UnitFrame frame_;
+  std::size_t patience_, calls_ = 0;
+  std::vector<std::optional<HubSet>> common_;
+  std::vector<std::optional<OrientedBox>> boxes_;
+  std::vector<std::array<Point, 3>> corners_;
+};
+
+// One search.
+class Search {
+ public:
+  Search(const Complex& complex, const Elements& elements, const VisitPair& visit, const Step& step,
+         const SearchTuning& tuning)
+      : complex_(complex),
+        elements_(elements),
+        visit_(visit),
+        step_(step),
+        patience_(tuning.patience),
+        hubs_(complex, elements, tuning.hub_degree) {}
+
+  void run() {
+    if (!elements_.all.empty() && search_space()) {
+      for (Index hub = 0; hub < hubs_.all().size(); ++hub) {
+        if (!search_hub(hub)) return;
+      }
+    }
+  }
+
+ private:
+  // Pairs that share no hub. False: stopped.
+  bool search_space() {
+    std::vector<Box> boxes = boxes_of(complex_, elements_.all);
+    const AabbTree tree(boxes, hubs_.fans());
+    Box all = boxes[0];
+    for (const Box& box : boxes) all.extend(box);
+    boxes = {};  // the tree has its own
+    Skip skip(complex_, elements_, hubs_, tree, all, patience_);
+    const bool has_hubs = !hubs_.all().empty();
+    bool go_on = true;
+    tree.for_each_overlap(
+        [&](Index i, Index j) {
+          if (has_hubs && hubs_.shared(i, j) != no_index) return true;
+          return go_on = test(i, j);
+        },
+        skip, step_);
+    return go_on;
+  }
+
+  // Pairs whose least common hub this is.
+  bool search_hub(Index index) {
+    const Hub& hub = hubs_.all()[index];
+    const AabbTree tree(hubs_.directions(hub));
+    bool go_on = true;
+    tree.for_each_overlap(
+        [&](Index i, Index j) {
+          const Index a = hub.elements[i], b = hub.elements[j];
+          return hubs_.shared(a, b) != index || (go_on = test(a, b));
+        },
+        [](Index, Index) { return false; }, step_);
+    return go_on;
+  }
+
+  bool test(Index i, Index j) {
+    if (i > j) std::swap(i, j);
+    const Element &a = elements_.all[i], &b = elements_.all[j];
+    const Simplex p = Elements::simplex(a, complex_), q = Elements::simplex(b, complex_);
+    if (surely_fit(p, q)) return true;
+    const Contacts found = contacts(p, q);
+    const bool repeated = a.corners == b.corners && (found.common & Contacts::bit(whole(a), whole(b))) != 0;
+    return (found.distinct == 0 && !repeated) || visit_(i, j, found);
+  }
+
+  const Complex& complex_;
+  const Elements& elements_;
+  const VisitPair& visit_;
+  const Step& step_;
+  std::size_t patience_;
+  Hubs hubs_;
+};
+
 }  // namespace
 
 void for_each_offending_pair(const Complex& complex, const Elements& elements, const VisitPair& visit,
-                             const Step& step) {
-  const AabbTree tree(boxes_of(complex, elements.all));
-  const auto test = [&](Index i, Index j) {
-    const Simplex a = Elements::simplex(elements.all[i], complex);
-    const Simplex b = Elements::simplex(elements.all[j], complex);
-    if (surely_fit(a, b)) return true;
-    if (i > j) std::swap(i, j);
-    const Contacts found =
-        contacts(Elements::simplex(elements.all[i], complex), Elements::simplex(elements.all[j], complex));
-    const bool repeated = elements.all[i].corners == elements.all[j].corners &&
-                          (found.common & Contacts::bit(whole(elements.all[i]), whole(elements.all[j]))) != 0;
-    return (found.distinct == 0 && !repeated) || visit(i, j, found);
-  };
-  tree.for_each_overlap(test, step);
+                             const Step& step, const SearchTuning& tuning) {
+  Search(complex, elements, visit, step, tuning).run();
 }
 
 std::vector<Finding> find_root_causes(const Complex& complex, const Elements& elements, std::size_t most,

@@ -40,9 +40,18 @@ using VisitPair = std::function<bool(Index i, Index j, const Contacts& contacts)
 /// Called now and then with the share of the work that is done; throws to stop.
 using Step = std::function<void(double fraction)>;
 
+/// When the search turns to means that cost more than they bring on good surfaces. They change its speed
+/// and its order, never its result.
+struct SearchTuning {
+  std::size_t hub_degree = 64;  ///< facets and segments at a vertex that make it a hub (hubs.h)
+  /// Tests of two nodes of the tree, an element, after which oriented boxes (oriented_box.h) come in. Good
+  /// surfaces need about 5 to 10.
+  std::size_t patience = 20;
+};
+
 /// Visits every pair of elements that do not meet in a common face or not at all, in no useful order.
 void for_each_offending_pair(const Complex& complex, const Elements& elements, const VisitPair& visit,
-                             const Step& step);
+                             const Step& step, const SearchTuning& tuning = {});
 
 /// Root causes, ordered by `pair`; `most` of them at most, the first that turn up.
 [[nodiscard]] std::vector<Finding> find_root_causes(const Complex& complex, const Elements& elements,

@@ -243,6 +243,19 @@ void expect_true(const Defect& defect, const Sample& sample, const Truth& truth)
   }
 }
 
+// The pairs again, with hubs and oriented boxes from the start.
+std::set<PairKey> pairs_with_every_means(const Complex& complex) {
+  const Elements elements = elements_of(complex);
+  std::set<PairKey> pairs;
+  const auto element = [&](Index i) { return ElementKey{3u - elements.all[i].corners, elements.all[i].id}; };
+  const auto visit = [&](Index i, Index j, const Contacts&) {
+    EXPECT_TRUE(pairs.insert(key(element(i), element(j))).second);
+    return true;
+  };
+  for_each_offending_pair(complex, elements, visit, [](double) {}, {.hub_degree = 3, .patience = 0});
+  return pairs;
+}
+
 void check(const Sample& sample, const Map& map) {
   const Truth truth = truth_of(sample);
   const Surface surface = image(sample, map);
@@ -253,6 +266,8 @@ void check(const Sample& sample, const Map& map) {
     EXPECT_TRUE(pairs.insert(key({3 - a.corners, a.id}, {3 - b.corners, b.id})).second);
   }
   EXPECT_EQ(pairs, truth.pairs);
+
+  EXPECT_EQ(pairs_with_every_means(complex), truth.pairs);
 
   const std::vector<Defect> defects = diagnose(complex);
   EXPECT_EQ(defects.empty(), truth.valid());

@@ -1,0 +1,42 @@
+// Surface layer: vertices of many elements. The boxes of all elements at one vertex overlap, so that the tree
+// of boxes would compare each with each. They are searched by direction instead: two cones from one vertex
+// meet outside it only if the arcs in which they cut a small sphere round it meet.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "surface/aabb_tree.h"
+#include "surface/elements.h"
+
+namespace holdfast {
+
+struct Hub {
+  Index vertex;
+  std::vector<Index> elements;  ///< indices of Elements::all
+};
+
+class Hubs {
+ public:
+  /// Vertices with at least `degree` facets and segments are hubs.
+  Hubs(const Complex& complex, const Elements& elements, std::size_t degree);
+
+  [[nodiscard]] const std::vector<Hub>& all() const { return hubs_; }
+  /// The hubs (indices of `all`) among an element's corners; unused places hold `no_index`.
+  [[nodiscard]] const std::array<Index, 3>& of(Index element) const { return of_[element]; }
+  /// The least hub that two elements share, or `no_index`.
+  [[nodiscard]] Index shared(Index a, Index b) const;
+  /// For each element its hub with most elements, or `no_index`: an arrangement in fans.
+  [[nodiscard]] std::vector<Index> fans() const;
+  /// Boxes round the directions in which the hub's elements lie, in their order. Of two elements whose boxes
+  /// are disjoint, the common part is the hub's vertex.
+  [[nodiscard]] std::vector<Box> directions(const Hub& hub) const;
+
+ private:
+  const Complex& complex_;
+  const Elements& elements_;
+  std::vector<Hub> hubs_;
+  std::vector<std::array<Index, 3>> of_;  // empty if there is no hub
+};
+
+}  // namespace holdfast
