@@ -9,14 +9,34 @@
 namespace holdfast::io {
 
 [[nodiscard]] MeshData read_off(const Source& source);
+[[nodiscard]] MeshData read_stl(const Source& source);
+[[nodiscard]] MeshData read_obj(const Source& source);
+[[nodiscard]] MeshData read_ply(const Source& source);
+[[nodiscard]] MeshData read_poly(const Source& source);
+[[nodiscard]] MeshData read_smesh(const Source& source);
+/// The vertices of a .node file alone.
+[[nodiscard]] MeshData read_node(const Source& source);
+/// The .node, .ele, .face and .edge files beside the source, whose own bytes are not used.
+[[nodiscard]] MeshData read_tetgen_volume(const Source& source);
 [[nodiscard]] MeshData read_medit(const Source& source);
 
+[[nodiscard]] MeshData read_gmf(const Source& source);
+[[nodiscard]] MeshData read_msh(const Source& source);
+[[nodiscard]] MeshData read_vtk(const Source& source);
+[[nodiscard]] MeshData read_vtu(const Source& source);
+
 void write_medit(AtomicWriter& out, const Volume& volume);
+void write_msh(AtomicWriter& out, const Volume& volume, const WriteOptions& options);
+/// Writes .node, .ele, .face and .edge beside `path`.
+void write_tetgen(const std::filesystem::path& path, const Volume& volume);
+void write_gmf(AtomicWriter& out, const Volume& volume);
 void write_vtk(AtomicWriter& out, const Volume& volume);
 void write_vtu(AtomicWriter& out, const Volume& volume, const WriteOptions& options);
 
-/// Parses bytes as the format of that extension (".off"). Throws FileError.
-[[nodiscard]] MeshData parse(const Source& source, std::string_view format);
+/// Parses bytes as the format of an extension such as ".off", or else of the path's own. Throws
+/// FileError.
+[[nodiscard]] MeshData parse_surface(const Source& source, std::string_view format = {});
+[[nodiscard]] MeshData parse_volume(const Source& source, std::string_view format = {});
 
 /// The tag of entity `i`, 0 where there are none.
 [[nodiscard]] inline int tag_of(const std::vector<int>& tags, std::size_t i) {

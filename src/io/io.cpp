@@ -1,7 +1,7 @@
 // The public functions of holdfast/io.h: formats by extension, and what a file must hold.
 #include "holdfast/io.h"
 
-#include <algorithm>
+#include <type_traits>
 
 #include "io/file_bytes.h"
 #include "io/formats.h"
@@ -12,22 +12,45 @@ namespace io {
 namespace {
 
 using Reader = MeshData (*)(const Source&);
-using Writer = void (*)(AtomicWriter&, const Volume&, const WriteOptions&);
+using Writer = void (*)(const std::filesystem::path&, const Volume&, const WriteOptions&);
+
+/// A writer of one file, which gets its name when it is complete.
+template <auto write>
+void write_file(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options) {
+  AtomicWriter out(path);
+  if constexpr (std::is_invocable_v<decltype(write), AtomicWriter&, const Volume&, const WriteOptions&>)
+    write(out, volume, options);
+  else
+    write(out, volume);
+  out.commit();
+}
+
+void write_tetgen_files(const std::filesystem::path& path, const Volume& volume, const WriteOptions&) {
+  write_tetgen(path, volume);
+}
 
 struct Format {
   std::string_view extension;
-  Reader read;
-  bool surface, volume;  ///< which of the two it may be read as
-  Writer write;          ///< null: volumes are not written in it
+  Reader surface, volume;  ///< null: not read as such
+  Writer write;            ///< null: volumes are not written in it
 };
 
 constexpr Format kFormats[] = {
-    {".off", read_off, true, false, nullptr},
-    {".mesh", read_medit, true, true,
-     [](AtomicWriter& out, const Volume& volume, const WriteOptions&) { write_medit(out, volume); }},
-    {".vtk", nullptr, false, false,
-     [](AtomicWriter& out, const Volume& volume, const WriteOptions&) { write_vtk(out, volume); }},
-    {".vtu", nullptr, false, false, write_vtu},
+    {".off", read_off, nullptr, nullptr},
+    {".stl", read_stl, nullptr, nullptr},
+    {".obj", read_obj, nullptr, nullptr},
+    {".ply", read_ply, nullptr, nullptr},
+    {".mesh", read_medit, read_medit, write_file<write_medit>},
+    {".meshb", read_gmf, read_gmf, write_file<write_gmf>},
+    {".poly", read_poly, nullptr, nullptr},
+    {".smesh", read_smesh, nullptr, nullptr},
+    {".vtu", read_vtu, read_vtu, write_file<write_vtu>},
+    {".vtp", read_vtu, nullptr, nullptr},
+    {".vtk", read_vtk, read_vtk, write_file<write_vtk>},
+    {".msh", read_msh, read_msh, write_file<write_msh>},
+    {".node", read_node, read_tetgen_volume, write_tetgen_files},
+    {".ele", nullptr, read_tetgen_volume, write_tetgen_files},
+    {".face", nullptr, read_tetgen_volume, nullptr},
 };
 
 /// The format's name as the table spells it: in lower case, with a dot.
@@ -65,19 +88,25 @@ void require_consistent(const Volume& volume) {
 
 }  // namespace
 
-MeshData parse(const Source& source, std::string_view format) {
-  return find_format(source.path, extension_of(source.path, format), "read",
-                     [](const Format& f) { return f.read != nullptr; })
-      .read(source);
+MeshData parse_surface(const Source& source, std::string_view format) {
+  const Format& found = find_format(source.path, extension_of(source.path, format), "read as a surface",
+                                    [](const Format& f) { return f.surface != nullptr; });
+  MeshData mesh = found.surface(source);
+  if (mesh.vertices.empty()) throw FileError(source.path, "", "the file holds no vertices");
+  return mesh;
+}
+
+MeshData parse_volume(const Source& source, std::string_view format) {
+  return find_format(source.path, extension_of(source.path, format), "read as a volume",
+                     [](const Format& f) { return f.volume != nullptr; })
+      .volume(source);
 }
 
 }  // namespace io
 
 Surface read_surface(const std::filesystem::path& path, std::string_view format) {
-  const io::Format& reader = io::find_format(path, io::extension_of(path, format), "read as a surface",
-                                             [](const io::Format& f) { return f.surface; });
   const io::FileBytes bytes(path);
-  io::MeshData mesh = reader.read({path, bytes.view()});
+  io::MeshData mesh = io::parse_surface({path, bytes.view()}, format);
   Surface surface;
   surface.facet_markers = mesh.facet_markers.take(mesh.facets.size());
   surface.segment_markers = mesh.segment_markers.take(mesh.segments.size());
@@ -90,10 +119,8 @@ Surface read_surface(const std::filesystem::path& path, std::string_view format)
 }
 
 Volume read_volume(const std::filesystem::path& path, std::string_view format) {
-  const io::Format& reader = io::find_format(path, io::extension_of(path, format), "read as a volume",
-                                             [](const io::Format& f) { return f.volume; });
   const io::FileBytes bytes(path);
-  io::MeshData mesh = reader.read({path, bytes.view()});
+  io::MeshData mesh = io::parse_volume({path, bytes.view()}, format);
   Volume volume;
   volume.regions = mesh.regions.take(mesh.tetrahedra.size());
   volume.regions.resize(mesh.tetrahedra.size(), 0);
@@ -110,9 +137,7 @@ void write_volume(const std::filesystem::path& path, const Volume& volume, const
   const io::Format& writer = io::find_format(path, io::extension_of(path, options.format), "written",
                                              [](const io::Format& f) { return f.write != nullptr; });
   io::require_consistent(volume);
-  io::AtomicWriter out(path);
-  writer.write(out, volume, options);
-  out.commit();
+  writer.write(path, volume, options);
 }
 
 }  // namespace holdfast

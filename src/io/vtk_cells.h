@@ -40,4 +40,17 @@ void visit_vtk_cells(const Volume& volume, Visit&& visit) {
   return volume.tetrahedra.size() + volume.facets.size() + volume.segments.size();
 }
 
+/// Cells as they come from a file, not yet checked.
+struct VtkGrid {
+  std::vector<Point> points;
+  std::vector<std::uint8_t> types;         ///< VtkCell, one a cell
+  std::vector<std::int64_t> ends;          ///< where each cell's corners end
+  std::vector<std::int64_t> connectivity;  ///< the corners of all cells
+  std::vector<int> regions, markers;       ///< empty, or one a cell
+};
+
+/// The mesh of a grid. Polygons are fanned where they are convex. Throws FileError with the cell's
+/// number for types that cannot be used, and for corners that do not exist.
+[[nodiscard]] MeshData mesh_of(const std::filesystem::path& path, VtkGrid&& grid);
+
 }  // namespace holdfast::io

@@ -1,4 +1,4 @@
-// Legacy VTK files (VTK User's Guide, "VTK File Formats").
+// Writes legacy VTK files, ASCII (VTK User's Guide, "VTK File Formats").
 #include "io/vtk_cells.h"
 
 namespace holdfast::io {

@@ -1,0 +1,208 @@
+// .meshb, the binary form of GMF, versions 1 to 4 (Marechal, libMeshb: file format).
+//
+// A file is a chain of sections: keyword, position of the next one, and for most a count and as many
+// entries. Positions have 32 bits in versions 1 and 2, else 64; counts and indices 32 bits up to
+// version 3; coordinates are floats in version 1, else doubles.
+#include <limits>
+
+#include "io/byte_reader.h"
+#include "io/formats.h"
+
+namespace holdfast::io {
+namespace {
+
+enum Keyword : std::int32_t {
+  kDimension = 3,
+  kVertices = 4,
+  kEdges = 5,
+  kTriangles = 6,
+  kQuadrilaterals = 7,
+  kTetrahedra = 8,
+  kPrisms = 9,
+  kHexahedra = 10,
+  kPyramids = 49,
+  kEnd = 54,
+};
+
+std::endian order_of(const Source& source) {
+  if (source.bytes.empty()) throw FileError(source.path, "", "the file is empty");
+  if (source.bytes.size() >= 8)
+    for (const std::endian order : {std::endian::little, std::endian::big})
+      if (load<std::int32_t>(source.bytes.data(), order) == 1) return order;
+  throw FileError(source.path, "byte 0", "not a binary GMF mesh: it does not start with the number 1");
+}
+
+class GmfReader {
+ public:
+  explicit GmfReader(const Source& source) : bytes_(source, order_of(source), 4) {}
+
+  MeshData read() {
+    version_ = bytes_.read<std::int32_t>();
+    if (version_ < 1 || version_ > 4) bytes_.fail("version " + std::to_string(version_) + " is not read");
+    while (read_section()) {
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  std::int64_t position_word() {
+    return version_ >= 3 ? bytes_.read<std::int64_t>() : bytes_.read<std::int32_t>();
+  }
+  std::int64_t integer() { return version_ >= 4 ? bytes_.read<std::int64_t>() : bytes_.read<std::int32_t>(); }
+  double real() { return version_ == 1 ? static_cast<double>(bytes_.read<float>()) : bytes_.read<double>(); }
+
+  [[nodiscard]] std::size_t integer_size() const { return version_ >= 4 ? 8 : 4; }
+
+  std::size_t count(std::size_t bytes_each, const char* what) {
+    const std::int64_t value = integer();
+    if (value < 0) bytes_.fail("a negative number of " + std::string(what));
+    bytes_.require_items(static_cast<std::uint64_t>(value), bytes_each, what);
+    return static_cast<std::size_t>(value);
+  }
+
+  int tag() {
+    const std::int64_t value = integer();
+    if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max())
+      bytes_.fail("a reference beyond 32 bits");
+    return static_cast<int>(value);
+  }
+
+  /// Reads one section; whether another follows.
+  bool read_section() {
+    const auto keyword = bytes_.read<std::int32_t>();
+    if (keyword == kEnd) return false;
+    const std::int64_t next = position_word();
+    read_entries(keyword);
+    if (next == 0) return false;
+    // The chain must go forward, past what was read, or entries could be counted many times.
+    const std::size_t end = bytes_.position() + bytes_.left();
+    if (next < static_cast<std::int64_t>(bytes_.position()) || static_cast<std::uint64_t>(next) > end)
+      bytes_.fail("the next section's position is out of range; the file is truncated or damaged");
+    bytes_.seek(static_cast<std::size_t>(next));
+    return true;
+  }
+
+  void read_entries(std::int32_t keyword) {
+    switch (keyword) {
+      case kDimension:
+        if (bytes_.read<std::int32_t>() != 3) bytes_.fail("the dimension is not 3");
+        return;
+      case kVertices:
+        return read_vertices();
+      case kEdges:
+        return read_entities<2>("edges", [&](const Segment& c, int tag) { mesh_.add_segment(c, tag); });
+      case kTriangles:
+        return read_entities<3>("triangles", [&](const Triangle& c, int tag) { mesh_.add_facet(c, tag); });
+      case kTetrahedra:
+        return read_entities<4>("tetrahedra",
+                                [&](const Tetrahedron& c, int tag) { mesh_.add_tetrahedron(c, tag); });
+      case kQuadrilaterals:
+      case kPrisms:
+      case kHexahedra:
+      case kPyramids:
+        if (integer() != 0) bytes_.fail("quadrilaterals, prisms, hexahedra or pyramids; split them first");
+        return;
+      default:
+        return;  // the next section's position leads past it
+    }
+  }
+
+  void read_vertices() {
+    if (!mesh_.vertices.empty()) bytes_.fail("a second section of vertices");
+    const std::size_t vertices = count((version_ == 1 ? 12 : 24) + integer_size(), "vertices");
+    mesh_.vertices.reserve(vertices);
+    for (std::size_t i = 0; i < vertices; ++i) {
+      const double x = real(), y = real();
+      mesh_.vertices.push_back({x, y, real()});
+      static_cast<void>(integer());
+    }
+  }
+
+  template <std::size_t N, typename Add>
+  void read_entities(const char* what, Add&& add) {
+    const std::size_t entities = count((N + 1) * integer_size(), what);
+    for (std::size_t i = 0; i < entities; ++i) {
+      std::array<Index, N> corners{};
+      for (Index& corner : corners) {
+        const std::int64_t value = integer();
+        if (value < 1 || static_cast<std::uint64_t>(value) > mesh_.vertices.size())
+          bytes_.fail("the vertex index " + std::to_string(value) + " is out of range (1 to " +
+                      std::to_string(mesh_.vertices.size()) + ")");
+        corner = static_cast<Index>(value - 1);
+      }
+      add(corners, tag());
+    }
+  }
+
+  ByteReader bytes_;
+  std::int32_t version_ = 0;
+  MeshData mesh_;
+};
+
+/// Writes version 3, which meshes of any size fit, in the machine's byte order.
+class GmfWriter {
+ public:
+  explicit GmfWriter(AtomicWriter& out) : out_(out) {}
+
+  void write(const Volume& volume) {
+    put<std::int32_t>(1);
+    put<std::int32_t>(3);
+    start(kDimension, 4);
+    put<std::int32_t>(3);
+    start(kVertices, 4 + 28 * volume.vertices.size());
+    put(static_cast<std::int32_t>(volume.vertices.size()));
+    for (const Point& point : volume.vertices) {
+      for (const double x : point) put(x);
+      put<std::int32_t>(0);
+    }
+    write_entities(kEdges, volume.segments, volume.segment_markers);
+    write_entities(kTriangles, volume.facets, volume.facet_markers);
+    write_entities(kTetrahedra, volume.tetrahedra, volume.regions);
+    put<std::int32_t>(kEnd);
+    put<std::int64_t>(0);
+  }
+
+ private:
+  template <typename T>
+  void put(T value) {
+    std::string bytes;  // short enough to need no allocation
+    store(bytes, value, std::endian::native);
+    out_ << bytes;
+    position_ += sizeof(T);
+  }
+
+  /// Starts a section of `size` bytes behind its head.
+  void start(Keyword keyword, std::uint64_t size) {
+    put<std::int32_t>(keyword);
+    put(static_cast<std::int64_t>(position_ + 8 + size));
+  }
+
+  template <std::size_t N>
+  void write_entities(Keyword keyword, const std::vector<std::array<Index, N>>& entities,
+                      const std::vector<int>& tags) {
+    if (entities.empty()) return;
+    start(keyword, 4 + 4 * (N + 1) * entities.size());
+    put(static_cast<std::int32_t>(entities.size()));
+    for (std::size_t i = 0; i < entities.size(); ++i) {
+      for (const Index corner : entities[i]) put(static_cast<std::int32_t>(corner + 1));
+      put<std::int32_t>(tag_of(tags, i));
+    }
+  }
+
+  AtomicWriter& out_;
+  std::uint64_t position_ = 0;
+};
+
+}  // namespace
+
+MeshData read_gmf(const Source& source) { return GmfReader(source).read(); }
+
+void write_gmf(AtomicWriter& out, const Volume& volume) {
+  // Version 3 counts with 32 signed bits; version 4 would be read by few programs.
+  constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
+  if (volume.vertices.size() >= kMost || volume.tetrahedra.size() >= kMost || volume.facets.size() >= kMost)
+    throw std::invalid_argument("a mesh of more than 2^31 entities does not fit .meshb");
+  GmfWriter(out).write(volume);
+}
+
+}  // namespace holdfast::io

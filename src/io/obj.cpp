@@ -1,0 +1,111 @@
+// Wavefront OBJ: v, f, l and p; the rest describes looks (Wavefront Advanced Visualizer, appendix B1).
+#include <algorithm>
+#include <charconv>
+#include <iterator>
+
+#include "io/formats.h"
+#include "io/polygon.h"
+#include "io/text_reader.h"
+
+namespace holdfast::io {
+namespace {
+
+/// Statements that say nothing about the mesh. Any other unknown one is an error, not a lost facet.
+constexpr std::string_view kLooks[] = {
+    "vt",       "vn",     "vp",     "g",    "o",     "s",          "mg",        "usemtl",
+    "mtllib",   "usemap", "maplib", "lod",  "bevel", "shadow_obj", "trace_obj", "c_interp",
+    "d_interp", "ctech",  "stech",  "deg",  "bmat",  "step",       "cstype",    "curv2",
+    "parm",     "trim",   "hole",   "scrv", "sp",    "end",        "con"};
+
+class ObjReader {
+ public:
+  explicit ObjReader(const Source& source) : source_(source) {}
+
+  MeshData read() {
+    // Two passes, because an element may name a vertex that follows it.
+    each_line([&](std::string_view keyword, TextReader& text) {
+      if (keyword == "v") mesh_.vertices.push_back(text.point());
+    });
+    each_line([&](std::string_view keyword, TextReader& text) { read_element(keyword, text); });
+    return std::move(mesh_);
+  }
+
+ private:
+  template <typename Visit>
+  void each_line(Visit&& visit) {
+    TextReader text(source_);
+    while (!text.at_end()) {
+      visit(text.word_on_line(), text);
+      skip_logical_line(text);
+    }
+  }
+
+  /// A line that ends with a backslash goes on in the next one.
+  static bool continues(TextReader& text) {
+    if (text.at_line_end() || text.remaining()[0] != '\\') return false;
+    const std::string_view behind = text.remaining().substr(1);
+    return behind.empty() || behind[0] == '\n' || behind[0] == '\r';
+  }
+  static void skip_logical_line(TextReader& text) {
+    while (text.rest_of_line().ends_with('\\') && !text.remaining().empty()) {
+    }
+  }
+
+  void read_element(std::string_view keyword, TextReader& text) {
+    if (keyword == "v") {
+      ++seen_;
+    } else if (keyword == "f" || keyword == "fo") {
+      const std::size_t start = text.last();
+      read_corners(text);
+      if (corners_.size() < 3) text.fail_at(start, "a face of fewer than 3 corners");
+      add_polygon(mesh_, corners_, 0, [&](const std::string& reason) { text.fail_at(start, reason); });
+    } else if (keyword == "l") {
+      const std::size_t start = text.last();
+      read_corners(text);
+      if (corners_.size() < 2) text.fail_at(start, "a line of fewer than 2 vertices");
+      for (std::size_t i = 0; i + 1 < corners_.size(); ++i) mesh_.add_segment({corners_[i], corners_[i + 1]});
+    } else if (keyword == "p") {
+      read_corners(text);  // isolated points are vertices already; the indices are checked
+    } else if (keyword == "curv" || keyword == "surf") {
+      text.fail("free-form curves and surfaces are not read; export them as triangles");
+    } else if (std::find(std::begin(kLooks), std::end(kLooks), keyword) == std::end(kLooks)) {
+      text.fail("unknown statement " + in_quotes(keyword));
+    }
+  }
+
+  void read_corners(TextReader& text) {
+    corners_.clear();
+    for (;;) {
+      while (continues(text)) text.skip_line();
+      const std::string_view word = text.word_on_line();
+      if (word.empty()) return;
+      corners_.push_back(corner(text, word));
+    }
+  }
+
+  /// The vertex of "v", "v/vt", "v//vn" or "v/vt/vn"; negative ones count back from the last vertex.
+  Index corner(const TextReader& text, std::string_view word) const {
+    std::int64_t value = 0;
+    const char* const end = word.data() + word.size();
+    const auto result = std::from_chars(word.data(), end, value);
+    if (result.ec != std::errc() || (result.ptr != end && *result.ptr != '/'))
+      text.fail("expected a vertex index, found " + in_quotes(word));
+    const auto size = static_cast<std::int64_t>(mesh_.vertices.size());
+    if (value < -static_cast<std::int64_t>(seen_) || value > size || value == 0)
+      text.fail("the vertex index " + std::to_string(value) + " is out of range; there are " +
+                std::to_string(value < 0 ? seen_ : mesh_.vertices.size()) + " vertices" +
+                (value < 0 ? " before it" : "") + " and the first is 1");
+    return static_cast<Index>(value < 0 ? static_cast<std::int64_t>(seen_) + value : value - 1);
+  }
+
+  Source source_;
+  MeshData mesh_;
+  std::size_t seen_ = 0;  ///< vertices above the current line
+  std::vector<Index> corners_;
+};
+
+}  // namespace
+
+MeshData read_obj(const Source& source) { return ObjReader(source).read(); }
+
+}  // namespace holdfast::io

@@ -1,0 +1,312 @@
+// PLY, ASCII and binary (Turk, The PLY polygon file format, 1994).
+//
+// Read are vertex {x, y, z}, face {vertex_indices or vertex_index} and edge {vertex1, vertex2};
+// other elements and properties are skipped.
+#include <optional>
+
+#include "io/byte_reader.h"
+#include "io/formats.h"
+#include "io/polygon.h"
+#include "io/text_reader.h"
+
+namespace holdfast::io {
+namespace {
+
+enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+struct Property {
+  std::string name;
+  PlyType type{};
+  std::optional<PlyType> count_type;  ///< of a list
+};
+
+struct Element {
+  std::string name;
+  std::size_t count = 0;
+  std::vector<Property> properties;
+};
+
+struct Header {
+  bool binary = false;
+  std::endian order = std::endian::little;
+  std::vector<Element> elements;
+};
+
+std::size_t size_of(PlyType type) {
+  constexpr std::size_t kSizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
+  return kSizes[static_cast<std::size_t>(type)];
+}
+
+PlyType read_type(TextReader& text) {
+  struct Name {
+    std::string_view name;
+    PlyType type;
+  };
+  constexpr Name kNames[] = {
+      {"char", PlyType::int8},      {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
+      {"uint8", PlyType::uint8},    {"short", PlyType::int16},     {"int16", PlyType::int16},
+      {"ushort", PlyType::uint16},  {"uint16", PlyType::uint16},   {"int", PlyType::int32},
+      {"int32", PlyType::int32},    {"uint", PlyType::uint32},     {"uint32", PlyType::uint32},
+      {"float", PlyType::float32},  {"float32", PlyType::float32}, {"double", PlyType::float64},
+      {"float64", PlyType::float64}};
+  const std::string_view word = text.word_on_line();
+  for (const Name& name : kNames)
+    if (name.name == word) return name.type;
+  text.fail("expected a type such as float or int, found " + in_quotes(word));
+}
+
+bool is_real(PlyType type) { return type == PlyType::float32 || type == PlyType::float64; }
+
+void read_format(TextReader& text, Header& header) {
+  const std::string_view format = text.word_on_line();
+  header.binary = format != "ascii";
+  if (format == "binary_big_endian")
+    header.order = std::endian::big;
+  else if (header.binary && format != "binary_little_endian")
+    text.fail("unknown format " + in_quotes(format));
+}
+
+Property read_property(TextReader& text) {
+  Property property;
+  const std::size_t start = text.position();
+  if (text.word_on_line() == "list") {
+    property.count_type = read_type(text);
+    if (is_real(*property.count_type)) text.fail("the length of a list must be an integer");
+  } else {
+    text.seek(start);
+  }
+  property.type = read_type(text);
+  property.name = text.word_on_line();
+  return property;
+}
+
+/// Reads the header and leaves `text` at the first byte of the data.
+Header read_header(TextReader& text) {
+  if (text.word("ply") != "ply") text.fail("not a PLY file: it does not start with 'ply'");
+  // Where data starts behind "end_header\r" is told by how the first line ends.
+  const bool crlf = text.remaining().starts_with("\r\n");
+  Header header;
+  bool has_format = false;
+  for (;;) {
+    const std::string_view keyword = text.word("'end_header'");
+    if (keyword == "end_header") break;
+    if (keyword == "format") {
+      read_format(text, header);
+      has_format = true;
+    } else if (keyword == "element") {
+      Element element;
+      element.name = text.word_on_line();
+      element.count = text.count("the number of elements", 1);
+      header.elements.push_back(element);
+    } else if (keyword == "property") {
+      if (header.elements.empty()) text.fail("a property without an element");
+      header.elements.back().properties.push_back(read_property(text));
+    } else if (keyword != "comment" && keyword != "obj_info") {
+      text.fail("unknown keyword " + in_quotes(keyword) + " in the header");
+    }
+    text.skip_line();
+  }
+  if (!has_format) text.fail("the header names no format");
+  static_cast<void>(text.at_line_end());
+  if (!crlf && text.remaining().starts_with("\r"))
+    text.seek(text.position() + 1);
+  else
+    text.skip_line();
+  return header;
+}
+
+class TextValues {
+ public:
+  explicit TextValues(TextReader& text) : text_(text) {}
+  double real(PlyType) { return text_.real("a number"); }
+  std::int64_t integer(PlyType) { return text_.integer("an integer"); }
+  void require(std::uint64_t count, std::size_t, const char* what) const {
+    if (count > (text_.remaining().size() + 1) / 2)
+      text_.fail(std::to_string(count) + " " + what + " are announced, but only " +
+                 std::to_string(text_.remaining().size()) + " bytes follow");
+  }
+  [[noreturn]] void fail(const std::string& reason) const { text_.fail(reason); }
+  void begin_entity() {}
+
+ private:
+  TextReader& text_;
+};
+
+class BinaryValues {
+ public:
+  explicit BinaryValues(ByteReader bytes) : bytes_(bytes) {}
+  double real(PlyType type) {
+    if (type == PlyType::float32) return static_cast<double>(bytes_.read<float>());
+    if (type == PlyType::float64) return bytes_.read<double>();
+    return static_cast<double>(integer(type));
+  }
+  std::int64_t integer(PlyType type) {
+    switch (type) {
+      case PlyType::int8:
+        return bytes_.read<std::int8_t>();
+      case PlyType::uint8:
+        return bytes_.read<std::uint8_t>();
+      case PlyType::int16:
+        return bytes_.read<std::int16_t>();
+      case PlyType::uint16:
+        return bytes_.read<std::uint16_t>();
+      case PlyType::int32:
+        return bytes_.read<std::int32_t>();
+      case PlyType::uint32:
+        return bytes_.read<std::uint32_t>();
+      default:
+        bytes_.fail("an index must be an integer, not a real");
+    }
+  }
+  void require(std::uint64_t count, std::size_t bytes_each, const char* what) const {
+    bytes_.require_items(count, bytes_each, what);
+  }
+  /// Errors name the byte where the entity starts.
+  [[noreturn]] void fail(const std::string& reason) {
+    bytes_.seek(entity_);
+    bytes_.fail(reason);
+  }
+  void begin_entity() { entity_ = bytes_.position(); }
+
+ private:
+  ByteReader bytes_;
+  std::size_t entity_ = 0;
+};
+
+template <typename Values>
+class PlyReader {
+ public:
+  PlyReader(const Header& header, Values values) : header_(header), values_(values) {}
+
+  MeshData read() {
+    for (const Element& element : header_.elements) {
+      if (element.count == 0 || element.properties.empty()) continue;
+      values_.require(element.count, least_size(element), "elements");
+      if (element.name == "vertex")
+        read_vertices(element);
+      else if (element.name == "face")
+        read_faces(element);
+      else if (element.name == "edge")
+        read_edges(element);
+      else if (element.name == "tristrips")
+        values_.fail("triangle strips are not read; save triangles");
+      else
+        skip(element);
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  static std::size_t least_size(const Element& element) {
+    std::size_t size = 0;
+    for (const Property& property : element.properties)
+      size += size_of(property.count_type.value_or(property.type));
+    return size;
+  }
+
+  /// Where the property of one of two names stands; throws if there is none.
+  std::size_t find(const Element& element, std::string_view name, std::string_view other = {}) {
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+      const Property& property = element.properties[i];
+      if (property.name == name || (!other.empty() && property.name == other)) return i;
+    }
+    values_.begin_entity();
+    values_.fail("the element " + in_quotes(element.name) + " has no property " + in_quotes(name));
+  }
+
+  std::size_t list_length(const Property& property) {
+    const std::int64_t length = values_.integer(*property.count_type);
+    if (length < 0) values_.fail("a list of negative length");
+    values_.require(static_cast<std::uint64_t>(length), size_of(property.type), "list entries");
+    return static_cast<std::size_t>(length);
+  }
+
+  void skip(const Property& property) {
+    const std::size_t length = property.count_type ? list_length(property) : 1;
+    for (std::size_t i = 0; i < length; ++i) static_cast<void>(values_.real(property.type));
+  }
+
+  void skip(const Element& element) {
+    for (std::size_t i = 0; i < element.count; ++i)
+      for (const Property& property : element.properties) skip(property);
+  }
+
+  Index index(PlyType type) {
+    const std::int64_t value = values_.integer(type);
+    if (value < 0 || static_cast<std::uint64_t>(value) >= mesh_.vertices.size())
+      values_.fail("the vertex index " + std::to_string(value) + " is out of range; there are " +
+                   std::to_string(mesh_.vertices.size()) + " vertices and the first is 0");
+    return static_cast<Index>(value);
+  }
+
+  void read_vertices(const Element& element) {
+    const std::array<std::size_t, 3> axes{find(element, "x"), find(element, "y"), find(element, "z")};
+    for (const std::size_t axis : axes)
+      if (element.properties[axis].count_type) values_.fail("a coordinate that is a list");
+    mesh_.vertices.reserve(element.count);
+    for (std::size_t i = 0; i < element.count; ++i) {
+      values_.begin_entity();
+      Point point{};
+      for (std::size_t p = 0; p < element.properties.size(); ++p) {
+        const Property& property = element.properties[p];
+        const auto axis = std::find(axes.begin(), axes.end(), p);
+        if (axis == axes.end())
+          skip(property);
+        else
+          point[static_cast<std::size_t>(axis - axes.begin())] = values_.real(property.type);
+      }
+      mesh_.vertices.push_back(point);
+    }
+  }
+
+  void read_faces(const Element& element) {
+    const std::size_t list = find(element, "vertex_indices", "vertex_index");
+    if (!element.properties[list].count_type) values_.fail("vertex indices that are no list");
+    mesh_.facets.reserve(element.count);
+    std::vector<Index> corners;
+    for (std::size_t i = 0; i < element.count; ++i) {
+      values_.begin_entity();
+      for (std::size_t p = 0; p < element.properties.size(); ++p) {
+        const Property& property = element.properties[p];
+        if (p != list) {
+          skip(property);
+          continue;
+        }
+        corners.resize(list_length(property));
+        for (Index& corner : corners) corner = index(property.type);
+        add_polygon(mesh_, corners, 0, [&](const std::string& reason) { values_.fail(reason); });
+      }
+    }
+  }
+
+  void read_edges(const Element& element) {
+    const std::array<std::size_t, 2> ends{find(element, "vertex1"), find(element, "vertex2")};
+    for (std::size_t i = 0; i < element.count; ++i) {
+      values_.begin_entity();
+      Segment segment{};
+      for (std::size_t p = 0; p < element.properties.size(); ++p) {
+        const auto end = std::find(ends.begin(), ends.end(), p);
+        if (end == ends.end() || element.properties[p].count_type)
+          skip(element.properties[p]);
+        else
+          segment[static_cast<std::size_t>(end - ends.begin())] = index(element.properties[p].type);
+      }
+      mesh_.add_segment(segment);
+    }
+  }
+
+  const Header& header_;
+  Values values_;
+  MeshData mesh_;
+};
+
+}  // namespace
+
+MeshData read_ply(const Source& source) {
+  TextReader text(source, '\0');
+  const Header header = read_header(text);
+  if (!header.binary) return PlyReader(header, TextValues(text)).read();
+  return PlyReader(header, BinaryValues(ByteReader(source, header.order, text.position()))).read();
+}
+
+}  // namespace holdfast::io

@@ -1,0 +1,111 @@
+// STL, ASCII and binary (3D Systems, StereoLithography Interface Specification, 1989).
+//
+// Vertices with identical coordinates are welded: the format repeats them in every triangle. Where
+// an ASCII file holds several solids, facets carry the solid's number from 1 as their marker.
+#include "io/byte_reader.h"
+#include "io/formats.h"
+#include "io/text_reader.h"
+#include "io/weld.h"
+
+namespace holdfast::io {
+namespace {
+
+constexpr std::size_t kHeader = 80, kRecord = 50;
+
+/// Number of triangles that a binary file's header announces.
+std::uint32_t announced(std::string_view bytes) {
+  return load<std::uint32_t>(bytes.data() + kHeader, std::endian::little);
+}
+
+bool is_binary(std::string_view bytes) {
+  if (bytes.size() < kHeader + 4) return false;
+  // Binary files may start with "solid" too, so their exact size decides first.
+  if (bytes.size() == kHeader + 4 + kRecord * std::uint64_t{announced(bytes)}) return true;
+  const std::size_t first = std::min(bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF"), bytes.size());
+  if (lower(bytes.substr(first, 5)) != "solid") return true;
+  // Text holds no zero byte; a binary file's numbers do.
+  return bytes.find('\0') != std::string_view::npos;
+}
+
+MeshData read_binary(const Source& source) {
+  ByteReader bytes(source, std::endian::little, kHeader);
+  const auto count = bytes.read<std::uint32_t>();
+  bytes.require_items(count, kRecord, "triangles");
+  if (bytes.left() != kRecord * std::uint64_t{count})
+    bytes.fail("the header announces " + std::to_string(count) + " triangles, but " +
+               std::to_string(bytes.left() - kRecord * std::uint64_t{count}) + " more bytes follow them");
+  MeshData mesh;
+  mesh.facets.reserve(count);
+  mesh.vertices.reserve(count / 2);
+  Welder weld(mesh.vertices, count / 2);  // a closed surface has half as many vertices
+  const char* record = source.bytes.data() + bytes.position();
+  for (std::uint32_t i = 0; i < count; ++i, record += kRecord) {
+    Triangle facet{};
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      Point point{};  // behind the normal's 12 bytes
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        point[axis] = load<float>(record + 12 * (corner + 1) + 4 * axis, std::endian::little);
+      facet[corner] = weld.add(point);
+    }
+    mesh.facets.push_back(facet);
+  }
+  return mesh;
+}
+
+/// Reads the keywords of a list, one after the other, in any case.
+void expect(TextReader& text, std::initializer_list<std::string_view> keywords) {
+  for (const std::string_view keyword : keywords) {
+    const std::string quoted_keyword = in_quotes(keyword);
+    const std::string_view word = text.word(quoted_keyword);
+    if (lower(word) != keyword) text.fail("expected " + quoted_keyword + ", found " + in_quotes(word));
+  }
+}
+
+/// Reads a facet behind its keyword.
+Triangle read_facet(TextReader& text, Welder& weld) {
+  expect(text, {"normal"});
+  for (int axis = 0; axis < 3; ++axis) static_cast<void>(text.word("a normal's component"));
+  expect(text, {"outer", "loop"});
+  Triangle facet{};
+  for (Index& corner : facet) {
+    expect(text, {"vertex"});
+    corner = weld.add(text.point());
+  }
+  expect(text, {"endloop", "endfacet"});
+  return facet;
+}
+
+MeshData read_ascii(const Source& source) {
+  TextReader text(source, '\0');
+  MeshData mesh;
+  Welder weld(mesh.vertices);
+  std::vector<std::size_t> solid_ends;
+  do {
+    expect(text, {"solid"});
+    text.skip_line();  // its name
+    for (;;) {
+      const std::string keyword = lower(text.word("'facet' or 'endsolid'"));
+      if (keyword == "endsolid") break;
+      if (keyword != "facet") text.fail("expected 'facet' or 'endsolid', found " + in_quotes(keyword));
+      mesh.facets.push_back(read_facet(text, weld));
+    }
+    text.skip_line();
+    solid_ends.push_back(mesh.facets.size());
+  } while (!text.at_end());
+  if (solid_ends.size() == 1) return mesh;
+  int solid = 1;
+  for (std::size_t i = 0; i < mesh.facets.size(); ++i) {
+    while (i == solid_ends[static_cast<std::size_t>(solid) - 1]) ++solid;
+    mesh.facet_markers.add(i, solid);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+MeshData read_stl(const Source& source) {
+  if (source.bytes.empty()) throw FileError(source.path, "", "the file is empty");
+  return is_binary(source.bytes) ? read_binary(source) : read_ascii(source);
+}
+
+}  // namespace holdfast::io

@@ -1,0 +1,150 @@
+// TetGen's surfaces, .poly and .smesh, and bare points, .node (Si, TetGen, a Delaunay-based quality
+// tetrahedral mesh generator, ACM TOMS 41(2), 2015; manual, section 5.2).
+//
+// A polygon of two corners is a segment, one of a single corner a vertex, one of more than three is
+// fanned where it is convex. A facet with holes is refused: it is no set of polygons.
+#include "io/file_bytes.h"
+#include "io/formats.h"
+#include "io/polygon.h"
+#include "io/tetgen.h"
+
+namespace holdfast::io {
+namespace {
+
+class PolyReader {
+ public:
+  PolyReader(const Source& source, bool smesh) : text_(source), smesh_(smesh) {}
+
+  MeshData read() {
+    TetgenNodes nodes = read_tetgen_nodes(text_);
+    if (nodes.vertices.empty()) nodes = read_tetgen_node_file(text_.source().path);
+    base_ = nodes.base;
+    mesh_.vertices = std::move(nodes.vertices);
+    read_facets();
+    read_holes();
+    read_regions();
+    if (!text_.at_end()) {
+      text_.seek(text_.position());
+      text_.fail("text after the last section; the counts are wrong");
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  int optional_tag() { return text_.at_line_end() ? 0 : text_.tag("a boundary marker"); }
+
+  void read_facets() {
+    const std::size_t count = text_.count("the number of facets", 2);
+    // Whether markers follow is told here, but a marker at the end of a line cannot be anything else.
+    text_.skip_line();
+    mesh_.facets.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) smesh_ ? read_smesh_facet() : read_poly_facet();
+  }
+
+  void read_smesh_facet() {
+    read_corners();
+    const std::size_t start = text_.last();
+    add(optional_tag(), start);
+    text_.skip_line();
+  }
+
+  void read_poly_facet() {
+    const std::size_t polygons = text_.count("the number of polygons", 2);
+    const std::size_t start = text_.last();
+    const std::int64_t holes = text_.at_line_end() ? 0 : text_.integer("the number of holes");
+    if (holes != 0) text_.fail_at(start, "a facet with holes is not read; split it into triangles");
+    const int marker = optional_tag();
+    text_.skip_line();
+    for (std::size_t i = 0; i < polygons; ++i) {
+      read_corners();
+      add(marker, text_.last());
+      text_.skip_line();
+    }
+  }
+
+  /// Reads "size corner...", which may go on in the next line.
+  void read_corners() {
+    corners_.resize(text_.count("the number of corners", 2));
+    for (Index& corner : corners_) corner = text_.index("a vertex index", base_, mesh_.vertices.size());
+  }
+
+  void add(int marker, std::size_t position) {
+    add_polygon(mesh_, corners_, marker, [&](const std::string& reason) { text_.fail_at(position, reason); });
+  }
+
+  void read_holes() {
+    if (text_.at_end()) return;  // the section may be missing
+    const std::size_t count = text_.count("the number of holes", 8);
+    text_.skip_line();
+    for (std::size_t i = 0; i < count; ++i) {
+      static_cast<void>(text_.integer("the hole's number"));
+      mesh_.holes.push_back(text_.point());
+      text_.skip_line();
+    }
+  }
+
+  void read_regions() {
+    if (text_.at_end()) return;
+    const std::size_t count = text_.count("the number of regions", 10);
+    text_.skip_line();
+    for (std::size_t i = 0; i < count; ++i) {
+      static_cast<void>(text_.integer("the region's number"));
+      const Point where = text_.point();
+      mesh_.region_seeds.push_back({where, text_.tag_from_real("a region's attribute")});
+      text_.skip_line();  // the largest volume of its tetrahedra
+    }
+  }
+
+  TextReader text_;
+  bool smesh_;
+  MeshData mesh_;
+  std::int64_t base_ = 0;
+  std::vector<Index> corners_;
+};
+
+}  // namespace
+
+TetgenNodes read_tetgen_nodes(TextReader& text) {
+  TetgenNodes nodes;
+  const std::size_t count = text.count("the number of vertices", 8);
+  if (!text.at_line_end() && text.integer("the dimension") != 3) text.fail("the dimension is not 3");
+  text.skip_line();  // numbers of attributes and markers, which stand behind the coordinates
+  nodes.vertices.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int64_t number = text.integer("the vertex's number");
+    if (i == 0) nodes.base = number;
+    if (nodes.base != 0 && nodes.base != 1) text.fail("the first vertex must have the number 0 or 1");
+    if (number != nodes.base + static_cast<std::int64_t>(i))
+      text.fail("expected vertex " + std::to_string(nodes.base + static_cast<std::int64_t>(i)) +
+                ", found the number " + std::to_string(number));
+    nodes.vertices.push_back(text.point());
+    text.skip_line();
+  }
+  return nodes;
+}
+
+TetgenNodes read_tetgen_node_file(const std::filesystem::path& path) {
+  std::filesystem::path beside = path;
+  beside.replace_extension(".node");
+  const FileBytes bytes(beside);
+  TextReader text({beside, bytes.view()});
+  return read_tetgen_nodes(text);
+}
+
+void read_tetgen_number(TextReader& text, const char* what, std::int64_t expected) {
+  if (text.integer(what) != expected)
+    text.fail("expected " + std::string(what) + " " + std::to_string(expected));
+}
+
+MeshData read_poly(const Source& source) { return PolyReader(source, false).read(); }
+
+MeshData read_smesh(const Source& source) { return PolyReader(source, true).read(); }
+
+MeshData read_node(const Source& source) {
+  TextReader text(source);
+  MeshData mesh;
+  mesh.vertices = read_tetgen_nodes(text).vertices;
+  return mesh;
+}
+
+}  // namespace holdfast::io

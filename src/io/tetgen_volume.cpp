@@ -1,0 +1,92 @@
+// TetGen's volumes: .node, .ele, .face and .edge beside one another (manual, section 5.2).
+#include <system_error>
+
+#include "io/file_bytes.h"
+#include "io/formats.h"
+#include "io/tetgen.h"
+
+namespace holdfast::io {
+namespace {
+
+std::filesystem::path with_extension(std::filesystem::path path, const char* extension) {
+  return path.replace_extension(extension);
+}
+
+/// Reads the lines "number corner... tag..." of one of the files. `columns` of the header follow the
+/// count; the tag is the first number behind the corners, 0 where there is none.
+template <std::size_t N, typename Add>
+void read_lines(TextReader& text, const char* what, const TetgenNodes& nodes, Add&& add) {
+  const std::size_t count = text.count("the number of elements", 2 * N + 2);
+  if (N == 4 && !text.at_line_end() && text.integer("the number of corners") != 4)
+    text.fail("tetrahedra of other than 4 corners are not read");
+  text.skip_line();
+  std::int64_t first = nodes.base;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i == 0)
+      first = text.integer(what);
+    else
+      read_tetgen_number(text, what, first + static_cast<std::int64_t>(i));
+    std::array<Index, N> corners{};
+    for (Index& corner : corners) corner = text.index("a vertex index", nodes.base, nodes.vertices.size());
+    // Regions are attributes, which TetGen writes as reals.
+    add(corners, text.at_line_end() ? 0 : text.tag_from_real("a marker"));
+    text.skip_line();
+  }
+}
+
+/// Reads a file that may be missing.
+template <std::size_t N, typename Add>
+void read_optional(const std::filesystem::path& path, const char* what, const TetgenNodes& nodes, Add&& add) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return;
+  const FileBytes bytes(path);
+  TextReader text({path, bytes.view()});
+  read_lines<N>(text, what, nodes, add);
+}
+
+template <std::size_t N>
+void write_lines(AtomicWriter& out, std::string_view columns,
+                 const std::vector<std::array<Index, N>>& entities, const std::vector<int>& tags) {
+  out << std::uint64_t{entities.size()} << columns << '\n';
+  for (std::size_t i = 0; i < entities.size(); ++i) {
+    out << std::uint64_t{i};
+    for (const Index corner : entities[i]) out << ' ' << corner;
+    out << ' ' << tag_of(tags, i) << '\n';
+  }
+}
+
+}  // namespace
+
+MeshData read_tetgen_volume(const Source& source) {
+  const std::filesystem::path elements = with_extension(source.path, ".ele");
+  const TetgenNodes nodes = read_tetgen_node_file(source.path);
+  const FileBytes bytes(elements);
+  TextReader text({elements, bytes.view()});
+  MeshData mesh;
+  mesh.vertices = nodes.vertices;
+  read_lines<4>(text, "the tetrahedron's number", nodes,
+                [&](const Tetrahedron& corners, int region) { mesh.add_tetrahedron(corners, region); });
+  read_optional<3>(with_extension(source.path, ".face"), "the face's number", nodes,
+                   [&](const Triangle& corners, int marker) { mesh.add_facet(corners, marker); });
+  read_optional<2>(with_extension(source.path, ".edge"), "the edge's number", nodes,
+                   [&](const Segment& corners, int marker) { mesh.add_segment(corners, marker); });
+  return mesh;
+}
+
+void write_tetgen(const std::filesystem::path& path, const Volume& volume) {
+  AtomicWriter node(with_extension(path, ".node")), ele(with_extension(path, ".ele")),
+      face(with_extension(path, ".face")), edge(with_extension(path, ".edge"));
+  node << std::uint64_t{volume.vertices.size()} << " 3 0 0\n";
+  for (std::size_t i = 0; i < volume.vertices.size(); ++i) {
+    const Point& p = volume.vertices[i];
+    node << std::uint64_t{i} << ' ' << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+  }
+  write_lines(ele, " 4 1", volume.tetrahedra, volume.regions);
+  write_lines(face, " 1", volume.facets, volume.facet_markers);
+  write_lines(edge, " 1", volume.segments, volume.segment_markers);
+  // All are complete before any gets its name, so that old and new files do not mix on a full disk.
+  for (AtomicWriter* file : {&node, &ele, &face, &edge}) file->finish();
+  for (AtomicWriter* file : {&node, &ele, &face, &edge}) file->commit();
+}
+
+}  // namespace holdfast::io

@@ -1,0 +1,103 @@
+// Turns the cells of the VTK formats into facets, segments and tetrahedra.
+#include "io/vtk_cells.h"
+
+#include "io/polygon.h"
+
+namespace holdfast::io {
+namespace {
+
+class CellReader {
+ public:
+  CellReader(const std::filesystem::path& path, VtkGrid&& grid) : path_(path), grid_(std::move(grid)) {
+    mesh_.vertices = std::move(grid_.points);
+  }
+
+  MeshData read() {
+    const std::size_t cells = grid_.types.size();
+    if (grid_.ends.size() != cells)
+      throw FileError(
+          path_, "",
+          std::to_string(grid_.ends.size()) + " cells, but " + std::to_string(cells) + " cell types");
+    for (const auto* tags : {&grid_.regions, &grid_.markers})
+      if (!tags->empty() && tags->size() != cells)
+        throw FileError(path_, "", "'region' or 'marker' has not one value a cell");
+    std::size_t begin = 0;
+    for (cell_ = 0; cell_ < cells; ++cell_) {
+      const std::int64_t end = grid_.ends[cell_];
+      if (end < static_cast<std::int64_t>(begin) ||
+          static_cast<std::uint64_t>(end) > grid_.connectivity.size())
+        fail("its corners end outside the list of corners");
+      read_corners(begin, static_cast<std::size_t>(end));
+      add_cell();
+      begin = static_cast<std::size_t>(end);
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw FileError(path_, "cell " + std::to_string(cell_), reason);
+  }
+
+  void read_corners(std::size_t begin, std::size_t end) {
+    corners_.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::int64_t corner = grid_.connectivity[i];
+      if (corner < 0 || static_cast<std::uint64_t>(corner) >= mesh_.vertices.size())
+        fail("names vertex " + std::to_string(corner) + ", but there are " +
+             std::to_string(mesh_.vertices.size()));
+      corners_.push_back(static_cast<Index>(corner));
+    }
+  }
+
+  void require_corners(std::size_t count) const {
+    if (corners_.size() != count)
+      fail("has " + std::to_string(corners_.size()) + " corners instead of " + std::to_string(count));
+  }
+
+  void add_cell() {
+    const int marker = tag_of(grid_.markers, cell_);
+    switch (static_cast<VtkCell>(grid_.types[cell_])) {
+      case VtkCell::vertex:
+      case VtkCell::poly_vertex:
+        return;
+      case VtkCell::line:
+        require_corners(2);
+        [[fallthrough]];
+      case VtkCell::poly_line:
+        for (std::size_t i = 0; i + 1 < corners_.size(); ++i)
+          mesh_.add_segment({corners_[i], corners_[i + 1]}, marker);
+        return;
+      case VtkCell::triangle:
+        require_corners(3);
+        return mesh_.add_facet({corners_[0], corners_[1], corners_[2]}, marker);
+      case VtkCell::quad:
+        require_corners(4);
+        [[fallthrough]];
+      case VtkCell::polygon:
+        if (corners_.size() < 3) fail("is a polygon of fewer than 3 corners");
+        return add_polygon(mesh_, corners_, marker, [&](const std::string& reason) { fail(reason); });
+      case VtkCell::tetrahedron:
+        require_corners(4);
+        return mesh_.add_tetrahedron({corners_[0], corners_[1], corners_[2], corners_[3]},
+                                     tag_of(grid_.regions, cell_));
+      default:
+        fail("is of type " + std::to_string(grid_.types[cell_]) +
+             ", which is not read; split it into triangles or tetrahedra");
+    }
+  }
+
+  const std::filesystem::path& path_;
+  VtkGrid grid_;
+  MeshData mesh_;
+  std::size_t cell_ = 0;
+  std::vector<Index> corners_;
+};
+
+}  // namespace
+
+MeshData mesh_of(const std::filesystem::path& path, VtkGrid&& grid) {
+  return CellReader(path, std::move(grid)).read();
+}
+
+}  // namespace holdfast::io

@@ -1,0 +1,253 @@
+// Reads legacy VTK files, ASCII and binary, versions 1 to 5 (VTK User's Guide, "VTK File Formats";
+// version 5.1 lists offsets and connectivity apart). Unstructured grids and polygonal data.
+#include <utility>
+
+#include "io/formats.h"
+#include "io/text_reader.h"
+#include "io/vtk_cells.h"
+#include "io/vtk_values.h"
+
+namespace holdfast::io {
+namespace {
+
+VtkType type_of(const TextReader& text, std::string_view name) {
+  struct Name {
+    std::string_view name;
+    VtkType type;
+  };
+  constexpr Name kNames[] = {{"char", VtkType::int8},
+                             {"signed_char", VtkType::int8},
+                             {"unsigned_char", VtkType::uint8},
+                             {"short", VtkType::int16},
+                             {"unsigned_short", VtkType::uint16},
+                             {"int", VtkType::int32},
+                             {"unsigned_int", VtkType::uint32},
+                             {"long", VtkType::int64},
+                             {"unsigned_long", VtkType::uint64},
+                             {"vtktypeint64", VtkType::int64},
+                             {"vtktypeuint64", VtkType::uint64},
+                             {"float", VtkType::float32},
+                             {"double", VtkType::float64},
+                             {"vtkidtype", VtkType::int32}};  // VTK writes ids as 32 bits before version 5.1
+  const std::string wanted = lower(name);
+  for (const Name& entry : kNames)
+    if (entry.name == wanted) return entry.type;
+  text.fail("values of type " + in_quotes(name) + " are not read");
+}
+
+class VtkReader {
+ public:
+  explicit VtkReader(const Source& source) : text_(source, '\0') {}
+
+  MeshData read() {
+    read_header();
+    while (!text_.at_end()) read_section();
+    if (!has_points_) throw FileError(text_.source().path, "", "the file has no POINTS");
+    return mesh_of(text_.source().path, std::move(grid_));
+  }
+
+ private:
+  void read_header() {
+    if (!lower(text_.rest_of_line()).starts_with("# vtk datafile version"))
+      text_.fail("not a legacy VTK file: it does not start with '# vtk DataFile Version'");
+    text_.skip_line();  // the title
+    const std::string format = lower(text_.word("ASCII or BINARY"));
+    if (format != "ascii" && format != "binary")
+      text_.fail("expected ASCII or BINARY, found " + in_quotes(format));
+    binary_ = format == "binary";
+  }
+
+  void read_section() {
+    const std::string keyword = lower(text_.word("a keyword"));
+    if (keyword == "dataset") {
+      const std::string dataset = lower(text_.word("a dataset"));
+      if (dataset != "unstructured_grid" && dataset != "polydata")
+        text_.fail("the dataset " + in_quotes(dataset) +
+                   " is not read; only UNSTRUCTURED_GRID and POLYDATA are");
+    } else if (keyword == "points") {
+      read_points();
+    } else if (keyword == "cells") {
+      read_cells();
+    } else if (keyword == "vertices") {
+      read_typed_cells(VtkCell::poly_vertex);
+    } else if (keyword == "lines") {
+      read_typed_cells(VtkCell::poly_line);
+    } else if (keyword == "polygons") {
+      read_typed_cells(VtkCell::polygon);
+    } else if (keyword == "triangle_strips") {
+      read_typed_cells(VtkCell::triangle_strip);
+    } else if (keyword == "cell_types") {
+      grid_.types = values<std::uint8_t>(VtkType::int32, text_.count("the number of cells", 1));
+    } else if (keyword == "cell_data" || keyword == "point_data") {
+      of_cells_ = keyword == "cell_data";
+      tuples_ = text_.count("the number of values", 1);
+    } else if (keyword == "field") {
+      read_field();
+    } else if (keyword == "metadata") {
+      skip_metadata();
+    } else {
+      read_attribute(keyword);
+    }
+  }
+
+  /// `count` values of a type as T; the data starts in the next line if it is binary.
+  template <typename T>
+  std::vector<T> values(VtkType type, std::uint64_t count) {
+    const std::size_t bytes_each = binary_ ? size_of(type) : 2;
+    if (binary_) text_.skip_line();
+    const std::size_t left = text_.remaining().size() + (binary_ ? 0 : 1);
+    if (count > left / bytes_each)
+      text_.fail(std::to_string(count) + " values are announced, but only " +
+                 std::to_string(text_.remaining().size()) +
+                 " bytes follow; the file is truncated or damaged");
+    if (binary_) {
+      const std::string_view bytes = text_.remaining().substr(0, count * bytes_each);
+      const std::size_t start = text_.position();
+      text_.seek(start + bytes.size());
+      return binary_values<T>(type, bytes, std::endian::big, [&](const std::string& reason) {
+        throw FileError(text_.source().path, "byte " + std::to_string(start), reason);
+      });
+    }
+    std::vector<T> result;
+    result.reserve(count);
+    for (std::uint64_t i = 0; i < count; ++i) result.push_back(text_value<T>(text_));
+    return result;
+  }
+
+  void read_points() {
+    if (std::exchange(has_points_, true)) text_.fail("a second section POINTS");
+    const std::uint64_t count = text_.count("the number of points", 1);
+    const VtkType type = type_of(text_, text_.word("a type"));
+    grid_.points = points_of(values<double>(type, 3 * count));
+  }
+
+  /// Appends the cells of a section; returns how many.
+  std::size_t read_cells() {
+    const std::size_t count = text_.count("the number of cells", 1);
+    const std::size_t numbers = text_.count("the size of the cells", 1);
+    const std::size_t start = text_.position();
+    if (!text_.at_end() && lower(text_.word("OFFSETS")) == "offsets") return read_offsets(count, numbers);
+    text_.seek(start);
+    const std::vector<std::int64_t> list = values<std::int64_t>(VtkType::int32, numbers);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (next == list.size() || list[next] < 0 ||
+          static_cast<std::uint64_t>(list[next]) >= list.size() - next)
+        text_.fail("the list of cells is shorter than its cells");
+      const std::size_t end = next + 1 + static_cast<std::size_t>(list[next]);
+      grid_.connectivity.insert(grid_.connectivity.end(),
+                                list.begin() + static_cast<std::ptrdiff_t>(next) + 1,
+                                list.begin() + static_cast<std::ptrdiff_t>(end));
+      grid_.ends.push_back(static_cast<std::int64_t>(grid_.connectivity.size()));
+      next = end;
+    }
+    if (next != list.size()) text_.fail("the list of cells is longer than its cells");
+    return count;
+  }
+
+  std::size_t read_offsets(std::size_t count, std::size_t numbers) {
+    VtkType type = type_of(text_, text_.word("a type"));
+    const std::vector<std::int64_t> offsets = values<std::int64_t>(type, count);
+    if (lower(text_.word("CONNECTIVITY")) != "connectivity") text_.fail("expected CONNECTIVITY");
+    type = type_of(text_, text_.word("a type"));
+    const std::vector<std::int64_t> corners = values<std::int64_t>(type, numbers);
+    const auto base = static_cast<std::int64_t>(grid_.connectivity.size());
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+      if (offsets[i] < 0 || static_cast<std::uint64_t>(offsets[i]) > corners.size())
+        text_.fail("the offset " + std::to_string(offsets[i]) + " is out of range");
+      if (i > 0) grid_.ends.push_back(base + offsets[i]);
+    }
+    grid_.connectivity.insert(grid_.connectivity.end(), corners.begin(), corners.end());
+    return offsets.empty() ? 0 : offsets.size() - 1;
+  }
+
+  void read_typed_cells(VtkCell type) {
+    const std::size_t count = read_cells();
+    grid_.types.insert(grid_.types.end(), count, static_cast<std::uint8_t>(type));
+  }
+
+  /// Reads an array behind its name, and keeps it if it is the cells' regions or markers.
+  void read_array(const std::string& name, VtkType type, std::uint64_t count) {
+    if (of_cells_ && name == "region")
+      grid_.regions = values<int>(type, count);
+    else if (of_cells_ && name == "marker")
+      grid_.markers = values<int>(type, count);
+    else
+      static_cast<void>(values<double>(type, count));
+  }
+
+  void read_field() {
+    static_cast<void>(text_.word("a name"));
+    const std::size_t arrays = text_.count("the number of arrays", 1);
+    for (std::size_t i = 0; i < arrays; ++i) {
+      std::string name(text_.word("a name"));
+      while (lower(name) == "metadata") {  // of the array before
+        skip_metadata();
+        name = text_.word("a name");
+      }
+      const std::uint64_t components = text_.count("the number of components", 1);
+      const std::uint64_t tuples = text_.count("the number of tuples", 1);
+      const VtkType type = type_of(text_, text_.word("a type"));
+      read_array(name, type, components * tuples);
+    }
+  }
+
+  /// A block that ends with an empty line.
+  void skip_metadata() {
+    text_.skip_line();
+    while (!text_.remaining().empty() && !text_.at_line_end()) text_.skip_line();
+  }
+
+  void read_attribute(const std::string& keyword) {
+    struct Attribute {
+      std::string_view keyword;
+      std::uint64_t components;
+    };
+    constexpr Attribute kAttributes[] = {{"vectors", 3}, {"normals", 3}, {"tensors", 9}, {"tensors6", 6}};
+    if (keyword == "scalars") return read_scalars();
+    const std::string name(text_.word("a name"));
+    if (keyword == "lookup_table") {
+      const std::uint64_t size = text_.count("the size of the table", 1);
+      return read_array("", binary_ ? VtkType::uint8 : VtkType::float32, 4 * size);
+    }
+    if (keyword == "color_scalars") {
+      const std::uint64_t components = text_.count("the number of components", 1);
+      return read_array("", binary_ ? VtkType::uint8 : VtkType::float32, components * tuples_);
+    }
+    if (keyword == "texture_coordinates") {
+      const std::uint64_t components = text_.count("the number of components", 1);
+      return read_array("", type_of(text_, text_.word("a type")), components * tuples_);
+    }
+    for (const Attribute& attribute : kAttributes)
+      if (attribute.keyword == keyword)
+        return read_array("", type_of(text_, text_.word("a type")), attribute.components * tuples_);
+    if (keyword == "global_ids" || keyword == "pedigree_ids")
+      return read_array("", type_of(text_, text_.word("a type")), tuples_);
+    text_.fail("unknown keyword " + in_quotes(keyword));
+  }
+
+  void read_scalars() {
+    const std::string name(text_.word("a name"));
+    const VtkType type = type_of(text_, text_.word("a type"));
+    const std::uint64_t components = text_.at_line_end() ? 1 : text_.count("the number of components", 1);
+    const std::size_t start = text_.position();
+    text_.skip_line();
+    if (lower(text_.word("LOOKUP_TABLE")) == "lookup_table")
+      static_cast<void>(text_.word_on_line());
+    else
+      text_.seek(start);  // old files leave the line out
+    read_array(name, type, components * tuples_);
+  }
+
+  TextReader text_;
+  bool binary_ = false, has_points_ = false;
+  bool of_cells_ = false;     ///< whether the current attributes belong to cells
+  std::uint64_t tuples_ = 0;  ///< of the current attributes
+  VtkGrid grid_;
+};
+
+}  // namespace
+
+MeshData read_vtk(const Source& source) { return VtkReader(source).read(); }
+
+}  // namespace holdfast::io

@@ -1,0 +1,142 @@
+// Decodes the arrays of VTK's XML files: base64, size headers, zlib blocks.
+#include "io/vtu_decode.h"
+
+#include <zlib.h>
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "io/byte_reader.h"
+
+namespace holdfast::io {
+namespace {
+
+/// Values of the characters of base64 (RFC 4648), -1 for others.
+constexpr std::array<std::int8_t, 256> base64_values() {
+  std::array<std::int8_t, 256> values{};
+  for (std::int8_t& value : values) value = -1;
+  constexpr std::string_view kAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  for (std::size_t i = 0; i < kAlphabet.size(); ++i)
+    values[static_cast<unsigned char>(kAlphabet[i])] = static_cast<std::int8_t>(i);
+  return values;
+}
+
+/// The bytes of an array, whose encoding is undone as they are asked for.
+class Stream {
+ public:
+  Stream(const Source& source, bool base64, std::size_t position)
+      : source_(source), base64_(base64), position_(position) {}
+
+  /// The next `count` bytes. Whatever is left of a base64 group stays for the next call, unless
+  /// padding ends the group: a header may be encoded apart from its data.
+  std::string take(std::uint64_t count) {
+    if (count > available()) fail("the data ends too early; the file is truncated");
+    if (!base64_) {
+      position_ += count;
+      return std::string(source_.bytes.substr(position_ - count, count));
+    }
+    std::string bytes = std::exchange(pending_, {});
+    bytes.reserve(count + 3);
+    while (bytes.size() < count) decode_group(bytes);
+    pending_ = bytes.substr(count);
+    bytes.resize(count);
+    return bytes;
+  }
+
+  /// A bound on the bytes that can still be taken.
+  [[nodiscard]] std::uint64_t available() const {
+    const std::uint64_t left = source_.bytes.size() - position_;
+    return base64_ ? pending_.size() + left / 4 * 3 : left;
+  }
+
+  /// Drops what is left of the current group: what follows is encoded apart.
+  void drop_pending() { pending_.clear(); }
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw FileError(source_.path, "byte " + std::to_string(position_), reason);
+  }
+
+ private:
+  void decode_group(std::string& bytes) {
+    static constexpr std::array<std::int8_t, 256> kValues = base64_values();
+    const std::string_view group = source_.bytes.substr(position_, 4);
+    if (group.size() < 4) fail("the base64 data ends too early; the file is truncated");
+    const std::size_t padding = group[3] != '=' ? 0 : group[2] != '=' ? 1 : 2;
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const int value = i + padding < 4 ? kValues[static_cast<unsigned char>(group[i])] : 0;
+      if (value < 0) fail("a character that is not base64");
+      bits = bits << 6 | static_cast<std::uint32_t>(value);
+    }
+    for (std::size_t i = 0; i + padding < 3; ++i)
+      bytes.push_back(static_cast<char>(bits >> (16 - 8 * i) & 0xFF));
+    position_ += 4;
+  }
+
+  Source source_;
+  bool base64_;
+  std::size_t position_;
+  std::string pending_;
+};
+
+class ArrayDecoder {
+ public:
+  ArrayDecoder(const Source& source, const VtuEncoding& encoding, bool base64, std::size_t position)
+      : encoding_(encoding), stream_(source, base64, position) {}
+
+  std::string decode() {
+    if (encoding_.zlib) return decode_blocks();
+    const std::uint64_t size = size_word();
+    return stream_.take(size);
+  }
+
+ private:
+  std::uint64_t size_word() {
+    if (encoding_.wide_header) return load<std::uint64_t>(stream_.take(8).data(), encoding_.order);
+    return load<std::uint32_t>(stream_.take(4).data(), encoding_.order);
+  }
+
+  std::string decode_blocks() {
+    const std::uint64_t blocks = size_word();
+    if (blocks == 0) return {};
+    const std::uint64_t block = size_word(), last = size_word();
+    if (blocks > stream_.available() / (encoding_.wide_header ? 8 : 4))
+      stream_.fail(std::to_string(blocks) + " blocks are announced; the file is truncated or damaged");
+    std::vector<std::uint64_t> sizes(blocks);
+    for (std::uint64_t& size : sizes) size = size_word();
+    stream_.drop_pending();
+    std::string result;
+    for (std::uint64_t i = 0; i < blocks; ++i) {
+      const bool partial = i + 1 == blocks && last != 0;
+      inflate_block(result, sizes[i], partial ? last : block);
+    }
+    return result;
+  }
+
+  void inflate_block(std::string& result, std::uint64_t packed_size, std::uint64_t size) {
+    // Deflate packs at most 1032 bytes in one (zlib, "Technical Details"), which bounds the memory.
+    constexpr std::uint64_t kBestRatio = 1032;
+    const std::string packed = stream_.take(packed_size);
+    if (size / kBestRatio > packed_size) stream_.fail("a block of impossible size; the file is damaged");
+    const std::size_t start = result.size();
+    result.resize(start + size);
+    uLongf unpacked = size;
+    const int status = uncompress(reinterpret_cast<Bytef*>(result.data() + start), &unpacked,
+                                  reinterpret_cast<const Bytef*>(packed.data()), packed.size());
+    if (status != Z_OK || unpacked != size)
+      stream_.fail("a block that cannot be decompressed; the file is damaged");
+  }
+
+  const VtuEncoding& encoding_;
+  Stream stream_;
+};
+
+}  // namespace
+
+std::string decode_vtu_array(const Source& source, const VtuEncoding& encoding, bool base64,
+                             std::size_t position) {
+  return ArrayDecoder(source, encoding, base64, position).decode();
+}
+
+}  // namespace holdfast::io

@@ -1,0 +1,23 @@
+// Decodes the arrays of VTK's XML files: base64, size headers, zlib blocks.
+#pragma once
+
+#include <bit>
+#include <string>
+
+#include "io/mesh_data.h"
+
+namespace holdfast::io {
+
+/// How a file encodes all of its arrays.
+struct VtuEncoding {
+  std::endian order = std::endian::little;
+  bool wide_header = false;  ///< sizes have 64 bits instead of 32
+  bool zlib = false;
+};
+
+/// The bytes of the array whose header starts at `position`. Throws FileError with the byte. Never
+/// allocates more than the data that is there can stand for.
+[[nodiscard]] std::string decode_vtu_array(const Source& source, const VtuEncoding& encoding, bool base64,
+                                           std::size_t position);
+
+}  // namespace holdfast::io

@@ -1,0 +1,230 @@
+// Reads VTK's XML files, .vtu and .vtp: ASCII, base64 and raw, uncompressed and in zlib blocks
+// (https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html).
+#include <algorithm>
+#include <iterator>
+#include <map>
+
+#include "io/formats.h"
+#include "io/vtk_cells.h"
+#include "io/vtk_values.h"
+#include "io/vtu_decode.h"
+#include "io/xml_reader.h"
+
+namespace holdfast::io {
+namespace {
+
+/// A DataArray element, not yet decoded.
+struct DataArray {
+  XmlTag tag;
+  std::size_t content = 0;  ///< offset behind the tag
+};
+
+class VtuReader {
+ public:
+  explicit VtuReader(const Source& source) : source_(source), xml_(source) {}
+
+  MeshData read() {
+    while (const std::optional<XmlTag> tag = xml_.next()) {
+      if (tag->name == "AppendedData") {
+        read_appended(*tag);
+        break;
+      }
+      read_tag(*tag);
+    }
+    if (!has_file_) throw FileError(source_.path, "", "not a VTK XML file: it has no VTKFile element");
+    if (!has_piece_) throw FileError(source_.path, "", "the file has no Piece; it is truncated or empty");
+    read_points();
+    if (polydata_)
+      read_polydata();
+    else
+      read_cells();
+    return mesh_of(source_.path, std::move(grid_));
+  }
+
+ private:
+  void read_tag(const XmlTag& tag) {
+    constexpr std::string_view kSections[] = {"Points", "Cells", "CellData", "PointData", "FieldData",
+                                              "Verts",  "Lines", "Strips",   "Polys"};
+    if (tag.name == "VTKFile")
+      read_file_attributes(tag);
+    else if (tag.name == "Piece")
+      read_piece(tag);
+    else if (tag.name == "DataArray")
+      add_array(tag);
+    else if (std::find(std::begin(kSections), std::end(kSections), tag.name) != std::end(kSections))
+      section_ = tag.name;
+  }
+
+  void read_file_attributes(const XmlTag& tag) {
+    if (tag.closing) return;
+    has_file_ = true;
+    const std::string type = tag.attribute("type");
+    if (type != "UnstructuredGrid" && type != "PolyData")
+      xml_.fail(tag, "the type " + in_quotes(type) + " is not read; only UnstructuredGrid and PolyData are");
+    polydata_ = type == "PolyData";
+    encoding_.order = tag.attribute("byte_order") == "BigEndian" ? std::endian::big : std::endian::little;
+    encoding_.wide_header = tag.attribute("header_type") == "UInt64";
+    const std::string compressor = tag.attribute("compressor");
+    encoding_.zlib = compressor == "vtkZLibDataCompressor";
+    if (!compressor.empty() && !encoding_.zlib)
+      xml_.fail(tag,
+                "data compressed by " + in_quotes(compressor) + " is not read; save it with zlib or without");
+  }
+
+  void read_piece(const XmlTag& tag) {
+    if (tag.closing) return;
+    if (has_piece_) xml_.fail(tag, "files of several pieces are not read; merge them first");
+    has_piece_ = true;
+    points_ = xml_.number(tag, "NumberOfPoints");
+    if (polydata_)
+      for (const char* kind : {"NumberOfVerts", "NumberOfLines", "NumberOfStrips", "NumberOfPolys"})
+        cells_ += tag.attribute(kind).empty() ? 0 : xml_.number(tag, kind);
+    else
+      cells_ = xml_.number(tag, "NumberOfCells");
+  }
+
+  void add_array(const XmlTag& tag) {
+    if (tag.closing) return;
+    // The points' array may have any name.
+    const std::string name = section_ == "Points" ? "" : tag.attribute("Name");
+    arrays_.insert({section_ + "/" + name, DataArray{tag, xml_.position()}});
+  }
+
+  void read_appended(const XmlTag& tag) {
+    const std::size_t mark = source_.bytes.find('_', xml_.position());
+    if (mark == std::string_view::npos) xml_.fail(tag, "the appended data does not start with '_'");
+    appended_ = mark + 1;
+    const std::string encoding = tag.attribute("encoding");
+    if (encoding != "raw" && encoding != "base64")
+      xml_.fail(tag, "the encoding " + in_quotes(encoding) + " is not read");
+    appended_base64_ = encoding == "base64";
+  }
+
+  const DataArray* find(const std::string& name) const {
+    const auto found = arrays_.find(name);
+    return found == arrays_.end() ? nullptr : &found->second;
+  }
+
+  /// The values of an array that must exist, `count` of them if that is known.
+  template <typename T>
+  std::vector<T> values(const std::string& name, std::optional<std::uint64_t> count) {
+    const DataArray* array = find(name);
+    if (!array) throw FileError(source_.path, "", "the array " + in_quotes(name) + " is missing");
+    std::vector<T> result = values<T>(*array);
+    if (count && result.size() != *count)
+      xml_.fail(array->tag, "the array has " + std::to_string(result.size()) + " values instead of " +
+                                std::to_string(*count));
+    return result;
+  }
+
+  template <typename T>
+  std::vector<T> values(const DataArray& array) {
+    const std::string format = array.tag.attribute("format");
+    if (format == "ascii" || format.empty()) return text_values<T>(array);
+    const VtkType type = type_of(array);
+    std::string bytes;
+    if (format == "binary") {
+      const std::size_t start = source_.bytes.find_first_not_of(" \t\r\n", array.content);
+      bytes = decode_vtu_array(source_, encoding_, true, std::min(start, source_.bytes.size()));
+    } else if (format == "appended") {
+      if (!appended_) xml_.fail(array.tag, "the appended data is missing; the file is truncated");
+      const std::uint64_t offset = xml_.number(array.tag, "offset");
+      if (offset > source_.bytes.size() - *appended_)
+        xml_.fail(array.tag, "the array's data lies beyond the end of the file; it is truncated");
+      bytes = decode_vtu_array(source_, encoding_, appended_base64_, *appended_ + offset);
+    } else {
+      xml_.fail(array.tag, "the format " + in_quotes(format) + " is not read");
+    }
+    if (bytes.size() % size_of(type) != 0) xml_.fail(array.tag, "the array's data ends within a value");
+    return binary_values<T>(type, bytes, encoding_.order,
+                            [&](const std::string& reason) { xml_.fail(array.tag, reason); });
+  }
+
+  template <typename T>
+  std::vector<T> text_values(const DataArray& array) {
+    std::vector<T> result;
+    if (array.tag.empty) return result;
+    const std::size_t end = source_.bytes.find('<', array.content);
+    if (end == std::string_view::npos) xml_.fail(array.tag, "the array does not end; the file is truncated");
+    TextReader text({source_.path, source_.bytes.substr(0, end)}, '\0');
+    text.seek(array.content);
+    while (!text.at_end()) result.push_back(text_value<T>(text));
+    return result;
+  }
+
+  VtkType type_of(const DataArray& array) const {
+    static const std::map<std::string_view, VtkType> kTypes = {
+        {"Int8", VtkType::int8},      {"UInt8", VtkType::uint8},   {"Int16", VtkType::int16},
+        {"UInt16", VtkType::uint16},  {"Int32", VtkType::int32},   {"UInt32", VtkType::uint32},
+        {"Int64", VtkType::int64},    {"UInt64", VtkType::uint64}, {"Float32", VtkType::float32},
+        {"Float64", VtkType::float64}};
+    const std::string name = array.tag.attribute("type");
+    const auto found = kTypes.find(name);
+    if (found == kTypes.end()) xml_.fail(array.tag, "values of type " + in_quotes(name) + " are not read");
+    return found->second;
+  }
+
+  void read_points() {
+    if (points_ > std::numeric_limits<Index>::max())
+      throw FileError(source_.path, "", "more points than 32 bits count");
+    if (points_ == 0) return;
+    grid_.points = points_of(values<double>("Points/", 3 * points_));
+  }
+
+  void read_tags() {
+    if (find("CellData/region")) grid_.regions = values<int>("CellData/region", cells_);
+    if (find("CellData/marker")) grid_.markers = values<int>("CellData/marker", cells_);
+  }
+
+  void read_cells() {
+    if (cells_ == 0) return;
+    grid_.types = values<std::uint8_t>("Cells/types", cells_);
+    grid_.ends = values<std::int64_t>("Cells/offsets", cells_);
+    grid_.connectivity = values<std::int64_t>("Cells/connectivity", std::nullopt);
+    read_tags();
+  }
+
+  void read_polydata() {
+    struct Section {
+      const char* name;
+      VtkCell type;
+    };
+    constexpr Section kSections[] = {{"Verts", VtkCell::poly_vertex},
+                                     {"Lines", VtkCell::poly_line},
+                                     {"Strips", VtkCell::triangle_strip},
+                                     {"Polys", VtkCell::polygon}};
+    // Cell data lists vertices, lines, polygons, strips; strips are refused, so their place is moot.
+    for (const Section& section : kSections) {
+      const std::string name = section.name;
+      if (!find(name + "/offsets")) continue;
+      const auto base = static_cast<std::int64_t>(grid_.connectivity.size());
+      const auto ends = values<std::int64_t>(name + "/offsets", std::nullopt);
+      const auto corners = values<std::int64_t>(name + "/connectivity", std::nullopt);
+      for (const std::int64_t end : ends) {
+        if (end < 0 || static_cast<std::uint64_t>(end) > corners.size())
+          throw FileError(source_.path, "", "an offset of " + name + " is out of range");
+        grid_.ends.push_back(base + end);
+      }
+      grid_.connectivity.insert(grid_.connectivity.end(), corners.begin(), corners.end());
+      grid_.types.insert(grid_.types.end(), ends.size(), static_cast<std::uint8_t>(section.type));
+    }
+    read_tags();
+  }
+
+  Source source_;
+  XmlReader xml_;
+  VtuEncoding encoding_;
+  bool has_file_ = false, has_piece_ = false, polydata_ = false;
+  std::uint64_t points_ = 0, cells_ = 0;
+  std::string section_;                      ///< the element that holds the current arrays
+  std::map<std::string, DataArray> arrays_;  ///< by "section/name"
+  std::optional<std::size_t> appended_;      ///< offset of the appended data
+  bool appended_base64_ = false;
+  VtkGrid grid_;
+};
+
+}  // namespace
+
+MeshData read_vtu(const Source& source) { return VtuReader(source).read(); }
+
+}  // namespace holdfast::io

@@ -1,0 +1,90 @@
+// The tags of an XML text one after the other: as much of XML as VTK's files use.
+#include "io/xml_reader.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "io/text_reader.h"
+
+namespace holdfast::io {
+
+std::string XmlTag::attribute(std::string_view key) const {
+  for (const auto& [name, value] : attributes)
+    if (name == key) return value;
+  return {};
+}
+
+std::optional<XmlTag> XmlReader::next() {
+  for (;;) {
+    position_ = source_.bytes.find('<', position_);
+    if (position_ == std::string_view::npos) {
+      position_ = source_.bytes.size();
+      return std::nullopt;
+    }
+    if (!starts_with("<?") && !starts_with("<!")) break;
+    const std::string_view end = starts_with("<!--") ? "-->" : ">";
+    position_ = std::min(source_.bytes.find(end, position_), source_.bytes.size());
+  }
+  XmlTag tag;
+  tag.position = position_++;
+  if (starts_with("/")) {
+    tag.closing = true;
+    ++position_;
+  }
+  tag.name = read_name();
+  read_attributes(tag);
+  return tag;
+}
+
+void XmlReader::skip_blanks() {
+  position_ = std::min(source_.bytes.find_first_not_of(" \t\r\n", position_), source_.bytes.size());
+}
+
+std::string XmlReader::read_name() {
+  const std::size_t begin = position_;
+  position_ = std::min(source_.bytes.find_first_of(" \t\r\n=/><\"'", position_), source_.bytes.size());
+  return std::string(source_.bytes.substr(begin, position_ - begin));
+}
+
+void XmlReader::read_attributes(XmlTag& tag) {
+  for (;;) {
+    skip_blanks();
+    if (position_ == source_.bytes.size()) fail(tag, "a tag that does not end; the file is truncated");
+    const char c = source_.bytes[position_];
+    if (c == '>') {
+      ++position_;
+      return;
+    }
+    if (c == '/') {
+      tag.empty = true;
+      ++position_;
+      continue;
+    }
+    const std::string name = read_name();
+    skip_blanks();
+    if (name.empty() || !starts_with("=")) fail(tag, "an attribute without a value");
+    ++position_;
+    skip_blanks();
+    const char quote = position_ < source_.bytes.size() ? source_.bytes[position_] : '\0';
+    if (quote != '"' && quote != '\'') fail(tag, "an attribute without quotes");
+    const std::size_t end = source_.bytes.find(quote, position_ + 1);
+    if (end == std::string_view::npos) fail(tag, "an attribute that does not end; the file is truncated");
+    tag.attributes.emplace_back(name, source_.bytes.substr(position_ + 1, end - position_ - 1));
+    position_ = end + 1;
+  }
+}
+
+std::uint64_t XmlReader::number(const XmlTag& tag, std::string_view key) const {
+  const std::string text = tag.attribute(key);
+  std::uint64_t value = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (result.ec != std::errc() || result.ptr != text.data() + text.size())
+    fail(tag, "the attribute " + std::string(key) + " is no number: " + in_quotes(text));
+  return value;
+}
+
+void XmlReader::fail(const XmlTag& tag, const std::string& reason) const {
+  TextReader(source_, '\0').fail_at(tag.position, reason);
+}
+
+}  // namespace holdfast::io

@@ -1,0 +1,49 @@
+// The tags of an XML text one after the other: as much of XML as VTK's files use.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/mesh_data.h"
+
+namespace holdfast::io {
+
+struct XmlTag {
+  std::string name;
+  bool closing = false;      ///< </name>
+  bool empty = false;        ///< <name/>
+  std::size_t position = 0;  ///< of its '<'
+  std::vector<std::pair<std::string, std::string>> attributes;
+
+  /// An attribute's value; empty if it is missing.
+  [[nodiscard]] std::string attribute(std::string_view key) const;
+};
+
+class XmlReader {
+ public:
+  explicit XmlReader(const Source& source) : source_(source) {}
+  /// The next tag; declarations and comments are skipped. Nothing at the end.
+  std::optional<XmlTag> next();
+  /// Offset behind the last tag.
+  [[nodiscard]] std::size_t position() const { return position_; }
+  /// An attribute that must be a count. Throws FileError.
+  [[nodiscard]] std::uint64_t number(const XmlTag& tag, std::string_view key) const;
+  /// Throws a FileError for the line of a tag.
+  [[noreturn]] void fail(const XmlTag& tag, const std::string& reason) const;
+
+ private:
+  void read_attributes(XmlTag& tag);
+  void skip_blanks();
+  std::string read_name();
+  [[nodiscard]] bool starts_with(std::string_view text) const {
+    return source_.bytes.substr(position_).starts_with(text);
+  }
+
+  Source source_;
+  std::size_t position_ = 0;
+};
+
+}  // namespace holdfast::io
