@@ -50,7 +50,7 @@ constexpr Format kFormats[] = {
     {".msh", read_msh, read_msh, write_file<write_msh>},
     {".node", read_node, read_tetgen_volume, write_tetgen_files},
     {".ele", nullptr, read_tetgen_volume, write_tetgen_files},
-    {".face", nullptr, read_tetgen_volume, nullptr},
+    {".face", nullptr, read_tetgen_volume, write_tetgen_files},
 };
 
 /// The format's name as the table spells it: in lower case, with a dot.
