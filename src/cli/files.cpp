@@ -70,6 +70,7 @@ Surface read_surfaces(const std::vector<fs::path>& paths, std::string_view forma
   if (paths.size() == 1) return read_surface(paths.front(), format);
 
   std::vector<Surface> parts;
+  parts.reserve(paths.size());
   for (const fs::path& path : paths) parts.push_back(read_surface(path, format));
   const bool facets_marked =
       std::any_of(parts.begin(), parts.end(), [](const Surface& s) { return !s.facet_markers.empty(); });
