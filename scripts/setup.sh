@@ -4,8 +4,9 @@
 set -euo pipefail
 
 declare -A packages=(
-  [build]="ca-certificates cmake ninja-build g++ ccache python3 xz-utils zlib1g-dev libboost-dev libcli11-dev
-           libfmt-dev nlohmann-json3-dev libgtest-dev librapidcheck-dev libgmp-dev"
+  # libgmp-dev is for the independent checker of `make corpus`, not for the product.
+  [build]="cmake ninja-build g++ ccache python3 xz-utils zlib1g-dev libboost-dev libcli11-dev libfmt-dev
+           nlohmann-json3-dev libgtest-dev libgmp-dev"
   [bench]="tetgen libcgal-dev libgmp-dev libmpfr-dev"
   [lint]="clang-format clang-tidy"
 )
@@ -20,9 +21,11 @@ if ! command -v dpkg-query >/dev/null; then
   echo "setup.sh: not a Debian system, so nothing is installed; the build needs the likes of:$wanted" >&2
   exit 0
 fi
+# shellcheck disable=SC2086
+installed=$(dpkg-query -W -f='${db:Status-Abbrev} ${Package}\n' $wanted 2>/dev/null | awk '$1 == "ii" { print $2 }') || true
 missing=""
 for package in $wanted; do
-  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok' || missing+=" $package"
+  grep -qxF "$package" <<<"$installed" || missing+=" $package"
 done
 [ -n "$missing" ] || exit 0
 

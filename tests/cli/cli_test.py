@@ -333,6 +333,35 @@ class Diagnose(CliTest):
         self.assertEqual(json.loads(self.run_program("diagnose", "crossing.off", "--json", expect=4).stdout), report)
 
 
+class Examples(CliTest):
+    """The surfaces that the examples make are valid, and are meshed with and without flips."""
+
+    def make(self, script, *arguments):
+        subprocess.run([sys.executable, EXAMPLES / script, *map(str, arguments)], cwd=self.folder,
+                       stdout=subprocess.DEVNULL, check=True)
+
+    def mesh_and_check(self, name):
+        self.run_program("diagnose", name)
+        for extra in ([], ["--without", "flips"]):
+            with self.subTest(name, extra=extra):
+                self.run_program("mesh", name, "-o", "a.vtu", "--fill", "-q", *extra)
+                self.run_program("check", name, "a.vtu")
+
+    def test_the_bearing_housing(self):
+        self.make("make_part.py", "part.stl")
+        self.mesh_and_check("part.stl")
+
+    def test_schonhardts_prism_at_many_twists(self):
+        for twist in (1e-3, 1, 10, 20, 30, 40, 50, 59, 59.9):
+            self.make("make_hard.py", "schonhardt", f"twist{twist}.off", "--twist", twist)
+            self.mesh_and_check(f"twist{twist}.off")
+
+    def test_chazelles_polyhedron(self):
+        for n in range(1, 6):
+            self.make("make_hard.py", "chazelle", f"chazelle{n}.off", "-n", n)
+            self.mesh_and_check(f"chazelle{n}.off")
+
+
 class Delaunay(CliTest):
     def test_points_of_every_kind(self):
         rows = [f"{x} {y} {z}" for x, y, z in [(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (1, 1, 1)]]
