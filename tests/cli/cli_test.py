@@ -4,6 +4,7 @@
 """
 import json
 import os
+import pty
 import re
 import signal
 import struct
@@ -33,6 +34,14 @@ def cube(corner=(0, 0, 0), size=1):
 
 def shifted(facets, by):
     return [tuple(v + by for v in f) for f in facets]
+
+
+def read_terminal(descriptor):
+    """What a terminal's other side wrote; nothing once that side is closed."""
+    try:
+        return os.read(descriptor, 65536)
+    except OSError:
+        return b""
 
 
 class CliTest(unittest.TestCase):
@@ -159,6 +168,21 @@ class Mesh(CliTest):
         told = self.run_program("mesh", "cube.off", "-o", "a.vtu", "--fill", "--verbose").stderr
         self.assertIn("missing", told)
         self.assertNotIn("\r", told)
+
+    def test_a_bar_on_a_terminal(self):
+        ours, theirs = pty.openpty()
+        code = subprocess.run([PROGRAM, "mesh", "cube.off", "-o", "a.vtu", "--fill"], cwd=self.folder, stderr=theirs,
+                              timeout=120, check=False).returncode
+        os.close(theirs)
+        shown = b""
+        while chunk := read_terminal(ours):
+            shown += chunk
+        os.close(ours)
+        self.assertEqual(code, 0)
+        *bar, last = shown.decode().replace("\r\n", "\n").split("\r")
+        self.assertTrue(last.startswith("a.vtu: 8 vertices"), shown)
+        for part in bar[1:-1]:
+            self.assertRegex(part, r"^\w+ +\[=* *\] +\d+ %$")
 
     def test_without_fill_it_says_that_there_are_no_field_points(self):
         self.assertIn("field points", self.run_program("mesh", "cube.off", "-o", "a.vtu").stderr)
