@@ -2,7 +2,6 @@
 #include "check/boundary.h"
 
 #include <algorithm>
-#include <limits>
 #include <tuple>
 
 #include "check/disjoint_sets.h"
@@ -105,43 +104,17 @@ int Boundary::crossing(Index face, const Germ& germ) const {
   return germ.side_of_plane(t[0], t[1], t[2]) == -outward ? outward : 0;  // else the plane is behind
 }
 
-template <class Counts>
-int Boundary::cross(const Germ& germ, Counts&& counts) const {
+int Boundary::cross(const Germ& germ) const {
   const Point origin{germ.points[0][0], germ.points[0][1], germ.points[0][2]};
   int sum = 0;
   tree_.query([&](const Box& box) { return box.meets_ray(origin); },
-              [&](Index face) {
-                if (counts(face)) sum += crossing(face, germ);
-              });
+              [&](Index face) { sum += crossing(face, germ); });
   return sum;
 }
 
-template <class Sets>
-std::vector<Index> Boundary::foremost(Sets& joined) const {
-  constexpr Index none = std::numeric_limits<Index>::max();
-  const auto reach = [&](Index face) {
-    const Corners t = corners(face);
-    return std::max({t[0][0], t[1][0], t[2][0]});
-  };
-  std::vector<Index> first(faces_.size(), none);
-  for (Index face = 0; face < faces_.size(); ++face) {
-    Index& best = first[joined.find(face)];
-    if (best == none || reach(face) > reach(best)) best = face;
-  }
-  std::erase(first, none);
-  return first;
-}
-
-std::vector<Boundary::Cover> Boundary::covers() const {
-  DisjointSets sheets(faces_.size());
-  std::vector<Side> sides = sorted_sides();
-  for_each_fan(sides, [&](std::span<Side> fan) {
-    if (fan.size() == 2) sheets.join(fan[0].face, fan[1].face);
-  });
-  std::vector<Cover> covers;
-  for (const Index face : foremost(sheets))
-    covers.push_back({face, cross(beside(face, true), [](Index) { return true; })});
-  return covers;
+double Boundary::reach(Index face) const {
+  const Corners t = corners(face);
+  return std::max({t[0][0], t[1][0], t[2][0]});
 }
 
 /// Whether, turning about the axis from its low to its high end, one comes out of the face's tetrahedron
@@ -173,6 +146,27 @@ void Boundary::turn_sort(std::span<Side> fan) const {
   });
 }
 
+std::vector<Boundary::Cover> Boundary::covers() const {
+  DisjointSets sheets(faces_.size());
+  std::vector<Side> sides = sorted_sides();
+  for_each_fan(sides, [&](std::span<Side> fan) {
+    if (fan.size() > 2) turn_sort(fan);
+    bool alternate = true;
+    for (std::size_t i = 1; i < fan.size(); ++i)
+      alternate =
+          alternate && opens_turning(fan[i].face, fan[i]) != opens_turning(fan[i - 1].face, fan[i - 1]);
+    if (!alternate) return;
+    for (const Side& side : fan.subspan(1)) sheets.join(fan[0].face, side.face);
+  });
+  std::vector<Cover> covers;
+  for (const std::vector<Index>& sheet : sheets.members()) {
+    // From the face that reaches furthest along x, the ray meets the fewest others.
+    const Index face = *std::ranges::max_element(sheet, {}, [&](Index member) { return reach(member); });
+    covers.push_back({face, cross(beside(face, true))});
+  }
+  return covers;
+}
+
 /// Join the outer sides of faces across the uncovered sectors at common sides. Let P be a set of faces
 /// joined so, R the uncovered region beside it, and w the winding number of P. P bounds as a cycle; it
 /// is embedded except where sectors touch, and w is r on the side of R, r + 1 on the other, for all of
@@ -187,10 +181,11 @@ std::vector<Index> Boundary::voids() const {
       if (opens_turning(fan[i].face, fan[i])) outer.join(fan[i].face, fan[(i + 1) % fan.size()].face);
   });
   std::vector<Index> found;
-  for (const Index face : foremost(outer)) {
-    const Index set = outer.find(face);
-    if (cross(beside(face, false), [&](Index other) { return outer.find(other) == set; }) < 0)
-      found.push_back(face);
+  for (const std::vector<Index>& set : outer.members()) {
+    const Germ germ = beside(set[0], false);
+    int winding = 0;
+    for (const Index face : set) winding += crossing(face, germ);
+    if (winding < 0) found.push_back(set[0]);
   }
   return found;
 }
@@ -202,7 +197,7 @@ bool Boundary::outside(const Triangle& facet) const {
   bool met = false;
   tree_.query([&](const Box& other) { return !met && other.meets(box); },
               [&](Index face) { met = met || meet_badly(facet, t, faces_[face].corners, corners(face)); });
-  return !met && cross({{t[0], t[1], t[2]}, 3}, [](Index) { return true; }) == 0;
+  return !met && cross({{t[0], t[1], t[2]}, 3}) == 0;
 }
 
 bool Boundary::outside(const Segment& segment) const {
@@ -214,7 +209,7 @@ bool Boundary::outside(const Segment& segment) const {
   tree_.query(
       [&](const Box& other) { return !met && other.meets(box); },
       [&](Index face) { met = met || meet_badly(segment, p, q, faces_[face].corners, corners(face)); });
-  return !met && cross({{p, q}, 2}, [](Index) { return true; }) == 0;
+  return !met && cross({{p, q}, 2}) == 0;
 }
 
 bool Boundary::outside(Index vertex) const {
@@ -223,7 +218,7 @@ bool Boundary::outside(Index vertex) const {
   bool met = false;
   tree_.query([&](const Box& other) { return !met && other.meets(box); },
               [&](Index face) { met = met || on_triangle(p, corners(face)); });
-  return !met && cross({{p}, 1}, [](Index) { return true; }) == 0;
+  return !met && cross({{p}, 1}) == 0;
 }
 
 }  // namespace holdfast::checking

@@ -11,10 +11,11 @@
 //     through which it enters. No other face needs to be looked at.
 // (2) No two tetrahedra overlap if and only if c <= 1, that is, c = 1 just inside every boundary face:
 //     every bounded component of space without B has some boundary face on its border.
-// (3) Let B be embedded (its faces meet in common vertices and sides only). Round a side that exactly
-//     two boundary faces have, there are two sectors; c jumps by one across either face and so both
-//     have the same sector inside. So c just inside is one number for all faces that are connected
-//     through such sides: one ray decides a whole sheet.
+// (3) Let B be embedded (its faces meet in common vertices and sides only). Turn about a side: c goes up
+//     or down by one at each boundary face, as one comes in or out of its tetrahedron. If the faces
+//     alternate in this, as two always do, c has one value just inside all of them. So it is one number
+//     for all faces that are connected through such sides: one ray decides a whole sheet. (If they do not
+//     alternate, c takes values that differ by two and cannot be right on all sheets at this side.)
 // (4) If B is embedded and c <= 1, the tetrahedra form a simplicial complex: let x lie in the open faces
 //     s and s' of tetrahedra t and t'. If s lies on no boundary face, the tetrahedra at s cover a
 //     neighbourhood of x, so t' is one of them, and s = s'. Likewise for s'. Else both lie on boundary
@@ -98,12 +99,10 @@ class Boundary {
   [[nodiscard]] bool opens_turning(Index face, const Side& axis) const;
   void turn_sort(std::span<Side> fan) const;
 
-  /// Signed crossings of the ray from `germ` with the faces that `counts(face)`.
-  template <class Counts>
-  [[nodiscard]] int cross(const Germ& germ, Counts&& counts) const;
-  /// For each set of faces that `joined` makes, the one that reaches furthest along x.
-  template <class Sets>
-  [[nodiscard]] std::vector<Index> foremost(Sets& joined) const;
+  /// Signed crossings of the ray from `germ` with all faces.
+  [[nodiscard]] int cross(const Germ& germ) const;
+  /// How far a face reaches along x.
+  [[nodiscard]] double reach(Index face) const;
 
   std::span<const Point> vertices_;
   std::vector<BoundaryFace> faces_;

@@ -31,6 +31,20 @@ class DisjointSets {
     parent_[y] = x;
     size_[x] += size_[y];
   }
+  /// The members of every set, in order, ordered by their first members.
+  [[nodiscard]] std::vector<std::vector<Index>> members() {
+    std::vector<std::vector<Index>> sets;
+    std::vector<std::size_t> of_root(parent_.size(), parent_.size());
+    for (Index x = 0; x < parent_.size(); ++x) {
+      std::size_t& set = of_root[find(x)];
+      if (set == parent_.size()) {
+        set = sets.size();
+        sets.emplace_back();
+      }
+      sets[set].push_back(x);
+    }
+    return sets;
+  }
 
  private:
   std::vector<Index> parent_;

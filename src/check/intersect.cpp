@@ -126,6 +126,42 @@ bool hinge_meets(const double* a, const double* b, const double* c, const double
   return orient_along(along.axis, a, b, d) == along.sign;
 }
 
+/// Whether the boxes of a segment and a triangle are disjoint. In a large fan they mostly are, while the
+/// boxes of two triangles of the fan have its centre in common.
+bool far_apart(const double* p, const double* q, const Corners& t) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [low, high] = std::minmax({t[0][axis], t[1][axis], t[2][axis]});
+    if (std::max(p[axis], q[axis]) < low || std::min(p[axis], q[axis]) > high) return true;
+  }
+  return false;
+}
+
+/// Two triangles with their first corners in common: whether the opposite side of t meets s.
+bool opposite_side_meets(const Corners& s, const Corners& t) {
+  if (far_apart(t[1], t[2], s)) return false;
+  return segment_meets(t[1], t[2], side_of_plane(s, t[1]), side_of_plane(s, t[2]), s);
+}
+
+/// Two triangles without a common vertex.
+bool sides_meet(const Corners& s, const Corners& t) {
+  const auto sides = [](const Corners& plane, const Corners& of) {
+    return std::array{side_of_plane(plane, of[0]), side_of_plane(plane, of[1]), side_of_plane(plane, of[2])};
+  };
+  const auto one_side = [](const std::array<int, 3>& side) {
+    return side[0] != 0 && side[0] == side[1] && side[1] == side[2];
+  };
+  const std::array<int, 3> side_t = sides(s, t);
+  if (one_side(side_t)) return false;
+  const std::array<int, 3> side_s = sides(t, s);
+  if (one_side(side_s)) return false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    if (segment_meets(t[i], t[j], side_t[i], side_t[j], s)) return true;
+    if (segment_meets(s[i], s[j], side_s[i], side_s[j], t)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool collinear(const double* a, const double* b, const double* c) { return projection({a, b, c}).sign == 0; }
@@ -145,32 +181,14 @@ bool on_triangle(const double* p, const Corners& t) {
 
 bool meet_badly(const Triangle& x, const Corners& x_corners, const Triangle& y, const Corners& y_corners) {
   const Shared shared = match(x, y);
-  const std::size_t common = shared.count;
   Corners s, t;
   for (std::size_t i = 0; i < 3; ++i) {
     s[i] = x_corners[shared.in_x[i]];
     t[i] = y_corners[shared.in_y[i]];
   }
-  if (common == 2) return hinge_meets(s[0], s[1], s[2], t[2]);
-
-  // Signs of the corners of each that are not shared; those all strictly on one side end it.
-  std::array<int, 3> sides_t{}, sides_s{};
-  const auto separated = [&](std::array<int, 3>& sides, const Corners& plane, const Corners& corners) {
-    for (std::size_t i = common; i < 3; ++i) sides[i] = side_of_plane(plane, corners[i]);
-    const auto [least, most] =
-        std::minmax_element(sides.begin() + static_cast<std::ptrdiff_t>(common), sides.end());
-    return *least > 0 || *most < 0;
-  };
-  if (separated(sides_t, s, t) || separated(sides_s, t, s)) return false;
-  if (common == 1)
-    return segment_meets(t[1], t[2], sides_t[1], sides_t[2], s) ||
-           segment_meets(s[1], s[2], sides_s[1], sides_s[2], t);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    if (segment_meets(t[i], t[j], sides_t[i], sides_t[j], s)) return true;
-    if (segment_meets(s[i], s[j], sides_s[i], sides_s[j], t)) return true;
-  }
-  return false;
+  if (shared.count == 2) return hinge_meets(s[0], s[1], s[2], t[2]);
+  if (shared.count == 1) return opposite_side_meets(s, t) || opposite_side_meets(t, s);
+  return sides_meet(s, t);
 }
 
 bool meet_badly(const Segment& segment, const double* p, const double* q, const Triangle& triangle,
