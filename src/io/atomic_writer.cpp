@@ -39,10 +39,12 @@ AtomicWriter::AtomicWriter(std::filesystem::path target)
       written_(target_),
       buffer_(std::make_unique_for_overwrite<char[]>(kBuffer)) {
   std::error_code error;
-  // A link is followed, as every program that opens a file for writing does; renaming onto the
-  // link itself would replace it.
-  if (std::filesystem::is_symlink(target_, error)) {
-    written_ = std::filesystem::weakly_canonical(target_, error);
+  // A link is followed, as every program that opens a file for writing does, also where it leads to
+  // nothing yet; renaming onto the link itself would replace it.
+  constexpr int kMostLinks = 40;
+  for (int link = 0; std::filesystem::is_symlink(written_, error); ++link) {
+    if (link == kMostLinks) fail("cannot be written", ELOOP);
+    written_ = folder_of(written_) / std::filesystem::read_symlink(written_, error);
     if (error) fail("cannot be written", error.value());
   }
   const auto type = std::filesystem::status(written_, error).type();

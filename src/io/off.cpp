@@ -12,9 +12,14 @@ namespace {
 
 /// Reads "[ST][C][N][4][n]OFF", which may be missing, and refuses what is not three-dimensional text.
 void read_header(TextReader& text) {
-  if (text.number_follows()) return;
+  const bool number = text.number_follows();
+  const std::size_t start = text.position();
   const std::string keyword = lower(text.word("the keyword OFF"));
-  if (!keyword.ends_with("off")) text.fail("not an OFF file: it starts with " + in_quotes(keyword));
+  if (!keyword.ends_with("off")) {
+    if (!number) text.fail("not an OFF file: it starts with " + in_quotes(keyword));
+    text.seek(start);
+    return;
+  }
   std::string_view prefix = std::string_view(keyword).substr(0, keyword.size() - 3);
   for (const char* part : {"st", "c", "n"})
     if (prefix.starts_with(part)) prefix.remove_prefix(std::string_view(part).size());

@@ -22,6 +22,7 @@ struct Property {
 
 struct Element {
   std::string name;
+  std::size_t position = 0;  ///< in the header
   std::size_t count = 0;
   std::vector<Property> properties;
 };
@@ -95,6 +96,7 @@ Header read_header(TextReader& text) {
       has_format = true;
     } else if (keyword == "element") {
       Element element;
+      element.position = text.last();
       element.name = text.word_on_line();
       element.count = text.count("the number of elements", 1);
       header.elements.push_back(element);
@@ -176,7 +178,8 @@ class BinaryValues {
 template <typename Values>
 class PlyReader {
  public:
-  PlyReader(const Header& header, Values values) : header_(header), values_(values) {}
+  PlyReader(const TextReader& text, const Header& header, Values values)
+      : text_(text), header_(header), values_(values) {}
 
   MeshData read() {
     for (const Element& element : header_.elements) {
@@ -210,8 +213,8 @@ class PlyReader {
       const Property& property = element.properties[i];
       if (property.name == name || (!other.empty() && property.name == other)) return i;
     }
-    values_.begin_entity();
-    values_.fail("the element " + in_quotes(element.name) + " has no property " + in_quotes(name));
+    text_.fail_at(element.position,
+                  "the element " + in_quotes(element.name) + " has no property " + in_quotes(name));
   }
 
   std::size_t list_length(const Property& property) {
@@ -242,7 +245,7 @@ class PlyReader {
   void read_vertices(const Element& element) {
     const std::array<std::size_t, 3> axes{find(element, "x"), find(element, "y"), find(element, "z")};
     for (const std::size_t axis : axes)
-      if (element.properties[axis].count_type) values_.fail("a coordinate that is a list");
+      if (element.properties[axis].count_type) text_.fail_at(element.position, "a coordinate that is a list");
     mesh_.vertices.reserve(element.count);
     for (std::size_t i = 0; i < element.count; ++i) {
       values_.begin_entity();
@@ -261,7 +264,8 @@ class PlyReader {
 
   void read_faces(const Element& element) {
     const std::size_t list = find(element, "vertex_indices", "vertex_index");
-    if (!element.properties[list].count_type) values_.fail("vertex indices that are no list");
+    if (!element.properties[list].count_type)
+      text_.fail_at(element.position, "vertex indices that are no list");
     mesh_.facets.reserve(element.count);
     std::vector<Index> corners;
     for (std::size_t i = 0; i < element.count; ++i) {
@@ -295,6 +299,7 @@ class PlyReader {
     }
   }
 
+  const TextReader& text_;  ///< for errors of the header
   const Header& header_;
   Values values_;
   MeshData mesh_;
@@ -305,8 +310,8 @@ class PlyReader {
 MeshData read_ply(const Source& source) {
   TextReader text(source, '\0');
   const Header header = read_header(text);
-  if (!header.binary) return PlyReader(header, TextValues(text)).read();
-  return PlyReader(header, BinaryValues(ByteReader(source, header.order, text.position()))).read();
+  if (!header.binary) return PlyReader(text, header, TextValues(text)).read();
+  return PlyReader(text, header, BinaryValues(ByteReader(source, header.order, text.position()))).read();
 }
 
 }  // namespace holdfast::io

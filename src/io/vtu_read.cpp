@@ -27,12 +27,15 @@ class VtuReader {
     while (const std::optional<XmlTag> tag = xml_.next()) {
       if (tag->name == "AppendedData") {
         read_appended(*tag);
+        has_end_ = true;  // the arrays' own sizes tell whether their data is complete
         break;
       }
       read_tag(*tag);
     }
     if (!has_file_) throw FileError(source_.path, "", "not a VTK XML file: it has no VTKFile element");
-    if (!has_piece_) throw FileError(source_.path, "", "the file has no Piece; it is truncated or empty");
+    if (!has_end_)
+      throw FileError(source_.path, "", "the file does not end with </VTKFile>; it is truncated");
+    if (!has_piece_) throw FileError(source_.path, "", "the file has no Piece");
     read_points();
     if (polydata_)
       read_polydata();
@@ -56,6 +59,7 @@ class VtuReader {
   }
 
   void read_file_attributes(const XmlTag& tag) {
+    has_end_ = tag.closing;
     if (tag.closing) return;
     has_file_ = true;
     const std::string type = tag.attribute("type");
@@ -214,7 +218,7 @@ class VtuReader {
   Source source_;
   XmlReader xml_;
   VtuEncoding encoding_;
-  bool has_file_ = false, has_piece_ = false, polydata_ = false;
+  bool has_file_ = false, has_piece_ = false, has_end_ = false, polydata_ = false;
   std::uint64_t points_ = 0, cells_ = 0;
   std::string section_;                      ///< the element that holds the current arrays
   std::map<std::string, DataArray> arrays_;  ///< by "section/name"

@@ -1,6 +1,7 @@
 // Welds vertices with identical coordinates, for formats that repeat them in every triangle.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <vector>

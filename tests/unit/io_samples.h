@@ -1,0 +1,225 @@
+// What the tests of the file formats share: a folder of their own, sample meshes, valid sample files.
+#pragma once
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "holdfast/io.h"
+
+namespace holdfast::samples {
+
+/// A folder that is removed with all that is in it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    static int number = 0;
+    path_ = std::filesystem::temp_directory_path() /
+            ("holdfast-io-" + std::to_string(::getpid()) + "-" + std::to_string(number++));
+    std::filesystem::create_directory(path_);
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::permissions(path_, std::filesystem::perms::owner_all, ignored);
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::vector<std::string> names() const {
+    std::vector<std::string> result;
+    for (const auto& entry : std::filesystem::directory_iterator(path_))
+      result.push_back(entry.path().filename().string());
+    return result;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline void put(const std::filesystem::path& path, std::string_view bytes) {
+  std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+inline std::string get(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Coordinates whose every bit must survive: no short decimals, both zeros, extremes, denormals.
+inline std::vector<Point> awkward_points() {
+  using Limits = std::numeric_limits<double>;
+  return {{0.1, 1.0 / 3, -0.0},
+          {0.0, Limits::max(), Limits::lowest()},
+          {Limits::min(), Limits::denorm_min(), -Limits::denorm_min()},
+          {1e22, 123456789012345678.0, 9007199254740993.0},
+          {5e-324, 2.2250738585072011e-308, -1.7976931348623157e308},
+          {-1.5, 1e-5, 1e15}};
+}
+
+/// A volume with every kind of entity, negative and large tags, and an unused vertex.
+inline Volume sample_volume() {
+  Volume volume;
+  volume.vertices = awkward_points();
+  volume.tetrahedra = {{0, 1, 2, 3}, {0, 2, 1, 4}, {4, 3, 2, 1}};
+  volume.regions = {-3, 1, 2147483647};
+  volume.facets = {{0, 1, 2}, {3, 2, 1}};
+  volume.facet_markers = {-2147483647, 7};
+  volume.segments = {{4, 0}, {1, 0}, {3, 2}};
+  volume.segment_markers = {0, 5, 9};
+  return volume;
+}
+
+/// The bits of a coordinate list, for comparisons that tell -0 from +0.
+inline std::vector<std::uint64_t> bits(const std::vector<Point>& points) {
+  std::vector<std::uint64_t> result;
+  for (const Point& point : points)
+    for (const double x : point) result.push_back(std::bit_cast<std::uint64_t>(x));
+  return result;
+}
+
+/// A unit tetrahedron's surface with a dangling segment, as text of several formats.
+inline const char* const kOff =
+    "OFF\n# a comment\n5 6 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n-1 -1 -0.5\n3 0 2 1\n3 0 1 3\n3 1 2 3 0.1 0.2 0.3\n"
+    "3 2 0 3\n2 0 4\n1 4\n";
+inline const char* const kObj =
+    "# cube side\nmtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0 1.0\nv 0 1 0\nv 0 0 1 0.5 0.5 0.5\nvt 0 0\n"
+    "vn 0 0 1\nusemtl m\ns off\nf 1/1/1 2//1 3/1 4\nf -5 -4 -1\nl 1 5 2\np 3\n";
+inline const char* const kPly =
+    "ply\nformat ascii 1.0\ncomment made by hand\nelement vertex 4\nproperty float x\nproperty float y\n"
+    "property float z\nproperty uchar red\nelement face 3\nproperty uchar flags\n"
+    "property list uchar int vertex_indices\nelement edge 1\nproperty int vertex1\nproperty int vertex2\n"
+    "end_header\n0 0 0 255\n1 0 0 255\n0 1 0 255\n0 0 1 255\n0 3 0 2 1\n0 3 0 1 3\n0 3 1 2 3\n2 3\n";
+inline const char* const kStl =
+    "solid first part\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n   vertex 0 1 0\n"
+    "  endloop\n endfacet\nendsolid first part\nsolid\nfacet normal nan nan nan\nouter loop\nvertex 1 0 0\n"
+    "vertex 0 1 0\nvertex 0 0 1e0\nendloop\nendfacet\nendsolid\n";
+inline const char* const kMesh =
+    "MeshVersionFormatted 2\nDimension\n3\n# comment\nVertices\n4\n0 0 0 1\n1 0 0 1\n0 1 0 1\n0 0 1 1\n"
+    "Edges\n1\n1 2 8\nTriangles\n2\n1 3 2 10\n1 2 4 20\nTetrahedra 1\n1 2 3 4 5\nRidges\n1\n1\nEnd\n";
+inline const char* const kPoly =
+    "# part 1\n5 3 0 1\n1 0 0 0 1\n2 1 0 0 1\n3 1 1 0 1\n4 0 1 0 1\n5 0 0 1 1\n# part 2\n3 1\n1 0 7\n4 1 2 3 "
+    "4\n"
+    "2 0 8\n3 1 2 5\n3 2 3 5\n1\n2 1 5\n# part 3\n1\n1 0.5 0.5 0.25\n# part 4\n2\n1 0.1 0.1 0.1 3 -1\n"
+    "2 0.2 0.2 0.2 -4.0\n";
+inline const char* const kSmesh =
+    "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 1\n3 0 2 1 5\n3 0 1 3 6\n3 1 2 3 7\n3 2 0 3 8\n0\n0\n";
+inline const char* const kMsh2 =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 7 \"wall\"\n$EndPhysicalNames\n$Nodes\n4\n"
+    "10 0 0 0\n20 1 0 0\n40 0 0 1\n30 0 1 0\n$EndNodes\n$Elements\n4\n1 15 2 0 1 10\n2 1 2 0 3 10 20\n"
+    "3 2 2 7 1 10 30 20\n4 4 2 9 1 10 20 30 40\n$EndElements\n";
+inline const char* const kMsh4 =
+    "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n1 1 1 1\n1 0 0 0 0\n1 0 0 0 1 0 0 0 2 1 -1\n"
+    "1 0 0 0 1 1 0 1 7 1 1\n4 0 0 0 1 1 1 0 1 1\n$EndEntities\n$Nodes\n2 4 1 4\n0 1 0 1\n4\n0 0 1\n2 1 1 3\n"
+    "1\n2\n3\n0 0 0 0.1 0.2\n1 0 0 0.1 0.2\n0 1 0 0.1 0.2\n$EndNodes\n$Elements\n3 3 1 3\n1 1 1 1\n1 1 2\n"
+    "2 1 2 1\n2 1 3 2\n3 4 4 1\n3 1 2 3 4\n$EndElements\n";
+inline const char* const kVtk =
+    "# vtk DataFile Version 5.1\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 1 0 0 0 1 "
+    "0\n"
+    "0 0 1\nMETADATA\nINFORMATION 1\nNAME x LOCATION y\nDATA 1 2\n\nCELLS 4 9\nOFFSETS vtktypeint64\n0 4 7 "
+    "9\n"
+    "CONNECTIVITY vtktypeint64\n0 1 2 3 0 2 1 0 1\nCELL_TYPES 3\n10\n5\n3\nCELL_DATA 3\n"
+    "SCALARS region int\nLOOKUP_TABLE default\n6 0 0\nFIELD FieldData 2\nmarker 1 3 int\n0 7 8\n"
+    "other 2 3 double\n1 2 3 4 5 6\nPOINT_DATA 4\nVECTORS v float\n1 2 3 1 2 3 1 2 3 1 2 3\n";
+inline const char* const kVtu =
+    "<?xml version=\"1.0\"?>\n<!-- <Piece> -->\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
+    "byte_order=\"LittleEndian\">\n<UnstructuredGrid><Piece NumberOfPoints='4' NumberOfCells='3'>\n"
+    "<PointData><DataArray type=\"Float32\" Name=\"region\" format=\"ascii\">9 9 9 "
+    "9</DataArray></PointData>\n"
+    "<CellData><DataArray type=\"Float64\" Name=\"region\" format=\"ascii\">6 0 0</DataArray>\n"
+    "<DataArray type=\"Int32\" Name=\"marker\" format=\"ascii\">0 7 8</DataArray></CellData>\n"
+    "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n"
+    "0 0 0 1 0 0\n0 1 0 0 0 1\n</DataArray></Points>\n<Cells>\n"
+    "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2 3 0 2 1 0 1</DataArray>\n"
+    "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">4 7 9</DataArray>\n"
+    "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">10 5 3</DataArray>\n"
+    "</Cells></Piece></UnstructuredGrid></VTKFile>\n";
+
+/// Bytes of a number, in either byte order.
+template <typename T>
+std::string raw(T value, bool big_endian = false) {
+  std::array<char, sizeof(T)> bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
+  if (big_endian != (std::endian::native == std::endian::big)) std::reverse(bytes.begin(), bytes.end());
+  return {bytes.data(), bytes.size()};
+}
+
+/// A binary STL file of the given header and triangles.
+inline std::string binary_stl(const std::string& header, const std::vector<std::array<float, 9>>& triangles) {
+  std::string bytes = header;
+  bytes.resize(80, ' ');
+  bytes += raw(static_cast<std::uint32_t>(triangles.size()));
+  for (const auto& triangle : triangles) {
+    bytes.append(12, '\0');
+    for (const float x : triangle) bytes += raw(x);
+    bytes.append(2, '\0');
+  }
+  return bytes;
+}
+
+/// A binary PLY file of one triangle and one edge.
+inline std::string binary_ply(bool big, const char* line_end = "\n") {
+  const std::string n = line_end;
+  std::string bytes = "ply" + n + "format binary_" + (big ? "big" : "little") + "_endian 1.0" + n +
+                      "element vertex 3" + n + "property double x" + n + "property float y" + n +
+                      "property double z" + n + "property list uchar short extra" + n + "element face 1" + n +
+                      "property list ushort uint vertex_index" + n + "element edge 1" + n +
+                      "property uchar vertex1" + n + "property int vertex2" + n + "end_header" + n;
+  for (const double x : {0.1, 1.1, 2.1}) {
+    bytes += raw(x, big) + raw(static_cast<float>(-x), big) + raw(10 * x, big);
+    bytes += raw(std::uint8_t{2}, big) + raw(std::int16_t{-1}, big) + raw(std::int16_t{77}, big);
+  }
+  bytes += raw(std::uint16_t{3}, big) + raw(std::uint32_t{2}, big) + raw(std::uint32_t{0}, big) +
+           raw(std::uint32_t{1}, big);
+  return bytes + raw(std::uint8_t{1}, big) + raw(std::int32_t{2}, big);
+}
+
+/// A binary GMF file of one tetrahedron, one triangle and one edge.
+inline std::string binary_gmf(std::int32_t version, bool big) {
+  std::string bytes = raw(std::int32_t{1}, big) + raw(version, big);
+  const auto integer = [&](std::int64_t value) {
+    return version >= 4 ? raw(value, big) : raw(static_cast<std::int32_t>(value), big);
+  };
+  const auto real = [&](double x) { return version == 1 ? raw(static_cast<float>(x), big) : raw(x, big); };
+  const auto section = [&](std::int32_t keyword, const std::string& body) {
+    const std::size_t next = bytes.size() + 4 + (version >= 3 ? 8 : 4) + body.size();
+    bytes += raw(keyword, big);
+    bytes +=
+        version >= 3 ? raw(static_cast<std::int64_t>(next), big) : raw(static_cast<std::int32_t>(next), big);
+    bytes += body;
+  };
+  section(3, raw(std::int32_t{3}, big));
+  std::string body = integer(4);
+  for (int i = 0; i < 4; ++i) body += real(i == 1) + real(i == 2) + real(i == 3) + integer(0);
+  section(4, body);
+  section(99, "a section that nobody knows");
+  section(5, integer(1) + integer(1) + integer(2) + integer(30));
+  section(6, integer(1) + integer(1) + integer(3) + integer(2) + integer(-20));
+  section(8, integer(1) + integer(1) + integer(2) + integer(3) + integer(4) + integer(10));
+  return bytes + raw(std::int32_t{54}, big) + raw(std::int64_t{0}, big);
+}
+
+/// A binary legacy VTK file of one tetrahedron and one triangle.
+inline std::string binary_vtk() {
+  std::string bytes = "# vtk DataFile Version 3.0\nx\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n";
+  for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f}) bytes += raw(x, true);
+  bytes += "\nCELLS 2 9\n";
+  for (const std::int32_t i : {4, 0, 1, 2, 3, 3, 0, 2, 1}) bytes += raw(i, true);
+  bytes += "\nCELL_TYPES 2\n" + raw(std::int32_t{10}, true) + raw(std::int32_t{5}, true);
+  bytes += "\nCELL_DATA 2\nSCALARS region int 1\nLOOKUP_TABLE default\n" + raw(std::int32_t{6}, true) +
+           raw(std::int32_t{0}, true);
+  return bytes + "\nFIELD FieldData 1\nmarker 1 2 long\n" + raw(std::int64_t{0}, true) +
+         raw(std::int64_t{7}, true) + "\n";
+}
+
+}  // namespace holdfast::samples
