@@ -15,15 +15,16 @@ Monitor::Monitor(const Options& options)
       last_told_(start_),
       last_measured_(start_) {}
 
-void Monitor::look(Stage stage, double fraction) {
+void Monitor::look(Stage stage, double fraction, bool tell) {
+  stage_ = stage;
   const auto now = std::chrono::steady_clock::now();
   if (options_.time_limit > 0 && std::chrono::duration<double>(now - start_).count() > options_.time_limit)
     throw Interrupted(Outcome::time_limit);
-  if (options_.memory_limit > 0 && now - last_measured_ > 20ms) {
+  if (options_.memory_limit > 0 && (tell || now - last_measured_ > 20ms)) {
     last_measured_ = now;
     if (resident_memory_bytes() > options_.memory_limit) throw Interrupted(Outcome::memory_limit);
   }
-  if (options_.progress && now - last_told_ > 50ms) {
+  if (options_.progress && (tell || now - last_told_ > 50ms)) {
     last_told_ = now;
     if (!options_.progress({stage, fraction})) throw Interrupted(Outcome::cancelled);
   }

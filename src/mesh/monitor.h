@@ -25,17 +25,22 @@ class Monitor {
   explicit Monitor(const Options& options);
   /// Throws Interrupted when the time or memory limit is reached or the callback returns false.
   void poll(Stage stage, double fraction) {
-    if ((++calls_ & 0xFu) == 0) look(stage, fraction);
+    if ((++calls_ & 0xFu) == 0) look(stage, fraction, false);
   }
+  /// As poll, but looks at once and always tells the caller: a stage begins.
+  void enter(Stage stage) { look(stage, 0, true); }
+  /// The stage of the last look.
+  [[nodiscard]] Stage stage() const { return stage_; }
 
  private:
-  void look(Stage stage, double fraction);
+  void look(Stage stage, double fraction, bool tell);
 
   const Options& options_;
   std::chrono::steady_clock::time_point start_;
   std::chrono::steady_clock::time_point last_told_;
   std::chrono::steady_clock::time_point last_measured_;
   unsigned calls_ = 0;
+  Stage stage_ = Stage::validate;
 };
 
 /// Resident memory of the process now and at its peak, in bytes (0 where the system does not tell).

@@ -1,0 +1,16 @@
+// The enlarged box round a complex, so that every constraint lies strictly inside the hull (design §2.2).
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "holdfast/types.h"
+
+namespace holdfast {
+
+/// The 8 corners of a box that holds all vertices strictly inside, `margin` times their largest extent away
+/// on every side, so that it is no flatter than 2 margin : 1 + 2 margin. Vertices must be finite and small
+/// enough for the corners not to overflow.
+[[nodiscard]] std::array<Point, 8> box_corners(std::span<const Point> vertices, double margin);
+
+}  // namespace holdfast

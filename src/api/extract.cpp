@@ -1,0 +1,140 @@
+#include "api/extract.h"
+
+#include <algorithm>
+
+#include "api/scale.h"
+
+namespace holdfast {
+namespace {
+
+class Extractor {
+ public:
+  explicit Extractor(const Source& source) : source_(source), new_index_(source.mesh.vertex_count(), kNone) {}
+
+  /// `id_of` gives a tetrahedron's region id, or nothing where it stays out.
+  template <typename IdOf>
+  void take_tetrahedra(IdOf id_of) {
+    const TetMesh& mesh = source_.mesh;
+    Volume& volume = extract_.volume;
+    for (Tet t = 0; t < mesh.slot_count(); ++t) {
+      if (!mesh.alive(t) || mesh.is_ghost(t)) continue;
+      const std::optional<int> id = id_of(t);
+      if (!id) continue;
+      volume.tetrahedra.push_back(mesh.corners(t));
+      volume.regions.push_back(*id);
+      for (const Vertex v : mesh.corners(t)) new_index_[v] = 0;
+    }
+  }
+
+  /// Numbers the vertices in use and writes positions.
+  void take_vertices() {
+    const std::span<const Point> input = source_.complex.vertices;
+    Volume& volume = extract_.volume;
+    volume.vertices.assign(input.begin(), input.end());
+    for (Vertex v = 0; v < input.size(); ++v) new_index_[v] = v;
+    for (auto v = static_cast<Vertex>(input.size()); v < new_index_.size(); ++v)
+      if (new_index_[v] != kNone) add_vertex(v);
+    for (Tetrahedron& t : volume.tetrahedra)
+      for (Index& v : t) v = new_index_[v];
+  }
+
+  template <typename Stays>
+  void take_facets(Stays stays) {
+    const Complex& complex = source_.complex;
+    Volume& volume = extract_.volume;
+    for (Index f = 0; f < complex.facets.size(); ++f) {
+      if (!stays(f)) continue;
+      volume.facets.push_back(complex.facets[f]);
+      if (!complex.facet_markers.empty()) volume.facet_markers.push_back(complex.facet_markers[f]);
+    }
+  }
+
+  /// Repeated segments are merged: the table names the first of them.
+  template <typename Stays>
+  void take_segments(Stays stays) {
+    const Complex& complex = source_.complex;
+    Volume& volume = extract_.volume;
+    for (Index s = 0; s < source_.table.segments.size(); ++s) {
+      const Index input = source_.table.input_segment[s];
+      if (input == no_index || !stays(s)) continue;
+      volume.segments.push_back(complex.segments[input]);
+      if (!complex.segment_markers.empty()) volume.segment_markers.push_back(complex.segment_markers[input]);
+    }
+  }
+
+  Extract finish() { return std::move(extract_); }
+
+ private:
+  void add_vertex(Vertex v) {
+    const TetMesh& mesh = source_.mesh;
+    const auto index = static_cast<Index>(extract_.volume.vertices.size());
+    new_index_[v] = index;
+    if (source_.scale == 0 && mesh.is_explicit(v)) {
+      extract_.volume.vertices.push_back(mesh.position(v));
+      return;
+    }
+    const exact::ExactPoint p = scaled(mesh.exact_position(v), -source_.scale);
+    extract_.volume.vertices.push_back({p.c[0].to_double(), p.c[1].to_double(), p.c[2].to_double()});
+    if (!std::all_of(p.c.begin(), p.c.end(), [](const exact::Dyadic& x) { return x.is_double(); }))
+      extract_.exact_vertices.push_back(
+          {index, {p.c[0].to_string(), p.c[1].to_string(), p.c[2].to_string()}});
+  }
+
+  const Source& source_;
+  std::vector<Index> new_index_;  // by mesh vertex; kNone where it is not in use
+  Extract extract_;
+};
+
+// Edges of kept tetrahedra that lie in segments, as sorted pairs of vertices.
+std::vector<Segment> kept_segments(const TetMesh& mesh, const Regions& regions, const Kept& kept) {
+  std::vector<Segment> edges;
+  for (Tet t = 0; t < mesh.slot_count(); ++t) {
+    if (!mesh.alive(t) || mesh.is_ghost(t) || (mesh.flags(t) & kSegmentBits) == 0) continue;
+    if (!kept.region[regions.of_tet[t]]) continue;
+    for (int k = 0; k < 6; ++k) {
+      if (!mesh.is_segment(t, k)) continue;
+      const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
+      const auto [a, b] = std::minmax(mesh.corner(t, e[0]), mesh.corner(t, e[1]));
+      edges.push_back({a, b});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+}  // namespace
+
+Extract extract_kept(const Source& source, const Regions& regions, const Kept& kept) {
+  const TetMesh& mesh = source.mesh;
+  Extractor extractor(source);
+  extractor.take_tetrahedra([&](Tet t) -> std::optional<int> {
+    const RegionId r = regions.of_tet[t];
+    return kept.region[r] ? std::optional(kept.id[r]) : std::nullopt;
+  });
+  extractor.take_vertices();
+  extractor.take_facets([&](Index f) {
+    const auto& [front, back] = regions.of_facet[f];
+    return kept.region[front] || kept.region[back];
+  });
+  if (!source.complex.segments.empty()) {
+    const std::vector<Segment> edges = kept_segments(mesh, regions, kept);
+    extractor.take_segments(
+        [&](Index s) { return std::binary_search(edges.begin(), edges.end(), source.table.segments[s]); });
+  }
+  return extractor.finish();
+}
+
+Extract extract_all(const Source& source, const Standing& standing) {
+  Extractor extractor(source);
+  extractor.take_tetrahedra([](Tet) { return std::optional(0); });
+  extractor.take_vertices();
+  const auto stands = [](const std::vector<std::uint8_t>& flags) {
+    return [&flags](Index i) { return i < flags.size() && flags[i] != 0; };
+  };
+  extractor.take_facets(stands(standing.facets));
+  extractor.take_segments(stands(standing.segments));
+  return extractor.finish();
+}
+
+}  // namespace holdfast

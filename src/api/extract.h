@@ -1,0 +1,37 @@
+// Taking a volume out of the mesh: which tetrahedra, renumbered vertices, exact positions.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "classify/keep.h"
+#include "holdfast/holdfast.h"
+#include "mesh/tet_mesh.h"
+#include "recover/standing.h"
+#include "surface/complex.h"
+
+namespace holdfast {
+
+/// A volume and those of its vertices that no double holds; `volume` has the nearest doubles for them.
+struct Extract {
+  Volume volume;
+  std::vector<ExactVertex> exact_vertices;
+};
+
+/// What extraction reads. The mesh is the complex times 2^scale; its vertices 0 .. n-1 are the complex's.
+struct Source {
+  const TetMesh& mesh;
+  const Complex& complex;
+  const SegmentTable& table;
+  int scale;
+};
+
+/// The tetrahedra of the kept regions, with the facets and segments that border on them. Vertices are the
+/// complex's, bit for bit, then every other vertex in use in ascending order.
+[[nodiscard]] Extract extract_kept(const Source& source, const Regions& regions, const Kept& kept);
+
+/// Every tetrahedron of the box as region 0, and the facets and segments that stand: what there is before
+/// classification, for `stop_after`.
+[[nodiscard]] Extract extract_all(const Source& source, const Standing& standing);
+
+}  // namespace holdfast

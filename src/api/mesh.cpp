@@ -1,0 +1,225 @@
+// The pipeline (design §2): validate, Delaunay, flips, partition and elimination, classify, suppress.
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <optional>
+#include <stdexcept>
+
+#include "api/box.h"
+#include "api/extract.h"
+#include "api/report.h"
+#include "api/scale.h"
+#include "classify/keep.h"
+#include "classify/regions.h"
+#include "delaunay/delaunay.h"
+#include "enforce/enforce.h"
+#include "holdfast/holdfast.h"
+#include "mesh/monitor.h"
+#include "mesh/quality.h"
+#include "mesh/tet_mesh.h"
+#include "recover/standing.h"
+#include "suppress/suppress.h"
+#include "surface/complex.h"
+#include "surface/diagnose.h"
+#if __has_include("recover/recover.h")
+#include "recover/recover.h"
+#define HOLDFAST_HAS_FLIPS
+#endif
+
+namespace holdfast {
+namespace {
+
+constexpr std::size_t kMostDefects = 100;  // `diagnose` gives them all
+constexpr double kHiddenMargin = 0.5;      // of the box that is cut away again
+
+void require_sensible(const Complex& complex, const Options& options) {
+  const auto finite = [](const Point& p) {
+    return std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
+  };
+  if (!complex.facet_markers.empty() && complex.facet_markers.size() != complex.facets.size())
+    throw std::invalid_argument("holdfast: as many facet markers as facets are needed, or none");
+  if (!complex.segment_markers.empty() && complex.segment_markers.size() != complex.segments.size())
+    throw std::invalid_argument("holdfast: as many segment markers as segments are needed, or none");
+  if (!std::all_of(options.holes.begin(), options.holes.end(), finite))
+    throw std::invalid_argument("holdfast: a hole has a coordinate that is not finite");
+  if (!std::all_of(options.regions.begin(), options.regions.end(),
+                   [&](const RegionSeed& seed) { return finite(seed.where); }))
+    throw std::invalid_argument("holdfast: a region seed has a coordinate that is not finite");
+  if (options.keep == Keep::box && !(options.box_margin > 0 && options.box_margin < 1e6))
+    throw std::invalid_argument("holdfast: the margin of the box must be positive and below a million");
+}
+
+class Pipeline {
+ public:
+  Pipeline(const Complex& complex, const Options& options)
+      : complex_(complex), options_(options), monitor_(options) {}
+
+  Result run() {
+    {
+      const Stopwatch total(result_.report, "total");
+      try {
+        run_stages();
+      } catch (const Interrupted& interrupted) {
+        give_up(interrupted.outcome());
+      } catch (const std::bad_alloc&) {
+        if (options_.memory_limit == 0) throw;
+        give_up(Outcome::memory_limit);
+      }
+    }
+    result_.report.peak_memory_bytes = peak_memory_bytes();
+    return std::move(result_);
+  }
+
+ private:
+  struct Step {
+    Stage stage;
+    void (Pipeline::*run)();
+  };
+  void run_stages() {
+    // Elimination is part of the partition's loop (design §2.5).
+    static constexpr std::array<Step, 6> kSteps{{{Stage::validate, &Pipeline::validate},
+                                                 {Stage::delaunay, &Pipeline::build_box_mesh},
+                                                 {Stage::flips, &Pipeline::recover},
+                                                 {Stage::partition, &Pipeline::enforce_missing},
+                                                 {Stage::classify, &Pipeline::classify},
+                                                 {Stage::suppress, &Pipeline::suppress_points}}};
+    const Stage last = options_.stop_after.value_or(Stage::suppress);
+    for (const Step& step : kSteps) {
+      if (step.stage > last) break;
+      const Stopwatch watch(result_.report, name(step.stage));
+      monitor_.enter(step.stage);
+      (this->*step.run)();
+      if (result_.outcome != Outcome::done) return;
+    }
+    deliver(last);
+  }
+
+  void give_up(Outcome outcome) {
+    result_.outcome = outcome;
+    result_.message = interruption_message(outcome, monitor_.stage(), options_);
+    result_.volume = {};
+    result_.exact_vertices.clear();
+  }
+
+  void refuse(std::vector<Defect> defects) {
+    result_.outcome = Outcome::invalid_input;
+    result_.message = defects.size() == 1 ? "1 defect was found"
+                                          : std::to_string(defects.size()) + " defects were found" +
+                                                (defects.size() == kMostDefects ? "; there may be more" : "");
+    result_.defects = std::move(defects);
+  }
+
+  void validate() {
+    result_.report.input = describe_input(complex_, nullptr);
+    std::vector<Defect> defects = find_defects(
+        complex_, kMostDefects, [this](double fraction) { monitor_.poll(Stage::validate, fraction); });
+    if (!defects.empty()) return refuse(std::move(defects));
+    table_ = segment_table(complex_);
+    result_.report.input = describe_input(complex_, &table_);
+  }
+
+  void build_box_mesh() {
+    scale_ = choose_scale(complex_.vertices);
+    constexpr std::size_t kTetsAVertex = 7;
+    mesh_.reserve(complex_.vertices.size() + 8, kTetsAVertex * complex_.vertices.size());
+    for (const Point& p : complex_.vertices) mesh_.add_vertex(scaled(p, scale_));
+    const double margin = options_.keep == Keep::box ? options_.box_margin : kHiddenMargin;
+    for (const Point& corner : box_corners(mesh_.positions(), margin)) mesh_.add_vertex(corner);
+    first_free_ = static_cast<Vertex>(mesh_.vertex_count());
+    if (!build_delaunay(mesh_, {options_.seed}, &monitor_))
+      throw std::logic_error("holdfast: the box has no tetrahedra");
+    standing_ = mark_present(mesh_, table_, complex_.facets);
+    result_.report.delaunay = missing();
+  }
+
+  void recover() {
+#ifdef HOLDFAST_HAS_FLIPS
+    if (options_.flips) recover_by_flips(mesh_, table_, complex_.facets, standing_, options_.seed, monitor_);
+#endif
+    result_.report.flips = missing();
+  }
+
+  void enforce_missing() {
+    standing_before_partition_ = standing_;
+    const bool eliminate = options_.stop_after != Stage::partition;
+    const EnforceStats stats =
+        enforce(mesh_, table_, complex_.facets, standing_, first_free_, options_.seed, monitor_, eliminate);
+    result_.report.segment_points = stats.segment_points;
+    result_.report.facet_points = stats.facet_points;
+    if (!eliminate) standing_ = standing_before_partition_;  // the others are cut into pieces
+  }
+
+  void classify() {
+    regions_ = flood_regions(mesh_, complex_.facets);
+    kept_ = choose_regions(mesh_, regions_, complex_, table_, options_);
+    if (!kept_.defects.empty()) refuse(std::move(kept_.defects));
+  }
+
+  void suppress_points() {
+    // Points outside the kept regions go with their tetrahedra.
+    std::vector<bool> inside(mesh_.vertex_count(), false);
+    for (Tet t = 0; t < mesh_.slot_count(); ++t)
+      if (mesh_.alive(t) && !mesh_.is_ghost(t) && kept_.region[regions_.of_tet[t]])
+        for (const Vertex v : mesh_.corners(t)) inside[v] = true;
+    std::vector<Vertex> points;
+    for (Vertex v = first_free_; v < mesh_.vertex_count(); ++v)
+      if (inside[v]) points.push_back(v);
+    if (points.empty()) return;
+    suppress(mesh_, std::move(points), monitor_);
+    // Regions keep their numbers, which depend on the facets alone.
+    regions_ = flood_regions(mesh_, complex_.facets);
+  }
+
+  void deliver(Stage last) {
+    const Source source{mesh_, complex_, table_, scale_};
+    Extract extract =
+        last >= Stage::classify ? extract_kept(source, regions_, kept_) : extract_all(source, standing_);
+    result_.volume = std::move(extract.volume);
+    result_.exact_vertices = std::move(extract.exact_vertices);
+    fill_report(last);
+    if (last == Stage::suppress && !result_.exact_vertices.empty()) {
+      result_.outcome = Outcome::not_representable;
+      result_.message = "no positive mesh in double precision was found";
+    }
+  }
+
+  void fill_report(Stage last) {
+    Report& report = result_.report;
+    const Volume& volume = result_.volume;
+    const bool with_corners =
+        options_.keep == Keep::box || (last > Stage::validate && last < Stage::classify);
+    report.steiner_points = volume.vertices.size() - complex_.vertices.size() - (with_corners ? 8 : 0);
+    report.unrounded_points = result_.exact_vertices.size();
+    report.vertices = volume.vertices.size();
+    report.tetrahedra = volume.tetrahedra.size();
+    if (last >= Stage::classify)
+      report.regions = static_cast<std::size_t>(std::count(kept_.region.begin(), kept_.region.end(), true));
+    report.quality = measure(volume, volume.facets);
+  }
+
+  [[nodiscard]] Report::Missing missing() const {
+    return {standing_.missing_segments(), standing_.missing_facets()};
+  }
+
+  const Complex& complex_;
+  const Options& options_;
+  Monitor monitor_;
+  Result result_;
+
+  SegmentTable table_;
+  int scale_ = 0;  // the mesh is the complex times 2^scale_
+  TetMesh mesh_;
+  Vertex first_free_ = 0;  // after the input's and the box's
+  Standing standing_, standing_before_partition_;
+  Regions regions_;
+  Kept kept_;
+};
+
+}  // namespace
+
+Result mesh(const Complex& complex, const Options& options) {
+  require_sensible(complex, options);
+  return Pipeline(complex, options).run();
+}
+
+}  // namespace holdfast

@@ -1,0 +1,27 @@
+#include "holdfast/holdfast.h"
+
+namespace holdfast {
+
+const char* name(Stage stage) {
+  switch (stage) {
+    case Stage::validate:
+      return "validate";
+    case Stage::delaunay:
+      return "delaunay";
+    case Stage::flips:
+      return "flips";
+    case Stage::partition:
+      return "partition";
+    case Stage::eliminate:
+      return "eliminate";
+    case Stage::classify:
+      return "classify";
+    case Stage::suppress:
+      return "suppress";
+  }
+  return "unknown";
+}
+
+const char* version() { return HOLDFAST_VERSION; }
+
+}  // namespace holdfast

@@ -1,0 +1,32 @@
+// Filling the report of a run.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "holdfast/holdfast.h"
+#include "surface/complex.h"
+
+namespace holdfast {
+
+/// Counts of the input. `table` is null while nobody knows whether the indices are in range.
+[[nodiscard]] Report::Input describe_input(const Complex& complex, const SegmentTable* table);
+
+/// Adds the time from its construction to its end to seconds[key], also when an exception ends it.
+class Stopwatch {
+ public:
+  Stopwatch(Report& report, std::string key) : report_(report), key_(std::move(key)) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+  ~Stopwatch();
+
+ private:
+  Report& report_;
+  std::string key_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// One sentence on how and where a run ended before its time.
+[[nodiscard]] std::string interruption_message(Outcome outcome, Stage stage, const Options& options);
+
+}  // namespace holdfast
