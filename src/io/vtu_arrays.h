@@ -25,9 +25,10 @@ template <typename T>
 [[nodiscard]] VtuArray vtu_array(const char* name, const std::vector<T>& values) {
   const char* type = std::is_same_v<T, Point>          ? "Float64"
                      : std::is_same_v<T, std::int64_t> ? "Int64"
+                     : std::is_same_v<T, Index>        ? "UInt32"
                      : std::is_same_v<T, std::uint8_t> ? "UInt8"
                                                        : "Int32";
-  static_assert(std::is_same_v<T, Point> || std::is_same_v<T, std::int64_t> ||
+  static_assert(std::is_same_v<T, Point> || std::is_same_v<T, std::int64_t> || std::is_same_v<T, Index> ||
                 std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::int32_t>);
   return {type, name, std::is_same_v<T, Point> ? std::size_t{3} : std::size_t{1},
           std::as_bytes(std::span(values))};
@@ -48,7 +49,7 @@ class VtuCells {
     types_.reserve(cells);
   }
   void add(VtkCell type, std::span<const Index> corners) {
-    for (const Index corner : corners) connectivity_.push_back(corner);
+    connectivity_.insert(connectivity_.end(), corners.begin(), corners.end());
     offsets_.push_back(static_cast<std::int64_t>(connectivity_.size()));
     types_.push_back(static_cast<std::uint8_t>(type));
   }
@@ -63,8 +64,8 @@ class VtuCells {
   }
 
  private:
-  // 64 bits, which VTK uses inside, so that any number of cells fits; zlib removes the zeros.
-  std::vector<std::int64_t> connectivity_, offsets_;
+  std::vector<Index> connectivity_;
+  std::vector<std::int64_t> offsets_;  // there may be more than 2^32 corners
   std::vector<std::uint8_t> types_;
 };
 
