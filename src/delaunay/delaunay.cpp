@@ -16,12 +16,14 @@ constexpr std::size_t kPollInterval = 64;
 
 // Hands the kernel's cells over in the numbering of the mesh.
 void hand_over(const DelaunayKernel& kernel, TetMesh& mesh) {
-  const std::vector<Cell>& cells = kernel.cells();
+  const CellStore& cells = kernel.cells();
   const std::vector<std::uint32_t>& order = kernel.order();
   std::vector<TetMesh::Corners> corners;
   std::vector<TetMesh::Neighbours> neighbours;
   corners.reserve(cells.size());
   neighbours.reserve(cells.size());
+  advise_huge_pages(corners.data(), cells.size() * sizeof(TetMesh::Corners));
+  advise_huge_pages(neighbours.data(), cells.size() * sizeof(TetMesh::Neighbours));
   for (const Cell& cell : cells) {
     const auto& v = cell.v;
     corners.push_back({order[v[0]], order[v[1]], order[v[2]], v[3] == kernel.ghost() ? kGhost : order[v[3]]});

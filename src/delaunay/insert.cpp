@@ -10,6 +10,7 @@ namespace holdfast {
 namespace {
 
 constexpr std::uint32_t kTableSide = 64;
+constexpr std::size_t kFirstScratch = 256;
 
 // Three points are collinear iff their projections along all axes are.
 bool collinear(const double* a, const double* b, const double* c) {
@@ -28,7 +29,13 @@ DelaunayKernel::DelaunayKernel(std::span<const Point> points, std::vector<std::u
       sites_(order_.size() + 1),
       ghost_(static_cast<Vertex>(order_.size())),
       random_state_(seed * 2 + 1),
+      cavity_(kFirstScratch),
+      boundary_(kFirstScratch),
+      local_(kFirstScratch),
+      ring_(kFirstScratch),
+      spokes_(kFirstScratch),
       table_(kTableSide * kTableSide) {
+  cells_.reserve(7 * order_.size() + 64);  // 6.77 a point of a Poisson process
   for (std::size_t k = 0; k < order_.size(); ++k) sites_[k].x = points[order_[k]];
 }
 
@@ -91,13 +98,6 @@ void DelaunayKernel::set_geometry(Cell& cell) {
     set_sphere(cell, u, v, spoke(p, at(cell.v[3])));
 }
 
-bool DelaunayKernel::in_conflict(const Cell& cell, const double* q) const {
-  const int sign = filtered_conflict(cell, is_ghost(cell) ? 0.0 : 1.0, at(cell.v[0]), q);
-  if (sign != 0) [[likely]]
-    return sign > 0;
-  return in_conflict_exact(cell, q);
-}
-
 bool DelaunayKernel::in_conflict_exact(const Cell& cell, const double* q) const {
   const Cell* finite = &cell;
   if (is_ghost(cell)) {
@@ -111,24 +111,25 @@ bool DelaunayKernel::in_conflict_exact(const Cell& cell, const double* q) const 
 
 void DelaunayKernel::insert(Vertex k) {
   const double* q = at(k);
-  const Tet seed = locate(q);
-  if (!in_conflict(cells_[seed], q)) {
-    note_duplicate(seed, k);
+  const Located seed = locate(q);
+  if (!seed.conflict) {
+    note_duplicate(seed.tet, k);
     return;
   }
-  dig(seed, q);
+  dig(seed.tet, q);
+  take_slots();
   fill(k);
 }
 
 // Remembering stochastic visibility walk (Devillers, Pion, Teillaud 2002): ends with probability one in
 // any triangulation. It may stop at any cell in conflict, which the cell that holds q is, unless q
 // is one of its corners. A ghost is entered only through a face that q is strictly beyond.
-Tet DelaunayKernel::locate(const double* q) {
+DelaunayKernel::Located DelaunayKernel::locate(const double* q) {
   Tet t = last_;
   int came = -1;
   for (;;) {
     const Cell& cell = cells_[t];
-    if (in_conflict(cell, q)) return t;
+    if (in_conflict(cell, q)) return {t, true};
     const auto first = static_cast<int>(random() & 3u);
     int out = -1;
     for (int j = 0; j < 4 && out < 0; ++j) {
@@ -138,7 +139,7 @@ Tet DelaunayKernel::locate(const double* q) {
       const auto corner = [&](std::size_t m) { return at(cell.v[static_cast<std::size_t>(f[m])]); };
       if (exact::orient3d(corner(0), corner(1), corner(2), q) < 0) out = i;
     }
-    if (out < 0) return t;
+    if (out < 0) return {t, false};
     const Face next = cell.n[static_cast<std::size_t>(out)];
     t = tet_of(next);
     came = side_of(next);
@@ -153,43 +154,57 @@ void DelaunayKernel::note_duplicate(Tet t, Vertex k) {
 
 // Collects the cells in conflict with q and the faces round them.
 void DelaunayKernel::dig(Tet seed, const double* q) {
-  cavity_.clear();
-  boundary_.clear();
-  cells_[seed].reach = -1;
-  cavity_.push_back(seed);
-  for (std::size_t k = 0; k < cavity_.size(); ++k) {
-    const Cell& cell = cells_[cavity_[k]];
+  Cell* const cells = cells_.data();
+  cells[seed].reach = -1;
+  cavity_[0] = seed;
+  std::size_t count = 1;
+  std::size_t faces = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (count + 4 > cavity_.size()) cavity_.resize(2 * cavity_.size());
+    if (faces + 4 > boundary_.size()) boundary_.resize(2 * boundary_.size());
+    const Cell& cell = cells[cavity_[k]];
     for (std::size_t i = 0; i < 4; ++i) {
-      Cell& next = cells_[tet_of(cell.n[i])];
+      const Face across = cell.n[i];
+      Cell& next = cells[tet_of(across)];
       if (next.reach < 0) continue;
       if (in_conflict(next, q)) {
         next.reach = -1;
-        cavity_.push_back(tet_of(cell.n[i]));
+        cavity_[count++] = tet_of(across);
+        for (const Face f : next.n) __builtin_prefetch(&cells[tet_of(f)]);
       } else {
         const auto& f = kFaceVertex[i];
         const auto corner = [&](std::size_t m) { return cell.v[static_cast<std::size_t>(f[m])]; };
-        boundary_.push_back({cell.n[i], {corner(0), corner(1), corner(2)}});
+        boundary_[faces++] = {across, {corner(0), corner(1), corner(2)}};
       }
     }
   }
+  cavity_count_ = count;
+  face_count_ = faces;
 }
 
-Tet DelaunayKernel::new_slot() {
-  if (!free_.empty()) {
-    const Tet t = free_.back();
+// Makes cavity_ list one slot for each boundary face: those of the cavity first.
+void DelaunayKernel::take_slots() {
+  while (cavity_count_ > face_count_) free_.push_back(cavity_[--cavity_count_]);
+  if (cavity_.size() < face_count_) cavity_.resize(boundary_.size());
+  while (cavity_count_ < face_count_ && !free_.empty()) {
+    cavity_[cavity_count_++] = free_.back();
     free_.pop_back();
-    return t;
   }
-  cells_.emplace_back();
-  return static_cast<Tet>(cells_.size() - 1);
+  const std::size_t fresh = cells_.size();
+  const std::size_t size = fresh + (face_count_ - cavity_count_);
+  if (size > cells_.capacity()) cells_.reserve(std::max(size, cells_.capacity() + cells_.capacity() / 4));
+  cells_.resize(size);
+  for (std::size_t t = fresh; t < size; ++t) cavity_[cavity_count_++] = static_cast<Tet>(t);
 }
 
-std::uint32_t DelaunayKernel::local_index(Vertex v, const double* p) {
+inline std::uint32_t DelaunayKernel::local_index(Vertex v, const double* p) {
   Site& site = sites_[v];
-  if (site.local < ring_.size() && ring_[site.local] == v) return site.local;
-  site.local = static_cast<std::uint32_t>(ring_.size());
-  ring_.push_back(v);
-  spokes_.push_back(spoke(p, site.x.data()));
+  const std::uint32_t l = site.local;
+  if (l < ring_count_ && ring_[l] == v) return l;
+  const std::size_t fresh = ring_count_++;
+  ring_[fresh] = v;
+  spokes_[fresh] = spoke(p, site.x.data());
+  site.local = static_cast<std::uint32_t>(fresh);
   return site.local;
 }
 
@@ -197,53 +212,59 @@ std::uint32_t DelaunayKernel::local_index(Vertex v, const double* p) {
 // (v0, v1, v2), which keeps the ghost in slot 3.
 void DelaunayKernel::fill(Vertex k) {
   const double* p = at(k);
-  while (cavity_.size() > boundary_.size()) {
-    free_.push_back(cavity_.back());
-    cavity_.pop_back();
+  if (local_.size() < face_count_) local_.resize(boundary_.size());
+  if (ring_.size() < face_count_) {  // a closed surface of F triangles has F / 2 + 2 vertices
+    ring_.resize(boundary_.size());
+    spokes_.resize(boundary_.size());
   }
-  while (cavity_.size() < boundary_.size()) cavity_.push_back(new_slot());
-  ring_.clear();
-  spokes_.clear();
-  corners_.resize(boundary_.size());
-  for (std::size_t j = 0; j < boundary_.size(); ++j) {
-    BoundaryFace& face = boundary_[j];
-    auto& v = face.v;
+  ring_count_ = 0;
+  Cell* const cells = cells_.data();
+  for (std::size_t j = 0; j < face_count_; ++j) {
+    const Face outer = boundary_[j].outer;
+    auto v = boundary_[j].v;
     if (v[0] == ghost_)
       v = {v[1], v[2], v[0]};
     else if (v[1] == ghost_)
       v = {v[2], v[0], v[1]};
     const Tet t = cavity_[j];
-    Cell& cell = cells_[t];
-    cell.v = {k, v[1], v[0], v[2]};
-    cell.n[0] = face.outer;
-    cells_[tet_of(face.outer)].n[face.outer & 3u] = face_code(t, 0);
-    const std::uint32_t a = local_index(v[0], p), b = local_index(v[1], p), c = local_index(v[2], p);
-    corners_[j] = {a, b, c};
-    if (v[2] == ghost_) {
-      set_half_space(cell, spokes_[b], spokes_[a]);
-    } else {
-      set_sphere(cell, spokes_[b], spokes_[a], spokes_[c]);
-      last_ = t;
-    }
+    cells[t].v = {k, v[1], v[0], v[2]};
+    cells[t].n[0] = outer;
+    cells[tet_of(outer)].n[outer & 3u] = face_code(t, 0);
+    local_[j] = {local_index(v[0], p), local_index(v[1], p), local_index(v[2], p)};
   }
-  if (ring_.size() <= kTableSide)
+  set_geometry();
+  if (ring_count_ <= kTableSide)
     link_by_table();
   else
     link_by_hash();
 }
 
+void DelaunayKernel::set_geometry() {
+  Cell* const cells = cells_.data();
+  for (std::size_t j = 0; j < face_count_; ++j) {
+    Cell& cell = cells[cavity_[j]];
+    const auto [a, b, c] = local_[j];
+    if (is_ghost(cell)) {
+      set_half_space(cell, spokes_[b], spokes_[a]);
+    } else {
+      set_sphere(cell, spokes_[b], spokes_[a], spokes_[c]);
+      last_ = cavity_[j];
+    }
+  }
+}
+
 // Faces 3, 2, 1 of a new cell lie at the boundary edges (v0 v1), (v1 v2), (v2 v0); the neighbour has
 // the same edge reversed. The boundary is closed, so every entry read has been written.
 void DelaunayKernel::link_by_table() {
-  for (std::size_t j = 0; j < boundary_.size(); ++j) {
-    const auto [a, b, c] = corners_[j];
+  for (std::size_t j = 0; j < face_count_; ++j) {
+    const auto [a, b, c] = local_[j];
     const Tet t = cavity_[j];
     table_[a * kTableSide + b] = face_code(t, 3);
     table_[b * kTableSide + c] = face_code(t, 2);
     table_[c * kTableSide + a] = face_code(t, 1);
   }
-  for (std::size_t j = 0; j < boundary_.size(); ++j) {
-    const auto [a, b, c] = corners_[j];
+  for (std::size_t j = 0; j < face_count_; ++j) {
+    const auto [a, b, c] = local_[j];
     Cell& cell = cells_[cavity_[j]];
     cell.n[3] = table_[b * kTableSide + a];
     cell.n[2] = table_[c * kTableSide + b];
@@ -252,7 +273,7 @@ void DelaunayKernel::link_by_table() {
 }
 
 void DelaunayKernel::link_by_hash() {
-  const std::size_t size = std::bit_ceil(6 * boundary_.size());
+  const std::size_t size = std::bit_ceil(6 * face_count_);
   constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
   hash_.assign(size, {kEmpty, kNone});
   const auto find = [&](std::uint32_t a, std::uint32_t b) -> HashEntry& {
@@ -262,15 +283,15 @@ void DelaunayKernel::link_by_hash() {
     hash_[h].key = key;
     return hash_[h];
   };
-  for (std::size_t j = 0; j < boundary_.size(); ++j) {
-    const auto [a, b, c] = corners_[j];
+  for (std::size_t j = 0; j < face_count_; ++j) {
+    const auto [a, b, c] = local_[j];
     const Tet t = cavity_[j];
     find(a, b).face = face_code(t, 3);
     find(b, c).face = face_code(t, 2);
     find(c, a).face = face_code(t, 1);
   }
-  for (std::size_t j = 0; j < boundary_.size(); ++j) {
-    const auto [a, b, c] = corners_[j];
+  for (std::size_t j = 0; j < face_count_; ++j) {
+    const auto [a, b, c] = local_[j];
     Cell& cell = cells_[cavity_[j]];
     cell.n[3] = find(b, a).face;
     cell.n[2] = find(c, b).face;
@@ -280,17 +301,20 @@ void DelaunayKernel::link_by_hash() {
 
 void DelaunayKernel::compact() {
   std::sort(free_.begin(), free_.end());
+  const auto drop_free_tail = [this] {
+    while (cells_.size() > 0 && cells_[cells_.size() - 1].reach < 0) cells_.resize(cells_.size() - 1);
+  };
   for (const Tet hole : free_) {
-    while (!cells_.empty() && cells_.back().reach < 0) cells_.pop_back();
+    drop_free_tail();
     if (hole >= cells_.size()) break;
-    cells_[hole] = cells_.back();
-    cells_.pop_back();
+    cells_[hole] = cells_[cells_.size() - 1];
+    cells_.resize(cells_.size() - 1);
     for (int i = 0; i < 4; ++i) {
       const Face f = cells_[hole].n[static_cast<std::size_t>(i)];
       cells_[tet_of(f)].n[f & 3u] = face_code(hole, i);
     }
   }
-  while (!cells_.empty() && cells_.back().reach < 0) cells_.pop_back();
+  drop_free_tail();
   free_.clear();
 }
 

@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "delaunay/cell.h"
+#include "delaunay/cell_store.h"
 #include "holdfast/types.h"
 #include "mesh/anatomy.h"
 
@@ -43,8 +44,8 @@ class DelaunayKernel {
   /// Inserts vertex k; each once, in growing order. A duplicate changes nothing.
   void insert(Vertex k);
 
-  [[nodiscard]] Vertex ghost() const { return static_cast<Vertex>(order_.size()); }
-  [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
+  [[nodiscard]] Vertex ghost() const { return ghost_; }
+  [[nodiscard]] const CellStore& cells() const { return cells_; }
   /// Moves cells into the free slots, so that none is left.
   void compact();
   /// The point of each vertex: among equal points the first one.
@@ -59,37 +60,50 @@ class DelaunayKernel {
     Face outer;
     std::array<Vertex, 3> v;  // (v, p) is positive
   };
+  struct Located {
+    Tet tet;
+    bool conflict;  // else the point is a corner of the cell
+  };
+  using LocalFace = std::array<std::uint32_t, 3>;
 
   [[nodiscard]] const double* at(Vertex v) const { return sites_[v].x.data(); }
-  [[nodiscard]] bool in_conflict(const Cell& cell, const double* q) const;
-  [[nodiscard]] bool in_conflict_exact(const Cell& cell, const double* q) const;
   [[nodiscard]] bool is_ghost(const Cell& cell) const { return cell.v[3] == ghost_; }
-  [[nodiscard]] Tet locate(const double* q);
+  [[nodiscard]] bool in_conflict(const Cell& cell, const double* q) const {
+    const int sign = filtered_conflict(cell, is_ghost(cell) ? 0.0 : 1.0, at(cell.v[0]), q);
+    if (sign != 0) [[likely]] return sign > 0;
+    return in_conflict_exact(cell, q);
+  }
+  [[nodiscard]] bool in_conflict_exact(const Cell& cell, const double* q) const;
+  [[nodiscard]] Located locate(const double* q);
   void note_duplicate(Tet t, Vertex k);
   void dig(Tet seed, const double* q);
+  void take_slots();
   void fill(Vertex k);
   std::uint32_t local_index(Vertex v, const double* p);
+  void set_geometry();
+  void set_geometry(Cell& cell);
   void link_by_table();
   void link_by_hash();
-  Tet new_slot();
-  void set_geometry(Cell& cell);
   std::uint32_t random();
 
   std::vector<std::uint32_t> order_;
   std::vector<Site> sites_;
-  std::vector<Cell> cells_;
+  CellStore cells_;
   std::vector<Tet> free_;
   Vertex ghost_;
   Tet last_ = kNone;
   std::uint64_t random_state_;
 
-  // Of one insertion; kept to allocate nothing.
-  std::vector<Tet> cavity_;
-  std::vector<BoundaryFace> boundary_;
-  std::vector<Vertex> ring_;                           // vertices of the boundary
-  std::vector<Spoke> spokes_;                          // the same, relative to the new vertex
-  std::vector<std::array<std::uint32_t, 3>> corners_;  // local indices, one a boundary face
-  std::vector<Face> table_;                            // face at local edge (i, j), kTableSide^2 entries
+  // Of one insertion; kept to allocate nothing. The counts say how much of each array is in use.
+  std::size_t cavity_count_ = 0;
+  std::size_t face_count_ = 0;
+  std::size_t ring_count_ = 0;
+  std::vector<Tet> cavity_;             // cells in conflict; then the slots of the new cells, one a face
+  std::vector<BoundaryFace> boundary_;  // faces round the cavity
+  std::vector<LocalFace> local_;        // the same in local indices
+  std::vector<Vertex> ring_;            // vertices of the boundary
+  std::vector<Spoke> spokes_;           // the same, relative to the new vertex
+  std::vector<Face> table_;             // new face at local edge (i, j)
   struct HashEntry {
     std::uint64_t key;
     Face face;
