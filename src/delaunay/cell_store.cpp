@@ -19,13 +19,13 @@ std::size_t alignment_of(std::size_t bytes) { return bytes >= kLarge ? kHugePage
 
 Cell* allocate(std::size_t count) {
   const std::size_t bytes = count * sizeof(Cell);
-  void* block = ::operator new(bytes, std::align_val_t{alignment_of(bytes)});
+  void* block = ::operator new (bytes, std::align_val_t{alignment_of(bytes)});
   if (bytes >= kLarge) advise_huge_pages(block, bytes);
   return static_cast<Cell*>(block);
 }
 
 void release(Cell* cells, std::size_t count) {
-  if (cells != nullptr) ::operator delete(cells, std::align_val_t{alignment_of(count * sizeof(Cell))});
+  if (cells != nullptr) ::operator delete (cells, std::align_val_t{alignment_of(count * sizeof(Cell))});
 }
 
 // Gives the memory of whole pages back before the block itself is freed.
@@ -47,6 +47,12 @@ void advise_huge_pages([[maybe_unused]] void* block, [[maybe_unused]] std::size_
 }
 
 CellStore::~CellStore() { release(cells_, capacity_); }
+
+void CellStore::forget_first(std::size_t count) {
+  if (capacity_ * sizeof(Cell) < kLarge) return;
+  constexpr std::size_t kBlock = kHugePage / sizeof(Cell);
+  for (; forgotten_ + kBlock <= count; forgotten_ += kBlock) give_back(cells_ + forgotten_, kHugePage);
+}
 
 void CellStore::reserve(std::size_t capacity) {
   if (capacity <= capacity_) return;

@@ -29,6 +29,9 @@ class CellStore {
   [[nodiscard]] const Cell* begin() const { return cells_; }
   [[nodiscard]] const Cell* end() const { return cells_ + size_; }
 
+  /// Gives the memory of about the first `count` cells back to the system; they must not be read again.
+  void forget_first(std::size_t count);
+
   /// Memory is taken from the system only when cells come to use it.
   void reserve(std::size_t capacity);
   /// New cells are not initialised. The capacity must have been reserved.
@@ -38,6 +41,7 @@ class CellStore {
   Cell* cells_ = nullptr;
   std::size_t size_ = 0;
   std::size_t capacity_ = 0;
+  std::size_t forgotten_ = 0;
 };
 
 }  // namespace holdfast

@@ -14,8 +14,9 @@ namespace {
 constexpr std::size_t kMostVertices = std::size_t{1} << 28;
 constexpr std::size_t kPollInterval = 64;
 
-// Hands the kernel's cells over in the numbering of the mesh.
-void hand_over(const DelaunayKernel& kernel, TetMesh& mesh) {
+// Hands the kernel's cells over in the numbering of the mesh, freeing them on the way.
+void hand_over(DelaunayKernel& kernel, TetMesh& mesh) {
+  constexpr std::size_t kBlock = std::size_t{1} << 16;
   const CellStore& cells = kernel.cells();
   const std::vector<std::uint32_t>& order = kernel.order();
   std::vector<TetMesh::Corners> corners;
@@ -24,10 +25,11 @@ void hand_over(const DelaunayKernel& kernel, TetMesh& mesh) {
   neighbours.reserve(cells.size());
   advise_huge_pages(corners.data(), cells.size() * sizeof(TetMesh::Corners));
   advise_huge_pages(neighbours.data(), cells.size() * sizeof(TetMesh::Neighbours));
-  for (const Cell& cell : cells) {
-    const auto& v = cell.v;
+  for (std::size_t t = 0; t < cells.size(); ++t) {
+    if (t % kBlock == 0) kernel.forget_first(t);
+    const auto& v = cells[t].v;
     corners.push_back({order[v[0]], order[v[1]], order[v[2]], v[3] == kernel.ghost() ? kGhost : order[v[3]]});
-    neighbours.push_back(cell.n);
+    neighbours.push_back(cells[t].n);
   }
   mesh.set_tets(std::move(corners), std::move(neighbours));
 }
@@ -44,7 +46,7 @@ bool build_delaunay(TetMesh& mesh, const DelaunayOptions& options, Monitor* moni
       monitor->poll(Stage::delaunay, static_cast<double>(k) / count);
     kernel.insert(static_cast<Vertex>(k));
   }
-  kernel.compact();
+  kernel.finish();
   hand_over(kernel, mesh);
   return true;
 }

@@ -30,13 +30,22 @@ DelaunayKernel::DelaunayKernel(std::span<const Point> points, std::vector<std::u
       ghost_(static_cast<Vertex>(order_.size())),
       random_state_(seed * 2 + 1),
       cavity_(kFirstScratch),
+      rim_(kFirstScratch),
       boundary_(kFirstScratch),
-      local_(kFirstScratch),
       ring_(kFirstScratch),
       spokes_(kFirstScratch),
       table_(kTableSide * kTableSide) {
   cells_.reserve(7 * order_.size() + 64);  // 6.77 a point of a Poisson process
-  for (std::size_t k = 0; k < order_.size(); ++k) sites_[k].x = points[order_[k]];
+  Point low{}, high{};
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    const Point& p = sites_[k].x = points[order_[k]];
+    if (k == 0) low = high = p;
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], p[i]);
+      high[i] = std::max(high[i], p[i]);
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) diameter_ += high[i] - low[i];
 }
 
 std::uint32_t DelaunayKernel::random() {
@@ -92,10 +101,13 @@ void DelaunayKernel::set_geometry(Cell& cell) {
   const double* p = at(cell.v[0]);
   const Spoke u = spoke(p, at(cell.v[1]));
   const Spoke v = spoke(p, at(cell.v[2]));
-  if (is_ghost(cell))
-    set_half_space(cell, u, v);
-  else
-    set_sphere(cell, u, v, spoke(p, at(cell.v[3])));
+  if (is_ghost(cell)) {
+    set_half_space(cell, u, v, diameter_);
+  } else {
+    const Spoke w = spoke(p, at(cell.v[3]));
+    Cell other;
+    set_spheres({&cell, &other}, {&u, &u}, {&v, &v}, {&w, &w});
+  }
 }
 
 bool DelaunayKernel::in_conflict_exact(const Cell& cell, const double* q) const {
@@ -117,7 +129,6 @@ void DelaunayKernel::insert(Vertex k) {
     return;
   }
   dig(seed.tet, q);
-  take_slots();
   fill(k);
 }
 
@@ -153,48 +164,60 @@ void DelaunayKernel::note_duplicate(Tet t, Vertex k) {
 }
 
 // Collects the cells in conflict with q and the faces round them.
+//
+// The outcome of a test is a coin toss to the processor, so both lists are written always and only
+// their lengths depend on it; sign bits do the marking.
 void DelaunayKernel::dig(Tet seed, const double* q) {
+  constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
   Cell* const cells = cells_.data();
-  cells[seed].reach = -1;
-  cavity_[0] = seed;
-  std::size_t count = 1;
+  const Site* const sites = sites_.data();
+  const double qx = q[0], qy = q[1], qz = q[2];
+  std::size_t count = 0;
   std::size_t faces = 0;
+  const auto look = [&](const Cell& cell, Tet t, std::size_t i) {
+    const Face across = cell.n[i];
+    Cell& next = cells[tet_of(across)];
+    Filtered test = filtered_conflict(next, sites[next.v[0]].x.data(), qx, qy, qz);
+    if (!test.decided) [[unlikely]]
+      test.f = in_conflict_exact(next, q) ? -1.0 : 1.0;
+    const std::uint64_t conflict = std::bit_cast<std::uint64_t>(test.f) & kSign;
+    const std::uint64_t before = std::bit_cast<std::uint64_t>(next.reach);
+    const std::uint64_t after = before | conflict;
+    next.reach = std::bit_cast<double>(after);
+    cavity_[count] = across;
+    count += (after ^ before) >> 63;
+    rim_[faces] = face_code(t, static_cast<int>(i));
+    faces += (after >> 63) ^ 1;
+  };
+  cells[seed].reach = std::bit_cast<double>(std::bit_cast<std::uint64_t>(cells[seed].reach) | kSign);
+  cavity_[count++] = face_code(seed, 0);
+  look(cells[seed], seed, 0);
   for (std::size_t k = 0; k < count; ++k) {
     if (count + 4 > cavity_.size()) cavity_.resize(2 * cavity_.size());
-    if (faces + 4 > boundary_.size()) boundary_.resize(2 * boundary_.size());
-    const Cell& cell = cells[cavity_[k]];
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Face across = cell.n[i];
-      Cell& next = cells[tet_of(across)];
-      if (next.reach < 0) continue;
-      if (in_conflict(next, q)) {
-        next.reach = -1;
-        cavity_[count++] = tet_of(across);
-        for (const Face f : next.n) __builtin_prefetch(&cells[tet_of(f)]);
-      } else {
-        const auto& f = kFaceVertex[i];
-        const auto corner = [&](std::size_t m) { return cell.v[static_cast<std::size_t>(f[m])]; };
-        boundary_[faces++] = {across, {corner(0), corner(1), corner(2)}};
-      }
-    }
+    if (faces + 4 > rim_.size()) rim_.resize(2 * rim_.size());
+    const Face reached = cavity_[k];
+    const Tet t = tet_of(reached);
+    const Cell& cell = cells[t];
+    for (unsigned j = 1; j < 4; ++j) look(cell, t, (reached + j) & 3u);
   }
   cavity_count_ = count;
   face_count_ = faces;
 }
 
-// Makes cavity_ list one slot for each boundary face: those of the cavity first.
+// Finds one slot for each boundary face: those of the cavity first.
 void DelaunayKernel::take_slots() {
-  while (cavity_count_ > face_count_) free_.push_back(cavity_[--cavity_count_]);
-  if (cavity_.size() < face_count_) cavity_.resize(boundary_.size());
-  while (cavity_count_ < face_count_ && !free_.empty()) {
-    cavity_[cavity_count_++] = free_.back();
+  while (cavity_count_ > face_count_) free_.push_back(tet_of(cavity_[--cavity_count_]));
+  std::size_t j = 0;
+  for (; j < cavity_count_; ++j) boundary_[j].slot = tet_of(cavity_[j]);
+  for (; j < face_count_ && !free_.empty(); ++j) {
+    boundary_[j].slot = free_.back();
     free_.pop_back();
   }
-  const std::size_t fresh = cells_.size();
-  const std::size_t size = fresh + (face_count_ - cavity_count_);
-  if (size > cells_.capacity()) cells_.reserve(std::max(size, cells_.capacity() + cells_.capacity() / 4));
+  std::size_t size = cells_.size();
+  const std::size_t enough = size + (face_count_ - j);
+  if (enough > cells_.capacity()) cells_.reserve(std::max(enough, cells_.capacity() + cells_.capacity() / 4));
+  for (; j < face_count_; ++j) boundary_[j].slot = static_cast<Tet>(size++);
   cells_.resize(size);
-  for (std::size_t t = fresh; t < size; ++t) cavity_[cavity_count_++] = static_cast<Tet>(t);
 }
 
 inline std::uint32_t DelaunayKernel::local_index(Vertex v, const double* p) {
@@ -208,29 +231,46 @@ inline std::uint32_t DelaunayKernel::local_index(Vertex v, const double* p) {
   return site.local;
 }
 
-// Joins vertex k to the boundary of the cavity. Every new cell is (k, v1, v0, v2) for a boundary face
-// (v0, v1, v2), which keeps the ghost in slot 3.
-void DelaunayKernel::fill(Vertex k) {
-  const double* p = at(k);
-  if (local_.size() < face_count_) local_.resize(boundary_.size());
-  if (ring_.size() < face_count_) {  // a closed surface of F triangles has F / 2 + 2 vertices
-    ring_.resize(boundary_.size());
-    spokes_.resize(boundary_.size());
-  }
+// Reads the faces round the cavity off its cells, whose slots are about to be used again.
+// The boundary face (v0, v1, v2) sees p; the new cell is (p, v1, v0, v2), with the ghost last.
+void DelaunayKernel::list_boundary(const double* p) {
   ring_count_ = 0;
   Cell* const cells = cells_.data();
   for (std::size_t j = 0; j < face_count_; ++j) {
-    const Face outer = boundary_[j].outer;
-    auto v = boundary_[j].v;
-    if (v[0] == ghost_)
-      v = {v[1], v[2], v[0]};
-    else if (v[1] == ghost_)
-      v = {v[2], v[0], v[1]};
-    const Tet t = cavity_[j];
-    cells[t].v = {k, v[1], v[0], v[2]};
-    cells[t].n[0] = outer;
-    cells[tet_of(outer)].n[outer & 3u] = face_code(t, 0);
-    local_[j] = {local_index(v[0], p), local_index(v[1], p), local_index(v[2], p)};
+    const Cell& inner = cells[tet_of(rim_[j])];
+    const auto i = static_cast<std::size_t>(side_of(rim_[j]));
+    const auto& f = kFaceVertex[i];
+    Vertex a = inner.v[static_cast<std::size_t>(f[1])];
+    Vertex b = inner.v[static_cast<std::size_t>(f[0])];
+    Vertex c = inner.v[static_cast<std::size_t>(f[2])];
+    if (a == ghost_) [[unlikely]] {
+      a = std::exchange(b, std::exchange(c, a));
+    } else if (b == ghost_) [[unlikely]] {
+      b = std::exchange(a, std::exchange(c, b));
+    }
+    BoundaryFace& face = boundary_[j];
+    face.outer = inner.n[i];
+    face.v = {a, b, c};
+    face.local = {local_index(a, p), local_index(b, p), local_index(c, p)};
+    cells[tet_of(face.outer)].n[face.outer & 3u] = face_code(face.slot, 0);
+  }
+}
+
+// Joins vertex k to the boundary of the cavity.
+void DelaunayKernel::fill(Vertex k) {
+  if (boundary_.size() < face_count_) boundary_.resize(rim_.size());
+  if (ring_.size() < face_count_) {  // a closed surface of F triangles has F / 2 + 2 vertices
+    ring_.resize(rim_.size());
+    spokes_.resize(rim_.size());
+  }
+  take_slots();
+  list_boundary(at(k));
+  Cell* const cells = cells_.data();
+  for (std::size_t j = 0; j < face_count_; ++j) {
+    const BoundaryFace& face = boundary_[j];
+    Cell& cell = cells[face.slot];
+    cell.v = {k, face.v[0], face.v[1], face.v[2]};
+    cell.n[0] = face.outer;
   }
   set_geometry();
   if (ring_count_ <= kTableSide)
@@ -239,36 +279,47 @@ void DelaunayKernel::fill(Vertex k) {
     link_by_hash();
 }
 
+// The number of faces of a closed surface is even, so they go in pairs.
 void DelaunayKernel::set_geometry() {
   Cell* const cells = cells_.data();
+  const Spoke* const spokes = spokes_.data();
+  bool ghosts = false;
+  for (std::size_t j = 0; j < face_count_; j += 2) {
+    const BoundaryFace &f = boundary_[j], &g = boundary_[j + 1];
+    set_spheres({&cells[f.slot], &cells[g.slot]}, {&spokes[f.local[0]], &spokes[g.local[0]]},
+                {&spokes[f.local[1]], &spokes[g.local[1]]}, {&spokes[f.local[2]], &spokes[g.local[2]]});
+    ghosts = ghosts || f.v[2] == ghost_ || g.v[2] == ghost_;
+  }
+  last_ = boundary_[0].slot;
+  if (!ghosts) [[likely]]
+    return;
   for (std::size_t j = 0; j < face_count_; ++j) {
-    Cell& cell = cells[cavity_[j]];
-    const auto [a, b, c] = local_[j];
-    if (is_ghost(cell)) {
-      set_half_space(cell, spokes_[b], spokes_[a]);
-    } else {
-      set_sphere(cell, spokes_[b], spokes_[a], spokes_[c]);
-      last_ = cavity_[j];
-    }
+    const BoundaryFace& f = boundary_[j];
+    if (f.v[2] == ghost_)
+      set_half_space(cells[f.slot], spokes[f.local[0]], spokes[f.local[1]], diameter_);
+    else
+      last_ = f.slot;
   }
 }
 
-// Faces 3, 2, 1 of a new cell lie at the boundary edges (v0 v1), (v1 v2), (v2 v0); the neighbour has
-// the same edge reversed. The boundary is closed, so every entry read has been written.
+// Face i of a new cell (i = 1, 2, 3) lies at the boundary edge opposite local vertex i - 1; the
+// neighbour has the same edge reversed. The boundary is closed, so every entry read has been written.
 void DelaunayKernel::link_by_table() {
+  Face* const table = table_.data();
   for (std::size_t j = 0; j < face_count_; ++j) {
-    const auto [a, b, c] = local_[j];
-    const Tet t = cavity_[j];
-    table_[a * kTableSide + b] = face_code(t, 3);
-    table_[b * kTableSide + c] = face_code(t, 2);
-    table_[c * kTableSide + a] = face_code(t, 1);
+    const auto [a, b, c] = boundary_[j].local;
+    const Tet t = boundary_[j].slot;
+    table[b * kTableSide + c] = face_code(t, 1);
+    table[c * kTableSide + a] = face_code(t, 2);
+    table[a * kTableSide + b] = face_code(t, 3);
   }
+  Cell* const cells = cells_.data();
   for (std::size_t j = 0; j < face_count_; ++j) {
-    const auto [a, b, c] = local_[j];
-    Cell& cell = cells_[cavity_[j]];
-    cell.n[3] = table_[b * kTableSide + a];
-    cell.n[2] = table_[c * kTableSide + b];
-    cell.n[1] = table_[a * kTableSide + c];
+    const auto [a, b, c] = boundary_[j].local;
+    Cell& cell = cells[boundary_[j].slot];
+    cell.n[1] = table[c * kTableSide + b];
+    cell.n[2] = table[a * kTableSide + c];
+    cell.n[3] = table[b * kTableSide + a];
   }
 }
 
@@ -284,25 +335,27 @@ void DelaunayKernel::link_by_hash() {
     return hash_[h];
   };
   for (std::size_t j = 0; j < face_count_; ++j) {
-    const auto [a, b, c] = local_[j];
-    const Tet t = cavity_[j];
+    const auto [a, b, c] = boundary_[j].local;
+    const Tet t = boundary_[j].slot;
+    find(b, c).face = face_code(t, 1);
+    find(c, a).face = face_code(t, 2);
     find(a, b).face = face_code(t, 3);
-    find(b, c).face = face_code(t, 2);
-    find(c, a).face = face_code(t, 1);
   }
   for (std::size_t j = 0; j < face_count_; ++j) {
-    const auto [a, b, c] = local_[j];
-    Cell& cell = cells_[cavity_[j]];
+    const auto [a, b, c] = boundary_[j].local;
+    Cell& cell = cells_[boundary_[j].slot];
+    cell.n[1] = find(c, b).face;
+    cell.n[2] = find(a, c).face;
     cell.n[3] = find(b, a).face;
-    cell.n[2] = find(c, b).face;
-    cell.n[1] = find(a, c).face;
   }
 }
 
-void DelaunayKernel::compact() {
+void DelaunayKernel::finish() {
+  sites_ = {};
   std::sort(free_.begin(), free_.end());
   const auto drop_free_tail = [this] {
-    while (cells_.size() > 0 && cells_[cells_.size() - 1].reach < 0) cells_.resize(cells_.size() - 1);
+    while (cells_.size() > 0 && std::signbit(cells_[cells_.size() - 1].reach))
+      cells_.resize(cells_.size() - 1);
   };
   for (const Tet hole : free_) {
     drop_free_tail();
@@ -315,7 +368,7 @@ void DelaunayKernel::compact() {
     }
   }
   drop_free_tail();
-  free_.clear();
+  free_ = {};
 }
 
 }  // namespace holdfast

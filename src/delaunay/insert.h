@@ -46,8 +46,11 @@ class DelaunayKernel {
 
   [[nodiscard]] Vertex ghost() const { return ghost_; }
   [[nodiscard]] const CellStore& cells() const { return cells_; }
-  /// Moves cells into the free slots, so that none is left.
-  void compact();
+  /// Ends the insertions: moves cells into the free slots, so that none is left, and frees what only
+  /// insert() needs.
+  void finish();
+  /// Frees the memory of the first `count` cells, which the caller has read for the last time.
+  void forget_first(std::size_t count) { cells_.forget_first(count); }
   /// The point of each vertex: among equal points the first one.
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
 
@@ -56,22 +59,23 @@ class DelaunayKernel {
     std::array<double, 3> x;
     std::uint32_t local;  // index in the cavity's boundary; valid if that entry names this vertex
   };
+  // A face round the cavity, and the cell that comes to stand on it.
   struct BoundaryFace {
     Face outer;
-    std::array<Vertex, 3> v;  // (v, p) is positive
+    std::array<Vertex, 3> v;             // (new vertex, v) is positive
+    std::array<std::uint32_t, 3> local;  // the same vertices as places in ring_
+    Tet slot;
   };
   struct Located {
     Tet tet;
     bool conflict;  // else the point is a corner of the cell
   };
-  using LocalFace = std::array<std::uint32_t, 3>;
 
   [[nodiscard]] const double* at(Vertex v) const { return sites_[v].x.data(); }
   [[nodiscard]] bool is_ghost(const Cell& cell) const { return cell.v[3] == ghost_; }
   [[nodiscard]] bool in_conflict(const Cell& cell, const double* q) const {
-    const int sign = filtered_conflict(cell, is_ghost(cell) ? 0.0 : 1.0, at(cell.v[0]), q);
-    if (sign != 0) [[likely]] return sign > 0;
-    return in_conflict_exact(cell, q);
+    const Filtered test = filtered_conflict(cell, at(cell.v[0]), q[0], q[1], q[2]);
+    return test.decided ? test.f < 0 : in_conflict_exact(cell, q);
   }
   [[nodiscard]] bool in_conflict_exact(const Cell& cell, const double* q) const;
   [[nodiscard]] Located locate(const double* q);
@@ -79,6 +83,7 @@ class DelaunayKernel {
   void dig(Tet seed, const double* q);
   void take_slots();
   void fill(Vertex k);
+  void list_boundary(const double* p);
   std::uint32_t local_index(Vertex v, const double* p);
   void set_geometry();
   void set_geometry(Cell& cell);
@@ -92,15 +97,16 @@ class DelaunayKernel {
   std::vector<Tet> free_;
   Vertex ghost_;
   Tet last_ = kNone;
+  double diameter_ = 0;  // at least that of the point set
   std::uint64_t random_state_;
 
   // Of one insertion; kept to allocate nothing. The counts say how much of each array is in use.
   std::size_t cavity_count_ = 0;
   std::size_t face_count_ = 0;
   std::size_t ring_count_ = 0;
-  std::vector<Tet> cavity_;             // cells in conflict; then the slots of the new cells, one a face
-  std::vector<BoundaryFace> boundary_;  // faces round the cavity
-  std::vector<LocalFace> local_;        // the same in local indices
+  std::vector<Face> cavity_;            // cells in conflict, by the face through which they were reached
+  std::vector<Face> rim_;               // faces of the cavity's boundary, by their code inside
+  std::vector<BoundaryFace> boundary_;  // the same in detail
   std::vector<Vertex> ring_;            // vertices of the boundary
   std::vector<Spoke> spokes_;           // the same, relative to the new vertex
   std::vector<Face> table_;             // new face at local edge (i, j)
