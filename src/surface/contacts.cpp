@@ -274,7 +274,7 @@ Point zero_between(const double* a, const Dyadic& at_a, const double* b, const D
   Point point;
   for (unsigned k = 0; k < 3; ++k) {
     const double value = quotient(at_a * Dyadic(b[k]) - at_b * Dyadic(a[k]), difference);
-    point[k] = std::clamp(value, std::min(a[k], b[k]), std::max(a[k], b[k]));
+    point[k] = std::clamp(value, std::min(a[k], b[k]), std::max(a[k], b[k])) + 0.0;  // no -0
   }
   return point;
 }

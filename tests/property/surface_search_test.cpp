@@ -1,0 +1,247 @@
+// Property tests of the search: the tree of boxes, hubs and oriented boxes lose no pair. Here the truth is
+// the exact test of all pairs (contacts), which surface_diagnose_test.cpp checks against an oracle.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "surface/aabb_tree.h"
+#include "surface/complex.h"
+#include "surface/contacts.h"
+#include "surface/diagnose.h"
+#include "surface/hubs.h"
+#include "surface/oriented_box.h"
+#include "surface/search.h"
+
+namespace holdfast {
+namespace {
+
+using Random = std::mt19937_64;
+using Pairs = std::set<std::pair<Index, Index>>;
+
+double uniform(Random& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+Index below(Random& random, std::size_t n) { return static_cast<Index>(random() % n); }
+
+// --- Shapes that trees of boxes do not like -----------------------------------------------------
+
+// Rotated, so that nothing is parallel to an axis.
+Point rotated(double x, double y, double z) {
+  return {0.36 * x + 0.48 * y - 0.8 * z, -0.8 * x + 0.6 * y, 0.48 * x + 0.64 * y + 0.6 * z};
+}
+
+Surface soup(Random& random) {
+  Surface s;
+  for (int i = 0; i < 60; ++i)
+    s.vertices.push_back({uniform(random, 0, 4), uniform(random, 0, 4), uniform(random, 0, 4)});
+  for (int i = 0; i < 40; ++i) s.facets.push_back({below(random, 60), below(random, 60), below(random, 60)});
+  for (int i = 0; i < 10; ++i) s.segments.push_back({below(random, 60), below(random, 60)});
+  return s;
+}
+
+Surface parallel_needles(Random& random) {
+  Surface s;
+  for (int i = 0; i < 60; ++i) {
+    const double y = uniform(random, 0, 1), z = uniform(random, 0, 1);
+    const Index first = static_cast<Index>(s.vertices.size());
+    s.vertices.push_back(rotated(0, y, z));
+    s.vertices.push_back(rotated(100, y + uniform(random, 0, 0.05), z));
+    s.vertices.push_back(rotated(uniform(random, 0, 100), y, z + uniform(random, 0, 0.05)));
+    s.facets.push_back({first, first + 1, first + 2});
+  }
+  return s;
+}
+
+// A fan with some blades bent through their neighbours, and a second fan through the same points.
+Surface fans(Random& random) {
+  Surface s;
+  s.vertices = {rotated(0, 0, 1), rotated(0, 0, -1)};
+  const Index n = 70;
+  for (Index i = 0; i < n; ++i) {
+    const double angle = 6.283185307179586 * (i + uniform(random, -0.6, 0.6)) / n;
+    s.vertices.push_back(rotated(std::cos(angle), std::sin(angle), uniform(random, -0.01, 0.01)));
+  }
+  for (Index i = 0; i < n; ++i) {
+    s.facets.push_back({0, 2 + i, 2 + (i + 1) % n});
+    if (i % 2 == 0) s.facets.push_back({1, 2 + (i + 1) % n, 2 + i});
+    if (i % 7 == 0) s.segments.push_back({1, 2 + below(random, n)});
+  }
+  return s;
+}
+
+// The pages of a book: facets at one segment, some of them in one half-plane.
+Surface book(Random& random) {
+  Surface s;
+  const auto add = [&s](double x, double y, double z) {
+    s.vertices.push_back({x + 2 * y, 3 * y - z, x + 5 * z});
+  };
+  add(0, 0, 0);
+  add(0, 0, 1);
+  for (Index i = 0; i < 30; ++i) {
+    add(below(random, 15) - 7.0, below(random, 15) - 7.0, below(random, 3) - 1.0);
+    s.facets.push_back({0, 1, 2 + i});
+  }
+  return s;
+}
+
+// Many magnitudes, the ends of the range included.
+Surface graded(Random& random) {
+  Surface s;
+  for (int i = 0; i < 60; ++i) {
+    Point p;
+    for (double& x : p) x = std::ldexp(uniform(random, -1, 1), static_cast<int>(below(random, 2080)) - 1060);
+    s.vertices.push_back(p);
+  }
+  for (int i = 0; i < 30; ++i) s.facets.push_back({below(random, 60), below(random, 60), below(random, 60)});
+  return s;
+}
+
+Pairs all_pairs(const Complex& complex, const Elements& elements) {
+  Pairs pairs;
+  for (Index i = 0; i < elements.all.size(); ++i) {
+    for (Index j = i + 1; j < elements.all.size(); ++j) {
+      const Simplex a = Elements::simplex(elements.all[i], complex),
+                    b = Elements::simplex(elements.all[j], complex);
+      const Contacts found = contacts(a, b);
+      const bool same = a.corners == 3 && b.corners == 3 && (found.common & Contacts::bit(7, 7)) != 0;
+      const bool misfit = found.distinct != 0 || same;
+      EXPECT_FALSE(misfit && surely_fit(a, b));
+      EXPECT_FALSE(misfit && surely_fit(b, a));
+      if (misfit) pairs.insert({i, j});
+    }
+  }
+  return pairs;
+}
+
+void check(Surface (*make)(Random&), unsigned seeds) {
+  std::size_t found_some = 0;
+  for (unsigned seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const Surface s = make(random);
+    const Complex complex = s.view();
+    const Elements elements = elements_of(complex);
+    const Pairs expected = all_pairs(complex, elements);
+    found_some += !expected.empty();
+    for (const SearchTuning& tuning : {SearchTuning{}, {3, 1000}, {1000, 0}, {3, 0}, {20, 1}}) {
+      Pairs pairs;
+      const auto visit = [&](Index i, Index j, const Contacts&) {
+        EXPECT_TRUE(pairs.insert({i, j}).second) << "visited twice";
+        return true;
+      };
+      for_each_offending_pair(
+          complex, elements, visit, [](double) {}, tuning);
+      ASSERT_EQ(pairs, expected);
+    }
+  }
+  EXPECT_GT(found_some, seeds / 2);
+}
+
+TEST(SurfaceSearch, Soup) { check(soup, 40); }
+TEST(SurfaceSearch, ParallelNeedles) { check(parallel_needles, 60); }
+TEST(SurfaceSearch, Fans) { check(fans, 30); }
+TEST(SurfaceSearch, Book) { check(book, 60); }
+TEST(SurfaceSearch, Graded) { check(graded, 4); }
+
+// --- The parts ----------------------------------------------------------------------------------
+
+TEST(AabbTree, FindsAllOverlaps) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const std::size_t n = seed < 10 ? seed : 20 + below(random, 300);
+    const int grid = seed % 3 == 0 ? 3 : 12;  // coarse: many boxes with one centre, many that only touch
+    std::vector<Box> boxes(n);
+    std::vector<Index> group(n, no_index);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double a = below(random, static_cast<std::size_t>(grid)), b = a + below(random, 3);
+        boxes[i].low[k] = seed % 4 == 1 ? std::ldexp(a, 1000) : a;
+        boxes[i].high[k] = seed % 4 == 1 ? std::ldexp(b, 1000) : b;
+      }
+      if (seed % 2 == 0) group[i] = below(random, 6) < 4 ? below(random, 5) : no_index;
+    }
+    Pairs expected, found;
+    for (Index i = 0; i < n; ++i) {
+      for (Index j = i + 1; j < n; ++j) {
+        if (boxes[i].overlaps(boxes[j])) expected.insert({i, j});
+      }
+    }
+    const AabbTree tree(boxes, seed % 2 == 0 ? std::span<const Index>(group) : std::span<const Index>());
+    const auto never = [](Index, Index) { return false; };
+    const auto visit = [&](Index i, Index j) {
+      return found.insert({std::min(i, j), std::max(i, j)}).second;
+    };
+    tree.for_each_overlap(visit, never, [](double) {});
+    EXPECT_EQ(found, expected);
+    std::size_t visited = 0;
+    tree.for_each_overlap([&](Index, Index) { return ++visited < 3; }, never, [](double) {});
+    EXPECT_EQ(visited, std::min<std::size_t>(3, expected.size()));
+  }
+}
+
+TEST(OrientedBox, ApartMeansDisjoint) {
+  std::size_t apart = 0;
+  for (unsigned seed = 0; seed < 4000; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const double thin = std::ldexp(1.0, -static_cast<int>(below(random, 50))),
+                 gap = seed % 2 == 0 ? 0 : 3 * thin;
+    std::vector<Point> points;
+    for (int i = 0; i < 6; ++i) {
+      points.push_back(rotated(uniform(random, -1, 1), uniform(random, 0, thin) + (i < 3 ? 0 : gap),
+                               uniform(random, 0, thin)));
+    }
+    if (seed % 3 == 0) points[3] = points[0];
+    const auto simplex = [&](std::size_t first) {
+      Simplex s;
+      s.corners = 3;
+      for (std::size_t i = 0; i < 3; ++i) {
+        s.vertex[i] = static_cast<Index>(first + i);
+        s.point[i] = points[first + i].data();
+      }
+      EXPECT_TRUE(set_projection(s));
+      return s;
+    };
+    const Contacts found = contacts(simplex(0), simplex(3));
+    const UnitFrame frame(Box{{-2, -2, -2}, {2, 2, 2}});
+    const auto unit = [&](std::size_t i) { return frame(points[i].data()); };
+    const bool sure = surely_apart(oriented_box({{unit(0), unit(1), unit(2)}}),
+                                   oriented_box({{unit(3), unit(4), unit(5)}}));
+    EXPECT_FALSE(sure && (found.distinct | found.common) != 0);
+    apart += sure;
+  }
+  EXPECT_GT(apart, 1000u) << "needles side by side are told apart";
+}
+
+TEST(Hubs, DirectionsOfMeetingElementsOverlap) {
+  Random random(5);
+  const Surface s = fans(random);
+  const Complex complex = s.view();
+  const Elements elements = elements_of(complex);
+  const Hubs hubs(complex, elements, 20);
+  ASSERT_EQ(hubs.all().size(), 2u);
+  EXPECT_EQ(hubs.all()[0].vertex, 0u);
+  std::size_t told_apart = 0, pairs = 0;
+  for (const Hub& hub : hubs.all()) {
+    const std::vector<Box> boxes = hubs.directions(hub);
+    for (Index i = 0; i < boxes.size(); ++i) {
+      for (Index j = i + 1; j < boxes.size(); ++j) {
+        const Simplex a = Elements::simplex(elements.all[hub.elements[i]], complex);
+        const Simplex b = Elements::simplex(elements.all[hub.elements[j]], complex);
+        ++pairs;
+        if (boxes[i].overlaps(boxes[j])) continue;
+        ++told_apart;
+        EXPECT_EQ(contacts(a, b).distinct, 0u);
+      }
+    }
+  }
+  EXPECT_GT(told_apart, pairs * 9 / 10);
+}
+
+}  // namespace
+}  // namespace holdfast
