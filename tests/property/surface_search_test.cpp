@@ -88,6 +88,17 @@ Surface book(Random& random) {
   return s;
 }
 
+// Points on a slanted plane but for rounding: signs that filters cannot tell from zero and that are not.
+Surface almost_flat(Random& random) {
+  Surface s;
+  for (int i = 0; i < 40; ++i) {
+    const double height = below(random, 4) == 0 ? uniform(random, -1, 1) : 0;
+    s.vertices.push_back(rotated(uniform(random, 0, 4), uniform(random, 0, 4), height));
+  }
+  for (int i = 0; i < 40; ++i) s.facets.push_back({below(random, 40), below(random, 40), below(random, 40)});
+  return s;
+}
+
 // Many magnitudes, the ends of the range included.
 Surface graded(Random& random) {
   Surface s;
@@ -145,6 +156,7 @@ TEST(SurfaceSearch, Soup) { check(soup, 40); }
 TEST(SurfaceSearch, ParallelNeedles) { check(parallel_needles, 60); }
 TEST(SurfaceSearch, Fans) { check(fans, 30); }
 TEST(SurfaceSearch, Book) { check(book, 60); }
+TEST(SurfaceSearch, AlmostFlat) { check(almost_flat, 40); }
 TEST(SurfaceSearch, Graded) { check(graded, 4); }
 
 // --- The parts ----------------------------------------------------------------------------------
