@@ -97,7 +97,7 @@ class Sorter {
       return;
     }
     element.axis = static_cast<std::uint8_t>(simplex.axis);
-    element.turn = static_cast<std::int8_t>(simplex.turn);
+    element.turn = static_cast<std::int16_t>(simplex.turn);
     add(element);
   }
 

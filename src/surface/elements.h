@@ -20,7 +20,7 @@ struct Element {
   Index id = 0;              ///< in the complex's facets, segments or vertices
   std::uint8_t corners = 0;  ///< 3: facet, 2: segment, 1: vertex
   std::uint8_t axis = 0;     ///< of Simplex, for facets
-  std::int8_t turn = 0;      ///< of Simplex, for facets
+  std::int16_t turn = 0;     ///< of Simplex, for facets
 };
 
 /// What is wrong with one entity of the complex, or with two identical vertices.
