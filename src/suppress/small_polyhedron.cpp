@@ -1,6 +1,9 @@
 #include "suppress/small_polyhedron.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <utility>
 
 #include "mesh/measure.h"
 
@@ -27,6 +30,7 @@ class Search {
     if (vertices_.size() > options.most_vertices) return;
     n_ = vertices_.size();
     sign_.assign(n_ * n_ * n_ * n_, kUnknown);
+    apexes_.assign(n_ * n_ * n_, kUnknownMask);
     for (const auto& f : faces) open_.push_back(canonical({local(f[0]), local(f[1]), local(f[2])}));
   }
 
@@ -40,10 +44,7 @@ class Search {
 
  private:
   static constexpr std::int8_t kUnknown = 2;
-  struct Choice {
-    Local apex;
-    double fatness;
-  };
+  static constexpr std::uint32_t kUnknownMask = 0x80000000u;  // a polyhedron has at most 31 vertices
 
   [[nodiscard]] Local local(Vertex v) const {
     return static_cast<Local>(std::lower_bound(vertices_.begin(), vertices_.end(), v) - vertices_.begin());
@@ -80,39 +81,49 @@ class Search {
     return true;
   }
 
-  std::vector<Choice> choices(const LocalFace& f) {
-    std::vector<Choice> out;
-    for (Local d = 0; d < n_; ++d) {
-      if (orient(f[0], f[1], f[2], d) <= 0 || !is_empty(f, d)) continue;
-      out.push_back(
-          {d, fatness(mesh_, vertices_[f[0]], vertices_[f[1]], vertices_[f[2]], mesh_.point(vertices_[d]))});
+  // The vertices that make a positive, empty tetrahedron with the face, one bit each.
+  std::uint32_t apexes(const LocalFace& f) {
+    std::uint32_t& mask = apexes_[(f[0] * n_ + f[1]) * n_ + f[2]];
+    if (mask == kUnknownMask) {
+      mask = 0;
+      for (Local d = 0; d < n_; ++d)
+        if (orient(f[0], f[1], f[2], d) > 0 && is_empty(f, d)) mask |= 1u << d;
     }
+    return mask;
+  }
+
+  // The fattest tetrahedron first.
+  std::vector<Local> ranked(const LocalFace& f, std::uint32_t mask) const {
+    std::vector<std::pair<double, Local>> order;
+    for (; mask != 0; mask &= mask - 1) {
+      const auto d = static_cast<Local>(std::countr_zero(mask));
+      order.emplace_back(
+          -fatness(mesh_, vertices_[f[0]], vertices_[f[1]], vertices_[f[2]], mesh_.point(vertices_[d])), d);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<Local> out;
+    for (const auto& [fat, d] : order) out.push_back(d);
     return out;
   }
 
-  // Takes the open face with the fewest possible apexes, the fattest tetrahedron first.
+  // Takes the open face with the fewest possible apexes.
   bool fill() {
     if (open_.empty()) return true;
     if (budget_ == 0) return false;
     --budget_;
-    std::vector<Choice> best;
     LocalFace face{};
-    bool chosen = false;
+    int fewest = 32;
     for (const LocalFace& f : open_) {
-      std::vector<Choice> c = choices(f);
-      if (c.empty()) return false;
-      if (chosen && c.size() >= best.size()) continue;
-      best = std::move(c);
+      const int count = std::popcount(apexes(f));
+      if (count == 0) return false;
+      if (count >= fewest) continue;
+      fewest = count;
       face = f;
-      chosen = true;
-      if (best.size() == 1) break;
     }
-    std::sort(best.begin(), best.end(),
-              [](const Choice& a, const Choice& b) { return a.fatness > b.fatness; });
-    for (const Choice& c : best) {
+    for (const Local apex : ranked(face, apexes(face))) {
       const std::vector<LocalFace> before = open_;
-      if (place(face, c.apex)) {
-        tets_.push_back({face[0], face[1], face[2], c.apex});
+      if (place(face, apex)) {
+        tets_.push_back({face[0], face[1], face[2], apex});
         if (fill()) return true;
         tets_.pop_back();
       }
@@ -141,8 +152,9 @@ class Search {
   std::size_t budget_;
   std::size_t n_ = 0;
   std::vector<Vertex> vertices_;
-  std::vector<std::int8_t> sign_;
-  std::vector<LocalFace> open_;  // seen positively from what is left to fill
+  std::vector<std::int8_t> sign_;      // by ascending corners
+  std::vector<std::uint32_t> apexes_;  // by canonical face
+  std::vector<LocalFace> open_;        // seen positively from what is left to fill
   std::vector<std::array<Local, 4>> tets_;
 };
 
