@@ -87,6 +87,7 @@ class Enforcer {
     const auto [a, b] = table_.segments[s];
     chains_[s] = partition_segment(mesh_, a, b, first_free_);
     stats_.segment_points += chains_[s].size() - 2;
+    on_chain_.insert(chains_[s].begin() + 1, chains_[s].end() - 1);
   }
 
   void lay_dangling_segment(Index s) {
@@ -116,6 +117,7 @@ class Enforcer {
       monitor_.poll(Stage::eliminate, static_cast<double>(laid_) / static_cast<double>(missing_.size()));
       const auto it = std::find(chain.begin(), chain.end(), points[k]);
       eliminate(points[k], std::array<Vertex, 2>{*(it - 1), *(it + 1)});
+      on_chain_.erase(points[k]);
       chain.erase(it);
       if ((k + 1) % kSettleEvery == 0) settle();
     }
@@ -149,31 +151,17 @@ class Enforcer {
     restless_.clear();
   }
 
-  // Steiner points in the link of p that lie on no constraint (a partition point has constraint faces).
+  // Steiner points in the link of p that lie on no constraint (no facet has inner points when this is asked).
   std::vector<Vertex> steiner_neighbours(Vertex p) {
     std::vector<Tet> tets;
     ball(mesh_, p, tets);
     std::vector<Vertex> out;
     for (const Tet t : tets)
       for (const Vertex v : mesh_.corners(t))
-        if (v >= first_free_ && v != p && v != kGhost && !on_constraint(v)) out.push_back(v);
+        if (v >= first_free_ && v != p && v != kGhost && !on_chain_.contains(v)) out.push_back(v);
     std::sort(out.begin(), out.end());
     out.erase(std::unique(out.begin(), out.end()), out.end());
     return out;
-  }
-
-  bool on_constraint(Vertex v) {
-    std::vector<Tet> tets;
-    ball(mesh_, v, tets);
-    return std::any_of(tets.begin(), tets.end(), [&](Tet t) {
-      const int i = mesh_.index_of(t, v);
-      for (int k = 0; k < 4; ++k)
-        if (k != i &&
-            (mesh_.is_facet(face_code(t, k)) ||
-             mesh_.is_segment(t, kEdgeOf[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)])))
-          return true;
-      return false;
-    });
   }
 
   static constexpr int kRounds = 3;
@@ -187,7 +175,8 @@ class Enforcer {
   Monitor& monitor_;
   const bool eliminate_;
   std::vector<std::vector<Vertex>> chains_;  // by segment; empty where it is one edge
-  std::vector<Index> pending_;               // by segment: facets round it that are not laid yet
+  std::unordered_set<Vertex> on_chain_;
+  std::vector<Index> pending_;  // by segment: facets round it that are not laid yet
   std::vector<Index> missing_;
   std::size_t laid_ = 0;
   std::vector<Vertex> restless_;

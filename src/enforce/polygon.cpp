@@ -27,7 +27,7 @@ double shape(const TetMesh& mesh, Vertex a, Vertex b, Vertex c) {
 class EarClipper {
  public:
   EarClipper(const TetMesh& mesh, std::span<const Vertex> polygon, Vertex above)
-      : mesh_(mesh), above_(above), rest_(polygon.begin(), polygon.end()), rank_(polygon.size(), kUnknown) {}
+      : mesh_(mesh), above_(above), rest_(polygon.begin(), polygon.end()), corners_(polygon.size()) {}
 
   std::vector<std::array<Vertex, 3>> run() {
     std::vector<std::array<Vertex, 3>> triangles;
@@ -42,6 +42,11 @@ class EarClipper {
   }
 
  private:
+  struct Corner {
+    bool turn_known = false;
+    bool convex = false;
+    double rank = kUnknown;  // shape of the ear
+  };
   static constexpr double kUnknown = -1;
   static constexpr double kNoEar = -2;
 
@@ -52,43 +57,66 @@ class EarClipper {
     return {rest_[(k + n - 1) % n], rest_[k], rest_[(k + 1) % n]};
   }
 
-  [[nodiscard]] bool is_ear(std::size_t k) const {
+  bool convex(std::size_t k) {
+    Corner& c = corners_[k];
+    if (!c.turn_known) {
+      const auto [u, v, w] = corner(k);
+      c.convex = turn(u, v, w) > 0;
+      c.turn_known = true;
+    }
+    return c.convex;
+  }
+
+  // A chain that enters a convex corner's triangle has its foremost point there at a corner that is not
+  // convex: only those are looked at.
+  bool is_ear(std::size_t k) {
+    if (!convex(k)) return false;
     const auto [a, b, c] = corner(k);
-    if (turn(a, b, c) <= 0) return false;
-    return std::none_of(rest_.begin(), rest_.end(), [&, a = a, b = b, c = c](Vertex v) {
-      return v != a && v != b && v != c && turn(a, b, v) >= 0 && turn(b, c, v) >= 0 && turn(c, a, v) >= 0;
-    });
+    for (std::size_t i = 0; i < rest_.size(); ++i) {
+      const Vertex v = rest_[i];
+      if (v == a || v == b || v == c || convex(i)) continue;
+      if (turn(c, a, v) >= 0 && turn(a, b, v) >= 0 && turn(b, c, v) >= 0) return false;
+    }
+    return true;
+  }
+
+  void rank(std::size_t k) {
+    const auto [a, b, c] = corner(k);
+    corners_[k].rank = is_ear(k) ? shape(mesh_, a, b, c) : kNoEar;
   }
 
   std::size_t best_ear() {
-    std::size_t best = rest_.size();
-    for (std::size_t k = 0; k < rest_.size(); ++k) {
-      if (rank_[k] == kUnknown) {
-        const auto [a, b, c] = corner(k);
-        rank_[k] = is_ear(k) ? shape(mesh_, a, b, c) : kNoEar;
-      }
-      if (rank_[k] != kNoEar && (best == rest_.size() || rank_[k] > rank_[best])) best = k;
+    std::size_t best = find_best();
+    if (best == rest_.size()) {  // a clipped ear may have uncovered others than its neighbours
+      for (Corner& c : corners_) c.rank = kUnknown;
+      best = find_best();
     }
     if (best == rest_.size()) throw std::logic_error("holdfast: a polygon has no ear");
     return best;
   }
 
-  // Only corners whose triangle held the clipped vertex can turn into ears besides its two neighbours;
-  // those are not tracked, so every corner that is no ear is looked at again.
+  std::size_t find_best() {
+    std::size_t best = rest_.size();
+    for (std::size_t k = 0; k < rest_.size(); ++k) {
+      if (corners_[k].rank == kUnknown) rank(k);
+      if (corners_[k].rank != kNoEar && (best == rest_.size() || corners_[k].rank > corners_[best].rank))
+        best = k;
+    }
+    return best;
+  }
+
   void clip(std::size_t k) {
     rest_.erase(rest_.begin() + static_cast<std::ptrdiff_t>(k));
-    rank_.erase(rank_.begin() + static_cast<std::ptrdiff_t>(k));
+    corners_.erase(corners_.begin() + static_cast<std::ptrdiff_t>(k));
     const std::size_t n = rest_.size();
-    rank_[k % n] = kUnknown;
-    rank_[(k + n - 1) % n] = kUnknown;
-    for (double& r : rank_)
-      if (r == kNoEar) r = kUnknown;
+    corners_[k % n] = {};
+    corners_[(k + n - 1) % n] = {};
   }
 
   const TetMesh& mesh_;
   Vertex above_;
   std::vector<Vertex> rest_;
-  std::vector<double> rank_;
+  std::vector<Corner> corners_;
 };
 
 }  // namespace

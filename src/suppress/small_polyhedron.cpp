@@ -24,6 +24,7 @@ class Search {
  public:
   Search(const TetMesh& mesh, std::span<const std::array<Vertex, 3>> faces, const PolyhedronOptions& options)
       : mesh_(mesh), budget_(options.most_nodes) {
+    if (faces.size() > 2 * options.most_vertices) return;  // Euler: a sphere on n vertices has 2 n - 4
     for (const auto& f : faces) vertices_.insert(vertices_.end(), f.begin(), f.end());
     std::sort(vertices_.begin(), vertices_.end());
     vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
