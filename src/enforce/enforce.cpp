@@ -79,6 +79,7 @@ class Enforcer {
       eliminate(p, std::nullopt);
     }
     settle();
+    settle_all();
     for (const Index s : table_.facet_segments[f])
       if (--pending_[s] == 0 && !chains_[s].empty()) eliminate_chain(s);
   }
@@ -122,6 +123,7 @@ class Enforcer {
       if ((k + 1) % kSettleEvery == 0) settle();
     }
     settle();
+    settle_all();
     chain.clear();
     standing_.segments[s] = 1;
   }
@@ -129,6 +131,20 @@ class Enforcer {
   void eliminate(Vertex p, std::optional<std::array<Vertex, 2>> ends) {
     const std::vector<Vertex> fresh = cut_and_cone(mesh_, p, ends, random_);
     restless_.insert(restless_.end(), fresh.begin(), fresh.end());
+    steiner_.insert(steiner_.end(), fresh.begin(), fresh.end());
+  }
+
+  // All Steiner points now and then, whenever their number has doubled: a later facet pierces each edge
+  // that they keep, so that points beget points (paper §2.4).
+  void settle_all() {
+    std::erase_if(steiner_, [&](Vertex p) { return !mesh_.in_mesh(p); });
+    constexpr std::size_t kSlack = 64;
+    if (steiner_.size() < 2 * settled_ + kSlack) return;
+    restless_ = steiner_;
+    std::erase_if(restless_, [&](Vertex p) { return on_chain_.contains(p); });
+    settle();
+    std::erase_if(steiner_, [&](Vertex p) { return !mesh_.in_mesh(p); });
+    settled_ = steiner_.size();
   }
 
   // Suppresses or recentres the Steiner points that were just made, and those next to a suppressed one.
@@ -179,7 +195,9 @@ class Enforcer {
   std::vector<Index> pending_;  // by segment: facets round it that are not laid yet
   std::vector<Index> missing_;
   std::size_t laid_ = 0;
-  std::vector<Vertex> restless_;
+  std::vector<Vertex> restless_;  // Steiner points to be settled
+  std::vector<Vertex> steiner_;   // Steiner points that there are, and some that are gone
+  std::size_t settled_ = 0;       // how many there were when all were last settled
   EnforceStats stats_;
 };
 
