@@ -18,7 +18,10 @@ std::vector<Defect> find_defects(const Complex& complex, std::size_t most, const
   const std::vector<Finding> findings = find_root_causes(complex, elements, most - defects.size(), step);
   if (findings.empty()) return defects;
   const Stars stars(complex, elements);
-  for (const Finding& finding : findings) defects.push_back(describe(complex, elements, stars, finding));
+  for (const Finding& finding : findings) {
+    step(1);
+    defects.push_back(describe(complex, elements, stars, finding));
+  }
   return defects;
 }
 
