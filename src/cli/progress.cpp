@@ -17,12 +17,13 @@ constexpr std::chrono::milliseconds redraw_after{100};
 
 bool ProgressView::operator()(const Progress& progress) {
   const auto now = std::chrono::steady_clock::now();
-  const bool new_stage = stage_ != progress.stage;
-  stage_ = progress.stage;
-  if (show_ == Show::lines && new_stage) {
+  // Partition and elimination take turns; a stage is told when it first begins.
+  const bool first_time = !stage_ || *stage_ < progress.stage;
+  if (first_time) stage_ = progress.stage;
+  if (show_ == Show::lines && first_time) {
     fmt::print(stderr, "[{:8.2f} s] {}\n", std::chrono::duration<double>(now - started_).count(),
                name(progress.stage));
-  } else if (show_ == Show::bar && (new_stage || now - drawn_ >= redraw_after)) {
+  } else if (show_ == Show::bar && now - drawn_ >= redraw_after) {
     drawn_ = now;
     draw_bar(progress);
   }
