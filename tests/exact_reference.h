@@ -141,7 +141,7 @@ inline Case random_case(Random& random) {
       for (std::size_t i = 0; i < 3; ++i) p[i] = offset + (integer(random, 0, 1) == 0 ? q[i] : -q[i]) * unit;
     }
   };
-  switch (integer(random, 0, 15)) {
+  switch (integer(random, 0, 16)) {
     case 0:
       fill("uniform", [&] { return uniform(random, -1, 1); });
       break;
@@ -196,8 +196,18 @@ inline Case random_case(Random& random) {
       jitter(random, result.p);
       break;
     case 13:
-      result.kind = "cospherical at 2^-200 or 2^150";
-      cospherical(integer(random, 0, 1) == 0 ? 0x1p-200 : 0x1p150, 0);
+      // Degree five: products near the least double, or near the largest.
+      result.kind = "cospherical at 2^-214 or 2^200";
+      cospherical(integer(random, 0, 2) == 0 ? 0x1p200 : std::ldexp(1.0, integer(random, -218, -208)), 0);
+      jitter(random, result.p);
+      break;
+    case 15:
+      result.kind = "collinear by rounding";
+      for (Point3& p : result.p) {
+        const double t = uniform(random, -1, 1);
+        p = {0.1 + 0.3 * t, 0.7 - 0.9 * t, 0.2 + 1.1 * t};
+      }
+      jitter(random, result.p);
       break;
     case 14:
       fill("wide about the origin", [&] {

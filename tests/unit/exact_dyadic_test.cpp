@@ -122,7 +122,8 @@ TEST(Dyadic, ComputesExactly) {
   EXPECT_EQ(x, Dyadic(3));
   x *= x;
   EXPECT_EQ(x, Dyadic(9));
-  x -= x;
+  const Dyadic same = x;
+  x -= same;
   EXPECT_EQ(x, Dyadic());
 }
 
