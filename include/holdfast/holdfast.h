@@ -40,6 +40,8 @@ struct Options {
   std::vector<Point> holes;
   std::vector<RegionSeed> regions;
   bool drop_outside = false;  ///< facets outside every kept region are dropped instead of refused
+  /// Ends after this stage with what stands then, exact vertices rounded. Before `classify` that is every
+  /// tetrahedron of the enclosing box, as region 0, and the facets and segments that stand.
   std::optional<Stage> stop_after;
   std::uint64_t seed = 1;                  ///< of the random orders
   double time_limit = 0;                   ///< seconds; 0: none
@@ -68,7 +70,7 @@ struct Report {
     std::size_t segments = 0, facets = 0;
   } delaunay, flips;  ///< missing after Delaunay, and after the flips
   std::size_t segment_points = 0, facet_points = 0;  ///< added by the partition
-  std::size_t steiner_points = 0;                    ///< left in the volume
+  std::size_t steiner_points = 0;                    ///< left in the volume; corners of a box do not count
   std::size_t unrounded_points = 0;                  ///< of these, without a position in doubles
   std::size_t vertices = 0, tetrahedra = 0, regions = 0;
   struct Quality {
@@ -76,7 +78,7 @@ struct Report {
     double min_dihedral_deg = 0, max_dihedral_deg = 0;
     std::array<std::size_t, 18> histogram{};  ///< dihedral angles in bins of 10 degrees
   } quality;
-  std::map<std::string, double> seconds;  ///< by stage, and "total"
+  std::map<std::string, double> seconds;  ///< by stage, and "total"; "partition" includes elimination
   std::uint64_t peak_memory_bytes = 0;
 };
 
@@ -97,7 +99,9 @@ struct Result {
 
 /// Fills a complex with tetrahedra, keeping every facet and segment (the promise of design §1).
 ///
-/// Expected endings are outcomes. Throws std::bad_alloc when memory runs out without a limit, and
+/// Expected endings are outcomes. Throws std::invalid_argument for options that make no sense or do not
+/// suit the complex (marker arrays of a wrong length, a hole or region seed on a facet or in no region that
+/// it could mean, a margin that is not positive), std::length_error beyond 2^28 vertices, std::bad_alloc when memory runs out without a limit, and
 /// std::logic_error if an internal invariant breaks (please report it).
 [[nodiscard]] Result mesh(const Complex& complex, const Options& options = {});
 

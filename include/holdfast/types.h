@@ -80,7 +80,8 @@ enum class DefectKind : int {
   facets_overlap = 12,        ///< two coplanar facets that share area
   segments_overlap = 13,      ///< two collinear segments or sides that share length
   encloses_nothing = 14,      ///< no region is bounded by the facets
-  outside_region = 15,        ///< facets or segments that lie outside every kept region
+  outside_region = 15,        ///< facets, segments or vertices that border on no kept region
+  inconsistent_orientation = 16,  ///< facets turned so that there is no winding number (Keep::winding only)
 };
 
 /// One broken rule, with the entities that break it.

@@ -85,43 +85,17 @@ class Extractor {
   Extract extract_;
 };
 
-// Edges of kept tetrahedra that lie in segments, as sorted pairs of vertices.
-std::vector<Segment> kept_segments(const TetMesh& mesh, const Regions& regions, const Kept& kept) {
-  std::vector<Segment> edges;
-  for (Tet t = 0; t < mesh.slot_count(); ++t) {
-    if (!mesh.alive(t) || mesh.is_ghost(t) || (mesh.flags(t) & kSegmentBits) == 0) continue;
-    if (!kept.region[regions.of_tet[t]]) continue;
-    for (int k = 0; k < 6; ++k) {
-      if (!mesh.is_segment(t, k)) continue;
-      const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
-      const auto [a, b] = std::minmax(mesh.corner(t, e[0]), mesh.corner(t, e[1]));
-      edges.push_back({a, b});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return edges;
-}
-
 }  // namespace
 
 Extract extract_kept(const Source& source, const Regions& regions, const Kept& kept) {
-  const TetMesh& mesh = source.mesh;
   Extractor extractor(source);
   extractor.take_tetrahedra([&](Tet t) -> std::optional<int> {
     const RegionId r = regions.of_tet[t];
     return kept.region[r] ? std::optional(kept.id[r]) : std::nullopt;
   });
   extractor.take_vertices();
-  extractor.take_facets([&](Index f) {
-    const auto& [front, back] = regions.of_facet[f];
-    return kept.region[front] || kept.region[back];
-  });
-  if (!source.complex.segments.empty()) {
-    const std::vector<Segment> edges = kept_segments(mesh, regions, kept);
-    extractor.take_segments(
-        [&](Index s) { return std::binary_search(edges.begin(), edges.end(), source.table.segments[s]); });
-  }
+  extractor.take_facets([&](Index f) { return kept.facet(regions, f); });
+  extractor.take_segments([&](Index s) { return kept.segment[s]; });
   return extractor.finish();
 }
 

@@ -10,6 +10,7 @@
 #include "api/report.h"
 #include "api/scale.h"
 #include "classify/keep.h"
+#include "classify/outside.h"
 #include "classify/regions.h"
 #include "delaunay/delaunay.h"
 #include "enforce/enforce.h"
@@ -37,16 +38,16 @@ void require_sensible(const Complex& complex, const Options& options) {
     return std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
   };
   if (!complex.facet_markers.empty() && complex.facet_markers.size() != complex.facets.size())
-    throw std::invalid_argument("holdfast: as many facet markers as facets are needed, or none");
+    throw std::invalid_argument("as many facet markers as facets are needed, or none");
   if (!complex.segment_markers.empty() && complex.segment_markers.size() != complex.segments.size())
-    throw std::invalid_argument("holdfast: as many segment markers as segments are needed, or none");
+    throw std::invalid_argument("as many segment markers as segments are needed, or none");
   if (!std::all_of(options.holes.begin(), options.holes.end(), finite))
-    throw std::invalid_argument("holdfast: a hole has a coordinate that is not finite");
+    throw std::invalid_argument("a hole has a coordinate that is not finite");
   if (!std::all_of(options.regions.begin(), options.regions.end(),
                    [&](const RegionSeed& seed) { return finite(seed.where); }))
-    throw std::invalid_argument("holdfast: a region seed has a coordinate that is not finite");
+    throw std::invalid_argument("a region seed has a coordinate that is not finite");
   if (options.keep == Keep::box && !(options.box_margin > 0 && options.box_margin < 1e6))
-    throw std::invalid_argument("holdfast: the margin of the box must be positive and below a million");
+    throw std::invalid_argument("the margin of the box must be positive and below a million");
 }
 
 class Pipeline {
@@ -83,15 +84,14 @@ class Pipeline {
                                                  {Stage::partition, &Pipeline::enforce_missing},
                                                  {Stage::classify, &Pipeline::classify},
                                                  {Stage::suppress, &Pipeline::suppress_points}}};
-    const Stage last = options_.stop_after.value_or(Stage::suppress);
     for (const Step& step : kSteps) {
-      if (step.stage > last) break;
+      if (step.stage > last_stage()) break;
       const Stopwatch watch(result_.report, name(step.stage));
       monitor_.enter(step.stage);
       (this->*step.run)();
       if (result_.outcome != Outcome::done) return;
     }
-    deliver(last);
+    deliver();
   }
 
   void give_up(Outcome outcome) {
@@ -116,6 +116,10 @@ class Pipeline {
     if (!defects.empty()) return refuse(std::move(defects));
     table_ = segment_table(complex_);
     result_.report.input = describe_input(complex_, &table_);
+    // Dangling facets enclose nothing wherever their vertices are; so say this before the long work.
+    const bool encloses = result_.report.input.dangling_facets < complex_.facets.size();
+    const bool must_enclose = options_.keep != Keep::box && last_stage() >= Stage::classify;
+    if (must_enclose && !encloses) refuse({encloses_nothing(complex_, table_)});
   }
 
   void build_box_mesh() {
@@ -151,7 +155,7 @@ class Pipeline {
 
   void classify() {
     regions_ = flood_regions(mesh_, complex_.facets);
-    kept_ = choose_regions(mesh_, regions_, complex_, table_, options_);
+    kept_ = choose_regions(mesh_, regions_, complex_, table_, options_, scale_);
     if (!kept_.defects.empty()) refuse(std::move(kept_.defects));
   }
 
@@ -170,20 +174,22 @@ class Pipeline {
     regions_ = flood_regions(mesh_, complex_.facets);
   }
 
-  void deliver(Stage last) {
+  void deliver() {
+    const Stage last = last_stage();
     const Source source{mesh_, complex_, table_, scale_};
     Extract extract =
         last >= Stage::classify ? extract_kept(source, regions_, kept_) : extract_all(source, standing_);
     result_.volume = std::move(extract.volume);
     result_.exact_vertices = std::move(extract.exact_vertices);
-    fill_report(last);
+    fill_report();
     if (last == Stage::suppress && !result_.exact_vertices.empty()) {
       result_.outcome = Outcome::not_representable;
       result_.message = "no positive mesh in double precision was found";
     }
   }
 
-  void fill_report(Stage last) {
+  void fill_report() {
+    const Stage last = last_stage();
     Report& report = result_.report;
     const Volume& volume = result_.volume;
     const bool with_corners =
@@ -197,6 +203,7 @@ class Pipeline {
     report.quality = measure(volume, volume.facets);
   }
 
+  [[nodiscard]] Stage last_stage() const { return options_.stop_after.value_or(Stage::suppress); }
   [[nodiscard]] Report::Missing missing() const {
     return {standing_.missing_segments(), standing_.missing_facets()};
   }

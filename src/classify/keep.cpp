@@ -1,187 +1,141 @@
 #include "classify/keep.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
-#include "mesh/traverse.h"
+#include "classify/outside.h"
 
 namespace holdfast {
 namespace {
 
-std::string text(const Point& p) {
-  std::array<char, 96> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "(%.17g, %.17g, %.17g)", p[0], p[1], p[2]);
-  return buffer.data();
-}
-
-std::vector<bool> bounded(const Regions& regions) {
-  std::vector<bool> keep(regions.count, true);
-  keep[0] = false;
-  return keep;
-}
-
-std::vector<bool> by_winding(const std::vector<int>& winding) {
-  std::vector<bool> keep(winding.size());
-  for (std::size_t r = 0; r < winding.size(); ++r) keep[r] = r != 0 && winding[r] != 0;
-  return keep;
-}
-
-std::vector<bool> by_rule(const Regions& regions, Keep rule) {
-  if (rule == Keep::box) return std::vector<bool>(regions.count, true);
-  if (rule == Keep::bounded) return bounded(regions);
-  const auto winding = winding_numbers(regions);
-  if (rule == Keep::winding && !winding)
-    throw std::invalid_argument(
-        "keep winding: the facets are not consistently oriented; turn them round or use keep bounded");
-  if (!winding) return bounded(regions);
-  std::vector<bool> keep = by_winding(*winding);
-  const bool some = std::find(keep.begin(), keep.end(), true) != keep.end();
-  return some || rule == Keep::winding ? keep : bounded(regions);
-}
-
-RegionId region_at(const TetMesh& mesh, const Regions& regions, const Point& p, const char* what) {
-  const Located located = locate(mesh, regions, p);
-  if (located.on_constraint)
-    throw std::invalid_argument(std::string(what) + " " + text(p) +
-                                " lies on the surface; move it inside a region");
-  if (located.region == 0)
-    throw std::invalid_argument(std::string(what) + " " + text(p) + " lies outside every bounded region");
-  return located.region;
-}
-
-Defect encloses_nothing(const Complex& complex, const SegmentTable& table) {
-  Defect defect{DefectKind::encloses_nothing, {}, {}, {}, {}, {}};
-  std::size_t open = 0;
-  std::string first;
-  for (Index s = 0; s < table.segments.size(); ++s) {
-    if (table.facets_of(s).size() != 1) continue;
-    ++open;
-    const auto [a, b] = table.segments[s];
-    constexpr std::size_t kListed = 3;
-    if (open > kListed) continue;
-    first += (open > 1 ? "; " : "") + std::to_string(a) + "-" + std::to_string(b) + " from " +
-             text(complex.vertices[a]) + " to " + text(complex.vertices[b]);
-    defect.vertices.insert(defect.vertices.end(), {a, b});
-    defect.where.insert(defect.where.end(), {complex.vertices[a], complex.vertices[b]});
-  }
-  defect.message = "the surface encloses nothing";
-  if (open > 0)
-    defect.message +=
-        ": " + std::to_string(open) + " open border edges, first " + first + (open > 3 ? "; ..." : "");
-  defect.message += "; close it, or use --keep box to mesh everything out to an enclosing box";
+Defect not_oriented(const Complex& complex, const std::array<Index, 2>& facets) {
+  Defect defect{DefectKind::inconsistent_orientation, {}, {facets[0]}, {}, {}, {}};
+  if (facets[1] != facets[0]) defect.facets.push_back(facets[1]);
+  defect.where.push_back(complex.vertices[complex.facets[facets[0]][0]]);
+  const bool one = defect.facets.size() == 1;
+  defect.message =
+      "the surface has no winding number: " +
+      (one ? "triangle " + std::to_string(facets[0]) + " is"
+           : "triangles " + std::to_string(facets[0]) + " and " + std::to_string(facets[1]) + " are") +
+      " not turned consistently with the rest at " + place(defect.where[0]) +
+      "; turn the triangles of every shell the same way, or use --keep bounded";
   return defect;
 }
 
-// Facets, dangling segments and isolated vertices next to no kept region.
-class OutsideFinder {
+class Chooser {
  public:
-  OutsideFinder(TetMesh& mesh, const Regions& regions, const std::vector<bool>& keep, const Complex& complex,
-                const SegmentTable& table)
-      : mesh_(mesh), regions_(regions), keep_(keep), complex_(complex), table_(table) {}
+  Chooser(const TetMesh& mesh, const Regions& regions, const Complex& complex, const SegmentTable& table,
+          const Options& options, int scale)
+      : mesh_(mesh), regions_(regions), complex_(complex), table_(table), options_(options), scale_(scale) {}
 
-  std::vector<Defect> run() {
-    for (Index f = 0; f < complex_.facets.size(); ++f)
-      if (!keep_[regions_.of_facet[f][0]] && !keep_[regions_.of_facet[f][1]]) add_facet(f);
-    std::vector<bool> used(complex_.vertices.size(), false);
-    for (Index s = 0; s < table_.segments.size(); ++s) {
-      for (const Index v : table_.segments[s]) used[v] = true;
-      if (table_.facets_of(s).empty()) look_at_segment(s);
+  Kept run() {
+    if (regions_.count == 1 && options_.keep != Keep::box) {
+      kept_.defects.push_back(encloses_nothing(complex_, table_));
+      return std::move(kept_);
     }
-    for (Index v = 0; v < complex_.vertices.size(); ++v)
-      if (!used[v]) look_at_vertex(v);
-    return std::move(defects_);
+    apply_rule();
+    if (!kept_.defects.empty()) return std::move(kept_);
+    for (const Point& hole : options_.holes) kept_.region[region_at(hole, "hole")] = false;
+    if (std::find(kept_.region.begin(), kept_.region.end(), true) == kept_.region.end()) {
+      kept_.defects.push_back({DefectKind::encloses_nothing,
+                               {},
+                               {},
+                               {},
+                               options_.holes.empty() ? std::vector<Point>{} : std::vector{options_.holes[0]},
+                               "nothing is left to fill: every region is a hole; leave out a hole"});
+      return std::move(kept_);
+    }
+    number();
+    find_kept_segments();
+    if (!options_.drop_outside) kept_.defects = find_outside(mesh_, regions_, kept_, complex_, table_);
+    return std::move(kept_);
   }
 
  private:
-  [[nodiscard]] bool any_kept(const std::vector<Tet>& tets) const {
-    return std::any_of(tets.begin(), tets.end(), [&](Tet t) { return keep_[regions_.of_tet[t]]; });
-  }
-  void add_facet(Index f) {
-    const Triangle& t = complex_.facets[f];
-    defects_.push_back(
-        {DefectKind::outside_region,
-         {t[0], t[1], t[2]},
-         {f},
-         {},
-         {complex_.vertices[t[0]]},
-         "triangle " + std::to_string(f) + " at " + text(complex_.vertices[t[0]]) +
-             " lies outside every kept region; remove it, use --drop-outside, or keep more (--keep)"});
-  }
-  void look_at_segment(Index s) {
-    const auto [a, b] = table_.segments[s];
-    std::vector<Tet> ring;
-    shell(mesh_, find_edge(mesh_, a, b), a, b, ring);
-    if (any_kept(ring)) return;
-    defects_.push_back(
-        {DefectKind::outside_region,
-         {a, b},
-         {},
-         {table_.input_segment[s]},
-         {complex_.vertices[a]},
-         "segment " + std::to_string(table_.input_segment[s]) + " at " + text(complex_.vertices[a]) +
-             " lies outside every kept region; remove it, use --drop-outside, or keep more (--keep)"});
-  }
-  void look_at_vertex(Index v) {
-    std::vector<Tet> tets;
-    ball(mesh_, v, tets);
-    if (any_kept(tets)) return;
-    defects_.push_back(
-        {DefectKind::outside_region,
-         {v},
-         {},
-         {},
-         {complex_.vertices[v]},
-         "isolated vertex " + std::to_string(v) + " at " + text(complex_.vertices[v]) +
-             " lies outside every kept region; remove it, use --drop-outside, or keep more (--keep)"});
+  void apply_rule() {
+    kept_.region.assign(regions_.count, true);
+    if (options_.keep == Keep::box) return;
+    kept_.region[0] = false;
+    if (options_.keep == Keep::bounded) return;
+    const Winding winding = winding_numbers(regions_);
+    if (winding.conflict) {
+      if (options_.keep == Keep::winding) kept_.defects.push_back(not_oriented(complex_, *winding.conflict));
+      return;
+    }
+    for (RegionId r = 1; r < regions_.count; ++r) kept_.region[r] = winding.number[r] != 0;
   }
 
-  TetMesh& mesh_;
+  // Holes and seeds in the complex's units: a scale that suits the complex may not suit them, so exactly.
+  [[nodiscard]] RegionId region_at(const Point& p, const std::string& what) const {
+    exact::ExactPoint moved = exact::lift(p.data());
+    for (exact::Dyadic& x : moved.c) x = x.scaled(scale_);
+    const Point approx{moved.c[0].to_double(), moved.c[1].to_double(), moved.c[2].to_double()};
+    const Located located = locate(mesh_, regions_, {approx.data(), &moved});
+    if (located.on_facet)
+      throw std::invalid_argument("the " + what + " at " + place(p) +
+                                  " lies on the surface; move it inside a region");
+    if (!located.in_mesh || (located.region == 0 && options_.keep != Keep::box))
+      throw std::invalid_argument("the " + what + " at " + place(p) +
+                                  " lies in no bounded region; move it inside one");
+    return located.region;
+  }
+
+  void number() {
+    kept_.id.assign(regions_.count, 0);
+    std::vector<bool> seeded(regions_.count, false);
+    std::set<int> taken;
+    for (const RegionSeed& seed : options_.regions) {
+      const RegionId r = region_at(seed.where, "region seed");
+      if (!kept_.region[r])
+        throw std::invalid_argument("the region seed at " + place(seed.where) +
+                                    " lies in a region that is not kept; move it, or keep more (--keep)");
+      if (seeded[r] && kept_.id[r] != seed.id)
+        throw std::invalid_argument("the region seed at " + place(seed.where) + " gives id " +
+                                    std::to_string(seed.id) + " to a region that another seed calls " +
+                                    std::to_string(kept_.id[r]) + "; leave out one of them");
+      kept_.id[r] = seed.id;
+      seeded[r] = true;
+      taken.insert(seed.id);
+    }
+    int next = 1;
+    for (RegionId r = 1; r < regions_.count; ++r) {
+      if (seeded[r] || !kept_.region[r]) continue;
+      while (taken.contains(next)) ++next;
+      kept_.id[r] = next++;
+    }
+  }
+
+  void find_kept_segments() {
+    kept_.segment.assign(table_.segments.size(), false);
+    for (Tet t = 0; t < mesh_.slot_count(); ++t) {
+      if (!mesh_.alive(t) || mesh_.is_ghost(t) || (mesh_.flags(t) & kSegmentBits) == 0) continue;
+      if (!kept_.region[regions_.of_tet[t]]) continue;
+      for (int k = 0; k < 6; ++k) {
+        if (!mesh_.is_segment(t, k)) continue;
+        const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
+        const Index s = table_.find(mesh_.corner(t, e[0]), mesh_.corner(t, e[1]));
+        if (s == no_index) throw std::logic_error("holdfast: an edge with a segment bit is no segment");
+        kept_.segment[s] = true;
+      }
+    }
+  }
+
+  const TetMesh& mesh_;
   const Regions& regions_;
-  const std::vector<bool>& keep_;
   const Complex& complex_;
   const SegmentTable& table_;
-  std::vector<Defect> defects_;
+  const Options& options_;
+  const int scale_;
+  Kept kept_;
 };
-
-// Seeds give ids; the other kept regions take the lowest ids that are free, in order.
-std::vector<int> number(const TetMesh& mesh, const Regions& regions, const std::vector<bool>& keep,
-                        const std::vector<RegionSeed>& seeds) {
-  std::vector<int> id(regions.count, 0);
-  std::vector<bool> seeded(regions.count, false);
-  for (const RegionSeed& seed : seeds) {
-    const RegionId r = region_at(mesh, regions, seed.where, "region seed");
-    id[r] = seed.id;
-    seeded[r] = true;
-  }
-  const auto taken = [&](int candidate) {
-    for (RegionId r = 0; r < regions.count; ++r)
-      if (seeded[r] && id[r] == candidate) return true;
-    return false;
-  };
-  int next = 1;
-  for (RegionId r = 1; r < regions.count; ++r) {
-    if (seeded[r] || !keep[r]) continue;
-    while (taken(next)) ++next;
-    id[r] = next++;
-  }
-  return id;
-}
 
 }  // namespace
 
-Kept choose_regions(TetMesh& mesh, const Regions& regions, const Complex& complex, const SegmentTable& table,
-                    const Options& options) {
-  Kept kept;
-  kept.region = by_rule(regions, options.keep);
-  for (const Point& hole : options.holes) kept.region[region_at(mesh, regions, hole, "hole")] = false;
-  kept.id = number(mesh, regions, kept.region, options.regions);
-  if (regions.count == 1 && options.keep != Keep::box) {
-    kept.defects.push_back(encloses_nothing(complex, table));
-  } else if (!options.drop_outside) {
-    kept.defects = OutsideFinder(mesh, regions, kept.region, complex, table).run();
-  }
-  return kept;
+Kept choose_regions(const TetMesh& mesh, const Regions& regions, const Complex& complex,
+                    const SegmentTable& table, const Options& options, int scale) {
+  return Chooser(mesh, regions, complex, table, options, scale).run();
 }
 
 }  // namespace holdfast

@@ -1,7 +1,6 @@
 // Which regions stay in the volume, and their ids (design §2.6).
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "classify/regions.h"
@@ -12,15 +11,25 @@ namespace holdfast {
 
 struct Kept {
   std::vector<bool> region;     ///< by region of Regions: whether it stays
-  std::vector<int> id;          ///< by region: the id that users see
-  std::vector<Defect> defects;  ///< encloses_nothing, outside_region; empty when all is well
+  std::vector<int> id;          ///< by region: the id that users see; 0 unless seeded for the outside
+  std::vector<bool> segment;    ///< by segment of the table: whether it borders on a kept region
+  std::vector<Defect> defects;  ///< of kinds 14 to 16; empty when all is well
+
+  /// Whether a facet borders on a kept region.
+  [[nodiscard]] bool facet(const Regions& regions, Index f) const {
+    return region[regions.of_facet[f][0]] || region[regions.of_facet[f][1]];
+  }
 };
 
-/// Applies keep rule, holes and region seeds of the options, then looks for constraints left outside.
+/// Applies keep rule, holes and region seeds of the options, then looks for what borders on no kept region.
 ///
-/// Throws std::invalid_argument for a hole or region seed that lies on the surface or outside every
-/// bounded region.
-[[nodiscard]] Kept choose_regions(TetMesh& mesh, const Regions& regions, const Complex& complex,
-                                  const SegmentTable& table, const Options& options);
+/// A region with a seed has the seed's id. The others that are kept have the least positive ids that no
+/// seed takes, in the order of their numbers. The mesh is the complex times 2^scale; holes and seeds are in
+/// the complex's units.
+///
+/// Throws std::invalid_argument for a hole or region seed that lies on a facet or in no region that it
+/// could mean, and for seeds that give one region two ids.
+[[nodiscard]] Kept choose_regions(const TetMesh& mesh, const Regions& regions, const Complex& complex,
+                                  const SegmentTable& table, const Options& options, int scale = 0);
 
 }  // namespace holdfast

@@ -1,7 +1,6 @@
 #include "classify/regions.h"
 
 #include <algorithm>
-#include <deque>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -12,51 +11,47 @@ namespace {
 RegionId flood(const TetMesh& mesh, std::vector<RegionId>& of_tet) {
   of_tet.assign(mesh.slot_count(), kNone);
   std::vector<Tet> stack;
+  const auto reach = [&](Tet t, RegionId region) {
+    of_tet[t] = region;
+    stack.push_back(t);
+  };
   const auto spread = [&](RegionId region) {
     while (!stack.empty()) {
       const Tet t = stack.back();
       stack.pop_back();
       for (int i = 0; i < 4; ++i) {
         const Tet n = tet_of(mesh.neighbour(t, i));
-        if (mesh.is_facet(face_code(t, i)) || of_tet[n] != kNone) continue;
-        of_tet[n] = region;
-        stack.push_back(n);
+        if (!mesh.is_facet(face_code(t, i)) && of_tet[n] == kNone) reach(n, region);
       }
     }
   };
   for (Tet t = 0; t < mesh.slot_count(); ++t)
-    if (mesh.alive(t) && mesh.is_ghost(t)) {
-      of_tet[t] = 0;
-      stack.push_back(t);
-    }
+    if (mesh.alive(t) && mesh.is_ghost(t)) reach(t, 0);
   spread(0);
   RegionId count = 1;
   for (Tet t = 0; t < mesh.slot_count(); ++t) {
     if (!mesh.alive(t) || of_tet[t] != kNone) continue;
-    of_tet[t] = count;
-    stack.push_back(t);
+    reach(t, count);
     spread(count++);
   }
   return count;
 }
 
-std::uint64_t hash(Triangle f) {
-  std::sort(f.begin(), f.end());
-  std::uint64_t h = f[0] * 0x9E3779B97F4A7C15ull;
-  h = (h ^ (h >> 29) ^ f[1]) * 0xBF58476D1CE4E5B9ull;
-  return (h ^ (h >> 31) ^ f[2]) * 0x94D049BB133111EBull;
+Triangle sorted(Triangle t) {
+  std::sort(t.begin(), t.end());
+  return t;
 }
-struct SameCorners {
-  bool operator()(Triangle f, Triangle g) const {
-    std::sort(f.begin(), f.end());
-    std::sort(g.begin(), g.end());
-    return f == g;
+
+struct TriangleHash {
+  std::size_t operator()(const Triangle& t) const {
+    std::uint64_t h = t[0] * 0x9E3779B97F4A7C15ull;
+    h = (h ^ (h >> 29) ^ t[1]) * 0xBF58476D1CE4E5B9ull;
+    h = (h ^ (h >> 31) ^ t[2]) * 0x94D049BB133111EBull;
+    return static_cast<std::size_t>(h ^ (h >> 30));
   }
 };
-struct CornerHash {
-  std::size_t operator()(const Triangle& f) const { return static_cast<std::size_t>(hash(f)); }
-};
 
+// Whether two triangles with the same corners turn the same way.
 bool same_turn(const Triangle& f, const Triangle& g) {
   for (std::size_t k = 0; k < 3; ++k)
     if (f[0] == g[k]) return f[1] == g[(k + 1) % 3];
@@ -65,19 +60,20 @@ bool same_turn(const Triangle& f, const Triangle& g) {
 
 // The regions on the sides of each facet, by the mesh faces that carry facet bits.
 void find_sides(const TetMesh& mesh, std::span<const Triangle> facets, Regions& regions) {
-  std::unordered_map<Triangle, Index, CornerHash, SameCorners> index;
+  std::unordered_map<Triangle, Index, TriangleHash> index;
   index.reserve(facets.size());
-  for (Index f = 0; f < facets.size(); ++f) index.emplace(facets[f], f);
+  for (Index f = 0; f < facets.size(); ++f) index.emplace(sorted(facets[f]), f);
   regions.of_facet.assign(facets.size(), {kNone, kNone});
   for (Tet t = 0; t < mesh.slot_count(); ++t) {
     if (!mesh.alive(t) || (mesh.flags(t) & kFacetBits) == 0) continue;
     for (int i = 0; i < 4; ++i) {
       if (!mesh.is_facet(face_code(t, i))) continue;
       // (f0 f1 f2 t's apex) is positive: t lies in front of the face as it turns.
-      const auto corners = mesh.face_vertices(face_code(t, i));
-      const auto it = index.find(corners);
-      if (it == index.end()) throw std::logic_error("holdfast: a facet face is no input facet");
-      regions.of_facet[it->second][same_turn(facets[it->second], corners) ? 0 : 1] = regions.of_tet[t];
+      const Triangle corners = mesh.face_vertices(face_code(t, i));
+      const auto it = index.find(sorted(corners));
+      if (it == index.end()) throw std::logic_error("holdfast: a face with a facet bit is no facet");
+      const Index f = it->second;
+      regions.of_facet[f][same_turn(facets[f], corners) ? 0 : 1] = regions.of_tet[t];
     }
   }
   for (const auto& sides : regions.of_facet)
@@ -96,6 +92,67 @@ void number_by_least_facet(Regions& regions) {
   for (auto& sides : regions.of_facet) sides = {rank[sides[0]], rank[sides[1]]};
 }
 
+// The region graph, breadth first from the outside.
+class WindingSearch {
+ public:
+  explicit WindingSearch(const Regions& regions)
+      : regions_(regions), facets_of_(regions.count), reached_by_(regions.count, kNone) {
+    for (Index f = 0; f < regions.of_facet.size(); ++f) {
+      const auto& [front, back] = regions.of_facet[f];
+      if (front == back) continue;
+      facets_of_[front].push_back(f);
+      facets_of_[back].push_back(f);
+    }
+    winding_.number.assign(regions.count, 0);
+  }
+
+  Winding run() {
+    std::vector<bool> known(regions_.count, false);
+    std::vector<RegionId> queue{0};
+    known[0] = true;
+    for (std::size_t k = 0; k < queue.size(); ++k) {
+      const RegionId r = queue[k];
+      for (const Index f : facets_of_[r]) {
+        const auto& [front, back] = regions_.of_facet[f];
+        const RegionId to = r == front ? back : front;
+        const int number = winding_.number[r] + (r == front ? 1 : -1);
+        if (!known[to]) {
+          known[to] = true;
+          winding_.number[to] = number;
+          reached_by_[to] = f;
+          queue.push_back(to);
+        } else if (winding_.number[to] != number) {
+          const Index other = reached_by_[to] != kNone ? reached_by_[to] : reached_by_[r];
+          winding_.conflict = {std::min(other, f), std::max(other, f)};
+          return std::move(winding_);
+        }
+      }
+    }
+    return std::move(winding_);
+  }
+
+ private:
+  const Regions& regions_;
+  std::vector<std::vector<Index>> facets_of_;  // by region: the facets between it and others
+  std::vector<Index> reached_by_;              // by region: the facet through which it was found
+  Winding winding_;
+};
+
+// Whether the box of t's corners holds p. Rounding is monotonic, so a strict order of the nearest doubles
+// is one of the exact coordinates too.
+bool box_holds(const TetMesh& mesh, Tet t, const double* p) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    bool below = false;
+    bool above = false;
+    for (const Vertex v : mesh.corners(t)) {
+      below = below || mesh.position(v)[i] <= p[i];
+      above = above || mesh.position(v)[i] >= p[i];
+    }
+    if (!below || !above) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Regions flood_regions(const TetMesh& mesh, std::span<const Triangle> facets) {
@@ -106,68 +163,25 @@ Regions flood_regions(const TetMesh& mesh, std::span<const Triangle> facets) {
   return regions;
 }
 
-std::optional<std::vector<int>> winding_numbers(const Regions& regions) {
-  struct Crossing {
-    RegionId to;
-    int step;
-  };
-  std::vector<std::vector<Crossing>> graph(regions.count);
-  for (const auto& [front, back] : regions.of_facet) {
-    if (front == back) continue;
-    graph[front].push_back({back, 1});
-    graph[back].push_back({front, -1});
-  }
-  std::vector<int> winding(regions.count, 0);
-  std::vector<bool> known(regions.count, false);
-  std::deque<RegionId> queue{0};
-  known[0] = true;
-  while (!queue.empty()) {
-    const RegionId r = queue.front();
-    queue.pop_front();
-    for (const Crossing& c : graph[r]) {
-      if (!known[c.to]) {
-        known[c.to] = true;
-        winding[c.to] = winding[r] + c.step;
-        queue.push_back(c.to);
-      } else if (winding[c.to] != winding[r] + c.step) {
-        return std::nullopt;
-      }
-    }
-  }
-  return winding;
-}
+Winding winding_numbers(const Regions& regions) { return WindingSearch(regions).run(); }
 
-Located locate(const TetMesh& mesh, const Regions& regions, const Point& p) {
-  const exact::PointRef q{p.data(), nullptr};
-  Tet t = 0;
-  while (!mesh.alive(t) || mesh.is_ghost(t)) ++t;
-  // A visibility walk that remembers where it came from and starts at a changing face cannot cycle for
-  // ever; a mesh that is not Delaunay needs the changing start (Devillers, Pion, Teillaud 2002).
-  unsigned start = 0;
-  for (bool moved = true; moved;) {
-    moved = false;
-    for (unsigned k = 0; k < 4 && !moved; ++k) {
-      const int i = static_cast<int>((k + start) & 3u);
+Located locate(const TetMesh& mesh, const Regions& regions, exact::PointRef p) {
+  Located located;
+  for (Tet t = 0; t < mesh.slot_count(); ++t) {
+    if (!mesh.alive(t) || mesh.is_ghost(t) || !box_holds(mesh, t, p.approx)) continue;
+    bool holds = true;
+    bool on_facet = false;
+    for (int i = 0; i < 4 && holds; ++i) {
       const auto f = mesh.face_vertices(face_code(t, i));
-      if (mesh.orient(f[0], f[1], f[2], q) >= 0) continue;
-      t = tet_of(mesh.neighbour(t, i));
-      moved = true;
+      const int side = mesh.orient(f[0], f[1], f[2], p);
+      holds = side >= 0;
+      on_facet = on_facet || (side == 0 && mesh.is_facet(face_code(t, i)));
     }
-    start = start * 1664525u + 1013904223u;
-    start ^= start >> 13;
-    if (mesh.is_ghost(t)) return {0, false};
+    if (!holds) continue;
+    located.region = regions.of_tet[t];
+    located.in_mesh = true;
+    located.on_facet = located.on_facet || on_facet;
   }
-  Located located{regions.of_tet[t], false};
-  std::vector<int> on;
-  for (int i = 0; i < 4; ++i) {
-    const auto f = mesh.face_vertices(face_code(t, i));
-    if (mesh.orient(f[0], f[1], f[2], q) == 0) on.push_back(i);
-  }
-  if (on.size() == 1) located.on_constraint = mesh.is_facet(face_code(t, on[0]));
-  if (on.size() == 2)
-    located.on_constraint =
-        mesh.is_segment(t, 5 - kEdgeOf[static_cast<std::size_t>(on[0])][static_cast<std::size_t>(on[1])]);
-  if (on.size() == 3) located.on_constraint = true;
   return located;
 }
 

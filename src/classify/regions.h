@@ -1,4 +1,5 @@
-// Regions: the sets of tetrahedra that facets separate (design §2.6).
+// Regions: the sets of tetrahedra that facets separate, their winding numbers, where a point lies (design
+// §2.6).
 #pragma once
 
 #include <array>
@@ -14,7 +15,7 @@ namespace holdfast {
 using RegionId = std::uint32_t;
 
 struct Regions {
-  /// By tetrahedron slot; 0 is the outside, ghosts included.
+  /// By tetrahedron slot; 0 is the outside, ghosts included; kNone for free slots.
   std::vector<RegionId> of_tet;
   RegionId count = 1;  ///< the outside included
   /// By facet: the region that sees its corners turn counterclockwise (in front of its normal), and the
@@ -23,19 +24,31 @@ struct Regions {
 };
 
 /// Floods through faces without facet bits, the outside first; bounded regions are numbered in the order of
-/// their least facet, so that the numbers depend on the input alone. Every facet must be a mesh face.
+/// their least facet (in front before behind), so that the numbers depend on the complex alone.
+///
+/// Throws std::logic_error unless the faces with facet bits are exactly the facets.
 [[nodiscard]] Regions flood_regions(const TetMesh& mesh, std::span<const Triangle> facets);
 
-/// Winding number of each region with respect to the facets that have different regions on their sides, if
-/// these are consistently oriented: one value a region such that crossing a facet from front to back adds
-/// one. Outside is 0.
-[[nodiscard]] std::optional<std::vector<int>> winding_numbers(const Regions& regions);
+/// Winding numbers with respect to the facets that have different regions on their sides.
+struct Winding {
+  /// By region: crossing a facet from front to back adds one, and the outside is 0; so a shell whose
+  /// facets all face outwards gives 1 inside. Meaningless in case of a conflict.
+  std::vector<int> number;
+  /// Two facets (or one, twice) on a closed path along which the number does not return to its value:
+  /// then the facets are not consistently oriented.
+  std::optional<std::array<Index, 2>> conflict;
+};
+[[nodiscard]] Winding winding_numbers(const Regions& regions);
 
-/// Where a point lies.
+/// Where a point lies; `region` is one of those that touch it.
 struct Located {
   RegionId region = 0;
-  bool on_constraint = false;  ///< on a facet, a segment or a vertex
+  bool in_mesh = false;   ///< false: beyond the hull
+  bool on_facet = false;  ///< in the closed triangle of some facet
 };
-[[nodiscard]] Located locate(const TetMesh& mesh, const Regions& regions, const Point& p);
+
+/// Exact. Looks at every tetrahedron, most of them by their box alone: a mesh with constraints is no
+/// Delaunay triangulation, in which a walk would be sure to arrive, and there are few such points.
+[[nodiscard]] Located locate(const TetMesh& mesh, const Regions& regions, exact::PointRef p);
 
 }  // namespace holdfast

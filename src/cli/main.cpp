@@ -1,6 +1,7 @@
 // The program `holdfast`: reads the command line, runs one command, turns failures into exit codes.
 #include <cstdio>
 #include <new>
+#include <stdexcept>
 
 #include "command.h"
 #include "holdfast/holdfast.h"
@@ -51,6 +52,10 @@ int main(int count, char** arguments) {
   try {
     return cli::run(count, arguments);
   } catch (const cli::UsageError& error) {
+    say("", error.what());
+    return cli::exit_usage;
+  } catch (const std::invalid_argument& error) {
+    // What the library says of options that do not suit the surface, such as a hole outside it.
     say("", error.what());
     return cli::exit_usage;
   } catch (const holdfast::FileError& error) {

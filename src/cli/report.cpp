@@ -40,6 +40,8 @@ const char* name(DefectKind kind) {
       return "encloses nothing";
     case DefectKind::outside_region:
       return "outside every region";
+    case DefectKind::inconsistent_orientation:
+      return "inconsistent orientation";
   }
   return "unknown";
 }

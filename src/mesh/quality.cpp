@@ -5,99 +5,217 @@
 #include <limits>
 #include <numbers>
 
+#include "exact/point.h"
+
 namespace holdfast {
 namespace {
 
 using Vector = std::array<double, 3>;
+using ExactVector = std::array<exact::Dyadic, 3>;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kScale = 0.20412414523193150;  // sqrt(6) / 12
+// Part of the sum of its terms below which a sum is computed exactly: some six digits are left above it.
+constexpr double kCancelled = 1e-9;
 
 Vector minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 double length(const Vector& a) { return std::sqrt(dot(a, a)); }
+ExactVector exactly_minus(const Point& a, const Point& b) {
+  ExactVector v;
+  for (std::size_t i = 0; i < 3; ++i) v[i] = exact::Dyadic(a[i]) - exact::Dyadic(b[i]);
+  return v;
+}
+ExactVector cross(const ExactVector& a, const ExactVector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 
-constexpr double kScale = 0.20412414523193150;  // sqrt(6) / 12
+// (b - a) x (c - a), of length twice the area.
+Vector normal(const Point& a, const Point& b, const Point& c) {
+  const Vector u = minus(b, a);
+  const Vector v = minus(c, a);
+  Vector n{};
+  double terms = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double left = u[(i + 1) % 3] * v[(i + 2) % 3];
+    const double right = u[(i + 2) % 3] * v[(i + 1) % 3];
+    n[i] = left - right;
+    terms = std::max(terms, std::abs(left) + std::abs(right));
+  }
+  if (length(n) > kCancelled * terms) return n;
+  const ExactVector exact = cross(exactly_minus(b, a), exactly_minus(c, a));
+  return {exact[0].to_double(), exact[1].to_double(), exact[2].to_double()};
+}
+
+// det(b - a, c - a, d - a); `n` is the normal of abc.
+double six_volumes(const Point& a, const Point& b, const Point& c, const Point& d, const Vector& n) {
+  const Vector w = minus(d, a);
+  double volume = 0;
+  double terms = 0;
+  const Vector u = minus(b, a);
+  const Vector v = minus(c, a);
+  for (std::size_t i = 0; i < 3; ++i) {
+    volume += n[i] * w[i];
+    terms += (std::abs(u[(i + 1) % 3] * v[(i + 2) % 3]) + std::abs(u[(i + 2) % 3] * v[(i + 1) % 3])) *
+             std::abs(w[i]);
+  }
+  if (std::abs(volume) > kCancelled * terms) return volume;
+  const ExactVector exact_n = cross(exactly_minus(b, a), exactly_minus(c, a));
+  const ExactVector exact_w = exactly_minus(d, a);
+  return (exact_n[0] * exact_w[0] + exact_n[1] * exact_w[1] + exact_n[2] * exact_w[2]).to_double();
+}
+
+// Points times the power of two that keeps products of coordinates in range; quality and angles stay.
+template <std::size_t size>
+std::array<Point, size> brought_in_range(std::array<Point, size> points) {
+  double top = 0;
+  for (const Point& p : points)
+    for (const double x : p) top = std::max(top, std::abs(x));
+  constexpr int kUsual = 200;
+  if (top == 0 || !std::isfinite(top) || std::abs(std::ilogb(top)) <= kUsual) return points;
+  const int k = -std::ilogb(top);
+  for (Point& p : points)
+    for (double& x : p) x = std::ldexp(x, k);
+  return points;
+}
+
+struct Measures {
+  std::array<Vector, 4> normals;  // of the faces opposite a, b, c, d, all inward or all outward
+  double six_volumes;
+  std::array<Vector, 6> edges;  // ab ac ad bc bd cd
+
+  explicit Measures(const std::array<Point, 4>& p)
+      : normals{normal(p[1], p[3], p[2]), normal(p[0], p[2], p[3]), normal(p[0], p[3], p[1]),
+                normal(p[0], p[1], p[2])},
+        six_volumes(holdfast::six_volumes(p[0], p[1], p[2], p[3], normals[3])),
+        edges{minus(p[1], p[0]), minus(p[2], p[0]), minus(p[3], p[0]),
+              minus(p[2], p[1]), minus(p[3], p[1]), minus(p[3], p[2])} {}
+
+  // The inradius is three volumes over the area.
+  [[nodiscard]] double quality() const {
+    double longest = 0;
+    for (const Vector& e : edges) longest = std::max(longest, dot(e, e));
+    double twice_area = 0;
+    for (const Vector& n : normals) twice_area += length(n);
+    if (!(std::abs(six_volumes) > 0)) return kInfinity;
+    return kScale * std::sqrt(longest) * twice_area / std::abs(six_volumes);
+  }
+
+  // At an edge e between faces of normals m and n, m x n = 6 V e up to sign: the sine of the angle is as
+  // exact as the volume.
+  [[nodiscard]] std::array<double, 6> dihedral_angles() const {
+    constexpr std::array<std::array<std::size_t, 2>, 6> kFacesAt{
+        {{2, 3}, {1, 3}, {1, 2}, {0, 3}, {0, 2}, {0, 1}}};
+    std::array<double, 6> angles{};
+    for (std::size_t k = 0; k < 6; ++k) {
+      const Vector& m = normals[kFacesAt[k][0]];
+      const Vector& n = normals[kFacesAt[k][1]];
+      const bool flat = !(dot(m, m) > 0) || !(dot(n, n) > 0);
+      const double sine = std::abs(six_volumes) * length(edges[k]);
+      angles[k] = flat ? kNan : std::atan2(sine, -dot(m, n)) * 180.0 / std::numbers::pi;
+    }
+    return angles;
+  }
+};
+
+// The tetrahedra on a triangle that compete for the least Q.
+//
+// Let L be the longest side. Over a given foot the inradius grows with the height h of the apex p:
+// r = A h / (A + sum of l_i sqrt(d_i^2 + h^2) / 2), with A the area, l_i the sides and d_i the distances of
+// the foot from them. So p lies as high as the longest edge allows, and of the longest edge more than L
+// never pays. That leaves p on a sphere of radius L round a corner, and the best one lies on two of them:
+// those round the ends of the longest side, so that p makes an equilateral triangle with it. What remains
+// is one number, the angle between that triangle and abc. (That the best p is of this kind was found by
+// search over all p; the unit test repeats it.)
+class BestTetrahedron {
+ public:
+  BestTetrahedron(const Point& a, const Point& b, const Point& c) {
+    std::array<double, 3> side{length(minus(c, b)), length(minus(a, c)), length(minus(b, a))};
+    std::sort(side.begin(), side.end());
+    longest_ = side[2];
+    twice_area_ = length(normal(a, b, c));
+    // The third corner beside the longest side: its height over it, and the part that it cuts off.
+    height_ = twice_area_ / longest_;
+    along_ = std::sqrt(std::max(0.0, side[1] * side[1] - height_ * height_));
+  }
+
+  [[nodiscard]] bool flat() const { return !(twice_area_ > 0); }
+
+  // Q with the apex at this angle, in coordinates where the longest side is the x-axis.
+  [[nodiscard]] double at(double angle) const {
+    const double l = longest_;
+    const double reach = l * std::numbers::sqrt3 / 2;
+    const Vector apex{l / 2, reach * std::cos(angle), reach * std::sin(angle)};
+    const double twice_lateral = l * reach + twice_area({along_, height_, 0}, apex) +
+                                 twice_area({along_ - l, height_, 0}, {-l / 2, apex[1], apex[2]});
+    const Vector to_third{along_ - apex[0], height_ - apex[1], apex[2]};
+    const double longest = std::max(l, length(to_third));
+    return kScale * longest * (twice_area_ + twice_lateral) / (twice_area_ * apex[2]);
+  }
+
+  [[nodiscard]] double best() const {
+    constexpr double kGolden = 0.6180339887498949;
+    constexpr int kSteps = 36;
+    double low = 1.2;  // acos(1/3) = 1.231 for the equilateral triangle is the least
+    double high = std::numbers::pi / 2;
+    for (int k = 0; k < kSteps; ++k) {
+      const double x = high - kGolden * (high - low);
+      const double y = low + kGolden * (high - low);
+      (at(x) < at(y) ? high : low) = at(x) < at(y) ? y : x;
+    }
+    return at(0.5 * (low + high));
+  }
+
+ private:
+  // Of the triangle 0 u v.
+  static double twice_area(const Vector& u, const Vector& v) {
+    return length({u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]});
+  }
+
+  double longest_, twice_area_, height_, along_;
+};
 
 }  // namespace
 
 double quality(const Point& a, const Point& b, const Point& c, const Point& d) {
-  const Vector ab = minus(b, a);
-  const Vector ac = minus(c, a);
-  const Vector ad = minus(d, a);
-  const Vector bc = minus(c, b);
-  const Vector bd = minus(d, b);
-  const Vector cd = minus(d, c);
-  const double longest =
-      std::sqrt(std::max({dot(ab, ab), dot(ac, ac), dot(ad, ad), dot(bc, bc), dot(bd, bd), dot(cd, cd)}));
-  const double twice_area =
-      length(cross(ab, ac)) + length(cross(ab, ad)) + length(cross(ac, ad)) + length(cross(bc, bd));
-  const double six_volumes = std::abs(dot(cross(ab, ac), ad));
-  if (!(six_volumes > 0)) return std::numeric_limits<double>::infinity();
-  return kScale * longest * twice_area / six_volumes;  // inradius = 3 V / area
+  return Measures(brought_in_range<4>({a, b, c, d})).quality();
 }
 
 std::array<double, 6> dihedral_angles(const Point& a, const Point& b, const Point& c, const Point& d) {
-  const std::array<const Point*, 4> p{&a, &b, &c, &d};
-  constexpr std::array<std::array<std::size_t, 4>, 6> kEdges{
-      {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}}};
-  std::array<double, 6> angles{};
-  for (std::size_t k = 0; k < 6; ++k) {
-    const auto& e = kEdges[k];
-    const Vector axis = minus(*p[e[1]], *p[e[0]]);
-    const Vector n1 = cross(axis, minus(*p[e[2]], *p[e[0]]));
-    const Vector n2 = cross(axis, minus(*p[e[3]], *p[e[0]]));
-    // atan2 keeps its accuracy where acos of a quotient loses it, at angles near 0 and 180 degrees.
-    angles[k] = std::atan2(length(cross(n1, n2)), dot(n1, n2)) * 180.0 / std::numbers::pi;
-    if (!(dot(n1, n1) > 0) || !(dot(n2, n2) > 0)) angles[k] = std::numeric_limits<double>::quiet_NaN();
-  }
-  return angles;
+  return Measures(brought_in_range<4>({a, b, c, d})).dihedral_angles();
 }
 
 double best_quality_on(const Point& a, const Point& b, const Point& c) {
-  const std::array<double, 3> side{length(minus(c, b)), length(minus(a, c)), length(minus(b, a))};
-  const double perimeter = side[0] + side[1] + side[2];
-  const double area = 0.5 * length(cross(minus(b, a), minus(c, a)));
-  if (!(area > 0)) return std::numeric_limits<double>::infinity();
-  const double r = 2 * area / perimeter;  // inradius of the triangle
-  double farthest = 0;                    // squared distance of a corner from the incentre
-  for (const double s : side) {
-    const double tangent = perimeter / 2 - s;
-    farthest = std::max(farthest, r * r + tangent * tangent);
-  }
-  const double longest_side = std::max({side[0], side[1], side[2]});
-  const auto at_height = [&](double z) {
-    const double total_area = area + 0.5 * perimeter * std::sqrt(r * r + z * z);
-    const double longest = std::max(longest_side, std::sqrt(farthest + z * z));
-    return kScale * longest * total_area / (area * z);
-  };
-  double low = longest_side * 1e-3;  // unimodal: too flat below, too long above
-  double high = longest_side * 4;
-  constexpr double kGolden = 0.6180339887498949;
-  for (int k = 0; k < 60; ++k) {
-    const double x = high - kGolden * (high - low);
-    const double y = low + kGolden * (high - low);
-    (at_height(x) < at_height(y) ? high : low) = at_height(x) < at_height(y) ? y : x;
-  }
-  return at_height(0.5 * (low + high));
+  const auto p = brought_in_range<3>({a, b, c});
+  const BestTetrahedron candidates(p[0], p[1], p[2]);
+  return candidates.flat() ? kInfinity : candidates.best();
 }
 
 Report::Quality measure(const Volume& volume, std::span<const Triangle> facets) {
+  const std::vector<Point>& v = volume.vertices;
   Report::Quality q;
   q.min_dihedral_deg = volume.tetrahedra.empty() ? 0 : 180;
   for (const Tetrahedron& t : volume.tetrahedra) {
-    const auto& v = volume.vertices;
-    q.worst = std::max(q.worst, quality(v[t[0]], v[t[1]], v[t[2]], v[t[3]]));
-    for (const double angle : dihedral_angles(v[t[0]], v[t[1]], v[t[2]], v[t[3]])) {
-      if (std::isnan(angle)) continue;
+    const Measures measures(brought_in_range<4>({v[t[0]], v[t[1]], v[t[2]], v[t[3]]}));
+    q.worst = std::max(q.worst, measures.quality());
+    for (double angle : measures.dihedral_angles()) {
+      if (std::isnan(angle)) angle = 0;
       q.min_dihedral_deg = std::min(q.min_dihedral_deg, angle);
       q.max_dihedral_deg = std::max(q.max_dihedral_deg, angle);
-      ++q.histogram[std::min<std::size_t>(17, static_cast<std::size_t>(angle / 10))];
+      ++q.histogram[std::min<std::size_t>(q.histogram.size() - 1, static_cast<std::size_t>(angle / 10))];
     }
   }
-  for (const Triangle& f : facets)
-    q.target = std::max(q.target,
-                        best_quality_on(volume.vertices[f[0]], volume.vertices[f[1]], volume.vertices[f[2]]));
+  for (const Triangle& f : facets) {
+    const auto p = brought_in_range<3>({v[f[0]], v[f[1]], v[f[2]]});
+    const BestTetrahedron candidates(p[0], p[1], p[2]);
+    // Any candidate bounds the best one from above: most triangles need one evaluation.
+    constexpr double kUsualAngle = 1.3;
+    if (candidates.flat())
+      q.target = kInfinity;
+    else if (candidates.at(kUsualAngle) > q.target)
+      q.target = std::max(q.target, candidates.best());
+  }
   return q;
 }
 

@@ -1,4 +1,7 @@
-// Quality of tetrahedra as the paper's §8 measures it; floating point, for reports and guidance only.
+// Quality of tetrahedra as the paper's §8 measures it. For reports: it decides nothing.
+//
+// Thin elements are what a report is about, so lengths, areas and volumes are right to a few digits however
+// much their terms cancel: where floating point cannot tell, exact differences and products do.
 #pragma once
 
 #include <array>
@@ -8,18 +11,21 @@
 
 namespace holdfast {
 
-/// Q = sqrt(6)/12 * longest edge / inradius: 1 for a regular tetrahedron, infinite for a flat one.
+/// Q = sqrt(6)/12 * longest edge / inradius: 1 for a regular tetrahedron, infinite for a flat one, such as
+/// one whose distinct exact corners share a double.
 [[nodiscard]] double quality(const Point& a, const Point& b, const Point& c, const Point& d);
 
-/// The six dihedral angles in degrees; NaN where a face has no area in doubles.
+/// The six dihedral angles in degrees, at the edges ab, ac, ad, bc, bd, cd of a tetrahedron that is positive
+/// or flat; NaN at the sides of a face without area.
 [[nodiscard]] std::array<double, 6> dihedral_angles(const Point& a, const Point& b, const Point& c,
                                                     const Point& d);
 
-/// The best Q of a tetrahedron on a given triangle, with its apex above the incentre, where the inradius
-/// for a given height is largest (paper §8: the "targeted quality" is that of the worst triangle).
+/// The least Q of all tetrahedra that have abc as a face: the best that a mesh can have there. Infinite for
+/// a triangle without area. (The paper's Target is the largest of them: the worst triangle's.)
 [[nodiscard]] double best_quality_on(const Point& a, const Point& b, const Point& c);
 
-/// Quality of a mesh against that of its boundary triangles.
+/// Worst quality and dihedral angles of a volume, and the target that its `facets` set. An angle that is not
+/// a number counts as 0 degrees. All zero for a volume without tetrahedra, but for the target.
 [[nodiscard]] Report::Quality measure(const Volume& volume, std::span<const Triangle> facets);
 
 }  // namespace holdfast

@@ -1,0 +1,169 @@
+#include "classify/outside.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <numeric>
+
+namespace holdfast {
+namespace {
+
+constexpr std::size_t kListed = 3;
+
+// "triangle 4", "triangles 4 and 7", "triangles 4, 7, 9 and 12 more"; nothing for no ids.
+std::string list(const std::string& noun, const std::string& plural, const std::vector<Index>& ids) {
+  if (ids.empty()) return {};
+  const std::size_t shown = ids.size() <= kListed + 1 ? ids.size() : kListed;
+  std::string words = (ids.size() == 1 ? noun : plural) + " ";
+  for (std::size_t i = 0; i < shown; ++i) {
+    if (i > 0) words += i + 1 == ids.size() ? " and " : ", ";
+    words += std::to_string(ids[i]);
+  }
+  if (shown < ids.size()) words += " and " + std::to_string(ids.size() - shown) + " more";
+  return words;
+}
+
+// Facets, segments of the table and vertices that hang together.
+struct Piece {
+  std::vector<Index> facets, segments, vertices;
+  std::size_t border = 0;  // sides that only one facet has
+};
+
+// Pieces of the complex that are left out, found by joining their vertices.
+class PieceFinder {
+ public:
+  PieceFinder(const Complex& complex, const SegmentTable& table)
+      : complex_(complex), table_(table), parent_(complex.vertices.size()) {
+    std::iota(parent_.begin(), parent_.end(), Index{0});
+  }
+
+  void add_facet(Index f) {
+    facets_.push_back(f);
+    join(complex_.facets[f][0], complex_.facets[f][1]);
+    join(complex_.facets[f][0], complex_.facets[f][2]);
+  }
+  void add_segment(Index s) {
+    segments_.push_back(s);
+    join(table_.segments[s][0], table_.segments[s][1]);
+  }
+  void add_vertex(Index v) { vertices_.push_back(v); }
+
+  // In the order of their first facets, then segments, then vertices.
+  std::vector<Piece> pieces() {
+    std::vector<Piece> pieces;
+    std::map<Index, std::size_t> of_root;
+    const auto piece_at = [&](Index v) -> Piece& {
+      const auto [place, added] = of_root.try_emplace(root(v), pieces.size());
+      if (added) pieces.emplace_back();
+      return pieces[place->second];
+    };
+    for (const Index f : facets_) {
+      Piece& piece = piece_at(complex_.facets[f][0]);
+      piece.facets.push_back(f);
+      for (const Index s : table_.facet_segments[f])
+        if (table_.facets_of(s).size() == 1) ++piece.border;
+    }
+    for (const Index s : segments_) piece_at(table_.segments[s][0]).segments.push_back(s);
+    for (const Index v : vertices_) piece_at(v).vertices.push_back(v);
+    return pieces;
+  }
+
+ private:
+  Index root(Index v) {
+    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
+    return v;
+  }
+  void join(Index a, Index b) { parent_[root(a)] = root(b); }
+
+  const Complex& complex_;
+  const SegmentTable& table_;
+  std::vector<Index> parent_;
+  std::vector<Index> facets_, segments_, vertices_;
+};
+
+Defect describe(const Piece& piece, const Complex& complex, const SegmentTable& table) {
+  Defect defect{DefectKind::outside_region, piece.vertices, piece.facets, {}, {}, {}};
+  for (const Index s : piece.segments) defect.segments.push_back(table.input_segment[s]);
+  const Index first = !piece.facets.empty()     ? complex.facets[piece.facets[0]][0]
+                      : !piece.segments.empty() ? table.segments[piece.segments[0]][0]
+                                                : piece.vertices[0];
+  defect.where.push_back(complex.vertices[first]);
+  std::string names;
+  for (const std::string& part :
+       {list("triangle", "triangles", defect.facets), list("segment", "segments", defect.segments),
+        list("isolated vertex", "isolated vertices", defect.vertices)})
+    if (!part.empty()) names += (names.empty() ? "" : " with ") + part;
+  const bool one = piece.facets.size() + piece.segments.size() + piece.vertices.size() == 1;
+  defect.message = names + " at " + place(complex.vertices[first]) +
+                   (one ? " borders on no kept region" : " border on no kept region");
+  if (piece.border > 0)
+    defect.message += " (" + std::to_string(piece.border) +
+                      (piece.border == 1 ? " open border edge)" : " open border edges)");
+  defect.message += one ? ": remove it, keep more (--keep bounded, --keep box), or drop it (--drop-outside)"
+                        : ": remove them, keep more (--keep bounded, --keep box), or drop them "
+                          "(--drop-outside)";
+  return defect;
+}
+
+std::vector<bool> vertices_in_kept(const TetMesh& mesh, const Regions& regions, const Kept& kept) {
+  std::vector<bool> in(mesh.vertex_count(), false);
+  for (Tet t = 0; t < mesh.slot_count(); ++t) {
+    if (!mesh.alive(t) || mesh.is_ghost(t) || !kept.region[regions.of_tet[t]]) continue;
+    for (const Vertex v : mesh.corners(t)) in[v] = true;
+  }
+  return in;
+}
+
+}  // namespace
+
+std::string place(const Point& p) {
+  std::array<char, 96> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "(%.10g, %.10g, %.10g)", p[0], p[1], p[2]);
+  return buffer.data();
+}
+
+Defect encloses_nothing(const Complex& complex, const SegmentTable& table) {
+  Defect defect{DefectKind::encloses_nothing, {}, {}, {}, {}, {}};
+  std::size_t open = 0;
+  std::string first;
+  for (Index s = 0; s < table.segments.size(); ++s) {
+    if (table.facets_of(s).size() != 1 || ++open > kListed) continue;
+    const auto [a, b] = table.segments[s];
+    first += (open > 1 ? ", " : "") + std::to_string(a) + "-" + std::to_string(b) + " from " +
+             place(complex.vertices[a]) + " to " + place(complex.vertices[b]);
+    defect.vertices.insert(defect.vertices.end(), {a, b});
+    if (open == 1) defect.where = {complex.vertices[a], complex.vertices[b]};
+  }
+  defect.message = "the surface encloses nothing";
+  if (complex.facets.empty())
+    defect.message += ": it has no triangles";
+  else if (open == 1)
+    defect.message += ": it has 1 open border edge, " + first;
+  else if (open > 1)
+    defect.message += ": it has " + std::to_string(open) + " open border edges, " +
+                      (open > kListed ? "the first being " : "") + first;
+  defect.message += "; close it, or use --keep box to fill everything out to an enclosing box";
+  return defect;
+}
+
+std::vector<Defect> find_outside(const TetMesh& mesh, const Regions& regions, const Kept& kept,
+                                 const Complex& complex, const SegmentTable& table) {
+  PieceFinder finder(complex, table);
+  for (Index f = 0; f < complex.facets.size(); ++f)
+    if (!kept.facet(regions, f)) finder.add_facet(f);
+  std::vector<bool> isolated(complex.vertices.size(), true);
+  for (Index s = 0; s < table.segments.size(); ++s) {
+    for (const Index v : table.segments[s]) isolated[v] = false;
+    if (table.facets_of(s).empty() && !kept.segment[s]) finder.add_segment(s);
+  }
+  if (std::find(isolated.begin(), isolated.end(), true) != isolated.end()) {
+    const std::vector<bool> in = vertices_in_kept(mesh, regions, kept);
+    for (Index v = 0; v < complex.vertices.size(); ++v)
+      if (isolated[v] && !in[v]) finder.add_vertex(v);
+  }
+  std::vector<Defect> defects;
+  for (const Piece& piece : finder.pieces()) defects.push_back(describe(piece, complex, table));
+  return defects;
+}
+
+}  // namespace holdfast

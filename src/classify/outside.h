@@ -1,0 +1,21 @@
+// What the chosen regions leave out, told as defects (design §2.6).
+#pragma once
+
+#include <vector>
+
+#include "classify/keep.h"
+
+namespace holdfast {
+
+/// "(x, y, z)" for messages.
+[[nodiscard]] std::string place(const Point& p);
+
+/// A surface without any bounded region: names the open borders.
+[[nodiscard]] Defect encloses_nothing(const Complex& complex, const SegmentTable& table);
+
+/// Facets, dangling segments and isolated vertices that border on no kept region: one defect for each set of
+/// them that hangs together. `kept` has its regions and segments.
+[[nodiscard]] std::vector<Defect> find_outside(const TetMesh& mesh, const Regions& regions, const Kept& kept,
+                                               const Complex& complex, const SegmentTable& table);
+
+}  // namespace holdfast
