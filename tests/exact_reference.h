@@ -71,8 +71,7 @@ inline int reference_orient2d(PointRef a, PointRef b, PointRef c, int axis) {
   return sign(cross(minus(rational(b), o), minus(rational(c), o))[static_cast<std::size_t>(axis)]);
 }
 
-/// Position of e against the sphere through a, b, c, d, by its centre: an arrangement of the algebra
-/// unlike the predicate's. Zero for coplanar a, b, c, d is not defined here; see usable_sphere.
+/// The determinant of the lifted differences, for any five points.
 inline int reference_insphere(const Point3& a, const Point3& b, const Point3& c, const Point3& d,
                               const Point3& e) {
   const auto lifted = [&e](const Point3& p) {
