@@ -1,0 +1,119 @@
+// Edge removal: the shell of an edge re-triangulated without it, the best way (n tetrahedra become 2n-4).
+//
+//                b                The shell of edge ab is a ring of tetrahedra (a b p_i p_i+1); its link
+//              / | \              is the polygon p_0 .. p_n-1. Any triangulation of the polygon whose
+//             /  |  \             triangles (p_i p_k p_j), i < k < j, see b above and a below gives the
+//        p_0 -------- p_3         2(n-2) tetrahedra (p_i p_k p_j b) and (p_j p_k p_i a) that fill the
+//           \ \  |  /  \          same space: they are positive and have the shell's boundary.
+//            \  \|/     \         n = 3 is the 3-2 flip, n = 4 the 4-4 flip.
+//           p_1 -|----- p_2
+//             \  |   /            The best triangulation is found by dynamic programming over the
+//               \| /              polygon's diagonals in O(n^3): Klincsek 1980; Freitag, Ollivier-Gooch
+//                a                1997; Shewchuk 2002, "Two discrete optimization algorithms".
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+
+namespace holdfast {
+
+/// Links above this size are not triangulated: the time grows with the cube.
+inline constexpr std::size_t kMostLink = 20;
+
+/// The tetrahedra round an edge and the polygon of their other vertices.
+struct EdgeShell {
+  Vertex a = kNone, b = kNone;
+  std::vector<Tet> tets;     ///< tets[i] holds link[i] and link[i + 1]
+  std::vector<Vertex> link;  ///< orient(a, b, link[i], link[i + 1]) > 0
+
+  [[nodiscard]] std::size_t size() const { return link.size(); }
+};
+
+/// Gathers the shell of edge ab of tetrahedron t. Returns false, with `out` unspecified, where the edge
+/// is on the hull or has more than `most` tetrahedra.
+bool gather_shell(const TetMesh& mesh, Tet t, Vertex a, Vertex b, EdgeShell& out,
+                  std::size_t most = kMostLink);
+
+/// A triangle of the link polygon as positions in the link, i < k < j.
+using LinkTriangle = std::array<std::uint8_t, 3>;
+
+/// The best triangulation of link polygons with n <= kMostLink corners; keeps its tables between calls.
+///
+/// An Objective has
+///   using Cost
+///   Cost none() const                                  the cost of nothing
+///   Cost join(Cost, Cost) const                        associative; never better than its arguments
+///   bool better(Cost, Cost) const                      a strict order
+///   std::optional<Cost> triangle(i, k, j)              i < k < j; nothing for a forbidden triangle
+///   Cost diagonal(i, j)                                i < j, an edge that the triangulation adds
+/// Equal costs: the first found stays.
+template <typename Objective>
+class LinkTriangulation {
+ public:
+  using Cost = typename Objective::Cost;
+
+  /// The cost of the best triangulation, or nothing where there is none.
+  std::optional<Cost> find(std::size_t n, Objective& objective) {
+    for (std::size_t i = 0; i + 1 < n; ++i) best_[i][i + 1] = {objective.none(), 0, true};
+    for (std::size_t gap = 2; gap < n; ++gap)
+      for (std::size_t i = 0; i + gap < n; ++i) fill(i, i + gap, i != 0 || gap + 1 != n, objective);
+    if (!best_[0][n - 1].exists) return std::nullopt;
+    return best_[0][n - 1].cost;
+  }
+
+  /// The n - 2 triangles of the triangulation found last, appended.
+  void triangles(std::size_t n, std::vector<LinkTriangle>& out) const { collect(0, n - 1, out); }
+
+ private:
+  struct Entry {
+    Cost cost{};
+    std::uint8_t apex = 0;
+    bool exists = false;
+  };
+
+  // The best triangulation of the polygon p_i .. p_j, diagonal (i, j) included unless it is a side.
+  void fill(std::size_t i, std::size_t j, bool is_diagonal, Objective& objective) {
+    Entry found;
+    for (std::size_t k = i + 1; k < j; ++k) {
+      const Entry& left = best_[i][k];
+      const Entry& right = best_[k][j];
+      if (!left.exists || !right.exists) continue;
+      const Cost parts = objective.join(left.cost, right.cost);
+      if (found.exists && !objective.better(parts, found.cost)) continue;
+      const std::optional<Cost> triangle = objective.triangle(i, k, j);
+      if (!triangle) continue;
+      const Cost cost = objective.join(parts, *triangle);
+      if (!found.exists || objective.better(cost, found.cost))
+        found = {cost, static_cast<std::uint8_t>(k), true};
+    }
+    if (found.exists && is_diagonal) found.cost = objective.join(found.cost, objective.diagonal(i, j));
+    best_[i][j] = found;
+  }
+
+  void collect(std::size_t i, std::size_t j, std::vector<LinkTriangle>& out) const {
+    if (j - i < 2) return;
+    const std::size_t k = best_[i][j].apex;
+    out.push_back({static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(k), static_cast<std::uint8_t>(j)});
+    collect(i, k, out);
+    collect(k, j, out);
+  }
+
+  std::array<std::array<Entry, kMostLink>, kMostLink> best_;
+};
+
+/// Whether a link triangle's two tetrahedra are strictly positive.
+[[nodiscard]] inline bool sees_both_ends(const TetMesh& mesh, const EdgeShell& shell, std::size_t i,
+                                         std::size_t k, std::size_t j) {
+  const Vertex pi = shell.link[i], pk = shell.link[k], pj = shell.link[j];
+  return mesh.orient(pi, pk, pj, shell.b) > 0 && mesh.orient(pj, pk, pi, shell.a) > 0;
+}
+
+/// The new tetrahedra of a triangulated link, appended.
+void tetrahedra_of(const EdgeShell& shell, const std::vector<LinkTriangle>& triangles,
+                   std::vector<TetMesh::Corners>& out);
+
+}  // namespace holdfast

@@ -1,0 +1,66 @@
+// What stands in the way of a missing constraint: the faces and edges that a segment pierces, the edges
+// that pierce a facet (paper §4; design §2.3).
+//
+// Both are for a mesh whose vertices are the constraints' own: of valid input no vertex lies inside a
+// segment or facet, so that a segment that is no edge pierces something in each tetrahedron it meets.
+#pragma once
+
+#include <random>
+#include <span>
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+
+namespace holdfast {
+
+/// A face or edge (3 or 2 corners) whose inside a segment crosses.
+struct Crossing {
+  Tet tet = kNone;  ///< a tetrahedron that holds it
+  std::array<Vertex, 3> corners{};
+  int count = 0;
+};
+
+/// An edge that pierces a facet.
+struct PiercingEdge {
+  Vertex above, below;  ///< orient(facet, above) > 0 > orient(facet, below)
+  Tet tet;              ///< one of its shell
+};
+
+using Random = std::mt19937_64;
+
+/// Finds crossings; keeps scratch between calls.
+class Piercing {
+ public:
+  Piercing(TetMesh& mesh, Random& random) : mesh_(mesh), random_(random) {}
+
+  /// A tetrahedron that holds edge ab, or kNone. Walks round a instead of visiting its whole ball.
+  [[nodiscard]] Tet find_edge(Vertex a, Vertex b);
+
+  /// The face abc (one of its two codes), or kNone.
+  [[nodiscard]] Face find_face(Vertex a, Vertex b, Vertex c);
+
+  /// The faces and edges that segment ab crosses, from a to b, at most `most`; empty where ab is an edge.
+  /// Returns false where a vertex or the hull lies in the way.
+  bool by_segment(Vertex a, Vertex b, std::vector<Crossing>& out, std::size_t most);
+
+  /// The edges that pierce a facet whose sides are edges, each once, at most about `most`. Returns false
+  /// where a side is no edge.
+  bool of_facet(const std::array<Vertex, 3>& facet, std::vector<PiercingEdge>& out, std::size_t most);
+
+ private:
+  // What a ray meets next: 3, 2 or 1 corners of `tet`, which lies before a face.
+  using Exit = Crossing;
+
+  [[nodiscard]] Exit leave_vertex(Vertex a, Vertex b);
+  [[nodiscard]] std::array<int, 3> cone_signs(const std::array<Vertex, 3>& f, Vertex a, Vertex b) const;
+  [[nodiscard]] Exit leave_by_face(Tet t, Vertex a, const std::array<int, 3>& signs) const;
+  [[nodiscard]] Exit pass_face(const Exit& in, Vertex a, Vertex b) const;
+  [[nodiscard]] Exit pass_edge(const Exit& in, Vertex a, Vertex b) const;
+  void flood(const std::array<Vertex, 3>& facet, std::vector<PiercingEdge>& out, std::size_t most);
+
+  TetMesh& mesh_;
+  Random& random_;
+  std::vector<Tet> tets_;
+};
+
+}  // namespace holdfast

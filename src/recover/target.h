@@ -1,0 +1,34 @@
+// The constraint that flips are to recover, and what a face or edge costs that stands in its way.
+#pragma once
+
+#include <array>
+
+#include "mesh/tet_mesh.h"
+
+namespace holdfast {
+
+/// A missing segment or facet. Costs count how often the mesh pierces it; a segment is an edge (a facet
+/// with its sides in place is a face) exactly when the total over all faces and edges is zero.
+class Target {
+ public:
+  /// Crossing an edge is worth more than crossing a face: it has a whole shell round it.
+  static constexpr int kFaceCost = 2;
+  static constexpr int kEdgeCost = 3;
+
+  static Target segment(Vertex a, Vertex b) { return {{a, b, kNone}, true}; }
+  static Target facet(const std::array<Vertex, 3>& abc) { return {abc, false}; }
+
+  [[nodiscard]] bool is_segment() const { return is_segment_; }
+  /// Cost of the face uvw: its inside crossed by the segment. Facets: 0.
+  [[nodiscard]] int face(const TetMesh& mesh, Vertex u, Vertex v, Vertex w) const;
+  /// Cost of the edge uv: its inside crosses that of the segment or facet.
+  [[nodiscard]] int edge(const TetMesh& mesh, Vertex u, Vertex v) const;
+
+ private:
+  Target(const std::array<Vertex, 3>& corners, bool is_segment) : v_(corners), is_segment_(is_segment) {}
+
+  std::array<Vertex, 3> v_;
+  bool is_segment_;
+};
+
+}  // namespace holdfast
