@@ -17,7 +17,7 @@ class FileError : public std::runtime_error {
         path_(std::move(path)),
         where_(std::move(where)) {}
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// "line 12", "byte 84" or empty.
+  /// Place in the file: "line 12", "byte 84", "cell 3", or empty where it concerns the whole file.
   [[nodiscard]] const std::string& where() const { return where_; }
 
  private:
@@ -27,13 +27,28 @@ class FileError : public std::runtime_error {
 
 /// Reads a surface; the format follows the extension unless `format` (".stl", ...) is given.
 ///
-/// .stl (ASCII and binary), .off, .obj, .ply, .mesh, .poly, .smesh. Vertices of .stl with identical
-/// coordinates (+0 and -0 are one) are welded, nothing else is. Polygons with more than three
-/// corners are refused where the format does not say how to split them, except convex ones, which
-/// are fanned. Throws FileError.
+/// .off, .stl, .obj, .ply, .mesh, .meshb (GMF), .poly, .smesh, .node (TetGen), .vtu, .vtp, .vtk, .msh
+/// (2.x and 4.1). ASCII and binary, except .off, .obj and .msh: ASCII only. Lengths are in the file's
+/// own unit.
+/// - Coordinates keep their bits, -0 and numbers that are not finite included (`diagnose` reports them).
+/// - Vertices of .stl with identical coordinates (+0 and -0 are one) are welded, nothing else is.
+/// - A polygon of two corners is a segment (.off, .poly, .smesh, .ply), one of a single corner nothing
+///   but its vertex. A polygon of more than three is fanned if it is convex, and refused otherwise.
+/// - Markers: references (.mesh, .meshb), boundary markers (.poly, .smesh), physical or else elementary
+///   tags (.msh), the cell array "marker" (.vtu, .vtp, .vtk), numbers of the solids (.stl with several).
+///   Marker vectors are empty if all markers are 0.
+/// - Tetrahedra in the file are ignored; .poly and .smesh may also fill `holes` and `regions`.
+/// Indices in the result are always in range, but nothing else of design section 1 is checked.
+/// Throws FileError, also for a file without vertices.
 [[nodiscard]] Surface read_surface(const std::filesystem::path& path, std::string_view format = {});
 
-/// Reads a volume: .vtu, .vtk, .mesh, .msh, .node/.ele. Throws FileError.
+/// Reads a volume: .vtu, .vtk, .mesh, .meshb, .msh (ASCII), and .node, .ele, .face, .edge (TetGen) beside
+/// one another.
+///
+/// Region ids are references (.mesh, .meshb), the cell array "region" (.vtu, .vtk), physical or else
+/// elementary tags (.msh), the first attribute (.ele); 0 where there is none. Vertices of .msh are
+/// ordered by node tag. Neither positive volumes nor anything else of the promise is checked (see
+/// `check`), except that indices are in range. Throws FileError.
 [[nodiscard]] Volume read_volume(const std::filesystem::path& path, std::string_view format = {});
 
 struct WriteOptions {
@@ -44,12 +59,20 @@ struct WriteOptions {
 
 /// Writes a volume beside its name and renames it, so that no partial file is ever left.
 ///
-/// .vtu (binary appended), .vtk, .mesh, .msh, .node/.ele/.face. Throws FileError.
-void write_volume(const std::filesystem::path& path, const Volume& volume,
-                  const WriteOptions& options = {});
+/// .vtu (appended raw data), .vtk (ASCII), .mesh, .meshb (GMF version 3), .msh (ASCII), .node (with
+/// .ele, .face and .edge; vertices from 0). Coordinates read back bit for bit, from text too. Vertices,
+/// and the corners of tetrahedra and facets, keep their order; .msh 4.1 groups the entities by marker.
+/// Throws FileError, and std::invalid_argument if regions or markers are neither empty nor as many as
+/// their entities.
+void write_volume(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options = {});
 
-/// Writes the places of defects as points and lines for a viewer (.vtu). Throws FileError.
-void write_marks(const std::filesystem::path& path, const Complex& complex,
-                 std::span<const Defect> defects);
+/// Extensions that `write_volume` knows, with the dot, in lower case.
+[[nodiscard]] std::vector<std::string> volume_formats();
+
+/// Writes the places of defects as points and lines for a viewer, a .vtu file whatever its name.
+///
+/// Cell arrays: "kind" (the DefectKind's number) and "defect" (index into `defects`). A defect without
+/// places is marked by its vertices, segments and sides of facets. Throws FileError.
+void write_marks(const std::filesystem::path& path, const Complex& complex, std::span<const Defect> defects);
 
 }  // namespace holdfast

@@ -133,6 +133,13 @@ Volume read_volume(const std::filesystem::path& path, std::string_view format) {
   return volume;
 }
 
+std::vector<std::string> volume_formats() {
+  std::vector<std::string> extensions;
+  for (const io::Format& format : io::kFormats)
+    if (format.write != nullptr) extensions.emplace_back(format.extension);
+  return extensions;
+}
+
 void write_volume(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options) {
   const io::Format& writer = io::find_format(path, io::extension_of(path, options.format), "written",
                                              [](const io::Format& f) { return f.write != nullptr; });

@@ -1,8 +1,8 @@
 // What the VTK formats have in common: cell types and the arrays that tell the cells apart.
 //
 // Holdfast writes tetrahedra first, then facets as triangles, then segments as lines, with three
-// integers a cell: "kind" (its dimension: 3 tetrahedron, 2 facet, 1 segment), "region" (of a
-// tetrahedron, else 0) and "marker" (of a facet or segment, else 0).
+// integers a cell: "region" (of a tetrahedron, else 0), "marker" (of a facet or segment, else 0) and
+// "kind" (the cell's dimension: 3 tetrahedron, 2 facet, 1 segment).
 #pragma once
 
 #include <cstdint>

@@ -24,10 +24,16 @@ VtkType type_of(const TextReader& text, std::string_view name) {
                              {"unsigned_int", VtkType::uint32},
                              {"long", VtkType::int64},
                              {"unsigned_long", VtkType::uint64},
-                             {"vtktypeint64", VtkType::int64},
-                             {"vtktypeuint64", VtkType::uint64},
                              {"float", VtkType::float32},
                              {"double", VtkType::float64},
+                             {"vtktypeint8", VtkType::int8},
+                             {"vtktypeuint8", VtkType::uint8},
+                             {"vtktypeint16", VtkType::int16},
+                             {"vtktypeuint16", VtkType::uint16},
+                             {"vtktypeint32", VtkType::int32},
+                             {"vtktypeuint32", VtkType::uint32},
+                             {"vtktypeint64", VtkType::int64},
+                             {"vtktypeuint64", VtkType::uint64},
                              {"vtkidtype", VtkType::int32}};  // VTK writes ids as 32 bits before version 5.1
   const std::string wanted = lower(name);
   for (const Name& entry : kNames)

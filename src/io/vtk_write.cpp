@@ -20,14 +20,16 @@ void write_vtk(AtomicWriter& out, const Volume& volume) {
   visit_vtk_cells(volume, [&](VtkCell type, std::span<const Index>, int, int, int) {
     out << static_cast<int>(type) << '\n';
   });
-  out << "CELL_DATA " << cells << "\nSCALARS kind int 1\nLOOKUP_TABLE default\n";
-  visit_vtk_cells(volume, [&](VtkCell, std::span<const Index>, int kind, int, int) { out << kind << '\n'; });
+  out << "CELL_DATA " << cells << '\n';
+  // The region first: it is what viewers colour by, and what meshio keeps where it keeps one array.
   out << "SCALARS region int 1\nLOOKUP_TABLE default\n";
   visit_vtk_cells(volume,
                   [&](VtkCell, std::span<const Index>, int, int region, int) { out << region << '\n'; });
   out << "SCALARS marker int 1\nLOOKUP_TABLE default\n";
   visit_vtk_cells(volume,
                   [&](VtkCell, std::span<const Index>, int, int, int marker) { out << marker << '\n'; });
+  out << "SCALARS kind int 1\nLOOKUP_TABLE default\n";
+  visit_vtk_cells(volume, [&](VtkCell, std::span<const Index>, int kind, int, int) { out << kind << '\n'; });
 }
 
 }  // namespace holdfast::io

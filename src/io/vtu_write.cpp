@@ -51,9 +51,10 @@ std::string encoded(std::string_view data, bool compress) {
 void write_vtu_arrays(AtomicWriter& out, const VtuArrays& arrays, bool compress) {
   std::string data;
   const auto array = [&](const VtuArray& a) {
-    out << "<DataArray type=\"" << a.type << "\" Name=\"" << a.name << "\" NumberOfComponents=\""
-        << std::uint64_t{a.components} << "\" format=\"appended\" offset=\"" << std::uint64_t{data.size()}
-        << "\"/>\n";
+    out << "<DataArray type=\"" << a.type << "\" Name=\"" << a.name << '"';
+    // Left out for scalars: meshio would give their values a second dimension.
+    if (a.components != 1) out << " NumberOfComponents=\"" << std::uint64_t{a.components} << '"';
+    out << " format=\"appended\" offset=\"" << std::uint64_t{data.size()} << "\"/>\n";
     data += encoded({reinterpret_cast<const char*>(a.bytes.data()), a.bytes.size()}, compress);
   };
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
@@ -85,9 +86,10 @@ void write_vtu(AtomicWriter& out, const Volume& volume, const WriteOptions& opti
                     regions.push_back(region);
                     markers.push_back(marker);
                   });
+  // The region first: it is what viewers colour by, and what meshio keeps where it keeps one array.
   write_vtu_arrays(out,
-                   cells.arrays(volume.vertices, {vtu_array("kind", kinds), vtu_array("region", regions),
-                                                  vtu_array("marker", markers)}),
+                   cells.arrays(volume.vertices, {vtu_array("region", regions), vtu_array("marker", markers),
+                                                  vtu_array("kind", kinds)}),
                    options.compress);
 }
 
