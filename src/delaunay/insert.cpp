@@ -323,30 +323,32 @@ void DelaunayKernel::link_by_table() {
   }
 }
 
+// The same for boundaries with more vertices than the table has sides. Each edge is met twice: the
+// first face leaves its code, the second links the two.
 void DelaunayKernel::link_by_hash() {
-  const std::size_t size = std::bit_ceil(6 * face_count_);
-  constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
-  hash_.assign(size, {kEmpty, kNone});
-  const auto find = [&](std::uint32_t a, std::uint32_t b) -> HashEntry& {
-    const std::uint64_t key = std::uint64_t{a} << 32 | b;
-    std::size_t h = (key * 0x9E3779B97F4A7C15ull) >> 20 & (size - 1);
-    while (hash_[h].key != kEmpty && hash_[h].key != key) h = (h + 1) & (size - 1);
-    hash_[h].key = key;
-    return hash_[h];
+  const std::size_t size = std::bit_ceil(3 * face_count_);
+  if (hash_.size() < size) hash_.resize(size);
+  const auto shift = static_cast<unsigned>(64 - std::countr_zero(size));
+  ++epoch_;
+  Cell* const cells = cells_.data();
+  const auto meet = [&](std::uint32_t a, std::uint32_t b, Face face) {
+    const std::uint64_t key = std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+    std::size_t h = (key * 0x9E3779B97F4A7C15ull) >> shift;
+    while (hash_[h].epoch == epoch_ && hash_[h].key != key) h = (h + 1) & (size - 1);
+    if (hash_[h].epoch != epoch_) {
+      hash_[h] = {key, face, epoch_};
+      return;
+    }
+    const Face other = hash_[h].face;
+    cells[tet_of(face)].n[face & 3u] = other;
+    cells[tet_of(other)].n[other & 3u] = face;
   };
   for (std::size_t j = 0; j < face_count_; ++j) {
     const auto [a, b, c] = boundary_[j].local;
     const Tet t = boundary_[j].slot;
-    find(b, c).face = face_code(t, 1);
-    find(c, a).face = face_code(t, 2);
-    find(a, b).face = face_code(t, 3);
-  }
-  for (std::size_t j = 0; j < face_count_; ++j) {
-    const auto [a, b, c] = boundary_[j].local;
-    Cell& cell = cells_[boundary_[j].slot];
-    cell.n[1] = find(c, b).face;
-    cell.n[2] = find(a, c).face;
-    cell.n[3] = find(b, a).face;
+    meet(b, c, face_code(t, 1));
+    meet(c, a, face_code(t, 2));
+    meet(a, b, face_code(t, 3));
   }
 }
 

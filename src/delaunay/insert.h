@@ -113,8 +113,10 @@ class DelaunayKernel {
   struct HashEntry {
     std::uint64_t key;
     Face face;
+    std::uint32_t epoch;  // of the insertion that wrote the entry
   };
   std::vector<HashEntry> hash_;
+  std::uint32_t epoch_ = 0;
 };
 
 }  // namespace holdfast
