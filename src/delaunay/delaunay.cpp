@@ -1,17 +1,20 @@
 #include "delaunay/delaunay.h"
 
+#include <cassert>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "delaunay/insert.h"
 #include "delaunay/order.h"
+#include "mesh/validate.h"
 
 namespace holdfast {
 namespace {
 
-constexpr std::size_t kMostVertices = std::size_t{1} << 28;
+constexpr std::size_t kMostVertices = std::size_t{1} << 30;
 constexpr std::size_t kPollInterval = 64;
 
 // Hands the kernel's cells over in the numbering of the mesh, freeing them on the way.
@@ -37,7 +40,8 @@ void hand_over(DelaunayKernel& kernel, TetMesh& mesh) {
 }  // namespace
 
 bool build_delaunay(TetMesh& mesh, const DelaunayOptions& options, Monitor* monitor) {
-  if (mesh.vertex_count() > kMostVertices) throw std::length_error("holdfast: more than 2^28 points");
+  if (mesh.vertex_count() > kMostVertices) throw std::length_error("holdfast: more than 2^30 points");
+  assert(mesh.tet_count() == 0 && mesh.exact_vertex_count() == 0);
   DelaunayKernel kernel(mesh.positions(), insertion_order(mesh.positions(), options.seed), options.seed);
   if (!kernel.start()) return false;
   const auto count = static_cast<double>(kernel.size());
@@ -48,6 +52,10 @@ bool build_delaunay(TetMesh& mesh, const DelaunayOptions& options, Monitor* moni
   }
   kernel.finish();
   hand_over(kernel, mesh);
+#ifdef HOLDFAST_VALIDATE
+  if (const std::string fault = find_fault(mesh); !fault.empty())
+    throw std::logic_error("holdfast: " + fault);
+#endif
   return true;
 }
 

@@ -21,8 +21,8 @@ struct DelaunayOptions {
 /// Of equal points the first is used, the others keep incident() == kNone.
 ///
 /// Returns false, with no tetrahedra made, if all vertices are coplanar (or fewer than four).
-/// Throws Interrupted through the monitor, which may be null, and std::length_error beyond 2^28
-/// vertices; the mesh then has no tetrahedra.
+/// Throws Interrupted through the monitor, which may be null, and std::length_error beyond 2^30 vertices
+/// or tetrahedra; the mesh then has no tetrahedra.
 bool build_delaunay(TetMesh& mesh, const DelaunayOptions& options, Monitor* monitor);
 
 }  // namespace holdfast

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <stdexcept>
 #include <utility>
 
 #include "exact/predicates.h"
@@ -11,6 +12,7 @@ namespace {
 
 constexpr std::uint32_t kTableSide = 64;
 constexpr std::size_t kFirstScratch = 256;
+constexpr std::size_t kMostCells = std::size_t{1} << 30;  // a face code has two bits more
 
 // Three points are collinear iff their projections along all axes are.
 bool collinear(const double* a, const double* b, const double* c) {
@@ -215,28 +217,35 @@ void DelaunayKernel::take_slots() {
   }
   std::size_t size = cells_.size();
   const std::size_t enough = size + (face_count_ - j);
+  if (enough > kMostCells) throw std::length_error("holdfast: more than 2^30 tetrahedra");
   if (enough > cells_.capacity()) cells_.reserve(std::max(enough, cells_.capacity() + cells_.capacity() / 4));
   for (; j < face_count_; ++j) boundary_[j].slot = static_cast<Tet>(size++);
   cells_.resize(size);
 }
 
-inline std::uint32_t DelaunayKernel::local_index(Vertex v, const double* p) {
-  Site& site = sites_[v];
-  const std::uint32_t l = site.local;
-  if (l < ring_count_ && ring_[l] == v) return l;
-  const std::size_t fresh = ring_count_++;
-  ring_[fresh] = v;
-  spokes_[fresh] = spoke(p, site.x.data());
-  site.local = static_cast<std::uint32_t>(fresh);
-  return site.local;
-}
-
 // Reads the faces round the cavity off its cells, whose slots are about to be used again.
-// The boundary face (v0, v1, v2) sees p; the new cell is (p, v1, v0, v2), with the ghost last.
-void DelaunayKernel::list_boundary(const double* p) {
-  ring_count_ = 0;
+// The boundary face (v0, v1, v2) sees the new vertex p; the new cell is (p, v1, v0, v2), with the ghost last.
+template <bool kByTable>
+void DelaunayKernel::list_boundary() {
   Cell* const cells = cells_.data();
-  for (std::size_t j = 0; j < face_count_; ++j) {
+  Site* const sites = sites_.data();
+  Vertex* const ring = ring_.data();
+  Face* const table = table_.data();
+  const std::size_t count = face_count_;
+  std::uint32_t fresh = 0;
+  // The place of v in the ring, with v added if it is not there: without a branch, which would be hard
+  // to predict. The ring has room for one entry more than it comes to hold.
+  const auto local_index = [&](Vertex v) {
+    const std::uint32_t old = std::min(sites[v].local, fresh);
+    const std::uint32_t known =
+        static_cast<std::uint32_t>(old < fresh) & static_cast<std::uint32_t>(ring[old] == v);
+    ring[fresh] = v;
+    const std::uint32_t local = fresh ^ ((old ^ fresh) & (0u - known));
+    sites[v].local = local;
+    fresh += 1 - known;
+    return local;
+  };
+  for (std::size_t j = 0; j < count; ++j) {
     const Cell& inner = cells[tet_of(rim_[j])];
     const auto i = static_cast<std::size_t>(side_of(rim_[j]));
     const auto& f = kFaceVertex[i];
@@ -248,45 +257,57 @@ void DelaunayKernel::list_boundary(const double* p) {
     } else if (b == ghost_) [[unlikely]] {
       b = std::exchange(a, std::exchange(c, b));
     }
+    const std::uint32_t la = local_index(a), lb = local_index(b), lc = local_index(c);
     BoundaryFace& face = boundary_[j];
     face.outer = inner.n[i];
     face.v = {a, b, c};
-    face.local = {local_index(a, p), local_index(b, p), local_index(c, p)};
+    face.local = {la, lb, lc};
     cells[tet_of(face.outer)].n[face.outer & 3u] = face_code(face.slot, 0);
+    if constexpr (kByTable) {
+      table[lb * kTableSide + lc] = face_code(face.slot, 1);
+      table[lc * kTableSide + la] = face_code(face.slot, 2);
+      table[la * kTableSide + lb] = face_code(face.slot, 3);
+    }
   }
+  ring_count_ = fresh;
 }
 
 // Joins vertex k to the boundary of the cavity.
 void DelaunayKernel::fill(Vertex k) {
   if (boundary_.size() < face_count_) boundary_.resize(rim_.size());
-  if (ring_.size() < face_count_) {  // a closed surface of F triangles has F / 2 + 2 vertices
+  const std::size_t ring_size = face_count_ / 2 + 2;  // Euler's relation for a sphere of triangles
+  if (ring_.size() <= ring_size) {
     ring_.resize(rim_.size());
     spokes_.resize(rim_.size());
   }
   take_slots();
-  list_boundary(at(k));
-  Cell* const cells = cells_.data();
-  for (std::size_t j = 0; j < face_count_; ++j) {
-    const BoundaryFace& face = boundary_[j];
-    Cell& cell = cells[face.slot];
-    cell.v = {k, face.v[0], face.v[1], face.v[2]};
-    cell.n[0] = face.outer;
-  }
-  set_geometry();
-  if (ring_count_ <= kTableSide)
+  const bool by_table = ring_size <= kTableSide;
+  if (by_table)
+    list_boundary<true>();
+  else
+    list_boundary<false>();
+  const double* p = at(k);
+  for (std::size_t l = 0; l < ring_count_; ++l) spokes_[l] = spoke(p, at(ring_[l]));
+  set_geometry(k);
+  if (by_table)
     link_by_table();
   else
     link_by_hash();
 }
 
 // The number of faces of a closed surface is even, so they go in pairs.
-void DelaunayKernel::set_geometry() {
+void DelaunayKernel::set_geometry(Vertex k) {
   Cell* const cells = cells_.data();
   const Spoke* const spokes = spokes_.data();
   bool ghosts = false;
   for (std::size_t j = 0; j < face_count_; j += 2) {
     const BoundaryFace &f = boundary_[j], &g = boundary_[j + 1];
-    set_spheres({&cells[f.slot], &cells[g.slot]}, {&spokes[f.local[0]], &spokes[g.local[0]]},
+    Cell &s = cells[f.slot], &t = cells[g.slot];
+    s.v = {k, f.v[0], f.v[1], f.v[2]};
+    t.v = {k, g.v[0], g.v[1], g.v[2]};
+    s.n[0] = f.outer;
+    t.n[0] = g.outer;
+    set_spheres({&s, &t}, {&spokes[f.local[0]], &spokes[g.local[0]]},
                 {&spokes[f.local[1]], &spokes[g.local[1]]}, {&spokes[f.local[2]], &spokes[g.local[2]]});
     ghosts = ghosts || f.v[2] == ghost_ || g.v[2] == ghost_;
   }
@@ -305,14 +326,7 @@ void DelaunayKernel::set_geometry() {
 // Face i of a new cell (i = 1, 2, 3) lies at the boundary edge opposite local vertex i - 1; the
 // neighbour has the same edge reversed. The boundary is closed, so every entry read has been written.
 void DelaunayKernel::link_by_table() {
-  Face* const table = table_.data();
-  for (std::size_t j = 0; j < face_count_; ++j) {
-    const auto [a, b, c] = boundary_[j].local;
-    const Tet t = boundary_[j].slot;
-    table[b * kTableSide + c] = face_code(t, 1);
-    table[c * kTableSide + a] = face_code(t, 2);
-    table[a * kTableSide + b] = face_code(t, 3);
-  }
+  const Face* const table = table_.data();
   Cell* const cells = cells_.data();
   for (std::size_t j = 0; j < face_count_; ++j) {
     const auto [a, b, c] = boundary_[j].local;

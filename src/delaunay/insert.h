@@ -83,9 +83,9 @@ class DelaunayKernel {
   void dig(Tet seed, const double* q);
   void take_slots();
   void fill(Vertex k);
-  void list_boundary(const double* p);
-  std::uint32_t local_index(Vertex v, const double* p);
-  void set_geometry();
+  template <bool kByTable>
+  void list_boundary();
+  void set_geometry(Vertex k);
   void set_geometry(Cell& cell);
   void link_by_table();
   void link_by_hash();
@@ -103,7 +103,7 @@ class DelaunayKernel {
   // Of one insertion; kept to allocate nothing. The counts say how much of each array is in use.
   std::size_t cavity_count_ = 0;
   std::size_t face_count_ = 0;
-  std::size_t ring_count_ = 0;
+  std::uint32_t ring_count_ = 0;
   std::vector<Face> cavity_;            // cells in conflict, by the face through which they were reached
   std::vector<Face> rim_;               // faces of the cavity's boundary, by their code inside
   std::vector<BoundaryFace> boundary_;  // the same in detail

@@ -75,10 +75,10 @@ class Grid {
  private:
   // Skilling's transform of coordinates into the transposed Hilbert index, then the interleaving.
   [[nodiscard]] std::uint64_t hilbert(std::array<std::uint32_t, 3> x) const {
-    for (std::uint32_t q = 1u << (bits_ - 1); q > 1; q >>= 1) {
-      const std::uint32_t p = q - 1;
+    for (unsigned b = bits_ - 1; b > 0; --b) {
+      const std::uint32_t p = (1u << b) - 1;
       for (std::uint32_t& xi : x) {
-        const std::uint32_t low_set = (xi & q) != 0 ? p : 0u;
+        const std::uint32_t low_set = (0u - ((xi >> b) & 1u)) & p;
         const std::uint32_t swap = (x[0] ^ xi) & (p & ~low_set);
         x[0] ^= low_set | swap;
         xi ^= swap;
@@ -87,8 +87,7 @@ class Grid {
     x[1] ^= x[0];
     x[2] ^= x[1];
     std::uint32_t t = 0;
-    for (std::uint32_t q = 1u << (bits_ - 1); q > 1; q >>= 1)
-      if ((x[2] & q) != 0) t ^= q - 1;
+    for (unsigned b = bits_ - 1; b > 0; --b) t ^= (0u - ((x[2] >> b) & 1u)) & ((1u << b) - 1);
     for (std::uint32_t& xi : x) xi ^= t;
     return spread(x[0]) << 2 | spread(x[1]) << 1 | spread(x[2]);
   }
