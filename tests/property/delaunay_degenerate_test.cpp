@@ -30,6 +30,7 @@ double unit(Random& random) { return std::uniform_real_distribution<double>(-1, 
 struct Family {
   const char* name;
   std::function<Point(Random&)> point;
+  int most = 60;  // points of a small set: fewer where every exact decision takes big integers
 };
 
 Point jittered(Point p, Random& random) {
@@ -124,13 +125,15 @@ const std::vector<Family>& families() {
          const double scale = std::ldexp(1.0, -40 * integer(random, 0, 25));
          for (double& x : p) x *= scale;
          return p;
-       }},
+       },
+       20},
       {"ends of the range",
        [](Random& random) {
          Point p = small_integers(random);
          for (double& x : p) x = (x - 1.5) * std::ldexp(1.0, integer(random, 0, 1) == 0 ? 1022 : -1070);
          return p;
-       }},
+       },
+       20},
       {"moment curve",
        [](Random& random) {
          const double t = integer(random, -30, 30);
@@ -172,7 +175,7 @@ TEST(DelaunayDegenerate, EveryFamilyIsDelaunay) {
   Random random(2024);
   for (const Family& family : families()) {
     for (int round = 0; round < 25; ++round) {
-      const auto n = static_cast<std::size_t>(integer(random, 1, 60));
+      const auto n = static_cast<std::size_t>(integer(random, 1, family.most));
       const std::vector<Point> points = sample(family, n, random);
       TetMesh mesh = mesh_of(points);
       const bool made = build_delaunay(mesh, {random()}, nullptr);
@@ -190,7 +193,7 @@ TEST(DelaunayDegenerate, EveryFamilyIsDelaunay) {
 TEST(DelaunayDegenerate, LargerSets) {
   Random random(77);
   for (const Family& family : families()) {
-    TetMesh mesh = mesh_of(sample(family, 1500, random));
+    TetMesh mesh = mesh_of(sample(family, static_cast<std::size_t>(25 * family.most), random));
     ASSERT_TRUE(build_delaunay(mesh, {random()}, nullptr)) << family.name;
     ASSERT_EQ(delaunay_fault(mesh), "") << family.name;
   }
