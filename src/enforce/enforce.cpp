@@ -5,6 +5,7 @@
 #include <random>
 #include <unordered_set>
 
+#include "enforce/collapse_within.h"
 #include "enforce/cut_and_cone.h"
 #include "enforce/partition_facet.h"
 #include "enforce/partition_segment.h"
@@ -128,7 +129,11 @@ class Enforcer {
     standing_.segments[s] = 1;
   }
 
+  // Along its own constraint where that can be had: then no point is added at all.
   void eliminate(Vertex p, std::optional<std::array<Vertex, 2>> ends) {
+    const bool gone = ends ? collapse_within(mesh_, p, *ends, std::span(&*ends, 1))
+                           : collapse_within(mesh_, p, facet_neighbours(mesh_, p), {});
+    if (gone) return;
     const std::vector<Vertex> fresh = cut_and_cone(mesh_, p, ends, random_);
     restless_.insert(restless_.end(), fresh.begin(), fresh.end());
     steiner_.insert(steiner_.end(), fresh.begin(), fresh.end());

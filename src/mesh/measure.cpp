@@ -44,6 +44,10 @@ Vertex best_apex(const TetMesh& mesh, const Kernel& kernel) {
   for (const auto& f : kernel.faces()) candidates.insert(candidates.end(), f.begin(), f.end());
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  return best_apex(mesh, kernel, candidates);
+}
+
+Vertex best_apex(const TetMesh& mesh, const Kernel& kernel, std::span<const Vertex> candidates) {
   Vertex best = kNone;
   double best_fatness = -1;
   for (const Vertex v : candidates) {

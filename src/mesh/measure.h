@@ -16,5 +16,7 @@ namespace holdfast {
 /// The corner of the kernel's faces that sees all of them (exactly) and leaves the fattest thinnest
 /// tetrahedron, or kNone.
 [[nodiscard]] Vertex best_apex(const TetMesh& mesh, const Kernel& kernel);
+/// The same among `candidates`.
+[[nodiscard]] Vertex best_apex(const TetMesh& mesh, const Kernel& kernel, std::span<const Vertex> candidates);
 
 }  // namespace holdfast
