@@ -1,7 +1,6 @@
 #include "enforce/enforce.h"
 
 #include <algorithm>
-#include <deque>
 #include <random>
 #include <unordered_set>
 
@@ -27,73 +26,56 @@ class Enforcer {
         random_(seed),
         monitor_(monitor),
         eliminate_(eliminate),
-        chains_(table.segments.size()),
-        pending_(table.segments.size(), 0) {
-    for (Index f = 0; f < facets.size(); ++f) {
-      if (standing.facets[f] != 0) continue;
-      missing_.push_back(f);
-      for (const Index s : table.facet_segments[f]) ++pending_[s];
-    }
+        chains_(table.segments.size()) {
+    for (Index s = 0; s < table.segments.size(); ++s)
+      if (standing.segments[s] == 0) missing_segments_.push_back(s);
+    for (Index f = 0; f < facets.size(); ++f)
+      if (standing.facets[f] == 0) missing_facets_.push_back(f);
+    std::shuffle(missing_segments_.begin(), missing_segments_.end(), random_);
+    std::shuffle(missing_facets_.begin(), missing_facets_.end(), random_);
   }
 
+  // All segments, then all facets, each group in random order, and the points of one are eliminated before
+  // the next is laid: else points beget points (paper §2.4). A missing segment has no facet yet, so that
+  // its points are eliminated as those of a dangling one, whatever its degree in the end; then every
+  // missing facet has three single edges for sides.
   EnforceStats run() {
-    lay_facets();
-    for (Index s = 0; s < chains_.size(); ++s)
-      if (standing_.segments[s] == 0 && pending_[s] == 0 && table_.facets_of(s).empty())
-        lay_dangling_segment(s);
+    for (const Index s : missing_segments_) {
+      tell();
+      lay_segment(s);
+    }
+    for (const Index f : missing_facets_) {
+      tell();
+      lay_facet(f);
+    }
     return stats_;
   }
 
  private:
-  // Random seeds (paper §2.4), then from neighbour to neighbour: a segment's points can go as soon as all
-  // its facets are laid, so that few points stand at a time.
-  void lay_facets() {
-    std::shuffle(missing_.begin(), missing_.end(), random_);
-    std::deque<Index> front;
-    std::size_t next = 0;
-    while (laid_ < missing_.size()) {
-      if (front.empty()) {
-        while (standing_.facets[missing_[next]] != 0) ++next;
-        front.push_back(missing_[next]);
-      }
-      const Index f = front.front();
-      front.pop_front();
-      if (standing_.facets[f] != 0) continue;
-      lay_facet(f);
-      for (const Index s : table_.facet_segments[f])
-        for (const Index g : table_.facets_of(s))
-          if (standing_.facets[g] == 0) front.push_back(g);
-    }
+  void tell() {
+    const auto all = static_cast<double>(missing_segments_.size() + missing_facets_.size());
+    monitor_.poll(eliminate_ ? Stage::eliminate : Stage::partition, static_cast<double>(laid_) / all);
   }
 
   void lay_facet(Index f) {
-    monitor_.poll(Stage::partition, static_cast<double>(laid_) / static_cast<double>(missing_.size()));
-    for (const Index s : table_.facet_segments[f])
-      if (standing_.segments[s] == 0 && chains_[s].empty()) lay_chain(s);
     std::vector<Vertex> inner = partition_facet(mesh_, frame_of(f), stats_.facet_points);
     standing_.facets[f] = 1;
     ++laid_;
     if (!eliminate_) return;
     std::shuffle(inner.begin(), inner.end(), random_);
     for (const Vertex p : inner) {
-      monitor_.poll(Stage::eliminate, static_cast<double>(laid_) / static_cast<double>(missing_.size()));
+      tell();
       eliminate(p, std::nullopt);
     }
     settle();
     settle_all();
-    for (const Index s : table_.facet_segments[f])
-      if (--pending_[s] == 0 && !chains_[s].empty()) eliminate_chain(s);
   }
 
-  void lay_chain(Index s) {
+  void lay_segment(Index s) {
     const auto [a, b] = table_.segments[s];
     chains_[s] = partition_segment(mesh_, a, b, first_free_);
     stats_.segment_points += chains_[s].size() - 2;
-    on_chain_.insert(chains_[s].begin() + 1, chains_[s].end() - 1);
-  }
-
-  void lay_dangling_segment(Index s) {
-    lay_chain(s);
+    ++laid_;
     if (eliminate_) eliminate_chain(s);
   }
 
@@ -113,10 +95,11 @@ class Enforcer {
   void eliminate_chain(Index s) {
     std::vector<Vertex>& chain = chains_[s];
     std::vector<Vertex> points(chain.begin() + 1, chain.end() - 1);
+    on_chain_.insert(points.begin(), points.end());
     std::shuffle(points.begin(), points.end(), random_);
     constexpr std::size_t kSettleEvery = 4;
     for (std::size_t k = 0; k < points.size(); ++k) {
-      monitor_.poll(Stage::eliminate, static_cast<double>(laid_) / static_cast<double>(missing_.size()));
+      tell();
       const auto it = std::find(chain.begin(), chain.end(), points[k]);
       eliminate(points[k], std::array<Vertex, 2>{*(it - 1), *(it + 1)});
       on_chain_.erase(points[k]);
@@ -144,16 +127,16 @@ class Enforcer {
   void settle_all() {
     std::erase_if(steiner_, [&](Vertex p) { return !mesh_.in_mesh(p); });
     constexpr std::size_t kSlack = 64;
-    if (steiner_.size() < 2 * settled_ + kSlack) return;
+    if (2 * steiner_.size() < 3 * settled_ + kSlack) return;
     restless_ = steiner_;
     std::erase_if(restless_, [&](Vertex p) { return on_chain_.contains(p); });
-    settle();
+    settle(kThoroughSearch);
     std::erase_if(steiner_, [&](Vertex p) { return !mesh_.in_mesh(p); });
     settled_ = steiner_.size();
   }
 
   // Suppresses or recentres the Steiner points that were just made, and those next to a suppressed one.
-  void settle() {
+  void settle(const PolyhedronOptions& search = kQuickSearch) {
     for (int round = 0; round < kRounds && !restless_.empty(); ++round) {
       std::vector<Vertex> now;
       now.swap(restless_);
@@ -162,7 +145,7 @@ class Enforcer {
       for (const Vertex p : now) {
         if (!mesh_.in_mesh(p)) continue;
         const std::vector<Vertex> around = steiner_neighbours(p);
-        const Fate fate = remove_or_recentre(mesh_, p);
+        const Fate fate = remove_or_recentre(mesh_, p, search);
         if (fate == Fate::collapsed || fate == Fate::filled)
           restless_.insert(restless_.end(), around.begin(), around.end());
         else if (fate == Fate::moved && round + 1 < kRounds)
@@ -185,7 +168,9 @@ class Enforcer {
     return out;
   }
 
-  static constexpr int kRounds = 3;
+  static constexpr int kRounds = 2;
+  static constexpr PolyhedronOptions kThoroughSearch{.most_vertices = 18, .most_nodes = 200};
+  static constexpr PolyhedronOptions kQuickSearch{.most_vertices = 13, .most_nodes = 40};
 
   TetMesh& mesh_;
   const SegmentTable& table_;
@@ -197,8 +182,7 @@ class Enforcer {
   const bool eliminate_;
   std::vector<std::vector<Vertex>> chains_;  // by segment; empty where it is one edge
   std::unordered_set<Vertex> on_chain_;
-  std::vector<Index> pending_;  // by segment: facets round it that are not laid yet
-  std::vector<Index> missing_;
+  std::vector<Index> missing_segments_, missing_facets_;
   std::size_t laid_ = 0;
   std::vector<Vertex> restless_;  // Steiner points to be settled
   std::vector<Vertex> steiner_;   // Steiner points that there are, and some that are gone

@@ -245,12 +245,11 @@ class CutMaker {
     const Dyadic gx = exact::determinant(a, b, q, x);
     const Dyadic gy = exact::determinant(a, b, q, y);
     const ExactPoint p = mesh_.exact_position(p_);
-    for (int bits = 30, step = 1;; ++step) {
-      if (step % 40 == 0) bits *= 2;
-      const Dyadic s = exact::quotient(gx, gx - gy, bits);
+    for (int step = 1;; ++step) {  // closer to P, and closer to the plane
+      const Dyadic s = exact::quotient(gx, gx - gy, 30 + 2 * step);
       ExactPoint w;
       for (std::size_t k = 0; k < 3; ++k)
-        w.c[k] = p.c[k] + (x.c[k] + s * (y.c[k] - x.c[k]) - p.c[k]).scaled(-1 - step % 40);
+        w.c[k] = p.c[k] + (x.c[k] + s * (y.c[k] - x.c[k]) - p.c[k]).scaled(-step);
       const Vertex v = mesh_.add_vertex(w);
       bool good = true;
       for (std::size_t i = 0; i < plane.crossed.size() && good; ++i)

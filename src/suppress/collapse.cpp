@@ -4,7 +4,6 @@
 #include "mesh/measure.h"
 #include "mesh/replace.h"
 #include "mesh/traverse.h"
-#include "suppress/small_polyhedron.h"
 
 namespace holdfast {
 namespace {
@@ -20,7 +19,7 @@ Kernel kernel_of(const TetMesh& mesh, Vertex p, const std::vector<Tet>& tets) {
 
 }  // namespace
 
-Fate remove_or_recentre(TetMesh& mesh, Vertex p) {
+Fate remove_or_recentre(TetMesh& mesh, Vertex p, const PolyhedronOptions& search) {
   std::vector<Tet> tets;
   ball(mesh, p, tets);
   const Kernel kernel = kernel_of(mesh, p, tets);
@@ -35,7 +34,7 @@ Fate remove_or_recentre(TetMesh& mesh, Vertex p) {
     refill(fresh);
     return Fate::collapsed;
   }
-  if (const auto fresh = fill_polyhedron(mesh, kernel.faces())) {
+  if (const auto fresh = fill_polyhedron(mesh, kernel.faces(), search)) {
     refill(*fresh);
     return Fate::filled;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesh/tet_mesh.h"
+#include "suppress/small_polyhedron.h"
 
 namespace holdfast {
 
@@ -13,7 +14,8 @@ enum class Fate {
 };
 
 /// Removes a Steiner point, strictly off every constraint, if that can be had; else moves it to the centre
-/// of its ball's kernel, in doubles where doubles reach inside.
-Fate remove_or_recentre(TetMesh& mesh, Vertex p);
+/// of its ball's kernel, in doubles where doubles reach inside. `search` bounds the effort of filling the
+/// ball again.
+Fate remove_or_recentre(TetMesh& mesh, Vertex p, const PolyhedronOptions& search);
 
 }  // namespace holdfast

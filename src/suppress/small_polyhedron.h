@@ -12,7 +12,7 @@ namespace holdfast {
 
 struct PolyhedronOptions {
   std::size_t most_vertices = 18;  ///< 31 at most
-  std::size_t most_nodes = 300;    ///< of the search tree
+  std::size_t most_nodes = 600;    ///< of the search tree
 };
 
 /// Fills a polyhedron with strictly positive tetrahedra on its own vertices. Its faces are given so that a

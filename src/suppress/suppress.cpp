@@ -26,7 +26,7 @@ SuppressStats suppress(TetMesh& mesh, std::vector<Vertex> points, Monitor& monit
     std::vector<Vertex> left;
     for (const Vertex p : points) {
       monitor.poll(Stage::suppress, 1.0 - static_cast<double>(points.size()) / all);
-      switch (remove_or_recentre(mesh, p)) {
+      switch (remove_or_recentre(mesh, p, {})) {
         case Fate::collapsed:
           ++stats.collapsed;
           break;
