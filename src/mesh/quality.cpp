@@ -156,13 +156,16 @@ class BestTetrahedron {
 
   [[nodiscard]] double best() const {
     constexpr double kGolden = 0.6180339887498949;
-    constexpr int kSteps = 36;
-    double low = 1.2;  // acos(1/3) = 1.231 for the equilateral triangle is the least
+    constexpr int kSteps = 60;
+    double low = 1.2;  // acos(1/3) = 1.231, of the equilateral triangle, is the least
     double high = std::numbers::pi / 2;
     for (int k = 0; k < kSteps; ++k) {
       const double x = high - kGolden * (high - low);
       const double y = low + kGolden * (high - low);
-      (at(x) < at(y) ? high : low) = at(x) < at(y) ? y : x;
+      if (at(x) < at(y))
+        high = y;
+      else
+        low = x;
     }
     return at(0.5 * (low + high));
   }
