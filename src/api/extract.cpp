@@ -9,7 +9,9 @@ namespace {
 
 class Extractor {
  public:
-  explicit Extractor(const Source& source) : source_(source), new_index_(source.mesh.vertex_count(), kNone) {}
+  explicit Extractor(const Source& source)
+      : source_(source),
+        new_index_(std::max(source.mesh.vertex_count(), source.complex.vertices.size()), kNone) {}
 
   /// `id_of` gives a tetrahedron's region id, or nothing where it stays out.
   template <typename IdOf>

@@ -18,14 +18,11 @@
 #include "mesh/monitor.h"
 #include "mesh/quality.h"
 #include "mesh/tet_mesh.h"
+#include "recover/recover.h"
 #include "recover/standing.h"
 #include "suppress/suppress.h"
 #include "surface/complex.h"
 #include "surface/diagnose.h"
-#if __has_include("recover/recover.h")
-#include "recover/recover.h"
-#define HOLDFAST_HAS_FLIPS
-#endif
 
 namespace holdfast {
 namespace {
@@ -137,9 +134,7 @@ class Pipeline {
   }
 
   void recover() {
-#ifdef HOLDFAST_HAS_FLIPS
     if (options_.flips) recover_by_flips(mesh_, table_, complex_.facets, standing_, options_.seed, monitor_);
-#endif
     result_.report.flips = missing();
   }
 

@@ -13,23 +13,15 @@ constexpr int kRoomBehind = 300;  // bits behind the leading one that added vert
 }  // namespace
 
 int choose_scale(std::span<const Point> vertices) {
-  int top = 0;    // exponent of the largest magnitude
-  int least = 0;  // exponent below which no coordinate has a bit
-  bool any = false;
+  double largest = 0;
   for (const Point& p : vertices)
-    for (const double x : p) {
-      if (x == 0) continue;
-      const int e = std::ilogb(x);
-      const int bit = std::max(e - 52, kLeastBit);
-      top = any ? std::max(top, e) : e;
-      least = any ? std::min(least, bit) : bit;
-      any = true;
-    }
-  if (!any || std::abs(top) <= kUsual) return 0;
-  const int k = -top;
-  const bool exact = least + k >= kLeastBit;
-  const bool room = k < 0 || -kRoomBehind - k >= kLeastBit;
-  return exact && room ? k : 0;
+    for (const double x : p) largest = std::max(largest, std::abs(x));
+  if (largest == 0) return 0;
+  const int k = -std::ilogb(largest);
+  if (std::abs(k) <= kUsual || -kRoomBehind - k < kLeastBit) return 0;
+  const bool exact = std::all_of(vertices.begin(), vertices.end(),
+                                 [k](const Point& p) { return scaled(scaled(p, k), -k) == p; });
+  return exact ? k : 0;
 }
 
 Point scaled(const Point& p, int k) {

@@ -1,0 +1,499 @@
+// The pipeline from end to end, through the public header.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <set>
+#include <stdexcept>
+
+#include "api/box.h"
+#include "api/scale.h"
+#include "holdfast/check.h"
+#include "holdfast/holdfast.h"
+#include "small_surfaces.h"
+
+namespace holdfast {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// The rules that do not hold, one a line.
+std::string broken_rules(const Surface& surface, const Result& result, const CheckOptions& options = {}) {
+  std::string text;
+  for (const Rule& rule : check(surface.view(), result.volume, options).rules)
+    if (!rule.holds) text += rule.name + ": " + rule.detail + "\n";
+  return text;
+}
+
+void expect_done(const Surface& surface, const Result& result, const CheckOptions& options = {}) {
+  EXPECT_EQ(result.outcome, Outcome::done) << result.message;
+  for (const Defect& defect : result.defects) ADD_FAILURE() << defect.message;
+  EXPECT_EQ(broken_rules(surface, result, options), "");
+  EXPECT_TRUE(result.exact_vertices.empty());
+  EXPECT_EQ(result.message, "");
+}
+
+void expect_empty(const Volume& volume) {
+  EXPECT_TRUE(volume.vertices.empty());
+  EXPECT_TRUE(volume.tetrahedra.empty());
+  EXPECT_TRUE(volume.regions.empty());
+  EXPECT_TRUE(volume.facets.empty());
+  EXPECT_TRUE(volume.segments.empty());
+}
+
+bool same_bits(const Point& p, const Point& q) {
+  return std::equal(p.begin(), p.end(), q.begin(), [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+  });
+}
+
+bool same(const Volume& a, const Volume& b) {
+  return std::equal(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(), same_bits) &&
+         a.tetrahedra == b.tetrahedra && a.regions == b.regions && a.facets == b.facets &&
+         a.segments == b.segments && a.facet_markers == b.facet_markers &&
+         a.segment_markers == b.segment_markers;
+}
+
+std::set<int> ids(const Volume& volume) { return {volume.regions.begin(), volume.regions.end()}; }
+
+// A sphere of bumps: `rings` x `around` quadrilaterals and two caps, enough work to interrupt.
+Surface bumpy(unsigned rings, unsigned around) {
+  Surface surface;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> bump(0.9, 1.1);
+  surface.vertices.push_back({0, 0, -1});
+  for (unsigned i = 1; i < rings; ++i)
+    for (unsigned j = 0; j < around; ++j) {
+      const double u = 3.141592653589793 * i / rings;
+      const double v = 6.283185307179586 * j / around;
+      const double r = bump(random);
+      surface.vertices.push_back(
+          {r * std::sin(u) * std::cos(v), r * std::sin(u) * std::sin(v), -r * std::cos(u)});
+    }
+  const auto last = static_cast<Index>(surface.vertices.size());
+  surface.vertices.push_back({0, 0, 1});
+  const auto at = [&](unsigned i, unsigned j) { return 1 + (i - 1) * around + j % around; };
+  for (unsigned j = 0; j < around; ++j) {
+    surface.facets.push_back({0, at(1, j + 1), at(1, j)});
+    for (unsigned i = 1; i + 1 < rings; ++i) {
+      surface.facets.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
+      surface.facets.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
+    }
+    surface.facets.push_back({last, at(rings - 1, j), at(rings - 1, j + 1)});
+  }
+  return surface;
+}
+
+TEST(Mesh, Tetrahedron) {
+  Surface surface;
+  surface.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  surface.facets = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  const Result result = mesh(surface.view());
+  expect_done(surface, result);
+  EXPECT_EQ(result.volume.tetrahedra.size(), 1u);
+  EXPECT_EQ(result.volume.regions, std::vector<int>{1});
+  EXPECT_EQ(result.volume.vertices.size(), 4u);
+  const Report& report = result.report;
+  EXPECT_EQ(report.input.vertices, 4u);
+  EXPECT_EQ(report.input.segments, 6u);
+  EXPECT_EQ(report.input.facets, 4u);
+  EXPECT_EQ(report.input.components, 1u);
+  EXPECT_TRUE(report.input.closed);
+  EXPECT_EQ(report.input.dangling_facets, 0u);
+  EXPECT_EQ(report.delaunay.segments, 0u);
+  EXPECT_EQ(report.steiner_points, 0u);
+  EXPECT_EQ(report.vertices, 4u);
+  EXPECT_EQ(report.tetrahedra, 1u);
+  EXPECT_EQ(report.regions, 1u);
+  EXPECT_NEAR(report.quality.worst, std::sqrt(6.0) / 12 * std::sqrt(2.0) * (3 + std::sqrt(3.0)), 1e-12);
+  EXPECT_LE(report.quality.target, report.quality.worst);
+  EXPECT_GT(report.peak_memory_bytes, 0u);
+  for (const char* key : {"validate", "delaunay", "flips", "partition", "classify", "suppress", "total"})
+    EXPECT_TRUE(report.seconds.contains(key)) << key;
+}
+
+TEST(Mesh, BoxWithAndWithoutFlips) {
+  const Surface surface = small::box();
+  Options options;
+  for (const bool flips : {true, false}) {
+    options.flips = flips;
+    const Result result = mesh(surface.view(), options);
+    expect_done(surface, result);
+    EXPECT_EQ(result.report.regions, 1u);
+    if (!flips) {
+      EXPECT_EQ(result.report.flips.facets, result.report.delaunay.facets);
+      EXPECT_EQ(result.report.flips.segments, result.report.delaunay.segments);
+    }
+  }
+}
+
+TEST(Mesh, SteinerPointOfSchoenhardt) {
+  const Surface surface = small::without_integer_points(0);
+  Options options;
+  for (const bool flips : {true, false}) {
+    options.flips = flips;
+    const Result result = mesh(surface.view(), options);
+    expect_done(surface, result);
+    EXPECT_GE(result.report.steiner_points, 1u);
+    EXPECT_EQ(result.volume.vertices.size(), 6 + result.report.steiner_points);
+  }
+}
+
+TEST(Mesh, NestedBoxesAreTwoRegions) {
+  const Surface surface = small::nested(true);
+  const Result result = mesh(surface.view());
+  expect_done(surface, result);
+  EXPECT_EQ(ids(result.volume), (std::set<int>{1, 2}));
+  EXPECT_EQ(result.report.regions, 2u);
+}
+
+TEST(Mesh, CavityStaysEmpty) {
+  const Surface surface = small::nested(false);
+  const Result result = mesh(surface.view());
+  expect_done(surface, result);
+  EXPECT_EQ(ids(result.volume), std::set<int>{1});
+}
+
+TEST(Mesh, HolesAndRegions) {
+  const Surface surface = small::nested(true);
+  Options options;
+  options.holes = {{1.5, 1.5, 1.5}};
+  options.regions = {{{0.5, 0.5, 0.5}, 42}};
+  const Result result = mesh(surface.view(), options);
+  expect_done(surface, result);
+  EXPECT_EQ(ids(result.volume), std::set<int>{42});
+}
+
+TEST(Mesh, OutsideOfABoxIsRegionZero) {
+  Surface surface = small::open_box();
+  Options options;
+  options.keep = Keep::box;
+  options.box_margin = 0.25;
+  const Result result = mesh(surface.view(), options);
+  CheckOptions check_options;
+  check_options.box = true;
+  expect_done(surface, result, check_options);
+  EXPECT_EQ(ids(result.volume), std::set<int>{0});
+  EXPECT_EQ(result.volume.vertices.size(), 16 + result.report.steiner_points);
+  for (const double x : {-0.25, 1.25}) {
+    const auto& v = result.volume.vertices;
+    EXPECT_TRUE(std::find(v.begin(), v.end(), Point{x, x, x}) != v.end());
+  }
+}
+
+TEST(Mesh, FlatInputInABox) {
+  Surface surface;
+  small::add_triangle(surface, {0, 0, 5}, {4, 0, 5}, {0, 4, 5});
+  surface.vertices.push_back({1e16, 0, 5});
+  Options options;
+  options.keep = Keep::box;
+  CheckOptions check_options;
+  check_options.box = true;
+  expect_done(surface, mesh(surface.view(), options), check_options);
+  surface = {};
+  surface.vertices = {{3, 4, 5}};  // no extent at all
+  expect_done(surface, mesh(surface.view(), options), check_options);
+}
+
+TEST(Mesh, WhatHangsInsideStays) {
+  Surface surface = small::box();
+  small::add_triangle(surface, {0.3, 0.3, 0.4}, {0.7, 0.3, 0.5}, {0.4, 0.7, 0.6});
+  small::add_segment(surface, {0.1, 0.2, 0.3}, {0.9, 0.2, 0.2});
+  surface.vertices.push_back({0.8, 0.8, 0.85});
+  const Result result = mesh(surface.view());
+  expect_done(surface, result);
+  EXPECT_EQ(result.report.input.dangling_facets, 1u);
+  EXPECT_EQ(result.volume.facets.size(), 13u);
+  EXPECT_EQ(result.volume.segments, surface.segments);
+}
+
+TEST(Mesh, KeepsMarkersAndMergesRepeatedSegments) {
+  Surface surface = small::box();
+  for (int f = 0; f < 12; ++f) surface.facet_markers.push_back(100 - f);
+  surface.segments = {{0, 1}, {1, 0}, {0, 2}, {0, 1}};
+  surface.segment_markers = {7, 7, -3, 7};
+  const Result result = mesh(surface.view());
+  expect_done(surface, result);
+  EXPECT_EQ(result.volume.facets, surface.facets);
+  EXPECT_EQ(result.volume.facet_markers, surface.facet_markers);
+  EXPECT_EQ(result.volume.segments, (std::vector<Segment>{{0, 1}, {0, 2}}));
+  EXPECT_EQ(result.volume.segment_markers, (std::vector<int>{7, -3}));
+}
+
+TEST(Mesh, KeepsTheSignOfZero) {
+  Surface surface = small::box();
+  surface.vertices[0] = {-0.0, 0.0, -0.0};
+  surface.vertices[6] = {-0.0, 1.0, 1.0};
+  const Result result = mesh(surface.view());
+  expect_done(surface, result);
+  for (std::size_t i = 0; i < 8; ++i)
+    EXPECT_TRUE(same_bits(result.volume.vertices[i], surface.vertices[i])) << i;
+}
+
+TEST(Mesh, SameResultForSameInput) {
+  const Surface surface = bumpy(8, 12);
+  const Result first = mesh(surface.view());
+  expect_done(surface, first);
+  const Result second = mesh(surface.view());
+  EXPECT_TRUE(same(first.volume, second.volume));
+}
+
+TEST(Mesh, ExtremeMagnitudes) {
+  const Surface usual = small::without_integer_points(0);
+  const Result expected = mesh(usual.view());
+  for (const int k : {-1060, -900, -700, -300, 300, 700, 1000, 1020}) {
+    Surface surface = usual;
+    for (Point& p : surface.vertices) p = scaled(p, k);
+    const Result result = mesh(surface.view());
+    EXPECT_EQ(result.outcome, Outcome::done) << "2^" << k << ": " << result.message;
+    EXPECT_EQ(broken_rules(surface, result), "") << "2^" << k;
+    if (k < -800) continue;  // not scaled: see choose_scale
+    ASSERT_EQ(result.volume.tetrahedra, expected.volume.tetrahedra) << "2^" << k;
+    for (std::size_t i = 0; i < expected.volume.vertices.size(); ++i)
+      EXPECT_EQ(result.volume.vertices[i], scaled(expected.volume.vertices[i], k));
+    EXPECT_NEAR(result.report.quality.worst, expected.report.quality.worst, 1e-9);
+  }
+}
+
+TEST(Mesh, MagnitudesThatNoScaleBringsTogether) {
+  Surface surface = small::box({0, 0, 0}, {1e300, 1e300, 1e-300});
+  expect_done(surface, mesh(surface.view()));
+}
+
+TEST(Mesh, NotRepresentable) {
+  const Surface surface = small::without_integer_points(0x1p52);
+  const Result result = mesh(surface.view());
+  EXPECT_EQ(result.outcome, Outcome::not_representable);
+  EXPECT_FALSE(result.message.empty());
+  ASSERT_FALSE(result.exact_vertices.empty());
+  EXPECT_EQ(result.report.unrounded_points, result.exact_vertices.size());
+  EXPECT_GE(result.volume.tetrahedra.size(), 8u);
+  for (const ExactVertex& vertex : result.exact_vertices) {
+    EXPECT_GE(vertex.vertex, 6u);
+    EXPECT_LT(vertex.vertex, result.volume.vertices.size());
+    for (const std::string& x : vertex.coordinates) EXPECT_NE(x.find("*2^"), std::string::npos) << x;
+  }
+}
+
+TEST(Refusal, OfInvalidInput) {
+  Surface surface = small::box();
+  small::add_triangle(surface, {0.5, 0.5, 0.5}, {1.5, 0.4, 0.5}, {0.5, 0.5, 1.5});
+  const Result result = mesh(surface.view());
+  EXPECT_EQ(result.outcome, Outcome::invalid_input);
+  EXPECT_FALSE(result.defects.empty());
+  EXPECT_FALSE(result.message.empty());
+  expect_empty(result.volume);
+  EXPECT_EQ(result.report.input.facets, 13u);
+}
+
+TEST(Refusal, OfIndicesAndCoordinatesThatMakeNoSense) {
+  Surface surface = small::box();
+  surface.facets[3][1] = 1000000;
+  surface.vertices[2][1] = kInfinity;
+  const Result result = mesh(surface.view());
+  EXPECT_EQ(result.outcome, Outcome::invalid_input);
+  EXPECT_EQ(result.defects.size(), 2u);
+}
+
+TEST(Refusal, OfWhatEnclosesNothing) {
+  for (const Surface& surface : {small::open_box(), Surface{}}) {
+    const Result result = mesh(surface.view());
+    EXPECT_EQ(result.outcome, Outcome::invalid_input);
+    ASSERT_EQ(result.defects.size(), 1u);
+    EXPECT_EQ(result.defects[0].kind, DefectKind::encloses_nothing);
+    expect_empty(result.volume);
+  }
+}
+
+TEST(Refusal, OfWhatLiesOutside) {
+  Surface surface = small::box();
+  small::add_triangle(surface, {2, 0, 0}, {3, 0, 0}, {2, 1, 0});
+  const Result refused = mesh(surface.view());
+  EXPECT_EQ(refused.outcome, Outcome::invalid_input);
+  ASSERT_EQ(refused.defects.size(), 1u);
+  EXPECT_EQ(refused.defects[0].kind, DefectKind::outside_region);
+
+  Options options;
+  options.drop_outside = true;
+  const Result result = mesh(surface.view(), options);
+  CheckOptions check_options;
+  check_options.outside_dropped = true;
+  expect_done(surface, result, check_options);
+  EXPECT_EQ(result.volume.facets.size(), 12u);
+  EXPECT_EQ(result.volume.vertices.size(), surface.vertices.size() + result.report.steiner_points);
+}
+
+TEST(Refusal, OfOptionsThatMakeNoSense) {
+  Surface surface = small::box();
+  const auto refused = [&](const Options& options) {
+    EXPECT_THROW(static_cast<void>(mesh(surface.view(), options)), std::invalid_argument);
+  };
+  Options options;
+  options.holes = {{5, 5, 5}};
+  refused(options);
+  options.holes = {{kInfinity, 5, 5}};
+  refused(options);
+  options = {};
+  options.regions = {{{0.5, std::nan(""), 0.5}, 1}};
+  refused(options);
+  options = {};
+  options.keep = Keep::box;
+  for (const double margin : {0.0, -1.0, kInfinity, std::nan("")}) {
+    options.box_margin = margin;
+    refused(options);
+  }
+  surface.facet_markers = {1, 2, 3};
+  refused({});
+  surface.facet_markers.clear();
+  surface.segment_markers = {1};
+  refused({});
+}
+
+TEST(Interruption, ByTime) {
+  Options options;
+  options.time_limit = 1e-9;
+  const Result result = mesh(small::box().view(), options);
+  EXPECT_EQ(result.outcome, Outcome::time_limit);
+  EXPECT_NE(result.message.find("time limit"), std::string::npos) << result.message;
+  EXPECT_TRUE(result.report.seconds.contains("total"));
+  expect_empty(result.volume);
+}
+
+TEST(Interruption, ByMemory) {
+  Options options;
+  options.memory_limit = 1;
+  const Result result = mesh(small::box().view(), options);
+  EXPECT_EQ(result.outcome, Outcome::memory_limit);
+  EXPECT_NE(result.message.find("memory limit"), std::string::npos) << result.message;
+  expect_empty(result.volume);
+}
+
+TEST(Interruption, AtEveryStage) {
+  const Surface surface = small::box();
+  for (const Stage stage :
+       {Stage::validate, Stage::delaunay, Stage::flips, Stage::partition, Stage::classify, Stage::suppress}) {
+    Options options;
+    options.progress = [&](const Progress& progress) { return progress.stage != stage; };
+    const Result result = mesh(surface.view(), options);
+    EXPECT_EQ(result.outcome, Outcome::cancelled) << name(stage);
+    EXPECT_EQ(result.message, std::string("cancelled in stage ") + name(stage));
+    expect_empty(result.volume);
+  }
+}
+
+TEST(Interruption, WithinAStage) {
+  // The callback is asked every 50 ms; the fraction is 0 only when a stage begins.
+  const Surface surface = bumpy(150, 200);
+  Options options;
+  options.flips = false;
+  options.progress = [](const Progress& progress) { return progress.fraction == 0; };
+  const Result result = mesh(surface.view(), options);
+  EXPECT_EQ(result.outcome, Outcome::cancelled);
+}
+
+TEST(Progress, StagesComeInOrder) {
+  std::vector<Stage> stages;
+  Options options;
+  options.progress = [&](const Progress& progress) {
+    EXPECT_GE(progress.fraction, 0);
+    EXPECT_LE(progress.fraction, 1);
+    if (stages.empty() || stages.back() != progress.stage) stages.push_back(progress.stage);
+    return true;
+  };
+  EXPECT_EQ(mesh(small::box().view(), options).outcome, Outcome::done);
+  EXPECT_EQ(stages, (std::vector<Stage>{Stage::validate, Stage::delaunay, Stage::flips, Stage::partition,
+                                        Stage::classify, Stage::suppress}));
+}
+
+TEST(StopAfter, ShowsWhatStands) {
+  const Surface surface = small::without_integer_points(0);
+  Options options;
+  const auto after = [&](Stage stage) {
+    options.stop_after = stage;
+    Result result = mesh(surface.view(), options);
+    EXPECT_EQ(result.outcome, Outcome::done) << name(stage);
+    EXPECT_EQ(result.volume.regions.size(), result.volume.tetrahedra.size());
+    for (std::size_t i = 0; i < surface.vertices.size(); ++i)
+      EXPECT_EQ(result.volume.vertices[i], surface.vertices[i]);
+    return result;
+  };
+  const Result validated = after(Stage::validate);
+  EXPECT_EQ(validated.volume.vertices.size(), 6u);
+  EXPECT_TRUE(validated.volume.tetrahedra.empty());
+
+  for (const Stage stage : {Stage::delaunay, Stage::flips}) {
+    const Result result = after(stage);
+    EXPECT_EQ(ids(result.volume), std::set<int>{0});
+    EXPECT_EQ(result.volume.vertices.size(), 14u);
+    EXPECT_EQ(result.report.steiner_points, 0u);
+    const std::size_t missing =
+        (stage == Stage::delaunay ? result.report.delaunay : result.report.flips).facets;
+    EXPECT_EQ(result.volume.facets.size(), 8 - missing);
+    EXPECT_GT(missing, 0u);
+  }
+  const Result partitioned = after(Stage::partition);
+  EXPECT_GT(partitioned.report.segment_points, 0u);
+  EXPECT_EQ(partitioned.report.steiner_points,
+            partitioned.report.segment_points + partitioned.report.facet_points);
+  EXPECT_EQ(partitioned.volume.facets.size(), 8 - partitioned.report.flips.facets);
+
+  const Result eliminated = after(Stage::eliminate);
+  EXPECT_EQ(ids(eliminated.volume), std::set<int>{0});
+  EXPECT_EQ(eliminated.volume.facets.size(), 8u);
+
+  const Result classified = after(Stage::classify);
+  EXPECT_EQ(ids(classified.volume), std::set<int>{1});
+  EXPECT_EQ(classified.report.regions, 1u);
+  expect_done(surface, after(Stage::suppress));
+}
+
+TEST(StopAfter, OpenSurfacesCanBeLookedAt) {
+  Options options;
+  options.stop_after = Stage::delaunay;
+  EXPECT_EQ(mesh(small::open_box().view(), options).outcome, Outcome::done);
+}
+
+TEST(Names, OfStagesAndVersion) {
+  EXPECT_STREQ(name(Stage::validate), "validate");
+  EXPECT_STREQ(name(Stage::suppress), "suppress");
+  EXPECT_NE(std::string(version()).find('.'), std::string::npos);
+}
+
+TEST(Box, HoldsEverythingStrictlyInside) {
+  const auto strictly_inside = [](const std::vector<Point>& vertices, double margin) {
+    const auto corners = box_corners(vertices, margin);
+    for (const Point& p : vertices)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (!(corners[0][i] < p[i] && p[i] < corners[7][i])) return false;
+    return true;
+  };
+  EXPECT_TRUE(strictly_inside({{0, 0, 0}, {1, 2, 3}}, 0.5));
+  EXPECT_TRUE(strictly_inside({{1e16, 1e16, 1e16}, {1e16, 1e16, 1e16 + 2}}, 0.1));
+  EXPECT_TRUE(strictly_inside({{0, 0, 0}, {1, 1, 1}}, 1e-300));
+  EXPECT_TRUE(strictly_inside({{0, 0, 0}}, 0.1));
+  EXPECT_TRUE(strictly_inside({{0, 0, 0}, {5e-324, 0, 0}}, 0.1));
+  EXPECT_TRUE(strictly_inside({}, 0.1));
+}
+
+TEST(Scale, IsUsedWhereItLosesNothing) {
+  const auto of = [](double x, double y) {
+    const std::vector<Point> vertices{{x, 0, 0}, {0, y, -0.0}};
+    return choose_scale(vertices);
+  };
+  EXPECT_EQ(of(1, 1e-300), 0);
+  EXPECT_EQ(of(0x1p200, 1), 0);
+  EXPECT_EQ(of(0x1p500, 3), -500);
+  EXPECT_EQ(of(0x1p1023, 0x1p-51), -1023);
+  EXPECT_EQ(of(0x1p1023, 0x1p-52), 0);
+  EXPECT_EQ(of(0x1p-300, 0x1p-1074), 300);
+  EXPECT_EQ(of(0x1p-774, 0), 774);
+  EXPECT_EQ(of(0x1p-775, 0), 0);
+  EXPECT_EQ(of(0, 0), 0);
+  EXPECT_EQ(choose_scale({}), 0);
+}
+
+}  // namespace
+}  // namespace holdfast
