@@ -75,6 +75,16 @@ const Format& find_format(const std::filesystem::path& path, std::string_view ex
   throw FileError(path, "", name + " cannot be " + use + "; the formats are " + known);
 }
 
+const Format& surface_format(const std::filesystem::path& path, std::string_view format) {
+  return find_format(path, extension_of(path, format), "read as a surface",
+                     [](const Format& f) { return f.surface != nullptr; });
+}
+
+const Format& volume_format(const std::filesystem::path& path, std::string_view format) {
+  return find_format(path, extension_of(path, format), "read as a volume",
+                     [](const Format& f) { return f.volume != nullptr; });
+}
+
 /// A volume whose tags do not match its entities is the caller's mistake.
 void require_consistent(const Volume& volume) {
   const auto matches = [](const std::vector<int>& tags, std::size_t count) {
@@ -89,22 +99,19 @@ void require_consistent(const Volume& volume) {
 }  // namespace
 
 MeshData parse_surface(const Source& source, std::string_view format) {
-  const Format& found = find_format(source.path, extension_of(source.path, format), "read as a surface",
-                                    [](const Format& f) { return f.surface != nullptr; });
-  MeshData mesh = found.surface(source);
+  MeshData mesh = surface_format(source.path, format).surface(source);
   if (mesh.vertices.empty()) throw FileError(source.path, "", "the file holds no vertices");
   return mesh;
 }
 
 MeshData parse_volume(const Source& source, std::string_view format) {
-  return find_format(source.path, extension_of(source.path, format), "read as a volume",
-                     [](const Format& f) { return f.volume != nullptr; })
-      .volume(source);
+  return volume_format(source.path, format).volume(source);
 }
 
 }  // namespace io
 
 Surface read_surface(const std::filesystem::path& path, std::string_view format) {
+  static_cast<void>(io::surface_format(path, format));  // before a large file is read in vain
   const io::FileBytes bytes(path);
   io::MeshData mesh = io::parse_surface({path, bytes.view()}, format);
   Surface surface;
@@ -119,6 +126,7 @@ Surface read_surface(const std::filesystem::path& path, std::string_view format)
 }
 
 Volume read_volume(const std::filesystem::path& path, std::string_view format) {
+  static_cast<void>(io::volume_format(path, format));
   const io::FileBytes bytes(path);
   io::MeshData mesh = io::parse_volume({path, bytes.view()}, format);
   Volume volume;

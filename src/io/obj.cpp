@@ -84,7 +84,7 @@ class ObjReader {
   }
 
   /// The vertex of "v", "v/vt", "v//vn" or "v/vt/vn"; negative ones count back from the last vertex.
-  Index corner(const TextReader& text, std::string_view word) const {
+  [[nodiscard]] Index corner(const TextReader& text, std::string_view word) const {
     std::int64_t value = 0;
     const char* const end = word.data() + word.size();
     const auto result = std::from_chars(word.data(), end, value);

@@ -104,7 +104,7 @@ class VtuReader {
     appended_base64_ = encoding == "base64";
   }
 
-  const DataArray* find(const std::string& name) const {
+  [[nodiscard]] const DataArray* find(const std::string& name) const {
     const auto found = arrays_.find(name);
     return found == arrays_.end() ? nullptr : &found->second;
   }
@@ -156,7 +156,7 @@ class VtuReader {
     return result;
   }
 
-  VtkType type_of(const DataArray& array) const {
+  [[nodiscard]] VtkType type_of(const DataArray& array) const {
     static const std::map<std::string_view, VtkType> kTypes = {
         {"Int8", VtkType::int8},      {"UInt8", VtkType::uint8},   {"Int16", VtkType::int16},
         {"UInt16", VtkType::uint16},  {"Int32", VtkType::int32},   {"UInt32", VtkType::uint32},
