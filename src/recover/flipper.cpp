@@ -126,7 +126,9 @@ bool Flipper::remove_edge_now(const EdgeShell& shell, Vertex favoured) {
   const auto cost = triangulation.find(shell.size(), objective);
   work_ += 2 * objective.tests + shell.size();
   if (!cost) return false;
-  change_ += *cost / ForTarget::kWeight - objective.cost_now();
+  const int change = *cost / ForTarget::kWeight - objective.cost_now();
+  if (favoured != kNone && (*cost % ForTarget::kWeight != 0 || change > kNestedChange)) return false;
+  change_ += change;
   triangles_.clear();
   fresh_.clear();
   triangulation.triangles(shell.size(), triangles_);
@@ -136,24 +138,31 @@ bool Flipper::remove_edge_now(const EdgeShell& shell, Vertex favoured) {
   return true;
 }
 
-// Removes a spoke (a p) or (b p) of the shell so that it has fewer tetrahedra, or can at once be removed.
+// An ear (p_i-1 p_i p_i+1) of the link is blocked at an end where it sees that end wrongly: then the spoke
+// from that end to p_i is reflex. Removes such a spoke so that the shell has one tetrahedron fewer.
 bool Flipper::thin_out(EdgeShell& shell, int depth) {
-  const Vertex a = shell.a, b = shell.b;
-  std::vector<std::uint32_t> spokes(2 * shell.size());
-  for (std::uint32_t k = 0; k < spokes.size(); ++k) spokes[k] = k;
+  const std::size_t n = shell.size();
+  std::vector<Spoke> spokes;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const Vertex before = shell.link[(i + n - 1) % n], p = shell.link[i], after = shell.link[(i + 1) % n];
+    const bool at_b = mesh_.orient(before, p, after, shell.b) <= 0;
+    const bool at_a = mesh_.orient(after, p, before, shell.a) <= 0;
+    work_ += 2;
+    if (at_b) spokes.push_back({i, true, at_a});
+    if (at_a) spokes.push_back({i, false, at_b});
+  }
   std::shuffle(spokes.begin(), spokes.end(), random_);
-  EdgeShell after;
-  for (const std::uint32_t spoke : spokes) {
+  std::stable_partition(spokes.begin(), spokes.end(), [](const Spoke& s) { return !s.blocked_twice; });
+  EdgeShell thinner;
+  for (const Spoke& spoke : spokes) {
     if (exhausted()) return false;
-    const std::size_t i = spoke / 2;
-    const Vertex p = shell.link[i];
-    const Vertex end = spoke % 2 == 0 ? a : b, other = spoke % 2 == 0 ? b : a;
+    const Vertex end = spoke.at_b ? shell.b : shell.a, other = spoke.at_b ? shell.a : shell.b;
     const Mark before = mark();
-    const bool removed = remove_edge(shell.tets[i], end, p, depth - 1, other);
+    const bool removed = remove_edge(shell.tets[spoke.corner], end, shell.link[spoke.corner], depth - 1, other);
     if (entries_.size() == before.entries) continue;
     const Tet t = survivor(shell);
-    if (removed && t != kNone && gather_shell(mesh_, t, a, b, after) && after.size() < shell.size()) {
-      shell = after;
+    if (removed && t != kNone && gather_shell(mesh_, t, shell.a, shell.b, thinner) && thinner.size() < n) {
+      shell = thinner;
       return true;
     }
     undo_to(before);

@@ -40,13 +40,17 @@ class Flipper {
   struct Entry {
     std::size_t removed, created;  // where they begin
   };
+  struct Spoke {
+    std::uint32_t corner;
+    bool at_b, blocked_twice;
+  };
+  static constexpr int kNestedChange = 0;
   class ForTarget;
 
   [[nodiscard]] bool holds(Tet t, Vertex a, Vertex b) const;
   bool flip_face(const Crossing& face);
   bool remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex favoured);
   bool remove_edge_now(const EdgeShell& shell, Vertex favoured);
-  bool clear_way(Vertex a, Vertex b, int depth, Vertex favoured);
   bool thin_out(EdgeShell& shell, int depth);
   [[nodiscard]] Tet survivor(const EdgeShell& shell);
 

@@ -15,7 +15,7 @@ struct Effort {
   int depth;
   std::size_t budget;
 };
-constexpr std::array<Effort, 4> kEfforts{{{0, 20'000}, {0, 20'000}, {1, 100'000}, {2, 400'000}}};
+constexpr std::array<Effort, 9> kEfforts{{{0, 20'000}, {1, 20'000}, {2, 40'000}, {3, 40'000}, {4, 80'000}, {6, 80'000}, {8, 100'000}, {10, 100'000}, {14, 100'000}}};
 constexpr std::size_t kMostCrossings = 2000;
 
 class Recovery {
