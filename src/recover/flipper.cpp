@@ -58,7 +58,8 @@ bool Flipper::holds(Tet t, Vertex a, Vertex b) const {
   return mesh_.alive(t) && mesh_.index_of(t, a) >= 0 && mesh_.index_of(t, b) >= 0;
 }
 
-bool Flipper::clear(const Crossing& crossing, int depth) {
+bool Flipper::clear(const Crossing& crossing, int depth, int most_change) {
+  most_change_ = most_change;
   const Tet t = crossing.tet;
   if (!mesh_.alive(t)) return false;
   for (int k = 0; k < crossing.count; ++k)
@@ -66,7 +67,7 @@ bool Flipper::clear(const Crossing& crossing, int depth) {
   forget();
   const Mark start = mark();
   const auto helped = [&] {
-    if (change_ < 0) return true;
+    if (change_ <= most_change && entries_.size() > 0) return true;
     undo_to(start);
     return false;
   };
@@ -80,6 +81,8 @@ bool Flipper::clear(const Crossing& crossing, int depth) {
   }
   return false;
 }
+
+int Flipper::last_change() const { return change_; }
 
 //          d                       The 2-3 flip: face (f0 f1 f2) between apexes d and e gives way to
 //        / | \                     edge de, and (f0 f1 f2 d), (f0 f2 f1 e) to (f0 f1 e d), (f1 f2 e d)
@@ -127,7 +130,8 @@ bool Flipper::remove_edge_now(const EdgeShell& shell, Vertex favoured) {
   work_ += 2 * objective.tests + shell.size();
   if (!cost) return false;
   const int change = *cost / ForTarget::kWeight - objective.cost_now();
-  if (favoured != kNone && (*cost % ForTarget::kWeight != 0 || change > kNestedChange)) return false;
+  if (*cost % ForTarget::kWeight != 0 || change_ + change > (favoured == kNone ? most_change_ : kNestedChange))
+    return false;
   change_ += change;
   triangles_.clear();
   fresh_.clear();

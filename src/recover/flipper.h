@@ -27,7 +27,8 @@ class Flipper {
 
   /// Removes a face or edge that the target crosses, by flips of at most `depth` levels. Returns true if
   /// the target's cost fell; otherwise the mesh is as before.
-  bool clear(const Crossing& crossing, int depth);
+  bool clear(const Crossing& crossing, int depth, int most_change);
+  [[nodiscard]] int last_change() const;
 
   [[nodiscard]] const FlipCounts& counts() const { return counts_; }
 
@@ -64,6 +65,7 @@ class Flipper {
   Random& random_;
   Target target_ = Target::segment(kNone, kNone);
   std::size_t budget_ = 0, work_ = 0;
+  int most_change_ = 0;
   int change_ = 0;  // of the target's cost since the journal began
   FlipCounts counts_;
 

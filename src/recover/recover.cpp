@@ -18,6 +18,24 @@ struct Effort {
 constexpr std::array<Effort, 9> kEfforts{{{0, 20'000}, {1, 20'000}, {2, 40'000}, {3, 40'000}, {4, 80'000}, {6, 80'000}, {8, 100'000}, {10, 100'000}, {14, 100'000}}};
 constexpr std::size_t kMostCrossings = 2000;
 
+class Rounds {
+ public:
+  bool go_on() {
+    if (first_) return !(first_ = false);
+    if (fell_) { loose_ = 0; }
+    else if (loose_ > 0 && !moved_) return false;
+    else ++loose_;
+    fell_ = moved_ = false;
+    return loose_ <= kMostLoose;
+  }
+  int most_change() const { return loose_ > 0 ? 0 : -1; }
+  void note(int change) { moved_ = true; fell_ |= change < 0; }
+ private:
+  static constexpr int kMostLoose = 8;
+  bool first_ = true, fell_ = false, moved_ = false;
+  int loose_ = 0;
+};
+
 class Recovery {
  public:
   Recovery(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets, Standing& standing,
@@ -70,8 +88,8 @@ class Recovery {
   bool recover_segment(Index s, const Effort& effort) {
     const auto [a, b] = table_.segments[s];
     flipper_.aim(Target::segment(a, b), effort.budget);
-    for (bool progress = true; progress && !flipper_.exhausted();) {
-      progress = false;
+    Rounds rounds;
+    while (!flipper_.exhausted() && rounds.go_on()) {
       crossings_.clear();
       if (!piercing_.by_segment(a, b, crossings_, kMostCrossings)) return false;
       if (crossings_.empty()) {
@@ -80,7 +98,8 @@ class Recovery {
       }
       std::shuffle(crossings_.begin(), crossings_.end(), random_);
       for (const Crossing& c : crossings_)
-        if (!flipper_.exhausted() && flipper_.clear(c, effort.depth)) progress = true;
+        if (!flipper_.exhausted() && flipper_.clear(c, effort.depth, rounds.most_change()))
+          rounds.note(flipper_.last_change());
     }
     return false;
   }
@@ -89,8 +108,8 @@ class Recovery {
     for (const Index s : table_.facet_segments[f])
       if (standing_.segments[s] == 0) return false;
     flipper_.aim(Target::facet(facets_[f]), effort.budget);
-    for (bool progress = true; progress && !flipper_.exhausted();) {
-      progress = false;
+    Rounds rounds;
+    while (!flipper_.exhausted() && rounds.go_on()) {
       edges_.clear();
       if (!piercing_.of_facet(facets_[f], edges_, kMostCrossings)) return false;
       if (edges_.empty()) {
@@ -101,8 +120,9 @@ class Recovery {
       }
       std::shuffle(edges_.begin(), edges_.end(), random_);
       for (const PiercingEdge& e : edges_)
-        if (!flipper_.exhausted() && flipper_.clear({e.tet, {e.above, e.below}, 2}, effort.depth))
-          progress = true;
+        if (!flipper_.exhausted() &&
+            flipper_.clear({e.tet, {e.above, e.below}, 2}, effort.depth, rounds.most_change()))
+          rounds.note(flipper_.last_change());
     }
     return false;
   }
