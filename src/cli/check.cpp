@@ -56,7 +56,7 @@ void add_check(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("check", "Verify exactly that a volume keeps a surface");
   command
       ->add_option("SURFACE VOLUME", arguments->files,
-                   "The surfaces that were meshed, then the volume (.vtu .vtk .mesh .msh .node)")
+                   "The surfaces that were meshed, then the volume (.vtu .vtk .mesh .meshb .msh .node)")
       ->required();
   command->add_flag("--outside-dropped", arguments->options.outside_dropped,
                     "Accept missing facets that lie outside every tetrahedron (mesh --drop-outside)");

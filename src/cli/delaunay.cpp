@@ -82,7 +82,7 @@ void add_delaunay(CLI::App& app, Command& chosen) {
       ->add_option("POINTS", arguments->points,
                    "Points: .xyz (three numbers a line), .node (TetGen), or the vertices of a surface file")
       ->required();
-  command->add_option("-o,--output", arguments->output, "Volume file (.vtu .vtk .mesh .msh .node)")
+  command->add_option("-o,--output", arguments->output, "Volume file (.vtu .vtk .mesh .meshb .msh .node)")
       ->required()
       ->option_text("VOLUME");
   command->add_option("--seed", arguments->seed, "Seed of the random order (default 1)")->option_text("N");

@@ -64,7 +64,8 @@ void add_diagnose(CLI::App& app, Command& chosen) {
       app.add_subcommand("diagnose", "List what is wrong with a surface (exit 4), or nothing");
   command
       ->add_option("SURFACE", arguments->surfaces,
-                   "Surface files (.stl .off .obj .ply .mesh .poly .smesh); several are joined where "
+                   "Surface files (.stl .off .obj .ply .mesh .meshb .poly .smesh .msh .vtu .vtp .vtk); "
+                   "several are joined where "
                    "coordinates are identical")
       ->required();
   command->add_option("--marks", arguments->marks, "Write the places of the defects for a viewer")

@@ -1,6 +1,7 @@
 #include "files.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -99,12 +100,12 @@ VolumeTarget volume_target(const fs::path& path, std::string format, const std::
   }
   const std::string kind =
       target.options.format.empty() ? lower(path.extension().string()) : target.options.format;
-  static constexpr const char* known[] = {".vtu", ".vtk", ".mesh", ".msh", ".node", ".ele", ".face"};
-  if (std::find(std::begin(known), std::end(known), kind) == std::end(known))
+  const std::vector<std::string> known = volume_formats();
+  if (std::find(known.begin(), known.end(), kind) == known.end())
     throw UsageError(
-        fmt::format("{}: '{}' is no volume format; use .vtu, .vtk, .mesh, .msh (--format msh2 for version "
-                    "2.2) or .node (with .ele and .face), as the file's ending or by --format",
-                    path.string(), kind));
+        fmt::format("{}: '{}' is no volume format; use {} (--format msh2 for version 2.2 of .msh) as the "
+                    "file's ending or by --format",
+                    path.string(), kind, fmt::join(known, " ")));
   for (const fs::path& input : inputs) {
     std::error_code ignored;
     if (fs::equivalent(path, input, ignored))

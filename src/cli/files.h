@@ -15,8 +15,8 @@ namespace holdfast::cli {
 /// their file, from 1. Throws FileError.
 [[nodiscard]] Surface read_surfaces(const std::vector<std::filesystem::path>& paths, std::string_view format);
 
-/// Reads points: the vertices of any surface file, of a TetGen .node file, or of an .xyz text (three
-/// numbers a line, what follows them on the line is ignored). Throws FileError.
+/// Reads points: the vertices of any surface file, or an .xyz text (three numbers a line, what follows them
+/// on the line is ignored). Throws FileError.
 [[nodiscard]] std::vector<Point> read_points(const std::filesystem::path& path);
 
 /// Where and how to write a volume.

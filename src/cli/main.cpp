@@ -61,6 +61,9 @@ int main(int count, char** arguments) {
   } catch (const holdfast::FileError& error) {
     say("", error.what());
     return cli::exit_file;
+  } catch (const std::length_error& error) {
+    say("", error.what());
+    return cli::exit_limit;
   } catch (const std::bad_alloc&) {
     say("", "out of memory; close other programs or split the surface into parts");
     return cli::exit_limit;

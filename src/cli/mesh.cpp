@@ -117,6 +117,15 @@ void print_summary(const MeshArguments& arguments, const Result& result, double 
              counted(result.report.regions, "region"), seconds);
 }
 
+/// Options that do not suit the surface (a hole on a facet, say) are wrong usage.
+Result mesh_or_refuse(const Surface& surface, const Options& options) {
+  try {
+    return holdfast::mesh(surface.view(), options);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+}
+
 int run(const MeshArguments& arguments) {
   const Stopwatch whole;
   Options options = to_options(arguments);
@@ -138,7 +147,7 @@ int run(const MeshArguments& arguments) {
 
   ProgressView progress(how_to_show(arguments));
   options.progress = std::ref(progress);
-  Result result = holdfast::mesh(surface.view(), options);
+  Result result = mesh_or_refuse(surface, options);
   progress.finish();
 
   const Stopwatch writing;
@@ -158,10 +167,11 @@ void add_mesh(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("mesh", "Fill surfaces with tetrahedra, keeping every triangle");
   command
       ->add_option("SURFACE", arguments->surfaces,
-                   "Surface files (.stl .off .obj .ply .mesh .poly .smesh); several are joined where "
+                   "Surface files (.stl .off .obj .ply .mesh .meshb .poly .smesh .msh .vtu .vtp .vtk); "
+                   "several are joined where "
                    "coordinates are identical")
       ->required();
-  command->add_option("-o,--output", arguments->output, "Volume file (.vtu .vtk .mesh .msh .node)")
+  command->add_option("-o,--output", arguments->output, "Volume file (.vtu .vtk .mesh .meshb .msh .node)")
       ->required()
       ->option_text("VOLUME");
   command->add_flag("--fill", arguments->fill, "Add only the points that the surface forces");

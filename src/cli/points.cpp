@@ -1,10 +1,8 @@
-// Reading plain points: .node (TetGen) and .xyz, or the vertices of a surface.
+// Reading plain points: .xyz, or the vertices of a surface.
 #include <fmt/core.h>
 
 #include <charconv>
-#include <cmath>
 #include <fstream>
-#include <sstream>
 
 #include "files.h"
 
@@ -70,29 +68,10 @@ std::vector<Point> read_xyz(const std::filesystem::path& path) {
   return points;
 }
 
-std::vector<Point> read_node(const std::filesystem::path& path) {
-  NumberLines lines(path);
-  std::vector<double> row;
-  if (!lines.next(row)) lines.fail("the first line, '<points> <dimension> ...', is missing");
-  if (row.size() < 2 || !(row[0] >= 0 && row[0] <= 4294967295.0) || row[0] != std::floor(row[0]))
-    lines.fail("the first line must be '<points> <dimension> ...'");
-  if (row[1] != 3) lines.fail("the dimension must be 3");
-  const auto count = static_cast<std::size_t>(row[0]);
-  std::vector<Point> points;
-  while (points.size() < count) {
-    if (!lines.next(row))
-      lines.fail(fmt::format("the file ends after {} of {} points", points.size(), count));
-    if (row.size() < 4) lines.fail("an index and three coordinates are expected");
-    points.push_back({row[1], row[2], row[3]});
-  }
-  return points;
-}
-
 }  // namespace
 
 std::vector<Point> read_points(const std::filesystem::path& path) {
   if (path.extension() == ".xyz") return read_xyz(path);
-  if (path.extension() == ".node") return read_node(path);
   return read_surface(path).vertices;
 }
 
