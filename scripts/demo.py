@@ -3,6 +3,7 @@
     demo.py HOLDFAST FOLDER
 """
 import json
+import os
 import shlex
 import subprocess
 import sys
@@ -12,7 +13,9 @@ EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
 
 
 def run(*command):
-    print("$ " + shlex.join(str(word) for word in command), flush=True)
+    shown = ["python3" if word == sys.executable else os.path.relpath(word) if isinstance(word, Path) else word
+             for word in command]
+    print("$ " + shlex.join(shown), flush=True)
     code = subprocess.run(command, check=False).returncode
     if code != 0:
         sys.exit(f"demo: this command ended with {code}")
@@ -34,7 +37,7 @@ def show(holdfast, folder, title, name, generate):
 
 def main(holdfast, folder):
     folder.mkdir(parents=True, exist_ok=True)
-    rows = [["surface", "triangles", "missing*", "points tried", "points left", "tetrahedra", "seconds"],
+    rows = [["surface", "triangles", "missing*", "points on the way", "points added", "tetrahedra", "seconds"],
             show(holdfast, folder, "A flanged bearing housing, as a CAD system exports it", "housing.stl",
                  ["make_part.py", "@"]),
             show(holdfast, folder, "Schönhardt's prism: eight triangles, impossible without an added point",

@@ -210,6 +210,12 @@ class Mesh(CliTest):
                     self.assertGreater(json.loads((self.folder / "r.json").read_text())["steiner"]["count"], 0)
                     self.run_program("check", name, "a.vtu")
 
+    def test_what_stands_after_every_stage(self):
+        self.make("schonhardt", "prism.off", "--twist", "50")
+        for stage in "validate delaunay flips partition eliminate classify suppress".split():
+            with self.subTest(stage):
+                self.run_program("mesh", "prism.off", "-o", "a.vtu", "--fill", "--stop-after", stage)
+
     def test_surfaces_are_joined_where_coordinates_are_identical(self):
         self.write("right.off", off(cube((1, 0, 0)), [f for f in CUBE_FACETS if f not in ((0, 4, 6), (0, 6, 2))]))
         self.run_program("mesh", "cube.off", "right.off", "-o", "two.vtu", "--fill", "--report", "r.json")
