@@ -71,6 +71,7 @@ class Extractor {
     const TetMesh& mesh = source_.mesh;
     const auto index = static_cast<Index>(extract_.volume.vertices.size());
     new_index_[v] = index;
+    if (v >= source_.first_free) ++extract_.steiner_points;
     if (source_.scale == 0 && mesh.is_explicit(v)) {
       extract_.volume.vertices.push_back(mesh.position(v));
       return;

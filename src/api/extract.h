@@ -16,14 +16,17 @@ namespace holdfast {
 struct Extract {
   Volume volume;
   std::vector<ExactVertex> exact_vertices;
+  std::size_t steiner_points = 0;  ///< vertices that are neither the complex's nor the box's
 };
 
-/// What extraction reads. The mesh is the complex times 2^scale; its vertices 0 .. n-1 are the complex's.
+/// What extraction reads. The mesh is the complex times 2^scale; its vertices 0 .. n-1 are the complex's,
+/// those up to first_free-1 corners of the box.
 struct Source {
   const TetMesh& mesh;
   const Complex& complex;
   const SegmentTable& table;
   int scale;
+  Vertex first_free;
 };
 
 /// The tetrahedra of the kept regions, with the facets and segments that border on them. Vertices are the

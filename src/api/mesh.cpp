@@ -171,11 +171,12 @@ class Pipeline {
 
   void deliver() {
     const Stage last = last_stage();
-    const Source source{mesh_, complex_, table_, scale_};
+    const Source source{mesh_, complex_, table_, scale_, first_free_};
     Extract extract =
         last >= Stage::classify ? extract_kept(source, regions_, kept_) : extract_all(source, standing_);
     result_.volume = std::move(extract.volume);
     result_.exact_vertices = std::move(extract.exact_vertices);
+    result_.report.steiner_points = extract.steiner_points;
     fill_report();
     if (last == Stage::suppress && !result_.exact_vertices.empty()) {
       result_.outcome = Outcome::not_representable;
@@ -187,9 +188,6 @@ class Pipeline {
     const Stage last = last_stage();
     Report& report = result_.report;
     const Volume& volume = result_.volume;
-    const bool with_corners =
-        options_.keep == Keep::box || (last > Stage::validate && last < Stage::classify);
-    report.steiner_points = volume.vertices.size() - complex_.vertices.size() - (with_corners ? 8 : 0);
     report.unrounded_points = result_.exact_vertices.size();
     report.vertices = volume.vertices.size();
     report.tetrahedra = volume.tetrahedra.size();

@@ -184,6 +184,23 @@ TEST(Mesh, OutsideOfABoxIsRegionZero) {
   }
 }
 
+TEST(Mesh, BoxWithoutItsOutside) {
+  const Surface surface = small::box();
+  Options options;
+  options.keep = Keep::box;
+  options.holes = {{1.0625, 0.5, 0.5}};
+  const Result result = mesh(surface.view(), options);
+  expect_done(surface, result);
+  EXPECT_EQ(ids(result.volume), std::set<int>{1});
+  EXPECT_EQ(result.volume.vertices.size(), 8 + result.report.steiner_points);
+  options.holes = {{0.5, 0.5, 0.5}};
+  const Result around = mesh(surface.view(), options);
+  CheckOptions check_options;
+  check_options.box = true;
+  expect_done(surface, around, check_options);
+  EXPECT_EQ(ids(around.volume), std::set<int>{0});
+}
+
 TEST(Mesh, FlatInputInABox) {
   Surface surface;
   small::add_triangle(surface, {0, 0, 5}, {4, 0, 5}, {0, 4, 5});

@@ -28,8 +28,8 @@ TEST(Quality, CornerOfACube) {
   // Longest edge sqrt 2, volume 1/6, area 3/2 + sqrt 3 / 2.
   EXPECT_NEAR(quality(o, x, y, z), std::sqrt(6.0) / 12 * std::sqrt(2.0) * (3 + kRoot3), 1e-14);
   const std::array<double, 6> angles = dihedral_angles(o, x, y, z);
-  for (const std::size_t k : {0, 1, 2}) EXPECT_NEAR(angles[k], 90, 1e-12);
-  for (const std::size_t k : {3, 4, 5})
+  for (const std::size_t k : {0u, 1u, 2u}) EXPECT_NEAR(angles[k], 90, 1e-12);
+  for (const std::size_t k : {3u, 4u, 5u})
     EXPECT_NEAR(angles[k], std::atan(std::sqrt(2.0)) * 180 / std::numbers::pi, 1e-12);
 }
 
