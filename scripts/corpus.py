@@ -217,7 +217,7 @@ class Runner:
             if code == 0:
                 verdict, why = self.verify(case, volume, box)
             leftover = volume.exists() != (code == 0)
-        message = why or " ".join(output.split())[:300]
+        message = why or report.get("message") or " ".join(output.split())[:300]
         if leftover:
             message = f"after exit {code}, an output file is {'missing' if code == 0 else 'left'}; {message}"
         good = code == 4 if case.mode == "invalid" else code == 0 and verdict["check"] == "pass" \
