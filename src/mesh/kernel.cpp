@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "exact/rounding.h"
 #include "mesh/inscribed_ball.h"
@@ -82,6 +83,7 @@ std::optional<Position> Kernel::find(PointRef origin) const {
     Point p{};
     for (std::size_t k = 0; k < 3; ++k) p[k] = origin.approx[k] + g.offset[k];
     if (holds({p.data(), nullptr})) return p;
+    if (const auto near = neighbouring_doubles(p)) return *near;
     if (auto position = on_grid(origin, g)) return position;
   }
   return along_direction(origin, g.size);
@@ -123,6 +125,22 @@ Kernel::Guess Kernel::guess(PointRef origin) const {
   }
   const InscribedBall ball = inscribed_ball(half_spaces);
   return {{ball.centre[0] * size, ball.centre[1] * size, ball.centre[2] * size}, ball.radius * size, size};
+}
+
+// A kernel thinner than the spacing of doubles may still hold one next to the centre.
+std::optional<Point> Kernel::neighbouring_doubles(const Point& centre) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (int code = 0; code < 27; ++code) {
+    Point p = centre;
+    int rest = code;
+    for (double& x : p) {
+      if (rest % 3 == 1) x = std::nextafter(x, kInfinity);
+      if (rest % 3 == 2) x = std::nextafter(x, -kInfinity);
+      rest /= 3;
+    }
+    if (holds({p.data(), nullptr})) return p;
+  }
+  return std::nullopt;
 }
 
 std::optional<Position> Kernel::on_grid(PointRef origin, const Guess& g) const {

@@ -44,6 +44,7 @@ class Kernel {
     double size = 0;                 ///< of the cavity
   };
   [[nodiscard]] Guess guess(exact::PointRef origin) const;
+  [[nodiscard]] std::optional<Point> neighbouring_doubles(const Point& centre) const;
   [[nodiscard]] std::optional<Position> on_grid(exact::PointRef origin, const Guess& guess) const;
   [[nodiscard]] std::optional<Position> along_direction(exact::PointRef origin, double size) const;
 
