@@ -386,6 +386,9 @@ def parse_arguments():
     parser.add_argument("--resume-any", action="store_true", help="take results of other versions of the program")
     parser.add_argument("--retry-failed", action="store_true", help="run again what was not as expected")
     parser.add_argument("--again", action="store_true", help="run everything again")
+    parser.add_argument("--honest", action="store_true",
+                        help="exit 0 too where the program itself said that a limit ran out (exit 5) or that it found no "
+                        "mesh in doubles (exit 7): rule 6 of the promise; the table still says NO")
     parser.add_argument("--skip-missing", action="store_true", help="exit 77 if there is no corpus")
     parser.add_argument("--core-only", action="store_true", help="unpack only the small archive")
     parser.add_argument("--output", type=Path, default=ROOT / "build" / "corpus", help="folder of the results")
@@ -409,6 +412,9 @@ def main():
     write_tables(records, options.output)
     good = summarize(records, cases)
     print(f"table: {options.output / 'table.md'}")
+    if options.honest:
+        broken = [r for r in records if not r["as_expected"] and r["outcome"] not in ("time_limit", "not_representable")]
+        return 0 if records and not broken else 1
     return 0 if good and records else 1
 
 
