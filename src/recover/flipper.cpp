@@ -1,7 +1,6 @@
 #include "recover/flipper.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "mesh/replace.h"
 
@@ -47,42 +46,26 @@ class Flipper::ForTarget {
   Vertex favoured_;
 };
 
-void Flipper::aim(const Target& target, std::size_t budget) {
-  target_ = target;
-  budget_ = budget;
-  work_ = 0;
-  forget();
-}
-
 bool Flipper::holds(Tet t, Vertex a, Vertex b) const {
   return mesh_.alive(t) && mesh_.index_of(t, a) >= 0 && mesh_.index_of(t, b) >= 0;
 }
 
-bool Flipper::clear(const Crossing& crossing, int depth, int most_change) {
-  most_change_ = most_change;
-  const Tet t = crossing.tet;
-  if (!mesh_.alive(t)) return false;
-  for (int k = 0; k < crossing.count; ++k)
-    if (mesh_.index_of(t, crossing.corners[static_cast<std::size_t>(k)]) < 0) return false;
-  forget();
-  const Mark start = mark();
-  const auto helped = [&] {
-    if (change_ <= most_change && entries_.size() > 0) return true;
-    undo_to(start);
-    return false;
-  };
-  if (crossing.count == 3 && flip_face(crossing) && helped()) return true;
-  const std::size_t edges = crossing.count == 3 ? 3 : 1;
-  const std::size_t first = edges == 3 ? random_() % 3 : 0;
-  for (std::size_t k = first; k < first + edges && !exhausted(); ++k) {
-    const Vertex a = crossing.corners[k % 3], b = crossing.corners[edges == 1 ? 1 : (k + 1) % 3];
-    remove_edge(t, a, b, depth, kNone);
-    if (helped()) return true;
+bool Flipper::clear(const Crossing& crossing, int depth, std::size_t budget) {
+  budget_ = budget;
+  work_ = 0;
+  change_ = 0;
+  if (crossing.count == 2) {
+    remove_edge(crossing.tet, crossing.corners[0], crossing.corners[1], depth, kNone);
+    return change_ < 0;
   }
-  return false;
+  if (flip_face(crossing)) return true;
+  const std::size_t first = random_() % 3;
+  for (std::size_t k = first; k < first + 3 && change_ == 0 && !exhausted(); ++k) {
+    const Vertex a = crossing.corners[k % 3], b = crossing.corners[(k + 1) % 3];
+    if (holds(crossing.tet, a, b)) remove_edge(crossing.tet, a, b, depth, kNone);
+  }
+  return change_ < 0;
 }
-
-int Flipper::last_change() const { return change_; }
 
 //          d                       The 2-3 flip: face (f0 f1 f2) between apexes d and e gives way to
 //        / | \                     edge de, and (f0 f1 f2 d), (f0 f2 f1 e) to (f0 f1 e d), (f1 f2 e d)
@@ -101,25 +84,31 @@ bool Flipper::flip_face(const Crossing& face) {
   work_ += 3;
   for (std::size_t k = 0; k < 3; ++k)
     if (mesh_.orient(f[k], f[(k + 1) % 3], e, d) <= 0) return false;
-  change_ += target_.edge(mesh_, d, e) - target_.face(mesh_, f[0], f[1], f[2]);
-  for (const Vertex v : f) change_ += target_.face(mesh_, v, d, e);
+  int change = target_.edge(mesh_, d, e) - target_.face(mesh_, f[0], f[1], f[2]);
+  for (const Vertex v : f) change += target_.face(mesh_, v, d, e);
+  if (change >= 0) return false;
   fresh_.clear();
   for (std::size_t k = 0; k < 3; ++k) fresh_.push_back({f[k], f[(k + 1) % 3], e, d});
-  apply({face.tet, tet_of(across)}, fresh_);
+  const std::array<Tet, 2> old_tets{face.tet, tet_of(across)};
+  apply(old_tets, change);
   ++counts_.face_flips;
   return true;
 }
 
-// Removes edge ab, or returns false; flips that cleared the way then stay for the caller to undo.
+// Removes edge ab: at once, or after flips that thin out its shell. Those stay even if ab does. `favoured`
+// is none for an edge that the target crosses, which is to lessen the crossings; else it is a vertex that
+// the new edges avoid, so that the edge from a or b to it loses a tetrahedron of its shell.
 bool Flipper::remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex favoured) {
   if (mesh_.is_segment(t, kEdgeOf[static_cast<std::size_t>(mesh_.index_of(t, a))]
                                  [static_cast<std::size_t>(mesh_.index_of(t, b))]))
     return false;
   EdgeShell shell;
-  if (!gather_shell(mesh_, t, a, b, shell)) return false;
-  if (remove_edge_now(shell, favoured)) return true;
-  while (depth > 0 && !exhausted() && thin_out(shell, depth))
+  while (gather_shell(mesh_, t, a, b, shell)) {
     if (remove_edge_now(shell, favoured)) return true;
+    if (depth == 0 || !thin_out(shell, depth)) return false;
+    t = survivor(shell);
+    if (t == kNone) return true;
+  }
   return false;
 }
 
@@ -128,50 +117,47 @@ bool Flipper::remove_edge_now(const EdgeShell& shell, Vertex favoured) {
   LinkTriangulation<ForTarget> triangulation;
   const auto cost = triangulation.find(shell.size(), objective);
   work_ += 2 * objective.tests + shell.size();
-  if (!cost) return false;
+  if (!cost || *cost % ForTarget::kWeight != 0) return false;
   const int change = *cost / ForTarget::kWeight - objective.cost_now();
-  if (*cost % ForTarget::kWeight != 0 || change_ + change > (favoured == kNone ? most_change_ : kNestedChange))
-    return false;
-  change_ += change;
+  if (change_ + change > (favoured == kNone ? -1 : 0)) return false;
   triangles_.clear();
   fresh_.clear();
   triangulation.triangles(shell.size(), triangles_);
   tetrahedra_of(shell, triangles_, fresh_);
-  apply(shell.tets, fresh_);
+  apply(shell.tets, change);
   ++counts_.edge_removals;
   return true;
 }
 
 // An ear (p_i-1 p_i p_i+1) of the link is blocked at an end where it sees that end wrongly: then the spoke
-// from that end to p_i is reflex. Removes such a spoke so that the shell has one tetrahedron fewer.
-bool Flipper::thin_out(EdgeShell& shell, int depth) {
+// from that end to p_i is reflex, and without it the shell has one tetrahedron fewer. Returns whether the
+// flips for one of the spokes have changed the mesh.
+bool Flipper::thin_out(const EdgeShell& shell, int depth) {
+  for (const Spoke& spoke : blocked_spokes(shell)) {
+    if (exhausted()) return false;
+    const Vertex end = spoke.at_b ? shell.b : shell.a, other = spoke.at_b ? shell.a : shell.b;
+    const std::size_t before = counts_.edge_removals;
+    remove_edge(shell.tets[spoke.corner], end, shell.link[spoke.corner], depth - 1, other);
+    if (counts_.edge_removals > before) return true;
+  }
+  return false;
+}
+
+// In random order, but those first that are blocked at one end only.
+std::vector<Flipper::Spoke> Flipper::blocked_spokes(const EdgeShell& shell) {
   const std::size_t n = shell.size();
   std::vector<Spoke> spokes;
   for (std::uint32_t i = 0; i < n; ++i) {
     const Vertex before = shell.link[(i + n - 1) % n], p = shell.link[i], after = shell.link[(i + 1) % n];
     const bool at_b = mesh_.orient(before, p, after, shell.b) <= 0;
     const bool at_a = mesh_.orient(after, p, before, shell.a) <= 0;
-    work_ += 2;
     if (at_b) spokes.push_back({i, true, at_a});
     if (at_a) spokes.push_back({i, false, at_b});
   }
+  work_ += 2 * n;
   std::shuffle(spokes.begin(), spokes.end(), random_);
   std::stable_partition(spokes.begin(), spokes.end(), [](const Spoke& s) { return !s.blocked_twice; });
-  EdgeShell thinner;
-  for (const Spoke& spoke : spokes) {
-    if (exhausted()) return false;
-    const Vertex end = spoke.at_b ? shell.b : shell.a, other = spoke.at_b ? shell.a : shell.b;
-    const Mark before = mark();
-    const bool removed = remove_edge(shell.tets[spoke.corner], end, shell.link[spoke.corner], depth - 1, other);
-    if (entries_.size() == before.entries) continue;
-    const Tet t = survivor(shell);
-    if (removed && t != kNone && gather_shell(mesh_, t, shell.a, shell.b, thinner) && thinner.size() < n) {
-      shell = thinner;
-      return true;
-    }
-    undo_to(before);
-  }
-  return false;
+  return spokes;
 }
 
 // A tetrahedron of an edge's shell after flips beside it.
@@ -181,47 +167,10 @@ Tet Flipper::survivor(const EdgeShell& shell) {
   return piercing_.find_edge(shell.a, shell.b);
 }
 
-void Flipper::apply(const std::vector<Tet>& old_tets, const std::vector<TetMesh::Corners>& new_tets) {
-  entries_.push_back({removed_.size(), created_.size()});
-  for (const Tet t : old_tets) {
-    removed_.push_back(t);
-    removed_corners_.push_back(mesh_.corners(t));
-  }
-  replace(mesh_, {.old_tets = old_tets, .new_tets = new_tets}, &created_);
+void Flipper::apply(std::span<const Tet> old_tets, int change) {
+  replace(mesh_, {.old_tets = old_tets, .new_tets = fresh_});
   work_ += 8 * old_tets.size();
-}
-
-// Replays the journal backwards. Slots are freed and taken last in, first out, so that removing what was
-// created in the opposite order gives every tetrahedron its old name back: older entries stay true.
-void Flipper::undo_to(const Mark& mark) {
-  while (entries_.size() > mark.entries) {
-    const Entry entry = entries_.back();
-    entries_.pop_back();
-    std::reverse(created_.begin() + static_cast<std::ptrdiff_t>(entry.created), created_.end());
-    std::reverse(removed_corners_.begin() + static_cast<std::ptrdiff_t>(entry.removed),
-                 removed_corners_.end());
-    made_.clear();
-    replace(mesh_,
-            {.old_tets = std::span(created_).subspan(entry.created),
-             .new_tets = std::span(removed_corners_).subspan(entry.removed)},
-            &made_);
-    if (!std::equal(made_.rbegin(), made_.rend(),
-                    removed_.begin() + static_cast<std::ptrdiff_t>(entry.removed)))
-      throw std::logic_error("holdfast: slots of tetrahedra are not reused last in, first out");
-    removed_.resize(entry.removed);
-    removed_corners_.resize(entry.removed);
-    created_.resize(entry.created);
-    ++counts_.undone;
-  }
-  change_ = mark.change;
-}
-
-void Flipper::forget() {
-  entries_.clear();
-  removed_.clear();
-  removed_corners_.clear();
-  created_.clear();
-  change_ = 0;
+  change_ += change;
 }
 
 }  // namespace holdfast

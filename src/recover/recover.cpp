@@ -10,31 +10,13 @@
 namespace holdfast {
 namespace {
 
-// Levels of flips that clear the way for others, and the work (roughly sign tests) an entity gets there.
-struct Effort {
-  int depth;
-  std::size_t budget;
-};
-constexpr std::array<Effort, 9> kEfforts{{{0, 20'000}, {1, 20'000}, {2, 40'000}, {3, 40'000}, {4, 80'000}, {6, 80'000}, {8, 100'000}, {10, 100'000}, {14, 100'000}}};
+// Pass after pass goes one level of flips deeper, with little work for each entity: what one attempt does
+// not reach, the next may, from the mesh that the attempts for others have left meanwhile.
+constexpr int kMostPasses = 25;
+constexpr int kMostIdlePasses = 3;
+constexpr std::size_t kBudget = 1000;  // of one attempt at a crossing, in sign tests roughly
+constexpr int kMostFailures = 3;       // at the crossings of a facet, in one pass
 constexpr std::size_t kMostCrossings = 2000;
-
-class Rounds {
- public:
-  bool go_on() {
-    if (first_) return !(first_ = false);
-    if (fell_) { loose_ = 0; }
-    else if (loose_ > 0 && !moved_) return false;
-    else ++loose_;
-    fell_ = moved_ = false;
-    return loose_ <= kMostLoose;
-  }
-  int most_change() const { return loose_ > 0 ? 0 : -1; }
-  void note(int change) { moved_ = true; fell_ |= change < 0; }
- private:
-  static constexpr int kMostLoose = 8;
-  bool first_ = true, fell_ = false, moved_ = false;
-  int loose_ = 0;
-};
 
 class Recovery {
  public:
@@ -53,13 +35,12 @@ class Recovery {
     FlipStats stats;
     stats.missing_segments = standing_.missing_segments();
     stats.missing_facets = standing_.missing_facets();
-    pass_over(standing_.segments, [&](Index s, const Effort& e) { return recover_segment(s, e); });
-    pass_over(standing_.facets, [&](Index f, const Effort& e) { return recover_facet(f, e); });
+    pass_over(standing_.segments, [&](Index s, int depth) { return recover_segment(s, depth); });
+    pass_over(standing_.facets, [&](Index f, int depth) { return recover_facet(f, depth); });
     stats.recovered_segments = stats.missing_segments - standing_.missing_segments();
     stats.recovered_facets = stats.missing_facets - standing_.missing_facets();
     stats.face_flips = flipper_.counts().face_flips;
     stats.edge_removals = flipper_.counts().edge_removals;
-    stats.undone = flipper_.counts().undone;
     return stats;
   }
 
@@ -69,47 +50,43 @@ class Recovery {
     std::vector<Index> missing;
     for (Index k = 0; k < stands.size(); ++k)
       if (stands[k] == 0) missing.push_back(k);
-    std::size_t pass = 0;
-    for (const Effort& effort : kEfforts) {
+    int idle = 0;
+    for (int pass = 1; pass <= kMostPasses && idle < kMostIdlePasses && !missing.empty(); ++pass) {
       std::shuffle(missing.begin(), missing.end(), random_);
-      std::size_t done = 0;
+      const std::size_t before = missing.size();
       for (const Index k : missing) {
-        monitor_.poll(Stage::flips, (static_cast<double>(pass) +
-                                     static_cast<double>(done++) / static_cast<double>(missing.size())) /
-                                        static_cast<double>(kEfforts.size()));
-        if (stands[k] == 0 && recover_one(k, effort)) stands[k] = 1;
+        monitor_.poll(Stage::flips, static_cast<double>(pass) / kMostPasses);
+        if (recover_one(k, pass)) stands[k] = 1;
       }
       std::erase_if(missing, [&](Index k) { return stands[k] != 0; });
-      if (missing.empty()) return;
-      ++pass;
+      idle = missing.size() < before ? 0 : idle + 1;
     }
   }
 
-  bool recover_segment(Index s, const Effort& effort) {
-    const auto [a, b] = table_.segments[s];
-    flipper_.aim(Target::segment(a, b), effort.budget);
-    Rounds rounds;
-    while (!flipper_.exhausted() && rounds.go_on()) {
-      crossings_.clear();
-      if (!piercing_.by_segment(a, b, crossings_, kMostCrossings)) return false;
-      if (crossings_.empty()) {
-        set_segment(mesh_, piercing_.find_edge(a, b), a, b);
-        return true;
+  // Clears the first crossing seen from a as long as it can, then likewise from b.
+  bool recover_segment(Index s, int depth) {
+    auto [a, b] = table_.segments[s];
+    flipper_.aim(Target::segment(a, b));
+    for (int end = 0; end < 2; ++end, std::swap(a, b))
+      while (true) {
+        crossings_.clear();
+        if (!piercing_.by_segment(a, b, crossings_, 1)) return false;
+        if (crossings_.empty()) {
+          set_segment(mesh_, piercing_.find_edge(a, b), a, b);
+          return true;
+        }
+        if (!flipper_.clear(crossings_.front(), depth, kBudget)) break;
       }
-      std::shuffle(crossings_.begin(), crossings_.end(), random_);
-      for (const Crossing& c : crossings_)
-        if (!flipper_.exhausted() && flipper_.clear(c, effort.depth, rounds.most_change()))
-          rounds.note(flipper_.last_change());
-    }
     return false;
   }
 
-  bool recover_facet(Index f, const Effort& effort) {
+  bool recover_facet(Index f, int depth) {
     for (const Index s : table_.facet_segments[f])
       if (standing_.segments[s] == 0) return false;
-    flipper_.aim(Target::facet(facets_[f]), effort.budget);
-    Rounds rounds;
-    while (!flipper_.exhausted() && rounds.go_on()) {
+    flipper_.aim(Target::facet(facets_[f]));
+    int failures = 0;
+    for (bool gained = true; gained;) {
+      gained = false;
       edges_.clear();
       if (!piercing_.of_facet(facets_[f], edges_, kMostCrossings)) return false;
       if (edges_.empty()) {
@@ -119,10 +96,12 @@ class Recovery {
         return true;
       }
       std::shuffle(edges_.begin(), edges_.end(), random_);
-      for (const PiercingEdge& e : edges_)
-        if (!flipper_.exhausted() &&
-            flipper_.clear({e.tet, {e.above, e.below}, 2}, effort.depth, rounds.most_change()))
-          rounds.note(flipper_.last_change());
+      for (const PiercingEdge& e : edges_) {
+        if (!flipper_.holds(e.tet, e.above, e.below)) continue;
+        const bool cleared = flipper_.clear({e.tet, {e.above, e.below}, 2}, depth, kBudget);
+        gained |= cleared;
+        if (!cleared && ++failures == kMostFailures) return false;
+      }
     }
     return false;
   }

@@ -16,7 +16,6 @@ struct FlipStats {
   std::size_t missing_segments = 0, missing_facets = 0;      ///< before
   std::size_t recovered_segments = 0, recovered_facets = 0;  ///< standing now that did not before
   std::size_t face_flips = 0, edge_removals = 0;             ///< that were carried out
-  std::size_t undone = 0;                                    ///< of these, taken back
 };
 
 /// Flips until no missing constraint can be recovered within a limit of work for each. What comes to stand
