@@ -1,6 +1,8 @@
 #include "mesh/replace.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <memory_resource>
 #include <stdexcept>
 #include <utility>
 
@@ -36,6 +38,16 @@ std::size_t hash(const FaceKey& k) {
   return static_cast<std::size_t>(h ^ (h >> 32));
 }
 
+// Memory of one replacement: flips are many and small, and fit the stack.
+class Scratch {
+ public:
+  std::pmr::memory_resource* memory() { return &memory_; }
+
+ private:
+  alignas(std::max_align_t) std::array<std::byte, 6144> buffer_;
+  std::pmr::monotonic_buffer_resource memory_{buffer_.data(), buffer_.size()};
+};
+
 // A small open-addressing map from a face to one of its codes: "new" codes index new_tets, "outer"
 // codes are faces of the mesh outside the cavity.
 class FaceTable {
@@ -46,9 +58,9 @@ class FaceTable {
     bool outer = false;
     bool matched = false;
   };
-  explicit FaceTable(std::size_t faces) {
+  FaceTable(std::size_t faces, std::pmr::memory_resource* memory) : slots_(memory) {
     std::size_t n = 16;
-    while (n < 2 * faces) n *= 2;
+    while (2 * n < 3 * faces) n *= 2;
     slots_.resize(n);
   }
   // The entry of a key, fresh if its code is kNone.
@@ -58,18 +70,19 @@ class FaceTable {
     slots_[h].key = key;
     return slots_[h];
   }
-  [[nodiscard]] const std::vector<Entry>& entries() const { return slots_; }
+  [[nodiscard]] const std::pmr::vector<Entry>& entries() const { return slots_; }
 
  private:
-  std::vector<Entry> slots_;
+  std::pmr::vector<Entry> slots_;
 };
 
 // Constraint bits that stood in the cavity, and those that the caller adds.
 struct Constraints {
-  std::vector<FaceKey> facets;
-  std::vector<EdgeKey> segments;
+  std::pmr::vector<FaceKey> facets;
+  std::pmr::vector<EdgeKey> segments;
 
-  Constraints(const TetMesh& mesh, const Replacement& r) {
+  Constraints(const TetMesh& mesh, const Replacement& r, std::pmr::memory_resource* memory)
+      : facets(memory), segments(memory) {
     for (const Tet t : r.old_tets) {
       const Flags f = mesh.flags(t);
       if ((f & (kFacetBits | kSegmentBits)) == 0) continue;
@@ -113,27 +126,48 @@ constexpr Face kNewFace = 0x80000000u;  // in `links`: a code that indexes new_t
 
 [[noreturn]] void mismatch() { throw std::logic_error("holdfast: a cavity's new tetrahedra do not fill it"); }
 
-// Pairs every face of the new tetrahedra with its partner before anything is changed.
-std::vector<TetMesh::Neighbours> match_faces(TetMesh& mesh, const Replacement& r) {
-  FaceTable table(4 * (r.old_tets.size() + r.new_tets.size()));
-  for (const Tet t : r.old_tets) mesh.set_flags(t, kVisited);
-  for (const Tet t : r.old_tets)
+struct OuterFace {
+  FaceKey key;
+  Face across;
+};
+
+// The faces of the cavity, in a mesh that is left as it was.
+std::pmr::vector<OuterFace> outer_faces(TetMesh& mesh, std::span<const Tet> tets,
+                                        std::pmr::memory_resource* memory) {
+  std::pmr::vector<OuterFace> faces(memory);
+  faces.reserve(2 * tets.size() + 2);
+  for (const Tet t : tets) mesh.set_flags(t, kVisited);
+  for (const Tet t : tets)
     for (int i = 0; i < 4; ++i) {
       const Face g = mesh.neighbour(t, i);
-      if ((mesh.flags(tet_of(g)) & kVisited) != 0) continue;
-      FaceTable::Entry& e = table[face_key(mesh.corners(t), i)];
-      e.code = g;
-      e.outer = true;
+      if ((mesh.flags(tet_of(g)) & kVisited) == 0) faces.push_back({face_key(mesh.corners(t), i), g});
     }
-  for (const Tet t : r.old_tets) mesh.clear_flags(t, kVisited);
+  for (const Tet t : tets) mesh.clear_flags(t, kVisited);
+  return faces;
+}
 
-  std::vector<TetMesh::Neighbours> links(r.new_tets.size());
+// Pairs every face of the new tetrahedra with its partner before anything is changed.
+std::pmr::vector<TetMesh::Neighbours> match_faces(TetMesh& mesh, const Replacement& r,
+                                                  std::pmr::memory_resource* memory) {
+  const std::pmr::vector<OuterFace> outer = outer_faces(mesh, r.old_tets, memory);
+  if (outer.size() > 4 * r.new_tets.size()) mismatch();
+  // Each face of a new tetrahedron is an outer one or shared by two.
+  FaceTable table((outer.size() + 4 * r.new_tets.size()) / 2, memory);
+  for (const OuterFace& f : outer) {
+    FaceTable::Entry& e = table[f.key];
+    e.code = f.across;
+    e.outer = true;
+  }
+
+  std::size_t distinct = outer.size();
+  std::pmr::vector<TetMesh::Neighbours> links(r.new_tets.size(), memory);
   for (std::size_t n = 0; n < r.new_tets.size(); ++n)
     for (int i = 0; i < 4; ++i) {
       FaceTable::Entry& e = table[face_key(r.new_tets[n], i)];
       const auto self = static_cast<Face>(4 * n + static_cast<std::size_t>(i));
       Face& mine = links[n][static_cast<std::size_t>(i)];
       if (e.code == kNone) {
+        if (2 * ++distinct > outer.size() + 4 * r.new_tets.size()) mismatch();
         e.code = self;
       } else if (e.matched) {
         mismatch();
@@ -155,8 +189,9 @@ std::vector<TetMesh::Neighbours> match_faces(TetMesh& mesh, const Replacement& r
 }  // namespace
 
 void replace(TetMesh& mesh, const Replacement& r, std::vector<Tet>* created) {
-  const std::vector<TetMesh::Neighbours> links = match_faces(mesh, r);
-  const Constraints constraints(mesh, r);
+  Scratch scratch;
+  const std::pmr::vector<TetMesh::Neighbours> links = match_faces(mesh, r, scratch.memory());
+  const Constraints constraints(mesh, r, scratch.memory());
 
   for (const Tet t : r.old_tets)
     for (const Vertex v : mesh.corners(t))
