@@ -134,15 +134,15 @@ class Pipeline {
   }
 
   void recover() {
-    if (options_.flips) recover_by_flips(mesh_, table_, complex_.facets, standing_, options_.seed, monitor_);
+    if (options_.flips) FlipRecovery(mesh_, table_, complex_.facets, standing_, options_.seed).run(monitor_);
     result_.report.flips = missing();
   }
 
   void enforce_missing() {
     standing_before_partition_ = standing_;
     const bool eliminate = options_.stop_after != Stage::partition;
-    const EnforceStats stats =
-        enforce(mesh_, table_, complex_.facets, standing_, first_free_, options_.seed, monitor_, eliminate);
+    const EnforceStats stats = enforce(mesh_, table_, complex_.facets, standing_, first_free_,
+                                       {options_.seed, options_.flips, eliminate}, monitor_);
     result_.report.segment_points = stats.segment_points;
     result_.report.facet_points = stats.facet_points;
     if (!eliminate) standing_ = standing_before_partition_;  // the others are cut into pieces

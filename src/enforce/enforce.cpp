@@ -9,6 +9,7 @@
 #include "enforce/partition_facet.h"
 #include "enforce/partition_segment.h"
 #include "mesh/traverse.h"
+#include "recover/recover.h"
 #include "suppress/collapse.h"
 
 namespace holdfast {
@@ -17,15 +18,17 @@ namespace {
 class Enforcer {
  public:
   Enforcer(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets, Standing& standing,
-           Vertex first_free, std::uint64_t seed, Monitor& monitor, bool eliminate)
+           Vertex first_free, const EnforceOptions& options, Monitor& monitor)
       : mesh_(mesh),
         table_(table),
         facets_(facets),
         standing_(standing),
         first_free_(first_free),
-        random_(seed),
+        random_(options.seed),
         monitor_(monitor),
-        eliminate_(eliminate),
+        eliminate_(options.eliminate),
+        retry_(options.flips && options.eliminate),
+        flips_(mesh, table, facets, standing, options.seed),
         chains_(table.segments.size()) {
     for (Index s = 0; s < table.segments.size(); ++s)
       if (standing.segments[s] == 0) missing_segments_.push_back(s);
@@ -42,11 +45,11 @@ class Enforcer {
   EnforceStats run() {
     for (const Index s : missing_segments_) {
       tell();
-      lay_segment(s);
+      if (!retry_ || !flips_.segment(s, kRetry)) lay_segment(s);
     }
     for (const Index f : missing_facets_) {
       tell();
-      lay_facet(f);
+      if (!retry_ || !flips_.facet(f, kRetry)) lay_facet(f);
     }
     return stats_;
   }
@@ -168,6 +171,7 @@ class Enforcer {
     return out;
   }
 
+  static constexpr FlipRecovery::Effort kRetry{.depth = 20, .budget = 5000};
   static constexpr int kRounds = 2;
   static constexpr PolyhedronOptions kThoroughSearch{.most_vertices = 18, .most_nodes = 200};
   static constexpr PolyhedronOptions kQuickSearch{.most_vertices = 13, .most_nodes = 40};
@@ -179,7 +183,8 @@ class Enforcer {
   const Vertex first_free_;
   std::mt19937_64 random_;
   Monitor& monitor_;
-  const bool eliminate_;
+  const bool eliminate_, retry_;
+  FlipRecovery flips_;
   std::vector<std::vector<Vertex>> chains_;  // by segment; empty where it is one edge
   std::unordered_set<Vertex> on_chain_;
   std::vector<Index> missing_segments_, missing_facets_;
@@ -193,9 +198,8 @@ class Enforcer {
 }  // namespace
 
 EnforceStats enforce(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets,
-                     Standing& standing, Vertex first_free, std::uint64_t seed, Monitor& monitor,
-                     bool eliminate) {
-  return Enforcer(mesh, table, facets, standing, first_free, seed, monitor, eliminate).run();
+                     Standing& standing, Vertex first_free, const EnforceOptions& options, Monitor& monitor) {
+  return Enforcer(mesh, table, facets, standing, first_free, options, monitor).run();
 }
 
 }  // namespace holdfast

@@ -12,6 +12,12 @@
 
 namespace holdfast {
 
+struct EnforceOptions {
+  std::uint64_t seed = 0;
+  bool flips = true;      ///< try flips again before a constraint is cut: points nearby make room for them
+  bool eliminate = true;  ///< false: partition points stay on their constraints (`--stop-after partition`)
+};
+
 struct EnforceStats {
   std::size_t segment_points = 0;  ///< partition points put on segments
   std::size_t facet_points = 0;    ///< partition points put inside facets
@@ -21,10 +27,8 @@ struct EnforceStats {
 /// suppressing and recentring the points that it moves off the constraints as it goes.
 ///
 /// `standing` says what stands before, and all of it stands afterwards. Vertices 0 .. first_free-1 are
-/// the input's and the box's. With `eliminate` false the partition points stay on their constraints
-/// (for `--stop-after partition`). In exact arithmetic this cannot fail on a valid complex.
+/// the input's and the box's. In exact arithmetic this cannot fail on a valid complex.
 EnforceStats enforce(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets,
-                     Standing& standing, Vertex first_free, std::uint64_t seed, Monitor& monitor,
-                     bool eliminate = true);
+                     Standing& standing, Vertex first_free, const EnforceOptions& options, Monitor& monitor);
 
 }  // namespace holdfast

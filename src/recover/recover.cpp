@@ -1,11 +1,9 @@
 #include "recover/recover.h"
 
 #include <algorithm>
-#include <vector>
+#include <utility>
 
 #include "mesh/traverse.h"
-#include "recover/flipper.h"
-#include "recover/pierce.h"
 
 namespace holdfast {
 namespace {
@@ -14,115 +12,98 @@ namespace {
 // not reach, the next may, from the mesh that the attempts for others have left meanwhile.
 constexpr int kMostPasses = 25;
 constexpr int kMostIdlePasses = 3;
-constexpr std::size_t kBudget = 1000;  // of one attempt at a crossing, in sign tests roughly
-constexpr int kMostFailures = 3;       // at the crossings of a facet, in one pass
+constexpr std::size_t kIdle = 20;            // a pass that recovers less than one in so many
+constexpr std::size_t kBudget = 1000;        // of an attempt at a crossing in a pass
+constexpr std::size_t kMostFailures = 1000;  // at the crossings of one facet
 constexpr std::size_t kMostCrossings = 2000;
-
-class Recovery {
- public:
-  Recovery(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets, Standing& standing,
-           std::uint64_t seed, Monitor& monitor)
-      : mesh_(mesh),
-        table_(table),
-        facets_(facets),
-        standing_(standing),
-        random_(seed),
-        monitor_(monitor),
-        piercing_(mesh, random_),
-        flipper_(mesh, random_) {}
-
-  FlipStats run() {
-    FlipStats stats;
-    stats.missing_segments = standing_.missing_segments();
-    stats.missing_facets = standing_.missing_facets();
-    pass_over(standing_.segments, [&](Index s, int depth) { return recover_segment(s, depth); });
-    pass_over(standing_.facets, [&](Index f, int depth) { return recover_facet(f, depth); });
-    stats.recovered_segments = stats.missing_segments - standing_.missing_segments();
-    stats.recovered_facets = stats.missing_facets - standing_.missing_facets();
-    stats.face_flips = flipper_.counts().face_flips;
-    stats.edge_removals = flipper_.counts().edge_removals;
-    return stats;
-  }
-
- private:
-  template <typename RecoverOne>
-  void pass_over(std::vector<std::uint8_t>& stands, RecoverOne recover_one) {
-    std::vector<Index> missing;
-    for (Index k = 0; k < stands.size(); ++k)
-      if (stands[k] == 0) missing.push_back(k);
-    int idle = 0;
-    for (int pass = 1; pass <= kMostPasses && idle < kMostIdlePasses && !missing.empty(); ++pass) {
-      std::shuffle(missing.begin(), missing.end(), random_);
-      const std::size_t before = missing.size();
-      for (const Index k : missing) {
-        monitor_.poll(Stage::flips, static_cast<double>(pass) / kMostPasses);
-        if (recover_one(k, pass)) stands[k] = 1;
-      }
-      std::erase_if(missing, [&](Index k) { return stands[k] != 0; });
-      idle = missing.size() < before ? 0 : idle + 1;
-    }
-  }
-
-  // Clears the first crossing seen from a as long as it can, then likewise from b.
-  bool recover_segment(Index s, int depth) {
-    auto [a, b] = table_.segments[s];
-    flipper_.aim(Target::segment(a, b));
-    for (int end = 0; end < 2; ++end, std::swap(a, b))
-      while (true) {
-        crossings_.clear();
-        if (!piercing_.by_segment(a, b, crossings_, 1)) return false;
-        if (crossings_.empty()) {
-          set_segment(mesh_, piercing_.find_edge(a, b), a, b);
-          return true;
-        }
-        if (!flipper_.clear(crossings_.front(), depth, kBudget)) break;
-      }
-    return false;
-  }
-
-  bool recover_facet(Index f, int depth) {
-    for (const Index s : table_.facet_segments[f])
-      if (standing_.segments[s] == 0) return false;
-    flipper_.aim(Target::facet(facets_[f]));
-    int failures = 0;
-    for (bool gained = true; gained;) {
-      gained = false;
-      edges_.clear();
-      if (!piercing_.of_facet(facets_[f], edges_, kMostCrossings)) return false;
-      if (edges_.empty()) {
-        const Face face = piercing_.find_face(facets_[f][0], facets_[f][1], facets_[f][2]);
-        if (face == kNone) return false;
-        mesh_.set_facet(face);
-        return true;
-      }
-      std::shuffle(edges_.begin(), edges_.end(), random_);
-      for (const PiercingEdge& e : edges_) {
-        if (!flipper_.holds(e.tet, e.above, e.below)) continue;
-        const bool cleared = flipper_.clear({e.tet, {e.above, e.below}, 2}, depth, kBudget);
-        gained |= cleared;
-        if (!cleared && ++failures == kMostFailures) return false;
-      }
-    }
-    return false;
-  }
-
-  TetMesh& mesh_;
-  const SegmentTable& table_;
-  std::span<const Triangle> facets_;
-  Standing& standing_;
-  Random random_;
-  Monitor& monitor_;
-  Piercing piercing_;
-  Flipper flipper_;
-  std::vector<Crossing> crossings_;
-  std::vector<PiercingEdge> edges_;
-};
 
 }  // namespace
 
-FlipStats recover_by_flips(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets,
-                           Standing& standing, std::uint64_t seed, Monitor& monitor) {
-  return Recovery(mesh, table, facets, standing, seed, monitor).run();
+FlipRecovery::FlipRecovery(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets,
+                           Standing& standing, std::uint64_t seed)
+    : mesh_(mesh),
+      table_(table),
+      facets_(facets),
+      standing_(standing),
+      random_(seed),
+      piercing_(mesh, random_),
+      flipper_(mesh, random_) {}
+
+FlipStats FlipRecovery::run(Monitor& monitor) {
+  FlipStats stats;
+  stats.missing_segments = standing_.missing_segments();
+  stats.missing_facets = standing_.missing_facets();
+  pass_over(
+      standing_.segments, [&](Index s, const Effort& effort) { return segment(s, effort); }, monitor);
+  pass_over(
+      standing_.facets, [&](Index f, const Effort& effort) { return facet(f, effort); }, monitor);
+  stats.recovered_segments = stats.missing_segments - standing_.missing_segments();
+  stats.recovered_facets = stats.missing_facets - standing_.missing_facets();
+  stats.face_flips = flipper_.counts().face_flips;
+  stats.edge_removals = flipper_.counts().edge_removals;
+  return stats;
+}
+
+template <typename Attempt>
+void FlipRecovery::pass_over(std::vector<std::uint8_t>& stands, Attempt attempt, Monitor& monitor) {
+  std::vector<Index> missing;
+  for (Index k = 0; k < stands.size(); ++k)
+    if (stands[k] == 0) missing.push_back(k);
+  int idle = 0;
+  for (int pass = 1; pass <= kMostPasses && idle < kMostIdlePasses && !missing.empty(); ++pass) {
+    std::shuffle(missing.begin(), missing.end(), random_);
+    const std::size_t before = missing.size();
+    std::erase_if(missing, [&](Index k) {
+      monitor.poll(Stage::flips, static_cast<double>(pass) / kMostPasses);
+      return attempt(k, Effort{pass, kBudget});
+    });
+    idle = kIdle * (before - missing.size()) > before ? 0 : idle + 1;
+  }
+}
+
+// Clears the first crossing seen from a as long as it can, then likewise from b.
+bool FlipRecovery::segment(Index s, const Effort& effort) {
+  auto [a, b] = table_.segments[s];
+  flipper_.aim(Target::segment(a, b));
+  for (int end = 0; end < 2; ++end, std::swap(a, b))
+    while (true) {
+      crossings_.clear();
+      if (!piercing_.by_segment(a, b, crossings_, 1)) return false;
+      if (crossings_.empty()) {
+        set_segment(mesh_, piercing_.find_edge(a, b), a, b);
+        standing_.segments[s] = 1;
+        return true;
+      }
+      if (!flipper_.clear(crossings_.front(), effort.depth, effort.budget)) break;
+    }
+  return false;
+}
+
+bool FlipRecovery::facet(Index f, const Effort& effort) {
+  for (const Index s : table_.facet_segments[f])
+    if (standing_.segments[s] == 0) return false;
+  flipper_.aim(Target::facet(facets_[f]));
+  std::size_t failures = 0;
+  for (bool gained = true; gained;) {
+    gained = false;
+    edges_.clear();
+    if (!piercing_.of_facet(facets_[f], edges_, kMostCrossings)) return false;
+    if (edges_.empty()) {
+      const Face face = piercing_.find_face(facets_[f][0], facets_[f][1], facets_[f][2]);
+      if (face == kNone) return false;
+      mesh_.set_facet(face);
+      standing_.facets[f] = 1;
+      return true;
+    }
+    std::shuffle(edges_.begin(), edges_.end(), random_);
+    for (const PiercingEdge& e : edges_) {
+      if (!flipper_.holds(e.tet, e.above, e.below)) continue;
+      const bool cleared = flipper_.clear({e.tet, {e.above, e.below}, 2}, effort.depth, effort.budget);
+      gained |= cleared;
+      if (!cleared && ++failures == kMostFailures) return false;
+    }
+  }
+  return false;
 }
 
 }  // namespace holdfast

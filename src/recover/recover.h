@@ -4,9 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "mesh/monitor.h"
 #include "mesh/tet_mesh.h"
+#include "recover/flipper.h"
+#include "recover/pierce.h"
 #include "recover/standing.h"
 #include "surface/complex.h"
 
@@ -18,13 +21,40 @@ struct FlipStats {
   std::size_t face_flips = 0, edge_removals = 0;             ///< that were carried out
 };
 
-/// Flips until no missing constraint can be recovered within a limit of work for each. What comes to stand
-/// gets its bits and its flag in `standing`, and no flip ever removes what stands.
-///
-/// The mesh's vertices are those of the complex, strictly inside its hull, besides others that lie on no
-/// constraint; `standing` is what mark_present found. Throws Interrupted through the monitor; the mesh and
-/// `standing` are then as far as the work had come.
-FlipStats recover_by_flips(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets,
-                           Standing& standing, std::uint64_t seed, Monitor& monitor);
+/// Recovers missing constraints, which get their bits in the mesh and their flag in `standing`. No flip ever
+/// removes what stands. The mesh is that of the complex and whatever other vertices, all of it strictly
+/// inside the hull.
+class FlipRecovery {
+ public:
+  FlipRecovery(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets, Standing& standing,
+               std::uint64_t seed);
+
+  /// Passes over all that is missing until the flips find no more. Throws Interrupted through the monitor;
+  /// the mesh and `standing` are then as far as the work had come.
+  FlipStats run(Monitor& monitor);
+
+  struct Effort {
+    int depth;           ///< levels of flips
+    std::size_t budget;  ///< of work at one crossing, in sign tests roughly
+  };
+  /// One attempt at a missing segment; whether it stands now.
+  bool segment(Index s, const Effort& effort);
+  /// The same for a missing facet.
+  bool facet(Index f, const Effort& effort);
+
+ private:
+  template <typename Attempt>
+  void pass_over(std::vector<std::uint8_t>& stands, Attempt attempt, Monitor& monitor);
+
+  TetMesh& mesh_;
+  const SegmentTable& table_;
+  std::span<const Triangle> facets_;
+  Standing& standing_;
+  Random random_;
+  Piercing piercing_;
+  Flipper flipper_;
+  std::vector<Crossing> crossings_;
+  std::vector<PiercingEdge> edges_;
+};
 
 }  // namespace holdfast

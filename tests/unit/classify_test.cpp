@@ -36,7 +36,7 @@ struct Scene {
     Standing standing = mark_present(mesh, table, surface.facets);
     const Options options;
     Monitor monitor(options);
-    enforce(mesh, table, surface.facets, standing, first_free, 1, monitor);
+    enforce(mesh, table, surface.facets, standing, first_free, {.seed = 1}, monitor);
     regions = flood_regions(mesh, surface.facets);
   }
 

@@ -53,7 +53,7 @@ Recovered recover(const std::vector<Point>& points, const std::vector<Triangle>&
   run.standing = mark_present(run.mesh, table, facets);
   const Options options;
   Monitor monitor(options);
-  run.stats = recover_by_flips(run.mesh, table, facets, run.standing, 1, monitor);
+  run.stats = FlipRecovery(run.mesh, table, facets, run.standing, 1).run(monitor);
   EXPECT_EQ(find_fault(run.mesh), "");
   return run;
 }
