@@ -1,8 +1,10 @@
 #include "suppress/suppress.h"
 
 #include <algorithm>
+#include <random>
 
 #include "suppress/collapse.h"
+#include "suppress/refill.h"
 
 namespace holdfast {
 namespace {
@@ -12,40 +14,75 @@ std::size_t unrounded(const TetMesh& mesh, const std::vector<Vertex>& points) {
       std::count_if(points.begin(), points.end(), [&](Vertex p) { return !mesh.is_explicit(p); }));
 }
 
+class Suppressor {
+ public:
+  Suppressor(TetMesh& mesh, std::vector<Vertex> points, Monitor& monitor)
+      : mesh_(mesh), points_(std::move(points)), all_(points_.size()), monitor_(monitor) {}
+
+  SuppressStats run() {
+    do shrink();
+    while (!points_.empty() && refill());
+    shrink();
+    stats_.left = points_.size();
+    stats_.unrounded = unrounded(mesh_, points_);
+    return stats_;
+  }
+
+ private:
+  void tell() {
+    monitor_.poll(Stage::suppress, 1.0 - static_cast<double>(points_.size()) / static_cast<double>(all_));
+  }
+
+  // Round after round until none removes or rounds a point.
+  void shrink() {
+    constexpr int kMostRounds = 30;
+    constexpr int kPatience = 3;  // rounds without gain: recentring may open a way only later
+    int idle = 0;
+    for (int round = 0; round < kMostRounds && idle < kPatience && !points_.empty(); ++round) {
+      const std::size_t points_before = points_.size();
+      const std::size_t unrounded_before = unrounded(mesh_, points_);
+      std::erase_if(points_, [&](Vertex p) {
+        tell();
+        const Fate fate = remove_or_recentre(mesh_, p, {});
+        stats_.collapsed += fate == Fate::collapsed ? 1 : 0;
+        stats_.filled += fate == Fate::filled ? 1 : 0;
+        return fate == Fate::collapsed || fate == Fate::filled;
+      });
+      const bool gained = points_.size() < points_before || unrounded(mesh_, points_) < unrounded_before;
+      idle = gained ? 0 : idle + 1;
+    }
+  }
+
+  // Points that no double holds are worth more effort. Returns whether a further go is.
+  bool refill() {
+    const std::size_t before = points_.size();
+    std::erase_if(points_, [&](Vertex p) {
+      tell();
+      return refill_without(mesh_, p, mesh_.is_explicit(p) ? kQuickGrowth : kPatientGrowth, random_);
+    });
+    const std::size_t gone = before - points_.size();
+    stats_.filled += gone;
+    return gone * kWorthwhile > before || (gone > 0 && unrounded(mesh_, points_) > 0);
+  }
+
+  static constexpr std::size_t kWorthwhile = 10;
+  static constexpr Growth kQuickGrowth{
+      .attempts = 2, .steps = 5, .search = {.most_vertices = 18, .most_nodes = 60}};
+  static constexpr Growth kPatientGrowth{
+      .attempts = 20, .steps = 12, .search = {.most_vertices = 22, .most_nodes = 1000}};
+
+  TetMesh& mesh_;
+  std::vector<Vertex> points_;
+  const std::size_t all_;
+  Monitor& monitor_;
+  std::mt19937_64 random_;
+  SuppressStats stats_;
+};
+
 }  // namespace
 
 SuppressStats suppress(TetMesh& mesh, std::vector<Vertex> points, Monitor& monitor) {
-  SuppressStats stats;
-  const auto all = static_cast<double>(std::max<std::size_t>(points.size(), 1));
-  constexpr int kMostRounds = 30;
-  constexpr int kPatience = 3;  // rounds without gain: recentring may open a way only later
-  int idle = 0;
-  for (int round = 0; round < kMostRounds && idle < kPatience && !points.empty(); ++round) {
-    const std::size_t points_before = points.size();
-    const std::size_t unrounded_before = unrounded(mesh, points);
-    std::vector<Vertex> left;
-    for (const Vertex p : points) {
-      monitor.poll(Stage::suppress, 1.0 - static_cast<double>(points.size()) / all);
-      switch (remove_or_recentre(mesh, p, {})) {
-        case Fate::collapsed:
-          ++stats.collapsed;
-          break;
-        case Fate::filled:
-          ++stats.filled;
-          break;
-        case Fate::moved:
-        case Fate::stays:
-          left.push_back(p);
-          break;
-      }
-    }
-    points = std::move(left);
-    const bool gained = points.size() < points_before || unrounded(mesh, points) < unrounded_before;
-    idle = gained ? 0 : idle + 1;
-  }
-  stats.left = points.size();
-  stats.unrounded = unrounded(mesh, points);
-  return stats;
+  return Suppressor(mesh, std::move(points), monitor).run();
 }
 
 }  // namespace holdfast

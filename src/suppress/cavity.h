@@ -1,0 +1,41 @@
+// A cavity that grows: the ball of a point and tetrahedra next to it, to be filled again without the point
+// (Marot, Remacle 2020, "Quality tetrahedral mesh generation with HXT").
+#pragma once
+
+#include <random>
+#include <span>
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+
+namespace holdfast {
+
+/// No constraint ever lies strictly inside, and no vertex but those that did from the start.
+class Cavity {
+ public:
+  /// Starts with the ball of a point that lies on no constraint.
+  Cavity(const TetMesh& mesh, std::span<const Tet> ball);
+
+  /// Adds a tetrahedron across one of the faces: one whose vertices are all in the cavity if there is any,
+  /// else any at random. Returns false where none can be added.
+  bool grow(std::mt19937_64& random);
+
+  [[nodiscard]] const std::vector<Tet>& tets() const { return tets_; }
+  /// Faces, such that a point x inside sees them with orient(f0, f1, f2, x) > 0.
+  [[nodiscard]] const std::vector<std::array<Vertex, 3>>& faces() const { return faces_; }
+  [[nodiscard]] std::size_t vertex_count() const;
+
+ private:
+  [[nodiscard]] bool holds(Tet t) const;
+  [[nodiscard]] bool may_add(Tet t) const;
+  [[nodiscard]] bool on_boundary(Vertex v) const;
+  [[nodiscard]] bool on_boundary(Vertex u, Vertex v) const;
+  [[nodiscard]] std::vector<Tet> neighbours(std::mt19937_64& random) const;
+  void collect_faces();
+
+  const TetMesh& mesh_;
+  std::vector<Tet> tets_;
+  std::vector<std::array<Vertex, 3>> faces_;
+};
+
+}  // namespace holdfast
