@@ -171,7 +171,7 @@ class Enforcer {
     return out;
   }
 
-  static constexpr FlipRecovery::Effort kRetry{.depth = 20, .budget = 5000};
+  static constexpr FlipRecovery::Effort kRetry{.depth = 20, .budget = 5000, .thorough = true};
   static constexpr int kRounds = 2;
   static constexpr PolyhedronOptions kThoroughSearch{.most_vertices = 18, .most_nodes = 200};
   static constexpr PolyhedronOptions kQuickSearch{.most_vertices = 13, .most_nodes = 40};

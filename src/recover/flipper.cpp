@@ -50,6 +50,12 @@ bool Flipper::holds(Tet t, Vertex a, Vertex b) const {
   return mesh_.alive(t) && mesh_.index_of(t, a) >= 0 && mesh_.index_of(t, b) >= 0;
 }
 
+bool Flipper::stands(const Crossing& crossing) const {
+  return mesh_.alive(crossing.tet) &&
+         std::all_of(crossing.corners.begin(), crossing.corners.begin() + crossing.count,
+                     [&](Vertex v) { return mesh_.index_of(crossing.tet, v) >= 0; });
+}
+
 bool Flipper::clear(const Crossing& crossing, int depth, std::size_t budget) {
   budget_ = budget;
   work_ = 0;

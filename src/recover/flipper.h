@@ -32,11 +32,12 @@ class Flipper {
   /// rises.
   bool clear(const Crossing& crossing, int depth, std::size_t budget);
 
-  /// Whether a tetrahedron is still alive and holds edge ab.
-  [[nodiscard]] bool holds(Tet t, Vertex a, Vertex b) const;
+  /// Whether the tetrahedron of a crossing is still alive and holds it.
+  [[nodiscard]] bool stands(const Crossing& crossing) const;
   [[nodiscard]] const FlipCounts& counts() const { return counts_; }
 
  private:
+  [[nodiscard]] bool holds(Tet t, Vertex a, Vertex b) const;
   [[nodiscard]] bool exhausted() const { return work_ > budget_; }
   // An edge from an end of a shell's edge to its link.
   struct Spoke {

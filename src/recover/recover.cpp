@@ -55,28 +55,45 @@ void FlipRecovery::pass_over(std::vector<std::uint8_t>& stands, Attempt attempt,
     const std::size_t before = missing.size();
     std::erase_if(missing, [&](Index k) {
       monitor.poll(Stage::flips, static_cast<double>(pass) / kMostPasses);
-      return attempt(k, Effort{pass, kBudget});
+      return attempt(k, Effort{pass, kBudget, false});
     });
     idle = kIdle * (before - missing.size()) > before ? 0 : idle + 1;
   }
 }
 
-// Clears the first crossing seen from a as long as it can, then likewise from b.
+// Clears the first crossing seen from a as long as it can, then likewise from b; a thorough attempt goes on
+// with the crossings in between.
 bool FlipRecovery::segment(Index s, const Effort& effort) {
-  auto [a, b] = table_.segments[s];
-  flipper_.aim(Target::segment(a, b));
-  for (int end = 0; end < 2; ++end, std::swap(a, b))
+  enum class Way { open, blocked, invalid };
+  const auto clear_first = [&](Vertex from, Vertex to) {
     while (true) {
       crossings_.clear();
-      if (!piercing_.by_segment(a, b, crossings_, 1)) return false;
-      if (crossings_.empty()) {
-        set_segment(mesh_, piercing_.find_edge(a, b), a, b);
-        standing_.segments[s] = 1;
-        return true;
-      }
-      if (!flipper_.clear(crossings_.front(), effort.depth, effort.budget)) break;
+      if (!piercing_.by_segment(from, to, crossings_, 1)) return Way::invalid;
+      if (crossings_.empty()) return Way::open;
+      if (!flipper_.clear(crossings_.front(), effort.depth, effort.budget)) return Way::blocked;
     }
-  return false;
+  };
+  const auto [a, b] = table_.segments[s];
+  flipper_.aim(Target::segment(a, b));
+  Way way = Way::blocked;
+  do {
+    way = clear_first(a, b);
+    if (way == Way::blocked) way = clear_first(b, a);
+  } while (way == Way::blocked && effort.thorough && clear_between(a, b, effort));
+  if (way != Way::open) return false;
+  set_segment(mesh_, piercing_.find_edge(a, b), a, b);
+  standing_.segments[s] = 1;
+  return true;
+}
+
+// Whether one of the crossings could be cleared, in random order.
+bool FlipRecovery::clear_between(Vertex a, Vertex b, const Effort& effort) {
+  crossings_.clear();
+  piercing_.by_segment(a, b, crossings_, kMostCrossings);
+  std::shuffle(crossings_.begin(), crossings_.end(), random_);
+  return std::any_of(crossings_.begin(), crossings_.end(), [&](const Crossing& c) {
+    return flipper_.stands(c) && flipper_.clear(c, effort.depth, effort.budget);
+  });
 }
 
 bool FlipRecovery::facet(Index f, const Effort& effort) {
@@ -97,8 +114,9 @@ bool FlipRecovery::facet(Index f, const Effort& effort) {
     }
     std::shuffle(edges_.begin(), edges_.end(), random_);
     for (const PiercingEdge& e : edges_) {
-      if (!flipper_.holds(e.tet, e.above, e.below)) continue;
-      const bool cleared = flipper_.clear({e.tet, {e.above, e.below}, 2}, effort.depth, effort.budget);
+      const Crossing crossing{e.tet, {e.above, e.below}, 2};
+      if (!flipper_.stands(crossing)) continue;
+      const bool cleared = flipper_.clear(crossing, effort.depth, effort.budget);
       gained |= cleared;
       if (!cleared && ++failures == kMostFailures) return false;
     }

@@ -36,6 +36,7 @@ class FlipRecovery {
   struct Effort {
     int depth;           ///< levels of flips
     std::size_t budget;  ///< of work at one crossing, in sign tests roughly
+    bool thorough;       ///< all crossings of a segment, not those near its ends alone
   };
   /// One attempt at a missing segment; whether it stands now.
   bool segment(Index s, const Effort& effort);
@@ -43,6 +44,7 @@ class FlipRecovery {
   bool facet(Index f, const Effort& effort);
 
  private:
+  bool clear_between(Vertex a, Vertex b, const Effort& effort);
   template <typename Attempt>
   void pass_over(std::vector<std::uint8_t>& stands, Attempt attempt, Monitor& monitor);
 
