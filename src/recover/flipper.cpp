@@ -109,7 +109,8 @@ bool Flipper::remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex favoured)
                                  [static_cast<std::size_t>(mesh_.index_of(t, b))]))
     return false;
   EdgeShell shell;
-  while (gather_shell(mesh_, t, a, b, shell)) {
+  while (gather_shell(mesh_, t, a, b, shell, favoured == kNone ? kMostClipped : kMostLink)) {
+    if (shell.size() > kMostLink && !clip_ears(shell)) return false;
     if (remove_edge_now(shell, favoured)) return true;
     if (depth == 0 || !thin_out(shell, depth)) return false;
     t = survivor(shell);
@@ -132,6 +133,38 @@ bool Flipper::remove_edge_now(const EdgeShell& shell, Vertex favoured) {
   tetrahedra_of(shell, triangles_, fresh_);
   apply(shell.tets, change);
   ++counts_.edge_removals;
+  return true;
+}
+
+// Shells that are too large for the dynamic programme first lose tetrahedra by 2-3 flips, ear by ear.
+bool Flipper::clip_ears(EdgeShell& shell) {
+  std::size_t i = random_() % shell.size(), misses = 0;
+  while (shell.size() > kMostLink && misses < shell.size()) {
+    i = (i + 1) % shell.size();
+    misses = clip_ear(shell, i) ? 0 : misses + 1;
+  }
+  return shell.size() <= kMostLink;
+}
+
+//   p_i-1   p_i+1          The face (a b p_i) gives way to the edge p_i-1 p_i+1, and the shell has one
+//      \ / \ /            tetrahedron (a b p_i-1 p_i+1) in the place of two.
+//       p_i
+bool Flipper::clip_ear(EdgeShell& shell, std::size_t i) {
+  const std::size_t n = shell.size(), last = (i + n - 1) % n, next = (i + 1) % n;
+  const Vertex a = shell.a, b = shell.b, u = shell.link[last], p = shell.link[i], w = shell.link[next];
+  work_ += 3;
+  if (mesh_.orient(u, p, w, b) <= 0 || mesh_.orient(w, p, u, a) <= 0 || mesh_.orient(a, b, u, w) <= 0)
+    return false;
+  int change = target_.edge(mesh_, u, w) - target_.face(mesh_, a, b, p);
+  for (const Vertex v : {a, b, p}) change += target_.face(mesh_, v, u, w);
+  if (change > 0) return false;
+  fresh_ = {{u, p, w, b}, {w, p, u, a}, {a, b, u, w}};
+  const std::array<Tet, 2> old_tets{shell.tets[last], shell.tets[i]};
+  apply(old_tets, change);
+  ++counts_.face_flips;
+  shell.tets[last] = created_[2];
+  shell.tets.erase(shell.tets.begin() + static_cast<std::ptrdiff_t>(i));
+  shell.link.erase(shell.link.begin() + static_cast<std::ptrdiff_t>(i));
   return true;
 }
 
@@ -174,7 +207,8 @@ Tet Flipper::survivor(const EdgeShell& shell) {
 }
 
 void Flipper::apply(std::span<const Tet> old_tets, int change) {
-  replace(mesh_, {.old_tets = old_tets, .new_tets = fresh_});
+  created_.clear();
+  replace(mesh_, {.old_tets = old_tets, .new_tets = fresh_}, &created_);
   work_ += 8 * old_tets.size();
   change_ += change;
 }

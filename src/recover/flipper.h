@@ -45,10 +45,13 @@ class Flipper {
     bool at_b, blocked_twice;
   };
   class ForTarget;
+  static constexpr std::size_t kMostClipped = 1000;  // of a shell whose ears are clipped
 
   bool flip_face(const Crossing& face);
   bool remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex favoured);
   bool remove_edge_now(const EdgeShell& shell, Vertex favoured);
+  bool clip_ears(EdgeShell& shell);
+  bool clip_ear(EdgeShell& shell, std::size_t i);
   bool thin_out(const EdgeShell& shell, int depth);
   [[nodiscard]] std::vector<Spoke> blocked_spokes(const EdgeShell& shell);
   [[nodiscard]] Tet survivor(const EdgeShell& shell);
@@ -64,6 +67,7 @@ class Flipper {
 
   std::vector<TetMesh::Corners> fresh_;
   std::vector<LinkTriangle> triangles_;
+  std::vector<Tet> created_;
 };
 
 }  // namespace holdfast
