@@ -9,8 +9,8 @@ namespace holdfast {
 
 /// The points y with n.y <= b, |n| = 1, b >= 0: the origin belongs to the closed half-space.
 struct HalfSpace {
-  std::array<double, 3> n;
-  double b;
+  std::array<double, 3> n{};
+  double b = 0;
 };
 
 struct InscribedBall {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "exact/rounding.h"
-#include "mesh/inscribed_ball.h"
+#include "exact/volume.h"
 
 namespace holdfast {
 namespace {
@@ -78,80 +78,96 @@ bool Kernel::seen_from(Vertex v) const {
 }
 
 std::optional<Position> Kernel::find(PointRef origin) const {
-  const Guess g = guess(origin);
-  if (g.radius > 0) {
-    Point p{};
-    for (std::size_t k = 0; k < 3; ++k) p[k] = origin.approx[k] + g.offset[k];
-    if (holds({p.data(), nullptr})) return p;
-    if (const auto near = neighbouring_doubles(p)) return *near;
-    if (auto position = on_grid(origin, g)) return position;
+  const Centre best = centre(origin);
+  if (best.radius > 0) {
+    if (const auto p = double_at(origin, best)) return *p;
+    if (auto position = on_grid(origin, best)) return position;
   }
-  return along_direction(origin, g.size);
+  return along_direction(origin, best.size);
 }
 
-// The inscribed ball in coordinates relative to the origin, which are subtracted exactly, scaled by the
-// cavity's size.
-Kernel::Guess Kernel::guess(PointRef origin) const {
-  struct Plane {
-    std::array<double, 3> n, a;
-  };
-  std::vector<Plane> planes;
-  planes.reserve(faces_.size());
-  double size = 0;
+// In coordinates relative to the origin, scaled by the cavity's size. The programme starts from the origin;
+// where that lies behind a face by -b, all faces are moved back by as much.
+Kernel::Centre Kernel::centre(PointRef origin) const {
+  Centre out;
   for (const auto& f : faces_) {
-    std::array<double, 3> u{}, w{}, a{};
-    exact::difference(mesh_.point(f[1]), mesh_.point(f[0]), u.data());
-    exact::difference(mesh_.point(f[2]), mesh_.point(f[0]), w.data());
+    std::array<double, 3> a{};
     exact::difference(mesh_.point(f[0]), origin, a.data());
-    for (std::size_t k = 0; k < 3; ++k) size = std::max(size, std::abs(a[k]));
-    const double su = std::max({std::abs(u[0]), std::abs(u[1]), std::abs(u[2])});
-    const double sw = std::max({std::abs(w[0]), std::abs(w[1]), std::abs(w[2])});
-    for (std::size_t k = 0; k < 3; ++k) {
-      u[k] /= su;
-      w[k] /= sw;
-    }
-    std::array<double, 3> n{u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
-    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    if (!(length > 0)) continue;  // distinct exact points can share a double; the exact test decides
-    for (double& x : n) x /= length;
-    planes.push_back({n, a});
+    for (const double x : a) out.size = std::max(out.size, std::abs(x));
   }
-  if (!(size > 0) || !std::isfinite(size)) return {};
+  if (!(out.size > 0) || !std::isfinite(out.size)) return out;
   std::vector<HalfSpace> half_spaces;
-  half_spaces.reserve(planes.size());
-  for (const Plane& p : planes) {
-    const double b = -(p.n[0] * p.a[0] + p.n[1] * p.a[1] + p.n[2] * p.a[2]) / size;
-    half_spaces.push_back({{-p.n[0], -p.n[1], -p.n[2]}, std::max(b, 0.0)});
+  double behind = 0;
+  for (const auto& f : faces_) {
+    half_spaces.push_back(half_space_over(f, origin, out.size));
+    behind = std::min(behind, half_spaces.back().b);
   }
+  for (HalfSpace& h : half_spaces) h.b -= behind;
   const InscribedBall ball = inscribed_ball(half_spaces);
-  return {{ball.centre[0] * size, ball.centre[1] * size, ball.centre[2] * size}, ball.radius * size, size};
+  for (std::size_t i = 0; i < 3; ++i) out.offset[i] = ball.centre[i] * out.size;
+  out.radius = (ball.radius + behind) * out.size;
+  for (const HalfSpace& h : half_spaces) {
+    double height = h.b + behind;
+    for (std::size_t i = 0; i < 3; ++i) height -= h.n[i] * ball.centre[i];
+    out.heights.push_back(height * out.size);
+  }
+  return out;
+}
+
+// Differences are exact before they are rounded once; where the origin is next to the plane even that is
+// too coarse for kernels as thin as the spacing of doubles, and the height is that of the exact volume.
+HalfSpace Kernel::half_space_over(const std::array<Vertex, 3>& f, PointRef origin, double unit) const {
+  constexpr double kNear = 1e-8;
+  std::array<double, 3> u{}, w{}, a{};
+  exact::difference(mesh_.point(f[1]), mesh_.point(f[0]), u.data());
+  exact::difference(mesh_.point(f[2]), mesh_.point(f[0]), w.data());
+  exact::difference(mesh_.point(f[0]), origin, a.data());
+  const double su = std::max({std::abs(u[0]), std::abs(u[1]), std::abs(u[2])});
+  const double sw = std::max({std::abs(w[0]), std::abs(w[1]), std::abs(w[2])});
+  for (std::size_t k = 0; k < 3; ++k) {
+    u[k] /= su;
+    w[k] /= sw;
+    a[k] /= unit;
+  }
+  const std::array<double, 3> n{u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2],
+                                u[0] * w[1] - u[1] * w[0]};
+  const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  if (!(length > 0)) return {};  // distinct exact points can share a double; the exact test decides
+  HalfSpace out;
+  for (std::size_t k = 0; k < 3; ++k) out.n[k] = -n[k] / length;
+  out.b = out.n[0] * a[0] + out.n[1] * a[1] + out.n[2] * a[2];
+  if (std::abs(out.b) > kNear) return out;
+  const Dyadic volume = exact::determinant(mesh_.exact_position(f[0]), mesh_.exact_position(f[1]),
+                                           mesh_.exact_position(f[2]), exact::lift(origin));
+  out.b = volume.to_double() / su / sw / length / unit;
+  return out;
 }
 
 // A kernel thinner than the spacing of doubles may still hold one next to the centre.
-std::optional<Point> Kernel::neighbouring_doubles(const Point& centre) const {
+std::optional<Point> Kernel::double_at(PointRef origin, const Centre& centre) const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (int code = 0; code < 27; ++code) {
-    Point p = centre;
+    Point p{};
     int rest = code;
-    for (double& x : p) {
-      if (rest % 3 == 1) x = std::nextafter(x, kInfinity);
-      if (rest % 3 == 2) x = std::nextafter(x, -kInfinity);
-      rest /= 3;
+    for (std::size_t k = 0; k < 3; ++k, rest /= 3) {
+      p[k] = origin.approx[k] + centre.offset[k];
+      if (rest % 3 == 1) p[k] = std::nextafter(p[k], kInfinity);
+      if (rest % 3 == 2) p[k] = std::nextafter(p[k], -kInfinity);
     }
     if (holds({p.data(), nullptr})) return p;
   }
   return std::nullopt;
 }
 
-std::optional<Position> Kernel::on_grid(PointRef origin, const Guess& g) const {
+std::optional<Position> Kernel::on_grid(PointRef origin, const Centre& centre) const {
   const ExactPoint o = exact::lift(origin);
-  const int start = std::ilogb(g.radius) - 1;
+  const int start = std::ilogb(centre.radius) - 1;
   constexpr int kFiner = 4;
   constexpr int kTries = 4;  // beyond them the guess itself is wrong
   for (int k = 0; k < kTries; ++k) {
     ExactPoint p;
     for (std::size_t i = 0; i < 3; ++i)
-      p.c[i] = exact::rounded_to(o.c[i] + Dyadic(g.offset[i]), start - kFiner * k);
+      p.c[i] = exact::rounded_to(o.c[i] + Dyadic(centre.offset[i]), start - kFiner * k);
     const View view(std::move(p));
     if (holds(view.ref())) return view.exact;
   }

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "mesh/inscribed_ball.h"
 #include "mesh/tet_mesh.h"
 
 namespace holdfast {
@@ -37,15 +38,22 @@ class Kernel {
   /// result never is), or none.
   [[nodiscard]] std::optional<Position> find(exact::PointRef origin) const;
 
- private:
-  struct Guess {
+  /// The centre of the largest inscribed ball, approximately. Without a kernel, the point that lies least
+  /// behind the faces, and a radius below zero.
+  struct Centre {
     std::array<double, 3> offset{};  ///< from the origin
     double radius = 0;               ///< of the inscribed ball
     double size = 0;                 ///< of the cavity
+    std::vector<double> heights{};   ///< of the centre over the faces
   };
-  [[nodiscard]] Guess guess(exact::PointRef origin) const;
-  [[nodiscard]] std::optional<Point> neighbouring_doubles(const Point& centre) const;
-  [[nodiscard]] std::optional<Position> on_grid(exact::PointRef origin, const Guess& guess) const;
+  [[nodiscard]] Centre centre(exact::PointRef origin) const;
+  /// A point of the kernel in doubles, at the centre or next to it.
+  [[nodiscard]] std::optional<Point> double_at(exact::PointRef origin, const Centre& centre) const;
+
+ private:
+  [[nodiscard]] HalfSpace half_space_over(const std::array<Vertex, 3>& face, exact::PointRef origin,
+                                          double unit) const;
+  [[nodiscard]] std::optional<Position> on_grid(exact::PointRef origin, const Centre& centre) const;
   [[nodiscard]] std::optional<Position> along_direction(exact::PointRef origin, double size) const;
 
   const TetMesh& mesh_;

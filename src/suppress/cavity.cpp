@@ -10,21 +10,26 @@ Cavity::Cavity(const TetMesh& mesh, std::span<const Tet> ball)
 }
 
 bool Cavity::grow(std::mt19937_64& random) {
-  for (const Tet t : neighbours(random)) {
-    if (!may_add(t)) continue;
-    tets_.push_back(t);
-    collect_faces();
-    const auto& v = mesh_.corners(t);
-    bool encloses = std::any_of(v.begin(), v.end(), [&](Vertex x) { return !on_boundary(x); });
-    for (int k = 0; k < 6; ++k) {
-      const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
-      encloses =
-          encloses || (mesh_.is_segment(t, k) && !on_boundary(mesh_.corner(t, e[0]), mesh_.corner(t, e[1])));
-    }
-    if (!encloses) return true;
-    tets_.pop_back();
-    collect_faces();
+  const std::vector<Tet> candidates = neighbours(random);
+  return std::any_of(candidates.begin(), candidates.end(), [&](Tet t) { return add(t); });
+}
+
+bool Cavity::grow_across(std::size_t k) { return add(across_[k]); }
+
+bool Cavity::add(Tet t) {
+  if (!may_add(t)) return false;
+  tets_.push_back(t);
+  collect_faces();
+  const auto& v = mesh_.corners(t);
+  bool encloses = std::any_of(v.begin(), v.end(), [&](Vertex x) { return !on_boundary(x); });
+  for (int k = 0; k < 6; ++k) {
+    const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
+    encloses =
+        encloses || (mesh_.is_segment(t, k) && !on_boundary(mesh_.corner(t, e[0]), mesh_.corner(t, e[1])));
   }
+  if (!encloses) return true;
+  tets_.pop_back();
+  collect_faces();
   return false;
 }
 
@@ -56,12 +61,7 @@ bool Cavity::on_boundary(Vertex u, Vertex v) const {
 
 // Across the faces, each once, in random order but those without a new vertex first.
 std::vector<Tet> Cavity::neighbours(std::mt19937_64& random) const {
-  std::vector<Tet> out;
-  for (const Tet t : tets_)
-    for (int i = 0; i < 4; ++i) {
-      const Tet s = tet_of(mesh_.neighbour(t, i));
-      if (!holds(s)) out.push_back(s);
-    }
+  std::vector<Tet> out = across_;
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   std::shuffle(out.begin(), out.end(), random);
@@ -74,9 +74,14 @@ std::vector<Tet> Cavity::neighbours(std::mt19937_64& random) const {
 
 void Cavity::collect_faces() {
   faces_.clear();
+  across_.clear();
   for (const Tet t : tets_)
-    for (int i = 0; i < 4; ++i)
-      if (!holds(tet_of(mesh_.neighbour(t, i)))) faces_.push_back(mesh_.face_vertices(face_code(t, i)));
+    for (int i = 0; i < 4; ++i) {
+      const Tet s = tet_of(mesh_.neighbour(t, i));
+      if (holds(s)) continue;
+      faces_.push_back(mesh_.face_vertices(face_code(t, i)));
+      across_.push_back(s);
+    }
 }
 
 }  // namespace holdfast

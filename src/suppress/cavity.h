@@ -19,6 +19,8 @@ class Cavity {
   /// Adds a tetrahedron across one of the faces: one whose vertices are all in the cavity if there is any,
   /// else any at random. Returns false where none can be added.
   bool grow(std::mt19937_64& random);
+  /// Adds the tetrahedron across the k-th face. Returns false where that is impossible.
+  bool grow_across(std::size_t k);
 
   [[nodiscard]] const std::vector<Tet>& tets() const { return tets_; }
   /// Faces, such that a point x inside sees them with orient(f0, f1, f2, x) > 0.
@@ -27,6 +29,7 @@ class Cavity {
 
  private:
   [[nodiscard]] bool holds(Tet t) const;
+  bool add(Tet t);
   [[nodiscard]] bool may_add(Tet t) const;
   [[nodiscard]] bool on_boundary(Vertex v) const;
   [[nodiscard]] bool on_boundary(Vertex u, Vertex v) const;
@@ -36,6 +39,7 @@ class Cavity {
   const TetMesh& mesh_;
   std::vector<Tet> tets_;
   std::vector<std::array<Vertex, 3>> faces_;
+  std::vector<Tet> across_;  // by face
 };
 
 }  // namespace holdfast

@@ -60,12 +60,15 @@ class Suppressor {
       tell();
       return refill_without(mesh_, p, mesh_.is_explicit(p) ? kQuickGrowth : kPatientGrowth, random_);
     });
+    for (const Vertex p : points_)
+      if (!mesh_.is_explicit(p)) round_with_neighbours(mesh_, p, kMostSteps);
     const std::size_t gone = before - points_.size();
     stats_.filled += gone;
     return gone * kWorthwhile > before || (gone > 0 && unrounded(mesh_, points_) > 0);
   }
 
   static constexpr std::size_t kWorthwhile = 10;
+  static constexpr int kMostSteps = 30;
   static constexpr Growth kQuickGrowth{
       .attempts = 2, .steps = 5, .search = {.most_vertices = 18, .most_nodes = 60}};
   static constexpr Growth kPatientGrowth{
