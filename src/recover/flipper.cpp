@@ -60,6 +60,7 @@ bool Flipper::clear(const Crossing& crossing, int depth, std::size_t budget) {
   budget_ = budget;
   work_ = 0;
   change_ = 0;
+  most_change_ = -1;
   if (crossing.count == 2) {
     remove_edge(crossing.tet, crossing.corners[0], crossing.corners[1], depth, kNone);
     return change_ < 0;
@@ -71,6 +72,14 @@ bool Flipper::clear(const Crossing& crossing, int depth, std::size_t budget) {
     if (holds(crossing.tet, a, b)) remove_edge(crossing.tet, a, b, depth, kNone);
   }
   return change_ < 0;
+}
+
+bool Flipper::remove(Tet t, Vertex a, Vertex b, int depth, std::size_t budget) {
+  budget_ = budget;
+  work_ = 0;
+  change_ = 0;
+  most_change_ = 0;
+  return remove_edge(t, a, b, depth, kNone);
 }
 
 //          d                       The 2-3 flip: face (f0 f1 f2) between apexes d and e gives way to
@@ -126,7 +135,7 @@ bool Flipper::remove_edge_now(const EdgeShell& shell, Vertex favoured) {
   work_ += 2 * objective.tests + shell.size();
   if (!cost || *cost % ForTarget::kWeight != 0) return false;
   const int change = *cost / ForTarget::kWeight - objective.cost_now();
-  if (change_ + change > (favoured == kNone ? -1 : 0)) return false;
+  if (change_ + change > (favoured == kNone ? most_change_ : 0)) return false;
   triangles_.clear();
   fresh_.clear();
   triangulation.triangles(shell.size(), triangles_);

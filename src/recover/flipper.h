@@ -32,6 +32,10 @@ class Flipper {
   /// rises.
   bool clear(const Crossing& crossing, int depth, std::size_t budget);
 
+  /// Removes edge ab of tetrahedron t for its own sake, by flips of at most `depth` levels, which add no edge
+  /// at a or b and none to a target that was aimed at. Returns whether it is gone.
+  bool remove(Tet t, Vertex a, Vertex b, int depth, std::size_t budget);
+
   /// Whether the tetrahedron of a crossing is still alive and holds it.
   [[nodiscard]] bool stands(const Crossing& crossing) const;
   [[nodiscard]] const FlipCounts& counts() const { return counts_; }
@@ -60,9 +64,10 @@ class Flipper {
   TetMesh& mesh_;
   Piercing piercing_;
   Random& random_;
-  Target target_ = Target::segment(kNone, kNone);
+  Target target_ = Target::none();
   std::size_t budget_ = 0, work_ = 0;
-  int change_ = 0;  // of the target's cost since `clear` began; never positive
+  int most_change_ = -1;  // of a flip that ends an attempt
+  int change_ = 0;        // of the target's cost since `clear` began; never positive
   FlipCounts counts_;
 
   std::vector<TetMesh::Corners> fresh_;

@@ -18,7 +18,7 @@ bool coplanar_edges_cross(const TetMesh& mesh, Vertex a, Vertex b, Vertex u, Ver
 }  // namespace
 
 int Target::face(const TetMesh& mesh, Vertex u, Vertex v, Vertex w) const {
-  if (!is_segment_) return 0;
+  if (kind_ != Kind::segment) return 0;
   const auto [a, b, none] = v_;
   if (u == a || v == a || w == a || u == b || v == b || w == b) return 0;
   const int s = mesh.orient(a, b, u, v);
@@ -27,9 +27,10 @@ int Target::face(const TetMesh& mesh, Vertex u, Vertex v, Vertex w) const {
 }
 
 int Target::edge(const TetMesh& mesh, Vertex u, Vertex v) const {
+  if (kind_ == Kind::none) return 0;
   const auto [a, b, c] = v_;
   if (u == a || v == a || u == b || v == b) return 0;
-  if (is_segment_)
+  if (kind_ == Kind::segment)
     return mesh.orient(a, b, u, v) == 0 && coplanar_edges_cross(mesh, a, b, u, v) ? kEdgeCost : 0;
   if (u == c || v == c) return 0;
   if (mesh.orient(a, b, c, u) * mesh.orient(a, b, c, v) >= 0) return 0;

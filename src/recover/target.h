@@ -15,20 +15,23 @@ class Target {
   static constexpr int kFaceCost = 2;
   static constexpr int kEdgeCost = 3;
 
-  static Target segment(Vertex a, Vertex b) { return {{a, b, kNone}, true}; }
-  static Target facet(const std::array<Vertex, 3>& abc) { return {abc, false}; }
+  /// Nothing stands in the way of nothing.
+  static Target none() { return {{kNone, kNone, kNone}, Kind::none}; }
+  static Target segment(Vertex a, Vertex b) { return {{a, b, kNone}, Kind::segment}; }
+  static Target facet(const std::array<Vertex, 3>& abc) { return {abc, Kind::facet}; }
 
-  [[nodiscard]] bool is_segment() const { return is_segment_; }
+  [[nodiscard]] bool is_segment() const { return kind_ == Kind::segment; }
   /// Cost of the face uvw: its inside crossed by the segment. Facets: 0.
   [[nodiscard]] int face(const TetMesh& mesh, Vertex u, Vertex v, Vertex w) const;
   /// Cost of the edge uv: its inside crosses that of the segment or facet.
   [[nodiscard]] int edge(const TetMesh& mesh, Vertex u, Vertex v) const;
 
  private:
-  Target(const std::array<Vertex, 3>& corners, bool is_segment) : v_(corners), is_segment_(is_segment) {}
+  enum class Kind { none, segment, facet };
+  Target(const std::array<Vertex, 3>& corners, Kind kind) : v_(corners), kind_(kind) {}
 
   std::array<Vertex, 3> v_;
-  bool is_segment_;
+  Kind kind_;
 };
 
 }  // namespace holdfast

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "suppress/collapse.h"
+#include "suppress/degree.h"
 #include "suppress/refill.h"
 
 namespace holdfast {
@@ -17,7 +18,11 @@ std::size_t unrounded(const TetMesh& mesh, const std::vector<Vertex>& points) {
 class Suppressor {
  public:
   Suppressor(TetMesh& mesh, std::vector<Vertex> points, Monitor& monitor)
-      : mesh_(mesh), points_(std::move(points)), all_(points_.size()), monitor_(monitor) {}
+      : mesh_(mesh),
+        points_(std::move(points)),
+        all_(points_.size()),
+        monitor_(monitor),
+        flipper_(mesh, random_) {}
 
   SuppressStats run() {
     do shrink();
@@ -55,19 +60,31 @@ class Suppressor {
 
   // Points that no double holds are worth more effort. Returns whether a further go is.
   bool refill() {
-    const std::size_t before = points_.size();
+    const std::size_t before = points_.size(), unrounded_before = unrounded(mesh_, points_);
     std::erase_if(points_, [&](Vertex p) {
       tell();
-      return refill_without(mesh_, p, mesh_.is_explicit(p) ? kQuickGrowth : kPatientGrowth, random_);
+      return remove_harder(p);
     });
-    for (const Vertex p : points_)
-      if (!mesh_.is_explicit(p)) round_with_neighbours(mesh_, p, kMostSteps);
     const std::size_t gone = before - points_.size();
     stats_.filled += gone;
-    return gone * kWorthwhile > before || (gone > 0 && unrounded(mesh_, points_) > 0);
+    const std::size_t unrounded_now = unrounded(mesh_, points_);
+    return gone * kWorthwhile > before ||
+           (unrounded_now > 0 && (gone > 0 || unrounded_now < unrounded_before));
+  }
+
+  bool remove_harder(Vertex p) {
+    const bool is_explicit = mesh_.is_explicit(p);
+    if (lower_degree(mesh_, flipper_, p, is_explicit ? kQuickBudget : kPatientBudget)) {
+      const Fate fate = remove_or_recentre(mesh_, p, {});
+      if (fate == Fate::collapsed || fate == Fate::filled) return true;
+    }
+    if (refill_without(mesh_, p, is_explicit ? kQuickGrowth : kPatientGrowth, random_)) return true;
+    if (!mesh_.is_explicit(p)) round_with_neighbours(mesh_, p, kMostSteps);
+    return false;
   }
 
   static constexpr std::size_t kWorthwhile = 10;
+  static constexpr std::size_t kQuickBudget = 100, kPatientBudget = 1000;
   static constexpr int kMostSteps = 30;
   static constexpr Growth kQuickGrowth{
       .attempts = 2, .steps = 5, .search = {.most_vertices = 18, .most_nodes = 60}};
@@ -79,6 +96,7 @@ class Suppressor {
   const std::size_t all_;
   Monitor& monitor_;
   std::mt19937_64 random_;
+  Flipper flipper_;
   SuppressStats stats_;
 };
 

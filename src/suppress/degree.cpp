@@ -1,0 +1,42 @@
+#include "suppress/degree.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "mesh/traverse.h"
+
+namespace holdfast {
+namespace {
+
+// The neighbours of p, each with a tetrahedron that holds both.
+std::vector<std::pair<Vertex, Tet>> edges_at(TetMesh& mesh, Vertex p) {
+  std::vector<Tet> tets;
+  ball(mesh, p, tets);
+  std::vector<std::pair<Vertex, Tet>> edges;
+  for (const Tet t : tets)
+    for (const Vertex q : mesh.corners(t))
+      if (q != p && q != kGhost) edges.emplace_back(q, t);
+  std::sort(edges.begin(), edges.end());
+  const auto same = [](const auto& l, const auto& r) { return l.first == r.first; };
+  edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
+  return edges;
+}
+
+}  // namespace
+
+bool lower_degree(TetMesh& mesh, Flipper& flipper, Vertex p, std::size_t budget) {
+  constexpr int kDepth = 2;
+  auto edges = edges_at(mesh, p);
+  const std::size_t before = edges.size();
+  // Flips that clear the way for others can join p to more, so that the loop needs a measure.
+  for (std::size_t last = before + 1; edges.size() < last;) {
+    last = edges.size();
+    for (const auto& [q, t] : edges)
+      if (flipper.stands({t, {p, q}, 2})) flipper.remove(t, p, q, kDepth, budget);
+    edges = edges_at(mesh, p);
+  }
+  return edges.size() < before;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,13 @@
+// Flipping a Steiner point down to fewer neighbours (design §2.7): four are one tetrahedron without it.
+#pragma once
+
+#include "mesh/tet_mesh.h"
+#include "recover/flipper.h"
+
+namespace holdfast {
+
+/// Removes edges at p by flips as long as that helps, with about `budget` sign tests an edge. Returns
+/// whether p has fewer neighbours now.
+bool lower_degree(TetMesh& mesh, Flipper& flipper, Vertex p, std::size_t budget);
+
+}  // namespace holdfast
