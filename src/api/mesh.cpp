@@ -28,7 +28,8 @@ namespace holdfast {
 namespace {
 
 constexpr std::size_t kMostDefects = 100;  // `diagnose` gives them all
-constexpr double kHiddenMargin = 0.5;      // of the box that is cut away again
+constexpr int kMostAttempts = 5;
+constexpr double kHiddenMargin = 0.5;  // of the box that is cut away again
 
 void require_sensible(const Complex& complex, const Options& options) {
   const auto finite = [](const Point& p) {
@@ -50,7 +51,7 @@ void require_sensible(const Complex& complex, const Options& options) {
 class Pipeline {
  public:
   Pipeline(const Complex& complex, const Options& options)
-      : complex_(complex), options_(options), monitor_(options) {}
+      : complex_(complex), options_(options), monitor_(options), seed_(options.seed) {}
 
   Result run() {
     {
@@ -74,21 +75,56 @@ class Pipeline {
     void (Pipeline::*run)();
   };
   void run_stages() {
+    run_stage({Stage::validate, &Pipeline::validate});
+    if (result_.outcome != Outcome::done) return;
+    run_attempt();
+    int attempt = 1;
+    while (attempt++ < kMostAttempts && result_.outcome == Outcome::not_representable && try_again()) {
+    }
+  }
+
+  void run_stage(const Step& step) {
+    const Stopwatch watch(result_.report, name(step.stage));
+    monitor_.enter(step.stage);
+    (this->*step.run)();
+  }
+
+  void run_attempt() {
     // Elimination is part of the partition's loop (design §2.5).
-    static constexpr std::array<Step, 6> kSteps{{{Stage::validate, &Pipeline::validate},
-                                                 {Stage::delaunay, &Pipeline::build_box_mesh},
+    static constexpr std::array<Step, 5> kSteps{{{Stage::delaunay, &Pipeline::build_box_mesh},
                                                  {Stage::flips, &Pipeline::recover},
                                                  {Stage::partition, &Pipeline::enforce_missing},
                                                  {Stage::classify, &Pipeline::classify},
                                                  {Stage::suppress, &Pipeline::suppress_points}}};
     for (const Step& step : kSteps) {
       if (step.stage > last_stage()) break;
-      const Stopwatch watch(result_.report, name(step.stage));
-      monitor_.enter(step.stage);
-      (this->*step.run)();
+      run_stage(step);
       if (result_.outcome != Outcome::done) return;
     }
     deliver();
+  }
+
+  // Where no doubles were found for some point, others may be with another random order. The attempt with
+  // the fewest such points counts, also where a limit ends the next one: then returns false.
+  bool try_again() {
+    Result best = std::move(result_);
+    result_ = {};
+    result_.report = best.report;
+    mesh_ = {};
+    ++seed_;
+    try {
+      run_attempt();
+    } catch (const Interrupted& interrupted) {
+      if (interrupted.outcome() == Outcome::cancelled) throw;
+      result_ = std::move(best);
+      return false;
+    }
+    if (result_.outcome == Outcome::not_representable &&
+        result_.exact_vertices.size() >= best.exact_vertices.size()) {
+      best.report.seconds = result_.report.seconds;
+      result_ = std::move(best);
+    }
+    return true;
   }
 
   void give_up(Outcome outcome) {
@@ -127,14 +163,14 @@ class Pipeline {
     const double margin = options_.keep == Keep::box ? options_.box_margin : kHiddenMargin;
     for (const Point& corner : box_corners(mesh_.positions(), margin)) mesh_.add_vertex(corner);
     first_free_ = static_cast<Vertex>(mesh_.vertex_count());
-    if (!build_delaunay(mesh_, {options_.seed}, &monitor_))
+    if (!build_delaunay(mesh_, {seed_}, &monitor_))
       throw std::logic_error("holdfast: the box has no tetrahedra");
     standing_ = mark_present(mesh_, table_, complex_.facets);
     result_.report.delaunay = missing();
   }
 
   void recover() {
-    if (options_.flips) FlipRecovery(mesh_, table_, complex_.facets, standing_, options_.seed).run(monitor_);
+    if (options_.flips) FlipRecovery(mesh_, table_, complex_.facets, standing_, seed_).run(monitor_);
     result_.report.flips = missing();
   }
 
@@ -142,7 +178,7 @@ class Pipeline {
     standing_before_partition_ = standing_;
     const bool eliminate = options_.stop_after != Stage::partition;
     const EnforceStats stats = enforce(mesh_, table_, complex_.facets, standing_, first_free_,
-                                       {options_.seed, options_.flips, eliminate}, monitor_);
+                                       {seed_, options_.flips, eliminate}, monitor_);
     result_.report.segment_points = stats.segment_points;
     result_.report.facet_points = stats.facet_points;
     if (!eliminate) standing_ = standing_before_partition_;  // the others are cut into pieces
@@ -207,6 +243,7 @@ class Pipeline {
   Result result_;
 
   SegmentTable table_;
+  std::uint64_t seed_;
   int scale_ = 0;  // the mesh is the complex times 2^scale_
   TetMesh mesh_;
   Vertex first_free_ = 0;  // after the input's and the box's

@@ -47,6 +47,24 @@ ExactVector direction_above(const ExactVector& n1, const ExactVector& n2) {
   }
 }
 
+// The greatest exponent up to `start` that is good, if all below a good one are.
+template <typename Good>
+std::optional<std::int64_t> greatest_exponent(std::int64_t start, Good good) {
+  constexpr std::int64_t kFarthest = std::int64_t{1} << 24;
+  if (good(start)) return start;
+  std::int64_t bad = start, step = 1;
+  for (; !good(start - step); step *= 2) {
+    if (step > kFarthest) return std::nullopt;
+    bad = start - step;
+  }
+  std::int64_t low = start - step;
+  while (bad - low > 1) {
+    const std::int64_t middle = low + (bad - low) / 2;
+    (good(middle) ? low : bad) = middle;
+  }
+  return low;
+}
+
 struct View {  // an exact point as the predicates see it
   explicit View(ExactPoint p) : exact(std::move(p)) {
     for (std::size_t k = 0; k < 3; ++k) approx[k] = exact.c[k].to_double();
@@ -198,20 +216,16 @@ std::optional<Position> Kernel::along_direction(PointRef origin, double size) co
     for (std::size_t i = 0; i < 3; ++i) p.c[i] = o.c[i] + u[i].scaled(e);
     return p;
   };
-  constexpr int kHalvings = 4000;  // the exponent range of doubles, twice
-  std::int64_t e = size > 0 ? std::ilogb(size) : 0;
-  for (int k = 0; k < kHalvings; ++k, --e) {
-    const View view(step(e));
-    if (!holds(view.ref())) continue;
-    for (std::int64_t grid = e - 2; grid > e - 64; grid -= 4) {  // few bits, where few will do
-      ExactPoint p = step(e - 1);
-      for (Dyadic& x : p.c) x = exact::rounded_to(x, grid);
-      const View coarse(std::move(p));
-      if (holds(coarse.ref())) return coarse.exact;
-    }
-    return view.exact;
+  const auto inside = [&](std::int64_t e) { return holds(View(step(e)).ref()); };
+  const auto e = greatest_exponent(size > 0 ? std::ilogb(size) : 0, inside);
+  if (!e) return std::nullopt;
+  for (std::int64_t grid = *e - 2; grid > *e - 64; grid -= 4) {  // few bits, where few will do
+    ExactPoint p = step(*e - 1);
+    for (Dyadic& x : p.c) x = exact::rounded_to(x, grid);
+    const View coarse(std::move(p));
+    if (holds(coarse.ref())) return coarse.exact;
   }
-  return std::nullopt;
+  return step(*e);
 }
 
 }  // namespace holdfast
