@@ -11,6 +11,7 @@
 #include "mesh/traverse.h"
 #include "recover/recover.h"
 #include "suppress/collapse.h"
+#include "suppress/degree.h"
 
 namespace holdfast {
 namespace {
@@ -25,6 +26,7 @@ class Enforcer {
         standing_(standing),
         first_free_(first_free),
         random_(options.seed),
+        flipper_(mesh, random_),
         monitor_(monitor),
         eliminate_(options.eliminate),
         retry_(options.flips && options.eliminate),
@@ -148,6 +150,7 @@ class Enforcer {
       for (const Vertex p : now) {
         if (!mesh_.in_mesh(p)) continue;
         const std::vector<Vertex> around = steiner_neighbours(p);
+        lower_degree(mesh_, flipper_, p, kFlipBudget);
         const Fate fate = remove_or_recentre(mesh_, p, search);
         if (fate == Fate::collapsed || fate == Fate::filled)
           restless_.insert(restless_.end(), around.begin(), around.end());
@@ -173,6 +176,7 @@ class Enforcer {
 
   static constexpr FlipRecovery::Effort kRetry{.depth = 20, .budget = 5000, .thorough = true};
   static constexpr int kRounds = 2;
+  static constexpr std::size_t kFlipBudget = 100;
   static constexpr PolyhedronOptions kThoroughSearch{.most_vertices = 18, .most_nodes = 200};
   static constexpr PolyhedronOptions kQuickSearch{.most_vertices = 13, .most_nodes = 40};
 
@@ -182,6 +186,7 @@ class Enforcer {
   Standing& standing_;
   const Vertex first_free_;
   std::mt19937_64 random_;
+  Flipper flipper_;
   Monitor& monitor_;
   const bool eliminate_, retry_;
   FlipRecovery flips_;

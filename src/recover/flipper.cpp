@@ -119,12 +119,22 @@ bool Flipper::remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex favoured)
     return false;
   EdgeShell shell;
   while (gather_shell(mesh_, t, a, b, shell, favoured == kNone ? kMostClipped : kMostLink)) {
+    if (lies_in_facet(shell)) return false;
     if (shell.size() > kMostLink && !clip_ears(shell)) return false;
     if (remove_edge_now(shell, favoured)) return true;
     if (depth == 0 || !thin_out(shell, depth)) return false;
     t = survivor(shell);
     if (t == kNone) return true;
   }
+  return false;
+}
+
+// Edges inside a facet that is cut into pieces are no segments.
+bool Flipper::lies_in_facet(const EdgeShell& shell) const {
+  for (std::size_t i = 0; i < shell.size(); ++i)
+    if (mesh_.is_facet(
+            face_code(shell.tets[i], mesh_.index_of(shell.tets[i], shell.link[(i + 1) % shell.size()]))))
+      return true;
   return false;
 }
 

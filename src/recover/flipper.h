@@ -53,6 +53,7 @@ class Flipper {
 
   bool flip_face(const Crossing& face);
   bool remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex favoured);
+  [[nodiscard]] bool lies_in_facet(const EdgeShell& shell) const;
   bool remove_edge_now(const EdgeShell& shell, Vertex favoured);
   bool clip_ears(EdgeShell& shell);
   bool clip_ear(EdgeShell& shell, std::size_t i);
