@@ -28,7 +28,7 @@ std::string find_fault(const TetMesh& mesh, Tet t) {
   if (!mesh.alive(t)) return say(t, "is dead");
   const TetMesh::Corners& c = mesh.corners(t);
   if (has_repeated_corner(c)) return say(t, "names a vertex twice");
-  for (int i = 0; i < 3; ++i)
+  for (int i = 0; i < (mesh.is_ghost(t) ? 3 : 4); ++i)
     if (c[static_cast<std::size_t>(i)] >= mesh.vertex_count()) return say(t, "names no vertex");
   if (!mesh.is_ghost(t) && mesh.orient(c[0], c[1], c[2], c[3]) <= 0) return say(t, "is not positive");
   if ((mesh.flags(t) & kVisited) != 0) return say(t, "was left visited");
