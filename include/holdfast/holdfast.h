@@ -43,9 +43,9 @@ struct Options {
   /// Ends after this stage with what stands then, exact vertices rounded. Before `classify` that is every
   /// tetrahedron of the enclosing box, as region 0, and the facets and segments that stand.
   std::optional<Stage> stop_after;
-  std::uint64_t seed = 1;                  ///< of the random orders
-  double time_limit = 0;                   ///< seconds; 0: none
-  std::uint64_t memory_limit = 0;          ///< bytes of the process; 0: none
+  std::uint64_t seed = 1;          ///< of the random orders
+  double time_limit = 0;           ///< seconds; 0: none
+  std::uint64_t memory_limit = 0;  ///< bytes of the process; 0: none
   /// Called now and then from the calling thread; returns false to cancel.
   std::function<bool(const Progress&)> progress;
 };
@@ -68,7 +68,7 @@ struct Report {
   } input;
   struct Missing {
     std::size_t segments = 0, facets = 0;
-  } delaunay, flips;  ///< missing after Delaunay, and after the flips
+  } delaunay, flips;                                 ///< missing after Delaunay, and after the flips
   std::size_t segment_points = 0, facet_points = 0;  ///< added by the partition
   std::size_t steiner_points = 0;                    ///< left in the volume; corners of a box do not count
   std::size_t unrounded_points = 0;                  ///< of these, without a position in doubles
@@ -101,8 +101,8 @@ struct Result {
 ///
 /// Expected endings are outcomes. Throws std::invalid_argument for options that make no sense or do not
 /// suit the complex (marker arrays of a wrong length, a hole or region seed on a facet or in no region that
-/// it could mean, a margin that is not positive), std::length_error beyond 2^28 vertices, std::bad_alloc when memory runs out without a limit, and
-/// std::logic_error if an internal invariant breaks (please report it).
+/// it could mean, a margin that is not positive), std::length_error beyond 2^28 vertices, std::bad_alloc when
+/// memory runs out without a limit, and std::logic_error if an internal invariant breaks (please report it).
 [[nodiscard]] Result mesh(const Complex& complex, const Options& options = {});
 
 /// Every broken rule of a valid input (design §1), exactly; empty for a valid complex.
@@ -112,8 +112,7 @@ struct Result {
 /// Delaunay tetrahedra of the convex hull of `points`; repeated points are left unused.
 ///
 /// Throws std::invalid_argument for non-finite coordinates. All points coplanar: no tetrahedra.
-[[nodiscard]] std::vector<Tetrahedron> delaunay(std::span<const Point> points,
-                                                std::uint64_t seed = 1);
+[[nodiscard]] std::vector<Tetrahedron> delaunay(std::span<const Point> points, std::uint64_t seed = 1);
 
 /// Library version, "major.minor.patch".
 [[nodiscard]] const char* version();

@@ -48,9 +48,7 @@ struct Surface {
   std::vector<RegionSeed> regions;
   std::vector<Point> holes;
 
-  [[nodiscard]] Complex view() const {
-    return {vertices, facets, segments, facet_markers, segment_markers};
-  }
+  [[nodiscard]] Complex view() const { return {vertices, facets, segments, facet_markers, segment_markers}; }
 };
 
 /// A tetrahedral mesh that conforms to a complex.
@@ -66,21 +64,21 @@ struct Volume {
 
 /// Which rule of a valid input is broken (design §1). The numbers are stable.
 enum class DefectKind : int {
-  non_finite_coordinate = 1,  ///< a vertex with NaN or infinity
-  index_out_of_range = 2,     ///< a facet or segment that names a vertex which does not exist
-  repeated_vertex = 3,        ///< two vertices with identical coordinates
-  degenerate_facet = 4,       ///< a facet that names one vertex twice, or of zero area
-  degenerate_segment = 5,     ///< a segment that names one vertex twice
-  repeated_facet = 6,         ///< two facets with the same three vertices
-  vertex_in_segment = 7,      ///< a vertex in the interior of a segment or facet side (T-junction)
-  vertex_in_facet = 8,        ///< a vertex in the interior of a facet
-  segments_cross = 9,         ///< two segments or sides that meet in an interior point
-  segment_pierces_facet = 10, ///< a segment or side that pierces a facet's interior
-  facets_cross = 11,          ///< two facets that meet outside a common face
-  facets_overlap = 12,        ///< two coplanar facets that share area
-  segments_overlap = 13,      ///< two collinear segments or sides that share length
-  encloses_nothing = 14,      ///< no region is bounded by the facets
-  outside_region = 15,        ///< facets, segments or vertices that border on no kept region
+  non_finite_coordinate = 1,      ///< a vertex with NaN or infinity
+  index_out_of_range = 2,         ///< a facet or segment that names a vertex which does not exist
+  repeated_vertex = 3,            ///< two vertices with identical coordinates
+  degenerate_facet = 4,           ///< a facet that names one vertex twice, or of zero area
+  degenerate_segment = 5,         ///< a segment that names one vertex twice
+  repeated_facet = 6,             ///< two facets with the same three vertices
+  vertex_in_segment = 7,          ///< a vertex in the interior of a segment or facet side (T-junction)
+  vertex_in_facet = 8,            ///< a vertex in the interior of a facet
+  segments_cross = 9,             ///< two segments or sides that meet in an interior point
+  segment_pierces_facet = 10,     ///< a segment or side that pierces a facet's interior
+  facets_cross = 11,              ///< two facets that meet outside a common face
+  facets_overlap = 12,            ///< two coplanar facets that share area
+  segments_overlap = 13,          ///< two collinear segments or sides that share length
+  encloses_nothing = 14,          ///< no region is bounded by the facets
+  outside_region = 15,            ///< facets, segments or vertices that border on no kept region
   inconsistent_orientation = 16,  ///< facets turned so that there is no winding number (Keep::winding only)
 };
 

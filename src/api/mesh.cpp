@@ -200,7 +200,7 @@ class Pipeline {
     for (Vertex v = first_free_; v < mesh_.vertex_count(); ++v)
       if (inside[v]) points.push_back(v);
     if (points.empty()) return;
-    suppress(mesh_, std::move(points), monitor_);
+    suppress(mesh_, std::move(points), first_free_, monitor_);
     // Regions keep their numbers, which depend on the facets alone.
     regions_ = flood_regions(mesh_, complex_.facets);
   }

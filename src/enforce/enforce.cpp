@@ -163,14 +163,8 @@ class Enforcer {
 
   // Steiner points in the link of p that lie on no constraint (no facet has inner points when this is asked).
   std::vector<Vertex> steiner_neighbours(Vertex p) {
-    std::vector<Tet> tets;
-    ball(mesh_, p, tets);
-    std::vector<Vertex> out;
-    for (const Tet t : tets)
-      for (const Vertex v : mesh_.corners(t))
-        if (v >= first_free_ && v != p && v != kGhost && !on_chain_.contains(v)) out.push_back(v);
-    std::sort(out.begin(), out.end());
-    out.erase(std::unique(out.begin(), out.end()), out.end());
+    std::vector<Vertex> out = link_vertices(mesh_, p);
+    std::erase_if(out, [&](Vertex v) { return v < first_free_ || on_chain_.contains(v); });
     return out;
   }
 

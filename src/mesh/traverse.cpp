@@ -1,5 +1,7 @@
 #include "mesh/traverse.h"
 
+#include <algorithm>
+
 namespace holdfast {
 namespace {
 
@@ -31,6 +33,18 @@ Tet visit_ball(TetMesh& mesh, Vertex v, std::vector<Tet>& out, Stop stop) {
 
 void ball(TetMesh& mesh, Vertex v, std::vector<Tet>& out) {
   visit_ball(mesh, v, out, [](Tet) { return false; });
+}
+
+std::vector<Vertex> link_vertices(TetMesh& mesh, Vertex v) {
+  std::vector<Tet> tets;
+  ball(mesh, v, tets);
+  std::vector<Vertex> out;
+  for (const Tet t : tets)
+    for (const Vertex w : mesh.corners(t))
+      if (w != v && w != kGhost) out.push_back(w);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
 }
 
 void shell(const TetMesh& mesh, Tet t, Vertex a, Vertex b, std::vector<Tet>& out) {

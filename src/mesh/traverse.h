@@ -10,6 +10,9 @@ namespace holdfast {
 /// Tetrahedra at v (ghosts included), appended to `out`. The mesh's visited bits serve as scratch.
 void ball(TetMesh& mesh, Vertex v, std::vector<Tet>& out);
 
+/// The vertices of v's link in ascending order, but for the ghost.
+[[nodiscard]] std::vector<Vertex> link_vertices(TetMesh& mesh, Vertex v);
+
 /// The shell of edge ab, starting with t, turning from the face (a b c) to (a b d) where
 /// (a b c d) is an even permutation of t's corners. Appended to `out`.
 void shell(const TetMesh& mesh, Tet t, Vertex a, Vertex b, std::vector<Tet>& out);

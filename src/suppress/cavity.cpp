@@ -4,8 +4,8 @@
 
 namespace holdfast {
 
-Cavity::Cavity(const TetMesh& mesh, std::span<const Tet> ball)
-    : mesh_(mesh), tets_(ball.begin(), ball.end()) {
+Cavity::Cavity(const TetMesh& mesh, std::span<const Tet> ball, Vertex first_free)
+    : mesh_(mesh), first_free_(first_free), tets_(ball.begin(), ball.end()) {
   collect_faces();
 }
 
@@ -16,20 +16,46 @@ bool Cavity::grow(std::mt19937_64& random) {
 
 bool Cavity::grow_across(std::size_t k) { return add(across_[k]); }
 
+bool Cavity::swallow(std::span<const Tet> ball) {
+  const std::size_t before = tets_.size();
+  for (const Tet t : ball) {
+    if (holds(t)) continue;
+    if (!may_add(t)) {
+      drop_from(before);
+      return false;
+    }
+    tets_.push_back(t);
+  }
+  collect_faces();
+  if (std::none_of(ball.begin(), ball.end(), [&](Tet t) { return encloses_a_constraint(t); })) return true;
+  drop_from(before);
+  return false;
+}
+
 bool Cavity::add(Tet t) {
   if (!may_add(t)) return false;
+  const std::size_t before = tets_.size();
   tets_.push_back(t);
   collect_faces();
+  if (!encloses_a_constraint(t)) return true;
+  drop_from(before);
+  return false;
+}
+
+void Cavity::drop_from(std::size_t size) {
+  tets_.resize(size);
+  collect_faces();
+}
+
+// A vertex of the input or a segment that its tetrahedron t brought inside.
+bool Cavity::encloses_a_constraint(Tet t) const {
   const auto& v = mesh_.corners(t);
-  bool encloses = std::any_of(v.begin(), v.end(), [&](Vertex x) { return !on_boundary(x); });
+  if (std::any_of(v.begin(), v.end(), [&](Vertex x) { return x < first_free_ && !on_boundary(x); }))
+    return true;
   for (int k = 0; k < 6; ++k) {
     const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
-    encloses =
-        encloses || (mesh_.is_segment(t, k) && !on_boundary(mesh_.corner(t, e[0]), mesh_.corner(t, e[1])));
+    if (mesh_.is_segment(t, k) && !on_boundary(mesh_.corner(t, e[0]), mesh_.corner(t, e[1]))) return true;
   }
-  if (!encloses) return true;
-  tets_.pop_back();
-  collect_faces();
   return false;
 }
 
@@ -38,6 +64,16 @@ std::size_t Cavity::vertex_count() const {
   for (const auto& f : faces_) vertices.insert(vertices.end(), f.begin(), f.end());
   std::sort(vertices.begin(), vertices.end());
   return static_cast<std::size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
+}
+
+std::vector<Vertex> Cavity::inner() const {
+  std::vector<Vertex> out;
+  for (const Tet t : tets_)
+    for (const Vertex v : mesh_.corners(t))
+      if (v >= first_free_ && !on_boundary(v)) out.push_back(v);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
 }
 
 bool Cavity::holds(Tet t) const { return std::find(tets_.begin(), tets_.end(), t) != tets_.end(); }

@@ -10,33 +10,42 @@
 
 namespace holdfast {
 
-/// No constraint ever lies strictly inside, and no vertex but those that did from the start.
+/// No constraint ever lies strictly inside, and no vertex but Steiner points, which go with it.
 class Cavity {
  public:
-  /// Starts with the ball of a point that lies on no constraint.
-  Cavity(const TetMesh& mesh, std::span<const Tet> ball);
+  /// Starts with the ball of a Steiner point, in a mesh whose Steiner points are the vertices from
+  /// `first_free` on and lie on no constraint.
+  Cavity(const TetMesh& mesh, std::span<const Tet> ball, Vertex first_free);
 
   /// Adds a tetrahedron across one of the faces: one whose vertices are all in the cavity if there is any,
   /// else any at random. Returns false where none can be added.
   bool grow(std::mt19937_64& random);
   /// Adds the tetrahedron across the k-th face. Returns false where that is impossible.
   bool grow_across(std::size_t k);
+  /// Adds the whole ball of a Steiner point on the boundary. Returns false, and adds none of it, where that
+  /// is impossible.
+  bool swallow(std::span<const Tet> ball);
 
   [[nodiscard]] const std::vector<Tet>& tets() const { return tets_; }
   /// Faces, such that a point x inside sees them with orient(f0, f1, f2, x) > 0.
   [[nodiscard]] const std::vector<std::array<Vertex, 3>>& faces() const { return faces_; }
   [[nodiscard]] std::size_t vertex_count() const;
+  /// The Steiner points strictly inside.
+  [[nodiscard]] std::vector<Vertex> inner() const;
 
  private:
   [[nodiscard]] bool holds(Tet t) const;
   bool add(Tet t);
   [[nodiscard]] bool may_add(Tet t) const;
+  [[nodiscard]] bool encloses_a_constraint(Tet t) const;
+  void drop_from(std::size_t size);
   [[nodiscard]] bool on_boundary(Vertex v) const;
   [[nodiscard]] bool on_boundary(Vertex u, Vertex v) const;
   [[nodiscard]] std::vector<Tet> neighbours(std::mt19937_64& random) const;
   void collect_faces();
 
   const TetMesh& mesh_;
+  const Vertex first_free_;
   std::vector<Tet> tets_;
   std::vector<std::array<Vertex, 3>> faces_;
   std::vector<Tet> across_;  // by face

@@ -18,10 +18,26 @@ Kernel kernel_of(const TetMesh& mesh, const Cavity& cavity) {
   return kernel;
 }
 
-void cone(TetMesh& mesh, const Cavity& cavity, Vertex apex) {
+bool fill(TetMesh& mesh, const Cavity& cavity, const PolyhedronOptions& search) {
+  const auto fresh = fill_polyhedron(mesh, cavity.faces(), search);
+  if (!fresh) return false;
+  const std::vector<Vertex> inner = cavity.inner();
+  replace(mesh, {.old_tets = cavity.tets(), .new_tets = *fresh});
+  for (const Vertex v : inner) mesh.remove_vertex(v);
+  return true;
+}
+
+bool cone(TetMesh& mesh, const Cavity& cavity, Vertex apex, const Kernel::Centre& centre) {
+  const auto position = kernel_of(mesh, cavity).double_at(mesh.point(apex), centre);
+  if (!position) return false;
+  const std::vector<Vertex> inner = cavity.inner();
   std::vector<TetMesh::Corners> fresh;
   for (const auto& f : cavity.faces()) fresh.push_back({f[0], f[1], f[2], apex});
+  mesh.move_vertex(apex, *position);
   replace(mesh, {.old_tets = cavity.tets(), .new_tets = fresh});
+  for (const Vertex v : inner)
+    if (v != apex) mesh.remove_vertex(v);
+  return true;
 }
 
 bool grow_across_tightest(Cavity& cavity, const std::vector<double>& heights) {
@@ -32,40 +48,47 @@ bool grow_across_tightest(Cavity& cavity, const std::vector<double>& heights) {
   return std::any_of(order.begin(), order.end(), [&](std::size_t k) { return cavity.grow_across(k); });
 }
 
+// Across the faces that leave the centre least room until it can be had in doubles.
+bool cone_grown(TetMesh& mesh, Cavity& cavity, Vertex apex, int steps) {
+  for (int step = 0; step <= steps; ++step) {
+    const Kernel::Centre centre = kernel_of(mesh, cavity).centre(mesh.point(apex));
+    if (cone(mesh, cavity, apex, centre)) return true;
+    if (!grow_across_tightest(cavity, centre.heights)) return false;
+  }
+  return false;
+}
+
 }  // namespace
 
-bool refill_without(TetMesh& mesh, Vertex p, const Growth& growth, std::mt19937_64& random) {
+bool refill_without(TetMesh& mesh, Vertex p, Vertex first_free, const Growth& growth,
+                    std::mt19937_64& random) {
   std::vector<Tet> tets;
   ball(mesh, p, tets);
   for (int attempt = 0; attempt < growth.attempts; ++attempt) {
-    Cavity cavity(mesh, tets);
+    Cavity cavity(mesh, tets, first_free);
     for (int step = 0; step < growth.steps; ++step) {
       if (!cavity.grow(random) || cavity.vertex_count() > growth.search.most_vertices) break;
-      if (const auto fresh = fill_polyhedron(mesh, cavity.faces(), growth.search)) {
-        replace(mesh, {.old_tets = cavity.tets(), .new_tets = *fresh});
-        mesh.remove_vertex(p);
-        return true;
-      }
+      if (fill(mesh, cavity, growth.search)) return true;
     }
   }
   return false;
 }
 
-bool round_with_neighbours(TetMesh& mesh, Vertex p, int steps) {
+bool merge(TetMesh& mesh, Vertex p, Vertex neighbour, Vertex first_free, int steps,
+           const PolyhedronOptions& search) {
   std::vector<Tet> tets;
   ball(mesh, p, tets);
-  Cavity cavity(mesh, tets);
-  for (int step = 0; step <= steps; ++step) {
-    const Kernel kernel = kernel_of(mesh, cavity);
-    const Kernel::Centre centre = kernel.centre(mesh.point(p));
-    if (const auto position = kernel.double_at(mesh.point(p), centre)) {
-      mesh.move_vertex(p, *position);
-      cone(mesh, cavity, p);
-      return true;
-    }
-    if (!grow_across_tightest(cavity, centre.heights)) return false;
-  }
-  return false;
+  Cavity cavity(mesh, tets, first_free);
+  tets.clear();
+  ball(mesh, neighbour, tets);
+  return cavity.swallow(tets) && (fill(mesh, cavity, search) || cone_grown(mesh, cavity, p, steps));
+}
+
+bool round_with_neighbours(TetMesh& mesh, Vertex p, Vertex first_free, int steps) {
+  std::vector<Tet> tets;
+  ball(mesh, p, tets);
+  Cavity cavity(mesh, tets, first_free);
+  return cone_grown(mesh, cavity, p, steps);
 }
 
 }  // namespace holdfast

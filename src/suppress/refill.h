@@ -14,12 +14,21 @@ struct Growth {
   PolyhedronOptions search{};
 };
 
-/// Removes p, which lies on no constraint, by filling its ball and some tetrahedra round it again. Returns
-/// whether p is gone.
-bool refill_without(TetMesh& mesh, Vertex p, const Growth& growth, std::mt19937_64& random);
+/// What follows asks for Steiner points that are the vertices from `first_free` on and lie on no constraint.
+/// Other Steiner points that a cavity has swallowed go with p.
 
-/// Gives p, which lies on no constraint, a position in doubles: its ball grows across the faces that leave
-/// least room until the kernel holds one. At most `steps` tetrahedra are added. Returns whether p has one.
-bool round_with_neighbours(TetMesh& mesh, Vertex p, int steps);
+/// Removes p by filling its ball and some tetrahedra round it again. Returns whether p is gone.
+bool refill_without(TetMesh& mesh, Vertex p, Vertex first_free, const Growth& growth,
+                    std::mt19937_64& random);
+
+/// Takes the balls of p and of a neighbour together and fills them again, grown by at most `steps`
+/// tetrahedra: without either, or with p alone at a place in doubles that sees all of it. Returns whether the
+/// neighbour is gone.
+bool merge(TetMesh& mesh, Vertex p, Vertex neighbour, Vertex first_free, int steps,
+           const PolyhedronOptions& search);
+
+/// Gives p a position in doubles: its ball grows across the faces that leave least room until the kernel
+/// holds one. At most `steps` tetrahedra are added. Returns whether p has one.
+bool round_with_neighbours(TetMesh& mesh, Vertex p, Vertex first_free, int steps);
 
 }  // namespace holdfast

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <random>
 
+#include "mesh/traverse.h"
 #include "suppress/collapse.h"
 #include "suppress/degree.h"
 #include "suppress/refill.h"
@@ -17,9 +18,10 @@ std::size_t unrounded(const TetMesh& mesh, const std::vector<Vertex>& points) {
 
 class Suppressor {
  public:
-  Suppressor(TetMesh& mesh, std::vector<Vertex> points, Monitor& monitor)
+  Suppressor(TetMesh& mesh, std::vector<Vertex> points, Vertex first_free, Monitor& monitor)
       : mesh_(mesh),
         points_(std::move(points)),
+        first_free_(first_free),
         all_(points_.size()),
         monitor_(monitor),
         flipper_(mesh, random_) {}
@@ -61,26 +63,39 @@ class Suppressor {
   // Points that no double holds are worth more effort. Returns whether a further go is.
   bool refill() {
     const std::size_t before = points_.size(), unrounded_before = unrounded(mesh_, points_);
-    std::erase_if(points_, [&](Vertex p) {
+    for (const Vertex p : points_) {
       tell();
-      return remove_harder(p);
-    });
+      if (mesh_.in_mesh(p)) remove_harder(p);
+    }
+    drop_the_gone(stats_.filled);
+    for (const Vertex p : points_)
+      if (mesh_.in_mesh(p)) merge_with_neighbours(p);
+    drop_the_gone(stats_.merged);
     const std::size_t gone = before - points_.size();
-    stats_.filled += gone;
     const std::size_t unrounded_now = unrounded(mesh_, points_);
     return gone * kWorthwhile > before ||
            (unrounded_now > 0 && (gone > 0 || unrounded_now < unrounded_before));
   }
 
-  bool remove_harder(Vertex p) {
+  void drop_the_gone(std::size_t& count) {
+    count += std::erase_if(points_, [&](Vertex p) { return !mesh_.in_mesh(p); });
+  }
+
+  void remove_harder(Vertex p) {
     const bool is_explicit = mesh_.is_explicit(p);
     if (lower_degree(mesh_, flipper_, p, is_explicit ? kQuickBudget : kPatientBudget)) {
       const Fate fate = remove_or_recentre(mesh_, p, {});
-      if (fate == Fate::collapsed || fate == Fate::filled) return true;
+      if (fate == Fate::collapsed || fate == Fate::filled) return;
     }
-    if (refill_without(mesh_, p, is_explicit ? kQuickGrowth : kPatientGrowth, random_)) return true;
-    if (!mesh_.is_explicit(p)) round_with_neighbours(mesh_, p, kMostSteps);
-    return false;
+    const Growth& growth = is_explicit ? kQuickGrowth : kPatientGrowth;
+    if (refill_without(mesh_, p, first_free_, growth, random_)) return;
+    if (!mesh_.is_explicit(p)) round_with_neighbours(mesh_, p, first_free_, kMostSteps);
+  }
+
+  void merge_with_neighbours(Vertex p) {
+    for (const Vertex q : link_vertices(mesh_, p))
+      if (q >= first_free_ && mesh_.in_mesh(p) && find_edge(mesh_, p, q) != kNone)
+        merge(mesh_, p, q, first_free_, kMergeSteps, kMergeSearch);
   }
 
   static constexpr std::size_t kWorthwhile = 10;
@@ -88,11 +103,14 @@ class Suppressor {
   static constexpr int kMostSteps = 30;
   static constexpr Growth kQuickGrowth{
       .attempts = 2, .steps = 5, .search = {.most_vertices = 18, .most_nodes = 60}};
+  static constexpr int kMergeSteps = 4;
+  static constexpr PolyhedronOptions kMergeSearch{.most_vertices = 20, .most_nodes = 200};
   static constexpr Growth kPatientGrowth{
       .attempts = 20, .steps = 12, .search = {.most_vertices = 22, .most_nodes = 1000}};
 
   TetMesh& mesh_;
   std::vector<Vertex> points_;
+  const Vertex first_free_;
   const std::size_t all_;
   Monitor& monitor_;
   std::mt19937_64 random_;
@@ -102,8 +120,8 @@ class Suppressor {
 
 }  // namespace
 
-SuppressStats suppress(TetMesh& mesh, std::vector<Vertex> points, Monitor& monitor) {
-  return Suppressor(mesh, std::move(points), monitor).run();
+SuppressStats suppress(TetMesh& mesh, std::vector<Vertex> points, Vertex first_free, Monitor& monitor) {
+  return Suppressor(mesh, std::move(points), first_free, monitor).run();
 }
 
 }  // namespace holdfast
