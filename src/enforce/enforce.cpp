@@ -150,7 +150,7 @@ class Enforcer {
       for (const Vertex p : now) {
         if (!mesh_.in_mesh(p)) continue;
         const std::vector<Vertex> around = steiner_neighbours(p);
-        lower_degree(mesh_, flipper_, p, kFlipBudget);
+        lower_degree(mesh_, flipper_, p, kFlipDepth, kFlipBudget);
         const Fate fate = remove_or_recentre(mesh_, p, search);
         if (fate == Fate::collapsed || fate == Fate::filled)
           restless_.insert(restless_.end(), around.begin(), around.end());
@@ -170,7 +170,8 @@ class Enforcer {
 
   static constexpr FlipRecovery::Effort kRetry{.depth = 20, .budget = 5000, .thorough = true};
   static constexpr int kRounds = 2;
-  static constexpr std::size_t kFlipBudget = 100;
+  static constexpr int kFlipDepth = 8;
+  static constexpr std::size_t kFlipBudget = 200;
   static constexpr PolyhedronOptions kThoroughSearch{.most_vertices = 18, .most_nodes = 200};
   static constexpr PolyhedronOptions kQuickSearch{.most_vertices = 13, .most_nodes = 40};
 

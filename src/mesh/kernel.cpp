@@ -23,13 +23,24 @@ ExactVector cross(const ExactVector& a, const ExactVector& b) {
 }
 Dyadic dot(const ExactVector& a, const ExactVector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// Scaled by a power of two so that the largest coordinate is near one.
-ExactVector normalised(const ExactVector& a) {
+std::int64_t top_exponent(const ExactVector& a) {
   std::int64_t top = INT64_MIN;
   for (const Dyadic& x : a)
     if (x.sign() != 0) top = std::max(top, exact::top_exponent(x));
-  return {a[0].scaled(-top), a[1].scaled(-top), a[2].scaled(-top)};
+  return top;
 }
+ExactVector scaled(const ExactVector& a, std::int64_t exponent) {
+  return {a[0].scaled(exponent), a[1].scaled(exponent), a[2].scaled(exponent)};
+}
+// By a power of two, so that the largest coordinate is near one.
+ExactVector normalised(const ExactVector& a) { return scaled(a, -top_exponent(a)); }
+
+using Vector = std::array<double, 3>;
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double largest(const Vector& a) { return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])}); }
 
 // A direction that leaves both planes on their positive sides. For normals at an obtuse angle, with
 // c = n1.n2 < 0, alpha n1 + n2 does so exactly for -c/|n1|^2 < alpha < |n2|^2/(-c), an interval that is
@@ -132,49 +143,71 @@ Kernel::Centre Kernel::centre(PointRef origin) const {
   return out;
 }
 
-// Differences are exact before they are rounded once; where the origin is next to the plane even that is
-// too coarse for kernels as thin as the spacing of doubles, and the height is that of the exact volume.
+// Differences are exact before they are rounded once. That is too coarse for the normal of a sliver, and for
+// kernels as thin as the spacing of doubles where the origin is next to the plane: then both come from exact
+// coordinates.
 HalfSpace Kernel::half_space_over(const std::array<Vertex, 3>& f, PointRef origin, double unit) const {
-  constexpr double kNear = 1e-8;
+  constexpr double kNear = 1e-8, kSliver = 1e-4;
   std::array<double, 3> u{}, w{}, a{};
   exact::difference(mesh_.point(f[1]), mesh_.point(f[0]), u.data());
   exact::difference(mesh_.point(f[2]), mesh_.point(f[0]), w.data());
   exact::difference(mesh_.point(f[0]), origin, a.data());
-  const double su = std::max({std::abs(u[0]), std::abs(u[1]), std::abs(u[2])});
-  const double sw = std::max({std::abs(w[0]), std::abs(w[1]), std::abs(w[2])});
+  const double su = largest(u), sw = largest(w);
   for (std::size_t k = 0; k < 3; ++k) {
     u[k] /= su;
     w[k] /= sw;
     a[k] /= unit;
   }
-  const std::array<double, 3> n{u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2],
-                                u[0] * w[1] - u[1] * w[0]};
-  const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  if (!(length > 0)) return {};  // distinct exact points can share a double; the exact test decides
+  std::array<double, 3> n = cross(u, w);
+  double scale = su * sw;  // the true cross product is n scaled so
+  if (!(dot(n, n) > kSliver * kSliver)) {
+    const ExactPoint first = mesh_.exact_position(f[0]);
+    const ExactVector exact_n =
+        cross(minus(mesh_.exact_position(f[1]), first), minus(mesh_.exact_position(f[2]), first));
+    const std::int64_t top = top_exponent(exact_n);
+    const ExactVector near_one = scaled(exact_n, -top);
+    for (std::size_t k = 0; k < 3; ++k) n[k] = near_one[k].to_double();
+    scale = std::ldexp(1.0, static_cast<int>(top));
+  }
+  const double length = std::sqrt(dot(n, n));
   HalfSpace out;
   for (std::size_t k = 0; k < 3; ++k) out.n[k] = -n[k] / length;
-  out.b = out.n[0] * a[0] + out.n[1] * a[1] + out.n[2] * a[2];
+  out.b = dot(out.n, a);
   if (std::abs(out.b) > kNear) return out;
   const Dyadic volume = exact::determinant(mesh_.exact_position(f[0]), mesh_.exact_position(f[1]),
                                            mesh_.exact_position(f[2]), exact::lift(origin));
-  out.b = volume.to_double() / su / sw / length / unit;
+  out.b = volume.to_double() / scale / length / unit;
   return out;
 }
 
 // A kernel thinner than the spacing of doubles may still hold one next to the centre.
-std::optional<Point> Kernel::double_at(PointRef origin, const Centre& centre) const {
+std::optional<Point> Kernel::double_next_to(const Point& centre) const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (int code = 0; code < 27; ++code) {
-    Point p{};
+    Point p = centre;
     int rest = code;
     for (std::size_t k = 0; k < 3; ++k, rest /= 3) {
-      p[k] = origin.approx[k] + centre.offset[k];
       if (rest % 3 == 1) p[k] = std::nextafter(p[k], kInfinity);
       if (rest % 3 == 2) p[k] = std::nextafter(p[k], -kInfinity);
     }
     if (holds({p.data(), nullptr})) return p;
   }
   return std::nullopt;
+}
+
+// Far from the origin, rounded normals blur a thin kernel's centre; seen from there it is sharp.
+std::optional<Point> Kernel::double_at(PointRef origin, const Centre& centre) const {
+  constexpr double kThin = 1e-8;
+  constexpr int kRefinements = 3;
+  Point p{};
+  for (std::size_t k = 0; k < 3; ++k) p[k] = origin.approx[k] + centre.offset[k];
+  Centre refined = centre;
+  for (int k = 0;; ++k) {
+    if (const auto found = double_next_to(p)) return found;
+    if (k == kRefinements || !(std::abs(refined.radius) < kThin * refined.size)) return std::nullopt;
+    refined = this->centre({p.data(), nullptr});
+    for (std::size_t i = 0; i < 3; ++i) p[i] += refined.offset[i];
+  }
 }
 
 std::optional<Position> Kernel::on_grid(PointRef origin, const Centre& centre) const {

@@ -53,6 +53,7 @@ class Kernel {
  private:
   [[nodiscard]] HalfSpace half_space_over(const std::array<Vertex, 3>& face, exact::PointRef origin,
                                           double unit) const;
+  [[nodiscard]] std::optional<Point> double_next_to(const Point& centre) const;
   [[nodiscard]] std::optional<Position> on_grid(exact::PointRef origin, const Centre& centre) const;
   [[nodiscard]] std::optional<Position> along_direction(exact::PointRef origin, double size) const;
 

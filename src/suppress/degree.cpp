@@ -25,15 +25,14 @@ std::vector<std::pair<Vertex, Tet>> edges_at(TetMesh& mesh, Vertex p) {
 
 }  // namespace
 
-bool lower_degree(TetMesh& mesh, Flipper& flipper, Vertex p, std::size_t budget) {
-  constexpr int kDepth = 2;
+bool lower_degree(TetMesh& mesh, Flipper& flipper, Vertex p, int depth, std::size_t budget) {
   auto edges = edges_at(mesh, p);
   const std::size_t before = edges.size();
   // Flips that clear the way for others can join p to more, so that the loop needs a measure.
   for (std::size_t last = before + 1; edges.size() < last;) {
     last = edges.size();
     for (const auto& [q, t] : edges)
-      if (flipper.stands({t, {p, q}, 2})) flipper.remove(t, p, q, kDepth, budget);
+      if (flipper.stands({t, {p, q}, 2})) flipper.remove(t, p, q, depth, budget);
     edges = edges_at(mesh, p);
   }
   return edges.size() < before;

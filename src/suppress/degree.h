@@ -6,8 +6,8 @@
 
 namespace holdfast {
 
-/// Removes edges at p by flips as long as that helps, with about `budget` sign tests an edge. Returns
-/// whether p has fewer neighbours now.
-bool lower_degree(TetMesh& mesh, Flipper& flipper, Vertex p, std::size_t budget);
+/// Removes edges at p by flips as long as that helps, clearing the way up to `depth` flips deep, with about
+/// `budget` sign tests an edge. Returns whether p has fewer neighbours now.
+bool lower_degree(TetMesh& mesh, Flipper& flipper, Vertex p, int depth, std::size_t budget);
 
 }  // namespace holdfast

@@ -83,7 +83,7 @@ class Suppressor {
 
   void remove_harder(Vertex p) {
     const bool is_explicit = mesh_.is_explicit(p);
-    if (lower_degree(mesh_, flipper_, p, is_explicit ? kQuickBudget : kPatientBudget)) {
+    if (lower_degree(mesh_, flipper_, p, kFlipDepth, is_explicit ? kQuickBudget : kPatientBudget)) {
       const Fate fate = remove_or_recentre(mesh_, p, {});
       if (fate == Fate::collapsed || fate == Fate::filled) return;
     }
@@ -99,7 +99,8 @@ class Suppressor {
   }
 
   static constexpr std::size_t kWorthwhile = 10;
-  static constexpr std::size_t kQuickBudget = 100, kPatientBudget = 1000;
+  static constexpr std::size_t kQuickBudget = 5000, kPatientBudget = 20000;
+  static constexpr int kFlipDepth = 12;
   static constexpr int kMostSteps = 30;
   static constexpr Growth kQuickGrowth{
       .attempts = 2, .steps = 5, .search = {.most_vertices = 18, .most_nodes = 60}};
