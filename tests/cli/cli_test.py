@@ -391,6 +391,22 @@ class Examples(CliTest):
             self.make("make_hard.py", "chazelle", f"chazelle{n}.off", "-n", n)
             self.mesh_and_check(f"chazelle{n}.off")
 
+    def test_the_papers_cases(self):
+        for name, kind, *arguments in (
+                ("worst.off", "worst", "-n", 6, "-m", 6, "--height", 0.1),
+                ("free.off", "worst", "-n", 6, "-m", 2, "--free"),
+                ("dangling.smesh", "dangling", "-n", 8),
+                ("touching.smesh", "touching", "-n", 12, "--height", 0.01),
+                ("semiconductor.smesh", "semiconductor", "-n", 2, "--thickness", 1e-4),
+                ("gap.off", "gap", "-n", 4, "--gap", 1e-12)):
+            self.make("make_paper.py", kind, name, *arguments)
+            self.mesh_and_check(name)
+
+    def test_the_papers_counts_of_triangles(self):
+        for kind, count in (("dangling", 2082), ("touching", 26326)):
+            self.make("make_paper.py", kind, "case.off")
+            self.assertIn(f" {count} ", (self.folder / "case.off").read_text().split("\n")[1])
+
 
 class Delaunay(CliTest):
     def test_points_of_every_kind(self):
