@@ -42,7 +42,9 @@ class Furniture {
     return p;
   }
 
-  Index any(std::size_t count) { return static_cast<Index>(integer(random_, 0, static_cast<int>(count) - 1)); }
+  Index any(std::size_t count) {
+    return static_cast<Index>(integer(random_, 0, static_cast<int>(count) - 1));
+  }
 
   Index vertex(Surface& s) {
     if (integer(random_, 0, 1) == 0) return any(s.vertices.size());
@@ -90,7 +92,9 @@ class Furniture {
 };
 
 inline Surface furnished(Random& random) {
-  Surface s = integer(random, 0, 2) == 0 ? star(random) : integer(random, 0, 1) == 0 ? voxels(random) : small::box();
+  Surface s = integer(random, 0, 2) == 0   ? star(random)
+              : integer(random, 0, 1) == 0 ? voxels(random)
+                                           : small::box();
   Furniture(s, random).add(integer(random, 5, 40));
   return s;
 }
@@ -105,7 +109,8 @@ inline Surface pencil(Random& random) {
   const double turn = integer(random, 0, 1) == 0 ? 2 * kPi : uniform(random, 0.1, 3);
   double angle = uniform(random, 0, 7);
   for (int k = 0; k < pages; ++k) {
-    angle += integer(random, 0, 4) == 0 ? log_uniform(random, 1e-9, 1e-3) : turn / pages * uniform(random, 0.5, 1);
+    angle +=
+        integer(random, 0, 4) == 0 ? log_uniform(random, 1e-9, 1e-3) : turn / pages * uniform(random, 0.5, 1);
     try_adding(s, [&](Surface& next) {
       next.vertices.push_back({std::cos(angle), std::sin(angle), uniform(random, 0, 1)});
       next.facets.push_back({foot, foot + 1, static_cast<Index>(next.vertices.size() - 1)});

@@ -36,6 +36,9 @@ class Flipper {
   /// at a or b and none to a target that was aimed at. Returns whether it is gone.
   bool remove(Tet t, Vertex a, Vertex b, int depth, std::size_t budget);
 
+  /// Of the last call, in sign tests, roughly.
+  [[nodiscard]] std::size_t work() const { return work_; }
+
   /// Whether the tetrahedron of a crossing is still alive and holds it.
   [[nodiscard]] bool stands(const Crossing& crossing) const;
   [[nodiscard]] const FlipCounts& counts() const { return counts_; }

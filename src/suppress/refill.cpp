@@ -12,6 +12,8 @@
 namespace holdfast {
 namespace {
 
+constexpr std::size_t kMostMerged = 200;  // tetrahedra of a ball: a cavity's growth is quadratic
+
 Kernel kernel_of(const TetMesh& mesh, const Cavity& cavity) {
   Kernel kernel(mesh);
   for (const auto& f : cavity.faces()) kernel.add(f[0], f[1], f[2]);
@@ -64,6 +66,7 @@ bool refill_without(TetMesh& mesh, Vertex p, Vertex first_free, const Growth& gr
                     std::mt19937_64& random) {
   std::vector<Tet> tets;
   ball(mesh, p, tets);
+  if (tets.size() > 2 * growth.search.most_vertices) return false;  // Euler: 2 n - 4 of them
   for (int attempt = 0; attempt < growth.attempts; ++attempt) {
     Cavity cavity(mesh, tets, first_free);
     for (int step = 0; step < growth.steps; ++step) {
@@ -78,9 +81,11 @@ bool merge(TetMesh& mesh, Vertex p, Vertex neighbour, Vertex first_free, int ste
            const PolyhedronOptions& search) {
   std::vector<Tet> tets;
   ball(mesh, p, tets);
+  if (tets.size() > kMostMerged) return false;
   Cavity cavity(mesh, tets, first_free);
   tets.clear();
   ball(mesh, neighbour, tets);
+  if (tets.size() > kMostMerged) return false;
   return cavity.swallow(tets) && (fill(mesh, cavity, search) || cone_grown(mesh, cavity, p, steps));
 }
 
