@@ -168,7 +168,7 @@ class Enforcer {
     return out;
   }
 
-  static constexpr FlipRecovery::Effort kRetry{.depth = 20, .budget = 5000, .thorough = true};
+  static constexpr FlipRecovery::Effort kRetry{.depth = 20, .budget = 2000, .thorough = true};
   static constexpr int kRounds = 2;
   static constexpr int kFlipDepth = 8;
   static constexpr std::size_t kFlipBudget = 200;

@@ -20,14 +20,6 @@ namespace {
 /// Numbers the temporaries of this process; two writers never share one.
 std::atomic<unsigned> temporaries{0};
 
-/// Makes a rename durable. A file system that cannot is no reason to refuse a file that is there.
-void sync_folder(const std::filesystem::path& folder) {
-  const int handle = ::open(folder.c_str(), O_RDONLY | O_CLOEXEC);
-  if (handle < 0) return;
-  ::fsync(handle);
-  ::close(handle);
-}
-
 std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
@@ -128,8 +120,6 @@ AtomicWriter& AtomicWriter::operator<<(std::uint64_t value) {
 void AtomicWriter::finish() {
   if (file_ < 0) return;
   flush();
-  // Pipes cannot be synchronised (EINVAL, ENOTSUP); only a temporary must be on the disk.
-  if (!temporary_.empty() && ::fsync(file_) != 0) fail("cannot be written", errno);
   const int handle = std::exchange(file_, -1);
   if (::close(handle) != 0 && errno != EINTR) fail("cannot be written", errno);
 }
@@ -140,7 +130,6 @@ void AtomicWriter::commit() {
   if (::rename(temporary_.c_str(), written_.c_str()) != 0)
     fail("cannot be written: the finished file cannot be renamed", errno);
   temporary_.clear();
-  sync_folder(folder_of(written_));
 }
 
 void AtomicWriter::fail(const char* what, int error) const {

@@ -11,7 +11,7 @@ namespace holdfast::io {
 
 /// A file that appears under its name complete or not at all.
 ///
-/// Bytes go to a temporary in the target's folder; `commit` makes it durable and renames it. Until
+/// Bytes go to a temporary in the target's folder; `commit` closes and renames it. Until
 /// then the destructor removes it, so that an exception or a cancellation leaves nothing behind.
 /// A target that is a pipe or a device ("/dev/stdout") is written directly. Every function throws
 /// FileError.
@@ -35,7 +35,7 @@ class AtomicWriter {
   AtomicWriter& operator<<(int value) { return *this << std::int64_t{value}; }
   AtomicWriter& operator<<(std::uint32_t value) { return *this << std::uint64_t{value}; }
 
-  /// Puts every byte on the disk; after it only `commit` may follow. Files that belong together are
+  /// Gives every byte to the system; after it only `commit` may follow. Files that belong together are
   /// all finished before the first is committed.
   void finish();
   /// Finishes the file and gives it its name.

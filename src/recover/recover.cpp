@@ -11,7 +11,7 @@ namespace {
 // Pass after pass goes one level of flips deeper, with little work for each entity: what one attempt does
 // not reach, the next may, from the mesh that the attempts for others have left meanwhile.
 constexpr int kMostPasses = 25;
-constexpr int kMostIdlePasses = 3;
+constexpr int kMostIdlePasses = 2;
 constexpr std::size_t kIdle = 20;            // a pass that recovers less than one in so many
 constexpr std::size_t kBudget = 1000;        // of an attempt at a crossing in a pass
 constexpr std::size_t kMostFailures = 1000;  // at the crossings of one facet

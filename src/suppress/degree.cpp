@@ -23,7 +23,7 @@ std::vector<std::pair<Vertex, Tet>> edges_at(TetMesh& mesh, Vertex p) {
   return edges;
 }
 
-constexpr std::size_t kMostEdges = 60;  // as many edges' budgets are spent on a point
+constexpr std::size_t kMostEdges = 20;  // as many edges' budgets are spent on a point
 
 }  // namespace
 

@@ -99,7 +99,7 @@ class Suppressor {
   }
 
   static constexpr std::size_t kWorthwhile = 10;
-  static constexpr std::size_t kQuickBudget = 5000, kPatientBudget = 20000;
+  static constexpr std::size_t kQuickBudget = 2000, kPatientBudget = 20000;
   static constexpr int kFlipDepth = 12;
   static constexpr int kMostSteps = 30;
   static constexpr Growth kQuickGrowth{
