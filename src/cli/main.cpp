@@ -26,6 +26,7 @@ int run(int count, const char* const* arguments) {
   add_check(app, chosen);
   add_diagnose(app, chosen);
   add_delaunay(app, chosen);
+  add_untangle(app, chosen);
 
   // CLI11 would only say that a command is missing.
   const std::string first = count > 1 ? arguments[1] : "-";

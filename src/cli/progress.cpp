@@ -16,31 +16,37 @@ constexpr std::chrono::milliseconds redraw_after{100};
 }  // namespace
 
 bool ProgressView::operator()(const Progress& progress) {
+  return tell(static_cast<int>(progress.stage), name(progress.stage), progress.fraction);
+}
+
+bool ProgressView::operator()(const UntangleProgress& progress) {
+  return tell(static_cast<int>(progress.step), name(progress.step), progress.fraction);
+}
+
+bool ProgressView::tell(int order, const char* what, double fraction) {
   const auto now = std::chrono::steady_clock::now();
-  // Partition and elimination take turns; a stage is told when it first begins.
-  const bool first_time = !stage_ || *stage_ < progress.stage;
-  if (first_time) stage_ = progress.stage;
+  // Some stages and steps take turns; each is told when it first begins.
+  const bool first_time = !order_ || *order_ < order;
+  if (first_time) order_ = order;
   if (show_ == Show::lines && first_time) {
-    fmt::print(stderr, "[{:8.2f} s] {}\n", std::chrono::duration<double>(now - started_).count(),
-               name(progress.stage));
+    fmt::print(stderr, "[{:8.2f} s] {}\n", std::chrono::duration<double>(now - started_).count(), what);
   } else if (show_ == Show::bar && now - drawn_ >= redraw_after) {
     drawn_ = now;
-    draw_bar(progress);
+    draw_bar(what, fraction);
   }
   return !cancel_requested();
 }
 
-void ProgressView::draw_bar(const Progress& progress) const {
-  const double fraction = std::clamp(progress.fraction, 0.0, 1.0);
-  const int filled = static_cast<int>(fraction * bar_width);
-  fmt::print(stderr, "\r{:<10} [{:=<{}}{:{}}] {:3.0f} %", name(progress.stage), "", filled, "",
-             bar_width - filled, 100 * fraction);
+void ProgressView::draw_bar(const char* what, double fraction) {
+  const double share = std::clamp(fraction, 0.0, 1.0);
+  const int filled = static_cast<int>(share * bar_width);
+  fmt::print(stderr, "\r{:<10} [{:=<{}}{:{}}] {:3.0f} %", what, "", filled, "", bar_width - filled, 100 * share);
   std::fflush(stderr);
 }
 
 void ProgressView::finish() {
-  if (show_ == Show::bar && stage_) fmt::print(stderr, "\r{:{}}\r", "", bar_width + 20);
-  stage_.reset();
+  if (show_ == Show::bar && order_) fmt::print(stderr, "\r{:{}}\r", "", bar_width + 20);
+  order_.reset();
 }
 
 }  // namespace holdfast::cli

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <optional>
 
-#include "holdfast/holdfast.h"
+#include "holdfast/untangle.h"
 
 namespace holdfast::cli {
 
@@ -15,7 +15,7 @@ enum class Show {
   lines,  ///< one line a stage
 };
 
-/// Shows progress on stderr and hears Ctrl-C; the progress callback of `mesh`.
+/// Shows progress on stderr and hears Ctrl-C; the progress callback of `mesh` and `untangle`.
 class ProgressView {
  public:
   explicit ProgressView(Show show) : show_(show) {}
@@ -25,14 +25,16 @@ class ProgressView {
 
   /// False when the user asked to stop.
   bool operator()(const Progress& progress);
+  bool operator()(const UntangleProgress& progress);
   /// Takes the bar off the terminal.
   void finish();
 
  private:
-  void draw_bar(const Progress& progress) const;
+  bool tell(int order, const char* what, double fraction);
+  static void draw_bar(const char* what, double fraction);
 
   Show show_;
-  std::optional<Stage> stage_;
+  std::optional<int> order_;  // of what was told last
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point drawn_{};
 };

@@ -1,0 +1,83 @@
+// Holdfast: a tangled volume mesh made positive, with its boundary fixed (design §2.7, paper §6.4).
+//
+// After P.L. George, H. Borouchaki, E. Saltel, "'Ultimate' robustness in meshing an arbitrary polyhedron"
+// (Int. J. Numer. Meth. Engng 2003), §6.4: relocation, exchange of tetrahedra, added points; and V. Garanzha,
+// I. Kaporin, L. Kudryavtseva, F. Protais, N. Ray, D. Sokolov, "Foldover-free maps in 50 lines of code" (ACM
+// Trans. Graph. 2021) for relocating many points at once.
+#pragma once
+
+#include "holdfast/holdfast.h"
+
+namespace holdfast {
+
+/// What untangling does; the steps take turns until no tetrahedron is tangled.
+enum class UntangleStep {
+  validate,  ///< the connectivity, and the boundary as a surface
+  relocate,  ///< vertices one by one, into the kernel of their ball
+  swap,      ///< tetrahedra of a region exchanged for others
+  smooth,    ///< many vertices at once, by an energy that is infinite for inverted tetrahedra
+  refill,    ///< cavities emptied and filled again, as `mesh` does it
+  check,     ///< the result, exactly
+};
+
+/// Name of a step as the command line and the report spell it.
+[[nodiscard]] const char* name(UntangleStep step);
+
+struct UntangleProgress {
+  UntangleStep step;
+  double fraction;  ///< of the tetrahedra that were not positive, those that are by now; 0 to 1
+};
+
+struct UntangleOptions {
+  std::vector<Index> fixed;        ///< vertices to keep besides those of the boundary, facets and segments
+  bool refill = true;              ///< empties and refills what nothing else untangles: may add and remove points
+  std::uint64_t seed = 1;          ///< of the random orders when refilling
+  double time_limit = 0;           ///< seconds; 0: none
+  std::uint64_t memory_limit = 0;  ///< bytes of the process; 0: none
+  /// Called now and then from the calling thread; returns false to cancel.
+  std::function<bool(const UntangleProgress&)> progress;
+};
+
+struct UntangleReport {
+  std::size_t vertices = 0, tetrahedra = 0;         ///< of the volume that came in
+  std::size_t free_vertices = 0;                    ///< of these, those that may move
+  std::size_t turned = 0;                           ///< tetrahedra that were listed the other way round
+  std::size_t negative = 0, null = 0;               ///< tetrahedra before, once all are turned alike
+  std::size_t negative_after = 0, null_after = 0;   ///< at the end: 0 for Outcome::done
+  std::size_t moved = 0;                            ///< vertices in another place than before
+  std::size_t swapped = 0;                          ///< exchanges of tetrahedra
+  std::size_t cavities = 0;                         ///< emptied and filled again
+  std::size_t added = 0, removed = 0;               ///< vertices
+  std::size_t rounds = 0;                           ///< of relocation, swaps and smoothing
+  std::map<std::string, double> seconds;            ///< by step, and "total"
+  std::uint64_t peak_memory_bytes = 0;
+};
+
+struct UntangleResult {
+  /// done; invalid_input (the connectivity or the boundary: `message` and `defects` say what and where);
+  /// not_representable (no positive mesh in doubles was found); time_limit, memory_limit, cancelled.
+  Outcome outcome = Outcome::done;
+  Volume volume;  ///< empty unless `outcome` is done
+  UntangleReport report;
+  /// Of the boundary as a surface. Facet i is the volume's; from volume.facets.size() on, they are further
+  /// faces of the boundary or between regions. Vertices and segments are the volume's.
+  std::vector<Defect> defects;
+  std::string message;  ///< one sentence when the outcome is not done
+};
+
+/// Makes every tetrahedron of a mesh strictly positive, exactly, without changing its boundary.
+///
+/// `volume` is a mesh by its connectivity: no face has more than two tetrahedra, `facets` are faces and
+/// `segments` edges of it. Any of its tetrahedra may be negative or null; they may be listed any way round.
+/// What comes out: the faces of the boundary and between regions, `facets`, `segments` and their vertices are
+/// what they were, coordinates bit for bit, indices and markers included; every tetrahedron is strictly
+/// positive in doubles, no two overlap, and each region fills the space that it filled. Other vertices may have
+/// moved; with `refill` some may be new (they take the places of removed ones, then come last), and a removed
+/// vertex whose place nothing takes remains as an unused one. A mesh without non-positive tetrahedra comes out
+/// as it came in.
+///
+/// Throws std::invalid_argument if arrays of regions or markers have a wrong length or `fixed` is out of range,
+/// std::length_error beyond 2^28 vertices, std::bad_alloc when memory runs out without a limit.
+[[nodiscard]] UntangleResult untangle(const Volume& volume, const UntangleOptions& options = {});
+
+}  // namespace holdfast

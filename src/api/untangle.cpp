@@ -1,0 +1,273 @@
+// Untangling (design §2.7): validate, relocate, swap, smooth, refill by the mesher itself, check.
+#include "holdfast/untangle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <stdexcept>
+
+#include "holdfast/check.h"
+#include "mesh/monitor.h"
+#include "surface/diagnose.h"
+#include "untangle/assemble.h"
+#include "untangle/connectivity.h"
+#include "untangle/untangle.h"
+
+namespace holdfast {
+namespace {
+
+constexpr std::size_t kMostDefects = 100;
+constexpr std::size_t kMostVertices = std::size_t{1} << 28;
+
+void require_sensible(const Volume& volume, const UntangleOptions& options) {
+  const auto fits = [](const auto& marks, const auto& entities) {
+    return marks.empty() || marks.size() == entities.size();
+  };
+  if (!fits(volume.regions, volume.tetrahedra))
+    throw std::invalid_argument("as many region ids as tetrahedra are needed, or none");
+  if (!fits(volume.facet_markers, volume.facets))
+    throw std::invalid_argument("as many facet markers as facets are needed, or none");
+  if (!fits(volume.segment_markers, volume.segments))
+    throw std::invalid_argument("as many segment markers as segments are needed, or none");
+  for (const Index v : options.fixed)
+    if (v >= volume.vertices.size())
+      throw std::invalid_argument("vertex " + std::to_string(v) + " is to be fixed, but there are " +
+                                  std::to_string(volume.vertices.size()) + " vertices");
+  if (volume.vertices.size() > kMostVertices)
+    throw std::length_error("more than 2^28 vertices are too many");
+}
+
+// Free vertices may be anywhere, but must be somewhere: those that are not finite go to the middle.
+std::vector<Point> finite_positions(const Volume& volume, const std::vector<bool>& fixed) {
+  const auto finite = [](const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); };
+  std::vector<Point> points = volume.vertices;
+  Point middle{};
+  double count = 0;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (!fixed[v]) continue;
+    ++count;
+    for (std::size_t k = 0; k < 3; ++k) middle[k] += (points[v][k] - middle[k]) / count;
+  }
+  for (std::size_t v = 0; v < points.size(); ++v)
+    if (!fixed[v] && !finite(points[v])) points[v] = finite(middle) ? middle : Point{};
+  return points;
+}
+
+// A volume and its boundary with the constrained vertices first, as `check` wants them.
+struct Ordered {
+  Volume volume;
+  Surface boundary;
+};
+
+Ordered constrained_first(const Volume& volume, const Connectivity& connectivity) {
+  const std::vector<bool>& fixed = connectivity.constraints.fixed;
+  const auto is_fixed = [&](std::size_t v) { return v < fixed.size() && fixed[v]; };
+  std::vector<bool> used(volume.vertices.size(), false);
+  for (const Tetrahedron& t : volume.tetrahedra)
+    for (const Index v : t) used[v] = true;
+  Ordered out{volume, {}};
+  out.volume.vertices.clear();
+  std::vector<Index> index(volume.vertices.size(), 0);
+  for (const bool first : {true, false})
+    for (std::size_t v = 0; v < volume.vertices.size(); ++v) {
+      if (!used[v] || is_fixed(v) != first) continue;
+      index[v] = static_cast<Index>(out.volume.vertices.size());
+      out.volume.vertices.push_back(volume.vertices[v]);
+      if (first) out.boundary.vertices.push_back(volume.vertices[v]);
+    }
+  const auto renumber = [&](auto& entities) {
+    for (auto& entity : entities)
+      for (Index& v : entity) v = index[v];
+  };
+  out.volume.facets.insert(out.volume.facets.end(), connectivity.outer_faces.begin(),
+                           connectivity.outer_faces.end());
+  out.volume.facet_markers.clear();
+  out.volume.segment_markers.clear();
+  renumber(out.volume.tetrahedra);
+  renumber(out.volume.facets);
+  renumber(out.volume.segments);
+  out.boundary.facets = out.volume.facets;
+  out.boundary.segments = out.volume.segments;
+  return out;
+}
+
+class Untangling {
+ public:
+  Untangling(const Volume& volume, const UntangleOptions& options)
+      : volume_(volume), options_(options), limits_(limits()), monitor_(limits_), watch_(monitor_) {}
+
+  UntangleResult run() {
+    try {
+      run_steps();
+    } catch (const Interrupted& interrupted) {
+      give_up(interrupted.outcome());
+    } catch (const std::bad_alloc&) {
+      if (options_.memory_limit == 0) throw;
+      give_up(Outcome::memory_limit);
+    }
+    watch_.finish();
+    result_.report.seconds = watch_.seconds();
+    result_.report.seconds["total"] = seconds();
+    result_.report.peak_memory_bytes = peak_memory_bytes();
+    return std::move(result_);
+  }
+
+ private:
+  // The monitor's options: limits, and a callback that tells the step and how much is done.
+  Options limits() {
+    Options limits;
+    limits.time_limit = options_.time_limit;
+    limits.memory_limit = options_.memory_limit;
+    if (options_.progress) limits.progress = [this](const Progress&) { return tell(); };
+    return limits;
+  }
+
+  bool tell() {
+    double fraction = 0;
+    if (tangle_ && at_first_ > 0)
+      fraction = 1 - std::min(1.0, static_cast<double>(tangle_->nonpositive_count()) / static_cast<double>(at_first_));
+    return options_.progress({watch_.step(), fraction});
+  }
+
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+  void run_steps() {
+    watch_.enter(UntangleStep::validate);
+    if (!validate()) return;
+    const Filler filler = [this](const Complex& complex) { return fill(complex); };
+    const UntangleStats stats = holdfast::untangle(*tangle_, options_.refill ? &filler : nullptr, watch_);
+    result_.report.rounds = stats.rounds;
+    result_.report.swapped = stats.swapped;
+    result_.report.cavities = stats.refill.cavities;
+    count_signs(result_.report.negative_after, result_.report.null_after);
+    if (tangle_->nonpositive_count() > 0) return conclude_tangled(stats.refill);
+    watch_.enter(UntangleStep::check);
+    deliver();
+  }
+
+  bool validate() {
+    result_.report.vertices = volume_.vertices.size();
+    result_.report.tetrahedra = volume_.tetrahedra.size();
+    connectivity_ = read_connectivity(volume_, options_.fixed);
+    if (!connectivity_.fault.empty()) {
+      refuse("the connectivity is not that of a mesh: " + connectivity_.fault);
+      return false;
+    }
+    const Surface boundary = boundary_surface(volume_, connectivity_);
+    result_.defects =
+        find_defects(boundary.view(), kMostDefects, [this](double) { watch_.poll(); });
+    if (!result_.defects.empty()) {
+      refuse("the boundary, which stays as it is, is not a valid surface");
+      return false;
+    }
+    const std::vector<bool>& fixed = connectivity_.constraints.fixed;
+    result_.report.free_vertices = static_cast<std::size_t>(std::count(fixed.begin(), fixed.end(), false));
+    const std::vector<Point> points = finite_positions(volume_, fixed);
+    turn_outwards(connectivity_, points);
+    result_.report.turned = connectivity_.turned;
+    tangle_.emplace(points, connectivity_.tets, connectivity_.regions, connectivity_.constraints);
+    at_first_ = tangle_->nonpositive_count();
+    count_signs(result_.report.negative, result_.report.null);
+    return true;
+  }
+
+  void count_signs(std::size_t& negative, std::size_t& null) const {
+    for (const Tet t : tangle_->nonpositive()) ++(tangle_->sign(t) < 0 ? negative : null);
+  }
+
+  Result fill(const Complex& complex) {
+    Options options;
+    options.keep = Keep::bounded;
+    options.drop_outside = true;  // free vertices that lie outside
+    options.seed = options_.seed;
+    if (options_.time_limit > 0) options.time_limit = std::max(1e-6, options_.time_limit - seconds());
+    options.memory_limit = options_.memory_limit;
+    if (options_.progress) options.progress = [this](const Progress&) { return tell(); };
+    Result result = mesh(complex, options);
+    if (result.outcome == Outcome::time_limit || result.outcome == Outcome::memory_limit ||
+        result.outcome == Outcome::cancelled)
+      throw Interrupted(result.outcome);
+    return result;
+  }
+
+  void refuse(std::string why) {
+    result_.outcome = Outcome::invalid_input;
+    result_.message = std::move(why);
+  }
+
+  void give_up(Outcome outcome) {
+    result_.outcome = outcome;
+    result_.volume = {};
+    result_.message = std::string(outcome == Outcome::time_limit     ? "the time limit ran out"
+                                  : outcome == Outcome::memory_limit ? "the memory limit was reached"
+                                                                     : "cancelled") +
+                      " in step " + name(watch_.step());
+  }
+
+  void conclude_tangled(const RefillStats& refill) {
+    if (refill.overlaps)
+      return refuse(
+          "the boundary is a valid surface, but not that of this mesh: parts of the mesh lie within one another or "
+          "inside out");
+    result_.outcome = Outcome::not_representable;
+    result_.message = options_.refill ? "no positive mesh in double precision was found"
+                                      : "relocation and swaps leave tetrahedra that are not positive";
+  }
+
+  void deliver() {
+    Assembled assembled = assemble(volume_, *tangle_);
+    result_.report.moved = assembled.moved;
+    result_.report.added = assembled.added;
+    result_.report.removed = assembled.removed;
+    const Ordered ordered = constrained_first(assembled.volume, connectivity_);
+    for (const Rule& rule : check(ordered.boundary.view(), ordered.volume).rules) {
+      if (rule.holds) continue;
+      if (rule.name == "no overlap")
+        return refuse("parts of the mesh overlap, though all of it is positive: " + rule.detail);
+      if (rule.name == "volumes positive" || rule.name == "facets kept" || rule.name == "segments kept" ||
+          rule.name == "faces matched" || rule.name == "boundary is input" || rule.name == "input vertices kept")
+        throw std::logic_error("holdfast: untangling broke the mesh: " + rule.name + ": " + rule.detail);
+    }
+    result_.volume = std::move(assembled.volume);
+  }
+
+  const Volume& volume_;
+  const UntangleOptions& options_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Options limits_;
+  Monitor monitor_;
+  Watch watch_;
+  Connectivity connectivity_;
+  std::optional<Tangle> tangle_;
+  std::size_t at_first_ = 0;  // tetrahedra that were not positive
+  UntangleResult result_;
+};
+
+}  // namespace
+
+const char* name(UntangleStep step) {
+  switch (step) {
+    case UntangleStep::validate:
+      return "validate";
+    case UntangleStep::relocate:
+      return "relocate";
+    case UntangleStep::swap:
+      return "swap";
+    case UntangleStep::smooth:
+      return "smooth";
+    case UntangleStep::refill:
+      return "refill";
+    case UntangleStep::check:
+      return "check";
+  }
+  return "unknown";
+}
+
+UntangleResult untangle(const Volume& volume, const UntangleOptions& options) {
+  require_sensible(volume, options);
+  return Untangling(volume, options).run();
+}
+
+}  // namespace holdfast

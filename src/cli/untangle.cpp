@@ -1,0 +1,174 @@
+// `holdfast untangle`: a tangled volume in, a positive one with the same boundary out.
+#include "holdfast/untangle.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <memory>
+
+#include "command.h"
+#include "files.h"
+#include "progress.h"
+#include "report.h"
+#include "signals.h"
+
+namespace holdfast::cli {
+namespace {
+
+constexpr std::size_t defects_shown = 20;
+constexpr double bytes_per_gigabyte = 1e9;
+
+struct UntangleArguments {
+  std::filesystem::path input, output, report;
+  std::string input_format, format;
+  bool no_refill = false, quiet = false, verbose = false;
+  std::uint64_t seed = 1;
+  double time_limit = 0, memory_limit = 0;
+};
+
+UntangleOptions to_options(const UntangleArguments& arguments) {
+  if (!(arguments.time_limit >= 0)) throw UsageError("--time-limit: seconds must not be negative");
+  if (!(arguments.memory_limit >= 0 && arguments.memory_limit < 1e9))
+    throw UsageError("--memory-limit: gigabytes must not be negative");
+  UntangleOptions options;
+  options.refill = !arguments.no_refill;
+  options.seed = arguments.seed;
+  options.time_limit = arguments.time_limit;
+  options.memory_limit = static_cast<std::uint64_t>(arguments.memory_limit * bytes_per_gigabyte);
+  return options;
+}
+
+Json report_of(const UntangleArguments& arguments, const UntangleResult& result) {
+  const UntangleReport& report = result.report;
+  return {{"input",
+           {{"vertices", report.vertices},
+            {"free_vertices", report.free_vertices},
+            {"tetrahedra", report.tetrahedra},
+            {"turned", report.turned},
+            {"negative", report.negative},
+            {"null", report.null}}},
+          {"left", {{"negative", report.negative_after}, {"null", report.null_after}}},
+          {"moved", report.moved},
+          {"swapped", report.swapped},
+          {"cavities", report.cavities},
+          {"added", report.added},
+          {"removed", report.removed},
+          {"rounds", report.rounds},
+          {"mesh", {{"vertices", result.volume.vertices.size()}, {"tetrahedra", result.volume.tetrahedra.size()}}},
+          {"seconds", report.seconds},
+          {"peak_memory_bytes", report.peak_memory_bytes},
+          {"version", version()},
+          {"options",
+           {{"input", arguments.input.string()},
+            {"output", arguments.output.string()},
+            {"refill", !arguments.no_refill},
+            {"seed", arguments.seed},
+            {"time_limit", arguments.time_limit},
+            {"memory_limit", arguments.memory_limit}}},
+          {"outcome", name(result.outcome)},
+          {"message", result.message},
+          {"defects", to_json(result.defects)}};
+}
+
+/// Says how the run ended and what the user can do; returns the exit code.
+int conclude(const UntangleArguments& arguments, const UntangleResult& result) {
+  switch (result.outcome) {
+    case Outcome::done:
+      return exit_done;
+    case Outcome::invalid_input:
+      fmt::print(stderr, "holdfast: {}; nothing was written\n", result.message);
+      print_defects(stderr, result.defects, defects_shown);
+      if (result.defects.size() > defects_shown)
+        fmt::print(stderr, "... and {} more\n", result.defects.size() - defects_shown);
+      return exit_invalid_surface;
+    case Outcome::time_limit:
+      fmt::print(stderr, "holdfast: {}; nothing was written; give a longer --time-limit\n", result.message);
+      return exit_limit;
+    case Outcome::memory_limit:
+      fmt::print(stderr, "holdfast: {}; nothing was written; give a larger --memory-limit\n", result.message);
+      return exit_limit;
+    case Outcome::cancelled:
+      fmt::print(stderr, "holdfast: cancelled; nothing was written\n");
+      return exit_limit;
+    case Outcome::not_representable:
+      fmt::print(stderr, "holdfast: {} ({} negative and {} null tetrahedra are left); {} was not written{}\n",
+                 result.message, result.report.negative_after, result.report.null_after,
+                 arguments.output.string(),
+                 arguments.no_refill ? "; without --no-refill cavities are filled again" : "");
+      return exit_not_representable;
+  }
+  return exit_internal_error;
+}
+
+void print_summary(const UntangleArguments& arguments, const UntangleResult& result) {
+  const UntangleReport& report = result.report;
+  if (arguments.verbose)
+    for (const auto& [step, seconds] : report.seconds)
+      fmt::print(stderr, "seconds    {} {:.3f}\n", step, seconds);
+  if (result.outcome != Outcome::done) return;
+  fmt::print(stderr,
+             "{}: {} negative and {} null of {} tetrahedra untangled: {} vertices moved, {} swaps, {} cavities "
+             "refilled, {} vertices added, {} removed, {:.2f} s\n",
+             arguments.output.string(), report.negative, report.null, report.tetrahedra, report.moved,
+             report.swapped, report.cavities, report.added, report.removed, report.seconds.at("total"));
+}
+
+int run(const UntangleArguments& arguments) {
+  const auto start = std::chrono::steady_clock::now();
+  UntangleOptions options = to_options(arguments);
+  const VolumeTarget target = volume_target(arguments.output, arguments.format, {arguments.input});
+  require_writable(arguments.report);
+  cancel_by_flag();
+
+  const Volume volume = read_volume(arguments.input, arguments.input_format);
+  const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - start;
+  // The limit is on the whole command; 0 would mean none.
+  if (options.time_limit > 0) options.time_limit = std::max(1e-6, options.time_limit - reading.count());
+  ProgressView progress(arguments.quiet                   ? Show::nothing
+                        : arguments.verbose               ? Show::lines
+                        : isatty(STDERR_FILENO) != 0 ? Show::bar
+                                                          : Show::nothing);
+  options.progress = std::ref(progress);
+  UntangleResult result = untangle(volume, options);
+  progress.finish();
+
+  if (result.outcome == Outcome::done) write_volume(target.path, result.volume, target.options);
+  const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start;
+  result.report.seconds["read"] = reading.count();
+  result.report.seconds["total"] = total.count();
+  write_json(arguments.report, report_of(arguments, result));
+  if (!arguments.quiet) print_summary(arguments, result);
+  return conclude(arguments, result);
+}
+
+}  // namespace
+
+void add_untangle(CLI::App& app, Command& chosen) {
+  const auto arguments = std::make_shared<UntangleArguments>();
+  CLI::App* command = app.add_subcommand(
+      "untangle", "Make every tetrahedron of a tangled volume positive, with its boundary as it is");
+  command
+      ->add_option("VOLUME", arguments->input, "Tangled volume file (.vtu .vtk .mesh .meshb .msh .node)")
+      ->required();
+  command->add_option("-o,--output", arguments->output, "Volume file (.vtu .vtk .mesh .meshb .msh .node)")
+      ->required()
+      ->option_text("VOLUME");
+  command->add_flag("--no-refill", arguments->no_refill,
+                    "Only move vertices and swap tetrahedra: neither add nor remove vertices");
+  command->add_option("--seed", arguments->seed, "Seed of the random orders (default 1)")->option_text("N");
+  command->add_option("--time-limit", arguments->time_limit, "Give up after so many seconds (exit 5)")
+      ->option_text("S");
+  command->add_option("--memory-limit", arguments->memory_limit, "Give up beyond so much memory (exit 5)")
+      ->option_text("GB");
+  command->add_option("--report", arguments->report, "Write counts and times as JSON")->option_text("FILE.json");
+  command->add_option("--format", arguments->format, "Volume format, instead of by ending; msh2 is .msh 2.2")
+      ->option_text("FORMAT");
+  command->add_option("--input-format", arguments->input_format, "Format of the tangled volume, instead of by ending")
+      ->option_text("FORMAT");
+  CLI::Option* quiet =
+      command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
+  command->add_flag("-v,--verbose", arguments->verbose, "Tell every step")->excludes(quiet);
+  command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace holdfast::cli

@@ -1,0 +1,285 @@
+#include "untangle/connectivity.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "exact/volume.h"
+
+namespace holdfast {
+namespace {
+
+using Key = std::array<Vertex, 3>;
+
+struct HalfFace {
+  Key key;
+  Face code;
+  bool odd;  // the listed tetrahedron sees the ascending corners from behind
+};
+
+std::string text(std::span<const Vertex> corners) {
+  std::string words;
+  for (const Vertex v : corners) words += (words.empty() ? "(" : ", ") + std::to_string(v);
+  return words + ")";
+}
+
+bool odd_permutation(const std::array<Vertex, 3>& f) {
+  return ((f[0] > f[1]) != (f[1] > f[2])) != (f[0] > f[2]);
+}
+
+class Reader {
+ public:
+  Reader(const Volume& volume, std::span<const Index> fixed) : volume_(volume), fixed_(fixed) {}
+
+  Connectivity read() {
+    if (indices_fit() && list_faces() && pair_faces() && take_facets() && take_segments()) {
+      mark_fixed();
+      turn_alike();
+    }
+    return std::move(out_);
+  }
+
+ private:
+  bool fail(std::string why) {
+    out_.fault = std::move(why);
+    return false;
+  }
+
+  template <std::size_t N>
+  bool fits(const char* noun, std::size_t i, const std::array<Vertex, N>& corners) {
+    const auto sorted = ascending(corners);
+    if (sorted.back() >= volume_.vertices.size())
+      return fail(std::string(noun) + " " + std::to_string(i) + " names vertex " +
+                  std::to_string(sorted.back()) + ", which does not exist");
+    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+      return fail(std::string(noun) + " " + std::to_string(i) + " " + text(corners) + " names a vertex twice");
+    return true;
+  }
+
+  bool indices_fit() {
+    if (volume_.tetrahedra.empty()) return fail("there are no tetrahedra");
+    for (std::size_t i = 0; i < volume_.tetrahedra.size(); ++i)
+      if (!fits("tetrahedron", i, volume_.tetrahedra[i])) return false;
+    for (std::size_t i = 0; i < volume_.facets.size(); ++i)
+      if (!fits("triangle", i, volume_.facets[i])) return false;
+    for (std::size_t i = 0; i < volume_.segments.size(); ++i)
+      if (!fits("segment", i, volume_.segments[i])) return false;
+    out_.tets = volume_.tetrahedra;
+    out_.regions = volume_.regions;
+    out_.regions.resize(out_.tets.size(), 0);
+    return true;
+  }
+
+  bool list_faces() {
+    halves_.reserve(4 * out_.tets.size());
+    for (Tet t = 0; t < out_.tets.size(); ++t)
+      for (int i = 0; i < 4; ++i) {
+        const auto& k = kFaceVertex[static_cast<std::size_t>(i)];
+        const Tetrahedron& c = out_.tets[t];
+        const Key f{c[static_cast<std::size_t>(k[0])], c[static_cast<std::size_t>(k[1])],
+                    c[static_cast<std::size_t>(k[2])]};
+        halves_.push_back({ascending(f), face_code(t, i), odd_permutation(f)});
+      }
+    std::sort(halves_.begin(), halves_.end(), [](const HalfFace& a, const HalfFace& b) {
+      return a.key != b.key ? a.key < b.key : a.code < b.code;
+    });
+    return true;
+  }
+
+  [[nodiscard]] Vertex apex(const HalfFace& half) const {
+    return out_.tets[tet_of(half.code)][static_cast<std::size_t>(side_of(half.code))];
+  }
+
+  // Finds partners and the faces that must stay.
+  bool pair_faces() {
+    partner_.assign(4 * out_.tets.size(), {kNone, false});
+    for (std::size_t i = 0, end = 0; i < halves_.size(); i = end) {
+      end = i + 1;
+      while (end < halves_.size() && halves_[end].key == halves_[i].key) ++end;
+      if (end - i > 2)
+        return fail("face " + text(halves_[i].key) + " belongs to " + std::to_string(end - i) +
+                    " tetrahedra, and two are the most");
+      if (end - i == 1) {
+        out_.constraints.faces.push_back(halves_[i].key);
+        continue;
+      }
+      const HalfFace &a = halves_[i], &b = halves_[i + 1];
+      if (apex(a) == apex(b))
+        return fail("tetrahedra " + std::to_string(tet_of(a.code)) + " and " + std::to_string(tet_of(b.code)) +
+                    " have the same vertices");
+      partner_[a.code] = {b.code, a.odd == b.odd};
+      partner_[b.code] = {a.code, a.odd == b.odd};
+      if (out_.regions[tet_of(a.code)] != out_.regions[tet_of(b.code)])
+        out_.constraints.faces.push_back(a.key);
+    }
+    return true;
+  }
+
+  bool take_facets() {
+    std::vector<Key> facets;
+    for (std::size_t i = 0; i < volume_.facets.size(); ++i) {
+      const Key key = ascending(volume_.facets[i]);
+      const auto at = std::lower_bound(halves_.begin(), halves_.end(), key,
+                                       [](const HalfFace& half, const Key& k) { return half.key < k; });
+      if (at == halves_.end() || at->key != key)
+        return fail("triangle " + std::to_string(i) + " " + text(volume_.facets[i]) +
+                    " is not a face of any tetrahedron");
+      facets.push_back(key);
+    }
+    std::sort(facets.begin(), facets.end());
+    std::vector<Key>& faces = out_.constraints.faces;
+    for (const Key& key : faces)
+      if (!std::binary_search(facets.begin(), facets.end(), key)) out_.outer_faces.push_back(key);
+    faces.insert(faces.end(), facets.begin(), facets.end());
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    return true;
+  }
+
+  bool take_segments() {
+    using Edge = std::array<Vertex, 2>;
+    std::vector<Edge>& segments = out_.constraints.segments;
+    for (const Segment& s : volume_.segments) segments.push_back(ascending(s));
+    std::sort(segments.begin(), segments.end());
+    segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
+    std::vector<bool> found(segments.size(), false);
+    if (!segments.empty())
+      for (const Tetrahedron& c : out_.tets)
+        for (const auto& [i, k] : kEdgeVertex) {
+          const Edge edge = ascending(Edge{c[static_cast<std::size_t>(i)], c[static_cast<std::size_t>(k)]});
+          const auto at = std::lower_bound(segments.begin(), segments.end(), edge);
+          if (at != segments.end() && *at == edge) found[static_cast<std::size_t>(at - segments.begin())] = true;
+        }
+    const auto missing = std::find(found.begin(), found.end(), false);
+    if (missing != found.end())
+      return fail("segment " + text(segments[static_cast<std::size_t>(missing - found.begin())]) +
+                  " is not an edge of any tetrahedron");
+    return true;
+  }
+
+  void mark_fixed() {
+    std::vector<bool>& fixed = out_.constraints.fixed;
+    fixed.assign(volume_.vertices.size(), false);
+    for (const Key& face : out_.constraints.faces)
+      for (const Vertex v : face) fixed[v] = true;
+    for (const auto& segment : out_.constraints.segments)
+      for (const Vertex v : segment) fixed[v] = true;
+    for (const Index v : fixed_) fixed[v] = true;
+  }
+
+  void turn_alike() {
+    out_.component.assign(out_.tets.size(), no_component);
+    std::vector<bool> turn(out_.tets.size(), false);
+    std::vector<Tet> queue;
+    for (Tet seed = 0; seed < out_.tets.size(); ++seed) {
+      if (out_.component[seed] != no_component) continue;
+      out_.component[seed] = static_cast<Index>(out_.component_count);
+      queue.assign(1, seed);
+      for (std::size_t k = 0; k < queue.size(); ++k)
+        if (!visit_neighbours(queue[k], turn, queue)) return;
+      // Which way is right is not known yet; it costs least to keep the listed way of most.
+      const auto turned = static_cast<std::size_t>(
+          std::count_if(queue.begin(), queue.end(), [&](Tet t) { return turn[t]; }));
+      if (2 * turned > queue.size())
+        for (const Tet t : queue) turn[t] = !turn[t];
+      out_.turned += std::min(turned, queue.size() - turned);
+      ++out_.component_count;
+    }
+    for (Tet t = 0; t < out_.tets.size(); ++t)
+      if (turn[t]) std::swap(out_.tets[t][2], out_.tets[t][3]);
+  }
+
+  bool visit_neighbours(Tet t, std::vector<bool>& turn, std::vector<Tet>& queue) {
+    for (int i = 0; i < 4; ++i) {
+      const auto [code, alike] = partner_[face_code(t, i)];
+      if (code == kNone) continue;
+      const Tet s = tet_of(code);
+      const bool wanted = turn[t] != alike;  // seen from one side: one of the two must turn
+      if (out_.component[s] == no_component) {
+        out_.component[s] = out_.component[t];
+        turn[s] = wanted;
+        queue.push_back(s);
+      } else if (turn[s] != wanted) {
+        return fail("the tetrahedra cannot all be turned alike, as tetrahedra " + std::to_string(t) + " and " +
+                    std::to_string(s) + " show: they do not form a mesh of a part of space");
+      }
+    }
+    return true;
+  }
+
+  struct Partner {
+    Face code;
+    bool alike;  // both see the face from one side, as listed
+  };
+  static constexpr Index no_component = ~Index{0};
+
+  const Volume& volume_;
+  std::span<const Index> fixed_;
+  std::vector<HalfFace> halves_;
+  std::vector<Partner> partner_;
+  Connectivity out_;
+};
+
+exact::Dyadic exact_volume(const Connectivity& connectivity, std::span<const Point> p, Index component) {
+  exact::Dyadic sum;
+  for (Tet t = 0; t < connectivity.tets.size(); ++t) {
+    if (connectivity.component[t] != component) continue;
+    const Tetrahedron& c = connectivity.tets[t];
+    sum += exact::determinant(exact::lift(p[c[0]].data()), exact::lift(p[c[1]].data()),
+                              exact::lift(p[c[2]].data()), exact::lift(p[c[3]].data()));
+  }
+  return sum;
+}
+
+}  // namespace
+
+Connectivity read_connectivity(const Volume& volume, std::span<const Index> fixed) {
+  return Reader(volume, fixed).read();
+}
+
+void turn_outwards(Connectivity& connectivity, std::span<const Point> p) {
+  constexpr double kSure = 1e-9;  // of the sum of |V|: rounding is far below
+  std::vector<double> sum(connectivity.component_count, 0), absolute(connectivity.component_count, 0);
+  std::vector<std::size_t> size(connectivity.component_count, 0);
+  for (Tet t = 0; t < connectivity.tets.size(); ++t) {
+    const Tetrahedron& c = connectivity.tets[t];
+    std::array<std::array<double, 3>, 3> m{};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k) m[i][k] = p[c[i + 1]][k] - p[c[0]][k];
+    const double v = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) +
+                     m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
+                     m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+    sum[connectivity.component[t]] += v;
+    absolute[connectivity.component[t]] += std::abs(v);
+    ++size[connectivity.component[t]];
+  }
+  std::vector<bool> turn(connectivity.component_count, false);
+  for (Index i = 0; i < connectivity.component_count; ++i) {
+    const bool sure = std::abs(sum[i]) > kSure * absolute[i] && std::isfinite(absolute[i]);
+    turn[i] = sure ? sum[i] < 0 : exact_volume(connectivity, p, i).sign() < 0;
+    if (turn[i]) connectivity.turned += size[i];
+  }
+  for (Tet t = 0; t < connectivity.tets.size(); ++t)
+    if (turn[connectivity.component[t]]) std::swap(connectivity.tets[t][2], connectivity.tets[t][3]);
+}
+
+Surface boundary_surface(const Volume& volume, const Connectivity& connectivity) {
+  Surface surface;
+  surface.vertices = volume.vertices;
+  surface.facets = volume.facets;
+  surface.facets.insert(surface.facets.end(), connectivity.outer_faces.begin(), connectivity.outer_faces.end());
+  surface.segments = volume.segments;
+  double reach = 1e-280;
+  const std::vector<bool>& fixed = connectivity.constraints.fixed;
+  for (std::size_t v = 0; v < fixed.size(); ++v)
+    if (fixed[v])
+      for (const double x : volume.vertices[v])
+        if (std::isfinite(x)) reach = std::max(reach, std::abs(x));
+  // On a line outside the box of the fixed ones. Near the end of the range the line grows finer instead.
+  const double step = std::min(reach, (1.7e308 - reach) / (2.0 + static_cast<double>(fixed.size())));
+  double x = reach;
+  for (std::size_t v = 0; v < fixed.size(); ++v)
+    if (!fixed[v]) surface.vertices[v] = {x += step, reach, reach};
+  return surface;
+}
+
+}  // namespace holdfast

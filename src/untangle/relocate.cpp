@@ -1,0 +1,167 @@
+#include "untangle/relocate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <queue>
+
+#include "mesh/kernel.h"
+
+namespace holdfast {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+Vector minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+class Relocation {
+ public:
+  Relocation(Tangle& tangle, Watch& watch) : tangle_(tangle), watch_(watch), visits_(tangle.vertex_count(), 0) {}
+
+  std::size_t run() {
+    for (const Tet t : tangle_.nonpositive()) push_corners(t);
+    while (!queue_.empty()) {
+      const Entry next = queue_.top();
+      queue_.pop();
+      watch_.poll();
+      // An entry is stale once its vertex was dealt with or the ball changed; a fresh one then exists.
+      if (next.version != versions_[next.vertex]) continue;
+      if (move_to_better_place(next.vertex)) {
+        ++moves_;
+        for (const Tet t : tangle_.star(next.vertex))
+          if (tangle_.sign(t) <= 0) push_corners(t);
+      }
+    }
+    return moves_;
+  }
+
+ private:
+  static constexpr int kMostVisits = 12;   // of one vertex: the gain of moves may shrink forever
+  static constexpr std::size_t kMostFaces = 400;  // of a ball for the linear programme
+
+  struct Entry {
+    double volume;
+    Vertex vertex;
+    unsigned version;
+    bool operator<(const Entry& other) const {
+      return volume != other.volume ? volume < other.volume : vertex > other.vertex;
+    }
+  };
+
+  void push_corners(Tet t) {
+    for (const Vertex v : tangle_.corners(t)) {
+      if (tangle_.is_fixed(v) || visits_[v] == kMostVisits) continue;
+      versions_.resize(tangle_.vertex_count(), 0);
+      queue_.push({tangle_.deficit(tangle_.star(v)).volume, v, ++versions_[v]});
+    }
+  }
+
+  bool move_to_better_place(Vertex v) {
+    const Deficit before = tangle_.deficit(tangle_.star(v));
+    if (before.count == 0) return false;
+    ++visits_[v];
+    const Point old = tangle_.position(v);
+    collect_candidates(v);
+    std::optional<Point> best;
+    Deficit least = before;
+    for (const Point& p : candidates_) {
+      if (!std::isfinite(p[0] + p[1] + p[2])) continue;
+      tangle_.move_vertex(v, p);
+      const Deficit found = tangle_.deficit(tangle_.star(v));
+      if (!found.better_than(least)) continue;
+      best = p;
+      least = found;
+      if (found.count == 0) break;
+    }
+    tangle_.move_vertex(v, best.value_or(old));
+    return best.has_value();
+  }
+
+  // The kernel first: it ends the search.
+  void collect_candidates(Vertex v) {
+    candidates_.clear();
+    const Point& p = tangle_.position(v);
+    const auto star = tangle_.star(v);
+    if (star.size() <= kMostFaces) {
+      Kernel kernel(tangle_.points());
+      for (const Tet t : star) {
+        const auto f = tangle_.face(t, tangle_.index_of(t, v));
+        kernel.add(f[0], f[1], f[2]);
+      }
+      const Kernel::Centre centre = kernel.centre({p.data(), nullptr});
+      if (centre.radius > 0)
+        if (const auto inside = kernel.double_at({p.data(), nullptr}, centre)) {
+          candidates_.push_back(*inside);
+          return;
+        }
+      candidates_.push_back(towards(p, {p[0] + centre.offset[0], p[1] + centre.offset[1], p[2] + centre.offset[2]}, 1));
+    }
+    candidates_.push_back(mean_of_neighbours(v));
+    const Point star_point = papers_place(v);
+    for (const double omega : {0.0, 0.5, 0.75}) candidates_.push_back(towards(p, star_point, 1 - omega));
+  }
+
+  static Point towards(const Point& from, const Point& to, double share) {
+    return {from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1]),
+            from[2] + share * (to[2] - from[2])};
+  }
+
+  [[nodiscard]] Point mean_of_neighbours(Vertex v) const {
+    Point sum{};
+    double count = 0;
+    for (const Tet t : tangle_.star(v))
+      for (const Vertex w : tangle_.corners(t)) {
+        if (w == v) continue;
+        for (std::size_t k = 0; k < 3; ++k) sum[k] += tangle_.position(w)[k];
+        ++count;
+      }
+    return {sum[0] / count, sum[1] / count, sum[2] / count};
+  }
+
+  // P* of equation (4): the mean of v mirrored at the opposite faces of its negative tetrahedra (5); where there
+  // are only null ones, the mean of the centroids of the faces opposite in the positive ones.
+  [[nodiscard]] Point papers_place(Vertex v) const {
+    Point mirrored{}, centroids{};
+    double negative = 0, positive = 0;
+    for (const Tet t : tangle_.star(v)) {
+      const auto f = tangle_.face(t, tangle_.index_of(t, v));
+      if (tangle_.sign(t) < 0) {
+        const Point image = mirror(tangle_.position(v), f);
+        for (std::size_t k = 0; k < 3; ++k) mirrored[k] += image[k];
+        ++negative;
+      } else if (tangle_.sign(t) > 0) {
+        for (const Vertex w : f)
+          for (std::size_t k = 0; k < 3; ++k) centroids[k] += tangle_.position(w)[k] / 3;
+        ++positive;
+      }
+    }
+    Point& sum = negative > 0 ? mirrored : centroids;
+    const double count = negative > 0 ? negative : positive;
+    return {sum[0] / count, sum[1] / count, sum[2] / count};
+  }
+
+  [[nodiscard]] Point mirror(const Point& p, const std::array<Vertex, 3>& f) const {
+    const Point& a = tangle_.position(f[0]);
+    const Vector n = cross(minus(tangle_.position(f[1]), a), minus(tangle_.position(f[2]), a));
+    const double twice = 2 * dot(minus(p, a), n) / dot(n, n);
+    return {p[0] - twice * n[0], p[1] - twice * n[1], p[2] - twice * n[2]};
+  }
+
+  Tangle& tangle_;
+  Watch& watch_;
+  std::vector<int> visits_;
+  std::vector<unsigned> versions_;
+  std::priority_queue<Entry> queue_;
+  std::vector<Point> candidates_;
+  std::size_t moves_ = 0;
+};
+
+}  // namespace
+
+std::size_t relocate(Tangle& tangle, Watch& watch) { return Relocation(tangle, watch).run(); }
+
+}  // namespace holdfast
