@@ -29,27 +29,27 @@ struct UntangleProgress {
 };
 
 struct UntangleOptions {
-  std::vector<Index> fixed;        ///< vertices to keep besides those of the boundary, facets and segments
-  bool refill = true;              ///< empties and refills what nothing else untangles: may add and remove points
-  std::uint64_t seed = 1;          ///< of the random orders when refilling
-  double time_limit = 0;           ///< seconds; 0: none
+  std::vector<Index> fixed;  ///< vertices to keep besides those of the boundary, facets and segments
+  bool refill = true;        ///< empties and refills what nothing else untangles: may add and remove points
+  std::uint64_t seed = 1;    ///< of the random orders when refilling
+  double time_limit = 0;     ///< seconds; 0: none
   std::uint64_t memory_limit = 0;  ///< bytes of the process; 0: none
   /// Called now and then from the calling thread; returns false to cancel.
   std::function<bool(const UntangleProgress&)> progress;
 };
 
 struct UntangleReport {
-  std::size_t vertices = 0, tetrahedra = 0;         ///< of the volume that came in
-  std::size_t free_vertices = 0;                    ///< of these, those that may move
-  std::size_t turned = 0;                           ///< tetrahedra that were listed the other way round
-  std::size_t negative = 0, null = 0;               ///< tetrahedra before, once all are turned alike
-  std::size_t negative_after = 0, null_after = 0;   ///< at the end: 0 for Outcome::done
-  std::size_t moved = 0;                            ///< vertices in another place than before
-  std::size_t swapped = 0;                          ///< exchanges of tetrahedra
-  std::size_t cavities = 0;                         ///< emptied and filled again
-  std::size_t added = 0, removed = 0;               ///< vertices
-  std::size_t rounds = 0;                           ///< of relocation, swaps and smoothing
-  std::map<std::string, double> seconds;            ///< by step, and "total"
+  std::size_t vertices = 0, tetrahedra = 0;        ///< of the volume that came in
+  std::size_t free_vertices = 0;                   ///< of these, those that may move
+  std::size_t turned = 0;                          ///< tetrahedra that were listed the other way round
+  std::size_t negative = 0, null = 0;              ///< tetrahedra before, once all are turned alike
+  std::size_t negative_after = 0, null_after = 0;  ///< at the end: 0 for Outcome::done
+  std::size_t moved = 0;                           ///< vertices in another place than before
+  std::size_t swapped = 0;                         ///< exchanges of tetrahedra
+  std::size_t cavities = 0;                        ///< emptied and filled again
+  std::size_t added = 0, removed = 0;              ///< vertices
+  std::size_t rounds = 0;                          ///< of relocation, swaps and smoothing
+  std::map<std::string, double> seconds;           ///< by step, and "total"
   std::uint64_t peak_memory_bytes = 0;
 };
 
@@ -71,13 +71,13 @@ struct UntangleResult {
 /// `segments` edges of it. Any of its tetrahedra may be negative or null; they may be listed any way round.
 /// What comes out: the faces of the boundary and between regions, `facets`, `segments` and their vertices are
 /// what they were, coordinates bit for bit, indices and markers included; every tetrahedron is strictly
-/// positive in doubles, no two overlap, and each region fills the space that it filled. Other vertices may have
-/// moved; with `refill` some may be new (they take the places of removed ones, then come last), and a removed
-/// vertex whose place nothing takes remains as an unused one. A mesh without non-positive tetrahedra comes out
-/// as it came in.
+/// positive in doubles, no two overlap, and each region fills the space that it filled. Other vertices may
+/// have moved; with `refill` some may be new (they take the places of removed ones, then come last), and a
+/// removed vertex whose place nothing takes remains as an unused one. A mesh without non-positive tetrahedra
+/// comes out as it came in.
 ///
-/// Throws std::invalid_argument if arrays of regions or markers have a wrong length or `fixed` is out of range,
-/// std::length_error beyond 2^28 vertices, std::bad_alloc when memory runs out without a limit.
+/// Throws std::invalid_argument if arrays of regions or markers have a wrong length or `fixed` is out of
+/// range, std::length_error beyond 2^28 vertices, std::bad_alloc when memory runs out without a limit.
 [[nodiscard]] UntangleResult untangle(const Volume& volume, const UntangleOptions& options = {});
 
 }  // namespace holdfast

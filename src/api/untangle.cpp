@@ -33,13 +33,14 @@ void require_sensible(const Volume& volume, const UntangleOptions& options) {
     if (v >= volume.vertices.size())
       throw std::invalid_argument("vertex " + std::to_string(v) + " is to be fixed, but there are " +
                                   std::to_string(volume.vertices.size()) + " vertices");
-  if (volume.vertices.size() > kMostVertices)
-    throw std::length_error("more than 2^28 vertices are too many");
+  if (volume.vertices.size() > kMostVertices) throw std::length_error("more than 2^28 vertices are too many");
 }
 
 // Free vertices may be anywhere, but must be somewhere: those that are not finite go to the middle.
 std::vector<Point> finite_positions(const Volume& volume, const std::vector<bool>& fixed) {
-  const auto finite = [](const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); };
+  const auto finite = [](const Point& p) {
+    return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+  };
   std::vector<Point> points = volume.vertices;
   Point middle{};
   double count = 0;
@@ -125,7 +126,8 @@ class Untangling {
   bool tell() {
     double fraction = 0;
     if (tangle_ && at_first_ > 0)
-      fraction = 1 - std::min(1.0, static_cast<double>(tangle_->nonpositive_count()) / static_cast<double>(at_first_));
+      fraction = 1 - std::min(1.0, static_cast<double>(tangle_->nonpositive_count()) /
+                                       static_cast<double>(at_first_));
     return options_.progress({watch_.step(), fraction});
   }
 
@@ -156,8 +158,7 @@ class Untangling {
       return false;
     }
     const Surface boundary = boundary_surface(volume_, connectivity_);
-    result_.defects =
-        find_defects(boundary.view(), kMostDefects, [this](double) { watch_.poll(); });
+    result_.defects = find_defects(boundary.view(), kMostDefects, [this](double) { watch_.poll(); });
     if (!result_.defects.empty()) {
       refuse("the boundary, which stays as it is, is not a valid surface");
       return false;
@@ -209,7 +210,8 @@ class Untangling {
   void conclude_tangled(const RefillStats& refill) {
     if (refill.overlaps)
       return refuse(
-          "the boundary is a valid surface, but not that of this mesh: parts of the mesh lie within one another or "
+          "the boundary is a valid surface, but not that of this mesh: parts of the mesh lie within one "
+          "another or "
           "inside out");
     result_.outcome = Outcome::not_representable;
     result_.message = options_.refill ? "no positive mesh in double precision was found"
@@ -227,7 +229,8 @@ class Untangling {
       if (rule.name == "no overlap")
         return refuse("parts of the mesh overlap, though all of it is positive: " + rule.detail);
       if (rule.name == "volumes positive" || rule.name == "facets kept" || rule.name == "segments kept" ||
-          rule.name == "faces matched" || rule.name == "boundary is input" || rule.name == "input vertices kept")
+          rule.name == "faces matched" || rule.name == "boundary is input" ||
+          rule.name == "input vertices kept")
         throw std::logic_error("holdfast: untangling broke the mesh: " + rule.name + ": " + rule.detail);
     }
     result_.volume = std::move(assembled.volume);

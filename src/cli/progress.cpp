@@ -40,7 +40,8 @@ bool ProgressView::tell(int order, const char* what, double fraction) {
 void ProgressView::draw_bar(const char* what, double fraction) {
   const double share = std::clamp(fraction, 0.0, 1.0);
   const int filled = static_cast<int>(share * bar_width);
-  fmt::print(stderr, "\r{:<10} [{:=<{}}{:{}}] {:3.0f} %", what, "", filled, "", bar_width - filled, 100 * share);
+  fmt::print(stderr, "\r{:<10} [{:=<{}}{:{}}] {:3.0f} %", what, "", filled, "", bar_width - filled,
+             100 * share);
   std::fflush(stderr);
 }
 

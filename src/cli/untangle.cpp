@@ -54,7 +54,8 @@ Json report_of(const UntangleArguments& arguments, const UntangleResult& result)
           {"added", report.added},
           {"removed", report.removed},
           {"rounds", report.rounds},
-          {"mesh", {{"vertices", result.volume.vertices.size()}, {"tetrahedra", result.volume.tetrahedra.size()}}},
+          {"mesh",
+           {{"vertices", result.volume.vertices.size()}, {"tetrahedra", result.volume.tetrahedra.size()}}},
           {"seconds", report.seconds},
           {"peak_memory_bytes", report.peak_memory_bytes},
           {"version", version()},
@@ -106,11 +107,12 @@ void print_summary(const UntangleArguments& arguments, const UntangleResult& res
     for (const auto& [step, seconds] : report.seconds)
       fmt::print(stderr, "seconds    {} {:.3f}\n", step, seconds);
   if (result.outcome != Outcome::done) return;
-  fmt::print(stderr,
-             "{}: {} negative and {} null of {} tetrahedra untangled: {} vertices moved, {} swaps, {} cavities "
-             "refilled, {} vertices added, {} removed, {:.2f} s\n",
-             arguments.output.string(), report.negative, report.null, report.tetrahedra, report.moved,
-             report.swapped, report.cavities, report.added, report.removed, report.seconds.at("total"));
+  fmt::print(
+      stderr,
+      "{}: {} negative and {} null of {} tetrahedra untangled: {} vertices moved, {} swaps, {} cavities "
+      "refilled, {} vertices added, {} removed, {:.2f} s\n",
+      arguments.output.string(), report.negative, report.null, report.tetrahedra, report.moved,
+      report.swapped, report.cavities, report.added, report.removed, report.seconds.at("total"));
 }
 
 int run(const UntangleArguments& arguments) {
@@ -124,10 +126,10 @@ int run(const UntangleArguments& arguments) {
   const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - start;
   // The limit is on the whole command; 0 would mean none.
   if (options.time_limit > 0) options.time_limit = std::max(1e-6, options.time_limit - reading.count());
-  ProgressView progress(arguments.quiet                   ? Show::nothing
-                        : arguments.verbose               ? Show::lines
+  ProgressView progress(arguments.quiet              ? Show::nothing
+                        : arguments.verbose          ? Show::lines
                         : isatty(STDERR_FILENO) != 0 ? Show::bar
-                                                          : Show::nothing);
+                                                     : Show::nothing);
   options.progress = std::ref(progress);
   UntangleResult result = untangle(volume, options);
   progress.finish();
@@ -147,8 +149,7 @@ void add_untangle(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<UntangleArguments>();
   CLI::App* command = app.add_subcommand(
       "untangle", "Make every tetrahedron of a tangled volume positive, with its boundary as it is");
-  command
-      ->add_option("VOLUME", arguments->input, "Tangled volume file (.vtu .vtk .mesh .meshb .msh .node)")
+  command->add_option("VOLUME", arguments->input, "Tangled volume file (.vtu .vtk .mesh .meshb .msh .node)")
       ->required();
   command->add_option("-o,--output", arguments->output, "Volume file (.vtu .vtk .mesh .meshb .msh .node)")
       ->required()
@@ -160,10 +161,13 @@ void add_untangle(CLI::App& app, Command& chosen) {
       ->option_text("S");
   command->add_option("--memory-limit", arguments->memory_limit, "Give up beyond so much memory (exit 5)")
       ->option_text("GB");
-  command->add_option("--report", arguments->report, "Write counts and times as JSON")->option_text("FILE.json");
+  command->add_option("--report", arguments->report, "Write counts and times as JSON")
+      ->option_text("FILE.json");
   command->add_option("--format", arguments->format, "Volume format, instead of by ending; msh2 is .msh 2.2")
       ->option_text("FORMAT");
-  command->add_option("--input-format", arguments->input_format, "Format of the tangled volume, instead of by ending")
+  command
+      ->add_option("--input-format", arguments->input_format,
+                   "Format of the tangled volume, instead of by ending")
       ->option_text("FORMAT");
   CLI::Option* quiet =
       command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");

@@ -37,7 +37,8 @@ class Assembly {
   // The gaps at the very end close by themselves.
   void fill_gaps() {
     std::size_t needed = gaps_.size();
-    for (auto end = static_cast<Vertex>(before_.vertices.size()); needed > 0 && gaps_[needed - 1] == end - 1; --end)
+    for (auto end = static_cast<Vertex>(before_.vertices.size()); needed > 0 && gaps_[needed - 1] == end - 1;
+         --end)
       --needed;
     if (needed > added_.size()) split_largest(needed - added_.size());
     out_.added = added_.size();

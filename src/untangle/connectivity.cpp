@@ -51,7 +51,8 @@ class Reader {
       return fail(std::string(noun) + " " + std::to_string(i) + " names vertex " +
                   std::to_string(sorted.back()) + ", which does not exist");
     if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
-      return fail(std::string(noun) + " " + std::to_string(i) + " " + text(corners) + " names a vertex twice");
+      return fail(std::string(noun) + " " + std::to_string(i) + " " + text(corners) +
+                  " names a vertex twice");
     return true;
   }
 
@@ -104,8 +105,8 @@ class Reader {
       }
       const HalfFace &a = halves_[i], &b = halves_[i + 1];
       if (apex(a) == apex(b))
-        return fail("tetrahedra " + std::to_string(tet_of(a.code)) + " and " + std::to_string(tet_of(b.code)) +
-                    " have the same vertices");
+        return fail("tetrahedra " + std::to_string(tet_of(a.code)) + " and " +
+                    std::to_string(tet_of(b.code)) + " have the same vertices");
       partner_[a.code] = {b.code, a.odd == b.odd};
       partner_[b.code] = {a.code, a.odd == b.odd};
       if (out_.regions[tet_of(a.code)] != out_.regions[tet_of(b.code)])
@@ -147,7 +148,8 @@ class Reader {
         for (const auto& [i, k] : kEdgeVertex) {
           const Edge edge = ascending(Edge{c[static_cast<std::size_t>(i)], c[static_cast<std::size_t>(k)]});
           const auto at = std::lower_bound(segments.begin(), segments.end(), edge);
-          if (at != segments.end() && *at == edge) found[static_cast<std::size_t>(at - segments.begin())] = true;
+          if (at != segments.end() && *at == edge)
+            found[static_cast<std::size_t>(at - segments.begin())] = true;
         }
     const auto missing = std::find(found.begin(), found.end(), false);
     if (missing != found.end())
@@ -177,8 +179,8 @@ class Reader {
       for (std::size_t k = 0; k < queue.size(); ++k)
         if (!visit_neighbours(queue[k], turn, queue)) return;
       // Which way is right is not known yet; it costs least to keep the listed way of most.
-      const auto turned = static_cast<std::size_t>(
-          std::count_if(queue.begin(), queue.end(), [&](Tet t) { return turn[t]; }));
+      const auto turned =
+          static_cast<std::size_t>(std::count_if(queue.begin(), queue.end(), [&](Tet t) { return turn[t]; }));
       if (2 * turned > queue.size())
         for (const Tet t : queue) turn[t] = !turn[t];
       out_.turned += std::min(turned, queue.size() - turned);
@@ -199,8 +201,8 @@ class Reader {
         turn[s] = wanted;
         queue.push_back(s);
       } else if (turn[s] != wanted) {
-        return fail("the tetrahedra cannot all be turned alike, as tetrahedra " + std::to_string(t) + " and " +
-                    std::to_string(s) + " show: they do not form a mesh of a part of space");
+        return fail("the tetrahedra cannot all be turned alike, as tetrahedra " + std::to_string(t) +
+                    " and " + std::to_string(s) + " show: they do not form a mesh of a part of space");
       }
     }
     return true;
@@ -266,7 +268,8 @@ Surface boundary_surface(const Volume& volume, const Connectivity& connectivity)
   Surface surface;
   surface.vertices = volume.vertices;
   surface.facets = volume.facets;
-  surface.facets.insert(surface.facets.end(), connectivity.outer_faces.begin(), connectivity.outer_faces.end());
+  surface.facets.insert(surface.facets.end(), connectivity.outer_faces.begin(),
+                        connectivity.outer_faces.end());
   surface.segments = volume.segments;
   double reach = 1e-280;
   const std::vector<bool>& fixed = connectivity.constraints.fixed;

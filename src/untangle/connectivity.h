@@ -11,12 +11,13 @@
 namespace holdfast {
 
 struct Connectivity {
-  std::vector<Tetrahedron> tets;      ///< the volume's in order, all turned alike
-  std::vector<int> regions;           ///< one a tetrahedron
-  std::vector<Index> component;       ///< of each tetrahedron: connected through faces
+  std::vector<Tetrahedron> tets;  ///< the volume's in order, all turned alike
+  std::vector<int> regions;       ///< one a tetrahedron
+  std::vector<Index> component;   ///< of each tetrahedron: connected through faces
   std::size_t component_count = 0;
-  std::size_t turned = 0;             ///< listed the other way round than in the volume
-  std::vector<Triangle> outer_faces;  ///< of the boundary and between regions, that are not in the volume's facets
+  std::size_t turned = 0;  ///< listed the other way round than in the volume
+  std::vector<Triangle>
+      outer_faces;  ///< of the boundary and between regions, that are not in the volume's facets
   Constraints constraints;
   std::string fault;  ///< one sentence where the connectivity is not that of a mesh; then the rest is void
 };
@@ -28,11 +29,12 @@ struct Connectivity {
 /// turned alike by flooding; which of the two ways is `turn_outwards`'s to tell.
 [[nodiscard]] Connectivity read_connectivity(const Volume& volume, std::span<const Index> fixed);
 
-/// Turns the components whose volume is negative (that of their boundary: it does not depend on free vertices).
+/// Turns the components whose volume is negative (that of their boundary: it does not depend on free
+/// vertices).
 void turn_outwards(Connectivity& connectivity, std::span<const Point> vertices);
 
-/// The volume's facets, then the outer faces, with the volume's segments. Vertices keep their numbers; the free
-/// ones, which are not part of the boundary, are laid out beyond it so that they meet nothing.
+/// The volume's facets, then the outer faces, with the volume's segments. Vertices keep their numbers; the
+/// free ones, which are not part of the boundary, are laid out beyond it so that they meet nothing.
 [[nodiscard]] Surface boundary_surface(const Volume& volume, const Connectivity& connectivity);
 
 }  // namespace holdfast

@@ -61,6 +61,11 @@ double FoldoverEnergy::least_determinant(std::span<const double> x) const {
   return least;
 }
 
+double FoldoverEnergy::value(std::span<const double> x) const {
+  std::vector<double> gradient(3 * variable_);
+  return (*this)(x, gradient);
+}
+
 double FoldoverEnergy::operator()(std::span<const double> x, std::span<double> gradient) const {
   std::fill(gradient.begin(), gradient.end(), 0.0);
   double energy = 0;

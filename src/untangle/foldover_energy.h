@@ -27,6 +27,7 @@ class FoldoverEnergy {
 
   /// The least D.
   [[nodiscard]] double least_determinant(std::span<const double> x) const;
+  [[nodiscard]] double value(std::span<const double> x) const;
   /// The energy; writes its gradient.
   double operator()(std::span<const double> x, std::span<double> gradient) const;
 

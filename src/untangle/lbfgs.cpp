@@ -67,8 +67,8 @@ struct State {
   double value = 0;
 };
 
-// A step along `direction` that satisfies the weak Wolfe conditions, or at least lessens the value. False where
-// none was found.
+// A step along `direction` that satisfies the weak Wolfe conditions, or at least lessens the value. False
+// where none was found.
 bool search(const State& from, const Vector& direction, double first, const ValueAndGradient& function,
             State& to) {
   constexpr double kDecrease = 1e-4, kCurvature = 0.9;

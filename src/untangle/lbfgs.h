@@ -1,5 +1,6 @@
-// Minimising a smooth function of many variables: the L-BFGS method (Nocedal 1980; Nocedal, Wright 2006, §7.2)
-// with a line search by bisection to the weak Wolfe conditions (Lewis, Overton 2013). A guide: decides nothing.
+// Minimising a smooth function of many variables: the L-BFGS method (Nocedal 1980; Nocedal, Wright 2006,
+// §7.2) with a line search by bisection to the weak Wolfe conditions (Lewis, Overton 2013). A guide: decides
+// nothing.
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 // The last resort: a cavity round non-positive tetrahedra is emptied and filled again by the mesher itself.
 //
-// A cavity whose boundary is a valid surface can always be filled (design §1), whatever its inside looks like, and a
-// cavity that grows ends as everything that hangs together, whose boundary is the volume's: valid, or the volume
-// would not be here.
+// A cavity whose boundary is a valid surface can always be filled (design §1), whatever its inside looks
+// like, and a cavity that grows ends as everything that hangs together, whose boundary is the volume's:
+// valid, or the volume would not be here.
 #pragma once
 
 #include <functional>
@@ -12,19 +12,20 @@
 
 namespace holdfast {
 
-/// Fills every bounded region of a complex, each with its own id, and drops what lies outside: `mesh` of the API.
+/// Fills every bounded region of a complex, each with its own id, and drops what lies outside: `mesh` of the
+/// API.
 using Filler = std::function<Result(const Complex&)>;
 
 struct RefillStats {
   std::size_t cavities = 0;
-  /// No tetrahedron is left that is not positive. Where some are, the boundary encloses no mesh (`overlaps`: parts
-  /// of the volume lie in one another, or inside out) or the filler found none in doubles.
+  /// No tetrahedron is left that is not positive. Where some are, the boundary encloses no mesh (`overlaps`:
+  /// parts of the volume lie in one another, or inside out) or the filler found none in doubles.
   bool done = false;
   bool overlaps = false;
 };
 
-/// Empties and refills the smallest cavities that allow it. Free vertices in a cavity stay where they serve; the
-/// others are taken out of the mesh, and the filler's come in.
+/// Empties and refills the smallest cavities that allow it. Free vertices in a cavity stay where they serve;
+/// the others are taken out of the mesh, and the filler's come in.
 RefillStats refill(Tangle& tangle, const Filler& filler, Watch& watch);
 
 }  // namespace holdfast

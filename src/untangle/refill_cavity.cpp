@@ -7,7 +7,8 @@ namespace {
 
 // Whether (a b c) and the facet turn the same way.
 bool same_turn(const Triangle& facet, Index a, Index b, Index c) {
-  return (facet[0] == a && facet[1] == b && facet[2] == c) || (facet[0] == b && facet[1] == c && facet[2] == a) ||
+  return (facet[0] == a && facet[1] == b && facet[2] == c) ||
+         (facet[0] == b && facet[1] == c && facet[2] == a) ||
          (facet[0] == c && facet[1] == a && facet[2] == b);
 }
 
@@ -118,7 +119,8 @@ RefillCavity::Outcome RefillCavity::fill(const Filler& filler) {
     if (result.outcome == holdfast::Outcome::done) return judge(result.volume);
     if (k == kMostTries) result.defects.clear();
     if (!drop_points(result))
-      return result.outcome == holdfast::Outcome::invalid_input ? Outcome::invalid : Outcome::not_representable;
+      return result.outcome == holdfast::Outcome::invalid_input ? Outcome::invalid
+                                                                : Outcome::not_representable;
   }
 }
 

@@ -10,16 +10,16 @@
 
 namespace holdfast {
 
-/// The tetrahedra of a cavity as a complex: the faces to the rest of the mesh and every constraint inside, and as
-/// isolated points the vertices inside that must stay or may.
+/// The tetrahedra of a cavity as a complex: the faces to the rest of the mesh and every constraint inside,
+/// and as isolated points the vertices inside that must stay or may.
 class RefillCavity {
  public:
   RefillCavity(const Tangle& tangle, std::vector<Tet> tets);
 
   enum class Outcome {
     filled,
-    invalid,          ///< the boundary is no valid surface
-    overlaps,         ///< it is, but does not bound what it should: sides lie within one another or inside out
+    invalid,   ///< the boundary is no valid surface
+    overlaps,  ///< it is, but does not bound what it should: sides lie within one another or inside out
     not_representable,  ///< the filler has no mesh in doubles
   };
   /// Asks the filler for a mesh; the tangle is unchanged.

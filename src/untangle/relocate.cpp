@@ -20,7 +20,8 @@ Vector cross(const Vector& a, const Vector& b) {
 
 class Relocation {
  public:
-  Relocation(Tangle& tangle, Watch& watch) : tangle_(tangle), watch_(watch), visits_(tangle.vertex_count(), 0) {}
+  Relocation(Tangle& tangle, Watch& watch)
+      : tangle_(tangle), watch_(watch), visits_(tangle.vertex_count(), 0) {}
 
   std::size_t run() {
     for (const Tet t : tangle_.nonpositive()) push_corners(t);
@@ -40,7 +41,7 @@ class Relocation {
   }
 
  private:
-  static constexpr int kMostVisits = 12;   // of one vertex: the gain of moves may shrink forever
+  static constexpr int kMostVisits = 12;          // of one vertex: the gain of moves may shrink forever
   static constexpr std::size_t kMostFaces = 400;  // of a ball for the linear programme
 
   struct Entry {
@@ -98,7 +99,8 @@ class Relocation {
           candidates_.push_back(*inside);
           return;
         }
-      candidates_.push_back(towards(p, {p[0] + centre.offset[0], p[1] + centre.offset[1], p[2] + centre.offset[2]}, 1));
+      candidates_.push_back(
+          towards(p, {p[0] + centre.offset[0], p[1] + centre.offset[1], p[2] + centre.offset[2]}, 1));
     }
     candidates_.push_back(mean_of_neighbours(v));
     const Point star_point = papers_place(v);
@@ -122,8 +124,8 @@ class Relocation {
     return {sum[0] / count, sum[1] / count, sum[2] / count};
   }
 
-  // P* of equation (4): the mean of v mirrored at the opposite faces of its negative tetrahedra (5); where there
-  // are only null ones, the mean of the centroids of the faces opposite in the positive ones.
+  // P* of equation (4): the mean of v mirrored at the opposite faces of its negative tetrahedra (5); where
+  // there are only null ones, the mean of the centroids of the faces opposite in the positive ones.
   [[nodiscard]] Point papers_place(Vertex v) const {
     Point mirrored{}, centroids{};
     double negative = 0, positive = 0;

@@ -16,39 +16,87 @@ class Smoothing {
     choose_tets();
   }
 
-  std::size_t run() {
-    if (vertices_.empty()) return 0;
+  bool run() {
+    if (vertices_.empty()) return false;
     set_frame();
-    FoldoverEnergy energy = make_energy();
-    std::vector<double> x = coordinates();
-    energy.take_sizes(x);
+    const FoldoverEnergy energy = make_energy();
+    const std::vector<Point> start = positions();
     const Deficit before = tangle_.deficit(tets_);
-    Deficit least = before;
-    std::vector<Point> best = positions();
-    int idle = 0;
-    double value = 0, epsilon = 0;
-    for (int k = 0; k < kMostRounds && idle < kMostIdle && least.count > unmovable_; ++k) {
-      epsilon = next_epsilon(energy.least_determinant(x), epsilon, k, value);
-      energy.set_epsilon(epsilon);
-      value = minimise(x, [&](auto at, auto gradient) {
-        watch_.poll();
-        return energy(at, gradient);
-      }, {kIterations, kLeastDecrease});
-      place(x);
-      const Deficit found = tangle_.deficit(tets_);
-      ++idle;
-      if (!found.better_than(least)) continue;
-      idle = 0;
-      least = found;
-      best = positions();
+    best_ = {start, before};
+    // Far from any mesh, the mean of the neighbours is a better start than what there is; near one, a worse.
+    relax();
+    descend(energy);
+    if (best_.deficit.count > 0) {
+      put(start);
+      descend(energy);
     }
-    put(best);
-    return least.better_than(before) ? vertices_.size() : 0;
+    put(best_.positions);
+    return best_.deficit.better_than(before);
   }
 
  private:
-  static constexpr int kMostRounds = 60, kMostIdle = 8, kIterations = 60;
+  static constexpr int kMostRounds = 100, kMostIdle = 20, kIterations = 10, kSweeps = 60;
   static constexpr double kLeastDecrease = 1e-4;
+
+  struct Best {
+    std::vector<Point> positions;
+    Deficit deficit;
+  };
+
+  void keep_if_better() {
+    const Deficit found = tangle_.deficit(tets_);
+    if (found.better_than(best_.deficit)) best_ = {positions(), found};
+  }
+
+  // Each vertex to the mean of its neighbours, over and over (successive over-relaxation).
+  void relax() {
+    constexpr double kOver = 1.6;
+    std::vector<std::vector<Vertex>> neighbours;
+    for (const Vertex v : vertices_) neighbours.push_back(neighbours_of(v));
+    std::vector<Point> p(tangle_.points().positions().begin(), tangle_.points().positions().end());
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+      watch_.poll();
+      for (std::size_t i = 0; i < vertices_.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c) {
+          double mean = 0;
+          for (const Vertex w : neighbours[i]) mean += p[w][c] / static_cast<double>(neighbours[i].size());
+          p[vertices_[i]][c] += kOver * (mean - p[vertices_[i]][c]);
+        }
+    }
+    for (const Vertex v : vertices_)
+      if (std::isfinite(p[v][0] + p[v][1] + p[v][2])) tangle_.move_vertex(v, p[v]);
+    keep_if_better();
+  }
+
+  [[nodiscard]] std::vector<Vertex> neighbours_of(Vertex v) const {
+    std::vector<Vertex> out;
+    for (const Tet t : tangle_.star(v))
+      for (const Vertex w : tangle_.corners(t))
+        if (w != v) out.push_back(w);
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+  }
+
+  // Minimises for a regularisation that shrinks. A few iterations for each: the next one changes the goal.
+  void descend(FoldoverEnergy energy) {
+    std::vector<double> x = coordinates();
+    energy.take_sizes(x);
+    double epsilon = 1;
+    Deficit least = tangle_.deficit(tets_);
+    for (int k = 0, idle = 0; k < kMostRounds && idle < kMostIdle && best_.deficit.count > 0; ++k, ++idle) {
+      energy.set_epsilon(epsilon);
+      const double value = energy.value(x);
+      const double reached = minimise(x, function(energy), {kIterations, kLeastDecrease});
+      epsilon = next_epsilon(epsilon, energy.least_determinant(x), reached / value);
+      place(x);
+      keep_if_better();
+      const Deficit found = tangle_.deficit(tets_);
+      if (!found.better_than(least)) continue;
+      least = found;
+      idle = 0;
+    }
+  }
 
   void choose_vertices(unsigned rings) {
     std::vector<bool> seen(tangle_.vertex_count(), false);
@@ -135,10 +183,22 @@ class Smoothing {
     return x;
   }
 
-  // The regularisation follows the worst tetrahedron (the paper's implementation does so too).
-  [[nodiscard]] static double next_epsilon(double least_determinant, double, int, double) {
-    constexpr double kLeast = 1e-6, kShare = 0.2;
-    return std::hypot(kLeast, kShare * std::min(least_determinant, 0.0));
+  ValueAndGradient function(const FoldoverEnergy& energy) {
+    return [&](std::span<const double> x, std::span<double> gradient) {
+      watch_.poll();
+      return energy(x, gradient);
+    };
+  }
+
+  // Such that chi of the worst tetrahedron shrinks by a tenth at least, and by more where the energy fell by
+  // more: then a finite number of rounds untangles what can be (§3.2 of the paper).
+  [[nodiscard]] static double next_epsilon(double epsilon, double least_determinant, double ratio) {
+    constexpr double kLeast = 1e-9;
+    const double d = least_determinant;
+    const double root = std::hypot(epsilon, d);
+    const double chi = d > 0 ? (d + root) / 2 : epsilon * epsilon / (2 * (root - d));
+    const double mu = std::min(ratio, 0.9) * chi;
+    return d < mu ? std::max(kLeast, 2 * std::sqrt(mu * (mu - d))) : kLeast;
   }
 
   void place(const std::vector<double>& x) {
@@ -162,15 +222,13 @@ class Smoothing {
   Watch& watch_;
   std::vector<Vertex> vertices_;  // that move
   std::vector<Tet> tets_;         // at them
-  std::size_t unmovable_ = 0;
   Point middle_{};
   double unit_ = 1;
+  Best best_;
 };
 
 }  // namespace
 
-std::size_t smooth(Tangle& tangle, unsigned rings, Watch& watch) {
-  return Smoothing(tangle, rings, watch).run();
-}
+bool smooth(Tangle& tangle, unsigned rings, Watch& watch) { return Smoothing(tangle, rings, watch).run(); }
 
 }  // namespace holdfast

@@ -8,8 +8,8 @@ namespace holdfast {
 
 /// Removes edges and faces of non-positive tetrahedra as long as that lessens the deficit. Returns how many.
 ///
-/// In a tangled mesh signs do not keep an exchange from making an edge or a face that exists already (paper, Fig.
-/// 12), so each must be new: then the connectivity stays that of a mesh, whatever the signs.
+/// In a tangled mesh signs do not keep an exchange from making an edge or a face that exists already (paper,
+/// Fig. 12), so each must be new: then the connectivity stays that of a mesh, whatever the signs.
 std::size_t swap(Tangle& tangle, Watch& watch);
 
 }  // namespace holdfast

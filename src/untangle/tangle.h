@@ -1,9 +1,9 @@
 // A tetrahedral mesh whose connectivity is right, but not all of its volumes: what untangling works on.
 //
-// TetMesh promises positive tetrahedra and a hull closed by ghosts; neither can be had here, where the boundary
-// may be any set of faces and half of the mesh may be inside out. So this one is plain: corners, and for every
-// vertex the tetrahedra at it. All neighbourhoods are found in stars, which stay right whatever the positions
-// are. Signs are exact, and kept up to date.
+// TetMesh promises positive tetrahedra and a hull closed by ghosts; neither can be had here, where the
+// boundary may be any set of faces and half of the mesh may be inside out. So this one is plain: corners, and
+// for every vertex the tetrahedra at it. All neighbourhoods are found in stars, which stay right whatever the
+// positions are. Signs are exact, and kept up to date.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,7 @@
 #include "untangle/untangle.h"
 
+#include <array>
+
 #include "untangle/relocate.h"
 #include "untangle/smooth.h"
 #include "untangle/swap.h"
@@ -7,36 +9,57 @@
 namespace holdfast {
 namespace {
 
+constexpr unsigned kEverywhere = 1u << 20;
+constexpr std::array<unsigned, 3> kRings{3, 12, kEverywhere};
+constexpr double kMany = 0.02;  // of the tetrahedra: then smoothing near by is time lost
+
 class Rounds {
  public:
-  Rounds(Tangle& tangle, Watch& watch, UntangleStats& stats) : tangle_(tangle), watch_(watch), stats_(stats) {}
+  Rounds(Tangle& tangle, Watch& watch, UntangleStats& stats)
+      : tangle_(tangle), watch_(watch), stats_(stats) {}
 
+  // The connectivity is right for some positions, most often: as long as moving helps it stays as it is.
   void run() {
-    constexpr unsigned kFewestRings = 2, kMostRings = 1024;
-    for (unsigned rings = kFewestRings; tangled() && rings <= kMostRings;) {
+    move_vertices();
+    bool gained = true;
+    for (int round = 0; gained && tangled() && round < kMostRounds; ++round) {
       const Deficit before = tangle_.deficit();
       ++stats_.rounds;
-      relocate_and_swap();
-      if (!tangled()) return;
-      watch_.enter(UntangleStep::smooth);
-      smooth(tangle_, rings, watch_);
-      // What did not help near by may help from farther.
-      if (!tangle_.deficit().better_than(before)) rings *= 4;
+      swap_tets();
+      if (tangled()) move_vertices();
+      gained = tangle_.deficit().better_than(before);
     }
   }
 
  private:
+  static constexpr int kMostRounds = 10;
+
   [[nodiscard]] bool tangled() const { return tangle_.nonpositive_count() > 0; }
 
-  void relocate_and_swap() {
-    for (bool changed = true; changed && tangled();) {
-      watch_.enter(UntangleStep::relocate);
-      relocate(tangle_, watch_);
+  void move_vertices() {
+    relocate_vertices();
+    const double share =
+        static_cast<double>(tangle_.nonpositive_count()) / static_cast<double>(tangle_.tet_count());
+    for (const unsigned rings : kRings) {
       if (!tangled()) return;
+      if (rings != kEverywhere && share > kMany) continue;
+      watch_.enter(UntangleStep::smooth);
+      if (smooth(tangle_, rings, watch_)) relocate_vertices();
+    }
+  }
+
+  void relocate_vertices() {
+    watch_.enter(UntangleStep::relocate);
+    relocate(tangle_, watch_);
+  }
+
+  // Each swap may open another's way, and a vertex's.
+  void swap_tets() {
+    for (std::size_t swaps = 1; swaps > 0 && tangled();) {
       watch_.enter(UntangleStep::swap);
-      const std::size_t swaps = swap(tangle_, watch_);
+      swaps = swap(tangle_, watch_);
       stats_.swapped += swaps;
-      changed = swaps > 0;
+      if (swaps > 0) relocate_vertices();
     }
   }
 
