@@ -83,12 +83,16 @@ void RefillCavity::take_segments() {
                           surface_.segments.end());
 }
 
+// Those that must stay; then the free ones that are well placed, as far as signs tell.
 void RefillCavity::take_points() {
+  const auto well_placed = [this](Vertex v) {
+    return std::ranges::all_of(tangle_.star(v), [this](Tet t) { return tangle_.sign(t) > 0; });
+  };
   for (const bool fixed : {true, false}) {
     if (!fixed) first_point_ = vertex_.size();
     for (const Tet t : tets_)
       for (const Vertex v : tangle_.corners(t))
-        if (tangle_.is_fixed(v) == fixed) local(v);
+        if (tangle_.is_fixed(v) == fixed && (fixed || well_placed(v))) local(v);
   }
 }
 

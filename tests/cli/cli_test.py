@@ -5,6 +5,7 @@
 import json
 import os
 import pty
+import random
 import re
 import signal
 import struct
@@ -17,6 +18,7 @@ from pathlib import Path
 
 PROGRAM = ""
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+BENCH = EXAMPLES.parent / "bench"
 
 CUBE_POINTS = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
 CUBE_FACETS = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4),
@@ -69,7 +71,7 @@ class CliTest(unittest.TestCase):
 class Usage(CliTest):
     def test_version_and_help(self):
         self.assertRegex(self.run_program("--version").stdout, r"^holdfast \d+\.\d+\.\d+\n$")
-        for command in ("mesh", "check", "diagnose", "delaunay"):
+        for command in ("mesh", "check", "diagnose", "delaunay", "untangle"):
             self.assertIn("Exit codes", self.run_program(command, "--help").stdout)
 
     def test_wrong_usage_is_2_and_says_what_is_wrong(self):
@@ -406,6 +408,85 @@ class Examples(CliTest):
         for kind, count in (("dangling", 2082), ("touching", 26326)):
             self.make("make_paper.py", kind, "case.off")
             self.assertIn(f" {count} ", (self.folder / "case.off").read_text().split("\n")[1])
+
+
+class Untangle(CliTest):
+    """A cube of 8 x 8 x 8 cells, 6 tetrahedra each, whose inner vertices are displaced or not."""
+
+    def setUp(self):
+        super().setUp()
+        sys.path.insert(0, str(BENCH))
+        import untangle
+        self.bench = untangle
+        self.grid = untangle.grid(8, 0.2, random.Random(1))
+        points, _, facets = self.grid
+        self.write("grid.off", off(points, [tuple(v - 1 for v in f[:3]) for f in facets]))
+
+    def tangle(self, name, mesh):
+        self.bench.write_mesh(self.folder / name, mesh)
+
+    def test_displaced_and_rounded_and_moved(self):
+        rng = random.Random(2)
+        for share in (0.3, 2):
+            self.tangle("tangled.mesh", self.bench.displaced(self.grid, share, rng))
+            told = self.run_program("untangle", "tangled.mesh", "-o", "out.mesh", "--report", "r.json").stderr
+            self.assertRegex(told, r"out\.mesh: \d+ negative and \d+ null of 3072 tetrahedra untangled: \d+ vertices")
+            report = json.loads((self.folder / "r.json").read_text())
+            self.assertEqual(report["outcome"], "done")
+            self.assertEqual(report["input"]["tetrahedra"], 3072)
+            self.assertGreater(report["input"]["negative"], 0)
+            self.assertEqual(report["left"], {"negative": 0, "null": 0})
+            for key in "moved swapped cavities added removed rounds mesh seconds version options".split():
+                self.assertIn(key, report)
+            again = self.run_program("untangle", "out.mesh", "-o", "again.vtu", "--report", "r.json").stderr
+            self.assertIn(" 0 negative and 0 null", again)
+        self.assertEqual(self.run_program("untangle", "tangled.mesh", "-o", "a.msh", "-q").stderr, "")
+        self.assertIn("relocate", self.run_program("untangle", "tangled.mesh", "-o", "a.msh", "-v").stderr)
+
+    def test_a_filled_surface_is_checked_against_it(self):
+        self.write("moved.off", off([(x + 0.4 * y * z, y, z * (1 + x)) for x, y, z in CUBE_POINTS], CUBE_FACETS))
+        self.run_program("mesh", "moved.off", "-o", "a.mesh", "--fill", "-q")
+        self.run_program("untangle", "a.mesh", "-o", "b.mesh", "-q")
+        self.run_program("check", "moved.off", "b.mesh")
+
+    def test_an_invalid_boundary_is_4_and_named(self):
+        points, tets, facets = self.grid
+        points[0] = [4.3, 4.4, 9]
+        self.tangle("a.mesh", (points, tets, facets))
+        told = self.run_program("untangle", "a.mesh", "-o", "b.mesh", "--report", "r.json", expect=4).stderr
+        self.assertIn("boundary", told)
+        self.assertIn("triangle", told)
+        self.assertGreater(len(json.loads((self.folder / "r.json").read_text())["defects"]), 0)
+        self.tangle("a.mesh", (points, tets + tets[:1], facets))
+        self.assertIn("connectivity", self.run_program("untangle", "a.mesh", "-o", "b.mesh", expect=4).stderr)
+        self.assertNotIn("b.mesh", self.files())
+
+    def test_limits_and_usage_leave_nothing(self):
+        self.tangle("a.mesh", self.bench.displaced(self.grid, 2, random.Random(3)))
+        before = self.files()
+        for arguments, code, word in [
+            (["--time-limit", "1e-6"], 5, "--time-limit"), (["--memory-limit", "0.001"], 5, "--memory-limit"),
+            (["--time-limit", "-1"], 2, "--time-limit"), (["--format", "lunch"], 2, "lunch"), (["-q", "-v"], 2, "excludes"),
+        ]:
+            with self.subTest(arguments):
+                told = self.run_program("untangle", "a.mesh", "-o", "b.mesh", *arguments, expect=code).stderr
+                self.assertIn(word, told)
+                self.assertEqual(self.files(), before)
+        self.run_program("untangle", "a.mesh", "-o", "a.mesh", expect=2)
+        self.run_program("untangle", "missing.mesh", "-o", "b.mesh", expect=3)
+        self.assertEqual(self.files(), before)
+
+    def test_interrupt_is_5_and_leaves_nothing(self):
+        self.tangle("a.mesh", self.bench.displaced(self.bench.grid(28, 0.2, random.Random(1)), 1, random.Random(3)))
+        before = self.files()
+        process = subprocess.Popen([PROGRAM, "untangle", "a.mesh", "-o", "b.mesh", "-v"], cwd=self.folder,
+                                   stderr=subprocess.PIPE, text=True)
+        process.stderr.readline()  # the first step has begun
+        process.send_signal(signal.SIGINT)
+        told = process.communicate(timeout=60)[1]
+        self.assertEqual(process.returncode, 5, told)
+        self.assertIn("cancelled", told)
+        self.assertEqual(self.files(), before)
 
 
 class Delaunay(CliTest):

@@ -1,0 +1,444 @@
+// Untangling: meshes tangled in many ways come out positive with their boundary as it was, or are refused.
+#include "holdfast/untangle.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+
+#include "exact/predicates.h"
+#include "hard_surfaces.h"
+#include "holdfast/check.h"
+#include "small_surfaces.h"
+
+namespace holdfast {
+namespace {
+
+using Random = std::mt19937_64;
+
+// --- meshes
+
+// A grid of n^3 unit cells, 6 tetrahedra each; vertices of the surface first, inner ones jittered. Two
+// regions, x < n/2 and x > n/2, if `halves`.
+struct Grid {
+  Surface surface;
+  Volume volume;
+};
+
+Grid grid(int n, double jitter, Random& random, bool halves = false) {
+  const auto at_surface = [&](std::array<int, 3> c) {
+    const bool wall = halves && 2 * c[0] == n;
+    return wall || std::any_of(c.begin(), c.end(), [&](int x) { return x == 0 || x == n; });
+  };
+  Grid out;
+  std::map<std::array<int, 3>, Index> index;
+  std::uniform_real_distribution<double> u(-jitter, jitter);
+  for (const bool surface : {true, false})
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j)
+        for (int k = 0; k <= n; ++k) {
+          if (at_surface({i, j, k}) != surface) continue;
+          index[{i, j, k}] = static_cast<Index>(out.volume.vertices.size());
+          Point p{double(i), double(j), double(k)};
+          if (surface) out.surface.vertices.push_back(p);
+          if (!surface)
+            for (double& x : p) x += u(random);
+          out.volume.vertices.push_back(p);
+        }
+  std::map<Triangle, std::vector<int>> faces;
+  std::array<int, 3> axes{0, 1, 2};
+  for (int cell = 0; cell < n * n * n; ++cell) {
+    const std::array<int, 3> low{cell / (n * n), cell / n % n, cell % n};
+    do {
+      std::array<int, 3> at = low;
+      Tetrahedron t{index[at], 0, 0, 0};
+      for (std::size_t k = 0; k < 3; ++k) {
+        ++at[static_cast<std::size_t>(axes[k])];
+        t[k + 1] = index[at];
+      }
+      const bool odd = ((axes[0] > axes[1]) != (axes[1] > axes[2])) != (axes[0] > axes[2]);
+      if (odd) std::swap(t[2], t[3]);
+      out.volume.tetrahedra.push_back(t);
+      out.volume.regions.push_back(halves && 2 * low[0] >= n ? 2 : 1);
+      for (std::size_t k = 0; k < 4; ++k) {
+        Triangle f{t[(k + 1) % 4], t[(k + 2) % 4], t[(k + 3) % 4]};
+        std::sort(f.begin(), f.end());
+        faces[f].push_back(out.volume.regions.back());
+      }
+    } while (std::next_permutation(axes.begin(), axes.end()));
+    axes = {0, 1, 2};
+  }
+  for (const auto& [face, regions] : faces)
+    if (regions.size() == 1 || regions[0] != regions[1]) out.surface.facets.push_back(face);
+  out.volume.facets = out.surface.facets;
+  for (std::size_t f = 0; f < out.volume.facets.size(); ++f)
+    out.volume.facet_markers.push_back(static_cast<int>(f % 7));
+  out.surface.facet_markers = out.volume.facet_markers;
+  return out;
+}
+
+// --- what is asked of a result
+
+std::size_t nonpositive(const Volume& volume) {
+  const auto p = [&](Index v) { return volume.vertices[v].data(); };
+  return static_cast<std::size_t>(std::count_if(
+      volume.tetrahedra.begin(), volume.tetrahedra.end(),
+      [&](const Tetrahedron& t) { return exact::orient3d(p(t[0]), p(t[1]), p(t[2]), p(t[3])) <= 0; }));
+}
+
+void expect_promise(const Complex& surface, const Volume& volume) {
+  for (const Rule& rule : check(surface, volume).rules)
+    EXPECT_TRUE(rule.holds) << rule.name << ": " << rule.detail;
+}
+
+UntangleResult untangled(const Surface& surface, const Volume& volume, const UntangleOptions& options = {}) {
+  UntangleResult result = untangle(volume, options);
+  EXPECT_EQ(result.outcome, Outcome::done) << result.message;
+  if (result.outcome == Outcome::done) {
+    expect_promise(surface.view(), result.volume);
+    EXPECT_EQ(result.volume.facets, volume.facets);
+    EXPECT_EQ(result.volume.facet_markers, volume.facet_markers);
+    EXPECT_EQ(result.report.negative_after + result.report.null_after, 0u);
+  }
+  return result;
+}
+
+// --- ways to tangle
+
+void displace(Volume& volume, std::size_t fixed, double amplitude, Random& random) {
+  std::normal_distribution<double> normal(0, amplitude);
+  for (std::size_t v = fixed; v < volume.vertices.size(); ++v)
+    for (double& x : volume.vertices[v]) x += normal(random);
+}
+
+template <typename Move>
+void move(std::vector<Point>& points, std::size_t from, std::size_t to, Move how) {
+  for (std::size_t v = from; v < to; ++v) points[v] = how(points[v]);
+}
+
+Point twisted(const Point& p) {
+  const double a = 0.4 * p[2], x = p[0] - 3, y = p[1] - 3;
+  return {3 + x * std::cos(a) - y * std::sin(a), 3 + x * std::sin(a) + y * std::cos(a), p[2]};
+}
+Point bent(const Point& p) {
+  const double a = 0.3 * p[0], r = 5 + p[2];
+  return {r * std::sin(a), p[1], r * std::cos(a)};
+}
+Point sheared(const Point& p) { return {p[0] + 1.5 * p[2], p[1], p[2]}; }
+Point squeezed(const Point& p) {
+  return {p[0], 3 + (p[1] - 3) * (0.1 + 0.15 * p[0]), 3 + (p[2] - 3) * (0.1 + 0.3 * p[0])};
+}
+
+// --- tests
+
+TEST(Untangle, APositiveMeshComesOutAsItCame) {
+  Random random(1);
+  const Grid g = grid(3, 0.2, random);
+  const UntangleResult result = untangled(g.surface, g.volume);
+  EXPECT_EQ(result.volume.vertices, g.volume.vertices);
+  EXPECT_EQ(result.volume.tetrahedra, g.volume.tetrahedra);
+  EXPECT_EQ(result.report.moved, 0u);
+}
+
+TEST(Untangle, DisplacedInnerVertices) {
+  Random random(2);
+  for (const double amplitude : {0.2, 0.5, 1.0, 3.0, 30.0, 1e6}) {
+    SCOPED_TRACE(amplitude);
+    Grid g = grid(5, 0.2, random);
+    displace(g.volume, g.surface.vertices.size(), amplitude, random);
+    EXPECT_GT(nonpositive(g.volume), 0u);
+    const UntangleResult result = untangled(g.surface, g.volume);
+    EXPECT_EQ(result.report.negative + result.report.null, nonpositive(g.volume));
+    EXPECT_GT(result.report.moved, 0u);
+  }
+}
+
+TEST(Untangle, RoundedVertices) {
+  Random random(3);
+  for (const double step : {0.01, 0.4, 1.1, 2.5, 100.0}) {
+    SCOPED_TRACE(step);
+    Grid g = grid(6, 0.3, random);
+    move(g.volume.vertices, g.surface.vertices.size(), g.volume.vertices.size(), [&](const Point& p) {
+      return Point{std::round(p[0] / step) * step, std::round(p[1] / step) * step,
+                   std::round(p[2] / step) * step};
+    });
+    untangled(g.surface, g.volume);
+  }
+}
+
+TEST(Untangle, ThinMeshesRoundedToSinglePrecision) {
+  Random random(4);
+  for (const bool everything : {false, true})
+    for (const double thickness : {1e-5, 1e-6, 2e-7}) {
+      SCOPED_TRACE(thickness);
+      Grid g = grid(4, 0.3, random);
+      const auto squash = [&](const Point& p) { return Point{p[0] + 0.1, p[1] + 0.1, 1 + thickness * p[2]}; };
+      const auto round = [](const Point& p) { return Point{float(p[0]), float(p[1]), float(p[2])}; };
+      const std::size_t n = g.surface.vertices.size();
+      move(g.volume.vertices, 0, g.volume.vertices.size(), squash);
+      move(g.volume.vertices, everything ? 0 : n, g.volume.vertices.size(), round);
+      g.surface.vertices.assign(g.volume.vertices.begin(), g.volume.vertices.begin() + static_cast<long>(n));
+      if (diagnose(g.surface.view(), 1).empty()) {
+        untangled(g.surface, g.volume);
+      } else {
+        EXPECT_EQ(untangle(g.volume).outcome, Outcome::invalid_input);
+      }
+    }
+}
+
+TEST(Untangle, MovedBoundary) {
+  Random random(5);
+  for (Point (*how)(const Point&) : {twisted, bent, sheared, squeezed}) {
+    Grid g = grid(6, 0.2, random, true);
+    const std::size_t n = g.surface.vertices.size();
+    move(g.volume.vertices, 0, n, how);
+    move(g.surface.vertices, 0, n, how);
+    EXPECT_GT(nonpositive(g.volume), 0u);
+    untangled(g.surface, g.volume);
+  }
+}
+
+TEST(Untangle, InnerVerticesThatAreNotFinite) {
+  Random random(6);
+  Grid g = grid(3, 0.1, random);
+  g.volume.vertices.back() = {NAN, INFINITY, 0};
+  g.volume.vertices[g.volume.vertices.size() - 2] = {-INFINITY, 1, 1};
+  untangled(g.surface, g.volume);
+}
+
+TEST(Untangle, TetrahedraListedTheOtherWayRound) {
+  Random random(7);
+  Grid g = grid(3, 0.2, random);
+  for (std::size_t t = 0; t < g.volume.tetrahedra.size(); t += 3)
+    std::swap(g.volume.tetrahedra[t][0], g.volume.tetrahedra[t][1]);
+  const UntangleResult result = untangled(g.surface, g.volume);
+  EXPECT_EQ(result.report.turned, (g.volume.tetrahedra.size() + 2) / 3);
+  EXPECT_EQ(result.report.negative, 0u);
+  for (Tetrahedron& t : g.volume.tetrahedra) std::swap(t[1], t[2]);
+  untangled(g.surface, g.volume);
+}
+
+// Two tetrahedra on a triangle, of which the apexes see each other past it: no vertex is free, and the same
+// boundary has a mesh of three tetrahedra round the edge between the apexes, or the other way round.
+TEST(Untangle, SwapsWhereNoVertexMayMove) {
+  // abc with d above and e below; e is displaced so that the edge de passes outside abc.
+  Volume volume;
+  volume.vertices = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, 1}, {0.5, 0.5, -1}};
+  volume.tetrahedra = {{0, 1, 4, 3}, {1, 2, 4, 3}, {2, 0, 4, 3}};
+  ASSERT_EQ(nonpositive(volume), 0u);
+  volume.vertices[4] = {3, 3, -1};  // de leaves abc
+  ASSERT_EQ(nonpositive(volume), 1u);
+  UntangleOptions options;
+  options.refill = false;
+  const UntangleResult result = untangle(volume, options);
+  ASSERT_EQ(result.outcome, Outcome::done) << result.message;
+  EXPECT_EQ(result.volume.vertices, volume.vertices);
+  EXPECT_EQ(result.volume.tetrahedra.size(), 2u);
+  EXPECT_EQ(nonpositive(result.volume), 0u);
+  EXPECT_EQ(result.report.swapped, 1u);
+  EXPECT_EQ(result.report.moved, 0u);
+}
+
+// Schönhardt's prism as three tetrahedra, which suit the prism before it is twisted: it cannot be meshed
+// without a new vertex.
+TEST(Untangle, AddsAVertexWhereNothingElseHelps) {
+  const auto prism = [](double twist) {
+    std::vector<Point> points;
+    for (int k = 0; k < 6; ++k) {
+      const double angle = 2 * std::acos(-1.0) / 3 * (k % 3) + (k < 3 ? 0 : twist);
+      points.push_back({std::cos(angle), std::sin(angle), k < 3 ? 0.0 : 2.0});
+    }
+    return points;
+  };
+  Surface surface;
+  surface.vertices = prism(0.5);
+  surface.facets = {{0, 2, 1}, {3, 4, 5}};
+  for (Index k = 0; k < 3; ++k) {
+    const Index j = (k + 1) % 3;
+    surface.facets.push_back({k, j, 3 + j});
+    surface.facets.push_back({k, 3 + j, 3 + k});
+  }
+  // A vertex in the middle joined to all facets, then displaced far outside.
+  Volume volume;
+  volume.vertices = surface.vertices;
+  volume.vertices.push_back({0, 0, 1});
+  for (const Triangle& f : surface.facets) volume.tetrahedra.push_back({f[0], f[2], f[1], 6});
+  volume.facets = surface.facets;
+  volume.regions.assign(volume.tetrahedra.size(), 4);
+  volume.vertices[6] = {10, 0, 1};
+  const UntangleResult moved = untangled(surface, volume);
+  EXPECT_EQ(moved.volume.vertices.size(), 7u);
+  EXPECT_EQ(moved.volume.regions, std::vector<int>(moved.volume.tetrahedra.size(), 4));
+}
+
+// Meshes that have hardly any free vertex: swaps and refilled cavities must do.
+TEST(Untangle, FilledSurfacesWhoseBoundaryMoves) {
+  Random random(8);
+  std::size_t swapped = 0, cavities = 0;
+  for (int k = 0; k < 40; ++k) {
+    SCOPED_TRACE(k);
+    Surface surface = hard::star(random);
+    Volume volume = mesh(surface.view()).volume;
+    const std::size_t n = surface.vertices.size();
+    const double angle = 0.1 * k;
+    move(surface.vertices, 0, n, [&](const Point& p) {
+      const double a = angle * p[2];
+      return Point{p[0] * std::cos(a) - p[1] * std::sin(a), p[0] * std::sin(a) + p[1] * std::cos(a), p[2]};
+    });
+    std::copy(surface.vertices.begin(), surface.vertices.end(), volume.vertices.begin());
+    if (!diagnose(surface.view(), 1).empty()) continue;
+    const UntangleResult result = untangled(surface, volume);
+    swapped += result.report.swapped;
+    cavities += result.report.cavities;
+  }
+  EXPECT_GT(swapped, 0u);
+  EXPECT_GT(cavities, 0u);
+}
+
+TEST(Untangle, SegmentsAndFixedVerticesStay) {
+  Random random(9);
+  Grid g = grid(4, 0.1, random);
+  const auto n = static_cast<Index>(g.surface.vertices.size());
+  // Two inner edges as segments, an inner vertex to keep.
+  std::set<Segment> inner;
+  for (const Tetrahedron& t : g.volume.tetrahedra)
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        if (t[i] >= n && t[k] >= n) inner.insert({std::min(t[i], t[k]), std::max(t[i], t[k])});
+  g.volume.segments = {*inner.begin(), *inner.rbegin()};
+  g.volume.segment_markers = {3, 4};
+  UntangleOptions options;
+  options.fixed = {n + 13};
+  std::set<Index> fixed{n + 13};
+  for (const Segment& s : g.volume.segments) fixed.insert(s.begin(), s.end());
+  const Volume before = g.volume;
+  displace(g.volume, n, 2, random);
+  for (const Index v : fixed) g.volume.vertices[v] = before.vertices[v];
+  const UntangleResult result = untangle(g.volume, options);
+  ASSERT_EQ(result.outcome, Outcome::done) << result.message;
+  EXPECT_EQ(nonpositive(result.volume), 0u);
+  EXPECT_EQ(result.volume.segments, before.segments);
+  EXPECT_EQ(result.volume.segment_markers, before.segment_markers);
+  for (Index v = 0; v < n; ++v) EXPECT_EQ(result.volume.vertices[v], before.vertices[v]);
+  for (const Index v : fixed) EXPECT_EQ(result.volume.vertices[v], before.vertices[v]);
+}
+
+TEST(Untangle, ABoundaryThatMeetsItselfIsRefused) {
+  Random random(10);
+  Grid g = grid(3, 0.1, random);
+  g.volume.vertices[0] = {2.5, 2.7, 4};  // a corner drawn through the opposite side
+  const UntangleResult result = untangle(g.volume);
+  EXPECT_EQ(result.outcome, Outcome::invalid_input);
+  ASSERT_FALSE(result.defects.empty());
+  EXPECT_TRUE(result.volume.tetrahedra.empty());
+  for (const Defect& defect : result.defects) {
+    for (const Index f : defect.facets) EXPECT_LT(f, g.volume.facets.size());
+    EXPECT_FALSE(defect.facets.empty() && defect.vertices.empty());
+  }
+}
+
+// The boundary is a valid surface, but no mesh has it for a boundary: a cavity outside of what it was in; a
+// box within another; a box turned inside out.
+TEST(Untangle, ABoundaryInTheWrongPlaceIsRefused) {
+  Surface surface = small::nested(false);
+  Options keep;
+  keep.keep = Keep::winding;
+  const Result filled = mesh(surface.view(), keep);
+  ASSERT_EQ(filled.outcome, Outcome::done);
+  Volume volume = filled.volume;
+  for (Index v = 8; v < 16; ++v) volume.vertices[v][0] += 5;
+  UntangleResult result = untangle(volume);
+  EXPECT_EQ(result.outcome, Outcome::invalid_input) << result.message;
+  EXPECT_FALSE(result.message.empty());
+
+  Surface apart = small::box();
+  small::add_box(apart, {3, 0, 0}, {3.5, 0.5, 0.5});
+  volume = mesh(apart.view()).volume;
+  for (Index v = 8; v < 16; ++v)
+    for (double& x : volume.vertices[v]) x = 0.25 + x - (&x == volume.vertices[v].data() ? 3 : 0);
+  result = untangle(volume);
+  EXPECT_EQ(result.outcome, Outcome::invalid_input) << result.message;
+}
+
+TEST(Untangle, ConnectivityThatIsNotAMeshIsRefused) {
+  Random random(11);
+  const Grid g = grid(2, 0.1, random);
+  const auto refused = [](const Volume& volume, const std::string& word) {
+    const UntangleResult result = untangle(volume);
+    EXPECT_EQ(result.outcome, Outcome::invalid_input);
+    EXPECT_NE(result.message.find(word), std::string::npos) << result.message;
+  };
+  Volume v = g.volume;
+  v.tetrahedra.push_back(v.tetrahedra[0]);
+  v.regions.push_back(1);
+  refused(v, "tetrahedra");
+  v = g.volume;
+  v.tetrahedra[3][1] = 1000;
+  refused(v, "1000");
+  v = g.volume;
+  v.tetrahedra[3][1] = v.tetrahedra[3][0];
+  refused(v, "twice");
+  v = g.volume;
+  v.facets[0] = {0, 25, 26};  // two corners of the grid and the middle
+  refused(v, "triangle 0");
+  v = g.volume;
+  v.segments = {{0, 25}};
+  refused(v, "segment");
+  refused(Volume{}, "no tetrahedra");
+  v = g.volume;
+  v.regions.pop_back();
+  EXPECT_THROW(static_cast<void>(untangle(v)), std::invalid_argument);
+}
+
+TEST(Untangle, LimitsAndCancellation) {
+  Random random(12);
+  Grid g = grid(8, 0.2, random);
+  displace(g.volume, g.surface.vertices.size(), 2, random);
+  UntangleOptions options;
+  options.time_limit = 1e-9;
+  EXPECT_EQ(untangle(g.volume, options).outcome, Outcome::time_limit);
+  options = {};
+  options.memory_limit = 1;
+  EXPECT_EQ(untangle(g.volume, options).outcome, Outcome::memory_limit);
+  options = {};
+  std::set<UntangleStep> steps;
+  options.progress = [&](const UntangleProgress& progress) {
+    steps.insert(progress.step);
+    return progress.step != UntangleStep::relocate;
+  };
+  const UntangleResult result = untangle(g.volume, options);
+  EXPECT_EQ(result.outcome, Outcome::cancelled);
+  EXPECT_TRUE(result.volume.tetrahedra.empty());
+  EXPECT_TRUE(steps.contains(UntangleStep::validate));
+}
+
+TEST(Untangle, TheSameResultTwice) {
+  Random random(13);
+  Grid g = grid(5, 0.2, random);
+  displace(g.volume, g.surface.vertices.size(), 3, random);
+  const UntangleResult a = untangle(g.volume), b = untangle(g.volume);
+  EXPECT_EQ(a.volume.vertices, b.volume.vertices);
+  EXPECT_EQ(a.volume.tetrahedra, b.volume.tetrahedra);
+}
+
+TEST(Untangle, NoDoublesInside) {
+  // The polyhedron of design §4 with a vertex inside at first, far from the origin: no integer point is
+  // inside.
+  const Surface near = small::without_integer_points(0);
+  const Result filled = mesh(near.view());
+  ASSERT_EQ(filled.outcome, Outcome::done);
+  Volume volume = filled.volume;
+  const Surface far = small::without_integer_points(0x1p52);
+  std::copy(far.vertices.begin(), far.vertices.end(), volume.vertices.begin());
+  for (std::size_t v = far.vertices.size(); v < volume.vertices.size(); ++v)
+    for (double& x : volume.vertices[v]) x += 0x1p52;
+  const UntangleResult result = untangle(volume);
+  EXPECT_EQ(result.outcome, Outcome::not_representable) << result.message;
+  EXPECT_GT(result.report.negative_after + result.report.null_after, 0u);
+}
+
+}  // namespace
+}  // namespace holdfast
