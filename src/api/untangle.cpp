@@ -11,7 +11,7 @@
 #include "surface/diagnose.h"
 #include "untangle/assemble.h"
 #include "untangle/connectivity.h"
-#include "untangle/untangle.h"
+#include "untangle/make_positive.h"
 
 namespace holdfast {
 namespace {
@@ -139,7 +139,7 @@ class Untangling {
     watch_.enter(UntangleStep::validate);
     if (!validate()) return;
     const Filler filler = [this](const Complex& complex) { return fill(complex); };
-    const UntangleStats stats = holdfast::untangle(*tangle_, options_.refill ? &filler : nullptr, watch_);
+    const UntangleStats stats = make_positive(*tangle_, options_.refill ? &filler : nullptr, watch_);
     result_.report.rounds = stats.rounds;
     result_.report.swapped = stats.swapped;
     result_.report.cavities = stats.refill.cavities;

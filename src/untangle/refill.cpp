@@ -1,6 +1,6 @@
 #include "untangle/refill.h"
 
-#include <algorithm>
+#include <unordered_set>
 
 #include "untangle/refill_cavity.h"
 
@@ -10,12 +10,10 @@ namespace {
 // A set of tetrahedra that grows by those that share a vertex with it.
 class Growing {
  public:
-  explicit Growing(const Tangle& tangle) : tangle_(tangle), taken_(tangle.slot_count(), false) {}
+  explicit Growing(const Tangle& tangle) : tangle_(tangle) {}
 
   void add(Tet t) {
-    if (taken_[t]) return;
-    taken_[t] = true;
-    tets_.push_back(t);
+    if (taken_.insert(t).second) tets_.push_back(t);
   }
   /// Returns false where there is nothing left to add.
   bool grow() {
@@ -30,24 +28,34 @@ class Growing {
 
  private:
   const Tangle& tangle_;
-  std::vector<bool> taken_;
+  std::unordered_set<Tet> taken_;  // cavities are small, most often, and many
   std::vector<Tet> tets_;
   std::size_t grown_ = 0;
 };
 
 // Non-positive tetrahedra that hang together by vertices.
 void add_cluster(const Tangle& tangle, Tet seed, Growing& cavity) {
-  std::vector<Tet> queue{seed};
-  std::vector<bool> seen(tangle.slot_count(), false);
-  seen[seed] = true;
-  for (std::size_t k = 0; k < queue.size(); ++k) {
-    cavity.add(queue[k]);
-    for (const Vertex v : tangle.corners(queue[k]))
+  cavity.add(seed);
+  for (std::size_t k = 0; k < cavity.tets().size(); ++k) {
+    const Tangle::Corners corners = tangle.corners(cavity.tets()[k]);
+    for (const Vertex v : corners)
       for (const Tet s : tangle.star(v))
-        if (tangle.sign(s) <= 0 && !seen[s]) {
-          seen[s] = true;
-          queue.push_back(s);
-        }
+        if (tangle.sign(s) <= 0) cavity.add(s);
+  }
+}
+
+// Grows the cavity until the filler can fill it, or it is everything that hangs together.
+RefillCavity::Outcome fill_round(Tangle& tangle, Tet seed, const Filler& filler, Watch& watch) {
+  Growing growing(tangle);
+  add_cluster(tangle, seed, growing);
+  bool whole = false;
+  for (int layers = 1;; layers *= 2) {
+    for (int k = 0; k < (layers + 1) / 2 && !whole; ++k) whole = !growing.grow();
+    watch.poll();
+    RefillCavity cavity(tangle, growing.tets());
+    const auto outcome = cavity.fill(filler);
+    if (outcome == RefillCavity::Outcome::filled) cavity.apply(tangle);
+    if (outcome == RefillCavity::Outcome::filled || whole) return outcome;
   }
 }
 
@@ -55,18 +63,10 @@ void add_cluster(const Tangle& tangle, Tet seed, Growing& cavity) {
 
 RefillStats refill(Tangle& tangle, const Filler& filler, Watch& watch) {
   RefillStats stats;
-  while (tangle.nonpositive_count() > 0) {
-    Growing growing(tangle);
-    add_cluster(tangle, tangle.nonpositive().front(), growing);
-    auto outcome = RefillCavity::Outcome::invalid;
-    bool whole = false;
-    for (int layers = 1; outcome != RefillCavity::Outcome::filled && !whole; layers *= 2) {
-      for (int k = 0; k < (layers + 1) / 2 && !whole; ++k) whole = !growing.grow();
-      watch.poll();
-      RefillCavity cavity(tangle, growing.tets());
-      outcome = cavity.fill(filler);
-      if (outcome == RefillCavity::Outcome::filled) cavity.apply(tangle);
-    }
+  for (const Tet t : tangle.nonpositive()) {
+    // Gone with another's cavity. (Its slot may be taken by a new one, which is positive.)
+    if (!tangle.alive(t) || tangle.sign(t) > 0) continue;
+    const auto outcome = fill_round(tangle, t, filler, watch);
     if (outcome != RefillCavity::Outcome::filled) {
       stats.overlaps = outcome != RefillCavity::Outcome::not_representable;
       return stats;

@@ -15,7 +15,7 @@ bool same_turn(const Triangle& facet, Index a, Index b, Index c) {
 }  // namespace
 
 RefillCavity::RefillCavity(const Tangle& tangle, std::vector<Tet> tets)
-    : tangle_(tangle), tets_(std::move(tets)), component_(tangle.slot_count(), kOutside) {
+    : tangle_(tangle), tets_(std::move(tets)) {
   std::sort(tets_.begin(), tets_.end());
   find_components();
   take_facets();
@@ -47,7 +47,7 @@ void RefillCavity::find_components() {
       for (int i = 0; i < 4; ++i) {
         if (tangle_.is_constraint(tangle_.face(queue[k], i))) continue;
         const Tet s = tangle_.across(queue[k], i);
-        if (s == kNone || component_[s] != kPending) continue;
+        if (s == kNone || component_of(s) != kPending) continue;
         component_[s] = id;
         queue.push_back(s);
       }
@@ -59,13 +59,13 @@ void RefillCavity::take_facets() {
     for (int i = 0; i < 4; ++i) {
       const auto f = tangle_.face(t, i);
       const Tet s = tangle_.across(t, i);
-      const Index other = s == kNone ? kOutside : component_[s];
+      const Index other = s == kNone ? kOutside : component_of(s);
       if (other != kOutside && (s < t || !tangle_.is_constraint(f))) continue;
       const Triangle facet{local(f[0]), local(f[1]), local(f[2])};
       const auto key = ascending(facet);
       face_index_.push_back({key[0], key[1], key[2], static_cast<Index>(surface_.facets.size())});
       surface_.facets.push_back(facet);
-      sides_.push_back({component_[t], other});
+      sides_.push_back({component_of(t), other});
     }
   std::sort(face_index_.begin(), face_index_.end());
 }
@@ -150,19 +150,26 @@ bool RefillCavity::claim(const Volume& volume, std::size_t tet, std::vector<std:
   return true;
 }
 
-// A new edge that runs outside the cavity already: the mesh there is still tangled with this one.
+// A new edge or face that exists outside the cavity already: the mesh there is still tangled with this one.
 bool RefillCavity::joins_outside(const Volume& volume) const {
+  const auto only_outside = [this](std::span<const Index> corners) {
+    if (std::ranges::any_of(corners, [this](Index v) { return v >= first_point_; })) return false;
+    bool outside = false, inside = false;
+    for (const Tet s : tangle_.star(vertex_[corners[0]]))
+      if (std::ranges::all_of(corners, [&](Index v) { return tangle_.holds(s, vertex_[v]); }))
+        (component_of(s) == kOutside ? outside : inside) = true;
+    return outside && !inside;
+  };
   for (std::size_t t = 0; t < volume.tetrahedra.size(); ++t) {
     if (owner_[t] == kOutside) continue;
-    for (const auto& [i, k] : kEdgeVertex) {
-      const Index a = volume.tetrahedra[t][static_cast<std::size_t>(i)];
-      const Index b = volume.tetrahedra[t][static_cast<std::size_t>(k)];
-      if (a >= first_point_ || b >= first_point_) continue;
-      bool outside = false, inside = false;
-      for (const Tet s : tangle_.star(vertex_[a]))
-        if (tangle_.holds(s, vertex_[b])) (component_[s] == kOutside ? outside : inside) = true;
-      if (outside && !inside) return true;
-    }
+    const Tetrahedron& c = volume.tetrahedra[t];
+    for (const auto& [i, k] : kEdgeVertex)
+      if (only_outside(std::array{c[static_cast<std::size_t>(i)], c[static_cast<std::size_t>(k)]}))
+        return true;
+    for (const auto& k : kFaceVertex)
+      if (only_outside(std::array{c[static_cast<std::size_t>(k[0])], c[static_cast<std::size_t>(k[1])],
+                                  c[static_cast<std::size_t>(k[2])]}))
+        return true;
   }
   return false;
 }

@@ -34,6 +34,10 @@ class RefillCavity {
     Index above, below;  ///< components of the cavity on the two sides, or kOutside
   };
 
+  [[nodiscard]] Index component_of(Tet t) const {
+    const auto at = component_.find(t);
+    return at == component_.end() ? kOutside : at->second;
+  }
   void find_components();
   void take_facets();
   void take_segments();
@@ -47,9 +51,9 @@ class RefillCavity {
 
   const Tangle& tangle_;
   std::vector<Tet> tets_;
-  std::vector<Index> component_;  // by tetrahedron of the tangle; kOutside where it is not in the cavity
-  std::vector<int> region_;       // by component
-  std::vector<Vertex> vertex_;    // by local number
+  std::unordered_map<Tet, Index> component_;  // of the cavity's tetrahedra
+  std::vector<int> region_;                   // by component
+  std::vector<Vertex> vertex_;                // by local number
   std::unordered_map<Vertex, Index> number_;
   std::size_t first_point_ = 0;  // local vertices from here on may go
   Surface surface_;

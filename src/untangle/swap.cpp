@@ -156,6 +156,6 @@ class Swaps {
 
 }  // namespace
 
-std::size_t swap(Tangle& tangle, Watch& watch) { return Swaps(tangle, watch).run(); }
+std::size_t swap_tets(Tangle& tangle, Watch& watch) { return Swaps(tangle, watch).run(); }
 
 }  // namespace holdfast

@@ -10,6 +10,6 @@ namespace holdfast {
 ///
 /// In a tangled mesh signs do not keep an exchange from making an edge or a face that exists already (paper,
 /// Fig. 12), so each must be new: then the connectivity stays that of a mesh, whatever the signs.
-std::size_t swap(Tangle& tangle, Watch& watch);
+std::size_t swap_tets(Tangle& tangle, Watch& watch);
 
 }  // namespace holdfast

@@ -1,4 +1,4 @@
-#include "untangle/untangle.h"
+#include "untangle/make_positive.h"
 
 #include <array>
 
@@ -25,7 +25,7 @@ class Rounds {
     for (int round = 0; gained && tangled() && round < kMostRounds; ++round) {
       const Deficit before = tangle_.deficit();
       ++stats_.rounds;
-      swap_tets();
+      swap_all();
       if (tangled()) move_vertices();
       gained = tangle_.deficit().better_than(before);
     }
@@ -54,10 +54,10 @@ class Rounds {
   }
 
   // Each swap may open another's way, and a vertex's.
-  void swap_tets() {
+  void swap_all() {
     for (std::size_t swaps = 1; swaps > 0 && tangled();) {
       watch_.enter(UntangleStep::swap);
-      swaps = swap(tangle_, watch_);
+      swaps = swap_tets(tangle_, watch_);
       stats_.swapped += swaps;
       if (swaps > 0) relocate_vertices();
     }
@@ -70,7 +70,7 @@ class Rounds {
 
 }  // namespace
 
-UntangleStats untangle(Tangle& tangle, const Filler* filler, Watch& watch) {
+UntangleStats make_positive(Tangle& tangle, const Filler* filler, Watch& watch) {
   UntangleStats stats;
   Rounds(tangle, watch, stats).run();
   if (tangle.nonpositive_count() > 0 && filler != nullptr) {
