@@ -81,31 +81,30 @@ double FoldoverEnergy::operator()(std::span<const double> x, std::span<double> g
     const double f = trace / power, g = (d * d + 1) / (2 * chi);
     energy += f + kLambda * g;
 
-    // By J, then by the edges, then by the corners.
     const double by_j = 2.0 / 3.0 / power;
     const double by_d = -2.0 / 3.0 * f / chi * slope + kLambda * (d - g * slope) / chi;
     Matrix dj{};
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t c = 0; c < 3; ++c) dj[k][c] = by_j * j[k][c] + by_d * cofactor[k][c];
-    Column origin{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      Column de{};
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double sum = k == 0   ? dj[0][c] + kInverse01 * dj[1][c] + kInverse02 * dj[2][c]
-                           : k == 1 ? kInverse11 * dj[1][c] + kInverse02 * dj[2][c]
-                                    : kInverse22 * dj[2][c];
-        de[c] = sum * inverse_size_[t];
-        origin[c] -= de[c];
-      }
-      const std::uint32_t v = tets_[t][k + 1];
-      if (v < variable_)
-        for (std::size_t c = 0; c < 3; ++c) gradient[3 * std::size_t{v} + c] += de[c];
-    }
-    const std::uint32_t v = tets_[t][0];
-    if (v < variable_)
-      for (std::size_t c = 0; c < 3; ++c) gradient[3 * std::size_t{v} + c] += origin[c];
+    add_to_corners(t, dj, gradient);
   }
   return energy;
+}
+
+// From the derivative by J to those by the edges, and by the corners.
+void FoldoverEnergy::add_to_corners(std::size_t t, const Matrix& dj, std::span<double> gradient) const {
+  Matrix at{};  // by corners 1, 2, 3; corner 0 takes the opposite of their sum
+  for (std::size_t c = 0; c < 3; ++c) {
+    at[0][c] = (dj[0][c] + kInverse01 * dj[1][c] + kInverse02 * dj[2][c]) * inverse_size_[t];
+    at[1][c] = (kInverse11 * dj[1][c] + kInverse02 * dj[2][c]) * inverse_size_[t];
+    at[2][c] = kInverse22 * dj[2][c] * inverse_size_[t];
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t v = tets_[t][i];
+    if (v >= variable_) continue;
+    for (std::size_t c = 0; c < 3; ++c)
+      gradient[3 * v + c] += i == 0 ? -(at[0][c] + at[1][c] + at[2][c]) : at[i - 1][c];
+  }
 }
 
 }  // namespace holdfast

@@ -38,6 +38,7 @@ class FoldoverEnergy {
     return v < variable_ ? x.data() + 3 * std::size_t{v} : fixed_[v - variable_].data();
   }
   [[nodiscard]] Matrix jacobian(std::span<const double> x, std::size_t t) const;
+  void add_to_corners(std::size_t t, const Matrix& dj, std::span<double> gradient) const;
 
   std::vector<Corners> tets_;
   std::size_t variable_;

@@ -8,7 +8,6 @@
 #include <map>
 #include <numeric>
 #include <ostream>
-#include <ranges>
 #include <set>
 
 #include "dangling_surfaces.h"
@@ -59,12 +58,14 @@ void displace(std::vector<Point>& points, std::size_t from, std::size_t to, doub
     for (double& x : points[v]) x += normal(random);
 }
 
-// The regions at every vertex and facet. A dangling facet that moves into another region has no mesh that is
-// connected as before.
+// The regions at every facet, segment's end and facet's corner. A dangling facet that moves into another
+// region has no mesh that is connected as before; an isolated point may, and does.
 auto places(const Surface& surface, const Volume& volume) {
   std::map<std::vector<Index>, std::set<int>> regions;
-  for (const Index v : std::views::iota(Index{0}, static_cast<Index>(surface.vertices.size()))) regions[{v}];
+  for (const Segment& segment : surface.segments)
+    for (const Index v : segment) regions[{v}];
   for (const Triangle& f : surface.facets) {
+    for (const Index v : f) regions[{v}];
     std::vector<Index> key(f.begin(), f.end());
     std::ranges::sort(key);
     regions[key];
