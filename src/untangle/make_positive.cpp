@@ -11,7 +11,9 @@ namespace {
 
 constexpr unsigned kEverywhere = 1u << 20;
 constexpr std::array<unsigned, 3> kRings{3, 12, kEverywhere};
-constexpr double kMany = 0.02;  // of the tetrahedra: then smoothing near by is time lost
+// Shares of the tetrahedra, above which smoothing near by is time lost, and moving vertices one by one is
+// too.
+constexpr double kMany = 0.02, kMost = 0.1;
 
 class Rounds {
  public:
@@ -37,15 +39,21 @@ class Rounds {
   [[nodiscard]] bool tangled() const { return tangle_.nonpositive_count() > 0; }
 
   void move_vertices() {
+    if (share() > kMost) smooth_vertices(kEverywhere);
     relocate_vertices();
-    const double share =
-        static_cast<double>(tangle_.nonpositive_count()) / static_cast<double>(tangle_.tet_count());
-    for (const unsigned rings : kRings) {
-      if (!tangled()) return;
-      if (rings != kEverywhere && share > kMany) continue;
-      watch_.enter(UntangleStep::smooth);
-      if (smooth(tangle_, rings, watch_)) relocate_vertices();
-    }
+    const bool many = share() > kMany;
+    for (const unsigned rings : kRings)
+      if (tangled() && (rings == kEverywhere || !many) && smooth_vertices(rings)) relocate_vertices();
+  }
+
+  // Of the tetrahedra, those that are not positive.
+  [[nodiscard]] double share() const {
+    return static_cast<double>(tangle_.nonpositive_count()) / static_cast<double>(tangle_.tet_count());
+  }
+
+  bool smooth_vertices(unsigned rings) {
+    watch_.enter(UntangleStep::smooth);
+    return smooth(tangle_, rings, watch_);
   }
 
   void relocate_vertices() {

@@ -55,7 +55,7 @@ class Smoothing {
     for (const Vertex v : vertices_) neighbours.push_back(neighbours_of(v));
     std::vector<Point> p(tangle_.points().positions().begin(), tangle_.points().positions().end());
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
-      watch_.poll();
+      watch_.poll_slow_loop();
       for (std::size_t i = 0; i < vertices_.size(); ++i)
         for (std::size_t c = 0; c < 3; ++c) {
           double mean = 0;
@@ -185,7 +185,7 @@ class Smoothing {
 
   ValueAndGradient function(const FoldoverEnergy& energy) {
     return [&](std::span<const double> x, std::span<double> gradient) {
-      watch_.poll();
+      watch_.poll_slow_loop();
       return energy(x, gradient);
     };
   }

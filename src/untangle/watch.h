@@ -22,6 +22,8 @@ class Watch {
   }
   /// Cheap; throws Interrupted where a limit is reached or the caller cancels.
   void poll() { monitor_.poll(Stage::validate, 0); }
+  /// The same for loops whose turns take long.
+  void poll_slow_loop() { monitor_.enter(Stage::validate); }
   /// Ends the last step's time.
   void finish() { clock(); }
 
