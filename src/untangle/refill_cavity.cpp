@@ -117,6 +117,8 @@ bool RefillCavity::drop_points(const Result& result) {
 }
 
 RefillCavity::Outcome RefillCavity::fill(const Filler& filler) {
+  // Tetrahedra without any boundary enclose nothing: they cover space as often one way as the other, and go.
+  if (surface_.facets.empty() && first_point_ == 0) return Outcome::filled;
   constexpr int kMostTries = 3;  // with points; then without
   for (int k = 0;; ++k) {
     Result result = filler(surface_.view());

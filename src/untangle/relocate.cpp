@@ -87,7 +87,7 @@ class Relocation {
     candidates_.clear();
     const Point& p = tangle_.position(v);
     const auto star = tangle_.star(v);
-    if (star.size() <= kMostFaces) {
+    if (star.size() <= kMostFaces && std::ranges::all_of(star, [&](Tet t) { return has_area(t, v); })) {
       Kernel kernel(tangle_.points());
       for (const Tet t : star) {
         const auto f = tangle_.face(t, tangle_.index_of(t, v));
@@ -105,6 +105,15 @@ class Relocation {
     candidates_.push_back(mean_of_neighbours(v));
     const Point star_point = papers_place(v);
     for (const double omega : {0.0, 0.5, 0.75}) candidates_.push_back(towards(p, star_point, 1 - omega));
+  }
+
+  // Whether the face opposite v has; nothing sees one without, and a kernel must not be asked.
+  [[nodiscard]] bool has_area(Tet t, Vertex v) const {
+    const auto f = tangle_.face(t, tangle_.index_of(t, v));
+    const TetMesh& points = tangle_.points();
+    for (const int axis : {0, 1, 2})
+      if (exact::orient2d(points.point(f[0]), points.point(f[1]), points.point(f[2]), axis) != 0) return true;
+    return false;
   }
 
   static Point towards(const Point& from, const Point& to, double share) {
