@@ -10,7 +10,7 @@
 namespace holdfast {
 
 /// Stages of the pipeline (design §2), in order.
-enum class Stage { validate, delaunay, flips, partition, eliminate, classify, suppress };
+enum class Stage { validate, delaunay, flips, partition, eliminate, classify, suppress, optimise };
 
 /// Name of a stage as the command line and the report spell it.
 [[nodiscard]] const char* name(Stage stage);
@@ -34,7 +34,8 @@ struct Progress {
 
 /// Options of `mesh`. Every default gives the promise of design §1.
 struct Options {
-  bool flips = true;  ///< recover by flips before partition; without, partition does all the work
+  bool flips = true;     ///< recover by flips before partition; without, partition does all the work
+  bool optimise = true;  ///< better elements by exchanges and moves of Steiner points, after all else
   Keep keep = Keep::automatic;
   double box_margin = 0.1;  ///< of the largest extent, for Keep::box
   std::vector<Point> holes;
@@ -88,9 +89,14 @@ struct ExactVertex {
   std::array<std::string, 3> coordinates;  ///< "m*2^e", both decimal integers
 };
 
+/// Ids of the regions in front of a facet (where its corners turn counterclockwise) and behind it; nothing
+/// on a side without tetrahedra.
+using FacetRegions = std::array<std::optional<int>, 2>;
+
 struct Result {
   Outcome outcome = Outcome::done;
-  Volume volume;  ///< empty unless `outcome` is done or not_representable
+  Volume volume;                            ///< empty unless `outcome` is done or not_representable
+  std::vector<FacetRegions> facet_regions;  ///< one a facet of `volume`; none if stopped before `classify`
   Report report;
   std::vector<Defect> defects;
   std::vector<ExactVertex> exact_vertices;  ///< for not_representable

@@ -88,8 +88,10 @@ struct Defect {
   std::vector<Index> vertices;
   std::vector<Index> facets;
   std::vector<Index> segments;
-  std::vector<Point> where;  ///< 1 point, or the 2 ends of the intersection, rounded to doubles
-  std::string message;       ///< one sentence with indices, coordinates and what to do
+  /// 1 point, or the 2 ends of the intersection, rounded to doubles; for `encloses_nothing` the ends of every
+  /// open border edge, two by two.
+  std::vector<Point> where;
+  std::string message;  ///< one sentence with indices, coordinates and what to do
 };
 
 }  // namespace holdfast

@@ -64,6 +64,13 @@ class Extractor {
     }
   }
 
+  void take_facet_regions(const Regions& regions, const Kept& kept) {
+    const auto id = [&](RegionId r) { return kept.region[r] ? std::optional(kept.id[r]) : std::nullopt; };
+    for (Index f = 0; f < source_.complex.facets.size(); ++f)
+      if (kept.facet(regions, f))
+        extract_.facet_regions.push_back({id(regions.of_facet[f][0]), id(regions.of_facet[f][1])});
+  }
+
   Extract finish() { return std::move(extract_); }
 
  private:
@@ -98,6 +105,7 @@ Extract extract_kept(const Source& source, const Regions& regions, const Kept& k
   });
   extractor.take_vertices();
   extractor.take_facets([&](Index f) { return kept.facet(regions, f); });
+  extractor.take_facet_regions(regions, kept);
   extractor.take_segments([&](Index s) { return kept.segment[s]; });
   return extractor.finish();
 }

@@ -15,6 +15,7 @@ namespace holdfast {
 /// A volume and those of its vertices that no double holds; `volume` has the nearest doubles for them.
 struct Extract {
   Volume volume;
+  std::vector<FacetRegions> facet_regions;  ///< one a facet of the volume; none without regions
   std::vector<ExactVertex> exact_vertices;
   std::size_t steiner_points = 0;  ///< vertices that are neither the complex's nor the box's
 };

@@ -1,4 +1,5 @@
-// The pipeline (design §2): validate, Delaunay, flips, partition and elimination, classify, suppress.
+// The pipeline (design §2): validate, Delaunay, flips, partition and elimination, classify, suppress,
+// optimise.
 #include <algorithm>
 #include <cmath>
 #include <new>
@@ -18,6 +19,7 @@
 #include "mesh/monitor.h"
 #include "mesh/quality.h"
 #include "mesh/tet_mesh.h"
+#include "optimise/optimise.h"
 #include "recover/recover.h"
 #include "recover/standing.h"
 #include "suppress/suppress.h"
@@ -91,11 +93,12 @@ class Pipeline {
 
   void run_attempt() {
     // Elimination is part of the partition's loop (design §2.5).
-    static constexpr std::array<Step, 5> kSteps{{{Stage::delaunay, &Pipeline::build_box_mesh},
+    static constexpr std::array<Step, 6> kSteps{{{Stage::delaunay, &Pipeline::build_box_mesh},
                                                  {Stage::flips, &Pipeline::recover},
                                                  {Stage::partition, &Pipeline::enforce_missing},
                                                  {Stage::classify, &Pipeline::classify},
-                                                 {Stage::suppress, &Pipeline::suppress_points}}};
+                                                 {Stage::suppress, &Pipeline::suppress_points},
+                                                 {Stage::optimise, &Pipeline::optimise_elements}}};
     for (const Step& step : kSteps) {
       if (step.stage > last_stage()) break;
       run_stage(step);
@@ -131,6 +134,7 @@ class Pipeline {
     result_.outcome = outcome;
     result_.message = interruption_message(outcome, monitor_.stage(), options_);
     result_.volume = {};
+    result_.facet_regions.clear();
     result_.exact_vertices.clear();
   }
 
@@ -194,7 +198,7 @@ class Pipeline {
     // Points outside the kept regions go with their tetrahedra.
     std::vector<bool> inside(mesh_.vertex_count(), false);
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
-      if (mesh_.alive(t) && !mesh_.is_ghost(t) && kept_.region[regions_.of_tet[t]])
+      if (is_kept(t))
         for (const Vertex v : mesh_.corners(t)) inside[v] = true;
     std::vector<Vertex> points;
     for (Vertex v = first_free_; v < mesh_.vertex_count(); ++v)
@@ -205,16 +209,35 @@ class Pipeline {
     regions_ = flood_regions(mesh_, complex_.facets);
   }
 
+  void optimise_elements() {
+    if (!options_.optimise) return;
+    std::vector<Tet> tets;
+    for (Tet t = 0; t < mesh_.slot_count(); ++t) {
+      if (!is_kept(t)) continue;
+      const auto& v = mesh_.corners(t);
+      if (!std::all_of(v.begin(), v.end(), [&](Vertex x) { return mesh_.is_explicit(x); })) return;
+      tets.push_back(t);
+    }
+    const OptimiseStats stats =
+        optimise(mesh_, tets, first_free_, target_quality(complex_.vertices, complex_.facets), monitor_);
+    if (stats.any()) regions_ = flood_regions(mesh_, complex_.facets);
+  }
+
+  [[nodiscard]] bool is_kept(Tet t) const {
+    return mesh_.alive(t) && !mesh_.is_ghost(t) && kept_.region[regions_.of_tet[t]];
+  }
+
   void deliver() {
     const Stage last = last_stage();
     const Source source{mesh_, complex_, table_, scale_, first_free_};
     Extract extract =
         last >= Stage::classify ? extract_kept(source, regions_, kept_) : extract_all(source, standing_);
     result_.volume = std::move(extract.volume);
+    result_.facet_regions = std::move(extract.facet_regions);
     result_.exact_vertices = std::move(extract.exact_vertices);
     result_.report.steiner_points = extract.steiner_points;
     fill_report();
-    if (last == Stage::suppress && !result_.exact_vertices.empty()) {
+    if (last >= Stage::suppress && !result_.exact_vertices.empty()) {
       result_.outcome = Outcome::not_representable;
       result_.message = "no positive mesh in double precision was found";
     }
@@ -232,7 +255,7 @@ class Pipeline {
     report.quality = measure(volume, volume.facets);
   }
 
-  [[nodiscard]] Stage last_stage() const { return options_.stop_after.value_or(Stage::suppress); }
+  [[nodiscard]] Stage last_stage() const { return options_.stop_after.value_or(Stage::optimise); }
   [[nodiscard]] Report::Missing missing() const {
     return {standing_.missing_segments(), standing_.missing_facets()};
   }

@@ -18,6 +18,8 @@ const char* name(Stage stage) {
       return "classify";
     case Stage::suppress:
       return "suppress";
+    case Stage::optimise:
+      return "optimise";
   }
   return "unknown";
 }

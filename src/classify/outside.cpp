@@ -105,6 +105,19 @@ Defect describe(const Piece& piece, const Complex& complex, const SegmentTable& 
   return defect;
 }
 
+// "4 edges at vertex 7 (1, 2, 3), 12 edges at vertex 0 (4, 5, 6) and 3 more".
+std::string list(const std::vector<Piece>& borders, const Complex& complex, const SegmentTable& table) {
+  std::string words;
+  for (std::size_t i = 0; i < std::min(borders.size(), kListed); ++i) {
+    const std::vector<Index>& edges = borders[i].segments;
+    const Index v = table.segments[edges[0]][0];
+    words += (i > 0 ? ", " : "") + std::to_string(edges.size()) + (edges.size() == 1 ? " edge" : " edges") +
+             " at vertex " + std::to_string(v) + " " + place(complex.vertices[v]);
+  }
+  if (borders.size() > kListed) words += " and " + std::to_string(borders.size() - kListed) + " more";
+  return words;
+}
+
 std::vector<bool> vertices_in_kept(const TetMesh& mesh, const Regions& regions, const Kept& kept) {
   std::vector<bool> in(mesh.vertex_count(), false);
   for (Tet t = 0; t < mesh.slot_count(); ++t) {
@@ -124,24 +137,23 @@ std::string place(const Point& p) {
 
 Defect encloses_nothing(const Complex& complex, const SegmentTable& table) {
   Defect defect{DefectKind::encloses_nothing, {}, {}, {}, {}, {}};
-  std::size_t open = 0;
-  std::string first;
+  PieceFinder finder(complex, table);
   for (Index s = 0; s < table.segments.size(); ++s) {
-    if (table.facets_of(s).size() != 1 || ++open > kListed) continue;
-    const auto [a, b] = table.segments[s];
-    first += (open > 1 ? ", " : "") + std::to_string(a) + "-" + std::to_string(b) + " from " +
-             place(complex.vertices[a]) + " to " + place(complex.vertices[b]);
-    defect.vertices.insert(defect.vertices.end(), {a, b});
-    if (open == 1) defect.where = {complex.vertices[a], complex.vertices[b]};
+    if (table.facets_of(s).size() != 1) continue;
+    finder.add_segment(s);
+    for (const Index v : table.segments[s]) {
+      defect.vertices.push_back(v);
+      defect.where.push_back(complex.vertices[v]);
+    }
   }
+  const std::vector<Piece> borders = finder.pieces();
   defect.message = "the surface encloses nothing";
   if (complex.facets.empty())
     defect.message += ": it has no triangles";
-  else if (open == 1)
-    defect.message += ": it has 1 open border edge, " + first;
-  else if (open > 1)
-    defect.message += ": it has " + std::to_string(open) + " open border edges, " +
-                      (open > kListed ? "the first being " : "") + first;
+  else if (!borders.empty())
+    defect.message += ": it has " + std::to_string(borders.size()) +
+                      (borders.size() == 1 ? " open border, " : " open borders, ") +
+                      list(borders, complex, table);
   defect.message += "; close it, or use --keep box to fill everything out to an enclosing box";
   return defect;
 }

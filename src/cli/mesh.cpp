@@ -189,8 +189,10 @@ void add_mesh(CLI::App& app, Command& chosen) {
   command->add_flag("--drop-outside", arguments->drop_outside,
                     "Drop facets outside every kept region instead of refusing them");
   command
-      ->add_option("--without", arguments->without,
-                   "Leave out a step: 'flips' (then partition and elimination do all the work)")
+      ->add_option(
+          "--without", arguments->without,
+          "Leave out a step: 'flips' (then partition and elimination do all the work), or 'optimise' "
+          "(repeatable)")
       ->allow_extra_args(false)
       ->option_text("STEP");
   command->add_option("--seed", arguments->seed, "Seed of the random orders (default 1)")->option_text("N");

@@ -52,7 +52,7 @@ void set_keep(Options& options, const std::string& keep) {
 
 Stage stage_named(const std::string& text) {
   std::string known;
-  for (int i = 0; i <= static_cast<int>(Stage::suppress); ++i) {
+  for (int i = 0; i <= static_cast<int>(Stage::optimise); ++i) {
     const auto stage = static_cast<Stage>(i);
     if (text == holdfast::name(stage)) return stage;
     known += std::string(i == 0 ? "" : ", ") + holdfast::name(stage);
@@ -76,8 +76,12 @@ Options to_options(const MeshArguments& arguments) {
     options.regions.push_back({{x[0], x[1], x[2]}, static_cast<int>(x[3])});
   }
   for (const std::string& step : arguments.without) {
-    if (step != "flips") throw UsageError("--without " + step + ": only 'flips' can be left out");
-    options.flips = false;
+    if (step == "flips")
+      options.flips = false;
+    else if (step == "optimise")
+      options.optimise = false;
+    else
+      throw UsageError("--without " + step + ": only 'flips' and 'optimise' can be left out");
   }
   if (!arguments.stop_after.empty()) options.stop_after = stage_named(arguments.stop_after);
   if (!(arguments.time_limit >= 0)) throw UsageError("--time-limit: seconds must not be negative");

@@ -59,10 +59,9 @@ void write_marks(const std::filesystem::path& path, const Complex& complex, std:
   Marks marks;
   for (std::size_t i = 0; i < defects.size(); ++i) {
     const std::vector<Point>& where = defects[i].where;
-    if (where.empty())
-      add_entities(marks, complex, defects[i], i);
-    else
-      marks.add(std::span(where).first(std::min<std::size_t>(where.size(), 2)), defects[i].kind, i);
+    if (where.empty()) add_entities(marks, complex, defects[i], i);
+    for (std::size_t k = 0; k < where.size(); k += 2)
+      marks.add(std::span(where).subspan(k, std::min<std::size_t>(where.size() - k, 2)), defects[i].kind, i);
   }
   io::AtomicWriter out(path);
   io::write_vtu_arrays(out,

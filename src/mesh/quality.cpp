@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "exact/point.h"
 
@@ -21,6 +22,9 @@ constexpr double kCancelled = 1e-9;
 
 Vector minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 double length(const Vector& a) { return std::sqrt(dot(a, a)); }
 ExactVector exactly_minus(const Point& a, const Point& b) {
   ExactVector v;
@@ -119,6 +123,22 @@ struct Measures {
   }
 };
 
+// In plain arithmetic, right to ten digits; nothing for tetrahedra so thin, or so large or small, that it may
+// not be.
+std::optional<double> plain_quality(const Point& a, const Point& b, const Point& c, const Point& d) {
+  constexpr double kThin = 1e-5, kSmall = 1e-50, kLarge = 1e50;
+  const Vector u = minus(b, a), v = minus(c, a), w = minus(d, a);
+  const Vector x = minus(c, b), y = minus(d, b), z = minus(d, c);
+  const double longest =
+      std::sqrt(std::max({dot(u, u), dot(v, v), dot(w, w), dot(x, x), dot(y, y), dot(z, z)}));
+  if (!(longest > kSmall && longest < kLarge)) return std::nullopt;
+  const Vector n = cross(u, v);
+  const double six_volumes = std::abs(dot(n, w));
+  if (six_volumes < kThin * longest * longest * longest) return std::nullopt;
+  const double twice_area = length(n) + length(cross(v, w)) + length(cross(w, u)) + length(cross(x, y));
+  return kScale * longest * twice_area / six_volumes;
+}
+
 // The tetrahedra on a triangle that compete for the least Q.
 //
 // Let L be the longest side. Over a given foot the inradius grows with the height h of the apex p:
@@ -172,9 +192,7 @@ class BestTetrahedron {
 
  private:
   // Of the triangle 0 u v.
-  static double twice_area(const Vector& u, const Vector& v) {
-    return length({u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]});
-  }
+  static double twice_area(const Vector& u, const Vector& v) { return length(cross(u, v)); }
 
   double longest_, twice_area_, height_, along_;
 };
@@ -182,6 +200,7 @@ class BestTetrahedron {
 }  // namespace
 
 double quality(const Point& a, const Point& b, const Point& c, const Point& d) {
+  if (const std::optional<double> q = plain_quality(a, b, c, d)) return *q;
   return Measures(brought_in_range<4>({a, b, c, d})).quality();
 }
 
@@ -193,6 +212,19 @@ double best_quality_on(const Point& a, const Point& b, const Point& c) {
   const auto p = brought_in_range<3>({a, b, c});
   const BestTetrahedron candidates(p[0], p[1], p[2]);
   return candidates.flat() ? kInfinity : candidates.best();
+}
+
+double target_quality(std::span<const Point> vertices, std::span<const Triangle> facets) {
+  double target = 0;
+  for (const Triangle& f : facets) {
+    const auto p = brought_in_range<3>({vertices[f[0]], vertices[f[1]], vertices[f[2]]});
+    const BestTetrahedron candidates(p[0], p[1], p[2]);
+    // Any candidate bounds the best one from above: most triangles need one evaluation.
+    constexpr double kUsualAngle = 1.3;
+    if (candidates.flat()) return kInfinity;
+    if (candidates.at(kUsualAngle) > target) target = std::max(target, candidates.best());
+  }
+  return target;
 }
 
 Report::Quality measure(const Volume& volume, std::span<const Triangle> facets) {
@@ -209,16 +241,7 @@ Report::Quality measure(const Volume& volume, std::span<const Triangle> facets) 
       ++q.histogram[std::min<std::size_t>(q.histogram.size() - 1, static_cast<std::size_t>(angle / 10))];
     }
   }
-  for (const Triangle& f : facets) {
-    const auto p = brought_in_range<3>({v[f[0]], v[f[1]], v[f[2]]});
-    const BestTetrahedron candidates(p[0], p[1], p[2]);
-    // Any candidate bounds the best one from above: most triangles need one evaluation.
-    constexpr double kUsualAngle = 1.3;
-    if (candidates.flat())
-      q.target = kInfinity;
-    else if (candidates.at(kUsualAngle) > q.target)
-      q.target = std::max(q.target, candidates.best());
-  }
+  q.target = target_quality(v, facets);
   return q;
 }
 

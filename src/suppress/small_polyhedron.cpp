@@ -2,16 +2,20 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
 #include "mesh/measure.h"
+#include "mesh/quality.h"
 
 namespace holdfast {
 namespace {
 
 using Local = std::uint8_t;
 using LocalFace = std::array<Local, 3>;
+
+constexpr std::size_t kMostVertices = 31;
 
 // Rotated so that the least corner comes first: equal faces of equal orientation are equal.
 LocalFace canonical(LocalFace f) {
@@ -20,23 +24,68 @@ LocalFace canonical(LocalFace f) {
   return f;
 }
 
+// Numbers the sets of four: a < b < c < d is the binomial sum (a 1) + (b 2) + (c 3) + (d 4).
+constexpr std::array<std::array<std::uint16_t, 5>, kMostVertices + 1> kBinomial = [] {
+  std::array<std::array<std::uint16_t, 5>, kMostVertices + 1> table{};
+  for (std::size_t n = 0; n <= kMostVertices; ++n) {
+    table[n][0] = 1;
+    for (std::size_t k = 1; k <= 4 && n > 0; ++k)
+      table[n][k] = static_cast<std::uint16_t>(table[n - 1][k - 1] + table[n - 1][k]);
+  }
+  return table;
+}();
+
+// The faces that are still to be covered, seen positively from what is left to fill: by number, with the
+// place of each in the list, so that all is constant time.
+class OpenFaces {
+ public:
+  using Number = std::uint16_t;
+
+  explicit OpenFaces(std::size_t vertices) : n_(vertices), place_(n_ * n_ * n_, kNowhere) {}
+
+  [[nodiscard]] Number number(const LocalFace& face) const {
+    const LocalFace f = canonical(face);
+    return static_cast<Number>((f[0] * n_ + f[1]) * n_ + f[2]);
+  }
+  [[nodiscard]] LocalFace corners(Number f) const {
+    return {static_cast<Local>(f / (n_ * n_)), static_cast<Local>(f / n_ % n_), static_cast<Local>(f % n_)};
+  }
+  [[nodiscard]] bool holds(Number f) const { return place_[f] != kNowhere; }
+  [[nodiscard]] const std::vector<Number>& list() const { return list_; }
+  void add(Number f) {
+    place_[f] = static_cast<Number>(list_.size());
+    list_.push_back(f);
+  }
+  void remove(Number f) {
+    place_[list_.back()] = place_[f];
+    list_[place_[f]] = list_.back();
+    list_.pop_back();
+    place_[f] = kNowhere;
+  }
+
+ private:
+  static constexpr Number kNowhere = 0xFFFF;
+  std::size_t n_;
+  std::vector<Number> list_, place_;
+};
+
 class Search {
  public:
-  Search(const TetMesh& mesh, std::span<const std::array<Vertex, 3>> faces, const PolyhedronOptions& options)
-      : mesh_(mesh), budget_(options.most_nodes) {
-    if (faces.size() > 2 * options.most_vertices) return;  // Euler: a sphere on n vertices has 2 n - 4
-    for (const auto& f : faces) vertices_.insert(vertices_.end(), f.begin(), f.end());
-    std::sort(vertices_.begin(), vertices_.end());
-    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
-    if (vertices_.size() > options.most_vertices) return;
-    n_ = vertices_.size();
-    sign_.assign(n_ * n_ * n_ * n_, kUnknown);
-    apexes_.assign(n_ * n_ * n_, kUnknownMask);
-    for (const auto& f : faces) open_.push_back(canonical({local(f[0]), local(f[1]), local(f[2])}));
+  Search(const TetMesh& mesh, std::span<const std::array<Vertex, 3>> faces, std::vector<Vertex> vertices,
+         const PolyhedronOptions& options)
+      : mesh_(mesh),
+        budget_(options.most_nodes),
+        worst_quality_(options.worst_quality),
+        n_(vertices.size()),
+        vertices_(std::move(vertices)),
+        sign_(kBinomial[n_][4], kUnknown),
+        apexes_(n_ * n_ * n_, kUnknownMask),
+        open_(n_) {
+    for (const auto& f : faces) open_.add(open_.number({local(f[0]), local(f[1]), local(f[2])}));
   }
 
   std::optional<std::vector<TetMesh::Corners>> run() {
-    if (n_ == 0 || !fill()) return std::nullopt;
+    if (!fill()) return std::nullopt;
     std::vector<TetMesh::Corners> tets;
     for (const auto& t : tets_)
       tets.push_back({vertices_[t[0]], vertices_[t[1]], vertices_[t[2]], vertices_[t[3]]});
@@ -44,8 +93,9 @@ class Search {
   }
 
  private:
+  using Number = OpenFaces::Number;
   static constexpr std::int8_t kUnknown = 2;
-  static constexpr std::uint32_t kUnknownMask = 0x80000000u;  // a polyhedron has at most 31 vertices
+  static constexpr std::uint32_t kUnknownMask = 0x80000000u;  // no vertex has this bit
 
   [[nodiscard]] Local local(Vertex v) const {
     return static_cast<Local>(std::lower_bound(vertices_.begin(), vertices_.end(), v) - vertices_.begin());
@@ -60,15 +110,11 @@ class Search {
         std::swap(k[j - 1], k[j]);
         odd = !odd;
       }
-    std::int8_t& s = sign_[((k[0] * n_ + k[1]) * n_ + k[2]) * n_ + k[3]];
+    std::int8_t& s = sign_[std::size_t{k[0]} + kBinomial[k[1]][2] + kBinomial[k[2]][3] + kBinomial[k[3]][4]];
     if (s == kUnknown)
       s = static_cast<std::int8_t>(
           mesh_.orient(vertices_[k[0]], vertices_[k[1]], vertices_[k[2]], vertices_[k[3]]));
     return odd ? -s : s;
-  }
-
-  [[nodiscard]] bool is_open(const LocalFace& canonical_face) const {
-    return std::find(open_.begin(), open_.end(), canonical_face) != open_.end();
   }
 
   // A tetrahedron that holds another vertex of the polyhedron in its closure cannot be part of a filling.
@@ -82,13 +128,20 @@ class Search {
     return true;
   }
 
+  [[nodiscard]] bool is_good(const LocalFace& f, Local d) const {
+    if (std::isinf(worst_quality_)) return true;
+    const auto at = [&](Local v) -> const Point& { return mesh_.position(vertices_[v]); };
+    return quality(at(f[0]), at(f[1]), at(f[2]), at(d)) < worst_quality_;
+  }
+
   // The vertices that make a positive, empty tetrahedron with the face, one bit each.
-  std::uint32_t apexes(const LocalFace& f) {
-    std::uint32_t& mask = apexes_[(f[0] * n_ + f[1]) * n_ + f[2]];
+  std::uint32_t apexes(Number number) {
+    std::uint32_t& mask = apexes_[number];
     if (mask == kUnknownMask) {
       mask = 0;
+      const LocalFace f = open_.corners(number);
       for (Local d = 0; d < n_; ++d)
-        if (orient(f[0], f[1], f[2], d) > 0 && is_empty(f, d)) mask |= 1u << d;
+        if (orient(f[0], f[1], f[2], d) > 0 && is_good(f, d) && is_empty(f, d)) mask |= 1u << d;
     }
     return mask;
   }
@@ -107,43 +160,74 @@ class Search {
     return out;
   }
 
-  // Takes the open face with the fewest possible apexes.
-  bool fill() {
-    if (open_.empty()) return true;
-    if (budget_ == 0) return false;
-    --budget_;
-    LocalFace face{};
+  // The open face with the fewest possible apexes, and these; none if some face has none.
+  std::pair<Number, std::uint32_t> tightest() {
+    std::pair<Number, std::uint32_t> found{0, 0};
     int fewest = 32;
-    for (const LocalFace& f : open_) {
-      const int count = std::popcount(apexes(f));
-      if (count == 0) return false;
+    for (const Number f : open_.list()) {
+      const std::uint32_t mask = apexes(f);
+      const int count = fewest_bits(mask, fewest);
+      if (count == 0) return {f, 0};
       if (count >= fewest) continue;
       fewest = count;
-      face = f;
+      found = {f, mask};
     }
-    for (const Local apex : ranked(face, apexes(face))) {
-      const std::vector<LocalFace> before = open_;
-      if (place(face, apex)) {
+    return found;
+  }
+
+  // The number of bits, counted no further than `most`.
+  static int fewest_bits(std::uint32_t mask, int most) {
+    int count = 0;
+    for (; mask != 0 && count < most; mask &= mask - 1) ++count;
+    return count;
+  }
+
+  bool fill() {
+    if (open_.list().empty()) return true;
+    if (budget_ == 0) return false;
+    --budget_;
+    const auto [number, mask] = tightest();
+    const LocalFace face = open_.corners(number);
+    for (const Local apex : ranked(face, mask)) {
+      Changes changes;
+      if (place(face, apex, changes)) {
         tets_.push_back({face[0], face[1], face[2], apex});
         if (fill()) return true;
         tets_.pop_back();
       }
-      open_ = before;
+      undo(changes);
     }
     return false;
   }
 
+  struct Changes {
+    struct Change {
+      Number face;
+      bool added;
+    };
+    std::array<Change, 4> list;
+    std::size_t count = 0;
+  };
+  void change(Number f, bool add, Changes& changes) {
+    add ? open_.add(f) : open_.remove(f);
+    changes.list[changes.count++] = {f, add};
+  }
+  void undo(const Changes& changes) {
+    for (std::size_t k = changes.count; k-- > 0;)
+      changes.list[k].added ? open_.remove(changes.list[k].face) : open_.add(changes.list[k].face);
+  }
+
   // Covers `f` with the tetrahedron (f, d): its other faces close open ones or open new ones.
-  bool place(const LocalFace& f, Local d) {
-    std::erase(open_, f);
+  bool place(const LocalFace& f, Local d, Changes& changes) {
+    change(open_.number(f), false, changes);
     for (std::size_t k = 0; k < 3; ++k) {
-      const LocalFace own = canonical({f[(k + 1) % 3], f[k], d});   // as the tetrahedron's inside sees it
-      const LocalFace rest = canonical({f[k], f[(k + 1) % 3], d});  // as what is left to fill sees it
-      if (is_open(own)) {
-        std::erase(open_, own);
+      const Number own = open_.number({f[(k + 1) % 3], f[k], d});   // as the tetrahedron's inside sees it
+      const Number rest = open_.number({f[k], f[(k + 1) % 3], d});  // as what is left to fill sees it
+      if (open_.holds(own)) {
+        change(own, false, changes);
       } else {
-        if (is_open(rest)) return false;
-        open_.push_back(rest);
+        if (open_.holds(rest)) return false;
+        change(rest, true, changes);
       }
     }
     return true;
@@ -151,11 +235,12 @@ class Search {
 
   const TetMesh& mesh_;
   std::size_t budget_;
-  std::size_t n_ = 0;
-  std::vector<Vertex> vertices_;
-  std::vector<std::int8_t> sign_;      // by ascending corners
-  std::vector<std::uint32_t> apexes_;  // by canonical face
-  std::vector<LocalFace> open_;        // seen positively from what is left to fill
+  const double worst_quality_;
+  const std::size_t n_;
+  const std::vector<Vertex> vertices_;
+  std::vector<std::int8_t> sign_;      // by the number of the four corners
+  std::vector<std::uint32_t> apexes_;  // by face
+  OpenFaces open_;
   std::vector<std::array<Local, 4>> tets_;
 };
 
@@ -164,7 +249,15 @@ class Search {
 std::optional<std::vector<TetMesh::Corners>> fill_polyhedron(const TetMesh& mesh,
                                                              std::span<const std::array<Vertex, 3>> faces,
                                                              const PolyhedronOptions& options) {
-  return Search(mesh, faces, options).run();
+  const std::size_t most = std::min(options.most_vertices, kMostVertices);
+  if (faces.empty() || faces.size() > 2 * most)
+    return std::nullopt;  // Euler: a sphere on n vertices has 2 n - 4
+  std::vector<Vertex> vertices;
+  for (const auto& f : faces) vertices.insert(vertices.end(), f.begin(), f.end());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  if (vertices.size() > most) return std::nullopt;
+  return Search(mesh, faces, std::move(vertices), options).run();
 }
 
 }  // namespace holdfast

@@ -2,6 +2,7 @@
 // (Liu, Chen, Chen 2007; Marot, Remacle 2020).
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -11,8 +12,9 @@
 namespace holdfast {
 
 struct PolyhedronOptions {
-  std::size_t most_vertices = 18;  ///< 31 at most
-  std::size_t most_nodes = 600;    ///< of the search tree
+  std::size_t most_vertices = 18;                                  ///< 31 at most
+  std::size_t most_nodes = 600;                                    ///< of the search tree
+  double worst_quality = std::numeric_limits<double>::infinity();  ///< Q (mesh/quality.h) stays below this
 };
 
 /// Fills a polyhedron with strictly positive tetrahedra on its own vertices. Its faces are given so that a

@@ -59,6 +59,26 @@ bool same(const Volume& a, const Volume& b) {
 
 std::set<int> ids(const Volume& volume) { return {volume.regions.begin(), volume.regions.end()}; }
 
+// The regions on the sides of every facet, from the tetrahedra alone.
+std::vector<FacetRegions> sides(const Volume& volume) {
+  std::vector<FacetRegions> found(volume.facets.size());
+  const auto turned = [](Triangle t) {  // least corner first, the orientation kept
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    return t;
+  };
+  for (std::size_t t = 0; t < volume.tetrahedra.size(); ++t) {
+    const auto [a, b, c, d] = volume.tetrahedra[t];
+    for (const Triangle& face : {Triangle{b, d, c}, Triangle{a, c, d}, Triangle{a, d, b}, Triangle{a, b, c}})
+      for (std::size_t f = 0; f < volume.facets.size(); ++f) {
+        const auto [u, v, w] = volume.facets[f];
+        if (turned(face) == turned({u, v, w}))
+          found[f][0] = volume.regions[t];  // it sees them counterclockwise
+        if (turned(face) == turned({u, w, v})) found[f][1] = volume.regions[t];
+      }
+  }
+  return found;
+}
+
 // A sphere of bumps: `rings` x `around` quadrilaterals and two caps, enough work to interrupt.
 Surface bumpy(unsigned rings, unsigned around) {
   Surface surface;
@@ -148,6 +168,23 @@ TEST(Mesh, NestedBoxesAreTwoRegions) {
   expect_done(surface, result);
   EXPECT_EQ(ids(result.volume), (std::set<int>{1, 2}));
   EXPECT_EQ(result.report.regions, 2u);
+}
+
+TEST(Mesh, TellsTheRegionsOnBothSidesOfAFacet) {
+  const Result box_result = mesh(small::box().view());
+  ASSERT_EQ(box_result.facet_regions.size(), 12u);
+  for (const FacetRegions& regions : box_result.facet_regions)
+    EXPECT_EQ(regions, (FacetRegions{std::nullopt, 1}));  // its facets face outwards
+  Surface walls = small::touching();
+  small::add_triangle(walls, {0.3, 0.3, 0.4}, {0.7, 0.3, 0.5}, {0.4, 0.7, 0.6});
+  Options box;
+  box.keep = Keep::box;
+  for (const Surface& surface : {walls, small::nested(true), small::nested(false)})
+    for (const Options& options : {Options{}, box}) {
+      const Result result = mesh(surface.view(), options);
+      ASSERT_EQ(result.outcome, Outcome::done);
+      EXPECT_EQ(result.facet_regions, sides(result.volume));
+    }
 }
 
 TEST(Mesh, CavityStaysEmpty) {
@@ -390,8 +427,8 @@ TEST(Interruption, ByMemory) {
 
 TEST(Interruption, AtEveryStage) {
   const Surface surface = small::box();
-  for (const Stage stage :
-       {Stage::validate, Stage::delaunay, Stage::flips, Stage::partition, Stage::classify, Stage::suppress}) {
+  for (const Stage stage : {Stage::validate, Stage::delaunay, Stage::flips, Stage::partition, Stage::classify,
+                            Stage::suppress, Stage::optimise}) {
     Options options;
     options.progress = [&](const Progress& progress) { return progress.stage != stage; };
     const Result result = mesh(surface.view(), options);
@@ -422,7 +459,7 @@ TEST(Progress, StagesComeInOrder) {
   };
   EXPECT_EQ(mesh(small::box().view(), options).outcome, Outcome::done);
   EXPECT_EQ(stages, (std::vector<Stage>{Stage::validate, Stage::delaunay, Stage::flips, Stage::partition,
-                                        Stage::classify, Stage::suppress}));
+                                        Stage::classify, Stage::suppress, Stage::optimise}));
 }
 
 TEST(StopAfter, ShowsWhatStands) {
@@ -476,6 +513,7 @@ TEST(StopAfter, OpenSurfacesCanBeLookedAt) {
 TEST(Names, OfStagesAndVersion) {
   EXPECT_STREQ(name(Stage::validate), "validate");
   EXPECT_STREQ(name(Stage::suppress), "suppress");
+  EXPECT_STREQ(name(Stage::optimise), "optimise");
   EXPECT_NE(std::string(version()).find('.'), std::string::npos);
 }
 

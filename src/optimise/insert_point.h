@@ -1,0 +1,14 @@
+// A point for a tetrahedron so flat that nothing else helps: elements come out that one can compute with.
+#pragma once
+
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+
+namespace holdfast {
+
+/// Fills a cavity round an edge of t anew from a point in the middle of its kernel, if all tetrahedra there
+/// have a Q below `most` then. `created` receives them. Returns the point, or kNone.
+Vertex insert_point(TetMesh& mesh, Tet t, Vertex first_free, double most, std::vector<Tet>& created);
+
+}  // namespace holdfast

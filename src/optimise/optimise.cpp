@@ -1,0 +1,185 @@
+#include "optimise/optimise.h"
+
+#include <algorithm>
+#include <queue>
+#include <random>
+
+#include "mesh/traverse.h"
+#include "optimise/exchange.h"
+#include "optimise/insert_point.h"
+#include "optimise/reconnect.h"
+#include "optimise/relocate.h"
+#include "optimise/remove_flat.h"
+
+namespace holdfast {
+namespace {
+
+class Optimiser {
+ public:
+  Optimiser(TetMesh& mesh, Vertex first_free, double target, Monitor& monitor)
+      : mesh_(mesh),
+        first_free_(first_free),
+        good_(std::max(kGood, target)),
+        flat_from_(std::max(kFlat, kFlatForTarget * target)),
+        worth_a_point_(std::max(kWorthAPoint, kWorthAPointForTarget * target)),
+        monitor_(monitor),
+        exchanger_(mesh, flat_from_),
+        flat_remover_(mesh, flat_from_) {}
+
+  OptimiseStats run(const std::vector<Tet>& tets) {
+    budget_ = kLeastWork + kWorkPerTet * tets.size();
+    relocate_all(tets);
+    for (const Tet t : tets) push(t);
+    while (!queue_.empty() && work_ < budget_for(queue_.top())) {
+      const Entry worst = queue_.top();
+      queue_.pop();
+      if (is_current(worst)) improve(worst);
+      if (!has_flat() && round_ < kRounds) try_again();
+    }
+    return stats_;
+  }
+
+ private:
+  struct Entry {
+    double quality;
+    Tet tet;
+    TetMesh::Corners corners;  // a slot may have been given to another tetrahedron since
+    friend bool operator<(const Entry& x, const Entry& y) {
+      return x.quality != y.quality ? x.quality < y.quality : x.corners > y.corners;
+    }
+  };
+
+  [[nodiscard]] std::size_t budget_for(const Entry& e) const {
+    return e.quality >= worth_a_point_ ? budget_ : budget_ / kUsualShare;
+  }
+
+  [[nodiscard]] bool has_flat() const { return !queue_.empty() && queue_.top().quality >= flat_from_; }
+
+  // Flat tetrahedra that stayed: changes next to them may have made a way, and the search tries another.
+  void try_again() {
+    ++round_;
+    for (const Entry& e : stuck_)
+      if (is_current(e)) queue_.push(e);
+    stuck_.clear();
+  }
+
+  void push(Tet t) {
+    const double q = quality_of(mesh_, mesh_.corners(t));
+    if (q > good_) queue_.push({q, t, mesh_.corners(t)});
+  }
+  [[nodiscard]] bool is_current(const Entry& e) const {
+    return mesh_.alive(e.tet) && mesh_.corners(e.tet) == e.corners &&
+           quality_of(mesh_, e.corners) == e.quality;
+  }
+
+  // The cheapest way that helps.
+  void improve(const Entry& e) {
+    monitor_.poll(Stage::optimise, static_cast<double>(work_) / static_cast<double>(budget_));
+    created_.clear();
+    if (exchange(e.tet))
+      ++stats_.exchanged;
+    else if (relocate_a_corner(e.tet))
+      ++stats_.relocated;
+    else if (e.quality >= flat_from_ && remove_flat(e.tet))
+      ++stats_.unflattened;
+    else if (is_worth_reconnecting(e) && reconnect_round(e.tet))
+      ++stats_.reconnected;
+    else if (e.quality >= worth_a_point_ && insert_at(e.tet))
+      ++stats_.inserted;
+    else if (e.quality >= flat_from_)
+      stuck_.push_back(e);
+    for (const Tet t : created_)
+      if (mesh_.alive(t)) push(t);
+  }
+
+  void relocate_all(const std::vector<Tet>& tets) {
+    std::vector<Vertex> points;
+    for (const Tet t : tets)
+      for (const Vertex v : mesh_.corners(t))
+        if (v >= first_free_) points.push_back(v);
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    for (const Vertex p : points)
+      if (work_ < budget_ / 2 && relocate_with_ball(p)) ++stats_.relocated;
+    created_.clear();
+  }
+
+  bool exchange(Tet t) {
+    ++work_;
+    return exchanger_.improve(t, created_);
+  }
+
+  bool relocate_a_corner(Tet t) {
+    const TetMesh::Corners corners = mesh_.corners(t);
+    return std::any_of(corners.begin(), corners.end(),
+                       [&](Vertex p) { return p >= first_free_ && relocate_with_ball(p); });
+  }
+
+  bool relocate_with_ball(Vertex p) {
+    constexpr std::size_t kMostBall = 200;
+    std::vector<Tet> tets;
+    ball(mesh_, p, tets);
+    if (tets.size() > kMostBall) return false;
+    work_ += tets.size() / 2;
+    if (!relocate(mesh_, p, tets, random_)) return false;
+    created_.insert(created_.end(), tets.begin(), tets.end());
+    return true;
+  }
+
+  bool remove_flat(Tet t) {
+    const bool removed = flat_remover_.remove(t, created_);
+    work_ += flat_remover_.work();
+    return removed;
+  }
+
+  // The very worst always are.
+  bool is_worth_reconnecting(const Entry& e) {
+    constexpr int kWorst = 3;
+    return e.quality >= kWorthReconnecting || small_reconnections_++ < kWorst;
+  }
+
+  bool reconnect_round(Tet t) {
+    constexpr std::size_t kWork = 50;
+    work_ += kWork;
+    return reconnect(mesh_, t, first_free_, flat_from_, random_, created_);
+  }
+
+  bool insert_at(Tet t) {
+    constexpr std::size_t kWork = 20;
+    work_ += kWork;
+    const Vertex p = insert_point(mesh_, t, first_free_, worth_a_point_, created_);
+    if (p != kNone) relocate_with_ball(p);
+    return p != kNone;
+  }
+
+  // The paper's Q: of what is left alone, of what counts as flat, of what is worth a search or a point.
+  static constexpr double kGood = 30, kFlat = 100, kFlatForTarget = 2;
+  static constexpr double kWorthReconnecting = 200, kWorthAPoint = 1000, kWorthAPointForTarget = 30;
+  static constexpr int kRounds = 3;
+  // In exchanges tried, some 10 microseconds each.
+  static constexpr std::size_t kLeastWork = 1200, kWorkPerTet = 4;
+  static constexpr std::size_t kUsualShare = 4;  // of the work for what is not worth a point
+
+  TetMesh& mesh_;
+  const Vertex first_free_;
+  const double good_, flat_from_, worth_a_point_;
+  Monitor& monitor_;
+  Exchanger exchanger_;
+  FlatRemover flat_remover_;
+  std::mt19937_64 random_;
+  std::priority_queue<Entry> queue_;
+  std::vector<Entry> stuck_;
+  int round_ = 0, small_reconnections_ = 0;
+  std::vector<Tet> created_;  // or changed
+  std::size_t work_ = 0, budget_ = 0;
+  OptimiseStats stats_;
+};
+
+}  // namespace
+
+OptimiseStats optimise(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, double target,
+                       Monitor& monitor) {
+  return Optimiser(mesh, first_free, target, monitor).run(tets);
+}
+
+}  // namespace holdfast

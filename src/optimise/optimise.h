@@ -1,0 +1,29 @@
+// Better elements without field points: exchanges, relocation and reconnection on the worst of them first
+// (paper §8; design §2.8).
+#pragma once
+
+#include <vector>
+
+#include "mesh/monitor.h"
+#include "mesh/tet_mesh.h"
+
+namespace holdfast {
+
+struct OptimiseStats {
+  std::size_t exchanged = 0;    ///< face swaps and edge removals
+  std::size_t relocated = 0;    ///< moves of a Steiner point
+  std::size_t unflattened = 0;  ///< flat tetrahedra removed by several flips
+  std::size_t reconnected = 0;  ///< small polyhedra filled another way
+  std::size_t inserted = 0;     ///< points for flat tetrahedra
+
+  [[nodiscard]] bool any() const { return exchanged + relocated + unflattened + reconnected + inserted > 0; }
+};
+
+/// Improves the worst of `tets`, which are all of some regions and whose vertices are explicit. Facets and
+/// segments stand, and so do the vertices below `first_free`; the Steiner points, the vertices from there on,
+/// lie on no constraint: they may move, and go where they are in the way. A few are added where a tetrahedron
+/// stays flat without. `target` is the worst Q that the facets ask for (mesh/quality.h).
+OptimiseStats optimise(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, double target,
+                       Monitor& monitor);
+
+}  // namespace holdfast

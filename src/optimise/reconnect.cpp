@@ -1,0 +1,78 @@
+#include "optimise/reconnect.h"
+
+#include <algorithm>
+
+#include "mesh/edge_removal.h"
+#include "mesh/replace.h"
+#include "optimise/badness.h"
+#include "suppress/cavity.h"
+#include "suppress/small_polyhedron.h"
+
+namespace holdfast {
+namespace {
+
+struct Effort {
+  int steps;
+  PolyhedronOptions search;
+};
+constexpr Effort kUsual{10, {.most_vertices = 14, .most_nodes = 100}};
+constexpr Effort kForFlat{20, {.most_vertices = 20, .most_nodes = 100}};
+
+class Reconnection {
+ public:
+  Reconnection(TetMesh& mesh, Vertex first_free, double flat_from, std::mt19937_64& random,
+               std::vector<Tet>& created)
+      : mesh_(mesh), first_free_(first_free), flat_from_(flat_from), random_(random), created_(created) {}
+
+  // The cavity grows from these tetrahedra.
+  bool from(std::span<const Tet> seed, const Effort& effort) {
+    constexpr int kEvery = 4;          // a search costs more than growing on
+    constexpr std::size_t kFirst = 3;  // fewer tetrahedra cannot be filled another way
+    Cavity cavity(mesh_, seed, first_free_);
+    for (int step = 0; step < effort.steps; ++step) {
+      if (cavity.vertex_count() > effort.search.most_vertices) break;
+      if (cavity.tets().size() >= kFirst && step % kEvery == 0 && fill(cavity, effort.search)) return true;
+      if (!cavity.grow(random_)) break;
+    }
+    return false;
+  }
+
+ private:
+  bool fill(const Cavity& cavity, PolyhedronOptions search) {
+    constexpr double kLeastGain = 0.98;
+    const double worst = badness_of(mesh_, cavity.tets(), flat_from_).worst;
+    search.worst_quality = std::min(kLeastGain * worst, flat_from_);
+    const auto fresh = fill_polyhedron(mesh_, cavity.faces(), search);
+    if (!fresh) return false;
+    const std::vector<Vertex> inner = cavity.inner();
+    replace(mesh_, {.old_tets = cavity.tets(), .new_tets = *fresh}, &created_);
+    for (const Vertex v : inner) mesh_.remove_vertex(v);
+    return true;
+  }
+
+  TetMesh& mesh_;
+  const Vertex first_free_;
+  const double flat_from_;
+  std::mt19937_64& random_;
+  std::vector<Tet>& created_;
+};
+
+}  // namespace
+
+bool reconnect(TetMesh& mesh, Tet t, Vertex first_free, double flat_from, std::mt19937_64& random,
+               std::vector<Tet>& created) {
+  Reconnection reconnection(mesh, first_free, flat_from, random, created);
+  const std::array<Tet, 1> alone{t};
+  if (quality_of(mesh, mesh.corners(t)) < flat_from) return reconnection.from(alone, kUsual);
+  // Some edge of a flat tetrahedron has to go.
+  for (const int edge : wide_edges(mesh, t)) {
+    const auto& ends = kEdgeVertex[static_cast<std::size_t>(edge)];
+    EdgeShell shell;
+    if (gather_shell(mesh, t, mesh.corner(t, ends[0]), mesh.corner(t, ends[1]), shell) &&
+        reconnection.from(shell.tets, kForFlat))
+      return true;
+  }
+  return reconnection.from(alone, kForFlat);
+}
+
+}  // namespace holdfast

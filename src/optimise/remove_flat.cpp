@@ -1,0 +1,116 @@
+#include "optimise/remove_flat.h"
+
+#include <algorithm>
+#include <array>
+
+#include "mesh/replace.h"
+#include "mesh/traverse.h"
+#include "optimise/badness.h"
+
+namespace holdfast {
+namespace {
+
+// Triangulations of a link that make nothing flat, and no edge at one vertex.
+class NothingFlat {
+ public:
+  using Cost = double;  // the worst Q
+
+  NothingFlat(const TetMesh& mesh, const EdgeShell& shell, double flat_from, Vertex avoided)
+      : mesh_(mesh), shell_(shell), flat_from_(flat_from), avoided_(avoided) {}
+
+  static Cost none() { return 0; }
+  static Cost join(Cost x, Cost y) { return std::max(x, y); }
+  static bool better(Cost x, Cost y) { return x < y; }
+  static Cost diagonal(std::size_t, std::size_t) { return 0; }
+  std::optional<Cost> triangle(std::size_t i, std::size_t k, std::size_t j) const {
+    // A triangle makes two edges at most, of which one at the avoided vertex where this is no ear at it.
+    const Vertex pi = shell_.link[i], pk = shell_.link[k], pj = shell_.link[j];
+    const std::size_t n = shell_.size();
+    const auto is_new_at_avoided = [&](std::size_t u, std::size_t v) {
+      return (v - u != 1 && v - u != n - 1) && (shell_.link[u] == avoided_ || shell_.link[v] == avoided_);
+    };
+    if (is_new_at_avoided(i, k) || is_new_at_avoided(k, j) || is_new_at_avoided(i, j)) return std::nullopt;
+    const double worst =
+        std::max(quality_of(mesh_, {pi, pk, pj, shell_.b}), quality_of(mesh_, {pj, pk, pi, shell_.a}));
+    if (!(worst < flat_from_) || !sees_both_ends(mesh_, shell_, i, k, j)) return std::nullopt;
+    return worst;
+  }
+
+ private:
+  const TetMesh& mesh_;
+  const EdgeShell& shell_;
+  const double flat_from_;
+  const Vertex avoided_;
+};
+
+}  // namespace
+
+bool FlatRemover::remove(Tet t, std::vector<Tet>& created) {
+  created_ = &created;
+  work_ = 0;
+  const TetMesh::Corners corners = mesh_.corners(t);
+  for (const int edge : wide_edges(mesh_, t)) {
+    const auto& ends = kEdgeVertex[static_cast<std::size_t>(edge)];
+    const Vertex a = corners[static_cast<std::size_t>(ends[0])],
+                 b = corners[static_cast<std::size_t>(ends[1])];
+    if (remove_edge(t, a, b, kDepth, kNone)) return true;
+    if (!mesh_.alive(t) || mesh_.corners(t) != corners) return true;
+  }
+  return false;
+}
+
+// At once, or after flips that thin out its shell; `avoided` gets no new edge.
+bool FlatRemover::remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex avoided) {
+  EdgeShell shell;
+  while (t != kNone) {
+    const auto local = [&](Vertex v) { return static_cast<std::size_t>(mesh_.index_of(t, v)); };
+    if (++work_ > kBudget || mesh_.is_segment(t, kEdgeOf[local(a)][local(b)]) ||
+        !gather_shell(mesh_, t, a, b, shell, kMostShell))
+      return false;
+    if (remove_now(shell, avoided)) return true;
+    if (depth == 0 || !thin_out(shell, depth)) return false;
+    t = survivor(shell);
+  }
+  return true;
+}
+
+// A tetrahedron of an edge's shell after flips beside it.
+Tet FlatRemover::survivor(const EdgeShell& shell) {
+  for (const Tet t : shell.tets)
+    if (mesh_.alive(t) && mesh_.index_of(t, shell.a) >= 0 && mesh_.index_of(t, shell.b) >= 0) return t;
+  return find_edge(mesh_, shell.a, shell.b);
+}
+
+bool FlatRemover::remove_now(const EdgeShell& shell, Vertex avoided) {
+  NothingFlat objective(mesh_, shell, flat_from_, avoided);
+  LinkTriangulation<NothingFlat> triangulation;
+  if (!triangulation.find(shell.size(), objective)) return false;
+  std::vector<LinkTriangle> triangles;
+  std::vector<TetMesh::Corners> fresh;
+  triangulation.triangles(shell.size(), triangles);
+  tetrahedra_of(shell, triangles, fresh);
+  replace(mesh_, {.old_tets = shell.tets, .new_tets = fresh}, created_);
+  return true;
+}
+
+// A spoke, from an end of the edge to a corner of its link, is in the way where the ear at that corner would
+// be flat or negative: without it the shell has one tetrahedron fewer. Returns whether the flips for one of
+// the spokes have changed the mesh.
+bool FlatRemover::thin_out(const EdgeShell& shell, int depth) {
+  const std::size_t n = shell.size();
+  const std::size_t before = created_->size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vertex p = shell.link[(i + n - 1) % n], q = shell.link[i], r = shell.link[(i + 1) % n];
+    if (!is_good(p, q, r, shell.b)) remove_edge(shell.tets[i], shell.b, q, depth - 1, shell.a);
+    if (created_->size() != before) return true;
+    if (!is_good(r, q, p, shell.a)) remove_edge(shell.tets[i], shell.a, q, depth - 1, shell.b);
+    if (created_->size() != before) return true;
+  }
+  return false;
+}
+
+bool FlatRemover::is_good(Vertex a, Vertex b, Vertex c, Vertex d) const {
+  return mesh_.orient(a, b, c, d) > 0 && quality_of(mesh_, {a, b, c, d}) < flat_from_;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,253 @@
+// Optimisation: the worst elements improve, constraints and volume stay, the mesh is valid after every step.
+#include "optimise/optimise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "mesh/quality.h"
+#include "mesh/replace.h"
+#include "mesh/validate.h"
+#include "mesh_fixtures.h"
+#include "optimise/badness.h"
+#include "optimise/exchange.h"
+#include "optimise/insert_point.h"
+#include "optimise/reconnect.h"
+#include "optimise/relocate.h"
+#include "optimise/remove_flat.h"
+
+namespace holdfast {
+namespace {
+
+using namespace testing;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::vector<Tet> solid(const TetMesh& mesh) {
+  std::vector<Tet> tets = living(mesh);
+  std::erase_if(tets, [&](Tet t) { return mesh.is_ghost(t); });
+  return tets;
+}
+
+double worst_quality(const TetMesh& mesh) { return badness_of(mesh, solid(mesh), kInfinity).worst; }
+
+// Points of a jittered grid, the jitter so small that Delaunay leaves slivers.
+TetMesh slivers(double jitter, std::uint64_t seed, int n = 4) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> shift(-jitter, jitter);
+  std::vector<Point> points;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k) points.push_back({i + shift(random), j + shift(random), k + shift(random)});
+  return delaunay_in_box(points, 2.0 * n);
+}
+
+// Facets and segments of some faces inside, so that something stands in the way.
+void constrain(TetMesh& mesh, std::mt19937_64& random) {
+  for (const Tet t : solid(mesh)) {
+    if (random() % 12 != 0) continue;
+    const Face f = face_code(t, static_cast<int>(random() % 4));
+    if (mesh.is_ghost(tet_of(mesh.neighbour(f)))) continue;
+    mesh.set_facet(f);
+    const auto v = mesh.face_vertices(f);
+    for (std::size_t k = 0; k < 3; ++k)
+      set_segment(mesh, find_edge(mesh, v[k], v[(k + 1) % 3]), v[k], v[(k + 1) % 3]);
+  }
+}
+
+// A flat tetrahedron, the worst of a mesh.
+Tet worst_tet(const TetMesh& mesh) {
+  const std::vector<Tet> tets = solid(mesh);
+  return *std::max_element(tets.begin(), tets.end(), [&](Tet s, Tet t) {
+    return quality_of(mesh, mesh.corners(s)) < quality_of(mesh, mesh.corners(t));
+  });
+}
+
+void expect_sound(TetMesh& mesh, const exact::Dyadic& volume) {
+  EXPECT_EQ(find_fault(mesh), "");
+  EXPECT_EQ((volume_of(mesh) - volume).sign(), 0);
+}
+
+TEST(Badness, FewerFlatOnesCountFirst) {
+  Badness flat, thin;
+  flat.add(1e12, 1000);
+  thin.add(900, 1000);
+  thin.add(900, 1000);
+  EXPECT_EQ(flat.flat, 1u);
+  EXPECT_EQ(thin.flat, 0u);
+  EXPECT_TRUE(thin.is_worthwhile_after(flat));
+  EXPECT_FALSE(flat.is_worthwhile_after(thin));
+  Badness other;
+  other.add(890, 1000);
+  EXPECT_FALSE(other.is_worthwhile_after(thin));  // too little
+  Badness not_a_number;
+  not_a_number.add(std::nan(""), 1000);
+  EXPECT_EQ(not_a_number.flat, 1u);
+}
+
+TEST(Badness, WideEdgesOfASliverAndOfACap) {
+  TetMesh mesh;
+  for (const Point& p : {Point{0, 0, 0}, Point{1, 0, 1e-9}, Point{1, 1, 0}, Point{0, 1, 1e-9}})
+    mesh.add_vertex(p);
+  const Tet sliver = mesh.add_tet({0, 1, 2, 3});
+  EXPECT_EQ(wide_edges(mesh, sliver), (std::vector<int>{1, 4}));  // the diagonals 02 and 13
+  for (const Point& p : {Point{0, 0, 0}, Point{1, 0, 0}, Point{0, 1, 0}, Point{0.3, 0.3, 1e-9}})
+    mesh.add_vertex(p);
+  const Tet cap = mesh.add_tet({4, 5, 6, 7});
+  EXPECT_EQ(wide_edges(mesh, cap), (std::vector<int>{2, 4, 5}));  // those at vertex 7
+}
+
+TEST(Exchange, NeverWorseAndNothingLost) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    TetMesh mesh = slivers(1e-6, seed);
+    std::mt19937_64 random(seed);
+    constrain(mesh, random);
+    const auto facets = facet_faces(mesh);
+    const auto segments = segment_edges(mesh);
+    const exact::Dyadic volume = volume_of(mesh);
+    Exchanger exchanger(mesh, 1000);
+    Badness before = badness_of(mesh, solid(mesh), 1000);
+    int exchanged = 0;
+    for (const Tet t : solid(mesh)) {
+      if (!mesh.alive(t)) continue;
+      std::vector<Tet> created;
+      if (!exchanger.improve(t, created)) continue;
+      ++exchanged;
+      const Badness after = badness_of(mesh, solid(mesh), 1000);
+      EXPECT_LE(after.flat, before.flat);
+      if (after.flat == before.flat) {
+        EXPECT_LE(after.worst, before.worst);
+      }
+      before = after;
+    }
+    EXPECT_GT(exchanged, 0);
+    EXPECT_EQ(facet_faces(mesh), facets);
+    EXPECT_EQ(segment_edges(mesh), segments);
+    expect_sound(mesh, volume);
+  }
+}
+
+TEST(FlatRemover, LeavesFewerFlatOnes) {
+  std::size_t removed = 0;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    TetMesh mesh = slivers(1e-9, seed);
+    const exact::Dyadic volume = volume_of(mesh);
+    FlatRemover remover(mesh, 1000);
+    for (const Tet t : solid(mesh)) {
+      if (!mesh.alive(t) || quality_of(mesh, mesh.corners(t)) < 1000) continue;
+      const std::size_t before = badness_of(mesh, solid(mesh), 1000).flat;
+      std::vector<Tet> created;
+      const bool fewer = remover.remove(t, created);
+      const std::size_t after = badness_of(mesh, solid(mesh), 1000).flat;
+      EXPECT_LE(after, before);
+      if (fewer) {
+        EXPECT_LT(after, before);
+        ++removed;
+      }
+    }
+    expect_sound(mesh, volume);
+  }
+  EXPECT_GT(removed, 20u);
+}
+
+TEST(Relocate, LowersTheWorstOfTheBall) {
+  TetMesh mesh = delaunay_in_box(
+      {{0.9, 0.9, -0.9}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}, 1);
+  std::mt19937_64 random(1);
+  const std::vector<Tet> star = ball_of(mesh, 0);
+  const double before = badness_of(mesh, star, kInfinity).worst;
+  EXPECT_TRUE(relocate(mesh, 0, star, random));
+  EXPECT_LT(badness_of(mesh, star, kInfinity).worst, 0.8 * before);
+  EXPECT_EQ(find_fault(mesh), "");
+}
+
+TEST(Reconnect, OnlyBetterFillings) {
+  std::mt19937_64 random(3);
+  int reconnected = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    TetMesh mesh = slivers(1e-7, seed, 3);
+    constrain(mesh, random);
+    const auto facets = facet_faces(mesh);
+    const exact::Dyadic volume = volume_of(mesh);
+    const Badness before = badness_of(mesh, solid(mesh), 1000);
+    std::vector<Tet> created;
+    if (reconnect(mesh, worst_tet(mesh), kNone, 1000, random, created)) {
+      ++reconnected;
+      EXPECT_LT(badness_of(mesh, solid(mesh), 1000).flat, before.flat);
+      EXPECT_LT(badness_of(mesh, created, 1000).worst, 1000);
+    }
+    EXPECT_EQ(facet_faces(mesh), facets);
+    expect_sound(mesh, volume);
+  }
+  EXPECT_GT(reconnected, 0);
+}
+
+// A corner of three facets in one plane but for rounding: nothing but a point helps.
+TEST(InsertPoint, WhereThreeFacetsMakeACap) {
+  TetMesh mesh = delaunay_in_box({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, -1}, {0.3, 0.3, 1}}, 2);
+  const auto first_free = static_cast<Vertex>(mesh.vertex_count() + 1);
+  const Face base = find_face(mesh, 0, 1, 2);
+  ASSERT_NE(base, kNone);
+  const Tet above = mesh.apex(base) == 4 ? tet_of(base) : tet_of(mesh.neighbour(base));
+  ASSERT_GE(mesh.index_of(above, 4), 0);
+  const Vertex top = mesh.add_vertex(Point{0.3, 0.3, 1e-12});
+  const std::vector<Tet> old_tets{above};
+  replace(mesh, {.old_tets = old_tets, .new_tets = cone(outer_faces(mesh, old_tets), top)});
+  for (const FaceKey& f : {FaceKey{0, 1, top}, FaceKey{1, 2, top}, FaceKey{2, 0, top}}) {
+    mesh.set_facet(find_face(mesh, f[0], f[1], f[2]));
+    for (std::size_t k = 0; k < 3; ++k)
+      set_segment(mesh, find_edge(mesh, f[k], f[(k + 1) % 3]), f[k], f[(k + 1) % 3]);
+  }
+  const Tet cap = worst_tet(mesh);
+  ASSERT_GT(quality_of(mesh, mesh.corners(cap)), 1e10);
+  const exact::Dyadic volume = volume_of(mesh);
+  std::vector<Tet> created;
+  const Vertex p = insert_point(mesh, cap, first_free, 1000, created);
+  ASSERT_NE(p, kNone);
+  EXPECT_LT(badness_of(mesh, created, kInfinity).worst, 1000);
+  EXPECT_LT(worst_quality(mesh), 1e4);
+  EXPECT_EQ(facet_faces(mesh).size(), 3u);
+  expect_sound(mesh, volume);
+}
+
+TEST(Optimise, SliversGo) {
+  for (const double jitter : {0.0, 1e-15, 1e-9, 1e-3, 0.3})
+    for (const bool constrained : {false, true}) {
+      TetMesh mesh = slivers(jitter, 11);
+      std::mt19937_64 random(2);
+      if (constrained) constrain(mesh, random);
+      const auto facets = facet_faces(mesh);
+      const auto segments = segment_edges(mesh);
+      const exact::Dyadic volume = volume_of(mesh);
+      const Badness before = badness_of(mesh, solid(mesh), 100);
+      const Options options;
+      Monitor monitor(options);
+      optimise(mesh, solid(mesh), static_cast<Vertex>(mesh.vertex_count()), 20, monitor);
+      const Badness after = badness_of(mesh, solid(mesh), 100);
+      EXPECT_FALSE(before < after);
+      if (!constrained) {  // facets on both sides of a sliver keep it
+        EXPECT_LT(after.worst, 100) << jitter;
+      }
+      EXPECT_EQ(facet_faces(mesh), facets);
+      EXPECT_EQ(segment_edges(mesh), segments);
+      expect_sound(mesh, volume);
+    }
+}
+
+TEST(Quality, PlainArithmeticAgreesWithTheCarefulOne) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> u(-1, 1);
+  for (int k = 0; k < 2000; ++k) {
+    std::array<Point, 4> p;
+    for (Point& q : p) q = {u(random), u(random), u(random) * std::pow(10.0, -(k % 12))};
+    std::array<Point, 4> large = p;  // too large for plain arithmetic
+    for (Point& q : large)
+      for (double& x : q) x = std::ldexp(x, 300);
+    const double q = quality(p[0], p[1], p[2], p[3]);
+    EXPECT_NEAR(quality(large[0], large[1], large[2], large[3]) / q, 1, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace holdfast
