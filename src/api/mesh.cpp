@@ -220,7 +220,7 @@ class Pipeline {
     }
     const OptimiseStats stats =
         optimise(mesh_, tets, first_free_, target_quality(complex_.vertices, complex_.facets), monitor_);
-    if (stats.any()) regions_ = flood_regions(mesh_, complex_.facets);
+    if (stats.changed > 0) regions_ = flood_regions(mesh_, complex_.facets);
   }
 
   [[nodiscard]] bool is_kept(Tet t) const {

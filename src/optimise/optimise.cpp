@@ -88,6 +88,7 @@ class Optimiser {
       ++stats_.inserted;
     else if (e.quality >= flat_from_)
       stuck_.push_back(e);
+    stats_.changed += created_.size();
     for (const Tet t : created_)
       if (mesh_.alive(t)) push(t);
   }
@@ -101,6 +102,7 @@ class Optimiser {
     points.erase(std::unique(points.begin(), points.end()), points.end());
     for (const Vertex p : points)
       if (work_ < budget_ / 2 && relocate_with_ball(p)) ++stats_.relocated;
+    stats_.changed += created_.size();
     created_.clear();
   }
 

@@ -15,8 +15,7 @@ struct OptimiseStats {
   std::size_t unflattened = 0;  ///< flat tetrahedra removed by several flips
   std::size_t reconnected = 0;  ///< small polyhedra filled another way
   std::size_t inserted = 0;     ///< points for flat tetrahedra
-
-  [[nodiscard]] bool any() const { return exchanged + relocated + unflattened + reconnected + inserted > 0; }
+  std::size_t changed = 0;      ///< tetrahedra made, those of attempts that came to nothing included
 };
 
 /// Improves the worst of `tets`, which are all of some regions and whose vertices are explicit. Facets and
