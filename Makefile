@@ -45,7 +45,7 @@ format:  ## clang-format on every source
 
 tidy: $(RELEASE)/build.ninja  ## clang-tidy on every source (FILES="..." for some)
 	@scripts/setup.sh build lint
-	@echo $(or $(FILES),$$(git ls-files 'src/*.cpp')) | xargs -n 1 -P $(JOBS) clang-tidy -p $(RELEASE) --quiet
+	@echo $(or $(FILES),$$(git ls-files 'src/*.cpp')) | xargs -n 1 -P $(JOBS) clang-tidy -p $(RELEASE) --quiet --extra-arg=-Wno-unknown-warning-option
 
 debug: setup  ## the tests with assertions and a mesh validated after every operation
 	@cmake --preset debug

@@ -73,6 +73,11 @@ struct Report {
   std::size_t segment_points = 0, facet_points = 0;  ///< added by the partition
   std::size_t steiner_points = 0;                    ///< left in the volume; corners of a box do not count
   std::size_t unrounded_points = 0;                  ///< of these, without a position in doubles
+  struct Optimised {
+    std::size_t exchanges = 0;  ///< of tetrahedra for better ones
+    std::size_t moves = 0;      ///< of Steiner points
+    std::size_t points = 0;     ///< Steiner points added where a tetrahedron stayed flat otherwise
+  } optimised;
   std::size_t vertices = 0, tetrahedra = 0, regions = 0;
   struct Quality {
     double target = 0, worst = 0;  ///< the paper's Q = sqrt(6)/12 h_max / inradius, 1 is regular

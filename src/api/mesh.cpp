@@ -220,6 +220,8 @@ class Pipeline {
     }
     const OptimiseStats stats =
         optimise(mesh_, tets, first_free_, target_quality(complex_.vertices, complex_.facets), monitor_);
+    result_.report.optimised = {stats.exchanged + stats.unflattened + stats.reconnected, stats.relocated,
+                                stats.inserted};
     if (stats.changed > 0) regions_ = flood_regions(mesh_, complex_.facets);
   }
 

@@ -83,9 +83,8 @@ class Optimiser {
       ++stats_.relocated;
     else if (e.quality >= flat_from_ && remove_flat(e.tet))
       ++stats_.unflattened;
-    else if (is_worth_reconnecting(e) && reconnect_round(e.tet))
-      ++stats_.reconnected;
-    else if (e.quality >= worth_a_point_ && reconnect_patiently(e.tet))
+    else if ((is_worth_reconnecting(e) && reconnect_round(e.tet)) ||
+             (e.quality >= worth_a_point_ && reconnect_patiently(e.tet)))
       ++stats_.reconnected;
     else if (e.quality >= worth_a_point_ && insert_at(e.tet))
       ++stats_.inserted;

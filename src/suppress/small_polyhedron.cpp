@@ -156,6 +156,7 @@ class Search {
     }
     std::sort(order.begin(), order.end());
     std::vector<Local> out;
+    out.reserve(order.size());
     for (const auto& [fat, d] : order) out.push_back(d);
     return out;
   }
