@@ -3,7 +3,7 @@ JOBS ?= $(shell nproc)
 CORPUS ?=
 RELEASE := build/release
 
-.PHONY: help setup build demo test corpus bench format tidy debug asan install clean
+.PHONY: help setup build demo test corpus bench tables format tidy debug asan install clean
 .DEFAULT_GOAL := help
 
 help:  ## this list
@@ -34,6 +34,10 @@ bench:  ## speed against TetGen and CGAL, written to docs/benchmarks.md
 	@cmake --preset release -DHOLDFAST_BUILD_BENCH=ON
 	@cmake --build $(RELEASE) -j $(JOBS) --target holdfast_cli cgal_delaunay
 	@python3 bench/run.py --build $(RELEASE) --corpus "$(or $(CORPUS),../shared/corpus)" $(ARGS)
+
+tables: build  ## the paper's tables beside TetGen, for the corpus and the paper's cases, to docs/results.md
+	@scripts/setup.sh bench
+	@python3 bench/tables.py --build $(RELEASE) --corpus "$(or $(CORPUS),../shared/corpus)" --jobs $(JOBS) $(ARGS)
 
 format:  ## clang-format on every source
 	@scripts/setup.sh lint

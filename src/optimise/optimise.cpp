@@ -30,7 +30,7 @@ class Optimiser {
     budget_ = kLeastWork + kWorkPerTet * tets.size();
     relocate_all(tets);
     for (const Tet t : tets) push(t);
-    while (!queue_.empty() && work_ < budget_for(queue_.top())) {
+    while (!queue_.empty() && !is_spent(queue_.top())) {
       const Entry worst = queue_.top();
       queue_.pop();
       if (is_current(worst)) improve(worst);
@@ -49,8 +49,9 @@ class Optimiser {
     }
   };
 
-  [[nodiscard]] std::size_t budget_for(const Entry& e) const {
-    return e.quality >= worth_a_point_ ? budget_ : budget_ / kUsualShare;
+  // What is worth a point, which comes first, may take all.
+  [[nodiscard]] bool is_spent(const Entry& e) const {
+    return work_ >= (e.quality >= worth_a_point_ ? budget_ : budget_ / kUsualShare);
   }
 
   [[nodiscard]] bool has_flat() const { return !queue_.empty() && queue_.top().quality >= flat_from_; }
@@ -83,6 +84,8 @@ class Optimiser {
     else if (e.quality >= flat_from_ && remove_flat(e.tet))
       ++stats_.unflattened;
     else if (is_worth_reconnecting(e) && reconnect_round(e.tet))
+      ++stats_.reconnected;
+    else if (e.quality >= worth_a_point_ && reconnect_patiently(e.tet))
       ++stats_.reconnected;
     else if (e.quality >= worth_a_point_ && insert_at(e.tet))
       ++stats_.inserted;
@@ -143,7 +146,15 @@ class Optimiser {
   bool reconnect_round(Tet t) {
     constexpr std::size_t kWork = 50;
     work_ += kWork;
-    return reconnect(mesh_, t, first_free_, flat_from_, random_, created_);
+    return reconnect(mesh_, t, first_free_, flat_from_, false, random_, created_);
+  }
+
+  // A point is worth some milliseconds, a few times.
+  bool reconnect_patiently(Tet t) {
+    constexpr std::size_t kWork = 200;
+    if (work_ + kWork > kLeastWork / 4) return false;
+    work_ += kWork;
+    return reconnect(mesh_, t, first_free_, flat_from_, true, random_, created_);
   }
 
   bool insert_at(Tet t) {

@@ -12,11 +12,13 @@ namespace holdfast {
 namespace {
 
 struct Effort {
-  int steps;
+  int attempts, steps;
+  int every;  // steps: a search costs more than growing on
   PolyhedronOptions search;
 };
-constexpr Effort kUsual{10, {.most_vertices = 14, .most_nodes = 100}};
-constexpr Effort kForFlat{20, {.most_vertices = 20, .most_nodes = 100}};
+constexpr Effort kUsual{1, 10, 4, {.most_vertices = 14, .most_nodes = 100}};
+constexpr Effort kForFlat{1, 20, 4, {.most_vertices = 20, .most_nodes = 100}};
+constexpr Effort kPatient{2, 20, 2, {.most_vertices = 20, .most_nodes = 300}};
 
 class Reconnection {
  public:
@@ -24,15 +26,17 @@ class Reconnection {
                std::vector<Tet>& created)
       : mesh_(mesh), first_free_(first_free), flat_from_(flat_from), random_(random), created_(created) {}
 
-  // The cavity grows from these tetrahedra.
+  // Every attempt grows the cavity from the same tetrahedra another way.
   bool from(std::span<const Tet> seed, const Effort& effort) {
-    constexpr int kEvery = 4;          // a search costs more than growing on
     constexpr std::size_t kFirst = 3;  // fewer tetrahedra cannot be filled another way
-    Cavity cavity(mesh_, seed, first_free_);
-    for (int step = 0; step < effort.steps; ++step) {
-      if (cavity.vertex_count() > effort.search.most_vertices) break;
-      if (cavity.tets().size() >= kFirst && step % kEvery == 0 && fill(cavity, effort.search)) return true;
-      if (!cavity.grow(random_)) break;
+    for (int attempt = 0; attempt < effort.attempts; ++attempt) {
+      Cavity cavity(mesh_, seed, first_free_);
+      for (int step = 0; step < effort.steps; ++step) {
+        if (cavity.vertex_count() > effort.search.most_vertices) break;
+        if (cavity.tets().size() >= kFirst && step % effort.every == 0 && fill(cavity, effort.search))
+          return true;
+        if (!cavity.grow(random_)) break;
+      }
     }
     return false;
   }
@@ -59,20 +63,21 @@ class Reconnection {
 
 }  // namespace
 
-bool reconnect(TetMesh& mesh, Tet t, Vertex first_free, double flat_from, std::mt19937_64& random,
-               std::vector<Tet>& created) {
+bool reconnect(TetMesh& mesh, Tet t, Vertex first_free, double flat_from, bool patient,
+               std::mt19937_64& random, std::vector<Tet>& created) {
   Reconnection reconnection(mesh, first_free, flat_from, random, created);
   const std::array<Tet, 1> alone{t};
   if (quality_of(mesh, mesh.corners(t)) < flat_from) return reconnection.from(alone, kUsual);
+  const Effort& effort = patient ? kPatient : kForFlat;
   // Some edge of a flat tetrahedron has to go.
   for (const int edge : wide_edges(mesh, t)) {
     const auto& ends = kEdgeVertex[static_cast<std::size_t>(edge)];
     EdgeShell shell;
     if (gather_shell(mesh, t, mesh.corner(t, ends[0]), mesh.corner(t, ends[1]), shell) &&
-        reconnection.from(shell.tets, kForFlat))
+        reconnection.from(shell.tets, effort))
       return true;
   }
-  return reconnection.from(alone, kForFlat);
+  return reconnection.from(alone, effort);
 }
 
 }  // namespace holdfast

@@ -172,7 +172,7 @@ TEST(Reconnect, OnlyBetterFillings) {
     const exact::Dyadic volume = volume_of(mesh);
     const Badness before = badness_of(mesh, solid(mesh), 1000);
     std::vector<Tet> created;
-    if (reconnect(mesh, worst_tet(mesh), kNone, 1000, random, created)) {
+    if (reconnect(mesh, worst_tet(mesh), kNone, 1000, seed % 2 == 0, random, created)) {
       ++reconnected;
       EXPECT_LT(badness_of(mesh, solid(mesh), 1000).flat, before.flat);
       EXPECT_LT(badness_of(mesh, created, 1000).worst, 1000);

@@ -1,0 +1,247 @@
+"""The paper's Tables I and II for the generated cases and the corpus, beside TetGen, in one run.
+
+    tables.py --build build/release [--corpus DIR] [--surfaces 300] [--jobs 2] [--seed2 2]
+
+Every surface is filled by `holdfast mesh --fill` and verified by `holdfast check` and, where there is one, by the
+independent checker; then TetGen (-pYQz) fills it on the same machine. Columns, as the paper calls them: faini, arini
+(facets and segments of the surface), faper, arper (those missing after the flips), npface, nparet (points that the
+partition added), npste (Steiner points left), ne, np (tetrahedra, vertices), Target (the Q that the worst facet asks
+for), Q (of the worst tetrahedron), cpu (seconds of the whole program). Writes docs/results.md.
+"""
+import argparse
+import concurrent.futures
+import json
+import math
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from fractions import Fraction
+from pathlib import Path
+from statistics import median
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "scripts"))
+import corpus  # noqa: E402  (finds the surfaces)
+
+TETGEN_LIMIT = 60
+ROUNDING = 1 + 1e-9  # equal Q is told as equal
+
+# The paper's surfaces (section), made here; those in brackets are the corpus's names.
+GENERATED = [
+    ("Schönhardt, 30 degrees (§3.1)", ["make_hard.py", "schonhardt", "{}"]),
+    ("Schönhardt, 59.9 degrees (§3.1)", ["make_hard.py", "schonhardt", "{}", "--twist", "59.9"]),
+    ("Chazelle, n = 3 (§3.2)", ["make_hard.py", "chazelle", "{}", "-n", "3"]),
+    ("Chazelle, n = 6 (§3.2)", ["make_hard.py", "chazelle", "{}", "-n", "6"]),
+    ("Fig. 13, n = 8, m = 4", ["make_paper.py", "worst", "{}", "-n", "8", "-m", "4"]),
+    ("Fig. 13, n = 16, m = 8", ["make_paper.py", "worst", "{}", "-n", "16", "-m", "8"]),
+    ("Fig. 14, 2,082 triangles", ["make_paper.py", "dangling", "{}"]),
+    ("Fig. 15, 26,326 triangles", ["make_paper.py", "touching", "{}"]),
+    ("Fig. 19, four materials", ["make_paper.py", "semiconductor", "{}"]),
+    ("gap of 1e-12", ["make_paper.py", "gap", "{}", "--gap", "1e-12"]),
+]
+
+
+# ------------------------------------------------------------------------------------------------- quality
+
+
+def difference(p, q):
+    return (p[0] - q[0], p[1] - q[1], p[2] - q[2])
+
+
+def cross(u, v):
+    return (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+
+
+def dot(u, v):
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+
+
+def quality(a, b, c, d):
+    """The paper's Q; exactly computed where terms cancel, infinite for a flat tetrahedron."""
+    u, v, w = difference(b, a), difference(c, a), difference(d, a)
+    x, y, z = difference(c, b), difference(d, b), difference(d, c)
+    longest = math.sqrt(max(dot(e, e) for e in (u, v, w, x, y, z)))
+    if not longest > 0:
+        return math.inf
+    volume = abs(dot(cross(u, v), w))
+    areas = [cross(u, v), cross(v, w), cross(w, u), cross(x, y)]
+    if volume < 1e-5 * longest ** 3:
+        a, b, c, d = ([Fraction(t) for t in p] for p in (a, b, c, d))
+        u, v, w, x, y = (difference(b, a), difference(c, a), difference(d, a), difference(c, b), difference(d, b))
+        volume = float(abs(dot(cross(u, v), w)))
+        areas = [[float(t) for t in n] for n in (cross(u, v), cross(v, w), cross(w, u), cross(x, y))]
+    if volume == 0:
+        return math.inf
+    return math.sqrt(6) / 12 * longest * sum(math.sqrt(dot(n, n)) for n in areas) / volume
+
+
+def read_numbers(path):
+    with open(path, encoding="ascii") as file:
+        rows = [line.split() for line in file if line.strip() and not line.startswith("#")]
+    return rows[1: 1 + int(rows[0][0])]
+
+
+def tetgen_worst(folder):
+    """(vertices, tetrahedra, worst Q) of TetGen's files."""
+    points = [tuple(map(float, row[1:4])) for row in read_numbers(folder / "s.1.node")]
+    tetrahedra = [tuple(map(int, row[1:5])) for row in read_numbers(folder / "s.1.ele")]
+    return len(points), len(tetrahedra), max((quality(*(points[v] for v in t)) for t in tetrahedra), default=0.0)
+
+
+# -------------------------------------------------------------------------------------------------- programs
+
+
+def timed(command, limit):
+    """(exit code or None after a timeout, seconds)."""
+    started = time.monotonic()
+    try:
+        done = subprocess.run([str(w) for w in command], capture_output=True, timeout=limit, check=False)
+    except subprocess.TimeoutExpired:
+        return None, time.monotonic() - started
+    return done.returncode, time.monotonic() - started
+
+
+def vertices_of_off(path):
+    with open(path, encoding="ascii", errors="replace") as file:
+        words = [line for line in file if line.strip() and not line.startswith("#")][1]
+    return int(words.split()[0])
+
+
+class Filler:
+    def __init__(self, options, checker):
+        self.options, self.checker = options, checker
+
+    def fill(self, name, surface):
+        with tempfile.TemporaryDirectory(prefix="holdfast-tables-") as folder:
+            folder = Path(folder)
+            local = folder / "s.off"
+            shutil.copy(surface, local)
+            row = {"name": name, **self.holdfast(local, folder)}
+            row["tetgen"] = self.tetgen(local, folder)
+            return row
+
+    def holdfast(self, surface, folder):
+        report, volume = folder / "report.json", folder / "out.mesh"
+        program = self.options.build / "holdfast"
+        mesh = [program, "mesh", surface, "-o", volume, "--fill", "-q", "--report", report, "--time-limit", "600"]
+        code, seconds = timed(mesh, 700)
+        told = json.loads(report.read_text()) if report.exists() else {}
+        row = {"code": code, "seconds": seconds, "report": told}
+        if code == 0:
+            row["checked"] = timed([program, "check", surface, volume], 600)[0] == 0
+            if self.checker:
+                readable = corpus.readable_by_checker(surface, folder)
+                row["checked"] = row["checked"] and timed([self.checker, readable, volume], 600)[0] == 0
+            code, _ = timed([*mesh, "--seed", str(self.options.seed2)], 700)
+            row["other_seed"] = json.loads(report.read_text())["steiner"]["count"] if code == 0 else None
+        return row
+
+    def tetgen(self, surface, folder):
+        code, seconds = timed(["tetgen", "-pYQz", surface], TETGEN_LIMIT)
+        if code != 0 or not (folder / "s.1.ele").exists():
+            return None
+        points, tetrahedra, worst = tetgen_worst(folder)
+        return {"added": points - vertices_of_off(surface), "tetrahedra": tetrahedra, "worst": worst, "seconds": seconds}
+
+
+# --------------------------------------------------------------------------------------------------- tables
+
+
+def number(x):
+    return "inf" if math.isinf(x) else f"{x:.0f}" if 100 <= x < 1e6 else f"{x:.3g}"
+
+
+def table(rows):
+    lines = ["| surface | faini | arini | faper | arper | npface | nparet | npste | ne | np | Target | Q | cpu | verified | "
+             "TetGen: added | Q | cpu |", "|---|" + "---:|" * 12 + "---|" + "---:|" * 3]
+    for row in rows:
+        if row["code"] != 0:
+            lines.append(f"| {row['name']} | ended with exit code {row['code']} |" + " |" * 15)
+            continue
+        r, t = row["report"], row["tetgen"]
+        cells = [row["name"], r["input"]["facets"], r["input"]["segments"], r["flips"]["missing_facets"],
+                 r["flips"]["missing_segments"], r["partition"]["facet_points"], r["partition"]["segment_points"],
+                 r["steiner"]["count"], r["mesh"]["tetrahedra"], r["mesh"]["vertices"], number(r["quality"]["target"]),
+                 number(r["quality"]["worst"]), f"{row['seconds']:.2f}", "yes" if row["checked"] else "NO"]
+        cells += [t["added"], number(t["worst"]), f"{t['seconds']:.2f}"] if t else ["failed", "", ""]
+        lines.append("| " + " | ".join(map(str, cells)) + " |")
+    return lines
+
+
+def summary(rows):
+    done = [r for r in rows if r["code"] == 0]
+    both = [r for r in done if r["tetgen"]]
+    ours = {r["name"]: r["report"]["steiner"]["count"] for r in done}
+    better_q = [r for r in both if r["report"]["quality"]["worst"] <= ROUNDING * r["tetgen"]["worst"]]
+    more = [r for r in both if ours[r["name"]] > r["tetgen"]["added"]]
+    near = sorted(r["report"]["quality"]["worst"] / r["report"]["quality"]["target"] for r in done)
+    other = sum(r["other_seed"] for r in done if r["other_seed"] is not None)
+    lines = [f"* {len(done)} of {len(rows)} filled, {sum(r['checked'] for r in done)} of them accepted by every checker; TetGen "
+             f"filled {len(both)} (its meshes were not checked; {len(rows) - len(both)} ended otherwise).",
+             f"* Added points where both filled: Holdfast **{sum(ours[r['name']] for r in both)}**, TetGen "
+             f"**{sum(r['tetgen']['added'] for r in both)}** (negative counts, which are vertices that it dropped, included). "
+             f"Holdfast has more on {len(more)} surfaces, by {sum(ours[r['name']] - r['tetgen']['added'] for r in more)} in all.",
+             f"* With another random seed: {other} points instead of {sum(ours.values())}, on all that were filled."]
+    if both:
+        lines.append(f"* Worst Q at most TetGen's on **{len(better_q)} of {len(both)}** surfaces; median of the ratio "
+                     f"{median(r['report']['quality']['worst'] / r['tetgen']['worst'] for r in both):.2f}.")
+        lines.append(f"* Seconds of the whole program: median ratio to TetGen {median(r['seconds'] / r['tetgen']['seconds'] for r in both):.2f} "
+                     "(several programs at once; `make bench` measures speed).")
+    if near:
+        lines.append(f"* Q / Target: median {median(near):.2f}, nine of ten below {near[len(near) * 9 // 10]:.2f}.")
+    return lines
+
+
+def generated(folder):
+    surfaces = []
+    for k, (name, (script, *arguments)) in enumerate(GENERATED):
+        path = folder / f"generated{k}.off"
+        subprocess.run([sys.executable, ROOT / "examples" / script, *(a.format(path) for a in arguments)], check=True,
+                       capture_output=True)
+        surfaces.append((name, path))
+    return surfaces
+
+
+def sampled(folder, count):
+    manifest = corpus.manifest_of(folder)
+    paths = sorted((folder / "valid").glob("*.off"), key=lambda p: (p.stat().st_size, p.name))
+    closed = [p for p in paths if corpus.describe(p, manifest.get(p.stem))[1] == "closed"]
+    chosen = closed[:: max(1, len(closed) // count)]
+    boeing = [p for p in closed if p.stem == "cdt_boeing_part" and p not in chosen]
+    return [(p.stem, p) for p in boeing + chosen]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", type=Path, required=True)
+    parser.add_argument("--corpus", default=os.environ.get("HOLDFAST_CORPUS", ""))
+    parser.add_argument("--surfaces", type=int, default=300, help="about so many surfaces of the corpus")
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--seed2", type=int, default=2, help="the other seed")
+    parser.add_argument("--output", type=Path, default=ROOT / "docs" / "results.md")
+    options = parser.parse_args()
+    surfaces = corpus.locate(options.corpus, core_only=False)
+    version = subprocess.run([options.build / "holdfast", "--version"], capture_output=True, text=True, check=True).stdout.strip()
+    lines = ["# Results", "", f"Written by `make tables` on {time.strftime('%Y-%m-%d')} with {version}. The columns are those of the "
+             "paper's Tables I and II (`bench/tables.py` explains them); TetGen is Debian's, with -pYQz."]
+    with tempfile.TemporaryDirectory(prefix="holdfast-tables-") as name:
+        folder = Path(name)
+        filler = Filler(options, corpus.build_checker(folder))
+        groups = [("The paper's cases, made by `examples/`", generated(folder))]
+        if surfaces:
+            groups.append(("Closed surfaces of the corpus, evenly over all sizes", sampled(surfaces, options.surfaces)))
+        for title, members in groups:
+            with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+                rows = list(pool.map(lambda m: filler.fill(*m), members))
+            lines += ["", f"## {title}", "", *summary(rows), "", *table(rows)]
+            print("\n".join([title, *summary(rows)]), flush=True)
+    options.output.parent.mkdir(exist_ok=True)
+    options.output.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    print(f"written: {options.output}")
+
+
+if __name__ == "__main__":
+    main()
