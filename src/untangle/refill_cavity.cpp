@@ -61,6 +61,7 @@ void RefillCavity::take_facets() {
       const Tet s = tangle_.across(t, i);
       const Index other = s == kNone ? kOutside : component_of(s);
       if (other != kOutside && (s < t || !tangle_.is_constraint(f))) continue;
+      if (s != kNone && other == kOutside) whole_ = false;
       const Triangle facet{local(f[0]), local(f[1]), local(f[2])};
       const auto key = ascending(facet);
       face_index_.push_back({key[0], key[1], key[2], static_cast<Index>(surface_.facets.size())});
@@ -117,8 +118,6 @@ bool RefillCavity::drop_points(const Result& result) {
 }
 
 RefillCavity::Outcome RefillCavity::fill(const Filler& filler) {
-  // Tetrahedra without any boundary enclose nothing: they cover space as often one way as the other, and go.
-  if (surface_.facets.empty() && first_point_ == 0) return Outcome::filled;
   constexpr int kMostTries = 3;  // with points; then without
   for (int k = 0;; ++k) {
     Result result = filler(surface_.view());
@@ -176,6 +175,20 @@ bool RefillCavity::joins_outside(const Volume& volume) const {
   return false;
 }
 
+// Whether parts of space that do not hang together fill one component of the cavity. Its boundary may do so
+// where tetrahedra that the cavity surrounds lie inside out beside it: one part would fill up the cavity's
+// own place, the other close these off, all boundary lost. They could never become positive then.
+bool RefillCavity::splits(std::span<const std::optional<Index>> owners) const {
+  if (whole_) return false;  // what is filled then has boundary of the volume only
+  std::vector<bool> met(region_.size(), false);
+  for (const std::optional<Index>& owner : owners) {
+    if (!owner || *owner == kOutside) continue;
+    if (met[*owner]) return true;
+    met[*owner] = true;
+  }
+  return false;
+}
+
 RefillCavity::Outcome RefillCavity::judge(const Volume& volume) {
   int most = 0;
   for (const int region : volume.regions) {
@@ -189,6 +202,7 @@ RefillCavity::Outcome RefillCavity::judge(const Volume& volume) {
   for (std::size_t f = 0; f < sides_.size(); ++f)
     if ((sides_[f].above != kOutside && !seen[f][0]) || (sides_[f].below != kOutside && !seen[f][1]))
       return Outcome::overlaps;
+  if (splits(owners)) return Outcome::invalid;
   owner_.clear();
   for (const int region : volume.regions)
     owner_.push_back(owners[static_cast<std::size_t>(region)].value_or(kOutside));

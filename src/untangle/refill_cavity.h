@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -18,7 +19,7 @@ class RefillCavity {
 
   enum class Outcome {
     filled,
-    invalid,   ///< the boundary is no valid surface
+    invalid,   ///< the boundary is no valid surface, or what it bounds does not fit the mesh around
     overlaps,  ///< it is, but does not bound what it should: sides lie within one another or inside out
     not_representable,  ///< the filler has no mesh in doubles
   };
@@ -47,6 +48,7 @@ class RefillCavity {
   Outcome judge(const Volume& volume);
   bool claim(const Volume& volume, std::size_t tet, std::vector<std::optional<Index>>& owners,
              std::vector<std::array<bool, 2>>& seen) const;
+  [[nodiscard]] bool splits(std::span<const std::optional<Index>> owners) const;
   bool joins_outside(const Volume& volume) const;
 
   const Tangle& tangle_;
@@ -60,6 +62,7 @@ class RefillCavity {
   std::vector<Facet> sides_;
   std::vector<std::array<Index, 4>> face_index_;  // corners ascending, facet; sorted
   Volume volume_;
+  bool whole_ = true;         // no tetrahedra beside it
   std::vector<Index> owner_;  // of each tetrahedron of volume_
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <random>
 #include <set>
 
@@ -13,6 +14,9 @@
 #include "hard_surfaces.h"
 #include "holdfast/check.h"
 #include "small_surfaces.h"
+#include "untangle/connectivity.h"
+#include "untangle/refill_cavity.h"
+#include "untangle/swap.h"
 
 namespace holdfast {
 namespace {
@@ -274,6 +278,88 @@ TEST(Untangle, AddsAVertexWhereNothingElseHelps) {
   EXPECT_EQ(moved.volume.regions, std::vector<int>(moved.volume.tetrahedra.size(), 4));
 }
 
+// The star of v as the tetrahedra's faces opposite it: V - E + F, which is 2 for a sphere and 1 for a disc.
+// Less than 0 where an edge is in more than two of the faces.
+int euler_of_link(const Tangle& tangle, Vertex v) {
+  std::set<Vertex> vertices;
+  std::map<std::array<Vertex, 2>, int> edges;
+  for (const Tet t : tangle.star(v)) {
+    const auto f = tangle.face(t, tangle.index_of(t, v));
+    vertices.insert(f.begin(), f.end());
+    for (std::size_t i = 0; i < 3; ++i)
+      if (++edges[ascending(std::array{f[i], f[(i + 1) % 3]})] > 2) return -1;
+  }
+  return static_cast<int>(vertices.size() + tangle.star(v).size()) - static_cast<int>(edges.size());
+}
+
+// How many tetrahedra hang together by faces with the first.
+std::size_t reached(const Tangle& tangle) {
+  std::set<Tet> met;
+  std::vector<Tet> queue{tangle.star(0)[0]};
+  while (!queue.empty()) {
+    const Tet t = queue.back();
+    queue.pop_back();
+    if (t == kNone || !met.insert(t).second) continue;
+    for (int i = 0; i < 4; ++i) queue.push_back(tangle.across(t, i));
+  }
+  return met.size();
+}
+
+TEST(Untangle, SwapsKeepAManifold) {
+  Random random(15);
+  const Options options;
+  Monitor monitor(options);
+  Watch watch(monitor);
+  std::size_t swaps = 0;
+  for (const double amplitude : {0.3, 1.0, 5.0}) {
+    Grid g = grid(5, 0.2, random);
+    displace(g.volume, 0, amplitude, random);
+    const Connectivity connectivity = read_connectivity(g.volume, {});
+    Tangle tangle(g.volume.vertices, connectivity.tets, connectivity.regions, connectivity.constraints);
+    while (const std::size_t more = swap_tets(tangle, watch)) swaps += more;
+    EXPECT_EQ(reached(tangle), tangle.tet_count());
+    for (const auto& f : connectivity.constraints.faces) EXPECT_TRUE(tangle.has_face(f[0], f[1], f[2]));
+    for (Vertex v = 0; v < tangle.vertex_count(); ++v)
+      EXPECT_EQ(euler_of_link(tangle, v), v < g.surface.vertices.size() ? 1 : 2) << v;
+  }
+  EXPECT_GT(swaps, 500u);
+}
+
+// A tetrahedron with a vertex inside, as four; they lie beside the grid that they belong to, and inside out.
+// The boundary of all others, the cavity, is a valid surface and is seen from the right side everywhere, but
+// it bounds two parts of space: filled, the second would close the four off, with no boundary left.
+TEST(Untangle, ACavityDoesNotFallApart) {
+  Random random(14);
+  Grid g = grid(3, 0, random);
+  const auto n = static_cast<Index>(g.surface.vertices.size()), middle = n + 8;
+  move(g.volume.vertices, n, middle, [](const Point& p) { return Point{10 - p[0], p[1], p[2]}; });
+  std::vector<Tetrahedron>& tets = g.volume.tetrahedra;
+  const auto at = std::ranges::find_if(tets, [n](const Tetrahedron& t) { return std::ranges::min(t) >= n; });
+  const Tetrahedron inner = *at;
+  Point& centre = g.volume.vertices.emplace_back();
+  for (const Index v : inner)
+    for (std::size_t k = 0; k < 3; ++k) centre[k] += g.volume.vertices[v][k] / 4;
+  tets.erase(at);
+  for (const std::size_t i : {0u, 1u, 2u, 3u}) (tets.emplace_back(inner))[i] = middle;
+  g.volume.regions.assign(tets.size(), 1);
+
+  const Connectivity connectivity = read_connectivity(g.volume, {});
+  ASSERT_EQ(connectivity.fault, "");
+  const Tangle tangle(g.volume.vertices, connectivity.tets, connectivity.regions, connectivity.constraints);
+  std::vector<Tet> all(tets.size());
+  std::iota(all.begin(), all.end(), Tet{0});
+  const std::vector<Tet> cavity(all.begin(), all.end() - 4);
+  for (Tet t = 0; t < all.size(); ++t) ASSERT_EQ(tangle.holds(t, middle), t >= cavity.size());
+  const Filler filler = [](const Complex& complex) {
+    Options options;
+    options.keep = Keep::bounded;
+    options.drop_outside = true;
+    return mesh(complex, options);
+  };
+  EXPECT_EQ(RefillCavity(tangle, cavity).fill(filler), RefillCavity::Outcome::invalid);
+  EXPECT_EQ(RefillCavity(tangle, all).fill(filler), RefillCavity::Outcome::filled);
+}
+
 // Meshes that have hardly any free vertex: swaps and refilled cavities must do.
 TEST(Untangle, FilledSurfacesWhoseBoundaryMoves) {
   Random random(8);
@@ -388,6 +474,17 @@ TEST(Untangle, ConnectivityThatIsNotAMeshIsRefused) {
   v.segments = {{0, 25}};
   refused(v, "segment");
   refused(Volume{}, "no tetrahedra");
+  v = g.volume;  // besides, five tetrahedra that bound a simplex of four dimensions
+  for (const double k : {0.1, 0.2, 0.3, 0.4, 0.5}) v.vertices.push_back({1 + k, 1 + k * k, 1 + k * k * k});
+  for (const Tetrahedron& t : {Tetrahedron{27, 28, 29, 30},
+                               {27, 28, 29, 31},
+                               {27, 28, 30, 31},
+                               {27, 29, 30, 31},
+                               {28, 29, 30, 31}}) {
+    v.tetrahedra.push_back(t);
+    v.regions.push_back(1);
+  }
+  refused(v, "not that of this mesh");
   v = g.volume;
   v.regions.pop_back();
   EXPECT_THROW(static_cast<void>(untangle(v)), std::invalid_argument);
