@@ -1,7 +1,6 @@
 #include "optimise/insert_point.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "mesh/edge_removal.h"
 #include "mesh/kernel.h"
@@ -29,7 +28,7 @@ class Insertion {
       const Kernel::Centre centre = kernel.centre({origin.data(), nullptr});
       const std::optional<Point> place = kernel.double_at({origin.data(), nullptr}, centre);
       if (place && worst_from(*place, cavity) < most_) return fill(cavity, *place);
-      if (!grow_across_tightest(cavity, centre.heights)) break;
+      if (!cavity.grow_across_lowest(centre.heights)) break;
     }
     return kNone;
   }
@@ -59,14 +58,6 @@ class Insertion {
     replace(mesh_, {.old_tets = cavity.tets(), .new_tets = fresh}, &created_);
     for (const Vertex v : inner) mesh_.remove_vertex(v);
     return p;
-  }
-
-  static bool grow_across_tightest(Cavity& cavity, const std::vector<double>& heights) {
-    std::vector<std::size_t> order(heights.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t i, std::size_t j) { return heights[i] < heights[j]; });
-    return std::any_of(order.begin(), order.end(), [&](std::size_t k) { return cavity.grow_across(k); });
   }
 
   TetMesh& mesh_;

@@ -1,6 +1,7 @@
 #include "suppress/cavity.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace holdfast {
 
@@ -15,6 +16,14 @@ bool Cavity::grow(std::mt19937_64& random) {
 }
 
 bool Cavity::grow_across(std::size_t k) { return add(across_[k]); }
+
+bool Cavity::grow_across_lowest(const std::vector<double>& heights) {
+  std::vector<std::size_t> order(heights.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t i, std::size_t j) { return heights[i] < heights[j]; });
+  return std::any_of(order.begin(), order.end(), [&](std::size_t k) { return grow_across(k); });
+}
 
 bool Cavity::swallow(std::span<const Tet> ball) {
   const std::size_t before = tets_.size();

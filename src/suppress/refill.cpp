@@ -1,7 +1,6 @@
 #include "suppress/refill.h"
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
 #include "mesh/kernel.h"
@@ -42,20 +41,12 @@ bool cone(TetMesh& mesh, const Cavity& cavity, Vertex apex, const Kernel::Centre
   return true;
 }
 
-bool grow_across_tightest(Cavity& cavity, const std::vector<double>& heights) {
-  std::vector<std::size_t> order(heights.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t i, std::size_t j) { return heights[i] < heights[j]; });
-  return std::any_of(order.begin(), order.end(), [&](std::size_t k) { return cavity.grow_across(k); });
-}
-
 // Across the faces that leave the centre least room until it can be had in doubles.
 bool cone_grown(TetMesh& mesh, Cavity& cavity, Vertex apex, int steps) {
   for (int step = 0; step <= steps; ++step) {
     const Kernel::Centre centre = kernel_of(mesh, cavity).centre(mesh.point(apex));
     if (cone(mesh, cavity, apex, centre)) return true;
-    if (!grow_across_tightest(cavity, centre.heights)) return false;
+    if (!cavity.grow_across_lowest(centre.heights)) return false;
   }
   return false;
 }
