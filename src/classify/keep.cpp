@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "classify/outside.h"
+#include "surface/describe.h"
 
 namespace holdfast {
 namespace {

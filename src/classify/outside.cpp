@@ -1,9 +1,10 @@
 #include "classify/outside.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <numeric>
+
+#include "surface/describe.h"
 
 namespace holdfast {
 namespace {
@@ -128,12 +129,6 @@ std::vector<bool> vertices_in_kept(const TetMesh& mesh, const Regions& regions, 
 }
 
 }  // namespace
-
-std::string place(const Point& p) {
-  std::array<char, 96> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "(%.10g, %.10g, %.10g)", p[0], p[1], p[2]);
-  return buffer.data();
-}
 
 Defect encloses_nothing(const Complex& complex, const SegmentTable& table) {
   Defect defect{DefectKind::encloses_nothing, {}, {}, {}, {}, {}};

@@ -7,9 +7,6 @@
 
 namespace holdfast {
 
-/// "(x, y, z)" for messages.
-[[nodiscard]] std::string place(const Point& p);
-
 /// A surface without any bounded region: names the open borders.
 [[nodiscard]] Defect encloses_nothing(const Complex& complex, const SegmentTable& table);
 

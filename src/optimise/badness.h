@@ -12,6 +12,9 @@ namespace holdfast {
 /// The paper's Q of the doubles nearest to four vertices (mesh/quality.h): 1 is regular, more is worse.
 [[nodiscard]] double quality_of(const TetMesh& mesh, const TetMesh::Corners& corners);
 
+/// Part of the worst Q that is left by a change worth its time, at most.
+inline constexpr double kLeastGain = 0.98;
+
 /// The number of flat tetrahedra, then the worst Q of all.
 ///
 /// Flat ones, of a Q that no facet asks for, come in heaps, where points of one plane or sphere differ from
@@ -26,7 +29,6 @@ struct Badness {
   }
   /// Whether this is better than `other` by so much that the change is worth its time.
   [[nodiscard]] bool is_worthwhile_after(const Badness& other) const {
-    constexpr double kLeastGain = 0.98;
     return flat != other.flat ? flat < other.flat : worst < kLeastGain * other.worst;
   }
   friend bool operator<(const Badness& x, const Badness& y) {

@@ -5,11 +5,10 @@
 
 #include "mesh/kernel.h"
 #include "mesh/quality.h"
+#include "optimise/badness.h"
 
 namespace holdfast {
 namespace {
-
-constexpr double kLeastGain = 0.98;
 
 class Relocation {
  public:

@@ -23,7 +23,6 @@ class NothingFlat {
   static bool better(Cost x, Cost y) { return x < y; }
   static Cost diagonal(std::size_t, std::size_t) { return 0; }
   std::optional<Cost> triangle(std::size_t i, std::size_t k, std::size_t j) const {
-    // A triangle makes two edges at most, of which one at the avoided vertex where this is no ear at it.
     const Vertex pi = shell_.link[i], pk = shell_.link[k], pj = shell_.link[j];
     const std::size_t n = shell_.size();
     const auto is_new_at_avoided = [&](std::size_t u, std::size_t v) {

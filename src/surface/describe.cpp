@@ -10,6 +10,13 @@
 #include "surface/contacts.h"
 
 namespace holdfast {
+
+std::string place(const Point& p) {
+  std::array<char, 96> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "(%.10g, %.10g, %.10g)", p[0], p[1], p[2]);
+  return buffer.data();
+}
+
 namespace {
 
 unsigned count_of(const Corners& corners) {
@@ -18,11 +25,7 @@ unsigned count_of(const Corners& corners) {
 
 // --- Words ------------------------------------------------------------------------------------------
 
-std::string text(const Point& p) {
-  char buffer[96];
-  std::snprintf(buffer, sizeof buffer, "(%.10g, %.10g, %.10g)", p[0], p[1], p[2]);
-  return buffer;
-}
+std::string text(const Point& p) { return place(p); }
 
 std::string text(Index i) { return std::to_string(i); }
 

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "holdfast/types.h"
 #include "surface/search.h"
 
 namespace holdfast {
+
+/// "(x, y, z)" for messages.
+[[nodiscard]] std::string place(const Point& p);
 
 /// What is wrong with a single entity, or with two identical vertices.
 [[nodiscard]] Defect describe(const Complex& complex, const Flaw& flaw);
