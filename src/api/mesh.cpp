@@ -205,8 +205,7 @@ class Pipeline {
       if (inside[v]) points.push_back(v);
     if (points.empty()) return;
     suppress(mesh_, std::move(points), first_free_, monitor_);
-    // Regions keep their numbers, which depend on the facets alone.
-    regions_ = flood_regions(mesh_, complex_.facets);
+    flood_again(mesh_, complex_.facets, regions_);
   }
 
   void optimise_elements() {
@@ -218,11 +217,10 @@ class Pipeline {
       if (!std::all_of(v.begin(), v.end(), [&](Vertex x) { return mesh_.is_explicit(x); })) return;
       tets.push_back(t);
     }
-    const OptimiseStats stats =
-        optimise(mesh_, tets, first_free_, target_quality(complex_.vertices, complex_.facets), monitor_);
+    const OptimiseStats stats = optimise(mesh_, tets, first_free_, target(), monitor_);
     result_.report.optimised = {stats.exchanged + stats.unflattened + stats.reconnected, stats.relocated,
                                 stats.inserted};
-    if (stats.changed > 0) regions_ = flood_regions(mesh_, complex_.facets);
+    if (stats.changed > 0) flood_again(mesh_, complex_.facets, regions_);
   }
 
   [[nodiscard]] bool is_kept(Tet t) const {
@@ -254,7 +252,14 @@ class Pipeline {
     report.tetrahedra = volume.tetrahedra.size();
     if (last >= Stage::classify)
       report.regions = static_cast<std::size_t>(std::count(kept_.region.begin(), kept_.region.end(), true));
-    report.quality = measure(volume, volume.facets);
+    const bool has_all = volume.facets.size() == complex_.facets.size();
+    report.quality = measure(volume, has_all ? target() : target_quality(volume.vertices, volume.facets));
+  }
+
+  // Of all facets, computed once.
+  double target() {
+    if (!target_) target_ = target_quality(complex_.vertices, complex_.facets);
+    return *target_;
   }
 
   [[nodiscard]] Stage last_stage() const { return options_.stop_after.value_or(Stage::optimise); }
@@ -273,6 +278,7 @@ class Pipeline {
   TetMesh mesh_;
   Vertex first_free_ = 0;  // after the input's and the box's
   Standing standing_, standing_before_partition_;
+  std::optional<double> target_;
   Regions regions_;
   Kept kept_;
 };

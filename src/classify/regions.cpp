@@ -4,36 +4,57 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "mesh/traverse.h"
+
 namespace holdfast {
 namespace {
 
-// Regions by slot in order of discovery; the outside, which ghosts belong to, is 0.
-RegionId flood(const TetMesh& mesh, std::vector<RegionId>& of_tet) {
-  of_tet.assign(mesh.slot_count(), kNone);
-  std::vector<Tet> stack;
-  const auto reach = [&](Tet t, RegionId region) {
-    of_tet[t] = region;
-    stack.push_back(t);
-  };
-  const auto spread = [&](RegionId region) {
-    while (!stack.empty()) {
-      const Tet t = stack.back();
-      stack.pop_back();
+// Regions by slot, each flooded from one of its tetrahedra.
+class Flood {
+ public:
+  Flood(const TetMesh& mesh, std::vector<RegionId>& of_tet) : mesh_(mesh), of_tet_(of_tet) {
+    of_tet_.assign(mesh.slot_count(), kNone);
+  }
+
+  [[nodiscard]] bool has_reached(Tet t) const { return of_tet_[t] != kNone; }
+
+  void from(Tet start, RegionId region) {
+    if (has_reached(start)) return;
+    reach(start, region);
+    while (!stack_.empty()) {
+      const Tet t = stack_.back();
+      stack_.pop_back();
       for (int i = 0; i < 4; ++i) {
-        const Tet n = tet_of(mesh.neighbour(t, i));
-        if (!mesh.is_facet(face_code(t, i)) && of_tet[n] == kNone) reach(n, region);
+        const Tet n = tet_of(mesh_.neighbour(t, i));
+        if (!mesh_.is_facet(face_code(t, i)) && !has_reached(n)) reach(n, region);
       }
     }
-  };
-  for (Tet t = 0; t < mesh.slot_count(); ++t)
-    if (mesh.alive(t) && mesh.is_ghost(t)) reach(t, 0);
-  spread(0);
-  RegionId count = 1;
-  for (Tet t = 0; t < mesh.slot_count(); ++t) {
-    if (!mesh.alive(t) || of_tet[t] != kNone) continue;
-    reach(t, count);
-    spread(count++);
   }
+
+  // The outside, which ghosts belong to, is 0.
+  void from_ghosts() {
+    for (Tet t = 0; t < mesh_.slot_count(); ++t)
+      if (mesh_.alive(t) && mesh_.is_ghost(t)) from(t, 0);
+  }
+
+ private:
+  void reach(Tet t, RegionId region) {
+    of_tet_[t] = region;
+    stack_.push_back(t);
+  }
+
+  const TetMesh& mesh_;
+  std::vector<RegionId>& of_tet_;
+  std::vector<Tet> stack_;
+};
+
+// In order of discovery; returns their number.
+RegionId flood(const TetMesh& mesh, std::vector<RegionId>& of_tet) {
+  Flood flood(mesh, of_tet);
+  flood.from_ghosts();
+  RegionId count = 1;
+  for (Tet t = 0; t < mesh.slot_count(); ++t)
+    if (mesh.alive(t) && !flood.has_reached(t)) flood.from(t, count++);
   return count;
 }
 
@@ -161,6 +182,24 @@ Regions flood_regions(const TetMesh& mesh, std::span<const Triangle> facets) {
   find_sides(mesh, facets, regions);
   number_by_least_facet(regions);
   return regions;
+}
+
+void flood_again(TetMesh& mesh, std::span<const Triangle> facets, Regions& regions) {
+  Flood flood(mesh, regions.of_tet);
+  flood.from_ghosts();
+  std::vector<bool> done(regions.count, false);
+  done[0] = true;
+  for (Index f = 0; f < facets.size(); ++f) {
+    const auto& [front, back] = regions.of_facet[f];
+    if (done[front] && done[back]) continue;
+    const auto& v = facets[f];
+    const Face face = find_face(mesh, v[0], v[1], v[2]);
+    if (face == kNone) throw std::logic_error("holdfast: a facet is no mesh face");
+    const bool turned = !same_turn(v, mesh.face_vertices(face));
+    flood.from(tet_of(face), turned ? back : front);
+    flood.from(tet_of(mesh.neighbour(face)), turned ? front : back);
+    done[front] = done[back] = true;
+  }
 }
 
 Winding winding_numbers(const Regions& regions) { return WindingSearch(regions).run(); }

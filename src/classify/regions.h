@@ -29,6 +29,9 @@ struct Regions {
 /// Throws std::logic_error unless the faces with facet bits are exactly the facets.
 [[nodiscard]] Regions flood_regions(const TetMesh& mesh, std::span<const Triangle> facets);
 
+/// Finds the tetrahedra of every region again after changes of the mesh, which left the facets as they were.
+void flood_again(TetMesh& mesh, std::span<const Triangle> facets, Regions& regions);
+
 /// Winding numbers with respect to the facets that have different regions on their sides.
 struct Winding {
   /// By region: crossing a facet from front to back adds one, and the outside is 0; so a shell whose

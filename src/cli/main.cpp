@@ -1,7 +1,11 @@
 // The program `holdfast`: reads the command line, runs one command, turns failures into exit codes.
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <new>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 #include "command.h"
 #include "holdfast/holdfast.h"
@@ -15,6 +19,21 @@ constexpr const char* footer =
     "4 the surface is not valid; 5 time or memory limit, or cancelled; 6 `check` found a violation;\n"
     "7 no positive mesh in double precision was found.";
 
+// The command that is asked for, or all of them for help: on a small surface the options of the others would
+// take longer than the mesh.
+void add_commands(CLI::App& app, Command& chosen, std::string_view asked) {
+  using Add = void (*)(CLI::App&, Command&);
+  static constexpr std::array<std::pair<std::string_view, Add>, 5> kCommands{{{"mesh", add_mesh},
+                                                                              {"check", add_check},
+                                                                              {"diagnose", add_diagnose},
+                                                                              {"delaunay", add_delaunay},
+                                                                              {"untangle", add_untangle}}};
+  const auto is_asked = [&](const auto& command) { return command.first == asked; };
+  const bool one = std::any_of(kCommands.begin(), kCommands.end(), is_asked);
+  for (const auto& command : kCommands)
+    if (!one || is_asked(command)) command.second(app, chosen);
+}
+
 int run(int count, const char* const* arguments) {
   CLI::App app("Holdfast fills triangulated surfaces with tetrahedra and keeps every triangle.", "holdfast");
   app.set_version_flag("--version", std::string("holdfast ") + version());
@@ -22,17 +41,13 @@ int run(int count, const char* const* arguments) {
   app.footer(footer);
 
   Command chosen;
-  add_mesh(app, chosen);
-  add_check(app, chosen);
-  add_diagnose(app, chosen);
-  add_delaunay(app, chosen);
-  add_untangle(app, chosen);
+  const std::string_view first = count > 1 ? arguments[1] : "-";
+  add_commands(app, chosen, first);
 
   // CLI11 would only say that a command is missing.
-  const std::string first = count > 1 ? arguments[1] : "-";
-  const auto named = [&](const CLI::App* command) { return command->check_name(first); };
+  const auto named = [&](const CLI::App* command) { return command->check_name(std::string(first)); };
   if (!first.starts_with('-') && app.get_subcommands(named).empty())
-    throw UsageError("there is no command '" + first + "'; `holdfast --help` lists them");
+    throw UsageError("there is no command '" + std::string(first) + "'; `holdfast --help` lists them");
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {

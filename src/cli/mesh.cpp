@@ -155,7 +155,7 @@ int run(const MeshArguments& arguments) {
   result.report.seconds["read"] = reading;
   result.report.seconds["write"] = writing.seconds();
   result.report.seconds["total"] = whole.seconds();
-  write_json(arguments.report, to_json(result, to_json(arguments)));
+  if (!arguments.report.empty()) write_json(arguments.report, to_json(result, to_json(arguments)));
   if (!arguments.quiet) print_summary(arguments, result, whole.seconds());
   return conclude(arguments, result);
 }

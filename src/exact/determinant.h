@@ -21,10 +21,16 @@ template <class T>
   return (u[0] * v[1] - v[0] * u[1]).sign();
 }
 
-/// Sign of the determinant of rows u, v, w.
+/// The determinant of rows u, v, w.
+template <class T>
+[[nodiscard]] auto det3(const Row<T>& u, const Row<T>& v, const Row<T>& w) {
+  return minor01(v, w) * u[2] + minor01(w, u) * v[2] + minor01(u, v) * w[2];
+}
+
+/// Its sign.
 template <class T>
 [[nodiscard]] int sign_det3(const Row<T>& u, const Row<T>& v, const Row<T>& w) {
-  return (minor01(v, w) * u[2] + minor01(w, u) * v[2] + minor01(u, v) * w[2]).sign();
+  return det3(u, v, w).sign();
 }
 
 /// |u|^2.

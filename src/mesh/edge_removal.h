@@ -43,20 +43,18 @@ using LinkTriangle = std::array<std::uint8_t, 3>;
 
 /// The best triangulation of link polygons with n <= kMostLink corners; keeps its tables between calls.
 ///
-/// An Objective has
-///   using Cost
+/// An Objective for this Cost has
 ///   Cost none() const                                  the cost of nothing
 ///   Cost join(Cost, Cost) const                        associative; never better than its arguments
 ///   bool better(Cost, Cost) const                      a strict order
 ///   std::optional<Cost> triangle(i, k, j)              i < k < j; nothing for a forbidden triangle
 ///   Cost diagonal(i, j)                                i < j, an edge that the triangulation adds
 /// Equal costs: the first found stays.
-template <typename Objective>
+template <typename Cost>
 class LinkTriangulation {
  public:
-  using Cost = typename Objective::Cost;
-
   /// The cost of the best triangulation, or nothing where there is none.
+  template <typename Objective>
   std::optional<Cost> find(std::size_t n, Objective& objective) {
     for (std::size_t i = 0; i + 1 < n; ++i) best_[i][i + 1] = {objective.none(), 0, true};
     for (std::size_t gap = 2; gap < n; ++gap)
@@ -76,6 +74,7 @@ class LinkTriangulation {
   };
 
   // The best triangulation of the polygon p_i .. p_j, diagonal (i, j) included unless it is a side.
+  template <typename Objective>
   void fill(std::size_t i, std::size_t j, bool is_diagonal, Objective& objective) {
     Entry found;
     for (std::size_t k = i + 1; k < j; ++k) {

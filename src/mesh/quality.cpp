@@ -5,14 +5,16 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
+#include "exact/determinant.h"
+#include "exact/expansion.h"
 #include "exact/point.h"
 
 namespace holdfast {
 namespace {
 
 using Vector = std::array<double, 3>;
-using ExactVector = std::array<exact::Dyadic, 3>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -26,13 +28,47 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 double length(const Vector& a) { return std::sqrt(dot(a, a)); }
-ExactVector exactly_minus(const Point& a, const Point& b) {
-  ExactVector v;
-  for (std::size_t i = 0; i < 3; ++i) v[i] = exact::Dyadic(a[i]) - exact::Dyadic(b[i]);
-  return v;
+
+// Differences as expansions, whose products of three neither over- nor underflow (magnitudes are checked
+// first), or as dyadic numbers, which hold any.
+struct ByExpansions {
+  using Number = exact::Expansion<2>;
+  static Number minus(double a, double b) { return Number(exact::two_diff(a, b)); }
+  template <typename T>
+  static double to_double(const T& x) {
+    return x.estimate();
+  }
+};
+struct ByDyadics {
+  using Number = exact::Dyadic;
+  static Number minus(double a, double b) { return exact::Dyadic(a) - exact::Dyadic(b); }
+  static double to_double(const exact::Dyadic& x) { return x.to_double(); }
+};
+
+bool suits_expansions(std::initializer_list<const Point*> points) {
+  constexpr double kLeast = 1e-60, kMost = 1e60;
+  return std::all_of(points.begin(), points.end(), [](const Point* p) {
+    return std::all_of(p->begin(), p->end(),
+                       [](double x) { return x == 0 || (std::abs(x) >= kLeast && std::abs(x) <= kMost); });
+  });
 }
-ExactVector cross(const ExactVector& a, const ExactVector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+
+template <typename By>
+exact::Row<typename By::Number> exactly_minus(const Point& a, const Point& b) {
+  return {By::minus(a[0], b[0]), By::minus(a[1], b[1]), By::minus(a[2], b[2])};
+}
+
+template <typename By>
+Vector exact_normal(const Point& a, const Point& b, const Point& c) {
+  const auto u = exactly_minus<By>(b, a), v = exactly_minus<By>(c, a);
+  const auto minor = [&](std::size_t i, std::size_t j) { return By::to_double(u[i] * v[j] - u[j] * v[i]); };
+  return {minor(1, 2), minor(2, 0), minor(0, 1)};
+}
+
+template <typename By>
+double exact_six_volumes(const Point& a, const Point& b, const Point& c, const Point& d) {
+  return By::to_double(
+      exact::det3(exactly_minus<By>(b, a), exactly_minus<By>(c, a), exactly_minus<By>(d, a)));
 }
 
 // (b - a) x (c - a), of length twice the area.
@@ -48,8 +84,8 @@ Vector normal(const Point& a, const Point& b, const Point& c) {
     terms = std::max(terms, std::abs(left) + std::abs(right));
   }
   if (length(n) > kCancelled * terms) return n;
-  const ExactVector exact = cross(exactly_minus(b, a), exactly_minus(c, a));
-  return {exact[0].to_double(), exact[1].to_double(), exact[2].to_double()};
+  return suits_expansions({&a, &b, &c}) ? exact_normal<ByExpansions>(a, b, c)
+                                        : exact_normal<ByDyadics>(a, b, c);
 }
 
 // det(b - a, c - a, d - a); `n` is the normal of abc.
@@ -65,9 +101,8 @@ double six_volumes(const Point& a, const Point& b, const Point& c, const Point& 
              std::abs(w[i]);
   }
   if (std::abs(volume) > kCancelled * terms) return volume;
-  const ExactVector exact_n = cross(exactly_minus(b, a), exactly_minus(c, a));
-  const ExactVector exact_w = exactly_minus(d, a);
-  return (exact_n[0] * exact_w[0] + exact_n[1] * exact_w[1] + exact_n[2] * exact_w[2]).to_double();
+  return suits_expansions({&a, &b, &c, &d}) ? exact_six_volumes<ByExpansions>(a, b, c, d)
+                                            : exact_six_volumes<ByDyadics>(a, b, c, d);
 }
 
 // Points times the power of two that keeps products of coordinates in range; quality and angles stay.
@@ -83,6 +118,21 @@ std::array<Point, size> brought_in_range(std::array<Point, size> points) {
     for (double& x : p) x = std::ldexp(x, k);
   return points;
 }
+
+// An angle from 0 to 180 degrees by its sine and cosine, both divided by their sum; unknown where both are 0.
+// To compare and count angles takes no arctangent.
+struct Angle {
+  double sine = 0, cosine = 0;
+
+  [[nodiscard]] bool known() const { return sine != 0 || cosine != 0; }
+  [[nodiscard]] double degrees() const {
+    return known() ? std::atan2(sine, cosine) * 180.0 / std::numbers::pi : kNan;
+  }
+  friend bool operator<(const Angle& x, const Angle& y) {
+    if (x.sine == 0 && y.sine == 0) return x.cosine > 0 && y.cosine < 0;
+    return x.sine * y.cosine < x.cosine * y.sine;
+  }
+};
 
 struct Measures {
   std::array<Vector, 4> normals;  // of the faces opposite a, b, c, d, all inward or all outward
@@ -108,16 +158,17 @@ struct Measures {
 
   // At an edge e between faces of normals m and n, m x n = 6 V e up to sign: the sine of the angle is as
   // exact as the volume.
-  [[nodiscard]] std::array<double, 6> dihedral_angles() const {
+  [[nodiscard]] std::array<Angle, 6> dihedral_angles() const {
     constexpr std::array<std::array<std::size_t, 2>, 6> kFacesAt{
         {{2, 3}, {1, 3}, {1, 2}, {0, 3}, {0, 2}, {0, 1}}};
-    std::array<double, 6> angles{};
+    std::array<Angle, 6> angles{};
     for (std::size_t k = 0; k < 6; ++k) {
       const Vector& m = normals[kFacesAt[k][0]];
       const Vector& n = normals[kFacesAt[k][1]];
-      const bool flat = !(dot(m, m) > 0) || !(dot(n, n) > 0);
-      const double sine = std::abs(six_volumes) * length(edges[k]);
-      angles[k] = flat ? kNan : std::atan2(sine, -dot(m, n)) * 180.0 / std::numbers::pi;
+      if (!(dot(m, m) > 0) || !(dot(n, n) > 0)) continue;
+      const double sine = std::abs(six_volumes) * length(edges[k]), cosine = -dot(m, n);
+      const double sum = sine + std::abs(cosine);
+      if (sum > 0) angles[k] = {sine / sum, cosine / sum};
     }
     return angles;
   }
@@ -179,13 +230,18 @@ class BestTetrahedron {
     constexpr int kSteps = 60;
     double low = 1.2;  // acos(1/3) = 1.231, of the equilateral triangle, is the least
     double high = std::numbers::pi / 2;
+    double x = high - kGolden * (high - low), y = low + kGolden * (high - low);
+    double at_x = at(x), at_y = at(y);
     for (int k = 0; k < kSteps; ++k) {
-      const double x = high - kGolden * (high - low);
-      const double y = low + kGolden * (high - low);
-      if (at(x) < at(y))
-        high = y;
-      else
-        low = x;
+      if (at_x < at_y) {
+        high = std::exchange(y, x);
+        at_y = at_x;
+        at_x = at(x = high - kGolden * (high - low));
+      } else {
+        low = std::exchange(x, y);
+        at_x = at_y;
+        at_y = at(y = low + kGolden * (high - low));
+      }
     }
     return at(0.5 * (low + high));
   }
@@ -205,7 +261,10 @@ double quality(const Point& a, const Point& b, const Point& c, const Point& d) {
 }
 
 std::array<double, 6> dihedral_angles(const Point& a, const Point& b, const Point& c, const Point& d) {
-  return Measures(brought_in_range<4>({a, b, c, d})).dihedral_angles();
+  const std::array<Angle, 6> angles = Measures(brought_in_range<4>({a, b, c, d})).dihedral_angles();
+  std::array<double, 6> degrees{};
+  std::transform(angles.begin(), angles.end(), degrees.begin(), [](const Angle& x) { return x.degrees(); });
+  return degrees;
 }
 
 double best_quality_on(const Point& a, const Point& b, const Point& c) {
@@ -227,21 +286,33 @@ double target_quality(std::span<const Point> vertices, std::span<const Triangle>
   return target;
 }
 
-Report::Quality measure(const Volume& volume, std::span<const Triangle> facets) {
+Report::Quality measure(const Volume& volume, double target) {
+  constexpr std::size_t kBins = std::tuple_size_v<decltype(Report::Quality::histogram)>;
+  static const std::array<Angle, kBins> kBinStart = [] {
+    std::array<Angle, kBins> starts;
+    for (std::size_t k = 0; k < kBins; ++k) {
+      const double angle = std::numbers::pi * static_cast<double>(k) / kBins;
+      starts[k] = {std::sin(angle), 2 * k == kBins ? 0 : std::cos(angle)};
+    }
+    return starts;
+  }();
   const std::vector<Point>& v = volume.vertices;
   Report::Quality q;
-  q.min_dihedral_deg = volume.tetrahedra.empty() ? 0 : 180;
+  Angle least{0, -1}, most{0, 1};
   for (const Tetrahedron& t : volume.tetrahedra) {
     const Measures measures(brought_in_range<4>({v[t[0]], v[t[1]], v[t[2]], v[t[3]]}));
     q.worst = std::max(q.worst, measures.quality());
-    for (double angle : measures.dihedral_angles()) {
-      if (std::isnan(angle)) angle = 0;
-      q.min_dihedral_deg = std::min(q.min_dihedral_deg, angle);
-      q.max_dihedral_deg = std::max(q.max_dihedral_deg, angle);
-      ++q.histogram[std::min<std::size_t>(q.histogram.size() - 1, static_cast<std::size_t>(angle / 10))];
+    for (Angle angle : measures.dihedral_angles()) {
+      if (!angle.known()) angle = {0, 1};
+      if (angle < least) least = angle;
+      if (most < angle) most = angle;
+      const auto after = std::upper_bound(kBinStart.begin() + 1, kBinStart.end(), angle);
+      ++q.histogram[static_cast<std::size_t>(after - kBinStart.begin()) - 1];
     }
   }
-  q.target = target_quality(v, facets);
+  q.min_dihedral_deg = volume.tetrahedra.empty() ? 0 : least.degrees();
+  q.max_dihedral_deg = volume.tetrahedra.empty() ? 0 : most.degrees();
+  q.target = target;
   return q;
 }
 

@@ -27,8 +27,8 @@ namespace holdfast {
 /// The Target of the paper: the best Q of the triangle where that is worst. Zero for none.
 [[nodiscard]] double target_quality(std::span<const Point> vertices, std::span<const Triangle> facets);
 
-/// Worst quality and dihedral angles of a volume, and the target that its `facets` set. An angle that is not
-/// a number counts as 0 degrees. All zero for a volume without tetrahedra, but for the target.
-[[nodiscard]] Report::Quality measure(const Volume& volume, std::span<const Triangle> facets);
+/// Worst quality and dihedral angles of a volume, and the target that was found for its facets. An angle that
+/// is not a number counts as 0 degrees. All zero for a volume without tetrahedra, but for the target.
+[[nodiscard]] Report::Quality measure(const Volume& volume, double target);
 
 }  // namespace holdfast

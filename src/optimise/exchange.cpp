@@ -58,12 +58,11 @@ void Exchanger::try_edge(Tet t, int edge) {
   if (!gather_shell(mesh_, t, mesh_.corner(t, ends[0]), mesh_.corner(t, ends[1]), shell_, kMostShell)) return;
   const Badness before = badness_of(mesh_, shell_.tets, flat_from_);
   LeastBadness objective(mesh_, shell_, before, flat_from_);
-  LinkTriangulation<LeastBadness> triangulation;
-  const std::optional<Badness> after = triangulation.find(shell_.size(), objective);
+  const std::optional<Badness> after = triangulation_.find(shell_.size(), objective);
   if (!after || !after->is_worthwhile_after(before)) return;
   triangles_.clear();
   candidate_.clear();
-  triangulation.triangles(shell_.size(), triangles_);
+  triangulation_.triangles(shell_.size(), triangles_);
   tetrahedra_of(shell_, triangles_, candidate_);
   offer(before, *after, shell_.tets);
 }

@@ -29,6 +29,7 @@ class Exchanger {
   TetMesh& mesh_;
   const double flat_from_;
   EdgeShell shell_;
+  LinkTriangulation<Badness> triangulation_;
   std::vector<LinkTriangle> triangles_;
   std::vector<TetMesh::Corners> candidate_;
   // The best so far:

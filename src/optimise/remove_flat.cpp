@@ -82,11 +82,10 @@ Tet FlatRemover::survivor(const EdgeShell& shell) {
 
 bool FlatRemover::remove_now(const EdgeShell& shell, Vertex avoided) {
   NothingFlat objective(mesh_, shell, flat_from_, avoided);
-  LinkTriangulation<NothingFlat> triangulation;
-  if (!triangulation.find(shell.size(), objective)) return false;
+  if (!triangulation_.find(shell.size(), objective)) return false;
   std::vector<LinkTriangle> triangles;
   std::vector<TetMesh::Corners> fresh;
-  triangulation.triangles(shell.size(), triangles);
+  triangulation_.triangles(shell.size(), triangles);
   tetrahedra_of(shell, triangles, fresh);
   replace(mesh_, {.old_tets = shell.tets, .new_tets = fresh}, created_);
   return true;

@@ -35,6 +35,7 @@ class FlatRemover {
 
   TetMesh& mesh_;
   const double flat_from_;
+  LinkTriangulation<double> triangulation_;
   std::size_t work_ = 0;
   std::vector<Tet>* created_ = nullptr;
 };

@@ -140,15 +140,14 @@ bool Flipper::lies_in_facet(const EdgeShell& shell) const {
 
 bool Flipper::remove_edge_now(const EdgeShell& shell, Vertex favoured) {
   ForTarget objective(mesh_, shell, target_, favoured);
-  LinkTriangulation<ForTarget> triangulation;
-  const auto cost = triangulation.find(shell.size(), objective);
+  const auto cost = triangulation_.find(shell.size(), objective);
   work_ += 2 * objective.tests + shell.size();
   if (!cost || *cost % ForTarget::kWeight != 0) return false;
   const int change = *cost / ForTarget::kWeight - objective.cost_now();
   if (change_ + change > (favoured == kNone ? most_change_ : 0)) return false;
   triangles_.clear();
   fresh_.clear();
-  triangulation.triangles(shell.size(), triangles_);
+  triangulation_.triangles(shell.size(), triangles_);
   tetrahedra_of(shell, triangles_, fresh_);
   apply(shell.tets, change);
   ++counts_.edge_removals;

@@ -75,6 +75,7 @@ class Flipper {
   FlipCounts counts_;
 
   std::vector<TetMesh::Corners> fresh_;
+  LinkTriangulation<int> triangulation_;
   std::vector<LinkTriangle> triangles_;
   std::vector<Tet> created_;
 };

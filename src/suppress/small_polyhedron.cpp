@@ -24,7 +24,8 @@ LocalFace canonical(LocalFace f) {
   return f;
 }
 
-// Numbers the sets of four: a < b < c < d is the binomial sum (a 1) + (b 2) + (c 3) + (d 4).
+// Numbers the sets of four: a < b < c < d is the binomial sum (a 1) + (b 2) + (c 3) + (d 4). Without d, those
+// of three.
 constexpr std::array<std::array<std::uint16_t, 5>, kMostVertices + 1> kBinomial = [] {
   std::array<std::array<std::uint16_t, 5>, kMostVertices + 1> table{};
   for (std::size_t n = 0; n <= kMostVertices; ++n) {
@@ -34,6 +35,86 @@ constexpr std::array<std::array<std::uint16_t, 5>, kMostVertices + 1> kBinomial 
   }
   return table;
 }();
+
+// A set of vertices, one bit each.
+using Mask = std::uint32_t;
+
+// The vertices above and below every triangle, where above sees its corners turn counterclockwise. Each sign
+// is computed once, and only when a triangle is asked for that needs it.
+class Sides {
+ public:
+  Sides(const TetMesh& mesh, std::vector<Vertex> vertices)
+      : mesh_(mesh),
+        vertices_(std::move(vertices)),
+        sign_(kBinomial[vertices_.size()][4], kUnknown),
+        of_triangle_(kBinomial[vertices_.size()][3], {kUnknownMask, 0}) {}
+
+  [[nodiscard]] const std::vector<Vertex>& vertices() const { return vertices_; }
+
+  Mask above(const LocalFace& f) {
+    const auto [sorted, odd] = in_order(f);
+    const Pair& sides = of(sorted);
+    return odd ? sides.below : sides.above;
+  }
+  Mask not_below(const LocalFace& f) {
+    const auto [sorted, odd] = in_order(f);
+    const Pair& sides = of(sorted);
+    return ~(odd ? sides.above : sides.below);
+  }
+
+ private:
+  struct Pair {
+    Mask above, below;
+  };
+  static constexpr std::int8_t kUnknown = 2;
+  static constexpr Mask kUnknownMask = 0x80000000u;  // no vertex has this bit
+
+  // The corners by size, and whether that takes an odd permutation.
+  static std::pair<LocalFace, bool> in_order(LocalFace f) {
+    bool odd = false;
+    const auto order = [&](std::size_t i, std::size_t j) {
+      if (f[i] < f[j]) return;
+      std::swap(f[i], f[j]);
+      odd = !odd;
+    };
+    order(0, 1);
+    order(1, 2);
+    order(0, 1);
+    return {f, odd};
+  }
+
+  const Pair& of(const LocalFace& f) {
+    Pair& sides = of_triangle_[std::size_t{f[0]} + kBinomial[f[1]][2] + kBinomial[f[2]][3]];
+    if (sides.above != kUnknownMask) return sides;
+    sides = {0, 0};
+    for (Local d = 0; d < vertices_.size(); ++d) {
+      if (d == f[0] || d == f[1] || d == f[2]) continue;
+      const int s = sign(f, d);
+      if (s > 0) sides.above |= Mask{1} << d;
+      if (s < 0) sides.below |= Mask{1} << d;
+    }
+    return sides;
+  }
+
+  int sign(const LocalFace& f, Local d) {
+    std::array<Local, 4> k{f[0], f[1], f[2], d};
+    bool odd = false;
+    for (std::size_t i = 3; i > 0 && k[i - 1] > k[i]; --i) {
+      std::swap(k[i - 1], k[i]);
+      odd = !odd;
+    }
+    std::int8_t& s = sign_[std::size_t{k[0]} + kBinomial[k[1]][2] + kBinomial[k[2]][3] + kBinomial[k[3]][4]];
+    if (s == kUnknown)
+      s = static_cast<std::int8_t>(
+          mesh_.orient(vertices_[k[0]], vertices_[k[1]], vertices_[k[2]], vertices_[k[3]]));
+    return odd ? -s : s;
+  }
+
+  const TetMesh& mesh_;
+  const std::vector<Vertex> vertices_;
+  std::vector<std::int8_t> sign_;  // by the number of the four corners
+  std::vector<Pair> of_triangle_;  // by the number of the three corners
+};
 
 // The faces that are still to be covered, seen positively from what is left to fill: by number, with the
 // place of each in the list, so that all is constant time.
@@ -77,9 +158,8 @@ class Search {
         budget_(options.most_nodes),
         worst_quality_(options.worst_quality),
         n_(vertices.size()),
-        vertices_(std::move(vertices)),
-        sign_(kBinomial[n_][4], kUnknown),
-        apexes_(n_ * n_ * n_, kUnknownMask),
+        sides_(mesh, std::move(vertices)),
+        apexes_(n_ * n_ * n_, kUnknownApexes),
         open_(n_) {
     for (const auto& f : faces) open_.add(open_.number({local(f[0]), local(f[1]), local(f[2])}));
   }
@@ -87,100 +167,82 @@ class Search {
   std::optional<std::vector<TetMesh::Corners>> run() {
     if (!fill()) return std::nullopt;
     std::vector<TetMesh::Corners> tets;
-    for (const auto& t : tets_)
-      tets.push_back({vertices_[t[0]], vertices_[t[1]], vertices_[t[2]], vertices_[t[3]]});
+    for (const auto& t : tets_) tets.push_back({vertex(t[0]), vertex(t[1]), vertex(t[2]), vertex(t[3])});
     return tets;
   }
 
  private:
   using Number = OpenFaces::Number;
-  static constexpr std::int8_t kUnknown = 2;
-  static constexpr std::uint32_t kUnknownMask = 0x80000000u;  // no vertex has this bit
+  struct Apexes {
+    Mask mask;
+    int count;
+  };
+  static constexpr Apexes kUnknownApexes{0, -1};
 
+  [[nodiscard]] Vertex vertex(Local v) const { return sides_.vertices()[v]; }
   [[nodiscard]] Local local(Vertex v) const {
-    return static_cast<Local>(std::lower_bound(vertices_.begin(), vertices_.end(), v) - vertices_.begin());
-  }
-
-  int orient(Local a, Local b, Local c, Local d) {
-    if (a == b || a == c || a == d || b == c || b == d || c == d) return 0;
-    std::array<Local, 4> k{a, b, c, d};
-    bool odd = false;
-    for (std::size_t i = 1; i < 4; ++i)
-      for (std::size_t j = i; j > 0 && k[j - 1] > k[j]; --j) {
-        std::swap(k[j - 1], k[j]);
-        odd = !odd;
-      }
-    std::int8_t& s = sign_[std::size_t{k[0]} + kBinomial[k[1]][2] + kBinomial[k[2]][3] + kBinomial[k[3]][4]];
-    if (s == kUnknown)
-      s = static_cast<std::int8_t>(
-          mesh_.orient(vertices_[k[0]], vertices_[k[1]], vertices_[k[2]], vertices_[k[3]]));
-    return odd ? -s : s;
+    const std::vector<Vertex>& all = sides_.vertices();
+    return static_cast<Local>(std::lower_bound(all.begin(), all.end(), v) - all.begin());
   }
 
   // A tetrahedron that holds another vertex of the polyhedron in its closure cannot be part of a filling.
   bool is_empty(const LocalFace& f, Local d) {
-    for (Local x = 0; x < n_; ++x) {
-      if (x == f[0] || x == f[1] || x == f[2] || x == d) continue;
-      if (orient(f[0], f[1], f[2], x) >= 0 && orient(f[0], d, f[1], x) >= 0 &&
-          orient(f[1], d, f[2], x) >= 0 && orient(f[2], d, f[0], x) >= 0)
-        return false;
-    }
-    return true;
+    Mask inside = sides_.not_below(f) & ((Mask{1} << n_) - 1);
+    for (const Local v : {f[0], f[1], f[2], d}) inside &= ~(Mask{1} << v);
+    for (std::size_t k = 0; k < 3 && inside != 0; ++k) inside &= sides_.not_below({f[k], d, f[(k + 1) % 3]});
+    return inside == 0;
   }
 
   [[nodiscard]] bool is_good(const LocalFace& f, Local d) const {
     if (std::isinf(worst_quality_)) return true;
-    const auto at = [&](Local v) -> const Point& { return mesh_.position(vertices_[v]); };
+    const auto at = [&](Local v) -> const Point& { return mesh_.position(vertex(v)); };
     return quality(at(f[0]), at(f[1]), at(f[2]), at(d)) < worst_quality_;
   }
 
-  // The vertices that make a positive, empty tetrahedron with the face, one bit each.
-  std::uint32_t apexes(Number number) {
-    std::uint32_t& mask = apexes_[number];
-    if (mask == kUnknownMask) {
-      mask = 0;
-      const LocalFace f = open_.corners(number);
-      for (Local d = 0; d < n_; ++d)
-        if (orient(f[0], f[1], f[2], d) > 0 && is_good(f, d) && is_empty(f, d)) mask |= 1u << d;
-    }
-    return mask;
-  }
-
-  // The fattest tetrahedron first.
-  std::vector<Local> ranked(const LocalFace& f, std::uint32_t mask) const {
-    std::vector<std::pair<double, Local>> order;
-    for (; mask != 0; mask &= mask - 1) {
-      const auto d = static_cast<Local>(std::countr_zero(mask));
-      order.emplace_back(
-          -fatness(mesh_, vertices_[f[0]], vertices_[f[1]], vertices_[f[2]], mesh_.point(vertices_[d])), d);
-    }
-    std::sort(order.begin(), order.end());
-    std::vector<Local> out;
-    out.reserve(order.size());
-    for (const auto& [fat, d] : order) out.push_back(d);
-    return out;
-  }
-
-  // The open face with the fewest possible apexes, and these; none if some face has none.
-  std::pair<Number, std::uint32_t> tightest() {
-    std::pair<Number, std::uint32_t> found{0, 0};
-    int fewest = 32;
-    for (const Number f : open_.list()) {
-      const std::uint32_t mask = apexes(f);
-      const int count = fewest_bits(mask, fewest);
-      if (count == 0) return {f, 0};
-      if (count >= fewest) continue;
-      fewest = count;
-      found = {f, mask};
+  // The vertices that make a positive, good, empty tetrahedron with the face.
+  const Apexes& apexes(Number number) {
+    Apexes& found = apexes_[number];
+    if (found.count >= 0) return found;
+    found = {0, 0};
+    const LocalFace f = open_.corners(number);
+    for (Mask rest = sides_.above(f); rest != 0; rest &= rest - 1) {
+      const auto d = static_cast<Local>(std::countr_zero(rest));
+      if (!is_good(f, d) || !is_empty(f, d)) continue;
+      found.mask |= Mask{1} << d;
+      ++found.count;
     }
     return found;
   }
 
-  // The number of bits, counted no further than `most`.
-  static int fewest_bits(std::uint32_t mask, int most) {
-    int count = 0;
-    for (; mask != 0 && count < most; mask &= mask - 1) ++count;
-    return count;
+  struct Ranking {
+    std::array<std::pair<double, Local>, kMostVertices> list;
+    std::size_t count = 0;
+  };
+
+  // The fattest tetrahedron first.
+  [[nodiscard]] Ranking ranked(const LocalFace& f, Mask mask) const {
+    Ranking order;
+    for (; mask != 0; mask &= mask - 1) {
+      const auto d = static_cast<Local>(std::countr_zero(mask));
+      order.list[order.count++] = {
+          -fatness(mesh_, vertex(f[0]), vertex(f[1]), vertex(f[2]), mesh_.point(vertex(d))), d};
+    }
+    std::sort(order.list.begin(), order.list.begin() + static_cast<std::ptrdiff_t>(order.count));
+    return order;
+  }
+
+  // The open face with the fewest possible apexes, and these; none if some face has none.
+  std::pair<Number, Mask> tightest() {
+    std::pair<Number, Mask> found{0, 0};
+    int fewest = 32;
+    for (const Number f : open_.list()) {
+      const Apexes& own = apexes(f);
+      if (own.count >= fewest) continue;
+      fewest = own.count;
+      found = {f, own.mask};
+      if (fewest == 0) break;
+    }
+    return found;
   }
 
   bool fill() {
@@ -189,7 +251,9 @@ class Search {
     --budget_;
     const auto [number, mask] = tightest();
     const LocalFace face = open_.corners(number);
-    for (const Local apex : ranked(face, mask)) {
+    const Ranking order = ranked(face, mask);
+    for (std::size_t k = 0; k < order.count; ++k) {
+      const Local apex = order.list[k].second;
       Changes changes;
       if (place(face, apex, changes)) {
         tets_.push_back({face[0], face[1], face[2], apex});
@@ -238,9 +302,8 @@ class Search {
   std::size_t budget_;
   const double worst_quality_;
   const std::size_t n_;
-  const std::vector<Vertex> vertices_;
-  std::vector<std::int8_t> sign_;      // by the number of the four corners
-  std::vector<std::uint32_t> apexes_;  // by face
+  Sides sides_;
+  std::vector<Apexes> apexes_;  // by face
   OpenFaces open_;
   std::vector<std::array<Local, 4>> tets_;
 };

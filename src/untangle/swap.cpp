@@ -149,7 +149,7 @@ class Swaps {
   std::deque<Tet> queue_;
   std::vector<bool> queued_;
   EdgeShell shell_;
-  LinkTriangulation<LeastDeficit> triangulation_;
+  LinkTriangulation<Deficit> triangulation_;
   Exchange best_;
   std::size_t swaps_ = 0;
 };

@@ -11,6 +11,7 @@
 #include "classify/regions.h"
 #include "delaunay/delaunay.h"
 #include "enforce/enforce.h"
+#include "mesh/replace.h"
 #include "recover/standing.h"
 #include "small_surfaces.h"
 #include "surface/complex.h"
@@ -50,6 +51,22 @@ struct Scene {
   }
   [[nodiscard]] Located at(const Point& p) const { return locate(mesh, regions, {p.data(), nullptr}); }
 };
+
+Point middle_of(const TetMesh& mesh, Tet t) {
+  Point middle{};
+  for (const Vertex v : mesh.corners(t))
+    for (std::size_t i = 0; i < 3; ++i) middle[i] += mesh.position(v)[i] / 4;
+  return middle;
+}
+
+std::vector<TetMesh::Corners> cone(const TetMesh& mesh, Tet t, Vertex apex) {
+  std::vector<TetMesh::Corners> tets;
+  for (int i = 0; i < 4; ++i) {
+    const auto f = mesh.face_vertices(face_code(t, i));
+    tets.push_back({f[0], f[1], f[2], apex});
+  }
+  return tets;
+}
 
 using Flags = std::vector<bool>;
 using Ids = std::vector<int>;
@@ -99,6 +116,28 @@ TEST(Regions, NumberedByLeastFacet) {
   EXPECT_EQ(scene.at({-5.3, -5.6, -5.2}).region, 2u);
   EXPECT_EQ(scene.at({0.3, 0.6, 0.2}).region, 3u);
   EXPECT_EQ(scene.at({3, 3, 3}).region, 0u);
+}
+
+TEST(Regions, FloodedAgainAreTheSame) {
+  for (const Surface& surface :
+       {small::box(), small::nested(true), small::nested(false), small::touching()}) {
+    Scene scene(surface);
+    // Tetrahedra change within their regions.
+    std::size_t changed = 0;
+    for (Tet t = 0; t < scene.mesh.slot_count(); ++t) {
+      if (!scene.mesh.alive(t) || scene.mesh.is_ghost(t)) continue;
+      const Vertex p = scene.mesh.add_vertex(middle_of(scene.mesh, t));
+      const std::vector<TetMesh::Corners> fresh = cone(scene.mesh, t, p);
+      replace(scene.mesh, {.old_tets = std::array{t}, .new_tets = fresh});
+      if (++changed == 20) break;
+    }
+    Regions again = scene.regions;
+    flood_again(scene.mesh, scene.surface.facets, again);
+    const Regions afresh = flood_regions(scene.mesh, scene.surface.facets);
+    EXPECT_EQ(again.of_tet, afresh.of_tet);
+    EXPECT_EQ(again.of_facet, afresh.of_facet);
+    EXPECT_NE(again.of_tet, scene.regions.of_tet);
+  }
 }
 
 TEST(Regions, RefusesFacesThatAreNoFacets) {

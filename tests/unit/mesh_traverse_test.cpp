@@ -150,7 +150,7 @@ std::optional<int> least_cost(const RandomCosts& costs, std::size_t n, std::size
 
 TEST(LinkTriangulation, AgreesWithAnExhaustiveSearch) {
   Random random(6);
-  LinkTriangulation<RandomCosts> triangulation;
+  LinkTriangulation<int> triangulation;
   int impossible = 0;
   for (int trial = 0; trial < 400; ++trial) {
     RandomCosts costs(random);
@@ -200,7 +200,7 @@ TEST(EdgeRemoval, RemovesEdgesFromTheMesh) {
   const exact::Dyadic volume = volume_of(mesh);
   Random random(7);
   int removed = 0, at_hull = 0;
-  LinkTriangulation<Visible> triangulation;
+  LinkTriangulation<int> triangulation;
   for (int trial = 0; trial < 3000; ++trial) {
     const auto t = static_cast<Tet>(random() % mesh.slot_count());
     if (!mesh.alive(t) || mesh.is_ghost(t)) continue;

@@ -60,7 +60,7 @@ TEST(Quality, CornersThatShareADouble) {
   Volume volume;
   volume.vertices = {kA, kB, kC, kC};
   volume.tetrahedra = {{0, 1, 2, 3}};
-  const Report::Quality q = measure(volume, {});
+  const Report::Quality q = measure(volume, 0);
   EXPECT_EQ(q.worst, kInfinity);
   EXPECT_EQ(q.min_dihedral_deg, 0);
   EXPECT_EQ(std::accumulate(q.histogram.begin(), q.histogram.end(), std::size_t{0}), 6u);
@@ -148,7 +148,7 @@ TEST(Measure, CountsEveryAngleOnce) {
   volume.vertices[4] = {kTop[0], kTop[1], -kTop[2]};
   volume.tetrahedra = {{0, 1, 2, 3}, {0, 2, 1, 4}};
   const std::vector<Triangle> facets{{0, 1, 3}, {1, 2, 3}};
-  const Report::Quality q = measure(volume, facets);
+  const Report::Quality q = measure(volume, target_quality(volume.vertices, facets));
   EXPECT_NEAR(q.worst, 1, 1e-14);
   EXPECT_NEAR(q.target, 1, 1e-12);
   EXPECT_NEAR(q.min_dihedral_deg, 70.5287793655, 1e-9);
@@ -161,12 +161,12 @@ TEST(Measure, TargetIsTheWorstTriangles) {
   volume.vertices = {kA, kB, kC, {0.5, 0.01, 0}, {0.5, 0.1, 0}};
   const std::vector<Triangle> facets{{0, 1, 2}, {0, 1, 3}, {0, 1, 4}};
   const double worst = best_quality_on(kA, kB, volume.vertices[3]);
-  EXPECT_NEAR(measure(volume, facets).target, worst, 1e-9 * worst);
+  EXPECT_NEAR(measure(volume, target_quality(volume.vertices, facets)).target, worst, 1e-9 * worst);
   EXPECT_GT(worst, 40);
 }
 
 TEST(Measure, NothingIsZero) {
-  const Report::Quality q = measure({}, {});
+  const Report::Quality q = measure({}, 0);
   EXPECT_EQ(q.worst, 0);
   EXPECT_EQ(q.target, 0);
   EXPECT_EQ(q.min_dihedral_deg, 0);

@@ -74,7 +74,7 @@ struct CountDiagonals {
 TEST(LinkTriangulation, AvoidsForbiddenDiagonals) {
   // Of a hexagon's diagonals all but those at corner 4.
   CountDiagonals objective{{{0, 2}, {0, 3}, {1, 3}, {1, 5}, {2, 5}, {3, 5}}};
-  LinkTriangulation<CountDiagonals> triangulation;
+  LinkTriangulation<int> triangulation;
   EXPECT_EQ(triangulation.find(6, objective), 0);
   std::vector<LinkTriangle> triangles;
   triangulation.triangles(6, triangles);
@@ -84,7 +84,7 @@ TEST(LinkTriangulation, AvoidsForbiddenDiagonals) {
 
 TEST(LinkTriangulation, CountsWhatCannotBeAvoided) {
   CountDiagonals objective{{{0, 2}, {1, 3}}};
-  LinkTriangulation<CountDiagonals> triangulation;
+  LinkTriangulation<int> triangulation;
   EXPECT_EQ(triangulation.find(4, objective), 1);
 }
 
@@ -96,7 +96,7 @@ struct Never : CountDiagonals {
 
 TEST(LinkTriangulation, FindsNothingWhereNothingIs) {
   Never objective;
-  LinkTriangulation<Never> triangulation;
+  LinkTriangulation<int> triangulation;
   EXPECT_EQ(triangulation.find(5, objective), std::nullopt);
 }
 
