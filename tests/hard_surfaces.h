@@ -107,6 +107,38 @@ inline Surface twisted_prism(Random& random) {
   return s;
 }
 
+// A bumpy sheet of n x n squares close over a floor of two triangles, with walls: hundreds of edges pierce
+// each of these (the paper's Fig. 15).
+inline Surface sheet_over_floor(Random& random) {
+  const auto n = static_cast<Index>(integer(random, 4, 16));
+  const double height = log_uniform(random, 1e-3, 1);
+  Surface s;
+  const auto at = [&](Index i, Index j) { return i * (n + 1) + j; };
+  for (Index i = 0; i <= n; ++i)
+    for (Index j = 0; j <= n; ++j) {
+      const bool border = i == 0 || j == 0 || i == n || j == n;
+      s.vertices.push_back({1.0 * i / n, 1.0 * j / n, height * (border ? 1 : uniform(random, 0.5, 1.5))});
+    }
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < n; ++j) {
+      s.facets.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      s.facets.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  const Index floor = at(n, n) + 1;
+  s.vertices.insert(s.vertices.end(), {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  s.facets.push_back({floor, floor + 2, floor + 1});
+  s.facets.push_back({floor, floor + 3, floor + 2});
+  const auto border = [&](Index side, Index k) {
+    return side == 0 ? at(k, 0) : side == 1 ? at(n, k) : side == 2 ? at(n - k, n) : at(0, n - k);
+  };
+  for (Index side = 0; side < 4; ++side) {
+    const Index a = floor + side, b = floor + (side + 1) % 4;
+    s.facets.push_back({a, b, border(side, n)});
+    for (Index k = 0; k < n; ++k) s.facets.push_back({a, border(side, k + 1), border(side, k)});
+  }
+  return s;
+}
+
 // Copies of one sphere, each inside the one before, thick or very thin between them; all turned outwards,
 // or by turns so that every other shell is hollow.
 inline Surface nested_spheres(Random& random) {

@@ -6,13 +6,13 @@
 #include <optional>
 #include <stdexcept>
 
-#include "api/box.h"
 #include "api/extract.h"
 #include "api/report.h"
 #include "api/scale.h"
 #include "classify/keep.h"
 #include "classify/outside.h"
 #include "classify/regions.h"
+#include "delaunay/box.h"
 #include "delaunay/delaunay.h"
 #include "enforce/enforce.h"
 #include "holdfast/holdfast.h"
@@ -174,7 +174,10 @@ class Pipeline {
   }
 
   void recover() {
-    if (options_.flips) FlipRecovery(mesh_, table_, complex_.facets, standing_, seed_).run(monitor_);
+    if (options_.flips) {
+      const auto tell = [&](double part) { monitor_.poll(Stage::flips, part); };
+      FlipRecovery(mesh_, table_, complex_.facets, standing_, seed_).run(tell);
+    }
     result_.report.flips = missing();
   }
 
@@ -182,7 +185,7 @@ class Pipeline {
     standing_before_partition_ = standing_;
     const bool eliminate = options_.stop_after != Stage::partition;
     const EnforceStats stats = enforce(mesh_, table_, complex_.facets, standing_, first_free_,
-                                       {seed_, options_.flips, eliminate}, monitor_);
+                                       {.seed = seed_, .flips = options_.flips, .eliminate = eliminate}, monitor_);
     result_.report.segment_points = stats.segment_points;
     result_.report.facet_points = stats.facet_points;
     if (!eliminate) standing_ = standing_before_partition_;  // the others are cut into pieces

@@ -1,6 +1,7 @@
 #include "enforce/enforce.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <unordered_set>
 
@@ -8,7 +9,9 @@
 #include "enforce/cut_and_cone.h"
 #include "enforce/partition_facet.h"
 #include "enforce/partition_segment.h"
+#include "mesh/kernel.h"
 #include "mesh/traverse.h"
+#include "recover/facet_cavities.h"
 #include "recover/recover.h"
 #include "suppress/collapse.h"
 #include "suppress/degree.h"
@@ -30,7 +33,9 @@ class Enforcer {
         monitor_(monitor),
         eliminate_(options.eliminate),
         retry_(options.flips && options.eliminate),
+        by_cavities_(retry_ && options.cavities),
         flips_(mesh, table, facets, standing, options.seed),
+        cavities_(mesh, options.seed),
         chains_(table.segments.size()) {
     for (Index s = 0; s < table.segments.size(); ++s)
       if (standing.segments[s] == 0) missing_segments_.push_back(s);
@@ -51,7 +56,7 @@ class Enforcer {
     }
     for (const Index f : missing_facets_) {
       tell();
-      if (!retry_ || !flips_.facet(f, kRetry)) lay_facet(f);
+      if (!recover_again(f)) lay_facet(f);
     }
     return stats_;
   }
@@ -60,6 +65,66 @@ class Enforcer {
   void tell() {
     const auto all = static_cast<double>(missing_segments_.size() + missing_facets_.size());
     monitor_.poll(eliminate_ ? Stage::eliminate : Stage::partition, static_cast<double>(laid_) / all);
+  }
+
+  // Without a point for each edge that pierces the facet. Flips cost the less the fewer edges there are.
+  bool recover_again(Index f) {
+    constexpr std::size_t kMany = 300;
+    if (!by_cavities_) return retry_ && flips_.facet(f, kRetry);
+    if (cavities_.crossing(facets_[f]) < kMany && flips_.facet(f, kRetry)) return true;
+    return recover_by_cavities(f);
+  }
+
+  bool recover_by_cavities(Index f) {
+    const auto finish = [&](TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets,
+                            Standing& standing, Vertex first_free) {
+      enforce(mesh, table, facets, standing, first_free, {.seed = random_(), .cavities = false}, monitor_);
+    };
+    const auto recover = [&] {
+      return cavities_.recover(
+          facets_[f], [&] { tell(); }, finish);
+    };
+    if (!recover()) {
+      // Steiner points in the way may go, or move a little.
+      std::vector<Vertex> in_the_way = cavities_.in_the_way();
+      std::erase_if(in_the_way, [&](Vertex v) { return v < first_free_; });
+      if (in_the_way.empty()) return false;
+      restless_ = in_the_way;
+      settle();
+      for (const Vertex v : in_the_way)
+        if (mesh_.in_mesh(v)) leave_plane(v, facets_[f]);
+      if (!recover()) return false;
+    }
+    standing_.facets[f] = 1;
+    const std::vector<Vertex>& fresh = cavities_.added();
+    restless_.insert(restless_.end(), fresh.begin(), fresh.end());
+    steiner_.insert(steiner_.end(), fresh.begin(), fresh.end());
+    settle();
+    settle_all();
+    return true;
+  }
+
+  // Moves a Steiner point that happens to lie in a facet's plane a little out of it, inside its kernel.
+  void leave_plane(Vertex v, const Triangle& facet) {
+    std::vector<Tet> tets;
+    ball(mesh_, v, tets);
+    Kernel kernel(mesh_);
+    for (const Tet t : tets) {
+      const auto f = mesh_.face_vertices(face_code(t, mesh_.index_of(t, v)));
+      kernel.add(f[0], f[1], f[2]);
+    }
+    const Point& at = mesh_.position(v);
+    const double radius = kernel.centre(mesh_.point(v)).radius;
+    constexpr int kTrials = 20;
+    for (int k = 1; k <= kTrials; ++k)
+      for (const double sign : {1.0, -1.0}) {
+        Point moved = at;
+        for (std::size_t i = 0; i < 3; ++i) moved[i] += sign * std::ldexp(radius, -k) * uniform_(random_);
+        const exact::PointRef place{moved.data(), nullptr};
+        if (mesh_.orient(facet[0], facet[1], facet[2], place) == 0 || !kernel.holds(place)) continue;
+        mesh_.move_vertex(v, moved);
+        return;
+      }
   }
 
   void lay_facet(Index f) {
@@ -183,8 +248,10 @@ class Enforcer {
   std::mt19937_64 random_;
   Flipper flipper_;
   Monitor& monitor_;
-  const bool eliminate_, retry_;
+  std::uniform_real_distribution<double> uniform_{0, 1};
+  const bool eliminate_, retry_, by_cavities_;
   FlipRecovery flips_;
+  FacetCavities cavities_;
   std::vector<std::vector<Vertex>> chains_;  // by segment; empty where it is one edge
   std::unordered_set<Vertex> on_chain_;
   std::vector<Index> missing_segments_, missing_facets_;

@@ -15,6 +15,7 @@ namespace holdfast {
 struct EnforceOptions {
   std::uint64_t seed = 0;
   bool flips = true;      ///< try flips again before a constraint is cut: points nearby make room for them
+  bool cavities = true;   ///< with flips: fill the cavities of a facet again before it is cut
   bool eliminate = true;  ///< false: partition points stay on their constraints (`--stop-after partition`)
 };
 

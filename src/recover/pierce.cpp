@@ -147,31 +147,61 @@ Face Piercing::find_face(Vertex a, Vertex b, Vertex c) {
 
 bool Piercing::of_facet(const std::array<Vertex, 3>& facet, std::vector<PiercingEdge>& out,
                         std::size_t most) {
+  const auto collect = [&](Tet t, const std::array<int, 4>& s) {
+    for (const auto& e : kEdgeVertex) {
+      const int s0 = s[static_cast<std::size_t>(e[0])], s1 = s[static_cast<std::size_t>(e[1])];
+      if (s0 * s1 >= 0) continue;
+      const Vertex v0 = mesh_.corner(t, e[0]), v1 = mesh_.corner(t, e[1]);
+      out.push_back(s0 > 0 ? PiercingEdge{v0, v1, t} : PiercingEdge{v1, v0, t});
+    }
+    return out.size() < 6 * most;
+  };
+  if (!flood(facet, collect)) return false;
+  const auto key = [](const PiercingEdge& e) { return std::pair(e.above, e.below); };
+  std::sort(out.begin(), out.end(), [&](const auto& l, const auto& r) { return key(l) < key(r); });
+  out.erase(
+      std::unique(out.begin(), out.end(), [&](const auto& l, const auto& r) { return key(l) == key(r); }),
+      out.end());
+  return true;
+}
+
+bool Piercing::tets_across(const std::array<Vertex, 3>& facet, std::vector<Tet>& out) {
+  return flood(facet, [&](Tet t, const std::array<int, 4>&) {
+    out.push_back(t);
+    return true;
+  });
+}
+
+// A tetrahedron at the facet's first side through whose inside the facet passes; kNone where it stands.
+// Nothing where a side is no edge.
+std::optional<Tet> Piercing::first_across(const std::array<Vertex, 3>& facet) {
   const auto [a, b, inside] = facet;
   const Tet start = find_edge(a, b);
-  if (start == kNone || find_edge(b, inside) == kNone || find_edge(inside, a) == kNone) return false;
-  tets_.clear();
+  if (start == kNone || find_edge(b, inside) == kNone || find_edge(inside, a) == kNone) return std::nullopt;
   Tet t = start;
   do {
     const auto [c, d] = opposite_edge(mesh_, t, a, b);
-    if (c == inside) return true;  // the facet stands
+    if (c == inside) return kNone;
     if (!mesh_.is_ghost(t) && d != inside && mesh_.orient(a, b, inside, d) > 0 &&
-        mesh_.orient(a, b, c, inside) > 0) {
-      tets_.push_back(t);
-      break;
-    }
+        mesh_.orient(a, b, c, inside) > 0)
+      return t;
     t = tet_of(mesh_.neighbour(t, mesh_.index_of(t, c)));
   } while (t != start);
-  flood(facet, out, most);
-  return true;
+  return kNone;
 }
 
 // Across faces with vertices strictly on both sides of the plane. The sides being edges, a section cell
 // never leaves the facet (design §2.4), and no mesh face or edge lies in the facet's inside, since none of
 // the mesh's vertices does.
-void Piercing::flood(const std::array<Vertex, 3>& facet, std::vector<PiercingEdge>& out, std::size_t most) {
-  for (const Tet t : tets_) mesh_.set_flags(t, kVisited);
-  for (std::size_t n = 0; n < tets_.size() && out.size() < 6 * most; ++n) {
+template <typename Visit>
+bool Piercing::flood(const std::array<Vertex, 3>& facet, Visit visit) {
+  const std::optional<Tet> first = first_across(facet);
+  if (!first) return false;
+  tets_.clear();
+  if (*first == kNone) return true;
+  tets_.push_back(*first);
+  mesh_.set_flags(*first, kVisited);
+  for (std::size_t n = 0; n < tets_.size(); ++n) {
     const Tet t = tets_[n];
     std::array<int, 4> s{};
     for (int i = 0; i < 4; ++i) {
@@ -179,12 +209,7 @@ void Piercing::flood(const std::array<Vertex, 3>& facet, std::vector<PiercingEdg
       const bool corner = v == facet[0] || v == facet[1] || v == facet[2];
       s[static_cast<std::size_t>(i)] = corner ? 0 : mesh_.orient(facet[0], facet[1], facet[2], v);
     }
-    for (const auto& e : kEdgeVertex) {
-      const int s0 = s[static_cast<std::size_t>(e[0])], s1 = s[static_cast<std::size_t>(e[1])];
-      if (s0 * s1 >= 0) continue;
-      const Vertex v0 = mesh_.corner(t, e[0]), v1 = mesh_.corner(t, e[1]);
-      out.push_back(s0 > 0 ? PiercingEdge{v0, v1, t} : PiercingEdge{v1, v0, t});
-    }
+    if (!visit(t, s)) break;
     for (int i = 0; i < 4; ++i) {
       bool above = false, below = false;
       for (const int k : kFaceVertex[static_cast<std::size_t>(i)]) {
@@ -198,11 +223,7 @@ void Piercing::flood(const std::array<Vertex, 3>& facet, std::vector<PiercingEdg
     }
   }
   for (const Tet t : tets_) mesh_.clear_flags(t, kVisited);
-  const auto key = [](const PiercingEdge& e) { return std::pair(e.above, e.below); };
-  std::sort(out.begin(), out.end(), [&](const auto& l, const auto& r) { return key(l) < key(r); });
-  out.erase(
-      std::unique(out.begin(), out.end(), [&](const auto& l, const auto& r) { return key(l) == key(r); }),
-      out.end());
+  return true;
 }
 
 }  // namespace holdfast

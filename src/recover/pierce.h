@@ -5,6 +5,7 @@
 // segment or facet, so that a segment that is no edge pierces something in each tetrahedron it meets.
 #pragma once
 
+#include <optional>
 #include <random>
 #include <span>
 #include <vector>
@@ -47,6 +48,9 @@ class Piercing {
   /// where a side is no edge.
   bool of_facet(const std::array<Vertex, 3>& facet, std::vector<PiercingEdge>& out, std::size_t most);
 
+  /// The tetrahedra that have such an edge, each once. Returns false where a side is no edge.
+  bool tets_across(const std::array<Vertex, 3>& facet, std::vector<Tet>& out);
+
  private:
   // What a ray meets next: 3, 2 or 1 corners of `tet`, which lies before a face.
   using Exit = Crossing;
@@ -56,7 +60,9 @@ class Piercing {
   [[nodiscard]] Exit leave_by_face(Tet t, Vertex a, const std::array<int, 3>& signs) const;
   [[nodiscard]] Exit pass_face(const Exit& in, Vertex a, Vertex b) const;
   [[nodiscard]] Exit pass_edge(const Exit& in, Vertex a, Vertex b) const;
-  void flood(const std::array<Vertex, 3>& facet, std::vector<PiercingEdge>& out, std::size_t most);
+  [[nodiscard]] std::optional<Tet> first_across(const std::array<Vertex, 3>& facet);
+  template <typename Visit>
+  bool flood(const std::array<Vertex, 3>& facet, Visit visit);
 
   TetMesh& mesh_;
   Random& random_;

@@ -10,12 +10,13 @@ namespace {
 
 // Pass after pass goes one level of flips deeper, with little work for each entity: what one attempt does
 // not reach, the next may, from the mesh that the attempts for others have left meanwhile.
-constexpr int kMostPasses = 25;
 constexpr int kMostIdlePasses = 2;
-constexpr std::size_t kIdle = 20;            // a pass that recovers less than one in so many
-constexpr std::size_t kBudget = 1000;        // of an attempt at a crossing in a pass
-constexpr std::size_t kMostFailures = 1000;  // at the crossings of one facet
+constexpr std::size_t kIdle = 20;           // a pass that recovers less than one in so many
+constexpr std::size_t kBudget = 1000;       // of an attempt at a crossing in a pass
+constexpr std::size_t kMostFailures = 100;  // at the crossings of one facet
 constexpr std::size_t kMostCrossings = 2000;
+constexpr std::size_t kMostEdges =
+    200;  // that pierce a facet: with more, its cavities cost less (facet_cavities.h)
 
 }  // namespace
 
@@ -29,14 +30,15 @@ FlipRecovery::FlipRecovery(TetMesh& mesh, const SegmentTable& table, std::span<c
       piercing_(mesh, random_),
       flipper_(mesh, random_) {}
 
-FlipStats FlipRecovery::run(Monitor& monitor) {
+FlipStats FlipRecovery::run(const Tell& tell, int most_passes) {
   FlipStats stats;
   stats.missing_segments = standing_.missing_segments();
   stats.missing_facets = standing_.missing_facets();
   pass_over(
-      standing_.segments, [&](Index s, const Effort& effort) { return segment(s, effort); }, monitor);
+      standing_.segments, most_passes, [&](Index s, const Effort& effort) { return segment(s, effort); },
+      tell);
   pass_over(
-      standing_.facets, [&](Index f, const Effort& effort) { return facet(f, effort); }, monitor);
+      standing_.facets, most_passes, [&](Index f, const Effort& effort) { return facet(f, effort); }, tell);
   stats.recovered_segments = stats.missing_segments - standing_.missing_segments();
   stats.recovered_facets = stats.missing_facets - standing_.missing_facets();
   stats.face_flips = flipper_.counts().face_flips;
@@ -45,16 +47,17 @@ FlipStats FlipRecovery::run(Monitor& monitor) {
 }
 
 template <typename Attempt>
-void FlipRecovery::pass_over(std::vector<std::uint8_t>& stands, Attempt attempt, Monitor& monitor) {
+void FlipRecovery::pass_over(std::vector<std::uint8_t>& stands, int most_passes, Attempt attempt,
+                             const Tell& tell) {
   std::vector<Index> missing;
   for (Index k = 0; k < stands.size(); ++k)
     if (stands[k] == 0) missing.push_back(k);
   int idle = 0;
-  for (int pass = 1; pass <= kMostPasses && idle < kMostIdlePasses && !missing.empty(); ++pass) {
+  for (int pass = 1; pass <= most_passes && idle < kMostIdlePasses && !missing.empty(); ++pass) {
     std::shuffle(missing.begin(), missing.end(), random_);
     const std::size_t before = missing.size();
     std::erase_if(missing, [&](Index k) {
-      monitor.poll(Stage::flips, static_cast<double>(pass) / kMostPasses);
+      tell(static_cast<double>(pass) / most_passes);
       return attempt(k, Effort{pass, kBudget, false});
     });
     idle = kIdle * (before - missing.size()) > before ? 0 : idle + 1;
@@ -105,6 +108,7 @@ bool FlipRecovery::facet(Index f, const Effort& effort) {
     gained = false;
     edges_.clear();
     if (!piercing_.of_facet(facets_[f], edges_, kMostCrossings)) return false;
+    if (edges_.size() > kMostEdges) return false;
     if (edges_.empty()) {
       const Face face = piercing_.find_face(facets_[f][0], facets_[f][1], facets_[f][2]);
       if (face == kNone) return false;

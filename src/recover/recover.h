@@ -3,10 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
-#include "mesh/monitor.h"
 #include "mesh/tet_mesh.h"
 #include "recover/flipper.h"
 #include "recover/pierce.h"
@@ -29,9 +29,14 @@ class FlipRecovery {
   FlipRecovery(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets, Standing& standing,
                std::uint64_t seed);
 
-  /// Passes over all that is missing until the flips find no more. Throws Interrupted through the monitor;
-  /// the mesh and `standing` are then as far as the work had come.
-  FlipStats run(Monitor& monitor);
+  /// What a long run calls now and then, with the part that is done; it may throw.
+  using Tell = std::function<void(double)>;
+
+  static constexpr int kMostPasses = 25;
+
+  /// Passes over all that is missing until the flips find no more. Where `tell` throws, the mesh and
+  /// `standing` are as far as the work had come.
+  FlipStats run(const Tell& tell, int most_passes = kMostPasses);
 
   struct Effort {
     int depth;           ///< levels of flips
@@ -46,7 +51,7 @@ class FlipRecovery {
  private:
   bool clear_between(Vertex a, Vertex b, const Effort& effort);
   template <typename Attempt>
-  void pass_over(std::vector<std::uint8_t>& stands, Attempt attempt, Monitor& monitor);
+  void pass_over(std::vector<std::uint8_t>& stands, int most_passes, Attempt attempt, const Tell& tell);
 
   TetMesh& mesh_;
   const SegmentTable& table_;

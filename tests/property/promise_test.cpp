@@ -34,6 +34,7 @@ const Family kFamilies[] = {
     {"stars", random_one<hard::star>, 8},
     {"spikes", random_one<hard::spikes>, 4},
     {"twisted_prisms", random_one<hard::twisted_prism>, 20},
+    {"sheets_over_floors", random_one<hard::sheet_over_floor>, 6},
     {"nested_spheres", random_one<hard::nested_spheres>, 6},
     {"voxels", random_one<hard::voxels>, 10},
     {"combs", random_one<hard::comb>, 4},

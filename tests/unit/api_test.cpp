@@ -9,7 +9,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "api/box.h"
+#include "delaunay/box.h"
 #include "api/scale.h"
 #include "holdfast/check.h"
 #include "holdfast/holdfast.h"

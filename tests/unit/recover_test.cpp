@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <stdexcept>
 #include <vector>
 
 #include "delaunay/delaunay.h"
@@ -14,6 +15,7 @@
 #include "mesh/replace.h"
 #include "mesh/traverse.h"
 #include "mesh/validate.h"
+#include "recover/facet_cavities.h"
 #include "recover/flipper.h"
 #include "recover/pierce.h"
 #include "recover/target.h"
@@ -53,7 +55,9 @@ Recovered recover(const std::vector<Point>& points, const std::vector<Triangle>&
   run.standing = mark_present(run.mesh, table, facets);
   const Options options;
   Monitor monitor(options);
-  run.stats = FlipRecovery(run.mesh, table, facets, run.standing, 1).run(monitor);
+  run.stats = FlipRecovery(run.mesh, table, facets, run.standing, 1).run([&](double part) {
+    monitor.poll(Stage::flips, part);
+  });
   EXPECT_EQ(find_fault(run.mesh), "");
   return run;
 }
@@ -229,6 +233,84 @@ TEST(Piercing, AgreesWithAnExhaustiveSearch) {
     EXPECT_EQ(cost, expected);
   }
   EXPECT_GT(through_edges, 50u);
+}
+
+// A large triangle and clouds of points close above and below it.
+std::vector<Point> clouds_round_a_triangle(std::size_t count, unsigned seed) {
+  std::vector<Point> points{{-5, -4, 0}, {5, -4, 0}, {0, 6, 0}};
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> wide(-1.5, 1.5), high(0.02, 0.5);
+  for (std::size_t k = 0; k < count; ++k)
+    points.push_back({wide(random), wide(random), k % 2 == 0 ? high(random) : -high(random)});
+  return points;
+}
+
+std::size_t count_segment_bits(const TetMesh& mesh) {
+  std::size_t count = 0;
+  for (Tet t = 0; t < mesh.slot_count(); ++t)
+    for (int k = 0; k < 6; ++k)
+      if (mesh.alive(t) && mesh.is_segment(t, k)) ++count;
+  return count;
+}
+
+TEST(FacetCavities, RecoverWhatHundredsOfEdgesPierce) {
+  const Triangle facet{0, 1, 2};
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    Recovered run = recover(clouds_round_a_triangle(600, seed), {facet}, {});
+    ASSERT_EQ(run.standing.missing_segments(), 0u);
+    ASSERT_EQ(run.standing.missing_facets(), 1u) << "few enough edges for flips";
+    FacetCavities cavities(run.mesh, seed);
+    EXPECT_GT(cavities.crossing(facet), 200u);
+    const std::size_t vertices = run.mesh.vertex_count();
+    ASSERT_TRUE(cavities.recover(facet, [] {}));
+    EXPECT_EQ(find_fault(run.mesh), "");
+    EXPECT_EQ(run.mesh.vertex_count(), vertices);
+    const Face face = find_face(run.mesh, 0, 1, 2);
+    ASSERT_NE(face, kNone);
+    EXPECT_TRUE(run.mesh.is_facet(face) && run.mesh.is_facet(run.mesh.neighbour(face)));
+    EXPECT_EQ(cavities.crossing(facet), 0u);
+    for (Vertex v = 0; v < vertices; ++v) EXPECT_TRUE(run.mesh.in_mesh(v));
+  }
+}
+
+TEST(FacetCavities, KeepSegmentsInsideTheCavities) {
+  std::vector<Point> points = clouds_round_a_triangle(600, 1);
+  const auto first = static_cast<Index>(points.size());
+  points.insert(points.end(), {{-0.2, 0, 0.7}, {0.2, 0, 0.7}, {-0.2, 0.1, -0.7}, {0.2, 0.1, -0.7}});
+  const Triangle facet{0, 1, 2};
+  Recovered run = recover(points, {facet}, {{first, first + 1}, {first + 2, first + 3}});
+  ASSERT_EQ(run.standing.missing_segments(), 0u);
+  ASSERT_TRUE(FacetCavities(run.mesh, 1).recover(facet, [] {}));
+  EXPECT_EQ(find_fault(run.mesh), "");  // with every segment bit in the whole shell of an edge
+  EXPECT_GT(count_segment_bits(run.mesh), 0u);
+  EXPECT_NE(find_edge(run.mesh, first, first + 1), kNone);
+  EXPECT_NE(find_edge(run.mesh, first + 2, first + 3), kNone);
+}
+
+TEST(FacetCavities, NameVerticesInTheFacet) {
+  std::vector<Point> points = clouds_round_a_triangle(600, 1);
+  const auto inside = static_cast<Vertex>(points.size());
+  points.push_back({0.1, 0.2, 0});
+  const Triangle facet{0, 1, 2};
+  Recovered run = recover(points, {}, {{0, 1}, {1, 2}, {2, 0}});
+  ASSERT_EQ(run.standing.missing_segments(), 0u);
+  FacetCavities cavities(run.mesh, 1);
+  const std::size_t tets = run.mesh.tet_count();
+  EXPECT_FALSE(cavities.recover(facet, [] {}));
+  EXPECT_EQ(cavities.in_the_way(), std::vector<Vertex>{inside});
+  EXPECT_EQ(run.mesh.tet_count(), tets);
+  EXPECT_EQ(find_fault(run.mesh), "");
+}
+
+TEST(FacetCavities, LeaveTheMeshAsItWasWhenTheyGiveUp) {
+  const Triangle facet{0, 1, 2};
+  Recovered run = recover(clouds_round_a_triangle(600, 2), {facet}, {});
+  FacetCavities cavities(run.mesh, 1);
+  EXPECT_FALSE(cavities.recover({0, 1, 3}, [] {})) << "its sides are no edges";
+  EXPECT_THROW(cavities.recover(facet, [] { throw std::runtime_error("stop"); }), std::runtime_error);
+  EXPECT_EQ(find_fault(run.mesh), "");
+  EXPECT_EQ(find_face(run.mesh, 0, 1, 2), kNone);
+  EXPECT_TRUE(cavities.recover(facet, [] {}));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "api/box.h"
+#include "delaunay/box.h"
 
 #include <algorithm>
 #include <cmath>
