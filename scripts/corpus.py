@@ -47,7 +47,7 @@ COLUMNS = ["name", "mode", "class", "triangles", "outcome", "delaunay_segments",
 class Case:
     path: Path
     name: str
-    mode: str  # flips, noflips, or invalid
+    mode: str  # flips, noflips, field, or invalid
     group: str  # what is expected: "closed" (every segment has two facets or more), "open", "invalid"
     triangles: int
 
@@ -181,8 +181,10 @@ class Runner:
 
     def mesh(self, case, volume, report_file, extra):
         options = self.options
-        command = [options.holdfast, "mesh", case.path, "-o", volume, "--fill", "--quiet", "--report", report_file,
+        command = [options.holdfast, "mesh", case.path, "-o", volume, "--quiet", "--report", report_file,
                    "--time-limit", options.timeout, "--memory-limit", options.memory / 1e9, *extra]
+        if case.mode != "field":
+            command += ["--fill"]
         if case.mode == "noflips":
             command += ["--without", "flips"]
         code, output = self.limited(command, options.timeout)
@@ -373,7 +375,8 @@ def parse_arguments():
     parser.add_argument("--corpus", default=os.environ.get("HOLDFAST_CORPUS", ""),
                         help="folder; 'none' for none; default: HOLDFAST_CORPUS, or look around")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="processes at a time")
-    parser.add_argument("--mode", choices=["flips", "noflips", "both"], default="both")
+    parser.add_argument("--mode", choices=["flips", "noflips", "field", "both"], default="both",
+                        help="fill with or without flips or both ways (default), or a mesh with field points")
     parser.add_argument("--only", action="append", metavar="GLOB", help="only surfaces of such a name (repeatable)")
     parser.add_argument("--group", choices=["closed", "open", "invalid"], help="only such surfaces")
     parser.add_argument("--valid-only", action="store_true")

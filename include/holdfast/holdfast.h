@@ -10,7 +10,17 @@
 namespace holdfast {
 
 /// Stages of the pipeline (design §2), in order.
-enum class Stage { validate, delaunay, flips, partition, eliminate, classify, suppress, optimise };
+enum class Stage {
+  validate,
+  delaunay,
+  flips,
+  partition,
+  eliminate,
+  classify,
+  suppress,
+  field_points,
+  optimise
+};
 
 /// Name of a stage as the command line and the report spell it.
 [[nodiscard]] const char* name(Stage stage);
@@ -26,6 +36,23 @@ enum class Keep {
 /// A region to number: the region that holds `where` gets `id`.
 using RegionSeed = Surface::RegionSeed;
 
+/// How long edges should be, for field points (design §2.8). The least of all limits counts.
+struct Sizes {
+  double size = 0;  ///< the most anywhere; 0: as the surface has it
+  /// From a vertex of the surface, whose size is the mean length of its edges, sizes grow by this much a unit
+  /// of length, inward and towards larger triangles.
+  double gradation = 0.3;
+  /// Whether sizes grow inside beyond those of the surface round; else they lie between them.
+  bool grow = true;
+  /// One a vertex of the complex, instead of the mean length of its edges (0: keep that); or none.
+  std::vector<double> vertex_sizes;
+  /// The most at a point; what is not positive is no limit. Called often, from the calling thread.
+  std::function<double(const Point&)> field;
+};
+
+/// How long to improve the elements between field points: each is some times slower than the one before.
+enum class Quality { fast, good, best };
+
 /// What a running call tells, and may be told.
 struct Progress {
   Stage stage;
@@ -36,6 +63,10 @@ struct Progress {
 struct Options {
   bool flips = true;     ///< recover by flips before partition; without, partition does all the work
   bool optimise = true;  ///< better elements by exchanges and moves of Steiner points, after all else
+  /// With sizes, field points are added, and the whole volume is made fit to compute with. Without, only the
+  /// points that the surface forces are added.
+  std::optional<Sizes> sizes;
+  Quality quality = Quality::good;  ///< for `sizes`
   Keep keep = Keep::automatic;
   double box_margin = 0.1;  ///< of the largest extent, for Keep::box
   std::vector<Point> holes;
@@ -78,6 +109,7 @@ struct Report {
     std::size_t moves = 0;      ///< of Steiner points
     std::size_t points = 0;     ///< Steiner points added where a tetrahedron stayed flat otherwise
   } optimised;
+  std::size_t field_points = 0;  ///< added for the sizes; they count as Steiner points, too
   std::size_t vertices = 0, tetrahedra = 0, regions = 0;
   struct Quality {
     double target = 0, worst = 0;  ///< the paper's Q = sqrt(6)/12 h_max / inradius, 1 is regular

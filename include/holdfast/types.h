@@ -44,6 +44,7 @@ struct Surface {
   struct RegionSeed {
     Point where;
     int id;
+    double size = 0;  ///< most that edges of the region may measure, for field points; 0: no limit
   };
   std::vector<RegionSeed> regions;
   std::vector<Point> holes;

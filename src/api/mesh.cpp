@@ -16,12 +16,16 @@
 #include "delaunay/delaunay.h"
 #include "enforce/enforce.h"
 #include "holdfast/holdfast.h"
+#include "improve/improve.h"
 #include "mesh/monitor.h"
 #include "mesh/quality.h"
 #include "mesh/tet_mesh.h"
 #include "optimise/optimise.h"
 #include "recover/recover.h"
 #include "recover/standing.h"
+#include "refine/field_points.h"
+#include "refine/order.h"
+#include "size/size_function.h"
 #include "suppress/suppress.h"
 #include "surface/complex.h"
 #include "surface/diagnose.h"
@@ -93,11 +97,12 @@ class Pipeline {
 
   void run_attempt() {
     // Elimination is part of the partition's loop (design §2.5).
-    static constexpr std::array<Step, 6> kSteps{{{Stage::delaunay, &Pipeline::build_box_mesh},
+    static constexpr std::array<Step, 7> kSteps{{{Stage::delaunay, &Pipeline::build_box_mesh},
                                                  {Stage::flips, &Pipeline::recover},
                                                  {Stage::partition, &Pipeline::enforce_missing},
                                                  {Stage::classify, &Pipeline::classify},
                                                  {Stage::suppress, &Pipeline::suppress_points},
+                                                 {Stage::field_points, &Pipeline::add_points},
                                                  {Stage::optimise, &Pipeline::optimise_elements}}};
     for (const Step& step : kSteps) {
       if (step.stage > last_stage()) break;
@@ -211,8 +216,23 @@ class Pipeline {
     flood_again(mesh_, complex_.facets, regions_);
   }
 
+  void add_points() {
+    if (!options_.sizes) return;
+    for (Tet t = 0; t < mesh_.slot_count(); ++t)
+      if (is_kept(t))
+        for (const Vertex v : mesh_.corners(t))
+          if (!mesh_.is_explicit(v)) return;  // the outcome is not_representable
+    const SizeFunction sizes(*options_.sizes, complex_, table_, options_, kept_, scale_);
+    const std::size_t before = mesh_.vertex_count();
+    std::vector<double> none;
+    order_along_curve(mesh_, first_free_, regions_.of_tet, none);
+    sizes_ = add_field_points({mesh_, regions_.of_tet, kept_.region}, sizes, monitor_);
+    result_.report.field_points = mesh_.vertex_count() - before;
+  }
+
   void optimise_elements() {
     if (!options_.optimise) return;
+    if (!sizes_.empty()) return improve_volume();
     std::vector<Tet> tets;
     for (Tet t = 0; t < mesh_.slot_count(); ++t) {
       if (!is_kept(t)) continue;
@@ -224,6 +244,11 @@ class Pipeline {
     result_.report.optimised = {stats.exchanged + stats.unflattened + stats.reconnected, stats.relocated,
                                 stats.inserted};
     if (stats.changed > 0) flood_again(mesh_, complex_.facets, regions_);
+  }
+
+  void improve_volume() {
+    order_along_curve(mesh_, first_free_, regions_.of_tet, sizes_);
+    improve(mesh_, regions_.of_tet, kept_.region, first_free_, sizes_, options_.quality, monitor_);
   }
 
   [[nodiscard]] bool is_kept(Tet t) const {
@@ -283,6 +308,7 @@ class Pipeline {
   Standing standing_, standing_before_partition_;
   std::optional<double> target_;
   Regions regions_;
+  std::vector<double> sizes_;  // by vertex; empty without field points
   Kept kept_;
 };
 

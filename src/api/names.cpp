@@ -18,6 +18,8 @@ const char* name(Stage stage) {
       return "classify";
     case Stage::suppress:
       return "suppress";
+    case Stage::field_points:
+      return "field_points";
     case Stage::optimise:
       return "optimise";
   }

@@ -137,10 +137,6 @@ int run(const MeshArguments& arguments) {
   const Surface surface = read_surfaces(arguments.surfaces, arguments.input_format);
   options.holes.insert(options.holes.end(), surface.holes.begin(), surface.holes.end());
   options.regions.insert(options.regions.end(), surface.regions.begin(), surface.regions.end());
-  if (!arguments.fill && !arguments.quiet)
-    fmt::print(stderr,
-               "holdfast: field points are not built yet: only the points that the surface forces are "
-               "added, as with --fill\n");
   const double reading = whole.seconds();
   // The limit is on the whole command; 0 would mean none.
   if (options.time_limit > 0) options.time_limit = std::max(1e-6, options.time_limit - reading);
@@ -175,6 +171,18 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->required()
       ->option_text("VOLUME");
   command->add_flag("--fill", arguments->fill, "Add only the points that the surface forces");
+  command->add_option("--size", arguments->size, "Field points: no edge inside much longer than this")
+      ->option_text("H");
+  command
+      ->add_option("--gradation", arguments->gradation,
+                   "Field points: growth of sizes a unit of length, away from the surface (default 0.3)")
+      ->option_text("G");
+  command->add_flag("--no-growth", arguments->no_growth,
+                    "Field points: inside, sizes stay between those of the surface round");
+  command
+      ->add_option("--quality", arguments->quality,
+                   "Effort spent on the elements with field points: fast, good (default) or best")
+      ->option_text("EFFORT");
   command
       ->add_option("--keep", arguments->keep,
                    "Regions to keep: auto (default), bounded, winding, box or box=MARGIN (of the largest "

@@ -60,6 +60,24 @@ Stage stage_named(const std::string& text) {
   throw UsageError("--stop-after " + text + ": there is no such stage; there are " + known);
 }
 
+Sizes to_sizes(const MeshArguments& arguments) {
+  if (!(arguments.size >= 0)) throw UsageError("--size: the length must be positive");
+  if (!(arguments.gradation >= 0 && arguments.gradation <= 1))
+    throw UsageError("--gradation: a number from 0 to 1 is expected");
+  Sizes sizes;
+  sizes.size = arguments.size;
+  sizes.gradation = arguments.gradation;
+  sizes.grow = !arguments.no_growth;
+  return sizes;
+}
+
+Quality quality_named(const std::string& text) {
+  if (text == "fast") return Quality::fast;
+  if (text == "good") return Quality::good;
+  if (text == "best") return Quality::best;
+  throw UsageError("--quality " + text + ": fast, good or best is expected");
+}
+
 }  // namespace
 
 Options to_options(const MeshArguments& arguments) {
@@ -83,6 +101,8 @@ Options to_options(const MeshArguments& arguments) {
     else
       throw UsageError("--without " + step + ": only 'flips' and 'optimise' can be left out");
   }
+  if (!arguments.fill) options.sizes = to_sizes(arguments);
+  options.quality = quality_named(arguments.quality);
   if (!arguments.stop_after.empty()) options.stop_after = stage_named(arguments.stop_after);
   if (!(arguments.time_limit >= 0)) throw UsageError("--time-limit: seconds must not be negative");
   if (!(arguments.memory_limit >= 0 && arguments.memory_limit < 1e9))

@@ -19,6 +19,9 @@ struct MeshArguments {
   std::string keep = "auto";
   std::vector<std::string> holes, regions, without;
   std::string stop_after;
+  double size = 0, gradation = Sizes{}.gradation;
+  bool no_growth = false;
+  std::string quality = "good";
   std::uint64_t seed = 1;
   unsigned threads = 1;
   double time_limit = 0;

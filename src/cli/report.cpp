@@ -98,6 +98,7 @@ Json to_json(const Result& result, Json options) {
       {"flips", missing(report.flips)},
       {"partition", {{"segment_points", report.segment_points}, {"facet_points", report.facet_points}}},
       {"steiner", {{"count", report.steiner_points}, {"unrounded", report.unrounded_points}}},
+      {"field_points", report.field_points},
       {"optimise",
        {{"exchanges", report.optimised.exchanges},
         {"moves", report.optimised.moves},

@@ -97,6 +97,40 @@ void TetMesh::set_tets(std::vector<Corners> corners, std::vector<Neighbours> nei
       if (v != kGhost) incident_[v] = t;
 }
 
+void TetMesh::renumber(std::span<const Tet> tets, Vertex first, std::span<const Vertex> vertices) {
+  assert(tets.size() == tet_count() && first + vertices.size() == vertex_count());
+  std::vector<Tet> tet_now(slot_count(), kNone);
+  for (std::size_t k = 0; k < tets.size(); ++k) tet_now[tets[k]] = static_cast<Tet>(k);
+  std::vector<Vertex> vertex_now(vertices.size());
+  for (std::size_t k = 0; k < vertices.size(); ++k)
+    vertex_now[vertices[k] - first] = first + static_cast<Vertex>(k);
+  std::vector<Corners> corners(tets.size());
+  std::vector<Neighbours> neighbours(tets.size());
+  std::vector<Flags> flags(tets.size());
+  for (std::size_t k = 0; k < tets.size(); ++k) {
+    corners[k] = corners_[tets[k]];
+    for (Vertex& v : corners[k])
+      if (v >= first && v != kGhost) v = vertex_now[v - first];
+    neighbours[k] = neighbours_[tets[k]];
+    for (Face& f : neighbours[k]) f = face_code(tet_now[tet_of(f)], side_of(f));
+    flags[k] = flags_[tets[k]];
+  }
+  corners_ = std::move(corners);
+  neighbours_ = std::move(neighbours);
+  flags_ = std::move(flags);
+  free_.clear();
+  const std::vector<Point> positions(positions_.begin() + first, positions_.end());
+  const std::vector<std::uint32_t> exact_of(exact_of_.begin() + first, exact_of_.end());
+  const std::vector<Tet> incident(incident_.begin() + first, incident_.end());
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    positions_[first + k] = positions[vertices[k] - first];
+    exact_of_[first + k] = exact_of[vertices[k] - first];
+    incident_[first + k] = incident[vertices[k] - first];
+  }
+  for (Tet& t : incident_)
+    if (t != kNone) t = tet_now[t];
+}
+
 void TetMesh::set_facet(Face f) {
   set_flags(tet_of(f), facet_bit(side_of(f)));
   const Face g = neighbour(f);

@@ -55,6 +55,9 @@ class TetMesh {
   /// A slot for a tetrahedron; its neighbours are the caller's to set.
   Tet add_tet(const Corners& v);
   void remove_tet(Tet t);
+  /// New numbers for all tetrahedra and for the vertices from `first` on: `tets` lists the living ones, and
+  /// `vertices` those vertices, in their new order. Free slots go.
+  void renumber(std::span<const Tet> tets, Vertex first, std::span<const Vertex> vertices);
   /// All tetrahedra of a mesh that had none, at once. The two arrays are as long as each other and
   /// satisfy the invariants above; flags are cleared and incident tetrahedra set here.
   void set_tets(std::vector<Corners> corners, std::vector<Neighbours> neighbours);

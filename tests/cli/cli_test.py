@@ -92,6 +92,9 @@ class Usage(CliTest):
             (["mesh", "cube.off", "-o", "out.vtu", "--time-limit", "-1"], "--time-limit"),
             (["mesh", "cube.off", "-o", "out.vtu", "--memory-limit", "nan"], "--memory-limit"),
             (["mesh", "cube.off", "-o", "out.vtu", "--threads", "0"], "--threads"),
+            (["mesh", "cube.off", "-o", "out.vtu", "--size", "-1"], "--size"),
+            (["mesh", "cube.off", "-o", "out.vtu", "--gradation", "7"], "--gradation"),
+            (["mesh", "cube.off", "-o", "out.vtu", "--quality", "superb"], "best"),
             (["mesh", "cube.off", "-o", "out.vtu", "-q", "-v"], "excludes"),
             (["check", "cube.off"], "volume"),
         ]:
@@ -186,9 +189,17 @@ class Mesh(CliTest):
         for part in bar[1:-1]:
             self.assertRegex(part, r"^\w+ +\[=* *\] +\d+ %$")
 
-    def test_without_fill_it_says_that_there_are_no_field_points(self):
-        self.assertIn("field points", self.run_program("mesh", "cube.off", "-o", "a.vtu").stderr)
-        self.assertNotIn("field points", self.run_program("mesh", "cube.off", "-o", "a.vtu", "--fill").stderr)
+    def test_field_points_make_edges_of_the_wanted_size(self):
+        counts = []
+        for size in ("0.5", "0.25"):
+            self.run_program("mesh", "cube.off", "-o", "a.vtu", "--size", size, "--report", "r.json")
+            report = json.loads((self.folder / "r.json").read_text())
+            self.assertGreater(report["field_points"], 0)
+            counts.append(report["mesh"]["tetrahedra"])
+            self.run_program("check", "cube.off", "a.vtu")
+        self.assertGreater(counts[1], 5 * counts[0])
+        self.run_program("mesh", "cube.off", "-o", "a.vtu", "--fill", "--size", "0.25", "--report", "r.json")
+        self.assertEqual(json.loads((self.folder / "r.json").read_text())["field_points"], 0)
 
     def test_same_result_for_any_number_of_threads_and_twice(self):
         self.make("chazelle", "hard.off", "-n", "2")
@@ -214,7 +225,7 @@ class Mesh(CliTest):
 
     def test_what_stands_after_every_stage(self):
         self.make("schonhardt", "prism.off", "--twist", "50")
-        for stage in "validate delaunay flips partition eliminate classify suppress".split():
+        for stage in "validate delaunay flips partition eliminate classify suppress field_points".split():
             with self.subTest(stage):
                 self.run_program("mesh", "prism.off", "-o", "a.vtu", "--fill", "--stop-after", stage)
 

@@ -1,0 +1,66 @@
+#include "improve/add_point.h"
+
+#include <algorithm>
+
+#include "mesh/traverse.h"
+
+namespace holdfast {
+
+Vertex PointAdder::add(Tet t) {
+  const TetMesh& mesh = volume_.mesh();
+  const TetMesh::Corners corners = mesh.corners(t);
+  for (int edge = 0; edge < 6; ++edge) {
+    const auto& ends = kEdgeVertex[static_cast<std::size_t>(edge)];
+    const Vertex a = corners[static_cast<std::size_t>(ends[0])],
+                 b = corners[static_cast<std::size_t>(ends[1])];
+    // A failed attempt is taken back, which may give the tetrahedron another slot.
+    if (!mesh.alive(t) || mesh.corners(t) != corners) t = find_tet(corners);
+    if (t == kNone) return kNone;
+    const int k =
+        kEdgeOf[static_cast<std::size_t>(mesh.index_of(t, a))][static_cast<std::size_t>(mesh.index_of(t, b))];
+    if (mesh.is_segment(t, k) || !gather_shell(mesh, t, a, b, shell_)) continue;
+    const Vertex p = add_in_shell();
+    if (p != kNone) return p;
+  }
+  return kNone;
+}
+
+Tet PointAdder::find_tet(const TetMesh::Corners& c) {
+  const Face f = find_face(volume_.mesh(), c[0], c[1], c[2]);
+  if (f == kNone) return kNone;
+  for (const Face g : {f, volume_.mesh().neighbour(f)})
+    if (volume_.mesh().index_of(tet_of(g), c[3]) >= 0) return tet_of(g);
+  return kNone;
+}
+
+Vertex PointAdder::add_in_shell() {
+  TetMesh& mesh = volume_.mesh();
+  Point middle{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const Vertex v : shell_.link) middle[k] += mesh.position(v)[k];
+    middle[k] = (middle[k] + mesh.position(shell_.a)[k] + mesh.position(shell_.b)[k]) /
+                static_cast<double>(shell_.link.size() + 2);
+  }
+  const Vertex p = mesh.add_vertex(middle);
+  const Tet base = cavity_.locate(p, shell_.tets.front());
+  if (std::find(shell_.tets.begin(), shell_.tets.end(), base) == shell_.tets.end() ||
+      !cavity_.find_among(p, base, shell_.tets)) {
+    mesh.remove_last_vertex();
+    return kNone;
+  }
+  old_.clear();
+  for (const Tet t : cavity_.tets()) old_.push_back(mesh.corners(t));
+  const double before = volume_.energy(cavity_.tets());
+  const RegionId region = volume_.region_of(base);
+  cavity_.insert();
+  volume_.adopt(cavity_.created(), region);
+  smoother_.smooth(p, true);
+  ball_.clear();
+  holdfast::ball(mesh, p, ball_);
+  if (is_less(volume_.energy(ball_), before)) return p;
+  volume_.replace(ball_, old_);
+  mesh.remove_last_vertex();
+  return kNone;
+}
+
+}  // namespace holdfast

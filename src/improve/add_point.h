@@ -1,0 +1,35 @@
+// A point for a bad element that nothing else helps, such as one on two facets that are almost one plane.
+#pragma once
+
+#include <vector>
+
+#include "improve/smooth.h"
+#include "improve/volume.h"
+#include "mesh/edge_removal.h"
+#include "refine/point_cavity.h"
+
+namespace holdfast {
+
+class PointAdder {
+ public:
+  PointAdder(ImprovedVolume& volume, VertexSmoother& smoother)
+      : volume_(volume), smoother_(smoother), cavity_(volume.mesh()) {}
+
+  /// Fills the shell of an edge of t anew from a point in its middle, if the energy is less then. Returns the
+  /// point, or kNone. The new tetrahedra are its ball, in ball().
+  Vertex add(Tet t);
+  [[nodiscard]] const std::vector<Tet>& ball() const { return ball_; }
+
+ private:
+  [[nodiscard]] Tet find_tet(const TetMesh::Corners& corners);
+  Vertex add_in_shell();
+
+  ImprovedVolume& volume_;
+  VertexSmoother& smoother_;
+  PointCavity cavity_;
+  EdgeShell shell_;
+  std::vector<TetMesh::Corners> old_;
+  std::vector<Tet> ball_;
+};
+
+}  // namespace holdfast

@@ -1,0 +1,65 @@
+#include "improve/contract.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/traverse.h"
+
+namespace holdfast {
+
+std::span<const Tet> VertexContractor::contract(Vertex v, double longest) {
+  TetMesh& mesh = volume_.mesh();
+  tets_.clear();
+  ball(mesh, v, tets_);
+  work_ = static_cast<double>(tets_.size());
+  if (tets_.size() > kMostBall) return {};
+  link_.clear();
+  for (const Tet t : tets_)
+    for (const Vertex w : mesh.corners(t))
+      if (w != v) link_.push_back(w);
+  std::sort(link_.begin(), link_.end());
+  link_.erase(std::unique(link_.begin(), link_.end()), link_.end());
+  work_ *= static_cast<double>(link_.size());
+  const double before = volume_.energy(tets_);
+  double best = before;
+  fresh_.clear();
+  for (const Vertex w : link_) {
+    const double after = energy_with(v, w, longest, best);
+    if (!is_less(after, best)) continue;
+    if (!std::all_of(candidate_.begin(), candidate_.end(),
+                     [&](const TetMesh::Corners& c) { return volume_.is_positive(c); }))
+      continue;
+    best = after;
+    fresh_.swap(candidate_);
+  }
+  if (fresh_.empty()) return {};
+  const auto created = volume_.replace(tets_, fresh_);
+  mesh.remove_vertex(v);
+  return created;
+}
+
+// The energy of the ball of v with w in its place, and the tetrahedra in candidate_; infinite, or at least
+// `limit`, where that does not pay.
+double VertexContractor::energy_with(Vertex v, Vertex w, double longest, double limit) {
+  const TetMesh& mesh = volume_.mesh();
+  candidate_.clear();
+  double sum = 0;
+  for (const Tet t : tets_) {
+    TetMesh::Corners c = mesh.corners(t);
+    if (std::find(c.begin(), c.end(), w) != c.end()) continue;
+    for (Vertex& x : c) {
+      if (x == v) {
+        x = w;
+        continue;
+      }
+      const Point &p = mesh.position(x), &q = mesh.position(w);
+      if (std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) > longest) return kNoEnergy;
+    }
+    sum += volume_.energy_of(c);
+    if (!(sum < limit)) return kNoEnergy;
+    candidate_.push_back(c);
+  }
+  return candidate_.empty() ? kNoEnergy : sum;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,32 @@
+// Removing one vertex by contraction onto a neighbour: too short edges go, and points in the way.
+#pragma once
+
+#include <vector>
+
+#include "improve/volume.h"
+
+namespace holdfast {
+
+class VertexContractor {
+ public:
+  explicit VertexContractor(ImprovedVolume& volume) : volume_(volume) {}
+
+  /// Contracts v onto the neighbour that makes the energy least, if that is less than before, and no edge
+  /// becomes longer than `longest`. Returns the new tetrahedra, none where v stays.
+  std::span<const Tet> contract(Vertex v, double longest);
+  /// Of the last call, in tetrahedra looked at.
+  [[nodiscard]] double work() const { return work_; }
+
+ private:
+  [[nodiscard]] double energy_with(Vertex v, Vertex w, double longest, double limit);
+
+  ImprovedVolume& volume_;
+  static constexpr std::size_t kMostBall = 100;
+
+  std::vector<Tet> tets_;
+  std::vector<Vertex> link_;
+  std::vector<TetMesh::Corners> candidate_, fresh_;
+  double work_ = 0;
+};
+
+}  // namespace holdfast

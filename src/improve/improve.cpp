@@ -1,0 +1,205 @@
+#include "improve/improve.h"
+
+#include <algorithm>
+#include <queue>
+
+#include "improve/add_point.h"
+#include "improve/contract.h"
+#include "improve/smooth.h"
+#include "improve/swap.h"
+
+namespace holdfast {
+namespace {
+
+// Passes over the whole volume, and the least angle that the work on single elements aims at.
+struct Effort {
+  int passes;
+  double sine;         // of the angle below which elements are swapped in a pass
+  double smooth_sine;  // of the angle below which the vertices of elements are moved in a pass
+  double aim;          // of the angle below which single elements are worked on
+  int rounds;
+  // For a round, in elements tried, some ten microseconds each. Most volumes take a small part of it: it is
+  // for those full of elements that the surface forces, which nothing helps.
+  double work_per_tet;
+};
+
+constexpr Effort effort_of(Quality quality) {
+  switch (quality) {
+    case Quality::fast:
+      return {2, 0.50, 0.65, 0.26, 1, 0.2};
+    case Quality::good:
+      return {4, 0.60, 0.75, 0.50, 3, 1};
+    case Quality::best:
+      break;
+  }
+  return {10, 0.70, 0.85, 0.60, 8, 10};
+}
+
+class Improver {
+ public:
+  Improver(TetMesh& mesh, std::vector<RegionId>& region_of, const std::vector<bool>& kept, Vertex first_free,
+           std::vector<double>& sizes, Quality quality, Monitor& monitor)
+      : mesh_(mesh),
+        volume_(mesh, region_of, kept, first_free),
+        sizes_(sizes),
+        effort_(effort_of(quality)),
+        monitor_(monitor),
+        smoother_(volume_),
+        swapper_(volume_),
+        contractor_(volume_),
+        adder_(volume_, smoother_) {}
+
+  ImproveStats run() {
+    const int steps = effort_.passes + effort_.rounds;
+    for (int pass = 0; pass < effort_.passes; ++pass) {
+      stage_ = {static_cast<double>(pass) / steps, 1.0 / steps};
+      swap_pass();
+      smooth_pass(false);
+    }
+    for (int round = 0; round < effort_.rounds; ++round) {
+      stage_ = {static_cast<double>(effort_.passes + round) / steps, 1.0 / steps};
+      volume_.touch_all();
+      if (!work_on_the_worst()) break;
+    }
+    return stats_;
+  }
+
+ private:
+  struct Entry {
+    double energy;
+    Tet tet;
+    friend bool operator<(const Entry& x, const Entry& y) {
+      return x.energy != y.energy ? x.energy < y.energy : x.tet > y.tet;
+    }
+  };
+
+  void poll(double fraction) { monitor_.poll(Stage::optimise, stage_[0] + stage_[1] * fraction); }
+
+  void swap_pass() {
+    const double from = energy_of_sine(effort_.sine);
+    const auto count = static_cast<double>(mesh_.slot_count());
+    // Slots that are filled on the way are met again, here or in the next pass.
+    for (Tet t = 0; t < mesh_.slot_count(); ++t) {
+      if (!volume_.is_inside(t) || !(volume_.energy(t) > from) || !volume_.take_changed(t)) continue;
+      poll(0.5 * t / count);
+      if (!swapper_.improve(t).empty()) ++stats_.swapped;
+    }
+  }
+
+  void smooth_pass(bool patient) {
+    const double from = energy_of_sine(effort_.smooth_sine);
+    std::vector<std::uint8_t> bad(mesh_.vertex_count(), 0);
+    for (Tet t = 0; t < mesh_.slot_count(); ++t)
+      if (volume_.is_inside(t) && volume_.energy(t) > from)
+        for (const Vertex v : mesh_.corners(t)) bad[v] = 1;
+    for (Vertex v = volume_.first_free(); v < mesh_.vertex_count(); ++v) {
+      if (bad[v] == 0 || !mesh_.in_mesh(v) || !volume_.take_touched(v)) continue;
+      poll(0.5 + 0.5 * v / static_cast<double>(mesh_.vertex_count()));
+      if (smoother_.smooth(v, patient)) ++stats_.moved;
+    }
+  }
+
+  // One element after another, the worst first, each in every way. Returns whether any became better.
+  bool work_on_the_worst() {
+    constexpr double worth_a_point = energy_of_sine(0.42);  // 25 degrees
+    const double from = energy_of_sine(effort_.aim);
+    std::priority_queue<Entry> queue;
+    for (Tet t = 0; t < mesh_.slot_count(); ++t)
+      if (volume_.is_inside(t) && volume_.energy(t) > from) queue.push({volume_.energy(t), t});
+    const double count = 1 + static_cast<double>(queue.size());
+    work_ = 0;
+    const double budget = kLeastWork + effort_.work_per_tet * static_cast<double>(mesh_.tet_count());
+    bool any = false;
+    const auto again = [&](std::span<const Tet> tets) {
+      any = true;
+      for (const Tet t : tets)
+        if (volume_.energy(t) > from) queue.push({volume_.energy(t), t});
+    };
+    while (!queue.empty() && work_ < budget) {
+      const Entry worst = queue.top();
+      queue.pop();
+      if (!volume_.is_inside(worst.tet) || volume_.energy(worst.tet) != worst.energy) continue;
+      if (!volume_.take_changed(worst.tet)) continue;
+      poll(std::max(work_ / budget, 1 - std::min(1.0, static_cast<double>(queue.size()) / count)));
+      work_ += 1;
+      if (const auto created = swapper_.improve(worst.tet); !created.empty()) {
+        ++stats_.swapped;
+        again(created);
+        continue;
+      }
+      if (smooth_a_corner(worst.tet)) {
+        again(smoother_.ball());
+        continue;
+      }
+      if (const auto created = contract_a_corner(worst.tet); !created.empty()) {
+        ++stats_.contracted;
+        again(created);
+        continue;
+      }
+      if (worst.energy > worth_a_point && add_point_at(worst.tet)) {
+        ++stats_.inserted;
+        again(adder_.ball());
+      }
+    }
+    return any;
+  }
+
+  bool add_point_at(Tet t) {
+    work_ += 6;
+    const TetMesh::Corners corners = mesh_.corners(t);
+    const Vertex p = adder_.add(t);
+    if (p == kNone) return false;
+    sizes_.resize(mesh_.vertex_count(), 0);
+    for (const Vertex v : corners) sizes_[p] = std::max(sizes_[p], sizes_[v]);
+    return true;
+  }
+
+  bool smooth_a_corner(Tet t) {
+    const TetMesh::Corners corners = mesh_.corners(t);
+    for (const Vertex v : corners)
+      if (volume_.may_move(v)) {
+        const bool moved = smoother_.smooth(v, true);
+        work_ += static_cast<double>(smoother_.ball().size()) / 10;
+        if (!moved) continue;
+        ++stats_.moved;
+        return true;
+      }
+    return false;
+  }
+
+  std::span<const Tet> contract_a_corner(Tet t) {
+    constexpr double kLongest = 1.6;  // sizes
+    const TetMesh::Corners corners = mesh_.corners(t);
+    for (const Vertex v : corners) {
+      if (!volume_.may_move(v)) continue;
+      const auto created = contractor_.contract(v, kLongest * sizes_[v]);
+      work_ += contractor_.work() / 100;
+      if (!created.empty()) return created;
+    }
+    return {};
+  }
+
+  static constexpr double kLeastWork = 5000;
+
+  TetMesh& mesh_;
+  ImprovedVolume volume_;
+  std::vector<double>& sizes_;
+  const Effort effort_;
+  Monitor& monitor_;
+  VertexSmoother smoother_;
+  EnergySwapper swapper_;
+  VertexContractor contractor_;
+  PointAdder adder_;
+  std::array<double, 2> stage_{};
+  double work_ = 0;
+  ImproveStats stats_;
+};
+
+}  // namespace
+
+ImproveStats improve(TetMesh& mesh, std::vector<RegionId>& region_of, const std::vector<bool>& kept,
+                     Vertex first_free, std::vector<double>& sizes, Quality quality, Monitor& monitor) {
+  return Improver(mesh, region_of, kept, first_free, sizes, quality, monitor).run();
+}
+
+}  // namespace holdfast

@@ -1,0 +1,24 @@
+// A volume to compute with: smoothing, swaps, contractions and a few points, on the worst elements until they
+// stop improving (design §2.8).
+#pragma once
+
+#include <vector>
+
+#include "classify/regions.h"
+#include "holdfast/holdfast.h"
+#include "mesh/monitor.h"
+#include "mesh/tet_mesh.h"
+
+namespace holdfast {
+
+struct ImproveStats {
+  std::size_t moved = 0, swapped = 0, contracted = 0, inserted = 0;
+};
+
+/// Improves the tetrahedra of the kept regions; all their vertices are explicit. Facets, segments and the
+/// vertices below `first_free` stand; those from there on lie on no constraint. `region_of` (by slot) is kept
+/// up to date, and so is `sizes`, the wanted size at each vertex.
+ImproveStats improve(TetMesh& mesh, std::vector<RegionId>& region_of, const std::vector<bool>& kept,
+                     Vertex first_free, std::vector<double>& sizes, Quality quality, Monitor& monitor);
+
+}  // namespace holdfast

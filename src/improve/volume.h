@@ -1,0 +1,102 @@
+// What the improvement of a volume works on: the mesh, its regions, and the energy of each tetrahedron.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "classify/regions.h"
+#include "improve/energy.h"
+#include "mesh/replace.h"
+#include "mesh/tet_mesh.h"
+
+namespace holdfast {
+
+class ImprovedVolume {
+ public:
+  /// Vertices from `first_free` on, which lie on no constraint, may move and go. All vertices of kept
+  /// tetrahedra are explicit.
+  ImprovedVolume(TetMesh& mesh, std::vector<RegionId>& region_of, const std::vector<bool>& kept,
+                 Vertex first_free)
+      : mesh_(mesh), region_of_(region_of), kept_(kept), first_free_(first_free) {
+    energy_.assign(mesh.slot_count(), 0);
+    changed_.assign(mesh.slot_count(), 1);
+    touched_.assign(mesh.vertex_count(), 1);
+    for (Tet t = 0; t < mesh.slot_count(); ++t)
+      if (is_inside(t)) energy_[t] = energy_of(mesh.corners(t));
+  }
+
+  [[nodiscard]] TetMesh& mesh() { return mesh_; }
+  [[nodiscard]] const TetMesh& mesh() const { return mesh_; }
+  [[nodiscard]] Vertex first_free() const { return first_free_; }
+  [[nodiscard]] bool is_inside(Tet t) const {
+    return mesh_.alive(t) && !mesh_.is_ghost(t) && kept_[region_of_[t]];
+  }
+  [[nodiscard]] bool may_move(Vertex v) const { return v >= first_free_; }
+
+  /// Of a living tetrahedron inside.
+  [[nodiscard]] double energy(Tet t) const { return energy_[t]; }
+  [[nodiscard]] double energy(std::span<const Tet> tets) const {
+    double sum = 0;
+    for (const Tet t : tets) sum += energy_[t];
+    return sum;
+  }
+  [[nodiscard]] double energy_of(const TetMesh::Corners& c) const {
+    return holdfast::energy(mesh_.position(c[0]), mesh_.position(c[1]), mesh_.position(c[2]),
+                            mesh_.position(c[3]));
+  }
+  [[nodiscard]] bool is_positive(const TetMesh::Corners& c) const {
+    return mesh_.orient(c[0], c[1], c[2], c[3]) > 0;
+  }
+
+  /// Whether a tetrahedron, or the ball of a vertex, is new or has changed since this was last asked.
+  [[nodiscard]] bool take_changed(Tet t) { return std::exchange(changed_[t], std::uint8_t{0}) != 0; }
+  [[nodiscard]] bool take_touched(Vertex v) { return std::exchange(touched_[v], std::uint8_t{0}) != 0; }
+  void touch_all() {
+    std::fill(changed_.begin(), changed_.end(), std::uint8_t{1});
+    std::fill(touched_.begin(), touched_.end(), std::uint8_t{1});
+  }
+
+  /// Replaces tetrahedra inside one region. Returns the new ones, until the next call.
+  std::span<const Tet> replace(std::span<const Tet> old_tets, std::span<const TetMesh::Corners> fresh) {
+    const RegionId region = region_of_[old_tets.front()];
+    created_.clear();
+    holdfast::replace(mesh_, {.old_tets = old_tets, .new_tets = fresh}, &created_);
+    adopt(created_, region);
+    return created_;
+  }
+  /// Takes note of tetrahedra that were made otherwise.
+  void adopt(std::span<const Tet> tets, RegionId region) {
+    if (energy_.size() < mesh_.slot_count()) {
+      energy_.resize(mesh_.slot_count(), 0);
+      changed_.resize(mesh_.slot_count(), 1);
+      region_of_.resize(mesh_.slot_count(), kNone);
+    }
+    if (touched_.size() < mesh_.vertex_count()) touched_.resize(mesh_.vertex_count(), 1);
+    for (const Tet t : tets) {
+      region_of_[t] = region;
+      note(t, energy_of(mesh_.corners(t)));
+    }
+  }
+  /// Takes note of the new energy of a tetrahedron one of whose vertices was moved.
+  void note(Tet t, double energy) {
+    energy_[t] = energy;
+    changed_[t] = 1;
+    for (const Vertex v : mesh_.corners(t)) touched_[v] = 1;
+  }
+  [[nodiscard]] RegionId region_of(Tet t) const { return region_of_[t]; }
+
+ private:
+  TetMesh& mesh_;
+  std::vector<RegionId>& region_of_;
+  const std::vector<bool>& kept_;
+  const Vertex first_free_;
+  std::vector<double> energy_;  // by slot
+  std::vector<std::uint8_t> changed_, touched_;
+  std::vector<Tet> created_;
+};
+
+/// Whether a change of a sum of energies is worth making; differences below are rounding or not worth the
+/// time.
+[[nodiscard]] inline bool is_less(double after, double before) { return after < before * (1 - 1e-9) - 0.02; }
+
+}  // namespace holdfast

@@ -1,0 +1,248 @@
+#include "refine/point_cavity.h"
+
+#include <algorithm>
+
+#include "mesh/validate.h"
+
+namespace holdfast {
+
+Tet PointCavity::locate(Vertex p, Tet start) {
+  // The mesh with constraints is no Delaunay triangulation, in which a walk would be sure to arrive: the
+  // random order of the faces makes it arrive all the same, nearly always.
+  constexpr int kMostSteps = 2000;
+  Tet t = start;
+  Tet from = kNone;
+  for (int step = 0; step < kMostSteps; ++step) {
+    if (mesh_.is_ghost(t)) return kNone;
+    random_ = random_ * 1664525u + 1013904223u;
+    const auto first = static_cast<int>(random_ >> 30);
+    bool moved = false;
+    for (int k = 0; k < 4 && !moved; ++k) {
+      const int i = (first + k) & 3;
+      const Tet next = tet_of(mesh_.neighbour(t, i));
+      if (next == from) continue;
+      const auto f = mesh_.face_vertices(face_code(t, i));
+      if (mesh_.orient(f[0], f[1], f[2], p) >= 0) continue;
+      from = t;
+      t = next;
+      moved = true;
+    }
+    if (!moved) return t;
+  }
+  return kNone;
+}
+
+bool PointCavity::find(Vertex p, Tet base) {
+  p_ = p;
+  spread(base);
+  return settle(base);
+}
+
+bool PointCavity::find_among(Vertex p, Tet base, std::span<const Tet> tets) {
+  p_ = p;
+  gather(tets);
+  return settle(base);
+}
+
+// Takes out of the cavity what does not belong there.
+bool PointCavity::settle(Tet base) {
+  if (place_.size() < mesh_.vertex_count()) place_.resize(mesh_.vertex_count() + mesh_.vertex_count() / 2, 0);
+  for (;;) {
+    if (!shrink_until_seen(base)) {
+      abandon();
+      return false;
+    }
+    list_rim();
+    const Tet t = holder_of_lost_entity(base);
+    if (t == kNone) break;
+    if (!release(t, base)) {
+      abandon();
+      return false;
+    }
+  }
+  return true;
+}
+
+// The tetrahedra in conflict with p and the faces between them and others, facets from both sides.
+void PointCavity::spread(Tet base) {
+  tets_.clear();
+  faces_.clear();
+  tets_.push_back(base);
+  mesh_.set_flags(base, kVisited);
+  const double* const x = mesh_.position(p_).data();
+  for (std::size_t k = 0; k < tets_.size(); ++k) {
+    const Tet t = tets_[k];
+    for (int i = 0; i < 4; ++i) {
+      const Face f = face_code(t, i);
+      const Tet n = tet_of(mesh_.neighbour(f));
+      if (mesh_.is_facet(f)) {
+        faces_.push_back(f);
+        continue;
+      }
+      if ((mesh_.flags(n) & kVisited) != 0) continue;
+      bool conflict = false;
+      if (!mesh_.is_ghost(n)) {
+        const auto& c = mesh_.corners(n);
+        conflict =
+            exact::detail::insphere_filter(mesh_.position(c[0]).data(), mesh_.position(c[1]).data(),
+                                           mesh_.position(c[2]).data(), mesh_.position(c[3]).data(), x) > 0;
+      }
+      if (conflict) {
+        mesh_.set_flags(n, kVisited);
+        tets_.push_back(n);
+      } else {
+        faces_.push_back(f);
+      }
+    }
+  }
+}
+
+void PointCavity::gather(std::span<const Tet> tets) {
+  tets_.assign(tets.begin(), tets.end());
+  faces_.clear();
+  for (const Tet t : tets_) mesh_.set_flags(t, kVisited);
+  for (const Tet t : tets_)
+    for (int i = 0; i < 4; ++i) {
+      const Face f = face_code(t, i);
+      if (mesh_.is_facet(f) || (mesh_.flags(tet_of(mesh_.neighbour(f))) & kVisited) == 0) faces_.push_back(f);
+    }
+}
+
+// Takes a tetrahedron out of the cavity; its faces towards the rest become the boundary's.
+bool PointCavity::release(Tet t, Tet base) {
+  if (t == base) return false;
+  mesh_.clear_flags(t, kVisited);
+  for (int i = 0; i < 4; ++i) {
+    const Face g = mesh_.neighbour(t, i);
+    if ((mesh_.flags(tet_of(g)) & kVisited) != 0 && !mesh_.is_facet(g)) faces_.push_back(g);
+  }
+  return true;
+}
+
+bool PointCavity::shrink_until_seen(Tet base) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < faces_.size(); ++k) {
+    const Face f = faces_[k];
+    const Tet t = tet_of(f);
+    if ((mesh_.flags(t) & kVisited) == 0) continue;
+    const auto v = mesh_.face_vertices(f);
+    if (mesh_.orient(v[0], v[1], v[2], p_) > 0)
+      faces_[kept++] = f;
+    else if (!release(t, base))
+      return false;
+  }
+  // A face that was kept may have lost its tetrahedron since.
+  faces_.resize(kept);
+  std::erase_if(faces_, [&](Face f) { return (mesh_.flags(tet_of(f)) & kVisited) == 0; });
+  std::erase_if(tets_, [&](Tet t) { return (mesh_.flags(t) & kVisited) == 0; });
+  return true;
+}
+
+void PointCavity::list_rim() {
+  ring_.clear();
+  rim_.resize(faces_.size());
+  for (std::size_t k = 0; k < faces_.size(); ++k) {
+    const Face f = faces_[k];
+    const Flags old = mesh_.flags(tet_of(f));
+    Rim& rim = rim_[k];
+    rim.v = mesh_.face_vertices(f);
+    rim.outer = mesh_.neighbour(f);
+    unsigned flags = mesh_.is_facet(f) ? facet_bit(3) : 0u;
+    if ((old & kSegmentBits) != 0) {
+      const auto& c = kFaceVertex[f & 3u];
+      const auto bit = [&](std::size_t i, std::size_t j) {
+        return (old & segment_bit(kEdgeOf[static_cast<std::size_t>(c[i])][static_cast<std::size_t>(c[j])])) !=
+               0;
+      };
+      if (bit(0, 1)) flags |= segment_bit(0);
+      if (bit(0, 2)) flags |= segment_bit(1);
+      if (bit(1, 2)) flags |= segment_bit(3);
+    }
+    rim.flags = static_cast<Flags>(flags);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vertex v = rim.v[i];
+      std::uint32_t& place = place_[v];
+      if (place >= ring_.size() || ring_[place] != v) {
+        place = static_cast<std::uint32_t>(ring_.size());
+        ring_.push_back(v);
+      }
+      rim.local[i] = place;
+    }
+  }
+}
+
+// A tetrahedron of the cavity with a vertex or segment that no face of the boundary holds, or kNone.
+Tet PointCavity::holder_of_lost_entity(Tet base) const {
+  Tet lost = kNone;
+  for (const Tet t : tets_) {
+    const auto& c = mesh_.corners(t);
+    bool holds = false;
+    for (const Vertex v : c) holds = holds || place_[v] >= ring_.size() || ring_[place_[v]] != v;
+    if ((mesh_.flags(t) & kSegmentBits) != 0)
+      for (int k = 0; k < 6 && !holds; ++k) {
+        const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
+        holds = mesh_.is_segment(t, k) && !on_rim(mesh_.corner(t, e[0]), mesh_.corner(t, e[1]));
+      }
+    if (holds) lost = t;
+    if (holds && t != base) return t;
+  }
+  return lost;
+}
+
+bool PointCavity::on_rim(Vertex a, Vertex b) const {
+  return std::any_of(rim_.begin(), rim_.end(), [&](const Rim& r) {
+    return (r.v[0] == a || r.v[1] == a || r.v[2] == a) && (r.v[0] == b || r.v[1] == b || r.v[2] == b);
+  });
+}
+
+void PointCavity::abandon() {
+  for (const Tet t : tets_) mesh_.clear_flags(t, kVisited);
+}
+
+void PointCavity::insert() {
+  for (const Tet t : tets_) mesh_.remove_tet(t);
+  created_.resize(rim_.size());
+  for (std::size_t k = 0; k < rim_.size(); ++k) {
+    const Rim& rim = rim_[k];
+    const Tet t = mesh_.add_tet({rim.v[0], rim.v[1], rim.v[2], p_});
+    created_[k] = t;
+    mesh_.set_flags(t, rim.flags);
+    mesh_.link(face_code(t, 3), rim.outer);
+    for (const Vertex v : rim.v) mesh_.set_incident(v, t);
+  }
+  mesh_.set_incident(p_, created_.front());
+  if (ring_.size() <= kTableSide)
+    link_by_table();
+  else
+    link_by_sorting();
+  validate_after_operation(mesh_, created_);
+}
+
+// Face i of a new tetrahedron, i < 3, lies at the boundary's edge opposite local vertex i; the neighbour has
+// the same edge reversed. The boundary is closed, so every entry that is read was written.
+void PointCavity::link_by_table() {
+  constexpr std::array<std::array<std::size_t, 2>, 3> kSide{{{1, 2}, {2, 0}, {0, 1}}};
+  for (std::size_t k = 0; k < rim_.size(); ++k)
+    for (std::size_t i = 0; i < 3; ++i)
+      table_[rim_[k].local[kSide[i][0]] * kTableSide + rim_[k].local[kSide[i][1]]] =
+          face_code(created_[k], static_cast<int>(i));
+  for (std::size_t k = 0; k < rim_.size(); ++k)
+    for (std::size_t i = 0; i < 3; ++i)
+      mesh_.link(face_code(created_[k], static_cast<int>(i)),
+                 table_[rim_[k].local[kSide[i][1]] * kTableSide + rim_[k].local[kSide[i][0]]]);
+}
+
+void PointCavity::link_by_sorting() {
+  sides_.clear();
+  for (std::size_t k = 0; k < rim_.size(); ++k)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint64_t a = rim_[k].local[(i + 1) % 3], b = rim_[k].local[(i + 2) % 3];
+      sides_.push_back({std::min(a, b) << 32 | std::max(a, b), face_code(created_[k], static_cast<int>(i))});
+    }
+  std::sort(sides_.begin(), sides_.end(), [](const Side& x, const Side& y) {
+    return x.edge != y.edge ? x.edge < y.edge : x.face < y.face;
+  });
+  for (std::size_t k = 0; k + 1 < sides_.size(); k += 2) mesh_.link(sides_[k].face, sides_[k + 1].face);
+}
+
+}  // namespace holdfast

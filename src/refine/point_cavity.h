@@ -1,0 +1,85 @@
+// Insertion of one point by the constrained, generalised Bowyer-Watson operator (paper §6.2; George, Hecht,
+// Saltel 1991).
+//
+// The cavity of a point p begins with the tetrahedron that holds it and spreads to neighbours whose
+// circumscribed sphere holds p, never across a facet or the hull. In a mesh that is not Delaunay, or where
+// constraints cut it, its faces need not all see p: tetrahedra behind a face that does not are taken out
+// again until all do, decided exactly. Then the tetrahedra that join p to the faces are positive and fill it:
+// a closed surface all of whose triangles see p winds round it as often as it covers the directions, which is
+// once, since p lies in one tetrahedron. In-sphere tests only propose, so that floating point serves them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+
+namespace holdfast {
+
+class PointCavity {
+ public:
+  /// All vertices of the tetrahedra that points are put in are explicit.
+  explicit PointCavity(TetMesh& mesh) : mesh_(mesh) {}
+
+  /// The tetrahedron that holds vertex p, which is in no tetrahedron yet, by a walk from `start`; kNone where
+  /// the walk leaves the hull or does not arrive.
+  [[nodiscard]] Tet locate(Vertex p, Tet start);
+
+  /// Finds the cavity of p round the tetrahedron `base` that holds it. Returns false where there is none. It
+  /// must be inserted or abandoned.
+  [[nodiscard]] bool find(Vertex p, Tet base);
+  /// The same, but the cavity is made of these tetrahedra alone, as far as p sees their faces.
+  [[nodiscard]] bool find_among(Vertex p, Tet base, std::span<const Tet> tets);
+  /// The vertices that p would be joined to.
+  [[nodiscard]] std::span<const Vertex> ring() const { return ring_; }
+
+  /// A face of the cavity's boundary; p sees it with orient(v0, v1, v2, p) > 0.
+  struct Rim {
+    std::array<Vertex, 3> v;
+    std::array<std::uint32_t, 3> local;  ///< positions in the ring
+    Face outer;                          ///< the same face from outside
+    Flags flags;                         ///< of the new tetrahedron (v0 v1 v2 p)
+  };
+  [[nodiscard]] std::span<const Rim> rim() const { return rim_; }
+  /// The tetrahedra that p would replace.
+  [[nodiscard]] std::span<const Tet> tets() const { return tets_; }
+
+  /// Replaces the cavity by the tetrahedra round p; created()[k] stands on rim()[k].
+  void insert();
+  [[nodiscard]] std::span<const Tet> created() const { return created_; }
+
+  /// Leaves the mesh as it was.
+  void abandon();
+
+ private:
+  bool settle(Tet base);
+  void spread(Tet base);
+  void gather(std::span<const Tet> tets);
+  bool shrink_until_seen(Tet base);
+  bool release(Tet t, Tet base);
+  void list_rim();
+  [[nodiscard]] Tet holder_of_lost_entity(Tet base) const;
+  [[nodiscard]] bool on_rim(Vertex a, Vertex b) const;
+  void link_by_table();
+  void link_by_sorting();
+
+  static constexpr std::uint32_t kTableSide = 64;
+
+  TetMesh& mesh_;
+  Vertex p_ = kNone;
+  std::vector<Tet> tets_;
+  std::vector<Face> faces_;  // of the boundary, from inside
+  std::vector<Rim> rim_;
+  std::vector<Vertex> ring_;
+  std::vector<std::uint32_t> place_;  // by vertex: position in the ring, if the ring holds it there
+  std::vector<Tet> created_;
+  std::array<Face, kTableSide * kTableSide> table_{};
+  struct Side {
+    std::uint64_t edge;
+    Face face;
+  };
+  std::vector<Side> sides_;
+  std::uint32_t random_ = 1;
+};
+
+}  // namespace holdfast

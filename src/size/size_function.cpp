@@ -1,0 +1,56 @@
+#include "size/size_function.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace holdfast {
+namespace {
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+
+// The mean length of the edges at each vertex.
+std::vector<double> edge_lengths(const Complex& complex, const SegmentTable& table) {
+  std::vector<double> sum(complex.vertices.size(), 0);
+  std::vector<unsigned> count(complex.vertices.size(), 0);
+  for (const Segment& s : table.segments) {
+    const double length = distance(complex.vertices[s[0]], complex.vertices[s[1]]);
+    for (const Index v : s) {
+      sum[v] += length;
+      ++count[v];
+    }
+  }
+  for (std::size_t v = 0; v < sum.size(); ++v) sum[v] = count[v] == 0 ? kNoLimit : sum[v] / count[v];
+  return sum;
+}
+
+}  // namespace
+
+SizeFunction::SizeFunction(const Sizes& sizes, const Complex& complex, const SegmentTable& table,
+                           const Options& options, const Kept& kept, int scale)
+    : gradation_(sizes.gradation),
+      grows_(sizes.grow),
+      most_(sizes.size > 0 ? std::ldexp(sizes.size, scale) : kNoLimit),
+      scale_(scale),
+      field_(sizes.field),
+      of_vertex_(edge_lengths(complex, table)) {
+  for (std::size_t v = 0; v < std::min(of_vertex_.size(), sizes.vertex_sizes.size()); ++v)
+    if (sizes.vertex_sizes[v] > 0) of_vertex_[v] = sizes.vertex_sizes[v];
+  for (double& h : of_vertex_) h = std::ldexp(h, scale);
+  const auto has_size = [](const RegionSeed& seed) { return seed.size > 0; };
+  if (std::any_of(options.regions.begin(), options.regions.end(), has_size)) {
+    of_region_.assign(kept.id.size(), most_);
+    for (const RegionSeed& seed : options.regions)
+      for (std::size_t r = 0; r < kept.id.size(); ++r)
+        if (has_size(seed) && kept.region[r] && kept.id[r] == seed.id)
+          of_region_[r] = std::min(of_region_[r], std::ldexp(seed.size, scale));
+  }
+}
+
+double SizeFunction::field_at(const Point& p) const {
+  const double h = field_({std::ldexp(p[0], -scale_), std::ldexp(p[1], -scale_), std::ldexp(p[2], -scale_)});
+  return h > 0 ? std::ldexp(h, scale_) : kNoLimit;
+}
+
+}  // namespace holdfast

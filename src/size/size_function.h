@@ -1,0 +1,48 @@
+// The size that edges should have: from the surface, and from what the user asks for (paper §8; design §2.8).
+//
+// A vertex of the surface has the mean length of the edges of its facets, or what the user gave for it. A
+// size spreads inward: from a vertex of size h, at distance d, it is at most h + gradation * d. A point gets
+// the least that the vertices round it allow, so that sizes are handed from point to point as the mesh grows,
+// and no other structure is needed. On top of this come the user's limits: one number, one a region, a field.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "classify/keep.h"
+#include "holdfast/holdfast.h"
+#include "surface/complex.h"
+
+namespace holdfast {
+
+class SizeFunction {
+ public:
+  /// The mesh is the complex times 2^scale.
+  SizeFunction(const Sizes& sizes, const Complex& complex, const SegmentTable& table, const Options& options,
+               const Kept& kept, int scale);
+
+  /// Of a vertex of the complex; infinite for one without edges.
+  [[nodiscard]] std::size_t vertex_count() const { return of_vertex_.size(); }
+  [[nodiscard]] double of_vertex(Vertex v) const { return of_vertex_[v]; }
+  /// What the user allows at a point of the mesh in a region; infinite without a limit there.
+  [[nodiscard]] double limit(const Point& p, RegionId region) const {
+    const double least = of_region_.empty() ? most_ : of_region_[region];
+    return field_ ? std::min(least, field_at(p)) : least;
+  }
+  [[nodiscard]] double gradation() const { return gradation_; }
+  /// Inside, sizes do not grow beyond those of the surface round it.
+  [[nodiscard]] bool grows() const { return grows_; }
+
+ private:
+  [[nodiscard]] double field_at(const Point& p) const;
+
+  double gradation_;
+  bool grows_;
+  double most_;
+  int scale_;
+  std::vector<double> of_region_;  // empty where no region has a size of its own
+  std::function<double(const Point&)> field_;
+  std::vector<double> of_vertex_;
+};
+
+}  // namespace holdfast
