@@ -45,12 +45,12 @@ struct Sizes {
   /// Whether sizes grow inside beyond those of the surface round; else they lie between them.
   bool grow = true;
   /// One a vertex of the complex, instead of the mean length of its edges (0: keep that); or none.
-  std::vector<double> vertex_sizes;
+  std::vector<double> vertex_sizes = {};
   /// The most at a point; what is not positive is no limit. Called often, from the calling thread.
-  std::function<double(const Point&)> field;
+  std::function<double(const Point&)> field = {};
 };
 
-/// How long to improve the elements between field points: each is some times slower than the one before.
+/// How long to improve the elements with field points: each is some times slower than the one before.
 enum class Quality { fast, good, best };
 
 /// What a running call tells, and may be told.
@@ -109,7 +109,31 @@ struct Report {
     std::size_t moves = 0;      ///< of Steiner points
     std::size_t points = 0;     ///< Steiner points added where a tetrahedron stayed flat otherwise
   } optimised;
-  std::size_t field_points = 0;  ///< added for the sizes; they count as Steiner points, too
+  /// Shape of the elements of a volume with field points.
+  struct Shape {
+    double min_dihedral_deg = 0, max_dihedral_deg = 0;
+    std::array<std::size_t, 15> least_dihedral{};  ///< elements by their least angle, in bins of 5 degrees
+    std::array<std::size_t, 10> quality{};         ///< by Q, in bins that end where quality_bins says
+  };
+  static constexpr std::array<double, 9> quality_bins{1.25, 1.5, 2, 3, 5, 10, 30, 100, 1000};
+  /// An element with an angle below 10 degrees that facets ask for: two of its faces, or one with a small
+  /// angle.
+  struct Forced {
+    Index tetrahedron;
+    double min_dihedral_deg;
+    std::vector<Index> facets;  ///< of the volume
+  };
+  /// What was done for the sizes; all zero without.
+  struct Field {
+    std::size_t points = 0;  ///< field points; they count as Steiner points, too
+    Shape before, after;     ///< the optimisation
+    /// Lengths of edges over the mean of the sizes wanted at their ends, in bins of 1/8, the last without
+    /// end; an edge counts once for each element.
+    std::array<std::size_t, 24> edge_lengths{};
+    std::size_t moves = 0, swaps = 0, contractions = 0, insertions = 0;  ///< of the optimisation
+    std::size_t below_10_deg = 0, forced = 0;  ///< elements with such an angle, and those that facets ask for
+    std::vector<Forced> worst_forced;          ///< the worst of these, at most 100
+  } field;
   std::size_t vertices = 0, tetrahedra = 0, regions = 0;
   struct Quality {
     double target = 0, worst = 0;  ///< the paper's Q = sqrt(6)/12 h_max / inradius, 1 is regular

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string_view>
 
@@ -65,6 +66,23 @@ struct WriteOptions {
 /// Throws FileError, and std::invalid_argument if regions or markers are neither empty nor as many as
 /// their entities.
 void write_volume(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options = {});
+
+/// Sizes that edges should have, at the vertices of a background mesh.
+struct SizeField {
+  std::vector<Point> vertices;
+  std::vector<Tetrahedron> tetrahedra;
+  std::vector<double> sizes;  ///< one a vertex
+};
+
+/// Reads a size field: .mesh or .meshb and the .sol beside it (or the .sol), .vtu with a point array "size",
+/// .mtr (TetGen) with the .node and .ele beside it, .pos (Gmsh, parsed, scalars on tetrahedra). A .mtr
+/// without .ele has sizes for the vertices of a surface: then the field has nothing but sizes. Isotropic
+/// sizes only. Throws FileError, also for sizes that are not positive.
+[[nodiscard]] SizeField read_size_field(const std::filesystem::path& path);
+
+/// The size at a point, linear in each tetrahedron of the field; 0, no limit, outside: for `Sizes::field`.
+/// Throws std::invalid_argument for a field without a size for every vertex.
+[[nodiscard]] std::function<double(const Point&)> size_function(SizeField field);
 
 /// Extensions that `write_volume` knows, with the dot, in lower case.
 [[nodiscard]] std::vector<std::string> volume_formats();

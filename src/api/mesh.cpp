@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "api/extract.h"
+#include "api/forced.h"
 #include "api/report.h"
 #include "api/scale.h"
 #include "classify/keep.h"
@@ -17,6 +18,7 @@
 #include "enforce/enforce.h"
 #include "holdfast/holdfast.h"
 #include "improve/improve.h"
+#include "improve/shape.h"
 #include "mesh/monitor.h"
 #include "mesh/quality.h"
 #include "mesh/tet_mesh.h"
@@ -50,6 +52,13 @@ void require_sensible(const Complex& complex, const Options& options) {
   if (!std::all_of(options.regions.begin(), options.regions.end(),
                    [&](const RegionSeed& seed) { return finite(seed.where); }))
     throw std::invalid_argument("a region seed has a coordinate that is not finite");
+  if (options.sizes) {
+    const Sizes& sizes = *options.sizes;
+    if (!(sizes.size >= 0) || !(sizes.gradation >= 0 && sizes.gradation <= 1))
+      throw std::invalid_argument("a size must not be negative, and the gradation lie between 0 and 1");
+    if (!sizes.vertex_sizes.empty() && sizes.vertex_sizes.size() != complex.vertices.size())
+      throw std::invalid_argument("as many sizes as vertices are needed, or none");
+  }
   if (options.keep == Keep::box && !(options.box_margin > 0 && options.box_margin < 1e6))
     throw std::invalid_argument("the margin of the box must be positive and below a million");
 }
@@ -227,7 +236,7 @@ class Pipeline {
     std::vector<double> none;
     order_along_curve(mesh_, first_free_, regions_.of_tet, none);
     sizes_ = add_field_points({mesh_, regions_.of_tet, kept_.region}, sizes, monitor_);
-    result_.report.field_points = mesh_.vertex_count() - before;
+    result_.report.field.points = mesh_.vertex_count() - before;
   }
 
   void optimise_elements() {
@@ -248,7 +257,16 @@ class Pipeline {
 
   void improve_volume() {
     order_along_curve(mesh_, first_free_, regions_.of_tet, sizes_);
-    improve(mesh_, regions_.of_tet, kept_.region, first_free_, sizes_, options_.quality, monitor_);
+    Report::Field& report = result_.report.field;
+    report.before = shape_of(mesh_, regions_.of_tet, kept_.region);
+    const ImproveStats stats =
+        improve(mesh_, regions_.of_tet, kept_.region, first_free_, sizes_, options_.quality, monitor_);
+    report.after = shape_of(mesh_, regions_.of_tet, kept_.region);
+    report.edge_lengths = edge_lengths_of(mesh_, regions_.of_tet, kept_.region, sizes_);
+    report.moves = stats.moved;
+    report.swaps = stats.swapped;
+    report.contractions = stats.contracted;
+    report.insertions = stats.inserted;
   }
 
   [[nodiscard]] bool is_kept(Tet t) const {
@@ -281,6 +299,7 @@ class Pipeline {
     if (last >= Stage::classify)
       report.regions = static_cast<std::size_t>(std::count(kept_.region.begin(), kept_.region.end(), true));
     const bool has_all = volume.facets.size() == complex_.facets.size();
+    if (!sizes_.empty()) find_forced(volume, report.field);
     report.quality = measure(volume, has_all ? target() : target_quality(volume.vertices, volume.facets));
   }
 

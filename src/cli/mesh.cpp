@@ -50,6 +50,12 @@ void print_details(const Report& report) {
              counted(report.facet_points, "point"));
   fmt::print(stderr, "steiner    {} left, {} of them without a position in doubles\n",
              counted(report.steiner_points, "point"), report.unrounded_points);
+  if (report.field.points > 0)
+    fmt::print(
+        stderr,
+        "field      {}, least dihedral angle {:.3g} degrees before optimisation, {:.3g} after; {} below 10\n",
+        counted(report.field.points, "point"), report.field.before.min_dihedral_deg,
+        report.field.after.min_dihedral_deg, report.field.below_10_deg);
   fmt::print(stderr, "quality    worst {:.4g}, dihedral angles {:.3g} to {:.3g} degrees\n",
              report.quality.worst, report.quality.min_dihedral_deg, report.quality.max_dihedral_deg);
   for (const auto& [stage, seconds] : report.seconds)
@@ -177,6 +183,12 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->add_option("--gradation", arguments->gradation,
                    "Field points: growth of sizes a unit of length, away from the surface (default 0.3)")
       ->option_text("G");
+  command
+      ->add_option(
+          "--size-field", arguments->size_field,
+          "Field points: sizes at the vertices of a background mesh (.mesh with .sol, .vtu with a point "
+          "array \"size\", .mtr, .pos)")
+      ->option_text("FILE");
   command->add_flag("--no-growth", arguments->no_growth,
                     "Field points: inside, sizes stay between those of the surface round");
   command
@@ -191,9 +203,11 @@ void add_mesh(CLI::App& app, Command& chosen) {
   command->add_option("--hole", arguments->holes, "Leave the region that holds this point empty (repeatable)")
       ->allow_extra_args(false)
       ->option_text("x,y,z");
-  command->add_option("--region", arguments->regions, "Number the region that holds this point (repeatable)")
+  command
+      ->add_option("--region", arguments->regions,
+                   "Number the region that holds this point, and limit its size (repeatable)")
       ->allow_extra_args(false)
-      ->option_text("x,y,z,ID");
+      ->option_text("x,y,z,ID[,H]");
   command->add_flag("--drop-outside", arguments->drop_outside,
                     "Drop facets outside every kept region instead of refusing them");
   command

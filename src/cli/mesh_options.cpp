@@ -2,10 +2,12 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include "command.h"
+#include "holdfast/io.h"
 
 namespace holdfast::cli {
 namespace {
@@ -68,6 +70,13 @@ Sizes to_sizes(const MeshArguments& arguments) {
   sizes.size = arguments.size;
   sizes.gradation = arguments.gradation;
   sizes.grow = !arguments.no_growth;
+  if (!arguments.size_field.empty()) {
+    SizeField field = read_size_field(arguments.size_field);
+    if (field.vertices.empty())
+      sizes.vertex_sizes = std::move(field.sizes);
+    else
+      sizes.field = size_function(std::move(field));
+  }
   return sizes;
 }
 
@@ -88,10 +97,13 @@ Options to_options(const MeshArguments& arguments) {
     options.holes.push_back({x[0], x[1], x[2]});
   }
   for (const std::string& region : arguments.regions) {
-    const std::vector<double> x = numbers("--region ", region, 4, "three numbers and an id x,y,z,ID are");
+    const bool with_size = std::count(region.begin(), region.end(), ',') == 4;
+    const std::vector<double> x = numbers("--region ", region, with_size ? 5 : 4,
+                                          "three numbers and an id x,y,z,ID, and perhaps a size ,H, are");
     if (x[3] != std::floor(x[3]) || std::abs(x[3]) > INT32_MAX)
       throw UsageError("--region " + region + ": the region id must be an integer");
-    options.regions.push_back({{x[0], x[1], x[2]}, static_cast<int>(x[3])});
+    if (with_size && !(x[4] > 0)) throw UsageError("--region " + region + ": the size must be positive");
+    options.regions.push_back({{x[0], x[1], x[2]}, static_cast<int>(x[3]), with_size ? x[4] : 0});
   }
   for (const std::string& step : arguments.without) {
     if (step == "flips")
@@ -120,6 +132,11 @@ Json to_json(const MeshArguments& arguments) {
   return {{"surfaces", surfaces},
           {"output", arguments.output.string()},
           {"fill", arguments.fill},
+          {"size", arguments.size},
+          {"gradation", arguments.gradation},
+          {"no_growth", arguments.no_growth},
+          {"size_field", arguments.size_field.string()},
+          {"quality", arguments.quality},
           {"keep", arguments.keep},
           {"holes", arguments.holes},
           {"regions", arguments.regions},

@@ -21,6 +21,7 @@ struct MeshArguments {
   std::string stop_after;
   double size = 0, gradation = Sizes{}.gradation;
   bool no_growth = false;
+  std::filesystem::path size_field;
   std::string quality = "good";
   std::uint64_t seed = 1;
   unsigned threads = 1;

@@ -80,6 +80,35 @@ Json to_json(const std::vector<Defect>& defects) {
   return list;
 }
 
+namespace {
+
+Json to_json(const Report::Shape& shape) {
+  return {{"min_dihedral_deg", shape.min_dihedral_deg},
+          {"max_dihedral_deg", shape.max_dihedral_deg},
+          {"least_dihedral_histogram", shape.least_dihedral},
+          {"quality_bins", Report::quality_bins},
+          {"quality_histogram", shape.quality}};
+}
+
+Json to_json(const Report::Field& field) {
+  Json forced = Json::array();
+  for (const Report::Forced& f : field.worst_forced)
+    forced.push_back(
+        {{"tetrahedron", f.tetrahedron}, {"min_dihedral_deg", f.min_dihedral_deg}, {"facets", f.facets}});
+  return {{"before", to_json(field.before)},
+          {"after", to_json(field.after)},
+          {"edge_length_histogram", field.edge_lengths},
+          {"moves", field.moves},
+          {"swaps", field.swaps},
+          {"contractions", field.contractions},
+          {"insertions", field.insertions},
+          {"below_10_deg", field.below_10_deg},
+          {"forced", field.forced},
+          {"worst_forced", forced}};
+}
+
+}  // namespace
+
 Json to_json(const Result& result, Json options) {
   const Report& report = result.report;
   const auto missing = [](const Report::Missing& m) {
@@ -98,7 +127,8 @@ Json to_json(const Result& result, Json options) {
       {"flips", missing(report.flips)},
       {"partition", {{"segment_points", report.segment_points}, {"facet_points", report.facet_points}}},
       {"steiner", {{"count", report.steiner_points}, {"unrounded", report.unrounded_points}}},
-      {"field_points", report.field_points},
+      {"field_points", report.field.points},
+      {"field", to_json(report.field)},
       {"optimise",
        {{"exchanges", report.optimised.exchanges},
         {"moves", report.optimised.moves},

@@ -37,7 +37,7 @@ class EnergySwapper {
 
   ImprovedVolume& volume_;
   EdgeShell shell_;
-  LinkTriangulation<Objective> triangulation_;
+  LinkTriangulation<double> triangulation_;
   std::vector<LinkTriangle> triangles_;
   std::vector<TetMesh::Corners> candidate_, fresh_;
   std::vector<Tet> old_;

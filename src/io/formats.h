@@ -24,6 +24,8 @@ namespace holdfast::io {
 [[nodiscard]] MeshData read_msh(const Source& source);
 [[nodiscard]] MeshData read_vtk(const Source& source);
 [[nodiscard]] MeshData read_vtu(const Source& source);
+/// The same; `sizes` gets the point array "size". Throws FileError without one.
+[[nodiscard]] MeshData read_vtu(const Source& source, std::vector<double>* sizes);
 
 void write_medit(AtomicWriter& out, const Volume& volume);
 void write_msh(AtomicWriter& out, const Volume& volume, const WriteOptions& options);

@@ -44,6 +44,11 @@ class VtuReader {
     return mesh_of(source_.path, std::move(grid_));
   }
 
+  /// A scalar array of the points, after `read`.
+  std::vector<double> point_values(const std::string& name) {
+    return values<double>("PointData/" + name, points_);
+  }
+
  private:
   void read_tag(const XmlTag& tag) {
     constexpr std::string_view kSections[] = {"Points", "Cells", "CellData", "PointData", "FieldData",
@@ -230,5 +235,12 @@ class VtuReader {
 }  // namespace
 
 MeshData read_vtu(const Source& source) { return VtuReader(source).read(); }
+
+MeshData read_vtu(const Source& source, std::vector<double>* sizes) {
+  VtuReader reader(source);
+  MeshData mesh = reader.read();
+  *sizes = reader.point_values("size");
+  return mesh;
+}
 
 }  // namespace holdfast::io

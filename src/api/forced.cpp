@@ -1,0 +1,105 @@
+#include "api/forced.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <unordered_map>
+
+#include "mesh/anatomy.h"
+#include "mesh/quality.h"
+
+namespace holdfast {
+namespace {
+
+constexpr double kSmall = 10;  // degrees
+constexpr std::size_t kMostListed = 100;
+
+std::uint64_t key_of(Triangle t) {
+  std::sort(t.begin(), t.end());
+  std::uint64_t h = t[0] * 0x9E3779B97F4A7C15ull;
+  h = (h ^ (h >> 29) ^ t[1]) * 0xBF58476D1CE4E5B9ull;
+  return (h ^ (h >> 31) ^ t[2]) * 0x94D049BB133111EBull;
+}
+
+double angle_at(const Point& p, const Point& q, const Point& r) {
+  double uu = 0, vv = 0, uv = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    uu += (q[k] - p[k]) * (q[k] - p[k]);
+    vv += (r[k] - p[k]) * (r[k] - p[k]);
+    uv += (q[k] - p[k]) * (r[k] - p[k]);
+  }
+  return std::atan2(std::sqrt(std::max(0.0, uu * vv - uv * uv)), uv) * 180 / std::numbers::pi;
+}
+
+class ForcedElements {
+ public:
+  explicit ForcedElements(const Volume& volume) : volume_(volume) {}
+
+  void find(Report::Field& report) {
+    for (Index t = 0; t < volume_.tetrahedra.size(); ++t) {
+      const Tetrahedron& c = volume_.tetrahedra[t];
+      const auto& v = volume_.vertices;
+      if (quality(v[c[0]], v[c[1]], v[c[2]], v[c[3]]) < kQualityOfSmall) continue;
+      const std::array<double, 6> angles = dihedral_angles(v[c[0]], v[c[1]], v[c[2]], v[c[3]]);
+      const auto least = std::min_element(angles.begin(), angles.end());
+      if (*least >= kSmall) continue;
+      ++report.below_10_deg;
+      std::vector<Index> facets = to_blame(c, static_cast<int>(least - angles.begin()));
+      if (facets.empty()) continue;
+      ++report.forced;
+      report.worst_forced.push_back({t, *least, std::move(facets)});
+    }
+    std::sort(report.worst_forced.begin(), report.worst_forced.end(), [](const auto& x, const auto& y) {
+      return x.min_dihedral_deg != y.min_dihedral_deg ? x.min_dihedral_deg < y.min_dihedral_deg
+                                                      : x.tetrahedron < y.tetrahedron;
+    });
+    if (report.worst_forced.size() > kMostListed) report.worst_forced.resize(kMostListed);
+  }
+
+ private:
+  // An angle of 10 degrees makes Q larger than this: the inscribed ball is flat between the two faces. Saves
+  // most elements from having their angles computed.
+  static constexpr double kQualityOfSmall = 2;
+
+  // The faces at an edge are those opposite the other two corners.
+  std::vector<Index> to_blame(const Tetrahedron& c, int edge) {
+    std::vector<Index> both, small;
+    const auto& ends = kEdgeVertex[static_cast<std::size_t>(edge)];
+    for (int i = 0; i < 4; ++i) {
+      const auto& f = kFaceVertex[static_cast<std::size_t>(i)];
+      const Triangle face{c[static_cast<std::size_t>(f[0])], c[static_cast<std::size_t>(f[1])],
+                          c[static_cast<std::size_t>(f[2])]};
+      const std::optional<Index> facet = facet_at(face);
+      if (!facet) continue;
+      if (i != ends[0] && i != ends[1]) both.push_back(*facet);
+      if (has_small_angle(face)) small.push_back(*facet);
+    }
+    return both.size() == 2 ? both : small;
+  }
+
+  [[nodiscard]] bool has_small_angle(const Triangle& t) const {
+    const auto& v = volume_.vertices;
+    return std::min({angle_at(v[t[0]], v[t[1]], v[t[2]]), angle_at(v[t[1]], v[t[2]], v[t[0]]),
+                     angle_at(v[t[2]], v[t[0]], v[t[1]])}) < kSmall;
+  }
+
+  // The table is built when first asked: most volumes have no such element.
+  std::optional<Index> facet_at(Triangle face) {
+    if (by_key_.empty())
+      for (Index f = 0; f < volume_.facets.size(); ++f) by_key_.emplace(key_of(volume_.facets[f]), f);
+    const auto [first, last] = by_key_.equal_range(key_of(face));
+    for (auto it = first; it != last; ++it)
+      if (std::is_permutation(face.begin(), face.end(), volume_.facets[it->second].begin()))
+        return it->second;
+    return std::nullopt;
+  }
+
+  const Volume& volume_;
+  std::unordered_multimap<std::uint64_t, Index> by_key_;
+};
+
+}  // namespace
+
+void find_forced(const Volume& volume, Report::Field& report) { ForcedElements(volume).find(report); }
+
+}  // namespace holdfast

@@ -1,0 +1,115 @@
+#include "size/background.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+namespace holdfast {
+namespace {
+
+double six_volumes(const Point& a, const Point& b, const Point& c, const Point& d) {
+  std::array<double, 3> u{}, v{}, w{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    u[k] = b[k] - a[k];
+    v[k] = c[k] - a[k];
+    w[k] = d[k] - a[k];
+  }
+  return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
+         u[2] * (v[0] * w[1] - v[1] * w[0]);
+}
+
+}  // namespace
+
+Background::Background(SizeField field) : field_(std::move(field)) {
+  Point high;
+  low_.fill(std::numeric_limits<double>::infinity());
+  high.fill(-std::numeric_limits<double>::infinity());
+  for (const Tetrahedron& t : field_.tetrahedra)
+    for (const Index v : t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        low_[k] = std::min(low_[k], field_.vertices[v][k]);
+        high[k] = std::max(high[k], field_.vertices[v][k]);
+      }
+  // About a bucket a tetrahedron, as near to cubes as the extents allow.
+  constexpr double kMostAlong = 512;
+  double extent = 0;
+  for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, high[k] - low_[k]);
+  const double along = std::clamp(std::cbrt(static_cast<double>(field_.tetrahedra.size())), 1.0, kMostAlong);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double part = extent > 0 ? (high[k] - low_[k]) / extent : 0;
+    count_[k] = static_cast<std::size_t>(std::max(1.0, std::ceil(along * part)));
+    step_[k] = (high[k] - low_[k]) / static_cast<double>(count_[k]);
+  }
+  first_.assign(count_[0] * count_[1] * count_[2] + 1, 0);
+  for (const Tetrahedron& t : field_.tetrahedra) visit_buckets(t, [&](std::size_t b) { ++first_[b + 1]; });
+  for (std::size_t b = 1; b < first_.size(); ++b) first_[b] += first_[b - 1];
+  tets_.resize(first_.back());
+  std::vector<std::size_t> next = first_;
+  for (Index t = 0; t < field_.tetrahedra.size(); ++t)
+    visit_buckets(field_.tetrahedra[t], [&](std::size_t b) { tets_[next[b]++] = t; });
+}
+
+std::size_t Background::bucket_along(double x, std::size_t axis) const {
+  if (!(step_[axis] > 0)) return 0;
+  const double k = (x - low_[axis]) / step_[axis];
+  return static_cast<std::size_t>(std::clamp(k, 0.0, static_cast<double>(count_[axis] - 1)));
+}
+
+template <typename Visit>
+void Background::visit_buckets(const Tetrahedron& t, Visit&& visit) const {
+  std::array<std::size_t, 3> from{}, to{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    double low = field_.vertices[t[0]][k], high = low;
+    for (const Index v : t) {
+      low = std::min(low, field_.vertices[v][k]);
+      high = std::max(high, field_.vertices[v][k]);
+    }
+    from[k] = bucket_along(low, k);
+    to[k] = bucket_along(high, k);
+  }
+  for (std::size_t z = from[2]; z <= to[2]; ++z)
+    for (std::size_t y = from[1]; y <= to[1]; ++y)
+      for (std::size_t x = from[0]; x <= to[0]; ++x) visit((z * count_[1] + y) * count_[0] + x);
+}
+
+double Background::at(const Point& p) const {
+  if (tets_.empty()) return 0;
+  const std::size_t bucket =
+      (bucket_along(p[2], 2) * count_[1] + bucket_along(p[1], 1)) * count_[0] + bucket_along(p[0], 0);
+  for (std::size_t k = first_[bucket]; k < first_[bucket + 1]; ++k) {
+    double size = 0;
+    if (interpolate(field_.tetrahedra[tets_[k]], p, size)) return size;
+  }
+  return 0;
+}
+
+bool Background::interpolate(const Tetrahedron& t, const Point& p, double& size) const {
+  constexpr double kSlack = 1e-9;  // a point on a face must not fall between two tetrahedra
+  const auto& v = field_.vertices;
+  const double volume = six_volumes(v[t[0]], v[t[1]], v[t[2]], v[t[3]]);
+  if (volume == 0) return false;
+  const std::array<double, 4> part{
+      six_volumes(p, v[t[1]], v[t[2]], v[t[3]]) / volume, six_volumes(v[t[0]], p, v[t[2]], v[t[3]]) / volume,
+      six_volumes(v[t[0]], v[t[1]], p, v[t[3]]) / volume, six_volumes(v[t[0]], v[t[1]], v[t[2]], p) / volume};
+  size = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (!(part[i] >= -kSlack)) return false;
+    size += part[i] * field_.sizes[t[i]];
+  }
+  return true;
+}
+
+std::function<double(const Point&)> size_function(SizeField field) {
+  if (field.sizes.size() != field.vertices.size())
+    throw std::invalid_argument("a size field needs a size for every vertex");
+  for (const Tetrahedron& t : field.tetrahedra)
+    for (const Index v : t)
+      if (v >= field.vertices.size())
+        throw std::invalid_argument("a size field names a vertex it does not have");
+  const auto background = std::make_shared<const Background>(std::move(field));
+  return [background](const Point& p) { return background->at(p); };
+}
+
+}  // namespace holdfast

@@ -1,0 +1,210 @@
+// Field points and the optimisation of the volume: sizes, shapes, limits, through the public API and inside.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "delaunay/delaunay.h"
+#include "hard_surfaces.h"
+#include "holdfast/check.h"
+#include "holdfast/holdfast.h"
+#include "improve/energy.h"
+#include "mesh/quality.h"
+#include "mesh/validate.h"
+#include "refine/point_cavity.h"
+#include "small_surfaces.h"
+
+namespace holdfast {
+namespace {
+
+Result mesh_with(const Surface& surface, const Sizes& sizes, Options options = {}) {
+  options.sizes = sizes;
+  Result result = mesh(surface.view(), options);
+  EXPECT_EQ(result.outcome, Outcome::done) << result.message;
+  for (const Rule& rule : check(surface.view(), result.volume).rules)
+    EXPECT_TRUE(rule.holds) << rule.name << ": " << rule.detail;
+  return result;
+}
+
+double mean_edge_in(const Volume& volume, const std::function<bool(const Point&)>& holds) {
+  std::set<std::array<Index, 2>> edges;
+  for (const Tetrahedron& t : volume.tetrahedra)
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = i + 1; j < 4; ++j) edges.insert({std::min(t[i], t[j]), std::max(t[i], t[j])});
+  double sum = 0;
+  int count = 0;
+  for (const auto& [a, b] : edges) {
+    const Point &p = volume.vertices[a], &q = volume.vertices[b];
+    if (!holds(p) || !holds(q)) continue;
+    sum += std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+    ++count;
+  }
+  return count == 0 ? 0 : sum / count;
+}
+
+bool near_the_centre(const Point& p) { return std::hypot(p[0], p[1], p[2]) < 0.5; }
+
+TEST(FieldPoints, WithoutSizesThereAreNone) {
+  const Surface sphere = hard::icosphere(2);
+  const Result result = mesh(sphere.view());
+  EXPECT_EQ(result.report.field.points, 0u);
+  EXPECT_EQ(result.report.steiner_points, 0u);
+}
+
+TEST(FieldPoints, SizeIsTheLengthOfEdges) {
+  const Surface sphere = hard::icosphere(2);
+  for (const double size : {0.2, 0.1}) {
+    const Result result = mesh_with(sphere, {.size = size});
+    EXPECT_NEAR(mean_edge_in(result.volume, near_the_centre) / size, 1.05, 0.15) << size;
+    EXPECT_EQ(result.report.field.points + sphere.vertices.size() >= result.volume.vertices.size(), true);
+  }
+}
+
+TEST(FieldPoints, SizesGrowInwardUnlessToldNotTo) {
+  const Surface sphere = hard::icosphere(3);
+  const double grown = mean_edge_in(mesh_with(sphere, {}).volume, near_the_centre);
+  const double steeper = mean_edge_in(mesh_with(sphere, {.gradation = 0.6}).volume, near_the_centre);
+  const double level = mean_edge_in(mesh_with(sphere, {.grow = false}).volume, near_the_centre);
+  EXPECT_GT(grown, 1.5 * level);
+  EXPECT_GT(steeper, 1.1 * grown);
+  EXPECT_NEAR(level, 0.145, 0.03);  // the surface's
+}
+
+TEST(FieldPoints, TheVolumeOfASphereIsFitToComputeWith) {
+  const Surface sphere = hard::icosphere(4);
+  const Result result = mesh_with(sphere, {.grow = false});
+  const Report::Field& field = result.report.field;
+  EXPECT_GT(field.after.min_dihedral_deg, 20);
+  EXPECT_LT(field.after.max_dihedral_deg, 155);
+  EXPECT_GT(field.after.min_dihedral_deg, field.before.min_dihedral_deg);
+  std::size_t below_30 = 0, all = 0;
+  for (std::size_t k = 0; k < field.after.least_dihedral.size(); ++k) {
+    all += field.after.least_dihedral[k];
+    if (k < 6) below_30 += field.after.least_dihedral[k];
+  }
+  EXPECT_EQ(all, result.volume.tetrahedra.size());
+  EXPECT_LT(100 * below_30, all);  // one in a hundred
+  EXPECT_EQ(field.below_10_deg, 0u);
+}
+
+TEST(FieldPoints, AFunctionOfTheUserIsAsked) {
+  const Surface box = small::box();
+  const Result result = mesh_with(box, {.field = [](const Point& p) { return p[0] < 0.5 ? 0.05 : 0.2; }});
+  const double left = mean_edge_in(result.volume, [](const Point& p) {
+    return p[0] > 0.15 && p[0] < 0.4 && p[1] > 0.3 && p[1] < 0.7 && p[2] > 0.3 && p[2] < 0.7;
+  });
+  const double right = mean_edge_in(result.volume, [](const Point& p) {
+    return p[0] > 0.75 && p[0] < 1 && p[1] > 0.2 && p[1] < 0.8 && p[2] > 0.2 && p[2] < 0.8;
+  });
+  EXPECT_NEAR(left, 0.053, 0.01);
+  EXPECT_GT(right, 2 * left);
+}
+
+TEST(FieldPoints, ARegionHasASizeOfItsOwn) {
+  Surface surface = small::nested(true);
+  Options options;
+  options.keep = Keep::bounded;
+  const Result plain = mesh_with(surface, {}, options);
+  std::array<double, 3> low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
+  for (const Point& p : surface.vertices)
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  const Point centre{(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2};
+  options.regions = {{centre, 7, 0.05 * (high[0] - low[0])}};
+  const Result finer = mesh_with(surface, {}, options);
+  const auto count = [](const Volume& volume, int id) {
+    return std::count(volume.regions.begin(), volume.regions.end(), id);
+  };
+  EXPECT_GT(count(finer.volume, 7), 200);
+  EXPECT_LT(static_cast<double>(std::ssize(finer.volume.tetrahedra) - count(finer.volume, 7)),
+            20.0 * static_cast<double>(plain.volume.tetrahedra.size()));
+}
+
+TEST(FieldPoints, SameResultTwice) {
+  const Surface sphere = hard::icosphere(3);
+  const Result a = mesh_with(sphere, {}), b = mesh_with(sphere, {});
+  EXPECT_EQ(a.volume.tetrahedra, b.volume.tetrahedra);
+  EXPECT_EQ(a.volume.vertices, b.volume.vertices);
+}
+
+TEST(FieldPoints, LimitsAndCancelAreHeard) {
+  const Surface sphere = hard::icosphere(2);
+  Options options;
+  options.sizes = Sizes{.size = 0.01};
+  options.time_limit = 0.2;
+  EXPECT_EQ(mesh(sphere.view(), options).outcome, Outcome::time_limit);
+  options.time_limit = 0;
+  options.progress = [](const Progress& progress) { return progress.stage != Stage::field_points; };
+  EXPECT_EQ(mesh(sphere.view(), options).outcome, Outcome::cancelled);
+}
+
+TEST(FieldPoints, OptionsWithoutSenseAreRefused) {
+  const Surface box = small::box();
+  Options options;
+  options.sizes = Sizes{.size = -1};
+  EXPECT_THROW(static_cast<void>(mesh(box.view(), options)), std::invalid_argument);
+  options.sizes = Sizes{.vertex_sizes = {1, 2}};
+  EXPECT_THROW(static_cast<void>(mesh(box.view(), options)), std::invalid_argument);
+}
+
+TEST(FieldPoints, ElementsThatFacetsForceAreReported) {
+  Surface wedge;  // two triangles of a tetrahedron meet at 5 degrees
+  const double h = std::tan(5 * 3.14159265358979 / 180);
+  wedge.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 1, h}};
+  wedge.facets = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  const Result result = mesh_with(wedge, {});
+  EXPECT_GT(result.report.field.below_10_deg, 0u);
+  ASSERT_GT(result.report.field.worst_forced.size(), 0u);
+  EXPECT_EQ(result.report.field.worst_forced[0].facets.size(), 2u);
+}
+
+TEST(Energy, IsOfTheLeastAngle) {
+  const Point a{0, 0, 0}, b{1, 0, 0}, c{0.5, std::sqrt(0.75), 0}, d{0.5, std::sqrt(1.0 / 12), std::sqrt(2.0 / 3)};
+  EXPECT_NEAR(energy(a, b, c, d), energy_of_sine(std::sin(std::acos(1.0 / 3))), 1e-9);
+  EXPECT_EQ(energy(a, b, c, c), kNoEnergy);
+  EXPECT_EQ(energy(a, c, b, d), kNoEnergy);
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int k = 0; k < 1000; ++k) {
+    std::array<Point, 4> p;
+    for (Point& x : p)
+      for (double& y : x) y = any(random);
+    const double e = energy(p[0], p[1], p[2], p[3]);
+    if (e == kNoEnergy) continue;
+    double least = 2;
+    for (const double angle : dihedral_angles(p[0], p[1], p[2], p[3])) {
+      const double sine = std::sin(angle * 3.14159265358979 / 180);
+      least = std::min(least, angle > 90 ? sine * std::sqrt(1.5) : sine);
+    }
+    EXPECT_NEAR(e / energy_of_sine(least), 1, 1e-5);
+  }
+}
+
+TEST(PointCavity, InsertsPointAfterPointAndKeepsTheMeshValid) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> any(0, 1);
+  TetMesh mesh;
+  for (int k = 0; k < 8; ++k) mesh.add_vertex(Point{(k & 1) * 2.0 - 0.5, (k & 2) - 0.5, (k & 4) / 2.0 - 0.5});
+  ASSERT_TRUE(build_delaunay(mesh, {1}, nullptr));
+  PointCavity cavity(mesh);
+  for (int k = 0; k < 300; ++k) {
+    const Vertex p = mesh.add_vertex(Point{any(random), any(random), any(random)});
+    const Tet base = cavity.locate(p, mesh.incident(0));
+    ASSERT_NE(base, kNone);
+    ASSERT_TRUE(cavity.find(p, base));
+    if (k % 3 == 0) {
+      cavity.abandon();
+      mesh.remove_last_vertex();
+    } else {
+      cavity.insert();
+    }
+  }
+  EXPECT_EQ(find_fault(mesh), "");
+}
+
+}  // namespace
+}  // namespace holdfast
