@@ -3,7 +3,7 @@ JOBS ?= $(shell nproc)
 CORPUS ?=
 RELEASE := build/release
 
-.PHONY: help setup build demo test corpus bench tables format tidy debug asan install clean
+.PHONY: help setup build demo test corpus bench field tables format tidy debug asan install clean
 .DEFAULT_GOAL := help
 
 help:  ## this list
@@ -34,6 +34,12 @@ bench:  ## speed against TetGen and CGAL, written to docs/benchmarks.md
 	@cmake --preset release -DHOLDFAST_BUILD_BENCH=ON
 	@cmake --build $(RELEASE) -j $(JOBS) --target holdfast_cli cgal_delaunay
 	@python3 bench/run.py --build $(RELEASE) --corpus "$(or $(CORPUS),../shared/corpus)" $(ARGS)
+
+field:  ## meshes to compute with, beside Gmsh, TetGen and Netgen, to docs/field.md
+	@scripts/setup.sh build bench field
+	@cmake --preset release -DHOLDFAST_BUILD_BENCH=ON
+	@cmake --build $(RELEASE) -j $(JOBS) --target holdfast_cli mesh_shape
+	@python3 bench/field.py --build $(RELEASE) --corpus "$(or $(CORPUS),../shared/corpus)" $(ARGS)
 
 tables: build  ## the paper's tables beside TetGen, for the corpus and the paper's cases, to docs/results.md
 	@scripts/setup.sh bench

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that a job needs and that are missing; says nothing when none is.
-# Usage: scripts/setup.sh [build|bench|lint]...
+# Usage: scripts/setup.sh [build|bench|field|lint]...
 set -euo pipefail
 
 declare -A packages=(
@@ -8,6 +8,7 @@ declare -A packages=(
   [build]="cmake ninja-build g++ ccache python3 xz-utils zlib1g-dev libboost-dev libcli11-dev libfmt-dev
            nlohmann-json3-dev libgtest-dev libgmp-dev"
   [bench]="tetgen libcgal-dev libgmp-dev libmpfr-dev"
+  [field]="gmsh tetgen python3-netgen"
   [lint]="clang-format clang-tidy"
 )
 

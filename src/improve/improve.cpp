@@ -26,13 +26,13 @@ struct Effort {
 constexpr Effort effort_of(Quality quality) {
   switch (quality) {
     case Quality::fast:
-      return {2, 0.50, 0.65, 0.26, 1, 0.2};
+      return {1, 0.45, 0.60, 0.30, 1, 0.2};
     case Quality::good:
-      return {4, 0.60, 0.75, 0.50, 3, 1};
+      return {2, 0.50, 0.65, 0.42, 2, 1};
     case Quality::best:
       break;
   }
-  return {10, 0.70, 0.85, 0.60, 8, 10};
+  return {6, 0.65, 0.80, 0.60, 6, 10};
 }
 
 class Improver {
@@ -82,7 +82,7 @@ class Improver {
     for (Tet t = 0; t < mesh_.slot_count(); ++t) {
       if (!volume_.is_inside(t) || !(volume_.energy(t) > from) || !volume_.take_changed(t)) continue;
       poll(0.5 * t / count);
-      if (!swapper_.improve(t).empty()) ++stats_.swapped;
+      if (!swapper_.improve(t, true).empty()) ++stats_.swapped;
     }
   }
 

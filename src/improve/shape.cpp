@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/quality.h"
-
 namespace holdfast {
 namespace {
 
@@ -13,29 +11,33 @@ using Vector = std::array<double, 3>;
 
 Vector minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector unit_normal(const Vector& u, const Vector& v) {
-  Vector n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-  const double length = std::sqrt(dot(n, n));
-  for (double& x : n) x = length > 0 ? x / length : 0;
-  return n;
+Vector cross(const Vector& u, const Vector& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 double degrees(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi; }
 
-// Cosines of the least and the largest dihedral angle.
-struct Cosines {
-  double of_least = -1, of_most = 1;
+// Cosines of the least and the largest dihedral angle, and Q.
+struct Measured {
+  double of_least = -1, of_most = 1, quality = 0;
 };
-Cosines cosines(const Point& a, const Point& b, const Point& c, const Point& d) {
-  const Vector ab = minus(b, a), ac = minus(c, a), ad = minus(d, a), bc = minus(c, b), bd = minus(d, b);
-  const std::array<Vector, 4> n{unit_normal(bd, bc), unit_normal(ac, ad), unit_normal(ad, ab),
-                                unit_normal(ab, ac)};
-  Cosines found;
+Measured measured(const Point& a, const Point& b, const Point& c, const Point& d) {
+  constexpr double kScale = 0.20412414523193150;  // sqrt(6) / 12
+  const Vector ab = minus(b, a), ac = minus(c, a), ad = minus(d, a), bc = minus(c, b), bd = minus(d, b),
+               cd = minus(d, c);
+  const std::array<Vector, 4> n{cross(bd, bc), cross(ac, ad), cross(ad, ab), cross(ab, ac)};
+  std::array<double, 4> length{};
+  for (std::size_t i = 0; i < 4; ++i) length[i] = std::sqrt(dot(n[i], n[i]));
+  Measured found;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = i + 1; j < 4; ++j) {
-      const double cosine = -dot(n[i], n[j]);
+      const double cosine = -dot(n[i], n[j]) / (length[i] * length[j]);
       found.of_least = std::max(found.of_least, cosine);
       found.of_most = std::min(found.of_most, cosine);
     }
+  const double longest =
+      std::sqrt(std::max({dot(ab, ab), dot(ac, ac), dot(ad, ad), dot(bc, bc), dot(bd, bd), dot(cd, cd)}));
+  found.quality =
+      kScale * longest * (length[0] + length[1] + length[2] + length[3]) / std::abs(dot(n[3], ad));
   return found;
 }
 
@@ -52,18 +54,22 @@ Report::Shape shape_of(const TetMesh& mesh, const std::vector<RegionId>& region_
                        const std::vector<bool>& kept) {
   constexpr double kBin = 5;
   Report::Shape shape;
-  Cosines worst;
+  std::array<double, 14> cosine_of_end{};  // of each bin but the last
+  for (std::size_t k = 0; k < cosine_of_end.size(); ++k)
+    cosine_of_end[k] = std::cos(kBin * static_cast<double>(k + 1) * std::numbers::pi / 180);
+  Measured worst;
   for_each_inside(mesh, region_of, kept, [&](const TetMesh::Corners& c) {
     const Point &p0 = mesh.position(c[0]), &p1 = mesh.position(c[1]), &p2 = mesh.position(c[2]),
                 &p3 = mesh.position(c[3]);
-    const Cosines found = cosines(p0, p1, p2, p3);
+    const Measured found = measured(p0, p1, p2, p3);
     worst.of_least = std::max(worst.of_least, found.of_least);
     worst.of_most = std::min(worst.of_most, found.of_most);
-    const auto bin = static_cast<std::size_t>(degrees(found.of_least) / kBin);
-    ++shape.least_dihedral[std::min(bin, shape.least_dihedral.size() - 1)];
-    const auto& ends = Report::quality_bins;
-    const auto end = std::upper_bound(ends.begin(), ends.end(), quality(p0, p1, p2, p3));
-    ++shape.quality[static_cast<std::size_t>(end - ends.begin())];
+    std::size_t bin = 0;
+    while (bin < cosine_of_end.size() && found.of_least <= cosine_of_end[bin]) ++bin;
+    ++shape.least_dihedral[bin];
+    std::size_t q = 0;
+    while (q < Report::quality_bins.size() && !(found.quality < Report::quality_bins[q])) ++q;
+    ++shape.quality[q];
   });
   if (worst.of_least >= worst.of_most) {
     shape.min_dihedral_deg = degrees(worst.of_least);

@@ -7,8 +7,9 @@ constexpr std::size_t kMostShell = 9;  // larger shells hardly ever pay, and cos
 
 }  // namespace
 
-std::span<const Tet> EnergySwapper::improve(Tet t) {
+std::span<const Tet> EnergySwapper::improve(Tet t, bool as_worst) {
   gain_ = 0;
+  most_ = as_worst ? volume_.energy(t) : kNoEnergy;
   old_.clear();
   for (int edge = 0; edge < 6; ++edge) try_edge(t, edge);
   for (int side = 0; side < 4; ++side) try_face(face_code(t, side));
@@ -31,7 +32,11 @@ void EnergySwapper::try_edge(Tet t, int edge) {
   if (mesh.is_segment(t, edge)) return;
   const auto& ends = kEdgeVertex[static_cast<std::size_t>(edge)];
   if (!gather_shell(mesh, t, mesh.corner(t, ends[0]), mesh.corner(t, ends[1]), shell_, kMostShell)) return;
-  const double before = volume_.energy(shell_.tets);
+  double before = 0;
+  for (const Tet s : shell_.tets) {
+    if (volume_.energy(s) > most_) return;
+    before += volume_.energy(s);
+  }
   if (before <= gain_) return;
   Objective objective{volume_, shell_, before};
   const std::optional<double> after = triangulation_.find(shell_.size(), objective);
@@ -49,7 +54,7 @@ void EnergySwapper::try_face(Face f) {
   if (mesh.is_facet(f) || mesh.is_ghost(tet_of(g))) return;
   const std::array<Tet, 2> both{tet_of(f), tet_of(g)};
   const double before = volume_.energy(both);
-  if (before <= gain_) return;
+  if (before <= gain_ || volume_.energy(both[1]) > most_) return;
   const std::array<Vertex, 3> v = mesh.face_vertices(f);  // seen positively from the apex of f
   const Vertex top = mesh.apex(f), bottom = mesh.apex(g);
   candidate_.clear();

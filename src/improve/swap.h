@@ -14,8 +14,9 @@ class EnergySwapper {
   explicit EnergySwapper(ImprovedVolume& volume) : volume_(volume) {}
 
   /// Makes the best of the ten exchanges at a tetrahedron if it makes the energy less. Constraints stand.
-  /// Returns the new tetrahedra, none if there was no such exchange.
-  std::span<const Tet> improve(Tet t);
+  /// With `as_worst`, only those where it is the worst element: the others are tried from there. Returns the
+  /// new tetrahedra, none if there was no such exchange.
+  std::span<const Tet> improve(Tet t, bool as_worst = false);
 
  private:
   struct Objective {
@@ -42,6 +43,7 @@ class EnergySwapper {
   std::vector<TetMesh::Corners> candidate_, fresh_;
   std::vector<Tet> old_;
   double gain_ = 0;
+  double most_ = 0;  // the energy of an element that goes
 };
 
 }  // namespace holdfast

@@ -21,6 +21,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // In sizes: the circumradius from which a tetrahedron is refined (0.61 is regular), the least distance of a
 // new point from others, and its least height over a facet.
 constexpr double kLarge = 0.85, kNearest = 0.7, kLeastHeight = 0.4;
+constexpr double kLevel = 1.4;         // of the mean of the sizes round, where sizes do not grow
 constexpr double kLongestPart = 0.65;  // of an edge: the size, where the edge is to be split
 
 Vector operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -134,8 +135,16 @@ class FieldPoints {
     const Vector centre =
         circumcentre(mesh_.position(c[1]) - p, mesh_.position(c[2]) - p, mesh_.position(c[3]) - p);
     const double radius = std::sqrt(dot(centre, centre));
-    const double least = std::min(std::min(size_[c[0]], size_[c[1]]), std::min(size_[c[2]], size_[c[3]]));
-    return !(radius < kLarge * (least + sizes_.gradation() * radius));
+    const std::array<double, 4> h{size_[c[0]], size_[c[1]], size_[c[2]], size_[c[3]]};
+    double allowed = *std::min_element(h.begin(), h.end()) + sizes_.gradation() * radius;
+    if (!sizes_.grows()) allowed = std::min(allowed, kLevel * 0.25 * (h[0] + h[1] + h[2] + h[3]));
+    if (sizes_.has_limit()) {
+      Point middle{};
+      for (const Vertex v : c)
+        for (std::size_t k = 0; k < 3; ++k) middle[k] += 0.25 * mesh_.position(v)[k];
+      allowed = std::min(allowed, sizes_.limit(middle, region_of_[t]));
+    }
+    return !(radius < kLarge * allowed);
   }
 
   // Tries a point over each face of t that is on the front.
@@ -227,7 +236,7 @@ class FieldPoints {
       mesh_.remove_last_vertex();
       return false;
     }
-    if (!is_far_from(p, cavity_.ring(), region) || is_near_a_facet(p)) {
+    if (!is_far_from(p, cavity_.ring(), region) || is_near_a_facet(p) || is_near_beyond(p)) {
       cavity_.abandon();
       mesh_.remove_last_vertex();
       return false;
@@ -267,6 +276,18 @@ class FieldPoints {
     }
     if (!sizes_.grows() && weights > 0) wanted_ = std::min(wanted_, mean / weights);
     return nearest >= kNearest * wanted_;
+  }
+
+  // Where constraints cut the cavity, or the mesh is not Delaunay, a near vertex may stand just beyond it.
+  [[nodiscard]] bool is_near_beyond(Vertex p) const {
+    const double least = kNearest * wanted_;
+    for (const PointCavity::Rim& rim : cavity_.rim()) {
+      const Vertex v = mesh_.apex(rim.outer);
+      if ((rim.flags & facet_bit(3)) == 0 && v != kGhost &&
+          distance(mesh_.position(v), mesh_.position(p)) < least)
+        return true;
+    }
+    return false;
   }
 
   [[nodiscard]] bool is_near_a_facet(Vertex p) const {

@@ -83,9 +83,8 @@ void PointCavity::spread(Tet base) {
       bool conflict = false;
       if (!mesh_.is_ghost(n)) {
         const auto& c = mesh_.corners(n);
-        conflict =
-            exact::detail::insphere_filter(mesh_.position(c[0]).data(), mesh_.position(c[1]).data(),
-                                           mesh_.position(c[2]).data(), mesh_.position(c[3]).data(), x) > 0;
+        conflict = exact::insphere(mesh_.position(c[0]).data(), mesh_.position(c[1]).data(),
+                                   mesh_.position(c[2]).data(), mesh_.position(c[3]).data(), x) > 0;
       }
       if (conflict) {
         mesh_.set_flags(n, kVisited);

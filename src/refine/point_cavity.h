@@ -6,7 +6,8 @@
 // constraints cut it, its faces need not all see p: tetrahedra behind a face that does not are taken out
 // again until all do, decided exactly. Then the tetrahedra that join p to the faces are positive and fill it:
 // a closed surface all of whose triangles see p winds round it as often as it covers the directions, which is
-// once, since p lies in one tetrahedron. In-sphere tests only propose, so that floating point serves them.
+// once, since p lies in one tetrahedron. In-sphere tests only propose; they are exact all the same: flat
+// tetrahedra, of which floating point cannot tell, would come to stand like walls in the way of cavities.
 #pragma once
 
 #include <span>

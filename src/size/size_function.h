@@ -29,6 +29,10 @@ class SizeFunction {
     const double least = of_region_.empty() ? most_ : of_region_[region];
     return field_ ? std::min(least, field_at(p)) : least;
   }
+  /// Whether the user gave a limit anywhere.
+  [[nodiscard]] bool has_limit() const {
+    return most_ < std::numeric_limits<double>::infinity() || !of_region_.empty() || field_;
+  }
   [[nodiscard]] double gradation() const { return gradation_; }
   /// Inside, sizes do not grow beyond those of the surface round it.
   [[nodiscard]] bool grows() const { return grows_; }

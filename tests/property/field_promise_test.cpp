@@ -30,7 +30,7 @@ const Family kFamilies[] = {
     {"nested_spheres", hard::nested_spheres, 3, 0.3},
     {"voxels", hard::voxels, 4, 0.5},
     {"combs", hard::comb, 2, 0},
-    {"lattices", hard::lattice, 4, 0.4, Keep::bounded},
+    {"lattices", hard::lattice, 4, 0.1, Keep::bounded},
     {"scattered", hard::scattered, 3, 0},
     {"furnished", hard::furnished, 6, 0.2, Keep::box},
     {"pencils", hard::pencil, 4, 0.3},
