@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <unordered_map>
 
 #include "mesh/traverse.h"
+#include "surface/facet_index.h"
 
 namespace holdfast {
 namespace {
@@ -58,20 +58,6 @@ RegionId flood(const TetMesh& mesh, std::vector<RegionId>& of_tet) {
   return count;
 }
 
-Triangle sorted(Triangle t) {
-  std::sort(t.begin(), t.end());
-  return t;
-}
-
-struct TriangleHash {
-  std::size_t operator()(const Triangle& t) const {
-    std::uint64_t h = t[0] * 0x9E3779B97F4A7C15ull;
-    h = (h ^ (h >> 29) ^ t[1]) * 0xBF58476D1CE4E5B9ull;
-    h = (h ^ (h >> 31) ^ t[2]) * 0x94D049BB133111EBull;
-    return static_cast<std::size_t>(h ^ (h >> 30));
-  }
-};
-
 // Whether two triangles with the same corners turn the same way.
 bool same_turn(const Triangle& f, const Triangle& g) {
   for (std::size_t k = 0; k < 3; ++k)
@@ -81,9 +67,7 @@ bool same_turn(const Triangle& f, const Triangle& g) {
 
 // The regions on the sides of each facet, by the mesh faces that carry facet bits.
 void find_sides(const TetMesh& mesh, std::span<const Triangle> facets, Regions& regions) {
-  std::unordered_map<Triangle, Index, TriangleHash> index;
-  index.reserve(facets.size());
-  for (Index f = 0; f < facets.size(); ++f) index.emplace(sorted(facets[f]), f);
+  const FacetIndex index(mesh.vertex_count(), facets);
   regions.of_facet.assign(facets.size(), {kNone, kNone});
   for (Tet t = 0; t < mesh.slot_count(); ++t) {
     if (!mesh.alive(t) || (mesh.flags(t) & kFacetBits) == 0) continue;
@@ -91,9 +75,8 @@ void find_sides(const TetMesh& mesh, std::span<const Triangle> facets, Regions& 
       if (!mesh.is_facet(face_code(t, i))) continue;
       // (f0 f1 f2 t's apex) is positive: t lies in front of the face as it turns.
       const Triangle corners = mesh.face_vertices(face_code(t, i));
-      const auto it = index.find(sorted(corners));
-      if (it == index.end()) throw std::logic_error("holdfast: a face with a facet bit is no facet");
-      const Index f = it->second;
+      const Index f = index.find(corners);
+      if (f == no_index) throw std::logic_error("holdfast: a face with a facet bit is no facet");
       regions.of_facet[f][same_turn(facets[f], corners) ? 0 : 1] = regions.of_tet[t];
     }
   }

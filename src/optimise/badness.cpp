@@ -19,9 +19,9 @@ std::vector<int> wide_edges(const TetMesh& mesh, Tet t) {
   return edges;
 }
 
-Badness badness_of(const TetMesh& mesh, std::span<const Tet> tets, double flat_from) {
+Badness badness_of(const TetMesh& mesh, std::span<const Tet> tets, const BadFrom& from) {
   Badness badness;
-  for (const Tet t : tets) badness.add(quality_of(mesh, mesh.corners(t)), flat_from);
+  for (const Tet t : tets) badness.add(quality_of(mesh, mesh.corners(t)), from);
   return badness;
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "mesh/tet_mesh.h"
@@ -15,31 +17,48 @@ namespace holdfast {
 /// Part of the worst Q that is left by a change worth its time, at most.
 inline constexpr double kLeastGain = 0.98;
 
-/// The number of flat tetrahedra, then the worst Q of all.
+/// Where Q begins to count otherwise: of flat tetrahedra, those of a Q that no facet asks for, and of
+/// hopeless ones, which are worth a point.
+struct BadFrom {
+  double flat, hopeless;
+  BadFrom(double flat_from, double hopeless_from = std::numeric_limits<double>::infinity())
+      : flat(flat_from), hopeless(hopeless_from) {}
+};
+
+/// The number of hopeless tetrahedra, that of flat ones, then the worst Q of all.
 ///
-/// Flat ones, of a Q that no facet asks for, come in heaps, where points of one plane or sphere differ from
-/// it by rounding. Their Q is chance: a heap goes one by one, only where a worse one may stay a while.
+/// These come in heaps, where points of one plane or sphere differ from it by rounding. Their Q is chance: a
+/// heap goes one by one, only where a worse one may stay a while. But for fewer flat ones none may become
+/// hopeless: a point that parts a cap into three flat ones would not last.
 struct Badness {
-  std::size_t flat = 0;
+  std::size_t hopeless = 0, flat = 0;
   double worst = 0;
 
-  void add(double quality, double flat_from) {
-    if (!(quality < flat_from)) ++flat;
+  void add(double quality, const BadFrom& from) {
+    if (!(quality < from.hopeless)) ++hopeless;
+    if (!(quality < from.flat)) ++flat;
     worst = std::max(worst, quality);
   }
   /// Whether this is better than `other` by so much that the change is worth its time.
   [[nodiscard]] bool is_worthwhile_after(const Badness& other) const {
-    return flat != other.flat ? flat < other.flat : worst < kLeastGain * other.worst;
+    return counts() != other.counts() ? counts() < other.counts() : worst < kLeastGain * other.worst;
   }
   friend bool operator<(const Badness& x, const Badness& y) {
-    return x.flat != y.flat ? x.flat < y.flat : x.worst < y.worst;
+    return x.counts() != y.counts() ? x.counts() < y.counts() : x.worst < y.worst;
   }
+
+  [[nodiscard]] std::pair<std::size_t, std::size_t> counts() const { return {hopeless, flat}; }
 };
+
+/// Of two sets together.
+[[nodiscard]] inline Badness join(const Badness& x, const Badness& y) {
+  return {x.hopeless + y.hopeless, x.flat + y.flat, std::max(x.worst, y.worst)};
+}
 
 /// The edges of a flat tetrahedron where it is open widest, one of which has to go, as far as no constraint
 /// holds it: one or two of a sliver, three of a cap.
 [[nodiscard]] std::vector<int> wide_edges(const TetMesh& mesh, Tet t);
 
-[[nodiscard]] Badness badness_of(const TetMesh& mesh, std::span<const Tet> tets, double flat_from);
+[[nodiscard]] Badness badness_of(const TetMesh& mesh, std::span<const Tet> tets, const BadFrom& from);
 
 }  // namespace holdfast

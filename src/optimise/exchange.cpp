@@ -15,18 +15,18 @@ class LeastBadness {
  public:
   using Cost = Badness;
 
-  LeastBadness(const TetMesh& mesh, const EdgeShell& shell, const Badness& before, double flat_from)
-      : mesh_(mesh), shell_(shell), before_(before), flat_from_(flat_from) {}
+  LeastBadness(const TetMesh& mesh, const EdgeShell& shell, const Badness& before, const BadFrom& bad_from)
+      : mesh_(mesh), shell_(shell), before_(before), bad_from_(bad_from) {}
 
   static Cost none() { return {}; }
-  static Cost join(const Cost& x, const Cost& y) { return {x.flat + y.flat, std::max(x.worst, y.worst)}; }
+  static Cost join(const Cost& x, const Cost& y) { return holdfast::join(x, y); }
   static bool better(const Cost& x, const Cost& y) { return x < y; }
   static Cost diagonal(std::size_t, std::size_t) { return {}; }
   std::optional<Cost> triangle(std::size_t i, std::size_t k, std::size_t j) const {
     const Vertex pi = shell_.link[i], pk = shell_.link[k], pj = shell_.link[j];
     Badness both;
-    both.add(quality_of(mesh_, {pi, pk, pj, shell_.b}), flat_from_);
-    both.add(quality_of(mesh_, {pj, pk, pi, shell_.a}), flat_from_);
+    both.add(quality_of(mesh_, {pi, pk, pj, shell_.b}), bad_from_);
+    both.add(quality_of(mesh_, {pj, pk, pi, shell_.a}), bad_from_);
     if (!both.is_worthwhile_after(before_) || !sees_both_ends(mesh_, shell_, i, k, j)) return std::nullopt;
     return both;
   }
@@ -35,14 +35,12 @@ class LeastBadness {
   const TetMesh& mesh_;
   const EdgeShell& shell_;
   const Badness before_;
-  const double flat_from_;
+  const BadFrom& bad_from_;
 };
 
 }  // namespace
 
 bool Exchanger::improve(Tet t, std::vector<Tet>& created) {
-  fewer_flat_ = 0;
-  ratio_ = 1;
   old_.clear();
   for (int edge = 0; edge < 6; ++edge) try_edge(t, edge);
   for (int side = 0; side < 4; ++side) try_face(face_code(t, side));
@@ -56,8 +54,8 @@ void Exchanger::try_edge(Tet t, int edge) {
   if (mesh_.is_segment(t, edge)) return;
   const auto& ends = kEdgeVertex[static_cast<std::size_t>(edge)];
   if (!gather_shell(mesh_, t, mesh_.corner(t, ends[0]), mesh_.corner(t, ends[1]), shell_, kMostShell)) return;
-  const Badness before = badness_of(mesh_, shell_.tets, flat_from_);
-  LeastBadness objective(mesh_, shell_, before, flat_from_);
+  const Badness before = badness_of(mesh_, shell_.tets, bad_from_);
+  LeastBadness objective(mesh_, shell_, before, bad_from_);
   const std::optional<Badness> after = triangulation_.find(shell_.size(), objective);
   if (!after || !after->is_worthwhile_after(before)) return;
   triangles_.clear();
@@ -71,7 +69,7 @@ void Exchanger::try_face(Face f) {
   const Face g = mesh_.neighbour(f);
   if (mesh_.is_facet(f) || mesh_.is_ghost(tet_of(g))) return;
   const std::array<Tet, 2> both{tet_of(f), tet_of(g)};
-  const Badness before = badness_of(mesh_, both, flat_from_);
+  const Badness before = badness_of(mesh_, both, bad_from_);
   const std::array<Vertex, 3> v = mesh_.face_vertices(f);  // seen positively from the apex of f
   const Vertex top = mesh_.apex(f);
   const Vertex bottom = mesh_.apex(g);
@@ -79,7 +77,7 @@ void Exchanger::try_face(Face f) {
   Badness after;
   for (std::size_t k = 0; k < 3; ++k) {
     const TetMesh::Corners tet{bottom, v[k], v[(k + 1) % 3], top};
-    after.add(quality_of(mesh_, tet), flat_from_);
+    after.add(quality_of(mesh_, tet), bad_from_);
     if (!after.is_worthwhile_after(before) || mesh_.orient(tet[0], tet[1], tet[2], tet[3]) <= 0) return;
     candidate_.push_back(tet);
   }
@@ -87,12 +85,13 @@ void Exchanger::try_face(Face f) {
 }
 
 void Exchanger::offer(const Badness& before, const Badness& after, std::span<const Tet> old_tets) {
-  const std::ptrdiff_t fewer =
-      static_cast<std::ptrdiff_t>(before.flat) - static_cast<std::ptrdiff_t>(after.flat);
-  const double ratio = std::isinf(before.worst) ? 0 : after.worst / before.worst;
-  if (!old_.empty() && (fewer < fewer_flat_ || (fewer == fewer_flat_ && ratio >= ratio_))) return;
-  fewer_flat_ = fewer;
-  ratio_ = ratio;
+  const auto fewer = [](std::size_t x, std::size_t y) {
+    return static_cast<std::ptrdiff_t>(y) - static_cast<std::ptrdiff_t>(x);
+  };
+  const Gain gain{fewer(before.hopeless, after.hopeless), fewer(before.flat, after.flat),
+                  std::isinf(before.worst) ? 0 : after.worst / before.worst};
+  if (!old_.empty() && gain >= gain_) return;
+  gain_ = gain;
   fresh_.swap(candidate_);
   old_.assign(old_tets.begin(), old_tets.end());
 }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "mesh/edge_removal.h"
@@ -14,7 +15,7 @@ namespace holdfast {
 
 class Exchanger {
  public:
-  Exchanger(TetMesh& mesh, double flat_from) : mesh_(mesh), flat_from_(flat_from) {}
+  Exchanger(TetMesh& mesh, const BadFrom& bad_from) : mesh_(mesh), bad_from_(bad_from) {}
 
   /// Makes the best of the ten exchanges at a tetrahedron, those of its six edges and four faces, if what
   /// comes is better than what goes. Constraints stand. `created` receives the new tetrahedra. Returns
@@ -27,14 +28,14 @@ class Exchanger {
   void offer(const Badness& before, const Badness& after, std::span<const Tet> old_tets);
 
   TetMesh& mesh_;
-  const double flat_from_;
+  const BadFrom bad_from_;
   EdgeShell shell_;
   LinkTriangulation<Badness> triangulation_;
   std::vector<LinkTriangle> triangles_;
   std::vector<TetMesh::Corners> candidate_;
-  // The best so far:
-  std::ptrdiff_t fewer_flat_ = 0;
-  double ratio_ = 0;  // worst Q after it over worst Q before it
+  // The best so far, by what it changes: numbers of hopeless and of flat ones, then the ratio of the worst Q.
+  using Gain = std::tuple<std::ptrdiff_t, std::ptrdiff_t, double>;
+  Gain gain_;
   std::vector<TetMesh::Corners> fresh_;
   std::vector<Tet> old_;
 };

@@ -5,11 +5,13 @@
 #include <random>
 
 #include "mesh/traverse.h"
+#include "optimise/badness.h"
 #include "optimise/exchange.h"
 #include "optimise/insert_point.h"
 #include "optimise/reconnect.h"
 #include "optimise/relocate.h"
 #include "optimise/remove_flat.h"
+#include "suppress/refill.h"
 
 namespace holdfast {
 namespace {
@@ -23,12 +25,13 @@ class Optimiser {
         flat_from_(std::max(kFlat, kFlatForTarget * target)),
         worth_a_point_(std::max(kWorthAPoint, kWorthAPointForTarget * target)),
         monitor_(monitor),
-        exchanger_(mesh, flat_from_),
+        exchanger_(mesh, {flat_from_, worth_a_point_}),
         flat_remover_(mesh, flat_from_) {}
 
   OptimiseStats run(const std::vector<Tet>& tets) {
     budget_ = kLeastWork + kWorkPerTet * tets.size();
-    relocate_all(tets);
+    list_points(tets);
+    relocate_all();
     for (const Tet t : tets) push(t);
     while (!queue_.empty() && !is_spent(queue_.top())) {
       const Entry worst = queue_.top();
@@ -36,6 +39,7 @@ class Optimiser {
       if (is_current(worst)) improve(worst);
       if (!has_flat() && round_ < kRounds) try_again();
     }
+    remove_points();
     return stats_;
   }
 
@@ -49,8 +53,10 @@ class Optimiser {
     }
   };
 
-  // What is worth a point, which comes first, may take all.
+  // What is worth a point, which comes first, may take all. What is no bad element matters only as the worst
+  // of all, until that stays.
   [[nodiscard]] bool is_spent(const Entry& e) const {
+    if (e.quality < kBad && failures_ >= kMostFailures) return true;
     return work_ >= (e.quality >= worth_a_point_ ? budget_ : budget_ / kUsualShare);
   }
 
@@ -88,21 +94,28 @@ class Optimiser {
       ++stats_.reconnected;
     else if (e.quality >= worth_a_point_ && insert_at(e.tet))
       ++stats_.inserted;
-    else if (e.quality >= flat_from_)
-      stuck_.push_back(e);
+    else
+      give_up(e);
     stats_.changed += created_.size();
     for (const Tet t : created_)
       if (mesh_.alive(t)) push(t);
   }
 
-  void relocate_all(const std::vector<Tet>& tets) {
-    std::vector<Vertex> points;
+  void give_up(const Entry& e) {
+    if (e.quality < kBad) ++failures_;
+    if (e.quality >= flat_from_) stuck_.push_back(e);
+  }
+
+  void list_points(const std::vector<Tet>& tets) {
     for (const Tet t : tets)
       for (const Vertex v : mesh_.corners(t))
-        if (v >= first_free_) points.push_back(v);
-    std::sort(points.begin(), points.end());
-    points.erase(std::unique(points.begin(), points.end()), points.end());
-    for (const Vertex p : points)
+        if (v >= first_free_) points_.push_back(v);
+    std::sort(points_.begin(), points_.end());
+    points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
+  }
+
+  void relocate_all() {
+    for (const Vertex p : points_)
       if (work_ < budget_ / 2 && relocate_with_ball(p)) ++stats_.relocated;
     stats_.changed += created_.size();
     created_.clear();
@@ -136,16 +149,18 @@ class Optimiser {
     return removed;
   }
 
-  // The very worst always are.
+  // The very worst always are, as long as it helps.
   bool is_worth_reconnecting(const Entry& e) {
-    constexpr int kWorst = 3;
-    return e.quality >= kWorthReconnecting || small_reconnections_++ < kWorst;
+    constexpr int kMostInVain = 3;
+    return e.quality >= kWorthReconnecting || reconnections_in_vain_ < kMostInVain;
   }
 
   bool reconnect_round(Tet t) {
     constexpr std::size_t kWork = 50;
     work_ += kWork;
-    return reconnect(mesh_, t, first_free_, flat_from_, false, random_, created_);
+    const bool reconnected = reconnect(mesh_, t, first_free_, flat_from_, false, random_, created_);
+    if (!reconnected) ++reconnections_in_vain_;
+    return reconnected;
   }
 
   // A point is worth some milliseconds, a few times.
@@ -160,14 +175,35 @@ class Optimiser {
     constexpr std::size_t kWork = 20;
     work_ += kWork;
     const Vertex p = insert_point(mesh_, t, first_free_, worth_a_point_, created_);
-    if (p != kNone) relocate_with_ball(p);
-    return p != kNone;
+    if (p == kNone) return false;
+    points_.push_back(p);
+    relocate_with_ball(p);
+    return true;
   }
 
-  // The paper's Q: of what is left alone, of what counts as flat, of what is worth a search or a point.
-  static constexpr double kGood = 30, kFlat = 100, kFlatForTarget = 2;
+  // Points that the mesh can do without now, as long as nothing flat comes of it, nor anything worse than
+  // what is there.
+  void remove_points() {
+    constexpr std::size_t kWork = 30;
+    Growth growth{.attempts = 2, .steps = 6, .search = {.most_vertices = 18, .most_nodes = 60}};
+    for (const Vertex p : points_) {
+      if (!mesh_.in_mesh(p)) continue;
+      if (work_ > budget_ + kLeastWork) return;
+      work_ += kWork;
+      created_.clear();
+      ball(mesh_, p, created_);
+      growth.search.worst_quality = std::max(flat_from_, badness_of(mesh_, created_, flat_from_).worst);
+      if (!refill_without(mesh_, p, first_free_, growth, random_)) continue;
+      ++stats_.removed;
+      ++stats_.changed;
+    }
+  }
+
+  // The paper's Q: of what is left alone, of bad elements, of what counts as flat, of what is worth a search
+  // or a point.
+  static constexpr double kGood = 6, kBad = 30, kFlat = 100, kFlatForTarget = 2;
   static constexpr double kWorthReconnecting = 200, kWorthAPoint = 1000, kWorthAPointForTarget = 30;
-  static constexpr int kRounds = 3;
+  static constexpr int kRounds = 3, kMostFailures = 4;
   // In exchanges tried, some 10 microseconds each.
   static constexpr std::size_t kLeastWork = 1200, kWorkPerTet = 4;
   static constexpr std::size_t kUsualShare = 4;  // of the work for what is not worth a point
@@ -181,7 +217,8 @@ class Optimiser {
   std::mt19937_64 random_;
   std::priority_queue<Entry> queue_;
   std::vector<Entry> stuck_;
-  int round_ = 0, small_reconnections_ = 0;
+  std::vector<Vertex> points_;  // all that may move, and some that are gone
+  int round_ = 0, failures_ = 0, reconnections_in_vain_ = 0;
   std::vector<Tet> created_;  // or changed
   std::size_t work_ = 0, budget_ = 0;
   OptimiseStats stats_;

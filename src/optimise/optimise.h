@@ -15,6 +15,7 @@ struct OptimiseStats {
   std::size_t unflattened = 0;  ///< flat tetrahedra removed by several flips
   std::size_t reconnected = 0;  ///< small polyhedra filled another way
   std::size_t inserted = 0;     ///< points for flat tetrahedra
+  std::size_t removed = 0;      ///< points, these or others, that the mesh could do without in the end
   std::size_t changed = 0;      ///< tetrahedra made, those of attempts that came to nothing included
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesh/traverse.h"
+#include "surface/facet_index.h"
 
 namespace holdfast {
 namespace {
@@ -11,27 +12,12 @@ std::size_t zeros(const std::vector<std::uint8_t>& flags) {
   return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), std::uint8_t{0}));
 }
 
-// The facets whose least vertex is v are order[first[v]] .. order[first[v + 1] - 1].
-struct FacetsByLeastVertex {
-  std::vector<Index> first, order;
-
-  FacetsByLeastVertex(std::size_t vertices, std::span<const Triangle> facets) : first(vertices + 1, 0) {
-    const auto least = [&](Index f) { return std::min({facets[f][0], facets[f][1], facets[f][2]}); };
-    for (Index f = 0; f < facets.size(); ++f) ++first[least(f) + 1];
-    for (std::size_t v = 0; v < vertices; ++v) first[v + 1] += first[v];
-    std::vector<Index> next(first.begin(), first.end() - 1);
-    order.resize(facets.size());
-    for (Index f = 0; f < facets.size(); ++f) order[next[least(f)]++] = f;
-  }
-};
-
 class Marker {
  public:
   Marker(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets)
       : mesh_(mesh),
         table_(table),
-        facets_(facets),
-        by_vertex_(mesh.vertex_count(), facets),
+        index_(mesh.vertex_count(), facets),
         wanted_(mesh.vertex_count(), kNone),
         standing_{std::vector<std::uint8_t>(table.segments.size(), 0),
                   std::vector<std::uint8_t>(facets.size(), 0)} {}
@@ -74,22 +60,15 @@ class Marker {
     for (const Vertex v : mesh_.face_vertices(face_code(t, face)))
       if (v != a) bc[n++] = v;
     if (wanted_[bc[0]] == kNone || wanted_[bc[1]] == kNone) return;
-    for (Index k = by_vertex_.first[a]; k < by_vertex_.first[a + 1]; ++k) {
-      const Index f = by_vertex_.order[k];
-      const Triangle& corners = facets_[f];
-      if (std::find(corners.begin(), corners.end(), bc[0]) == corners.end() ||
-          std::find(corners.begin(), corners.end(), bc[1]) == corners.end())
-        continue;
-      mesh_.set_flags(t, facet_bit(face));
-      standing_.facets[f] = 1;
-      return;
-    }
+    const Index f = index_.find({a, bc[0], bc[1]});
+    if (f == no_index) return;
+    mesh_.set_flags(t, facet_bit(face));
+    standing_.facets[f] = 1;
   }
 
   TetMesh& mesh_;
   const SegmentTable& table_;
-  std::span<const Triangle> facets_;
-  const FacetsByLeastVertex by_vertex_;
+  const FacetIndex index_;
   std::vector<Index> wanted_;  // by vertex: the segment from the current vertex to it
   Standing standing_;
   std::vector<Tet> tets_;

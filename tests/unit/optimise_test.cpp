@@ -86,6 +86,20 @@ TEST(Badness, FewerFlatOnesCountFirst) {
   EXPECT_EQ(not_a_number.flat, 1u);
 }
 
+TEST(Badness, NoneBecomesHopelessForFewerFlatOnes) {
+  const BadFrom from(100, 1000);
+  Badness cap, parted;  // a cap, and the three that a point makes of it
+  cap.add(1e12, from);
+  for (int k = 0; k < 3; ++k) parted.add(400, from);
+  EXPECT_TRUE(parted.is_worthwhile_after(cap));
+  EXPECT_FALSE(cap.is_worthwhile_after(parted));
+  EXPECT_TRUE(parted < cap);
+  const Badness both = join(cap, parted);
+  EXPECT_EQ(both.hopeless, 1u);
+  EXPECT_EQ(both.flat, 4u);
+  EXPECT_EQ(both.worst, 1e12);
+}
+
 TEST(Badness, WideEdgesOfASliverAndOfACap) {
   TetMesh mesh;
   for (const Point& p : {Point{0, 0, 0}, Point{1, 0, 1e-9}, Point{1, 1, 0}, Point{0, 1, 1e-9}})
