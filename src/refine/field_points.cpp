@@ -21,7 +21,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // In sizes: the circumradius from which a tetrahedron is refined (0.61 is regular), the least distance of a
 // new point from others, and its least height over a facet.
 constexpr double kLarge = 0.85, kNearest = 0.7, kLeastHeight = 0.4;
-constexpr double kLevel = 1.4;         // of the mean of the sizes round, where sizes do not grow
+constexpr double kLevel = 1.3;         // of the mean of the sizes round, where sizes do not grow
 constexpr double kLongestPart = 0.65;  // of an edge: the size, where the edge is to be split
 
 Vector operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
