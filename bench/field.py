@@ -2,8 +2,8 @@
 
     field.py --build build/release --corpus DIR [--only NAME] [--output docs/field.md]
 
-Every mesher gets the same triangles and keeps them: `holdfast mesh --no-growth` (sizes inside lie between those of
-the surface round, as Gmsh has them), `gmsh -3 -algo hxt`, `gmsh -3 -algo del3d` with Mesh.Optimize, `tetgen -pYq1.4`,
+Every mesher gets the same triangles and keeps them: `holdfast mesh --no-growth --gradation 0.6` (sizes inside lie
+between those of the surface round, as Gmsh has them), `gmsh -3 -algo hxt`, `gmsh -3 -algo del3d` with Mesh.Optimize, `tetgen -pYq1.4`,
 and Netgen's GenerateVolumeMesh through bench/netgen_volume.py. One thread each. Seconds are CPU time of meshing as far
 as a program tells it: reading and writing files is left out. Angles are measured by one program, mesh_shape.
 """
@@ -77,8 +77,8 @@ class Bench:
 
     def holdfast(self, surface, *extra):
         volume, report = self.folder / "hf.mesh", self.folder / "hf.json"
-        told = self.run([self.options.build / "holdfast", "mesh", surface, "-o", volume, "-q", "--no-growth", "--report",
-                         report, *extra])
+        told = self.run([self.options.build / "holdfast", "mesh", surface, "-o", volume, "-q", "--no-growth",
+                         "--gradation", "0.6", "--report", report, *extra])
         if told is None:
             return None
         seconds = json.loads(report.read_text())["seconds"]

@@ -198,8 +198,9 @@ class Pipeline {
   void enforce_missing() {
     standing_before_partition_ = standing_;
     const bool eliminate = options_.stop_after != Stage::partition;
-    const EnforceStats stats = enforce(mesh_, table_, complex_.facets, standing_, first_free_,
-                                       {.seed = seed_, .flips = options_.flips, .eliminate = eliminate}, monitor_);
+    const EnforceStats stats =
+        enforce(mesh_, table_, complex_.facets, standing_, first_free_,
+                {.seed = seed_, .flips = options_.flips, .eliminate = eliminate}, monitor_);
     result_.report.segment_points = stats.segment_points;
     result_.report.facet_points = stats.facet_points;
     if (!eliminate) standing_ = standing_before_partition_;  // the others are cut into pieces
@@ -261,12 +262,31 @@ class Pipeline {
     report.before = shape_of(mesh_, regions_.of_tet, kept_.region);
     const ImproveStats stats =
         improve(mesh_, regions_.of_tet, kept_.region, first_free_, sizes_, options_.quality, monitor_);
-    report.after = shape_of(mesh_, regions_.of_tet, kept_.region);
     report.edge_lengths = edge_lengths_of(mesh_, regions_.of_tet, kept_.region, sizes_);
     report.moves = stats.moved;
     report.swaps = stats.swapped;
     report.contractions = stats.contracted;
     report.insertions = stats.inserted;
+    remove_flat();
+    report.after = shape_of(mesh_, regions_.of_tet, kept_.region);
+  }
+
+  // Long thin facets may leave flat elements: what the other optimisation is made for.
+  void remove_flat() {
+    constexpr double kFlat = 30;  // Q; it leaves better ones alone
+    std::vector<Tet> flat;
+    for (Tet t = 0; t < mesh_.slot_count(); ++t) {
+      if (!is_kept(t)) continue;
+      const auto& v = mesh_.corners(t);
+      if (quality(mesh_.position(v[0]), mesh_.position(v[1]), mesh_.position(v[2]), mesh_.position(v[3])) >
+          kFlat)
+        flat.push_back(t);
+    }
+    if (flat.empty()) return;
+    const OptimiseStats stats = optimise(mesh_, flat, first_free_, target(), monitor_);
+    result_.report.optimised = {stats.exchanged + stats.unflattened + stats.reconnected, stats.relocated,
+                                stats.inserted};
+    if (stats.changed > 0) flood_again(mesh_, complex_.facets, regions_);
   }
 
   [[nodiscard]] bool is_kept(Tet t) const {

@@ -21,7 +21,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // In sizes: the circumradius from which a tetrahedron is refined (0.61 is regular), the least distance of a
 // new point from others, and its least height over a facet.
 constexpr double kLarge = 0.85, kNearest = 0.7, kLeastHeight = 0.4;
-constexpr double kLevel = 1.4;         // of the mean of the sizes round, where sizes do not grow
+constexpr double kLevel = 1.3;         // of the mean of the sizes round, where sizes do not grow
 constexpr double kLongestPart = 0.65;  // of an edge: the size, where the edge is to be split
 
 Vector operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -57,7 +57,7 @@ class FieldPoints {
   std::vector<double> run() {
     size_vertices();
     look_at_all();
-    while (!front_.empty() || !rest_.empty()) {
+    while ((!front_.empty() || !rest_.empty()) && !has_wasted_enough()) {
       monitor_.poll(Stage::field_points, progress());
       if (!front_.empty()) {
         const Tet t = front_.front();
@@ -82,6 +82,13 @@ class FieldPoints {
  private:
   static constexpr std::uint8_t kTried = 0x0F;  // bit i: from face i
   static constexpr std::uint8_t kIsLarge = 0x10, kQueued = 0x20, kInRest = 0x40;
+
+  // Between vertices with thousands of neighbours each attempt looks at thousands of tetrahedra, and nearly
+  // all come to nothing. Elsewhere some ten tetrahedra are looked at in vain for each that is made.
+  [[nodiscard]] bool has_wasted_enough() const {
+    constexpr std::size_t kPatience = 60, kLeast = 1'000'000;
+    return wasted_ > kPatience * mesh_.tet_count() + kLeast;
+  }
 
   // How much is left is known when little is: the front is large first and shrinks.
   [[nodiscard]] double progress() const {
@@ -159,21 +166,29 @@ class FieldPoints {
     return false;
   }
 
-  // Where the front does not get on, as over a facet much larger than the size: a point on a long edge, one
-  // size away from one of its ends.
+  // Where the front does not get on, as over a facet much larger than the size: a point on the longest edge,
+  // one size away from one of its ends.
   bool split_long_edge(Tet t) {
+    int longest = -1;
+    double length = 0;
     for (int k = 0; k < 6; ++k) {
-      if (mesh_.is_segment(t, k)) continue;
       const auto& ends = kEdgeVertex[static_cast<std::size_t>(k)];
-      for (std::size_t i = 0; i < 2; ++i) {
-        const Vertex v = mesh_.corner(t, ends[i]), w = mesh_.corner(t, ends[1 - i]);
-        const Point &a = mesh_.position(v), &b = mesh_.position(w);
-        const double part = size_[v] / distance(a, b);
-        if (part > kLongestPart) continue;
-        Point p;
-        for (std::size_t j = 0; j < 3; ++j) p[j] = a[j] + part * (b[j] - a[j]);
-        if (try_insert(p, t)) return true;
-      }
+      const double d =
+          distance(mesh_.position(mesh_.corner(t, ends[0])), mesh_.position(mesh_.corner(t, ends[1])));
+      if (mesh_.is_segment(t, k) || d <= length) continue;
+      length = d;
+      longest = k;
+    }
+    if (longest < 0) return false;
+    const auto& ends = kEdgeVertex[static_cast<std::size_t>(longest)];
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Vertex v = mesh_.corner(t, ends[i]);
+      const Point &a = mesh_.position(v), &b = mesh_.position(mesh_.corner(t, ends[1 - i]));
+      const double part = size_[v] / length;
+      if (part > kLongestPart) continue;
+      Point p;
+      for (std::size_t j = 0; j < 3; ++j) p[j] = a[j] + part * (b[j] - a[j]);
+      if (try_insert(p, t)) return true;
     }
     return false;
   }
@@ -231,13 +246,14 @@ class FieldPoints {
     const RegionId region = region_of_[start];
     const Vertex p = mesh_.add_vertex(x);
     const Tet base = cavity_.locate(p, start);
-    if (base == kNone || region_of_[base] != region || !is_far_from(p, mesh_.corners(base), region) ||
-        !cavity_.find(p, base)) {
+    if (base == kNone || region_of_[base] != region || !is_far_from(p, mesh_.corners(base), region)) {
       mesh_.remove_last_vertex();
       return false;
     }
-    if (!is_far_from(p, cavity_.ring(), region) || is_near_a_facet(p) || is_near_beyond(p)) {
-      cavity_.abandon();
+    const bool found = cavity_.find(p, base);
+    if (!found || !is_far_from(p, cavity_.ring(), region) || is_near_a_facet(p) || is_near_beyond(p)) {
+      wasted_ += cavity_.work();
+      if (found) cavity_.abandon();
       mesh_.remove_last_vertex();
       return false;
     }
@@ -312,6 +328,7 @@ class FieldPoints {
   std::deque<Tet> front_;
   std::deque<Tet> rest_;  // large ones that the front did not get on with
   double wanted_ = 0;
+  std::size_t wasted_ = 0;  // tetrahedra of cavities that were not filled
 };
 
 }  // namespace

@@ -5,6 +5,11 @@
 #include "mesh/validate.h"
 
 namespace holdfast {
+namespace {
+
+std::uint64_t edge_key(std::uint64_t a, std::uint64_t b) { return std::min(a, b) << 32 | std::max(a, b); }
+
+}  // namespace
 
 Tet PointCavity::locate(Vertex p, Tet start) {
   // The mesh with constraints is no Delaunay triangulation, in which a walk would be sure to arrive: the
@@ -35,6 +40,7 @@ Tet PointCavity::locate(Vertex p, Tet start) {
 bool PointCavity::find(Vertex p, Tet base) {
   p_ = p;
   spread(base);
+  work_ = tets_.size();
   return settle(base);
 }
 
@@ -53,6 +59,7 @@ bool PointCavity::settle(Tet base) {
       return false;
     }
     list_rim();
+    list_edges();
     const Tet t = holder_of_lost_entity(base);
     if (t == kNone) break;
     if (!release(t, base)) {
@@ -188,7 +195,16 @@ Tet PointCavity::holder_of_lost_entity(Tet base) const {
   return lost;
 }
 
+void PointCavity::list_edges() {
+  edges_.clear();
+  if (rim_.size() <= kManyFaces) return;
+  for (const Rim& r : rim_)
+    for (std::size_t i = 0; i < 3; ++i) edges_.push_back(edge_key(r.v[i], r.v[(i + 1) % 3]));
+  std::sort(edges_.begin(), edges_.end());
+}
+
 bool PointCavity::on_rim(Vertex a, Vertex b) const {
+  if (!edges_.empty()) return std::binary_search(edges_.begin(), edges_.end(), edge_key(a, b));
   return std::any_of(rim_.begin(), rim_.end(), [&](const Rim& r) {
     return (r.v[0] == a || r.v[1] == a || r.v[2] == a) && (r.v[0] == b || r.v[1] == b || r.v[2] == b);
   });
@@ -236,7 +252,7 @@ void PointCavity::link_by_sorting() {
   for (std::size_t k = 0; k < rim_.size(); ++k)
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint64_t a = rim_[k].local[(i + 1) % 3], b = rim_[k].local[(i + 2) % 3];
-      sides_.push_back({std::min(a, b) << 32 | std::max(a, b), face_code(created_[k], static_cast<int>(i))});
+      sides_.push_back({edge_key(a, b), face_code(created_[k], static_cast<int>(i))});
     }
   std::sort(sides_.begin(), sides_.end(), [](const Side& x, const Side& y) {
     return x.edge != y.edge ? x.edge < y.edge : x.face < y.face;

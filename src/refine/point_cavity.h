@@ -45,6 +45,9 @@ class PointCavity {
   /// The tetrahedra that p would replace.
   [[nodiscard]] std::span<const Tet> tets() const { return tets_; }
 
+  /// Of the last call of `find`, in tetrahedra looked at.
+  [[nodiscard]] std::size_t work() const { return work_; }
+
   /// Replaces the cavity by the tetrahedra round p; created()[k] stands on rim()[k].
   void insert();
   [[nodiscard]] std::span<const Tet> created() const { return created_; }
@@ -60,11 +63,13 @@ class PointCavity {
   bool release(Tet t, Tet base);
   void list_rim();
   [[nodiscard]] Tet holder_of_lost_entity(Tet base) const;
+  void list_edges();
   [[nodiscard]] bool on_rim(Vertex a, Vertex b) const;
   void link_by_table();
   void link_by_sorting();
 
   static constexpr std::uint32_t kTableSide = 64;
+  static constexpr std::size_t kManyFaces = 100;
 
   TetMesh& mesh_;
   Vertex p_ = kNone;
@@ -80,7 +85,9 @@ class PointCavity {
     Face face;
   };
   std::vector<Side> sides_;
+  std::vector<std::uint64_t> edges_;  // of the rim, sorted; where there are many faces
   std::uint32_t random_ = 1;
+  std::size_t work_ = 0;
 };
 
 }  // namespace holdfast

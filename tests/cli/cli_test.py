@@ -201,6 +201,56 @@ class Mesh(CliTest):
         self.run_program("mesh", "cube.off", "-o", "a.vtu", "--fill", "--size", "0.25", "--report", "r.json")
         self.assertEqual(json.loads((self.folder / "r.json").read_text())["field_points"], 0)
 
+    def test_size_fields_of_files(self):
+        # One tetrahedron round the cube, in every format; the size is 0.15 at x = -1 and grows by 0.05 a unit.
+        corners, sizes = [(-1, -1, -1), (9, -1, -1), (-1, 9, -1), (-1, -1, 9)], [0.15, 0.65, 0.15, 0.15]
+        flat = " ".join(str(x) for p in corners for x in p)
+        lines = "\n".join(" ".join(map(str, p)) + " 0" for p in corners)
+        values = "\n".join(map(str, sizes))
+        (self.folder / "m.mesh").write_text(f"MeshVersionFormatted 2 Dimension 3 Vertices 4\n{lines}\n"
+                                            "Tetrahedra 1\n1 2 3 4 0\nEnd\n")
+        (self.folder / "m.sol").write_text(f"MeshVersionFormatted 2 Dimension 3 SolAtVertices 4 1 1\n{values}\nEnd\n")
+        (self.folder / "t.node").write_text("4 3 0 0\n" + "".join(f"{i} {p[0]} {p[1]} {p[2]}\n"
+                                                                 for i, p in enumerate(corners)))
+        (self.folder / "t.ele").write_text("1 4 0\n0 0 1 2 3\n")
+        (self.folder / "t.mtr").write_text(f"4 1\n{values}\n")
+        (self.folder / "g.pos").write_text('View "size" {\nSS(' + flat.replace(" ", ",") + "){"
+                                           + ",".join(map(str, sizes)) + "};\n};\n")
+        (self.folder / "v.vtu").write_text(
+            '<VTKFile type="UnstructuredGrid"><UnstructuredGrid><Piece NumberOfPoints="4" NumberOfCells="1">'
+            f'<PointData><DataArray type="Float64" Name="size" format="ascii">{values}</DataArray></PointData>'
+            '<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">' + flat + "</DataArray></Points>"
+            '<Cells><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3</DataArray>'
+            '<DataArray type="Int64" Name="offsets" format="ascii">4</DataArray>'
+            '<DataArray type="UInt8" Name="types" format="ascii">10</DataArray></Cells>'
+            "</Piece></UnstructuredGrid></VTKFile>")
+        counts = set()
+        for name in ("m.mesh", "m.sol", "t.mtr", "g.pos", "v.vtu"):
+            self.run_program("mesh", "cube.off", "-o", "a.vtu", "--size-field", name, "--report", "r.json")
+            counts.add(json.loads((self.folder / "r.json").read_text())["mesh"]["tetrahedra"])
+            self.run_program("check", "cube.off", "a.vtu")
+        self.assertEqual(len(counts), 1, counts)
+        self.assertGreater(counts.pop(), 300)
+        (self.folder / "cube.mtr").write_text("8 1\n" + 8 * "0.2\n")
+        self.run_program("mesh", "cube.off", "-o", "a.vtu", "--size-field", "cube.mtr", "--report", "r.json")
+        self.assertGreater(json.loads((self.folder / "r.json").read_text())["field_points"], 5)
+        (self.folder / "m.sol").write_text("MeshVersionFormatted 2 Dimension 3 SolAtVertices 4 1 1\n1 2 -3 4\nEnd\n")
+        self.assertIn("not a positive", self.run_program("mesh", "cube.off", "-o", "a.vtu", "--size-field", "m.sol",
+                                                         expect=3).stderr)
+        self.run_program("mesh", "cube.off", "-o", "a.vtu", "--size-field", "missing.pos", expect=3)
+
+    def test_a_region_with_a_size(self):
+        inner = cube((0.25, 0.25, 0.25), 0.5)
+        self.write("nested.off", off(CUBE_POINTS + inner, CUBE_FACETS + shifted(CUBE_FACETS, 8)))
+        counts = []
+        for region in ("0.5,0.5,0.5,77", "0.5,0.5,0.5,77,0.1"):
+            self.run_program("mesh", "nested.off", "-o", "a.mesh", "--keep", "bounded", "--region", region, "--report",
+                             "r.json")
+            counts.append(json.loads((self.folder / "r.json").read_text())["mesh"]["tetrahedra"])
+            self.run_program("check", "nested.off", "a.mesh")
+        self.assertGreater(counts[1], counts[0] + 100)
+        self.run_program("mesh", "nested.off", "-o", "a.mesh", "--region", "0.5,0.5,0.5,77,-1", expect=2)
+
     def test_same_result_for_any_number_of_threads_and_twice(self):
         self.make("chazelle", "hard.off", "-n", "2")
         volumes = []
