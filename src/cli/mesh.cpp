@@ -233,8 +233,8 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->option_text("FILE");
   command
       ->add_option("--stop-after", arguments->stop_after,
-                   "Write what stands after validate, delaunay, flips, partition, eliminate, classify or "
-                   "suppress")
+                   "Write what stands after validate, delaunay, flips, partition, eliminate, classify, "
+                   "suppress or field_points")
       ->option_text("STAGE");
   command->add_option("--format", arguments->format, "Volume format, instead of by ending; msh2 is .msh 2.2")
       ->option_text("FORMAT");

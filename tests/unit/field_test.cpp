@@ -11,8 +11,11 @@
 #include "holdfast/check.h"
 #include "holdfast/holdfast.h"
 #include "improve/energy.h"
+#include "improve/improve.h"
+#include "improve/shape.h"
 #include "mesh/quality.h"
 #include "mesh/validate.h"
+#include "refine/order.h"
 #include "refine/point_cavity.h"
 #include "small_surfaces.h"
 
@@ -204,6 +207,34 @@ TEST(PointCavity, InsertsPointAfterPointAndKeepsTheMeshValid) {
     }
   }
   EXPECT_EQ(find_fault(mesh), "");
+}
+
+// The Delaunay triangulation of random points has slivers in plenty.
+TEST(Improve, LeavesAValidMeshWithBetterElements) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> any(0, 1);
+  TetMesh mesh;
+  for (int k = 0; k < 8; ++k)
+    mesh.add_vertex(Point{(k & 1) != 0 ? 1.0 : 0.0, (k & 2) != 0 ? 1.0 : 0.0, (k & 4) != 0 ? 1.0 : 0.0});
+  for (int k = 0; k < 2000; ++k) mesh.add_vertex(Point{any(random), any(random), any(random)});
+  ASSERT_TRUE(build_delaunay(mesh, {1}, nullptr));
+  std::vector<RegionId> region_of(mesh.slot_count(), 0);
+  const std::vector<bool> kept{true};
+  std::vector<double> sizes(mesh.vertex_count(), 0.1);
+  order_along_curve(mesh, 8, region_of, sizes);
+  ASSERT_EQ(find_fault(mesh), "");
+  const auto below_10 = [&] {
+    const Report::Shape shape = shape_of(mesh, region_of, kept);
+    return shape.least_dihedral[0] + shape.least_dihedral[1];
+  };
+  const std::size_t before = below_10();
+  const Options options;
+  Monitor monitor(options);
+  const ImproveStats stats = improve(mesh, region_of, kept, 8, sizes, Quality::good, monitor);
+  EXPECT_EQ(find_fault(mesh), "");
+  EXPECT_GT(stats.moved, 0u);
+  EXPECT_GT(stats.swapped, 0u);
+  EXPECT_LT(4 * below_10(), before);
 }
 
 }  // namespace
