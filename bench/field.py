@@ -152,6 +152,18 @@ def processor():
     return platform.processor()
 
 
+def write(results, path):
+    versions = subprocess.run(["dpkg-query", "-W", "-f", "${Package} ${Version}, ", "gmsh", "tetgen", "netgen"],
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False).stdout.decode()
+    text = ["# Meshes to compute with", "", "Written by `make field`; how it was measured stands in `bench/field.py`.", "",
+            f"{processor()}; one thread; {versions.strip(', ')}.", "", *summary(results), "",
+            "| surface | mesher | tetrahedra | seconds | a second | least angle | largest | % below 10 / 20 / 30 |",
+            "|---|---|---|---|---|---|---|---|"]
+    text += [line(name, mesher, row) for name, rows in results.items() for mesher, row in rows.items()]
+    path.write_text("\n".join(text) + "\n", encoding="utf-8")
+
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=lambda p: Path(p).resolve(), required=True)
@@ -172,14 +184,7 @@ def main():
             results[name] = Bench(options, Path(scratch)).all(surface.resolve())
             for mesher, row in results[name].items():
                 print(line(name, mesher, row), flush=True)
-    versions = subprocess.run(["dpkg-query", "-W", "-f", "${Package} ${Version}, ", "gmsh", "tetgen", "netgen"],
-                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False).stdout.decode()
-    text = ["# Meshes to compute with", "", "Written by `make field`; how it was measured stands in `bench/field.py`.", "",
-            f"{processor()}; one thread; {versions.strip(', ')}.", "", *summary(results), "",
-            "| surface | mesher | tetrahedra | seconds | a second | least angle | largest | % below 10 / 20 / 30 |",
-            "|---|---|---|---|---|---|---|---|"]
-    text += [line(name, mesher, row) for name, rows in results.items() for mesher, row in rows.items()]
-    options.output.write_text("\n".join(text) + "\n", encoding="utf-8")
+            write(results, options.output)
 
 
 if __name__ == "__main__":

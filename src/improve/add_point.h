@@ -15,14 +15,16 @@ class PointAdder {
   PointAdder(ImprovedVolume& volume, VertexSmoother& smoother)
       : volume_(volume), smoother_(smoother), cavity_(volume.mesh()) {}
 
-  /// Fills the shell of an edge of t anew from a point in its middle, if the energy is less then. Returns the
-  /// point, or kNone. The new tetrahedra are its ball, in ball().
-  Vertex add(Tet t);
+  /// Fills the shell of an edge of t anew from a point in its middle, if the energy is less then; a patient
+  /// search tries the cavity that the in-sphere test gives such a point, too. Returns the point, or kNone.
+  /// The new tetrahedra are its ball, in ball().
+  Vertex add(Tet t, bool patient);
   [[nodiscard]] const std::vector<Tet>& ball() const { return ball_; }
 
  private:
   [[nodiscard]] Tet find_tet(const TetMesh::Corners& corners);
-  Vertex add_in_shell();
+  [[nodiscard]] Point middle_of_shell() const;
+  Vertex add_at(const Point& place, Tet start, std::span<const Tet> tets);
 
   ImprovedVolume& volume_;
   VertexSmoother& smoother_;

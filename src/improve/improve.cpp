@@ -59,7 +59,13 @@ class Improver {
     for (int round = 0; round < effort_.rounds; ++round) {
       stage_ = {static_cast<double>(effort_.passes + round) / steps, 1.0 / steps};
       volume_.touch_all();
-      if (!work_on_the_worst()) break;
+      if (!work_on_the_worst(effort_.aim, effort_.work_per_tet)) break;
+    }
+    // The very worst are few: they get as many rounds as help.
+    constexpr double kAimForWorst = 0.26;
+    for (int round = 0; round < 3 * effort_.rounds; ++round) {
+      volume_.touch_all();
+      if (!work_on_the_worst(kAimForWorst, 0.1 * effort_.work_per_tet)) break;
     }
     return stats_;
   }
@@ -100,15 +106,15 @@ class Improver {
   }
 
   // One element after another, the worst first, each in every way. Returns whether any became better.
-  bool work_on_the_worst() {
+  bool work_on_the_worst(double aim, double work_per_tet) {
     constexpr double worth_a_point = energy_of_sine(0.42);  // 25 degrees
-    const double from = energy_of_sine(effort_.aim);
+    const double from = energy_of_sine(aim);
     std::priority_queue<Entry> queue;
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
       if (volume_.is_inside(t) && volume_.energy(t) > from) queue.push({volume_.energy(t), t});
     const double count = 1 + static_cast<double>(queue.size());
     work_ = 0;
-    const double budget = kLeastWork + effort_.work_per_tet * static_cast<double>(mesh_.tet_count());
+    const double budget = kLeastWork + work_per_tet * static_cast<double>(mesh_.tet_count());
     bool any = false;
     const auto again = [&](std::span<const Tet> tets) {
       any = true;
@@ -147,7 +153,7 @@ class Improver {
   bool add_point_at(Tet t) {
     work_ += 6;
     const TetMesh::Corners corners = mesh_.corners(t);
-    const Vertex p = adder_.add(t);
+    const Vertex p = adder_.add(t, volume_.energy(t) > kVeryBad);
     if (p == kNone) return false;
     sizes_.resize(mesh_.vertex_count(), 0);
     for (const Vertex v : corners) sizes_[p] = std::max(sizes_[p], sizes_[v]);
@@ -179,7 +185,8 @@ class Improver {
     return {};
   }
 
-  static constexpr double kLeastWork = 5000;
+  static constexpr double kLeastWork = 1500;
+  static constexpr double kVeryBad = energy_of_sine(0.2);  // 12 degrees
 
   TetMesh& mesh_;
   ImprovedVolume volume_;
