@@ -5,8 +5,9 @@
 
 namespace holdfast {
 
-/// Counts the elements of a volume with a dihedral angle below 10 degrees, and finds those for which facets are
-/// to blame: the two that meet at that angle, or those of the element's faces that have such an angle themselves.
+/// Counts the elements of a volume with a dihedral angle below 10 degrees, and finds those for which facets
+/// are to blame: the two that meet at that angle, or those of the element's faces that have such an angle
+/// themselves.
 void find_forced(const Volume& volume, Report::Field& report);
 
 }  // namespace holdfast

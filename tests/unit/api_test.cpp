@@ -9,8 +9,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "delaunay/box.h"
 #include "api/scale.h"
+#include "delaunay/box.h"
 #include "holdfast/check.h"
 #include "holdfast/holdfast.h"
 #include "small_surfaces.h"
