@@ -115,6 +115,7 @@ class Pipeline {
                                                  {Stage::optimise, &Pipeline::optimise_elements}}};
     for (const Step& step : kSteps) {
       if (step.stage > last_stage()) break;
+      if (step.stage == Stage::field_points && !options_.sizes) continue;
       run_stage(step);
       if (result_.outcome != Outcome::done) return;
     }
@@ -227,7 +228,6 @@ class Pipeline {
   }
 
   void add_points() {
-    if (!options_.sizes) return;
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
       if (is_kept(t))
         for (const Vertex v : mesh_.corners(t))
