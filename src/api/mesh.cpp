@@ -283,7 +283,8 @@ class Pipeline {
         flat.push_back(t);
     }
     if (flat.empty()) return;
-    const OptimiseStats stats = optimise(mesh_, flat, first_free_, target(), monitor_);
+    const OptimiseStats stats =
+        optimise(mesh_, flat, first_free_, target(), monitor_, PointsToRemove::added_here);
     result_.report.optimised = {stats.exchanged + stats.unflattened + stats.reconnected, stats.relocated,
                                 stats.inserted};
     if (stats.changed > 0) flood_again(mesh_, complex_.facets, regions_);

@@ -28,9 +28,10 @@ class Optimiser {
         exchanger_(mesh, {flat_from_, worth_a_point_}),
         flat_remover_(mesh, flat_from_) {}
 
-  OptimiseStats run(const std::vector<Tet>& tets) {
+  OptimiseStats run(const std::vector<Tet>& tets, PointsToRemove remove) {
     budget_ = kLeastWork + kWorkPerTet * tets.size();
     list_points(tets);
+    const std::size_t points_before = points_.size();
     relocate_all();
     for (const Tet t : tets) push(t);
     while (!queue_.empty() && !is_spent(queue_.top())) {
@@ -39,7 +40,7 @@ class Optimiser {
       if (is_current(worst)) improve(worst);
       if (!has_flat() && round_ < kRounds) try_again();
     }
-    remove_points();
+    remove_points(remove == PointsToRemove::all ? 0 : points_before);
     return stats_;
   }
 
@@ -183,10 +184,11 @@ class Optimiser {
 
   // Points that the mesh can do without now, as long as nothing flat comes of it, nor anything worse than
   // what is there.
-  void remove_points() {
+  void remove_points(std::size_t from) {
     constexpr std::size_t kWork = 30;
     Growth growth{.attempts = 2, .steps = 6, .search = {.most_vertices = 18, .most_nodes = 60}};
-    for (const Vertex p : points_) {
+    for (std::size_t k = from; k < points_.size(); ++k) {
+      const Vertex p = points_[k];
       if (!mesh_.in_mesh(p)) continue;
       if (work_ > budget_ + kLeastWork) return;
       work_ += kWork;
@@ -227,8 +229,8 @@ class Optimiser {
 }  // namespace
 
 OptimiseStats optimise(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, double target,
-                       Monitor& monitor) {
-  return Optimiser(mesh, first_free, target, monitor).run(tets);
+                       Monitor& monitor, PointsToRemove remove) {
+  return Optimiser(mesh, first_free, target, monitor).run(tets, remove);
 }
 
 }  // namespace holdfast

@@ -22,8 +22,10 @@ struct OptimiseStats {
 /// Improves the worst of `tets`, which are all of some regions and whose vertices are explicit. Facets and
 /// segments stand, and so do the vertices below `first_free`; the Steiner points, the vertices from there on,
 /// lie on no constraint: they may move, and go where they are in the way. A few are added where a tetrahedron
-/// stays flat without. `target` is the worst Q that the facets ask for (mesh/quality.h).
+/// stays flat without. `target` is the worst Q that the facets ask for (mesh/quality.h). In the end points go
+/// that the mesh can do without: all, or those added here only, where the others are there for a size.
+enum class PointsToRemove { all, added_here };
 OptimiseStats optimise(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, double target,
-                       Monitor& monitor);
+                       Monitor& monitor, PointsToRemove remove = PointsToRemove::all);
 
 }  // namespace holdfast
