@@ -182,7 +182,7 @@ class Pipeline {
     const double margin = options_.keep == Keep::box ? options_.box_margin : kHiddenMargin;
     for (const Point& corner : box_corners(mesh_.positions(), margin)) mesh_.add_vertex(corner);
     first_free_ = static_cast<Vertex>(mesh_.vertex_count());
-    if (!build_delaunay(mesh_, {seed_}, &monitor_))
+    if (!build_delaunay(mesh_, {seed_, options_.threads}, &monitor_))
       throw std::logic_error("holdfast: the box has no tetrahedra");
     standing_ = mark_present(mesh_, table_, complex_.facets);
     result_.report.delaunay = missing();
