@@ -25,7 +25,6 @@ bool triangulate(std::span<const Point> points, std::uint64_t seed, unsigned thr
   Triangulation triangulation(points, insertion_order(points, seed, threads), threads);
   if (!triangulation.start()) return false;
   insert_all(triangulation, seed, threads, progress);
-  triangulation.drop_sites();
   take(triangulation);
   return true;
 }

@@ -125,8 +125,9 @@ bool Inserter::dig(Tet seed, const double* q, Vertex k) {
   std::size_t count = 0;
   std::size_t faces = 0;
   cavity_count_ = 0;
-  bool owned = kMode != Mode::in_slab || owns_all(cells[seed]);
-  if (!owned) return false;
+  if (kMode == Mode::in_slab && !owns_all(cells[seed])) return false;
+  bool escapes = false;
+  double nowhere = 0;
   const auto look = [&](const Cell& cell, Tet t, std::size_t i) {
     const Face across = cell.n[i];
     Cell& next = cells[tet_of(across)];
@@ -138,10 +139,9 @@ bool Inserter::dig(Tet seed, const double* q, Vertex k) {
     const std::uint64_t after = before | conflict;
     if constexpr (kMode == Mode::in_slab) {
       // Three of its corners are owned, for they are those of the cell that it was reached from.
-      if (after != before) {
-        owned = owned && owns(next.v[across & 3u]);
-        if (owned) next.reach = std::bit_cast<double>(after);
-      }
+      const bool own = owns(next.v[across & 3u]);
+      *(own ? &next.reach : &nowhere) = std::bit_cast<double>(after);
+      escapes = escapes | (!own && after != before);
     } else {
       next.reach = std::bit_cast<double>(after);
     }
@@ -153,7 +153,7 @@ bool Inserter::dig(Tet seed, const double* q, Vertex k) {
   cells[seed].reach = std::bit_cast<double>(bits_of(cells[seed].reach) | kSign);
   cavity_[count++] = face_code(seed, 0);
   look(cells[seed], seed, 0);
-  for (std::size_t j = 0; j < count && owned; ++j) {
+  for (std::size_t j = 0; j < count && !escapes; ++j) {
     if (count + 4 > cavity_.size()) cavity_.resize(2 * cavity_.size());
     if (faces + 4 > rim_.size()) rim_.resize(2 * rim_.size());
     const Face reached = cavity_[j];
@@ -163,7 +163,7 @@ bool Inserter::dig(Tet seed, const double* q, Vertex k) {
   }
   cavity_count_ = count;
   face_count_ = faces;
-  return owned;
+  return !escapes;
 }
 
 // Takes the marks of a cavity back.
@@ -201,6 +201,11 @@ void Inserter::give_slots_back() {
 
 // Gives one slot to each boundary face: those of the cavity first.
 void Inserter::take_slots() {
+  const Cell* const cells = triangulation_.cells().data();
+  for (std::size_t i = 0; i < cavity_count_; ++i) {
+    const Cell& cell = cells[tet_of(cavity_[i])];
+    sites_[cell.v[0]].cells -= cell.v[3] == ghost_ ? 0 : 1;
+  }
   while (cavity_count_ > face_count_) free_.push_back(tet_of(cavity_[--cavity_count_]));
   std::size_t j = 0;
   for (; j < cavity_count_; ++j) boundary_[j].slot = tet_of(cavity_[j]);
@@ -300,15 +305,18 @@ void Inserter::set_geometry(Vertex k) {
                 {&spokes[f.local[1]], &spokes[g.local[1]]}, {&spokes[f.local[2]], &spokes[g.local[2]]});
     ghosts = ghosts || f.v[2] == ghost_ || g.v[2] == ghost_;
   }
+  sites_[k].cells = static_cast<std::uint32_t>(face_count_);
   last_ = boundary_[0].slot;
   if (!ghosts) [[likely]]
     return;
   for (std::size_t j = 0; j < face_count_; ++j) {
     const BoundaryFace& f = boundary_[j];
-    if (f.v[2] == ghost_)
+    if (f.v[2] == ghost_) {
       set_half_space(cells[f.slot], spokes[f.local[0]], spokes[f.local[1]], triangulation_.diameter());
-    else
+      --sites_[k].cells;
+    } else {
       last_ = f.slot;
+    }
   }
 }
 
@@ -378,6 +386,10 @@ void Inserter::turn(Tet t) {
     cell.v[i] = corners[turn[i]];
     cell.n[i] = across;
     cells[tet_of(across)].n[across & 3u] = face_code(t, static_cast<int>(i));
+  }
+  if (corners[3] != ghost_) {
+    --sites_[corners[0]].cells;
+    ++sites_[cell.v[0]].cells;
   }
   triangulation_.set_geometry(cell);
 }

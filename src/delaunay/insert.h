@@ -27,7 +27,7 @@ struct Slab {
   std::size_t axis = 0;
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
-  [[nodiscard]] bool holds(const double* x) const { return low <= x[axis] && x[axis] < high; }
+  [[nodiscard]] bool holds(const double* x) const { return (low <= x[axis]) & (x[axis] < high); }
 };
 
 class Inserter {
@@ -66,7 +66,7 @@ class Inserter {
     enum { conflict, corner, outside_slab } what;
   };
 
-  [[nodiscard]] bool owns(Vertex v) const { return v == ghost_ || slab_.holds(sites_[v].x.data()); }
+  [[nodiscard]] bool owns(Vertex v) const { return (v == ghost_) | slab_.holds(sites_[v].x.data()); }
   [[nodiscard]] bool owns_all(const Cell& cell) const;
   [[nodiscard]] bool touches(const Cell& cell) const;
   [[nodiscard]] const double* at(Vertex v) const { return sites_[v].x.data(); }

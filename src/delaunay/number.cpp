@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <mutex>
+#include <utility>
 
 #include "delaunay/large_array.h"
 #include "mesh/parallel.h"
@@ -10,129 +12,134 @@
 namespace holdfast {
 namespace {
 
-constexpr Vertex kChunk = 4096;  // vertices that are numbered by one thread in one go
-
-// A cell of those with the same highest vertex. The lowest of its other corners and the one after that tell
-// it from the rest: only two cells share a face, and they see it turn in different ways.
-struct Member {
-  std::uint64_t key;
-  Tet slot;
-  std::uint32_t turn;  // corner 1 + turn becomes corner 1
-};
-
-// Where a slot's cell goes and how it is turned, in 30 and 2 bits.
-std::uint32_t packed(std::size_t place, std::uint32_t turn) {
-  return static_cast<std::uint32_t>(place << 2 | turn);
-}
-
-// Corner i of a turned cell is corner kTurned[turn][i] of the cell in its slot.
+// Corner i of a turned cell is corner kTurned[turn][i] of the cell as it was made, and the other way round.
 constexpr std::array<std::array<std::uint32_t, 4>, 3> kTurned{{{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}}};
 constexpr std::array<std::array<std::uint32_t, 4>, 3> kTurnedFrom{{{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}}};
 
+// The turn that makes the lowest of corners 1, 2, 3 corner 1; without a branch, for it is random.
+std::uint32_t turn_of(const std::array<Vertex, 4>& v) {
+  const Vertex lowest = std::min(v[1], std::min(v[2], v[3]));
+  return static_cast<std::uint32_t>(v[2] == lowest) + 2 * static_cast<std::uint32_t>(v[3] == lowest);
+}
+
+std::array<std::uint32_t, 4> turned(const std::array<std::uint32_t, 4>& a, std::uint32_t turn) {
+  const auto& k = kTurned[turn];
+  return {a[k[0]], a[k[1]], a[k[2]], a[k[3]]};
+}
+
+// The cells of a highest vertex as they are sorted: by corners alone, or with all that they have.
+using BareCell = std::array<Vertex, 4>;
+struct FullCell {
+  std::array<Vertex, 4> v;
+  std::array<Face, 4> n;
+  std::uint32_t origin;  // 4 * slot + turn
+};
+
+const std::array<Vertex, 4>& corners_of(const BareCell& cell) { return cell; }
+const std::array<Vertex, 4>& corners_of(const FullCell& cell) { return cell.v; }
+void set(BareCell& out, const Cell& cell, Tet, std::uint32_t turn) { out = turned(cell.v, turn); }
+void set(FullCell& out, const Cell& cell, Tet slot, std::uint32_t turn) {
+  out = {turned(cell.v, turn), turned(cell.n, turn), slot << 2 | turn};
+}
+
+// Two cells with corners 0, 1, 2 in common turn in different ways round that face, so that the second has
+// them in another order.
+template <class C>
+std::uint64_t key_of(const C& cell) {
+  return std::uint64_t{corners_of(cell)[1]} << 32 | corners_of(cell)[2];
+}
+
+template <class C>
+void sort_cells(C* first, C* last) {
+  constexpr std::ptrdiff_t kMany = 32;
+  if (last - first > kMany) {
+    std::sort(first, last, [](const C& a, const C& b) { return key_of(a) < key_of(b); });
+    return;
+  }
+  for (C* i = first + 1; i < last; ++i) {
+    const C cell = *i;
+    const std::uint64_t key = key_of(cell);
+    C* j = i;
+    for (; j > first && key < key_of(j[-1]); --j) *j = j[-1];
+    *j = cell;
+  }
+}
+
+template <class C>
 class Numbering {
  public:
-  Numbering(Triangulation& triangulation, unsigned threads, bool with_ghosts)
-      : triangulation_(triangulation),
-        threads_(threads),
-        with_ghosts_(with_ghosts),
-        first_(triangulation.size()),
-        link_(triangulation.cells().size()),
-        chunk_begin_(triangulation.size() / kChunk + 2) {
-    group();
+  Numbering(Triangulation& triangulation, unsigned threads)
+      : triangulation_(triangulation), threads_(threads), end_(triangulation.size()) {
+    std::uint32_t sum = 0;
+    const Triangulation::Site* const sites = triangulation.sites();
+    for (std::size_t v = 0; v < end_.size(); ++v) {
+      end_[v] = sum;
+      sum += sites[v].cells;
+    }
+    cells_.resize(sum);
+    triangulation.drop_sites();
+    distribute();
+    triangulation.cells().clear();
   }
 
-  [[nodiscard]] std::size_t size() const { return chunk_begin_.back(); }
+  /// Number of cells without the ghost.
+  [[nodiscard]] std::size_t size() const { return cells_.size(); }
+  /// In no order.
+  [[nodiscard]] std::vector<C>& ghosts() { return ghosts_; }
 
-  /// Calls put(place, cell, turn) for every cell.
+  /// Calls put(place, cell) for every cell without the ghost.
   template <class Put>
   void for_each(const Put& put) {
-    const std::size_t parts = std::min<std::size_t>(threads_, chunk_begin_.size() - 1);
-    parallel(threads_, parts, [&](std::size_t k) {
-      const std::size_t chunks = chunk_begin_.size() - 1;
-      number_chunks(chunks * k / parts, chunks * (k + 1) / parts, put);
+    parallel_ranges(threads_, end_.size(), [&](std::size_t first, std::size_t last) {
+      std::size_t place = first == 0 ? 0 : end_[first - 1];
+      for (std::size_t v = first; v < last; ++v) {
+        sort_cells(&cells_[place], &cells_[end_[v]]);
+        for (; place < end_[v]; ++place) put(place, cells_[place]);
+      }
     });
-  }
-
-  /// After for_each: a neighbour code, which names a slot, as the code that names a place.
-  [[nodiscard]] Face placed(Face f) const {
-    const std::uint32_t link = link_[tet_of(f)];
-    return (link & ~3u) | kTurnedFrom[link & 3u][f & 3u];
   }
 
  private:
-  // Chains the cells of each highest vertex through link_.
-  void group() {
-    const LargeArray<Cell>& cells = triangulation_.cells();
+  // Puts every cell next to those of its highest vertex. Afterwards end_ is where they end.
+  void distribute() {
+    constexpr std::size_t kBlock = (std::size_t{1} << 21) / sizeof(Cell);
+    LargeArray<Cell>& cells = triangulation_.cells();
     const Vertex ghost = triangulation_.ghost();
-    parallel_ranges(threads_, first_.size(), [&](std::size_t first, std::size_t last) {
-      std::fill(first_.data() + first, first_.data() + last, kNone);
-    });
-    std::vector<std::atomic<std::size_t>> counts(chunk_begin_.size());
+    std::mutex collecting;
     parallel_ranges(threads_, cells.size(), [&](std::size_t first, std::size_t last) {
-      std::vector<std::uint32_t> count(counts.size(), 0);
+      std::vector<C> ghosts;
       for (std::size_t t = first; t < last; ++t) {
         const Cell& cell = cells[t];
-        if (std::signbit(cell.reach) || (!with_ghosts_ && cell.v[3] == ghost)) continue;
-        ++count[cell.v[0] / kChunk + 1];
-        link_[t] = chain(cell.v[0], static_cast<Tet>(t));
+        if (std::signbit(cell.reach)) continue;
+        const auto slot = static_cast<Tet>(t);
+        if (cell.v[3] == ghost)
+          set(ghosts.emplace_back(), cell, slot, 0);
+        else
+          set(cells_[next_place(cell.v[0])], cell, slot, turn_of(cell.v));
+        if ((t + 1 - first) % kBlock == 0) give_back(&cells[t + 1 - kBlock], kBlock * sizeof(Cell));
       }
-      for (std::size_t k = 0; k < count.size(); ++k) counts[k] += count[k];
+      const std::lock_guard lock(collecting);
+      ghosts_.insert(ghosts_.end(), ghosts.begin(), ghosts.end());
     });
-    for (std::size_t k = 1; k < chunk_begin_.size(); ++k) chunk_begin_[k] = chunk_begin_[k - 1] + counts[k];
   }
 
-  Tet chain(Vertex v, Tet t) {
-    if (threads_ == 1) return std::exchange(first_[v], t);
-    return std::atomic_ref(first_[v]).exchange(t, std::memory_order_relaxed);
-  }
-
-  template <class Put>
-  void number_chunks(std::size_t first, std::size_t last, const Put& put) {
-    constexpr std::size_t kAhead = 8;
-    const Cell* const cells = triangulation_.cells().data();
-    std::vector<Member> members;
-    const std::size_t end = std::min(first_.size(), last * kChunk);
-    std::size_t place = chunk_begin_[first];
-    for (std::size_t v = first * kChunk; v < end; ++v) {
-      if (v + kAhead < end && first_[v + kAhead] != kNone) __builtin_prefetch(&cells[first_[v + kAhead]]);
-      members.clear();
-      for (Tet t = first_[v]; t != kNone; t = link_[t]) members.push_back(member(cells[t], t));
-      std::sort(members.begin(), members.end(),
-                [](const Member& a, const Member& b) { return a.key < b.key; });
-      for (const Member& m : members) {
-        link_[m.slot] = packed(place, m.turn);
-        put(place, cells[m.slot], kTurned[m.turn]);
-        ++place;
-      }
-    }
-  }
-
-  [[nodiscard]] Member member(const Cell& cell, Tet t) const {
-    const auto& v = cell.v;
-    std::uint32_t turn = 0;
-    if (v[3] != triangulation_.ghost()) turn = v[1] < v[2] ? (v[1] < v[3] ? 0 : 2) : (v[2] < v[3] ? 1 : 2);
-    const auto& order = kTurned[turn];
-    return {std::uint64_t{v[order[1]]} << 32 | v[order[2]], t, turn};
+  std::size_t next_place(Vertex v) {
+    if (threads_ == 1) return end_[v]++;
+    return std::atomic_ref(end_[v]).fetch_add(1, std::memory_order_relaxed);
   }
 
   Triangulation& triangulation_;
   const unsigned threads_;
-  const bool with_ghosts_;
-  LargeArray<std::uint32_t> first_;  // slot of the first cell of a vertex, or kNone
-  LargeArray<std::uint32_t> link_;   // slot of the next one; in the end place and turn
-  std::vector<std::size_t> chunk_begin_;
+  LargeArray<std::uint32_t> end_;  // of the cells of a vertex
+  LargeArray<C> cells_;
+  std::vector<C> ghosts_;
 };
 
-// A vector whose memory several threads have taken from the system.
 template <class T>
-std::vector<T> sized_vector(std::size_t size, unsigned threads) {
+std::vector<T> sized_vector(std::size_t size) {
   std::vector<T> vector;
   vector.reserve(size);
   advise_huge_pages(vector.data(), size * sizeof(T));
-  if (threads > 1)
-    parallel_ranges(threads, size, [&](std::size_t first, std::size_t last) {
-      populate(vector.data() + first, (last - first) * sizeof(T));
-    });
   vector.resize(size);
   return vector;
 }
@@ -140,33 +147,40 @@ std::vector<T> sized_vector(std::size_t size, unsigned threads) {
 }  // namespace
 
 std::vector<Tetrahedron> finite_cells(Triangulation& triangulation, unsigned threads) {
-  Numbering numbering(triangulation, threads, false);
-  auto tets = sized_vector<Tetrahedron>(numbering.size(), threads);
+  Numbering<BareCell> numbering(triangulation, threads);
+  auto tets = sized_vector<Tetrahedron>(numbering.size());
   const std::uint32_t* const point = triangulation.order().points.data();
-  numbering.for_each([&](std::size_t place, const Cell& cell, const auto& turned) {
-    for (std::size_t i = 0; i < 4; ++i) tets[place][i] = point[cell.v[turned[i]]];
+  numbering.for_each([&](std::size_t place, const BareCell& v) {
+    tets[place] = {point[v[0]], point[v[1]], point[v[2]], point[v[3]]};
   });
   return tets;
 }
 
 NumberedCells all_cells(Triangulation& triangulation, unsigned threads) {
-  Numbering numbering(triangulation, threads, true);
-  NumberedCells out;
-  out.corners = sized_vector<TetMesh::Corners>(numbering.size(), threads);
-  out.neighbours = sized_vector<TetMesh::Neighbours>(numbering.size(), threads);
+  LargeArray<std::uint32_t> placed(triangulation.cells().size());  // of a slot: 4 * place + turn
+  Numbering<FullCell> numbering(triangulation, threads);
+  std::vector<FullCell>& ghosts = numbering.ghosts();
+  std::sort(ghosts.begin(), ghosts.end(), [](const FullCell& a, const FullCell& b) { return a.v < b.v; });
+
+  const std::size_t size = numbering.size() + ghosts.size();
+  NumberedCells out{sized_vector<TetMesh::Corners>(size), sized_vector<TetMesh::Neighbours>(size)};
   const std::uint32_t* const point = triangulation.order().points.data();
   const Vertex ghost = triangulation.ghost();
-  numbering.for_each([&](std::size_t place, const Cell& cell, const auto& turned) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Vertex v = cell.v[turned[i]];
-      out.corners[place][i] = v == ghost ? kGhost : point[v];
-      out.neighbours[place][i] = cell.n[turned[i]];
-    }
-  });
-  triangulation.cells().clear();
-  parallel_ranges(threads, numbering.size(), [&](std::size_t first, std::size_t last) {
+  const auto put = [&](std::size_t place, const FullCell& cell) {
+    const auto& v = cell.v;
+    out.corners[place] = {point[v[0]], point[v[1]], point[v[2]], v[3] == ghost ? kGhost : point[v[3]]};
+    out.neighbours[place] = cell.n;
+    placed[cell.origin >> 2] = static_cast<std::uint32_t>(place << 2) | (cell.origin & 3u);
+  };
+  numbering.for_each(put);
+  for (std::size_t k = 0; k < ghosts.size(); ++k) put(numbering.size() + k, ghosts[k]);
+
+  parallel_ranges(threads, size, [&](std::size_t first, std::size_t last) {
     for (std::size_t t = first; t < last; ++t)
-      for (Face& f : out.neighbours[t]) f = numbering.placed(f);
+      for (Face& f : out.neighbours[t]) {
+        const std::uint32_t where = placed[tet_of(f)];
+        f = (where & ~3u) | kTurnedFrom[where & 3u][f & 3u];
+      }
   });
   return out;
 }

@@ -43,7 +43,7 @@ void Triangulation::read_sites(std::span<const Point> points, unsigned threads) 
     Point low_here = points[0], high_here = points[0];
     for (std::size_t k = first; k < last; ++k) {
       const Point& p = points[order_.points[k]];
-      sites_[k] = {p, 0};
+      sites_[k] = {p, 0, 0};
       for (std::size_t i = 0; i < 3; ++i) {
         low_here[i] = std::min(low_here[i], p[i]);
         high_here[i] = std::max(high_here[i], p[i]);
@@ -91,6 +91,7 @@ void Triangulation::make_first_cells() {
   cells_.resize(5);
   claimed_ = 5;
   cells_[0].v = {3, 2, 1, 0};
+  sites_[3].cells = 1;
   for (std::size_t i = 0; i < 4; ++i) {
     const auto& f = kFaceVertex[i];
     auto k = [&](std::size_t j) { return cells_[0].v[static_cast<std::size_t>(f[j])]; };

@@ -42,6 +42,7 @@ class Triangulation {
   struct alignas(32) Site {
     std::array<double, 3> x;
     std::uint32_t local;  // scratch of an inserter: place in its ring; valid if that entry names this vertex
+    std::uint32_t cells;  // without the ghost, of which this is the highest vertex
   };
 
   /// Vertex k is points[order.points[k]]. `threads` is the number of inserters there can be.
