@@ -20,6 +20,7 @@
 #include "improve/improve.h"
 #include "improve/shape.h"
 #include "mesh/monitor.h"
+#include "mesh/parallel.h"
 #include "mesh/quality.h"
 #include "mesh/tet_mesh.h"
 #include "optimise/optimise.h"
@@ -164,7 +165,8 @@ class Pipeline {
   void validate() {
     result_.report.input = describe_input(complex_, nullptr);
     std::vector<Defect> defects = find_defects(
-        complex_, kMostDefects, [this](double fraction) { monitor_.poll(Stage::validate, fraction); });
+        complex_, kMostDefects, [this](double fraction) { monitor_.poll(Stage::validate, fraction); },
+        thread_count(options_.threads));
     if (!defects.empty()) return refuse(std::move(defects));
     table_ = segment_table(complex_);
     result_.report.input = describe_input(complex_, &table_);

@@ -23,6 +23,13 @@ bool collinear(const double* a, const double* b, const double* c) {
   return true;
 }
 
+// Slots for the cells of so many points. Several inserters leave parts of blocks unused, and cannot grow the
+// array; room that is not used costs nothing.
+std::size_t room_for(std::size_t points, unsigned inserters) {
+  const std::size_t room = kCellsAPoint * points + kSlotBlock;
+  return inserters == 1 ? room : room + points + 2 * inserters * kSlotBlockInSlab;
+}
+
 bool equal(const double* a, const double* b) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; }
 
 }  // namespace
@@ -31,7 +38,7 @@ Triangulation::Triangulation(std::span<const Point> points, InsertionOrder order
     : order_(std::move(order)),
       sites_(order_.points.size() + threads),
       ghost_(static_cast<Vertex>(order_.points.size())) {
-  cells_.reserve(kCellsAPoint * size() + kSlotBlock);
+  cells_.reserve(room_for(size(), threads));
   read_sites(points, threads);
 }
 
@@ -136,8 +143,7 @@ SlotBlock Triangulation::claim_slots(std::size_t needed) {
 }
 
 void Triangulation::expect_points(std::size_t count, unsigned inserters) {
-  const std::size_t enough = cells_.size() + (kCellsAPoint + 1) * count + 2 * inserters * kSlotBlockInSlab;
-  cells_.reserve(std::min(enough, kMostCells));
+  cells_.reserve(std::min(cells_.size() + room_for(count, inserters), kMostCells));
 }
 
 void Triangulation::note_duplicate(Vertex standing, Vertex other) {
