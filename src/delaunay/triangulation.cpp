@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kMostCells = std::size_t{1} << 30;  // a face code has two bits more
 constexpr std::size_t kSlotBlock = 256;
 constexpr std::size_t kSlotBlockInSlab = 32768;  // a huge page, so that two threads rarely wait for one
-constexpr std::size_t kCellsAPoint = 7;          // 6.77 in a Poisson process
+constexpr std::size_t kCellsAPoint = 10;         // 6.77 in a Poisson process, 8 on a surface; room is free
 
 // Three points are collinear iff their projections along all axes are.
 bool collinear(const double* a, const double* b, const double* c) {
@@ -24,7 +24,7 @@ bool collinear(const double* a, const double* b, const double* c) {
 }
 
 // Slots for the cells of so many points. Several inserters leave parts of blocks unused, and cannot grow the
-// array; room that is not used costs nothing.
+// array.
 std::size_t room_for(std::size_t points, unsigned inserters) {
   const std::size_t room = kCellsAPoint * points + kSlotBlock;
   return inserters == 1 ? room : room + points + 2 * inserters * kSlotBlockInSlab;

@@ -272,9 +272,11 @@ class Search {
     parallel(threads_, threads_, [&](std::size_t) {
       Skip skip(complex_, elements_, hubs_, tree, all, patience_ / threads_);
       try {
-        for (std::size_t k = next++; k < tops.size() && !stop; k = next++)
+        for (std::size_t k = next++; k < tops.size() && !stop; k = next++) {
+          step(0);
           tree.for_each_overlap(
               tops[k], [&](Index i, Index j) { return !stop && test_in_space(i, j, visit); }, skip, step);
+        }
       } catch (...) {
         stop = true;
         throw;
