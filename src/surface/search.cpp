@@ -269,6 +269,7 @@ class Search {
       stop = true;
       return false;
     };
+    step(0);  // the other threads may leave nothing to do for this one
     parallel(threads_, threads_, [&](std::size_t) {
       Skip skip(complex_, elements_, hubs_, tree, all, patience_ / threads_);
       try {
