@@ -3,7 +3,7 @@ JOBS ?= $(shell nproc)
 CORPUS ?=
 RELEASE := build/release
 
-.PHONY: help setup build demo test corpus bench field tables format tidy debug asan install clean
+.PHONY: help setup build demo test corpus bench field tables format tidy debug asan tsan install clean
 .DEFAULT_GOAL := help
 
 help:  ## this list
@@ -29,7 +29,7 @@ corpus: build  ## meshes and verifies every surface of CORPUS=dir (options: ARGS
 	@python3 scripts/corpus.py --holdfast $(RELEASE)/holdfast --corpus "$(or $(CORPUS),../shared/corpus)" \
 	  --jobs $(JOBS) $(ARGS)
 
-bench:  ## speed against TetGen and CGAL, written to docs/benchmarks.md
+bench:  ## speed against TetGen, CGAL and Gmsh, written to docs/benchmarks.md
 	@scripts/setup.sh build bench
 	@cmake --preset release -DHOLDFAST_BUILD_BENCH=ON
 	@cmake --build $(RELEASE) -j $(JOBS) --target holdfast_cli cgal_delaunay
@@ -62,6 +62,11 @@ asan: setup  ## the tests under the address and undefined behaviour sanitizers
 	@cmake --preset asan
 	@cmake --build build/asan -j $(JOBS)
 	@HOLDFAST_CORPUS=none ctest --preset asan -j $(JOBS)
+
+tsan: setup  ## what runs on several threads, under the thread sanitizer
+	@cmake --preset tsan
+	@cmake --build build/tsan -j $(JOBS) --target delaunay_threads_test delaunay_test surface_threads_test
+	@HOLDFAST_CORPUS=none ctest --preset tsan -j $(JOBS) -R '^(Delaunay|DelaunayThreads|SurfaceThreads)\.'
 
 install: build  ## library, headers and program to PREFIX (default /usr/local)
 	@cmake --build $(RELEASE) -j $(JOBS) --target holdfast holdfast_cli

@@ -1,9 +1,10 @@
-"""Speed against TetGen and CGAL, measured in one go: programs take turns, medians and ratios are told.
+"""Speed against TetGen, CGAL and Gmsh, measured in one go: programs take turns, medians and ratios are told.
 
-    run.py --build build/release [--corpus DIR] [--runs 5] [--surfaces 200] [--part delaunay|mesh]
+    run.py --build build/release [--corpus DIR] [--runs 5] [--surfaces 200] [--part delaunay|surfaces|growth|mesh]
 
 Delaunay: 1 million uniformly random points, the vertices of a rippled torus, and of the largest surface of the
-corpus; seconds that each program takes for the triangulation alone (spatial sort included), one thread.
+corpus; seconds that each program takes for the triangulation alone (spatial sort included), one thread and two.
+Surfaces: generated ones, against TetGen and Gmsh (surfaces.py). Growth: growth.py.
 Mesh: surfaces of the corpus, evenly over all sizes, `holdfast mesh --fill` against `tetgen -pY`; seconds of the
 whole process with reading and writing. Writes docs/benchmarks.md.
 """
@@ -24,27 +25,9 @@ from statistics import median
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "scripts"))
 import corpus  # noqa: E402  (finds the surfaces)
-
-
-def run(command, timeout=600):
-    """(exit code or None after a timeout, output, wall seconds, peak bytes) of a process."""
-    with tempfile.TemporaryFile() as output:
-        started = time.monotonic()
-        process = subprocess.Popen([str(word) for word in command], stdout=output, stderr=subprocess.STDOUT)
-        late = False
-        while True:
-            pid, status, usage = os.wait4(process.pid, os.WNOHANG)
-            if pid:
-                break
-            if not late and time.monotonic() - started > timeout:
-                process.kill()
-                late = True
-            time.sleep(0.0005)
-        seconds = time.monotonic() - started
-        process.returncode = os.waitstatus_to_exitcode(status)
-        output.seek(0)
-        text = output.read().decode(errors="replace")
-    return None if late else process.returncode, text, seconds, usage.ru_maxrss * 1024
+from growth import bench_delaunay_growth, bench_fig13  # noqa: E402
+from process import run  # noqa: E402
+from surfaces import bench_surfaces  # noqa: E402
 
 
 # ------------------------------------------------------------------------------------------------- Delaunay
@@ -86,16 +69,17 @@ def vertices_of(path):
 
 def delaunay_tools(build, folder):
     """name -> function of a .node file: (seconds, tetrahedra, peak bytes)."""
-    def holdfast(node):
+    def holdfast(node, threads=1):
         report = folder / "report.json"
-        code, text, _, peak = run([build / "holdfast", "delaunay", node, "-o", folder / "out.vtu", "-q", "--report", report])
+        code, text, _, peak = run([build / "holdfast", "delaunay", node, "-o", folder / "out.vtu", "-q", "--report", report,
+                                   "--threads", threads])
         if code != 0:
             sys.exit(f"holdfast delaunay ended with {code}: {text}")
         told = json.loads(report.read_text())
         return told["seconds"]["delaunay"], told["mesh"]["tetrahedra"], peak
 
-    def cgal(node):
-        _, text, _, peak = run([build / "cgal_delaunay", node])
+    def cgal(node, threads=1):
+        _, text, _, peak = run([build / "cgal_delaunay", node, threads])
         found = re.search(r"seconds (\S+) tetrahedra (\d+)", text)
         return float(found[1]), int(found[2]), peak
 
@@ -104,7 +88,15 @@ def delaunay_tools(build, folder):
         return (float(re.search(r"Delaunay seconds:\s+(\S+)", text)[1]),
                 int(re.search(r"Mesh tetrahedra:\s+(\d+)", text)[1]), peak)
 
-    return {"holdfast": holdfast, "CGAL": cgal, "TetGen": tetgen}
+    return {"holdfast": holdfast, "CGAL": cgal, "TetGen": tetgen,
+            "holdfast, 2 threads": lambda node: holdfast(node, 2), "CGAL with TBB, 2 threads": lambda node: cgal(node, 2)}
+
+
+def write_apart(node, make):
+    """In a process of its own: a child's peak memory, as the system counts it, is not below its parent's."""
+    writer = multiprocessing.Process(target=lambda: write_node(node, make()))
+    writer.start()
+    writer.join()
 
 
 def bench_delaunay(options, folder, surfaces):
@@ -117,10 +109,7 @@ def bench_delaunay(options, folder, surfaces):
     lines = ["| points | program | seconds (median) | points/s | tetrahedra | bytes a tetrahedron, whole process "
              "| time against holdfast |", "|---|---|---|---|---|---|---|"]
     for title, make in sets:
-        # In a process of its own: a child's peak memory, as the system counts it, is not below its parent's.
-        writer = multiprocessing.Process(target=lambda: write_node(node, make()))
-        writer.start()
-        writer.join()
+        write_apart(node, make)
         with open(node, encoding="ascii") as file:
             count = int(file.readline().split()[0])
         tools = delaunay_tools(options.build, folder)
@@ -205,11 +194,14 @@ def main():
     parser.add_argument("--surfaces", type=int, default=200, help="about so many surfaces of the corpus")
     parser.add_argument("--mesh-runs", type=int, default=3)
     parser.add_argument("--timeout", type=float, default=120)
-    parser.add_argument("--part", choices=["delaunay", "mesh"], action="append", help="default: both")
+    parser.add_argument("--triangles", type=int, nargs="+", default=[10_000, 100_000, 1_000_000], help="of generated surfaces")
+    parser.add_argument("--growth", type=int, nargs="+", default=[1_600, 16_000, 160_000, 1_600_000], help="points")
+    parser.add_argument("--fig13", type=int, nargs="+", default=[4, 8, 12, 16, 24], help="n of the paper's Fig. 13")
+    parser.add_argument("--part", choices=["delaunay", "surfaces", "growth", "mesh"], action="append", help="default: all")
     parser.add_argument("--output", type=Path, default=ROOT / "docs" / "benchmarks.md")
     options = parser.parse_args()
     surfaces = corpus.locate(options.corpus, core_only=False)
-    parts = options.part or ["delaunay", "mesh"]
+    parts = options.part or ["delaunay", "surfaces", "growth", "mesh"]
     version = run([options.build / "holdfast", "--version"])[1].strip()
     commit = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=False).stdout.strip()
     lines = ["# Benchmarks", "", f"Written by `make bench` on {time.strftime('%Y-%m-%d')}: {version} at {commit}, against Debian's "
@@ -217,8 +209,15 @@ def main():
     with tempfile.TemporaryDirectory(prefix="holdfast-bench-") as name:
         folder = Path(name)
         if "delaunay" in parts:
-            lines += ["## Delaunay", "", f"One thread; the triangulation alone, spatial sort included; median of {options.runs} "
-                      "turns.", "", *bench_delaunay(options, folder, surfaces), ""]
+            lines += ["## Delaunay", "", "One thread unless it says more; the triangulation alone, spatial sort included; median of "
+                      f"{options.runs} turns.", "", *bench_delaunay(options, folder, surfaces), ""]
+        if "surfaces" in parts:
+            lines += ["## Large surfaces", "", "Rippled tori as binary STL (TetGen: OFF), whole process with reading and writing; median of "
+                      f"{options.runs} turns.", "", *bench_surfaces(options, folder), ""]
+        if "growth" in parts:
+            points = bench_delaunay_growth(options, folder, lambda node, n: write_apart(node, lambda: random_points(n)))
+            lines += ["## Growth", "", "Delaunay of random points, one thread:", "", *points, "",
+                      "The paper's worst case (Fig. 13, m = n / 2), `holdfast mesh --fill`:", "", *bench_fig13(options, folder), ""]
         if "mesh" in parts:
             lines += ["## `holdfast mesh --fill` against `tetgen -pY`", ""]
             lines += [*bench_mesh(options, folder, surfaces), ""] if surfaces else ["No corpus: not measured.", ""]

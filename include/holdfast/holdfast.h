@@ -76,6 +76,7 @@ struct Options {
   /// tetrahedron of the enclosing box, as region 0, and the facets and segments that stand.
   std::optional<Stage> stop_after;
   std::uint64_t seed = 1;          ///< of the random orders
+  unsigned threads = 1;            ///< of validation and Delaunay, 0: all there are; the result is the same
   double time_limit = 0;           ///< seconds; 0: none
   std::uint64_t memory_limit = 0;  ///< bytes of the process; 0: none
   /// Called now and then from the calling thread; returns false to cancel.
@@ -178,8 +179,11 @@ struct Result {
 
 /// Delaunay tetrahedra of the convex hull of `points`; repeated points are left unused.
 ///
-/// Throws std::invalid_argument for non-finite coordinates. All points coplanar: no tetrahedra.
-[[nodiscard]] std::vector<Tetrahedron> delaunay(std::span<const Point> points, std::uint64_t seed = 1);
+/// `seed` decides how cospherical points are joined, and the order of the tetrahedra; `threads` (0: all that
+/// the machine has) changes nothing in the result. Throws std::invalid_argument for non-finite coordinates.
+/// All points coplanar: no tetrahedra.
+[[nodiscard]] std::vector<Tetrahedron> delaunay(std::span<const Point> points, std::uint64_t seed = 1,
+                                                unsigned threads = 1);
 
 /// Library version, "major.minor.patch".
 [[nodiscard]] const char* version();

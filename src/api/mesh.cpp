@@ -20,6 +20,7 @@
 #include "improve/improve.h"
 #include "improve/shape.h"
 #include "mesh/monitor.h"
+#include "mesh/parallel.h"
 #include "mesh/quality.h"
 #include "mesh/tet_mesh.h"
 #include "optimise/optimise.h"
@@ -164,7 +165,8 @@ class Pipeline {
   void validate() {
     result_.report.input = describe_input(complex_, nullptr);
     std::vector<Defect> defects = find_defects(
-        complex_, kMostDefects, [this](double fraction) { monitor_.poll(Stage::validate, fraction); });
+        complex_, kMostDefects, [this](double fraction) { monitor_.poll(Stage::validate, fraction); },
+        thread_count(options_.threads));
     if (!defects.empty()) return refuse(std::move(defects));
     table_ = segment_table(complex_);
     result_.report.input = describe_input(complex_, &table_);
@@ -182,7 +184,7 @@ class Pipeline {
     const double margin = options_.keep == Keep::box ? options_.box_margin : kHiddenMargin;
     for (const Point& corner : box_corners(mesh_.positions(), margin)) mesh_.add_vertex(corner);
     first_free_ = static_cast<Vertex>(mesh_.vertex_count());
-    if (!build_delaunay(mesh_, {seed_}, &monitor_))
+    if (!build_delaunay(mesh_, {seed_, options_.threads}, &monitor_))
       throw std::logic_error("holdfast: the box has no tetrahedra");
     standing_ = mark_present(mesh_, table_, complex_.facets);
     result_.report.delaunay = missing();

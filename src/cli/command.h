@@ -26,6 +26,10 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Of --threads.
+inline constexpr const char* threads_help =
+    "Threads, 0: all that the machine has (default 1); the result does not depend on them";
+
 /// What `main` runs once the command line is read; returns the exit code.
 using Command = std::function<int()>;
 

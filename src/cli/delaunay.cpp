@@ -17,6 +17,7 @@ struct DelaunayArguments {
   std::filesystem::path points, output, report;
   std::string format;
   std::uint64_t seed = 1;
+  unsigned threads = 1;
   bool quiet = false;
 };
 
@@ -47,7 +48,7 @@ int run(const DelaunayArguments& arguments) {
 
   const auto start = std::chrono::steady_clock::now();
   try {
-    volume.tetrahedra = delaunay(volume.vertices, arguments.seed);
+    volume.tetrahedra = delaunay(volume.vertices, arguments.seed, arguments.threads);
   } catch (const std::invalid_argument& error) {
     fmt::print(stderr, "holdfast: {}: {}\n", arguments.points.string(), error.what());
     return exit_invalid_surface;
@@ -61,18 +62,20 @@ int run(const DelaunayArguments& arguments) {
   volume.regions.assign(volume.tetrahedra.size(), 1);
   const auto writing = std::chrono::steady_clock::now();
   write_volume(target.path, volume, target.options);
-  write_json(arguments.report,
-             {{"input", {{"vertices", volume.vertices.size()}}},
-              {"mesh", {{"vertices", volume.vertices.size()}, {"tetrahedra", volume.tetrahedra.size()}}},
-              {"seconds",
-               {{"read", reading},
-                {"delaunay", seconds},
-                {"write", seconds_since(writing)},
-                {"total", seconds_since(whole)}}},
-              {"peak_memory_bytes", peak_memory_bytes()},
-              {"version", version()},
-              {"options", {{"points", arguments.points.string()}, {"seed", arguments.seed}}},
-              {"outcome", "done"}});
+  write_json(
+      arguments.report,
+      {{"input", {{"vertices", volume.vertices.size()}}},
+       {"mesh", {{"vertices", volume.vertices.size()}, {"tetrahedra", volume.tetrahedra.size()}}},
+       {"seconds",
+        {{"read", reading},
+         {"delaunay", seconds},
+         {"write", seconds_since(writing)},
+         {"total", seconds_since(whole)}}},
+       {"peak_memory_bytes", peak_memory_bytes()},
+       {"version", version()},
+       {"options",
+        {{"points", arguments.points.string()}, {"seed", arguments.seed}, {"threads", arguments.threads}}},
+       {"outcome", "done"}});
   if (!arguments.quiet)
     fmt::print(stderr, "{}: {} points, {} tetrahedra, {:.2f} s ({:.2f} s Delaunay)\n", target.path.string(),
                volume.vertices.size(), volume.tetrahedra.size(), seconds_since(whole), seconds);
@@ -92,6 +95,9 @@ void add_delaunay(CLI::App& app, Command& chosen) {
       ->required()
       ->option_text("VOLUME");
   command->add_option("--seed", arguments->seed, "Seed of the random order (default 1)")->option_text("N");
+  command->add_option("--threads", arguments->threads, threads_help)
+      ->check(CLI::Range(0u, 4096u))
+      ->option_text("N");
   command->add_option("--report", arguments->report, "Write counts and times as JSON")
       ->option_text("FILE.json");
   command->add_option("--format", arguments->format, "Volume format, instead of by ending; msh2 is .msh 2.2")

@@ -218,8 +218,8 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->allow_extra_args(false)
       ->option_text("STEP");
   command->add_option("--seed", arguments->seed, "Seed of the random orders (default 1)")->option_text("N");
-  command->add_option("--threads", arguments->threads, "Threads; the result does not depend on them")
-      ->check(CLI::Range(1u, 4096u))
+  command->add_option("--threads", arguments->threads, threads_help)
+      ->check(CLI::Range(0u, 4096u))
       ->option_text("N");
   command->add_option("--time-limit", arguments->time_limit, "Give up after so many seconds (exit 5)")
       ->option_text("S");

@@ -121,6 +121,7 @@ Options to_options(const MeshArguments& arguments) {
     throw UsageError("--memory-limit: gigabytes must not be negative");
   options.drop_outside = arguments.drop_outside;
   options.seed = arguments.seed;
+  options.threads = arguments.threads;
   options.time_limit = arguments.time_limit;
   options.memory_limit = static_cast<std::uint64_t>(arguments.memory_limit * bytes_per_gigabyte);
   return options;

@@ -5,53 +5,42 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include "delaunay/insert.h"
-#include "delaunay/order.h"
+#include "delaunay/number.h"
+#include "delaunay/schedule.h"
+#include "delaunay/triangulation.h"
+#include "mesh/parallel.h"
 #include "mesh/validate.h"
 
 namespace holdfast {
 namespace {
 
 constexpr std::size_t kMostVertices = std::size_t{1} << 30;
-constexpr std::size_t kPollInterval = 64;
 
-// Hands the kernel's cells over in the numbering of the mesh, freeing them on the way.
-void hand_over(DelaunayKernel& kernel, TetMesh& mesh) {
-  constexpr std::size_t kBlock = std::size_t{1} << 16;
-  const CellStore& cells = kernel.cells();
-  const std::vector<std::uint32_t>& order = kernel.order();
-  std::vector<TetMesh::Corners> corners;
-  std::vector<TetMesh::Neighbours> neighbours;
-  corners.reserve(cells.size());
-  neighbours.reserve(cells.size());
-  advise_huge_pages(corners.data(), cells.size() * sizeof(TetMesh::Corners));
-  advise_huge_pages(neighbours.data(), cells.size() * sizeof(TetMesh::Neighbours));
-  for (std::size_t t = 0; t < cells.size(); ++t) {
-    if (t % kBlock == 0) kernel.forget_first(t);
-    const auto& v = cells[t].v;
-    corners.push_back({order[v[0]], order[v[1]], order[v[2]], v[3] == kernel.ghost() ? kGhost : order[v[3]]});
-    neighbours.push_back(cells[t].n);
-  }
-  mesh.set_tets(std::move(corners), std::move(neighbours));
+// Calls take(triangulation) on the triangulation of points that are not coplanar.
+template <class Take>
+bool triangulate(std::span<const Point> points, std::uint64_t seed, unsigned threads,
+                 const InsertionProgress& progress, const Take& take) {
+  if (points.size() > kMostVertices) throw std::length_error("holdfast: more than 2^30 points");
+  Triangulation triangulation(points, insertion_order(points, seed, threads), threads);
+  if (!triangulation.start()) return false;
+  insert_all(triangulation, seed, threads, progress);
+  take(triangulation);
+  return true;
 }
 
 }  // namespace
 
 bool build_delaunay(TetMesh& mesh, const DelaunayOptions& options, Monitor* monitor) {
-  if (mesh.vertex_count() > kMostVertices) throw std::length_error("holdfast: more than 2^30 points");
   assert(mesh.tet_count() == 0 && mesh.exact_vertex_count() == 0);
-  DelaunayKernel kernel(mesh.positions(), insertion_order(mesh.positions(), options.seed), options.seed);
-  if (!kernel.start()) return false;
-  const auto count = static_cast<double>(kernel.size());
-  for (std::size_t k = 4; k < kernel.size(); ++k) {
-    if (monitor != nullptr && k % kPollInterval == 0)
-      monitor->poll(Stage::delaunay, static_cast<double>(k) / count);
-    kernel.insert(static_cast<Vertex>(k));
-  }
-  kernel.finish();
-  hand_over(kernel, mesh);
+  InsertionProgress progress;
+  if (monitor != nullptr) progress = [&](double fraction) { monitor->poll(Stage::delaunay, fraction); };
+  const unsigned threads = thread_count(options.threads);
+  const auto take = [&](Triangulation& triangulation) {
+    NumberedCells cells = all_cells(triangulation, threads);
+    mesh.set_tets(std::move(cells.corners), std::move(cells.neighbours));
+  };
+  if (!triangulate(mesh.positions(), options.seed, threads, progress, take)) return false;
 #ifdef HOLDFAST_VALIDATE
   if (const std::string fault = find_fault(mesh); !fault.empty())
     throw std::logic_error("holdfast: " + fault);
@@ -59,19 +48,16 @@ bool build_delaunay(TetMesh& mesh, const DelaunayOptions& options, Monitor* moni
   return true;
 }
 
-std::vector<Tetrahedron> delaunay(std::span<const Point> points, std::uint64_t seed) {
-  TetMesh mesh;
-  mesh.reserve(points.size(), 0);
+std::vector<Tetrahedron> delaunay(std::span<const Point> points, std::uint64_t seed, unsigned threads) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& p = points[i];
     if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
       throw std::invalid_argument("holdfast: point " + std::to_string(i) + " is not finite");
-    mesh.add_vertex(p);
   }
-  build_delaunay(mesh, {seed}, nullptr);
   std::vector<Tetrahedron> tets;
-  for (Tet t = 0; t < mesh.slot_count(); ++t)
-    if (mesh.alive(t) && !mesh.is_ghost(t)) tets.push_back(mesh.corners(t));
+  threads = thread_count(threads);
+  triangulate(points, seed, threads, nullptr,
+              [&](Triangulation& triangulation) { tets = finite_cells(triangulation, threads); });
   return tets;
 }
 

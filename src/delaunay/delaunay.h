@@ -9,7 +9,8 @@
 namespace holdfast {
 
 struct DelaunayOptions {
-  std::uint64_t seed = 1;  ///< of the insertion order and the walks
+  std::uint64_t seed = 1;  ///< of the insertion order
+  unsigned threads = 1;    ///< the result does not depend on it; 0: all that the machine has
 };
 
 /// Triangulates all vertices of a mesh that has no tetrahedra yet. Every vertex must be explicit and

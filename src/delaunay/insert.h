@@ -1,64 +1,59 @@
-// The incremental Delaunay kernel (Bowyer 1981, Watson 1981) on cells that carry their spheres.
+// Inserts points into a Delaunay triangulation (Bowyer 1981, Watson 1981).
 //
 // The layout and the reconnection through a small table of local vertices follow the ideas of HXT
-// (Marot, Pellerin, Remacle 2019). Vertices are numbered in the order of insertion, so that the youngest
-// corner of a cell, its base, is near in memory to the points that come next; number n is the ghost.
-//
-// Degenerate input. A cell is in conflict with p iff p is strictly inside its open ball; a ghost, iff p
-// is strictly beyond its hull face, or in the face's plane and strictly inside its circumcircle. No
-// perturbation is needed for the new cells to be strictly positive:
-//  * Let f be a face between a cell s in conflict and a cell t that is not, and suppose p in f's plane.
-//    Both balls (half-spaces) cut the plane in f's circumdisc, so s and t are both in conflict or both
-//    not: contradiction. If p were on t's side of f, then the power of p to t's ball would be at most
-//    that to s's ball (they differ by a linear function that vanishes on f's plane and the triangulation
-//    is Delaunay), hence t in conflict: contradiction. So p is strictly on s's side, and (f, p) is strictly
-//    positive.
-//  * The same for an edge between two ghosts, in place of the face: if p is in line with it, both discs
-//    cut the line in the edge.
-//  * Along the segment from any point of a cell in conflict to p the power of p to the cells met does
-//    not grow, so the cells in conflict are connected and star-shaped with respect to p: the cavity's
-//    boundary is a sphere on which every edge has two faces.
+// (Marot, Pellerin, Remacle 2019), and so does the way in which several inserters work at a time: space is
+// cut into slabs, one an inserter. An inserter owns the vertices of its slab, and the cells all of whose
+// vertices it owns (the ghost is everybody's). It changes no other cell but for the neighbour codes at faces
+// of its own; a point whose cavity holds a cell that it does not own is left for later. So nothing is locked,
+// and what is read is written by no other thread:
+//  * corners, sphere and mark of a cell with an own vertex: only its owner changes them, and nobody else can
+//  be
+//    that; the walk stays on such cells, and the cavity and the cells next to it are of this kind;
+//  * the neighbour code at a face with an own vertex: it changes only if all the face's vertices are of one
+//    owner, which can be nobody else;
+//  * the scratch of a vertex round a cavity: the vertices of a cell owned.
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <limits>
 #include <vector>
 
-#include "delaunay/cell.h"
-#include "delaunay/cell_store.h"
-#include "holdfast/types.h"
-#include "mesh/anatomy.h"
+#include "delaunay/triangulation.h"
 
 namespace holdfast {
 
-class DelaunayKernel {
+/// A part of space: all points with low <= x[axis] < high.
+struct Slab {
+  std::size_t axis = 0;
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  [[nodiscard]] bool holds(const double* x) const { return (low <= x[axis]) & (x[axis] < high); }
+};
+
+class Inserter {
  public:
-  /// `order` lists points; vertex k of the kernel is points[order[k]].
-  DelaunayKernel(std::span<const Point> points, std::vector<std::uint32_t> order, std::uint64_t seed);
+  /// Number `index` of the inserters of a triangulation that has been started.
+  Inserter(Triangulation& triangulation, unsigned index, std::uint64_t seed);
 
-  /// Moves four points that span space to the front and makes their tetrahedron and its four ghosts.
-  /// False if all points are coplanar.
-  bool start();
-  /// Number of points; the first four are inserted by start().
-  [[nodiscard]] std::size_t size() const { return order_.size(); }
-  /// Inserts vertex k; each once, in growing order. A duplicate changes nothing.
+  /// Inserts vertex k, above all vertices that stand. A duplicate changes nothing. No other inserter runs.
   void insert(Vertex k);
+  /// The same where vertices above k may stand.
+  void insert_late(Vertex k);
+  /// Inserts vertex k of the own slab while others work in theirs, or returns false.
+  bool insert_in_slab(Vertex k);
 
-  [[nodiscard]] Vertex ghost() const { return ghost_; }
-  [[nodiscard]] const CellStore& cells() const { return cells_; }
-  /// Ends the insertions: moves cells into the free slots, so that none is left, and frees what only
-  /// insert() needs.
-  void finish();
-  /// Frees the memory of the first `count` cells, which the caller has read for the last time.
-  void forget_first(std::size_t count) { cells_.forget_first(count); }
-  /// The point of each vertex: among equal points the first one.
-  [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
+  /// Looks for a cell next to the slab from which to walk in it, near vertex k of the slab; no other inserter
+  /// runs. False if there is none, and then nothing can be inserted.
+  bool enter(const Slab& slab, Vertex k, Tet from);
+  /// A cell that stands, from which to walk.
+  [[nodiscard]] Tet last() const { return last_; }
+  void set_last(Tet t) { last_ = t; }
+  /// Marks the slots that were never used as free.
+  void give_slots_back();
 
  private:
-  struct alignas(32) Site {
-    std::array<double, 3> x;
-    std::uint32_t local;  // index in the cavity's boundary; valid if that entry names this vertex
-  };
+  // What may stand, and who else works.
+  enum class Mode { in_order, late, in_slab };
   // A face round the cavity, and the cell that comes to stand on it.
   struct BoundaryFace {
     Face outer;
@@ -68,37 +63,43 @@ class DelaunayKernel {
   };
   struct Located {
     Tet tet;
-    bool conflict;  // else the point is a corner of the cell
+    enum { conflict, corner, outside_slab } what;
   };
 
+  [[nodiscard]] bool owns(Vertex v) const { return (v == ghost_) | slab_.holds(sites_[v].x.data()); }
+  [[nodiscard]] bool owns_all(const Cell& cell) const;
+  [[nodiscard]] bool touches(const Cell& cell) const;
   [[nodiscard]] const double* at(Vertex v) const { return sites_[v].x.data(); }
-  [[nodiscard]] bool is_ghost(const Cell& cell) const { return cell.v[3] == ghost_; }
-  [[nodiscard]] bool in_conflict(const Cell& cell, const double* q) const {
-    const Filtered test = filtered_conflict(cell, at(cell.v[0]), q[0], q[1], q[2]);
-    return test.decided ? test.f < 0 : in_conflict_exact(cell, q);
-  }
-  [[nodiscard]] bool in_conflict_exact(const Cell& cell, const double* q) const;
-  [[nodiscard]] Located locate(const double* q);
+  template <Mode kMode>
+  bool insert_as(Vertex k);
+  template <Mode kMode>
+  [[nodiscard]] Located locate(const double* q, Vertex k);
   void note_duplicate(Tet t, Vertex k);
-  void dig(Tet seed, const double* q);
+  template <Mode kMode>
+  bool dig(Tet seed, const double* q, Vertex k);
+  void restore_cavity();
+  template <bool kGrow>
+  bool find_slots();
   void take_slots();
   void fill(Vertex k);
   template <bool kByTable>
   void list_boundary();
   void set_geometry(Vertex k);
-  void set_geometry(Cell& cell);
   void link_by_table();
   void link_by_hash();
+  void turn_new_cells(Vertex k);
+  void turn(Tet t);
   std::uint32_t random();
 
-  std::vector<std::uint32_t> order_;
-  std::vector<Site> sites_;
-  CellStore cells_;
-  std::vector<Tet> free_;
-  Vertex ghost_;
-  Tet last_ = kNone;
-  double diameter_ = 0;  // at least that of the point set
+  Triangulation& triangulation_;
+  Triangulation::Site* const sites_;
+  const Vertex ghost_;
+  const Vertex own_ghost_;  // place of the ghost's scratch
+  Slab slab_;
+  Tet last_ = 0;
   std::uint64_t random_state_;
+  std::vector<Tet> free_;
+  Tet next_slot_ = 0, end_slot_ = 0;  // of a block that was never used
 
   // Of one insertion; kept to allocate nothing. The counts say how much of each array is in use.
   std::size_t cavity_count_ = 0;

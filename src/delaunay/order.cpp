@@ -5,7 +5,11 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <utility>
+
+#include "delaunay/large_array.h"
+#include "mesh/parallel.h"
 
 namespace holdfast {
 namespace {
@@ -19,7 +23,8 @@ constexpr unsigned kMostBits = 20;    // of the curve, an axis; leaves four bits
 constexpr unsigned kMostRounds = 15;  // fits those four bits
 constexpr unsigned kRoundShift = 3;   // a round holds 2^3 times the points of all rounds before it
 constexpr std::size_t kFirstRound = 256;
-constexpr std::size_t kLongRun = 16;  // points in one cell of the curve's grid that are worth another sort
+constexpr std::size_t kLongRun = kDuplicateDistance;  // points in one cell of the grid worth another sort
+constexpr std::size_t kLeastPart = 8192;              // entries that are worth a thread
 
 std::uint64_t scramble(std::uint64_t x) {
   x += 0x9E3779B97F4A7C15ull;
@@ -110,46 +115,65 @@ class Grid {
   bool flat_ = false;
 };
 
-// Stable sort by the low `bits` bits of the keys, least significant digit first.
-void radix_sort(std::span<Entry> entries, unsigned bits) {
-  constexpr unsigned kDigit = 11;
+// Stable sort by the low `bits` bits of the keys, least significant digit first. Each part of the entries
+// counts its digits and knows from the counts of all where its entries go, so that the result does not
+// depend on the number of parts.
+void radix_sort(std::span<Entry> entries, unsigned bits, unsigned threads) {
+  constexpr unsigned kMostDigit = 12;
   constexpr std::size_t kSmall = 512;
   if (entries.size() < kSmall) {
     std::stable_sort(entries.begin(), entries.end(),
                      [](const Entry& a, const Entry& b) { return a.key < b.key; });
     return;
   }
-  std::vector<Entry> other(entries.size());
-  std::span<Entry> from = entries;
-  std::span<Entry> to = other;
-  for (unsigned shift = 0; shift < bits; shift += kDigit) {
-    std::array<std::size_t, std::size_t{1} << kDigit> start{};
-    const auto digit = [shift](const Entry& e) { return (e.key >> shift) & ((1u << kDigit) - 1); };
-    for (const Entry& e : from) ++start[digit(e)];
+  const unsigned passes = (bits + kMostDigit - 1) / kMostDigit;
+  const unsigned width = (bits + passes - 1) / passes;
+  const std::size_t parts = std::clamp<std::size_t>(entries.size() / kLeastPart, 1, threads);
+  std::vector<std::array<std::size_t, std::size_t{1} << kMostDigit>> counts(parts);
+  LargeArray<Entry> other(entries.size());
+  Entry* from = entries.data();
+  Entry* to = other.data();
+  const auto part = [&](std::size_t k) {
+    const std::size_t first = entries.size() * k / parts;
+    return std::span<const Entry>(from + first, entries.size() * (k + 1) / parts - first);
+  };
+  for (unsigned shift = 0; shift < bits; shift += width) {
+    const auto digit = [=](const Entry& e) { return (e.key >> shift) & ((1u << width) - 1); };
+    parallel(threads, parts, [&](std::size_t k) {
+      counts[k].fill(0);
+      for (const Entry& e : part(k)) ++counts[k][digit(e)];
+    });
     std::size_t sum = 0;
-    for (std::size_t& s : start) s = std::exchange(sum, sum + s);
-    for (const Entry& e : from) to[start[digit(e)]++] = e;
+    for (std::size_t d = 0; d < std::size_t{1} << width; ++d)
+      for (auto& count : counts) count[d] = std::exchange(sum, sum + count[d]);
+    parallel(threads, parts, [&](std::size_t k) {
+      for (const Entry& e : part(k)) to[counts[k][digit(e)]++] = e;
+    });
     std::swap(from, to);
   }
-  if (from.data() != entries.data()) std::copy(from.begin(), from.end(), entries.begin());
+  if (from != entries.data()) std::copy(from, from + entries.size(), entries.data());
 }
 
 // Sorts entries whose keys hold their round above the curve's bits; then each run of points that share
 // a cell of the grid again, in the grid of their own extent. That keeps clusters at any scale local.
 // Every run is a proper subset, for the extreme points of an extent lie in different cells.
-void sort_along_curve(std::span<const Point> points, std::span<Entry> entries, unsigned round_bits) {
+void sort_along_curve(std::span<const Point> points, std::span<Entry> entries, unsigned round_bits,
+                      unsigned threads) {
   const unsigned bits = bits_for(entries.size());
   const Grid grid(points, entries, bits);
   if (grid.flat() && round_bits == 0) return;
-  for (Entry& e : entries) e.key = (e.key << (3 * bits)) | (grid.flat() ? 0u : grid.key(points[e.point]));
-  radix_sort(entries, 3 * bits + round_bits);
+  parallel_ranges(threads, entries.size(), [&](std::size_t first, std::size_t last) {
+    for (Entry& e : entries.subspan(first, last - first))
+      e.key = (e.key << (3 * bits)) | (grid.flat() ? 0u : grid.key(points[e.point]));
+  });
+  radix_sort(entries, 3 * bits + round_bits, threads);
   for (std::size_t first = 0; first < entries.size();) {
     std::size_t last = first + 1;
     while (last < entries.size() && entries[last].key == entries[first].key) ++last;
     if (last - first > kLongRun) {
       const std::span<Entry> run = entries.subspan(first, last - first);
       for (Entry& e : run) e.key = 0;
-      sort_along_curve(points, run, 0);
+      sort_along_curve(points, run, 0, 1);
     }
     first = last;
   }
@@ -157,20 +181,28 @@ void sort_along_curve(std::span<const Point> points, std::span<Entry> entries, u
 
 }  // namespace
 
-std::vector<std::uint32_t> insertion_order(std::span<const Point> points, std::uint64_t seed) {
+InsertionOrder insertion_order(std::span<const Point> points, std::uint64_t seed, unsigned threads) {
   const std::size_t n = points.size();
   if (n == 0) return {};
   unsigned rounds = 0;
   for (std::size_t m = n; m > kFirstRound && rounds < kMostRounds; m >>= kRoundShift) ++rounds;
-  std::vector<Entry> entries(n);
+  LargeArray<Entry> array(n);
+  const std::span<Entry> entries(array.data(), n);
   const std::uint64_t salt = scramble(seed);
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto zeros = static_cast<unsigned>(std::countr_zero(scramble(i ^ salt)));
-    entries[i] = {rounds - std::min(zeros / kRoundShift, rounds), static_cast<std::uint32_t>(i)};
-  }
-  sort_along_curve(points, entries, static_cast<unsigned>(std::bit_width(rounds)));
-  std::vector<std::uint32_t> order(n);
-  for (std::size_t i = 0; i < n; ++i) order[i] = entries[i].point;
+  const auto round_of = [&](std::size_t point) {
+    const auto zeros = static_cast<unsigned>(std::countr_zero(scramble(point ^ salt)));
+    return rounds - std::min(zeros / kRoundShift, rounds);
+  };
+  parallel_ranges(threads, n, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) entries[i] = {round_of(i), static_cast<std::uint32_t>(i)};
+  });
+  InsertionOrder order;
+  order.ends.assign(rounds + 1, 0);
+  for (const Entry& e : entries) ++order.ends[e.key];
+  std::partial_sum(order.ends.begin(), order.ends.end(), order.ends.begin());
+  sort_along_curve(points, entries, static_cast<unsigned>(std::bit_width(rounds)), threads);
+  order.points.resize(n);
+  for (std::size_t i = 0; i < n; ++i) order.points[i] = entries[i].point;
   return order;
 }
 

@@ -12,7 +12,16 @@
 
 namespace holdfast {
 
-/// A permutation of 0..points.size()-1, a function of the coordinates and the seed alone.
-[[nodiscard]] std::vector<std::uint32_t> insertion_order(std::span<const Point> points, std::uint64_t seed);
+struct InsertionOrder {
+  std::vector<std::uint32_t> points;  ///< a permutation of 0..n-1
+  std::vector<std::size_t> ends;      ///< of the rounds: each place where one ends, the last one is n
+};
+
+/// A function of the coordinates and the seed alone. Equal points of one round are at most
+/// kDuplicateDistance places from the next of them.
+[[nodiscard]] InsertionOrder insertion_order(std::span<const Point> points, std::uint64_t seed,
+                                             unsigned threads = 1);
+
+inline constexpr std::size_t kDuplicateDistance = 16;
 
 }  // namespace holdfast

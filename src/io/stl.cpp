@@ -2,6 +2,9 @@
 //
 // Vertices with identical coordinates are welded: the format repeats them in every triangle. Where
 // an ASCII file holds several solids, facets carry the solid's number from 1 as their marker.
+#include <algorithm>
+#include <array>
+
 #include "io/byte_reader.h"
 #include "io/formats.h"
 #include "io/text_reader.h"
@@ -38,16 +41,23 @@ MeshData read_binary(const Source& source) {
   mesh.facets.reserve(count);
   mesh.vertices.reserve(count / 2);
   Welder weld(mesh.vertices, count / 2);  // a closed surface has half as many vertices
+  // A batch of points is decoded and announced before the first of them is looked up.
+  constexpr std::uint32_t kBatch = 16;
+  std::array<Point, 3 * kBatch> points;
+  std::array<std::uint64_t, 3 * kBatch> hashes;
   const char* record = source.bytes.data() + bytes.position();
-  for (std::uint32_t i = 0; i < count; ++i, record += kRecord) {
-    Triangle facet{};
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      Point point{};  // behind the normal's 12 bytes
+  for (std::uint32_t first = 0; first < count; first += kBatch) {
+    const std::size_t corners = 3 * std::size_t{std::min(kBatch, count - first)};
+    for (std::size_t i = 0; i < corners; ++i) {
+      const char* corner = record + kRecord * (i / 3) + 12 * (i % 3 + 1);  // behind the normal's 12 bytes
       for (std::size_t axis = 0; axis < 3; ++axis)
-        point[axis] = load<float>(record + 12 * (corner + 1) + 4 * axis, std::endian::little);
-      facet[corner] = weld.add(point);
+        points[i][axis] = load<float>(corner + 4 * axis, std::endian::little);
+      hashes[i] = weld.announce(points[i]);
     }
-    mesh.facets.push_back(facet);
+    for (std::size_t i = 0; i < corners; i += 3)
+      mesh.facets.push_back({weld.add(points[i], hashes[i]), weld.add(points[i + 1], hashes[i + 1]),
+                             weld.add(points[i + 2], hashes[i + 2])});
+    record += kRecord * kBatch;
   }
   return mesh;
 }

@@ -23,8 +23,17 @@ class Welder {
   }
 
   /// The index of `point`, which is appended if it is new.
-  Index add(const Point& point) {
+  Index add(const Point& point) { return add(point, hash_of(point)); }
+
+  /// The hash of a point that is added soon: its place in the table is fetched meanwhile.
+  [[nodiscard]] std::uint64_t announce(const Point& point) const {
     const std::uint64_t hash = hash_of(point);
+    __builtin_prefetch(&slots_[hash & (slots_.size() - 1)]);
+    return hash;
+  }
+
+  /// As add(point), for a point with this hash.
+  Index add(const Point& point, std::uint64_t hash) {
     const auto tag = static_cast<std::uint32_t>(hash >> 32);
     for (std::size_t i = hash & (slots_.size() - 1);; i = (i + 1) & (slots_.size() - 1)) {
       const Slot& slot = slots_[i];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "mesh/parallel.h"
 #include "surface/complex.h"
 
 namespace holdfast {
@@ -14,7 +15,8 @@ void Box::extend(const Box& other) {
   }
 }
 
-AabbTree::AabbTree(std::span<const Box> boxes, std::span<const Index> group) : group_(group) {
+AabbTree::AabbTree(std::span<const Box> boxes, std::span<const Index> group, unsigned threads)
+    : group_(group) {
   if (boxes.empty()) return;
   items_.reserve(boxes.size());
   for (const Box& box : boxes) items_.push_back({box, static_cast<Index>(items_.size())});
@@ -35,34 +37,86 @@ AabbTree::AabbTree(std::span<const Box> boxes, std::span<const Index> group) : g
   }
   nodes_.reserve(boxes.size());
   nodes_.push_back({items_[0].box, 0, static_cast<Index>(boxes.size()), 0, group_boxes_.empty()});
-  std::vector<Index> stack{0};
-  while (!stack.empty()) {
-    const Index node = stack.back();
-    stack.pop_back();
-    build(node);
-    if (nodes_[node].left != 0) stack.insert(stack.end(), {nodes_[node].left + 1, nodes_[node].left});
-  }
+  build_all(threads);
   group_ = {};
   group_boxes_.clear();
 }
 
+// Nodes from the root down, until there are enough subtrees for all threads; these each on one thread.
+void AabbTree::build_all(unsigned threads) {
+  constexpr Index kLeastSubtree = 2048;  // items that are worth a thread
+  std::vector<Index> roots{0};
+  while (threads > 1 && roots.size() < 4 * std::size_t{threads}) {
+    std::vector<Index> below;
+    for (const Index root : roots) {
+      build(nodes_, root);
+      if (nodes_[root].left != 0) below.insert(below.end(), {nodes_[root].left, nodes_[root].left + 1});
+    }
+    roots = std::move(below);
+    if (roots.empty() || nodes_[roots[0]].count < kLeastSubtree) break;
+  }
+  std::vector<Nodes> subtrees(roots.size());
+  parallel(threads, roots.size(), [&](std::size_t k) {
+    subtrees[k].push_back(nodes_[roots[k]]);
+    build_below(subtrees[k], 0);
+  });
+  for (std::size_t k = 0; k < roots.size(); ++k) {
+    const auto moved_by = static_cast<Index>(nodes_.size() - 1);
+    for (Node& node : subtrees[k])
+      if (node.left != 0) node.left += moved_by;
+    nodes_[roots[k]] = subtrees[k][0];
+    nodes_.insert(nodes_.end(), subtrees[k].begin() + 1, subtrees[k].end());
+    subtrees[k] = {};
+  }
+}
+
+void AabbTree::build_below(Nodes& nodes, Index node) {
+  std::vector<Index> stack{node};
+  while (!stack.empty()) {
+    const Index next = stack.back();
+    stack.pop_back();
+    build(nodes, next);
+    if (nodes[next].left != 0) stack.insert(stack.end(), {nodes[next].left + 1, nodes[next].left});
+  }
+}
+
+std::vector<AabbTree::NodePair> AabbTree::divided(std::size_t count) const {
+  std::vector<NodePair> pairs;
+  if (!items_.empty()) pairs.push_back({0, 0});
+  for (bool divisible = true; divisible && pairs.size() < count;) {
+    std::vector<NodePair> parts;
+    divisible = false;
+    for (const auto& [a, b] : pairs) {
+      if (!nodes_[a].box.overlaps(nodes_[b].box)) continue;
+      if (nodes_[a].left != 0 || nodes_[b].left != 0) {
+        push_parts(parts, {a, b});
+        divisible = true;
+      } else {
+        parts.push_back({a, b});
+      }
+    }
+    pairs = std::move(parts);
+  }
+  return pairs;
+}
+
 // Sets the node's box, and splits it if it holds more than a leaf may.
-void AabbTree::build(Index node) {
-  Node current = nodes_[node];
+void AabbTree::build(Nodes& nodes, Index node) {
+  Node current = nodes[node];
   current.box = items_[current.first].box;
   for (Index i = 1; i < current.count; ++i) current.box.extend(items_[current.first + i].box);
   if (current.count > kLeafItems) {
     const Index middle = partition(current);
-    current.left = static_cast<Index>(nodes_.size());
+    current.left = static_cast<Index>(nodes.size());
     Node part = current;
     part.left = 0;
     part.count = middle - current.first;
-    nodes_.push_back(part);
+    nodes.push_back(part);
     part.first = middle;
     part.count = current.count - (middle - current.first);
-    nodes_.push_back(part);
+    nodes.push_back(part);
   }
-  nodes_[node] = current;
+  nodes[node] = current;
 }
 
 double AabbTree::centre(const Node& node, const Item& item, std::size_t k) const {

@@ -37,7 +37,7 @@ class AabbTree {
 
   /// Item i is boxes[i]. Items with the same entry of `group`, if given, other than ~0 get a subtree of
   /// their own (as a rule: groups with the same centre may mix). O(n log n) time, O(n) memory.
-  explicit AabbTree(std::span<const Box> boxes, std::span<const Index> group = {});
+  explicit AabbTree(std::span<const Box> boxes, std::span<const Index> group = {}, unsigned threads = 1);
 
   /// Number of nodes.
   [[nodiscard]] std::size_t nodes() const { return nodes_.size(); }
@@ -50,7 +50,17 @@ class AabbTree {
   /// the boxes alone, until it returns false. Leaves out what lies in nodes for which skip(node, node) is
   /// true. Calls step(fraction) every few thousand tests with the share of items whose pairs are done.
   template <class Visit, class Skip, class Step>
-  void for_each_overlap(Visit&& visit, Skip&& skip, Step&& step) const;
+  void for_each_overlap(Visit&& visit, Skip&& skip, Step&& step) const {
+    if (!items_.empty()) for_each_overlap(NodePair{0, 0}, visit, skip, step);
+  }
+
+  /// Two nodes, or one twice.
+  using NodePair = std::pair<Index, Index>;
+  /// At least `count` pairs of nodes, if there are as many, that hold all pairs of items between them.
+  [[nodiscard]] std::vector<NodePair> divided(std::size_t count) const;
+  /// The same for pairs with one item below each of two nodes. May be called from several threads.
+  template <class Visit, class Skip, class Step>
+  void for_each_overlap(NodePair top, Visit&& visit, Skip&& skip, Step&& step) const;
 
  private:
   // Items first .. first + count - 1; children are nodes `left` and left + 1, or none if left is 0.
@@ -61,8 +71,12 @@ class AabbTree {
   };
   static constexpr Index kLeafItems = 4;
 
-  void build(Index node);
+  using Nodes = std::vector<Node>;
+  void build_all(unsigned threads);
+  void build_below(Nodes& nodes, Index node);
+  void build(Nodes& nodes, Index node);
   Index partition(Node& node);
+  void push_parts(std::vector<NodePair>& pairs, NodePair pair) const;
   [[nodiscard]] double centre(const Node& node, const Item& item, std::size_t k) const;
 
   std::vector<Item> items_;
@@ -71,10 +85,23 @@ class AabbTree {
   std::vector<Box> group_boxes_;
 };
 
+// Replaces a pair of nodes that are not both leaves by pairs of their children.
+inline void AabbTree::push_parts(std::vector<NodePair>& pairs, NodePair pair) const {
+  const auto [a, b] = pair;
+  const Node& m = nodes_[a];
+  const Node& n = nodes_[b];
+  if (a == b) {
+    pairs.insert(pairs.end(), {{m.left, m.left + 1}, {m.left + 1, m.left + 1}, {m.left, m.left}});
+  } else if (m.left != 0 && (n.left == 0 || m.count >= n.count)) {
+    pairs.insert(pairs.end(), {{m.left + 1, b}, {m.left, b}});
+  } else {
+    pairs.insert(pairs.end(), {{a, n.left + 1}, {a, n.left}});
+  }
+}
+
 template <class Visit, class Skip, class Step>
-void AabbTree::for_each_overlap(Visit&& visit, Skip&& skip, Step&& step) const {
-  if (items_.empty()) return;
-  std::vector<std::pair<Index, Index>> stack{{0, 0}};
+void AabbTree::for_each_overlap(NodePair top, Visit&& visit, Skip&& skip, Step&& step) const {
+  std::vector<NodePair> stack{top};
   std::size_t tests = 0, done = 0;
   while (!stack.empty()) {
     const auto [a, b] = stack.back();
@@ -85,12 +112,8 @@ void AabbTree::for_each_overlap(Visit&& visit, Skip&& skip, Step&& step) const {
     if (!m.box.overlaps(n.box)) continue;
     if (skip(a, b)) {
       if (a == b) done += m.count;
-    } else if (a == b && m.left != 0) {
-      stack.insert(stack.end(), {{m.left, m.left + 1}, {m.left + 1, m.left + 1}, {m.left, m.left}});
-    } else if (m.left != 0 && (n.left == 0 || m.count >= n.count)) {
-      stack.insert(stack.end(), {{m.left + 1, b}, {m.left, b}});
-    } else if (n.left != 0) {
-      stack.insert(stack.end(), {{a, n.left + 1}, {a, n.left}});
+    } else if (m.left != 0 || n.left != 0) {
+      push_parts(stack, {a, b});
     } else {
       if (a == b) done += m.count;
       for (Index i = m.first; i < m.first + m.count; ++i) {

@@ -8,14 +8,16 @@
 
 namespace holdfast {
 
-std::vector<Defect> find_defects(const Complex& complex, std::size_t most, const Step& step) {
-  const Elements elements = elements_of(complex);
+std::vector<Defect> find_defects(const Complex& complex, std::size_t most, const Step& step,
+                                 unsigned threads) {
+  const Elements elements = elements_of(complex, threads);
   std::vector<Defect> defects;
   for (const Flaw& flaw : elements.flaws) {
     if (defects.size() == most) return defects;
     defects.push_back(describe(complex, flaw));
   }
-  const std::vector<Finding> findings = find_root_causes(complex, elements, most - defects.size(), step);
+  const std::vector<Finding> findings =
+      find_root_causes(complex, elements, most - defects.size(), step, threads);
   if (findings.empty()) return defects;
   const Stars stars(complex, elements);
   for (const Finding& finding : findings) {

@@ -15,14 +15,16 @@ namespace holdfast {
 /// concerned (facets before segments before vertices). Empty for a valid complex.
 ///
 /// `most` bounds the number of defects; then they are the first that turn up. `step` is called now and
-/// then with the share of the work that is done and may throw to stop (a Monitor's poll does).
+/// then from the calling thread with the share of the work that is done and may throw to stop (a Monitor's
+/// poll does). The result does not depend on `threads`.
 ///
 /// Of a defect of two simplices, `facets` and `segments` hold
 ///   - for two facets, or a dangling segment and a facet or segment, whose interiors meet: that pair;
 ///   - else (a vertex in a side or facet, sides that cross, a side through a facet) all those that have the
 ///     containing or second simplex as a face, then all those that have the first. Each of the former
 ///     with each of the latter is a pair that does not fit.
-[[nodiscard]] std::vector<Defect> find_defects(const Complex& complex, std::size_t most, const Step& step);
+[[nodiscard]] std::vector<Defect> find_defects(const Complex& complex, std::size_t most, const Step& step,
+                                               unsigned threads = 1);
 
 /// An element of the complex: a facet, a segment that is no facet's side, a vertex that neither uses.
 struct ElementRef {

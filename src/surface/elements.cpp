@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "mesh/parallel.h"
+
 namespace holdfast {
 namespace {
 
@@ -23,7 +25,7 @@ struct Candidate {
 
 class Sorter {
  public:
-  explicit Sorter(const Complex& complex) : complex_(complex) {}
+  Sorter(const Complex& complex, unsigned threads) : complex_(complex), threads_(threads) {}
 
   Elements run() {
     find_identical_vertices();
@@ -36,6 +38,23 @@ class Sorter {
   }
 
  private:
+  // Sorts by a strict total order: parts of the array at a time, which are then merged by pairs.
+  template <class T, class Less>
+  void sort_in_parts(std::vector<T>& values, const Less& less) const {
+    constexpr std::size_t kLeastPart = 10000;
+    std::size_t parts = 1;
+    while (2 * parts <= threads_ && values.size() / (2 * parts) >= kLeastPart) parts *= 2;
+    const auto at = [&](std::size_t part) {
+      return values.begin() + static_cast<std::ptrdiff_t>(values.size() * part / parts);
+    };
+    parallel(threads_, parts, [&](std::size_t k) { std::sort(at(k), at(k + 1), less); });
+    for (std::size_t width = 1; width < parts; width *= 2)
+      parallel(threads_, parts / (2 * width), [&](std::size_t k) {
+        const std::size_t first = 2 * width * k;
+        std::inplace_merge(at(first), at(first + width), at(first + 2 * width), less);
+      });
+  }
+
   void flaw(DefectKind kind, unsigned corners, Index id) { result_.flaws.push_back({kind, corners, id}); }
 
   // Sets `representative`; flaws of vertices.
@@ -49,7 +68,7 @@ class Sorter {
     for (Index v = 0; v < points.size(); ++v) {
       if (finite(points[v])) order.emplace_back(points[v][0], v);
     }
-    std::sort(order.begin(), order.end(), [&points](const auto& a, const auto& b) {
+    sort_in_parts(order, [&points](const auto& a, const auto& b) {
       if (a.first != b.first) return a.first < b.first;
       const Point &p = points[a.second], &q = points[b.second];
       if (p[1] != q[1]) return p[1] < q[1];
@@ -150,6 +169,7 @@ class Sorter {
   }
 
   const Complex& complex_;
+  const unsigned threads_;
   Elements result_;
   std::vector<char> used_;  // by some element
 };
@@ -167,6 +187,6 @@ Simplex Elements::simplex(const Element& element, const Complex& complex) {
   return simplex;
 }
 
-Elements elements_of(const Complex& complex) { return Sorter(complex).run(); }
+Elements elements_of(const Complex& complex, unsigned threads) { return Sorter(complex, threads).run(); }
 
 }  // namespace holdfast

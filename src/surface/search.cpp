@@ -2,11 +2,14 @@
 #include "surface/search.h"
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <optional>
+#include <thread>
 #include <tuple>
 #include <utility>
 
+#include "mesh/parallel.h"
 #include "surface/aabb_tree.h"
 #include "surface/complex.h"
 #include "surface/hubs.h"
@@ -14,6 +17,9 @@
 
 namespace holdfast {
 namespace {
+
+constexpr std::size_t kWorthThreads = 5000;  // elements
+constexpr std::size_t kTopsAThread = 64;  // parts of the tree: many, since some take much longer than others
 
 std::vector<Box> boxes_of(const Complex& complex, const std::vector<Element>& elements) {
   std::vector<Box> boxes;
@@ -221,6 +227,7 @@ class Search {
         visit_(visit),
         step_(step),
         patience_(tuning.patience),
+        threads_(tuning.threads),
         hubs_(complex, elements, tuning.hub_degree) {}
 
   void run() {
@@ -235,20 +242,52 @@ class Search {
   // Pairs that share no hub. False: stopped.
   bool search_space() {
     std::vector<Box> boxes = boxes_of(complex_, elements_.all);
-    const AabbTree tree(boxes, hubs_.fans());
+    const AabbTree tree(boxes, hubs_.fans(), threads_);
     Box all = boxes[0];
     for (const Box& box : boxes) all.extend(box);
     boxes = {};  // the tree has its own
+    if (threads_ > 1 && elements_.all.size() >= kWorthThreads && all_fit(tree, all)) return true;
     Skip skip(complex_, elements_, hubs_, tree, all, patience_);
-    const bool has_hubs = !hubs_.all().empty();
     bool go_on = true;
     tree.for_each_overlap(
-        [&](Index i, Index j) {
-          if (has_hubs && hubs_.shared(i, j) != no_index) return true;
-          return go_on = test(i, j);
-        },
-        skip, step_);
+        {0, 0}, [&](Index i, Index j) { return go_on = test_in_space(i, j, visit_); }, skip, step_);
     return go_on;
+  }
+
+  // Whether no pair that shares no hub is offending. Which pair is met first depends on the threads; so where
+  // there is one, the search starts again on one thread.
+  [[nodiscard]] bool all_fit(const AabbTree& tree, const Box& all) const {
+    const std::vector<AabbTree::NodePair> tops = tree.divided(kTopsAThread * threads_);
+    const std::thread::id calling_thread = std::this_thread::get_id();
+    std::atomic<std::size_t> next = 0;
+    std::atomic<bool> stop = false;
+    const auto step = [&](double) {
+      if (std::this_thread::get_id() == calling_thread)
+        step_(static_cast<double>(next) / static_cast<double>(tops.size() + threads_));
+    };
+    const VisitPair visit = [&](Index, Index, const Contacts&) {
+      stop = true;
+      return false;
+    };
+    step(0);  // the other threads may leave nothing to do for this one
+    parallel(threads_, threads_, [&](std::size_t) {
+      Skip skip(complex_, elements_, hubs_, tree, all, patience_ / threads_);
+      try {
+        for (std::size_t k = next++; k < tops.size() && !stop; k = next++) {
+          step(0);
+          tree.for_each_overlap(
+              tops[k], [&](Index i, Index j) { return !stop && test_in_space(i, j, visit); }, skip, step);
+        }
+      } catch (...) {
+        stop = true;
+        throw;
+      }
+    });
+    return !stop;
+  }
+
+  [[nodiscard]] bool test_in_space(Index i, Index j, const VisitPair& visit) const {
+    return (!hubs_.all().empty() && hubs_.shared(i, j) != no_index) || test(i, j, visit);
   }
 
   // Pairs whose least common hub this is.
@@ -259,20 +298,20 @@ class Search {
     tree.for_each_overlap(
         [&](Index i, Index j) {
           const Index a = hub.elements[i], b = hub.elements[j];
-          return hubs_.shared(a, b) != index || (go_on = test(a, b));
+          return hubs_.shared(a, b) != index || (go_on = test(a, b, visit_));
         },
         [](Index, Index) { return false; }, step_);
     return go_on;
   }
 
-  bool test(Index i, Index j) {
+  [[nodiscard]] bool test(Index i, Index j, const VisitPair& visit) const {
     if (i > j) std::swap(i, j);
     const Element &a = elements_.all[i], &b = elements_.all[j];
     const Simplex p = Elements::simplex(a, complex_), q = Elements::simplex(b, complex_);
     if (surely_fit(p, q)) return true;
     const Contacts found = contacts(p, q);
     const bool repeated = a.corners == b.corners && (found.common & Contacts::bit(whole(a), whole(b))) != 0;
-    return (found.distinct == 0 && !repeated) || visit_(i, j, found);
+    return (found.distinct == 0 && !repeated) || visit(i, j, found);
   }
 
   const Complex& complex_;
@@ -280,6 +319,7 @@ class Search {
   const VisitPair& visit_;
   const Step& step_;
   std::size_t patience_;
+  unsigned threads_;
   Hubs hubs_;
 };
 
@@ -291,14 +331,16 @@ void for_each_offending_pair(const Complex& complex, const Elements& elements, c
 }
 
 std::vector<Finding> find_root_causes(const Complex& complex, const Elements& elements, std::size_t most,
-                                      const Step& step) {
+                                      const Step& step, unsigned threads) {
   if (most == 0) return {};
   RootCauses causes(complex, elements);
   const auto visit = [&](Index i, Index j, const Contacts& contacts) {
     causes.add(i, j, contacts);
     return causes.size() < most;
   };
-  for_each_offending_pair(complex, elements, visit, step);
+  SearchTuning tuning;
+  tuning.threads = threads;
+  for_each_offending_pair(complex, elements, visit, step, tuning);
   std::vector<Finding> findings = causes.sorted();
   if (findings.size() > most) findings.resize(most);
   return findings;

@@ -47,6 +47,7 @@ struct SearchTuning {
   /// Tests of two nodes of the tree, an element, after which oriented boxes (oriented_box.h) come in. Good
   /// surfaces need about 5 to 10.
   std::size_t patience = 20;
+  unsigned threads = 1;
 };
 
 /// Visits every pair of elements that do not meet in a common face or not at all, in no useful order.
@@ -55,6 +56,6 @@ void for_each_offending_pair(const Complex& complex, const Elements& elements, c
 
 /// Root causes, ordered by `pair`; `most` of them at most, the first that turn up.
 [[nodiscard]] std::vector<Finding> find_root_causes(const Complex& complex, const Elements& elements,
-                                                    std::size_t most, const Step& step);
+                                                    std::size_t most, const Step& step, unsigned threads = 1);
 
 }  // namespace holdfast

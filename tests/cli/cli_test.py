@@ -562,6 +562,15 @@ class Delaunay(CliTest):
                 self.assertIn("delaunay", report["seconds"])
                 self.assertGreaterEqual(report["mesh"]["tetrahedra"], 4)
 
+    def test_threads_change_nothing(self):
+        for command, name in (("delaunay", "cube.off"), ("mesh", "cube.off")):
+            written = set()
+            for threads in "012":
+                self.run_program(command, name, "-o", "d.vtk", "-q", "--threads", threads)
+                written.add((self.folder / "d.vtk").read_bytes())
+            self.assertEqual(len(written), 1, command)
+        self.run_program("delaunay", "cube.off", "-o", "d.vtk", "--threads", "-1", expect=2)
+
     def test_coplanar_points_give_no_tetrahedra(self):
         self.write("flat.xyz", "0 0 0\n1 0 0\n0 1 0\n1 1 0\n")
         self.assertIn("plane", self.run_program("delaunay", "flat.xyz", "-o", "d.vtu").stderr)

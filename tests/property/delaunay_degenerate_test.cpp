@@ -199,8 +199,8 @@ TEST(DelaunayDegenerate, LargerSets) {
   }
 }
 
-// The theorem at the head of insert.h: not only the final cells, but each one that an insertion makes is
-// strictly positive, in any order of insertion.
+// The theorem at the head of triangulation.h: not only the final cells, but each one that an insertion makes
+// is strictly positive, in any order of insertion.
 TEST(DelaunayDegenerate, NoFlatCellArisesOnTheWay) {
   Random random(5);
   for (const Family& family : families()) {
@@ -209,13 +209,15 @@ TEST(DelaunayDegenerate, NoFlatCellArisesOnTheWay) {
       std::vector<std::uint32_t> order(points.size());
       std::iota(order.begin(), order.end(), 0u);
       std::shuffle(order.begin(), order.end(), random);
-      DelaunayKernel kernel(points, order, random());
-      if (!kernel.start()) continue;
-      for (std::size_t k = 4; k < kernel.size(); ++k) {
-        kernel.insert(static_cast<Vertex>(k));
-        for (const Cell& cell : kernel.cells()) {
-          if (std::signbit(cell.reach) || cell.v[3] == kernel.ghost()) continue;
-          const auto at = [&](std::size_t i) { return points[kernel.order()[cell.v[i]]].data(); };
+      Triangulation triangulation(points, {order, {order.size()}}, 1);
+      if (!triangulation.start()) continue;
+      Inserter inserter(triangulation, 0, random());
+      for (std::size_t k = 4; k < triangulation.size(); ++k) {
+        inserter.insert(static_cast<Vertex>(k));
+        inserter.give_slots_back();
+        for (const Cell& cell : triangulation.cells()) {
+          if (std::signbit(cell.reach) || cell.v[3] == triangulation.ghost()) continue;
+          const auto at = [&](std::size_t i) { return triangulation.at(cell.v[i]); };
           ASSERT_GT(exact::orient3d(at(0), at(1), at(2), at(3)), 0) << family.name << ", insertion " << k;
         }
       }
@@ -228,8 +230,9 @@ TEST(DelaunayDegenerate, OrderIsAPermutation) {
   for (const Family& family : families()) {
     for (const std::size_t n : {0u, 1u, 17u, 700u, 5000u}) {
       const std::vector<Point> points = sample(family, n, random);
-      std::vector<std::uint32_t> order = insertion_order(points, 4);
-      ASSERT_EQ(order, insertion_order(points, 4));
+      std::vector<std::uint32_t> order = insertion_order(points, 4).points;
+      ASSERT_EQ(order, insertion_order(points, 4).points);
+      ASSERT_EQ(order, insertion_order(points, 4, 3).points);
       std::sort(order.begin(), order.end());
       for (std::size_t i = 0; i < n; ++i) ASSERT_EQ(order[i], i) << family.name;
       ASSERT_EQ(order.size(), n);

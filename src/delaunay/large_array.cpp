@@ -1,0 +1,60 @@
+#include "delaunay/large_array.h"
+
+#include <cstdint>
+#include <new>
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
+namespace holdfast {
+namespace {
+
+constexpr std::size_t kLine = 64;
+constexpr std::size_t kHugePage = std::size_t{1} << 21;
+constexpr std::size_t kLarge = 4 * kHugePage;
+
+std::align_val_t alignment_of(std::size_t bytes) {
+  return std::align_val_t{bytes >= kLarge ? kHugePage : kLine};
+}
+
+#ifdef __linux__
+// Calls madvise on the pages that lie in the block as a whole.
+void advise(void* block, std::size_t bytes, std::size_t page, int advice) {
+  const auto begin = reinterpret_cast<std::uintptr_t>(block);
+  const std::uintptr_t first = (begin + page - 1) & ~(page - 1);
+  const std::uintptr_t last = (begin + bytes) & ~(page - 1);
+  if (first < last) madvise(reinterpret_cast<void*>(first), last - first, advice);
+}
+constexpr std::size_t kPage = 4096;
+#endif
+
+}  // namespace
+
+void* allocate_large(std::size_t bytes) {
+  void* block = ::operator new(bytes, alignment_of(bytes));
+  if (bytes >= kLarge) advise_huge_pages(block, bytes);
+  return block;
+}
+
+void free_large(void* block, std::size_t bytes) { ::operator delete(block, alignment_of(bytes)); }
+
+void advise_huge_pages([[maybe_unused]] void* block, [[maybe_unused]] std::size_t bytes) {
+#ifdef __linux__
+  advise(block, bytes, kHugePage, MADV_HUGEPAGE);
+#endif
+}
+
+void populate([[maybe_unused]] void* block, [[maybe_unused]] std::size_t bytes) {
+#ifdef MADV_POPULATE_WRITE
+  if (bytes >= kHugePage) advise(block, bytes, kPage, MADV_POPULATE_WRITE);
+#endif
+}
+
+void give_back([[maybe_unused]] void* block, [[maybe_unused]] std::size_t bytes) {
+#ifdef __linux__
+  advise(block, bytes, kPage, MADV_DONTNEED);
+#endif
+}
+
+}  // namespace holdfast

@@ -1,0 +1,188 @@
+#include "delaunay/number.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <utility>
+
+#include "delaunay/large_array.h"
+#include "mesh/parallel.h"
+
+namespace holdfast {
+namespace {
+
+// Corner i of a turned cell is corner kTurned[turn][i] of the cell as it was made, and the other way round.
+constexpr std::array<std::array<std::uint32_t, 4>, 3> kTurned{{{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}}};
+constexpr std::array<std::array<std::uint32_t, 4>, 3> kTurnedFrom{{{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}}};
+
+// The turn that makes the lowest of corners 1, 2, 3 corner 1; without a branch, for it is random.
+std::uint32_t turn_of(const std::array<Vertex, 4>& v) {
+  const Vertex lowest = std::min(v[1], std::min(v[2], v[3]));
+  return static_cast<std::uint32_t>(v[2] == lowest) + 2 * static_cast<std::uint32_t>(v[3] == lowest);
+}
+
+std::array<std::uint32_t, 4> turned(const std::array<std::uint32_t, 4>& a, std::uint32_t turn) {
+  const auto& k = kTurned[turn];
+  return {a[k[0]], a[k[1]], a[k[2]], a[k[3]]};
+}
+
+// The cells of a highest vertex as they are sorted: by corners alone, or with all that they have.
+using BareCell = std::array<Vertex, 4>;
+struct FullCell {
+  std::array<Vertex, 4> v;
+  std::array<Face, 4> n;
+  std::uint32_t origin;  // 4 * slot + turn
+};
+
+const std::array<Vertex, 4>& corners_of(const BareCell& cell) { return cell; }
+const std::array<Vertex, 4>& corners_of(const FullCell& cell) { return cell.v; }
+void set(BareCell& out, const Cell& cell, Tet, std::uint32_t turn) { out = turned(cell.v, turn); }
+void set(FullCell& out, const Cell& cell, Tet slot, std::uint32_t turn) {
+  out = {turned(cell.v, turn), turned(cell.n, turn), slot << 2 | turn};
+}
+
+// Two cells with corners 0, 1, 2 in common turn in different ways round that face, so that the second has
+// them in another order.
+template <class C>
+std::uint64_t key_of(const C& cell) {
+  return std::uint64_t{corners_of(cell)[1]} << 32 | corners_of(cell)[2];
+}
+
+template <class C>
+void sort_cells(C* first, C* last) {
+  constexpr std::ptrdiff_t kMany = 32;
+  if (last - first > kMany) {
+    std::sort(first, last, [](const C& a, const C& b) { return key_of(a) < key_of(b); });
+    return;
+  }
+  for (C* i = first + 1; i < last; ++i) {
+    const C cell = *i;
+    const std::uint64_t key = key_of(cell);
+    C* j = i;
+    for (; j > first && key < key_of(j[-1]); --j) *j = j[-1];
+    *j = cell;
+  }
+}
+
+template <class C>
+class Numbering {
+ public:
+  Numbering(Triangulation& triangulation, unsigned threads)
+      : triangulation_(triangulation), threads_(threads), end_(triangulation.size()) {
+    std::uint32_t sum = 0;
+    const Triangulation::Site* const sites = triangulation.sites();
+    for (std::size_t v = 0; v < end_.size(); ++v) {
+      end_[v] = sum;
+      sum += sites[v].cells;
+    }
+    cells_.resize(sum);
+    triangulation.drop_sites();
+    distribute();
+    triangulation.cells().clear();
+  }
+
+  /// Number of cells without the ghost.
+  [[nodiscard]] std::size_t size() const { return cells_.size(); }
+  /// In no order.
+  [[nodiscard]] std::vector<C>& ghosts() { return ghosts_; }
+
+  /// Calls put(place, cell) for every cell without the ghost.
+  template <class Put>
+  void for_each(const Put& put) {
+    parallel_ranges(threads_, end_.size(), [&](std::size_t first, std::size_t last) {
+      std::size_t place = first == 0 ? 0 : end_[first - 1];
+      for (std::size_t v = first; v < last; ++v) {
+        sort_cells(&cells_[place], &cells_[end_[v]]);
+        for (; place < end_[v]; ++place) put(place, cells_[place]);
+      }
+    });
+  }
+
+ private:
+  // Puts every cell next to those of its highest vertex. Afterwards end_ is where they end.
+  void distribute() {
+    constexpr std::size_t kBlock = (std::size_t{1} << 21) / sizeof(Cell);
+    LargeArray<Cell>& cells = triangulation_.cells();
+    const Vertex ghost = triangulation_.ghost();
+    std::mutex collecting;
+    parallel_ranges(threads_, cells.size(), [&](std::size_t first, std::size_t last) {
+      std::vector<C> ghosts;
+      for (std::size_t t = first; t < last; ++t) {
+        const Cell& cell = cells[t];
+        if (std::signbit(cell.reach)) continue;
+        const auto slot = static_cast<Tet>(t);
+        if (cell.v[3] == ghost)
+          set(ghosts.emplace_back(), cell, slot, 0);
+        else
+          set(cells_[next_place(cell.v[0])], cell, slot, turn_of(cell.v));
+        if ((t + 1 - first) % kBlock == 0) give_back(&cells[t + 1 - kBlock], kBlock * sizeof(Cell));
+      }
+      const std::lock_guard lock(collecting);
+      ghosts_.insert(ghosts_.end(), ghosts.begin(), ghosts.end());
+    });
+  }
+
+  std::size_t next_place(Vertex v) {
+    if (threads_ == 1) return end_[v]++;
+    return std::atomic_ref(end_[v]).fetch_add(1, std::memory_order_relaxed);
+  }
+
+  Triangulation& triangulation_;
+  const unsigned threads_;
+  LargeArray<std::uint32_t> end_;  // of the cells of a vertex
+  LargeArray<C> cells_;
+  std::vector<C> ghosts_;
+};
+
+template <class T>
+std::vector<T> sized_vector(std::size_t size) {
+  std::vector<T> vector;
+  vector.reserve(size);
+  advise_huge_pages(vector.data(), size * sizeof(T));
+  vector.resize(size);
+  return vector;
+}
+
+}  // namespace
+
+std::vector<Tetrahedron> finite_cells(Triangulation& triangulation, unsigned threads) {
+  Numbering<BareCell> numbering(triangulation, threads);
+  auto tets = sized_vector<Tetrahedron>(numbering.size());
+  const std::uint32_t* const point = triangulation.order().points.data();
+  numbering.for_each([&](std::size_t place, const BareCell& v) {
+    tets[place] = {point[v[0]], point[v[1]], point[v[2]], point[v[3]]};
+  });
+  return tets;
+}
+
+NumberedCells all_cells(Triangulation& triangulation, unsigned threads) {
+  LargeArray<std::uint32_t> placed(triangulation.cells().size());  // of a slot: 4 * place + turn
+  Numbering<FullCell> numbering(triangulation, threads);
+  std::vector<FullCell>& ghosts = numbering.ghosts();
+  std::sort(ghosts.begin(), ghosts.end(), [](const FullCell& a, const FullCell& b) { return a.v < b.v; });
+
+  const std::size_t size = numbering.size() + ghosts.size();
+  NumberedCells out{sized_vector<TetMesh::Corners>(size), sized_vector<TetMesh::Neighbours>(size)};
+  const std::uint32_t* const point = triangulation.order().points.data();
+  const Vertex ghost = triangulation.ghost();
+  const auto put = [&](std::size_t place, const FullCell& cell) {
+    const auto& v = cell.v;
+    out.corners[place] = {point[v[0]], point[v[1]], point[v[2]], v[3] == ghost ? kGhost : point[v[3]]};
+    out.neighbours[place] = cell.n;
+    placed[cell.origin >> 2] = static_cast<std::uint32_t>(place << 2) | (cell.origin & 3u);
+  };
+  numbering.for_each(put);
+  for (std::size_t k = 0; k < ghosts.size(); ++k) put(numbering.size() + k, ghosts[k]);
+
+  parallel_ranges(threads, size, [&](std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t)
+      for (Face& f : out.neighbours[t]) {
+        const std::uint32_t where = placed[tet_of(f)];
+        f = (where & ~3u) | kTurnedFrom[where & 3u][f & 3u];
+      }
+  });
+  return out;
+}
+
+}  // namespace holdfast
