@@ -91,7 +91,7 @@ class Usage(CliTest):
             (["mesh", "cube.off", "-o", "out.vtu", "--stop-after", "lunch"], "delaunay"),
             (["mesh", "cube.off", "-o", "out.vtu", "--time-limit", "-1"], "--time-limit"),
             (["mesh", "cube.off", "-o", "out.vtu", "--memory-limit", "nan"], "--memory-limit"),
-            (["mesh", "cube.off", "-o", "out.vtu", "--threads", "0"], "--threads"),
+            (["mesh", "cube.off", "-o", "out.vtu", "--threads", "-1"], "--threads"),
             (["mesh", "cube.off", "-o", "out.vtu", "--size", "-1"], "--size"),
             (["mesh", "cube.off", "-o", "out.vtu", "--gradation", "7"], "--gradation"),
             (["mesh", "cube.off", "-o", "out.vtu", "--quality", "superb"], "best"),

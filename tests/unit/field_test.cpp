@@ -123,7 +123,7 @@ TEST(FieldPoints, ARegionHasASizeOfItsOwn) {
   };
   EXPECT_GT(count(finer.volume, 7), 200);
   EXPECT_LT(static_cast<double>(std::ssize(finer.volume.tetrahedra) - count(finer.volume, 7)),
-            80.0 * static_cast<double>(plain.volume.tetrahedra.size()));
+            100.0 * static_cast<double>(plain.volume.tetrahedra.size()));
 }
 
 TEST(FieldPoints, SameResultTwice) {
@@ -187,6 +187,12 @@ TEST(Energy, IsOfTheLeastAngle) {
   }
 }
 
+Tet any_solid(const TetMesh& mesh) {
+  Tet t = 0;
+  while (!mesh.alive(t) || mesh.is_ghost(t)) ++t;
+  return t;
+}
+
 TEST(PointCavity, InsertsPointAfterPointAndKeepsTheMeshValid) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> any(0, 1);
@@ -196,7 +202,7 @@ TEST(PointCavity, InsertsPointAfterPointAndKeepsTheMeshValid) {
   PointCavity cavity(mesh);
   for (int k = 0; k < 300; ++k) {
     const Vertex p = mesh.add_vertex(Point{any(random), any(random), any(random)});
-    const Tet base = cavity.locate(p, mesh.incident(0));
+    const Tet base = cavity.locate(p, any_solid(mesh));
     ASSERT_NE(base, kNone);
     ASSERT_TRUE(cavity.find(p, base));
     if (k % 3 == 0) {
