@@ -225,7 +225,7 @@ class BestTetrahedron {
     return kScale * longest * (twice_area_ + twice_lateral) / (twice_area_ * apex[2]);
   }
 
-  [[nodiscard]] double best() const {
+  [[nodiscard]] double best_angle() const {
     constexpr double kGolden = 0.6180339887498949;
     constexpr int kSteps = 60;
     double low = 1.2;  // acos(1/3) = 1.231, of the equilateral triangle, is the least
@@ -243,7 +243,7 @@ class BestTetrahedron {
         at_y = at(y = low + kGolden * (high - low));
       }
     }
-    return at(0.5 * (low + high));
+    return 0.5 * (low + high);
   }
 
  private:
@@ -270,18 +270,23 @@ std::array<double, 6> dihedral_angles(const Point& a, const Point& b, const Poin
 double best_quality_on(const Point& a, const Point& b, const Point& c) {
   const auto p = brought_in_range<3>({a, b, c});
   const BestTetrahedron candidates(p[0], p[1], p[2]);
-  return candidates.flat() ? kInfinity : candidates.best();
+  return candidates.flat() ? kInfinity : candidates.at(candidates.best_angle());
 }
 
 double target_quality(std::span<const Point> vertices, std::span<const Triangle> facets) {
-  double target = 0;
+  // Any candidate bounds the best one from above: that of the worst triangle so far settles most triangles,
+  // and all of its shape.
+  constexpr double kRounding = 1e-12;
+  double target = 0, angle = 1.3;
   for (const Triangle& f : facets) {
     const auto p = brought_in_range<3>({vertices[f[0]], vertices[f[1]], vertices[f[2]]});
     const BestTetrahedron candidates(p[0], p[1], p[2]);
-    // Any candidate bounds the best one from above: most triangles need one evaluation.
-    constexpr double kUsualAngle = 1.3;
     if (candidates.flat()) return kInfinity;
-    if (candidates.at(kUsualAngle) > target) target = std::max(target, candidates.best());
+    if (!(candidates.at(angle) > (1 + kRounding) * target)) continue;
+    const double best = candidates.best_angle();
+    if (!(candidates.at(best) > target)) continue;
+    target = candidates.at(best);
+    angle = best;
   }
   return target;
 }

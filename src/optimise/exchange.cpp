@@ -24,10 +24,12 @@ class LeastBadness {
   static Cost diagonal(std::size_t, std::size_t) { return {}; }
   std::optional<Cost> triangle(std::size_t i, std::size_t k, std::size_t j) const {
     const Vertex pi = shell_.link[i], pk = shell_.link[k], pj = shell_.link[j];
+    // The signs cost less than the exact quality of what is flat.
+    if (!sees_both_ends(mesh_, shell_, i, k, j)) return std::nullopt;
     Badness both;
     both.add(quality_of(mesh_, {pi, pk, pj, shell_.b}), bad_from_);
     both.add(quality_of(mesh_, {pj, pk, pi, shell_.a}), bad_from_);
-    if (!both.is_worthwhile_after(before_) || !sees_both_ends(mesh_, shell_, i, k, j)) return std::nullopt;
+    if (!both.is_worthwhile_after(before_)) return std::nullopt;
     return both;
   }
 
@@ -77,8 +79,9 @@ void Exchanger::try_face(Face f) {
   Badness after;
   for (std::size_t k = 0; k < 3; ++k) {
     const TetMesh::Corners tet{bottom, v[k], v[(k + 1) % 3], top};
+    if (mesh_.orient(tet[0], tet[1], tet[2], tet[3]) <= 0) return;
     after.add(quality_of(mesh_, tet), bad_from_);
-    if (!after.is_worthwhile_after(before) || mesh_.orient(tet[0], tet[1], tet[2], tet[3]) <= 0) return;
+    if (!after.is_worthwhile_after(before)) return;
     candidate_.push_back(tet);
   }
   offer(before, after, both);

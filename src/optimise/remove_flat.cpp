@@ -29,10 +29,10 @@ class NothingFlat {
       return (v - u != 1 && v - u != n - 1) && (shell_.link[u] == avoided_ || shell_.link[v] == avoided_);
     };
     if (is_new_at_avoided(i, k) || is_new_at_avoided(k, j) || is_new_at_avoided(i, j)) return std::nullopt;
+    if (!sees_both_ends(mesh_, shell_, i, k, j)) return std::nullopt;
     const double worst =
         std::max(quality_of(mesh_, {pi, pk, pj, shell_.b}), quality_of(mesh_, {pj, pk, pi, shell_.a}));
-    if (!(worst < flat_from_) || !sees_both_ends(mesh_, shell_, i, k, j)) return std::nullopt;
-    return worst;
+    return worst < flat_from_ ? std::optional(worst) : std::nullopt;
   }
 
  private:
