@@ -18,7 +18,6 @@ import subprocess
 import sys
 import tempfile
 import time
-from math import cos, pi, sin
 from pathlib import Path
 from statistics import median
 
@@ -27,7 +26,7 @@ sys.path.insert(0, str(ROOT / "scripts"))
 import corpus  # noqa: E402  (finds the surfaces)
 from growth import bench_delaunay_growth, bench_fig13  # noqa: E402
 from process import run  # noqa: E402
-from surfaces import bench_surfaces  # noqa: E402
+from surfaces import bench_surfaces, torus  # noqa: E402
 
 
 # ------------------------------------------------------------------------------------------------- Delaunay
@@ -42,17 +41,6 @@ def write_node(path, points):
 def random_points(count):
     generator = random.Random(1)
     return [(generator.random(), generator.random(), generator.random()) for _ in range(count)]
-
-
-def torus_points(rows, columns):
-    """Vertices of a torus with ripples, as a fine scanned or subdivided surface has them."""
-    points = []
-    for i in range(rows):
-        for j in range(columns):
-            u, v = 2 * pi * i / rows, 2 * pi * (j + 0.5 * (i % 2)) / columns
-            r = 1 + 0.05 * sin(9 * u) * cos(7 * v)
-            points.append(((3 + r * cos(v)) * cos(u), (3 + r * cos(v)) * sin(u), r * sin(v)))
-    return points
 
 
 def largest_surface(folder):
@@ -102,7 +90,7 @@ def write_apart(node, make):
 def bench_delaunay(options, folder, surfaces):
     node = folder / "points.node"
     sets = [(f"{options.points} random points in a cube", lambda: random_points(options.points)),
-            ("500000 points of a rippled torus", lambda: torus_points(1000, 500))]
+            ("500000 points of a rippled torus", lambda: torus(1000, 500)[0])]
     if surfaces:
         path = largest_surface(surfaces)
         sets.append((f"vertices of {path.stem} (corpus)", lambda: vertices_of(path)))
