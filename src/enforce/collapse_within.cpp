@@ -46,11 +46,7 @@ bool collapse_within(TetMesh& mesh, Vertex p, std::span<const Vertex> candidates
                      std::span<const std::array<Vertex, 2>> segment) {
   std::vector<Tet> tets;
   ball(mesh, p, tets);
-  Kernel kernel(mesh);
-  for (const Tet t : tets) {
-    const auto f = mesh.face_vertices(face_code(t, mesh.index_of(t, p)));
-    kernel.add(f[0], f[1], f[2]);
-  }
+  const Kernel kernel = kernel_of_ball(mesh, p, tets);
   const Vertex v = best_apex(mesh, kernel, candidates);
   if (v == kNone) return false;
   std::vector<TetMesh::Corners> fresh;

@@ -108,11 +108,7 @@ class Enforcer {
   void leave_plane(Vertex v, const Triangle& facet) {
     std::vector<Tet> tets;
     ball(mesh_, v, tets);
-    Kernel kernel(mesh_);
-    for (const Tet t : tets) {
-      const auto f = mesh_.face_vertices(face_code(t, mesh_.index_of(t, v)));
-      kernel.add(f[0], f[1], f[2]);
-    }
+    const Kernel kernel = kernel_of_ball(mesh_, v, tets);
     const Point& at = mesh_.position(v);
     const double radius = kernel.centre(mesh_.point(v)).radius;
     constexpr int kTrials = 20;

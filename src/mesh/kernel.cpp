@@ -261,4 +261,13 @@ std::optional<Position> Kernel::along_direction(PointRef origin, double size) co
   return step(*e);
 }
 
+Kernel kernel_of_ball(const TetMesh& mesh, Vertex v, std::span<const Tet> tets) {
+  Kernel kernel(mesh);
+  for (const Tet t : tets) {
+    const auto f = mesh.face_vertices(face_code(t, mesh.index_of(t, v)));
+    kernel.add(f[0], f[1], f[2]);
+  }
+  return kernel;
+}
+
 }  // namespace holdfast

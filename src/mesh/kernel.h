@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -60,5 +61,8 @@ class Kernel {
   const TetMesh& mesh_;
   std::vector<std::array<Vertex, 3>> faces_;
 };
+
+/// That of the ball of v, whose tetrahedra `tets` are: where v may be.
+[[nodiscard]] Kernel kernel_of_ball(const TetMesh& mesh, Vertex v, std::span<const Tet> tets);
 
 }  // namespace holdfast

@@ -6,23 +6,11 @@
 #include "mesh/traverse.h"
 
 namespace holdfast {
-namespace {
-
-Kernel kernel_of(const TetMesh& mesh, Vertex p, const std::vector<Tet>& tets) {
-  Kernel kernel(mesh);
-  for (const Tet t : tets) {
-    const auto f = mesh.face_vertices(face_code(t, mesh.index_of(t, p)));
-    kernel.add(f[0], f[1], f[2]);
-  }
-  return kernel;
-}
-
-}  // namespace
 
 Fate remove_or_recentre(TetMesh& mesh, Vertex p, const PolyhedronOptions& search) {
   std::vector<Tet> tets;
   ball(mesh, p, tets);
-  const Kernel kernel = kernel_of(mesh, p, tets);
+  const Kernel kernel = kernel_of_ball(mesh, p, tets);
   const auto refill = [&](const std::vector<TetMesh::Corners>& fresh) {
     replace(mesh, {.old_tets = tets, .new_tets = fresh});
     mesh.remove_vertex(p);
