@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "mesh/quality.h"
+
 namespace holdfast {
 namespace {
 
@@ -11,9 +13,6 @@ using Vector = std::array<double, 3>;
 
 Vector minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector cross(const Vector& u, const Vector& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
 double degrees(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi; }
 
 // Cosines of the least and the largest dihedral angle, and Q.
@@ -21,23 +20,21 @@ struct Measured {
   double of_least = -1, of_most = 1, quality = 0;
 };
 Measured measured(const Point& a, const Point& b, const Point& c, const Point& d) {
-  constexpr double kScale = 0.20412414523193150;  // sqrt(6) / 12
-  const Vector ab = minus(b, a), ac = minus(c, a), ad = minus(d, a), bc = minus(c, b), bd = minus(d, b),
-               cd = minus(d, c);
-  const std::array<Vector, 4> n{cross(bd, bc), cross(ac, ad), cross(ad, ab), cross(ab, ac)};
-  std::array<double, 4> length{};
-  for (std::size_t i = 0; i < 4; ++i) length[i] = std::sqrt(dot(n[i], n[i]));
   Measured found;
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = i + 1; j < 4; ++j) {
-      const double cosine = -dot(n[i], n[j]) / (length[i] * length[j]);
+  if (const auto plain = plain_shape(a, b, c, d)) {
+    found.quality = plain->quality;
+    for (const double cosine : plain->cosines) {
       found.of_least = std::max(found.of_least, cosine);
       found.of_most = std::min(found.of_most, cosine);
     }
-  const double longest =
-      std::sqrt(std::max({dot(ab, ab), dot(ac, ac), dot(ad, ad), dot(bc, bc), dot(bd, bd), dot(cd, cd)}));
-  found.quality =
-      kScale * longest * (length[0] + length[1] + length[2] + length[3]) / std::abs(dot(n[3], ad));
+    return found;
+  }
+  found.quality = quality(a, b, c, d);
+  for (const double angle : dihedral_angles(a, b, c, d)) {
+    const double cosine = std::isnan(angle) ? 1 : std::cos(angle * std::numbers::pi / 180);
+    found.of_least = std::max(found.of_least, cosine);
+    found.of_most = std::min(found.of_most, cosine);
+  }
   return found;
 }
 

@@ -9,8 +9,7 @@
 
 namespace holdfast {
 
-/// Of the tetrahedra of the kept regions; `region_of` by slot. Angles in plain floating point: right to some
-/// digits where an element is not flat.
+/// Of the tetrahedra of the kept regions; `region_of` by slot.
 [[nodiscard]] Report::Shape shape_of(const TetMesh& mesh, const std::vector<RegionId>& region_of,
                                      const std::vector<bool>& kept);
 

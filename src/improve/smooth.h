@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "improve/star.h"
 #include "improve/volume.h"
 
 namespace holdfast {
@@ -18,27 +19,15 @@ class VertexSmoother {
   [[nodiscard]] const std::vector<Tet>& ball() const { return tets_; }
 
  private:
-  struct FaceOfLink {
-    Point a, b, c;
-    std::array<Vertex, 3> v;
-  };
-
   static constexpr std::size_t kMostBall = 200;
 
-  void gather(Vertex v);
-  [[nodiscard]] double energy_at(const Point& x, double limit);
-  bool step_to(const Point& x);
-  bool step_towards(const Point& target);
-  [[nodiscard]] Point ideal_place() const;
-  bool descend();
+  void gather_star(Vertex v);
   bool settle(Vertex v);
+  [[nodiscard]] bool is_positive() const;
 
   ImprovedVolume& volume_;
   std::vector<Tet> tets_;
-  std::vector<FaceOfLink> faces_;
-  Point at_{};
-  double energy_ = 0;
-  double size_ = 0;
+  Star star_;
 };
 
 }  // namespace holdfast

@@ -19,9 +19,8 @@ std::span<const Tet> EnergySwapper::improve(Tet t, bool as_worst) {
 
 std::optional<double> EnergySwapper::Objective::triangle(std::size_t i, std::size_t k, std::size_t j) const {
   const Vertex pi = shell.link[i], pk = shell.link[k], pj = shell.link[j];
-  const double above = volume.energy_of({pi, pk, pj, shell.b});
-  if (!(above < before)) return std::nullopt;
-  const double both = above + volume.energy_of({pj, pk, pi, shell.a});
+  const Pair e = volume.energies_of({pi, pk, pj, shell.b}, {pj, pk, pi, shell.a});
+  const double both = e[0] + e[1];
   if (!(both < before)) return std::nullopt;
   return both;
 }
@@ -58,12 +57,11 @@ void EnergySwapper::try_face(Face f) {
   const std::array<Vertex, 3> v = mesh.face_vertices(f);  // seen positively from the apex of f
   const Vertex top = mesh.apex(f), bottom = mesh.apex(g);
   candidate_.clear();
-  double after = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    candidate_.push_back({bottom, v[k], v[(k + 1) % 3], top});
-    after += volume_.energy_of(candidate_.back());
-    if (!(after < before)) return;
-  }
+  for (std::size_t k = 0; k < 3; ++k) candidate_.push_back({bottom, v[k], v[(k + 1) % 3], top});
+  const Pair e = volume_.energies_of(candidate_[0], candidate_[1]);
+  double after = e[0] + e[1];
+  if (!(after < before)) return;
+  after += volume_.energy_of(candidate_[2]);
   if (is_less(after, before)) offer(before, after, both);
 }
 

@@ -44,6 +44,15 @@ class ImprovedVolume {
     return holdfast::energy(mesh_.position(c[0]), mesh_.position(c[1]), mesh_.position(c[2]),
                             mesh_.position(c[3]));
   }
+  /// Of two, in little more time than of one.
+  [[nodiscard]] Pair energies_of(const TetMesh::Corners& x, const TetMesh::Corners& y) const {
+    std::array<PointOf<Pair>, 4> p;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Point &of_x = mesh_.position(x[i]), &of_y = mesh_.position(y[i]);
+      for (std::size_t k = 0; k < 3; ++k) p[i][k] = Pair{of_x[k], of_y[k]};
+    }
+    return holdfast::energy<Pair>(p[0], p[1], p[2], p[3]);
+  }
   [[nodiscard]] bool is_positive(const TetMesh::Corners& c) const {
     return mesh_.orient(c[0], c[1], c[2], c[3]) > 0;
   }

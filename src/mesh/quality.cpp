@@ -134,6 +134,10 @@ struct Angle {
   }
 };
 
+// The faces at edge k are opposite these corners.
+constexpr std::array<std::array<std::size_t, 2>, 6> kFacesAt{
+    {{2, 3}, {1, 3}, {1, 2}, {0, 3}, {0, 2}, {0, 1}}};
+
 struct Measures {
   std::array<Vector, 4> normals;  // of the faces opposite a, b, c, d, all inward or all outward
   double six_volumes;
@@ -159,8 +163,6 @@ struct Measures {
   // At an edge e between faces of normals m and n, m x n = 6 V e up to sign: the sine of the angle is as
   // exact as the volume.
   [[nodiscard]] std::array<Angle, 6> dihedral_angles() const {
-    constexpr std::array<std::array<std::size_t, 2>, 6> kFacesAt{
-        {{2, 3}, {1, 3}, {1, 2}, {0, 3}, {0, 2}, {0, 1}}};
     std::array<Angle, 6> angles{};
     for (std::size_t k = 0; k < 6; ++k) {
       const Vector& m = normals[kFacesAt[k][0]];
@@ -267,6 +269,32 @@ std::array<double, 6> dihedral_angles(const Point& a, const Point& b, const Poin
   return degrees;
 }
 
+std::optional<PlainShape> plain_shape(const Point& a, const Point& b, const Point& c, const Point& d) {
+  constexpr double kThin = 1e-3, kSmall = 1e-50, kLarge = 1e50;
+  const Vector u = minus(b, a), v = minus(c, a), w = minus(d, a);
+  const Vector x = minus(c, b), y = minus(d, b), z = minus(d, c);
+  const double longest2 = std::max({dot(u, u), dot(v, v), dot(w, w), dot(x, x), dot(y, y), dot(z, z)});
+  const double longest = std::sqrt(longest2);
+  if (!(longest > kSmall && longest < kLarge)) return std::nullopt;
+  const std::array<Vector, 4> n{cross(y, x), cross(v, w), cross(w, u), cross(u, v)};
+  const double six_volumes = dot(n[3], w);
+  if (!(std::abs(six_volumes) > kThin * longest2 * longest)) return std::nullopt;
+  PlainShape shape;
+  double twice_area = 0;
+  std::array<double, 4> inverse{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double area = length(n[i]);
+    twice_area += area;
+    inverse[i] = 1 / area;
+  }
+  shape.quality = kScale * longest * twice_area / std::abs(six_volumes);
+  for (std::size_t k = 0; k < 6; ++k) {
+    const auto [i, j] = kFacesAt[k];
+    shape.cosines[k] = -dot(n[i], n[j]) * inverse[i] * inverse[j];
+  }
+  return shape;
+}
+
 double best_quality_on(const Point& a, const Point& b, const Point& c) {
   const auto p = brought_in_range<3>({a, b, c});
   const BestTetrahedron candidates(p[0], p[1], p[2]);
@@ -291,32 +319,72 @@ double target_quality(std::span<const Point> vertices, std::span<const Triangle>
   return target;
 }
 
-Report::Quality measure(const Volume& volume, double target) {
-  constexpr std::size_t kBins = std::tuple_size_v<decltype(Report::Quality::histogram)>;
-  static const std::array<Angle, kBins> kBinStart = [] {
-    std::array<Angle, kBins> starts;
+namespace {
+
+// Gathers the angles of a volume: cosines where they are good enough, which is nearly everywhere.
+class AngleHistogram {
+ public:
+  using Counts = decltype(Report::Quality::histogram);
+
+  AngleHistogram() {
     for (std::size_t k = 0; k < kBins; ++k) {
       const double angle = std::numbers::pi * static_cast<double>(k) / kBins;
-      starts[k] = {std::sin(angle), 2 * k == kBins ? 0 : std::cos(angle)};
-    }
-    return starts;
-  }();
-  const std::vector<Point>& v = volume.vertices;
-  Report::Quality q;
-  Angle least{0, -1}, most{0, 1};
-  for (const Tetrahedron& t : volume.tetrahedra) {
-    const Measures measures(brought_in_range<4>({v[t[0]], v[t[1]], v[t[2]], v[t[3]]}));
-    q.worst = std::max(q.worst, measures.quality());
-    for (Angle angle : measures.dihedral_angles()) {
-      if (!angle.known()) angle = {0, 1};
-      if (angle < least) least = angle;
-      if (most < angle) most = angle;
-      const auto after = std::upper_bound(kBinStart.begin() + 1, kBinStart.end(), angle);
-      ++q.histogram[static_cast<std::size_t>(after - kBinStart.begin()) - 1];
+      start_[k] = {std::sin(angle), 2 * k == kBins ? 0 : std::cos(angle)};
+      cosine_[k] = start_[k].cosine;
     }
   }
-  q.min_dihedral_deg = volume.tetrahedra.empty() ? 0 : least.degrees();
-  q.max_dihedral_deg = volume.tetrahedra.empty() ? 0 : most.degrees();
+  void add_cosine(double cosine) {
+    greatest_cosine_ = std::max(greatest_cosine_, cosine);
+    least_cosine_ = std::min(least_cosine_, cosine);
+    std::size_t bin = 0;
+    for (std::size_t k = 1; k < kBins; ++k) bin += cosine <= cosine_[k] ? 1 : 0;
+    ++counts_[bin];
+  }
+  void add(Angle angle) {
+    if (!angle.known()) angle = {0, 1};
+    if (angle < least_) least_ = angle;
+    if (most_ < angle) most_ = angle;
+    const auto after = std::upper_bound(start_.begin() + 1, start_.end(), angle);
+    ++counts_[static_cast<std::size_t>(after - start_.begin()) - 1];
+  }
+  [[nodiscard]] const Counts& counts() const { return counts_; }
+  [[nodiscard]] double least_degrees() const {
+    return std::min(least_.degrees(), degrees(std::min(greatest_cosine_, 1.0)));
+  }
+  [[nodiscard]] double most_degrees() const {
+    return std::max(most_.degrees(), degrees(std::max(least_cosine_, -1.0)));
+  }
+
+ private:
+  static constexpr std::size_t kBins = std::tuple_size_v<Counts>;
+  static double degrees(double cosine) { return std::acos(cosine) * 180 / std::numbers::pi; }
+
+  std::array<Angle, kBins> start_;    // of each bin
+  std::array<double, kBins> cosine_;  // of the same
+  Counts counts_{};
+  double greatest_cosine_ = -1, least_cosine_ = 1;
+  Angle least_{0, -1}, most_{0, 1};
+};
+
+}  // namespace
+
+Report::Quality measure(const Volume& volume, double target) {
+  const std::vector<Point>& v = volume.vertices;
+  Report::Quality q;
+  AngleHistogram angles;
+  for (const Tetrahedron& t : volume.tetrahedra) {
+    if (const auto plain = plain_shape(v[t[0]], v[t[1]], v[t[2]], v[t[3]])) {
+      q.worst = std::max(q.worst, plain->quality);
+      for (const double cosine : plain->cosines) angles.add_cosine(cosine);
+      continue;
+    }
+    const Measures measures(brought_in_range<4>({v[t[0]], v[t[1]], v[t[2]], v[t[3]]}));
+    q.worst = std::max(q.worst, measures.quality());
+    for (const Angle& angle : measures.dihedral_angles()) angles.add(angle);
+  }
+  q.histogram = angles.counts();
+  q.min_dihedral_deg = volume.tetrahedra.empty() ? 0 : angles.least_degrees();
+  q.max_dihedral_deg = volume.tetrahedra.empty() ? 0 : angles.most_degrees();
   q.target = target;
   return q;
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "holdfast/holdfast.h"
@@ -18,6 +19,15 @@ namespace holdfast {
 /// The six dihedral angles in degrees, at the edges ab, ac, ad, bc, bd, cd of a tetrahedron that is positive
 /// or flat; NaN at the sides of a face without area.
 [[nodiscard]] std::array<double, 6> dihedral_angles(const Point& a, const Point& b, const Point& c,
+                                                    const Point& d);
+
+/// Q and the cosines of the six dihedral angles in plain arithmetic, right to some nine digits; nothing for a
+/// tetrahedron so thin, or so large or small, that they may not be. For going through whole volumes.
+struct PlainShape {
+  double quality = 0;
+  std::array<double, 6> cosines{};
+};
+[[nodiscard]] std::optional<PlainShape> plain_shape(const Point& a, const Point& b, const Point& c,
                                                     const Point& d);
 
 /// The least Q of all tetrahedra that have abc as a face: the best that a mesh can have there. Infinite for

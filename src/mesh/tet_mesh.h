@@ -69,6 +69,13 @@ class TetMesh {
   [[nodiscard]] Vertex corner(Tet t, int i) const { return corners_[t][static_cast<std::size_t>(i)]; }
   [[nodiscard]] Face neighbour(Tet t, int i) const { return neighbours_[t][static_cast<std::size_t>(i)]; }
   [[nodiscard]] Face neighbour(Face f) const { return neighbour(tet_of(f), side_of(f)); }
+  /// Tells the machine that the neighbours of t will soon be looked at.
+  void prefetch_neighbours(Tet t) const {
+    for (const Face f : neighbours_[t]) {
+      __builtin_prefetch(&corners_[tet_of(f)]);
+      __builtin_prefetch(&flags_[tet_of(f)]);
+    }
+  }
   void link(Face f, Face g) {
     neighbours_[tet_of(f)][f & 3u] = g;
     neighbours_[tet_of(g)][g & 3u] = f;

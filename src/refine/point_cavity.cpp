@@ -9,6 +9,9 @@ namespace {
 
 std::uint64_t edge_key(std::uint64_t a, std::uint64_t b) { return std::min(a, b) << 32 | std::max(a, b); }
 
+// Side i < 3 of a face of the rim is its edge opposite corner i.
+constexpr std::array<std::array<std::size_t, 2>, 3> kSide{{{1, 2}, {2, 0}, {0, 1}}};
+
 }  // namespace
 
 Tet PointCavity::locate(Vertex p, Tet start) {
@@ -95,6 +98,7 @@ void PointCavity::spread(Tet base) {
       }
       if (conflict) {
         mesh_.set_flags(n, kVisited);
+        mesh_.prefetch_neighbours(n);
         tets_.push_back(n);
       } else {
         faces_.push_back(f);
@@ -167,12 +171,11 @@ void PointCavity::list_rim() {
     rim.flags = static_cast<Flags>(flags);
     for (std::size_t i = 0; i < 3; ++i) {
       const Vertex v = rim.v[i];
-      std::uint32_t& place = place_[v];
-      if (place >= ring_.size() || ring_[place] != v) {
-        place = static_cast<std::uint32_t>(ring_.size());
+      if (!on_ring(v)) {
+        place_[v] = static_cast<std::uint32_t>(ring_.size());
         ring_.push_back(v);
       }
-      rim.local[i] = place;
+      rim.local[i] = place_[v];
     }
   }
 }
@@ -182,8 +185,7 @@ Tet PointCavity::holder_of_lost_entity(Tet base) const {
   Tet lost = kNone;
   for (const Tet t : tets_) {
     const auto& c = mesh_.corners(t);
-    bool holds = false;
-    for (const Vertex v : c) holds = holds || place_[v] >= ring_.size() || ring_[place_[v]] != v;
+    bool holds = !(on_ring(c[0]) && on_ring(c[1]) && on_ring(c[2]) && on_ring(c[3]));
     if ((mesh_.flags(t) & kSegmentBits) != 0)
       for (int k = 0; k < 6 && !holds; ++k) {
         const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
@@ -197,17 +199,29 @@ Tet PointCavity::holder_of_lost_entity(Tet base) const {
 
 void PointCavity::list_edges() {
   edges_.clear();
-  if (rim_.size() <= kManyFaces) return;
+  if (fits_table()) {
+    const std::size_t n = ring_.size();
+    if (table_.size() < n * n) table_.resize(n * n);
+    for (std::uint32_t k = 0; k < rim_.size(); ++k)
+      for (std::uint32_t i = 0; i < 3; ++i)
+        table_[rim_[k].local[kSide[i][0]] * n + rim_[k].local[kSide[i][1]]] =
+            face_code(k, static_cast<int>(i));
+    return;
+  }
   for (const Rim& r : rim_)
     for (std::size_t i = 0; i < 3; ++i) edges_.push_back(edge_key(r.v[i], r.v[(i + 1) % 3]));
   std::sort(edges_.begin(), edges_.end());
 }
 
+// The rim is closed: it holds each of its edges both ways.
 bool PointCavity::on_rim(Vertex a, Vertex b) const {
-  if (!edges_.empty()) return std::binary_search(edges_.begin(), edges_.end(), edge_key(a, b));
-  return std::any_of(rim_.begin(), rim_.end(), [&](const Rim& r) {
-    return (r.v[0] == a || r.v[1] == a || r.v[2] == a) && (r.v[0] == b || r.v[1] == b || r.v[2] == b);
-  });
+  if (!fits_table()) return std::binary_search(edges_.begin(), edges_.end(), edge_key(a, b));
+  if (!on_ring(a) || !on_ring(b)) return false;
+  const std::uint32_t entry = table_[place_[a] * ring_.size() + place_[b]];
+  const std::size_t k = entry >> 2;
+  if (k >= rim_.size() || (entry & 3u) == 3u) return false;
+  const auto& side = kSide[entry & 3u];
+  return rim_[k].v[side[0]] == a && rim_[k].v[side[1]] == b;
 }
 
 void PointCavity::abandon() {
@@ -226,25 +240,23 @@ void PointCavity::insert() {
     for (const Vertex v : rim.v) mesh_.set_incident(v, t);
   }
   mesh_.set_incident(p_, created_.front());
-  if (ring_.size() <= kTableSide)
+  if (fits_table())
     link_by_table();
   else
     link_by_sorting();
   validate_after_operation(mesh_, created_);
 }
 
-// Face i of a new tetrahedron, i < 3, lies at the boundary's edge opposite local vertex i; the neighbour has
-// the same edge reversed. The boundary is closed, so every entry that is read was written.
+// Face i of a new tetrahedron, i < 3, lies at side i of its face of the rim; the neighbour has the same edge
+// reversed.
 void PointCavity::link_by_table() {
-  constexpr std::array<std::array<std::size_t, 2>, 3> kSide{{{1, 2}, {2, 0}, {0, 1}}};
+  const std::size_t n = ring_.size();
   for (std::size_t k = 0; k < rim_.size(); ++k)
-    for (std::size_t i = 0; i < 3; ++i)
-      table_[rim_[k].local[kSide[i][0]] * kTableSide + rim_[k].local[kSide[i][1]]] =
-          face_code(created_[k], static_cast<int>(i));
-  for (std::size_t k = 0; k < rim_.size(); ++k)
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t entry = table_[rim_[k].local[kSide[i][1]] * n + rim_[k].local[kSide[i][0]]];
       mesh_.link(face_code(created_[k], static_cast<int>(i)),
-                 table_[rim_[k].local[kSide[i][1]] * kTableSide + rim_[k].local[kSide[i][0]]]);
+                 face_code(created_[tet_of(entry)], side_of(entry)));
+    }
 }
 
 void PointCavity::link_by_sorting() {

@@ -62,14 +62,15 @@ class PointCavity {
   bool shrink_until_seen(Tet base);
   bool release(Tet t, Tet base);
   void list_rim();
-  [[nodiscard]] Tet holder_of_lost_entity(Tet base) const;
   void list_edges();
+  [[nodiscard]] Tet holder_of_lost_entity(Tet base) const;
+  [[nodiscard]] bool on_ring(Vertex v) const { return place_[v] < ring_.size() && ring_[place_[v]] == v; }
   [[nodiscard]] bool on_rim(Vertex a, Vertex b) const;
   void link_by_table();
   void link_by_sorting();
 
-  static constexpr std::uint32_t kTableSide = 64;
-  static constexpr std::size_t kManyFaces = 100;
+  static constexpr std::size_t kMostInTable = 512;  // vertices of the ring
+  [[nodiscard]] bool fits_table() const { return ring_.size() <= kMostInTable; }
 
   TetMesh& mesh_;
   Vertex p_ = kNone;
@@ -79,13 +80,15 @@ class PointCavity {
   std::vector<Vertex> ring_;
   std::vector<std::uint32_t> place_;  // by vertex: position in the ring, if the ring holds it there
   std::vector<Tet> created_;
-  std::array<Face, kTableSide * kTableSide> table_{};
+  // By the ring's two vertices of an edge of the rim: 4 * face of the rim + side. Entries of other cavities
+  // stay: who reads one compares.
+  std::vector<std::uint32_t> table_;
   struct Side {
     std::uint64_t edge;
     Face face;
   };
-  std::vector<Side> sides_;
-  std::vector<std::uint64_t> edges_;  // of the rim, sorted; where there are many faces
+  std::vector<Side> sides_;           // where the ring is too large for the table
+  std::vector<std::uint64_t> edges_;  // of the rim, sorted; likewise
   std::uint32_t random_ = 1;
   std::size_t work_ = 0;
 };

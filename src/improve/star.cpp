@@ -1,0 +1,128 @@
+#include "improve/star.h"
+
+#include <cmath>
+#include <utility>
+
+namespace holdfast {
+
+void Star::clear() {
+  faces_.clear();
+  face_count_ = 0;
+  energy_ = kNoEnergy;
+}
+
+void Star::add(const Point& a, const Point& b, const Point& c, double weight) {
+  const std::size_t i = face_count_ % 2;
+  if (i == 0) {
+    TwoFaces& two = faces_.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      two.a[k] = Pair{} + a[k];
+      two.b[k] = Pair{} + b[k];
+      two.c[k] = Pair{} + c[k];
+    }
+    two.weight = Pair{} + weight;
+  }
+  TwoFaces& two = faces_.back();
+  for (std::size_t k = 0; k < 3; ++k) {
+    two.a[k][i] = a[k];
+    two.b[k][i] = b[k];
+    two.c[k][i] = c[k];
+  }
+  two.weight[i] = weight;
+  two.index[i] = face_count_++;
+  two.count = i + 1;
+}
+
+// Infinite, or at least `limit`, where it is not below that.
+double Star::energy_at(const Point& x, double limit) {
+  double sum = 0;
+  for (std::size_t k = 0; k < faces_.size(); ++k) {
+    const Pair e = energies_at(faces_[k], x);
+    sum += faces_[k].count == 2 ? e[0] + e[1] : e[0];
+    if (sum >= limit) {
+      if (k > 0) std::swap(faces_[k], faces_[k / 2]);  // what decides comes sooner next time
+      return sum;
+    }
+  }
+  return sum;
+}
+
+bool Star::step_to(const Point& x) {
+  const double e = energy_at(x, energy_);
+  if (!(e < energy_)) return false;
+  energy_ = e;
+  at_ = x;
+  return true;
+}
+
+bool Star::step_to_ideal_place() {
+  const Point from = at_, target = ideal_place();
+  for (double part = 1; part > 0.2; part /= 2) {
+    Point x;
+    for (std::size_t k = 0; k < 3; ++k) x[k] = from[k] + part * (target[k] - from[k]);
+    if (step_to(x)) return true;
+  }
+  return false;
+}
+
+// The mean of the places over the centres of the faces, as high as a regular tetrahedron.
+Point Star::ideal_place() const {
+  constexpr double kHeight = 0.8164965809277260;  // of a regular tetrahedron of unit edges
+  // A triangle of this area has edges of length sqrt(4 / sqrt(3) * area).
+  constexpr double kEdge2OfTwiceArea = 1.1547005383792515;
+  Point sum{};
+  double weights = 0;
+  for (const auto& [a, b, c, weight, index, count] : faces_) {
+    const Pair ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
+    const Pair vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
+    const PointOf<Pair> n{uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
+    const Pair n2 = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!(n2[i] > 0)) continue;
+      const double twice_area = std::sqrt(n2[i]);
+      const double height = kHeight * std::sqrt(kEdge2OfTwiceArea * twice_area) / twice_area;
+      weights += weight[i];
+      for (std::size_t k = 0; k < 3; ++k)
+        sum[k] += weight[i] * ((a[k][i] + b[k][i] + c[k][i]) / 3 + height * n[k][i]);
+    }
+  }
+  if (!(weights > 0)) return at_;
+  return {sum[0] / weights, sum[1] / weights, sum[2] / weights};
+}
+
+void Star::descend() {
+  constexpr int kSteps = 6;
+  const double length = size();
+  for (int k = 0; k < kSteps && step_down(length); ++k) {
+  }
+}
+
+// A mean length of the faces' sides.
+double Star::size() const {
+  Pair sum{};
+  for (const TwoFaces& two : faces_)
+    for (std::size_t k = 0; k < 3; ++k) sum += (two.b[k] - two.a[k]) * (two.b[k] - two.a[k]);
+  return std::sqrt((sum[0] + sum[1]) / static_cast<double>(2 * faces_.size()));
+}
+
+// One step down the gradient, by differences: the length of the first trial is a part of the star's size.
+bool Star::step_down(double size) {
+  const double h = 1e-5 * size;
+  Point gradient;
+  for (std::size_t k = 0; k < 3; ++k) {
+    Point x = at_;
+    x[k] += h;
+    gradient[k] = energy_at(x, kNoEnergy) - energy_;
+  }
+  const double length = std::hypot(gradient[0], gradient[1], gradient[2]);
+  if (!(length > 0 && length < kNoEnergy)) return false;
+  for (double step = 0.15 * size; step > 0.004 * size; step /= 2.5) {
+    Point x = at_;
+    for (std::size_t k = 0; k < 3; ++k) x[k] -= step * gradient[k] / length;
+    const double before = energy_;
+    if (step_to(x)) return energy_ < 0.995 * before;
+  }
+  return false;
+}
+
+}  // namespace holdfast
