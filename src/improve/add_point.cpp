@@ -6,7 +6,7 @@
 
 namespace holdfast {
 
-Vertex PointAdder::add(Tet t, bool patient) {
+Vertex PointAdder::add(Tet& t, bool patient) {
   const TetMesh& mesh = volume_.mesh();
   const TetMesh::Corners corners = mesh.corners(t);
   for (int edge = 0; edge < 6; ++edge) {
@@ -15,15 +15,13 @@ Vertex PointAdder::add(Tet t, bool patient) {
                  b = corners[static_cast<std::size_t>(ends[1])];
     for (const bool by_sphere : {false, true}) {
       if (by_sphere && !patient) continue;
-      // A failed attempt is taken back, which may give the tetrahedron another slot.
-      if (!mesh.alive(t) || mesh.corners(t) != corners) t = find_tet(corners);
-      if (t == kNone) return kNone;
       const int k = kEdgeOf[static_cast<std::size_t>(mesh.index_of(t, a))]
                            [static_cast<std::size_t>(mesh.index_of(t, b))];
       if (mesh.is_segment(t, k) || !gather_shell(mesh, t, a, b, shell_)) continue;
       const Vertex p =
           by_sphere ? add_at(middle_of_shell(), t, {}) : add_at(middle_of_shell(), t, shell_.tets);
       if (p != kNone) return p;
+      t = find_again(t, corners);
     }
   }
   return kNone;
@@ -40,12 +38,12 @@ Point PointAdder::middle_of_shell() const {
   return middle;
 }
 
-Tet PointAdder::find_tet(const TetMesh::Corners& c) {
-  const Face f = find_face(volume_.mesh(), c[0], c[1], c[2]);
-  if (f == kNone) return kNone;
-  for (const Face g : {f, volume_.mesh().neighbour(f)})
-    if (volume_.mesh().index_of(tet_of(g), c[3]) >= 0) return tet_of(g);
-  return kNone;
+// A failed attempt is taken back, which may give the tetrahedron another slot.
+Tet PointAdder::find_again(Tet t, const TetMesh::Corners& c) {
+  TetMesh& mesh = volume_.mesh();
+  if (mesh.alive(t) && mesh.corners(t) == c) return t;
+  const Face f = find_face(mesh, c[0], c[1], c[2]);
+  return mesh.index_of(tet_of(f), c[3]) >= 0 ? tet_of(f) : tet_of(mesh.neighbour(f));
 }
 
 // In the cavity of these tetrahedra, or, without any, in the one that the in-sphere test gives.

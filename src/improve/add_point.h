@@ -17,12 +17,13 @@ class PointAdder {
 
   /// Fills the shell of an edge of t anew from a point in its middle, if the energy is less then; a patient
   /// search tries the cavity that the in-sphere test gives such a point, too. Returns the point, or kNone.
-  /// The new tetrahedra are its ball, in ball().
-  Vertex add(Tet t, bool patient);
+  /// The new tetrahedra are its ball, in ball(). Where nothing is added, t may have moved to another slot,
+  /// and is set to that.
+  Vertex add(Tet& t, bool patient);
   [[nodiscard]] const std::vector<Tet>& ball() const { return ball_; }
 
  private:
-  [[nodiscard]] Tet find_tet(const TetMesh::Corners& corners);
+  [[nodiscard]] Tet find_again(Tet t, const TetMesh::Corners& corners);
   [[nodiscard]] Point middle_of_shell() const;
   Vertex add_at(const Point& place, Tet start, std::span<const Tet> tets);
 

@@ -5,6 +5,7 @@
 
 #include "improve/add_point.h"
 #include "improve/contract.h"
+#include "improve/refill.h"
 #include "improve/smooth.h"
 #include "improve/swap.h"
 
@@ -47,7 +48,8 @@ class Improver {
         smoother_(volume_),
         swapper_(volume_),
         contractor_(volume_),
-        adder_(volume_, smoother_) {}
+        adder_(volume_, smoother_),
+        refiller_(volume_) {}
 
   ImproveStats run() {
     const int steps = effort_.passes + effort_.rounds;
@@ -117,7 +119,7 @@ class Improver {
     const double budget = kLeastWork + work_per_tet * static_cast<double>(mesh_.tet_count());
     bool any = false;
     const auto again = [&](std::span<const Tet> tets) {
-      any = true;
+      any = any || !tets.empty();
       for (const Tet t : tets)
         if (volume_.energy(t) > from) queue.push({volume_.energy(t), t});
     };
@@ -142,22 +144,44 @@ class Improver {
         again(created);
         continue;
       }
-      if (worst.energy > worth_a_point && add_point_at(worst.tet)) {
+      Tet t = worst.tet;
+      if (worst.energy > worth_a_point && add_point_at(t)) {
         ++stats_.inserted;
         again(adder_.ball());
+        continue;
       }
+      if (worst.energy > kVeryBad) again(refill_round(t));
     }
     return any;
   }
 
-  bool add_point_at(Tet t) {
+  bool add_point_at(Tet& t) {
     work_ += 6;
     const TetMesh::Corners corners = mesh_.corners(t);
     const Vertex p = adder_.add(t, volume_.energy(t) > kVeryBad);
     if (p == kNone) return false;
-    sizes_.resize(mesh_.vertex_count(), 0);
-    for (const Vertex v : corners) sizes_[p] = std::max(sizes_[p], sizes_[v]);
+    note_size(p, corners);
     return true;
+  }
+
+  std::span<const Tet> refill_round(Tet t) {
+    work_ += 60;
+    const TetMesh::Corners corners = mesh_.corners(t);
+    const auto created = refiller_.refill(t);
+    if (created.empty()) return {};
+    if (refiller_.point() != kNone) {
+      note_size(refiller_.point(), corners);
+      ++stats_.inserted;
+    } else {
+      ++stats_.swapped;
+    }
+    return created;
+  }
+
+  void note_size(Vertex p, const TetMesh::Corners& corners) {
+    sizes_.resize(mesh_.vertex_count(), 0);
+    sizes_[p] = 0;
+    for (const Vertex v : corners) sizes_[p] = std::max(sizes_[p], sizes_[v]);
   }
 
   bool smooth_a_corner(Tet t) {
@@ -197,6 +221,7 @@ class Improver {
   EnergySwapper swapper_;
   VertexContractor contractor_;
   PointAdder adder_;
+  CavityRefiller refiller_;
   std::array<double, 2> stage_{};
   double work_ = 0;
   ImproveStats stats_;

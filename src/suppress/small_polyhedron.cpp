@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "mesh/measure.h"
-#include "mesh/quality.h"
 
 namespace holdfast {
 namespace {
@@ -157,6 +156,7 @@ class Search {
       : mesh_(mesh),
         budget_(options.most_nodes),
         worst_quality_(options.worst_quality),
+        measure_(options.measure),
         n_(vertices.size()),
         sides_(mesh, std::move(vertices)),
         apexes_(n_ * n_ * n_, kUnknownApexes),
@@ -196,7 +196,7 @@ class Search {
   [[nodiscard]] bool is_good(const LocalFace& f, Local d) const {
     if (std::isinf(worst_quality_)) return true;
     const auto at = [&](Local v) -> const Point& { return mesh_.position(vertex(v)); };
-    return quality(at(f[0]), at(f[1]), at(f[2]), at(d)) < worst_quality_;
+    return measure_(at(f[0]), at(f[1]), at(f[2]), at(d)) < worst_quality_;
   }
 
   // The vertices that make a positive, good, empty tetrahedron with the face.
@@ -301,6 +301,7 @@ class Search {
   const TetMesh& mesh_;
   std::size_t budget_;
   const double worst_quality_;
+  const PolyhedronOptions::Measure measure_;
   const std::size_t n_;
   Sides sides_;
   std::vector<Apexes> apexes_;  // by face

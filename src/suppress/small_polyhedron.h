@@ -7,14 +7,18 @@
 #include <span>
 #include <vector>
 
+#include "mesh/quality.h"
 #include "mesh/tet_mesh.h"
 
 namespace holdfast {
 
 struct PolyhedronOptions {
+  using Measure = double (*)(const Point&, const Point&, const Point&, const Point&);
+
   std::size_t most_vertices = 18;                                  ///< 31 at most
   std::size_t most_nodes = 600;                                    ///< of the search tree
   double worst_quality = std::numeric_limits<double>::infinity();  ///< Q (mesh/quality.h) stays below this
+  Measure measure = quality;                                       ///< or whatever this is
 };
 
 /// Fills a polyhedron with strictly positive tetrahedra on its own vertices. Its faces are given so that a

@@ -1,0 +1,109 @@
+#include "improve/refill.h"
+
+#include <algorithm>
+
+#include "mesh/kernel.h"
+#include "suppress/small_polyhedron.h"
+
+namespace holdfast {
+
+std::span<const Tet> CavityRefiller::refill(Tet t) {
+  // Tetrahedra without new vertices are few; the best cavities for a point have some twenty.
+  constexpr std::size_t kMostTets = 40, kMostForSearch = 13, kLeastForSearch = 3;
+  best_ = {};
+  point_ = kNone;
+  Cavity cavity(volume_.mesh(), std::array{t}, volume_.first_free());
+  do {
+    try_point(cavity);
+    if (cavity.tets().size() >= kLeastForSearch && cavity.vertex_count() <= kMostForSearch)
+      try_without(cavity);
+  } while (cavity.tets().size() < kMostTets && grow(cavity));
+  return best_.gain > 0 ? apply() : std::span<const Tet>{};
+}
+
+void CavityRefiller::try_point(const Cavity& cavity) {
+  find_place(cavity);
+  if (star_.energy() < kNoEnergy) offer(cavity, volume_.energy(cavity.tets()) - star_.energy());
+}
+
+// Without a point no element may be half as bad as the worst that goes.
+void CavityRefiller::try_without(const Cavity& cavity) {
+  const TetMesh& mesh = volume_.mesh();
+  double worst = 0;
+  for (const Tet t : cavity.tets()) worst = std::max(worst, volume_.energy(t));
+  const auto fresh = fill_polyhedron(mesh, cavity.faces(),
+                                     {.most_nodes = 100, .worst_quality = 0.5 * worst, .measure = energy});
+  if (!fresh) return;
+  double after = 0;
+  for (const TetMesh::Corners& c : *fresh) after += volume_.energy_of(c);
+  const double before = best_.gain;
+  offer(cavity, volume_.energy(cavity.tets()) - after);
+  if (best_.gain > before) best_.fresh = *fresh;
+}
+
+void CavityRefiller::offer(const Cavity& cavity, double gain) {
+  const double before = volume_.energy(cavity.tets());
+  if (!(gain > best_.gain) || !is_less(before - gain, before)) return;
+  best_ = {.gain = gain,
+           .old_tets = cavity.tets(),
+           .inner = cavity.inner(),
+           .faces = cavity.faces(),
+           .place = star_.at(),
+           .fresh = {}};
+}
+
+// Where a point that joins the faces is best. If none sees them all, where one is least behind any of them.
+void CavityRefiller::find_place(const Cavity& cavity) {
+  const TetMesh& mesh = volume_.mesh();
+  star_.clear();
+  Point middle{};
+  for (const auto& f : cavity.faces()) {
+    star_.add(mesh.position(f[0]), mesh.position(f[1]), mesh.position(f[2]), 1);
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const Vertex v : f)
+        middle[k] += mesh.position(v)[k] / static_cast<double>(3 * cavity.faces().size());
+  }
+  heights_.clear();
+  star_.start_at(middle);
+  if (!(star_.energy() < kNoEnergy)) {
+    Kernel kernel(mesh);
+    for (const auto& f : cavity.faces()) kernel.add(f[0], f[1], f[2]);
+    Kernel::Centre centre = kernel.centre({middle.data(), nullptr});
+    for (std::size_t k = 0; k < 3; ++k) middle[k] += centre.offset[k];
+    star_.start_at(middle);
+    if (!(star_.energy() < kNoEnergy)) {
+      heights_ = std::move(centre.heights);
+      return;
+    }
+  }
+  star_.step_to_ideal_place();
+  star_.descend();
+}
+
+// Across the face that is worst for the point.
+bool CavityRefiller::grow(Cavity& cavity) const {
+  if (!heights_.empty()) return cavity.grow_across_lowest(heights_);
+  std::vector<double> order(cavity.faces().size());
+  star_.for_each_energy([&](std::size_t k, double e) { order[k] = -e; });
+  return cavity.grow_across_lowest(order);
+}
+
+std::span<const Tet> CavityRefiller::apply() {
+  TetMesh& mesh = volume_.mesh();
+  const bool with_point = best_.fresh.empty();
+  if (with_point) {
+    point_ = mesh.add_vertex(best_.place);
+    for (const auto& f : best_.faces) best_.fresh.push_back({f[0], f[1], f[2], point_});
+  }
+  if (!std::all_of(best_.fresh.begin(), best_.fresh.end(),
+                   [&](const TetMesh::Corners& c) { return volume_.is_positive(c); })) {
+    if (with_point) mesh.remove_last_vertex();
+    point_ = kNone;
+    return {};
+  }
+  const auto created = volume_.replace(best_.old_tets, best_.fresh);
+  for (const Vertex v : best_.inner) mesh.remove_vertex(v);
+  return created;
+}
+
+}  // namespace holdfast
