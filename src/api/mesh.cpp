@@ -17,6 +17,7 @@
 #include "delaunay/delaunay.h"
 #include "enforce/enforce.h"
 #include "holdfast/holdfast.h"
+#include "improve/energy.h"
 #include "improve/improve.h"
 #include "improve/shape.h"
 #include "mesh/monitor.h"
@@ -275,14 +276,15 @@ class Pipeline {
 
   // Long thin facets may leave flat elements: what the other optimisation is made for.
   void remove_flat() {
-    constexpr double kFlat = 30;  // Q; it leaves better ones alone
+    constexpr double kFlat = 30;                           // Q; it leaves better ones alone
+    constexpr double kSmallAngle = energy_of_sine(0.035);  // 2 degrees; needles have a large Q, too
     std::vector<Tet> flat;
     for (Tet t = 0; t < mesh_.slot_count(); ++t) {
       if (!is_kept(t)) continue;
       const auto& v = mesh_.corners(t);
-      if (quality(mesh_.position(v[0]), mesh_.position(v[1]), mesh_.position(v[2]), mesh_.position(v[3])) >
-          kFlat)
-        flat.push_back(t);
+      const Point &a = mesh_.position(v[0]), &b = mesh_.position(v[1]), &c = mesh_.position(v[2]),
+                  &d = mesh_.position(v[3]);
+      if (energy(a, b, c, d) > kSmallAngle && quality(a, b, c, d) > kFlat) flat.push_back(t);
     }
     if (flat.empty()) return;
     const OptimiseStats stats =

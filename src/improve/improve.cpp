@@ -27,9 +27,9 @@ struct Effort {
 constexpr Effort effort_of(Quality quality) {
   switch (quality) {
     case Quality::fast:
-      return {1, 0.45, 0.60, 0.30, 1, 0.2};
+      return {1, 0.35, 0.50, 0.26, 1, 0.2};
     case Quality::good:
-      return {2, 0.50, 0.65, 0.42, 2, 1};
+      return {1, 0.45, 0.60, 0.40, 1, 3};
     case Quality::best:
       break;
   }
@@ -61,13 +61,13 @@ class Improver {
     for (int round = 0; round < effort_.rounds; ++round) {
       stage_ = {static_cast<double>(effort_.passes + round) / steps, 1.0 / steps};
       volume_.touch_all();
-      if (!work_on_the_worst(effort_.aim, effort_.work_per_tet)) break;
+      if (!work_on_the_worst(effort_.aim, effort_.work_per_tet, false)) break;
     }
     // The very worst are few: they get as many rounds as help.
     constexpr double kAimForWorst = 0.26;
     for (int round = 0; round < 3 * effort_.rounds; ++round) {
       volume_.touch_all();
-      if (!work_on_the_worst(kAimForWorst, 0.1 * effort_.work_per_tet)) break;
+      if (!work_on_the_worst(kAimForWorst, 0.1 * effort_.work_per_tet, true)) break;
     }
     return stats_;
   }
@@ -107,8 +107,9 @@ class Improver {
     }
   }
 
-  // One element after another, the worst first, each in every way. Returns whether any became better.
-  bool work_on_the_worst(double aim, double work_per_tet) {
+  // One element after another, the worst first, each in every way, or in every one but the slowest. Returns
+  // whether any became better.
+  bool work_on_the_worst(double aim, double work_per_tet, bool refill) {
     constexpr double worth_a_point = energy_of_sine(0.42);  // 25 degrees
     const double from = energy_of_sine(aim);
     std::priority_queue<Entry> queue;
@@ -150,7 +151,7 @@ class Improver {
         again(adder_.ball());
         continue;
       }
-      if (worst.energy > kVeryBad) again(refill_round(t));
+      if (refill && worst.energy > kVeryBad) again(refill_round(t));
     }
     return any;
   }

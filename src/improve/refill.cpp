@@ -8,16 +8,19 @@
 namespace holdfast {
 
 std::span<const Tet> CavityRefiller::refill(Tet t) {
-  // Tetrahedra without new vertices are few; the best cavities for a point have some twenty.
-  constexpr std::size_t kMostTets = 40, kMostForSearch = 13, kLeastForSearch = 3;
+  // The best cavity for a point has mostly some twenty tetrahedra; a search without one soon takes too long.
+  constexpr std::size_t kMostTets = 80, kFartherThanBest = 12, kLeastForSearch = 3, kMostForSearch = 13;
   best_ = {};
   point_ = kNone;
   Cavity cavity(volume_.mesh(), std::array{t}, volume_.first_free());
+  std::size_t last = kMostTets;
   do {
+    const double before = best_.gain;
     try_point(cavity);
     if (cavity.tets().size() >= kLeastForSearch && cavity.vertex_count() <= kMostForSearch)
       try_without(cavity);
-  } while (cavity.tets().size() < kMostTets && grow(cavity));
+    if (best_.gain > before) last = std::min(kMostTets, cavity.tets().size() + kFartherThanBest);
+  } while (cavity.tets().size() < last && grow(cavity));
   return best_.gain > 0 ? apply() : std::span<const Tet>{};
 }
 

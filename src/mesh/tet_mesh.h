@@ -69,7 +69,11 @@ class TetMesh {
   [[nodiscard]] Vertex corner(Tet t, int i) const { return corners_[t][static_cast<std::size_t>(i)]; }
   [[nodiscard]] Face neighbour(Tet t, int i) const { return neighbours_[t][static_cast<std::size_t>(i)]; }
   [[nodiscard]] Face neighbour(Face f) const { return neighbour(tet_of(f), side_of(f)); }
-  /// Tells the machine that the neighbours of t will soon be looked at.
+  /// Tells the machine that t, or its neighbours, will soon be looked at.
+  void prefetch(Tet t) const {
+    __builtin_prefetch(&corners_[t]);
+    __builtin_prefetch(&neighbours_[t]);
+  }
   void prefetch_neighbours(Tet t) const {
     for (const Face f : neighbours_[t]) {
       __builtin_prefetch(&corners_[tet_of(f)]);

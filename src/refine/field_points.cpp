@@ -60,6 +60,7 @@ class FieldPoints {
     while ((!front_.empty() || !rest_.empty()) && !has_wasted_enough()) {
       monitor_.poll(Stage::field_points, progress());
       if (!front_.empty()) {
+        prefetch_ahead();
         const Tet t = front_.front();
         front_.pop_front();
         if (!mesh_.alive(t) || (state_[t] & kQueued) == 0) continue;
@@ -88,6 +89,13 @@ class FieldPoints {
   [[nodiscard]] bool has_wasted_enough() const {
     constexpr std::size_t kPatience = 60, kLeast = 1'000'000;
     return wasted_ > kPatience * mesh_.tet_count() + kLeast;
+  }
+
+  // The front runs through the whole mesh, layer by layer: what comes next is seldom in the cache.
+  void prefetch_ahead() const {
+    constexpr std::size_t kFar = 8, kNear = 4;
+    if (front_.size() > kFar) mesh_.prefetch(front_[kFar]);
+    if (front_.size() > kNear) mesh_.prefetch_neighbours(front_[kNear]);
   }
 
   // How much is left is known when little is: the front is large first and shrinks.
@@ -246,7 +254,7 @@ class FieldPoints {
     const RegionId region = region_of_[start];
     const Vertex p = mesh_.add_vertex(x);
     const Tet base = cavity_.locate(p, start);
-    if (base == kNone || region_of_[base] != region || !is_far_from(p, mesh_.corners(base), region)) {
+    if (base == kNone || region_of_[base] != region || !is_far_from(p, vertices_round(base), region)) {
       mesh_.remove_last_vertex();
       return false;
     }
@@ -275,6 +283,19 @@ class FieldPoints {
         queue(n, state_[n]);
     }
     return true;
+  }
+
+  // Of t and the tetrahedra next to it: to be too near to one of these saves finding the cavity.
+  std::span<const Vertex> vertices_round(Tet t) {
+    const auto& c = mesh_.corners(t);
+    std::copy(c.begin(), c.end(), round_.begin());
+    std::size_t count = c.size();
+    for (int i = 0; i < 4; ++i) {
+      const Face f = face_code(t, i);
+      const Vertex v = mesh_.apex(mesh_.neighbour(f));
+      if (!mesh_.is_facet(f) && v != kGhost) round_[count++] = v;
+    }
+    return {round_.data(), count};
   }
 
   // Whether p keeps its distance from these vertices. Leaves the size there in wanted_.
@@ -327,6 +348,7 @@ class FieldPoints {
   std::vector<std::uint8_t> state_;  // by slot
   std::deque<Tet> front_;
   std::deque<Tet> rest_;  // large ones that the front did not get on with
+  std::array<Vertex, 8> round_{};
   double wanted_ = 0;
   std::size_t wasted_ = 0;  // tetrahedra of cavities that were not filled
 };
