@@ -21,18 +21,22 @@ class PointAdder {
   /// and is set to that.
   Vertex add(Tet& t, bool patient);
   [[nodiscard]] const std::vector<Tet>& ball() const { return ball_; }
+  /// Of the last call, in tetrahedra looked at.
+  [[nodiscard]] double work() const { return work_; }
 
  private:
-  [[nodiscard]] Tet find_again(Tet t, const TetMesh::Corners& corners);
+  void take_back(const TetMesh::Corners& bad);
   [[nodiscard]] Point middle_of_shell() const;
-  Vertex add_at(const Point& place, Tet start, std::span<const Tet> tets);
+  Vertex add_at(const Point& place, std::span<const Tet> tets);
 
   ImprovedVolume& volume_;
   VertexSmoother& smoother_;
   PointCavity cavity_;
   EdgeShell shell_;
   std::vector<TetMesh::Corners> old_;
+  Tet tet_ = kNone;  // the bad element, wherever it is
   std::vector<Tet> ball_;
+  double work_ = 0;
 };
 
 }  // namespace holdfast

@@ -29,7 +29,7 @@ constexpr Effort effort_of(Quality quality) {
     case Quality::fast:
       return {1, 0.35, 0.50, 0.26, 1, 0.2};
     case Quality::good:
-      return {1, 0.45, 0.60, 0.40, 1, 3};
+      return {1, 0.45, 0.60, 0.40, 1, 4};
     case Quality::best:
       break;
   }
@@ -157,9 +157,9 @@ class Improver {
   }
 
   bool add_point_at(Tet& t) {
-    work_ += 6;
     const TetMesh::Corners corners = mesh_.corners(t);
     const Vertex p = adder_.add(t, volume_.energy(t) > kVeryBad);
+    work_ += 6 + adder_.work() / 60;
     if (p == kNone) return false;
     note_size(p, corners);
     return true;

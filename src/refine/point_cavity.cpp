@@ -40,16 +40,21 @@ Tet PointCavity::locate(Vertex p, Tet start) {
   return kNone;
 }
 
-bool PointCavity::find(Vertex p, Tet base) {
+bool PointCavity::find(Vertex p, Tet base, std::size_t most) {
   p_ = p;
-  spread(base);
+  spread(base, most);
   work_ = tets_.size();
+  if (tets_.size() > most) {
+    abandon();
+    return false;
+  }
   return settle(base);
 }
 
 bool PointCavity::find_among(Vertex p, Tet base, std::span<const Tet> tets) {
   p_ = p;
   gather(tets);
+  work_ = tets_.size();
   return settle(base);
 }
 
@@ -74,13 +79,13 @@ bool PointCavity::settle(Tet base) {
 }
 
 // The tetrahedra in conflict with p and the faces between them and others, facets from both sides.
-void PointCavity::spread(Tet base) {
+void PointCavity::spread(Tet base, std::size_t most) {
   tets_.clear();
   faces_.clear();
   tets_.push_back(base);
   mesh_.set_flags(base, kVisited);
   const double* const x = mesh_.position(p_).data();
-  for (std::size_t k = 0; k < tets_.size(); ++k) {
+  for (std::size_t k = 0; k < tets_.size() && tets_.size() <= most; ++k) {
     const Tet t = tets_[k];
     for (int i = 0; i < 4; ++i) {
       const Face f = face_code(t, i);

@@ -10,6 +10,7 @@
 // tetrahedra, of which floating point cannot tell, would come to stand like walls in the way of cavities.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,8 @@ namespace holdfast {
 
 class PointCavity {
  public:
+  static constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
+
   /// All vertices of the tetrahedra that points are put in are explicit.
   explicit PointCavity(TetMesh& mesh) : mesh_(mesh) {}
 
@@ -26,9 +29,9 @@ class PointCavity {
   /// the walk leaves the hull or does not arrive.
   [[nodiscard]] Tet locate(Vertex p, Tet start);
 
-  /// Finds the cavity of p round the tetrahedron `base` that holds it. Returns false where there is none. It
-  /// must be inserted or abandoned.
-  [[nodiscard]] bool find(Vertex p, Tet base);
+  /// Finds the cavity of p round the tetrahedron `base` that holds it. Returns false where there is none, or
+  /// it would have more than `most` tetrahedra. It must be inserted or abandoned.
+  [[nodiscard]] bool find(Vertex p, Tet base, std::size_t most = kUnlimited);
   /// The same, but the cavity is made of these tetrahedra alone, as far as p sees their faces.
   [[nodiscard]] bool find_among(Vertex p, Tet base, std::span<const Tet> tets);
   /// The vertices that p would be joined to.
@@ -45,7 +48,7 @@ class PointCavity {
   /// The tetrahedra that p would replace.
   [[nodiscard]] std::span<const Tet> tets() const { return tets_; }
 
-  /// Of the last call of `find`, in tetrahedra looked at.
+  /// Of the last call of `find`, or of `find_among`, in tetrahedra looked at.
   [[nodiscard]] std::size_t work() const { return work_; }
 
   /// Replaces the cavity by the tetrahedra round p; created()[k] stands on rim()[k].
@@ -57,7 +60,7 @@ class PointCavity {
 
  private:
   bool settle(Tet base);
-  void spread(Tet base);
+  void spread(Tet base, std::size_t most);
   void gather(std::span<const Tet> tets);
   bool shrink_until_seen(Tet base);
   bool release(Tet t, Tet base);
