@@ -39,6 +39,8 @@ namespace {
 
 constexpr std::size_t kMostDefects = 100;  // `diagnose` gives them all
 constexpr int kMostAttempts = 5;
+constexpr double kOfSmallAngle =
+    energy_of_sine(0.035);             // 2 degrees: needles have a large Q, too, but no such angle
 constexpr double kHiddenMargin = 0.5;  // of the box that is cut away again
 
 void require_sensible(const Complex& complex, const Options& options) {
@@ -270,21 +272,19 @@ class Pipeline {
     report.swaps = stats.swapped;
     report.contractions = stats.contracted;
     report.insertions = stats.inserted;
-    remove_flat();
-    report.after = shape_of(mesh_, regions_.of_tet, kept_.region);
+    if (stats.worst > kOfSmallAngle) remove_flat();
   }
 
   // Long thin facets may leave flat elements: what the other optimisation is made for.
   void remove_flat() {
-    constexpr double kFlat = 30;                           // Q; it leaves better ones alone
-    constexpr double kSmallAngle = energy_of_sine(0.035);  // 2 degrees; needles have a large Q, too
+    constexpr double kFlat = 30;  // Q; it leaves better ones alone
     std::vector<Tet> flat;
     for (Tet t = 0; t < mesh_.slot_count(); ++t) {
       if (!is_kept(t)) continue;
       const auto& v = mesh_.corners(t);
       const Point &a = mesh_.position(v[0]), &b = mesh_.position(v[1]), &c = mesh_.position(v[2]),
                   &d = mesh_.position(v[3]);
-      if (energy(a, b, c, d) > kSmallAngle && quality(a, b, c, d) > kFlat) flat.push_back(t);
+      if (energy(a, b, c, d) > kOfSmallAngle && quality(a, b, c, d) > kFlat) flat.push_back(t);
     }
     if (flat.empty()) return;
     const OptimiseStats stats =
@@ -324,8 +324,13 @@ class Pipeline {
     if (last >= Stage::classify)
       report.regions = static_cast<std::size_t>(std::count(kept_.region.begin(), kept_.region.end(), true));
     const bool has_all = volume.facets.size() == complex_.facets.size();
-    if (!sizes_.empty()) find_forced(volume, report.field);
-    report.quality = measure(volume, has_all ? target() : target_quality(volume.vertices, volume.facets));
+    Report::Shape shape;
+    report.quality =
+        measure(volume, has_all ? target() : target_quality(volume.vertices, volume.facets), &shape);
+    if (sizes_.empty()) return;
+    if (options_.optimise && last == Stage::optimise) report.field.after = shape;
+    const auto& angles = shape.least_dihedral;  // in bins of five degrees
+    if (angles[0] + angles[1] > 0) find_forced(volume, report.field);
   }
 
   // Of all facets, computed once.

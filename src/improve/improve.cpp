@@ -69,6 +69,7 @@ class Improver {
       volume_.touch_all();
       if (!work_on_the_worst(kAimForWorst, 0.1 * effort_.work_per_tet, true)) break;
     }
+    stats_.worst = volume_.worst_energy();
     return stats_;
   }
 
@@ -211,7 +212,7 @@ class Improver {
   }
 
   static constexpr double kLeastWork = 1500;
-  static constexpr double kVeryBad = energy_of_sine(0.2);  // 12 degrees
+  static constexpr double kVeryBad = energy_of_sine(0.24);  // 14 degrees
 
   TetMesh& mesh_;
   ImprovedVolume volume_;

@@ -13,6 +13,7 @@ namespace holdfast {
 
 struct ImproveStats {
   std::size_t moved = 0, swapped = 0, contracted = 0, inserted = 0;
+  double worst = 0;  ///< energy that is left (improve/energy.h)
 };
 
 /// Improves the tetrahedra of the kept regions; all their vertices are explicit. Facets, segments and the

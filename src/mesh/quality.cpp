@@ -174,6 +174,15 @@ struct Measures {
     }
     return angles;
   }
+
+  [[nodiscard]] PlainShape shape() const {
+    PlainShape shape{quality(), {}};
+    const std::array<Angle, 6> angles = dihedral_angles();
+    for (std::size_t k = 0; k < 6; ++k)
+      shape.cosines[k] =
+          angles[k].known() ? angles[k].cosine / std::hypot(angles[k].sine, angles[k].cosine) : 1;
+    return shape;
+  }
 };
 
 // In plain arithmetic, right to ten digits; nothing for tetrahedra so thin, or so large or small, that it may
@@ -368,20 +377,54 @@ class AngleHistogram {
 
 }  // namespace
 
-Report::Quality measure(const Volume& volume, double target) {
+ShapeHistogram::ShapeHistogram() {
+  constexpr double kBin = 5;
+  for (std::size_t k = 0; k < cosine_of_end_.size(); ++k)
+    cosine_of_end_[k] = std::cos(kBin * static_cast<double>(k + 1) * std::numbers::pi / 180);
+}
+
+void ShapeHistogram::add(const PlainShape& element) {
+  const auto [of_most, of_least] = std::minmax_element(element.cosines.begin(), element.cosines.end());
+  if (*of_least > of_least_) {
+    of_least_ = *of_least;
+    shape_.min_dihedral_deg = std::acos(std::min(of_least_, 1.0)) * 180 / std::numbers::pi;
+  }
+  if (*of_most < of_most_) {
+    of_most_ = *of_most;
+    shape_.max_dihedral_deg = std::acos(std::max(of_most_, -1.0)) * 180 / std::numbers::pi;
+  }
+  std::size_t bin = 0, q = 0;
+  for (const double end : cosine_of_end_) bin += *of_least <= end ? 1 : 0;
+  for (const double end : Report::quality_bins) q += element.quality < end ? 0 : 1;
+  ++shape_.least_dihedral[bin];
+  ++shape_.quality[q];
+}
+
+void ShapeHistogram::add(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const auto plain = plain_shape(a, b, c, d);
+  add(plain ? *plain : Measures(brought_in_range<4>({a, b, c, d})).shape());
+}
+
+Report::Quality measure(const Volume& volume, double target, Report::Shape* shape) {
   const std::vector<Point>& v = volume.vertices;
   Report::Quality q;
   AngleHistogram angles;
+  ShapeHistogram shapes;
   for (const Tetrahedron& t : volume.tetrahedra) {
-    if (const auto plain = plain_shape(v[t[0]], v[t[1]], v[t[2]], v[t[3]])) {
-      q.worst = std::max(q.worst, plain->quality);
-      for (const double cosine : plain->cosines) angles.add_cosine(cosine);
-      continue;
+    const Point &a = v[t[0]], &b = v[t[1]], &c = v[t[2]], &d = v[t[3]];
+    PlainShape element;
+    if (const auto plain = plain_shape(a, b, c, d)) {
+      element = *plain;
+      for (const double cosine : element.cosines) angles.add_cosine(cosine);
+    } else {
+      const Measures measures(brought_in_range<4>({a, b, c, d}));
+      element = measures.shape();
+      for (const Angle& angle : measures.dihedral_angles()) angles.add(angle);
     }
-    const Measures measures(brought_in_range<4>({v[t[0]], v[t[1]], v[t[2]], v[t[3]]}));
-    q.worst = std::max(q.worst, measures.quality());
-    for (const Angle& angle : measures.dihedral_angles()) angles.add(angle);
+    q.worst = std::max(q.worst, element.quality);
+    if (shape != nullptr) shapes.add(element);
   }
+  if (shape != nullptr) *shape = shapes.shape();
   q.histogram = angles.counts();
   q.min_dihedral_deg = volume.tetrahedra.empty() ? 0 : angles.least_degrees();
   q.max_dihedral_deg = volume.tetrahedra.empty() ? 0 : angles.most_degrees();

@@ -30,6 +30,20 @@ struct PlainShape {
 [[nodiscard]] std::optional<PlainShape> plain_shape(const Point& a, const Point& b, const Point& c,
                                                     const Point& d);
 
+/// Gathers the shapes of elements.
+class ShapeHistogram {
+ public:
+  ShapeHistogram();
+  void add(const PlainShape& element);
+  void add(const Point& a, const Point& b, const Point& c, const Point& d);
+  [[nodiscard]] const Report::Shape& shape() const { return shape_; }
+
+ private:
+  Report::Shape shape_;
+  std::array<double, std::tuple_size_v<decltype(Report::Shape::least_dihedral)> - 1> cosine_of_end_{};
+  double of_least_ = -1, of_most_ = 1;  // cosines
+};
+
 /// The least Q of all tetrahedra that have abc as a face: the best that a mesh can have there. Infinite for
 /// a triangle without area. (The paper's Target is the largest of them: the worst triangle's.)
 [[nodiscard]] double best_quality_on(const Point& a, const Point& b, const Point& c);
@@ -39,6 +53,7 @@ struct PlainShape {
 
 /// Worst quality and dihedral angles of a volume, and the target that was found for its facets. An angle that
 /// is not a number counts as 0 degrees. All zero for a volume without tetrahedra, but for the target.
-[[nodiscard]] Report::Quality measure(const Volume& volume, double target);
+/// `shape`, where given, receives the shapes of the elements.
+[[nodiscard]] Report::Quality measure(const Volume& volume, double target, Report::Shape* shape = nullptr);
 
 }  // namespace holdfast
