@@ -34,16 +34,6 @@ double distance(const Point& a, const Point& b) {
   return std::sqrt(dot(d, d));
 }
 
-// The centre of the circumscribed sphere of (p, p+u, p+v, p+w), relative to p.
-Vector circumcentre(const Vector& u, const Vector& v, const Vector& w) {
-  const Vector vw = cross(v, w), wu = cross(w, u), uv = cross(u, v);
-  const double scale = 0.5 / dot(u, vw);
-  Vector c;
-  for (std::size_t k = 0; k < 3; ++k)
-    c[k] = scale * (dot(u, u) * vw[k] + dot(v, v) * wu[k] + dot(w, w) * uv[k]);
-  return c;
-}
-
 class FieldPoints {
  public:
   FieldPoints(const FieldMesh& field, const SizeFunction& sizes, Monitor& monitor)
@@ -144,14 +134,24 @@ class FieldPoints {
     state_[t] = static_cast<std::uint8_t>(state | kQueued);
   }
 
+  // Whether the radius of its sphere is. Per tetrahedron made, so without roots and divisions.
   [[nodiscard]] bool is_large(Tet t) const {
     const auto& c = mesh_.corners(t);
     const Point& p = mesh_.position(c[0]);
-    const Vector centre =
-        circumcentre(mesh_.position(c[1]) - p, mesh_.position(c[2]) - p, mesh_.position(c[3]) - p);
-    const double radius = std::sqrt(dot(centre, centre));
+    const Vector u = mesh_.position(c[1]) - p, v = mesh_.position(c[2]) - p, w = mesh_.position(c[3]) - p;
+    const Vector vw = cross(v, w), wu = cross(w, u), uv = cross(u, v);
+    const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
+    Vector centre;  // from p, times twelve volumes
+    for (std::size_t k = 0; k < 3; ++k) centre[k] = uu * vw[k] + vv * wu[k] + ww * uv[k];
+    const double limit = 2 * dot(u, vw) * largest_radius(t);
+    return !(dot(centre, centre) < limit * limit);
+  }
+
+  // Sizes grow with the distance: r = kLarge (h + gradation r).
+  [[nodiscard]] double largest_radius(Tet t) const {
+    const auto& c = mesh_.corners(t);
     const std::array<double, 4> h{size_[c[0]], size_[c[1]], size_[c[2]], size_[c[3]]};
-    double allowed = *std::min_element(h.begin(), h.end()) + sizes_.gradation() * radius;
+    double allowed = *std::min_element(h.begin(), h.end()) / (1 - kLarge * sizes_.gradation());
     if (!sizes_.grows()) allowed = std::min(allowed, kLevel * 0.25 * (h[0] + h[1] + h[2] + h[3]));
     if (sizes_.has_limit()) {
       Point middle{};
@@ -159,7 +159,7 @@ class FieldPoints {
         for (std::size_t k = 0; k < 3; ++k) middle[k] += 0.25 * mesh_.position(v)[k];
       allowed = std::min(allowed, sizes_.limit(middle, region_of_[t]));
     }
-    return !(radius < kLarge * allowed);
+    return kLarge * allowed;
   }
 
   // Tries a point over each face of t that is on the front.
