@@ -29,7 +29,7 @@ constexpr Effort effort_of(Quality quality) {
     case Quality::fast:
       return {1, 0.35, 0.50, 0.26, 1, 0.2};
     case Quality::good:
-      return {1, 0.45, 0.60, 0.40, 1, 4};
+      return {1, 0.45, 0.60, 0.38, 1, 4};
     case Quality::best:
       break;
   }
