@@ -1,13 +1,18 @@
 """Meshes to compute with, side by side: Holdfast, Gmsh (HXT, and Delaunay with optimisation), TetGen and Netgen.
 
-    field.py --build build/release --corpus DIR [--only NAME] [--output docs/field.md]
+    field.py --build build/release --corpus DIR [--only NAME] [--again MESHER] [--output docs/field.md]
 
 Every mesher gets the same triangles and keeps them: `holdfast mesh --no-growth --gradation 0.6` (sizes inside lie
 between those of the surface round, as Gmsh has them), `gmsh -3 -algo hxt`, `gmsh -3 -algo del3d` with Mesh.Optimize, `tetgen -pYq1.4`,
 and Netgen's GenerateVolumeMesh through bench/netgen_volume.py. One thread each. Seconds are CPU time of meshing as far
 as a program tells it: reading and writing files is left out. Angles are measured by one program, mesh_shape.
+A mesher has --timeout seconds a surface, which the table states.
+
+Every row is kept in field.json in the build folder as soon as it is measured, so that an interrupted run goes on where it stopped.
+Rows of another Holdfast, other surfaces or another time limit are measured anew; --again does that for a mesher.
 """
 import argparse
+import hashlib
 import json
 import platform
 import re
@@ -49,18 +54,22 @@ def write_msh(path, points, triangles):
         out.write("$EndElements\n")
 
 
+class TookTooLong(Exception):
+    pass
+
+
 class Bench:
     def __init__(self, options, folder):
         self.options, self.folder = options, folder
 
     def run(self, command):
-        """(output, CPU seconds) of a command, or None for one that fails or takes too long."""
+        """(output, CPU seconds) of a command, or None for one that fails."""
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         try:
             ended = subprocess.run([str(c) for c in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                    cwd=self.folder, timeout=self.options.timeout, check=False)
-        except subprocess.TimeoutExpired:
-            return None
+        except subprocess.TimeoutExpired as expired:
+            raise TookTooLong from expired
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         if ended.returncode != 0:
             return None
@@ -114,15 +123,51 @@ class Bench:
         told = self.run(["/usr/bin/python3", ROOT / "bench" / "netgen_volume.py", surface, "n.mesh"])
         return None if told is None else self.shape(self.folder / "n.mesh", float(told[0].split()[-1]))
 
-    def all(self, surface):
-        return {"Holdfast": self.holdfast(surface), "Holdfast fast": self.holdfast(surface, "--quality", "fast"),
-                "Gmsh HXT": self.gmsh(surface, "hxt"), "Gmsh Delaunay": self.gmsh(surface, "del3d"),
-                "TetGen": self.tetgen(surface), "Netgen": self.netgen(surface)}
+    def measure(self, mesher, surface):
+        """A row; {"failed": why} without a mesh."""
+        run = {"Holdfast": self.holdfast, "Holdfast fast": lambda s: self.holdfast(s, "--quality", "fast"),
+               "Gmsh HXT": lambda s: self.gmsh(s, "hxt"), "Gmsh Delaunay": lambda s: self.gmsh(s, "del3d"),
+               "TetGen": self.tetgen, "Netgen": self.netgen}[mesher]
+        try:
+            return run(surface) or {"failed": "fails"}
+        except TookTooLong:
+            return {"failed": f"exceeds {self.options.timeout:.0f} s"}
+
+
+MESHERS = ["Holdfast", "Holdfast fast", "Gmsh HXT", "Gmsh Delaunay", "TetGen", "Netgen"]
+
+
+class Rows:
+    """What was measured before, by surface, mesher, and all that the row depends on."""
+
+    def __init__(self, options):
+        self.path = options.build / "field.json"
+        self.rows = json.loads(self.path.read_text()) if self.path.exists() else {}
+        self.timeout = options.timeout
+        self.program = self.digest(options.build / "holdfast")
+
+    @staticmethod
+    def digest(path):
+        return hashlib.sha256(path.read_bytes()).hexdigest()[:16]
+
+    def key(self, mesher, surface):
+        program = self.program if mesher.startswith("Holdfast") else ""
+        return f"{surface.stem} {self.digest(surface)} {mesher} {program} {self.timeout:.0f}"
+
+    def drop(self, meshers):
+        self.rows = {key: row for key, row in self.rows.items() if not any(f" {m} " in key for m in meshers)}
+
+    def get(self, mesher, surface, measure):
+        key = self.key(mesher, surface)
+        if key not in self.rows:
+            self.rows[key] = measure(mesher, surface)
+            self.path.write_text(json.dumps(self.rows, indent=1))
+        return self.rows[key]
 
 
 def line(name, mesher, row):
-    if row is None:
-        return f"| {name} | {mesher} | fails or exceeds the time | | | | | |"
+    if "failed" in row:
+        return f"| {name} | {mesher} | {row['failed']} | | | | | |"
     below = " / ".join(f"{x:.2g}" if x else "0" for x in row["below"][:3])
     return (f"| {name} | {mesher} | {row['tetrahedra']} | {row['seconds']:.2f} | "
             f"{row['tetrahedra'] / max(row['seconds'], 1e-9) / 1000:.0f}k | {row['min_dihedral']:.1f} | "
@@ -133,7 +178,8 @@ def summary(results):
     lines = ["| mesher | surfaces | tetrahedra a second, median | least angle, median | below 10 / 20 / 30 degrees, mean % "
              "| tetrahedra over Holdfast's, median |", "|---|---|---|---|---|---|"]
     for mesher in next(iter(results.values())):
-        rows = [(r[mesher], r["Holdfast"]) for r in results.values() if r[mesher] and r["Holdfast"]]
+        rows = [(r[mesher], r["Holdfast"]) for r in results.values()
+                if "failed" not in r[mesher] and "failed" not in r["Holdfast"]]
         if not rows:
             continue
         mean = [statistics.mean(r["below"][k] for r, _ in rows) for k in range(3)]
@@ -152,16 +198,24 @@ def processor():
     return platform.processor()
 
 
-def write(results, path):
+def best_angles(results):
+    """On how many surfaces Holdfast's least angle is at least the best peer's."""
+    wins = sum(1 for rows in results.values() if "failed" not in rows["Holdfast"]
+               and all("failed" in row or row["min_dihedral"] <= rows["Holdfast"]["min_dihedral"]
+                       for mesher, row in rows.items() if not mesher.startswith("Holdfast")))
+    return f"Holdfast's least angle is at least as good as that of the best of the others on {wins} of {len(results)}."
+
+
+def write(results, path, timeout):
     versions = subprocess.run(["dpkg-query", "-W", "-f", "${Package} ${Version}, ", "gmsh", "tetgen", "netgen"],
                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False).stdout.decode()
     text = ["# Meshes to compute with", "", "Written by `make field`; how it was measured stands in `bench/field.py`.", "",
-            f"{processor()}; one thread; {versions.strip(', ')}.", "", *summary(results), "",
+            f"{processor()}; one thread; at most {timeout:.0f} s a surface; {versions.strip(', ')}.", "",
+            *summary(results), "", best_angles(results), "",
             "| surface | mesher | tetrahedra | seconds | a second | least angle | largest | % below 10 / 20 / 30 |",
             "|---|---|---|---|---|---|---|---|"]
     text += [line(name, mesher, row) for name, rows in results.items() for mesher, row in rows.items()]
     path.write_text("\n".join(text) + "\n", encoding="utf-8")
-
 
 
 def main():
@@ -169,22 +223,28 @@ def main():
     parser.add_argument("--build", type=lambda p: Path(p).resolve(), required=True)
     parser.add_argument("--corpus", default="")
     parser.add_argument("--only", action="append")
-    parser.add_argument("--timeout", type=float, default=600)
+    parser.add_argument("--again", action="append", choices=MESHERS, default=[])
+    parser.add_argument("--timeout", type=float, default=300)
     parser.add_argument("--output", type=Path, default=ROOT / "docs" / "field.md")
     options = parser.parse_args()
     folder = corpus.locate(options.corpus, False)
     if folder is None:
         sys.exit("field.py: no corpus of surfaces")
     results = {}
+    rows = Rows(options)
+    rows.drop(options.again)
     with tempfile.TemporaryDirectory(prefix="holdfast-field-") as scratch:
         for name in options.only or SURFACES:
             surface = next(folder.rglob(name + ".off"), None)
             if surface is None:
                 continue
-            results[name] = Bench(options, Path(scratch)).all(surface.resolve())
-            for mesher, row in results[name].items():
+            bench = Bench(options, Path(scratch))
+            results[name] = {}
+            for mesher in MESHERS:
+                row = rows.get(mesher, surface.resolve(), bench.measure)
+                results[name][mesher] = row
                 print(line(name, mesher, row), flush=True)
-            write(results, options.output)
+            write(results, options.output, options.timeout)
 
 
 if __name__ == "__main__":

@@ -118,7 +118,7 @@ struct Report {
   };
   static constexpr std::array<double, 9> quality_bins{1.25, 1.5, 2, 3, 5, 10, 30, 100, 1000};
   /// An element with an angle below 10 degrees that facets ask for: two of its faces, or one with a small
-  /// angle.
+  /// angle, or two that meet so at the edge where the angle is.
   struct Forced {
     Index tetrahedron;
     double min_dihedral_deg;

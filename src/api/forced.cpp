@@ -21,6 +21,8 @@ std::uint64_t key_of(Triangle t) {
   return (h ^ (h >> 31) ^ t[2]) * 0x94D049BB133111EBull;
 }
 
+std::uint64_t key_of_edge(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
+
 double angle_at(const Point& p, const Point& q, const Point& r) {
   double uu = 0, vv = 0, uv = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -74,7 +76,57 @@ class ForcedElements {
       if (i != ends[0] && i != ends[1]) both.push_back(*facet);
       if (has_small_angle(face)) small.push_back(*facet);
     }
-    return both.size() == 2 ? both : small;
+    if (both.size() == 2) return both;
+    if (!small.empty()) return small;
+    return wedge_at(c[static_cast<std::size_t>(ends[0])], c[static_cast<std::size_t>(ends[1])]);
+  }
+
+  // Two facets at an edge with a small angle between them: whatever lies there has no larger one.
+  std::vector<Index> wedge_at(Index a, Index b) {
+    if (by_edge_.empty()) list_edges();
+    const auto [first, last] = by_edge_.equal_range(key_of_edge(a, b));
+    for (auto i = first; i != last; ++i)
+      for (auto j = first; j != i; ++j)
+        if (third(i->second, a, b) && third(j->second, a, b) &&
+            angle_between(a, b, *third(i->second, a, b), *third(j->second, a, b)) < kSmall)
+          return {j->second, i->second};
+    return {};
+  }
+
+  void list_edges() {
+    for (Index f = 0; f < volume_.facets.size(); ++f)
+      for (std::size_t k = 0; k < 3; ++k)
+        by_edge_.emplace(key_of_edge(volume_.facets[f][k], volume_.facets[f][(k + 1) % 3]), f);
+  }
+
+  // The corner of a facet beside two, which it may not have.
+  [[nodiscard]] std::optional<Index> third(Index facet, Index a, Index b) const {
+    const Triangle& f = volume_.facets[facet];
+    for (std::size_t k = 0; k < 3; ++k)
+      if (f[k] != a && f[k] != b && (f[(k + 1) % 3] == a || f[(k + 1) % 3] == b) &&
+          (f[(k + 2) % 3] == a || f[(k + 2) % 3] == b))
+        return f[k];
+    return std::nullopt;
+  }
+
+  // Of the half-planes from the line ab through p and through q, in degrees.
+  [[nodiscard]] double angle_between(Index a, Index b, Index p, Index q) const {
+    const auto& v = volume_.vertices;
+    Point axis, to_p, to_q;
+    double length2 = 0, along_p = 0, along_q = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      axis[k] = v[b][k] - v[a][k];
+      to_p[k] = v[p][k] - v[a][k];
+      to_q[k] = v[q][k] - v[a][k];
+      length2 += axis[k] * axis[k];
+      along_p += axis[k] * to_p[k];
+      along_q += axis[k] * to_q[k];
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      to_p[k] -= along_p / length2 * axis[k];
+      to_q[k] -= along_q / length2 * axis[k];
+    }
+    return angle_at({0, 0, 0}, to_p, to_q);
   }
 
   [[nodiscard]] bool has_small_angle(const Triangle& t) const {
@@ -95,7 +147,7 @@ class ForcedElements {
   }
 
   const Volume& volume_;
-  std::unordered_multimap<std::uint64_t, Index> by_key_;
+  std::unordered_multimap<std::uint64_t, Index> by_key_, by_edge_;
 };
 
 }  // namespace

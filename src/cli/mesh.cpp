@@ -1,5 +1,6 @@
 // `holdfast mesh`: surfaces in, tetrahedra out.
 #include <fmt/core.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -38,6 +39,18 @@ std::string counted(std::size_t count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
+void print_field(const Report::Field& field) {
+  fmt::print(stderr, "field      {}, least dihedral angle {:.3g} degrees before optimisation, {:.3g} after\n",
+             counted(field.points, "point"), field.before.min_dihedral_deg, field.after.min_dihedral_deg);
+  if (field.below_10_deg == 0) return;
+  fmt::print(stderr, "           {} below 10 degrees, {} of them forced by the surface",
+             counted(field.below_10_deg, "element"), field.forced);
+  if (!field.worst_forced.empty())
+    fmt::print(stderr, ": the worst, of {:.3g} degrees, by triangles {}",
+               field.worst_forced[0].min_dihedral_deg, fmt::join(field.worst_forced[0].facets, " and "));
+  fmt::print(stderr, "\n");
+}
+
 void print_details(const Report& report) {
   fmt::print(stderr, "input      {} vertices, {} segments, {} facets in {}, {}\n", report.input.vertices,
              report.input.segments, report.input.facets, counted(report.input.components, "component"),
@@ -50,12 +63,7 @@ void print_details(const Report& report) {
              counted(report.facet_points, "point"));
   fmt::print(stderr, "steiner    {} left, {} of them without a position in doubles\n",
              counted(report.steiner_points, "point"), report.unrounded_points);
-  if (report.field.points > 0)
-    fmt::print(
-        stderr,
-        "field      {}, least dihedral angle {:.3g} degrees before optimisation, {:.3g} after; {} below 10\n",
-        counted(report.field.points, "point"), report.field.before.min_dihedral_deg,
-        report.field.after.min_dihedral_deg, report.field.below_10_deg);
+  if (report.field.points > 0) print_field(report.field);
   fmt::print(stderr, "quality    worst {:.4g}, dihedral angles {:.3g} to {:.3g} degrees\n",
              report.quality.worst, report.quality.min_dihedral_deg, report.quality.max_dihedral_deg);
   for (const auto& [stage, seconds] : report.seconds)

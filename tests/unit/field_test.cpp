@@ -165,6 +165,19 @@ TEST(FieldPoints, ElementsThatFacetsForceAreReported) {
   EXPECT_EQ(result.report.field.worst_forced[0].facets.size(), 2u);
 }
 
+// Points inside leave no element with both facets of the wedge.
+TEST(FieldPoints, ElementsInAWedgeOfTheSurfaceAreReported) {
+  Surface wedge;
+  const double h = 8 * std::tan(4 * 3.14159265358979 / 180);
+  wedge.vertices = {{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}, {0, 8, h}, {8, 8, h}};
+  wedge.facets = {{0, 2, 1}, {0, 3, 2}, {0, 1, 5}, {0, 5, 4}, {1, 2, 5}, {2, 3, 4}, {2, 4, 5}, {0, 4, 3}};
+  const Result result = mesh_with(wedge, {.size = 0.5});
+  const Report::Field& field = result.report.field;
+  EXPECT_GT(field.below_10_deg, 0u);
+  EXPECT_GT(field.forced, 0u);
+  for (const Report::Forced& f : field.worst_forced) EXPECT_FALSE(f.facets.empty());
+}
+
 TEST(Energy, IsOfTheLeastAngle) {
   const Point a{0, 0, 0}, b{1, 0, 0}, c{0.5, std::sqrt(0.75), 0},
       d{0.5, std::sqrt(1.0 / 12), std::sqrt(2.0 / 3)};
