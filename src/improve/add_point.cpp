@@ -4,25 +4,19 @@
 
 namespace holdfast {
 
-Vertex PointAdder::add(Tet& t, bool patient) {
+Vertex PointAdder::add(Tet t, bool patient) {
   const TetMesh& mesh = volume_.mesh();
-  const TetMesh::Corners corners = mesh.corners(t);
-  tet_ = t;
   work_ = 0;
   for (int edge = 0; edge < 6; ++edge) {
     const auto& ends = kEdgeVertex[static_cast<std::size_t>(edge)];
-    const Vertex a = corners[static_cast<std::size_t>(ends[0])],
-                 b = corners[static_cast<std::size_t>(ends[1])];
-    for (const bool by_sphere : {false, true}) {
-      if (by_sphere && !patient) continue;
-      const int k = kEdgeOf[static_cast<std::size_t>(mesh.index_of(tet_, a))]
-                           [static_cast<std::size_t>(mesh.index_of(tet_, b))];
-      if (mesh.is_segment(tet_, k) || !gather_shell(mesh, tet_, a, b, shell_)) continue;
-      const Vertex p = add_at(middle_of_shell(), by_sphere ? std::span<const Tet>{} : shell_.tets);
-      if (p != kNone) return p;
-    }
+    if (mesh.is_segment(t, edge) ||
+        !gather_shell(mesh, t, mesh.corner(t, ends[0]), mesh.corner(t, ends[1]), shell_))
+      continue;
+    const Point middle = middle_of_shell();
+    if (const Vertex p = add_at(middle, t, shell_.tets); p != kNone) return p;
+    if (!patient) continue;
+    if (const Vertex p = add_at(middle, t, {}); p != kNone) return p;
   }
-  t = tet_;
   return kNone;
 }
 
@@ -38,40 +32,47 @@ Point PointAdder::middle_of_shell() const {
 }
 
 // In the cavity of these tetrahedra, or, without any, in the one that the in-sphere test gives.
-Vertex PointAdder::add_at(const Point& place, std::span<const Tet> tets) {
-  constexpr std::size_t kMostTets = 200;
+Vertex PointAdder::add_at(const Point& place, Tet t, std::span<const Tet> tets) {
   TetMesh& mesh = volume_.mesh();
-  const RegionId region = volume_.region_of(tet_);
-  const TetMesh::Corners bad = mesh.corners(tet_);
+  const RegionId region = volume_.region_of(t);
   const Vertex p = mesh.add_vertex(place);
-  const Tet base = cavity_.locate(p, tet_);
-  const bool found = base != kNone && !mesh.is_ghost(base) && volume_.region_of(base) == region &&
-                     (tets.empty() ? cavity_.find(p, base, kMostTets)
-                                   : std::find(tets.begin(), tets.end(), base) != tets.end() &&
-                                         cavity_.find_among(p, base, tets));
-  work_ += static_cast<double>(cavity_.work());
-  if (!found) {
+  const bool found = find_cavity(p, t, tets);
+  if (!found || !improves(p)) {
+    if (found) cavity_.abandon();
     mesh.remove_last_vertex();
     return kNone;
   }
-  old_.clear();
-  for (const Tet t : cavity_.tets()) old_.push_back(mesh.corners(t));
-  const double before = volume_.energy(cavity_.tets());
   cavity_.insert();
   volume_.adopt(cavity_.created(), region);
-  smoother_.smooth(p, true);
-  ball_ = smoother_.ball();
-  if (is_less(volume_.energy(ball_), before)) return p;
-  take_back(bad);
-  return kNone;
+  return p;
 }
 
-// Which may give the bad element another slot.
-void PointAdder::take_back(const TetMesh::Corners& bad) {
+bool PointAdder::find_cavity(Vertex p, Tet t, std::span<const Tet> tets) {
+  constexpr std::size_t kMostTets = 200;
+  const Tet base = cavity_.locate(p, t);
+  if (base == kNone || volume_.mesh().is_ghost(base) || volume_.region_of(base) != volume_.region_of(t))
+    return false;
+  if (!tets.empty() && std::find(tets.begin(), tets.end(), base) == tets.end()) return false;
+  const bool found = tets.empty() ? cavity_.find(p, base, kMostTets) : cavity_.find_among(p, base, tets);
+  work_ += static_cast<double>(cavity_.work());
+  return found;
+}
+
+// Moves p to the best place that sees the same faces, and tells whether that lessens the energy.
+bool PointAdder::improves(Vertex p) {
   TetMesh& mesh = volume_.mesh();
-  for (const Tet t : volume_.replace(ball_, old_))
-    if (mesh.corners(t) == bad) tet_ = t;
-  mesh.remove_last_vertex();
+  star_.clear();
+  for (const PointCavity::Rim& rim : cavity_.rim())
+    star_.add(mesh.position(rim.v[0]), mesh.position(rim.v[1]), mesh.position(rim.v[2]), 1);
+  star_.start_at(mesh.position(p));
+  if (!(star_.energy() < kNoEnergy)) return false;
+  star_.step_to_ideal_place();
+  star_.descend();
+  if (!is_less(star_.energy(), volume_.energy(cavity_.tets()))) return false;
+  mesh.move_vertex(p, star_.at());
+  return std::all_of(cavity_.rim().begin(), cavity_.rim().end(), [&](const PointCavity::Rim& rim) {
+    return mesh.orient(rim.v[0], rim.v[1], rim.v[2], p) > 0;
+  });
 }
 
 }  // namespace holdfast

@@ -29,7 +29,7 @@ constexpr Effort effort_of(Quality quality) {
     case Quality::fast:
       return {1, 0.35, 0.50, 0.26, 1, 0.2};
     case Quality::good:
-      return {1, 0.45, 0.60, 0.38, 1, 4};
+      return {1, 0.45, 0.60, 0.38, 1, 8};
     case Quality::best:
       break;
   }
@@ -48,12 +48,12 @@ class Improver {
         smoother_(volume_),
         swapper_(volume_),
         contractor_(volume_),
-        adder_(volume_, smoother_),
+        adder_(volume_),
         refiller_(volume_) {}
 
   ImproveStats run() {
     const int steps = effort_.passes + effort_.rounds;
-    for (int pass = 0; pass < effort_.passes; ++pass) {
+    for (int pass = 0; pass < effort_.passes || (pass < kMostPasses && has_many_bad()); ++pass) {
       stage_ = {static_cast<double>(pass) / steps, 1.0 / steps};
       swap_pass();
       smooth_pass(false);
@@ -108,6 +108,16 @@ class Improver {
     }
   }
 
+  // So many that passes are the faster way.
+  [[nodiscard]] bool has_many_bad() const {
+    constexpr double kMany = 0.1;
+    const double from = energy_of_sine(effort_.aim);
+    std::size_t bad = 0;
+    for (Tet t = 0; t < mesh_.slot_count(); ++t)
+      if (volume_.energy(t) > from && volume_.is_inside(t)) ++bad;
+    return static_cast<double>(bad) > kMany * static_cast<double>(mesh_.tet_count());
+  }
+
   // One element after another, the worst first, each in every way, or in every one but the slowest. Returns
   // whether any became better.
   bool work_on_the_worst(double aim, double work_per_tet, bool refill) {
@@ -146,18 +156,17 @@ class Improver {
         again(created);
         continue;
       }
-      Tet t = worst.tet;
-      if (worst.energy > worth_a_point && add_point_at(t)) {
+      if (worst.energy > worth_a_point && add_point_at(worst.tet)) {
         ++stats_.inserted;
         again(adder_.ball());
         continue;
       }
-      if (refill && worst.energy > kVeryBad) again(refill_round(t));
+      if (refill && worst.energy > kVeryBad) again(refill_round(worst.tet));
     }
     return any;
   }
 
-  bool add_point_at(Tet& t) {
+  bool add_point_at(Tet t) {
     const TetMesh::Corners corners = mesh_.corners(t);
     const Vertex p = adder_.add(t, volume_.energy(t) > kVeryBad);
     work_ += 6 + adder_.work() / 60;
@@ -212,6 +221,7 @@ class Improver {
   }
 
   static constexpr double kLeastWork = 1500;
+  static constexpr int kMostPasses = 6;
   static constexpr double kVeryBad = energy_of_sine(0.24);  // 14 degrees
 
   TetMesh& mesh_;

