@@ -18,6 +18,7 @@ struct Effort {
   double sine;         // of the angle below which elements are swapped in a pass
   double smooth_sine;  // of the angle below which the vertices of elements are moved in a pass
   double aim;          // of the angle below which single elements are worked on
+  double patient_aim;  // of that below which everything is tried on them
   int rounds;
   // For a round, in elements tried, some ten microseconds each. Most volumes take a small part of it: it is
   // for those full of elements that the surface forces, which nothing helps.
@@ -27,13 +28,13 @@ struct Effort {
 constexpr Effort effort_of(Quality quality) {
   switch (quality) {
     case Quality::fast:
-      return {1, 0.35, 0.50, 0.26, 1, 0.2};
+      return {1, 0.35, 0.50, 0.26, 0.24, 1, 0.2};
     case Quality::good:
-      return {1, 0.45, 0.60, 0.38, 1, 8};
+      return {1, 0.45, 0.60, 0.38, 0.24, 1, 8};
     case Quality::best:
       break;
   }
-  return {6, 0.65, 0.80, 0.60, 6, 10};
+  return {6, 0.65, 0.80, 0.60, 0.34, 6, 10};
 }
 
 class Improver {
@@ -64,10 +65,10 @@ class Improver {
       if (!work_on_the_worst(effort_.aim, effort_.work_per_tet, false)) break;
     }
     // The very worst are few: they get as many rounds as help.
-    constexpr double kAimForWorst = 0.26;
+    const double aim = effort_.patient_aim + 0.02;
     for (int round = 0; round < 3 * effort_.rounds; ++round) {
       volume_.touch_all();
-      if (!work_on_the_worst(kAimForWorst, 0.1 * effort_.work_per_tet, true)) break;
+      if (!work_on_the_worst(aim, 0.1 * effort_.work_per_tet, true)) break;
     }
     stats_.worst = volume_.worst_energy();
     return stats_;
@@ -161,14 +162,14 @@ class Improver {
         again(adder_.ball());
         continue;
       }
-      if (refill && worst.energy > kVeryBad) again(refill_round(worst.tet));
+      if (refill && worst.energy > very_bad_) again(refill_round(worst.tet));
     }
     return any;
   }
 
   bool add_point_at(Tet t) {
     const TetMesh::Corners corners = mesh_.corners(t);
-    const Vertex p = adder_.add(t, volume_.energy(t) > kVeryBad);
+    const Vertex p = adder_.add(t, volume_.energy(t) > very_bad_);
     work_ += 6 + adder_.work() / 60;
     if (p == kNone) return false;
     note_size(p, corners);
@@ -222,12 +223,12 @@ class Improver {
 
   static constexpr double kLeastWork = 1500;
   static constexpr int kMostPasses = 6;
-  static constexpr double kVeryBad = energy_of_sine(0.24);  // 14 degrees
 
   TetMesh& mesh_;
   ImprovedVolume volume_;
   std::vector<double>& sizes_;
   const Effort effort_;
+  const double very_bad_ = energy_of_sine(effort_.patient_aim);
   Monitor& monitor_;
   VertexSmoother smoother_;
   EnergySwapper swapper_;
