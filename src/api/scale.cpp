@@ -6,7 +6,7 @@
 namespace holdfast {
 namespace {
 
-constexpr int kUsual = 200;       // 2^-200 .. 2^200: products of five differences neither over- nor underflow
+constexpr int kUsual = 64;  // 2^-64 .. 2^64: products of sixteen differences neither over- nor underflow
 constexpr int kLeastBit = -1074;  // of any double
 constexpr int kRoomBehind = 300;  // bits behind the leading one that added vertices may use
 

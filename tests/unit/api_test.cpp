@@ -539,7 +539,8 @@ TEST(Scale, IsUsedWhereItLosesNothing) {
     return choose_scale(vertices);
   };
   EXPECT_EQ(of(1, 1e-300), 0);
-  EXPECT_EQ(of(0x1p200, 1), 0);
+  EXPECT_EQ(of(0x1p64, 1), 0);
+  EXPECT_EQ(of(0x1p65, 1), -65);
   EXPECT_EQ(of(0x1p500, 3), -500);
   EXPECT_EQ(of(0x1p1023, 0x1p-51), -1023);
   EXPECT_EQ(of(0x1p1023, 0x1p-52), 0);

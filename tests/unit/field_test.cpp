@@ -127,6 +127,20 @@ TEST(FieldPoints, ARegionHasASizeOfItsOwn) {
             100.0 * static_cast<double>(plain.volume.tetrahedra.size()));
 }
 
+// Powers of two change nothing; energies, products of sixteen lengths, once ran out of exponents.
+TEST(FieldPoints, TheUnitDoesNotMatter) {
+  const Surface sphere = hard::icosphere(2);
+  const Result usual = mesh_with(sphere, {.size = 0.3});
+  for (const int k : {-300, -160, 160, 300}) {
+    Surface scaled = sphere;
+    for (Point& p : scaled.vertices)
+      for (double& x : p) x = std::ldexp(x, k);
+    const Result result = mesh_with(scaled, {.size = std::ldexp(0.3, k)});
+    EXPECT_EQ(result.volume.tetrahedra, usual.volume.tetrahedra) << k;
+    EXPECT_EQ(result.report.field.after.least_dihedral, usual.report.field.after.least_dihedral) << k;
+  }
+}
+
 TEST(FieldPoints, SameResultTwice) {
   const Surface sphere = hard::icosphere(3);
   const Result a = mesh_with(sphere, {}), b = mesh_with(sphere, {});
