@@ -32,7 +32,7 @@ corpus: build  ## meshes and verifies every surface of CORPUS=dir (options: ARGS
 bench:  ## speed against TetGen, CGAL and Gmsh, written to docs/benchmarks.md
 	@scripts/setup.sh build bench
 	@cmake --preset release -DHOLDFAST_BUILD_BENCH=ON
-	@cmake --build $(RELEASE) -j $(JOBS) --target holdfast_cli cgal_delaunay
+	@cmake --build $(RELEASE) -j $(JOBS) --target holdfast_cli cgal_delaunay tetgen_delaunay
 	@python3 bench/run.py --build $(RELEASE) --corpus "$(or $(CORPUS),../shared/corpus)" $(ARGS)
 
 field:  ## meshes to compute with, beside Gmsh, TetGen and Netgen, to docs/field.md

@@ -11,6 +11,8 @@
 #include <memory>
 #include <vector>
 
+#include "ready_memory.h"
+
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Delaunay = CGAL::Delaunay_triangulation_3<Kernel>;
 using ParallelStructure =
@@ -26,6 +28,7 @@ using Points = std::vector<Kernel::Point_3>;
 // Prints the seconds that `make` takes and the number of cells.
 template <class Make>
 void time_of(const Make& make) {
+  ready_memory(kReadyMemory);
   const auto start = std::chrono::steady_clock::now();
   const auto delaunay = make();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -27,7 +27,8 @@ def bench_delaunay_growth(options, folder, write_points):
         write_points(node, count)
         told = []
         for _ in range(options.runs):
-            code, text, _, _ = run([options.build / "holdfast", "delaunay", node, "-o", folder / "growth.meshb", "-q", "--report", report])
+            code, text, _, _ = run([options.build / "holdfast", "delaunay", node, "-o", folder / "growth.meshb", "-q", "--report", report],
+                                    memory=(1 << 28) + 1500 * count)
             if code != 0:
                 sys.exit(f"holdfast delaunay ended with {code}: {text}")
             told.append(json.loads(report.read_text(encoding="utf-8")))

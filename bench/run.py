@@ -29,6 +29,9 @@ from process import run  # noqa: E402
 from surfaces import bench_surfaces, torus  # noqa: E402
 
 
+MEMORY = 2 << 30  # bytes that a program finds ready, see process.ready_memory; also in ready_memory.h
+SMALL_MEMORY = 256 << 20
+
 # ------------------------------------------------------------------------------------------------- Delaunay
 
 
@@ -60,7 +63,7 @@ def delaunay_tools(build, folder):
     def holdfast(node, threads=1):
         report = folder / "report.json"
         code, text, _, peak = run([build / "holdfast", "delaunay", node, "-o", folder / "out.vtu", "-q", "--report", report,
-                                   "--threads", threads])
+                                   "--threads", threads], memory=MEMORY)
         if code != 0:
             sys.exit(f"holdfast delaunay ended with {code}: {text}")
         told = json.loads(report.read_text())
@@ -72,7 +75,7 @@ def delaunay_tools(build, folder):
         return float(found[1]), int(found[2]), peak
 
     def tetgen(node):
-        _, text, _, peak = run(["tetgen", "-NEF", node])
+        _, text, _, peak = run([build / "tetgen_delaunay", node])
         return (float(re.search(r"Delaunay seconds:\s+(\S+)", text)[1]),
                 int(re.search(r"Mesh tetrahedra:\s+(\d+)", text)[1]), peak)
 
@@ -133,11 +136,11 @@ def bench_mesh(options, folder, surfaces):
             for old in folder.glob("out.*"):
                 old.unlink()
             code, _, seconds, _ = run([options.build / "holdfast", "mesh", local, "-o", folder / "out.node", "--fill", "-q"],
-                                      options.timeout)
+                                      options.timeout, memory=SMALL_MEMORY)
             times["holdfast"].append(seconds if code == 0 else None)
             for old in folder.glob("surface.1.*"):
                 old.unlink()
-            code, _, seconds, _ = run(["tetgen", "-pYQ", local], options.timeout)
+            code, _, seconds, _ = run(["tetgen", "-pYQ", local], options.timeout, memory=SMALL_MEMORY)
             times["TetGen"].append(seconds if code == 0 and (folder / "surface.1.ele").exists() else None)
         for name, values in times.items():
             if None in values:
@@ -196,7 +199,8 @@ def main():
     version = run([options.build / "holdfast", "--version"])[1].strip()
     commit = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=False).stdout.strip()
     lines = ["# Benchmarks", "", f"Written by `make bench` on {time.strftime('%Y-%m-%d')}: {version} at {commit}, against Debian's "
-             f"TetGen {version_of('tetgen')} and CGAL {version_of('libcgal-dev')}; {machine()}. The programs took turns.", ""]
+             f"TetGen {version_of('tetgen')} and CGAL {version_of('libcgal-dev')}; {machine()}. The programs took turns; "
+             "each found memory that the machine has at hand (bench/process.py says why).", ""]
     with tempfile.TemporaryDirectory(prefix="holdfast-bench-") as name:
         folder = Path(name)
         if "delaunay" in parts:

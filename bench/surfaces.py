@@ -8,6 +8,7 @@ from statistics import median
 
 from process import run
 
+MEMORY = 2 << 30  # bytes that a program finds ready, see process.ready_memory
 TARGETS = (("reading", "read", "delaunay", 0.30), ("validation", "validate", "total", 0.15))
 
 
@@ -93,7 +94,7 @@ def measure(options, folder):
             if name in failed:
                 continue
             (folder / target).unlink(missing_ok=True)
-            code, _, seconds, peak = run(command, options.timeout, folder)
+            code, _, seconds, peak = run(command, options.timeout, folder, MEMORY)
             if code == 0 and (folder / target).exists():
                 results.setdefault(name, []).append((seconds, peak))
             else:
