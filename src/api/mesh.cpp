@@ -189,7 +189,7 @@ class Pipeline {
     first_free_ = static_cast<Vertex>(mesh_.vertex_count());
     if (!build_delaunay(mesh_, {seed_, options_.threads}, &monitor_))
       throw std::logic_error("holdfast: the box has no tetrahedra");
-    standing_ = mark_present(mesh_, table_, complex_.facets);
+    standing_ = mark_present(mesh_, table_);
     result_.report.delaunay = missing();
   }
 

@@ -108,8 +108,15 @@ class Chooser {
     }
   }
 
+  // Nearly all are sides of facets that a kept region lies at; only for the others one has to look at all.
   void find_kept_segments() {
     kept_.segment.assign(table_.segments.size(), false);
+    for (Index f = 0; f < complex_.facets.size(); ++f) {
+      const auto& [front, back] = regions_.of_facet[f];
+      if (!kept_.region[front] && !kept_.region[back]) continue;
+      for (const Index s : table_.facet_segments[f]) kept_.segment[s] = true;
+    }
+    if (std::find(kept_.segment.begin(), kept_.segment.end(), false) == kept_.segment.end()) return;
     for (Tet t = 0; t < mesh_.slot_count(); ++t) {
       if (!mesh_.alive(t) || mesh_.is_ghost(t) || (mesh_.flags(t) & kSegmentBits) == 0) continue;
       if (!kept_.region[regions_.of_tet[t]]) continue;

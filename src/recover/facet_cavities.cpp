@@ -86,7 +86,7 @@ class Cavity {
     const auto first_free = static_cast<Vertex>(mesh.vertex_count());
     if (!build_delaunay(mesh, {seed}, nullptr)) return std::nullopt;
     tell();
-    Standing standing = mark_present(mesh, table, local.facets);
+    Standing standing = mark_present(mesh, table);
     FlipRecovery(mesh, table, local.facets, standing, seed).run([&](double) { tell(); }, kPasses);
     const auto all_stands = [&] { return standing.missing_facets() + standing.missing_segments() == 0; };
     if (!all_stands() && finish) finish(mesh, table, local.facets, standing, first_free);

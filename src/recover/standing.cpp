@@ -1,9 +1,8 @@
 #include "recover/standing.h"
 
 #include <algorithm>
-
-#include "mesh/traverse.h"
-#include "surface/facet_index.h"
+#include <array>
+#include <utility>
 
 namespace holdfast {
 namespace {
@@ -14,64 +13,60 @@ std::size_t zeros(const std::vector<std::uint8_t>& flags) {
 
 class Marker {
  public:
-  Marker(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets)
+  Marker(TetMesh& mesh, const SegmentTable& table)
       : mesh_(mesh),
         table_(table),
-        index_(mesh.vertex_count(), facets),
-        wanted_(mesh.vertex_count(), kNone),
         standing_{std::vector<std::uint8_t>(table.segments.size(), 0),
-                  std::vector<std::uint8_t>(facets.size(), 0)} {}
+                  std::vector<std::uint8_t>(table.facet_segments.size(), 0)} {}
 
   Standing run() {
-    std::size_t s = 0;
-    while (s < table_.segments.size()) {
-      const Vertex a = table_.segments[s][0];
-      const std::size_t begin = s;
-      for (; s < table_.segments.size() && table_.segments[s][0] == a; ++s)
-        wanted_[table_.segments[s][1]] = static_cast<Index>(s);
-      mark_ball(a);
-      for (std::size_t k = begin; k < s; ++k) wanted_[table_.segments[k][1]] = kNone;
-    }
+    for (Tet t = 0; t < mesh_.slot_count(); ++t)
+      if (mesh_.alive(t) && !mesh_.is_ghost(t)) mark(t);
     return std::move(standing_);
   }
 
  private:
-  // Every tetrahedron of a segment's shell, and both at a facet, lie in the ball of its least vertex.
-  void mark_ball(Vertex a) {
-    tets_.clear();
-    ball(mesh_, a, tets_);
-    for (const Tet t : tets_) {
-      if (mesh_.is_ghost(t)) continue;
-      const int i = mesh_.index_of(t, a);
-      for (int k = 0; k < 4; ++k) {
-        const Vertex b = mesh_.corner(t, k);
-        if (k == i || wanted_[b] == kNone) continue;
-        mesh_.set_flags(t, segment_bit(kEdgeOf[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)]));
-        standing_.segments[wanted_[b]] = 1;
-      }
-      for (int k = 0; k < 4; ++k)
-        if (k != i) mark_face(a, t, k);
+  void mark(Tet t) {
+    Flags flags = 0;
+    std::array<Index, 6> segment{};
+    for (int k = 0; k < 6; ++k) {
+      const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
+      const Index s = table_.find(mesh_.corner(t, e[0]), mesh_.corner(t, e[1]));
+      segment[static_cast<std::size_t>(k)] = s;
+      if (s == no_index) continue;
+      flags |= segment_bit(k);
+      standing_.segments[s] = 1;
     }
+    for (int i = 0; i < 4; ++i) {
+      const auto& v = kFaceVertex[static_cast<std::size_t>(i)];
+      const auto side = [&](std::size_t a, std::size_t b) {
+        const auto from = static_cast<std::size_t>(v[a]), to = static_cast<std::size_t>(v[b]);
+        return segment[static_cast<std::size_t>(kEdgeOf[from][to])];
+      };
+      const Index f = facet_between({side(0, 1), side(1, 2), side(2, 0)});
+      if (f == no_index) continue;
+      flags |= facet_bit(i);
+      standing_.facets[f] = 1;
+    }
+    if (flags != 0) mesh_.set_flags(t, flags);
   }
 
-  void mark_face(Vertex a, Tet t, int face) {
-    std::array<Vertex, 2> bc{};
-    std::size_t n = 0;
-    for (const Vertex v : mesh_.face_vertices(face_code(t, face)))
-      if (v != a) bc[n++] = v;
-    if (wanted_[bc[0]] == kNone || wanted_[bc[1]] == kNone) return;
-    const Index f = index_.find({a, bc[0], bc[1]});
-    if (f == no_index) return;
-    mesh_.set_flags(t, facet_bit(face));
-    standing_.facets[f] = 1;
+  // The facet with these sides, looked for at the side of fewest facets: some have thousands.
+  [[nodiscard]] Index facet_between(std::array<Index, 3> sides) const {
+    if (std::find(sides.begin(), sides.end(), no_index) != sides.end()) return no_index;
+    std::sort(sides.begin(), sides.end(), [this](Index s, Index r) {
+      return std::pair(table_.facets_of(s).size(), s) < std::pair(table_.facets_of(r).size(), r);
+    });
+    for (const Index f : table_.facets_of(sides[0])) {
+      const auto& of_facet = table_.facet_segments[f];
+      if (std::is_permutation(sides.begin(), sides.end(), of_facet.begin())) return f;
+    }
+    return no_index;
   }
 
   TetMesh& mesh_;
   const SegmentTable& table_;
-  const FacetIndex index_;
-  std::vector<Index> wanted_;  // by vertex: the segment from the current vertex to it
   Standing standing_;
-  std::vector<Tet> tets_;
 };
 
 }  // namespace
@@ -79,8 +74,6 @@ class Marker {
 std::size_t Standing::missing_segments() const { return zeros(segments); }
 std::size_t Standing::missing_facets() const { return zeros(facets); }
 
-Standing mark_present(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets) {
-  return Marker(mesh, table, facets).run();
-}
+Standing mark_present(TetMesh& mesh, const SegmentTable& table) { return Marker(mesh, table).run(); }
 
 }  // namespace holdfast

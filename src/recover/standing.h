@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "mesh/tet_mesh.h"
@@ -18,9 +17,8 @@ struct Standing {
   [[nodiscard]] std::size_t missing_facets() const;
 };
 
-/// Finds the segments and facets that the mesh holds and sets their bits there. One ball a vertex: linear
-/// in the size of the mesh.
-[[nodiscard]] Standing mark_present(TetMesh& mesh, const SegmentTable& table,
-                                    std::span<const Triangle> facets);
+/// Finds the segments and facets that the mesh holds and sets their bits there. One sweep over the
+/// tetrahedra.
+[[nodiscard]] Standing mark_present(TetMesh& mesh, const SegmentTable& table);
 
 }  // namespace holdfast

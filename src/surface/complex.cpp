@@ -89,9 +89,13 @@ std::size_t peel_from_borders(const SegmentTable& table) {
 }  // namespace
 
 Index SegmentTable::find(Index a, Index b) const {
-  const Segment wanted{std::min(a, b), std::max(a, b)};
-  const auto at = std::lower_bound(segments.begin(), segments.end(), wanted);
-  return at != segments.end() && *at == wanted ? static_cast<Index>(at - segments.begin()) : no_index;
+  const auto [low, high] = std::minmax(a, b);
+  if (low + std::size_t{1} >= first_of_vertex.size()) return no_index;
+  const auto begin = segments.begin() + first_of_vertex[low];
+  const auto end = segments.begin() + first_of_vertex[low + std::size_t{1}];
+  const auto at =
+      std::lower_bound(begin, end, high, [](const Segment& s, Index wanted) { return s[1] < wanted; });
+  return at != end && (*at)[1] == high ? static_cast<Index>(at - segments.begin()) : no_index;
 }
 
 SegmentTable segment_table(const Complex& complex) {
@@ -103,6 +107,7 @@ SegmentTable segment_table(const Complex& complex) {
   for (const Side& side : sides) {
     const Segment ends{side.low, side.high};
     if (table.segments.empty() || table.segments.back() != ends) {
+      table.first_of_vertex.resize(side.low + std::size_t{1}, static_cast<Index>(table.segments.size()));
       table.segments.push_back(ends);
       table.first_facet.push_back(static_cast<Index>(table.facets.size()));
       table.input_segment.push_back(no_index);
@@ -116,6 +121,7 @@ SegmentTable segment_table(const Complex& complex) {
     }
   }
   table.first_facet.push_back(static_cast<Index>(table.facets.size()));
+  table.first_of_vertex.resize(complex.vertices.size() + 1, static_cast<Index>(table.segments.size()));
   return table;
 }
 

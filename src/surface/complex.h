@@ -29,12 +29,15 @@ struct SegmentTable {
   std::vector<Index> facets;
   /// The first of the complex's own segments that is this one, or `no_index` for mere sides.
   std::vector<Index> input_segment;
+  /// Where the segments begin whose lesser end is vertex v, in `segments`; one entry more than vertices.
+  std::vector<Index> first_of_vertex;
 
   /// Facets round segment `s`.
   [[nodiscard]] std::span<const Index> facets_of(Index s) const {
     return {facets.data() + first_facet[s], facets.data() + first_facet[s + 1]};
   }
-  /// Index of the segment with ends `a` and `b` in any order, or `no_index`; O(log n).
+  /// Index of the segment with ends `a` and `b` in any order, or `no_index`, also for ends that are no
+  /// vertices of the complex; O(log of the segments at the lesser end).
   [[nodiscard]] Index find(Index a, Index b) const;
 };
 

@@ -34,7 +34,7 @@ struct Scene {
     for (const Point& p : small::box({-9, -9, -9}, {9, 9, 9}).vertices) add(p);
     const auto first_free = static_cast<Vertex>(mesh.vertex_count());
     EXPECT_TRUE(build_delaunay(mesh, {}, nullptr));
-    Standing standing = mark_present(mesh, table, surface.facets);
+    Standing standing = mark_present(mesh, table);
     const Options options;
     Monitor monitor(options);
     enforce(mesh, table, surface.facets, standing, first_free, {.seed = 1}, monitor);

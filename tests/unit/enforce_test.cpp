@@ -50,7 +50,7 @@ Task task(const Surface& surface, const std::vector<Point>& steiner = {}) {
   for (const Point& p : steiner) t.mesh.add_vertex(p);
   EXPECT_TRUE(build_delaunay(t.mesh, {}, nullptr));
   t.table = segment_table(surface.view());
-  t.standing = mark_present(t.mesh, t.table, surface.facets);
+  t.standing = mark_present(t.mesh, t.table);
   t.volume = volume_of(t.mesh);
   return t;
 }

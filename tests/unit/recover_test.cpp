@@ -52,7 +52,7 @@ Recovered recover(const std::vector<Point>& points, const std::vector<Triangle>&
                   const std::vector<Segment>& segments) {
   Recovered run{delaunay_of(points), {}, {}};
   const SegmentTable table = segment_table({points, facets, segments, {}, {}});
-  run.standing = mark_present(run.mesh, table, facets);
+  run.standing = mark_present(run.mesh, table);
   const Options options;
   Monitor monitor(options);
   run.stats = FlipRecovery(run.mesh, table, facets, run.standing, 1).run([&](double part) {

@@ -541,7 +541,7 @@ Scene enforced(const std::vector<Point>& points, const std::vector<Triangle>& fa
   s.mesh = delaunay_in_box(points, 40);
   s.first_free = static_cast<Vertex>(s.mesh.vertex_count());
   const SegmentTable table = segment_table({points, facets, {}, {}, {}});
-  Standing standing = mark_present(s.mesh, table, facets);
+  Standing standing = mark_present(s.mesh, table);
   const Options options;
   Monitor monitor(options);
   enforce(s.mesh, table, facets, standing, s.first_free, {.seed = seed, .flips = false}, monitor);

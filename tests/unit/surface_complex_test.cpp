@@ -55,6 +55,22 @@ TEST(SegmentTable, MergesSegmentsWithSidesAndEachOther) {
   EXPECT_EQ(table.find(2, 4), no_index);
 }
 
+TEST(SegmentTable, FindsSegmentsFromBothEndsAndNoneElsewhere) {
+  Surface s = tetrahedron();
+  s.vertices.insert(s.vertices.begin() + 1, {9, 9, 9});  // an isolated vertex 1
+  for (Triangle& t : s.facets)
+    for (Index& v : t) v += v > 0 ? 1 : 0;
+  const SegmentTable table = segment_table(s.view());
+  EXPECT_EQ(table.first_of_vertex, (std::vector<Index>{0, 3, 3, 5, 6, 6}));
+  for (Index i = 0; i < table.segments.size(); ++i) {
+    EXPECT_EQ(table.find(table.segments[i][0], table.segments[i][1]), i);
+    EXPECT_EQ(table.find(table.segments[i][1], table.segments[i][0]), i);
+  }
+  for (Index v = 0; v < 9; ++v) EXPECT_EQ(table.find(1, v), no_index);
+  EXPECT_EQ(table.find(7, 8), no_index);
+  EXPECT_EQ(table.find(no_index, no_index), no_index);
+}
+
 TEST(SegmentTable, EmptyComplex) {
   const SegmentTable table = segment_table(Complex{});
   EXPECT_TRUE(table.segments.empty());
