@@ -53,7 +53,7 @@ bool Inserter::insert_in_slab(Vertex k) { return insert_as<Mode::in_slab>(k); }
 template <Inserter::Mode kMode>
 bool Inserter::insert_as(Vertex k) {
   const double* q = at(k);
-  const Located seed = locate<kMode>(q, k);
+  const Located seed = locate<kMode>(q);
   if (seed.what == Located::outside_slab) return false;
   if (seed.what == Located::corner) {
     note_duplicate(seed.tet, k);
@@ -71,21 +71,21 @@ bool Inserter::insert_as(Vertex k) {
 bool Inserter::enter(const Slab& slab, Vertex k, Tet from) {
   slab_ = slab;
   last_ = from;
-  last_ = locate<Mode::late>(at(k), k).tet;
+  last_ = locate<Mode::late>(at(k)).tet;
   return touches(triangulation_.cells()[last_]);
 }
 
 // Remembering stochastic visibility walk (Devillers, Pion, Teillaud 2002): ends with probability one in
-// any triangulation. It may stop at any cell in conflict, which the cell that holds q is, unless q
+// any triangulation. It may stop at any cell in strict conflict, which the cell that holds q is, unless q
 // is one of its corners. A ghost is entered only through a face that q is strictly beyond.
 template <Inserter::Mode kMode>
-Inserter::Located Inserter::locate(const double* q, Vertex k) {
+Inserter::Located Inserter::locate(const double* q) {
   const Cell* const cells = triangulation_.cells().data();
   Tet t = last_;
   int came = -1;
   for (;;) {
     const Cell& cell = cells[t];
-    if (triangulation_.in_conflict<kMode == Mode::in_order>(cell, q, k)) return {t, Located::conflict};
+    if (triangulation_.strictly_in_conflict(cell, q)) return {t, Located::conflict};
     const auto first = static_cast<int>(random() & 3u);
     int out = -1;
     for (int j = 0; j < 4 && out < 0; ++j) {

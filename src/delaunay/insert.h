@@ -73,7 +73,7 @@ class Inserter {
   template <Mode kMode>
   bool insert_as(Vertex k);
   template <Mode kMode>
-  [[nodiscard]] Located locate(const double* q, Vertex k);
+  [[nodiscard]] Located locate(const double* q);
   void note_duplicate(Tet t, Vertex k);
   template <Mode kMode>
   bool dig(Tet seed, const double* q, Vertex k);

@@ -164,39 +164,48 @@ void Triangulation::set_geometry(Cell& cell) const {
   }
 }
 
-template <bool kInOrder>
-bool Triangulation::in_conflict_exact(const Cell& cell, const double* q, Vertex k) const {
-  const Cell* finite = &cell;
+// The cell whose sphere decides in the plane of a ghost's hull face: that sphere cuts the plane in the face's
+// circumcircle.
+const Cell& Triangulation::sphere_of(const Cell& cell) const {
+  return is_ghost(cell) ? cells_[tet_of(cell.n[3])] : cell;
+}
+
+// Positive inside the ball or beyond the hull face, 0 on the sphere or, in the plane, on the circle.
+int Triangulation::conflict_sign(const Cell& cell, const double* q) const {
   if (is_ghost(cell)) {
     const int side = exact::orient3d(at(cell.v[0]), at(cell.v[1]), at(cell.v[2]), q);
-    if (side != 0) return side > 0;
-    finite = &cells_[tet_of(cell.n[3])];  // its sphere cuts the face's plane in the face's circumcircle
+    if (side != 0) return side;
   }
-  const auto& v = finite->v;
-  const int sign = exact::insphere(at(v[0]), at(v[1]), at(v[2]), at(v[3]), q);
-  if (sign != 0 || kInOrder) return sign > 0;
-  return raised_into_conflict(*finite, q, k);
+  const auto& v = sphere_of(cell).v;
+  return exact::insphere(at(v[0]), at(v[1]), at(v[2]), at(v[3]), q);
+}
+
+template <bool kInOrder>
+bool Triangulation::in_conflict_exact(const Cell& cell, const double* q, Vertex k) const {
+  const int sign = conflict_sign(cell, q);
+  if (sign != 0) return sign > 0;
+  return kInOrder || lowered_into_conflict(sphere_of(cell), q, k);
 }
 
 template bool Triangulation::in_conflict_exact<true>(const Cell&, const double*, Vertex) const;
 template bool Triangulation::in_conflict_exact<false>(const Cell&, const double*, Vertex) const;
 
-// Vertex k, at q, is on the sphere of a positive cell. Raising it puts it outside; raising corner i puts it
-// inside iff q lies on the corner's side of the opposite face: insphere (a b c d q) = -insphere (q b c d a),
-// which falls as a rises if (q b c d) is positive. That is 0 for a corner that is not in the plane of a hull
-// face and q, so that ghosts are decided in their plane.
-bool Triangulation::raised_into_conflict(const Cell& cell, const double* q, Vertex k) const {
+// Vertex k, at q, is on the sphere of a positive cell. Lowering it puts it inside; lowering corner i puts it
+// inside iff q lies strictly beyond the face opposite the corner: insphere (a b c d q) = -insphere (q b c d
+// a), which rises as a falls if (q b c d) is negative. That is 0 for a corner that is not in the plane of a
+// hull face and q, so that ghosts are decided in their plane.
+bool Triangulation::lowered_into_conflict(const Cell& cell, const double* q, Vertex k) const {
   std::array<std::size_t, 4> corners{0, 1, 2, 3};
   std::sort(corners.begin(), corners.end(),
             [&](std::size_t i, std::size_t j) { return cell.v[i] > cell.v[j]; });
   for (const std::size_t i : corners) {
-    if (cell.v[i] < k) return false;
+    if (cell.v[i] < k) return true;
     std::array<const double*, 4> p{at(cell.v[0]), at(cell.v[1]), at(cell.v[2]), at(cell.v[3])};
     p[i] = q;
     const int side = exact::orient3d(p[0], p[1], p[2], p[3]);
-    if (side != 0) return side > 0;
+    if (side != 0) return side < 0;
   }
-  return false;
+  return true;
 }
 
 }  // namespace holdfast

@@ -5,14 +5,18 @@
 // in memory to the points that come next; number n is the ghost. Corner 0 of every cell is its highest
 // vertex that is no ghost.
 //
-// Degenerate input. Points are lifted to the paraboloid, vertex k a little higher than that by e(k), where
+// Degenerate input. Points are lifted to the paraboloid, vertex k a little lower than that by e(k), where
 // 0 < e(0) << e(1) << ...: symbolically, so that the last of five cospherical vertices decides, and where
 // its term vanishes the one before (simulation of simplicity; Edelsbrunner, Muecke 1990). The lower hull of
 // the lifted points is then unique, has no vertical facet and misses no point, since the paraboloid is
 // strictly convex. So the triangulation depends on the numbering alone, not on the order in which vertices
 // are inserted, and all its cells are strictly positive. When they are inserted in their order, the new
-// vertex always decides: p is in conflict with a cell iff it is strictly inside its open ball; with a ghost,
-// iff it is strictly beyond the hull face, or in the face's plane and strictly inside its circumcircle.
+// vertex always decides: p is in conflict with a cell iff it is inside its closed ball; with a ghost, iff it
+// is strictly beyond the hull face, or in the face's plane and inside its closed circumcircle.
+//
+// Lower, not higher: then the last of any number of cospherical vertices is joined to all the others (a
+// pulling triangulation), which makes as many tetrahedra as they have hull faces. With higher vertices the
+// circles and spheres of a machine part would give the square of that.
 //
 // The cells in conflict with p are those whose lifted hyperplane is above the lifted p. Hence they are
 // connected, every face round them is strictly visible from p, and the cells that join them to p are strictly
@@ -87,13 +91,21 @@ class Triangulation {
   }
   template <bool kInOrder>
   [[nodiscard]] bool in_conflict_exact(const Cell& cell, const double* q, Vertex k) const;
+  /// Whether q is strictly inside the cell's ball, or strictly beyond a ghost's hull face; or may say so of a
+  /// ghost where q is in conflict with it in the face's plane.
+  [[nodiscard]] bool strictly_in_conflict(const Cell& cell, const double* q) const {
+    const Filtered test = filtered_conflict(cell, at(cell.v[0]), q[0], q[1], q[2]);
+    return test.decided ? test.f < 0 : conflict_sign(cell, q) > 0;
+  }
   /// Sphere or half-space of a cell from its corners.
   void set_geometry(Cell& cell) const;
 
  private:
   void read_sites(std::span<const Point> points, unsigned threads);
   void make_first_cells();
-  [[nodiscard]] bool raised_into_conflict(const Cell& cell, const double* q, Vertex k) const;
+  [[nodiscard]] const Cell& sphere_of(const Cell& cell) const;
+  [[nodiscard]] int conflict_sign(const Cell& cell, const double* q) const;
+  [[nodiscard]] bool lowered_into_conflict(const Cell& cell, const double* q, Vertex k) const;
 
   InsertionOrder order_;
   LargeArray<Site> sites_;

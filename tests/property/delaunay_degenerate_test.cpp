@@ -240,5 +240,25 @@ TEST(DelaunayDegenerate, OrderIsAPermutation) {
   }
 }
 
+// The last of cospherical vertices is joined to all the others: a tetrahedron for each face of the hull that
+// it is no corner of, instead of up to the square of that.
+TEST(DelaunayDegenerate, OneOfManyCosphericalPointsIsACornerOfAllTetrahedra) {
+  for (const int norm : {101, 402, 1001}) {
+    std::vector<Point> points;
+    for (int x = -40; x <= 40; ++x)
+      for (int y = -40; y <= 40; ++y)
+        for (int z = -40; z <= 40; ++z)
+          if (x * x + y * y + z * z == norm) points.push_back({1.0 * x, 1.0 * y, 1.0 * z});
+    ASSERT_GE(points.size(), 100u);
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      const std::vector<Tetrahedron> tets = delaunay(points, seed);
+      std::vector<std::size_t> uses(points.size(), 0);
+      for (const Tetrahedron& t : tets)
+        for (const Index v : t) ++uses[v];
+      EXPECT_EQ(*std::max_element(uses.begin(), uses.end()), tets.size()) << norm;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace holdfast
