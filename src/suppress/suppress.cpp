@@ -7,6 +7,7 @@
 #include "suppress/collapse.h"
 #include "suppress/degree.h"
 #include "suppress/refill.h"
+#include "suppress/shake.h"
 
 namespace holdfast {
 namespace {
@@ -30,6 +31,7 @@ class Suppressor {
     do shrink();
     while (!points_.empty() && refill());
     shrink();
+    insist();
     stats_.left = points_.size();
     stats_.unrounded = unrounded(mesh_, points_);
     return stats_;
@@ -75,6 +77,28 @@ class Suppressor {
     const std::size_t unrounded_now = unrounded(mesh_, points_);
     return gone * kWorthwhile > before ||
            (unrounded_now > 0 && (gone > 0 || unrounded_now < unrounded_before));
+  }
+
+  // What is left may go from another mesh round it.
+  void insist() {
+    constexpr int kMostRounds = 20, kPatience = 8;  // rounds without gain
+    constexpr std::size_t kMostShakes = 200;        // so that it matters where few are left
+    constexpr int kShakenEdges = 40;
+    std::size_t shakes = 0;
+    int idle = 0;
+    for (int round = 0; round < kMostRounds && idle < kPatience && !points_.empty(); ++round) {
+      const std::size_t before = points_.size();
+      for (const Vertex p : points_) {
+        if (shakes++ == kMostShakes) break;
+        tell();
+        shake(mesh_, flipper_, p, kShakenEdges, random_);
+        lower_degree(mesh_, flipper_, p, kFlipDepth, kQuickBudget);
+        remove_or_recentre(mesh_, p, {});
+      }
+      drop_the_gone(stats_.filled);
+      if (shakes > kMostShakes) return;
+      idle = points_.size() < before ? 0 : idle + 1;
+    }
   }
 
   void drop_the_gone(std::size_t& count) {

@@ -18,6 +18,7 @@
 #include "suppress/collapse.h"
 #include "suppress/degree.h"
 #include "suppress/refill.h"
+#include "suppress/shake.h"
 
 namespace holdfast {
 namespace {
@@ -292,6 +293,24 @@ TEST(LowerDegree, TellsWhetherTheDegreeFell) {
   EXPECT_GT(fell, 50);
   EXPECT_GT(four, 20);
   EXPECT_GT(refused, 5);
+}
+
+TEST(Shake, ChangesTheMeshRoundAPointAndNothingElse) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    Scene s = scene(30, 40, 0.25 * static_cast<double>(seed - 1), seed);
+    Random random(seed);
+    Flipper flipper(s.mesh, random);
+    int changed = 0;
+    const std::vector<Vertex> points = s.steiner();
+    for (const Vertex p : points) {
+      const std::vector<Vertex> before = link_vertices(s.mesh, p);
+      shake(s.mesh, flipper, p, 20, random);
+      changed += link_vertices(s.mesh, p) != before ? 1 : 0;
+    }
+    EXPECT_GT(changed, 10) << seed;
+    EXPECT_EQ(s.steiner(), points);
+    s.expect_kept();
+  }
 }
 
 // --- cavities
