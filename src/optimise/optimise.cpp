@@ -66,6 +66,7 @@ class Optimiser {
   // Flat tetrahedra that stayed: changes next to them may have made a way, and the search tries another.
   void try_again() {
     ++round_;
+    worst_stuck_ = 0;
     for (const Entry& e : stuck_)
       if (is_current(e)) queue_.push(e);
     stuck_.clear();
@@ -93,7 +94,7 @@ class Optimiser {
     else if ((is_worth_reconnecting(e) && reconnect_round(e.tet)) ||
              (e.quality >= worth_a_point_ && reconnect_patiently(e.tet)))
       ++stats_.reconnected;
-    else if (e.quality >= worth_a_point_ && insert_at(e.tet))
+    else if (is_worth_a_point(e) && insert_at(e.tet))
       ++stats_.inserted;
     else
       give_up(e);
@@ -102,7 +103,15 @@ class Optimiser {
       if (mesh_.alive(t)) push(t);
   }
 
+  // As long as a worse one stays, a point would not better the mesh's worst; but null elements are of no use
+  // to anyone.
+  [[nodiscard]] bool is_worth_a_point(const Entry& e) const {
+    constexpr double kNull = 1e10;
+    return e.quality >= std::max(worth_a_point_, std::min(worst_stuck_, kNull));
+  }
+
   void give_up(const Entry& e) {
+    worst_stuck_ = std::max(worst_stuck_, e.quality);
     if (e.quality < kBad) ++failures_;
     if (e.quality >= flat_from_) stuck_.push_back(e);
   }
@@ -220,6 +229,7 @@ class Optimiser {
   std::priority_queue<Entry> queue_;
   std::vector<Entry> stuck_;
   std::vector<Vertex> points_;  // all that may move, and some that are gone
+  double worst_stuck_ = 0;      // in this round
   int round_ = 0, failures_ = 0, reconnections_in_vain_ = 0;
   std::vector<Tet> created_;  // or changed
   std::size_t work_ = 0, budget_ = 0;
