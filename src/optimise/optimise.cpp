@@ -1,6 +1,7 @@
 #include "optimise/optimise.h"
 
 #include <algorithm>
+#include <limits>
 #include <queue>
 #include <random>
 
@@ -12,6 +13,7 @@
 #include "optimise/relocate.h"
 #include "optimise/remove_flat.h"
 #include "suppress/refill.h"
+#include "suppress/shake.h"
 
 namespace holdfast {
 namespace {
@@ -34,12 +36,9 @@ class Optimiser {
     const std::size_t points_before = points_.size();
     relocate_all();
     for (const Tet t : tets) push(t);
-    while (!queue_.empty() && !is_spent(queue_.top())) {
-      const Entry worst = queue_.top();
-      queue_.pop();
-      if (is_current(worst)) improve(worst);
-      if (!has_flat() && round_ < kRounds) try_again();
-    }
+    note_others(tets);
+    work_off_queue();
+    shake_the_worst();
     remove_points(remove == PointsToRemove::all ? 0 : points_before);
     return stats_;
   }
@@ -54,6 +53,91 @@ class Optimiser {
     }
   };
 
+  // Tetrahedra give way to others of the same region, so that a slot that was not another region's never is.
+  void note_others(const std::vector<Tet>& tets) {
+    is_others_.resize(mesh_.slot_count());
+    for (Tet t = 0; t < mesh_.slot_count(); ++t) is_others_[t] = mesh_.alive(t);
+    for (const Tet t : tets) is_others_[t] = false;
+  }
+  [[nodiscard]] bool is_ours(Tet t) const { return t >= is_others_.size() || !is_others_[t]; }
+
+  void work_off_queue() {
+    while (!queue_.empty() && !is_spent(queue_.top())) {
+      const Entry worst = queue_.top();
+      queue_.pop();
+      if (is_current(worst)) improve(worst);
+      if (!has_flat() && round_ < kRounds) try_again();
+    }
+  }
+
+  // The worst that is left may go from another mesh round it. What has not helped is undone.
+  void shake_the_worst() {
+    constexpr int kPatience = 4, kPatienceForFlat = 12;
+    constexpr std::size_t kMostTrials = 40, kMostCopied = 4'000'000;
+    const std::size_t trials =
+        std::min(kMostTrials, kMostCopied / std::max<std::size_t>(1, mesh_.slot_count()));
+    int vain = 0;
+    for (std::size_t trial = 0; trial < trials; ++trial) {
+      std::erase_if(stuck_, [&](const Entry& e) { return !is_current(e); });
+      if (stuck_.empty()) return;
+      const Entry worst = *std::max_element(stuck_.begin(), stuck_.end());
+      if (vain >= (worst.quality < flat_from_ ? kPatience : kPatienceForFlat)) return;
+      const TetMesh mesh_before = mesh_;
+      const std::vector<Vertex> points_before = points_;
+      const std::vector<Entry> stuck_before = stuck_;
+      const OptimiseStats stats_before = stats_;
+      shake_and_improve(worst, mesh_before);
+      if (is_better_than(mesh_before)) {
+        ++stats_.changed;
+        vain = 0;
+        continue;
+      }
+      ++vain;
+      mesh_ = mesh_before;
+      points_ = points_before;
+      stuck_ = stuck_before;
+      stats_ = stats_before;
+    }
+  }
+
+  void shake_and_improve(const Entry& worst, const TetMesh& before) {
+    constexpr int kShakenEdges = 30;
+    constexpr std::size_t kWork = 200;
+    Flipper flipper(mesh_, random_);
+    shake(
+        mesh_, flipper, worst.corners, kShakenEdges, [this](Tet t) { return is_ours(t); }, random_);
+    queue_ = {};
+    for (const Tet t : changed_since(before))
+      if (mesh_.alive(t)) push(t);
+    round_ = kRounds - 1;
+    failures_ = 0;
+    worst_stuck_ = std::numeric_limits<double>::infinity();  // no point but for null elements
+    budget_ = work_ + kWork;
+    work_off_queue();
+  }
+
+  [[nodiscard]] std::vector<Tet> changed_since(const TetMesh& before) const {
+    const auto is_new = [&](Tet t) {
+      return t >= before.slot_count() || before.alive(t) != mesh_.alive(t) ||
+             before.corners(t) != mesh_.corners(t);
+    };
+    std::vector<Tet> changed;
+    for (Tet t = 0; t < mesh_.slot_count(); ++t)
+      if (is_ours(t) && is_new(t)) changed.push_back(t);
+    return changed;
+  }
+
+  // No more hopeless elements than before, and the worst of all better; other flat ones are of less account.
+  [[nodiscard]] bool is_better_than(const TetMesh& before) const {
+    const BadFrom from(flat_from_, worth_a_point_);
+    Badness was, is;
+    for (const Tet t : changed_since(before)) {
+      if (t < before.slot_count() && before.alive(t)) was.add(quality_of(before, before.corners(t)), from);
+      if (mesh_.alive(t)) is.add(quality_of(mesh_, mesh_.corners(t)), from);
+    }
+    return std::pair(is.hopeless, is.worst) < std::pair(was.hopeless, kLeastGain * was.worst);
+  }
+
   // What is worth a point, which comes first, may take all. What is no bad element matters only as the worst
   // of all, until that stays.
   [[nodiscard]] bool is_spent(const Entry& e) const {
@@ -67,9 +151,11 @@ class Optimiser {
   void try_again() {
     ++round_;
     worst_stuck_ = 0;
-    for (const Entry& e : stuck_)
+    std::erase_if(stuck_, [this](const Entry& e) {
+      if (e.quality < flat_from_) return false;
       if (is_current(e)) queue_.push(e);
-    stuck_.clear();
+      return true;
+    });
   }
 
   void push(Tet t) {
@@ -113,7 +199,7 @@ class Optimiser {
   void give_up(const Entry& e) {
     worst_stuck_ = std::max(worst_stuck_, e.quality);
     if (e.quality < kBad) ++failures_;
-    if (e.quality >= flat_from_) stuck_.push_back(e);
+    stuck_.push_back(e);
   }
 
   void list_points(const std::vector<Tet>& tets) {
@@ -226,6 +312,7 @@ class Optimiser {
   Exchanger exchanger_;
   FlatRemover flat_remover_;
   std::mt19937_64 random_;
+  std::vector<bool> is_others_;
   std::priority_queue<Entry> queue_;
   std::vector<Entry> stuck_;
   std::vector<Vertex> points_;  // all that may move, and some that are gone

@@ -18,18 +18,36 @@ Tet wander(const TetMesh& mesh, Tet t, std::mt19937_64& random) {
   return t;
 }
 
+void remove_an_edge(TetMesh& mesh, Flipper& flipper, const std::vector<Tet>& of, std::mt19937_64& random) {
+  constexpr int kDepth = 1;
+  constexpr std::size_t kBudget = 200;
+  if (of.empty()) return;
+  const Tet t = wander(mesh, of[random() % of.size()], random);
+  const auto& ends = kEdgeVertex[random() % 6];
+  flipper.remove(t, mesh.corner(t, ends[0]), mesh.corner(t, ends[1]), kDepth, kBudget);
+}
+
 }  // namespace
 
 void shake(TetMesh& mesh, Flipper& flipper, Vertex p, int edges, std::mt19937_64& random) {
-  constexpr int kDepth = 1;
-  constexpr std::size_t kBudget = 200;
   std::vector<Tet> tets;
   for (; edges > 0; --edges) {
     tets.clear();
     ball(mesh, p, tets);
-    const Tet t = wander(mesh, tets[random() % tets.size()], random);
-    const auto& ends = kEdgeVertex[random() % 6];
-    flipper.remove(t, mesh.corner(t, ends[0]), mesh.corner(t, ends[1]), kDepth, kBudget);
+    remove_an_edge(mesh, flipper, tets, random);
+  }
+}
+
+void shake(TetMesh& mesh, Flipper& flipper, const TetMesh::Corners& corners, int edges,
+           const std::function<bool(Tet)>& may_change, std::mt19937_64& random) {
+  constexpr std::size_t kMostBall = 500;
+  std::vector<Tet> tets;
+  for (; edges > 0; --edges) {
+    tets.clear();
+    ball(mesh, corners[random() % 4], tets);
+    if (tets.size() > kMostBall) continue;
+    std::erase_if(tets, [&](Tet t) { return !may_change(t); });
+    remove_an_edge(mesh, flipper, tets, random);
   }
 }
 
