@@ -72,7 +72,7 @@ class Optimiser {
 
   // The worst that is left may go from another mesh round it. What has not helped is undone.
   void shake_the_worst() {
-    constexpr int kPatience = 4, kPatienceForFlat = 12;
+    constexpr int kPatience = 2, kPatienceForFlat = 8;
     constexpr std::size_t kMostTrials = 40, kMostCopied = 4'000'000;
     const std::size_t trials =
         std::min(kMostTrials, kMostCopied / std::max<std::size_t>(1, mesh_.slot_count()));
@@ -81,7 +81,7 @@ class Optimiser {
       std::erase_if(stuck_, [&](const Entry& e) { return !is_current(e); });
       if (stuck_.empty()) return;
       const Entry worst = *std::max_element(stuck_.begin(), stuck_.end());
-      if (vain >= (worst.quality < flat_from_ ? kPatience : kPatienceForFlat)) return;
+      if (worst.quality < kBad || vain >= (worst.quality < flat_from_ ? kPatience : kPatienceForFlat)) return;
       const TetMesh mesh_before = mesh_;
       const std::vector<Vertex> points_before = points_;
       const std::vector<Entry> stuck_before = stuck_;

@@ -82,21 +82,22 @@ class Suppressor {
   // What is left may go from another mesh round it.
   void insist() {
     constexpr int kMostRounds = 20, kPatience = 8;  // rounds without gain
-    constexpr std::size_t kMostShakes = 200;        // so that it matters where few are left
+    // In proportion to the rest of the work, so that it matters where few are left.
+    const std::size_t most_shakes = std::min<std::size_t>(200, 10 + mesh_.tet_count() / 200);
     constexpr int kShakenEdges = 40;
     std::size_t shakes = 0;
     int idle = 0;
     for (int round = 0; round < kMostRounds && idle < kPatience && !points_.empty(); ++round) {
       const std::size_t before = points_.size();
       for (const Vertex p : points_) {
-        if (shakes++ == kMostShakes) break;
+        if (shakes++ == most_shakes) break;
         tell();
         shake(mesh_, flipper_, p, kShakenEdges, random_);
         lower_degree(mesh_, flipper_, p, kFlipDepth, kQuickBudget);
         remove_or_recentre(mesh_, p, {});
       }
       drop_the_gone(stats_.filled);
-      if (shakes > kMostShakes) return;
+      if (shakes > most_shakes) return;
       idle = points_.size() < before ? 0 : idle + 1;
     }
   }
