@@ -83,8 +83,9 @@ class Suppressor {
   void insist() {
     constexpr int kMostRounds = 20, kPatience = 8;  // rounds without gain
     // In proportion to the rest of the work, so that it matters where few are left.
-    const std::size_t most_shakes = std::min<std::size_t>(200, 10 + mesh_.tet_count() / 200);
-    constexpr int kShakenEdges = 40;
+    const std::size_t most_shakes = std::min<std::size_t>(200, 16 + mesh_.tet_count() / 100);
+    constexpr int kShakenEdges = 40, kShakenDepth = 12;
+    constexpr std::size_t kShakenBudget = 800;
     std::size_t shakes = 0;
     int idle = 0;
     for (int round = 0; round < kMostRounds && idle < kPatience && !points_.empty(); ++round) {
@@ -93,7 +94,7 @@ class Suppressor {
         if (shakes++ == most_shakes) break;
         tell();
         shake(mesh_, flipper_, p, kShakenEdges, random_);
-        lower_degree(mesh_, flipper_, p, kFlipDepth, kQuickBudget);
+        lower_degree(mesh_, flipper_, p, kShakenDepth, kShakenBudget);
         remove_or_recentre(mesh_, p, {});
       }
       drop_the_gone(stats_.filled);
