@@ -30,7 +30,6 @@ from surfaces import bench_surfaces, torus  # noqa: E402
 
 
 MEMORY = 2 << 30  # bytes that a program finds ready, see process.ready_memory; also in ready_memory.h
-SMALL_MEMORY = 256 << 20
 
 # ------------------------------------------------------------------------------------------------- Delaunay
 
@@ -132,15 +131,16 @@ def bench_mesh(options, folder, surfaces):
         local.write_bytes(path.read_bytes())
         times = {"holdfast": [], "TetGen": []}
         for _ in range(options.mesh_runs):
+            # No memory is readied: few need more than some MB, and touching it empties the processor's caches.
             # Both find no old files of theirs: to replace four takes half a millisecond.
             for old in folder.glob("out.*"):
                 old.unlink()
             code, _, seconds, _ = run([options.build / "holdfast", "mesh", local, "-o", folder / "out.node", "--fill", "-q"],
-                                      options.timeout, memory=SMALL_MEMORY)
+                                      options.timeout)
             times["holdfast"].append(seconds if code == 0 else None)
             for old in folder.glob("surface.1.*"):
                 old.unlink()
-            code, _, seconds, _ = run(["tetgen", "-pYQ", local], options.timeout, memory=SMALL_MEMORY)
+            code, _, seconds, _ = run(["tetgen", "-pYQ", local], options.timeout)
             times["TetGen"].append(seconds if code == 0 and (folder / "surface.1.ele").exists() else None)
         for name, values in times.items():
             if None in values:
