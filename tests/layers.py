@@ -1,4 +1,5 @@
-"""Fails when a layer of src/ includes a header of a layer above it, or when library code prints or exits.
+"""Fails when a layer of src/ includes a header of a layer above it, or when library code prints, exits, or converts
+numbers by functions that heed the locale of the program round it (src/text/decimal.h is for that).
 
     layers.py ROOT LAYER...      LAYER... from the lowest to the highest (HOLDFAST_LAYERS of CMakeLists.txt)
     layers.py --selftest
@@ -9,7 +10,7 @@ import tempfile
 from pathlib import Path
 
 # Layers that may use less than everything below them.
-ONLY = {"check": {"exact"}, "io": set()}
+ONLY = {"check": {"text", "exact"}, "io": {"text"}}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]', re.M)
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|R"\((?:.*?)\)"|"(?:\\.|[^"\\\n])*"', re.S)
@@ -17,6 +18,9 @@ FORBIDDEN = re.compile(
     r"std::(?:cout|cerr|clog|terminate|quick_exit)\b|#\s*include\s*<iostream>"
     r"|(?<![\w.>:])(?:std::)?(?:printf|puts|putchar|perror|exit|_exit|abort)\s*\("
     r"|(?<!\w)f(?:printf|puts|putc)\s*\(\s*(?:stdout|stderr)|(?:(?<!\w)std(?:out|err)(?!\w))")
+LOCALE = re.compile(
+    r"(?<![\w.>])(?:std::)?(?:v?s(?:n?printf|scanf)|ato[fil]|atoll|strto[dfl]|strtold|sto[dfi]|stold|setlocale)\s*\("
+    r"|#\s*include\s*<(?:sstream|iomanip)>|std::[io]?stringstream\b")
 
 
 def blank(match):
@@ -46,17 +50,23 @@ def broken_rules(root, layers):
             for match in FORBIDDEN.finditer(code):
                 line = code.count("\n", 0, match.start()) + 1
                 yield f"{path}:{line}: library code must not print or exit: {match.group().strip()}"
+            for match in LOCALE.finditer(code):
+                line = code.count("\n", 0, match.start()) + 1
+                yield f"{path}:{line}: numbers must not depend on the locale: {match.group().strip()}"
 
 
 def selftest():
-    layers = ["exact", "mesh", "check", "io", "api"]
+    layers = ["text", "exact", "mesh", "check", "io", "api"]
     cases = [  # file, text, number of broken rules
         ("src/mesh/a.h", '#include "exact/b.h"\n#include <vector>\n#include "mesh/c.h"\n', 0),
         ("src/exact/a.h", '#include "mesh/b.h"\n', 1),
         ("src/check/a.cpp", '#include "mesh/b.h"\n', 1),
         ("src/check/b.cpp", '#include "exact/b.h"\n', 0),
         ("src/io/a.cpp", '#include "exact/b.h"\n', 1),
-        ("src/io/b.cpp", '#include "holdfast/io.h"\nint n = std::snprintf(b, 2, "exit(1)");  // exit(1)\n', 0),
+        ("src/io/b.cpp", '#include "holdfast/io.h"\nint n = std::strlen("exit(1)");  // exit(1)\n', 0),
+        ("src/io/c.cpp", '#include "text/b.h"\nauto s = decimal(1.5) + std::to_string(1);\n', 0),
+        ("src/io/d.cpp", 'std::snprintf(b, 8, "%g", x);\ndouble y = std::strtod(b, nullptr);\n', 2),
+        ("src/io/e.cpp", "#include <sstream>\nstd::ostringstream words;\n", 2),
         ("src/mesh/b.cpp", "void f() { std::exit(1); }\n", 1),
         ("src/mesh/c.cpp", 'void f() { std::fprintf(stderr, "x"); }\n', 1),
         ("src/mesh/d.cpp", "void f() { on_exit(1); q.exit(); std::cout << 1; }\n", 1),

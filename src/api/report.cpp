@@ -1,7 +1,6 @@
 #include "api/report.h"
 
-#include <array>
-#include <cstdio>
+#include "text/decimal.h"
 
 namespace holdfast {
 
@@ -26,18 +25,14 @@ Stopwatch::~Stopwatch() {
 }
 
 std::string interruption_message(Outcome outcome, Stage stage, const Options& options) {
-  const auto with = [](const char* format, double value) {
-    std::array<char, 80> text{};
-    std::snprintf(text.data(), text.size(), format, value);
-    return std::string(text.data());
-  };
-  std::string what;
-  if (outcome == Outcome::time_limit)
-    what = with("the time limit of %.6g s ran out", options.time_limit);
-  else if (outcome == Outcome::memory_limit)
-    what = with("the memory limit of %.6g GB was reached", static_cast<double>(options.memory_limit) * 1e-9);
-  else
-    what = "cancelled";
+  constexpr int kDigits = 6;
+  std::string what = "cancelled";
+  if (outcome == Outcome::time_limit) {
+    what = "the time limit of " + decimal(options.time_limit, kDigits) + " s ran out";
+  } else if (outcome == Outcome::memory_limit) {
+    const double gigabytes = static_cast<double>(options.memory_limit) * 1e-9;
+    what = "the memory limit of " + decimal(gigabytes, kDigits) + " GB was reached";
+  }
   return what + " in stage " + name(stage);
 }
 

@@ -1,8 +1,7 @@
 // Check: what a rule finds, in words.
 #include "check/findings.h"
 
-#include <array>
-#include <charconv>
+#include "text/decimal.h"
 
 namespace holdfast::checking {
 
@@ -29,18 +28,8 @@ Rule not_examined(std::string name, const std::string& reason) {
   return {std::move(name), false, "not examined: " + reason};
 }
 
-namespace {
-
-std::string number(double value) {
-  std::array<char, 32> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  return {digits.data(), end};
-}
-
-}  // namespace
-
 std::string words(const Point& point) {
-  return "(" + number(point[0]) + ", " + number(point[1]) + ", " + number(point[2]) + ")";
+  return "(" + decimal(point[0]) + ", " + decimal(point[1]) + ", " + decimal(point[2]) + ")";
 }
 
 std::string words(std::string_view kind, std::span<const Index> corners, std::span<const Point> vertices) {

@@ -11,6 +11,7 @@
 
 #include "io/byte_reader.h"
 #include "io/text_reader.h"
+#include "text/decimal.h"
 
 namespace holdfast::io {
 
@@ -33,6 +34,16 @@ template <typename T, typename From>
   } else {
     if (!std::in_range<T>(value)) return std::nullopt;
     return static_cast<T>(value);
+  }
+}
+
+/// A number as a message tells it.
+template <typename From>
+[[nodiscard]] std::string words(From value) {
+  if constexpr (std::floating_point<From>) {
+    return decimal(static_cast<double>(value));
+  } else {
+    return std::to_string(value);
   }
 }
 
@@ -77,7 +88,7 @@ template <typename T, typename Fail>
   values.reserve(bytes.size() / size_of(type));
   visit_binary(type, bytes, order, [&](auto value) {
     const std::optional<T> result = converted<T>(value);
-    if (!result) fail("a value that is not an integer, or out of range: " + std::to_string(value));
+    if (!result) fail("a value that is not an integer, or out of range: " + words(value));
     values.push_back(*result);
   });
   return values;

@@ -2,19 +2,18 @@
 #include "surface/describe.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <numeric>
 #include <string>
 
 #include "surface/complex.h"
 #include "surface/contacts.h"
+#include "text/decimal.h"
 
 namespace holdfast {
 
 std::string place(const Point& p) {
-  std::array<char, 96> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "(%.10g, %.10g, %.10g)", p[0], p[1], p[2]);
-  return buffer.data();
+  constexpr int kDigits = 10;
+  return "(" + decimal(p[0], kDigits) + ", " + decimal(p[1], kDigits) + ", " + decimal(p[2], kDigits) + ")";
 }
 
 namespace {
