@@ -81,32 +81,27 @@ class ForcedElements {
     return wedge_at(c[static_cast<std::size_t>(ends[0])], c[static_cast<std::size_t>(ends[1])]);
   }
 
+  struct Wing {
+    Index facet, apex;  // the corner that is not on the edge
+  };
+
   // Two facets at an edge with a small angle between them: whatever lies there has no larger one.
   std::vector<Index> wedge_at(Index a, Index b) {
     if (by_edge_.empty()) list_edges();
     const auto [first, last] = by_edge_.equal_range(key_of_edge(a, b));
     for (auto i = first; i != last; ++i)
       for (auto j = first; j != i; ++j)
-        if (third(i->second, a, b) && third(j->second, a, b) &&
-            angle_between(a, b, *third(i->second, a, b), *third(j->second, a, b)) < kSmall)
-          return {j->second, i->second};
+        if (angle_between(a, b, i->second.apex, j->second.apex) < kSmall)
+          return {j->second.facet, i->second.facet};
     return {};
   }
 
   void list_edges() {
-    for (Index f = 0; f < volume_.facets.size(); ++f)
+    for (Index f = 0; f < volume_.facets.size(); ++f) {
+      const Triangle& c = volume_.facets[f];
       for (std::size_t k = 0; k < 3; ++k)
-        by_edge_.emplace(key_of_edge(volume_.facets[f][k], volume_.facets[f][(k + 1) % 3]), f);
-  }
-
-  // The corner of a facet beside two, which it may not have.
-  [[nodiscard]] std::optional<Index> third(Index facet, Index a, Index b) const {
-    const Triangle& f = volume_.facets[facet];
-    for (std::size_t k = 0; k < 3; ++k)
-      if (f[k] != a && f[k] != b && (f[(k + 1) % 3] == a || f[(k + 1) % 3] == b) &&
-          (f[(k + 2) % 3] == a || f[(k + 2) % 3] == b))
-        return f[k];
-    return std::nullopt;
+        by_edge_.emplace(key_of_edge(c[(k + 1) % 3], c[(k + 2) % 3]), Wing{f, c[k]});
+    }
   }
 
   // Of the half-planes from the line ab through p and through q, in degrees.
@@ -147,7 +142,8 @@ class ForcedElements {
   }
 
   const Volume& volume_;
-  std::unordered_multimap<std::uint64_t, Index> by_key_, by_edge_;
+  std::unordered_multimap<std::uint64_t, Index> by_key_;
+  std::unordered_multimap<std::uint64_t, Wing> by_edge_;
 };
 
 }  // namespace

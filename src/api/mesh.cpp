@@ -39,9 +39,9 @@ namespace {
 
 constexpr std::size_t kMostDefects = 100;  // `diagnose` gives them all
 constexpr int kMostAttempts = 5;
-constexpr double kOfSmallAngle =
-    energy_of_sine(0.035);             // 2 degrees: needles have a large Q, too, but no such angle
 constexpr double kHiddenMargin = 0.5;  // of the box that is cut away again
+// 2 degrees: needles have a large Q, too, but no such angle.
+constexpr double kOfSmallAngle = energy_of_sine(0.035);
 
 void require_sensible(const Complex& complex, const Options& options) {
   const auto finite = [](const Point& p) {

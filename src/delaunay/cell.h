@@ -36,6 +36,7 @@
 #include <limits>
 
 #include "mesh/anatomy.h"
+#include "mesh/pair.h"
 
 namespace holdfast {
 
@@ -58,9 +59,6 @@ inline constexpr double kUndecided = std::numeric_limits<double>::infinity();
   const double x = q[0] - p[0], y = q[1] - p[1], z = q[2] - p[2];
   return {x, y, z, x * x + y * y + z * z};
 }
-
-/// Two doubles in one register, on every processor that the compiler knows how to do it for.
-using Pair = double __attribute__((vector_size(16)));
 
 /// The spheres of two positive tetrahedra (p, p+u, p+v, p+w) at once.
 inline void set_spheres(std::array<Cell*, 2> cells, std::array<const Spoke*, 2> u,

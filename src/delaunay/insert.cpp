@@ -53,7 +53,7 @@ bool Inserter::insert_in_slab(Vertex k) { return insert_as<Mode::in_slab>(k); }
 template <Inserter::Mode kMode>
 bool Inserter::insert_as(Vertex k) {
   const double* q = at(k);
-  const Located seed = locate<kMode>(q);
+  const Located seed = locate<kMode == Mode::in_slab>(q);
   if (seed.what == Located::outside_slab) return false;
   if (seed.what == Located::corner) {
     note_duplicate(seed.tet, k);
@@ -71,14 +71,14 @@ bool Inserter::insert_as(Vertex k) {
 bool Inserter::enter(const Slab& slab, Vertex k, Tet from) {
   slab_ = slab;
   last_ = from;
-  last_ = locate<Mode::late>(at(k)).tet;
+  last_ = locate<false>(at(k)).tet;
   return touches(triangulation_.cells()[last_]);
 }
 
 // Remembering stochastic visibility walk (Devillers, Pion, Teillaud 2002): ends with probability one in
 // any triangulation. It may stop at any cell in strict conflict, which the cell that holds q is, unless q
 // is one of its corners. A ghost is entered only through a face that q is strictly beyond.
-template <Inserter::Mode kMode>
+template <bool kInSlab>
 Inserter::Located Inserter::locate(const double* q) {
   const Cell* const cells = triangulation_.cells().data();
   Tet t = last_;
@@ -95,7 +95,7 @@ Inserter::Located Inserter::locate(const double* q) {
       const auto corner = [&](std::size_t m) { return cell.v[static_cast<std::size_t>(f[m])]; };
       if (exact::orient3d(at(corner(0)), at(corner(1)), at(corner(2)), q) >= 0) continue;
       out = i;
-      if constexpr (kMode == Mode::in_slab) {
+      if constexpr (kInSlab) {
         const auto own = [&](Vertex v) { return v != ghost_ && owns(v); };
         if (!own(corner(0)) && !own(corner(1)) && !own(corner(2))) return {t, Located::outside_slab};
       }

@@ -72,7 +72,7 @@ class Inserter {
   [[nodiscard]] const double* at(Vertex v) const { return sites_[v].x.data(); }
   template <Mode kMode>
   bool insert_as(Vertex k);
-  template <Mode kMode>
+  template <bool kInSlab>
   [[nodiscard]] Located locate(const double* q);
   void note_duplicate(Tet t, Vertex k);
   template <Mode kMode>

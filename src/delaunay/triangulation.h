@@ -83,12 +83,7 @@ class Triangulation {
   void drop_sites() { sites_.clear(); }
   [[nodiscard]] double diameter() const { return diameter_; }
 
-  /// Whether vertex k, at q, is in conflict with a cell. `in_order`: k is above all vertices that stand.
-  template <bool kInOrder>
-  [[nodiscard]] bool in_conflict(const Cell& cell, const double* q, Vertex k) const {
-    const Filtered test = filtered_conflict(cell, at(cell.v[0]), q[0], q[1], q[2]);
-    return test.decided ? test.f < 0 : in_conflict_exact<kInOrder>(cell, q, k);
-  }
+  /// Whether vertex k, at q, is in conflict with a cell. `kInOrder`: k is above all vertices that stand.
   template <bool kInOrder>
   [[nodiscard]] bool in_conflict_exact(const Cell& cell, const double* q, Vertex k) const;
   /// Whether q is strictly inside the cell's ball, or strictly beyond a ghost's hull face; or may say so of a

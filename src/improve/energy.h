@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "holdfast/types.h"
+#include "mesh/pair.h"
 
 namespace holdfast {
 
@@ -19,10 +20,7 @@ inline constexpr double kNoEnergy = std::numeric_limits<double>::infinity();
 /// The energy of an element whose least angle has this sine.
 [[nodiscard]] constexpr double energy_of_sine(double q) { return 1 / (q * q * q * q); }
 
-/// A coordinate of two tetrahedra: the machine computes both at once. Elementwise arithmetic and comparisons
-/// as for one number, so that both take the same code.
-using Pair = double __attribute__((vector_size(16)));
-
+/// Of one tetrahedron, or of two if Number is a Pair.
 template <typename Number>
 using PointOf = std::array<Number, 3>;
 

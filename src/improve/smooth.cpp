@@ -36,20 +36,13 @@ bool VertexSmoother::settle(Vertex v) {
   TetMesh& mesh = volume_.mesh();
   const Point old = mesh.position(v);
   mesh.move_vertex(v, star_.at());
-  if (!is_positive()) {
+  const auto is_positive = [&](Tet t) { return volume_.is_positive(mesh.corners(t)); };
+  if (!std::all_of(tets_.begin(), tets_.end(), is_positive)) {
     mesh.move_vertex(v, old);
     return false;
   }
   star_.for_each_energy([&](std::size_t k, double e) { volume_.note(tets_[k], e); });
   return true;
-}
-
-bool VertexSmoother::is_positive() const {
-  const TetMesh& mesh = volume_.mesh();
-  return std::all_of(tets_.begin(), tets_.end(), [&](Tet t) {
-    const auto& c = mesh.corners(t);
-    return mesh.orient(c[0], c[1], c[2], c[3]) > 0;
-  });
 }
 
 }  // namespace holdfast

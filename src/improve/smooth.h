@@ -23,7 +23,6 @@ class VertexSmoother {
 
   void gather_star(Vertex v);
   bool settle(Vertex v);
-  [[nodiscard]] bool is_positive() const;
 
   ImprovedVolume& volume_;
   std::vector<Tet> tets_;

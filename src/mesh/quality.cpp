@@ -330,6 +330,8 @@ double target_quality(std::span<const Point> vertices, std::span<const Triangle>
 
 namespace {
 
+double degrees_of(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi; }
+
 // Gathers the angles of a volume: cosines where they are good enough, which is nearly everywhere.
 class AngleHistogram {
  public:
@@ -358,15 +360,12 @@ class AngleHistogram {
   }
   [[nodiscard]] const Counts& counts() const { return counts_; }
   [[nodiscard]] double least_degrees() const {
-    return std::min(least_.degrees(), degrees(std::min(greatest_cosine_, 1.0)));
+    return std::min(least_.degrees(), degrees_of(greatest_cosine_));
   }
-  [[nodiscard]] double most_degrees() const {
-    return std::max(most_.degrees(), degrees(std::max(least_cosine_, -1.0)));
-  }
+  [[nodiscard]] double most_degrees() const { return std::max(most_.degrees(), degrees_of(least_cosine_)); }
 
  private:
   static constexpr std::size_t kBins = std::tuple_size_v<Counts>;
-  static double degrees(double cosine) { return std::acos(cosine) * 180 / std::numbers::pi; }
 
   std::array<Angle, kBins> start_;    // of each bin
   std::array<double, kBins> cosine_;  // of the same
@@ -387,11 +386,11 @@ void ShapeHistogram::add(const PlainShape& element) {
   const auto [of_most, of_least] = std::minmax_element(element.cosines.begin(), element.cosines.end());
   if (*of_least > of_least_) {
     of_least_ = *of_least;
-    shape_.min_dihedral_deg = std::acos(std::min(of_least_, 1.0)) * 180 / std::numbers::pi;
+    shape_.min_dihedral_deg = degrees_of(of_least_);
   }
   if (*of_most < of_most_) {
     of_most_ = *of_most;
-    shape_.max_dihedral_deg = std::acos(std::max(of_most_, -1.0)) * 180 / std::numbers::pi;
+    shape_.max_dihedral_deg = degrees_of(of_most_);
   }
   std::size_t bin = 0, q = 0;
   for (const double end : cosine_of_end_) bin += *of_least <= end ? 1 : 0;

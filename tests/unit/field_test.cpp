@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <set>
 
@@ -77,19 +78,22 @@ TEST(FieldPoints, SizesGrowInwardUnlessToldNotTo) {
 
 TEST(FieldPoints, TheVolumeOfASphereIsFitToComputeWith) {
   const Surface sphere = hard::icosphere(4);
-  const Result result = mesh_with(sphere, {.grow = false});
-  const Report::Field& field = result.report.field;
-  EXPECT_GT(field.after.min_dihedral_deg, 20);
-  EXPECT_LT(field.after.max_dihedral_deg, 155);
-  EXPECT_GT(field.after.min_dihedral_deg, field.before.min_dihedral_deg);
-  std::size_t below_30 = 0, all = 0;
-  for (std::size_t k = 0; k < field.after.least_dihedral.size(); ++k) {
-    all += field.after.least_dihedral[k];
-    if (k < 6) below_30 += field.after.least_dihedral[k];
-  }
-  EXPECT_EQ(all, result.volume.tetrahedra.size());
-  EXPECT_LT(50 * below_30, all);  // one in fifty
-  EXPECT_EQ(field.below_10_deg, 0u);
+  const auto below_30_deg = [&](Quality quality) {
+    Options options;
+    options.quality = quality;
+    const Result result = mesh_with(sphere, {.grow = false}, options);
+    const Report::Field& field = result.report.field;
+    EXPECT_GT(field.after.min_dihedral_deg, 20);
+    EXPECT_LT(field.after.max_dihedral_deg, 155);
+    EXPECT_GT(field.after.min_dihedral_deg, field.before.min_dihedral_deg);
+    EXPECT_EQ(field.below_10_deg, 0u);
+    const auto& least = field.after.least_dihedral;
+    EXPECT_EQ(std::accumulate(least.begin(), least.end(), std::size_t{0}), result.volume.tetrahedra.size());
+    const std::size_t below = std::accumulate(least.begin(), least.begin() + 6, std::size_t{0});
+    return static_cast<double>(below) / static_cast<double>(result.volume.tetrahedra.size());
+  };
+  EXPECT_LT(below_30_deg(Quality::good), 0.02);
+  EXPECT_LT(below_30_deg(Quality::best), 0.01);
 }
 
 TEST(FieldPoints, AFunctionOfTheUserIsAsked) {
@@ -124,7 +128,7 @@ TEST(FieldPoints, ARegionHasASizeOfItsOwn) {
   };
   EXPECT_GT(count(finer.volume, 7), 200);
   EXPECT_LT(static_cast<double>(std::ssize(finer.volume.tetrahedra) - count(finer.volume, 7)),
-            100.0 * static_cast<double>(plain.volume.tetrahedra.size()));
+            80.0 * static_cast<double>(plain.volume.tetrahedra.size()));
 }
 
 // Powers of two change nothing; energies, products of sixteen lengths, once ran out of exponents.
@@ -215,6 +219,20 @@ TEST(Energy, IsOfTheLeastAngle) {
   }
 }
 
+/// The Delaunay triangulation of random points in the unit cube and the corners of a cube round it, `margin`
+/// away. It has slivers in plenty.
+TetMesh random_mesh(int points, std::uint64_t seed, double margin = 0) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> any(0, 1);
+  TetMesh mesh;
+  const auto side = [&](bool high) { return high ? 1 + margin : -margin; };
+  for (int k = 0; k < 8; ++k)
+    mesh.add_vertex(Point{side((k & 1) != 0), side((k & 2) != 0), side((k & 4) != 0)});
+  for (int k = 0; k < points; ++k) mesh.add_vertex(Point{any(random), any(random), any(random)});
+  EXPECT_TRUE(build_delaunay(mesh, {1}, nullptr));
+  return mesh;
+}
+
 Tet any_solid(const TetMesh& mesh) {
   Tet t = 0;
   while (!mesh.alive(t) || mesh.is_ghost(t)) ++t;
@@ -224,9 +242,7 @@ Tet any_solid(const TetMesh& mesh) {
 TEST(PointCavity, InsertsPointAfterPointAndKeepsTheMeshValid) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> any(0, 1);
-  TetMesh mesh;
-  for (int k = 0; k < 8; ++k) mesh.add_vertex(Point{(k & 1) * 2.0 - 0.5, (k & 2) - 0.5, (k & 4) / 2.0 - 0.5});
-  ASSERT_TRUE(build_delaunay(mesh, {1}, nullptr));
+  TetMesh mesh = random_mesh(0, 3, 0.5);
   PointCavity cavity(mesh);
   for (int k = 0; k < 300; ++k) {
     const Vertex p = mesh.add_vertex(Point{any(random), any(random), any(random)});
@@ -258,15 +274,8 @@ TEST(Energy, OfTwoAtOnceIsThatOfEach) {
   }
 }
 
-// The Delaunay triangulation of random points has slivers in plenty.
 TEST(Improve, LeavesAValidMeshWithBetterElements) {
-  std::mt19937_64 random(5);
-  std::uniform_real_distribution<double> any(0, 1);
-  TetMesh mesh;
-  for (int k = 0; k < 8; ++k)
-    mesh.add_vertex(Point{(k & 1) != 0 ? 1.0 : 0.0, (k & 2) != 0 ? 1.0 : 0.0, (k & 4) != 0 ? 1.0 : 0.0});
-  for (int k = 0; k < 2000; ++k) mesh.add_vertex(Point{any(random), any(random), any(random)});
-  ASSERT_TRUE(build_delaunay(mesh, {1}, nullptr));
+  TetMesh mesh = random_mesh(2000, 5);
   std::vector<RegionId> region_of(mesh.slot_count(), 0);
   const std::vector<bool> kept{true};
   std::vector<double> sizes(mesh.vertex_count(), 0.1);
@@ -283,17 +292,11 @@ TEST(Improve, LeavesAValidMeshWithBetterElements) {
   EXPECT_EQ(find_fault(mesh), "");
   EXPECT_GT(stats.moved, 0u);
   EXPECT_GT(stats.swapped, 0u);
-  EXPECT_LT(3 * below_10(), before);
+  EXPECT_LT(4 * below_10(), before);
 }
 
 TEST(CavityRefiller, LessensTheEnergyAndLeavesAValidMesh) {
-  std::mt19937_64 random(6);
-  std::uniform_real_distribution<double> any(0, 1);
-  TetMesh mesh;
-  for (int k = 0; k < 8; ++k)
-    mesh.add_vertex(Point{(k & 1) != 0 ? 1.0 : 0.0, (k & 2) != 0 ? 1.0 : 0.0, (k & 4) != 0 ? 1.0 : 0.0});
-  for (int k = 0; k < 200; ++k) mesh.add_vertex(Point{any(random), any(random), any(random)});
-  ASSERT_TRUE(build_delaunay(mesh, {1}, nullptr));
+  TetMesh mesh = random_mesh(200, 6);
   std::vector<RegionId> region_of(mesh.slot_count(), 0);
   const std::vector<bool> kept{true};
   ImprovedVolume volume(mesh, region_of, kept, 8);
