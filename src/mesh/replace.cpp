@@ -31,13 +31,6 @@ FaceKey face_key(const TetMesh::Corners& c, int i) {
                         c[static_cast<std::size_t>(k[2])]});
 }
 
-std::size_t hash(const FaceKey& k) {
-  std::uint64_t h = k[0] * 0x9E3779B97F4A7C15ull;
-  h = (h ^ (h >> 29) ^ k[1]) * 0xBF58476D1CE4E5B9ull;
-  h = (h ^ (h >> 31) ^ k[2]) * 0x94D049BB133111EBull;
-  return static_cast<std::size_t>(h ^ (h >> 32));
-}
-
 // Memory of one replacement: flips are many and small, and fit the stack.
 class Scratch {
  public:
@@ -46,34 +39,6 @@ class Scratch {
  private:
   alignas(std::max_align_t) std::array<std::byte, 6144> buffer_;
   std::pmr::monotonic_buffer_resource memory_{buffer_.data(), buffer_.size()};
-};
-
-// A small open-addressing map from a face to one of its codes: "new" codes index new_tets, "outer"
-// codes are faces of the mesh outside the cavity.
-class FaceTable {
- public:
-  struct Entry {
-    FaceKey key{kNone, kNone, kNone};
-    Face code = kNone;
-    bool outer = false;
-    bool matched = false;
-  };
-  FaceTable(std::size_t faces, std::pmr::memory_resource* memory) : slots_(memory) {
-    std::size_t n = 16;
-    while (2 * n < 3 * faces) n *= 2;
-    slots_.resize(n);
-  }
-  // The entry of a key, fresh if its code is kNone.
-  Entry& operator[](const FaceKey& key) {
-    std::size_t h = hash(key) & (slots_.size() - 1);
-    while (slots_[h].key[0] != kNone && slots_[h].key != key) h = (h + 1) & (slots_.size() - 1);
-    slots_[h].key = key;
-    return slots_[h];
-  }
-  [[nodiscard]] const std::pmr::vector<Entry>& entries() const { return slots_; }
-
- private:
-  std::pmr::vector<Entry> slots_;
 };
 
 // Constraint bits that stood in the cavity, and those that the caller adds.
@@ -122,75 +87,122 @@ struct Constraints {
   }
 };
 
-constexpr Face kNewFace = 0x80000000u;  // in `links`: a code that indexes new_tets
-
 [[noreturn]] void mismatch() { throw std::logic_error("holdfast: a cavity's new tetrahedra do not fill it"); }
 
-struct OuterFace {
-  FaceKey key;
-  Face across;
-};
+// Faces of the cavity and of what fills it: codes of the mesh, or of the new tetrahedra by their numbers.
+constexpr Face kNewFace = 0x80000000u;
 
-// The faces of the cavity, in a mesh that is left as it was.
-std::pmr::vector<OuterFace> outer_faces(TetMesh& mesh, std::span<const Tet> tets,
-                                        std::pmr::memory_resource* memory) {
-  std::pmr::vector<OuterFace> faces(memory);
-  faces.reserve(2 * tets.size() + 2);
-  for (const Tet t : tets) mesh.set_flags(t, kVisited);
-  for (const Tet t : tets)
-    for (int i = 0; i < 4; ++i) {
-      const Face g = mesh.neighbour(t, i);
-      if ((mesh.flags(tet_of(g)) & kVisited) == 0) faces.push_back({face_key(mesh.corners(t), i), g});
-    }
-  for (const Tet t : tets) mesh.clear_flags(t, kVisited);
-  return faces;
-}
-
-// Pairs every face of the new tetrahedra with its partner before anything is changed.
-std::pmr::vector<TetMesh::Neighbours> match_faces(TetMesh& mesh, const Replacement& r,
-                                                  std::pmr::memory_resource* memory) {
-  const std::pmr::vector<OuterFace> outer = outer_faces(mesh, r.old_tets, memory);
-  if (outer.size() > 4 * r.new_tets.size()) mismatch();
-  // Each face of a new tetrahedron is an outer one or shared by two.
-  FaceTable table((outer.size() + 4 * r.new_tets.size()) / 2, memory);
-  for (const OuterFace& f : outer) {
-    FaceTable::Entry& e = table[f.key];
-    e.code = f.across;
-    e.outer = true;
+// Pairs every face of the new tetrahedra with its partner before anything is changed: an outer face of the
+// cavity, or another new one.
+class FaceMatcher {
+ public:
+  FaceMatcher(TetMesh& mesh, const Replacement& r, std::pmr::memory_resource* memory)
+      : mesh_(mesh), r_(r), outer_(memory), slots_(memory), links_(r.new_tets.size(), memory) {
+    outer_.reserve(2 * r.old_tets.size() + 2);
+    std::size_t n = 16;
+    while (n < 3 * (r.old_tets.size() + r.new_tets.size())) n *= 2;
+    slots_.resize(n);
   }
 
-  std::size_t distinct = outer.size();
-  std::pmr::vector<TetMesh::Neighbours> links(r.new_tets.size(), memory);
-  for (std::size_t n = 0; n < r.new_tets.size(); ++n)
-    for (int i = 0; i < 4; ++i) {
-      FaceTable::Entry& e = table[face_key(r.new_tets[n], i)];
-      const auto self = static_cast<Face>(4 * n + static_cast<std::size_t>(i));
-      Face& mine = links[n][static_cast<std::size_t>(i)];
-      if (e.code == kNone) {
-        if (2 * ++distinct > outer.size() + 4 * r.new_tets.size()) mismatch();
-        e.code = self;
-      } else if (e.matched) {
-        mismatch();
-      } else {
-        e.matched = true;
-        if (e.outer) {
-          mine = e.code;
-        } else {
-          mine = e.code | kNewFace;
-          links[e.code >> 2][e.code & 3u] = self | kNewFace;
-        }
+  std::pmr::vector<TetMesh::Neighbours> links() {
+    list_outer_faces();
+    for (const OuterFace& f : outer_) static_cast<void>(partner_of(f.across, f.mark));
+    for (std::size_t n = 0; n < r_.new_tets.size(); ++n) {
+      const Marks marks = marks_of(r_.new_tets[n]);
+      for (std::size_t i = 0; i < 4; ++i) {
+        const Face mine = static_cast<Face>(4 * n + i) | kNewFace;
+        const Face partner = partner_of(mine, marks[i]);
+        links_[n][i] = partner;
+        if (partner != kNone && (partner & kNewFace) != 0) link_of(partner) = mine;
       }
     }
-  for (const FaceTable::Entry& e : table.entries())
-    if (e.code != kNone && !e.matched) mismatch();
-  return links;
-}
+    if (open_ != 0) mismatch();
+    return std::move(links_);
+  }
+
+ private:
+  using Marks = std::array<std::uint64_t, 4>;
+  struct OuterFace {
+    std::uint64_t mark;
+    Face across;
+  };
+  struct Slot {
+    std::uint64_t mark = 0;
+    Face face = kNone;
+    bool matched = false;
+  };
+
+  // Of the four faces: the same for the same three vertices, whatever their order, and nearly always another
+  // for others.
+  static Marks marks_of(const TetMesh::Corners& c) {
+    const auto mixed = [](Vertex v) {
+      const std::uint64_t h = (v + 1ull) * 0x9E3779B97F4A7C15ull;
+      return h ^ (h >> 29);
+    };
+    const Marks of{mixed(c[0]), mixed(c[1]), mixed(c[2]), mixed(c[3])};
+    const std::uint64_t all = of[0] + of[1] + of[2] + of[3];
+    return {all - of[0], all - of[1], all - of[2], all - of[3]};
+  }
+
+  // In a mesh that is left as it was.
+  void list_outer_faces() {
+    for (const Tet t : r_.old_tets) mesh_.set_flags(t, kVisited);
+    for (const Tet t : r_.old_tets) {
+      const Marks marks = marks_of(mesh_.corners(t));
+      for (int i = 0; i < 4; ++i) {
+        const Face across = mesh_.neighbour(t, i);
+        if ((mesh_.flags(tet_of(across)) & kVisited) == 0)
+          outer_.push_back({marks[static_cast<std::size_t>(i)], across});
+      }
+    }
+    for (const Tet t : r_.old_tets) mesh_.clear_flags(t, kVisited);
+  }
+
+  // The face met before with the same vertices; none if this is the first.
+  Face partner_of(Face face, std::uint64_t mark) {
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t h = (mark >> 32) & mask;; h = (h + 1) & mask) {
+      Slot& slot = slots_[h];
+      if (slot.face == kNone) {
+        if (3 * ++distinct_ > 2 * slots_.size()) mismatch();
+        slot = {mark, face, false};
+        ++open_;
+        return kNone;
+      }
+      if (slot.mark != mark || !are_same(slot.face, face)) continue;
+      if (slot.matched) mismatch();
+      slot.matched = true;
+      --open_;
+      return slot.face;
+    }
+  }
+
+  [[nodiscard]] std::array<Vertex, 3> vertices_of(Face face) const {
+    if ((face & kNewFace) == 0) return mesh_.face_vertices(face);
+    const TetMesh::Corners& c = r_.new_tets[(face & ~kNewFace) >> 2];
+    const auto& k = kFaceVertex[face & 3u];
+    return {c[static_cast<std::size_t>(k[0])], c[static_cast<std::size_t>(k[1])],
+            c[static_cast<std::size_t>(k[2])]};
+  }
+  [[nodiscard]] bool are_same(Face f, Face g) const {
+    const auto x = vertices_of(f), y = vertices_of(g);
+    return std::all_of(x.begin(), x.end(), [&](Vertex v) { return v == y[0] || v == y[1] || v == y[2]; });
+  }
+  Face& link_of(Face face) { return links_[(face & ~kNewFace) >> 2][face & 3u]; }
+
+  TetMesh& mesh_;
+  const Replacement& r_;
+  std::pmr::vector<OuterFace> outer_;
+  std::pmr::vector<Slot> slots_;
+  std::pmr::vector<TetMesh::Neighbours> links_;  // by new tetrahedron
+  std::size_t distinct_ = 0, open_ = 0;          // faces met, and those without a partner yet
+};
 
 }  // namespace
 
 void replace(TetMesh& mesh, const Replacement& r, std::vector<Tet>* created) {
   Scratch scratch;
-  const std::pmr::vector<TetMesh::Neighbours> links = match_faces(mesh, r, scratch.memory());
+  const std::pmr::vector<TetMesh::Neighbours> links = FaceMatcher(mesh, r, scratch.memory()).links();
   const Constraints constraints(mesh, r, scratch.memory());
 
   for (const Tet t : r.old_tets)
