@@ -245,17 +245,19 @@ class Optimiser {
     return removed;
   }
 
-  // The very worst always are, as long as it helps.
-  bool is_worth_reconnecting(const Entry& e) {
-    constexpr int kMostInVain = 3;
-    return e.quality >= kWorthReconnecting || reconnections_in_vain_ < kMostInVain;
+  // A search is long and seldom finds anything: as long as it does so now and then, but always for what
+  // would better the worst of all.
+  [[nodiscard]] bool is_worth_reconnecting(const Entry& e) const {
+    constexpr int kMostInVain = 3, kMostInVainForFlat = 12;
+    if (e.quality >= worst_stuck_) return true;
+    return reconnections_in_vain_ < (e.quality >= kWorthReconnecting ? kMostInVainForFlat : kMostInVain);
   }
 
   bool reconnect_round(Tet t) {
     constexpr std::size_t kWork = 50;
     work_ += kWork;
     const bool reconnected = reconnect(mesh_, t, first_free_, flat_from_, false, random_, created_);
-    if (!reconnected) ++reconnections_in_vain_;
+    reconnections_in_vain_ = reconnected ? 0 : reconnections_in_vain_ + 1;
     return reconnected;
   }
 
