@@ -51,6 +51,10 @@ class Flipper {
     std::uint32_t corner;
     bool at_b, blocked_twice;
   };
+  // Three corners of a link in a row: the tetrahedra from there to the ends of the edge are positive or not.
+  struct Ear {
+    bool sees_a, sees_b;
+  };
   class ForTarget;
   static constexpr std::size_t kMostClipped = 1000;  // of a shell whose ears are clipped
 
@@ -61,7 +65,9 @@ class Flipper {
   bool clip_ears(EdgeShell& shell);
   bool clip_ear(EdgeShell& shell, std::size_t i);
   bool thin_out(const EdgeShell& shell, int depth);
-  [[nodiscard]] std::vector<Spoke> blocked_spokes(const EdgeShell& shell);
+  void look_at_ears(const EdgeShell& shell);
+  [[nodiscard]] bool has_enough_ears() const;
+  [[nodiscard]] std::vector<Spoke> blocked_spokes();
   [[nodiscard]] Tet survivor(const EdgeShell& shell);
   void apply(std::span<const Tet> old_tets, int change);
 
@@ -74,6 +80,7 @@ class Flipper {
   int change_ = 0;        // of the target's cost since `clear` began; never positive
   FlipCounts counts_;
 
+  std::vector<Ear> ears_;  // of the shell looked at last
   std::vector<TetMesh::Corners> fresh_;
   LinkTriangulation<int> triangulation_;
   std::vector<LinkTriangle> triangles_;
