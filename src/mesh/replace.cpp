@@ -12,23 +12,23 @@ namespace holdfast {
 namespace {
 
 using FaceKey = std::array<Vertex, 3>;
-using EdgeKey = std::array<Vertex, 2>;
+using EdgeKey = std::uint64_t;
 
-FaceKey sorted(FaceKey k) {
+FaceKey face_key(FaceKey k) {
   if (k[0] > k[1]) std::swap(k[0], k[1]);
   if (k[1] > k[2]) std::swap(k[1], k[2]);
   if (k[0] > k[1]) std::swap(k[0], k[1]);
   return k;
 }
-EdgeKey sorted(EdgeKey k) {
-  if (k[0] > k[1]) std::swap(k[0], k[1]);
-  return k;
-}
-
 FaceKey face_key(const TetMesh::Corners& c, int i) {
   const auto& k = kFaceVertex[static_cast<std::size_t>(i)];
-  return sorted(FaceKey{c[static_cast<std::size_t>(k[0])], c[static_cast<std::size_t>(k[1])],
-                        c[static_cast<std::size_t>(k[2])]});
+  return face_key({c[static_cast<std::size_t>(k[0])], c[static_cast<std::size_t>(k[1])],
+                   c[static_cast<std::size_t>(k[2])]});
+}
+EdgeKey edge_key(Vertex a, Vertex b) { return EdgeKey{std::min(a, b)} << 32 | std::max(a, b); }
+EdgeKey edge_key(const TetMesh::Corners& c, int edge) {
+  const auto& e = kEdgeVertex[static_cast<std::size_t>(edge)];
+  return edge_key(c[static_cast<std::size_t>(e[0])], c[static_cast<std::size_t>(e[1])]);
 }
 
 // Memory of one replacement: flips are many and small, and fit the stack.
@@ -41,50 +41,51 @@ class Scratch {
   std::pmr::monotonic_buffer_resource memory_{buffer_.data(), buffer_.size()};
 };
 
-// Constraint bits that stood in the cavity, and those that the caller adds.
-struct Constraints {
-  std::pmr::vector<FaceKey> facets;
-  std::pmr::vector<EdgeKey> segments;
+// Constraints that stand inside a cavity or on its edges, and those that the caller adds. Facets on its
+// faces are known to the tetrahedra outside.
+class Constraints {
+ public:
+  explicit Constraints(std::pmr::memory_resource* memory) : facets_(memory), segments_(memory) {}
 
-  Constraints(const TetMesh& mesh, const Replacement& r, std::pmr::memory_resource* memory)
-      : facets(memory), segments(memory) {
-    for (const Tet t : r.old_tets) {
-      const Flags f = mesh.flags(t);
-      if ((f & (kFacetBits | kSegmentBits)) == 0) continue;
-      for (int i = 0; i < 4; ++i)
-        if ((f & facet_bit(i)) != 0) facets.push_back(face_key(mesh.corners(t), i));
-      for (int k = 0; k < 6; ++k)
-        if ((f & segment_bit(k)) != 0) {
-          const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
-          segments.push_back(sorted(EdgeKey{mesh.corner(t, e[0]), mesh.corner(t, e[1])}));
-        }
-    }
-    for (const auto& f : r.facets) facets.push_back(sorted(f));
-    for (const auto& e : r.segments) segments.push_back(sorted(e));
-    tidy(facets);
-    tidy(segments);
+  void add_facet(const FaceKey& key) { facets_.push_back(key); }
+  void add_segment(EdgeKey key) {
+    segments_.push_back(key);
+    seen_ |= bit_of(key);
   }
+  void add_segments_of(const TetMesh& mesh, Tet t) {
+    const Flags f = mesh.flags(t);
+    if ((f & kSegmentBits) == 0) return;
+    for (int k = 0; k < 6; ++k)
+      if ((f & segment_bit(k)) != 0) add_segment(edge_key(mesh.corners(t), k));
+  }
+  /// Once all are added.
+  void tidy() {
+    std::sort(facets_.begin(), facets_.end());
+    std::sort(segments_.begin(), segments_.end());
+    segments_.erase(std::unique(segments_.begin(), segments_.end()), segments_.end());
+  }
+
   [[nodiscard]] Flags bits(const TetMesh::Corners& c) const {
     unsigned bits = 0;
-    if (!facets.empty())
+    if (!facets_.empty())
       for (int i = 0; i < 4; ++i)
-        if (std::binary_search(facets.begin(), facets.end(), face_key(c, i))) bits |= facet_bit(i);
-    if (!segments.empty())
-      for (int k = 0; k < 6; ++k) {
-        const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
-        const EdgeKey key =
-            sorted(EdgeKey{c[static_cast<std::size_t>(e[0])], c[static_cast<std::size_t>(e[1])]});
-        if (std::binary_search(segments.begin(), segments.end(), key)) bits |= segment_bit(k);
-      }
+        if (std::binary_search(facets_.begin(), facets_.end(), face_key(c, i))) bits |= facet_bit(i);
+    if (!segments_.empty())
+      for (int k = 0; k < 6; ++k)
+        if (holds_segment(edge_key(c, k))) bits |= segment_bit(k);
     return static_cast<Flags>(bits);
   }
 
  private:
-  template <typename Keys>
-  static void tidy(Keys& keys) {
-    std::sort(keys.begin(), keys.end());
-    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  // One of 64 bits, so that few edges but segments are looked for in the list.
+  static std::uint64_t bit_of(EdgeKey key) { return std::uint64_t{1} << (key * 0x9E3779B97F4A7C15ull >> 58); }
+  [[nodiscard]] bool holds_segment(EdgeKey key) const {
+    return (seen_ & bit_of(key)) != 0 && std::binary_search(segments_.begin(), segments_.end(), key);
   }
+
+  std::pmr::vector<FaceKey> facets_;
+  std::pmr::vector<EdgeKey> segments_;
+  std::uint64_t seen_ = 0;
 };
 
 [[noreturn]] void mismatch() { throw std::logic_error("holdfast: a cavity's new tetrahedra do not fill it"); }
@@ -93,19 +94,28 @@ struct Constraints {
 constexpr Face kNewFace = 0x80000000u;
 
 // Pairs every face of the new tetrahedra with its partner before anything is changed: an outer face of the
-// cavity, or another new one.
-class FaceMatcher {
+// cavity, or another new one. Notes the constraints on the way.
+class Plan {
  public:
-  FaceMatcher(TetMesh& mesh, const Replacement& r, std::pmr::memory_resource* memory)
-      : mesh_(mesh), r_(r), outer_(memory), slots_(memory), links_(r.new_tets.size(), memory) {
+  Plan(TetMesh& mesh, const Replacement& r, std::pmr::memory_resource* memory)
+      : mesh_(mesh),
+        r_(r),
+        constraints_(memory),
+        outer_(memory),
+        slots_(memory),
+        links_(r.new_tets.size(), memory) {
     outer_.reserve(2 * r.old_tets.size() + 2);
     std::size_t n = 16;
     while (n < 3 * (r.old_tets.size() + r.new_tets.size())) n *= 2;
     slots_.resize(n);
   }
 
-  std::pmr::vector<TetMesh::Neighbours> links() {
-    list_outer_faces();
+  /// Throws where the faces do not match.
+  void make() {
+    look_at_cavity();
+    for (const auto& f : r_.facets) constraints_.add_facet(face_key(f));
+    for (const auto& e : r_.segments) constraints_.add_segment(edge_key(e[0], e[1]));
+    constraints_.tidy();
     for (const OuterFace& f : outer_) static_cast<void>(partner_of(f.across, f.mark));
     for (std::size_t n = 0; n < r_.new_tets.size(); ++n) {
       const Marks marks = marks_of(r_.new_tets[n]);
@@ -117,8 +127,11 @@ class FaceMatcher {
       }
     }
     if (open_ != 0) mismatch();
-    return std::move(links_);
   }
+
+  /// By new tetrahedron.
+  [[nodiscard]] const std::pmr::vector<TetMesh::Neighbours>& links() const { return links_; }
+  [[nodiscard]] const Constraints& constraints() const { return constraints_; }
 
  private:
   using Marks = std::array<std::uint64_t, 4>;
@@ -145,7 +158,7 @@ class FaceMatcher {
   }
 
   // In a mesh that is left as it was.
-  void list_outer_faces() {
+  void look_at_cavity() {
     for (const Tet t : r_.old_tets) mesh_.set_flags(t, kVisited);
     for (const Tet t : r_.old_tets) {
       const Marks marks = marks_of(mesh_.corners(t));
@@ -153,7 +166,10 @@ class FaceMatcher {
         const Face across = mesh_.neighbour(t, i);
         if ((mesh_.flags(tet_of(across)) & kVisited) == 0)
           outer_.push_back({marks[static_cast<std::size_t>(i)], across});
+        else if (mesh_.is_facet(across))
+          constraints_.add_facet(face_key(mesh_.corners(t), i));
       }
+      constraints_.add_segments_of(mesh_, t);
     }
     for (const Tet t : r_.old_tets) mesh_.clear_flags(t, kVisited);
   }
@@ -192,18 +208,19 @@ class FaceMatcher {
 
   TetMesh& mesh_;
   const Replacement& r_;
+  Constraints constraints_;
   std::pmr::vector<OuterFace> outer_;
   std::pmr::vector<Slot> slots_;
-  std::pmr::vector<TetMesh::Neighbours> links_;  // by new tetrahedron
-  std::size_t distinct_ = 0, open_ = 0;          // faces met, and those without a partner yet
+  std::pmr::vector<TetMesh::Neighbours> links_;
+  std::size_t distinct_ = 0, open_ = 0;  // faces met, and those without a partner yet
 };
 
 }  // namespace
 
 void replace(TetMesh& mesh, const Replacement& r, std::vector<Tet>* created) {
   Scratch scratch;
-  const std::pmr::vector<TetMesh::Neighbours> links = FaceMatcher(mesh, r, scratch.memory()).links();
-  const Constraints constraints(mesh, r, scratch.memory());
+  Plan plan(mesh, r, scratch.memory());
+  plan.make();
 
   for (const Tet t : r.old_tets)
     for (const Vertex v : mesh.corners(t))
@@ -215,17 +232,20 @@ void replace(TetMesh& mesh, const Replacement& r, std::vector<Tet>* created) {
   for (const TetMesh::Corners& c : r.new_tets) {
     const Tet t = mesh.add_tet(c);
     tets.push_back(t);
-    mesh.set_flags(t, constraints.bits(c));
+    mesh.set_flags(t, plan.constraints().bits(c));
     for (const Vertex v : c)
       if (v != kGhost) mesh.set_incident(v, t);
   }
   for (std::size_t n = 0; n < r.new_tets.size(); ++n)
     for (int i = 0; i < 4; ++i) {
-      const Face code = links[n][static_cast<std::size_t>(i)];
-      const Face mine = face_code(tets[first + n], i);
-      const Face partner =
-          (code & kNewFace) == 0 ? code : face_code(tets[first + ((code & ~kNewFace) >> 2)], side_of(code));
-      mesh.link(mine, partner);
+      const Face code = plan.links()[n][static_cast<std::size_t>(i)];
+      const Tet t = tets[first + n];
+      if ((code & kNewFace) != 0) {
+        mesh.link(face_code(t, i), face_code(tets[first + ((code & ~kNewFace) >> 2)], side_of(code)));
+      } else {
+        mesh.link(face_code(t, i), code);
+        if (mesh.is_facet(code)) mesh.set_flags(t, facet_bit(i));
+      }
     }
   validate_after_operation(mesh, std::span(tets).subspan(first));
 }
