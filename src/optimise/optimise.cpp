@@ -28,7 +28,7 @@ class Optimiser {
         worth_a_point_(std::max(kWorthAPoint, kWorthAPointForTarget * target)),
         monitor_(monitor),
         exchanger_(mesh, {flat_from_, worth_a_point_}),
-        flat_remover_(mesh, flat_from_) {}
+        flat_remover_(mesh) {}
 
   OptimiseStats run(const std::vector<Tet>& tets, PointsToRemove remove) {
     budget_ = kLeastWork + kWorkPerTet * tets.size();
@@ -175,7 +175,7 @@ class Optimiser {
       ++stats_.exchanged;
     else if (relocate_a_corner(e.tet))
       ++stats_.relocated;
-    else if (e.quality >= flat_from_ && remove_flat(e.tet))
+    else if (remove_flat(e))
       ++stats_.unflattened;
     else if ((is_worth_reconnecting(e) && reconnect_round(e.tet)) ||
              (e.quality >= worth_a_point_ && reconnect_patiently(e.tet)))
@@ -239,8 +239,8 @@ class Optimiser {
     return true;
   }
 
-  bool remove_flat(Tet t) {
-    const bool removed = flat_remover_.remove(t, created_);
+  bool remove_flat(const Entry& e) {
+    const bool removed = flat_remover_.remove(e.tet, std::min(flat_from_, kLeastGain * e.quality), created_);
     work_ += flat_remover_.work();
     return removed;
   }
@@ -300,9 +300,9 @@ class Optimiser {
 
   // The paper's Q: of what is left alone, of bad elements, of what counts as flat, of what is worth a search
   // or a point.
-  static constexpr double kGood = 6, kBad = 30, kFlat = 100, kFlatForTarget = 2;
+  static constexpr double kGood = 2, kBad = 30, kFlat = 100, kFlatForTarget = 2;
   static constexpr double kWorthReconnecting = 200, kWorthAPoint = 1000, kWorthAPointForTarget = 30;
-  static constexpr int kRounds = 3, kMostFailures = 4;
+  static constexpr int kRounds = 3, kMostFailures = 12;
   // In exchanges tried, some 10 microseconds each.
   static constexpr std::size_t kLeastWork = 1200, kWorkPerTet = 4;
   static constexpr std::size_t kUsualShare = 4;  // of the work for what is not worth a point

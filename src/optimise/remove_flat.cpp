@@ -10,13 +10,13 @@
 namespace holdfast {
 namespace {
 
-// Triangulations of a link that make nothing flat, and no edge at one vertex.
-class NothingFlat {
+// Triangulations of a link that make nothing bad, and no edge at one vertex.
+class NothingBad {
  public:
   using Cost = double;  // the worst Q
 
-  NothingFlat(const TetMesh& mesh, const EdgeShell& shell, double flat_from, Vertex avoided)
-      : mesh_(mesh), shell_(shell), flat_from_(flat_from), avoided_(avoided) {}
+  NothingBad(const TetMesh& mesh, const EdgeShell& shell, double bad_from, Vertex avoided)
+      : mesh_(mesh), shell_(shell), bad_from_(bad_from), avoided_(avoided) {}
 
   static Cost none() { return 0; }
   static Cost join(Cost x, Cost y) { return std::max(x, y); }
@@ -32,19 +32,20 @@ class NothingFlat {
     if (!sees_both_ends(mesh_, shell_, i, k, j)) return std::nullopt;
     const double worst =
         std::max(quality_of(mesh_, {pi, pk, pj, shell_.b}), quality_of(mesh_, {pj, pk, pi, shell_.a}));
-    return worst < flat_from_ ? std::optional(worst) : std::nullopt;
+    return worst < bad_from_ ? std::optional(worst) : std::nullopt;
   }
 
  private:
   const TetMesh& mesh_;
   const EdgeShell& shell_;
-  const double flat_from_;
+  const double bad_from_;
   const Vertex avoided_;
 };
 
 }  // namespace
 
-bool FlatRemover::remove(Tet t, std::vector<Tet>& created) {
+bool FlatRemover::remove(Tet t, double bad_from, std::vector<Tet>& created) {
+  bad_from_ = bad_from;
   created_ = &created;
   work_ = 0;
   const TetMesh::Corners corners = mesh_.corners(t);
@@ -81,7 +82,7 @@ Tet FlatRemover::survivor(const EdgeShell& shell) {
 }
 
 bool FlatRemover::remove_now(const EdgeShell& shell, Vertex avoided) {
-  NothingFlat objective(mesh_, shell, flat_from_, avoided);
+  NothingBad objective(mesh_, shell, bad_from_, avoided);
   if (!triangulation_.find(shell.size(), objective)) return false;
   std::vector<LinkTriangle> triangles;
   std::vector<TetMesh::Corners> fresh;
@@ -92,7 +93,7 @@ bool FlatRemover::remove_now(const EdgeShell& shell, Vertex avoided) {
 }
 
 // A spoke, from an end of the edge to a corner of its link, is in the way where the ear at that corner would
-// be flat or negative: without it the shell has one tetrahedron fewer. Returns whether the flips for one of
+// be bad or negative: without it the shell has one tetrahedron fewer. Returns whether the flips for one of
 // the spokes have changed the mesh.
 bool FlatRemover::thin_out(const EdgeShell& shell, int depth) {
   const std::size_t n = shell.size();
@@ -108,7 +109,7 @@ bool FlatRemover::thin_out(const EdgeShell& shell, int depth) {
 }
 
 bool FlatRemover::is_good(Vertex a, Vertex b, Vertex c, Vertex d) const {
-  return mesh_.orient(a, b, c, d) > 0 && quality_of(mesh_, {a, b, c, d}) < flat_from_;
+  return mesh_.orient(a, b, c, d) > 0 && quality_of(mesh_, {a, b, c, d}) < bad_from_;
 }
 
 }  // namespace holdfast

@@ -1,5 +1,5 @@
-// Removing flat tetrahedra by flips that clear each other's way (the recursion of Si 2015's flipnm, with
-// quality in place of positivity).
+// Removing flat and other bad tetrahedra by flips that clear each other's way (the recursion of Si 2015's
+// flipnm, with quality in place of positivity).
 #pragma once
 
 #include <cstddef>
@@ -12,12 +12,12 @@ namespace holdfast {
 
 class FlatRemover {
  public:
-  FlatRemover(TetMesh& mesh, double flat_from) : mesh_(mesh), flat_from_(flat_from) {}
+  explicit FlatRemover(TetMesh& mesh) : mesh_(mesh) {}
 
-  /// Removes one of the wide edges of a flat tetrahedron, so that fewer tetrahedra are flat. Flips on the way
-  /// there make none flat, but may make some worse, and stay even if the edge does. `created` receives the
-  /// new tetrahedra, some of which may be gone again. Returns whether there are fewer flat ones.
-  bool remove(Tet t, std::vector<Tet>& created);
+  /// Removes one of the wide edges of a tetrahedron whose Q is `bad_from` or more, so that fewer are as bad.
+  /// Flips on the way there make none that bad, but may make some worse, and stay even if the edge does.
+  /// `created` receives the new tetrahedra, some of which may be gone again. Returns whether there are fewer.
+  bool remove(Tet t, double bad_from, std::vector<Tet>& created);
 
   /// Of the last call, in shells looked at.
   [[nodiscard]] std::size_t work() const { return work_; }
@@ -34,7 +34,7 @@ class FlatRemover {
   static constexpr std::size_t kBudget = 200;  // shells looked at
 
   TetMesh& mesh_;
-  const double flat_from_;
+  double bad_from_ = 0;
   LinkTriangulation<double> triangulation_;
   std::size_t work_ = 0;
   std::vector<Tet>* created_ = nullptr;

@@ -147,18 +147,40 @@ TEST(FlatRemover, LeavesFewerFlatOnes) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     TetMesh mesh = slivers(1e-9, seed);
     const exact::Dyadic volume = volume_of(mesh);
-    FlatRemover remover(mesh, 1000);
+    FlatRemover remover(mesh);
     for (const Tet t : solid(mesh)) {
       if (!mesh.alive(t) || quality_of(mesh, mesh.corners(t)) < 1000) continue;
       const std::size_t before = badness_of(mesh, solid(mesh), 1000).flat;
       std::vector<Tet> created;
-      const bool fewer = remover.remove(t, created);
+      const bool fewer = remover.remove(t, 1000, created);
       const std::size_t after = badness_of(mesh, solid(mesh), 1000).flat;
       EXPECT_LE(after, before);
       if (fewer) {
         EXPECT_LT(after, before);
         ++removed;
       }
+    }
+    expect_sound(mesh, volume);
+  }
+  EXPECT_GT(removed, 20u);
+}
+
+// Whatever the limit is: none as bad as the one that goes comes to stand.
+TEST(FlatRemover, MakesNothingAsBadAsWhatItRemoves) {
+  std::size_t removed = 0;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    TetMesh mesh = slivers(1e-2, seed);
+    const exact::Dyadic volume = volume_of(mesh);
+    FlatRemover remover(mesh);
+    for (const Tet t : solid(mesh)) {
+      if (!mesh.alive(t)) continue;
+      const double limit = 0.98 * quality_of(mesh, mesh.corners(t));
+      if (limit < 5) continue;
+      const std::size_t before = badness_of(mesh, solid(mesh), limit).flat;
+      std::vector<Tet> created;
+      const bool fewer = remover.remove(t, limit, created);
+      EXPECT_LE(badness_of(mesh, solid(mesh), limit).flat, before - (fewer ? 1 : 0));
+      if (fewer) ++removed;
     }
     expect_sound(mesh, volume);
   }
