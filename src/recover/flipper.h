@@ -18,6 +18,7 @@ namespace holdfast {
 
 struct FlipCounts {
   std::size_t face_flips = 0, edge_removals = 0;
+  [[nodiscard]] std::size_t all() const { return face_flips + edge_removals; }
 };
 
 class Flipper {

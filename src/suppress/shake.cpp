@@ -18,23 +18,27 @@ Tet wander(const TetMesh& mesh, Tet t, std::mt19937_64& random) {
   return t;
 }
 
-void remove_an_edge(TetMesh& mesh, Flipper& flipper, const std::vector<Tet>& of, std::mt19937_64& random) {
+// Returns whether any flip was made.
+bool remove_an_edge(TetMesh& mesh, Flipper& flipper, const std::vector<Tet>& of, std::mt19937_64& random) {
   constexpr int kDepth = 1;
   constexpr std::size_t kBudget = 200;
-  if (of.empty()) return;
+  if (of.empty()) return false;
+  const std::size_t before = flipper.counts().all();
   const Tet t = wander(mesh, of[random() % of.size()], random);
   const auto& ends = kEdgeVertex[random() % 6];
   flipper.remove(t, mesh.corner(t, ends[0]), mesh.corner(t, ends[1]), kDepth, kBudget);
+  return flipper.counts().all() > before;
 }
 
 }  // namespace
 
 void shake(TetMesh& mesh, Flipper& flipper, Vertex p, int edges, std::mt19937_64& random) {
   std::vector<Tet> tets;
+  ball(mesh, p, tets);
   for (; edges > 0; --edges) {
+    if (!remove_an_edge(mesh, flipper, tets, random)) continue;
     tets.clear();
     ball(mesh, p, tets);
-    remove_an_edge(mesh, flipper, tets, random);
   }
 }
 
