@@ -4,6 +4,7 @@
 // must be finite; any finite magnitude is answered rightly, denormals and overflow included.
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "exact/point.h"
@@ -108,6 +109,34 @@ inline constexpr double kEpsilon = 0x1p-53;
   const int sign = detail::orient3d_filter(a, b, c, d);
   return sign != 0 ? sign : detail::orient3d_slow(a, b, c, d);
 }
+
+/// orient3d(a, b, c, d) in floating point for many d, as orient3d_filter decides it: what abc alone say is
+/// computed once.
+class OrientFilter {
+ public:
+  OrientFilter(const double* a, const double* b, const double* c) : a_{a[0], a[1], a[2]} {
+    const double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
+    const double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
+    const double yz = uy * vz, zy = uz * vy, zx = uz * vx, xz = ux * vz, xy = ux * vy, yx = uy * vx;
+    normal_ = {yz - zy, zx - xz, xy - yx};
+    permanent_ = {std::fabs(yz) + std::fabs(zy), std::fabs(zx) + std::fabs(xz),
+                  std::fabs(xy) + std::fabs(yx)};
+  }
+  /// +1 or -1, or 0 where it cannot tell. The bound is that of orient3d_filter: the determinant's rows have
+  /// become its columns.
+  [[nodiscard]] int operator()(const double* d) const {
+    const double x = d[0] - a_[0], y = d[1] - a_[1], z = d[2] - a_[2];
+    const double ax = std::fabs(x), ay = std::fabs(y), az = std::fabs(z);
+    const double det = x * normal_[0] + y * normal_[1] + z * normal_[2];
+    const double permanent = ax * permanent_[0] + ay * permanent_[1] + az * permanent_[2];
+    const double bound =
+        (7 + 64 * detail::kEpsilon) * detail::kEpsilon * permanent + (0x1p-900 + 0x1p-900 * (ax + ay + az));
+    return detail::filtered_sign(det, bound);
+  }
+
+ private:
+  std::array<double, 3> a_, normal_, permanent_;
+};
 
 /// The same for points that may be exact. Law (6): equals the double version where both apply.
 [[nodiscard]] inline int orient3d(PointRef a, PointRef b, PointRef c, PointRef d) {

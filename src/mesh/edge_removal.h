@@ -108,7 +108,8 @@ class LinkTriangulation {
 [[nodiscard]] inline bool sees_both_ends(const TetMesh& mesh, const EdgeShell& shell, std::size_t i,
                                          std::size_t k, std::size_t j) {
   const Vertex pi = shell.link[i], pk = shell.link[k], pj = shell.link[j];
-  return mesh.orient(pi, pk, pj, shell.b) > 0 && mesh.orient(pj, pk, pi, shell.a) > 0;
+  const auto [of_a, of_b] = mesh.orient_both(pi, pk, pj, shell.a, shell.b);
+  return of_a < 0 && of_b > 0;
 }
 
 /// The new tetrahedra of a triangulated link, appended.

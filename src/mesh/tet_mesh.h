@@ -112,6 +112,13 @@ class TetMesh {
                              positions_[d].data());
     return exact::orient3d(point(a), point(b), point(c), point(d));
   }
+  /// orient(a, b, c, d) and orient(a, b, c, e), in less time than one after the other.
+  [[nodiscard]] std::array<int, 2> orient_both(Vertex a, Vertex b, Vertex c, Vertex d, Vertex e) const {
+    if (exact_in_use_ != 0) return {orient(a, b, c, d), orient(a, b, c, e)};
+    const exact::OrientFilter filter(positions_[a].data(), positions_[b].data(), positions_[c].data());
+    const int of_d = filter(positions_[d].data()), of_e = filter(positions_[e].data());
+    return {of_d != 0 ? of_d : orient(a, b, c, d), of_e != 0 ? of_e : orient(a, b, c, e)};
+  }
   [[nodiscard]] int orient(Vertex a, Vertex b, Vertex c, exact::PointRef d) const {
     return exact::orient3d(point(a), point(b), point(c), d);
   }

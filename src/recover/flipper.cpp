@@ -132,10 +132,11 @@ bool Flipper::remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex favoured)
 
 // Edges inside a facet that is cut into pieces are no segments.
 bool Flipper::lies_in_facet(const EdgeShell& shell) const {
-  for (std::size_t i = 0; i < shell.size(); ++i)
-    if (mesh_.is_facet(
-            face_code(shell.tets[i], mesh_.index_of(shell.tets[i], shell.link[(i + 1) % shell.size()]))))
-      return true;
+  for (std::size_t i = 0; i < shell.size(); ++i) {
+    const Tet t = shell.tets[i];
+    if ((mesh_.flags(t) & kFacetBits) == 0) continue;
+    if (mesh_.is_facet(face_code(t, mesh_.index_of(t, shell.link[(i + 1) % shell.size()])))) return true;
+  }
   return false;
 }
 
@@ -207,15 +208,16 @@ void Flipper::look_at_ears(const EdgeShell& shell) {
   ears_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const Vertex before = shell.link[(i + n - 1) % n], p = shell.link[i], after = shell.link[(i + 1) % n];
-    ears_[i].sees_a = mesh_.orient(after, p, before, shell.a) > 0;
-    ears_[i].sees_b = mesh_.orient(before, p, after, shell.b) > 0;
+    const auto [of_a, of_b] = mesh_.orient_both(before, p, after, shell.a, shell.b);
+    ears_[i] = {of_a<0, of_b> 0};
   }
   work_ += 2 * n;
 }
 
 // Any triangulation of a polygon has two ears; of a triangle, three.
 bool Flipper::has_enough_ears() const {
-  const auto open = std::count_if(ears_.begin(), ears_.end(), [](const Ear& e) { return e.sees_a && e.sees_b; });
+  const auto open =
+      std::count_if(ears_.begin(), ears_.end(), [](const Ear& e) { return e.sees_a && e.sees_b; });
   return open >= (ears_.size() == 3 ? 3 : 2);
 }
 

@@ -38,13 +38,15 @@ constexpr std::array<std::array<std::uint16_t, 5>, kMostVertices + 1> kBinomial 
 // A set of vertices, one bit each.
 using Mask = std::uint32_t;
 
-// The vertices above and below every triangle, where above sees its corners turn counterclockwise. Each sign
-// is computed once, and only when a triangle is asked for that needs it.
+// The vertices above and below every triangle, where above sees its corners turn counterclockwise, computed
+// when a triangle is asked for. Each sign that the filter leaves open is computed once.
 class Sides {
  public:
   Sides(const TetMesh& mesh, std::vector<Vertex> vertices)
       : mesh_(mesh),
         vertices_(std::move(vertices)),
+        all_are_explicit_(
+            std::all_of(vertices_.begin(), vertices_.end(), [&](Vertex v) { return mesh.is_explicit(v); })),
         sign_(kBinomial[vertices_.size()][4], kUnknown),
         of_triangle_(kBinomial[vertices_.size()][3], {kUnknownMask, 0}) {}
 
@@ -86,14 +88,18 @@ class Sides {
     Pair& sides = of_triangle_[std::size_t{f[0]} + kBinomial[f[1]][2] + kBinomial[f[2]][3]];
     if (sides.above != kUnknownMask) return sides;
     sides = {0, 0};
+    const exact::OrientFilter filter(at(f[0]), at(f[1]), at(f[2]));
     for (Local d = 0; d < vertices_.size(); ++d) {
       if (d == f[0] || d == f[1] || d == f[2]) continue;
-      const int s = sign(f, d);
+      int s = all_are_explicit_ ? filter(at(d)) : 0;
+      if (s == 0) s = sign(f, d);
       if (s > 0) sides.above |= Mask{1} << d;
       if (s < 0) sides.below |= Mask{1} << d;
     }
     return sides;
   }
+
+  [[nodiscard]] const double* at(Local v) const { return mesh_.position(vertices_[v]).data(); }
 
   int sign(const LocalFace& f, Local d) {
     std::array<Local, 4> k{f[0], f[1], f[2], d};
@@ -111,6 +117,7 @@ class Sides {
 
   const TetMesh& mesh_;
   const std::vector<Vertex> vertices_;
+  const bool all_are_explicit_;
   std::vector<std::int8_t> sign_;  // by the number of the four corners
   std::vector<Pair> of_triangle_;  // by the number of the three corners
 };

@@ -45,6 +45,7 @@ TEST(PredicateLaw, Orient3dTiersAgreeWithRationals) {
     const double *p = c.p[0].data(), *q = c.p[1].data(), *r = c.p[2].data(), *s = c.p[3].data();
     const int truth = reference_orient3d({p}, {q}, {r}, {s});
     expect_sound(detail::orient3d_filter(p, q, r, s), truth, "filter", c);
+    expect_sound(OrientFilter(p, q, r)(s), truth, "filter for many", c);
     expect_sound(detail::orient3d_mixed_filter(p, q, r, s), truth, "mixed filter", c);
     expect_agrees(detail::integer_orient3d<1>(p, q, r, s), truth, "integer64", c);
     expect_agrees(detail::integer_orient3d<2>(p, q, r, s), truth, "integer128", c);

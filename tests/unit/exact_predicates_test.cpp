@@ -119,6 +119,19 @@ TEST(PredicateTiers, ExactPoints) {
   EXPECT_EQ(tier(2000), Tier::big_integer);
 }
 
+TEST(PredicateTiers, TheFilterForManyPointsDecidesWhatTheOtherDoes) {
+  const OrientFilter of_z_plane(kOrigin.data(), kX.data(), kY.data());
+  for (const double z : {1e-300, 1e-15, 1.0, 1e100}) {
+    const Point3 above = {0.3, 0.4, z}, below = {0.3, 0.4, -z};
+    EXPECT_EQ(of_z_plane(above.data()),
+              detail::orient3d_filter(kOrigin.data(), kX.data(), kY.data(), above.data()));
+    EXPECT_EQ(of_z_plane(below.data()), -of_z_plane(above.data()));
+  }
+  const Point3 on = {0.3, 0.4, 0};
+  EXPECT_EQ(of_z_plane(kZ.data()), 1);
+  EXPECT_EQ(of_z_plane(on.data()), 0);
+}
+
 TEST(PredicateTiers, FilterDecidesWhatIsFarFromDegenerate) {
   Random random(5);
   int orients = 0, spheres = 0, mixed = 0;

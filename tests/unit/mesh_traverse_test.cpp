@@ -74,6 +74,23 @@ TEST(Traverse, EdgesAndTheirShells) {
   EXPECT_GT(edges, 500);
 }
 
+TEST(TetMesh, BothOrientationsAreThoseOfEach) {
+  TetMesh mesh = delaunay_in_box(random_points(30, 4));
+  const auto expect_equal = [&] {
+    for (Vertex a = 0; a + 5 <= mesh.vertex_count(); ++a) {
+      const auto [of_d, of_e] = mesh.orient_both(a, a + 1, a + 2, a + 3, a + 4);
+      EXPECT_EQ(of_d, mesh.orient(a, a + 1, a + 2, a + 3));
+      EXPECT_EQ(of_e, mesh.orient(a, a + 1, a + 2, a + 4));
+    }
+    EXPECT_EQ(mesh.orient_both(0, 1, 2, 1, 3)[0], 0);
+  };
+  expect_equal();
+  const exact::Dyadic near_one = exact::Dyadic(1) + exact::Dyadic(1).scaled(-60);
+  mesh.add_vertex(exact::ExactPoint{{near_one, near_one, near_one}});
+  ASSERT_EQ(mesh.exact_vertex_count(), 1u);
+  expect_equal();
+}
+
 TEST(Traverse, Faces) {
   TetMesh mesh = sample_mesh(4);
   Random random(4);
