@@ -171,6 +171,8 @@ class Search {
     for (const auto& f : faces) open_.add(open_.number({local(f[0]), local(f[1]), local(f[2])}));
   }
 
+  [[nodiscard]] bool is_unfillable() { return !fill() && budget_ > 0; }
+
   std::optional<std::vector<TetMesh::Corners>> run() {
     if (!fill()) return std::nullopt;
     std::vector<TetMesh::Corners> tets;
@@ -316,20 +318,39 @@ class Search {
   std::vector<std::array<Local, 4>> tets_;
 };
 
+// Sorted, each once.
+std::vector<Vertex> vertices_of(std::span<const std::array<Vertex, 3>> faces) {
+  std::vector<Vertex> vertices;
+  for (const auto& f : faces) vertices.insert(vertices.end(), f.begin(), f.end());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+// Nothing where the polyhedron is too large.
+std::optional<Search> search_of(const TetMesh& mesh, std::span<const std::array<Vertex, 3>> faces,
+                                const PolyhedronOptions& options) {
+  const std::size_t most = std::min(options.most_vertices, kMostVertices);
+  if (faces.empty() || faces.size() > 2 * most)
+    return std::nullopt;  // Euler: a sphere on n vertices has 2 n - 4
+  std::vector<Vertex> vertices = vertices_of(faces);
+  if (vertices.size() > most) return std::nullopt;
+  return std::optional<Search>(std::in_place, mesh, faces, std::move(vertices), options);
+}
+
 }  // namespace
 
 std::optional<std::vector<TetMesh::Corners>> fill_polyhedron(const TetMesh& mesh,
                                                              std::span<const std::array<Vertex, 3>> faces,
                                                              const PolyhedronOptions& options) {
-  const std::size_t most = std::min(options.most_vertices, kMostVertices);
-  if (faces.empty() || faces.size() > 2 * most)
-    return std::nullopt;  // Euler: a sphere on n vertices has 2 n - 4
-  std::vector<Vertex> vertices;
-  for (const auto& f : faces) vertices.insert(vertices.end(), f.begin(), f.end());
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  if (vertices.size() > most) return std::nullopt;
-  return Search(mesh, faces, std::move(vertices), options).run();
+  std::optional<Search> search = search_of(mesh, faces, options);
+  return search ? search->run() : std::nullopt;
+}
+
+bool is_unfillable(const TetMesh& mesh, std::span<const std::array<Vertex, 3>> faces,
+                   const PolyhedronOptions& options) {
+  std::optional<Search> search = search_of(mesh, faces, options);
+  return search && search->is_unfillable();
 }
 
 }  // namespace holdfast

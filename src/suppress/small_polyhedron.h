@@ -30,4 +30,8 @@ struct PolyhedronOptions {
 [[nodiscard]] std::optional<std::vector<TetMesh::Corners>> fill_polyhedron(
     const TetMesh& mesh, std::span<const std::array<Vertex, 3>> faces, const PolyhedronOptions& options = {});
 
+/// Whether the search ends, within its budget, without one: then there is none of that quality.
+[[nodiscard]] bool is_unfillable(const TetMesh& mesh, std::span<const std::array<Vertex, 3>> faces,
+                                 const PolyhedronOptions& options = {});
+
 }  // namespace holdfast

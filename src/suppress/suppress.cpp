@@ -6,6 +6,7 @@
 #include "mesh/traverse.h"
 #include "suppress/collapse.h"
 #include "suppress/degree.h"
+#include "suppress/needed.h"
 #include "suppress/refill.h"
 #include "suppress/shake.h"
 
@@ -79,18 +80,20 @@ class Suppressor {
            (unrounded_now > 0 && (gone > 0 || unrounded_now < unrounded_before));
   }
 
-  // What is left may go from another mesh round it.
+  // What is left may go from another mesh round it, but for what is proven to stay.
   void insist() {
     constexpr int kMostRounds = 20, kPatience = 8;  // rounds without gain
     // In proportion to the rest of the work, so that it matters where few are left.
     const std::size_t most_shakes = std::min<std::size_t>(200, 16 + mesh_.tet_count() / 100);
     constexpr int kShakenEdges = 40, kShakenDepth = 12;
     constexpr std::size_t kShakenBudget = 800;
+    std::vector<Vertex> spare = points_;
+    std::erase_if(spare, [&](Vertex p) { return is_needed(mesh_, p, first_free_); });
     std::size_t shakes = 0;
     int idle = 0;
-    for (int round = 0; round < kMostRounds && idle < kPatience && !points_.empty(); ++round) {
-      const std::size_t before = points_.size();
-      for (const Vertex p : points_) {
+    for (int round = 0; round < kMostRounds && idle < kPatience && !spare.empty(); ++round) {
+      const std::size_t before = spare.size();
+      for (const Vertex p : spare) {
         if (shakes++ == most_shakes) break;
         tell();
         shake(mesh_, flipper_, p, kShakenEdges, random_);
@@ -98,8 +101,9 @@ class Suppressor {
         remove_or_recentre(mesh_, p, {});
       }
       drop_the_gone(stats_.filled);
+      std::erase_if(spare, [&](Vertex p) { return !mesh_.in_mesh(p); });
       if (shakes > most_shakes) return;
-      idle = points_.size() < before ? 0 : idle + 1;
+      idle = spare.size() < before ? 0 : idle + 1;
     }
   }
 

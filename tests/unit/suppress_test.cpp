@@ -17,6 +17,7 @@
 #include "suppress/cavity.h"
 #include "suppress/collapse.h"
 #include "suppress/degree.h"
+#include "suppress/needed.h"
 #include "suppress/refill.h"
 #include "suppress/shake.h"
 
@@ -593,6 +594,44 @@ TEST(Suppress, LeavesSchoenhardtOnePointThatItNeeds) {
     Scene convex = enforced(twisted_prism(-part * kMostTwist, 1));
     EXPECT_EQ(suppress_all(convex).left, 0u) << part;
   }
+}
+
+// Meshes a convex prism from a point in its middle.
+Vertex add_centre(Scene& prism) {
+  std::vector<Tet> inside = living(prism.mesh);
+  std::erase_if(inside, [&](Tet t) {
+    const auto& c = prism.mesh.corners(t);
+    return std::any_of(c.begin(), c.end(), [](Vertex v) { return v >= 6; });
+  });
+  const Vertex p = prism.mesh.add_vertex(Point{0, 0, 0.5});
+  const auto fresh = cone(outer_faces(prism.mesh, inside), p);
+  replace(prism.mesh, {.old_tets = inside, .new_tets = fresh});
+  return p;
+}
+
+TEST(IsNeeded, IsProvenOfSchoenhardtsPointAndOfNoneThatCanGo) {
+  for (const double part : {0.1, 0.5, 0.9}) {
+    Scene bent_in = enforced(twisted_prism(part * kMostTwist, 1));
+    suppress_all(bent_in);
+    ASSERT_EQ(bent_in.steiner().size(), 1u);
+    EXPECT_TRUE(is_needed(bent_in.mesh, bent_in.steiner()[0], bent_in.first_free)) << part;
+    bent_in.expect_kept();
+    Scene convex = enforced(twisted_prism(-part * kMostTwist, 1));
+    EXPECT_FALSE(is_needed(convex.mesh, add_centre(convex), convex.first_free)) << part;
+    EXPECT_EQ(suppress_all(convex).left, 0u);
+  }
+}
+
+// A filling would have to keep a segment inside: then nothing is proven.
+TEST(IsNeeded, IsNotSaidWhereAConstraintStandsInside) {
+  Scene s = enforced(twisted_prism(0.5 * kMostTwist, 1));
+  suppress_all(s);
+  const Vertex p = s.steiner().at(0);
+  const Tet t = s.mesh.incident(p);
+  const int i = s.mesh.index_of(t, p);
+  const Vertex q = s.mesh.corner(t, (i + 1) % 4);
+  set_segment(s.mesh, t, p, q);
+  EXPECT_FALSE(is_needed(s.mesh, p, s.first_free));
 }
 
 TEST(Suppress, StopsWhenToldToWithAValidMesh) {
