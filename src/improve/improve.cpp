@@ -20,7 +20,7 @@ struct Effort {
   double aim;          // of the angle below which single elements are worked on
   double patient_aim;  // of that below which everything is tried on them
   int rounds;
-  // For a round, in elements tried, some ten microseconds each. Most volumes take a small part of it: it is
+  // For a round, in elements tried, some three microseconds each. Most volumes take a small part of it: it is
   // for those full of elements that the surface forces, which nothing helps.
   double work_per_tet;
 };
@@ -177,7 +177,7 @@ class Improver {
   }
 
   std::span<const Tet> refill_round(Tet t) {
-    work_ += 60;
+    work_ += kRefill;
     const TetMesh::Corners corners = mesh_.corners(t);
     const auto created = refiller_.refill(t);
     if (created.empty()) return {};
@@ -222,6 +222,7 @@ class Improver {
   }
 
   static constexpr double kLeastWork = 1500;
+  static constexpr double kRefill = 300;  // 0.7 to 1.5 ms, where an element tried is 3 microseconds
   static constexpr int kMostPasses = 6;
 
   TetMesh& mesh_;
