@@ -55,6 +55,7 @@ class FileError : public std::runtime_error {
 struct WriteOptions {
   bool compress = true;     ///< .vtu: zlib blocks
   bool legacy_msh = false;  ///< .msh: version 2.2 instead of 4.1
+  unsigned threads = 1;     ///< for compression, 0: all there are; the file is the same
   std::string format;       ///< overrides the extension
 };
 

@@ -39,7 +39,8 @@ std::uint64_t peak_memory_bytes() {
 
 int run(const DelaunayArguments& arguments) {
   const auto whole = std::chrono::steady_clock::now();
-  const VolumeTarget target = volume_target(arguments.output, arguments.format, {arguments.points});
+  VolumeTarget target = volume_target(arguments.output, arguments.format, {arguments.points});
+  target.options.threads = arguments.threads;
   require_writable(arguments.report);
   cancel_at_once();
   Volume volume;

@@ -143,7 +143,8 @@ Result mesh_or_refuse(const Surface& surface, const Options& options) {
 int run(const MeshArguments& arguments) {
   const Stopwatch whole;
   Options options = to_options(arguments);
-  const VolumeTarget target = volume_target(arguments.output, arguments.format, arguments.surfaces);
+  VolumeTarget target = volume_target(arguments.output, arguments.format, arguments.surfaces);
+  target.options.threads = arguments.threads;
   require_writable(arguments.report);
   require_writable(arguments.exact);
   cancel_by_flag();

@@ -67,7 +67,7 @@ void write_marks(const std::filesystem::path& path, const Complex& complex, std:
   io::write_vtu_arrays(out,
                        marks.cells.arrays(marks.points, {io::vtu_array("kind", marks.kinds),
                                                          io::vtu_array("defect", marks.defects)}),
-                       true);
+                       {});
   out.commit();
 }
 

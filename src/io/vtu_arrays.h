@@ -70,6 +70,6 @@ class VtuCells {
 };
 
 /// Writes an unstructured grid of one piece.
-void write_vtu_arrays(AtomicWriter& out, const VtuArrays& arrays, bool compress);
+void write_vtu_arrays(AtomicWriter& out, const VtuArrays& arrays, const WriteOptions& options);
 
 }  // namespace holdfast::io
