@@ -6,7 +6,11 @@ Every mesher gets the same triangles and keeps them: `holdfast mesh --no-growth 
 between those of the surface round, as Gmsh has them), `gmsh -3 -algo hxt`, `gmsh -3 -algo del3d` with Mesh.Optimize, `tetgen -pYq1.4`,
 and Netgen's GenerateVolumeMesh through bench/netgen_volume.py. One thread each. Seconds are CPU time of meshing as far
 as a program tells it: reading and writing files is left out. Angles are measured by one program, mesh_shape.
-A mesher has --timeout seconds a surface, which the table states.
+A mesher has --timeout seconds a surface, which the table states. RING, of half a million triangles, is made here;
+only the faster meshers get it.
+
+Then the whole of `holdfast mesh`, files and all, with its default options on one and on two threads: the least wall-clock
+seconds of some turns. Both must write the same file.
 
 Every row is kept in field.json in the build folder as soon as it is measured, so that an interrupted run goes on where it stopped.
 Rows of another Holdfast, other surfaces or another time limit are measured anew; --again does that for a mesher.
@@ -21,6 +25,8 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import time
+from math import cos, pi, sin
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -29,6 +35,8 @@ import corpus  # noqa: E402  (the folder of surfaces)
 
 SURFACES = ["iglt_3holes", "aj_fandisk", "iglt_arm", "aj_rocker-arm", "irmb_cactus25k", "tgt_armadillo",
             "irmb_fertility", "tcsg_golf-out", "igl_armadillo", "irmb_armadillo"]
+RING = "ring_500k"
+TURNS = 5
 GEO = """Merge "{surface}";
 Surface Loop(1) = {{1}};
 Volume(1) = {{1}};
@@ -43,6 +51,25 @@ def read_off(path):
     rows = [row for row in rows if row and row != ["OFF"]]
     vertices, faces = int(rows[0][0]), int(rows[0][1])
     return rows[1:1 + vertices], [row[1:4] for row in rows[1 + vertices:1 + vertices + faces]]
+
+
+def write_ring(path, rows=8334, columns=30):
+    """A thin torus whose triangles are nearly regular."""
+    minor = 1.0
+    major = rows * minor * sin(pi / columns) * 3 ** 0.5 / (2 * pi)
+    with open(path, "w", encoding="ascii") as out:
+        out.write(f"OFF\n{rows * columns} {2 * rows * columns} 0\n")
+        for i in range(rows):
+            for j in range(columns):
+                u, v = 2 * pi * i / rows, 2 * pi * (j + 0.5 * (i % 2)) / columns
+                r = major + minor * cos(v)
+                out.write(f"{r * cos(u)!r} {r * sin(u)!r} {minor * sin(v)!r}\n")
+        for i in range(rows):
+            here, there, odd = i * columns, (i + 1) % rows * columns, i % 2
+            for j in range(columns):
+                a, b = here + j, here + (j + 1) % columns
+                c, d = there + (j + odd) % columns, there + (j - 1 + odd) % columns
+                out.write(f"3 {a} {c} {b}\n3 {a} {d} {c}\n")
 
 
 def write_msh(path, points, triangles):
@@ -94,6 +121,20 @@ class Bench:
         files = seconds["read"] + seconds["write"]
         return self.shape(volume, told[1] * (1 - files / seconds["total"]))
 
+    def threads(self, surface):
+        """Seconds on one and on two threads, and whether the files are the same."""
+        seconds, files = {1: [], 2: []}, {}
+        for _ in range(TURNS):
+            for count in seconds:
+                volume = self.folder / f"hf{count}.vtu"
+                start = time.monotonic()
+                if self.run([self.options.build / "holdfast", "mesh", surface, "-o", volume, "-q", "--threads",
+                             str(count)]) is None:
+                    return None
+                seconds[count].append(time.monotonic() - start)
+                files[count] = Rows.digest(volume)
+        return {"one": min(seconds[1]), "two": min(seconds[2]), "same": files[1] == files[2]}
+
     def gmsh(self, surface, algorithm):
         write_msh(self.folder / "s.msh", *read_off(surface))
         (self.folder / "s.geo").write_text(GEO.format(surface="s.msh"))
@@ -127,13 +168,15 @@ class Bench:
         """A row; {"failed": why} without a mesh."""
         run = {"Holdfast": self.holdfast, "Holdfast fast": lambda s: self.holdfast(s, "--quality", "fast"),
                "Gmsh HXT": lambda s: self.gmsh(s, "hxt"), "Gmsh Delaunay": lambda s: self.gmsh(s, "del3d"),
-               "TetGen": self.tetgen, "Netgen": self.netgen}[mesher]
+               "TetGen": self.tetgen, "Netgen": self.netgen, "Holdfast on two threads": self.threads}[mesher]
         try:
             return run(surface) or {"failed": "fails"}
         except TookTooLong:
             return {"failed": f"exceeds {self.options.timeout:.0f} s"}
 
 
+THREADS = "Holdfast on two threads"
+FASTER = ["Holdfast", "Holdfast fast", "Gmsh HXT", "TetGen"]
 MESHERS = ["Holdfast", "Holdfast fast", "Gmsh HXT", "Gmsh Delaunay", "TetGen", "Netgen"]
 
 
@@ -174,6 +217,17 @@ def line(name, mesher, row):
             f"{row['max_dihedral']:.1f} | {below} |")
 
 
+def threads_table(threads):
+    lines = ["| surface | one thread, s | two threads, s | one over two | same file |", "|---|---|---|---|---|"]
+    for name, row in threads.items():
+        if "failed" in row:
+            lines.append(f"| {name} | {row['failed']} | | | |")
+        else:
+            lines.append(f"| {name} | {row['one']:.2f} | {row['two']:.2f} | {row['one'] / row['two']:.2f} | "
+                         f"{'yes' if row['same'] else 'NO'} |")
+    return lines
+
+
 def summary(results):
     lines = ["| mesher | surfaces | tetrahedra a second, median | least angle, median | below 10 / 20 / 30 degrees, mean % "
              "| tetrahedra over Holdfast's, median |", "|---|---|---|---|---|---|"]
@@ -206,12 +260,16 @@ def best_angles(results):
     return f"Holdfast's least angle is at least as good as that of the best of the others on {wins} of {len(results)}."
 
 
-def write(results, path, timeout):
+def write(results, threads, path, timeout):
     versions = subprocess.run(["dpkg-query", "-W", "-f", "${Package} ${Version}, ", "gmsh", "tetgen", "netgen"],
                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False).stdout.decode()
     text = ["# Meshes to compute with", "", "Written by `make field`; how it was measured stands in `bench/field.py`.", "",
             f"{processor()}; one thread; at most {timeout:.0f} s a surface; {versions.strip(', ')}.", "",
-            *summary(results), "", best_angles(results), "",
+            *summary({name: rows for name, rows in results.items() if name != RING}), "",
+            best_angles({name: rows for name, rows in results.items() if name != RING}), "",
+            "The whole of `holdfast mesh` with its default options, least of "
+            f"{TURNS} turns, wall-clock:", "", *threads_table(threads), "",
+            f"`{RING}`, a thin torus, is not in the summary.", "",
             "| surface | mesher | tetrahedra | seconds | a second | least angle | largest | % below 10 / 20 / 30 |",
             "|---|---|---|---|---|---|---|---|"]
     text += [line(name, mesher, row) for name, rows in results.items() for mesher, row in rows.items()]
@@ -223,28 +281,32 @@ def main():
     parser.add_argument("--build", type=lambda p: Path(p).resolve(), required=True)
     parser.add_argument("--corpus", default="")
     parser.add_argument("--only", action="append")
-    parser.add_argument("--again", action="append", choices=MESHERS, default=[])
+    parser.add_argument("--again", action="append", choices=MESHERS + [THREADS], default=[])
     parser.add_argument("--timeout", type=float, default=300)
     parser.add_argument("--output", type=Path, default=ROOT / "docs" / "field.md")
     options = parser.parse_args()
     folder = corpus.locate(options.corpus, False)
     if folder is None:
         sys.exit("field.py: no corpus of surfaces")
-    results = {}
+    results, threads = {}, {}
     rows = Rows(options)
     rows.drop(options.again)
     with tempfile.TemporaryDirectory(prefix="holdfast-field-") as scratch:
-        for name in options.only or SURFACES:
-            surface = next(folder.rglob(name + ".off"), None)
+        ring = Path(scratch) / (RING + ".off")
+        write_ring(ring)
+        for name in options.only or SURFACES + [RING]:
+            surface = ring if name == RING else next(folder.rglob(name + ".off"), None)
             if surface is None:
                 continue
             bench = Bench(options, Path(scratch))
             results[name] = {}
-            for mesher in MESHERS:
+            for mesher in FASTER if name == RING else MESHERS:
                 row = rows.get(mesher, surface.resolve(), bench.measure)
                 results[name][mesher] = row
                 print(line(name, mesher, row), flush=True)
-            write(results, options.output, options.timeout)
+            threads[name] = rows.get(THREADS, surface.resolve(), bench.measure)
+            print(threads_table({name: threads[name]})[-1], flush=True)
+            write(results, threads, options.output, options.timeout)
 
 
 if __name__ == "__main__":

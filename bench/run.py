@@ -200,7 +200,8 @@ def main():
     commit = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=False).stdout.strip()
     lines = ["# Benchmarks", "", f"Written by `make bench` on {time.strftime('%Y-%m-%d')}: {version} at {commit}, against Debian's "
              f"TetGen {version_of('tetgen')} and CGAL {version_of('libcgal-dev')}; {machine()}. The programs took turns; "
-             "each found memory that the machine has at hand, but for the surfaces of the corpus (bench/process.py says why).", ""]
+             "each found memory that the machine has at hand, but for the surfaces of the corpus (bench/process.py says why). "
+             "Meshes with field points, to compute with, stand in [field.md](field.md), made by `make field`.", ""]
     with tempfile.TemporaryDirectory(prefix="holdfast-bench-") as name:
         folder = Path(name)
         if "delaunay" in parts:

@@ -17,7 +17,6 @@
 #include "delaunay/delaunay.h"
 #include "enforce/enforce.h"
 #include "holdfast/holdfast.h"
-#include "improve/energy.h"
 #include "improve/improve.h"
 #include "improve/shape.h"
 #include "mesh/monitor.h"
@@ -40,8 +39,6 @@ namespace {
 constexpr std::size_t kMostDefects = 100;  // `diagnose` gives them all
 constexpr int kMostAttempts = 5;
 constexpr double kHiddenMargin = 0.5;  // of the box that is cut away again
-// 2 degrees: needles have a large Q, too, but no such angle.
-constexpr double kOfSmallAngle = energy_of_sine(0.035);
 
 void require_sensible(const Complex& complex, const Options& options) {
   const auto finite = [](const Point& p) {
@@ -169,7 +166,7 @@ class Pipeline {
     result_.report.input = describe_input(complex_, nullptr);
     std::vector<Defect> defects = find_defects(
         complex_, kMostDefects, [this](double fraction) { monitor_.poll(Stage::validate, fraction); },
-        thread_count(options_.threads));
+        threads());
     if (!defects.empty()) return refuse(std::move(defects));
     table_ = segment_table(complex_);
     result_.report.input = describe_input(complex_, &table_);
@@ -189,7 +186,7 @@ class Pipeline {
     first_free_ = static_cast<Vertex>(mesh_.vertex_count());
     if (!build_delaunay(mesh_, {seed_, options_.threads}, &monitor_))
       throw std::logic_error("holdfast: the box has no tetrahedra");
-    standing_ = mark_present(mesh_, table_);
+    standing_ = mark_present(mesh_, table_, threads());
     result_.report.delaunay = missing();
   }
 
@@ -264,27 +261,25 @@ class Pipeline {
   void improve_volume() {
     order_along_curve(mesh_, first_free_, regions_.of_tet, sizes_);
     Report::Field& report = result_.report.field;
-    report.before = shape_of(mesh_, regions_.of_tet, kept_.region);
+    report.before = shape_of(mesh_, regions_.of_tet, kept_.region, threads());
     const ImproveStats stats =
         improve(mesh_, regions_.of_tet, kept_.region, first_free_, sizes_, options_.quality, monitor_);
-    report.edge_lengths = edge_lengths_of(mesh_, regions_.of_tet, kept_.region, sizes_);
+    report.edge_lengths = edge_lengths_of(mesh_, regions_.of_tet, kept_.region, sizes_, threads());
     report.moves = stats.moved;
     report.swaps = stats.swapped;
     report.contractions = stats.contracted;
     report.insertions = stats.inserted;
-    if (stats.worst > kOfSmallAngle) remove_flat();
+    if (stats.worst > kEnergyOfFlat) remove_flat();
   }
 
   // Long thin facets may leave flat elements: what the other optimisation is made for.
   void remove_flat() {
-    constexpr double kFlat = 30;  // Q; it leaves better ones alone
     std::vector<Tet> flat;
     for (Tet t = 0; t < mesh_.slot_count(); ++t) {
       if (!is_kept(t)) continue;
       const auto& v = mesh_.corners(t);
-      const Point &a = mesh_.position(v[0]), &b = mesh_.position(v[1]), &c = mesh_.position(v[2]),
-                  &d = mesh_.position(v[3]);
-      if (energy(a, b, c, d) > kOfSmallAngle && quality(a, b, c, d) > kFlat) flat.push_back(t);
+      if (is_flat(mesh_.position(v[0]), mesh_.position(v[1]), mesh_.position(v[2]), mesh_.position(v[3])))
+        flat.push_back(t);
     }
     if (flat.empty()) return;
     const OptimiseStats stats =
@@ -325,8 +320,8 @@ class Pipeline {
       report.regions = static_cast<std::size_t>(std::count(kept_.region.begin(), kept_.region.end(), true));
     const bool has_all = volume.facets.size() == complex_.facets.size();
     Report::Shape shape;
-    report.quality =
-        measure(volume, has_all ? target() : target_quality(volume.vertices, volume.facets), &shape);
+    report.quality = measure(volume, has_all ? target() : target_quality(volume.vertices, volume.facets),
+                             &shape, threads());
     if (sizes_.empty()) return;
     if (options_.optimise && last == Stage::optimise) report.field.after = shape;
     const auto& angles = shape.least_dihedral;  // in bins of five degrees
@@ -339,6 +334,7 @@ class Pipeline {
     return *target_;
   }
 
+  [[nodiscard]] unsigned threads() const { return thread_count(options_.threads); }
   [[nodiscard]] Stage last_stage() const { return options_.stop_after.value_or(Stage::optimise); }
   [[nodiscard]] Report::Missing missing() const {
     return {standing_.missing_segments(), standing_.missing_facets()};

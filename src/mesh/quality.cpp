@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "exact/determinant.h"
 #include "exact/expansion.h"
 #include "exact/point.h"
+#include "mesh/parallel.h"
 
 namespace holdfast {
 namespace {
@@ -358,6 +360,13 @@ class AngleHistogram {
     const auto after = std::upper_bound(start_.begin() + 1, start_.end(), angle);
     ++counts_[static_cast<std::size_t>(after - start_.begin()) - 1];
   }
+  void add(const AngleHistogram& other) {
+    for (std::size_t k = 0; k < kBins; ++k) counts_[k] += other.counts_[k];
+    greatest_cosine_ = std::max(greatest_cosine_, other.greatest_cosine_);
+    least_cosine_ = std::min(least_cosine_, other.least_cosine_);
+    if (other.least_ < least_) least_ = other.least_;
+    if (most_ < other.most_) most_ = other.most_;
+  }
   [[nodiscard]] const Counts& counts() const { return counts_; }
   [[nodiscard]] double least_degrees() const {
     return std::min(least_.degrees(), degrees_of(greatest_cosine_));
@@ -404,13 +413,29 @@ void ShapeHistogram::add(const Point& a, const Point& b, const Point& c, const P
   add(plain ? *plain : Measures(brought_in_range<4>({a, b, c, d})).shape());
 }
 
-Report::Quality measure(const Volume& volume, double target, Report::Shape* shape) {
-  const std::vector<Point>& v = volume.vertices;
-  Report::Quality q;
+void ShapeHistogram::add(const ShapeHistogram& other) {
+  for (std::size_t k = 0; k < shape_.least_dihedral.size(); ++k)
+    shape_.least_dihedral[k] += other.shape_.least_dihedral[k];
+  for (std::size_t k = 0; k < shape_.quality.size(); ++k) shape_.quality[k] += other.shape_.quality[k];
+  if (other.of_least_ > of_least_) {
+    of_least_ = other.of_least_;
+    shape_.min_dihedral_deg = other.shape_.min_dihedral_deg;
+  }
+  if (other.of_most_ < of_most_) {
+    of_most_ = other.of_most_;
+    shape_.max_dihedral_deg = other.shape_.max_dihedral_deg;
+  }
+}
+
+namespace {
+
+// Of some of the elements of a volume.
+struct Measured {
+  double worst = 0;
   AngleHistogram angles;
   ShapeHistogram shapes;
-  for (const Tetrahedron& t : volume.tetrahedra) {
-    const Point &a = v[t[0]], &b = v[t[1]], &c = v[t[2]], &d = v[t[3]];
+
+  void add(const Point& a, const Point& b, const Point& c, const Point& d, bool with_shapes) {
     PlainShape element;
     if (const auto plain = plain_shape(a, b, c, d)) {
       element = *plain;
@@ -420,13 +445,37 @@ Report::Quality measure(const Volume& volume, double target, Report::Shape* shap
       element = measures.shape();
       for (const Angle& angle : measures.dihedral_angles()) angles.add(angle);
     }
-    q.worst = std::max(q.worst, element.quality);
-    if (shape != nullptr) shapes.add(element);
+    worst = std::max(worst, element.quality);
+    if (with_shapes) shapes.add(element);
   }
-  if (shape != nullptr) *shape = shapes.shape();
-  q.histogram = angles.counts();
-  q.min_dihedral_deg = volume.tetrahedra.empty() ? 0 : angles.least_degrees();
-  q.max_dihedral_deg = volume.tetrahedra.empty() ? 0 : angles.most_degrees();
+  void add(const Measured& other) {
+    worst = std::max(worst, other.worst);
+    angles.add(other.angles);
+    shapes.add(other.shapes);
+  }
+};
+
+}  // namespace
+
+Report::Quality measure(const Volume& volume, double target, Report::Shape* shape, unsigned threads) {
+  const std::vector<Point>& v = volume.vertices;
+  Measured all;
+  std::mutex mutex;
+  parallel_ranges(threads, volume.tetrahedra.size(), [&](std::size_t first, std::size_t last) {
+    Measured own;
+    for (std::size_t k = first; k < last; ++k) {
+      const Tetrahedron& t = volume.tetrahedra[k];
+      own.add(v[t[0]], v[t[1]], v[t[2]], v[t[3]], shape != nullptr);
+    }
+    const std::scoped_lock lock(mutex);
+    all.add(own);
+  });
+  if (shape != nullptr) *shape = all.shapes.shape();
+  Report::Quality q;
+  q.worst = all.worst;
+  q.histogram = all.angles.counts();
+  q.min_dihedral_deg = volume.tetrahedra.empty() ? 0 : all.angles.least_degrees();
+  q.max_dihedral_deg = volume.tetrahedra.empty() ? 0 : all.angles.most_degrees();
   q.target = target;
   return q;
 }

@@ -36,6 +36,7 @@ class ShapeHistogram {
   ShapeHistogram();
   void add(const PlainShape& element);
   void add(const Point& a, const Point& b, const Point& c, const Point& d);
+  void add(const ShapeHistogram& other);
   [[nodiscard]] const Report::Shape& shape() const { return shape_; }
 
  private:
@@ -54,6 +55,7 @@ class ShapeHistogram {
 /// Worst quality and dihedral angles of a volume, and the target that was found for its facets. An angle that
 /// is not a number counts as 0 degrees. All zero for a volume without tetrahedra, but for the target.
 /// `shape`, where given, receives the shapes of the elements.
-[[nodiscard]] Report::Quality measure(const Volume& volume, double target, Report::Shape* shape = nullptr);
+[[nodiscard]] Report::Quality measure(const Volume& volume, double target, Report::Shape* shape = nullptr,
+                                      unsigned threads = 1);
 
 }  // namespace holdfast

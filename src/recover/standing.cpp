@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <utility>
+
+#include "mesh/parallel.h"
 
 namespace holdfast {
 namespace {
@@ -19,9 +22,11 @@ class Marker {
         standing_{std::vector<std::uint8_t>(table.segments.size(), 0),
                   std::vector<std::uint8_t>(table.facet_segments.size(), 0)} {}
 
-  Standing run() {
-    for (Tet t = 0; t < mesh_.slot_count(); ++t)
-      if (mesh_.alive(t) && !mesh_.is_ghost(t)) mark(t);
+  Standing run(unsigned threads) {
+    parallel_ranges(threads, mesh_.slot_count(), [&](std::size_t first, std::size_t last) {
+      for (auto t = static_cast<Tet>(first); t < last; ++t)
+        if (mesh_.alive(t) && !mesh_.is_ghost(t)) mark(t);
+    });
     return std::move(standing_);
   }
 
@@ -35,7 +40,7 @@ class Marker {
       segment[static_cast<std::size_t>(k)] = s;
       if (s == no_index) continue;
       flags |= segment_bit(k);
-      standing_.segments[s] = 1;
+      stands(standing_.segments[s]);
     }
     for (int i = 0; i < 4; ++i) {
       const auto& v = kFaceVertex[static_cast<std::size_t>(i)];
@@ -46,10 +51,13 @@ class Marker {
       const Index f = facet_between({side(0, 1), side(1, 2), side(2, 0)});
       if (f == no_index) continue;
       flags |= facet_bit(i);
-      standing_.facets[f] = 1;
+      stands(standing_.facets[f]);
     }
     if (flags != 0) mesh_.set_flags(t, flags);
   }
+
+  // Tetrahedra that several threads look at share it.
+  static void stands(std::uint8_t& flag) { std::atomic_ref(flag).store(1, std::memory_order_relaxed); }
 
   // The facet with these sides, looked for at the side of fewest facets: some have thousands.
   [[nodiscard]] Index facet_between(std::array<Index, 3> sides) const {
@@ -74,6 +82,8 @@ class Marker {
 std::size_t Standing::missing_segments() const { return zeros(segments); }
 std::size_t Standing::missing_facets() const { return zeros(facets); }
 
-Standing mark_present(TetMesh& mesh, const SegmentTable& table) { return Marker(mesh, table).run(); }
+Standing mark_present(TetMesh& mesh, const SegmentTable& table, unsigned threads) {
+  return Marker(mesh, table).run(threads);
+}
 
 }  // namespace holdfast

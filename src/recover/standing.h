@@ -19,6 +19,6 @@ struct Standing {
 
 /// Finds the segments and facets that the mesh holds and sets their bits there. One sweep over the
 /// tetrahedra.
-[[nodiscard]] Standing mark_present(TetMesh& mesh, const SegmentTable& table);
+[[nodiscard]] Standing mark_present(TetMesh& mesh, const SegmentTable& table, unsigned threads = 1);
 
 }  // namespace holdfast

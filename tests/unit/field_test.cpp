@@ -219,6 +219,18 @@ TEST(Energy, IsOfTheLeastAngle) {
   }
 }
 
+TEST(Shape, ANeedleIsNotFlat) {
+  const double h = std::sqrt(0.75);
+  const Point a{0, 0, 0}, b{1, 0, 0}, c{0.5, h, 0};
+  const auto apex = [&](double height) { return Point{0.5, h / 3, height}; };
+  EXPECT_GT(quality(a, b, c, apex(100)), 30);
+  EXPECT_FALSE(is_flat(a, b, c, apex(100)));
+  EXPECT_FALSE(is_flat(a, b, c, apex(0.8)));
+  EXPECT_TRUE(is_flat(a, b, c, apex(0.005)));                                      // a cap
+  EXPECT_TRUE(is_flat({0, 0, 0}, {1, 0, 0.01}, {1, 1, 0}, {0, 1, 0.01}));          // a sliver
+  EXPECT_FALSE(is_flat({0, 0, 0}, {1, 0, 0}, {0, 0.01, 0.01}, {0, -0.01, 0.02}));  // a splinter
+}
+
 /// The Delaunay triangulation of random points in the unit cube and the corners of a cube round it, `margin`
 /// away. It has slivers in plenty.
 TetMesh random_mesh(int points, std::uint64_t seed, double margin = 0) {
