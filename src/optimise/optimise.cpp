@@ -246,10 +246,10 @@ class Optimiser {
   }
 
   // A search is long and seldom finds anything: as long as it does so now and then, but always for what
-  // would better the worst of all.
+  // would better the worst of all, or else get a point.
   [[nodiscard]] bool is_worth_reconnecting(const Entry& e) const {
     constexpr int kMostInVain = 3, kMostInVainForFlat = 12;
-    if (e.quality >= worst_stuck_) return true;
+    if (e.quality >= worst_stuck_ || is_worth_a_point(e)) return true;
     return reconnections_in_vain_ < (e.quality >= kWorthReconnecting ? kMostInVainForFlat : kMostInVain);
   }
 

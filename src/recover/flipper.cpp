@@ -121,8 +121,7 @@ bool Flipper::remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex favoured)
   while (gather_shell(mesh_, t, a, b, shell, favoured == kNone ? kMostClipped : kMostLink)) {
     if (lies_in_facet(shell)) return false;
     if (shell.size() > kMostLink && !clip_ears(shell)) return false;
-    look_at_ears(shell);
-    if (has_enough_ears() && remove_edge_now(shell, favoured)) return true;
+    if (remove_edge_now(shell, favoured)) return true;
     if (depth == 0 || !thin_out(shell, depth)) return false;
     t = survivor(shell);
     if (t == kNone) return true;
@@ -192,7 +191,7 @@ bool Flipper::clip_ear(EdgeShell& shell, std::size_t i) {
 // from that end to p_i is reflex, and without it the shell has one tetrahedron fewer. Returns whether the
 // flips for one of the spokes have changed the mesh.
 bool Flipper::thin_out(const EdgeShell& shell, int depth) {
-  for (const Spoke& spoke : blocked_spokes()) {
+  for (const Spoke& spoke : blocked_spokes(shell)) {
     if (exhausted()) return false;
     const Vertex end = spoke.at_b ? shell.b : shell.a, other = spoke.at_b ? shell.a : shell.b;
     const std::size_t before = counts_.edge_removals;
@@ -202,33 +201,18 @@ bool Flipper::thin_out(const EdgeShell& shell, int depth) {
   return false;
 }
 
-// Whether each ear of the link sees a and b as it should.
-void Flipper::look_at_ears(const EdgeShell& shell) {
+// In random order, but those first that are blocked at one end only.
+std::vector<Flipper::Spoke> Flipper::blocked_spokes(const EdgeShell& shell) {
   const std::size_t n = shell.size();
-  ears_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
+  std::vector<Spoke> spokes;
+  for (std::uint32_t i = 0; i < n; ++i) {
     const Vertex before = shell.link[(i + n - 1) % n], p = shell.link[i], after = shell.link[(i + 1) % n];
     const auto [of_a, of_b] = mesh_.orient_both(before, p, after, shell.a, shell.b);
-    ears_[i] = {of_a<0, of_b> 0};
+    const bool at_b = of_b <= 0, at_a = of_a >= 0;
+    if (at_b) spokes.push_back({i, true, at_a});
+    if (at_a) spokes.push_back({i, false, at_b});
   }
   work_ += 2 * n;
-}
-
-// Any triangulation of a polygon has two ears; of a triangle, three.
-bool Flipper::has_enough_ears() const {
-  const auto open =
-      std::count_if(ears_.begin(), ears_.end(), [](const Ear& e) { return e.sees_a && e.sees_b; });
-  return open >= (ears_.size() == 3 ? 3 : 2);
-}
-
-// In random order, but those first that are blocked at one end only.
-std::vector<Flipper::Spoke> Flipper::blocked_spokes() {
-  std::vector<Spoke> spokes;
-  for (std::uint32_t i = 0; i < ears_.size(); ++i) {
-    const Ear& ear = ears_[i];
-    if (!ear.sees_b) spokes.push_back({i, true, !ear.sees_a});
-    if (!ear.sees_a) spokes.push_back({i, false, !ear.sees_b});
-  }
   std::shuffle(spokes.begin(), spokes.end(), random_);
   std::stable_partition(spokes.begin(), spokes.end(), [](const Spoke& s) { return !s.blocked_twice; });
   return spokes;

@@ -52,10 +52,6 @@ class Flipper {
     std::uint32_t corner;
     bool at_b, blocked_twice;
   };
-  // Three corners of a link in a row: the tetrahedra from there to the ends of the edge are positive or not.
-  struct Ear {
-    bool sees_a, sees_b;
-  };
   class ForTarget;
   static constexpr std::size_t kMostClipped = 1000;  // of a shell whose ears are clipped
 
@@ -66,9 +62,7 @@ class Flipper {
   bool clip_ears(EdgeShell& shell);
   bool clip_ear(EdgeShell& shell, std::size_t i);
   bool thin_out(const EdgeShell& shell, int depth);
-  void look_at_ears(const EdgeShell& shell);
-  [[nodiscard]] bool has_enough_ears() const;
-  [[nodiscard]] std::vector<Spoke> blocked_spokes();
+  [[nodiscard]] std::vector<Spoke> blocked_spokes(const EdgeShell& shell);
   [[nodiscard]] Tet survivor(const EdgeShell& shell);
   void apply(std::span<const Tet> old_tets, int change);
 
@@ -81,7 +75,6 @@ class Flipper {
   int change_ = 0;        // of the target's cost since `clear` began; never positive
   FlipCounts counts_;
 
-  std::vector<Ear> ears_;  // of the shell looked at last
   std::vector<TetMesh::Corners> fresh_;
   LinkTriangulation<int> triangulation_;
   std::vector<LinkTriangle> triangles_;

@@ -12,7 +12,7 @@ namespace {
 // not reach, the next may, from the mesh that the attempts for others have left meanwhile.
 constexpr int kMostIdlePasses = 2;
 constexpr std::size_t kIdle = 20;           // a pass that recovers less than one in so many
-constexpr std::size_t kBudget = 800;        // of an attempt at a crossing in a pass
+constexpr std::size_t kBudget = 1000;       // of an attempt at a crossing in a pass
 constexpr std::size_t kMostFailures = 100;  // at the crossings of one facet
 constexpr std::size_t kMostCrossings = 2000;
 constexpr std::size_t kMostEdges =
