@@ -15,6 +15,7 @@
 #include "improve/improve.h"
 #include "improve/refill.h"
 #include "improve/shape.h"
+#include "io_samples.h"
 #include "mesh/quality.h"
 #include "mesh/validate.h"
 #include "refine/order.h"
@@ -142,6 +143,37 @@ TEST(FieldPoints, TheUnitDoesNotMatter) {
     const Result result = mesh_with(scaled, {.size = std::ldexp(0.3, k)});
     EXPECT_EQ(result.volume.tetrahedra, usual.volume.tetrahedra) << k;
     EXPECT_EQ(result.report.field.after.least_dihedral, usual.report.field.after.least_dihedral) << k;
+  }
+}
+
+// Marking, measuring and compression run on threads, too, from some thousands of elements on.
+TEST(FieldPoints, SameResultAndFileOnAnyNumberOfThreads) {
+  const Surface sphere = hard::icosphere(4);
+  const samples::TemporaryFolder folder;
+  const auto on = [&](unsigned threads) {
+    Options options;
+    options.threads = threads;
+    Result result = mesh_with(sphere, {.grow = false}, options);
+    WriteOptions writing;
+    writing.threads = threads;
+    write_volume(folder / "sphere.vtu", result.volume, writing);
+    return std::pair(std::move(result), samples::get(folder / "sphere.vtu"));
+  };
+  const auto [one, file] = on(1);
+  for (const unsigned threads : {2u, 3u}) {
+    const auto [other, other_file] = on(threads);
+    EXPECT_EQ(other.volume.vertices, one.volume.vertices);
+    EXPECT_EQ(other.volume.tetrahedra, one.volume.tetrahedra);
+    EXPECT_EQ(other_file, file);
+    EXPECT_EQ(other.report.quality.histogram, one.report.quality.histogram);
+    EXPECT_EQ(other.report.quality.worst, one.report.quality.worst);
+    EXPECT_EQ(other.report.quality.min_dihedral_deg, one.report.quality.min_dihedral_deg);
+    for (const auto shape : {&Report::Field::before, &Report::Field::after}) {
+      EXPECT_EQ((other.report.field.*shape).least_dihedral, (one.report.field.*shape).least_dihedral);
+      EXPECT_EQ((other.report.field.*shape).quality, (one.report.field.*shape).quality);
+      EXPECT_EQ((other.report.field.*shape).max_dihedral_deg, (one.report.field.*shape).max_dihedral_deg);
+    }
+    EXPECT_EQ(other.report.field.edge_lengths, one.report.field.edge_lengths);
   }
 }
 
