@@ -1,9 +1,7 @@
 #include "delaunay/number.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <mutex>
 #include <utility>
 
 #include "delaunay/large_array.h"
@@ -65,18 +63,13 @@ void sort_cells(C* first, C* last) {
   }
 }
 
+// Sorts the cells by vertices, those of a highest vertex together.
 template <class C>
 class Numbering {
  public:
   Numbering(Triangulation& triangulation, unsigned threads)
-      : triangulation_(triangulation), threads_(threads), end_(triangulation.size()) {
-    std::uint32_t sum = 0;
-    const Triangulation::Site* const sites = triangulation.sites();
-    for (std::size_t v = 0; v < end_.size(); ++v) {
-      end_[v] = sum;
-      sum += sites[v].cells;
-    }
-    cells_.resize(sum);
+      : triangulation_(triangulation), threads_(threads) {
+    cells_.resize(make_room());
     triangulation.drop_sites();
     distribute();
     triangulation.cells().clear();
@@ -90,47 +83,83 @@ class Numbering {
   /// Calls put(place, cell) for every cell without the ghost.
   template <class Put>
   void for_each(const Put& put) {
-    parallel_ranges(threads_, end_.size(), [&](std::size_t first, std::size_t last) {
-      std::size_t place = first == 0 ? 0 : end_[first - 1];
-      for (std::size_t v = first; v < last; ++v) {
-        sort_cells(&cells_[place], &cells_[end_[v]]);
-        for (; place < end_[v]; ++place) put(place, cells_[place]);
+    std::vector<std::size_t> starts(threads_ + 1, size());
+    for (std::size_t part = 0; part < threads_; ++part) starts[part] = start_of_run(size() * part / threads_);
+    parallel(threads_, threads_, [&](std::size_t part) {
+      for (std::size_t place = starts[part]; place < starts[part + 1];) {
+        const std::size_t end = end_of_run(place);
+        sort_cells(&cells_[place], &cells_[end]);
+        for (; place < end; ++place) put(place, cells_[place]);
       }
     });
   }
 
  private:
-  // Puts every cell next to those of its highest vertex. Afterwards end_ is where they end.
+  // Where the cells of each vertex come to stand, and how many they are in all.
+  std::size_t make_room() {
+    const Triangulation::Site* const sites = triangulation_.sites();
+    const std::size_t vertices = triangulation_.size();
+    front_.resize(vertices);
+    if (threads_ > 1) back_.resize(vertices);
+    std::uint32_t sum = 0;
+    for (std::size_t v = 0; v < vertices; ++v) {
+      front_[v] = sum;
+      sum += sites[v].cells;
+      if (threads_ > 1) back_[v] = sum;
+    }
+    return sum;
+  }
+
+  // Puts every cell next to those of its highest vertex. Two threads fill the room of a vertex from its two
+  // ends; a counter that more could share would have to be atomic, which stops the processor from waiting for
+  // several cells at once, and takes two threads as long as one.
   void distribute() {
+    const std::size_t parts = std::min(threads_, 2u);
+    const std::size_t count = triangulation_.cells().size();
+    std::array<std::vector<C>, 2> ghosts;
+    parallel(threads_, parts, [&](std::size_t part) {
+      const std::size_t first = count * part / parts, last = count * (part + 1) / parts;
+      if (part == 0)
+        distribute(first, last, ghosts[0], [&](Vertex v) { return front_[v]++; });
+      else
+        distribute(first, last, ghosts[1], [&](Vertex v) { return --back_[v]; });
+    });
+    ghosts_ = std::move(ghosts[0]);
+    ghosts_.insert(ghosts_.end(), ghosts[1].begin(), ghosts[1].end());
+  }
+
+  template <class NextPlace>
+  void distribute(std::size_t first, std::size_t last, std::vector<C>& ghosts, const NextPlace& next_place) {
     constexpr std::size_t kBlock = (std::size_t{1} << 21) / sizeof(Cell);
     LargeArray<Cell>& cells = triangulation_.cells();
     const Vertex ghost = triangulation_.ghost();
-    std::mutex collecting;
-    parallel_ranges(threads_, cells.size(), [&](std::size_t first, std::size_t last) {
-      std::vector<C> ghosts;
-      for (std::size_t t = first; t < last; ++t) {
-        const Cell& cell = cells[t];
-        if (std::signbit(cell.reach)) continue;
-        const auto slot = static_cast<Tet>(t);
-        if (cell.v[3] == ghost)
-          set(ghosts.emplace_back(), cell, slot, 0);
-        else
-          set(cells_[next_place(cell.v[0])], cell, slot, turn_of(cell.v));
-        if ((t + 1 - first) % kBlock == 0) give_back(&cells[t + 1 - kBlock], kBlock * sizeof(Cell));
-      }
-      const std::lock_guard lock(collecting);
-      ghosts_.insert(ghosts_.end(), ghosts.begin(), ghosts.end());
-    });
+    for (std::size_t t = first; t < last; ++t) {
+      const Cell& cell = cells[t];
+      if (std::signbit(cell.reach)) continue;
+      const auto slot = static_cast<Tet>(t);
+      if (cell.v[3] == ghost)
+        set(ghosts.emplace_back(), cell, slot, 0);
+      else
+        set(cells_[next_place(cell.v[0])], cell, slot, turn_of(cell.v));
+      if ((t + 1 - first) % kBlock == 0) give_back(&cells[t + 1 - kBlock], kBlock * sizeof(Cell));
+    }
   }
 
-  std::size_t next_place(Vertex v) {
-    if (threads_ == 1) return end_[v]++;
-    return std::atomic_ref(end_[v]).fetch_add(1, std::memory_order_relaxed);
+  [[nodiscard]] Vertex highest(std::size_t place) const { return corners_of(cells_[place])[0]; }
+  // Of the first run of cells with the same highest vertex that starts at `place` or behind.
+  [[nodiscard]] std::size_t start_of_run(std::size_t place) const {
+    return place == 0 || place == size() ? place : end_of_run(place - 1);
+  }
+  [[nodiscard]] std::size_t end_of_run(std::size_t place) const {
+    const Vertex v = highest(place);
+    do ++place;
+    while (place < size() && highest(place) == v);
+    return place;
   }
 
   Triangulation& triangulation_;
   const unsigned threads_;
-  LargeArray<std::uint32_t> end_;  // of the cells of a vertex
+  LargeArray<std::uint32_t> front_, back_;  // first place of a vertex that is free; behind the last one
   LargeArray<C> cells_;
   std::vector<C> ghosts_;
 };
