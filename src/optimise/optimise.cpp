@@ -4,6 +4,7 @@
 #include <limits>
 #include <queue>
 #include <random>
+#include <utility>
 
 #include "mesh/traverse.h"
 #include "optimise/badness.h"
@@ -62,12 +63,21 @@ class Optimiser {
   [[nodiscard]] bool is_ours(Tet t) const { return t >= is_others_.size() || !is_others_[t]; }
 
   void work_off_queue() {
-    while (!queue_.empty() && !is_spent(queue_.top())) {
+    while ((!queue_.empty() || take_rest()) && !is_spent(queue_.top())) {
       const Entry worst = queue_.top();
       queue_.pop();
       if (is_current(worst)) improve(worst);
       if (!has_flat() && round_ < kRounds) try_again();
     }
+  }
+
+  // Elements that are not bad wait beside the heap, which would hold most of the mesh with them, and mostly
+  // in vain.
+  bool take_rest() {
+    if (rest_.empty() || failures_ >= kMostFailures) return false;
+    queue_ = std::priority_queue<Entry>({}, std::exchange(rest_, {}));
+    takes_all_ = true;
+    return true;
   }
 
   // The worst that is left may go from another mesh round it. What has not helped is undone.
@@ -107,6 +117,8 @@ class Optimiser {
     shake(
         mesh_, flipper, worst.corners, kShakenEdges, [this](Tet t) { return is_ours(t); }, random_);
     queue_ = {};
+    rest_.clear();
+    takes_all_ = false;
     for (const Tet t : changed_since(before))
       if (mesh_.alive(t)) push(t);
     round_ = kRounds - 1;
@@ -160,7 +172,12 @@ class Optimiser {
 
   void push(Tet t) {
     const double q = quality_of(mesh_, mesh_.corners(t));
-    if (q > good_) queue_.push({q, t, mesh_.corners(t)});
+    if (!(q > good_)) return;
+    const Entry entry{q, t, mesh_.corners(t)};
+    if (takes_all_ || q >= kBad)
+      queue_.push(entry);
+    else
+      rest_.push_back(entry);
   }
   [[nodiscard]] bool is_current(const Entry& e) const {
     return mesh_.alive(e.tet) && mesh_.corners(e.tet) == e.corners &&
@@ -239,7 +256,9 @@ class Optimiser {
     return true;
   }
 
+  // What is not flat matters here only as the worst of all.
   bool remove_flat(const Entry& e) {
+    if (e.quality < std::min(flat_from_, worst_stuck_)) return false;
     const bool removed = flat_remover_.remove(e.tet, std::min(flat_from_, kLeastGain * e.quality), created_);
     work_ += flat_remover_.work();
     return removed;
@@ -316,6 +335,8 @@ class Optimiser {
   std::mt19937_64 random_;
   std::vector<bool> is_others_;
   std::priority_queue<Entry> queue_;
+  std::vector<Entry> rest_;
+  bool takes_all_ = false;
   std::vector<Entry> stuck_;
   std::vector<Vertex> points_;  // all that may move, and some that are gone
   double worst_stuck_ = 0;      // in this round
