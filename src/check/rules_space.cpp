@@ -75,7 +75,7 @@ Rule faces_matched(Examination& on) {
       ++shared;
       // Where a tetrahedron is relative to the sorted face: its parity tells if it is positive.
       const auto side = [&](const HalfFace& half) {
-        const int orientation = on.orientation[half.tetrahedron()];
+        const auto orientation = static_cast<int>(on.orientation[half.tetrahedron()]);
         return half.odd() ? -orientation : orientation;
       };
       if (side(halves[0]) * side(halves[1]) > 0) folded.add([&] { return face_and_two(" has on one side"); });

@@ -21,10 +21,10 @@ std::align_val_t alignment_of(std::size_t bytes) {
 #ifdef __linux__
 // Calls madvise on the pages that lie in the block as a whole.
 void advise(void* block, std::size_t bytes, std::size_t page, int advice) {
-  const auto begin = reinterpret_cast<std::uintptr_t>(block);
-  const std::uintptr_t first = (begin + page - 1) & ~(page - 1);
-  const std::uintptr_t last = (begin + bytes) & ~(page - 1);
-  if (first < last) madvise(reinterpret_cast<void*>(first), last - first, advice);
+  const std::size_t before = reinterpret_cast<std::uintptr_t>(block) % page;
+  const std::size_t first = before == 0 ? 0 : page - before;
+  const std::size_t behind = (before + bytes) % page;
+  if (first + behind < bytes) madvise(static_cast<char*>(block) + first, bytes - first - behind, advice);
 }
 constexpr std::size_t kPage = 4096;
 #endif

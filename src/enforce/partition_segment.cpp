@@ -102,7 +102,7 @@ class Slide {
       }
       if (low >= high) continue;  // the interval is narrower than the roots are known
       const Dyadic quarter = (high - low).scaled(-2);
-      const Dyadic t = exact::shortest_between(low + quarter, high - quarter);
+      Dyadic t = exact::shortest_between(low + quarter, high - quarter);
       const Dyadic rest = Dyadic(1.0) - t;
       bool inside = true;
       for (const Linear& f : functions) inside = inside && (rest * f.at_a + t * f.at_b).sign() > 0;

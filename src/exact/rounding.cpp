@@ -30,7 +30,7 @@ Dyadic shortest_between(const Dyadic& low, const Dyadic& high) {
   if (low.sign() <= 0 && high.sign() >= 0) return {};
   // 2^g <= high - low: some multiple of 2^g lies between; the coarsest grid may be one step above.
   for (std::int64_t grid = top_exponent(high - low) + 1;; --grid) {
-    const Dyadic middle = rounded_to((low + high).scaled(-1), grid);
+    Dyadic middle = rounded_to((low + high).scaled(-1), grid);
     if (low <= middle && middle <= high) return middle;
   }
 }

@@ -57,7 +57,9 @@ bool Star::step_to(const Point& x) {
 
 bool Star::step_to_ideal_place() {
   const Point from = at_, target = ideal_place();
-  for (double part = 1; part > 0.2; part /= 2) {
+  constexpr int kTrials = 3;
+  double part = 1;
+  for (int trial = 0; trial < kTrials; ++trial, part /= 2) {
     Point x;
     for (std::size_t k = 0; k < 3; ++k) x[k] = from[k] + part * (target[k] - from[k]);
     if (step_to(x)) return true;
@@ -116,7 +118,9 @@ bool Star::step_down(double size) {
   }
   const double length = std::hypot(gradient[0], gradient[1], gradient[2]);
   if (!(length > 0 && length < kNoEnergy)) return false;
-  for (double step = 0.15 * size; step > 0.004 * size; step /= 2.5) {
+  constexpr int kTrials = 4;
+  double step = 0.15 * size;
+  for (int trial = 0; trial < kTrials; ++trial, step /= 2.5) {
     Point x = at_;
     for (std::size_t k = 0; k < 3; ++k) x[k] -= step * gradient[k] / length;
     const double before = energy_;

@@ -61,7 +61,7 @@ bool FlatRemover::remove(Tet t, double bad_from, std::vector<Tet>& created) {
 
 // At once, or after flips that thin out its shell; `avoided` gets no new edge.
 bool FlatRemover::remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex avoided) {
-  EdgeShell shell;
+  EdgeShell& shell = shells_[static_cast<std::size_t>(depth)];
   while (t != kNone) {
     const auto local = [&](Vertex v) { return static_cast<std::size_t>(mesh_.index_of(t, v)); };
     if (++work_ > kBudget || mesh_.is_segment(t, kEdgeOf[local(a)][local(b)]) ||
@@ -84,11 +84,11 @@ Tet FlatRemover::survivor(const EdgeShell& shell) {
 bool FlatRemover::remove_now(const EdgeShell& shell, Vertex avoided) {
   NothingBad objective(mesh_, shell, bad_from_, avoided);
   if (!triangulation_.find(shell.size(), objective)) return false;
-  std::vector<LinkTriangle> triangles;
-  std::vector<TetMesh::Corners> fresh;
-  triangulation_.triangles(shell.size(), triangles);
-  tetrahedra_of(shell, triangles, fresh);
-  replace(mesh_, {.old_tets = shell.tets, .new_tets = fresh}, created_);
+  triangles_.clear();
+  fresh_.clear();
+  triangulation_.triangles(shell.size(), triangles_);
+  tetrahedra_of(shell, triangles_, fresh_);
+  replace(mesh_, {.old_tets = shell.tets, .new_tets = fresh_}, created_);
   return true;
 }
 

@@ -2,6 +2,7 @@
 // flipnm, with quality in place of positivity).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -35,6 +36,9 @@ class FlatRemover {
 
   TetMesh& mesh_;
   double bad_from_ = 0;
+  std::array<EdgeShell, kDepth + 1> shells_;  // by depth; kept, like what follows, to allocate nothing
+  std::vector<LinkTriangle> triangles_;
+  std::vector<TetMesh::Corners> fresh_;
   LinkTriangulation<double> triangulation_;
   std::size_t work_ = 0;
   std::vector<Tet>* created_ = nullptr;

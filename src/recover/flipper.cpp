@@ -56,11 +56,16 @@ bool Flipper::stands(const Crossing& crossing) const {
                      [&](Vertex v) { return mesh_.index_of(crossing.tet, v) >= 0; });
 }
 
-bool Flipper::clear(const Crossing& crossing, int depth, std::size_t budget) {
+void Flipper::begin(int depth, std::size_t budget, int most_change) {
+  if (levels_.size() <= static_cast<std::size_t>(depth)) levels_.resize(static_cast<std::size_t>(depth) + 1);
   budget_ = budget;
   work_ = 0;
   change_ = 0;
-  most_change_ = -1;
+  most_change_ = most_change;
+}
+
+bool Flipper::clear(const Crossing& crossing, int depth, std::size_t budget) {
+  begin(depth, budget, -1);
   if (crossing.count == 2) {
     remove_edge(crossing.tet, crossing.corners[0], crossing.corners[1], depth, kNone);
     return change_ < 0;
@@ -75,10 +80,7 @@ bool Flipper::clear(const Crossing& crossing, int depth, std::size_t budget) {
 }
 
 bool Flipper::remove(Tet t, Vertex a, Vertex b, int depth, std::size_t budget) {
-  budget_ = budget;
-  work_ = 0;
-  change_ = 0;
-  most_change_ = 0;
+  begin(depth, budget, 0);
   return remove_edge(t, a, b, depth, kNone);
 }
 
@@ -117,12 +119,12 @@ bool Flipper::remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex favoured)
   if (mesh_.is_segment(t, kEdgeOf[static_cast<std::size_t>(mesh_.index_of(t, a))]
                                  [static_cast<std::size_t>(mesh_.index_of(t, b))]))
     return false;
-  EdgeShell shell;
+  EdgeShell& shell = levels_[static_cast<std::size_t>(depth)].shell;
   while (gather_shell(mesh_, t, a, b, shell, favoured == kNone ? kMostClipped : kMostLink)) {
     if (lies_in_facet(shell)) return false;
     if (shell.size() > kMostLink && !clip_ears(shell)) return false;
     if (remove_edge_now(shell, favoured)) return true;
-    if (depth == 0 || !thin_out(shell, depth)) return false;
+    if (depth == 0 || !thin_out(depth)) return false;
     t = survivor(shell);
     if (t == kNone) return true;
   }
@@ -190,8 +192,10 @@ bool Flipper::clip_ear(EdgeShell& shell, std::size_t i) {
 // An ear (p_i-1 p_i p_i+1) of the link is blocked at an end where it sees that end wrongly: then the spoke
 // from that end to p_i is reflex, and without it the shell has one tetrahedron fewer. Returns whether the
 // flips for one of the spokes have changed the mesh.
-bool Flipper::thin_out(const EdgeShell& shell, int depth) {
-  for (const Spoke& spoke : blocked_spokes(shell)) {
+bool Flipper::thin_out(int depth) {
+  auto& [shell, spokes] = levels_[static_cast<std::size_t>(depth)];
+  list_blocked_spokes(shell, spokes);
+  for (const Spoke& spoke : spokes) {
     if (exhausted()) return false;
     const Vertex end = spoke.at_b ? shell.b : shell.a, other = spoke.at_b ? shell.a : shell.b;
     const std::size_t before = counts_.edge_removals;
@@ -202,9 +206,9 @@ bool Flipper::thin_out(const EdgeShell& shell, int depth) {
 }
 
 // In random order, but those first that are blocked at one end only.
-std::vector<Flipper::Spoke> Flipper::blocked_spokes(const EdgeShell& shell) {
+void Flipper::list_blocked_spokes(const EdgeShell& shell, std::vector<Spoke>& spokes) {
   const std::size_t n = shell.size();
-  std::vector<Spoke> spokes;
+  spokes.clear();
   for (std::uint32_t i = 0; i < n; ++i) {
     const Vertex before = shell.link[(i + n - 1) % n], p = shell.link[i], after = shell.link[(i + 1) % n];
     const auto [of_a, of_b] = mesh_.orient_both(before, p, after, shell.a, shell.b);
@@ -215,7 +219,6 @@ std::vector<Flipper::Spoke> Flipper::blocked_spokes(const EdgeShell& shell) {
   work_ += 2 * n;
   std::shuffle(spokes.begin(), spokes.end(), random_);
   std::stable_partition(spokes.begin(), spokes.end(), [](const Spoke& s) { return !s.blocked_twice; });
-  return spokes;
 }
 
 // A tetrahedron of an edge's shell after flips beside it.

@@ -52,17 +52,23 @@ class Flipper {
     std::uint32_t corner;
     bool at_b, blocked_twice;
   };
+  // An edge that is to go while `depth` more levels may clear its way; kept to allocate nothing.
+  struct Level {
+    EdgeShell shell;
+    std::vector<Spoke> spokes;
+  };
   class ForTarget;
   static constexpr std::size_t kMostClipped = 1000;  // of a shell whose ears are clipped
 
+  void begin(int depth, std::size_t budget, int most_change);
   bool flip_face(const Crossing& face);
   bool remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex favoured);
   [[nodiscard]] bool lies_in_facet(const EdgeShell& shell) const;
   bool remove_edge_now(const EdgeShell& shell, Vertex favoured);
   bool clip_ears(EdgeShell& shell);
   bool clip_ear(EdgeShell& shell, std::size_t i);
-  bool thin_out(const EdgeShell& shell, int depth);
-  [[nodiscard]] std::vector<Spoke> blocked_spokes(const EdgeShell& shell);
+  bool thin_out(int depth);
+  void list_blocked_spokes(const EdgeShell& shell, std::vector<Spoke>& spokes);
   [[nodiscard]] Tet survivor(const EdgeShell& shell);
   void apply(std::span<const Tet> old_tets, int change);
 
@@ -75,6 +81,7 @@ class Flipper {
   int change_ = 0;        // of the target's cost since `clear` began; never positive
   FlipCounts counts_;
 
+  std::vector<Level> levels_;  // by depth
   std::vector<TetMesh::Corners> fresh_;
   LinkTriangulation<int> triangulation_;
   std::vector<LinkTriangle> triangles_;
