@@ -13,8 +13,9 @@ class Flipper::ForTarget {
   using Cost = int;
   static constexpr int kWeight = 64;
 
-  ForTarget(const TetMesh& mesh, const EdgeShell& shell, const Target& target, Vertex favoured)
-      : mesh_(mesh), shell_(shell), target_(target), favoured_(favoured) {}
+  ForTarget(const TetMesh& mesh, const EdgeShell& shell, const std::vector<Ear>& ears, const Target& target,
+            Vertex favoured)
+      : mesh_(mesh), shell_(shell), ears_(ears), target_(target), favoured_(favoured) {}
 
   [[nodiscard]] Cost none() const { return 0; }
   [[nodiscard]] Cost join(Cost x, Cost y) const { return x + y; }
@@ -22,7 +23,7 @@ class Flipper::ForTarget {
 
   std::optional<Cost> triangle(std::size_t i, std::size_t k, std::size_t j) {
     ++tests;
-    if (!sees_both_ends(mesh_, shell_, i, k, j)) return std::nullopt;
+    if (!is_positive(i, k, j)) return std::nullopt;
     return kWeight * target_.face(mesh_, shell_.link[i], shell_.link[k], shell_.link[j]);
   }
   Cost diagonal(std::size_t i, std::size_t j) {
@@ -40,8 +41,18 @@ class Flipper::ForTarget {
   std::size_t tests = 0;
 
  private:
+  [[nodiscard]] bool is_positive(std::size_t i, std::size_t k, std::size_t j) const {
+    if (k == i + 1 && j == i + 2) return ears_[k].sees_both();
+    if (i == 0 && j + 1 == shell_.size()) {
+      if (k == 1) return ears_[0].sees_both();
+      if (k + 1 == j) return ears_[j].sees_both();
+    }
+    return sees_both_ends(mesh_, shell_, i, k, j);
+  }
+
   const TetMesh& mesh_;
   const EdgeShell& shell_;
+  const std::vector<Ear>& ears_;
   const Target& target_;
   Vertex favoured_;
 };
@@ -119,11 +130,13 @@ bool Flipper::remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex favoured)
   if (mesh_.is_segment(t, kEdgeOf[static_cast<std::size_t>(mesh_.index_of(t, a))]
                                  [static_cast<std::size_t>(mesh_.index_of(t, b))]))
     return false;
-  EdgeShell& shell = levels_[static_cast<std::size_t>(depth)].shell;
+  Level& level = levels_[static_cast<std::size_t>(depth)];
+  EdgeShell& shell = level.shell;
   while (gather_shell(mesh_, t, a, b, shell, favoured == kNone ? kMostClipped : kMostLink)) {
     if (lies_in_facet(shell)) return false;
     if (shell.size() > kMostLink && !clip_ears(shell)) return false;
-    if (remove_edge_now(shell, favoured)) return true;
+    list_ears(level);
+    if (remove_edge_now(level, favoured)) return true;
     if (depth == 0 || !thin_out(depth)) return false;
     t = survivor(shell);
     if (t == kNone) return true;
@@ -141,10 +154,29 @@ bool Flipper::lies_in_facet(const EdgeShell& shell) const {
   return false;
 }
 
-bool Flipper::remove_edge_now(const EdgeShell& shell, Vertex favoured) {
-  ForTarget objective(mesh_, shell, target_, favoured);
+// How the corners of a link, cut off one at a time, see the ends of the edge.
+void Flipper::list_ears(Level& level) {
+  const EdgeShell& shell = level.shell;
+  const std::size_t n = shell.size();
+  level.ears.clear();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vertex before = shell.link[(i + n - 1) % n], p = shell.link[i], after = shell.link[(i + 1) % n];
+    const auto [of_a, of_b] = mesh_.orient_both(before, p, after, shell.a, shell.b);
+    level.ears.push_back({of_a<0, of_b> 0});
+  }
+}
+
+bool Flipper::remove_edge_now(const Level& level, Vertex favoured) {
+  const EdgeShell& shell = level.shell;
+  work_ += shell.size();
+  // Every triangulation of a polygon has two ears (Meisters 1975).
+  if (std::count_if(level.ears.begin(), level.ears.end(), [](const Ear& e) { return e.sees_both(); }) < 2) {
+    work_ += 2 * shell.size();
+    return false;
+  }
+  ForTarget objective(mesh_, shell, level.ears, target_, favoured);
   const auto cost = triangulation_.find(shell.size(), objective);
-  work_ += 2 * objective.tests + shell.size();
+  work_ += 2 * objective.tests;
   if (!cost || *cost % ForTarget::kWeight != 0) return false;
   const int change = *cost / ForTarget::kWeight - objective.cost_now();
   if (change_ + change > (favoured == kNone ? most_change_ : 0)) return false;
@@ -193,8 +225,9 @@ bool Flipper::clip_ear(EdgeShell& shell, std::size_t i) {
 // from that end to p_i is reflex, and without it the shell has one tetrahedron fewer. Returns whether the
 // flips for one of the spokes have changed the mesh.
 bool Flipper::thin_out(int depth) {
-  auto& [shell, spokes] = levels_[static_cast<std::size_t>(depth)];
-  list_blocked_spokes(shell, spokes);
+  auto& [shell, ears, spokes] = levels_[static_cast<std::size_t>(depth)];
+  list_blocked_spokes(ears, spokes);
+  work_ += 2 * ears.size();
   for (const Spoke& spoke : spokes) {
     if (exhausted()) return false;
     const Vertex end = spoke.at_b ? shell.b : shell.a, other = spoke.at_b ? shell.a : shell.b;
@@ -206,17 +239,13 @@ bool Flipper::thin_out(int depth) {
 }
 
 // In random order, but those first that are blocked at one end only.
-void Flipper::list_blocked_spokes(const EdgeShell& shell, std::vector<Spoke>& spokes) {
-  const std::size_t n = shell.size();
+void Flipper::list_blocked_spokes(const std::vector<Ear>& ears, std::vector<Spoke>& spokes) {
   spokes.clear();
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const Vertex before = shell.link[(i + n - 1) % n], p = shell.link[i], after = shell.link[(i + 1) % n];
-    const auto [of_a, of_b] = mesh_.orient_both(before, p, after, shell.a, shell.b);
-    const bool at_b = of_b <= 0, at_a = of_a >= 0;
-    if (at_b) spokes.push_back({i, true, at_a});
-    if (at_a) spokes.push_back({i, false, at_b});
+  for (std::uint32_t i = 0; i < ears.size(); ++i) {
+    const auto [sees_a, sees_b] = ears[i];
+    if (!sees_b) spokes.push_back({i, true, !sees_a});
+    if (!sees_a) spokes.push_back({i, false, !sees_b});
   }
-  work_ += 2 * n;
   std::shuffle(spokes.begin(), spokes.end(), random_);
   std::stable_partition(spokes.begin(), spokes.end(), [](const Spoke& s) { return !s.blocked_twice; });
 }

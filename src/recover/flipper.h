@@ -47,6 +47,11 @@ class Flipper {
  private:
   [[nodiscard]] bool holds(Tet t, Vertex a, Vertex b) const;
   [[nodiscard]] bool exhausted() const { return work_ > budget_; }
+  // Whether the triangle at a corner of a shell's link sees the ends of the edge from the right side.
+  struct Ear {
+    bool sees_a, sees_b;
+    [[nodiscard]] bool sees_both() const { return sees_a && sees_b; }
+  };
   // An edge from an end of a shell's edge to its link.
   struct Spoke {
     std::uint32_t corner;
@@ -55,6 +60,7 @@ class Flipper {
   // An edge that is to go while `depth` more levels may clear its way; kept to allocate nothing.
   struct Level {
     EdgeShell shell;
+    std::vector<Ear> ears;  // of its link
     std::vector<Spoke> spokes;
   };
   class ForTarget;
@@ -64,11 +70,12 @@ class Flipper {
   bool flip_face(const Crossing& face);
   bool remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex favoured);
   [[nodiscard]] bool lies_in_facet(const EdgeShell& shell) const;
-  bool remove_edge_now(const EdgeShell& shell, Vertex favoured);
+  void list_ears(Level& level);
+  bool remove_edge_now(const Level& level, Vertex favoured);
   bool clip_ears(EdgeShell& shell);
   bool clip_ear(EdgeShell& shell, std::size_t i);
   bool thin_out(int depth);
-  void list_blocked_spokes(const EdgeShell& shell, std::vector<Spoke>& spokes);
+  void list_blocked_spokes(const std::vector<Ear>& ears, std::vector<Spoke>& spokes);
   [[nodiscard]] Tet survivor(const EdgeShell& shell);
   void apply(std::span<const Tet> old_tets, int change);
 
