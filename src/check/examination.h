@@ -27,7 +27,7 @@ struct Examination {
   // Established by the rules, in this order.
   bool vertices_kept = false;
   bool well_formed = false;                ///< indices can be followed and coordinates computed with
-  std::vector<std::int8_t> orientation{};  ///< of each tetrahedron, exact
+  std::vector<std::int16_t> orientation{};  ///< of each tetrahedron, exact
   bool positive = false;
   FaceTable faces{};
   std::vector<bool> input_face{};      ///< by where a face's half-faces begin: whether it is an input facet

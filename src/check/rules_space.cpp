@@ -47,7 +47,7 @@ Rule positive_volumes(Examination& on) {
     const Tetrahedron& t = on.volume.tetrahedra[i];
     const auto corner = [&](std::size_t k) { return on.volume.vertices[t[k]].data(); };
     const int sign = exact::orient3d(corner(0), corner(1), corner(2), corner(3));
-    on.orientation.push_back(static_cast<std::int8_t>(sign));
+    on.orientation.push_back(static_cast<std::int16_t>(sign));
     if (sign <= 0)
       findings.add(
           [&] { return tetrahedron_words(on, i) + (sign < 0 ? " is negative" : " is of zero volume"); });
@@ -75,7 +75,7 @@ Rule faces_matched(Examination& on) {
       ++shared;
       // Where a tetrahedron is relative to the sorted face: its parity tells if it is positive.
       const auto side = [&](const HalfFace& half) {
-        const auto orientation = static_cast<int>(on.orientation[half.tetrahedron()]);
+        const int orientation = on.orientation[half.tetrahedron()];
         return half.odd() ? -orientation : orientation;
       };
       if (side(halves[0]) * side(halves[1]) > 0) folded.add([&] { return face_and_two(" has on one side"); });

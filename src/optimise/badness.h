@@ -20,9 +20,7 @@ inline constexpr double kLeastGain = 0.98;
 /// Where Q begins to count otherwise: of flat tetrahedra, those of a Q that no facet asks for, and of
 /// hopeless ones, which are worth a point.
 struct BadFrom {
-  double flat, hopeless;
-  BadFrom(double flat_from, double hopeless_from = std::numeric_limits<double>::infinity())
-      : flat(flat_from), hopeless(hopeless_from) {}
+  double flat, hopeless = std::numeric_limits<double>::infinity();
 };
 
 /// The number of hopeless tetrahedra, that of flat ones, then the worst Q of all.

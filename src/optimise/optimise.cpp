@@ -141,7 +141,7 @@ class Optimiser {
 
   // No more hopeless elements than before, and the worst of all better; other flat ones are of less account.
   [[nodiscard]] bool is_better_than(const TetMesh& before) const {
-    const BadFrom from(flat_from_, worth_a_point_);
+    const BadFrom from{flat_from_, worth_a_point_};
     Badness was, is;
     for (const Tet t : changed_since(before)) {
       if (t < before.slot_count() && before.alive(t)) was.add(quality_of(before, before.corners(t)), from);
@@ -310,7 +310,7 @@ class Optimiser {
       work_ += kWork;
       created_.clear();
       ball(mesh_, p, created_);
-      growth.search.worst_quality = std::max(flat_from_, badness_of(mesh_, created_, flat_from_).worst);
+      growth.search.worst_quality = std::max(flat_from_, badness_of(mesh_, created_, {flat_from_}).worst);
       if (!refill_without(mesh_, p, first_free_, growth, random_)) continue;
       ++stats_.removed;
       ++stats_.changed;

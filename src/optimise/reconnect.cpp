@@ -43,7 +43,7 @@ class Reconnection {
 
  private:
   bool fill(const Cavity& cavity, PolyhedronOptions search) {
-    const double worst = badness_of(mesh_, cavity.tets(), flat_from_).worst;
+    const double worst = badness_of(mesh_, cavity.tets(), {flat_from_}).worst;
     search.worst_quality = std::min(kLeastGain * worst, flat_from_);
     const auto fresh = fill_polyhedron(mesh_, cavity.faces(), search);
     if (!fresh) return false;

@@ -71,7 +71,7 @@ class FieldPoints {
   }
 
  private:
-  static constexpr std::uint8_t kTried = 0x0F;  // bit i: from face i
+  // Bit i below these: tried from face i.
   static constexpr std::uint8_t kIsLarge = 0x10, kQueued = 0x20, kInRest = 0x40;
 
   // Between vertices with thousands of neighbours each attempt looks at thousands of tetrahedra, and nearly

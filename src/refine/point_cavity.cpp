@@ -135,9 +135,9 @@ bool PointCavity::release(Tet t, Tet base) {
 }
 
 bool PointCavity::shrink_until_seen(Tet base) {
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < faces_.size(); ++k) {
-    const Face f = faces_[k];
+  std::size_t kept = 0, next = 0;
+  while (next < faces_.size()) {  // to which releasing adds
+    const Face f = faces_[next++];
     const Tet t = tet_of(f);
     if ((mesh_.flags(t) & kVisited) == 0) continue;
     const auto v = mesh_.face_vertices(f);

@@ -89,7 +89,8 @@ class Sides {
     if (sides.above != kUnknownMask) return sides;
     sides = {0, 0};
     const exact::OrientFilter filter(at(f[0]), at(f[1]), at(f[2]));
-    for (Local d = 0; d < vertices_.size(); ++d) {
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+      const auto d = static_cast<Local>(i);
       if (d == f[0] || d == f[1] || d == f[2]) continue;
       int s = all_are_explicit_ ? filter(at(d)) : 0;
       if (s == 0) s = sign(f, d);
