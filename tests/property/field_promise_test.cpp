@@ -31,7 +31,7 @@ const Family kFamilies[] = {
     {"voxels", hard::voxels, 4, 0.5},
     {"combs", hard::comb, 2, 0},
     {"lattices", hard::lattice, 4, 0.1, Keep::bounded},
-    {"scattered", hard::scattered, 3, 0},
+    {"scattered", hard::scattered, 3, 0.2},
     {"furnished", hard::furnished, 6, 0.2, Keep::box},
     {"pencils", hard::pencil, 4, 0.3},
     {"bands", hard::band, 4, 0.3},

@@ -31,7 +31,7 @@ std::vector<Tet> solid(const TetMesh& mesh) {
   return tets;
 }
 
-double worst_quality(const TetMesh& mesh) { return badness_of(mesh, solid(mesh), kInfinity).worst; }
+double worst_quality(const TetMesh& mesh) { return badness_of(mesh, solid(mesh), {kInfinity}).worst; }
 
 // Points of a jittered grid, the jitter so small that Delaunay leaves slivers.
 TetMesh slivers(double jitter, std::uint64_t seed, int n = 4) {
@@ -72,18 +72,18 @@ void expect_sound(TetMesh& mesh, const exact::Dyadic& volume) {
 
 TEST(Badness, FewerFlatOnesCountFirst) {
   Badness flat, thin;
-  flat.add(1e12, 1000);
-  thin.add(900, 1000);
-  thin.add(900, 1000);
+  flat.add(1e12, {1000});
+  thin.add(900, {1000});
+  thin.add(900, {1000});
   EXPECT_EQ(flat.flat, 1u);
   EXPECT_EQ(thin.flat, 0u);
   EXPECT_TRUE(thin.is_worthwhile_after(flat));
   EXPECT_FALSE(flat.is_worthwhile_after(thin));
   Badness other;
-  other.add(890, 1000);
+  other.add(890, {1000});
   EXPECT_FALSE(other.is_worthwhile_after(thin));  // too little
   Badness not_a_number;
-  not_a_number.add(std::nan(""), 1000);
+  not_a_number.add(std::nan(""), {1000});
   EXPECT_EQ(not_a_number.flat, 1u);
 }
 
@@ -121,15 +121,15 @@ TEST(Exchange, NeverWorseAndNothingLost) {
     const auto facets = facet_faces(mesh);
     const auto segments = segment_edges(mesh);
     const exact::Dyadic volume = volume_of(mesh);
-    Exchanger exchanger(mesh, 1000);
-    Badness before = badness_of(mesh, solid(mesh), 1000);
+    Exchanger exchanger(mesh, {1000});
+    Badness before = badness_of(mesh, solid(mesh), {1000});
     int exchanged = 0;
     for (const Tet t : solid(mesh)) {
       if (!mesh.alive(t)) continue;
       std::vector<Tet> created;
       if (!exchanger.improve(t, created)) continue;
       ++exchanged;
-      const Badness after = badness_of(mesh, solid(mesh), 1000);
+      const Badness after = badness_of(mesh, solid(mesh), {1000});
       EXPECT_LE(after.flat, before.flat);
       if (after.flat == before.flat) {
         EXPECT_LE(after.worst, before.worst);
@@ -154,10 +154,10 @@ std::size_t remove_bad(double flatness, const std::function<double(double)>& lim
       if (!mesh.alive(t)) continue;
       const double quality = quality_of(mesh, mesh.corners(t)), limit = limit_of(quality);
       if (quality < limit || limit < least_limit) continue;
-      const std::size_t before = badness_of(mesh, solid(mesh), limit).flat;
+      const std::size_t before = badness_of(mesh, solid(mesh), {limit}).flat;
       std::vector<Tet> created;
       const bool fewer = remover.remove(t, limit, created);
-      const std::size_t after = badness_of(mesh, solid(mesh), limit).flat;
+      const std::size_t after = badness_of(mesh, solid(mesh), {limit}).flat;
       EXPECT_LE(after, before);
       if (fewer) {
         EXPECT_LT(after, before);
@@ -187,9 +187,9 @@ TEST(Relocate, LowersTheWorstOfTheBall) {
       {{0.9, 0.9, -0.9}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}, 1);
   std::mt19937_64 random(1);
   const std::vector<Tet> star = ball_of(mesh, 0);
-  const double before = badness_of(mesh, star, kInfinity).worst;
+  const double before = badness_of(mesh, star, {kInfinity}).worst;
   EXPECT_TRUE(relocate(mesh, 0, star, random));
-  EXPECT_LT(badness_of(mesh, star, kInfinity).worst, 0.8 * before);
+  EXPECT_LT(badness_of(mesh, star, {kInfinity}).worst, 0.8 * before);
   EXPECT_EQ(find_fault(mesh), "");
 }
 
@@ -201,12 +201,12 @@ TEST(Reconnect, OnlyBetterFillings) {
     constrain(mesh, random);
     const auto facets = facet_faces(mesh);
     const exact::Dyadic volume = volume_of(mesh);
-    const Badness before = badness_of(mesh, solid(mesh), 1000);
+    const Badness before = badness_of(mesh, solid(mesh), {1000});
     std::vector<Tet> created;
     if (reconnect(mesh, worst_tet(mesh), kNone, 1000, seed % 2 == 0, random, created)) {
       ++reconnected;
-      EXPECT_LT(badness_of(mesh, solid(mesh), 1000).flat, before.flat);
-      EXPECT_LT(badness_of(mesh, created, 1000).worst, 1000);
+      EXPECT_LT(badness_of(mesh, solid(mesh), {1000}).flat, before.flat);
+      EXPECT_LT(badness_of(mesh, created, {1000}).worst, 1000);
     }
     EXPECT_EQ(facet_faces(mesh), facets);
     expect_sound(mesh, volume);
@@ -236,7 +236,7 @@ TEST(InsertPoint, WhereThreeFacetsMakeACap) {
   std::vector<Tet> created;
   const Vertex p = insert_point(mesh, cap, first_free, 1000, created);
   ASSERT_NE(p, kNone);
-  EXPECT_LT(badness_of(mesh, created, kInfinity).worst, 1000);
+  EXPECT_LT(badness_of(mesh, created, {kInfinity}).worst, 1000);
   EXPECT_LT(worst_quality(mesh), 1e4);
   EXPECT_EQ(facet_faces(mesh).size(), 3u);
   expect_sound(mesh, volume);
@@ -251,11 +251,11 @@ TEST(Optimise, SliversGo) {
       const auto facets = facet_faces(mesh);
       const auto segments = segment_edges(mesh);
       const exact::Dyadic volume = volume_of(mesh);
-      const Badness before = badness_of(mesh, solid(mesh), 100);
+      const Badness before = badness_of(mesh, solid(mesh), {100});
       const Options options;
       Monitor monitor(options);
       optimise(mesh, solid(mesh), static_cast<Vertex>(mesh.vertex_count()), 20, monitor);
-      const Badness after = badness_of(mesh, solid(mesh), 100);
+      const Badness after = badness_of(mesh, solid(mesh), {100});
       EXPECT_FALSE(before < after);
       if (!constrained) {  // facets on both sides of a sliver keep it
         EXPECT_LT(after.worst, 100) << jitter;
