@@ -76,7 +76,7 @@ struct Options {
   /// tetrahedron of the enclosing box, as region 0, and the facets and segments that stand.
   std::optional<Stage> stop_after;
   std::uint64_t seed = 1;          ///< of the random orders
-  unsigned threads = 1;            ///< of validation, Delaunay and measuring, 0: all there are; same result
+  unsigned threads = 1;            ///< 0: all there are; the result is the same
   double time_limit = 0;           ///< seconds; 0: none
   std::uint64_t memory_limit = 0;  ///< bytes of the process; 0: none
   /// Called now and then from the calling thread; returns false to cancel.

@@ -2,6 +2,7 @@
 // optimise.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -17,7 +18,7 @@
 #include "delaunay/delaunay.h"
 #include "enforce/enforce.h"
 #include "holdfast/holdfast.h"
-#include "improve/improve.h"
+#include "improve/improve_parts.h"
 #include "improve/shape.h"
 #include "mesh/monitor.h"
 #include "mesh/parallel.h"
@@ -27,7 +28,6 @@
 #include "recover/recover.h"
 #include "recover/standing.h"
 #include "refine/field_points.h"
-#include "refine/order.h"
 #include "size/size_function.h"
 #include "suppress/suppress.h"
 #include "surface/complex.h"
@@ -234,12 +234,12 @@ class Pipeline {
       if (is_kept(t))
         for (const Vertex v : mesh_.corners(t))
           if (!mesh_.is_explicit(v)) return;  // the outcome is not_representable
-    const SizeFunction sizes(*options_.sizes, complex_, table_, options_, kept_, scale_);
+    size_function_.emplace(*options_.sizes, complex_, table_, options_, kept_, scale_);
     const std::size_t before = mesh_.vertex_count();
-    std::vector<double> none;
-    order_along_curve(mesh_, first_free_, regions_.of_tet, none);
-    sizes_ = add_field_points({mesh_, regions_.of_tet, kept_.region}, sizes, monitor_);
-    result_.report.field.points = mesh_.vertex_count() - before;
+    parts_ = add_field_points(volume(), *size_function_, threads(), monitor_);
+    if (!options_.optimise || last_stage() < Stage::optimise)
+      join_filled(std::move(parts_), *size_function_, threads(), monitor_);
+    result_.report.field.points = mesh_.vertex_count() - before + (parts_ ? parts_->new_vertices() : 0);
   }
 
   void optimise_elements() {
@@ -259,16 +259,19 @@ class Pipeline {
   }
 
   void improve_volume() {
-    order_along_curve(mesh_, first_free_, regions_.of_tet, sizes_);
     Report::Field& report = result_.report.field;
-    report.before = shape_of(mesh_, regions_.of_tet, kept_.region, threads());
+    report.before =
+        parts_ ? shape_of(*parts_, threads()) : shape_of(mesh_, regions_.of_tet, kept_.region, threads());
+    std::optional<FilledParts> filled;
+    if (parts_) filled.emplace(std::move(parts_), *size_function_);
     const ImproveStats stats =
-        improve(mesh_, regions_.of_tet, kept_.region, first_free_, sizes_, options_.quality, monitor_);
+        improve_in_parts(volume(), std::move(filled), options_.quality, threads(), monitor_);
     report.edge_lengths = edge_lengths_of(mesh_, regions_.of_tet, kept_.region, sizes_, threads());
     report.moves = stats.moved;
     report.swaps = stats.swapped;
     report.contractions = stats.contracted;
     report.insertions = stats.inserted;
+    report.points += stats.filled_in;
     if (stats.worst > kEnergyOfFlat) remove_flat();
   }
 
@@ -289,6 +292,7 @@ class Pipeline {
     if (stats.changed > 0) flood_again(mesh_, complex_.facets, regions_);
   }
 
+  [[nodiscard]] VolumeData volume() { return {mesh_, regions_.of_tet, sizes_, kept_.region, first_free_}; }
   [[nodiscard]] bool is_kept(Tet t) const {
     return mesh_.alive(t) && !mesh_.is_ghost(t) && kept_.region[regions_.of_tet[t]];
   }
@@ -354,6 +358,8 @@ class Pipeline {
   std::optional<double> target_;
   Regions regions_;
   std::vector<double> sizes_;  // by vertex; empty without field points
+  std::optional<SizeFunction> size_function_;
+  std::unique_ptr<Parts> parts_;  // of a mesh with field points that is in the middle of its improvement
   Kept kept_;
 };
 

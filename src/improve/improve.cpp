@@ -40,11 +40,13 @@ constexpr Effort effort_of(Quality quality) {
 class Improver {
  public:
   Improver(TetMesh& mesh, std::vector<RegionId>& region_of, const std::vector<bool>& kept, Vertex first_free,
-           std::vector<double>& sizes, Quality quality, Monitor& monitor)
+           std::vector<double>& sizes, Quality quality, std::span<const std::uint8_t> spared,
+           Monitor& monitor)
       : mesh_(mesh),
         volume_(mesh, region_of, kept, first_free),
         sizes_(sizes),
         effort_(effort_of(quality)),
+        spared_(spared),
         monitor_(monitor),
         smoother_(volume_),
         swapper_(volume_),
@@ -70,7 +72,8 @@ class Improver {
       volume_.touch_all();
       if (!work_on_the_worst(aim, 0.1 * effort_.work_per_tet, true)) break;
     }
-    stats_.worst = volume_.worst_energy();
+    for (Tet t = 0; t < mesh_.slot_count(); ++t)
+      if (is_worse(t, stats_.worst)) stats_.worst = volume_.energy(t);
     return stats_;
   }
 
@@ -85,12 +88,21 @@ class Improver {
 
   void poll(double fraction) { monitor_.poll(Stage::optimise, stage_[0] + stage_[1] * fraction); }
 
+  // Whether t is to be looked at, being worse than that.
+  [[nodiscard]] bool is_worse(Tet t, double from) const {
+    return volume_.energy(t) > from && volume_.is_inside(t) && !is_spared(t);
+  }
+  [[nodiscard]] bool is_spared(Tet t) const {
+    const TetMesh::Corners& c = mesh_.corners(t);
+    return std::any_of(c.begin(), c.end(), [&](Vertex v) { return v < spared_.size() && spared_[v] != 0; });
+  }
+
   void swap_pass() {
     const double from = energy_of_sine(effort_.sine);
     const auto count = static_cast<double>(mesh_.slot_count());
     // Slots that are filled on the way are met again, here or in the next pass.
     for (Tet t = 0; t < mesh_.slot_count(); ++t) {
-      if (!volume_.is_inside(t) || !(volume_.energy(t) > from) || !volume_.take_changed(t)) continue;
+      if (!is_worse(t, from) || !volume_.take_changed(t)) continue;
       poll(0.5 * t / count);
       if (!swapper_.improve(t, true).empty()) ++stats_.swapped;
     }
@@ -100,7 +112,7 @@ class Improver {
     const double from = energy_of_sine(effort_.smooth_sine);
     std::vector<std::uint8_t> bad(mesh_.vertex_count(), 0);
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
-      if (volume_.is_inside(t) && volume_.energy(t) > from)
+      if (is_worse(t, from))
         for (const Vertex v : mesh_.corners(t)) bad[v] = 1;
     for (Vertex v = volume_.first_free(); v < mesh_.vertex_count(); ++v) {
       if (bad[v] == 0 || !mesh_.in_mesh(v) || !volume_.take_touched(v)) continue;
@@ -115,7 +127,7 @@ class Improver {
     const double from = energy_of_sine(effort_.aim);
     std::size_t bad = 0;
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
-      if (volume_.energy(t) > from && volume_.is_inside(t)) ++bad;
+      if (is_worse(t, from)) ++bad;
     return static_cast<double>(bad) > kMany * static_cast<double>(mesh_.tet_count());
   }
 
@@ -126,7 +138,7 @@ class Improver {
     const double from = energy_of_sine(aim);
     std::priority_queue<Entry> queue;
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
-      if (volume_.is_inside(t) && volume_.energy(t) > from) queue.push({volume_.energy(t), t});
+      if (is_worse(t, from)) queue.push({volume_.energy(t), t});
     const double count = 1 + static_cast<double>(queue.size());
     work_ = 0;
     const double budget = kLeastWork + work_per_tet * static_cast<double>(mesh_.tet_count());
@@ -134,7 +146,7 @@ class Improver {
     const auto again = [&](std::span<const Tet> tets) {
       any = any || !tets.empty();
       for (const Tet t : tets)
-        if (volume_.energy(t) > from) queue.push({volume_.energy(t), t});
+        if (is_worse(t, from)) queue.push({volume_.energy(t), t});
     };
     while (!queue.empty() && work_ < budget) {
       const Entry worst = queue.top();
@@ -229,6 +241,7 @@ class Improver {
   ImprovedVolume volume_;
   std::vector<double>& sizes_;
   const Effort effort_;
+  const std::span<const std::uint8_t> spared_;  // by vertex
   const double very_bad_ = energy_of_sine(effort_.patient_aim);
   Monitor& monitor_;
   VertexSmoother smoother_;
@@ -244,8 +257,9 @@ class Improver {
 }  // namespace
 
 ImproveStats improve(TetMesh& mesh, std::vector<RegionId>& region_of, const std::vector<bool>& kept,
-                     Vertex first_free, std::vector<double>& sizes, Quality quality, Monitor& monitor) {
-  return Improver(mesh, region_of, kept, first_free, sizes, quality, monitor).run();
+                     Vertex first_free, std::vector<double>& sizes, Quality quality, Monitor& monitor,
+                     std::span<const std::uint8_t> spared) {
+  return Improver(mesh, region_of, kept, first_free, sizes, quality, spared, monitor).run();
 }
 
 }  // namespace holdfast

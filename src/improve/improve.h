@@ -2,6 +2,8 @@
 // stop improving (design §2.8).
 #pragma once
 
+#include <algorithm>
+#include <span>
 #include <vector>
 
 #include "classify/regions.h"
@@ -13,13 +15,26 @@ namespace holdfast {
 
 struct ImproveStats {
   std::size_t moved = 0, swapped = 0, contracted = 0, inserted = 0;
-  double worst = 0;  ///< energy that is left (improve/energy.h)
+  std::size_t filled_in = 0;  ///< field points that were missing (improve_parts.h)
+  double worst = 0;           ///< energy (improve/energy.h): of what is not spared, nothing worse is left
+
+  ImproveStats& operator+=(const ImproveStats& other) {
+    moved += other.moved;
+    swapped += other.swapped;
+    contracted += other.contracted;
+    inserted += other.inserted;
+    filled_in += other.filled_in;
+    worst = std::max(worst, other.worst);
+    return *this;
+  }
 };
 
 /// Improves the tetrahedra of the kept regions; all their vertices are explicit. Facets, segments and the
 /// vertices below `first_free` stand; those from there on lie on no constraint. `region_of` (by slot) is kept
-/// up to date, and so is `sizes`, the wanted size at each vertex.
+/// up to date, and so is `sizes`, the wanted size at each vertex. Tetrahedra at vertices that `spared` marks,
+/// by vertex, are left alone unless they are in the way of others.
 ImproveStats improve(TetMesh& mesh, std::vector<RegionId>& region_of, const std::vector<bool>& kept,
-                     Vertex first_free, std::vector<double>& sizes, Quality quality, Monitor& monitor);
+                     Vertex first_free, std::vector<double>& sizes, Quality quality, Monitor& monitor,
+                     std::span<const std::uint8_t> spared = {});
 
 }  // namespace holdfast

@@ -29,6 +29,18 @@ void for_each_inside(const TetMesh& mesh, const std::vector<RegionId>& region_of
   });
 }
 
+ShapeHistogram shapes_of(const TetMesh& mesh, const std::vector<RegionId>& region_of,
+                         const std::vector<bool>& kept, unsigned threads) {
+  ShapeHistogram shapes;
+  for_each_inside<ShapeHistogram>(
+      mesh, region_of, kept, threads,
+      [&](const TetMesh::Corners& c, ShapeHistogram& own) {
+        own.add(mesh.position(c[0]), mesh.position(c[1]), mesh.position(c[2]), mesh.position(c[3]));
+      },
+      [&](const ShapeHistogram& own) { shapes.add(own); });
+  return shapes;
+}
+
 }  // namespace
 
 bool is_flat(const Point& a, const Point& b, const Point& c, const Point& d) {
@@ -38,13 +50,17 @@ bool is_flat(const Point& a, const Point& b, const Point& c, const Point& d) {
 
 Report::Shape shape_of(const TetMesh& mesh, const std::vector<RegionId>& region_of,
                        const std::vector<bool>& kept, unsigned threads) {
+  return shapes_of(mesh, region_of, kept, threads).shape();
+}
+
+Report::Shape shape_of(const Parts& parts, unsigned threads) {
+  std::vector<ShapeHistogram> own(parts.parts().size());
+  parallel(threads, own.size(), [&](std::size_t k) {
+    const Part& part = parts.parts()[k];
+    own[k] = shapes_of(part.mesh, part.region_of, parts.whole().kept, 1);
+  });
   ShapeHistogram shapes;
-  for_each_inside<ShapeHistogram>(
-      mesh, region_of, kept, threads,
-      [&](const TetMesh::Corners& c, ShapeHistogram& own) {
-        own.add(mesh.position(c[0]), mesh.position(c[1]), mesh.position(c[2]), mesh.position(c[3]));
-      },
-      [&](const ShapeHistogram& own) { shapes.add(own); });
+  for (const ShapeHistogram& of_part : own) shapes.add(of_part);
   return shapes.shape();
 }
 

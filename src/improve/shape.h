@@ -7,6 +7,7 @@
 #include "holdfast/holdfast.h"
 #include "improve/energy.h"
 #include "mesh/tet_mesh.h"
+#include "refine/parts.h"
 
 namespace holdfast {
 
@@ -17,6 +18,9 @@ inline constexpr double kEnergyOfFlat = energy_of_sine(0.035);  // 2 degrees
 /// Of the tetrahedra of the kept regions; `region_of` by slot.
 [[nodiscard]] Report::Shape shape_of(const TetMesh& mesh, const std::vector<RegionId>& region_of,
                                      const std::vector<bool>& kept, unsigned threads = 1);
+
+/// The same for a mesh in parts.
+[[nodiscard]] Report::Shape shape_of(const Parts& parts, unsigned threads = 1);
 
 /// Lengths of their edges over the mean of the sizes at the ends (by vertex), as Report::Field has them.
 [[nodiscard]] std::array<std::size_t, 24> edge_lengths_of(const TetMesh& mesh,

@@ -40,12 +40,6 @@ class ImprovedVolume {
     for (const Tet t : tets) sum += energy_[t];
     return sum;
   }
-  [[nodiscard]] double worst_energy() const {
-    double worst = 0;
-    for (Tet t = 0; t < mesh_.slot_count(); ++t)
-      if (energy_[t] > worst && is_inside(t)) worst = energy_[t];
-    return worst;
-  }
   [[nodiscard]] double energy_of(const TetMesh::Corners& c) const {
     return holdfast::energy(mesh_.position(c[0]), mesh_.position(c[1]), mesh_.position(c[2]),
                             mesh_.position(c[3]));

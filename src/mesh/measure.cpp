@@ -21,6 +21,13 @@ double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] 
 
 }  // namespace
 
+Point centroid(const TetMesh& mesh, Tet t) {
+  Point middle{};
+  for (const Vertex v : mesh.corners(t))
+    for (std::size_t k = 0; k < 3; ++k) middle[k] += 0.25 * mesh.position(v)[k];
+  return middle;
+}
+
 double height_over(const TetMesh& mesh, Vertex a, Vertex b, Vertex c, Vertex d) {
   const Vector n = cross(from_to(mesh, a, mesh.point(b)), from_to(mesh, a, mesh.point(c)));
   const double length = std::sqrt(dot(n, n));

@@ -6,6 +6,8 @@
 
 namespace holdfast {
 
+[[nodiscard]] Point centroid(const TetMesh& mesh, Tet t);
+
 /// Distance of d from the plane abc, approximately.
 [[nodiscard]] double height_over(const TetMesh& mesh, Vertex a, Vertex b, Vertex c, Vertex d);
 

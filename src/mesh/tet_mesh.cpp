@@ -18,6 +18,14 @@ Vertex TetMesh::add_vertex(const exact::ExactPoint& p) {
   return v;
 }
 
+Vertex TetMesh::add_vertices(std::size_t count) {
+  const auto first = static_cast<Vertex>(positions_.size());
+  positions_.resize(first + count);
+  exact_of_.resize(first + count, kNone);
+  incident_.resize(first + count, kNone);
+  return first;
+}
+
 void TetMesh::move_vertex(Vertex v, const Point& p) {
   release_exact(v);
   positions_[v] = p;
@@ -78,6 +86,14 @@ Tet TetMesh::add_tet(const Corners& v) {
   neighbours_[t] = {kNone, kNone, kNone, kNone};
   flags_[t] = 0;
   return t;
+}
+
+Tet TetMesh::add_slots(std::size_t count) {
+  const auto first = static_cast<Tet>(corners_.size());
+  corners_.resize(first + count);
+  neighbours_.resize(first + count);
+  flags_.resize(first + count);
+  return first;
 }
 
 void TetMesh::remove_tet(Tet t) {

@@ -31,6 +31,8 @@ class TetMesh {
   Vertex add_vertex(const Point& p);
   /// A vertex at an exact position; becomes explicit when doubles hold it.
   Vertex add_vertex(const exact::ExactPoint& p);
+  /// `count` more explicit vertices, one after another, that move_vertex places. Returns the first.
+  Vertex add_vertices(std::size_t count);
   void move_vertex(Vertex v, const Point& p);
   void move_vertex(Vertex v, const exact::ExactPoint& p);
   /// Takes back the position of a vertex that is in no tetrahedron.
@@ -61,6 +63,14 @@ class TetMesh {
   /// All tetrahedra of a mesh that had none, at once. The two arrays are as long as each other and
   /// satisfy the invariants above; flags are cleared and incident tetrahedra set here.
   void set_tets(std::vector<Corners> corners, std::vector<Neighbours> neighbours);
+  /// Slots for `count` more tetrahedra, one after another, that put_tet fills. Returns the first.
+  Tet add_slots(std::size_t count);
+  /// Fills a slot that is not free. Threads may fill different slots at the same time.
+  void put_tet(Tet t, const Corners& v, const Neighbours& n, Flags f) {
+    corners_[t] = v;
+    neighbours_[t] = n;
+    flags_[t] = f;
+  }
   [[nodiscard]] std::size_t slot_count() const { return corners_.size(); }
   [[nodiscard]] std::size_t tet_count() const { return corners_.size() - free_.size(); }
   [[nodiscard]] bool alive(Tet t) const { return (flags_[t] & kDead) == 0; }

@@ -2,24 +2,30 @@
 // (design §2.8; paper §8).
 #pragma once
 
-#include <vector>
+#include <memory>
 
-#include "classify/regions.h"
 #include "mesh/monitor.h"
-#include "mesh/tet_mesh.h"
+#include "refine/parts.h"
+#include "refine/volume_data.h"
 #include "size/size_function.h"
 
 namespace holdfast {
 
-/// What field points work on: the mesh, the region of each tetrahedron, which regions get points.
-struct FieldMesh {
-  TetMesh& mesh;
-  std::vector<RegionId>& region_of;  ///< by slot; kept up to date
-  const std::vector<bool>& kept;     ///< by region
-};
-
 /// Adds field points to the kept regions; all vertices of their tetrahedra are explicit. Facets, segments and
-/// vertices stand. Returns the size at each vertex of the mesh.
-std::vector<double> add_field_points(const FieldMesh& field, const SizeFunction& sizes, Monitor& monitor);
+/// vertices stand. Sets the size at each vertex of the mesh. Tetrahedra, and the vertices that lie on no
+/// constraint, follow a Morton curve afterwards.
+///
+/// A large mesh is left in parts, to go on with; points near the interfaces between them are missing. The
+/// threads make no difference to the result.
+[[nodiscard]] std::unique_ptr<Parts> add_field_points(const VolumeData& volume, const SizeFunction& sizes,
+                                                      unsigned threads, Monitor& monitor);
+
+/// Adds field points inside parts, which have none yet, and returns their number. `work` is the part of the
+/// stage's work that this is.
+std::size_t fill_parts(Parts& parts, const SizeFunction& sizes, Stage stage, std::array<double, 2> work,
+                       unsigned threads, Monitor& monitor);
+
+/// Joins parts and adds the points that are missing.
+void join_filled(std::unique_ptr<Parts> parts, const SizeFunction& sizes, unsigned threads, Monitor& monitor);
 
 }  // namespace holdfast

@@ -49,44 +49,60 @@ class Curve {
 };
 
 // Items in the order of their keys, equal ones as they stood: two passes of 15 bits.
-std::vector<std::uint32_t> sorted_by_key(std::vector<std::uint32_t> items,
-                                         const std::vector<std::uint32_t>& keys) {
+template <typename KeyOf>
+void sort_by_key(std::vector<std::uint32_t>& items, KeyOf&& key_of) {
   constexpr unsigned kBits = 15;
-  std::vector<std::uint32_t> other(items.size());
+  struct Item {
+    std::uint32_t key, item;
+  };
+  std::vector<Item> all(items.size()), other(items.size());
+  for (std::size_t k = 0; k < items.size(); ++k) all[k] = {key_of(items[k]), items[k]};
   for (unsigned shift = 0; shift < 2 * kBits; shift += kBits) {
     std::vector<std::size_t> start((std::size_t{1} << kBits) + 1, 0);
-    const auto digit = [&](std::uint32_t item) { return (keys[item] >> shift) & ((1u << kBits) - 1); };
-    for (const std::uint32_t item : items) ++start[digit(item) + 1];
+    const auto digit = [&](const Item& x) { return (x.key >> shift) & ((1u << kBits) - 1); };
+    for (const Item& x : all) ++start[digit(x) + 1];
     for (std::size_t k = 1; k < start.size(); ++k) start[k] += start[k - 1];
-    for (const std::uint32_t item : items) other[start[digit(item)]++] = item;
-    items.swap(other);
+    for (const Item& x : all) other[start[digit(x)]++] = x;
+    all.swap(other);
   }
-  return items;
+  for (std::size_t k = 0; k < items.size(); ++k) items[k] = all[k].item;
 }
 
 }  // namespace
 
-void order_along_curve(TetMesh& mesh, Vertex first, std::vector<RegionId>& region_of,
-                       std::vector<double>& sizes) {
+CurveKeys::CurveKeys(const TetMesh& mesh) : mesh_(mesh), keys_(mesh.vertex_count()) {
   const Curve curve(mesh.positions());
-  std::vector<std::uint32_t> keys(mesh.vertex_count());
-  for (Vertex v = 0; v < keys.size(); ++v) keys[v] = curve.key(mesh.position(v));
-  std::vector<Tet> tets;
-  tets.reserve(mesh.tet_count());
-  std::vector<std::uint32_t> tet_keys(mesh.slot_count());
-  for (Tet t = 0; t < mesh.slot_count(); ++t) {
-    if (!mesh.alive(t)) continue;
-    tets.push_back(t);
-    std::uint32_t least = kKeys;
-    for (const Vertex v : mesh.corners(t))
-      if (v != kGhost) least = std::min(least, keys[v]);
-    tet_keys[t] = least;
-  }
-  tets = sorted_by_key(std::move(tets), tet_keys);
-  std::vector<Vertex> vertices;
-  for (Vertex v = first; v < mesh.vertex_count(); ++v) vertices.push_back(v);
-  vertices = sorted_by_key(std::move(vertices), keys);
+  for (Vertex v = 0; v < keys_.size(); ++v) keys_[v] = curve.key(mesh.position(v));
+}
 
+void CurveKeys::sort(std::vector<Tet>& tets) const {
+  sort_by_key(tets, [&](Tet t) {
+    std::uint32_t least = kKeys;
+    for (const Vertex v : mesh_.corners(t))
+      if (v != kGhost) least = std::min(least, keys_[v]);
+    return least;
+  });
+}
+
+void CurveKeys::sort_vertices(std::vector<Vertex>& vertices) const {
+  sort_by_key(vertices, [&](Vertex v) { return keys_[v]; });
+}
+
+CurveOrder order_of(const TetMesh& mesh, Vertex first) {
+  const CurveKeys keys(mesh);
+  CurveOrder order;
+  order.tets.reserve(mesh.tet_count());
+  for (Tet t = 0; t < mesh.slot_count(); ++t)
+    if (mesh.alive(t)) order.tets.push_back(t);
+  for (Vertex v = first; v < mesh.vertex_count(); ++v) order.vertices.push_back(v);
+  keys.sort(order.tets);
+  keys.sort_vertices(order.vertices);
+  return order;
+}
+
+void renumber(TetMesh& mesh, const CurveOrder& order, Vertex first, std::vector<RegionId>& region_of,
+              std::vector<double>& sizes) {
+  const auto& [tets, vertices] = order;
   std::vector<RegionId> regions(tets.size());
   for (std::size_t k = 0; k < tets.size(); ++k) regions[k] = region_of[tets[k]];
   region_of = std::move(regions);
@@ -95,6 +111,11 @@ void order_along_curve(TetMesh& mesh, Vertex first, std::vector<RegionId>& regio
     for (std::size_t k = 0; k < vertices.size(); ++k) sizes[first + k] = old[vertices[k] - first];
   }
   mesh.renumber(tets, first, vertices);
+}
+
+void order_along_curve(TetMesh& mesh, Vertex first, std::vector<RegionId>& region_of,
+                       std::vector<double>& sizes) {
+  renumber(mesh, order_of(mesh, first), first, region_of, sizes);
 }
 
 }  // namespace holdfast

@@ -2,6 +2,7 @@
 // time of work on a large mesh is waiting for memory otherwise.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "classify/regions.h"
@@ -9,8 +10,30 @@
 
 namespace holdfast {
 
-/// Renumbers tetrahedra, and the vertices from `first` on, along a Morton curve. `region_of`, by slot, and
-/// `sizes`, by vertex unless empty, follow.
+/// Places along a Morton curve through all vertices of a mesh.
+class CurveKeys {
+ public:
+  explicit CurveKeys(const TetMesh& mesh);
+  void sort(std::vector<Tet>& tets) const;
+  void sort_vertices(std::vector<Vertex>& vertices) const;
+
+ private:
+  const TetMesh& mesh_;
+  std::vector<std::uint32_t> keys_;  // by vertex
+};
+
+/// All living tetrahedra, and the vertices from `first` on, as they come along the curve.
+struct CurveOrder {
+  std::vector<Tet> tets;
+  std::vector<Vertex> vertices;
+};
+[[nodiscard]] CurveOrder order_of(const TetMesh& mesh, Vertex first);
+
+/// Renumbers tetrahedra, and the vertices from `first` on. `region_of`, by slot, and `sizes`, by vertex
+/// unless empty, follow.
+void renumber(TetMesh& mesh, const CurveOrder& order, Vertex first, std::vector<RegionId>& region_of,
+              std::vector<double>& sizes);
+/// The same, along the curve.
 void order_along_curve(TetMesh& mesh, Vertex first, std::vector<RegionId>& region_of,
                        std::vector<double>& sizes);
 

@@ -21,7 +21,7 @@ Tet PointCavity::locate(Vertex p, Tet start) {
   Tet t = start;
   Tet from = kNone;
   for (int step = 0; step < kMostSteps; ++step) {
-    if (mesh_.is_ghost(t)) return kNone;
+    if (mesh_.is_ghost(t)) return t;
     random_ = random_ * 1664525u + 1013904223u;
     const auto first = static_cast<int>(random_ >> 30);
     bool moved = false;

@@ -25,8 +25,8 @@ class PointCavity {
   /// All vertices of the tetrahedra that points are put in are explicit.
   explicit PointCavity(TetMesh& mesh) : mesh_(mesh) {}
 
-  /// The tetrahedron that holds vertex p, which is in no tetrahedron yet, by a walk from `start`; kNone where
-  /// the walk leaves the hull or does not arrive.
+  /// The tetrahedron that holds vertex p, which is in no tetrahedron yet, by a walk from `start`; the ghost
+  /// by which the walk leaves the hull, or kNone where it does not arrive.
   [[nodiscard]] Tet locate(Vertex p, Tet start);
 
   /// Finds the cavity of p round the tetrahedron `base` that holds it. Returns false where there is none, or

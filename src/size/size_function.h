@@ -33,6 +33,8 @@ class SizeFunction {
   [[nodiscard]] bool has_limit() const {
     return most_ < std::numeric_limits<double>::infinity() || !of_region_.empty() || field_;
   }
+  /// Whether this is a function of the user, which is called on the calling thread alone.
+  [[nodiscard]] bool is_the_users() const { return static_cast<bool>(field_); }
   [[nodiscard]] double gradation() const { return gradation_; }
   /// Inside, sizes do not grow beyond those of the surface round it.
   [[nodiscard]] bool grows() const { return grows_; }

@@ -1,0 +1,45 @@
+#include "improve/improve_parts.h"
+
+#include "refine/cut_parts.h"
+#include "refine/field_points.h"
+
+namespace holdfast {
+namespace {
+
+ImproveStats improve_each(Parts& parts, Quality quality, std::array<double, 2> work, unsigned threads,
+                          Monitor& monitor) {
+  std::vector<ImproveStats> stats(parts.parts().size());
+  parallel_monitored(threads, stats.size(), monitor, work, [&](std::size_t k, Monitor& own) {
+    Part& part = parts.parts()[k];
+    stats[k] = improve(part.mesh, part.region_of, parts.whole().kept, part.first_free, part.sizes, quality,
+                       own, part.on_cut());
+  });
+  ImproveStats sum;
+  for (const ImproveStats& own : stats) sum += own;
+  return sum;
+}
+
+}  // namespace
+
+ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledParts> filled, Quality quality,
+                              unsigned threads, Monitor& monitor) {
+  constexpr double kMost = 0.9;  // of the work: the parts that come first
+  std::unique_ptr<Parts> parts;
+  if (filled)
+    parts = std::move(filled->parts);
+  else
+    parts = cut_evenly(volume, threads);
+  if (!parts)
+    return improve(volume.mesh, volume.region_of, volume.kept, volume.first_free, volume.sizes, quality,
+                   monitor);
+  ImproveStats stats;
+  for (std::array<double, 2> work{0, kMost}; parts; work = {kMost, 1}) {
+    stats += improve_each(*parts, quality, work, threads, monitor);
+    parts = join_and_cut_again(*parts, threads);
+    if (parts && filled)
+      stats.filled_in += fill_parts(*parts, filled->sizes, Stage::optimise, {kMost, kMost}, threads, monitor);
+  }
+  return stats;
+}
+
+}  // namespace holdfast

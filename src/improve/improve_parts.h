@@ -1,0 +1,25 @@
+// The improvement of a large volume in parts, at the same time.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "improve/improve.h"
+#include "refine/parts.h"
+#include "size/size_function.h"
+
+namespace holdfast {
+
+/// Parts of a mesh that add_field_points left, and the sizes of the points that are missing.
+struct FilledParts {
+  std::unique_ptr<Parts> parts;
+  const SizeFunction& sizes;
+};
+
+/// As `improve`, but a large mesh is cut into parts, unless it comes in parts. When these are joined, what
+/// the cuts forbade is made up for: what lies near them is filled and improved in the same way, as long as it
+/// has to be cut again. The threads make no difference to the result.
+ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledParts> filled, Quality quality,
+                              unsigned threads, Monitor& monitor);
+
+}  // namespace holdfast

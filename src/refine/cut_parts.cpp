@@ -1,0 +1,82 @@
+#include "refine/cut_parts.h"
+
+#include <algorithm>
+
+#include "mesh/measure.h"
+#include "mesh/parallel.h"
+#include "mesh/traverse.h"
+
+namespace holdfast {
+namespace {
+
+constexpr double kMostAtCuts = 0.25;
+
+Cuts even_cuts(const TetMesh& mesh, const std::vector<Tet>& tets) {
+  constexpr std::size_t kSamples = 1u << 13;
+  std::vector<Cuts::Sample> samples;
+  for (std::size_t k = 0; k < tets.size(); k += 1 + tets.size() / kSamples)
+    samples.push_back({centroid(mesh, tets[k]), 1});
+  return {std::move(samples), levels_for(static_cast<double>(tets.size()))};
+}
+
+// The tetrahedra at these vertices and one ring more: cavities need room to grow.
+std::vector<Tet> rings_round(const VolumeData& volume, std::vector<Vertex> vertices) {
+  constexpr int kRings = 2;
+  TetMesh& mesh = volume.mesh;
+  std::vector<std::uint8_t> reached(mesh.vertex_count(), 0), taken(mesh.slot_count(), 0);
+  for (const Vertex v : vertices) reached[v] = 1;
+  std::vector<Tet> tets, own;
+  for (int ring = 0; ring < kRings; ++ring) {
+    std::vector<Vertex> next;
+    for (const Vertex v : vertices) {
+      own.clear();
+      ball(mesh, v, own);
+      for (const Tet t : own) {
+        if (taken[t] != 0 || !volume.is_inside(t)) continue;
+        taken[t] = 1;
+        tets.push_back(t);
+        for (const Vertex w : mesh.corners(t)) {
+          if (reached[w] == 0) next.push_back(w);
+          reached[w] = 1;
+        }
+      }
+    }
+    vertices = std::move(next);
+  }
+  return tets;
+}
+
+}  // namespace
+
+std::unique_ptr<Parts> cut_into_parts(const VolumeData& volume, const std::vector<Tet>& tets,
+                                      const Cuts& cuts, double most_at_cuts, unsigned threads) {
+  std::vector<std::uint32_t> part_of(volume.mesh.slot_count(), kNone);
+  parallel_ranges(threads, tets.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k)
+      part_of[tets[k]] = cuts.part_of(centroid(volume.mesh, tets[k]));
+  });
+  auto parts = std::make_unique<Parts>(volume, part_of, cuts.part_count(), threads);
+  if (parts->share_at_cuts(threads) > most_at_cuts) parts.reset();
+  return parts;
+}
+
+std::unique_ptr<Parts> cut_evenly(const VolumeData& volume, unsigned threads) {
+  std::vector<Tet> tets;
+  for (Tet t = 0; t < volume.mesh.slot_count(); ++t)
+    if (volume.is_inside(t)) tets.push_back(t);
+  const Cuts cuts = even_cuts(volume.mesh, tets);
+  if (cuts.part_count() == 1) return {};
+  return cut_into_parts(volume, tets, cuts, kMostAtCuts, threads);
+}
+
+std::unique_ptr<Parts> join_and_cut_again(Parts& parts, unsigned threads) {
+  parts.join(threads);
+  const VolumeData& volume = parts.whole();
+  const std::vector<Tet> tets = rings_round(volume, parts.vertices_between());
+  if (tets.empty()) return {};
+  if (const Cuts cuts = even_cuts(volume.mesh, tets); cuts.part_count() > 1)
+    if (auto again = cut_into_parts(volume, tets, cuts, kMostAtCuts, threads)) return again;
+  return cut_into_parts(volume, tets, Cuts({}, 0), 1, threads);
+}
+
+}  // namespace holdfast

@@ -1,0 +1,111 @@
+#include "refine/field_inserter.h"
+
+#include <algorithm>
+
+#include "refine/parts.h"
+#include "refine/vector.h"
+
+namespace holdfast {
+namespace {
+
+// In sizes: the least distance of a new point from others, and its least height over a facet.
+constexpr double kNearest = 0.7, kLeastHeight = 0.4;
+
+}  // namespace
+
+std::span<const Tet> FieldInserter::insert(const Point& x, Tet start) {
+  const RegionId region = volume_.region_of[start];
+  const Vertex p = mesh_.add_vertex(x);
+  if (!fits(p, start)) {
+    mesh_.remove_last_vertex();
+    return {};
+  }
+  volume_.sizes.push_back(wanted_);
+  cavity_.insert();
+  volume_.region_of.resize(mesh_.slot_count(), kNone);
+  for (const Tet t : cavity_.created()) volume_.region_of[t] = region;
+  return cavity_.created();
+}
+
+// Leaves the cavity found where it returns true.
+bool FieldInserter::fits(Vertex p, Tet start) {
+  const RegionId region = volume_.region_of[start];
+  const Tet base = cavity_.locate(p, start);
+  if (base == kNone || mesh_.is_ghost(base) || volume_.region_of[base] != region) return false;
+  if (!is_far_from(p, vertices_round(base), region)) return false;
+  const bool found = cavity_.find(p, base);
+  if (found && !is_near_an_interface(p) && is_far_from(p, cavity_.ring(), region) && !is_near_a_facet(p) &&
+      !is_near_beyond(p))
+    return true;
+  wasted_ += cavity_.work();
+  if (found) cavity_.abandon();
+  return false;
+}
+
+// Whether p is in the smallest ball round a face of an interface: then spheres beyond the face may hold it.
+bool FieldInserter::is_near_an_interface(Vertex p) const {
+  return volume_.part != nullptr &&
+         std::any_of(cavity_.rim().begin(), cavity_.rim().end(), [&](const PointCavity::Rim& rim) {
+           if (!volume_.part->is_beyond_interface(tet_of(rim.outer))) return false;
+           if (!volume_.part->is_beyond_cut(tet_of(rim.outer))) return true;
+           const Point& a = mesh_.position(rim.v[0]);
+           const Vector centre = circle_centre(mesh_.position(rim.v[1]) - a, mesh_.position(rim.v[2]) - a);
+           const Vector x = mesh_.position(p) - a;
+           return !(dot(x, x) > 2 * dot(x, centre));
+         });
+}
+
+// Of t and the tetrahedra next to it: to be too near to one of these saves finding the cavity.
+std::span<const Vertex> FieldInserter::vertices_round(Tet t) {
+  const auto& c = mesh_.corners(t);
+  std::copy(c.begin(), c.end(), round_.begin());
+  std::size_t count = c.size();
+  for (int i = 0; i < 4; ++i) {
+    const Face f = face_code(t, i);
+    const Vertex v = mesh_.apex(mesh_.neighbour(f));
+    if (!mesh_.is_facet(f) && v != kGhost) round_[count++] = v;
+  }
+  return {round_.data(), count};
+}
+
+// Whether p keeps its distance from these vertices. Leaves the size there in wanted_.
+bool FieldInserter::is_far_from(Vertex p, std::span<const Vertex> vertices, RegionId region) {
+  const Point& x = mesh_.position(p);
+  double nearest = std::numeric_limits<double>::infinity();
+  wanted_ = sizes_.limit(x, region);
+  double mean = 0, weights = 0;  // of the sizes, the nearer the more
+  for (const Vertex v : vertices) {
+    const double d = distance(mesh_.position(v), x);
+    nearest = std::min(nearest, d);
+    wanted_ = std::min(wanted_, volume_.sizes[v] + sizes_.gradation() * d);
+    mean += volume_.sizes[v] / d;
+    weights += 1 / d;
+  }
+  if (!sizes_.grows() && weights > 0) wanted_ = std::min(wanted_, mean / weights);
+  return nearest >= kNearest * wanted_;
+}
+
+// Where constraints cut the cavity, or the mesh is not Delaunay, a near vertex may stand just beyond it.
+bool FieldInserter::is_near_beyond(Vertex p) const {
+  const double least = kNearest * wanted_;
+  for (const PointCavity::Rim& rim : cavity_.rim()) {
+    const Vertex v = mesh_.apex(rim.outer);
+    if ((rim.flags & facet_bit(3)) == 0 && v != kGhost &&
+        distance(mesh_.position(v), mesh_.position(p)) < least)
+      return true;
+  }
+  return false;
+}
+
+bool FieldInserter::is_near_a_facet(Vertex p) const {
+  for (const PointCavity::Rim& rim : cavity_.rim()) {
+    if ((rim.flags & facet_bit(3)) == 0) continue;
+    const Point& a = mesh_.position(rim.v[0]);
+    const Vector n = cross(mesh_.position(rim.v[1]) - a, mesh_.position(rim.v[2]) - a);
+    const double height = dot(n, mesh_.position(p) - a);
+    if (height * height < kLeastHeight * kLeastHeight * wanted_ * wanted_ * dot(n, n)) return true;
+  }
+  return false;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,47 @@
+// Inserts one field point where it keeps its distance from all others.
+//
+// The nearest vertex that a point sees is always one of those that it would be joined to, so that the mesh
+// itself is the spatial index: for distances, and for the size that is wanted at the point.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "refine/point_cavity.h"
+#include "refine/volume_data.h"
+#include "size/size_function.h"
+
+namespace holdfast {
+
+class FieldInserter {
+ public:
+  /// In a part, points keep away from interfaces that spheres beyond may reach across.
+  FieldInserter(const VolumeData& volume, const SizeFunction& sizes)
+      : volume_(volume), mesh_(volume.mesh), sizes_(sizes), cavity_(volume.mesh) {}
+
+  /// Inserts a point at x, in the region of `start` and not far from it, unless it would be too near to a
+  /// vertex or a facet. Returns the tetrahedra round it, none if it was not inserted.
+  std::span<const Tet> insert(const Point& x, Tet start);
+  /// The faces opposite the point inserted last.
+  [[nodiscard]] std::span<const PointCavity::Rim> rim() const { return cavity_.rim(); }
+  /// Tetrahedra of cavities that were not filled.
+  [[nodiscard]] std::size_t wasted() const { return wasted_; }
+
+ private:
+  [[nodiscard]] bool fits(Vertex p, Tet start);
+  [[nodiscard]] bool is_near_an_interface(Vertex p) const;
+  std::span<const Vertex> vertices_round(Tet t);
+  bool is_far_from(Vertex p, std::span<const Vertex> vertices, RegionId region);
+  [[nodiscard]] bool is_near_beyond(Vertex p) const;
+  [[nodiscard]] bool is_near_a_facet(Vertex p) const;
+
+  const VolumeData volume_;
+  TetMesh& mesh_;
+  const SizeFunction& sizes_;
+  PointCavity cavity_;
+  std::array<Vertex, 8> round_{};
+  double wanted_ = 0;  // size at the point
+  std::size_t wasted_ = 0;
+};
+
+}  // namespace holdfast

@@ -1,0 +1,264 @@
+#include "refine/front.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include "refine/field_inserter.h"
+#include "refine/vector.h"
+
+namespace holdfast {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// In sizes: the circumradius from which a tetrahedron is refined (0.61 is regular).
+constexpr double kLarge = 0.85;
+constexpr double kLevel = 1.3;         // of the mean of the sizes round, where sizes do not grow
+constexpr double kLongestPart = 0.65;  // of an edge: the size, where the edge is to be split
+
+class Front {
+ public:
+  Front(const VolumeData& volume, const SizeFunction& sizes, Stage stage, Monitor& monitor)
+      : volume_(volume),
+        mesh_(volume.mesh),
+        size_(volume.sizes),
+        sizes_(sizes),
+        stage_(stage),
+        monitor_(monitor),
+        inserter_(volume, sizes) {}
+
+  void run() {
+    state_.assign(mesh_.slot_count(), 0);
+    for (Tet t = 0; t < mesh_.slot_count(); ++t)
+      if (volume_.is_inside(t) && is_large(t)) queue(t, kIsLarge);
+    shuffle_front();
+    while ((!front_.empty() || !rest_.empty()) && !has_wasted_enough()) {
+      monitor_.poll(stage_, progress());
+      if (!front_.empty()) {
+        prefetch_ahead();
+        const Tet t = front_.front();
+        front_.pop_front();
+        if (!mesh_.alive(t) || (state_[t] & kQueued) == 0) continue;
+        state_[t] = static_cast<std::uint8_t>(state_[t] & ~kQueued);
+        if (!advance(t) && (state_[t] & kInRest) == 0) {
+          state_[t] = static_cast<std::uint8_t>(state_[t] | kInRest);
+          rest_.push_back(t);
+        }
+      } else {
+        const Tet t = rest_.front();
+        rest_.pop_front();
+        if (!mesh_.alive(t) || (state_[t] & kInRest) == 0) continue;
+        state_[t] = static_cast<std::uint8_t>(state_[t] & ~kInRest);
+        split_long_edge(t);
+      }
+    }
+  }
+
+ private:
+  // Bit i below these: tried from face i.
+  static constexpr std::uint8_t kIsLarge = 0x10, kQueued = 0x20, kInRest = 0x40;
+
+  // The first ones come in any order: along the curve, a tenth more of the elements would be slivers.
+  void shuffle_front() {
+    std::uint64_t random = 1;
+    for (std::size_t k = front_.size(); k > 1; --k) {
+      random = random * 6364136223846793005u + 1442695040888963407u;
+      std::swap(front_[k - 1], front_[(random >> 33) % k]);
+    }
+  }
+
+  // Between vertices with thousands of neighbours each attempt looks at thousands of tetrahedra, and nearly
+  // all come to nothing. Elsewhere some ten tetrahedra are looked at in vain for each that is made.
+  [[nodiscard]] bool has_wasted_enough() const {
+    constexpr std::size_t kPatience = 60, kLeast = 1'000'000;
+    return inserter_.wasted() > kPatience * mesh_.tet_count() + kLeast;
+  }
+
+  // The front runs through the whole mesh, layer by layer: what comes next is seldom in the cache.
+  void prefetch_ahead() const {
+    constexpr std::size_t kFar = 8, kNear = 4;
+    if (front_.size() > kFar) mesh_.prefetch(front_[kFar]);
+    if (front_.size() > kNear) mesh_.prefetch_neighbours(front_[kNear]);
+  }
+
+  // How much is left is known when little is: the front is large first and shrinks.
+  [[nodiscard]] double progress() const {
+    return 1 - static_cast<double>(front_.size()) / static_cast<double>(front_.size() + mesh_.slot_count());
+  }
+
+  void queue(Tet t, std::uint8_t state) {
+    if ((state & kQueued) == 0) front_.push_back(t);
+    state_[t] = state | kQueued;
+  }
+
+  // Whether the radius of its sphere is. Per tetrahedron made, so without roots and divisions.
+  [[nodiscard]] bool is_large(Tet t) const {
+    const ScaledCentre centre = sphere_centre(mesh_, mesh_.corners(t));
+    const double limit = centre.scale * largest_radius(t);
+    return !(dot(centre.at, centre.at) < limit * limit);
+  }
+
+  // Sizes grow with the distance: r = kLarge (h + gradation r).
+  [[nodiscard]] double largest_radius(Tet t) const {
+    const auto& c = mesh_.corners(t);
+    const std::array<double, 4> h{size_[c[0]], size_[c[1]], size_[c[2]], size_[c[3]]};
+    double allowed = *std::min_element(h.begin(), h.end()) / (1 - kLarge * sizes_.gradation());
+    if (!sizes_.grows()) allowed = std::min(allowed, kLevel * 0.25 * (h[0] + h[1] + h[2] + h[3]));
+    if (sizes_.has_limit()) {
+      Point middle{};
+      for (const Vertex v : c)
+        for (std::size_t k = 0; k < 3; ++k) middle[k] += 0.25 * mesh_.position(v)[k];
+      allowed = std::min(allowed, sizes_.limit(middle, volume_.region_of[t]));
+    }
+    return kLarge * allowed;
+  }
+
+  // Tries a point over each face of t that is on the front.
+  bool advance(Tet t) {
+    for (int i = 0; i < 4; ++i) {
+      const auto bit = static_cast<std::uint8_t>(1u << i);
+      if ((state_[t] & bit) != 0 || !is_on_front(face_code(t, i))) continue;
+      state_[t] = static_cast<std::uint8_t>(state_[t] | bit);
+      Point p;
+      if (place_over(face_code(t, i), p) && try_insert(p, t)) return true;
+    }
+    return false;
+  }
+
+  // Where the front does not get on, as over a facet much larger than the size: a point on the longest edge,
+  // one size away from one of its ends.
+  bool split_long_edge(Tet t) {
+    int longest = -1;
+    double length = 0;
+    for (int k = 0; k < 6; ++k) {
+      const auto& ends = kEdgeVertex[static_cast<std::size_t>(k)];
+      const double d =
+          distance(mesh_.position(mesh_.corner(t, ends[0])), mesh_.position(mesh_.corner(t, ends[1])));
+      if (mesh_.is_segment(t, k) || d <= length) continue;
+      length = d;
+      longest = k;
+    }
+    if (longest < 0) return false;
+    const auto& ends = kEdgeVertex[static_cast<std::size_t>(longest)];
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Vertex v = mesh_.corner(t, ends[i]);
+      const Point &a = mesh_.position(v), &b = mesh_.position(mesh_.corner(t, ends[1 - i]));
+      const double part = size_[v] / length;
+      if (part > kLongestPart) continue;
+      Point p;
+      for (std::size_t j = 0; j < 3; ++j) p[j] = a[j] + part * (b[j] - a[j]);
+      if (try_insert(p, t)) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] bool is_on_front(Face f) const {
+    if (mesh_.is_facet(f)) return true;
+    const Tet n = tet_of(mesh_.neighbour(f));
+    return mesh_.is_ghost(n) || (state_[n] & kIsLarge) == 0;
+  }
+
+  bool place_over(Face f, Point& p) const {
+    const auto v = mesh_.face_vertices(f);
+    const Point &a = mesh_.position(v[0]), &b = mesh_.position(v[1]), &c = mesh_.position(v[2]);
+    const Vector u = b - a, w = c - a;
+    const Vector n = cross(u, w);
+    const double nn = dot(n, n);
+    if (!(nn > 0)) return false;
+    const double area = std::sqrt(nn);
+    double length = (size_[v[0]] + size_[v[1]] + size_[v[2]]) / 3 * (1 + 0.4 * sizes_.gradation());
+    // The centre of the circle through the corners, or where that is far away, of the triangle.
+    Vector foot = circle_centre(u, w);
+    const double radius2 = dot(foot, foot);
+    const bool round = radius2 < 0.6 * length * length;
+    const double top = mesh_apex_height(f, n, area);
+    double height = round ? std::sqrt(length * length - radius2) : 0.75 * length;
+    if (round) {
+      // The centre of the tetrahedron's sphere lies over the foot, too.
+      const double over = sphere_height(f, a, foot, n, area);
+      if (over < 0.3 * height) return false;
+      height = std::min(height, over);
+    } else {
+      for (std::size_t k = 0; k < 3; ++k) foot[k] = (u[k] + w[k]) / 3;
+      if (top < height) return false;
+    }
+    for (std::size_t k = 0; k < 3; ++k) p[k] = a[k] + foot[k] + height * n[k] / area;
+    return true;
+  }
+
+  [[nodiscard]] double mesh_apex_height(Face f, const Vector& n, double area) const {
+    return dot(n, mesh_.position(mesh_.apex(f)) - mesh_.position(mesh_.face_vertices(f)[0])) / area;
+  }
+
+  // Height over the plane of f of the centre of the tetrahedron's sphere: of equal distance from a and the
+  // apex.
+  [[nodiscard]] double sphere_height(Face f, const Point& a, const Vector& foot, const Vector& n,
+                                     double area) const {
+    const Vector d = mesh_.position(mesh_.apex(f)) - a;
+    return (dot(d, d) - 2 * dot(d, foot)) * area / (2 * dot(d, n));
+  }
+
+  bool try_insert(const Point& x, Tet start) {
+    const auto created = inserter_.insert(x, start);
+    if (created.empty()) return false;
+    state_.resize(mesh_.slot_count(), 0);
+    for (const Tet t : created) {
+      state_[t] = 0;
+      if (is_large(t)) queue(t, kIsLarge);
+    }
+    // A neighbour may have come to be on the front.
+    for (const PointCavity::Rim& rim : inserter_.rim()) {
+      const Tet n = tet_of(rim.outer);
+      if ((state_[n] & kIsLarge) != 0 && (rim.flags & facet_bit(3)) == 0 && (state_[n] & kQueued) == 0)
+        queue(n, state_[n]);
+    }
+    return true;
+  }
+
+  const VolumeData volume_;
+  TetMesh& mesh_;
+  const std::vector<double>& size_;  // by vertex
+  const SizeFunction& sizes_;
+  const Stage stage_;
+  Monitor& monitor_;
+  FieldInserter inserter_;
+  std::vector<std::uint8_t> state_;  // by slot
+  std::deque<Tet> front_;
+  std::deque<Tet> rest_;  // large ones that the front did not get on with
+};
+
+}  // namespace
+
+// Vertices of the surface have their sizes; others, Steiner points and corners of a box, get what the
+// vertices round them allow.
+void set_sizes_at_vertices(const VolumeData& volume, const SizeFunction& sizes) {
+  const TetMesh& mesh = volume.mesh;
+  std::vector<double>& size = volume.sizes;
+  size.assign(mesh.vertex_count(), kInfinity);
+  for (Vertex v = 0; v < sizes.vertex_count(); ++v) size[v] = sizes.of_vertex(v);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (Tet t = 0; t < mesh.slot_count(); ++t) {
+      if (!volume.is_inside(t)) continue;
+      for (const Vertex v : mesh.corners(t)) {
+        if (v < sizes.vertex_count() && sizes.of_vertex(v) < kInfinity) continue;
+        for (const Vertex w : mesh.corners(t)) {
+          const double h = size[w] + sizes.gradation() * distance(mesh.position(v), mesh.position(w));
+          if (!(h < size[v] * (1 - 1e-9))) continue;
+          size[v] = h;
+          changed = true;
+        }
+      }
+    }
+  }
+  for (Tet t = 0; t < mesh.slot_count(); ++t)
+    if (volume.is_inside(t))
+      for (const Vertex v : mesh.corners(t))
+        size[v] = std::min(size[v], sizes.limit(mesh.position(v), volume.region_of[t]));
+}
+
+void advance_front(const VolumeData& volume, const SizeFunction& sizes, Stage stage, Monitor& monitor) {
+  Front(volume, sizes, stage, monitor).run();
+}
+
+}  // namespace holdfast

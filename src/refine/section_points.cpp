@@ -1,0 +1,129 @@
+// A mesh without points inside has tetrahedra from side to side, and so are the cavities of points. The
+// cavity of a point reaches across a plane only as far as empty spheres do that hold the point and meet the
+// plane; so the circles in which spheres meet the planes are made small, as Delaunay refinement in the plane
+// does it, by points in the middle of them (Chew 1989).
+#include "refine/section_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <optional>
+
+#include "refine/field_inserter.h"
+#include "refine/vector.h"
+
+namespace holdfast {
+namespace {
+
+// Of the points where edges cross the plane.
+Point middle_of_section(const std::array<Point, 4>& corners, const Cuts::Plane& plane) {
+  Point sum{};
+  double count = 0;
+  for (const auto& [i, j] : kEdgeVertex) {
+    const Point &a = corners[static_cast<std::size_t>(i)], &b = corners[static_cast<std::size_t>(j)];
+    const double from = a[plane.axis] - plane.at, to = b[plane.axis] - plane.at;
+    if ((from < 0) == (to < 0)) continue;
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += std::lerp(a[k], b[k], from / (from - to));
+    count += 1;
+  }
+  for (double& x : sum) x /= count;
+  sum[plane.axis] = plane.at;
+  return sum;
+}
+
+class SectionRefiner {
+ public:
+  SectionRefiner(const VolumeData& volume, const Cuts& cuts, const SizeFunction& sizes, Monitor& monitor)
+      : volume_(volume),
+        mesh_(volume.mesh),
+        cuts_(cuts),
+        sizes_(sizes),
+        monitor_(monitor),
+        inserter_(volume, sizes) {}
+
+  void run() {
+    for (Tet t = 0; t < mesh_.slot_count(); ++t) look_at(t);
+    // Dead ones are met, and slots that were filled again: what stands there now is looked at.
+    while (!large_.empty()) {
+      const Tet t = large_.front();
+      large_.pop_front();
+      monitor_.poll(Stage::field_points, 0);
+      const auto circle = large_circle(t);
+      if (!circle) continue;
+      for (const Tet fresh : put_point_into(*circle, t)) look_at(fresh);
+    }
+  }
+
+ private:
+  // In which the sphere of a tetrahedron meets a plane.
+  struct Circle {
+    Point middle;
+    Point in_tet;   // in the middle of where the tetrahedron meets the plane
+    Point towards;  // one size from the middle towards the sphere's centre
+    bool is_of_a_cap, is_huge;
+  };
+
+  // Where the sphere meets the plane with a small cap, a vertex beyond the plane may be too near to the
+  // middle: then a point farther inside the sphere serves. Near facets much larger than the size, the middle
+  // may be beyond them.
+  std::span<const Tet> put_point_into(const Circle& circle, Tet t) {
+    auto created = inserter_.insert(circle.middle, t);
+    if (created.empty() && circle.is_of_a_cap) created = inserter_.insert(circle.towards, t);
+    if (created.empty() && circle.is_huge) created = inserter_.insert(circle.in_tet, t);
+    return created;
+  }
+
+  void look_at(Tet t) {
+    if (large_circle(t)) large_.push_back(t);
+  }
+
+  [[nodiscard]] std::optional<Circle> large_circle(Tet t) const {
+    if (!volume_.is_inside(t)) return {};
+    std::array<Point, 4> corners;
+    for (std::size_t i = 0; i < 4; ++i) corners[i] = mesh_.position(mesh_.corners(t)[i]);
+    std::optional<Circle> found;
+    cuts_.any_across(corners, [&](const Cuts::Plane& plane) {
+      const ScaledCentre scaled = sphere_centre(mesh_, mesh_.corners(t));
+      Point centre;
+      for (std::size_t k = 0; k < 3; ++k) centre[k] = corners[0][k] + scaled.at[k] / scaled.scale;
+      Circle circle{centre, middle_of_section(corners, plane), centre, false, false};
+      circle.middle[plane.axis] = plane.at;
+      const double size = size_at(circle.middle, t), height = centre[plane.axis] - plane.at;
+      const double to_corner = distance(centre, corners[0]);
+      const double radius2 = to_corner * to_corner - height * height;
+      circle.towards[plane.axis] = plane.at + std::copysign(size, height);
+      circle.is_of_a_cap = std::abs(height) > size;
+      circle.is_huge = radius2 > kHuge * kHuge * size * size;
+      if (radius2 > kLargest * kLargest * size * size) found = circle;
+      return found.has_value();
+    });
+    return found;
+  }
+
+  [[nodiscard]] double size_at(const Point& p, Tet t) const {
+    double size = sizes_.limit(p, volume_.region_of[t]);
+    for (const Vertex v : mesh_.corners(t))
+      size = std::min(size, volume_.sizes[v] + sizes_.gradation() * distance(p, mesh_.position(v)));
+    return size;
+  }
+
+  // Radii in sizes; 0.58 in a plane of regular triangles.
+  static constexpr double kLargest = 0.9, kHuge = 2;
+
+  const VolumeData volume_;
+  const TetMesh& mesh_;
+  const Cuts& cuts_;
+  const SizeFunction& sizes_;
+  Monitor& monitor_;
+  FieldInserter inserter_;
+  std::deque<Tet> large_;
+};
+
+}  // namespace
+
+void add_section_points(const VolumeData& volume, const Cuts& cuts, const SizeFunction& sizes,
+                        Monitor& monitor) {
+  SectionRefiner(volume, cuts, sizes, monitor).run();
+}
+
+}  // namespace holdfast

@@ -1,0 +1,16 @@
+// Points on the planes that are to cut a mesh.
+#pragma once
+
+#include "mesh/monitor.h"
+#include "refine/cuts.h"
+#include "refine/volume_data.h"
+#include "size/size_function.h"
+
+namespace holdfast {
+
+/// Puts field points on the cuts, until the empty spheres of the mesh meet the planes in
+/// circles no larger than the size there. Then what is done on one side of a plane hardly reaches the other.
+void add_section_points(const VolumeData& volume, const Cuts& cuts, const SizeFunction& sizes,
+                        Monitor& monitor);
+
+}  // namespace holdfast

@@ -1,0 +1,47 @@
+// Vectors in floating point, for where points are to be placed: these only propose.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "mesh/tet_mesh.h"
+
+namespace holdfast {
+
+using Vector = std::array<double, 3>;
+
+inline Vector operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline double distance(const Point& a, const Point& b) {
+  const Vector d = a - b;
+  return std::sqrt(dot(d, d));
+}
+
+/// The centre of the circle through 0, u and w.
+inline Vector circle_centre(const Vector& u, const Vector& w) {
+  const Vector n = cross(u, w);
+  const double nn = dot(n, n), uu = dot(u, u), ww = dot(w, w), uw = dot(u, w);
+  const double s = 0.5 * ww * (uu - uw) / nn, r = 0.5 * uu * (ww - uw) / nn;
+  return {s * u[0] + r * w[0], s * u[1] + r * w[1], s * u[2] + r * w[2]};
+}
+
+/// The centre of the sphere round a tetrahedron, without a division: seen from its first corner and times
+/// `scale`, which is twelve volumes.
+struct ScaledCentre {
+  Vector at;
+  double scale;
+};
+inline ScaledCentre sphere_centre(const TetMesh& mesh, const TetMesh::Corners& c) {
+  const Point& p = mesh.position(c[0]);
+  const Vector u = mesh.position(c[1]) - p, v = mesh.position(c[2]) - p, w = mesh.position(c[3]) - p;
+  const Vector vw = cross(v, w), wu = cross(w, u), uv = cross(u, v);
+  const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
+  ScaledCentre centre{{}, 2 * dot(u, vw)};
+  for (std::size_t k = 0; k < 3; ++k) centre.at[k] = uu * vw[k] + vv * wu[k] + ww * uv[k];
+  return centre;
+}
+
+}  // namespace holdfast

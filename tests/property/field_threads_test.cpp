@@ -1,0 +1,136 @@
+// Field points and the improvement of the volume: the same mesh, bit for bit, for any number of threads.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <functional>
+#include <ostream>
+#include <string>
+#include <thread>
+
+#include "dangling_surfaces.h"
+#include "hard_surfaces.h"
+#include "holdfast/check.h"
+#include "holdfast/holdfast.h"
+
+namespace holdfast {
+namespace {
+
+struct Family {
+  const char* name;
+  std::function<Surface(hard::Random&)> make;
+  double size;
+  Keep keep = Keep::automatic;
+};
+
+std::ostream& operator<<(std::ostream& out, const Family& family) { return out << family.name; }
+
+// Sizes with which the mesh is cut into two to eight parts.
+const Family kFamilies[] = {
+    {"sphere", [](hard::Random&) { return hard::icosphere(5); }, 0.045},
+    {"nested_spheres", hard::nested_spheres, 0.045},
+    {"stars", hard::star, 0.016},
+    {"furnished", hard::furnished, 0.045, Keep::box},
+    {"lattices", hard::lattice, 0.03, Keep::bounded},
+};
+
+class FieldThreads : public ::testing::TestWithParam<Family> {};
+
+TEST_P(FieldThreads, MakeNoDifference) {
+  const Family& family = GetParam();
+  hard::Random random(1);
+  const Surface surface = family.make(random);
+  Options options;
+  options.keep = family.keep;
+  options.sizes = Sizes{.size = family.size};
+  options.quality = Quality::fast;
+  const Result one = mesh(surface.view(), options);
+  ASSERT_EQ(one.outcome, Outcome::done) << one.message;
+  EXPECT_GT(one.volume.tetrahedra.size(), 60'000u);
+  CheckOptions check_options;
+  check_options.box = family.keep == Keep::box;
+  for (const Rule& rule : check(surface.view(), one.volume, check_options).rules)
+    EXPECT_TRUE(rule.holds) << rule.name << ": " << rule.detail;
+  for (const unsigned threads : {2u, 3u}) {
+    options.threads = threads;
+    const Result more = mesh(surface.view(), options);
+    ASSERT_EQ(more.outcome, Outcome::done) << more.message;
+    EXPECT_EQ(more.volume.vertices, one.volume.vertices);
+    EXPECT_EQ(more.volume.tetrahedra, one.volume.tetrahedra);
+    EXPECT_EQ(more.volume.regions, one.volume.regions);
+    EXPECT_EQ(more.report.field.after.least_dihedral, one.report.field.after.least_dihedral);
+    EXPECT_EQ(more.report.field.after.min_dihedral_deg, one.report.field.after.min_dihedral_deg);
+    EXPECT_EQ(more.report.field.before.least_dihedral, one.report.field.before.least_dihedral);
+    EXPECT_EQ(more.report.field.edge_lengths, one.report.field.edge_lengths);
+    EXPECT_EQ(more.report.quality.histogram, one.report.quality.histogram);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, FieldThreads, ::testing::ValuesIn(kFamilies),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+Options two_threads(double size) {
+  Options options;
+  options.sizes = Sizes{.size = size};
+  options.threads = 2;
+  return options;
+}
+
+TEST(FieldThreadsMonitor, CallsBackOnTheCallersThreadAloneAndHearsItThere) {
+  const Surface sphere = hard::icosphere(4);
+  for (const Stage until : {Stage::field_points, Stage::optimise}) {
+    Options options = two_threads(0.03);
+    const std::thread::id caller = std::this_thread::get_id();
+    std::atomic<int> calls = 0, elsewhere = 0;
+    options.progress = [&](const Progress& progress) {
+      if (std::this_thread::get_id() != caller) ++elsewhere;
+      EXPECT_GE(progress.fraction, 0);
+      EXPECT_LE(progress.fraction, 1);
+      return progress.stage != until || ++calls < 2;
+    };
+    EXPECT_EQ(mesh(sphere.view(), options).outcome, Outcome::cancelled);
+    EXPECT_EQ(calls, 2);
+    EXPECT_EQ(elsewhere, 0);
+  }
+}
+
+// Parts that are joined in the middle.
+TEST(FieldThreadsStop, AfterFieldPointsMakesNoDifference) {
+  const Surface sphere = hard::icosphere(4);
+  Options options = two_threads(0.045);
+  options.stop_after = Stage::field_points;
+  const Result two = mesh(sphere.view(), options);
+  options.threads = 1;
+  const Result one = mesh(sphere.view(), options);
+  ASSERT_EQ(one.outcome, Outcome::done) << one.message;
+  EXPECT_GT(one.volume.tetrahedra.size(), 60'000u);
+  EXPECT_EQ(two.volume.vertices, one.volume.vertices);
+  EXPECT_EQ(two.volume.tetrahedra, one.volume.tetrahedra);
+  EXPECT_EQ(one.report.field.points + sphere.vertices.size(), one.volume.vertices.size());
+  for (const Rule& rule : check(sphere.view(), one.volume, {}).rules)
+    EXPECT_TRUE(rule.holds) << rule.name << ": " << rule.detail;
+}
+
+TEST(FieldThreadsMonitor, HearsTheTimeLimit) {
+  const Surface sphere = hard::icosphere(3);
+  Options options = two_threads(0.008);
+  options.time_limit = 0.5;
+  EXPECT_EQ(mesh(sphere.view(), options).outcome, Outcome::time_limit);
+}
+
+TEST(FieldThreadsMonitor, AFunctionOfTheUserIsCalledOnTheCallersThreadAlone) {
+  const Surface sphere = hard::icosphere(4);
+  Options options = two_threads(0);
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<int> elsewhere = 0;
+  options.sizes->field = [&](const Point& p) {
+    if (std::this_thread::get_id() != caller) ++elsewhere;
+    return p[0] < 0 ? 0.045 : 0.055;
+  };
+  const Result result = mesh(sphere.view(), options);
+  EXPECT_EQ(result.outcome, Outcome::done);
+  EXPECT_GT(result.volume.tetrahedra.size(), 60'000u);
+  EXPECT_EQ(elsewhere, 0);
+}
+
+}  // namespace
+}  // namespace holdfast

@@ -1,0 +1,325 @@
+// A mesh cut into parts and joined again.
+#include "refine/parts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <random>
+#include <stdexcept>
+
+#include "delaunay/delaunay.h"
+#include "improve/energy.h"
+#include "improve/improve_parts.h"
+#include "mesh/measure.h"
+#include "mesh/traverse.h"
+#include "mesh/validate.h"
+#include "refine/cuts.h"
+#include "refine/point_cavity.h"
+#include "refine/section_points.h"
+#include "refine/vector.h"
+
+namespace holdfast {
+namespace {
+
+Point random_point(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> any(0, 1);
+  const double x = any(random), y = any(random);
+  return {x, y, any(random)};
+}
+
+/// The Delaunay triangulation of a cube and random points in it; with a wall, two regions and facets between
+/// them.
+struct Cube {
+  TetMesh mesh;
+  std::vector<RegionId> region_of;
+  std::vector<double> sizes;
+  const std::vector<bool> kept{true, true};
+  Vertex first_free = 8;
+
+  explicit Cube(int points, bool with_wall) {
+    std::mt19937_64 random(7);
+    for (int k = 0; k < 8; ++k)
+      mesh.add_vertex(Point{k & 1 ? 1.0 : 0.0, k & 2 ? 1.0 : 0.0, k & 4 ? 1.0 : 0.0});
+    for (int k = 0; k < points; ++k) mesh.add_vertex(random_point(random));
+    EXPECT_TRUE(build_delaunay(mesh, {1}, nullptr));
+    sizes.assign(mesh.vertex_count(), 0.1);
+    region_of.assign(mesh.slot_count(), 0);
+    if (with_wall) build_wall();
+  }
+
+  void build_wall() {
+    first_free = static_cast<Vertex>(mesh.vertex_count());
+    for (Tet t = 0; t < mesh.slot_count(); ++t)
+      if (!mesh.is_ghost(t) && centroid(mesh, t)[1] > 0.5) region_of[t] = 1;
+    for (Tet t = 0; t < mesh.slot_count(); ++t)
+      for (int i = 0; i < 4; ++i) {
+        const Face f = face_code(t, i);
+        const Tet n = tet_of(mesh.neighbour(f));
+        if (mesh.is_ghost(t) || mesh.is_ghost(n) || region_of[t] >= region_of[n]) continue;
+        mesh.set_facet(f);
+        const auto v = mesh.face_vertices(f);
+        for (std::size_t k = 0; k < 3; ++k) set_segment(mesh, t, v[k], v[(k + 1) % 3]);
+      }
+    EXPECT_EQ(find_fault(mesh), "");
+  }
+
+  [[nodiscard]] VolumeData data() { return {mesh, region_of, sizes, kept, first_free}; }
+  /// By slot: the part in a pattern of bricks; every eleventh slot is in none.
+  [[nodiscard]] std::vector<std::uint32_t> bricks() const {
+    std::vector<std::uint32_t> part_of(mesh.slot_count(), kNone);
+    for (Tet t = 0; t < mesh.slot_count(); ++t)
+      if (!mesh.is_ghost(t) && t % 11 != 0)
+        part_of[t] = (centroid(mesh, t)[0] < 0.6 ? 0 : 1) + (centroid(mesh, t)[2] < 0.4 ? 0 : 2);
+    return part_of;
+  }
+  /// Constraints too: corners in ascending order, and the facets and segments among them.
+  [[nodiscard]] std::map<TetMesh::Corners, std::vector<std::uint32_t>> content() const {
+    std::map<TetMesh::Corners, std::vector<std::uint32_t>> all;
+    for (Tet t = 0; t < mesh.slot_count(); ++t) {
+      if (!mesh.alive(t)) continue;
+      TetMesh::Corners key = mesh.corners(t);
+      std::sort(key.begin(), key.end());
+      auto& what = all[key];
+      what.push_back(region_of[t]);
+      for (int i = 0; i < 4; ++i)
+        if (mesh.is_facet(face_code(t, i))) what.push_back(mesh.corner(t, i));
+      for (int k = 0; k < 6; ++k)
+        if (mesh.is_segment(t, k))
+          for (const int end : kEdgeVertex[static_cast<std::size_t>(k)]) what.push_back(mesh.corner(t, end));
+      std::sort(what.begin() + 1, what.end());
+    }
+    return all;
+  }
+};
+
+TEST(Cuts, HaveEquallyMuchOnBothSides) {
+  std::mt19937_64 random(1);
+  std::vector<Cuts::Sample> samples;
+  for (int k = 0; k < 20000; ++k) {
+    const Point p = random_point(random);
+    samples.push_back({p, p[0] < 0.25 ? 3.0 : 1.0});
+  }
+  const Cuts cuts(samples, 3);
+  ASSERT_EQ(cuts.part_count(), 8u);
+  std::vector<double> weights(8, 0);
+  double total = 0;
+  for (const Cuts::Sample& s : samples) {
+    weights[cuts.part_of(s.at)] += s.weight;
+    total += s.weight;
+  }
+  for (const double weight : weights) EXPECT_NEAR(weight, total / 8, 0.002 * total);
+}
+
+TEST(Cuts, AreAcrossWhatHasPartsOnBothSides) {
+  std::mt19937_64 random(2);
+  std::vector<Cuts::Sample> samples;
+  for (int k = 0; k < 1000; ++k) samples.push_back({random_point(random), 1});
+  const Cuts cuts(samples, 2);
+  std::size_t across = 0;
+  for (int k = 0; k < 1000; ++k) {
+    std::array<Point, 4> corners;
+    for (Point& p : corners) {
+      p = random_point(random);
+      for (double& x : p) x = 0.25 * x + 0.001 * (k % 700);
+    }
+    const auto is_elsewhere = [&](const Point& p) { return cuts.part_of(p) != cuts.part_of(corners[0]); };
+    const bool expected = std::any_of(corners.begin(), corners.end(), is_elsewhere);
+    EXPECT_EQ(cuts.any_across(corners, [](const Cuts::Plane&) { return true; }), expected);
+    EXPECT_FALSE(cuts.any_across(corners, [](const Cuts::Plane&) { return false; }));
+    across += expected ? 1 : 0;
+  }
+  EXPECT_GT(across, 100u);
+  EXPECT_LT(across, 900u);
+}
+
+TEST(Cuts, GoThroughTheWaist) {
+  std::mt19937_64 random(3);
+  std::vector<Cuts::Sample> samples;  // a slab whose middle is thin
+  while (samples.size() < 4000) {
+    const Point p = random_point(random);
+    if (std::abs(p[1] - 0.5) < 0.05 + 0.5 * std::abs(p[0] - 0.5)) samples.push_back({p, 1});
+  }
+  const Cuts cuts(samples, 1);
+  EXPECT_NE(cuts.part_of({0.1, 0.5, 0.5}), cuts.part_of({0.9, 0.5, 0.5}));
+}
+
+TEST(Cuts, OfNothingOrOfOnePlaceAreNoTrouble) {
+  EXPECT_EQ(Cuts({}, 0).part_count(), 1u);
+  EXPECT_EQ(Cuts({}, 2).part_count(), 4u);
+  const Cuts one(std::vector<Cuts::Sample>(10, {{1, 2, 3}, 1}), 2);
+  EXPECT_LT(one.part_of({1, 2, 3}), 4u);
+}
+
+TEST(Parts, AreValidMeshesAndJoinToWhatTheyWere) {
+  for (const bool with_wall : {false, true}) {
+    Cube cube(3000, with_wall);
+    const auto before = cube.content();
+    const VolumeData whole = cube.data();
+    Parts parts(whole, cube.bricks(), 4, 2);
+    for (const Part& part : parts.parts()) {
+      EXPECT_EQ(find_fault(part.mesh), "");
+      EXPECT_GT(part.first_free, 0u);
+      EXPECT_EQ(part.first_free < part.mesh.vertex_count(), !with_wall);
+    }
+    parts.join(2);
+    EXPECT_EQ(find_fault(cube.mesh), "");
+    EXPECT_EQ(cube.content(), before);
+  }
+}
+
+TEST(Parts, EdgesOfInterfacesAreSegmentsAndTheirFacesFacets) {
+  Cube cube(2000, true);
+  const VolumeData whole = cube.data();
+  Parts parts(whole, cube.bricks(), 4, 1);
+  std::size_t interfaces = 0;
+  for (const Part& part : parts.parts())
+    for (Tet t = 0; t < part.mesh.slot_count(); ++t) {
+      if (!part.is_beyond_interface(t)) continue;
+      ++interfaces;
+      EXPECT_TRUE(part.mesh.is_facet(face_code(t, 3)));
+      for (const int edge : {0, 1, 3}) EXPECT_TRUE(part.mesh.is_segment(t, edge));
+      for (const Vertex v : part.mesh.face_vertices(face_code(t, 3))) {
+        EXPECT_LT(v, part.first_free);
+        EXPECT_TRUE(part.on_cut()[v] == 1 || !part.is_beyond_cut(t));
+      }
+    }
+  EXPECT_GT(interfaces, 1000u);
+}
+
+// Points are inserted in each part, and some slots and vertices come and go.
+TEST(Parts, JoinToAValidMeshAfterTheyWereChanged) {
+  Cube cube(2000, true);
+  const auto facets = [&] {
+    std::size_t count = 0;
+    for (Tet t = 0; t < cube.mesh.slot_count(); ++t)
+      for (int i = 0; i < 4; ++i) count += cube.mesh.alive(t) && cube.mesh.is_facet(face_code(t, i));
+    return count;
+  };
+  const std::size_t facets_before = facets(), vertices_before = cube.mesh.vertex_count();
+  const VolumeData whole = cube.data();
+  Parts parts(whole, cube.bricks(), 4, 1);
+  std::mt19937_64 random(3);
+  std::size_t inserted = 0;
+  for (Part& part : parts.parts()) {
+    PointCavity cavity(part.mesh);
+    for (int k = 0; k < 300; ++k) {
+      const auto base = static_cast<Tet>(random() % part.mesh.slot_count());
+      if (!part.mesh.alive(base) || part.mesh.is_ghost(base)) continue;
+      const Vertex p = part.mesh.add_vertex(centroid(part.mesh, base));
+      if (cavity.locate(p, base) != base || !cavity.find(p, base)) {
+        part.mesh.remove_last_vertex();
+        continue;
+      }
+      const RegionId region = part.region_of[base];
+      cavity.insert();
+      part.sizes.push_back(0.5);
+      part.region_of.resize(part.mesh.slot_count());
+      for (const Tet t : cavity.created()) part.region_of[t] = region;
+      ++inserted;
+    }
+    EXPECT_EQ(find_fault(part.mesh), "");
+  }
+  ASSERT_GT(inserted, 200u);
+  for (Part& part : parts.parts()) part.order_along_curve();
+  for (const Part& part : parts.parts()) EXPECT_EQ(find_fault(part.mesh), "");
+  parts.join(1);
+  EXPECT_EQ(find_fault(cube.mesh), "");
+  EXPECT_EQ(cube.mesh.vertex_count(), vertices_before + inserted);
+  EXPECT_EQ(facets(), facets_before);
+  for (Vertex v = 0; v < cube.mesh.vertex_count(); ++v)
+    EXPECT_EQ(cube.sizes[v], v < vertices_before ? 0.1 : 0.5);
+  for (Tet t = 0; t < cube.mesh.slot_count(); ++t)
+    for (int i = 0; i < 4; ++i) {
+      const Tet n = tet_of(cube.mesh.neighbour(t, i));
+      if (cube.mesh.is_ghost(t) || cube.mesh.is_ghost(n) || cube.mesh.is_facet(face_code(t, i))) continue;
+      EXPECT_EQ(cube.region_of[t], cube.region_of[n]);
+    }
+}
+
+TEST(SectionPoints, MakeTheCirclesSmallInWhichSpheresMeetTheCuts) {
+  Cube cube(0, false);
+  std::mt19937_64 random(4);
+  std::vector<Cuts::Sample> samples;
+  for (int k = 0; k < 1000; ++k) samples.push_back({random_point(random), 1});
+  const Cuts cuts(samples, 2);
+  const Options options;
+  const Sizes sizes{.size = 0.1};
+  const SizeFunction size_function(sizes, {}, {}, options, {}, 0);
+  Monitor monitor(options);
+  add_section_points(cube.data(), cuts, size_function, monitor);
+  EXPECT_EQ(find_fault(cube.mesh), "");
+  const std::size_t points = cube.mesh.vertex_count() - 8;
+  EXPECT_GT(points, 120u);  // two unit squares and a half, in triangles of this size or larger ones
+  EXPECT_LT(points, 400u);
+  const auto is_small = [&](Tet t, const Cuts::Plane& plane) {
+    const Point& p = cube.mesh.position(cube.mesh.corners(t)[0]);
+    const ScaledCentre centre = sphere_centre(cube.mesh, cube.mesh.corners(t));
+    const double radius2 = dot(centre.at, centre.at) / (centre.scale * centre.scale);
+    const double height = p[plane.axis] + centre.at[plane.axis] / centre.scale - plane.at;
+    return radius2 - height * height < 0.1 * 0.1;
+  };
+  std::size_t all = 0, large = 0;
+  for (Tet t = 0; t < cube.mesh.slot_count(); ++t) {
+    if (!cube.data().is_inside(t)) continue;
+    std::array<Point, 4> corners;
+    for (std::size_t i = 0; i < 4; ++i) corners[i] = cube.mesh.position(cube.mesh.corners(t)[i]);
+    all += cuts.any_across(corners, [](const Cuts::Plane&) { return true; }) ? 1 : 0;
+    large += cuts.any_across(corners, [&](const Cuts::Plane& plane) { return !is_small(t, plane); }) ? 1 : 0;
+  }
+  EXPECT_GT(all, 200u);
+  EXPECT_LT(large, all / 4);  // next to the sides of the cube, which have no points
+}
+
+TEST(TasksInParts, AnErrorInOneIsThrownOnAndOthersHearThatOneIsInterrupted) {
+  Options options;
+  Monitor monitor(options);
+  EXPECT_THROW(parallel_monitored(2, 4, monitor, {0, 1},
+                                  [](std::size_t k, Monitor&) {
+                                    if (k == 2) throw std::runtime_error("broken");
+                                  }),
+               std::runtime_error);
+  options.progress = [](const Progress&) { return false; };
+  const auto poll_for_long = [](std::size_t, Monitor& own) {
+    const auto start = std::chrono::steady_clock::now();
+    while (std::chrono::steady_clock::now() - start < std::chrono::seconds(20)) own.poll(Stage::optimise, 0);
+    ADD_FAILURE() << "nobody told";
+  };
+  EXPECT_THROW(parallel_monitored(3, 6, monitor, {0, 1}, poll_for_long), Interrupted);
+}
+
+TEST(ImproveInParts, IsTheSameOnAnyNumberOfThreadsAndMissesNothing) {
+  const auto improved = [](unsigned threads) {
+    Cube cube(14000, false);  // some 90,000 tetrahedra: two parts
+    const Options options;
+    Monitor monitor(options);
+    improve_in_parts(cube.data(), {}, Quality::fast, threads, monitor);
+    EXPECT_EQ(find_fault(cube.mesh), "");
+    return cube;
+  };
+  const Cube one = improved(1), two = improved(2);
+  EXPECT_EQ(one.content(), two.content());
+  EXPECT_TRUE(std::ranges::equal(one.mesh.positions(), two.mesh.positions()));
+
+  // As good near the plane that cut it as elsewhere.
+  const auto bad_share = [&](bool near) {
+    double bad = 0, all = 0;
+    for (Tet t = 0; t < one.mesh.slot_count(); ++t) {
+      if (!one.mesh.alive(t) || one.mesh.is_ghost(t)) continue;
+      const Point c = centroid(one.mesh, t);
+      bool near_middle = false;
+      for (const double x : c) near_middle = near_middle || std::abs(x - 0.5) < 0.02;
+      if (near_middle != near) continue;
+      const auto& v = one.mesh.corners(t);
+      all += 1;
+      bad += energy(one.mesh.position(v[0]), one.mesh.position(v[1]), one.mesh.position(v[2]),
+                    one.mesh.position(v[3])) > energy_of_sine(0.17);
+    }
+    return bad / all;
+  };
+  EXPECT_LT(bad_share(true), 1.5 * bad_share(false) + 0.002);
+}
+
+}  // namespace
+}  // namespace holdfast
