@@ -32,6 +32,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "scripts"))
 import corpus  # noqa: E402  (the folder of surfaces)
+from gmsh_files import read_off, write_msh  # noqa: E402
 
 SURFACES = ["iglt_3holes", "aj_fandisk", "iglt_arm", "aj_rocker-arm", "irmb_cactus25k", "tgt_armadillo",
             "irmb_fertility", "tcsg_golf-out", "igl_armadillo", "irmb_armadillo"]
@@ -43,14 +44,6 @@ Volume(1) = {{1}};
 Mesh.SaveAll = 1;
 Mesh.Optimize = 1;
 """
-
-
-def read_off(path):
-    with open(path, encoding="ascii") as file:
-        rows = [line.split("#")[0].split() for line in file]
-    rows = [row for row in rows if row and row != ["OFF"]]
-    vertices, faces = int(rows[0][0]), int(rows[0][1])
-    return rows[1:1 + vertices], [row[1:4] for row in rows[1 + vertices:1 + vertices + faces]]
 
 
 def write_ring(path, rows=8334, columns=30):
@@ -70,15 +63,6 @@ def write_ring(path, rows=8334, columns=30):
                 a, b = here + j, here + (j + 1) % columns
                 c, d = there + (j + odd) % columns, there + (j - 1 + odd) % columns
                 out.write(f"3 {a} {c} {b}\n3 {a} {d} {c}\n")
-
-
-def write_msh(path, points, triangles):
-    with open(path, "w", encoding="ascii") as out:
-        out.write(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(points)}\n")
-        out.writelines(f"{i} {' '.join(p[:3])}\n" for i, p in enumerate(points, 1))
-        out.write(f"$EndNodes\n$Elements\n{len(triangles)}\n")
-        out.writelines(f"{i} 2 2 1 1 {' '.join(str(int(v) + 1) for v in t)}\n" for i, t in enumerate(triangles, 1))
-        out.write("$EndElements\n")
 
 
 class TookTooLong(Exception):

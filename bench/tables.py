@@ -3,7 +3,7 @@
     tables.py --build build/release [--corpus DIR] [--surfaces 300] [--jobs 2] [--seed2 2]
 
 Every surface is filled by `holdfast mesh --fill` and verified by `holdfast check` and, where there is one, by the
-independent checker; then TetGen (-pYQz) fills it on the same machine. Columns, as the paper calls them: faini, arini
+independent checker; then TetGen (-pYQz) and Gmsh's HXT fill it on the same machine. Columns, as the paper calls them: faini, arini
 (facets and segments of the surface), faper, arper (those missing after the flips), npface, nparet (points that the
 partition added), npste (Steiner points left), ne, np (tetrahedra, vertices), Target (the Q that the worst facet asks
 for), Q (of the worst tetrahedron), cpu (seconds of the whole program). Writes docs/results.md.
@@ -25,8 +25,9 @@ from statistics import median
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "scripts"))
 import corpus  # noqa: E402  (finds the surfaces)
+from gmsh_files import fill_by_hxt  # noqa: E402
 
-TETGEN_LIMIT = 60
+PEER_LIMIT = 60  # seconds
 ROUNDING = 1 + 1e-9  # equal Q is told as equal
 
 # The paper's surfaces (section), made here; those in brackets are the corpus's names.
@@ -121,6 +122,7 @@ class Filler:
             shutil.copy(surface, local)
             row = {"name": name, **self.holdfast(local, folder)}
             row["tetgen"] = self.tetgen(local, folder)
+            row["hxt"] = self.hxt(local, folder)
             return row
 
     def holdfast(self, surface, folder):
@@ -140,11 +142,20 @@ class Filler:
         return row
 
     def tetgen(self, surface, folder):
-        code, seconds = timed(["tetgen", "-pYQz", surface], TETGEN_LIMIT)
+        code, seconds = timed(["tetgen", "-pYQz", surface], PEER_LIMIT)
         if code != 0 or not (folder / "s.1.ele").exists():
             return None
         points, tetrahedra, worst = tetgen_worst(folder)
         return {"added": points - vertices_of_off(surface), "tetrahedra": tetrahedra, "worst": worst, "seconds": seconds}
+
+
+    @staticmethod
+    def hxt(surface, folder):
+        filled = fill_by_hxt(surface, folder, PEER_LIMIT)
+        if filled is None:
+            return None
+        added, tetrahedra = filled
+        return {"added": added, "worst": max(quality(*t) for t in tetrahedra)}
 
 
 # --------------------------------------------------------------------------------------------------- tables
@@ -156,17 +167,18 @@ def number(x):
 
 def table(rows):
     lines = ["| surface | faini | arini | faper | arper | npface | nparet | npste | ne | np | Target | Q | cpu | verified | "
-             "TetGen: added | Q | cpu |", "|---|" + "---:|" * 12 + "---|" + "---:|" * 3]
+             "TetGen: added | Q | cpu | HXT: added | Q |", "|---|" + "---:|" * 12 + "---|" + "---:|" * 5]
     for row in rows:
         if row["code"] != 0:
-            lines.append(f"| {row['name']} | ended with exit code {row['code']} |" + " |" * 15)
+            lines.append(f"| {row['name']} | ended with exit code {row['code']} |" + " |" * 17)
             continue
-        r, t = row["report"], row["tetgen"]
+        r, t, h = row["report"], row["tetgen"], row["hxt"]
         cells = [row["name"], r["input"]["facets"], r["input"]["segments"], r["flips"]["missing_facets"],
                  r["flips"]["missing_segments"], r["partition"]["facet_points"], r["partition"]["segment_points"],
                  r["steiner"]["count"], r["mesh"]["tetrahedra"], r["mesh"]["vertices"], number(r["quality"]["target"]),
                  number(r["quality"]["worst"]), f"{row['seconds']:.2f}", "yes" if row["checked"] else "NO"]
         cells += [t["added"], number(t["worst"]), f"{t['seconds']:.2f}"] if t else ["failed", "", ""]
+        cells += [h["added"], number(h["worst"])] if h else ["failed", ""]
         lines.append("| " + " | ".join(map(str, cells)) + " |")
     return lines
 
@@ -190,6 +202,15 @@ def summary(rows):
                      f"{median(r['report']['quality']['worst'] / r['tetgen']['worst'] for r in both):.2f}.")
         lines.append(f"* Seconds of the whole program: median ratio to TetGen {median(r['seconds'] / r['tetgen']['seconds'] for r in both):.2f} "
                      "(several programs at once; `make bench` measures speed).")
+    with_hxt = [r for r in done if r["hxt"]]
+    if with_hxt:
+        more = [r for r in with_hxt if ours[r["name"]] > r["hxt"]["added"]]
+        better_q = [r for r in with_hxt if r["report"]["quality"]["worst"] <= ROUNDING * r["hxt"]["worst"]]
+        lines.append(f"* Gmsh's HXT filled {len(with_hxt)} and kept the surface. Added points on these: Holdfast "
+                     f"**{sum(ours[r['name']] for r in with_hxt)}**, more than HXT on {len(more)}; HXT "
+                     f"**{sum(r['hxt']['added'] for r in with_hxt)}**. Worst Q at most HXT's on {len(better_q)}; above 1e6 on "
+                     f"{sum(r['report']['quality']['worst'] > 1e6 for r in with_hxt)} (Holdfast) and "
+                     f"{sum(r['hxt']['worst'] > 1e6 for r in with_hxt)} (HXT).")
     if near:
         lines.append(f"* Q / Target: median {median(near):.2f}, nine of ten below {near[len(near) * 9 // 10]:.2f}.")
     return lines
@@ -226,7 +247,8 @@ def main():
     surfaces = corpus.locate(options.corpus, core_only=False)
     version = subprocess.run([options.build / "holdfast", "--version"], capture_output=True, text=True, check=True).stdout.strip()
     lines = ["# Results", "", f"Written by `make tables` on {time.strftime('%Y-%m-%d')} with {version}. The columns are those of the "
-             "paper's Tables I and II (`bench/tables.py` explains them); TetGen is Debian's, with -pYQz."]
+             "paper's Tables I and II (`bench/tables.py` explains them); TetGen is Debian's, with -pYQz, and so is Gmsh, whose HXT runs "
+             "without its optimisation, which moves no count."]
     with tempfile.TemporaryDirectory(prefix="holdfast-tables-") as name:
         folder = Path(name)
         filler = Filler(options, corpus.build_checker(folder))
