@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 
+#include "mesh/measure.h"
 #include "refine/field_inserter.h"
 #include "refine/vector.h"
 
@@ -100,16 +101,12 @@ class Front {
 
   // Sizes grow with the distance: r = kLarge (h + gradation r).
   [[nodiscard]] double largest_radius(Tet t) const {
-    const auto& c = mesh_.corners(t);
+    const TetMesh::Corners& c = mesh_.corners(t);
     const std::array<double, 4> h{size_[c[0]], size_[c[1]], size_[c[2]], size_[c[3]]};
     double allowed = *std::min_element(h.begin(), h.end()) / (1 - kLarge * sizes_.gradation());
     if (!sizes_.grows()) allowed = std::min(allowed, kLevel * 0.25 * (h[0] + h[1] + h[2] + h[3]));
-    if (sizes_.has_limit()) {
-      Point middle{};
-      for (const Vertex v : c)
-        for (std::size_t k = 0; k < 3; ++k) middle[k] += 0.25 * mesh_.position(v)[k];
-      allowed = std::min(allowed, sizes_.limit(middle, volume_.region_of[t]));
-    }
+    if (sizes_.has_limit())
+      allowed = std::min(allowed, sizes_.limit(centroid(mesh_, t), volume_.region_of[t]));
     return kLarge * allowed;
   }
 
