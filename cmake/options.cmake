@@ -6,6 +6,10 @@ function(holdfast_compile_options target)
   # g++ 12 sees overlaps in string concatenation where there are none (GCC bug 105651).
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-restrict)
+    # With sanitizers it takes std::optional for uninitialised (GCC bug 80635).
+    if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+      target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
+    endif()
   endif()
   target_compile_definitions(${target} PRIVATE $<$<BOOL:${HOLDFAST_VALIDATE}>:HOLDFAST_VALIDATE=1>)
 endfunction()
