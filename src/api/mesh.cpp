@@ -263,7 +263,7 @@ class Pipeline {
     report.before =
         parts_ ? shape_of(*parts_, threads()) : shape_of(mesh_, regions_.of_tet, kept_.region, threads());
     std::optional<FilledParts> filled;
-    if (parts_) filled.emplace(std::move(parts_), *size_function_);
+    if (parts_) filled.emplace(FilledParts{std::move(parts_), *size_function_});
     const ImproveStats stats =
         improve_in_parts(volume(), std::move(filled), options_.quality, threads(), monitor_);
     report.edge_lengths = edge_lengths_of(mesh_, regions_.of_tet, kept_.region, sizes_, threads());
