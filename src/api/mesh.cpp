@@ -260,13 +260,12 @@ class Pipeline {
 
   void improve_volume() {
     Report::Field& report = result_.report.field;
-    report.before =
-        parts_ ? shape_of(*parts_, threads()) : shape_of(mesh_, regions_.of_tet, kept_.region, threads());
+    report.before = parts_ ? shape_of(*parts_, threads()) : shape_of(volume(), threads());
     std::optional<FilledParts> filled;
     if (parts_) filled.emplace(FilledParts{std::move(parts_), *size_function_});
     const ImproveStats stats =
         improve_in_parts(volume(), std::move(filled), options_.quality, threads(), monitor_);
-    report.edge_lengths = edge_lengths_of(mesh_, regions_.of_tet, kept_.region, sizes_, threads());
+    report.edge_lengths = edge_lengths_of(volume(), threads());
     report.moves = stats.moved;
     report.swaps = stats.swapped;
     report.contractions = stats.contracted;

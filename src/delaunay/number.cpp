@@ -83,9 +83,10 @@ class Numbering {
   /// Calls put(place, cell) for every cell without the ghost.
   template <class Put>
   void for_each(const Put& put) {
-    std::vector<std::size_t> starts(threads_ + 1, size());
-    for (std::size_t part = 0; part < threads_; ++part) starts[part] = start_of_run(size() * part / threads_);
-    parallel(threads_, threads_, [&](std::size_t part) {
+    const std::size_t parts = parts_of(size());
+    std::vector<std::size_t> starts(parts + 1, size());
+    for (std::size_t part = 0; part < parts; ++part) starts[part] = start_of_run(size() * part / parts);
+    parallel(threads_, parts, [&](std::size_t part) {
       for (std::size_t place = starts[part]; place < starts[part + 1];) {
         const std::size_t end = end_of_run(place);
         sort_cells(&cells_[place], &cells_[end]);
@@ -95,6 +96,12 @@ class Numbering {
   }
 
  private:
+  // Into which so many cells are cut, one a thread.
+  [[nodiscard]] std::size_t parts_of(std::size_t cells) const {
+    constexpr std::size_t kLeastPart = 8192;  // cells that are worth a thread
+    return std::clamp<std::size_t>(cells / kLeastPart, 1, threads_);
+  }
+
   // Where the cells of each vertex come to stand, and how many they are in all.
   std::size_t make_room() {
     const Triangulation::Site* const sites = triangulation_.sites();
@@ -114,8 +121,8 @@ class Numbering {
   // ends; a counter that more could share would have to be atomic, which stops the processor from waiting for
   // several cells at once, and takes two threads as long as one.
   void distribute() {
-    const std::size_t parts = std::min(threads_, 2u);
     const std::size_t count = triangulation_.cells().size();
+    const std::size_t parts = std::min<std::size_t>(parts_of(count), 2);
     std::array<std::vector<C>, 2> ghosts;
     parallel(threads_, parts, [&](std::size_t part) {
       const std::size_t first = count * part / parts, last = count * (part + 1) / parts;

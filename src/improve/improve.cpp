@@ -39,12 +39,10 @@ constexpr Effort effort_of(Quality quality) {
 
 class Improver {
  public:
-  Improver(TetMesh& mesh, std::vector<RegionId>& region_of, const std::vector<bool>& kept, Vertex first_free,
-           std::vector<double>& sizes, Quality quality, std::span<const std::uint8_t> spared,
-           Monitor& monitor)
-      : mesh_(mesh),
-        volume_(mesh, region_of, kept, first_free),
-        sizes_(sizes),
+  Improver(const VolumeData& volume, Quality quality, std::span<const std::uint8_t> spared, Monitor& monitor)
+      : mesh_(volume.mesh),
+        volume_(volume),
+        sizes_(volume.sizes),
         effort_(effort_of(quality)),
         spared_(spared),
         monitor_(monitor),
@@ -256,10 +254,9 @@ class Improver {
 
 }  // namespace
 
-ImproveStats improve(TetMesh& mesh, std::vector<RegionId>& region_of, const std::vector<bool>& kept,
-                     Vertex first_free, std::vector<double>& sizes, Quality quality, Monitor& monitor,
+ImproveStats improve(const VolumeData& volume, Quality quality, Monitor& monitor,
                      std::span<const std::uint8_t> spared) {
-  return Improver(mesh, region_of, kept, first_free, sizes, quality, spared, monitor).run();
+  return Improver(volume, quality, spared, monitor).run();
 }
 
 }  // namespace holdfast

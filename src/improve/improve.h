@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <span>
-#include <vector>
 
-#include "classify/regions.h"
 #include "holdfast/holdfast.h"
 #include "mesh/monitor.h"
-#include "mesh/tet_mesh.h"
+#include "refine/volume_data.h"
 
 namespace holdfast {
 
@@ -30,11 +28,9 @@ struct ImproveStats {
 };
 
 /// Improves the tetrahedra of the kept regions; all their vertices are explicit. Facets, segments and the
-/// vertices below `first_free` stand; those from there on lie on no constraint. `region_of` (by slot) is kept
-/// up to date, and so is `sizes`, the wanted size at each vertex. Tetrahedra at vertices that `spared` marks,
-/// by vertex, are left alone unless they are in the way of others.
-ImproveStats improve(TetMesh& mesh, std::vector<RegionId>& region_of, const std::vector<bool>& kept,
-                     Vertex first_free, std::vector<double>& sizes, Quality quality, Monitor& monitor,
+/// vertices below the first free one stand. Regions and sizes are kept up to date. Tetrahedra at vertices
+/// that `spared` marks, by vertex, are left alone unless they are in the way of others.
+ImproveStats improve(const VolumeData& volume, Quality quality, Monitor& monitor,
                      std::span<const std::uint8_t> spared = {});
 
 }  // namespace holdfast

@@ -11,8 +11,7 @@ ImproveStats improve_each(Parts& parts, Quality quality, std::array<double, 2> w
   std::vector<ImproveStats> stats(parts.parts().size());
   parallel_monitored(threads, stats.size(), monitor, work, [&](std::size_t k, Monitor& own) {
     Part& part = parts.parts()[k];
-    stats[k] = improve(part.mesh, part.region_of, parts.whole().kept, part.first_free, part.sizes, quality,
-                       own, part.on_cut());
+    stats[k] = improve(part.data(parts.whole().kept), quality, own, part.on_cut());
   });
   ImproveStats sum;
   for (const ImproveStats& own : stats) sum += own;
@@ -29,9 +28,7 @@ ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledPart
     parts = std::move(filled->parts);
   else
     parts = cut_evenly(volume, threads);
-  if (!parts)
-    return improve(volume.mesh, volume.region_of, volume.kept, volume.first_free, volume.sizes, quality,
-                   monitor);
+  if (!parts) return improve(volume, quality, monitor);
   ImproveStats stats;
   for (std::array<double, 2> work{0, kMost}; parts; work = {kMost, 1}) {
     stats += improve_each(*parts, quality, work, threads, monitor);

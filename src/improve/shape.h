@@ -1,12 +1,10 @@
 // Shape of the elements inside, for reports, and which of them are flat.
 #pragma once
 
-#include <vector>
+#include <array>
 
-#include "classify/regions.h"
 #include "holdfast/holdfast.h"
 #include "improve/energy.h"
-#include "mesh/tet_mesh.h"
 #include "refine/parts.h"
 
 namespace holdfast {
@@ -15,18 +13,13 @@ inline constexpr double kEnergyOfFlat = energy_of_sine(0.035);  // 2 degrees
 /// Whether a tetrahedron is nearly flat: needles have a large Q, too, but no such angle.
 [[nodiscard]] bool is_flat(const Point& a, const Point& b, const Point& c, const Point& d);
 
-/// Of the tetrahedra of the kept regions; `region_of` by slot.
-[[nodiscard]] Report::Shape shape_of(const TetMesh& mesh, const std::vector<RegionId>& region_of,
-                                     const std::vector<bool>& kept, unsigned threads = 1);
+/// Of the tetrahedra of the kept regions.
+[[nodiscard]] Report::Shape shape_of(const VolumeData& volume, unsigned threads = 1);
 
 /// The same for a mesh in parts.
-[[nodiscard]] Report::Shape shape_of(const Parts& parts, unsigned threads = 1);
+[[nodiscard]] Report::Shape shape_of(Parts& parts, unsigned threads = 1);
 
-/// Lengths of their edges over the mean of the sizes at the ends (by vertex), as Report::Field has them.
-[[nodiscard]] std::array<std::size_t, 24> edge_lengths_of(const TetMesh& mesh,
-                                                          const std::vector<RegionId>& region_of,
-                                                          const std::vector<bool>& kept,
-                                                          const std::vector<double>& sizes,
-                                                          unsigned threads = 1);
+/// Lengths of their edges over the mean of the sizes at the ends, as Report::Field has them.
+[[nodiscard]] std::array<std::size_t, 24> edge_lengths_of(const VolumeData& volume, unsigned threads = 1);
 
 }  // namespace holdfast

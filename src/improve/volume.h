@@ -4,34 +4,29 @@
 #include <span>
 #include <vector>
 
-#include "classify/regions.h"
 #include "improve/energy.h"
 #include "mesh/replace.h"
-#include "mesh/tet_mesh.h"
+#include "refine/volume_data.h"
 
 namespace holdfast {
 
 class ImprovedVolume {
  public:
-  /// Vertices from `first_free` on, which lie on no constraint, may move and go. All vertices of kept
-  /// tetrahedra are explicit.
-  ImprovedVolume(TetMesh& mesh, std::vector<RegionId>& region_of, const std::vector<bool>& kept,
-                 Vertex first_free)
-      : mesh_(mesh), region_of_(region_of), kept_(kept), first_free_(first_free) {
-    energy_.assign(mesh.slot_count(), 0);
-    changed_.assign(mesh.slot_count(), 1);
-    touched_.assign(mesh.vertex_count(), 1);
-    for (Tet t = 0; t < mesh.slot_count(); ++t)
-      if (is_inside(t)) energy_[t] = energy_of(mesh.corners(t));
+  /// Free vertices may move and go. All vertices of kept tetrahedra are explicit.
+  explicit ImprovedVolume(const VolumeData& data)
+      : data_(data), mesh_(data.mesh), region_of_(data.region_of) {
+    energy_.assign(mesh_.slot_count(), 0);
+    changed_.assign(mesh_.slot_count(), 1);
+    touched_.assign(mesh_.vertex_count(), 1);
+    for (Tet t = 0; t < mesh_.slot_count(); ++t)
+      if (is_inside(t)) energy_[t] = energy_of(mesh_.corners(t));
   }
 
   [[nodiscard]] TetMesh& mesh() { return mesh_; }
   [[nodiscard]] const TetMesh& mesh() const { return mesh_; }
-  [[nodiscard]] Vertex first_free() const { return first_free_; }
-  [[nodiscard]] bool is_inside(Tet t) const {
-    return mesh_.alive(t) && !mesh_.is_ghost(t) && kept_[region_of_[t]];
-  }
-  [[nodiscard]] bool may_move(Vertex v) const { return v >= first_free_; }
+  [[nodiscard]] Vertex first_free() const { return data_.first_free; }
+  [[nodiscard]] bool is_inside(Tet t) const { return data_.is_inside(t); }
+  [[nodiscard]] bool may_move(Vertex v) const { return v >= data_.first_free; }
 
   /// Of a living tetrahedron inside.
   [[nodiscard]] double energy(Tet t) const { return energy_[t]; }
@@ -95,10 +90,9 @@ class ImprovedVolume {
   [[nodiscard]] RegionId region_of(Tet t) const { return region_of_[t]; }
 
  private:
+  const VolumeData data_;
   TetMesh& mesh_;
   std::vector<RegionId>& region_of_;
-  const std::vector<bool>& kept_;
-  const Vertex first_free_;
   std::vector<double> energy_;  // by slot
   std::vector<std::uint8_t> changed_, touched_;
   std::vector<Tet> created_;

@@ -82,9 +82,9 @@ std::unique_ptr<Parts> add_field_points(const VolumeData& volume, const SizeFunc
                                         Monitor& monitor) {
   set_sizes_at_vertices(volume, sizes);
   if (auto parts = filled_parts(volume, sizes, threads, monitor)) return parts;
-  order_along_curve(volume.mesh, volume.first_free, volume.region_of, volume.sizes);
+  order_along_curve(volume);
   advance_front(volume, sizes, Stage::field_points, monitor);
-  order_along_curve(volume.mesh, volume.first_free, volume.region_of, volume.sizes);
+  order_along_curve(volume);
   return {};
 }
 

@@ -113,9 +113,9 @@ void renumber(TetMesh& mesh, const CurveOrder& order, Vertex first, std::vector<
   mesh.renumber(tets, first, vertices);
 }
 
-void order_along_curve(TetMesh& mesh, Vertex first, std::vector<RegionId>& region_of,
-                       std::vector<double>& sizes) {
-  renumber(mesh, order_of(mesh, first), first, region_of, sizes);
+void order_along_curve(const VolumeData& volume) {
+  renumber(volume.mesh, order_of(volume.mesh, volume.first_free), volume.first_free, volume.region_of,
+           volume.sizes);
 }
 
 }  // namespace holdfast

@@ -5,8 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "classify/regions.h"
-#include "mesh/tet_mesh.h"
+#include "refine/volume_data.h"
 
 namespace holdfast {
 
@@ -33,8 +32,7 @@ struct CurveOrder {
 /// unless empty, follow.
 void renumber(TetMesh& mesh, const CurveOrder& order, Vertex first, std::vector<RegionId>& region_of,
               std::vector<double>& sizes);
-/// The same, along the curve.
-void order_along_curve(TetMesh& mesh, Vertex first, std::vector<RegionId>& region_of,
-                       std::vector<double>& sizes);
+/// Along the curve: tetrahedra, and the vertices that lie on no constraint.
+void order_along_curve(const VolumeData& volume);
 
 }  // namespace holdfast

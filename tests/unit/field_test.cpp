@@ -323,16 +323,17 @@ TEST(Improve, LeavesAValidMeshWithBetterElements) {
   std::vector<RegionId> region_of(mesh.slot_count(), 0);
   const std::vector<bool> kept{true};
   std::vector<double> sizes(mesh.vertex_count(), 0.1);
-  order_along_curve(mesh, 8, region_of, sizes);
+  const VolumeData volume{mesh, region_of, sizes, kept, 8};
+  order_along_curve(volume);
   ASSERT_EQ(find_fault(mesh), "");
   const auto below_10 = [&] {
-    const Report::Shape shape = shape_of(mesh, region_of, kept);
+    const Report::Shape shape = shape_of(volume);
     return shape.least_dihedral[0] + shape.least_dihedral[1];
   };
   const std::size_t before = below_10();
   const Options options;
   Monitor monitor(options);
-  const ImproveStats stats = improve(mesh, region_of, kept, 8, sizes, Quality::good, monitor);
+  const ImproveStats stats = improve(volume, Quality::good, monitor);
   EXPECT_EQ(find_fault(mesh), "");
   EXPECT_GT(stats.moved, 0u);
   EXPECT_GT(stats.swapped, 0u);
@@ -343,7 +344,8 @@ TEST(CavityRefiller, LessensTheEnergyAndLeavesAValidMesh) {
   TetMesh mesh = random_mesh(200, 6);
   std::vector<RegionId> region_of(mesh.slot_count(), 0);
   const std::vector<bool> kept{true};
-  ImprovedVolume volume(mesh, region_of, kept, 8);
+  std::vector<double> sizes(mesh.vertex_count(), 1);
+  ImprovedVolume volume({mesh, region_of, sizes, kept, 8});
   const auto total = [&] {
     double sum = 0;
     for (Tet t = 0; t < mesh.slot_count(); ++t)
