@@ -1,4 +1,4 @@
-"""Gmsh on a surface that it keeps: files that go in and come out."""
+"""Gmsh on a surface that it keeps: files that go in and come out; and what it means to keep one."""
 import subprocess
 
 # Sizes from nowhere, so that it adds as few points as it can.
@@ -46,6 +46,11 @@ def read_msh(path):
             [row[-3:] for row in elements if row[1] == TRIANGLE], [row[-4:] for row in elements if row[1] == TETRAHEDRON])
 
 
+def told(corners):
+    """A face by its corners' positions: programs write a digit or two fewer than a double needs."""
+    return tuple(sorted(tuple(float(f"{x:.12g}") for x in p) for p in corners))
+
+
 def fill_by_hxt(surface, folder, limit):
     """(number of points added, tetrahedra by their corners' positions), or None where HXT fails, takes longer than `limit`
     seconds or changes the surface."""
@@ -60,10 +65,6 @@ def fill_by_hxt(surface, folder, limit):
     if done.returncode != 0 or b"Error" in done.stdout or not (folder / "hxt.msh").exists():
         return None
     position, kept, tetrahedra = read_msh(folder / "hxt.msh")
-
-    def told(corners):
-        """Gmsh writes a digit fewer than a double needs."""
-        return sorted(tuple(float(f"{x:.12g}") for x in p) for p in corners)
 
     given = [tuple(map(float, p[:3])) for p in points]
     if not tetrahedra or sorted(told(position[v] for v in t) for t in kept) != sorted(

@@ -10,6 +10,7 @@ for), Q (of the worst tetrahedron), cpu (seconds of the whole program). Writes d
 """
 import argparse
 import concurrent.futures
+import itertools
 import json
 import math
 import os
@@ -25,7 +26,7 @@ from statistics import median
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "scripts"))
 import corpus  # noqa: E402  (finds the surfaces)
-from gmsh_files import fill_by_hxt  # noqa: E402
+from gmsh_files import fill_by_hxt, read_off, told  # noqa: E402
 
 PEER_LIMIT = 60  # seconds
 ROUNDING = 1 + 1e-9  # equal Q is told as equal
@@ -86,9 +87,15 @@ def read_numbers(path):
 
 
 def tetgen_worst(folder):
-    """(vertices, tetrahedra, worst Q) of TetGen's files."""
+    """(vertices, tetrahedra, worst Q) of TetGen's files, or None where a triangle of the surface is no face of them: it
+    merges vertices that are near each other."""
     points = [tuple(map(float, row[1:4])) for row in read_numbers(folder / "s.1.node")]
     tetrahedra = [tuple(map(int, row[1:5])) for row in read_numbers(folder / "s.1.ele")]
+    given, triangles = read_off(folder / "s.off")
+    given = [tuple(map(float, p[:3])) for p in given]
+    faces = {told(points[v] for v in face) for t in tetrahedra for face in itertools.combinations(t, 3)}
+    if any(told(given[int(v)] for v in t) not in faces for t in triangles):
+        return None
     return len(points), len(tetrahedra), max((quality(*(points[v] for v in t)) for t in tetrahedra), default=0.0)
 
 
@@ -145,9 +152,11 @@ class Filler:
         code, seconds = timed(["tetgen", "-pYQz", surface], PEER_LIMIT)
         if code != 0 or not (folder / "s.1.ele").exists():
             return None
-        points, tetrahedra, worst = tetgen_worst(folder)
+        volume = tetgen_worst(folder)
+        if volume is None:
+            return None
+        points, tetrahedra, worst = volume
         return {"added": points - vertices_of_off(surface), "tetrahedra": tetrahedra, "worst": worst, "seconds": seconds}
-
 
     @staticmethod
     def hxt(surface, folder):
@@ -192,7 +201,8 @@ def summary(rows):
     near = sorted(r["report"]["quality"]["worst"] / r["report"]["quality"]["target"] for r in done)
     other = sum(r["other_seed"] for r in done if r["other_seed"] is not None)
     lines = [f"* {len(done)} of {len(rows)} filled, {sum(r['checked'] for r in done)} of them accepted by every checker; TetGen "
-             f"filled {len(both)} (its meshes were not checked; {len(rows) - len(both)} ended otherwise).",
+             f"filled {len(both)} and kept the surface (its meshes were not checked further; {len(rows) - len(both)} ended "
+             "otherwise).",
              f"* Added points where both filled: Holdfast **{sum(ours[r['name']] for r in both)}**, TetGen "
              f"**{sum(r['tetgen']['added'] for r in both)}** (negative counts, which are vertices that it dropped, included). "
              f"Holdfast has more on {len(more)} surfaces, by {sum(ours[r['name']] - r['tetgen']['added'] for r in more)} in all.",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <span>
 #include <utility>
@@ -17,22 +18,30 @@ namespace holdfast {
 /// Part of the worst Q that is left by a change worth its time, at most.
 inline constexpr double kLeastGain = 0.98;
 
-/// Where Q begins to count otherwise: of flat tetrahedra, those of a Q that no facet asks for, and of
-/// hopeless ones, which are worth a point.
+/// Where Q begins to count otherwise: of flat tetrahedra, those of a Q that no facet asks for, of hopeless
+/// ones, which are worth a point, and of null ones, whose vertices are of one plane but for rounding.
 struct BadFrom {
-  double flat, hopeless = std::numeric_limits<double>::infinity();
+  double flat, hopeless = std::numeric_limits<double>::infinity(),
+               null = std::numeric_limits<double>::infinity();
+
+  /// What comes for a tetrahedron of this Q has to be below. A thin room may hold nothing but flat ones, yet
+  /// these are of use, and null ones of none.
+  [[nodiscard]] double limit_for(double quality) const {
+    return quality < null ? std::min(flat, kLeastGain * quality) : null;
+  }
 };
 
-/// The number of hopeless tetrahedra, that of flat ones, then the worst Q of all.
+/// The numbers of null, of hopeless and of flat tetrahedra, then the worst Q of all.
 ///
 /// These come in heaps, where points of one plane or sphere differ from it by rounding. Their Q is chance: a
 /// heap goes one by one, only where a worse one may stay a while. But for fewer flat ones none may become
 /// hopeless: a point that parts a cap into three flat ones would not last.
 struct Badness {
-  std::size_t hopeless = 0, flat = 0;
+  std::size_t null = 0, hopeless = 0, flat = 0;
   double worst = 0;
 
   void add(double quality, const BadFrom& from) {
+    if (!(quality < from.null)) ++null;
     if (!(quality < from.hopeless)) ++hopeless;
     if (!(quality < from.flat)) ++flat;
     worst = std::max(worst, quality);
@@ -45,12 +54,12 @@ struct Badness {
     return x.counts() != y.counts() ? x.counts() < y.counts() : x.worst < y.worst;
   }
 
-  [[nodiscard]] std::pair<std::size_t, std::size_t> counts() const { return {hopeless, flat}; }
+  [[nodiscard]] std::array<std::size_t, 3> counts() const { return {null, hopeless, flat}; }
 };
 
 /// Of two sets together.
 [[nodiscard]] inline Badness join(const Badness& x, const Badness& y) {
-  return {x.hopeless + y.hopeless, x.flat + y.flat, std::max(x.worst, y.worst)};
+  return {x.null + y.null, x.hopeless + y.hopeless, x.flat + y.flat, std::max(x.worst, y.worst)};
 }
 
 /// The edges of a flat tetrahedron where it is open widest, one of which has to go, as far as no constraint

@@ -91,8 +91,8 @@ void Exchanger::offer(const Badness& before, const Badness& after, std::span<con
   const auto fewer = [](std::size_t x, std::size_t y) {
     return static_cast<std::ptrdiff_t>(y) - static_cast<std::ptrdiff_t>(x);
   };
-  const Gain gain{fewer(before.hopeless, after.hopeless), fewer(before.flat, after.flat),
-                  std::isinf(before.worst) ? 0 : after.worst / before.worst};
+  const Gain gain{fewer(before.null, after.null), fewer(before.hopeless, after.hopeless),
+                  fewer(before.flat, after.flat), std::isinf(before.worst) ? 0 : after.worst / before.worst};
   if (!old_.empty() && gain >= gain_) return;
   gain_ = gain;
   fresh_.swap(candidate_);

@@ -33,8 +33,9 @@ class Exchanger {
   LinkTriangulation<Badness> triangulation_;
   std::vector<LinkTriangle> triangles_;
   std::vector<TetMesh::Corners> candidate_;
-  // The best so far, by what it changes: numbers of hopeless and of flat ones, then the ratio of the worst Q.
-  using Gain = std::tuple<std::ptrdiff_t, std::ptrdiff_t, double>;
+  // The best so far, by what it changes: numbers of null, hopeless and flat ones, then the ratio of the worst
+  // Q.
+  using Gain = std::tuple<std::ptrdiff_t, std::ptrdiff_t, std::ptrdiff_t, double>;
   Gain gain_;
   std::vector<TetMesh::Corners> fresh_;
   std::vector<Tet> old_;

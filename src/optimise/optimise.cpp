@@ -4,6 +4,7 @@
 #include <limits>
 #include <queue>
 #include <random>
+#include <tuple>
 #include <utility>
 
 #include "mesh/traverse.h"
@@ -25,10 +26,9 @@ class Optimiser {
       : mesh_(mesh),
         first_free_(first_free),
         good_(std::max(kGood, target)),
-        flat_from_(std::max(kFlat, kFlatForTarget * target)),
-        worth_a_point_(std::max(kWorthAPoint, kWorthAPointForTarget * target)),
+        bad_from_(bad_from(target)),
         monitor_(monitor),
-        exchanger_(mesh, {flat_from_, worth_a_point_}),
+        exchanger_(mesh, bad_from_),
         flat_remover_(mesh) {}
 
   OptimiseStats run(const std::vector<Tet>& tets, PointsToRemove remove) {
@@ -53,6 +53,11 @@ class Optimiser {
       return x.quality != y.quality ? x.quality < y.quality : x.corners > y.corners;
     }
   };
+
+  static BadFrom bad_from(double target) {
+    const double hopeless = std::max(kHopeless, kHopelessForTarget * target);
+    return {std::max(kFlat, kFlatForTarget * target), hopeless, std::max(kNull, hopeless)};
+  }
 
   // Tetrahedra give way to others of the same region, so that a slot that was not another region's never is.
   void note_others(const std::vector<Tet>& tets) {
@@ -91,7 +96,8 @@ class Optimiser {
       std::erase_if(stuck_, [&](const Entry& e) { return !is_current(e); });
       if (stuck_.empty()) return;
       const Entry worst = *std::max_element(stuck_.begin(), stuck_.end());
-      if (worst.quality < kBad || vain >= (worst.quality < flat_from_ ? kPatience : kPatienceForFlat)) return;
+      if (worst.quality < kBad || vain >= (worst.quality < bad_from_.flat ? kPatience : kPatienceForFlat))
+        return;
       const TetMesh mesh_before = mesh_;
       const std::vector<Vertex> points_before = points_;
       const std::vector<Entry> stuck_before = stuck_;
@@ -141,30 +147,34 @@ class Optimiser {
 
   // No more hopeless elements than before, and the worst of all better; other flat ones are of less account.
   [[nodiscard]] bool is_better_than(const TetMesh& before) const {
-    const BadFrom from{flat_from_, worth_a_point_};
     Badness was, is;
     for (const Tet t : changed_since(before)) {
-      if (t < before.slot_count() && before.alive(t)) was.add(quality_of(before, before.corners(t)), from);
-      if (mesh_.alive(t)) is.add(quality_of(mesh_, mesh_.corners(t)), from);
+      if (t < before.slot_count() && before.alive(t))
+        was.add(quality_of(before, before.corners(t)), bad_from_);
+      if (mesh_.alive(t)) is.add(quality_of(mesh_, mesh_.corners(t)), bad_from_);
     }
-    return std::pair(is.hopeless, is.worst) < std::pair(was.hopeless, kLeastGain * was.worst);
+    return std::tuple(is.null, is.hopeless, is.worst) <
+           std::tuple(was.null, was.hopeless, kLeastGain * was.worst);
   }
 
-  // What is worth a point, which comes first, may take all. What is no bad element matters only as the worst
-  // of all, until that stays.
+  // What is worth a point, which comes first, may take most of the budget, and several times as much where it
+  // would better the worst of all, or where something has helped of late: heaps go one by one. What is no bad
+  // element matters only as the worst of all, until that stays.
   [[nodiscard]] bool is_spent(const Entry& e) const {
     if (e.quality < kBad && failures_ >= kMostFailures) return true;
-    return work_ >= (e.quality >= worth_a_point_ ? budget_ : budget_ / kUsualShare);
+    const std::size_t budget = e.quality >= bad_from_.hopeless ? budget_ : budget_ / kUsualShare;
+    const bool is_promising = e.quality >= worst_stuck_ || work_ < work_at_gain_ + kIdle;
+    return work_ >= (is_promising ? kTimes * budget : budget);
   }
 
-  [[nodiscard]] bool has_flat() const { return !queue_.empty() && queue_.top().quality >= flat_from_; }
+  [[nodiscard]] bool has_flat() const { return !queue_.empty() && queue_.top().quality >= bad_from_.flat; }
 
   // Flat tetrahedra that stayed: changes next to them may have made a way, and the search tries another.
   void try_again() {
     ++round_;
     worst_stuck_ = 0;
     std::erase_if(stuck_, [this](const Entry& e) {
-      if (e.quality < flat_from_) return false;
+      if (e.quality < bad_from_.flat) return false;
       if (is_current(e)) queue_.push(e);
       return true;
     });
@@ -184,33 +194,34 @@ class Optimiser {
            quality_of(mesh_, e.corners) == e.quality;
   }
 
-  // The cheapest way that helps.
   void improve(const Entry& e) {
     monitor_.poll(Stage::optimise, static_cast<double>(work_) / static_cast<double>(budget_));
     created_.clear();
-    if (exchange(e.tet))
-      ++stats_.exchanged;
-    else if (relocate_a_corner(e.tet))
-      ++stats_.relocated;
-    else if (remove_flat(e))
-      ++stats_.unflattened;
-    else if ((is_worth_reconnecting(e) && reconnect_round(e.tet)) ||
-             (e.quality >= worth_a_point_ && reconnect_patiently(e.tet)))
-      ++stats_.reconnected;
-    else if (is_worth_a_point(e) && insert_at(e.tet))
-      ++stats_.inserted;
+    if (try_ways(e))
+      work_at_gain_ = work_;
     else
       give_up(e);
+    // What did not help may have changed something, too.
     stats_.changed += created_.size();
     for (const Tet t : created_)
       if (mesh_.alive(t)) push(t);
   }
 
+  // The cheapest way that helps.
+  bool try_ways(const Entry& e) {
+    if (exchange(e.tet)) return ++stats_.exchanged;
+    if (relocate_a_corner(e.tet)) return ++stats_.relocated;
+    if (remove_flat(e)) return ++stats_.unflattened;
+    if ((is_worth_reconnecting(e) && reconnect_round(e.tet)) ||
+        (e.quality >= bad_from_.hopeless && reconnect_patiently(e.tet)))
+      return ++stats_.reconnected;
+    return is_worth_a_point(e) && insert_at(e) && ++stats_.inserted;
+  }
+
   // As long as a worse one stays, a point would not better the mesh's worst; but null elements are of no use
   // to anyone.
   [[nodiscard]] bool is_worth_a_point(const Entry& e) const {
-    constexpr double kNull = 1e10;
-    return e.quality >= std::max(worth_a_point_, std::min(worst_stuck_, kNull));
+    return e.quality >= std::max(bad_from_.hopeless, std::min(worst_stuck_, bad_from_.null));
   }
 
   void give_up(const Entry& e) {
@@ -258,8 +269,8 @@ class Optimiser {
 
   // What is not flat matters here only as the worst of all.
   bool remove_flat(const Entry& e) {
-    if (e.quality < std::min(flat_from_, worst_stuck_)) return false;
-    const bool removed = flat_remover_.remove(e.tet, std::min(flat_from_, kLeastGain * e.quality), created_);
+    if (e.quality < std::min(bad_from_.flat, worst_stuck_)) return false;
+    const bool removed = flat_remover_.remove(e.tet, bad_from_.limit_for(e.quality), created_);
     work_ += flat_remover_.work();
     return removed;
   }
@@ -275,7 +286,7 @@ class Optimiser {
   bool reconnect_round(Tet t) {
     constexpr std::size_t kWork = 50;
     work_ += kWork;
-    const bool reconnected = reconnect(mesh_, t, first_free_, flat_from_, false, random_, created_);
+    const bool reconnected = reconnect(mesh_, t, first_free_, bad_from_, false, random_, created_);
     reconnections_in_vain_ = reconnected ? 0 : reconnections_in_vain_ + 1;
     return reconnected;
   }
@@ -283,15 +294,17 @@ class Optimiser {
   // A point is worth some milliseconds, a few times.
   bool reconnect_patiently(Tet t) {
     constexpr std::size_t kWork = 200;
-    if (work_ + kWork > kLeastWork / 4) return false;
+    constexpr int kMostPatient = 4;
+    if (++patient_ > kMostPatient) return false;
     work_ += kWork;
-    return reconnect(mesh_, t, first_free_, flat_from_, true, random_, created_);
+    return reconnect(mesh_, t, first_free_, bad_from_, true, random_, created_);
   }
 
-  bool insert_at(Tet t) {
+  bool insert_at(const Entry& e) {
     constexpr std::size_t kWork = 20;
     work_ += kWork;
-    const Vertex p = insert_point(mesh_, t, first_free_, worth_a_point_, created_);
+    const double most = e.quality < bad_from_.null ? bad_from_.hopeless : bad_from_.null;
+    const Vertex p = insert_point(mesh_, e.tet, first_free_, most, created_);
     if (p == kNone) return false;
     points_.push_back(p);
     relocate_with_ball(p);
@@ -310,25 +323,29 @@ class Optimiser {
       work_ += kWork;
       created_.clear();
       ball(mesh_, p, created_);
-      growth.search.worst_quality = std::max(flat_from_, badness_of(mesh_, created_, {flat_from_}).worst);
+      growth.search.worst_quality = std::max(bad_from_.flat, badness_of(mesh_, created_, bad_from_).worst);
       if (!refill_without(mesh_, p, first_free_, growth, random_)) continue;
       ++stats_.removed;
       ++stats_.changed;
     }
   }
 
-  // The paper's Q: of what is left alone, of bad elements, of what counts as flat, of what is worth a search
-  // or a point.
-  static constexpr double kGood = 2, kBad = 30, kFlat = 100, kFlatForTarget = 2;
-  static constexpr double kWorthReconnecting = 200, kWorthAPoint = 1000, kWorthAPointForTarget = 30;
+  // The paper's Q: of what is left alone, of bad elements, of what is worth a search, of what counts as flat,
+  // as hopeless and as null.
+  static constexpr double kGood = 2, kBad = 30, kWorthReconnecting = 200;
+  static constexpr double kFlat = 100, kFlatForTarget = 2, kHopeless = 1000, kHopelessForTarget = 30,
+                          kNull = 1e10;
   static constexpr int kRounds = 3, kMostFailures = 12;
   // In exchanges tried, some 10 microseconds each.
   static constexpr std::size_t kLeastWork = 1200, kWorkPerTet = 4;
   static constexpr std::size_t kUsualShare = 4;  // of the work for what is not worth a point
+  static constexpr std::size_t kTimes = 10;      // as much for what is promising
+  static constexpr std::size_t kIdle = 300;      // without a gain, until nothing is
 
   TetMesh& mesh_;
   const Vertex first_free_;
-  const double good_, flat_from_, worth_a_point_;
+  const double good_;
+  const BadFrom bad_from_;
   Monitor& monitor_;
   Exchanger exchanger_;
   FlatRemover flat_remover_;
@@ -340,9 +357,9 @@ class Optimiser {
   std::vector<Entry> stuck_;
   std::vector<Vertex> points_;  // all that may move, and some that are gone
   double worst_stuck_ = 0;      // in this round
-  int round_ = 0, failures_ = 0, reconnections_in_vain_ = 0;
+  int round_ = 0, failures_ = 0, reconnections_in_vain_ = 0, patient_ = 0;
   std::vector<Tet> created_;  // or changed
-  std::size_t work_ = 0, budget_ = 0;
+  std::size_t work_ = 0, work_at_gain_ = 0, budget_ = 0;
   OptimiseStats stats_;
 };
 

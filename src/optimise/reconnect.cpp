@@ -22,9 +22,9 @@ constexpr Effort kPatient{2, 20, 2, {.most_vertices = 20, .most_nodes = 300}};
 
 class Reconnection {
  public:
-  Reconnection(TetMesh& mesh, Vertex first_free, double flat_from, std::mt19937_64& random,
+  Reconnection(TetMesh& mesh, Vertex first_free, const BadFrom& bad_from, std::mt19937_64& random,
                std::vector<Tet>& created)
-      : mesh_(mesh), first_free_(first_free), flat_from_(flat_from), random_(random), created_(created) {}
+      : mesh_(mesh), first_free_(first_free), bad_from_(bad_from), random_(random), created_(created) {}
 
   // Every attempt grows the cavity from the same tetrahedra another way.
   bool from(std::span<const Tet> seed, const Effort& effort) {
@@ -43,8 +43,7 @@ class Reconnection {
 
  private:
   bool fill(const Cavity& cavity, PolyhedronOptions search) {
-    const double worst = badness_of(mesh_, cavity.tets(), {flat_from_}).worst;
-    search.worst_quality = std::min(kLeastGain * worst, flat_from_);
+    search.worst_quality = bad_from_.limit_for(badness_of(mesh_, cavity.tets(), bad_from_).worst);
     const auto fresh = fill_polyhedron(mesh_, cavity.faces(), search);
     if (!fresh) return false;
     const std::vector<Vertex> inner = cavity.inner();
@@ -55,18 +54,18 @@ class Reconnection {
 
   TetMesh& mesh_;
   const Vertex first_free_;
-  const double flat_from_;
+  const BadFrom& bad_from_;
   std::mt19937_64& random_;
   std::vector<Tet>& created_;
 };
 
 }  // namespace
 
-bool reconnect(TetMesh& mesh, Tet t, Vertex first_free, double flat_from, bool patient,
+bool reconnect(TetMesh& mesh, Tet t, Vertex first_free, const BadFrom& bad_from, bool patient,
                std::mt19937_64& random, std::vector<Tet>& created) {
-  Reconnection reconnection(mesh, first_free, flat_from, random, created);
+  Reconnection reconnection(mesh, first_free, bad_from, random, created);
   const std::array<Tet, 1> alone{t};
-  if (quality_of(mesh, mesh.corners(t)) < flat_from) return reconnection.from(alone, kUsual);
+  if (quality_of(mesh, mesh.corners(t)) < bad_from.flat) return reconnection.from(alone, kUsual);
   const Effort& effort = patient ? kPatient : kForFlat;
   // Some edge of a flat tetrahedron has to go.
   for (const int edge : wide_edges(mesh, t)) {

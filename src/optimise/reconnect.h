@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "mesh/tet_mesh.h"
+#include "optimise/badness.h"
 
 namespace holdfast {
 
 /// Grows a cavity from a tetrahedron until it can be filled with tetrahedra that are all better than the
 /// worst that go. Steiner points (the vertices from `first_free` on) that the cavity swallows go with them.
-/// For a
-/// flat one (Q from `flat_from` on) more is tried, and much more if `patient`. `created` receives the new
+/// For a flat one more is tried, and much more if `patient`. `created` receives the new
 /// tetrahedra. Returns whether there are any.
-bool reconnect(TetMesh& mesh, Tet t, Vertex first_free, double flat_from, bool patient,
+bool reconnect(TetMesh& mesh, Tet t, Vertex first_free, const BadFrom& bad_from, bool patient,
                std::mt19937_64& random, std::vector<Tet>& created);
 
 }  // namespace holdfast

@@ -101,6 +101,18 @@ TEST(Badness, NoneBecomesHopelessForFewerFlatOnes) {
   EXPECT_EQ(both.worst, 1e12);
 }
 
+TEST(Badness, NullOnesCountFirstAndGoForFlatOnes) {
+  const BadFrom from{100, 1000, 1e10};
+  Badness null, flat;
+  null.add(1e15, from);
+  for (int k = 0; k < 3; ++k) flat.add(1e6, from);
+  EXPECT_TRUE(flat.is_worthwhile_after(null));
+  EXPECT_FALSE(null.is_worthwhile_after(flat));
+  EXPECT_EQ(from.limit_for(1e15), 1e10);
+  EXPECT_EQ(from.limit_for(1e6), 100);
+  EXPECT_EQ(from.limit_for(50), kLeastGain * 50);
+}
+
 TEST(Badness, WideEdgesOfASliverAndOfACap) {
   TetMesh mesh;
   for (const Point& p : {Point{0, 0, 0}, Point{1, 0, 1e-9}, Point{1, 1, 0}, Point{0, 1, 1e-9}})
@@ -203,7 +215,7 @@ TEST(Reconnect, OnlyBetterFillings) {
     const exact::Dyadic volume = volume_of(mesh);
     const Badness before = badness_of(mesh, solid(mesh), {1000});
     std::vector<Tet> created;
-    if (reconnect(mesh, worst_tet(mesh), kNone, 1000, seed % 2 == 0, random, created)) {
+    if (reconnect(mesh, worst_tet(mesh), kNone, {1000}, seed % 2 == 0, random, created)) {
       ++reconnected;
       EXPECT_LT(badness_of(mesh, solid(mesh), {1000}).flat, before.flat);
       EXPECT_LT(badness_of(mesh, created, {1000}).worst, 1000);
@@ -240,6 +252,38 @@ TEST(InsertPoint, WhereThreeFacetsMakeACap) {
   EXPECT_LT(worst_quality(mesh), 1e4);
   EXPECT_EQ(facet_faces(mesh).size(), 3u);
   expect_sound(mesh, volume);
+}
+
+// Two grids in parallel planes, these at a distance at which every tetrahedron between them is flat, and
+// askew to the axes, so that rounding puts four points of a plane in any order.
+TetMesh slab(double gap) {
+  const Point u{0.36, 0.48, 0.8}, v{-0.8, 0.6, 0}, w{-0.48, -0.64, 0.6};
+  std::vector<Point> points;
+  for (int i = 0; i < 7; ++i)
+    for (int j = 0; j < 7; ++j)
+      for (int k = 0; k < 2; ++k) {
+        Point p{};
+        for (std::size_t c = 0; c < 3; ++c)
+          p[c] = 0.7 * (i - 3) * u[c] + 0.7 * (j - 3) * v[c] + k * gap * w[c];
+        points.push_back(p);
+      }
+  return delaunay_in_box(points, 9);
+}
+
+TEST(Optimise, NoNullTetrahedraStayInAThinSlab) {
+  for (const double gap : {1e-3, 1e-5}) {
+    TetMesh mesh = slab(gap);
+    const exact::Dyadic volume = volume_of(mesh);
+    const BadFrom from{100, 1000, 1e10};
+    EXPECT_GT(badness_of(mesh, solid(mesh), from).null, 10u);
+    const Options options;
+    Monitor monitor(options);
+    optimise(mesh, solid(mesh), static_cast<Vertex>(mesh.vertex_count()), 2, monitor);
+    const Badness after = badness_of(mesh, solid(mesh), from);
+    EXPECT_EQ(after.null, 0u) << gap;
+    EXPECT_GT(after.hopeless, 10u) << gap;
+    expect_sound(mesh, volume);
+  }
 }
 
 TEST(Optimise, SliversGo) {
