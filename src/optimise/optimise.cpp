@@ -131,6 +131,7 @@ class Optimiser {
     failures_ = 0;
     worst_stuck_ = std::numeric_limits<double>::infinity();  // no point but for null elements
     budget_ = work_ + kWork;
+    is_shaking_ = true;
     work_off_queue();
   }
 
@@ -159,9 +160,11 @@ class Optimiser {
 
   // What is worth a point, which comes first, may take most of the budget, and several times as much where it
   // would better the worst of all, or where something has helped of late: heaps go one by one. What is no bad
-  // element matters only as the worst of all, until that stays.
+  // element matters only as the worst of all, until that stays. After a shake nothing is worth more than
+  // this.
   [[nodiscard]] bool is_spent(const Entry& e) const {
     if (e.quality < kBad && failures_ >= kMostFailures) return true;
+    if (is_shaking_) return work_ >= budget_;
     const std::size_t budget = e.quality >= bad_from_.hopeless ? budget_ : budget_ / kUsualShare;
     const bool is_promising = e.quality >= worst_stuck_ || work_ < work_at_gain_ + kIdle;
     return work_ >= (is_promising ? kTimes * budget : budget);
@@ -353,7 +356,7 @@ class Optimiser {
   std::vector<bool> is_others_;
   std::priority_queue<Entry> queue_;
   std::vector<Entry> rest_;
-  bool takes_all_ = false;
+  bool takes_all_ = false, is_shaking_ = false;
   std::vector<Entry> stuck_;
   std::vector<Vertex> points_;  // all that may move, and some that are gone
   double worst_stuck_ = 0;      // in this round
