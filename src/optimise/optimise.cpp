@@ -88,7 +88,7 @@ class Optimiser {
   // The worst that is left may go from another mesh round it. What has not helped is undone.
   void shake_the_worst() {
     constexpr int kPatience = 2, kPatienceForFlat = 8;
-    constexpr std::size_t kMostTrials = 40, kMostCopied = 4'000'000;
+    constexpr std::size_t kMostTrials = 40, kMostCopied = 1'000'000;
     const std::size_t trials =
         std::min(kMostTrials, kMostCopied / std::max<std::size_t>(1, mesh_.slot_count()));
     int vain = 0;

@@ -11,6 +11,7 @@
 #include "delaunay/delaunay.h"
 #include "mesh/replace.h"
 #include "mesh/traverse.h"
+#include "recover/insert_vertex.h"
 #include "recover/recover.h"
 #include "recover/standing.h"
 #include "surface/complex.h"
@@ -81,10 +82,8 @@ class Cavity {
     const Complex complex{local.points, local.facets, local.segments, {}, {}};
     const SegmentTable table = segment_table(complex);
     TetMesh mesh;
-    for (const Point& p : local.points) mesh.add_vertex(p);
-    for (const Point& p : far_points(local)) mesh.add_vertex(p);
+    if (!triangulate(local, seed, mesh)) return std::nullopt;
     const auto first_free = static_cast<Vertex>(mesh.vertex_count());
-    if (!build_delaunay(mesh, {seed}, nullptr)) return std::nullopt;
     tell();
     Standing standing = mark_present(mesh, table);
     FlipRecovery(mesh, table, local.facets, standing, seed).run([&](double) { tell(); }, kPasses);
@@ -131,6 +130,21 @@ class Cavity {
     }
   };
 
+  // Delaunay tetrahedra of the vertices that have doubles and of the far points; then come the others, which
+  // have waited in the place of a corner of the facet, where Delaunay leaves them out.
+  bool triangulate(const Local& local, std::uint64_t seed, TetMesh& mesh) const {
+    for (const Vertex v : vertices_) mesh.add_vertex(mesh_.position(mesh_.is_explicit(v) ? v : facet_[0]));
+    for (const Point& p : far_points(local)) mesh.add_vertex(p);
+    if (!build_delaunay(mesh, {seed}, nullptr)) return false;
+    Random random(seed);
+    for (Vertex k = 0; k < vertices_.size(); ++k) {
+      if (mesh_.is_explicit(vertices_[k])) continue;
+      mesh.move_vertex(k, mesh_.exact_position(vertices_[k]));
+      if (!insert_vertex(mesh, k, random)) return false;
+    }
+    return true;
+  }
+
   // Corners of a box above the facet, and one point so far below it that a sphere through that point and the
   // facet's corners holds no vertex of the cavity: the facet is a Delaunay triangle, inside the hull.
   [[nodiscard]] std::vector<Point> far_points(const Local& local) const {
@@ -170,8 +184,6 @@ class Cavity {
 
   bool take(Tet t, std::unordered_set<Tet>& taken) {
     if (mesh_.is_ghost(t) || taken.contains(t)) return false;
-    for (const Vertex v : mesh_.corners(t))
-      if (!mesh_.is_explicit(v)) return false;
     for (int i = 0; i < 4; ++i) {
       const Face f = face_code(t, i);
       if (mesh_.is_facet(f) && faces_.contains(sorted(mesh_.face_vertices(f)))) return false;
@@ -253,9 +265,8 @@ class Pair {
         halves_{Cavity(mesh, facet), Cavity(mesh, {facet[0], facet[2], facet[1]})},
         taken_(crossing.begin(), crossing.end()) {}
 
-  // Returns the vertices that have no doubles or lie in the facet: a tetrahedron's section is inside the
-  // facet (design §2.4), so that all of its vertices in the plane are. With any, the cavities cannot be
-  // filled.
+  // Returns the vertices that lie in the facet: a tetrahedron's section is inside the facet (design §2.4), so
+  // that all of its vertices in the plane are. With any, the cavities cannot be filled.
   std::vector<Vertex> split(const std::vector<Tet>& crossing) {
     std::vector<Vertex> in_the_way;
     for (const Tet t : crossing) {
@@ -264,7 +275,7 @@ class Pair {
         const Vertex v = mesh_.corner(t, i);
         const bool corner = v == facet_[0] || v == facet_[1] || v == facet_[2];
         const int s = corner ? 0 : mesh_.orient(facet_[0], facet_[1], facet_[2], v);
-        if ((s == 0 && !corner) || !mesh_.is_explicit(v)) in_the_way.push_back(v);
+        if (s == 0 && !corner) in_the_way.push_back(v);
         signs[static_cast<std::size_t>(i)] = s;
         if (s >= 0) halves_[0].add_vertex(v);
         if (s <= 0) halves_[1].add_vertex(v);

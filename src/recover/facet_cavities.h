@@ -39,7 +39,7 @@ class FacetCavities {
   [[nodiscard]] std::size_t crossing(const std::array<Vertex, 3>& facet);
   /// Points that the last call added.
   [[nodiscard]] const std::vector<Vertex>& added() const { return added_; }
-  /// Vertices without doubles and vertices in the facet's plane, for which the last call gave up.
+  /// Vertices in the facet's plane, for which the last call gave up.
   [[nodiscard]] const std::vector<Vertex>& in_the_way() const { return in_the_way_; }
 
  private:

@@ -17,6 +17,7 @@
 #include "mesh/validate.h"
 #include "recover/facet_cavities.h"
 #include "recover/flipper.h"
+#include "recover/insert_vertex.h"
 #include "recover/pierce.h"
 #include "recover/target.h"
 
@@ -300,6 +301,60 @@ TEST(FacetCavities, NameVerticesInTheFacet) {
   EXPECT_EQ(cavities.in_the_way(), std::vector<Vertex>{inside});
   EXPECT_EQ(run.mesh.tet_count(), tets);
   EXPECT_EQ(find_fault(run.mesh), "");
+}
+
+// A vertex a hair from where the doubles nearest to it are, which may be those of another vertex.
+Vertex add_beside(TetMesh& mesh, const Point& p) {
+  exact::ExactPoint e = exact::lift(p.data());
+  for (exact::Dyadic& x : e.c) x += exact::Dyadic(1).scaled(-120);
+  return mesh.add_vertex(e);
+}
+
+TEST(InsertVertex, InsideATetrahedronAFaceAnEdgeAndBesideAVertex) {
+  Random random(1);
+  for (const Point& p : {Point{1.3, 1.4, 1.1}, Point{1, 1, 1.25}, Point{1, 1, 1}, Point{1.25, 1, 1}}) {
+    TetMesh mesh = delaunay_of({{1, 1, 1}, {2, 1, 1}, {1, 2, 1}, {1, 1, 2}});
+    const Vertex v = add_beside(mesh, p);
+    ASSERT_FALSE(mesh.is_explicit(v));
+    ASSERT_TRUE(insert_vertex(mesh, v, random));
+    EXPECT_EQ(find_fault(mesh), "");
+    EXPECT_TRUE(mesh.in_mesh(v));
+    const Vertex w = mesh.add_vertex(Point{1.125, 1.125, 1});  // with doubles, in a face or on an edge
+    ASSERT_TRUE(insert_vertex(mesh, w, random));
+    EXPECT_EQ(find_fault(mesh), "");
+  }
+}
+
+TEST(InsertVertex, NotOutsideNorOnTheHull) {
+  Random random(1);
+  TetMesh mesh = delaunay_of({{0, 0, 0}});
+  const std::size_t tets = mesh.tet_count();
+  for (const Point& p : {Point{0, 0, 20}, Point{1, 2, 10}, Point{10, 10, 0}}) {
+    EXPECT_FALSE(insert_vertex(mesh, mesh.add_vertex(p), random));
+    EXPECT_EQ(mesh.tet_count(), tets);
+  }
+}
+
+// Vertices that no doubles hold close above and below the facet, some with the doubles of others.
+TEST(FacetCavities, HoldVerticesWithoutDoubles) {
+  const Triangle facet{0, 1, 2};
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const std::vector<Point> points = clouds_round_a_triangle(600, seed);
+    Recovered run = recover(points, {facet}, {});
+    ASSERT_EQ(run.standing.missing_facets(), 1u);
+    Random random(seed);
+    std::vector<Vertex> inexact;
+    for (const Point& p : {points[3], points[4], Point{0.1, 0.2, 0}, Point{-0.3, 0.1, 0}}) {
+      inexact.push_back(add_beside(run.mesh, p));
+      ASSERT_TRUE(insert_vertex(run.mesh, inexact.back(), random));
+    }
+    ASSERT_EQ(find_fault(run.mesh), "");
+    FacetCavities cavities(run.mesh, seed);
+    ASSERT_TRUE(cavities.recover(facet, [] {}));
+    EXPECT_EQ(find_fault(run.mesh), "");
+    EXPECT_NE(find_face(run.mesh, 0, 1, 2), kNone);
+    for (const Vertex v : inexact) EXPECT_TRUE(run.mesh.in_mesh(v) && !run.mesh.is_explicit(v));
+  }
 }
 
 TEST(FacetCavities, LeaveTheMeshAsItWasWhenTheyGiveUp) {

@@ -1,0 +1,75 @@
+#include "recover/insert_vertex.h"
+
+#include <optional>
+#include <vector>
+
+#include "mesh/replace.h"
+
+namespace holdfast {
+namespace {
+
+int side_of_face(const TetMesh& mesh, Face f, Vertex v) {
+  const auto corners = mesh.face_vertices(f);
+  return mesh.orient(corners[0], corners[1], corners[2], v);
+}
+
+// A random visibility walk, which ends in any mesh (Devillers, Pion, Teillaud 2002).
+Tet locate(const TetMesh& mesh, Vertex v, Tet t, Random& random) {
+  while (!mesh.is_ghost(t)) {
+    const auto first = static_cast<unsigned>(random() % 4);
+    std::optional<Face> way;
+    for (unsigned k = first; k < first + 4 && !way; ++k) {
+      const Face f = face_code(t, static_cast<int>(k % 4));
+      if (side_of_face(mesh, f, v) < 0) way = f;
+    }
+    if (!way) return t;
+    t = tet_of(mesh.neighbour(*way));
+  }
+  return kNone;
+}
+
+// The tetrahedron, or those that share the face or edge that holds the vertex; none on the hull.
+std::vector<Tet> all_that_hold(TetMesh& mesh, Vertex v, Tet t) {
+  std::vector<Tet> tets{t};
+  mesh.set_flags(t, kVisited);
+  bool is_inside = true;
+  for (std::size_t k = 0; k < tets.size() && is_inside; ++k)
+    for (int i = 0; i < 4; ++i) {
+      const Face f = face_code(tets[k], i);
+      const Tet next = tet_of(mesh.neighbour(f));
+      if ((mesh.flags(next) & kVisited) != 0 || side_of_face(mesh, f, v) != 0) continue;
+      if (mesh.is_ghost(next)) {
+        is_inside = false;
+        break;
+      }
+      mesh.set_flags(next, kVisited);
+      tets.push_back(next);
+    }
+  for (const Tet s : tets) mesh.clear_flags(s, kVisited);
+  if (!is_inside) tets.clear();
+  return tets;
+}
+
+}  // namespace
+
+bool insert_vertex(TetMesh& mesh, Vertex v, Random& random) {
+  Tet start = 0;
+  while (start < mesh.slot_count() && (!mesh.alive(start) || mesh.is_ghost(start))) ++start;
+  if (start == mesh.slot_count()) return false;
+  const Tet t = locate(mesh, v, start, random);
+  if (t == kNone) return false;
+  const std::vector<Tet> holders = all_that_hold(mesh, v, t);
+  if (holders.empty()) return false;
+  std::vector<TetMesh::Corners> cone;
+  for (const Tet s : holders)
+    for (int i = 0; i < 4; ++i) {
+      const Face f = face_code(s, i);
+      if (side_of_face(mesh, f, v) == 0) continue;
+      const auto c = mesh.face_vertices(f);
+      cone.push_back({c[0], c[1], c[2], v});
+    }
+  replace(mesh, {.old_tets = holders, .new_tets = cone});
+  return true;
+}
+
+}  // namespace holdfast
