@@ -19,6 +19,7 @@ std::span<const Tet> CavityRefiller::refill(Tet t) {
   do {
     const double before = best_.gain;
     try_point(cavity);
+    // The search measures elements in space.
     if (frame_.is_plain() && cavity.tets().size() >= kLeastForSearch &&
         cavity.vertex_count() <= kMostForSearch)
       try_without(cavity);

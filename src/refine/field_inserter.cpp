@@ -69,7 +69,8 @@ std::span<const Vertex> FieldInserter::vertices_round(Tet t) {
   return {round_.data(), count};
 }
 
-// Whether p keeps its distance from these vertices. Leaves the size there in size_, and what it is in frame_.
+// Whether p keeps its distance from these vertices. Leaves what is wanted there in size_ and
+// wanted_, and the metric and its frame if there are metrics.
 bool FieldInserter::is_far_from(Vertex p, std::span<const Vertex> vertices, RegionId region) {
   const Point& x = mesh_.position(p);
   double nearest = std::numeric_limits<double>::infinity();

@@ -104,7 +104,7 @@ class Front {
     return !(dot(centre.at, centre.at) < limit * limit);
   }
 
-  // For its corners, or in the middle, of which these may not know.
+  // The same, for its corners, or in the middle, of which these may not know.
   [[nodiscard]] bool is_large_in_metric(Tet t) const {
     if (is_larger(volume_.see(mesh_.corners(t), sphere_centre), kLarge)) return true;
     const Point middle = centroid(mesh_, t);
@@ -242,10 +242,6 @@ class Front {
   std::deque<Tet> front_;
   std::deque<Tet> rest_;  // large ones that the front did not get on with
 };
-
-}  // namespace
-
-namespace {
 
 // The user's metric with no size above those that are set.
 void set_metrics_at_vertices(const VolumeData& volume, const SizeFunction& sizes) {
