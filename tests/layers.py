@@ -10,7 +10,7 @@ import tempfile
 from pathlib import Path
 
 # Layers that may use less than everything below them.
-ONLY = {"check": {"text", "exact"}, "io": {"text"}}
+ONLY = {"check": {"text", "exact"}, "io": {"text", "metric"}}
 # Threads are no part of the mesh that they lie beside.
 BESIDES = {"io": {"mesh/parallel.h"}}
 

@@ -48,6 +48,11 @@ struct Sizes {
   std::vector<double> vertex_sizes = {};
   /// The most at a point; what is not positive is no limit. Called often, from the calling thread.
   std::function<double(const Point&)> field = {};
+  /// The metric in which edges should have length 1 at most, at a point: sizes that depend on the direction.
+  /// A tensor that is not positive definite is no limit. Called as `field` is. The other sizes limit those of
+  /// the metric in all directions; what `gradation` limits is the largest size at a point. Elements are
+  /// judged as the metric sees them.
+  std::function<Metric(const Point&)> metric = {};
 };
 
 /// How long to improve the elements with field points: each is some times slower than the one before.
@@ -127,13 +132,14 @@ struct Report {
   /// What was done for the sizes; all zero without.
   struct Field {
     std::size_t points = 0;  ///< field points; they count as Steiner points, too
-    Shape before, after;     ///< the optimisation
-    /// Lengths of edges over the mean of the sizes wanted at their ends, in bins of 1/8, the last without
-    /// end; an edge counts once for each element.
+    Shape before, after;     ///< the optimisation; as the metric sees it, if there is one
+    /// Lengths of edges over the mean of the sizes wanted at their ends, or in the metrics there, in bins of
+    /// 1/8, the last without end; an edge counts once for each element.
     std::array<std::size_t, 24> edge_lengths{};
     std::size_t moves = 0, swaps = 0, contractions = 0, insertions = 0;  ///< of the optimisation
-    std::size_t below_10_deg = 0, forced = 0;  ///< elements with such an angle, and those that facets ask for
-    std::vector<Forced> worst_forced;          ///< the worst of these, at most 100
+    /// Elements with such an angle, and those that facets ask for; not looked for with a metric.
+    std::size_t below_10_deg = 0, forced = 0;
+    std::vector<Forced> worst_forced;  ///< the worst of these, at most 100
   } field;
   std::size_t vertices = 0, tetrahedra = 0, regions = 0;
   struct Quality {

@@ -68,22 +68,32 @@ struct WriteOptions {
 /// their entities.
 void write_volume(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options = {});
 
-/// Sizes that edges should have, at the vertices of a background mesh.
+/// Sizes that edges should have, or metrics in which their length should be 1, at the vertices of a
+/// background mesh.
 struct SizeField {
   std::vector<Point> vertices;
   std::vector<Tetrahedron> tetrahedra;
-  std::vector<double> sizes;  ///< one a vertex
+  std::vector<double> sizes;    ///< one a vertex, or none
+  std::vector<Metric> metrics;  ///< one a vertex, where there are no sizes
 };
 
-/// Reads a size field: .mesh or .meshb and the .sol beside it (or the .sol), .vtu with a point array "size",
-/// .mtr (TetGen) with the .node and .ele beside it, .pos (Gmsh, parsed, scalars on tetrahedra). A .mtr
-/// without .ele has sizes for the vertices of a surface: then the field has nothing but sizes. Isotropic
-/// sizes only. Throws FileError, also for sizes that are not positive.
+/// Reads a size field: .mesh or .meshb and the .sol beside it (or the .sol), .vtu with a point array "size"
+/// or "metric", .mtr (TetGen) with the .node and .ele beside it, .pos (Gmsh, parsed, scalars or tensors on
+/// tetrahedra). A .mtr without .ele has sizes for the vertices of a surface: then the field has nothing but
+/// sizes.
+/// - Metrics are symmetric tensors of type 3 (.sol), of 6 columns (.mtr), both m11 m12 m22 m13 m23 m33; of 6
+///   components (.vtu, xx yy zz xy yz xz as in VTK); or full 3 x 3 ones (.vtu with 9 components, .pos TT).
+/// Throws FileError, also for sizes that are not positive and tensors that are not positive definite.
 [[nodiscard]] SizeField read_size_field(const std::filesystem::path& path);
 
 /// The size at a point, linear in each tetrahedron of the field; 0, no limit, outside: for `Sizes::field`.
 /// Throws std::invalid_argument for a field without a size for every vertex.
 [[nodiscard]] std::function<double(const Point&)> size_function(SizeField field);
+
+/// The metric at a point, whose logarithm is linear in each tetrahedron of the field; zero, no limit,
+/// outside: for `Sizes::metric`. Throws std::invalid_argument for a field without a positive definite tensor
+/// for every vertex.
+[[nodiscard]] std::function<Metric(const Point&)> metric_function(SizeField field);
 
 /// Extensions that `write_volume` knows, with the dot, in lower case.
 [[nodiscard]] std::vector<std::string> volume_formats();

@@ -14,6 +14,8 @@ namespace holdfast {
 using Index = std::uint32_t;
 /// x, y, z in the input's own unit.
 using Point = std::array<double, 3>;
+/// A symmetric tensor, m11 m12 m22 m13 m23 m33. As a metric it gives a vector e the length sqrt(e^T M e).
+using Metric = std::array<double, 6>;
 /// Vertex indices of an input segment.
 using Segment = std::array<Index, 2>;
 /// Vertex indices of an input triangle (facet).

@@ -271,7 +271,8 @@ class Pipeline {
     report.contractions = stats.contracted;
     report.insertions = stats.inserted;
     report.points += stats.filled_in;
-    if (stats.worst > kEnergyOfFlat) remove_flat();
+    // Flat ones are told from others in space; in a metric they may be as they should be.
+    if (stats.worst > kEnergyOfFlat && metrics_.empty()) remove_flat();
   }
 
   // Long thin facets may leave flat elements: what the other optimisation is made for.
@@ -291,7 +292,10 @@ class Pipeline {
     if (stats.changed > 0) flood_again(mesh_, complex_.facets, regions_);
   }
 
-  [[nodiscard]] VolumeData volume() { return {mesh_, regions_.of_tet, sizes_, kept_.region, first_free_}; }
+  [[nodiscard]] VolumeData volume() {
+    std::vector<Metric>* const metrics = options_.sizes && options_.sizes->metric ? &metrics_ : nullptr;
+    return {mesh_, regions_.of_tet, sizes_, kept_.region, first_free_, nullptr, metrics};
+  }
   [[nodiscard]] bool is_kept(Tet t) const {
     return mesh_.alive(t) && !mesh_.is_ghost(t) && kept_.region[regions_.of_tet[t]];
   }
@@ -326,9 +330,10 @@ class Pipeline {
     report.quality = measure(volume, has_all ? target() : target_quality(volume.vertices, volume.facets),
                              &shape, threads());
     if (sizes_.empty()) return;
+    if (!metrics_.empty()) shape = shape_of(this->volume(), threads());
     if (options_.optimise && last == Stage::optimise) report.field.after = shape;
     const auto& angles = shape.least_dihedral;  // in bins of five degrees
-    if (angles[0] + angles[1] > 0) find_forced(volume, report.field);
+    if (metrics_.empty() && angles[0] + angles[1] > 0) find_forced(volume, report.field);
   }
 
   // Of all facets, computed once.
@@ -356,7 +361,8 @@ class Pipeline {
   Standing standing_, standing_before_partition_;
   std::optional<double> target_;
   Regions regions_;
-  std::vector<double> sizes_;  // by vertex; empty without field points
+  std::vector<double> sizes_;    // by vertex; empty without field points
+  std::vector<Metric> metrics_;  // by vertex; empty without a metric of the user
   std::optional<SizeFunction> size_function_;
   std::unique_ptr<Parts> parts_;  // of a mesh with field points that is in the middle of its improvement
   Kept kept_;

@@ -74,6 +74,8 @@ Sizes to_sizes(const MeshArguments& arguments) {
     SizeField field = read_size_field(arguments.size_field);
     if (field.vertices.empty())
       sizes.vertex_sizes = std::move(field.sizes);
+    else if (!field.metrics.empty())
+      sizes.metric = metric_function(std::move(field));
     else
       sizes.field = size_function(std::move(field));
   }

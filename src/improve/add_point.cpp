@@ -4,7 +4,7 @@
 
 namespace holdfast {
 
-Vertex PointAdder::add(Tet t, bool patient) {
+bool PointAdder::add(Tet t, bool patient) {
   const TetMesh& mesh = volume_.mesh();
   work_ = 0;
   for (int edge = 0; edge < 6; ++edge) {
@@ -13,11 +13,9 @@ Vertex PointAdder::add(Tet t, bool patient) {
         !gather_shell(mesh, t, mesh.corner(t, ends[0]), mesh.corner(t, ends[1]), shell_))
       continue;
     const Point middle = middle_of_shell();
-    if (const Vertex p = add_at(middle, t, shell_.tets); p != kNone) return p;
-    if (!patient) continue;
-    if (const Vertex p = add_at(middle, t, {}); p != kNone) return p;
+    if (add_at(middle, t, shell_.tets) || (patient && add_at(middle, t, {}))) return true;
   }
-  return kNone;
+  return false;
 }
 
 Point PointAdder::middle_of_shell() const {
@@ -32,19 +30,19 @@ Point PointAdder::middle_of_shell() const {
 }
 
 // In the cavity of these tetrahedra, or, without any, in the one that the in-sphere test gives.
-Vertex PointAdder::add_at(const Point& place, Tet t, std::span<const Tet> tets) {
-  TetMesh& mesh = volume_.mesh();
+bool PointAdder::add_at(const Point& place, Tet t, std::span<const Tet> tets) {
   const RegionId region = volume_.region_of(t);
-  const Vertex p = mesh.add_vertex(place);
+  const Vertex p = volume_.add_vertex(place, volume_.mesh().corners(t));
+  frame_ = volume_.frame_of({&p, 1});
   const bool found = find_cavity(p, t, tets);
   if (!found || !improves(p)) {
     if (found) cavity_.abandon();
-    mesh.remove_last_vertex();
-    return kNone;
+    volume_.remove_last_vertex();
+    return false;
   }
   cavity_.insert();
   volume_.adopt(cavity_.created(), region);
-  return p;
+  return true;
 }
 
 bool PointAdder::find_cavity(Vertex p, Tet t, std::span<const Tet> tets) {
@@ -53,7 +51,8 @@ bool PointAdder::find_cavity(Vertex p, Tet t, std::span<const Tet> tets) {
   if (base == kNone || volume_.mesh().is_ghost(base) || volume_.region_of(base) != volume_.region_of(t))
     return false;
   if (!tets.empty() && std::find(tets.begin(), tets.end(), base) == tets.end()) return false;
-  const bool found = tets.empty() ? cavity_.find(p, base, kMostTets) : cavity_.find_among(p, base, tets);
+  const bool found =
+      tets.empty() ? cavity_.find(p, base, frame_, kMostTets) : cavity_.find_among(p, base, tets);
   work_ += static_cast<double>(cavity_.work());
   return found;
 }
@@ -63,16 +62,27 @@ bool PointAdder::improves(Vertex p) {
   TetMesh& mesh = volume_.mesh();
   star_.clear();
   for (const PointCavity::Rim& rim : cavity_.rim())
-    star_.add(mesh.position(rim.v[0]), mesh.position(rim.v[1]), mesh.position(rim.v[2]), 1);
-  star_.start_at(mesh.position(p));
+    star_.add(frame_.to(mesh.position(rim.v[0])), frame_.to(mesh.position(rim.v[1])),
+              frame_.to(mesh.position(rim.v[2])), 1);
+  star_.start_at(frame_.to(mesh.position(p)));
   if (!(star_.energy() < kNoEnergy)) return false;
   star_.step_to_ideal_place();
   star_.descend();
-  if (!is_less(star_.energy(), volume_.energy(cavity_.tets()))) return false;
-  mesh.move_vertex(p, star_.at());
+  const double before = volume_.energy(cavity_.tets());
+  if (!is_less(star_.energy(), before)) return false;
+  mesh.move_vertex(p, frame_.from(star_.at()));
+  if (!frame_.is_plain() && !is_less(energy_of_ball(p), before)) return false;
   return std::all_of(cavity_.rim().begin(), cavity_.rim().end(), [&](const PointCavity::Rim& rim) {
     return mesh.orient(rim.v[0], rim.v[1], rim.v[2], p) > 0;
   });
+}
+
+// What the star, with one metric for all, has only nearly.
+double PointAdder::energy_of_ball(Vertex p) const {
+  double sum = 0;
+  for (const PointCavity::Rim& rim : cavity_.rim())
+    sum += volume_.energy_of({rim.v[0], rim.v[1], rim.v[2], p});
+  return sum;
 }
 
 }  // namespace holdfast

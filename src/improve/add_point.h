@@ -15,23 +15,25 @@ class PointAdder {
   explicit PointAdder(ImprovedVolume& volume) : volume_(volume), cavity_(volume.mesh()) {}
 
   /// Fills the shell of an edge of t anew from a point near its middle, if the energy is less then; a patient
-  /// search tries the cavity that the in-sphere test gives such a point, too. Returns the point, or kNone.
-  /// The new tetrahedra are its ball, in ball().
-  Vertex add(Tet t, bool patient);
+  /// search tries the cavity that the in-sphere test gives such a point, too. Returns whether there is a new
+  /// point. The new tetrahedra are its ball, in ball().
+  bool add(Tet t, bool patient);
   [[nodiscard]] std::span<const Tet> ball() const { return cavity_.created(); }
   /// Of the last call, in tetrahedra looked at.
   [[nodiscard]] double work() const { return work_; }
 
  private:
   [[nodiscard]] Point middle_of_shell() const;
-  Vertex add_at(const Point& place, Tet t, std::span<const Tet> tets);
+  bool add_at(const Point& place, Tet t, std::span<const Tet> tets);
   [[nodiscard]] bool find_cavity(Vertex p, Tet t, std::span<const Tet> tets);
   [[nodiscard]] bool improves(Vertex p);
+  [[nodiscard]] double energy_of_ball(Vertex p) const;
 
   ImprovedVolume& volume_;
   PointCavity cavity_;
   EdgeShell shell_;
-  Star star_;
+  Frame frame_;
+  Star star_;  // in the frame
   double work_ = 0;
 };
 

@@ -1,7 +1,6 @@
 #include "improve/contract.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "mesh/traverse.h"
 
@@ -52,8 +51,7 @@ double VertexContractor::energy_with(Vertex v, Vertex w, double longest, double 
         x = w;
         continue;
       }
-      const Point &p = mesh.position(x), &q = mesh.position(w);
-      if (std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) > longest) return kNoEnergy;
+      if (volume_.length(x, w) > longest) return kNoEnergy;
     }
     sum += volume_.energy_of(c);
     if (!(sum < limit)) return kNoEnergy;

@@ -4,7 +4,8 @@
 // than its sine, since finite elements suffer more from small angles than from large ones only by degree but
 // users are shown the small ones. The sine of the angle at edge e between faces of doubled areas m and n is
 // |e| D / (m n), where D is six volumes (Freitag, Ollivier-Gooch 1997; Klingner, Shewchuk 2007). The power
-// makes a sum of energies follow the worst elements, and yet see how many there are of each kind.
+// makes a sum of energies follow the worst elements, and yet see how many there are of each kind. Where a
+// metric is given, elements are seen in the frame of the mean of the metrics at their corners.
 #pragma once
 
 #include <array>

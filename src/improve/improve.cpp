@@ -42,7 +42,6 @@ class Improver {
   Improver(const VolumeData& volume, Quality quality, std::span<const std::uint8_t> spared, Monitor& monitor)
       : mesh_(volume.mesh),
         volume_(volume),
-        sizes_(volume.sizes),
         effort_(effort_of(quality)),
         spared_(spared),
         monitor_(monitor),
@@ -178,32 +177,16 @@ class Improver {
   }
 
   bool add_point_at(Tet t) {
-    const TetMesh::Corners corners = mesh_.corners(t);
-    const Vertex p = adder_.add(t, volume_.energy(t) > very_bad_);
+    const bool is_added = adder_.add(t, volume_.energy(t) > very_bad_);
     work_ += 6 + adder_.work() / 60;
-    if (p == kNone) return false;
-    note_size(p, corners);
-    return true;
+    return is_added;
   }
 
   std::span<const Tet> refill_round(Tet t) {
     work_ += kRefill;
-    const TetMesh::Corners corners = mesh_.corners(t);
     const auto created = refiller_.refill(t);
-    if (created.empty()) return {};
-    if (refiller_.point() != kNone) {
-      note_size(refiller_.point(), corners);
-      ++stats_.inserted;
-    } else {
-      ++stats_.swapped;
-    }
+    if (!created.empty()) ++(refiller_.point() != kNone ? stats_.inserted : stats_.swapped);
     return created;
-  }
-
-  void note_size(Vertex p, const TetMesh::Corners& corners) {
-    sizes_.resize(mesh_.vertex_count(), 0);
-    sizes_[p] = 0;
-    for (const Vertex v : corners) sizes_[p] = std::max(sizes_[p], sizes_[v]);
   }
 
   bool smooth_a_corner(Tet t) {
@@ -224,7 +207,7 @@ class Improver {
     const TetMesh::Corners corners = mesh_.corners(t);
     for (const Vertex v : corners) {
       if (!volume_.may_move(v)) continue;
-      const auto created = contractor_.contract(v, kLongest * sizes_[v]);
+      const auto created = contractor_.contract(v, kLongest * volume_.size(v));
       work_ += contractor_.work() / 100;
       if (!created.empty()) return created;
     }
@@ -237,7 +220,6 @@ class Improver {
 
   TetMesh& mesh_;
   ImprovedVolume volume_;
-  std::vector<double>& sizes_;
   const Effort effort_;
   const std::span<const std::uint8_t> spared_;  // by vertex
   const double very_bad_ = energy_of_sine(effort_.patient_aim);

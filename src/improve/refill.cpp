@@ -12,12 +12,16 @@ std::span<const Tet> CavityRefiller::refill(Tet t) {
   constexpr std::size_t kMostTets = 80, kFartherThanBest = 12, kLeastForSearch = 3, kMostForSearch = 13;
   best_ = {};
   point_ = kNone;
+  near_ = volume_.mesh().corners(t);
+  frame_ = volume_.frame_of(near_);
   Cavity cavity(volume_.mesh(), std::array{t}, volume_.first_free());
   std::size_t last = kMostTets;
   do {
     const double before = best_.gain;
     try_point(cavity);
-    if (cavity.tets().size() >= kLeastForSearch && cavity.vertex_count() <= kMostForSearch)
+    // The search measures elements in space.
+    if (frame_.is_plain() && cavity.tets().size() >= kLeastForSearch &&
+        cavity.vertex_count() <= kMostForSearch)
       try_without(cavity);
     if (best_.gain > before) last = std::min(kMostTets, cavity.tets().size() + kFartherThanBest);
   } while (cavity.tets().size() < last && grow(cavity));
@@ -51,7 +55,7 @@ void CavityRefiller::offer(const Cavity& cavity, double gain) {
            .old_tets = cavity.tets(),
            .inner = cavity.inner(),
            .faces = cavity.faces(),
-           .place = star_.at(),
+           .place = frame_.from(star_.at()),
            .fresh = {}};
 }
 
@@ -61,19 +65,20 @@ void CavityRefiller::find_place(const Cavity& cavity) {
   star_.clear();
   Point middle{};
   for (const auto& f : cavity.faces()) {
-    star_.add(mesh.position(f[0]), mesh.position(f[1]), mesh.position(f[2]), 1);
+    star_.add(frame_.to(mesh.position(f[0])), frame_.to(mesh.position(f[1])), frame_.to(mesh.position(f[2])),
+              1);
     for (std::size_t k = 0; k < 3; ++k)
       for (const Vertex v : f)
         middle[k] += mesh.position(v)[k] / static_cast<double>(3 * cavity.faces().size());
   }
   heights_.clear();
-  star_.start_at(middle);
+  star_.start_at(frame_.to(middle));
   if (!(star_.energy() < kNoEnergy)) {
     Kernel kernel(mesh);
     for (const auto& f : cavity.faces()) kernel.add(f[0], f[1], f[2]);
     Kernel::Centre centre = kernel.centre({middle.data(), nullptr});
     for (std::size_t k = 0; k < 3; ++k) middle[k] += centre.offset[k];
-    star_.start_at(middle);
+    star_.start_at(frame_.to(middle));
     if (!(star_.energy() < kNoEnergy)) {
       heights_ = std::move(centre.heights);
       return;
@@ -95,18 +100,27 @@ std::span<const Tet> CavityRefiller::apply() {
   TetMesh& mesh = volume_.mesh();
   const bool with_point = best_.fresh.empty();
   if (with_point) {
-    point_ = mesh.add_vertex(best_.place);
+    point_ = volume_.add_vertex(best_.place, near_);
     for (const auto& f : best_.faces) best_.fresh.push_back({f[0], f[1], f[2], point_});
   }
   if (!std::all_of(best_.fresh.begin(), best_.fresh.end(),
-                   [&](const TetMesh::Corners& c) { return volume_.is_positive(c); })) {
-    if (with_point) mesh.remove_last_vertex();
+                   [&](const TetMesh::Corners& c) { return volume_.is_positive(c); }) ||
+      !is_better(best_)) {
+    if (with_point) volume_.remove_last_vertex();
     point_ = kNone;
     return {};
   }
   const auto created = volume_.replace(best_.old_tets, best_.fresh);
   for (const Vertex v : best_.inner) mesh.remove_vertex(v);
   return created;
+}
+
+// In a frame the gain is only nearly that of the elements, each of which has a metric of its own.
+bool CavityRefiller::is_better(const Filling& filling) const {
+  if (frame_.is_plain()) return true;
+  double after = 0;
+  for (const TetMesh::Corners& c : filling.fresh) after += volume_.energy_of(c);
+  return is_less(after, volume_.energy(filling.old_tets));
 }
 
 }  // namespace holdfast

@@ -37,9 +37,12 @@ class CavityRefiller {
   void find_place(const Cavity& cavity);
   bool grow(Cavity& cavity) const;
   std::span<const Tet> apply();
+  [[nodiscard]] bool is_better(const Filling& filling) const;
 
   ImprovedVolume& volume_;
-  Star star_;
+  TetMesh::Corners near_{};  // of the tetrahedron that the cavity grows from
+  Frame frame_;
+  Star star_;                    // in the frame
   std::vector<double> heights_;  // of the place over the faces, where it does not see them all
   Filling best_;
   Vertex point_ = kNone;

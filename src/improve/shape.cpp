@@ -4,7 +4,6 @@
 
 #include "mesh/parallel.h"
 #include "mesh/quality.h"
-#include "refine/vector.h"
 
 namespace holdfast {
 namespace {
@@ -24,12 +23,12 @@ void for_each_inside(const VolumeData& volume, unsigned threads, Act&& act, Join
 }
 
 ShapeHistogram shapes_of(const VolumeData& volume, unsigned threads) {
-  const TetMesh& mesh = volume.mesh;
   ShapeHistogram shapes;
   for_each_inside<ShapeHistogram>(
       volume, threads,
       [&](const TetMesh::Corners& c, ShapeHistogram& own) {
-        own.add(mesh.position(c[0]), mesh.position(c[1]), mesh.position(c[2]), mesh.position(c[3]));
+        volume.see(
+            c, [&](const Point& p, const Point& q, const Point& r, const Point& s) { own.add(p, q, r, s); });
       },
       [&](const ShapeHistogram& own) { shapes.add(own); });
   return shapes;
@@ -57,8 +56,6 @@ Report::Shape shape_of(Parts& parts, unsigned threads) {
 
 std::array<std::size_t, 24> edge_lengths_of(const VolumeData& volume, unsigned threads) {
   constexpr double kBinsAUnit = 8;
-  const TetMesh& mesh = volume.mesh;
-  const std::vector<double>& sizes = volume.sizes;
   using Histogram = std::array<std::size_t, 24>;
   Histogram histogram{};
   for_each_inside<Histogram>(
@@ -66,8 +63,7 @@ std::array<std::size_t, 24> edge_lengths_of(const VolumeData& volume, unsigned t
       [&](const TetMesh::Corners& c, Histogram& own) {
         for (const auto& [i, j] : kEdgeVertex) {
           const Vertex v = c[static_cast<std::size_t>(i)], w = c[static_cast<std::size_t>(j)];
-          const double bin =
-              distance(mesh.position(v), mesh.position(w)) / (0.5 * (sizes[v] + sizes[w])) * kBinsAUnit;
+          const double bin = volume.length_over_size(v, w) * kBinsAUnit;
           ++own[bin < static_cast<double>(own.size()) ? static_cast<std::size_t>(bin) : own.size() - 1];
         }
       },

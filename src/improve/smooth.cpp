@@ -13,36 +13,54 @@ bool VertexSmoother::smooth(Vertex v, bool patient) {
   if (tets_.size() > kMostBall) return false;
   gather_star(v);
   const double before = volume_.energy(tets_);
-  star_.start_at(volume_.mesh().position(v), before);
+  if (frame_.is_plain())
+    star_.start_at(volume_.mesh().position(v), before);
+  else
+    star_.start_at(frame_.to(volume_.mesh().position(v)));
+  const double from = star_.energy();
   star_.step_to_ideal_place();
   if (patient) star_.descend();
-  if (!is_less(star_.energy(), before) || (patient && star_.energy() > 0.997 * before)) return false;
-  return settle(v);
+  if (!is_less(star_.energy(), from) || (patient && star_.energy() > 0.997 * from)) return false;
+  return settle(v, before);
 }
 
 // Faces whose tetrahedra are bad have more to say.
 void VertexSmoother::gather_star(Vertex v) {
   const TetMesh& mesh = volume_.mesh();
   star_.clear();
+  frame_ = volume_.frame_of({&v, 1});
   for (const Tet t : tets_) {
     const auto f = mesh.face_vertices(face_code(t, mesh.index_of(t, v)));
-    star_.add(mesh.position(f[0]), mesh.position(f[1]), mesh.position(f[2]),
+    star_.add(frame_.to(mesh.position(f[0])), frame_.to(mesh.position(f[1])), frame_.to(mesh.position(f[2])),
               std::sqrt(std::sqrt(volume_.energy(t))));
   }
 }
 
 // Makes the move if the exact signs agree.
-bool VertexSmoother::settle(Vertex v) {
+bool VertexSmoother::settle(Vertex v, double before) {
   TetMesh& mesh = volume_.mesh();
   const Point old = mesh.position(v);
-  mesh.move_vertex(v, star_.at());
+  mesh.move_vertex(v, frame_.from(star_.at()));
   const auto is_positive = [&](Tet t) { return volume_.is_positive(mesh.corners(t)); };
-  if (!std::all_of(tets_.begin(), tets_.end(), is_positive)) {
+  if (!std::all_of(tets_.begin(), tets_.end(), is_positive) || (!frame_.is_plain() && !is_better(before))) {
     mesh.move_vertex(v, old);
     return false;
   }
-  star_.for_each_energy([&](std::size_t k, double e) { volume_.note(tets_[k], e); });
+  if (frame_.is_plain())
+    star_.for_each_energy([&](std::size_t k, double e) { volume_.note(tets_[k], e); });
+  else
+    for (std::size_t k = 0; k < tets_.size(); ++k) volume_.note(tets_[k], energies_[k]);
   return true;
+}
+
+// Computes the energies after the move. In a frame, the star has one metric for all elements, and its
+// energies are only nearly theirs.
+bool VertexSmoother::is_better(double before) {
+  energies_.resize(tets_.size());
+  double after = 0;
+  for (std::size_t k = 0; k < tets_.size(); ++k)
+    after += energies_[k] = volume_.energy_of(volume_.mesh().corners(tets_[k]));
+  return is_less(after, before);
 }
 
 }  // namespace holdfast

@@ -22,11 +22,14 @@ class VertexSmoother {
   static constexpr std::size_t kMostBall = 200;
 
   void gather_star(Vertex v);
-  bool settle(Vertex v);
+  bool settle(Vertex v, double before);
+  [[nodiscard]] bool is_better(double before);
 
   ImprovedVolume& volume_;
   std::vector<Tet> tets_;
-  Star star_;
+  Frame frame_;
+  Star star_;                     // in the frame
+  std::vector<double> energies_;  // of the ball
 };
 
 }  // namespace holdfast

@@ -1,6 +1,7 @@
 // What the improvement of a volume works on: the mesh, its regions, and the energy of each tetrahedron.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -36,11 +37,15 @@ class ImprovedVolume {
     return sum;
   }
   [[nodiscard]] double energy_of(const TetMesh::Corners& c) const {
+    if (data_.metrics != nullptr) [[unlikely]]
+      return energy_in_frame(c);
     return holdfast::energy(mesh_.position(c[0]), mesh_.position(c[1]), mesh_.position(c[2]),
                             mesh_.position(c[3]));
   }
   /// Of two, in little more time than of one.
   [[nodiscard]] Pair energies_of(const TetMesh::Corners& x, const TetMesh::Corners& y) const {
+    if (data_.metrics != nullptr) [[unlikely]]
+      return energies_in_frames(x, y);
     std::array<PointOf<Pair>, 4> p;
     for (std::size_t i = 0; i < 4; ++i) {
       const Point &of_x = mesh_.position(x[i]), &of_y = mesh_.position(y[i]);
@@ -50,6 +55,26 @@ class ImprovedVolume {
   }
   [[nodiscard]] bool is_positive(const TetMesh::Corners& c) const {
     return mesh_.orient(c[0], c[1], c[2], c[3]) > 0;
+  }
+
+  /// In which the elements round some vertices are seen, nearly: each has a metric of its own.
+  [[nodiscard]] Frame frame_of(std::span<const Vertex> vertices) const { return data_.frame_of(vertices); }
+  /// The wanted length of edges, and the length of one, in the metric if there is one.
+  [[nodiscard]] double size(Vertex v) const { return data_.size_in_frame(v); }
+  [[nodiscard]] double length(Vertex v, Vertex w) const { return data_.length(v, w); }
+
+  /// Adds a vertex with the size and metric of those near it.
+  Vertex add_vertex(const Point& place, const TetMesh::Corners& near) {
+    const Vertex p = mesh_.add_vertex(place);
+    data_.sizes.resize(mesh_.vertex_count(), 0);
+    for (const Vertex v : near) data_.sizes[p] = std::max(data_.sizes[p], data_.sizes[v]);
+    if (data_.metrics != nullptr) data_.metrics->push_back(data_.mean_metric(near));
+    return p;
+  }
+  void remove_last_vertex() {
+    mesh_.remove_last_vertex();
+    data_.sizes.pop_back();
+    if (data_.metrics != nullptr) data_.metrics->pop_back();
   }
 
   /// Whether a tetrahedron, or the ball of a vertex, is new or has changed since this was last asked.
@@ -90,6 +115,9 @@ class ImprovedVolume {
   [[nodiscard]] RegionId region_of(Tet t) const { return region_of_[t]; }
 
  private:
+  [[nodiscard]] double energy_in_frame(const TetMesh::Corners& c) const;
+  [[nodiscard]] Pair energies_in_frames(const TetMesh::Corners& x, const TetMesh::Corners& y) const;
+
   const VolumeData data_;
   TetMesh& mesh_;
   std::vector<RegionId>& region_of_;

@@ -24,8 +24,13 @@ namespace holdfast::io {
 [[nodiscard]] MeshData read_msh(const Source& source);
 [[nodiscard]] MeshData read_vtk(const Source& source);
 [[nodiscard]] MeshData read_vtu(const Source& source);
-/// The same; `sizes` gets the point array "size". Throws FileError without one.
-[[nodiscard]] MeshData read_vtu(const Source& source, std::vector<double>* sizes);
+/// Numbers at the points of a grid, the components of each one together.
+struct PointArray {
+  std::size_t components = 1;
+  std::vector<double> values;
+};
+/// The same; `array` gets the first of these point arrays that is there. Throws FileError without any.
+[[nodiscard]] MeshData read_vtu(const Source& source, std::span<const char* const> names, PointArray& array);
 
 void write_medit(AtomicWriter& out, const Volume& volume);
 void write_msh(AtomicWriter& out, const Volume& volume, const WriteOptions& options);

@@ -1,10 +1,13 @@
-// Size fields: a background mesh with a size at each vertex, in the files of GMF, VTK, TetGen and Gmsh.
+// Size fields: a background mesh with a size or a metric at each vertex, in the files of GMF, VTK, TetGen and
+// Gmsh.
 #include <cmath>
+#include <optional>
 #include <system_error>
 
 #include "io/file_bytes.h"
 #include "io/formats.h"
 #include "io/text_reader.h"
+#include "metric/metric.h"
 
 namespace holdfast::io {
 namespace {
@@ -18,8 +21,31 @@ bool is_there(const std::filesystem::path& path) {
   return std::filesystem::exists(path, error);
 }
 
-/// GMF's .sol: one scalar a vertex of the mesh of the same name.
-std::vector<double> read_sol(const std::filesystem::path& path, std::size_t vertices) {
+// A size, or a metric if the tensor has its six numbers there, m11 m12 m22 m13 m23 m33.
+constexpr std::size_t kTensor = 6;
+
+void read_value(TextReader& text, std::size_t columns, SizeField& field) {
+  if (columns == 1) {
+    field.sizes.push_back(text.real("a size"));
+    return;
+  }
+  Metric m{};
+  for (double& x : m) x = text.real("a number of a tensor");
+  if (!is_positive_definite(m)) text.fail("the tensor is not positive definite");
+  field.metrics.push_back(m);
+}
+
+/// A full matrix, row by row; nothing if it is not symmetric, but for rounding in a file.
+std::optional<Metric> symmetric(std::span<const double> rows) {
+  constexpr double kSlack = 1e-5;
+  const double most = kSlack * (std::abs(rows[0]) + std::abs(rows[4]) + std::abs(rows[8]));
+  const auto differ = [&](std::size_t i, std::size_t j) { return !(std::abs(rows[i] - rows[j]) <= most); };
+  if (differ(1, 3) || differ(2, 6) || differ(5, 7)) return std::nullopt;
+  return Metric{rows[0], rows[1], rows[4], rows[2], rows[5], rows[8]};
+}
+
+/// GMF's .sol: a scalar or a symmetric tensor a vertex of the mesh of the same name.
+SizeField read_sol(const std::filesystem::path& path, std::size_t vertices) {
   const FileBytes bytes(path);
   TextReader text({path, bytes.view()});
   for (;;) {
@@ -39,25 +65,35 @@ std::vector<double> read_sol(const std::filesystem::path& path, std::size_t vert
   if (count != vertices)
     text.fail("there are sizes for " + std::to_string(count) + " vertices, but the mesh has " +
               std::to_string(vertices));
-  if (text.integer("the number of solutions") != 1 || text.integer("the type of the solution") != 1)
-    text.fail("one scalar a vertex is read; metric tensors are not");
-  std::vector<double> sizes(count);
-  for (double& size : sizes) size = text.real("a size");
-  return sizes;
+  const std::int64_t solutions = text.integer("the number of solutions");
+  const std::int64_t type = text.integer("the type of the solution");
+  if (solutions != 1 || (type != 1 && type != 3))
+    text.fail("one scalar (type 1) or one symmetric tensor (type 3) a vertex is read");
+  SizeField field;
+  for (std::size_t k = 0; k < count; ++k) read_value(text, type == 1 ? 1 : kTensor, field);
+  return field;
 }
 
-/// TetGen's .mtr: a line "count columns", then a size a vertex.
-std::vector<double> read_mtr(const Source& source) {
+/// TetGen's .mtr: a line "count columns", then a size or a symmetric tensor a vertex.
+SizeField read_mtr(const Source& source) {
   TextReader text(source);
   const std::size_t count = text.count("the number of vertices", 2);
-  if (text.integer("the number of columns") != 1)
-    text.fail("one size a vertex is read; metric tensors are not");
-  std::vector<double> sizes(count);
-  for (double& size : sizes) size = text.real("a size");
-  return sizes;
+  const std::int64_t columns = text.integer("the number of columns");
+  if (columns != 1 && columns != kTensor) text.fail("1 column (sizes) or 6 (metric tensors) are read");
+  SizeField field;
+  for (std::size_t k = 0; k < count; ++k) read_value(text, static_cast<std::size_t>(columns), field);
+  return field;
 }
 
-/// Gmsh's .pos (parsed form): scalars on tetrahedra, SS(x,y,z,...){s,s,s,s};
+Metric read_full_tensor(TextReader& text) {
+  std::array<double, 9> rows{};
+  for (double& x : rows) x = text.real("a number of a tensor");
+  const std::optional<Metric> m = symmetric(rows);
+  if (!m || !is_positive_definite(*m)) text.fail("the tensor is not symmetric and positive definite");
+  return *m;
+}
+
+/// Gmsh's .pos (parsed form): scalars or tensors on tetrahedra, SS(x,y,z,...){s,s,s,s}; or TT(...){...};
 SizeField read_pos(const Source& source) {
   std::string plain(source.bytes);
   for (char& c : plain)
@@ -70,23 +106,48 @@ SizeField read_pos(const Source& source) {
       if (!text.at_line_end()) static_cast<void>(text.rest_of_line());
       continue;
     }
-    if (word != "ss") text.fail("expected a scalar tetrahedron SS, found " + in_quotes(word));
+    if (word != "ss" && word != "tt") text.fail("expected a tetrahedron SS or TT, found " + in_quotes(word));
+    if (word == "ss" ? !field.metrics.empty() : !field.sizes.empty())
+      text.fail("scalars (SS) and tensors (TT) are not read together");
     Tetrahedron corners{};
     for (Index& corner : corners) {
       corner = static_cast<Index>(field.vertices.size());
       field.vertices.push_back(text.point());
     }
-    for (int i = 0; i < 4; ++i) field.sizes.push_back(text.real("a size"));
+    for (int i = 0; i < 4; ++i)
+      if (word == "ss")
+        field.sizes.push_back(text.real("a size"));
+      else
+        field.metrics.push_back(read_full_tensor(text));
     field.tetrahedra.push_back(corners);
   }
   return field;
 }
 
-SizeField with_sizes(MeshData mesh, std::vector<double> sizes) {
+/// One array of the points: scalars, VTK's symmetric tensors (xx yy zz xy yz xz), or full ones.
+SizeField field_of(const PointArray& array, const std::filesystem::path& path) {
   SizeField field;
+  if (array.components == 1) {
+    field.sizes = array.values;
+    return field;
+  }
+  if (array.components != kTensor && array.components != 9)
+    throw FileError(
+        path, "", "metric tensors of 6 or 9 components are read, not of " + std::to_string(array.components));
+  for (std::size_t k = 0; k < array.values.size(); k += array.components) {
+    const std::span<const double> x = std::span(array.values).subspan(k, array.components);
+    const std::optional<Metric> m =
+        array.components == 9 ? symmetric(x) : Metric{x[0], x[3], x[1], x[5], x[4], x[2]};
+    if (!m)
+      throw FileError(path, "vertex " + std::to_string(k / array.components), "the tensor is not symmetric");
+    field.metrics.push_back(*m);
+  }
+  return field;
+}
+
+SizeField on_mesh(MeshData mesh, SizeField field) {
   field.vertices = std::move(mesh.vertices);
   field.tetrahedra = std::move(mesh.tetrahedra);
-  field.sizes = std::move(sizes);
   return field;
 }
 
@@ -95,17 +156,19 @@ SizeField read_by_extension(const std::filesystem::path& path) {
   const FileBytes bytes(path);
   const Source source{path, bytes.view()};
   if (extension == ".mtr") {
-    SizeField field;
-    field.sizes = read_mtr(source);
-    if (!is_there(with_extension(path, ".ele"))) return field;
-    MeshData mesh = read_tetgen_volume({with_extension(path, ".node"), {}});
-    return with_sizes(std::move(mesh), std::move(field.sizes));
+    SizeField field = read_mtr(source);
+    if (is_there(with_extension(path, ".ele")))
+      return on_mesh(read_tetgen_volume({with_extension(path, ".node"), {}}), std::move(field));
+    if (!field.metrics.empty())
+      throw FileError(path, "", "metric tensors need a background mesh, its .node and .ele beside the .mtr");
+    return field;
   }
   if (extension == ".pos") return read_pos(source);
   if (extension == ".vtu") {
-    std::vector<double> sizes;
-    MeshData mesh = read_vtu(source, &sizes);
-    return with_sizes(std::move(mesh), std::move(sizes));
+    constexpr const char* kNames[] = {"size", "metric"};
+    PointArray array;
+    MeshData mesh = read_vtu(source, kNames, array);
+    return on_mesh(std::move(mesh), field_of(array, path));
   }
   if (extension == ".sol" || extension == ".mesh" || extension == ".meshb") {
     std::filesystem::path mesh_path = path;
@@ -113,13 +176,13 @@ SizeField read_by_extension(const std::filesystem::path& path) {
       mesh_path = with_extension(path, is_there(with_extension(path, ".mesh")) ? ".mesh" : ".meshb");
     const FileBytes mesh_bytes(mesh_path);
     MeshData mesh = parse_volume({mesh_path, mesh_bytes.view()});
-    std::vector<double> sizes = read_sol(with_extension(path, ".sol"), mesh.vertices.size());
-    return with_sizes(std::move(mesh), std::move(sizes));
+    SizeField field = read_sol(with_extension(path, ".sol"), mesh.vertices.size());
+    return on_mesh(std::move(mesh), std::move(field));
   }
   throw FileError(path, "",
                   "the format " + in_quotes(extension) +
                       " cannot be read as a size field; the formats are .mesh, .meshb and .sol (a mesh and "
-                      "its .sol), .vtu (with a point array \"size\"), .mtr, .pos");
+                      "its .sol), .vtu (with a point array \"size\" or \"metric\"), .mtr, .pos");
 }
 
 }  // namespace
@@ -129,15 +192,19 @@ namespace holdfast {
 
 SizeField read_size_field(const std::filesystem::path& path) {
   SizeField field = io::read_by_extension(path);
-  if (!field.vertices.empty() && field.sizes.size() != field.vertices.size())
+  const std::size_t count = field.sizes.size() + field.metrics.size();
+  if (!field.vertices.empty() && count != field.vertices.size())
     throw FileError(path, "",
-                    "there are " + std::to_string(field.sizes.size()) + " sizes for " +
+                    "there are " + std::to_string(count) + " sizes for " +
                         std::to_string(field.vertices.size()) + " vertices");
   if (!field.vertices.empty() && field.tetrahedra.empty())
     throw FileError(path, "", "the background mesh has no tetrahedra");
   for (std::size_t v = 0; v < field.sizes.size(); ++v)
     if (!(field.sizes[v] > 0 && std::isfinite(field.sizes[v])))
       throw FileError(path, "vertex " + std::to_string(v), "the size is not a positive number");
+  for (std::size_t v = 0; v < field.metrics.size(); ++v)
+    if (!is_positive_definite(field.metrics[v]))
+      throw FileError(path, "vertex " + std::to_string(v), "the tensor is not positive definite");
   return field;
 }
 

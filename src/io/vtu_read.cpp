@@ -44,9 +44,19 @@ class VtuReader {
     return mesh_of(source_.path, std::move(grid_));
   }
 
-  /// A scalar array of the points, after `read`.
-  std::vector<double> point_values(const std::string& name) {
-    return values<double>("PointData/" + name, points_);
+  /// The first of these arrays of the points that is there, after `read`.
+  PointArray point_array(std::span<const char* const> names) {
+    std::string known;
+    for (const std::string name : names) {
+      known += (known.empty() ? "" : " or ") + in_quotes(name);
+      const DataArray* const array = find("PointData/" + name);
+      if (array == nullptr) continue;
+      const bool is_scalar = array->tag.attribute("NumberOfComponents").empty();
+      const std::uint64_t components = is_scalar ? 1 : xml_.number(array->tag, "NumberOfComponents");
+      if (components == 0 || components > 9) xml_.fail(array->tag, "the array has no 1 to 9 components");
+      return {components, values<double>("PointData/" + name, components * points_)};
+    }
+    throw FileError(source_.path, "", "the points have no array " + known);
   }
 
  private:
@@ -236,10 +246,10 @@ class VtuReader {
 
 MeshData read_vtu(const Source& source) { return VtuReader(source).read(); }
 
-MeshData read_vtu(const Source& source, std::vector<double>* sizes) {
+MeshData read_vtu(const Source& source, std::span<const char* const> names, PointArray& array) {
   VtuReader reader(source);
   MeshData mesh = reader.read();
-  *sizes = reader.point_values("size");
+  array = reader.point_array(names);
   return mesh;
 }
 

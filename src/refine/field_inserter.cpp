@@ -20,7 +20,8 @@ std::span<const Tet> FieldInserter::insert(const Point& x, Tet start) {
     mesh_.remove_last_vertex();
     return {};
   }
-  volume_.sizes.push_back(wanted_);
+  volume_.sizes.push_back(size_);
+  if (volume_.metrics != nullptr) volume_.metrics->push_back(metric_);
   cavity_.insert();
   volume_.region_of.resize(mesh_.slot_count(), kNone);
   for (const Tet t : cavity_.created()) volume_.region_of[t] = region;
@@ -33,7 +34,7 @@ bool FieldInserter::fits(Vertex p, Tet start) {
   const Tet base = cavity_.locate(p, start);
   if (base == kNone || mesh_.is_ghost(base) || volume_.region_of[base] != region) return false;
   if (!is_far_from(p, vertices_round(base), region)) return false;
-  const bool found = cavity_.find(p, base);
+  const bool found = cavity_.find(p, base, frame_);
   if (found && !is_near_an_interface(p) && is_far_from(p, cavity_.ring(), region) && !is_near_a_facet(p) &&
       !is_near_beyond(p))
     return true;
@@ -68,21 +69,36 @@ std::span<const Vertex> FieldInserter::vertices_round(Tet t) {
   return {round_.data(), count};
 }
 
-// Whether p keeps its distance from these vertices. Leaves the size there in wanted_.
+// Whether p keeps its distance from these vertices. Leaves what is wanted there in size_ and
+// wanted_, and the metric and its frame if there are metrics.
 bool FieldInserter::is_far_from(Vertex p, std::span<const Vertex> vertices, RegionId region) {
   const Point& x = mesh_.position(p);
   double nearest = std::numeric_limits<double>::infinity();
-  wanted_ = sizes_.limit(x, region);
+  size_ = sizes_.limit(x, region);
   double mean = 0, weights = 0;  // of the sizes, the nearer the more
   for (const Vertex v : vertices) {
     const double d = distance(mesh_.position(v), x);
     nearest = std::min(nearest, d);
-    wanted_ = std::min(wanted_, volume_.sizes[v] + sizes_.gradation() * d);
+    size_ = std::min(size_, volume_.sizes[v] + sizes_.gradation() * d);
     mean += volume_.sizes[v] / d;
     weights += 1 / d;
   }
-  if (!sizes_.grows() && weights > 0) wanted_ = std::min(wanted_, mean / weights);
+  if (!sizes_.grows() && weights > 0) size_ = std::min(size_, mean / weights);
+  wanted_ = size_;
+  if (volume_.metrics != nullptr) nearest = want_metric(p, vertices);
   return nearest >= kNearest * wanted_;
+}
+
+// Makes a metric of the size and the user's metric. Returns the distance of the nearest vertex in it.
+double FieldInserter::want_metric(Vertex p, std::span<const Vertex> vertices) {
+  const Point& x = mesh_.position(p);
+  metric_ = sizes_.metric(x, size_);
+  size_ = largest_size(metric_);
+  frame_ = Frame(metric_, x);
+  wanted_ = 1;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Vertex v : vertices) nearest = std::min(nearest, length(metric_, mesh_.position(v) - x));
+  return nearest;
 }
 
 // Where constraints cut the cavity, or the mesh is not Delaunay, a near vertex may stand just beyond it.
@@ -91,7 +107,7 @@ bool FieldInserter::is_near_beyond(Vertex p) const {
   for (const PointCavity::Rim& rim : cavity_.rim()) {
     const Vertex v = mesh_.apex(rim.outer);
     if ((rim.flags & facet_bit(3)) == 0 && v != kGhost &&
-        distance(mesh_.position(v), mesh_.position(p)) < least)
+        distance(frame_.to(mesh_.position(v)), frame_.to(mesh_.position(p))) < least)
       return true;
   }
   return false;
@@ -100,9 +116,9 @@ bool FieldInserter::is_near_beyond(Vertex p) const {
 bool FieldInserter::is_near_a_facet(Vertex p) const {
   for (const PointCavity::Rim& rim : cavity_.rim()) {
     if ((rim.flags & facet_bit(3)) == 0) continue;
-    const Point& a = mesh_.position(rim.v[0]);
-    const Vector n = cross(mesh_.position(rim.v[1]) - a, mesh_.position(rim.v[2]) - a);
-    const double height = dot(n, mesh_.position(p) - a);
+    const Point a = frame_.to(mesh_.position(rim.v[0]));
+    const Vector n = cross(frame_.to(mesh_.position(rim.v[1])) - a, frame_.to(mesh_.position(rim.v[2])) - a);
+    const double height = dot(n, frame_.to(mesh_.position(p)) - a);
     if (height * height < kLeastHeight * kLeastHeight * wanted_ * wanted_ * dot(n, n)) return true;
   }
   return false;

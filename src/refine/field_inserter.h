@@ -1,7 +1,7 @@
 // Inserts one field point where it keeps its distance from all others.
 //
 // The nearest vertex that a point sees is always one of those that it would be joined to, so that the mesh
-// itself is the spatial index: for distances, and for the size that is wanted at the point.
+// itself is the spatial index: for distances, and for the size, or metric, that is wanted at the point.
 #pragma once
 
 #include <span>
@@ -32,6 +32,7 @@ class FieldInserter {
   [[nodiscard]] bool is_near_an_interface(Vertex p) const;
   std::span<const Vertex> vertices_round(Tet t);
   bool is_far_from(Vertex p, std::span<const Vertex> vertices, RegionId region);
+  double want_metric(Vertex p, std::span<const Vertex> vertices);
   [[nodiscard]] bool is_near_beyond(Vertex p) const;
   [[nodiscard]] bool is_near_a_facet(Vertex p) const;
 
@@ -40,7 +41,10 @@ class FieldInserter {
   const SizeFunction& sizes_;
   PointCavity cavity_;
   std::array<Vertex, 8> round_{};
-  double wanted_ = 0;  // size at the point
+  double size_ = 0;    // at the point
+  double wanted_ = 0;  // the same in the frame there
+  Metric metric_{};    // at the point, if there are metrics
+  Frame frame_;
   std::size_t wasted_ = 0;
 };
 

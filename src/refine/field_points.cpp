@@ -33,10 +33,11 @@ double tets_in(const VolumeData& volume, const SizeFunction& sizes, Tet t, const
 }
 
 // From some of the tetrahedra. Sizes that do not grow are means of those round a point: in a mesh without
-// points inside, of the sizes of the whole surface; so there are no cuts then.
+// points inside, of the sizes of the whole surface; so there are no cuts then. With a metric neither: the
+// points on cuts are for spheres.
 Cuts find_cuts(const VolumeData& volume, const SizeFunction& sizes, const std::vector<Tet>& tets) {
   constexpr std::size_t kSamples = 1u << 13;
-  if (!sizes.grows()) return {{}, 0};
+  if (!sizes.grows() || sizes.has_metric()) return {{}, 0};
   const std::size_t step = 1 + tets.size() / kSamples;
   std::vector<Cuts::Sample> samples;
   double expected = 0;

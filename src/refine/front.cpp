@@ -22,7 +22,6 @@ class Front {
   Front(const VolumeData& volume, const SizeFunction& sizes, Stage stage, Monitor& monitor)
       : volume_(volume),
         mesh_(volume.mesh),
-        size_(volume.sizes),
         sizes_(sizes),
         stage_(stage),
         monitor_(monitor),
@@ -94,15 +93,35 @@ class Front {
 
   // Whether the radius of its sphere is. Per tetrahedron made, so without roots and divisions.
   [[nodiscard]] bool is_large(Tet t) const {
-    const ScaledCentre centre = sphere_centre(mesh_, mesh_.corners(t));
-    const double limit = centre.scale * largest_radius(t);
+    if (volume_.metrics != nullptr) return is_large_in_metric(t);
+    return is_larger(sphere_centre(mesh_.position(mesh_.corner(t, 0)), mesh_.position(mesh_.corner(t, 1)),
+                                   mesh_.position(mesh_.corner(t, 2)), mesh_.position(mesh_.corner(t, 3))),
+                     largest_radius(t));
+  }
+
+  static bool is_larger(const ScaledCentre& centre, double radius) {
+    const double limit = centre.scale * radius;
     return !(dot(centre.at, centre.at) < limit * limit);
+  }
+
+  // The same, for its corners, or in the middle, of which these may not know.
+  [[nodiscard]] bool is_large_in_metric(Tet t) const {
+    if (is_larger(volume_.see(mesh_.corners(t), sphere_centre), kLarge)) return true;
+    const Point middle = centroid(mesh_, t);
+    double most = sizes_.limit(middle, volume_.region_of[t]);
+    for (const Vertex v : mesh_.corners(t))
+      most = std::min(most, volume_.sizes[v] + sizes_.gradation() * distance(mesh_.position(v), middle));
+    const Frame frame(sizes_.metric(middle, most), middle);
+    std::array<Point, 4> q;
+    for (std::size_t i = 0; i < 4; ++i) q[i] = frame.to(mesh_.position(mesh_.corners(t)[i]));
+    return is_larger(sphere_centre(q[0], q[1], q[2], q[3]), kLarge);
   }
 
   // Sizes grow with the distance: r = kLarge (h + gradation r).
   [[nodiscard]] double largest_radius(Tet t) const {
     const TetMesh::Corners& c = mesh_.corners(t);
-    const std::array<double, 4> h{size_[c[0]], size_[c[1]], size_[c[2]], size_[c[3]]};
+    const std::vector<double>& size = volume_.sizes;
+    const std::array<double, 4> h{size[c[0]], size[c[1]], size[c[2]], size[c[3]]};
     double allowed = *std::min_element(h.begin(), h.end()) / (1 - kLarge * sizes_.gradation());
     if (!sizes_.grows()) allowed = std::min(allowed, kLevel * 0.25 * (h[0] + h[1] + h[2] + h[3]));
     if (sizes_.has_limit())
@@ -125,12 +144,13 @@ class Front {
   // Where the front does not get on, as over a facet much larger than the size: a point on the longest edge,
   // one size away from one of its ends.
   bool split_long_edge(Tet t) {
+    const Frame frame = volume_.frame_of(mesh_.corners(t));
     int longest = -1;
     double length = 0;
     for (int k = 0; k < 6; ++k) {
       const auto& ends = kEdgeVertex[static_cast<std::size_t>(k)];
-      const double d =
-          distance(mesh_.position(mesh_.corner(t, ends[0])), mesh_.position(mesh_.corner(t, ends[1])));
+      const double d = distance(frame.to(mesh_.position(mesh_.corner(t, ends[0]))),
+                                frame.to(mesh_.position(mesh_.corner(t, ends[1]))));
       if (mesh_.is_segment(t, k) || d <= length) continue;
       length = d;
       longest = k;
@@ -140,7 +160,7 @@ class Front {
     for (std::size_t i = 0; i < 2; ++i) {
       const Vertex v = mesh_.corner(t, ends[i]);
       const Point &a = mesh_.position(v), &b = mesh_.position(mesh_.corner(t, ends[1 - i]));
-      const double part = size_[v] / length;
+      const double part = volume_.size_in_frame(v) / length;
       if (part > kLongestPart) continue;
       Point p;
       for (std::size_t j = 0; j < 3; ++j) p[j] = a[j] + part * (b[j] - a[j]);
@@ -157,22 +177,26 @@ class Front {
 
   bool place_over(Face f, Point& p) const {
     const auto v = mesh_.face_vertices(f);
-    const Point &a = mesh_.position(v[0]), &b = mesh_.position(v[1]), &c = mesh_.position(v[2]);
+    const Frame frame = volume_.frame_of(v);
+    const Point a = frame.to(mesh_.position(v[0])), b = frame.to(mesh_.position(v[1])),
+                c = frame.to(mesh_.position(v[2])), d = frame.to(mesh_.position(mesh_.apex(f)));
     const Vector u = b - a, w = c - a;
     const Vector n = cross(u, w);
     const double nn = dot(n, n);
     if (!(nn > 0)) return false;
     const double area = std::sqrt(nn);
-    double length = (size_[v[0]] + size_[v[1]] + size_[v[2]]) / 3 * (1 + 0.4 * sizes_.gradation());
+    const double sum =
+        volume_.size_in_frame(v[0]) + volume_.size_in_frame(v[1]) + volume_.size_in_frame(v[2]);
+    const double length = sum / 3 * (1 + 0.4 * sizes_.gradation());
     // The centre of the circle through the corners, or where that is far away, of the triangle.
     Vector foot = circle_centre(u, w);
     const double radius2 = dot(foot, foot);
     const bool round = radius2 < 0.6 * length * length;
-    const double top = mesh_apex_height(f, n, area);
+    const double top = dot(n, d - a) / area;
     double height = round ? std::sqrt(length * length - radius2) : 0.75 * length;
     if (round) {
       // The centre of the tetrahedron's sphere lies over the foot, too.
-      const double over = sphere_height(f, a, foot, n, area);
+      const double over = sphere_height(d - a, foot, n, area);
       if (over < 0.3 * height) return false;
       height = std::min(height, over);
     } else {
@@ -180,18 +204,14 @@ class Front {
       if (top < height) return false;
     }
     for (std::size_t k = 0; k < 3; ++k) p[k] = a[k] + foot[k] + height * n[k] / area;
+    p = frame.from(p);
     return true;
   }
 
-  [[nodiscard]] double mesh_apex_height(Face f, const Vector& n, double area) const {
-    return dot(n, mesh_.position(mesh_.apex(f)) - mesh_.position(mesh_.face_vertices(f)[0])) / area;
-  }
-
-  // Height over the plane of f of the centre of the tetrahedron's sphere: of equal distance from a and the
-  // apex.
-  [[nodiscard]] double sphere_height(Face f, const Point& a, const Vector& foot, const Vector& n,
-                                     double area) const {
-    const Vector d = mesh_.position(mesh_.apex(f)) - a;
+  // Height over the plane of a face of the centre of the tetrahedron's sphere: of equal distance from the
+  // corner that all is seen from and the apex d.
+  [[nodiscard]] static double sphere_height(const Vector& d, const Vector& foot, const Vector& n,
+                                            double area) {
     return (dot(d, d) - 2 * dot(d, foot)) * area / (2 * dot(d, n));
   }
 
@@ -214,7 +234,6 @@ class Front {
 
   const VolumeData volume_;
   TetMesh& mesh_;
-  const std::vector<double>& size_;  // by vertex
   const SizeFunction& sizes_;
   const Stage stage_;
   Monitor& monitor_;
@@ -223,6 +242,17 @@ class Front {
   std::deque<Tet> front_;
   std::deque<Tet> rest_;  // large ones that the front did not get on with
 };
+
+// The user's metric with no size above those that are set.
+void set_metrics_at_vertices(const VolumeData& volume, const SizeFunction& sizes) {
+  constexpr double kMost = 0x1p200;  // in the place of none
+  std::vector<Metric>& metrics = *volume.metrics;
+  metrics.resize(volume.mesh.vertex_count());
+  for (Vertex v = 0; v < metrics.size(); ++v) {
+    metrics[v] = sizes.metric(volume.mesh.position(v), std::min(volume.sizes[v], kMost));
+    volume.sizes[v] = largest_size(metrics[v]);
+  }
+}
 
 }  // namespace
 
@@ -252,6 +282,7 @@ void set_sizes_at_vertices(const VolumeData& volume, const SizeFunction& sizes) 
     if (volume.is_inside(t))
       for (const Vertex v : mesh.corners(t))
         size[v] = std::min(size[v], sizes.limit(mesh.position(v), volume.region_of[t]));
+  if (sizes.has_metric()) set_metrics_at_vertices(volume, sizes);
 }
 
 void advance_front(const VolumeData& volume, const SizeFunction& sizes, Stage stage, Monitor& monitor) {

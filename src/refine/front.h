@@ -14,7 +14,8 @@
 
 namespace holdfast {
 
-/// The size at each vertex of the mesh: that of the surface, and for others what the vertices round allow.
+/// The size at each vertex of the mesh: that of the surface, and for others what the vertices round allow;
+/// and the metric, if there is one.
 void set_sizes_at_vertices(const VolumeData& volume, const SizeFunction& sizes);
 
 /// Adds field points, wherever tetrahedra are too large. Progress is told as that of `stage`.

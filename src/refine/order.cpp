@@ -101,21 +101,23 @@ CurveOrder order_of(const TetMesh& mesh, Vertex first) {
 }
 
 void renumber(TetMesh& mesh, const CurveOrder& order, Vertex first, std::vector<RegionId>& region_of,
-              std::vector<double>& sizes) {
+              std::vector<double>& sizes, std::vector<Metric>* metrics) {
   const auto& [tets, vertices] = order;
   std::vector<RegionId> regions(tets.size());
   for (std::size_t k = 0; k < tets.size(); ++k) regions[k] = region_of[tets[k]];
   region_of = std::move(regions);
-  if (!sizes.empty()) {
-    const std::vector<double> old(sizes.begin() + first, sizes.end());
-    for (std::size_t k = 0; k < vertices.size(); ++k) sizes[first + k] = old[vertices[k] - first];
-  }
+  const auto reorder = [&](auto& values) {
+    const std::vector old(values.begin() + first, values.end());
+    for (std::size_t k = 0; k < vertices.size(); ++k) values[first + k] = old[vertices[k] - first];
+  };
+  if (!sizes.empty()) reorder(sizes);
+  if (metrics != nullptr) reorder(*metrics);
   mesh.renumber(tets, first, vertices);
 }
 
 void order_along_curve(const VolumeData& volume) {
   renumber(volume.mesh, order_of(volume.mesh, volume.first_free), volume.first_free, volume.region_of,
-           volume.sizes);
+           volume.sizes, volume.metrics);
 }
 
 }  // namespace holdfast

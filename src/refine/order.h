@@ -28,10 +28,10 @@ struct CurveOrder {
 };
 [[nodiscard]] CurveOrder order_of(const TetMesh& mesh, Vertex first);
 
-/// Renumbers tetrahedra, and the vertices from `first` on. `region_of`, by slot, and `sizes`, by vertex
-/// unless empty, follow.
+/// Renumbers tetrahedra, and the vertices from `first` on. `region_of`, by slot, and by vertex `sizes`,
+/// unless empty, and `metrics`, if there are any, follow.
 void renumber(TetMesh& mesh, const CurveOrder& order, Vertex first, std::vector<RegionId>& region_of,
-              std::vector<double>& sizes);
+              std::vector<double>& sizes, std::vector<Metric>* metrics);
 /// Along the curve: tetrahedra, and the vertices that lie on no constraint.
 void order_along_curve(const VolumeData& volume);
 

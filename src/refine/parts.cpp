@@ -84,6 +84,8 @@ class PartMaker {
       part_.mesh.move_vertex(v, whole_.mesh.position(part_.vertices_[v]));
       part_.sizes[v] = whole_.sizes[part_.vertices_[v]];
     }
+    if (whole_.metrics == nullptr) return;
+    for (const Vertex v : part_.vertices_) part_.metrics.push_back((*whole_.metrics)[v]);
   }
 
   void copy_tets() {
@@ -204,7 +206,7 @@ void Part::order_along_curve() {
   std::erase_if(order.tets, [&](Tet t) { return mesh.is_ghost(t); });
   const auto first_ghost = static_cast<Tet>(order.tets.size());
   for (Tet k = 0; k < bounds_.size(); ++k) order.tets.push_back(first_ghost_ + k);
-  renumber(mesh, order, first_new, region_of, sizes);
+  renumber(mesh, order, first_new, region_of, sizes, metrics_if_any());
   first_ghost_ = first_ghost;
 }
 
@@ -277,6 +279,7 @@ class PartJoiner {
       whole_.mesh.move_vertex(w, part_.mesh.position(v));
       whole_.mesh.set_incident(w, t == kNone ? kNone : joined_[t]);
       whole_.sizes[w] = part_.sizes[v];
+      if (whole_.metrics != nullptr) (*whole_.metrics)[w] = part_.metrics[v];
     }
   }
 
@@ -382,6 +385,7 @@ void Parts::join(unsigned threads) {
   whole_.mesh.add_vertices(vertex - whole_.mesh.vertex_count());
   whole_.region_of.resize(whole_.mesh.slot_count(), kNone);
   whole_.sizes.resize(whole_.mesh.vertex_count(), 0);
+  if (whole_.metrics != nullptr) whole_.metrics->resize(whole_.mesh.vertex_count());
   parallel(threads, joiners.size(), [&](std::size_t k) {
     joiners[k].number(first[k].first, first[k].second);
     joiners[k].write();

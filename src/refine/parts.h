@@ -19,10 +19,11 @@ class Part {
   TetMesh mesh;
   std::vector<RegionId> region_of;  ///< by slot
   std::vector<double> sizes;        ///< by vertex
+  std::vector<Metric> metrics;      ///< by vertex, if there are any
   Vertex first_free = 0;            ///< lower ones stand: they are the whole's, or on an interface
 
   [[nodiscard]] VolumeData data(const std::vector<bool>& kept) {
-    return {mesh, region_of, sizes, kept, first_free, this};
+    return {mesh, region_of, sizes, kept, first_free, this, metrics_if_any()};
   }
   /// Whether a tetrahedron is the ghost on a face of an interface.
   [[nodiscard]] bool is_beyond_interface(Tet t) const {
@@ -50,6 +51,7 @@ class Part {
     bool is_next_a_part;    // beyond it
     std::uint8_t held = 0;  // bit j: the ghost's edge opposite corner j is a segment in this part alone
   };
+  [[nodiscard]] std::vector<Metric>* metrics_if_any() { return metrics.empty() ? nullptr : &metrics; }
   template <typename Act>
   Face turn(Face in, Vertex across, Act&& act) const;
   void hold_interface(Tet ghost);

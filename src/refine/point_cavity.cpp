@@ -40,9 +40,9 @@ Tet PointCavity::locate(Vertex p, Tet start) {
   return kNone;
 }
 
-bool PointCavity::find(Vertex p, Tet base, std::size_t most) {
+bool PointCavity::find(Vertex p, Tet base, const Frame& frame, std::size_t most) {
   p_ = p;
-  spread(base, most);
+  spread(base, frame, most);
   work_ = tets_.size();
   if (tets_.size() > most) {
     abandon();
@@ -78,13 +78,20 @@ bool PointCavity::settle(Tet base) {
   return true;
 }
 
+inline bool PointCavity::is_in_sphere(Tet t, const Point& x) const {
+  const auto& c = mesh_.corners(t);
+  return exact::insphere(mesh_.position(c[0]).data(), mesh_.position(c[1]).data(),
+                         mesh_.position(c[2]).data(), mesh_.position(c[3]).data(), x.data()) > 0;
+}
+
 // The tetrahedra in conflict with p and the faces between them and others, facets from both sides.
-void PointCavity::spread(Tet base, std::size_t most) {
+void PointCavity::spread(Tet base, const Frame& frame, std::size_t most) {
   tets_.clear();
   faces_.clear();
   tets_.push_back(base);
   mesh_.set_flags(base, kVisited);
-  const double* const x = mesh_.position(p_).data();
+  const bool is_plain = frame.is_plain();
+  const Point& x = mesh_.position(p_);
   for (std::size_t k = 0; k < tets_.size() && tets_.size() <= most; ++k) {
     const Tet t = tets_[k];
     for (int i = 0; i < 4; ++i) {
@@ -95,13 +102,7 @@ void PointCavity::spread(Tet base, std::size_t most) {
         continue;
       }
       if ((mesh_.flags(n) & kVisited) != 0) continue;
-      bool conflict = false;
-      if (!mesh_.is_ghost(n)) {
-        const auto& c = mesh_.corners(n);
-        conflict = exact::insphere(mesh_.position(c[0]).data(), mesh_.position(c[1]).data(),
-                                   mesh_.position(c[2]).data(), mesh_.position(c[3]).data(), x) > 0;
-      }
-      if (conflict) {
+      if (!mesh_.is_ghost(n) && (is_plain ? is_in_sphere(n, x) : is_in_sphere_of(frame, n))) {
         mesh_.set_flags(n, kVisited);
         mesh_.prefetch_neighbours(n);
         tets_.push_back(n);
@@ -110,6 +111,15 @@ void PointCavity::spread(Tet base, std::size_t most) {
       }
     }
   }
+}
+
+// Rounded in the frame, flat tetrahedra may be turned round.
+bool PointCavity::is_in_sphere_of(const Frame& frame, Tet t) const {
+  std::array<Point, 4> q;
+  for (std::size_t i = 0; i < 4; ++i) q[i] = frame.to(mesh_.position(mesh_.corners(t)[i]));
+  const Point x = frame.to(mesh_.position(p_));
+  const int way = exact::orient3d(q[0].data(), q[1].data(), q[2].data(), q[3].data());
+  return way == 0 || way * exact::insphere(q[0].data(), q[1].data(), q[2].data(), q[3].data(), x.data()) > 0;
 }
 
 void PointCavity::gather(std::span<const Tet> tets) {

@@ -8,6 +8,7 @@
 // a closed surface all of whose triangles see p winds round it as often as it covers the directions, which is
 // once, since p lies in one tetrahedron. In-sphere tests only propose; they are exact all the same: flat
 // tetrahedra, of which floating point cannot tell, would come to stand like walls in the way of cavities.
+// Where a metric is given, spheres are those of its frame at p.
 #pragma once
 
 #include <limits>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "mesh/tet_mesh.h"
+#include "metric/frame.h"
 
 namespace holdfast {
 
@@ -31,7 +33,7 @@ class PointCavity {
 
   /// Finds the cavity of p round the tetrahedron `base` that holds it. Returns false where there is none, or
   /// it would have more than `most` tetrahedra. It must be inserted or abandoned.
-  [[nodiscard]] bool find(Vertex p, Tet base, std::size_t most = kUnlimited);
+  [[nodiscard]] bool find(Vertex p, Tet base, const Frame& frame, std::size_t most = kUnlimited);
   /// The same, but the cavity is made of these tetrahedra alone, as far as p sees their faces.
   [[nodiscard]] bool find_among(Vertex p, Tet base, std::span<const Tet> tets);
   /// The vertices that p would be joined to.
@@ -60,7 +62,9 @@ class PointCavity {
 
  private:
   bool settle(Tet base);
-  void spread(Tet base, std::size_t most);
+  void spread(Tet base, const Frame& frame, std::size_t most);
+  [[nodiscard]] bool is_in_sphere(Tet t, const Point& x) const;
+  [[nodiscard]] bool is_in_sphere_of(const Frame& frame, Tet t) const;
   void gather(std::span<const Tet> tets);
   bool shrink_until_seen(Tet base);
   bool release(Tet t, Tet base);

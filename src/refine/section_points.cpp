@@ -83,7 +83,7 @@ class SectionRefiner {
     for (std::size_t i = 0; i < 4; ++i) corners[i] = mesh_.position(mesh_.corners(t)[i]);
     std::optional<Circle> found;
     cuts_.any_across(corners, [&](const Cuts::Plane& plane) {
-      const ScaledCentre scaled = sphere_centre(mesh_, mesh_.corners(t));
+      const ScaledCentre scaled = sphere_centre(corners[0], corners[1], corners[2], corners[3]);
       Point centre;
       for (std::size_t k = 0; k < 3; ++k) centre[k] = corners[0][k] + scaled.at[k] / scaled.scale;
       Circle circle{centre, middle_of_section(corners, plane), centre, false, false};

@@ -34,9 +34,8 @@ struct ScaledCentre {
   Vector at;
   double scale;
 };
-inline ScaledCentre sphere_centre(const TetMesh& mesh, const TetMesh::Corners& c) {
-  const Point& p = mesh.position(c[0]);
-  const Vector u = mesh.position(c[1]) - p, v = mesh.position(c[2]) - p, w = mesh.position(c[3]) - p;
+inline ScaledCentre sphere_centre(const Point& p, const Point& q, const Point& r, const Point& s) {
+  const Vector u = q - p, v = r - p, w = s - p;
   const Vector vw = cross(v, w), wu = cross(w, u), uv = cross(u, v);
   const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
   ScaledCentre centre{{}, 2 * dot(u, vw)};

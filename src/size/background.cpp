@@ -6,6 +6,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "metric/metric.h"
+
 namespace holdfast {
 namespace {
 
@@ -74,42 +76,67 @@ void Background::visit_buckets(const Tetrahedron& t, Visit&& visit) const {
       for (std::size_t x = from[0]; x <= to[0]; ++x) visit((z * count_[1] + y) * count_[0] + x);
 }
 
-double Background::at(const Point& p) const {
-  if (tets_.empty()) return 0;
+std::optional<Background::Place> Background::locate(const Point& p) const {
+  if (tets_.empty()) return {};
   const std::size_t bucket =
       (bucket_along(p[2], 2) * count_[1] + bucket_along(p[1], 1)) * count_[0] + bucket_along(p[0], 0);
-  for (std::size_t k = first_[bucket]; k < first_[bucket + 1]; ++k) {
-    double size = 0;
-    if (interpolate(field_.tetrahedra[tets_[k]], p, size)) return size;
-  }
-  return 0;
+  for (std::size_t k = first_[bucket]; k < first_[bucket + 1]; ++k)
+    if (const auto place = place_in(field_.tetrahedra[tets_[k]], p)) return place;
+  return {};
 }
 
-bool Background::interpolate(const Tetrahedron& t, const Point& p, double& size) const {
+std::optional<Background::Place> Background::place_in(const Tetrahedron& t, const Point& p) const {
   constexpr double kSlack = 1e-9;  // a point on a face must not fall between two tetrahedra
   const auto& v = field_.vertices;
   const double volume = six_volumes(v[t[0]], v[t[1]], v[t[2]], v[t[3]]);
-  if (volume == 0) return false;
-  const std::array<double, 4> part{
-      six_volumes(p, v[t[1]], v[t[2]], v[t[3]]) / volume, six_volumes(v[t[0]], p, v[t[2]], v[t[3]]) / volume,
-      six_volumes(v[t[0]], v[t[1]], p, v[t[3]]) / volume, six_volumes(v[t[0]], v[t[1]], v[t[2]], p) / volume};
-  size = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (!(part[i] >= -kSlack)) return false;
-    size += part[i] * field_.sizes[t[i]];
-  }
-  return true;
+  if (volume == 0) return {};
+  const Place place{
+      t,
+      {six_volumes(p, v[t[1]], v[t[2]], v[t[3]]) / volume, six_volumes(v[t[0]], p, v[t[2]], v[t[3]]) / volume,
+       six_volumes(v[t[0]], v[t[1]], p, v[t[3]]) / volume,
+       six_volumes(v[t[0]], v[t[1]], v[t[2]], p) / volume}};
+  for (const double part : place.parts)
+    if (!(part >= -kSlack)) return {};
+  return place;
 }
 
-std::function<double(const Point&)> size_function(SizeField field) {
-  if (field.sizes.size() != field.vertices.size())
-    throw std::invalid_argument("a size field needs a size for every vertex");
+namespace {
+
+std::shared_ptr<const Background> background_of(SizeField field) {
   for (const Tetrahedron& t : field.tetrahedra)
     for (const Index v : t)
       if (v >= field.vertices.size())
         throw std::invalid_argument("a size field names a vertex it does not have");
-  const auto background = std::make_shared<const Background>(std::move(field));
-  return [background](const Point& p) { return background->at(p); };
+  return std::make_shared<const Background>(std::move(field));
+}
+
+}  // namespace
+
+std::function<double(const Point&)> size_function(SizeField field) {
+  if (field.sizes.size() != field.vertices.size())
+    throw std::invalid_argument("a size field needs a size for every vertex");
+  return [background = background_of(std::move(field))](const Point& p) {
+    double size = 0;
+    if (const auto place = background->locate(p))
+      for (std::size_t i = 0; i < 4; ++i)
+        size += place->parts[i] * background->field().sizes[place->tetrahedron[i]];
+    return size;
+  };
+}
+
+std::function<Metric(const Point&)> metric_function(SizeField field) {
+  if (field.metrics.size() != field.vertices.size() ||
+      !std::all_of(field.metrics.begin(), field.metrics.end(), is_positive_definite))
+    throw std::invalid_argument("a metric field needs a positive definite tensor for every vertex");
+  for (Metric& m : field.metrics) m = logarithm(m);
+  return [background = background_of(std::move(field))](const Point& p) {
+    const auto place = background->locate(p);
+    if (!place) return Metric{};
+    Metric sum{};
+    for (std::size_t i = 0; i < 4; ++i)
+      sum = sum + place->parts[i] * background->field().metrics[place->tetrahedron[i]];
+    return exponential(sum);
+  };
 }
 
 }  // namespace holdfast

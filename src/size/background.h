@@ -1,6 +1,8 @@
-// Sizes given at the vertices of a background mesh, linear in each of its tetrahedra.
+// Sizes or metrics given at the vertices of a background mesh, linear in each of its tetrahedra: metrics by
+// their logarithms.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "holdfast/io.h"
@@ -10,15 +12,23 @@ namespace holdfast {
 /// Finds the tetrahedron by a grid of buckets. Guesses in floating point are good enough for a size.
 class Background {
  public:
+  /// Only the vertices and tetrahedra of the field count.
   explicit Background(SizeField field);
-  /// The size at p; 0 (no limit) outside.
-  [[nodiscard]] double at(const Point& p) const;
+
+  struct Place {
+    const Tetrahedron& tetrahedron;
+    std::array<double, 4> parts;  ///< the weights of its corners
+  };
+  /// Where p is; nothing outside.
+  [[nodiscard]] std::optional<Place> locate(const Point& p) const;
+
+  [[nodiscard]] const SizeField& field() const { return field_; }
 
  private:
   [[nodiscard]] std::size_t bucket_along(double x, std::size_t axis) const;
   template <typename Visit>
   void visit_buckets(const Tetrahedron& t, Visit&& visit) const;
-  [[nodiscard]] bool interpolate(const Tetrahedron& t, const Point& p, double& size) const;
+  [[nodiscard]] std::optional<Place> place_in(const Tetrahedron& t, const Point& p) const;
 
   SizeField field_;
   Point low_{}, step_{};

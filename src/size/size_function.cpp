@@ -34,6 +34,7 @@ SizeFunction::SizeFunction(const Sizes& sizes, const Complex& complex, const Seg
       most_(sizes.size > 0 ? std::ldexp(sizes.size, scale) : kNoLimit),
       scale_(scale),
       field_(sizes.field),
+      metric_(sizes.metric),
       of_vertex_(edge_lengths(complex, table)) {
   for (std::size_t v = 0; v < std::min(of_vertex_.size(), sizes.vertex_sizes.size()); ++v)
     if (sizes.vertex_sizes[v] > 0) of_vertex_[v] = sizes.vertex_sizes[v];
@@ -48,9 +49,20 @@ SizeFunction::SizeFunction(const Sizes& sizes, const Complex& complex, const Seg
   }
 }
 
+Point SizeFunction::unscaled(const Point& p) const {
+  return {std::ldexp(p[0], -scale_), std::ldexp(p[1], -scale_), std::ldexp(p[2], -scale_)};
+}
+
 double SizeFunction::field_at(const Point& p) const {
-  const double h = field_({std::ldexp(p[0], -scale_), std::ldexp(p[1], -scale_), std::ldexp(p[2], -scale_)});
+  const double h = field_(unscaled(p));
   return h > 0 ? std::ldexp(h, scale_) : kNoLimit;
+}
+
+Metric SizeFunction::metric(const Point& p, double most) const {
+  const Metric of_limit = most < kNoLimit ? isotropic_metric(most) : Metric{};
+  Metric m = metric_(unscaled(p));
+  for (double& x : m) x = std::ldexp(x, -2 * scale_);
+  return is_positive_definite(m) ? intersection(m, of_limit) : of_limit;
 }
 
 }  // namespace holdfast

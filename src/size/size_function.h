@@ -4,6 +4,10 @@
 // size spreads inward: from a vertex of size h, at distance d, it is at most h + gradation * d. A point gets
 // the least that the vertices round it allow, so that sizes are handed from point to point as the mesh grows,
 // and no other structure is needed. On top of this come the user's limits: one number, one a region, a field.
+//
+// With a metric of the user, sizes depend on the direction. What is handed from point to point is the largest
+// of them, so that the metric is kept to but where it asks for more than all this allows in any direction:
+// handed on itself, it would be spoiled where it turns, as along a curved layer.
 #pragma once
 
 #include <limits>
@@ -11,6 +15,7 @@
 
 #include "classify/keep.h"
 #include "holdfast/holdfast.h"
+#include "metric/metric.h"
 #include "surface/complex.h"
 
 namespace holdfast {
@@ -29,17 +34,21 @@ class SizeFunction {
     const double least = of_region_.empty() ? most_ : of_region_[region];
     return field_ ? std::min(least, field_at(p)) : least;
   }
+  [[nodiscard]] bool has_metric() const { return static_cast<bool>(metric_); }
+  /// The metric of the user at a point of the mesh, with no size above `most`; zero without either.
+  [[nodiscard]] Metric metric(const Point& p, double most) const;
   /// Whether the user gave a limit anywhere.
   [[nodiscard]] bool has_limit() const {
     return most_ < std::numeric_limits<double>::infinity() || !of_region_.empty() || field_;
   }
   /// Whether this is a function of the user, which is called on the calling thread alone.
-  [[nodiscard]] bool is_the_users() const { return static_cast<bool>(field_); }
+  [[nodiscard]] bool is_the_users() const { return field_ || metric_; }
   [[nodiscard]] double gradation() const { return gradation_; }
   /// Inside, sizes do not grow beyond those of the surface round it.
   [[nodiscard]] bool grows() const { return grows_; }
 
  private:
+  [[nodiscard]] Point unscaled(const Point& p) const;
   [[nodiscard]] double field_at(const Point& p) const;
 
   double gradation_;
@@ -48,6 +57,7 @@ class SizeFunction {
   int scale_;
   std::vector<double> of_region_;  // empty where no region has a size of its own
   std::function<double(const Point&)> field_;
+  std::function<Metric(const Point&)> metric_;
   std::vector<double> of_vertex_;
 };
 

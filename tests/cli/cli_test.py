@@ -239,6 +239,33 @@ class Mesh(CliTest):
                                                          expect=3).stderr)
         self.run_program("mesh", "cube.off", "-o", "a.vtu", "--size-field", "missing.pos", expect=3)
 
+    def test_a_metric_field_of_a_file(self):
+        # A layer at z = 0.5: edges of 0.05 across and 0.5 along it.
+        corners = [(-1, -1, -1), (9, -1, -1), (-1, 9, -1), (-1, -1, 9)]
+        lines = "\n".join(" ".join(map(str, p)) + " 0" for p in corners)
+        (self.folder / "m.mesh").write_text(f"MeshVersionFormatted 2 Dimension 3 Vertices 4\n{lines}\n"
+                                            "Tetrahedra 1\n1 2 3 4 0\nEnd\n")
+        sol = "MeshVersionFormatted 2\nDimension 3\nSolAtVertices 4\n1 3\n"
+        (self.folder / "m.sol").write_text(sol + 4 * "4 0 4 0 0 400\n" + "End\n")
+        self.make("chazelle", "surface.off", "-n", "3")
+        counts = []
+        for size in (["--size-field", "m.mesh"], ["--size-field", "m.sol"], ["--size", "0.05"]):
+            self.run_program("mesh", "cube.off", "-o", "a.vtu", *size, "--report", "r.json")
+            self.run_program("check", "cube.off", "a.vtu")
+            report = json.loads((self.folder / "r.json").read_text())
+            counts.append(report["mesh"]["tetrahedra"])
+            lengths = report["field"]["edge_length_histogram"]  # in bins of 1/8
+            self.assertGreater(sum(lengths[5:12]), 0.3 * sum(lengths))
+        self.assertEqual(counts[0], counts[1])
+        self.assertGreater(counts[2], 4 * counts[0])
+        self.assertGreater(counts[0], 100)
+        self.run_program("mesh", "surface.off", "-o", "a.vtu", "--size-field", "m.mesh", "--threads", "2")
+        self.run_program("check", "surface.off", "a.vtu")
+        self.assertIn("Field points", self.run_program("mesh", "--help").stdout)
+        (self.folder / "m.sol").write_text(sol + 2 * "4 0 4 0 0 400\n" + "4 9 4 0 0 400\n4 0 4 0 0 400\nEnd\n")
+        self.assertIn("m.sol: line 7: the tensor is not positive definite",
+                      self.run_program("mesh", "cube.off", "-o", "a.vtu", "--size-field", "m.mesh", expect=3).stderr)
+
     def test_a_region_with_a_size(self):
         inner = cube((0.25, 0.25, 0.25), 0.5)
         self.write("nested.off", off(CUBE_POINTS + inner, CUBE_FACETS + shifted(CUBE_FACETS, 8)))

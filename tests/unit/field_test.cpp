@@ -292,7 +292,7 @@ TEST(PointCavity, InsertsPointAfterPointAndKeepsTheMeshValid) {
     const Vertex p = mesh.add_vertex(Point{any(random), any(random), any(random)});
     const Tet base = cavity.locate(p, any_solid(mesh));
     ASSERT_NE(base, kNone);
-    ASSERT_TRUE(cavity.find(p, base));
+    ASSERT_TRUE(cavity.find(p, base, {}));
     if (k % 3 == 0) {
       cavity.abandon();
       mesh.remove_last_vertex();

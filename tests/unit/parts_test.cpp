@@ -208,7 +208,7 @@ TEST(Parts, JoinToAValidMeshAfterTheyWereChanged) {
       const auto base = static_cast<Tet>(random() % part.mesh.slot_count());
       if (!part.mesh.alive(base) || part.mesh.is_ghost(base)) continue;
       const Vertex p = part.mesh.add_vertex(centroid(part.mesh, base));
-      if (cavity.locate(p, base) != base || !cavity.find(p, base)) {
+      if (cavity.locate(p, base) != base || !cavity.find(p, base, {})) {
         part.mesh.remove_last_vertex();
         continue;
       }
@@ -255,7 +255,7 @@ TEST(SectionPoints, MakeTheCirclesSmallInWhichSpheresMeetTheCuts) {
   EXPECT_LT(points, 400u);
   const auto is_small = [&](Tet t, const Cuts::Plane& plane) {
     const Point& p = cube.mesh.position(cube.mesh.corners(t)[0]);
-    const ScaledCentre centre = sphere_centre(cube.mesh, cube.mesh.corners(t));
+    const ScaledCentre centre = cube.data().see(cube.mesh.corners(t), sphere_centre);
     const double radius2 = dot(centre.at, centre.at) / (centre.scale * centre.scale);
     const double height = p[plane.axis] + centre.at[plane.axis] / centre.scale - plane.at;
     return radius2 - height * height < 0.1 * 0.1;

@@ -1,0 +1,51 @@
+// Coordinates in which a metric is the unit one, so that what is written for equal sizes in all directions
+// serves a metric, too.
+#pragma once
+
+#include <algorithm>
+
+#include "metric/metric.h"
+
+namespace holdfast {
+
+/// An affine map of space that keeps orientation: lengths in the frame are those in the metric. Any root of
+/// the metric does, since they differ by rotations alone; the triangular one is the cheapest.
+class Frame {
+ public:
+  /// Space as it is.
+  Frame() = default;
+  /// Of a positive definite metric; the frame's zero is at `origin`.
+  Frame(const Metric& m, const Point& origin) : is_plain_(false), origin_(origin) {
+    xx_ = std::sqrt(m[0]);
+    xy_ = m[1] / xx_;
+    xz_ = m[3] / xx_;
+    yy_ = root_of(m[2] - xy_ * xy_, m[2]);
+    yz_ = (m[4] - xy_ * xz_) / yy_;
+    zz_ = root_of(m[5] - xz_ * xz_ - yz_ * yz_, m[5]);
+  }
+
+  [[nodiscard]] bool is_plain() const { return is_plain_; }
+  [[nodiscard]] Point to(const Point& p) const {
+    if (is_plain_) return p;
+    const double x = p[0] - origin_[0], y = p[1] - origin_[1], z = p[2] - origin_[2];
+    return {xx_ * x + xy_ * y + xz_ * z, yy_ * y + yz_ * z, zz_ * z};
+  }
+  [[nodiscard]] Point from(const Point& q) const {
+    if (is_plain_) return q;
+    const double z = q[2] / zz_, y = (q[1] - yz_ * z) / yy_, x = (q[0] - xy_ * y - xz_ * z) / xx_;
+    return {origin_[0] + x, origin_[1] + y, origin_[2] + z};
+  }
+
+ private:
+  // A pivot may be lost in rounding where sizes differ by eight orders of magnitude.
+  static double root_of(double pivot, double diagonal) {
+    constexpr double kLeast = 1e-16;
+    return std::sqrt(std::max(pivot, kLeast * diagonal));
+  }
+
+  bool is_plain_ = true;
+  Point origin_{};
+  double xx_ = 1, xy_ = 0, xz_ = 0, yy_ = 1, yz_ = 0, zz_ = 1;  // of the map
+};
+
+}  // namespace holdfast
