@@ -11,7 +11,7 @@ import mmap, sys
 size = int(sys.argv[1])
 block = mmap.mmap(-1, size, flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
 block.madvise(mmap.MADV_HUGEPAGE)
-block[::4096] = bytes(size // 4096)
+block[::4096] = bytes(-(-size // 4096))
 """
 
 
