@@ -56,7 +56,7 @@ void Exchanger::try_edge(Tet t, int edge) {
   if (mesh_.is_segment(t, edge)) return;
   const auto& ends = kEdgeVertex[static_cast<std::size_t>(edge)];
   if (!gather_shell(mesh_, t, mesh_.corner(t, ends[0]), mesh_.corner(t, ends[1]), shell_, kMostShell)) return;
-  const Badness before = badness_of(mesh_, shell_.tets, bad_from_);
+  const Badness before = qualities_.badness_of(shell_.tets, bad_from_);
   LeastBadness objective(mesh_, shell_, before, bad_from_);
   const std::optional<Badness> after = triangulation_.find(shell_.size(), objective);
   if (!after || !after->is_worthwhile_after(before)) return;
@@ -71,7 +71,7 @@ void Exchanger::try_face(Face f) {
   const Face g = mesh_.neighbour(f);
   if (mesh_.is_facet(f) || mesh_.is_ghost(tet_of(g))) return;
   const std::array<Tet, 2> both{tet_of(f), tet_of(g)};
-  const Badness before = badness_of(mesh_, both, bad_from_);
+  const Badness before = qualities_.badness_of(both, bad_from_);
   const std::array<Vertex, 3> v = mesh_.face_vertices(f);  // seen positively from the apex of f
   const Vertex top = mesh_.apex(f);
   const Vertex bottom = mesh_.apex(g);

@@ -10,16 +10,18 @@
 #include "mesh/edge_removal.h"
 #include "mesh/tet_mesh.h"
 #include "optimise/badness.h"
+#include "optimise/qualities.h"
 
 namespace holdfast {
 
 class Exchanger {
  public:
-  Exchanger(TetMesh& mesh, const BadFrom& bad_from) : mesh_(mesh), bad_from_(bad_from) {}
+  Exchanger(TetMesh& mesh, Qualities& qualities, const BadFrom& bad_from)
+      : mesh_(mesh), qualities_(qualities), bad_from_(bad_from) {}
 
   /// Makes the best of the ten exchanges at a tetrahedron, those of its six edges and four faces, if what
-  /// comes is better than what goes. Constraints stand. `created` receives the new tetrahedra. Returns
-  /// whether an exchange was made.
+  /// comes is better than what goes. Constraints stand. `created` receives the new tetrahedra, whose
+  /// qualities the caller has to forget. Returns whether an exchange was made.
   bool improve(Tet t, std::vector<Tet>& created);
 
  private:
@@ -28,6 +30,7 @@ class Exchanger {
   void offer(const Badness& before, const Badness& after, std::span<const Tet> old_tets);
 
   TetMesh& mesh_;
+  Qualities& qualities_;
   const BadFrom bad_from_;
   EdgeShell shell_;
   LinkTriangulation<Badness> triangulation_;

@@ -11,6 +11,7 @@
 #include "optimise/badness.h"
 #include "optimise/exchange.h"
 #include "optimise/insert_point.h"
+#include "optimise/qualities.h"
 #include "optimise/reconnect.h"
 #include "optimise/relocate.h"
 #include "optimise/remove_flat.h"
@@ -28,7 +29,8 @@ class Optimiser {
         good_(std::max(kGood, target)),
         bad_from_(bad_from(target)),
         monitor_(monitor),
-        exchanger_(mesh, bad_from_),
+        qualities_(mesh),
+        exchanger_(mesh, qualities_, bad_from_),
         flat_remover_(mesh) {}
 
   OptimiseStats run(const std::vector<Tet>& tets, PointsToRemove remove) {
@@ -110,6 +112,7 @@ class Optimiser {
       }
       ++vain;
       mesh_ = mesh_before;
+      qualities_.forget_all();
       points_ = points_before;
       stuck_ = stuck_before;
       stats_ = stats_before;
@@ -125,6 +128,7 @@ class Optimiser {
     queue_ = {};
     rest_.clear();
     takes_all_ = false;
+    qualities_.forget_all();
     for (const Tet t : changed_since(before))
       if (mesh_.alive(t)) push(t);
     round_ = kRounds - 1;
@@ -184,7 +188,7 @@ class Optimiser {
   }
 
   void push(Tet t) {
-    const double q = quality_of(mesh_, mesh_.corners(t));
+    const double q = qualities_.of(t);
     if (!(q > good_)) return;
     const Entry entry{q, t, mesh_.corners(t)};
     if (takes_all_ || q >= kBad)
@@ -192,9 +196,8 @@ class Optimiser {
     else
       rest_.push_back(entry);
   }
-  [[nodiscard]] bool is_current(const Entry& e) const {
-    return mesh_.alive(e.tet) && mesh_.corners(e.tet) == e.corners &&
-           quality_of(mesh_, e.corners) == e.quality;
+  [[nodiscard]] bool is_current(const Entry& e) {
+    return mesh_.alive(e.tet) && mesh_.corners(e.tet) == e.corners && qualities_.of(e.tet) == e.quality;
   }
 
   void improve(const Entry& e) {
@@ -206,6 +209,7 @@ class Optimiser {
       give_up(e);
     // What did not help may have changed something, too.
     stats_.changed += created_.size();
+    qualities_.forget(created_);
     for (const Tet t : created_)
       if (mesh_.alive(t)) push(t);
   }
@@ -350,6 +354,7 @@ class Optimiser {
   const double good_;
   const BadFrom bad_from_;
   Monitor& monitor_;
+  Qualities qualities_;
   Exchanger exchanger_;
   FlatRemover flat_remover_;
   std::mt19937_64 random_;

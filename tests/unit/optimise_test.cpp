@@ -133,13 +133,15 @@ TEST(Exchange, NeverWorseAndNothingLost) {
     const auto facets = facet_faces(mesh);
     const auto segments = segment_edges(mesh);
     const exact::Dyadic volume = volume_of(mesh);
-    Exchanger exchanger(mesh, {1000});
+    Qualities qualities(mesh);
+    Exchanger exchanger(mesh, qualities, {1000});
     Badness before = badness_of(mesh, solid(mesh), {1000});
     int exchanged = 0;
     for (const Tet t : solid(mesh)) {
       if (!mesh.alive(t)) continue;
       std::vector<Tet> created;
       if (!exchanger.improve(t, created)) continue;
+      qualities.forget(created);
       ++exchanged;
       const Badness after = badness_of(mesh, solid(mesh), {1000});
       EXPECT_LE(after.flat, before.flat);
