@@ -26,7 +26,7 @@ struct Examination {
 
   // Established by the rules, in this order.
   bool vertices_kept = false;
-  bool well_formed = false;                ///< indices can be followed and coordinates computed with
+  bool well_formed = false;                 ///< indices can be followed and coordinates computed with
   std::vector<std::int16_t> orientation{};  ///< of each tetrahedron, exact
   bool positive = false;
   FaceTable faces{};

@@ -76,6 +76,30 @@ Face find_face(TetMesh& mesh, Vertex a, Vertex b, Vertex c) {
   return kNone;
 }
 
+Tet walk_to(const TetMesh& mesh, Vertex v, Tet start, std::uint32_t& random) {
+  constexpr int kMostSteps = 2000;
+  Tet t = start;
+  Tet from = kNone;
+  for (int step = 0; step < kMostSteps; ++step) {
+    if (mesh.is_ghost(t)) return t;
+    random = random * 1664525u + 1013904223u;
+    const auto first = static_cast<int>(random >> 30);
+    bool moved = false;
+    for (int k = 0; k < 4 && !moved; ++k) {
+      const int i = (first + k) & 3;
+      const Tet next = tet_of(mesh.neighbour(t, i));
+      if (next == from) continue;
+      const auto f = mesh.face_vertices(face_code(t, i));
+      if (mesh.orient(f[0], f[1], f[2], v) >= 0) continue;
+      from = t;
+      t = next;
+      moved = true;
+    }
+    if (!moved) return t;
+  }
+  return kNone;
+}
+
 void set_segment(TetMesh& mesh, Tet t, Vertex a, Vertex b) {
   std::vector<Tet> tets;
   shell(mesh, t, a, b, tets);

@@ -1,6 +1,7 @@
 // Balls, shells and look-ups: the neighbourhoods that every stage asks for.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "mesh/tet_mesh.h"
@@ -22,6 +23,11 @@ void shell(const TetMesh& mesh, Tet t, Vertex a, Vertex b, std::vector<Tet>& out
 
 /// The face abc (one of its two codes), or kNone.
 [[nodiscard]] Face find_face(TetMesh& mesh, Vertex a, Vertex b, Vertex c);
+
+/// The tetrahedron that holds v, inside or on its boundary, or the ghost beyond which v lies, found by a walk
+/// from `start`; kNone where the walk takes too long. Any mesh will do: the random order of the faces makes
+/// the walk arrive nearly always (Devillers, Pion, Teillaud 2002). `random` is its state.
+[[nodiscard]] Tet walk_to(const TetMesh& mesh, Vertex v, Tet start, std::uint32_t& random);
 
 /// Marks edge ab in its whole shell as part of an input segment.
 void set_segment(TetMesh& mesh, Tet t, Vertex a, Vertex b);

@@ -136,7 +136,7 @@ class Cavity {
     for (const Vertex v : vertices_) mesh.add_vertex(mesh_.position(mesh_.is_explicit(v) ? v : facet_[0]));
     for (const Point& p : far_points(local)) mesh.add_vertex(p);
     if (!build_delaunay(mesh, {seed}, nullptr)) return false;
-    Random random(seed);
+    std::uint32_t random = 1;
     for (Vertex k = 0; k < vertices_.size(); ++k) {
       if (mesh_.is_explicit(vertices_[k])) continue;
       mesh.move_vertex(k, mesh_.exact_position(vertices_[k]));

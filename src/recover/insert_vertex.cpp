@@ -1,9 +1,9 @@
 #include "recover/insert_vertex.h"
 
-#include <optional>
 #include <vector>
 
 #include "mesh/replace.h"
+#include "mesh/traverse.h"
 
 namespace holdfast {
 namespace {
@@ -11,21 +11,6 @@ namespace {
 int side_of_face(const TetMesh& mesh, Face f, Vertex v) {
   const auto corners = mesh.face_vertices(f);
   return mesh.orient(corners[0], corners[1], corners[2], v);
-}
-
-// A random visibility walk, which ends in any mesh (Devillers, Pion, Teillaud 2002).
-Tet locate(const TetMesh& mesh, Vertex v, Tet t, Random& random) {
-  while (!mesh.is_ghost(t)) {
-    const auto first = static_cast<unsigned>(random() % 4);
-    std::optional<Face> way;
-    for (unsigned k = first; k < first + 4 && !way; ++k) {
-      const Face f = face_code(t, static_cast<int>(k % 4));
-      if (side_of_face(mesh, f, v) < 0) way = f;
-    }
-    if (!way) return t;
-    t = tet_of(mesh.neighbour(*way));
-  }
-  return kNone;
 }
 
 // The tetrahedron, or those that share the face or edge that holds the vertex; none on the hull.
@@ -52,12 +37,12 @@ std::vector<Tet> all_that_hold(TetMesh& mesh, Vertex v, Tet t) {
 
 }  // namespace
 
-bool insert_vertex(TetMesh& mesh, Vertex v, Random& random) {
+bool insert_vertex(TetMesh& mesh, Vertex v, std::uint32_t& random) {
   Tet start = 0;
   while (start < mesh.slot_count() && (!mesh.alive(start) || mesh.is_ghost(start))) ++start;
   if (start == mesh.slot_count()) return false;
-  const Tet t = locate(mesh, v, start, random);
-  if (t == kNone) return false;
+  const Tet t = walk_to(mesh, v, start, random);
+  if (t == kNone || mesh.is_ghost(t)) return false;
   const std::vector<Tet> holders = all_that_hold(mesh, v, t);
   if (holders.empty()) return false;
   std::vector<TetMesh::Corners> cone;

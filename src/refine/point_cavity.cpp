@@ -14,32 +14,6 @@ constexpr std::array<std::array<std::size_t, 2>, 3> kSide{{{1, 2}, {2, 0}, {0, 1
 
 }  // namespace
 
-Tet PointCavity::locate(Vertex p, Tet start) {
-  // The mesh with constraints is no Delaunay triangulation, in which a walk would be sure to arrive: the
-  // random order of the faces makes it arrive all the same, nearly always.
-  constexpr int kMostSteps = 2000;
-  Tet t = start;
-  Tet from = kNone;
-  for (int step = 0; step < kMostSteps; ++step) {
-    if (mesh_.is_ghost(t)) return t;
-    random_ = random_ * 1664525u + 1013904223u;
-    const auto first = static_cast<int>(random_ >> 30);
-    bool moved = false;
-    for (int k = 0; k < 4 && !moved; ++k) {
-      const int i = (first + k) & 3;
-      const Tet next = tet_of(mesh_.neighbour(t, i));
-      if (next == from) continue;
-      const auto f = mesh_.face_vertices(face_code(t, i));
-      if (mesh_.orient(f[0], f[1], f[2], p) >= 0) continue;
-      from = t;
-      t = next;
-      moved = true;
-    }
-    if (!moved) return t;
-  }
-  return kNone;
-}
-
 bool PointCavity::find(Vertex p, Tet base, const Frame& frame, std::size_t most) {
   p_ = p;
   spread(base, frame, most);

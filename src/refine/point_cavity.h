@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "mesh/tet_mesh.h"
+#include "mesh/traverse.h"
 #include "metric/frame.h"
 
 namespace holdfast {
@@ -27,9 +28,8 @@ class PointCavity {
   /// All vertices of the tetrahedra that points are put in are explicit.
   explicit PointCavity(TetMesh& mesh) : mesh_(mesh) {}
 
-  /// The tetrahedron that holds vertex p, which is in no tetrahedron yet, by a walk from `start`; the ghost
-  /// by which the walk leaves the hull, or kNone where it does not arrive.
-  [[nodiscard]] Tet locate(Vertex p, Tet start);
+  /// The tetrahedron that holds vertex p, which is in no tetrahedron yet, by a walk from `start`.
+  [[nodiscard]] Tet locate(Vertex p, Tet start) { return walk_to(mesh_, p, start, random_); }
 
   /// Finds the cavity of p round the tetrahedron `base` that holds it. Returns false where there is none, or
   /// it would have more than `most` tetrahedra. It must be inserted or abandoned.

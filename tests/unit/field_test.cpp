@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "checked_mesh.h"
 #include "delaunay/delaunay.h"
 #include "hard_surfaces.h"
 #include "holdfast/check.h"
@@ -25,14 +26,7 @@
 namespace holdfast {
 namespace {
 
-Result mesh_with(const Surface& surface, const Sizes& sizes, Options options = {}) {
-  options.sizes = sizes;
-  Result result = mesh(surface.view(), options);
-  EXPECT_EQ(result.outcome, Outcome::done) << result.message;
-  for (const Rule& rule : check(surface.view(), result.volume).rules)
-    EXPECT_TRUE(rule.holds) << rule.name << ": " << rule.detail;
-  return result;
-}
+using testing::mesh_with;
 
 double mean_edge_in(const Volume& volume, const std::function<bool(const Point&)>& holds) {
   std::set<std::array<Index, 2>> edges;

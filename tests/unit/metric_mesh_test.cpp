@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+#include "checked_mesh.h"
 #include "hard_surfaces.h"
 #include "holdfast/check.h"
 #include "holdfast/holdfast.h"
@@ -15,6 +16,8 @@
 
 namespace holdfast {
 namespace {
+
+using testing::mesh_with;
 
 using Vector = std::array<double, 3>;
 
@@ -31,15 +34,6 @@ constexpr double kAcross = 0.02, kAlong = 0.2;
 Metric shock(const Vector& n, const Point& p) {
   const double d = std::abs(n[0] * p[0] + n[1] * p[1] + n[2] * p[2]);
   return layer(n, std::min(kAlong, kAcross + 0.3 * d), kAlong);
-}
-
-Result mesh_with(const Surface& surface, const Sizes& sizes, Options options = {}) {
-  options.sizes = sizes;
-  Result result = mesh(surface.view(), options);
-  EXPECT_EQ(result.outcome, Outcome::done) << result.message;
-  for (const Rule& rule : check(surface.view(), result.volume).rules)
-    EXPECT_TRUE(rule.holds) << rule.name << ": " << rule.detail;
-  return result;
 }
 
 /// Edges between field points.

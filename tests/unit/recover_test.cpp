@@ -311,7 +311,7 @@ Vertex add_beside(TetMesh& mesh, const Point& p) {
 }
 
 TEST(InsertVertex, InsideATetrahedronAFaceAnEdgeAndBesideAVertex) {
-  Random random(1);
+  std::uint32_t random = 1;
   for (const Point& p : {Point{1.3, 1.4, 1.1}, Point{1, 1, 1.25}, Point{1, 1, 1}, Point{1.25, 1, 1}}) {
     TetMesh mesh = delaunay_of({{1, 1, 1}, {2, 1, 1}, {1, 2, 1}, {1, 1, 2}});
     const Vertex v = add_beside(mesh, p);
@@ -326,7 +326,7 @@ TEST(InsertVertex, InsideATetrahedronAFaceAnEdgeAndBesideAVertex) {
 }
 
 TEST(InsertVertex, NotOutsideNorOnTheHull) {
-  Random random(1);
+  std::uint32_t random = 1;
   TetMesh mesh = delaunay_of({{0, 0, 0}});
   const std::size_t tets = mesh.tet_count();
   for (const Point& p : {Point{0, 0, 20}, Point{1, 2, 10}, Point{10, 10, 0}}) {
@@ -342,7 +342,7 @@ TEST(FacetCavities, HoldVerticesWithoutDoubles) {
     const std::vector<Point> points = clouds_round_a_triangle(600, seed);
     Recovered run = recover(points, {facet}, {});
     ASSERT_EQ(run.standing.missing_facets(), 1u);
-    Random random(seed);
+    std::uint32_t random = seed;
     std::vector<Vertex> inexact;
     for (const Point& p : {points[3], points[4], Point{0.1, 0.2, 0}, Point{-0.3, 0.1, 0}}) {
       inexact.push_back(add_beside(run.mesh, p));
