@@ -2,10 +2,12 @@
 // optimise.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <new>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "api/extract.h"
 #include "api/forced.h"
@@ -32,6 +34,8 @@
 #include "suppress/suppress.h"
 #include "surface/complex.h"
 #include "surface/diagnose.h"
+#include "surface/elements.h"
+#include "surface/search.h"
 
 namespace holdfast {
 namespace {
@@ -107,7 +111,8 @@ class Pipeline {
 
   void run_attempt() {
     // Elimination is part of the partition's loop (design §2.5).
-    static constexpr std::array<Step, 7> kSteps{{{Stage::delaunay, &Pipeline::build_box_mesh},
+    static constexpr std::array<Step, 8> kSteps{{{Stage::delaunay, &Pipeline::build_box_mesh},
+                                                 {Stage::validate, &Pipeline::validate_missing},
                                                  {Stage::flips, &Pipeline::recover},
                                                  {Stage::partition, &Pipeline::enforce_missing},
                                                  {Stage::classify, &Pipeline::classify},
@@ -164,16 +169,39 @@ class Pipeline {
 
   void validate() {
     result_.report.input = describe_input(complex_, nullptr);
-    std::vector<Defect> defects = find_defects(
-        complex_, kMostDefects, [this](double fraction) { monitor_.poll(Stage::validate, fraction); },
-        threads());
-    if (!defects.empty()) return refuse(std::move(defects));
+    elements_ = elements_of(complex_, threads());
+    if (!elements_.flaws.empty() || last_stage() == Stage::validate) refuse_if_any_defect();
+    if (result_.outcome != Outcome::done) return;
     table_ = segment_table(complex_);
     result_.report.input = describe_input(complex_, &table_);
     // Dangling facets enclose nothing wherever their vertices are; so say this before the long work.
     const bool encloses = result_.report.input.dangling_facets < complex_.facets.size();
     const bool must_enclose = options_.keep != Keep::box && last_stage() >= Stage::classify;
-    if (must_enclose && !encloses) refuse({encloses_nothing(complex_, table_)});
+    if (encloses || !must_enclose) return;
+    refuse_if_any_defect();
+    if (result_.outcome == Outcome::done) refuse({encloses_nothing(complex_, table_)});
+  }
+
+  // What stands in the Delaunay mesh fits together, as faces of one triangulation do. So the exact test is
+  // left for what is missing there: of a fine surface, next to nothing.
+  void validate_missing() {
+    if (std::exchange(elements_fit_, true)) return;
+    std::vector<std::uint8_t> stands(elements_.all.size());
+    std::transform(elements_.all.begin(), elements_.all.end(), stands.begin(), [&](const Element& e) {
+      if (e.corners == 3) return standing_.facets[e.id];
+      return e.corners == 1 ? std::uint8_t{1} : standing_.segments[table_.find(e.vertex[0], e.vertex[1])];
+    });
+    if (!all_fit(complex_, elements_, stands, poll_validation(), threads())) refuse_if_any_defect();
+    elements_ = {};
+  }
+
+  void refuse_if_any_defect() {
+    std::vector<Defect> defects =
+        find_defects(complex_, elements_, kMostDefects, poll_validation(), threads());
+    if (!defects.empty()) refuse(std::move(defects));
+  }
+  [[nodiscard]] std::function<void(double)> poll_validation() {
+    return [this](double fraction) { monitor_.poll(Stage::validate, fraction); };
   }
 
   void build_box_mesh() {
@@ -353,6 +381,8 @@ class Pipeline {
   Monitor monitor_;
   Result result_;
 
+  Elements elements_;  // until they are known to fit together
+  bool elements_fit_ = false;
   SegmentTable table_;
   std::uint64_t seed_;
   int scale_ = 0;  // the mesh is the complex times 2^scale_

@@ -80,6 +80,23 @@ void AabbTree::build_below(Nodes& nodes, Index node) {
   }
 }
 
+bool AabbTree::overlaps_any(const Box& box) const {
+  if (items_.empty() || !nodes_[0].box.overlaps(box)) return false;
+  std::vector<Index> stack{0};
+  while (!stack.empty()) {
+    const Node& node = nodes_[stack.back()];
+    stack.pop_back();
+    if (!node.box.overlaps(box)) continue;
+    if (node.left != 0) {
+      stack.insert(stack.end(), {node.left + 1, node.left});
+    } else if (std::any_of(items_.begin() + node.first, items_.begin() + node.first + node.count,
+                           [&](const Item& item) { return item.box.overlaps(box); })) {
+      return true;
+    }
+  }
+  return false;
+}
+
 std::vector<AabbTree::NodePair> AabbTree::divided(std::size_t count) const {
   std::vector<NodePair> pairs;
   if (!items_.empty()) pairs.push_back({0, 0});

@@ -54,6 +54,9 @@ class AabbTree {
     if (!items_.empty()) for_each_overlap(NodePair{0, 0}, visit, skip, step);
   }
 
+  /// Whether the box of any item overlaps this one. O(log n) for small boxes of items that do not overlap.
+  [[nodiscard]] bool overlaps_any(const Box& box) const;
+
   /// Two nodes, or one twice.
   using NodePair = std::pair<Index, Index>;
   /// At least `count` pairs of nodes, if there are as many, that hold all pairs of items between them.

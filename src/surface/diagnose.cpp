@@ -10,7 +10,11 @@ namespace holdfast {
 
 std::vector<Defect> find_defects(const Complex& complex, std::size_t most, const Step& step,
                                  unsigned threads) {
-  const Elements elements = elements_of(complex, threads);
+  return find_defects(complex, elements_of(complex, threads), most, step, threads);
+}
+
+std::vector<Defect> find_defects(const Complex& complex, const Elements& elements, std::size_t most,
+                                 const Step& step, unsigned threads) {
   std::vector<Defect> defects;
   for (const Flaw& flaw : elements.flaws) {
     if (defects.size() == most) return defects;

@@ -26,6 +26,10 @@ namespace holdfast {
 [[nodiscard]] std::vector<Defect> find_defects(const Complex& complex, std::size_t most, const Step& step,
                                                unsigned threads = 1);
 
+/// The same, with the complex's elements at hand.
+[[nodiscard]] std::vector<Defect> find_defects(const Complex& complex, const Elements& elements,
+                                               std::size_t most, const Step& step, unsigned threads);
+
 /// An element of the complex: a facet, a segment that is no facet's side, a vertex that neither uses.
 struct ElementRef {
   unsigned corners;  ///< 3: a facet, 2: a segment, 1: a vertex

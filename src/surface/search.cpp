@@ -21,21 +21,20 @@ namespace {
 constexpr std::size_t kWorthThreads = 5000;  // elements
 constexpr std::size_t kTopsAThread = 64;  // parts of the tree: many, since some take much longer than others
 
+Box box_of(const Complex& complex, const Element& element) {
+  const Point& p = complex.vertices[element.vertex[0]];
+  Box box{p, p};
+  for (unsigned i = 1; i < element.corners; ++i) {
+    const Point& q = complex.vertices[element.vertex[i]];
+    box.extend({q, q});
+  }
+  return box;
+}
+
 std::vector<Box> boxes_of(const Complex& complex, const std::vector<Element>& elements) {
   std::vector<Box> boxes;
   boxes.reserve(elements.size());
-  for (const Element& element : elements) {
-    const Point& p = complex.vertices[element.vertex[0]];
-    Box box{p, p};
-    for (unsigned i = 1; i < element.corners; ++i) {
-      const Point& q = complex.vertices[element.vertex[i]];
-      for (unsigned k = 0; k < 3; ++k) {
-        box.low[k] = std::min(box.low[k], q[k]);
-        box.high[k] = std::max(box.high[k], q[k]);
-      }
-    }
-    boxes.push_back(box);
-  }
+  for (const Element& element : elements) boxes.push_back(box_of(complex, element));
   return boxes;
 }
 
@@ -145,18 +144,22 @@ class RootCauses {
 // Decides which pairs of nodes of the tree need not be looked at.
 class Skip {
  public:
-  Skip(const Complex& complex, const Elements& elements, const Hubs& hubs, const AabbTree& tree,
+  Skip(const Complex& complex, const Elements& elements, Known known, const Hubs& hubs, const AabbTree& tree,
        const Box& all, std::size_t patience)
       : complex_(complex),
         elements_(elements),
+        known_(known),
         hubs_(hubs),
         tree_(tree),
         frame_(all),
         patience_(patience * elements.all.size()),
-        common_(hubs.all().empty() ? 0 : tree.nodes()) {}
+        common_(hubs.all().empty() ? 0 : tree.nodes()),
+        all_known_(known.empty() ? 0 : tree.nodes()) {}
 
-  // All elements of node a share a hub with all elements of node b, or oriented boxes separate them.
+  // All elements of the nodes are known, all of node a share a hub with all of node b, or oriented boxes
+  // separate them.
   bool operator()(Index a, Index b) {
+    if (!known_.empty() && is_known(a) && is_known(b)) return true;
     if (!common_.empty() && share_hub(common_hubs(a), common_hubs(b))) return true;
     if (a == b || ++calls_ <= patience_) return false;
     boxes_.resize(tree_.nodes());
@@ -190,6 +193,16 @@ class Skip {
     return *common;
   }
 
+  bool is_known(Index node) {
+    std::optional<bool>& all = all_known_[node];
+    if (!all) {
+      const auto items = tree_.items(node);
+      all = std::all_of(items.begin(), items.end(),
+                        [&](const AabbTree::Item& item) { return known_[item.id] != 0; });
+    }
+    return *all;
+  }
+
   const OrientedBox& oriented(Index node) {
     std::optional<OrientedBox>& box = boxes_[node];
     if (box) return *box;
@@ -208,11 +221,13 @@ class Skip {
 
   const Complex& complex_;
   const Elements& elements_;
+  const Known known_;
   const Hubs& hubs_;
   const AabbTree& tree_;
   UnitFrame frame_;
   std::size_t patience_, calls_ = 0;
   std::vector<std::optional<HubSet>> common_;
+  std::vector<std::optional<bool>> all_known_;
   std::vector<std::optional<OrientedBox>> boxes_;
   std::vector<std::array<Point, 3>> corners_;
 };
@@ -220,10 +235,11 @@ class Skip {
 // One search.
 class Search {
  public:
-  Search(const Complex& complex, const Elements& elements, const VisitPair& visit, const Step& step,
-         const SearchTuning& tuning)
+  Search(const Complex& complex, const Elements& elements, Known known, const VisitPair& visit,
+         const Step& step, const SearchTuning& tuning)
       : complex_(complex),
         elements_(elements),
+        known_(known),
         visit_(visit),
         step_(step),
         patience_(tuning.patience),
@@ -246,8 +262,8 @@ class Search {
     Box all = boxes[0];
     for (const Box& box : boxes) all.extend(box);
     boxes = {};  // the tree has its own
-    if (threads_ > 1 && elements_.all.size() >= kWorthThreads && all_fit(tree, all)) return true;
-    Skip skip(complex_, elements_, hubs_, tree, all, patience_);
+    if (threads_ > 1 && elements_.all.size() >= kWorthThreads && all_fit_in(tree, all)) return true;
+    Skip skip(complex_, elements_, known_, hubs_, tree, all, patience_);
     bool go_on = true;
     tree.for_each_overlap(
         {0, 0}, [&](Index i, Index j) { return go_on = test_in_space(i, j, visit_); }, skip, step_);
@@ -256,7 +272,7 @@ class Search {
 
   // Whether no pair that shares no hub is offending. Which pair is met first depends on the threads; so where
   // there is one, the search starts again on one thread.
-  [[nodiscard]] bool all_fit(const AabbTree& tree, const Box& all) const {
+  [[nodiscard]] bool all_fit_in(const AabbTree& tree, const Box& all) const {
     const std::vector<AabbTree::NodePair> tops = tree.divided(kTopsAThread * threads_);
     const std::thread::id calling_thread = std::this_thread::get_id();
     std::atomic<std::size_t> next = 0;
@@ -271,7 +287,7 @@ class Search {
     };
     step(0);  // the other threads may leave nothing to do for this one
     parallel(threads_, threads_, [&](std::size_t) {
-      Skip skip(complex_, elements_, hubs_, tree, all, patience_ / threads_);
+      Skip skip(complex_, elements_, known_, hubs_, tree, all, patience_ / threads_);
       try {
         for (std::size_t k = next++; k < tops.size() && !stop; k = next++) {
           step(0);
@@ -305,6 +321,7 @@ class Search {
   }
 
   [[nodiscard]] bool test(Index i, Index j, const VisitPair& visit) const {
+    if (!known_.empty() && known_[i] != 0 && known_[j] != 0) return true;
     if (i > j) std::swap(i, j);
     const Element &a = elements_.all[i], &b = elements_.all[j];
     const Simplex p = Elements::simplex(a, complex_), q = Elements::simplex(b, complex_);
@@ -316,6 +333,7 @@ class Search {
 
   const Complex& complex_;
   const Elements& elements_;
+  const Known known_;
   const VisitPair& visit_;
   const Step& step_;
   std::size_t patience_;
@@ -323,11 +341,51 @@ class Search {
   Hubs hubs_;
 };
 
+// The elements that are not known and those whose boxes overlap one of theirs, and which of them are known.
+std::pair<Elements, std::vector<std::uint8_t>> near_unknown(const Complex& complex, const Elements& elements,
+                                                            Known known, unsigned threads) {
+  std::vector<Box> boxes;
+  for (Index e = 0; e < elements.all.size(); ++e)
+    if (known[e] == 0) boxes.push_back(box_of(complex, elements.all[e]));
+  const AabbTree tree(boxes);
+  std::vector<std::uint8_t> is_near(elements.all.size());
+  parallel_ranges(threads, elements.all.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t e = first; e < last; ++e)
+      is_near[e] = known[e] == 0 || tree.overlaps_any(box_of(complex, elements.all[e]));
+  });
+  std::pair<Elements, std::vector<std::uint8_t>> near;
+  for (Index e = 0; e < elements.all.size(); ++e) {
+    if (is_near[e] == 0) continue;
+    near.first.all.push_back(elements.all[e]);
+    near.second.push_back(known[e]);
+  }
+  return near;
+}
+
 }  // namespace
 
 void for_each_offending_pair(const Complex& complex, const Elements& elements, const VisitPair& visit,
-                             const Step& step, const SearchTuning& tuning) {
-  Search(complex, elements, visit, step, tuning).run();
+                             const Step& step, const SearchTuning& tuning, Known known) {
+  Search(complex, elements, known, visit, step, tuning).run();
+}
+
+bool all_fit(const Complex& complex, const Elements& elements, Known known, const Step& step,
+             unsigned threads) {
+  constexpr std::size_t kFew = 4;  // a part of all
+  Elements near;
+  std::vector<std::uint8_t> near_known;
+  const auto unknown = static_cast<std::size_t>(std::count(known.begin(), known.end(), std::uint8_t{0}));
+  const bool reduced = !known.empty() && unknown < elements.all.size() / kFew;
+  if (reduced) std::tie(near, near_known) = near_unknown(complex, elements, known, threads);
+  bool fit = true;
+  const auto visit = [&](Index, Index, const Contacts&) { return fit = false; };
+  SearchTuning tuning;
+  tuning.threads = threads;
+  if (reduced)
+    for_each_offending_pair(complex, near, visit, step, tuning, near_known);
+  else
+    for_each_offending_pair(complex, elements, visit, step, tuning, known);
+  return fit;
 }
 
 std::vector<Finding> find_root_causes(const Complex& complex, const Elements& elements, std::size_t most,

@@ -13,7 +13,9 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "holdfast/types.h"
@@ -50,9 +52,18 @@ struct SearchTuning {
   unsigned threads = 1;
 };
 
-/// Visits every pair of elements that do not meet in a common face or not at all, in no useful order.
+/// For each element whether it is known to fit together with all others of which that is known, as faces of
+/// one triangulation do; or empty, where nothing is known.
+using Known = std::span<const std::uint8_t>;
+
+/// Visits every pair of elements that do not meet in a common face or not at all, in no useful order; but
+/// for pairs of known ones.
 void for_each_offending_pair(const Complex& complex, const Elements& elements, const VisitPair& visit,
-                             const Step& step, const SearchTuning& tuning = {});
+                             const Step& step, const SearchTuning& tuning = {}, Known known = {});
+
+/// Whether there is no such pair. Takes little more than a look at each element where few are not known.
+[[nodiscard]] bool all_fit(const Complex& complex, const Elements& elements, Known known, const Step& step,
+                           unsigned threads = 1);
 
 /// Root causes, ordered by `pair`; `most` of them at most, the first that turn up.
 [[nodiscard]] std::vector<Finding> find_root_causes(const Complex& complex, const Elements& elements,

@@ -256,6 +256,17 @@ std::set<PairKey> pairs_with_every_means(const Complex& complex) {
   return pairs;
 }
 
+// `mesh` looks for most of the defects in what Delaunay has left missing.
+void expect_same_from_mesh(const Complex& complex, const std::vector<Defect>& defects) {
+  Options options;
+  options.stop_after = Stage::delaunay;
+  const Result result = mesh(complex, options);
+  ASSERT_EQ(result.outcome, defects.empty() ? Outcome::done : Outcome::invalid_input);
+  ASSERT_LE(result.defects.size(), defects.size());
+  for (std::size_t k = 0; k < result.defects.size(); ++k)
+    EXPECT_EQ(result.defects[k].message, defects[k].message);
+}
+
 void check(const Sample& sample, const Map& map) {
   const Truth truth = truth_of(sample);
   const Surface surface = image(sample, map);
@@ -295,6 +306,7 @@ void check(const Sample& sample, const Map& map) {
   for (Index v = 0; v < sample.points.size(); ++v) copies += truth.representative[v] != v;
   EXPECT_EQ(identical, copies);
 
+  expect_same_from_mesh(complex, defects);
   if (!defects.empty()) {
     EXPECT_EQ(diagnose(complex, 1).size(), 1u);
     EXPECT_EQ(diagnose(complex, defects.size()).size(), defects.size());

@@ -128,6 +128,23 @@ Pairs all_pairs(const Complex& complex, const Elements& elements) {
   return pairs;
 }
 
+void check_with_known(const Complex& complex, const Elements& elements, const Pairs& all_expected,
+                      Random& random) {
+  for (const double share : {0.3, 0.9, 0.98, 1.0}) {
+    std::vector<std::uint8_t> known(elements.all.size());
+    for (auto& k : known) k = uniform(random, 0, 1) < share;
+    Pairs expected = all_expected, pairs;
+    std::erase_if(expected, [&](const auto& pair) { return known[pair.first] && known[pair.second]; });
+    const auto visit = [&](Index i, Index j, const Contacts&) { return pairs.insert({i, j}).second; };
+    const auto step = [](double) {};
+    for_each_offending_pair(complex, elements, visit, step, {3, 1000}, known);
+    ASSERT_EQ(pairs, expected);
+    for (const unsigned threads : {1u, 2u})
+      ASSERT_EQ(all_fit(complex, elements, known, step, threads), expected.empty());
+  }
+  ASSERT_EQ(all_fit(complex, elements, {}, [](double) {}), all_expected.empty());
+}
+
 void check(Surface (*make)(Random&), unsigned seeds) {
   std::size_t found_some = 0;
   for (unsigned seed = 0; seed < seeds; ++seed) {
@@ -148,6 +165,7 @@ void check(Surface (*make)(Random&), unsigned seeds) {
           complex, elements, visit, [](double) {}, tuning);
       ASSERT_EQ(pairs, expected);
     }
+    check_with_known(complex, elements, expected, random);
   }
   EXPECT_GT(found_some, seeds / 2);
 }
@@ -193,6 +211,12 @@ TEST(AabbTree, FindsAllOverlaps) {
     std::size_t visited = 0;
     tree.for_each_overlap([&](Index, Index) { return ++visited < 3; }, never, [](double) {});
     EXPECT_EQ(visited, std::min<std::size_t>(3, expected.size()));
+    for (std::size_t i = 0; i < n; ++i) {
+      Box box = boxes[i];
+      for (std::size_t k = 0; k < 3; ++k) box.low[k] = box.high[k];
+      EXPECT_EQ(tree.overlaps_any(box),
+                std::any_of(boxes.begin(), boxes.end(), [&](const Box& other) { return other.overlaps(box); }));
+    }
   }
 }
 
