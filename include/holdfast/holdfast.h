@@ -58,7 +58,8 @@ struct Sizes {
 /// How long to improve the elements with field points: each is some times slower than the one before.
 enum class Quality { fast, good, best };
 
-/// What a running call tells, and may be told.
+/// What a running call tells, and may be told. Stages come in order, but that validation goes on after Delaunay,
+/// and that another attempt, where one is needed, begins with Delaunay.
 struct Progress {
   Stage stage;
   double fraction;  ///< of this stage, 0 to 1

@@ -458,8 +458,9 @@ TEST(Progress, StagesComeInOrder) {
     return true;
   };
   EXPECT_EQ(mesh(small::box().view(), options).outcome, Outcome::done);
-  EXPECT_EQ(stages, (std::vector<Stage>{Stage::validate, Stage::delaunay, Stage::flips, Stage::partition,
-                                        Stage::classify, Stage::suppress, Stage::optimise}));
+  EXPECT_EQ(stages,
+            (std::vector<Stage>{Stage::validate, Stage::delaunay, Stage::validate, Stage::flips, Stage::partition,
+                                Stage::classify, Stage::suppress, Stage::optimise}));
 }
 
 TEST(StopAfter, ShowsWhatStands) {
