@@ -1,7 +1,6 @@
 #include "enforce/enforce.h"
 
 #include <algorithm>
-#include <cmath>
 #include <random>
 #include <unordered_set>
 
@@ -84,17 +83,9 @@ class Enforcer {
       return cavities_.recover(
           facets_[f], [&] { tell(); }, finish);
     };
-    if (!recover()) {
-      // Steiner points in the way may go, or move a little.
-      std::vector<Vertex> in_the_way = cavities_.in_the_way();
-      std::erase_if(in_the_way, [&](Vertex v) { return v < first_free_; });
-      if (in_the_way.empty()) return false;
-      restless_ = in_the_way;
-      settle();
-      for (const Vertex v : in_the_way)
-        if (mesh_.in_mesh(v)) leave_plane(v, facets_[f]);
-      if (!recover()) return false;
-    }
+    constexpr int kTries = 3;
+    for (int tries = 0; !recover(); ++tries)
+      if (tries == kTries || !clear_plane(facets_[f], tries == 0)) return false;
     standing_.facets[f] = 1;
     const std::vector<Vertex>& fresh = cavities_.added();
     restless_.insert(restless_.end(), fresh.begin(), fresh.end());
@@ -104,23 +95,28 @@ class Enforcer {
     return true;
   }
 
-  // Moves a Steiner point that happens to lie in a facet's plane a little out of it, inside its kernel.
+  // Steiner points in the facet, for which the cavities gave up, may go if that is to be tried; the others
+  // move a little. Returns whether there were any.
+  bool clear_plane(const Triangle& facet, bool may_go) {
+    std::vector<Vertex> in_the_way = cavities_.in_the_way();
+    std::erase_if(in_the_way, [&](Vertex v) { return v < first_free_; });
+    if (may_go) {
+      restless_ = in_the_way;
+      settle();
+    }
+    for (const Vertex v : in_the_way)
+      if (mesh_.in_mesh(v)) leave_plane(v, facet);
+    return !in_the_way.empty();
+  }
+
+  // The part of v's kernel above the facet is not empty: v lies in its closure, and in no other of its planes.
   void leave_plane(Vertex v, const Triangle& facet) {
+    if (mesh_.orient(facet[0], facet[1], facet[2], v) != 0) return;
     std::vector<Tet> tets;
     ball(mesh_, v, tets);
-    const Kernel kernel = kernel_of_ball(mesh_, v, tets);
-    const Point& at = mesh_.position(v);
-    const double radius = kernel.centre(mesh_.point(v)).radius;
-    constexpr int kTrials = 20;
-    for (int k = 1; k <= kTrials; ++k)
-      for (const double sign : {1.0, -1.0}) {
-        Point moved = at;
-        for (std::size_t i = 0; i < 3; ++i) moved[i] += sign * std::ldexp(radius, -k) * uniform_(random_);
-        const exact::PointRef place{moved.data(), nullptr};
-        if (mesh_.orient(facet[0], facet[1], facet[2], place) == 0 || !kernel.holds(place)) continue;
-        mesh_.move_vertex(v, moved);
-        return;
-      }
+    Kernel above = kernel_of_ball(mesh_, v, tets);
+    above.add(facet[0], facet[1], facet[2]);
+    if (const std::optional<Position> place = above.find(mesh_.point(v))) move_vertex(mesh_, v, *place);
   }
 
   void lay_facet(Index f) {
@@ -244,7 +240,6 @@ class Enforcer {
   std::mt19937_64 random_;
   Flipper flipper_;
   Monitor& monitor_;
-  std::uniform_real_distribution<double> uniform_{0, 1};
   const bool eliminate_, retry_, by_cavities_;
   FlipRecovery flips_;
   FacetCavities cavities_;
