@@ -77,10 +77,10 @@ struct SizeField {
   std::vector<Metric> metrics;  ///< one a vertex, where there are no sizes
 };
 
-/// Reads a size field: .mesh or .meshb and the .sol beside it (or the .sol), .vtu with a point array "size"
-/// or "metric", .mtr (TetGen) with the .node and .ele beside it, .pos (Gmsh, parsed, scalars or tensors on
-/// tetrahedra). A .mtr without .ele has sizes for the vertices of a surface: then the field has nothing but
-/// sizes.
+/// Reads a size field: .mesh or .meshb and the .sol or .solb beside it (or one of these), .vtu with a point
+/// array "size" or "metric", .mtr (TetGen) with the .node and .ele beside it, .pos (Gmsh, parsed, scalars or
+/// tensors on tetrahedra). A .mtr without .ele has sizes for the vertices of a surface: then the field has
+/// nothing but sizes.
 /// - Metrics are symmetric tensors of type 3 (.sol), of 6 columns (.mtr), both m11 m12 m22 m13 m23 m33; of 6
 ///   components (.vtu, xx yy zz xy yz xz as in VTK); or full 3 x 3 ones (.vtu with 9 components, .pos TT).
 /// Throws FileError, also for sizes that are not positive and tensors that are not positive definite.

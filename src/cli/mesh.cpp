@@ -193,9 +193,10 @@ void add_mesh(CLI::App& app, Command& chosen) {
                    "Field points: growth of sizes a unit of length, away from the surface (default 0.3)")
       ->option_text("G");
   command
-      ->add_option("--size-field", arguments->size_field,
-                   "Field points: sizes, or metric tensors, at the vertices of a background mesh "
-                   "(.mesh with .sol, .vtu with a point array \"size\" or \"metric\", .mtr, .pos)")
+      ->add_option(
+          "--size-field", arguments->size_field,
+          "Field points: sizes, or metric tensors, at the vertices of a background mesh "
+          "(.mesh or .meshb with .sol or .solb, .vtu with a point array \"size\" or \"metric\", .mtr, .pos)")
       ->option_text("FILE");
   command->add_flag("--no-growth", arguments->no_growth,
                     "Field points: inside, sizes stay between those of the surface round");

@@ -21,6 +21,14 @@ namespace holdfast::io {
 [[nodiscard]] MeshData read_medit(const Source& source);
 
 [[nodiscard]] MeshData read_gmf(const Source& source);
+/// Numbers at the vertices of a mesh in another file.
+struct GmfSolution {
+  std::size_t vertices = 0;
+  std::size_t columns = 0;     ///< 1: scalars, 6: symmetric tensors
+  std::vector<double> values;  ///< of all columns, vertex by vertex
+};
+/// The one scalar or symmetric tensor a vertex of a .solb.
+[[nodiscard]] GmfSolution read_gmf_solution(const Source& source);
 [[nodiscard]] MeshData read_msh(const Source& source);
 [[nodiscard]] MeshData read_vtk(const Source& source);
 [[nodiscard]] MeshData read_vtu(const Source& source);

@@ -1,9 +1,10 @@
-// .meshb, the binary form of GMF, versions 1 to 4 (Marechal, libMeshb: file format).
+// .meshb and .solb, the binary form of GMF, versions 1 to 4 (Marechal, libMeshb: file format).
 //
 // A file is a chain of sections: keyword, position of the next one, and for most a count and as many
 // entries. Positions have 32 bits in versions 1 and 2, else 64; counts and indices 32 bits up to
 // version 3; coordinates are floats in version 1, else doubles.
 #include <limits>
+#include <optional>
 
 #include "io/byte_reader.h"
 #include "io/formats.h"
@@ -22,6 +23,7 @@ enum Keyword : std::int32_t {
   kHexahedra = 10,
   kPyramids = 49,
   kEnd = 54,
+  kSolAtVertices = 62,
 };
 
 std::endian order_of(const Source& source) {
@@ -29,7 +31,7 @@ std::endian order_of(const Source& source) {
   if (source.bytes.size() >= 8)
     for (const std::endian order : {std::endian::little, std::endian::big})
       if (load<std::int32_t>(source.bytes.data(), order) == 1) return order;
-  throw FileError(source.path, "byte 0", "not a binary GMF mesh: it does not start with the number 1");
+  throw FileError(source.path, "byte 0", "not a binary GMF file: it does not start with the number 1");
 }
 
 class GmfReader {
@@ -37,14 +39,25 @@ class GmfReader {
   explicit GmfReader(const Source& source) : bytes_(source, order_of(source), 4) {}
 
   MeshData read() {
+    read_sections();
+    return std::move(mesh_);
+  }
+
+  GmfSolution read_solution() {
+    solution_.emplace();
+    read_sections();
+    if (solution_->columns == 0) bytes_.fail("there is no section SolAtVertices");
+    return std::move(*solution_);
+  }
+
+ private:
+  void read_sections() {
     version_ = bytes_.read<std::int32_t>();
     if (version_ < 1 || version_ > 4) bytes_.fail("version " + std::to_string(version_) + " is not read");
     while (read_section()) {
     }
-    return std::move(mesh_);
   }
 
- private:
   std::int64_t position_word() {
     return version_ >= 3 ? bytes_.read<std::int64_t>() : bytes_.read<std::int32_t>();
   }
@@ -102,6 +115,9 @@ class GmfReader {
       case kPyramids:
         if (integer() != 0) bytes_.fail("quadrilaterals, prisms, hexahedra or pyramids; split them first");
         return;
+      case kSolAtVertices:
+        if (solution_) read_values();
+        return;
       default:
         return;  // the next section's position leads past it
     }
@@ -116,6 +132,22 @@ class GmfReader {
       mesh_.vertices.push_back({x, y, real()});
       static_cast<void>(integer());
     }
+  }
+
+  void read_values() {
+    if (solution_->columns != 0) bytes_.fail("a second section SolAtVertices");
+    constexpr std::int32_t kScalar = 1, kTensor = 3;
+    const std::int64_t vertices = integer();
+    const auto solutions = bytes_.read<std::int32_t>();
+    const std::int32_t type = solutions == 1 ? bytes_.read<std::int32_t>() : 0;
+    if (type != kScalar && type != kTensor)
+      bytes_.fail("one scalar (type 1) or one symmetric tensor (type 3) a vertex is read");
+    solution_->columns = type == kScalar ? 1 : 6;
+    if (vertices < 0) bytes_.fail("a negative number of vertices");
+    solution_->vertices = static_cast<std::size_t>(vertices);
+    bytes_.require_items(solution_->vertices, solution_->columns * (version_ == 1 ? 4 : 8), "vertices");
+    solution_->values.resize(solution_->vertices * solution_->columns);
+    for (double& value : solution_->values) value = real();
   }
 
   template <std::size_t N, typename Add>
@@ -137,6 +169,7 @@ class GmfReader {
   ByteReader bytes_;
   std::int32_t version_ = 0;
   MeshData mesh_;
+  std::optional<GmfSolution> solution_;  // where it is asked for
 };
 
 /// Writes version 3, which meshes of any size fit, in the machine's byte order.
@@ -196,6 +229,7 @@ class GmfWriter {
 }  // namespace
 
 MeshData read_gmf(const Source& source) { return GmfReader(source).read(); }
+GmfSolution read_gmf_solution(const Source& source) { return GmfReader(source).read_solution(); }
 
 void write_gmf(AtomicWriter& out, const Volume& volume) {
   // Version 3 counts with 32 signed bits; version 4 would be read by few programs.

@@ -44,10 +44,22 @@ std::optional<Metric> symmetric(std::span<const double> rows) {
   return Metric{rows[0], rows[1], rows[4], rows[2], rows[5], rows[8]};
 }
 
+SizeField on_mesh(MeshData mesh, SizeField field) {
+  field.vertices = std::move(mesh.vertices);
+  field.tetrahedra = std::move(mesh.tetrahedra);
+  return field;
+}
+
+void require_as_many(const std::filesystem::path& path, std::size_t values, std::size_t vertices) {
+  if (values != vertices)
+    throw FileError(path, "",
+                    "there are sizes for " + std::to_string(values) + " vertices, but the mesh has " +
+                        std::to_string(vertices));
+}
+
 /// GMF's .sol: a scalar or a symmetric tensor a vertex of the mesh of the same name.
-SizeField read_sol(const std::filesystem::path& path, std::size_t vertices) {
-  const FileBytes bytes(path);
-  TextReader text({path, bytes.view()});
+SizeField read_sol(const Source& source, std::size_t vertices) {
+  TextReader text(source);
   for (;;) {
     const std::string word = lower(text.word("SolAtVertices"));
     if (word == "end") text.fail("there is no section SolAtVertices");
@@ -62,9 +74,7 @@ SizeField read_sol(const std::filesystem::path& path, std::size_t vertices) {
     }
   }
   const std::size_t count = text.count("the number of vertices", 2);
-  if (count != vertices)
-    text.fail("there are sizes for " + std::to_string(count) + " vertices, but the mesh has " +
-              std::to_string(vertices));
+  require_as_many(source.path, count, vertices);
   const std::int64_t solutions = text.integer("the number of solutions");
   const std::int64_t type = text.integer("the type of the solution");
   if (solutions != 1 || (type != 1 && type != 3))
@@ -72,6 +82,38 @@ SizeField read_sol(const std::filesystem::path& path, std::size_t vertices) {
   SizeField field;
   for (std::size_t k = 0; k < count; ++k) read_value(text, type == 1 ? 1 : kTensor, field);
   return field;
+}
+
+/// Its binary form.
+SizeField read_solb(const Source& source, std::size_t vertices) {
+  GmfSolution solution = read_gmf_solution(source);
+  require_as_many(source.path, solution.vertices, vertices);
+  SizeField field;
+  if (solution.columns == 1)
+    field.sizes = std::move(solution.values);
+  else
+    for (std::size_t k = 0; k < solution.values.size(); k += kTensor)
+      std::copy_n(solution.values.begin() + static_cast<std::ptrdiff_t>(k), kTensor,
+                  field.metrics.emplace_back().begin());
+  return field;
+}
+
+/// The file beside `path` with one of two endings, the first if both are there.
+std::filesystem::path beside(const std::filesystem::path& path, const char* ending, const char* other) {
+  const std::filesystem::path first = with_extension(path, ending);
+  return is_there(first) ? first : with_extension(path, other);
+}
+
+/// A mesh and the values at its vertices in another file, of which `path` is either.
+SizeField read_mesh_and_sol(const std::filesystem::path& path, const std::string& extension) {
+  const bool is_mesh = extension == ".mesh" || extension == ".meshb";
+  const std::filesystem::path mesh_path = is_mesh ? path : beside(path, ".mesh", ".meshb"),
+                              sol_path = is_mesh ? beside(path, ".sol", ".solb") : path;
+  const FileBytes mesh_bytes(mesh_path), sol_bytes(sol_path);
+  MeshData mesh = parse_volume({mesh_path, mesh_bytes.view()});
+  const auto read = lower(sol_path.extension().string()) == ".solb" ? read_solb : read_sol;
+  SizeField field = read({sol_path, sol_bytes.view()}, mesh.vertices.size());
+  return on_mesh(std::move(mesh), std::move(field));
 }
 
 /// TetGen's .mtr: a line "count columns", then a size or a symmetric tensor a vertex.
@@ -145,14 +187,10 @@ SizeField field_of(const PointArray& array, const std::filesystem::path& path) {
   return field;
 }
 
-SizeField on_mesh(MeshData mesh, SizeField field) {
-  field.vertices = std::move(mesh.vertices);
-  field.tetrahedra = std::move(mesh.tetrahedra);
-  return field;
-}
-
 SizeField read_by_extension(const std::filesystem::path& path) {
   const std::string extension = lower(path.extension().string());
+  for (const char* ending : {".mesh", ".meshb", ".sol", ".solb"})
+    if (extension == ending) return read_mesh_and_sol(path, extension);
   const FileBytes bytes(path);
   const Source source{path, bytes.view()};
   if (extension == ".mtr") {
@@ -170,19 +208,10 @@ SizeField read_by_extension(const std::filesystem::path& path) {
     MeshData mesh = read_vtu(source, kNames, array);
     return on_mesh(std::move(mesh), field_of(array, path));
   }
-  if (extension == ".sol" || extension == ".mesh" || extension == ".meshb") {
-    std::filesystem::path mesh_path = path;
-    if (extension == ".sol")
-      mesh_path = with_extension(path, is_there(with_extension(path, ".mesh")) ? ".mesh" : ".meshb");
-    const FileBytes mesh_bytes(mesh_path);
-    MeshData mesh = parse_volume({mesh_path, mesh_bytes.view()});
-    SizeField field = read_sol(with_extension(path, ".sol"), mesh.vertices.size());
-    return on_mesh(std::move(mesh), std::move(field));
-  }
   throw FileError(path, "",
                   "the format " + in_quotes(extension) +
-                      " cannot be read as a size field; the formats are .mesh, .meshb and .sol (a mesh and "
-                      "its .sol), .vtu (with a point array \"size\" or \"metric\"), .mtr, .pos");
+                      " cannot be read as a size field; the formats are .mesh or .meshb with .sol or "
+                      ".solb beside it, .vtu (with a point array \"size\" or \"metric\"), .mtr, .pos");
 }
 
 }  // namespace

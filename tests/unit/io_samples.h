@@ -184,29 +184,58 @@ inline std::string binary_ply(bool big, const char* line_end = "\n") {
   return bytes + raw(std::uint8_t{1}, big) + raw(std::int32_t{2}, big);
 }
 
-/// A binary GMF file of one tetrahedron, one triangle and one edge.
+/// A binary GMF file, section by section.
+class BinaryGmf {
+ public:
+  BinaryGmf(std::int32_t version, bool big)
+      : version_(version), big_(big), bytes_(raw(std::int32_t{1}, big) + raw(version, big)) {
+    section(3, raw(std::int32_t{3}, big));
+  }
+  [[nodiscard]] std::string integer(std::int64_t value) const {
+    return version_ >= 4 ? raw(value, big_) : raw(static_cast<std::int32_t>(value), big_);
+  }
+  [[nodiscard]] std::string real(double x) const {
+    return version_ == 1 ? raw(static_cast<float>(x), big_) : raw(x, big_);
+  }
+  void section(std::int32_t keyword, const std::string& body) {
+    const std::size_t next = bytes_.size() + 4 + (version_ >= 3 ? 8 : 4) + body.size();
+    bytes_ += raw(keyword, big_);
+    bytes_ += version_ >= 3 ? raw(static_cast<std::int64_t>(next), big_)
+                            : raw(static_cast<std::int32_t>(next), big_);
+    bytes_ += body;
+  }
+  [[nodiscard]] std::string ended() const {
+    return bytes_ + raw(std::int32_t{54}, big_) + raw(std::int64_t{0}, big_);
+  }
+
+ private:
+  std::int32_t version_;
+  bool big_;
+  std::string bytes_;
+};
+
+/// One tetrahedron, one triangle and one edge.
 inline std::string binary_gmf(std::int32_t version, bool big) {
-  std::string bytes = raw(std::int32_t{1}, big) + raw(version, big);
-  const auto integer = [&](std::int64_t value) {
-    return version >= 4 ? raw(value, big) : raw(static_cast<std::int32_t>(value), big);
-  };
-  const auto real = [&](double x) { return version == 1 ? raw(static_cast<float>(x), big) : raw(x, big); };
-  const auto section = [&](std::int32_t keyword, const std::string& body) {
-    const std::size_t next = bytes.size() + 4 + (version >= 3 ? 8 : 4) + body.size();
-    bytes += raw(keyword, big);
-    bytes +=
-        version >= 3 ? raw(static_cast<std::int64_t>(next), big) : raw(static_cast<std::int32_t>(next), big);
-    bytes += body;
-  };
-  section(3, raw(std::int32_t{3}, big));
+  BinaryGmf file(version, big);
+  const auto integer = [&](std::int64_t value) { return file.integer(value); };
   std::string body = integer(4);
-  for (int i = 0; i < 4; ++i) body += real(i == 1) + real(i == 2) + real(i == 3) + integer(0);
-  section(4, body);
-  section(99, "a section that nobody knows");
-  section(5, integer(1) + integer(1) + integer(2) + integer(30));
-  section(6, integer(1) + integer(1) + integer(3) + integer(2) + integer(-20));
-  section(8, integer(1) + integer(1) + integer(2) + integer(3) + integer(4) + integer(10));
-  return bytes + raw(std::int32_t{54}, big) + raw(std::int64_t{0}, big);
+  for (int i = 0; i < 4; ++i) body += file.real(i == 1) + file.real(i == 2) + file.real(i == 3) + integer(0);
+  file.section(4, body);
+  file.section(99, "a section that nobody knows");
+  file.section(5, integer(1) + integer(1) + integer(2) + integer(30));
+  file.section(6, integer(1) + integer(1) + integer(3) + integer(2) + integer(-20));
+  file.section(8, integer(1) + integer(1) + integer(2) + integer(3) + integer(4) + integer(10));
+  return file.ended();
+}
+
+/// Values of one type a vertex (1: a scalar, 3: a symmetric tensor).
+inline std::string binary_sol(std::int32_t version, bool big, std::int64_t vertices, std::int32_t type,
+                              const std::vector<double>& values) {
+  BinaryGmf file(version, big);
+  std::string body = file.integer(vertices) + raw(std::int32_t{1}, big) + raw(type, big);
+  for (const double x : values) body += file.real(x);
+  file.section(62, body);
+  return file.ended();
 }
 
 /// A binary legacy VTK file of one tetrahedron and one triangle.

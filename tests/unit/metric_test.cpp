@@ -215,6 +215,42 @@ TEST_F(MetricFiles, AreReadInEveryFormat) {
   }
 }
 
+TEST_F(MetricFiles, BinaryOnesAreReadInEveryVersion) {
+  write("9 1 8 2 3 7", "9,1,2,1,8,3,2,3,7", "9,8,7,1,3,2");
+  std::filesystem::remove(folder_ / "m.sol");
+  std::vector<double> tensors;
+  for (int k = 0; k < 4; ++k) tensors.insert(tensors.end(), {9, 1, 8, 2, 3, 7});
+  for (const std::int32_t version : {1, 2, 3, 4})
+    for (const bool big : {false, true}) {
+      samples::put(folder_ / "m.solb", samples::binary_sol(version, big, 4, 3, tensors));
+      for (const char* name : {"m.mesh", "m.solb"})
+        EXPECT_EQ(read_size_field(folder_ / name).metrics, std::vector<Metric>(4, Metric{9, 1, 8, 2, 3, 7}));
+      samples::put(folder_ / "m.solb", samples::binary_sol(version, big, 4, 1, {1, 2, 3, 4}));
+      EXPECT_EQ(read_size_field(folder_ / "m.mesh").sizes, (std::vector<double>{1, 2, 3, 4}));
+    }
+}
+
+TEST_F(MetricFiles, BrokenBinaryOnesAreRefused) {
+  write("9 1 8 2 3 7", "9,1,2,1,8,3,2,3,7", "9,8,7,1,3,2");
+  const std::string good = samples::binary_sol(2, false, 4, 1, {1, 2, 3, 4});
+  samples::put(folder_ / "m.solb", good);
+  static_cast<void>(read_size_field(folder_ / "m.solb"));
+  for (std::size_t length = 0; length + 20 < good.size(); ++length) {
+    samples::put(folder_ / "m.solb", good.substr(0, length));
+    expect_refused("m.solb", "m.solb", "");
+  }
+  samples::put(folder_ / "m.solb", samples::binary_sol(2, false, 4, 2, {1, 2, 3, 4}));
+  expect_refused("m.solb", "byte", "symmetric tensor (type 3)");
+  samples::put(folder_ / "m.solb", samples::binary_sol(2, false, 3, 1, {1, 2, 3}));
+  expect_refused("m.solb", "", "sizes for 3 vertices, but the mesh has 4");
+  samples::put(folder_ / "m.solb", samples::binary_sol(2, false, -1, 1, {}));
+  expect_refused("m.solb", "byte", "negative");
+  samples::put(folder_ / "m.solb", samples::binary_sol(4, false, 1ll << 60, 3, {1}));
+  expect_refused("m.solb", "byte", "truncated");
+  samples::put(folder_ / "m.solb", samples::binary_gmf(3, false));
+  expect_refused("m.solb", "byte", "no section SolAtVertices");
+}
+
 TEST_F(MetricFiles, TensorsThatAreNotPositiveDefiniteAreRefusedWithTheirPlace) {
   write("9 10 8 2 3 7", "9,10,2,10,8,3,2,3,7", "9,8,7,10,3,2");
   expect_refused("m.mesh", "m.sol: line 6", "not positive definite");
