@@ -22,6 +22,7 @@ demo: build  ## makes a mechanical part, meshes it and checks the mesh
 	@python3 scripts/demo.py $(RELEASE)/holdfast build/demo
 
 test: build  ## every test, with a subset of the corpus where there is one
+	@scripts/setup.sh test
 	@cmake --build $(RELEASE) -j $(JOBS)
 	@HOLDFAST_CORPUS="$(CORPUS)" ctest --preset release -j $(JOBS)
 
