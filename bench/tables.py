@@ -6,7 +6,8 @@ Every surface is filled by `holdfast mesh --fill` and verified by `holdfast chec
 independent checker; then TetGen (-pYQz) and Gmsh's HXT fill it on the same machine. Columns, as the paper calls them: faini, arini
 (facets and segments of the surface), faper, arper (those missing after the flips), npface, nparet (points that the
 partition added), npste (Steiner points left), ne, np (tetrahedra, vertices), Target (the Q that the worst facet asks
-for), Q (of the worst tetrahedron), cpu (seconds of the whole program). Writes docs/results.md.
+for), Q (of the worst tetrahedron), cpu (seconds of the whole program). "fewest" is npste and Q of another run,
+`--without points`, in which the optimisation adds none. Writes docs/results.md.
 """
 import argparse
 import concurrent.futures
@@ -146,6 +147,8 @@ class Filler:
                 row["checked"] = row["checked"] and timed([self.checker, readable, volume], 600)[0] == 0
             code, _ = timed([*mesh, "--seed", str(self.options.seed2)], 700)
             row["other_seed"] = json.loads(report.read_text())["steiner"]["count"] if code == 0 else None
+            code, _ = timed([*mesh, "--without", "points"], 700)
+            row["fewest"] = json.loads(report.read_text()) if code == 0 else None
         return row
 
     def tetgen(self, surface, folder):
@@ -176,51 +179,56 @@ def number(x):
 
 def table(rows):
     lines = ["| surface | faini | arini | faper | arper | npface | nparet | npste | ne | np | Target | Q | cpu | verified | "
-             "TetGen: added | Q | cpu | HXT: added | Q |", "|---|" + "---:|" * 12 + "---|" + "---:|" * 5]
+             "fewest: npste | Q | TetGen: added | Q | cpu | HXT: added | Q |", "|---|" + "---:|" * 12 + "---|" + "---:|" * 7]
     for row in rows:
         if row["code"] != 0:
-            lines.append(f"| {row['name']} | ended with exit code {row['code']} |" + " |" * 17)
+            lines.append(f"| {row['name']} | ended with exit code {row['code']} |" + " |" * 19)
             continue
         r, t, h = row["report"], row["tetgen"], row["hxt"]
         cells = [row["name"], r["input"]["facets"], r["input"]["segments"], r["flips"]["missing_facets"],
                  r["flips"]["missing_segments"], r["partition"]["facet_points"], r["partition"]["segment_points"],
                  r["steiner"]["count"], r["mesh"]["tetrahedra"], r["mesh"]["vertices"], number(r["quality"]["target"]),
                  number(r["quality"]["worst"]), f"{row['seconds']:.2f}", "yes" if row["checked"] else "NO"]
+        fewest = row["fewest"]
+        cells += [fewest["steiner"]["count"], number(fewest["quality"]["worst"])] if fewest else ["failed", ""]
         cells += [t["added"], number(t["worst"]), f"{t['seconds']:.2f}"] if t else ["failed", "", ""]
         cells += [h["added"], number(h["worst"])] if h else ["failed", ""]
         lines.append("| " + " | ".join(map(str, cells)) + " |")
     return lines
 
 
+def beside(rows, peer, name):
+    """Points and worst Q of ours, with the points that the optimisation adds and without, beside a peer's."""
+    lines = []
+    for key, how in (("report", ""), ("fewest", ", `--without points`")):
+        both = [r for r in rows if r[peer] and r[key]]
+        excess = [r[key]["steiner"]["count"] - r[peer]["added"] for r in both]
+        better = sum(r[key]["quality"]["worst"] <= ROUNDING * r[peer]["worst"] for r in both)
+        lines.append(
+            f"* Beside {name} ({len(both)} surfaces){how}: added points **{sum(r[key]['steiner']['count'] for r in both)}**, {name} "
+            f"**{sum(r[peer]['added'] for r in both)}**, more on {sum(e > 0 for e in excess)}, by {sum(e for e in excess if e > 0)} in all. "
+            f"Worst Q at most {name}'s on **{better}**; median of the ratio "
+            f"{median(r[key]['quality']['worst'] / r[peer]['worst'] for r in both):.2g}; above 1e6 on "
+            f"{sum(r[key]['quality']['worst'] > 1e6 for r in both)} ({name} {sum(r[peer]['worst'] > 1e6 for r in both)}).")
+    return lines
+
+
 def summary(rows):
     done = [r for r in rows if r["code"] == 0]
-    both = [r for r in done if r["tetgen"]]
-    ours = {r["name"]: r["report"]["steiner"]["count"] for r in done}
-    better_q = [r for r in both if r["report"]["quality"]["worst"] <= ROUNDING * r["tetgen"]["worst"]]
-    more = [r for r in both if ours[r["name"]] > r["tetgen"]["added"]]
     near = sorted(r["report"]["quality"]["worst"] / r["report"]["quality"]["target"] for r in done)
-    other = sum(r["other_seed"] for r in done if r["other_seed"] is not None)
-    lines = [f"* {len(done)} of {len(rows)} filled, {sum(r['checked'] for r in done)} of them accepted by every checker; TetGen "
-             f"filled {len(both)} and kept the surface (its meshes were not checked further; {len(rows) - len(both)} ended "
-             "otherwise).",
-             f"* Added points where both filled: Holdfast **{sum(ours[r['name']] for r in both)}**, TetGen "
-             f"**{sum(r['tetgen']['added'] for r in both)}** (negative counts, which are vertices that it dropped, included). "
-             f"Holdfast has more on {len(more)} surfaces, by {sum(ours[r['name']] - r['tetgen']['added'] for r in more)} in all.",
-             f"* With another random seed: {other} points instead of {sum(ours.values())}, on all that were filled."]
+    seeded = [r for r in done if r["other_seed"] is not None]
+    lines = [f"* {len(done)} of {len(rows)} filled, {sum(r['checked'] for r in done)} of them accepted by every checker. TetGen filled "
+             f"{sum(1 for r in rows if r['tetgen'])} and kept the surface, Gmsh's HXT {sum(1 for r in rows if r['hxt'])} (their meshes were "
+             "not checked further). Negative counts of theirs, vertices that they dropped, are included below."]
+    for peer, name in (("tetgen", "TetGen"), ("hxt", "HXT")):
+        if any(r[peer] for r in done):
+            lines += beside(done, peer, name)
+    lines.append(f"* With another random seed: {sum(r['other_seed'] for r in seeded)} points instead of "
+                 f"{sum(r['report']['steiner']['count'] for r in seeded)}, on all {len(seeded)} that were filled.")
+    both = [r for r in done if r["tetgen"]]
     if both:
-        lines.append(f"* Worst Q at most TetGen's on **{len(better_q)} of {len(both)}** surfaces; median of the ratio "
-                     f"{median(r['report']['quality']['worst'] / r['tetgen']['worst'] for r in both):.2f}.")
         lines.append(f"* Seconds of the whole program: median ratio to TetGen {median(r['seconds'] / r['tetgen']['seconds'] for r in both):.2f} "
                      "(several programs at once; `make bench` measures speed).")
-    with_hxt = [r for r in done if r["hxt"]]
-    if with_hxt:
-        more = [r for r in with_hxt if ours[r["name"]] > r["hxt"]["added"]]
-        better_q = [r for r in with_hxt if r["report"]["quality"]["worst"] <= ROUNDING * r["hxt"]["worst"]]
-        lines.append(f"* Gmsh's HXT filled {len(with_hxt)} and kept the surface. Added points on these: Holdfast "
-                     f"**{sum(ours[r['name']] for r in with_hxt)}**, more than HXT on {len(more)}; HXT "
-                     f"**{sum(r['hxt']['added'] for r in with_hxt)}**. Worst Q at most HXT's on {len(better_q)}; above 1e6 on "
-                     f"{sum(r['report']['quality']['worst'] > 1e6 for r in with_hxt)} (Holdfast) and "
-                     f"{sum(r['hxt']['worst'] > 1e6 for r in with_hxt)} (HXT).")
     if near:
         lines.append(f"* Q / Target: median {median(near):.2f}, nine of ten below {near[len(near) * 9 // 10]:.2f}.")
     return lines

@@ -58,8 +58,8 @@ struct Sizes {
 /// How long to improve the elements with field points: each is some times slower than the one before.
 enum class Quality { fast, good, best };
 
-/// What a running call tells, and may be told. Stages come in order, but that validation goes on after Delaunay,
-/// and that another attempt, where one is needed, begins with Delaunay.
+/// What a running call tells, and may be told. Stages come in order, but that validation goes on after
+/// Delaunay, and that another attempt, where one is needed, begins with Delaunay.
 struct Progress {
   Stage stage;
   double fraction;  ///< of this stage, 0 to 1
@@ -69,6 +69,9 @@ struct Progress {
 struct Options {
   bool flips = true;     ///< recover by flips before partition; without, partition does all the work
   bool optimise = true;  ///< better elements by exchanges and moves of Steiner points, after all else
+  /// And by a few more points, where an element stays flat without. Without sizes, elements may then be as
+  /// flat as the surface's own vertices and the points that it forces make them.
+  bool add_points = true;
   /// With sizes, field points are added, and the whole volume is made fit to compute with. Without, only the
   /// points that the surface forces are added.
   std::optional<Sizes> sizes;
@@ -110,7 +113,10 @@ struct Report {
   } delaunay, flips;                                 ///< missing after Delaunay, and after the flips
   std::size_t segment_points = 0, facet_points = 0;  ///< added by the partition
   std::size_t steiner_points = 0;                    ///< left in the volume; corners of a box do not count
-  std::size_t unrounded_points = 0;                  ///< of these, without a position in doubles
+  /// Left by suppression: what the surface forces, as far as was found. The optimisation adds some, and
+  /// removes some.
+  std::size_t forced_points = 0;
+  std::size_t unrounded_points = 0;  ///< of all that are left, without a position in doubles
   struct Optimised {
     std::size_t exchanges = 0;  ///< of tetrahedra for better ones
     std::size_t moves = 0;      ///< of Steiner points

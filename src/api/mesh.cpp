@@ -243,8 +243,8 @@ class Pipeline {
     if (!kept_.defects.empty()) refuse(std::move(kept_.defects));
   }
 
-  void suppress_points() {
-    // Points outside the kept regions go with their tetrahedra.
+  // Points outside the kept regions go with their tetrahedra.
+  std::vector<Vertex> kept_points() const {
     std::vector<bool> inside(mesh_.vertex_count(), false);
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
       if (is_kept(t))
@@ -252,9 +252,15 @@ class Pipeline {
     std::vector<Vertex> points;
     for (Vertex v = first_free_; v < mesh_.vertex_count(); ++v)
       if (inside[v]) points.push_back(v);
+    return points;
+  }
+
+  void suppress_points() {
+    std::vector<Vertex> points = kept_points();
     if (points.empty()) return;
     suppress(mesh_, std::move(points), first_free_, monitor_);
     flood_again(mesh_, complex_.facets, regions_);
+    result_.report.forced_points = kept_points().size();
   }
 
   void add_points() {
@@ -280,7 +286,8 @@ class Pipeline {
       if (!std::all_of(v.begin(), v.end(), [&](Vertex x) { return mesh_.is_explicit(x); })) return;
       tets.push_back(t);
     }
-    const OptimiseStats stats = optimise(mesh_, tets, first_free_, target(), monitor_);
+    const OptimiseStats stats =
+        optimise(mesh_, tets, first_free_, target(), monitor_, {.add_points = options_.add_points});
     result_.report.optimised = {stats.exchanged + stats.unflattened + stats.reconnected, stats.relocated,
                                 stats.inserted};
     if (stats.changed > 0) flood_again(mesh_, complex_.facets, regions_);
@@ -314,7 +321,8 @@ class Pipeline {
     }
     if (flat.empty()) return;
     const OptimiseStats stats =
-        optimise(mesh_, flat, first_free_, target(), monitor_, PointsToRemove::added_here);
+        optimise(mesh_, flat, first_free_, target(), monitor_,
+                 {.add_points = options_.add_points, .remove = PointsToRemove::added_here});
     result_.report.optimised = {stats.exchanged + stats.unflattened + stats.reconnected, stats.relocated,
                                 stats.inserted};
     if (stats.changed > 0) flood_again(mesh_, complex_.facets, regions_);

@@ -61,8 +61,8 @@ void print_details(const Report& report) {
              counted(report.flips.facets, "facet"));
   fmt::print(stderr, "partition  {} on segments, {} in facets\n", counted(report.segment_points, "point"),
              counted(report.facet_points, "point"));
-  fmt::print(stderr, "steiner    {} left, {} of them without a position in doubles\n",
-             counted(report.steiner_points, "point"), report.unrounded_points);
+  fmt::print(stderr, "steiner    {} left by suppression, {} in the end, {} of them without doubles\n",
+             counted(report.forced_points, "point"), report.steiner_points, report.unrounded_points);
   if (report.field.points > 0) print_field(report.field);
   fmt::print(stderr, "quality    worst {:.4g}, dihedral angles {:.3g} to {:.3g} degrees\n",
              report.quality.worst, report.quality.min_dihedral_deg, report.quality.max_dihedral_deg);
@@ -220,10 +220,10 @@ void add_mesh(CLI::App& app, Command& chosen) {
   command->add_flag("--drop-outside", arguments->drop_outside,
                     "Drop facets outside every kept region instead of refusing them");
   command
-      ->add_option(
-          "--without", arguments->without,
-          "Leave out a step: 'flips' (then partition and elimination do all the work), or 'optimise' "
-          "(repeatable)")
+      ->add_option("--without", arguments->without,
+                   "Leave out a step: 'flips' (then partition and elimination do all the work), 'optimise', "
+                   "or 'points' "
+                   "(then the optimisation adds none) (repeatable)")
       ->allow_extra_args(false)
       ->option_text("STEP");
   command->add_option("--seed", arguments->seed, "Seed of the random orders (default 1)")->option_text("N");

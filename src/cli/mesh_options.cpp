@@ -112,8 +112,10 @@ Options to_options(const MeshArguments& arguments) {
       options.flips = false;
     else if (step == "optimise")
       options.optimise = false;
+    else if (step == "points")
+      options.add_points = false;
     else
-      throw UsageError("--without " + step + ": only 'flips' and 'optimise' can be left out");
+      throw UsageError("--without " + step + ": only 'flips', 'optimise' and 'points' can be left out");
   }
   if (!arguments.fill) options.sizes = to_sizes(arguments);
   options.quality = quality_named(arguments.quality);

@@ -23,9 +23,10 @@ namespace {
 
 class Optimiser {
  public:
-  Optimiser(TetMesh& mesh, Vertex first_free, double target, Monitor& monitor)
+  Optimiser(TetMesh& mesh, Vertex first_free, double target, const OptimiseOptions& options, Monitor& monitor)
       : mesh_(mesh),
         first_free_(first_free),
+        options_(options),
         good_(std::max(kGood, target)),
         bad_from_(bad_from(target)),
         monitor_(monitor),
@@ -33,7 +34,7 @@ class Optimiser {
         exchanger_(mesh, qualities_, bad_from_),
         flat_remover_(mesh) {}
 
-  OptimiseStats run(const std::vector<Tet>& tets, PointsToRemove remove) {
+  OptimiseStats run(const std::vector<Tet>& tets) {
     budget_ = kLeastWork + kWorkPerTet * tets.size();
     list_points(tets);
     const std::size_t points_before = points_.size();
@@ -42,7 +43,7 @@ class Optimiser {
     note_others(tets);
     work_off_queue();
     shake_the_worst();
-    remove_points(remove == PointsToRemove::all ? 0 : points_before);
+    remove_points(options_.remove == PointsToRemove::all ? 0 : points_before);
     return stats_;
   }
 
@@ -222,7 +223,7 @@ class Optimiser {
     if ((is_worth_reconnecting(e) && reconnect_round(e.tet)) ||
         (e.quality >= bad_from_.hopeless && reconnect_patiently(e.tet)))
       return ++stats_.reconnected;
-    return is_worth_a_point(e) && insert_at(e) && ++stats_.inserted;
+    return options_.add_points && is_worth_a_point(e) && insert_at(e) && ++stats_.inserted;
   }
 
   // As long as a worse one stays, a point would not better the mesh's worst; but null elements are of no use
@@ -318,10 +319,12 @@ class Optimiser {
     return true;
   }
 
-  // Points that the mesh can do without now, as long as nothing flat comes of it, nor anything worse than
-  // what is there.
+  // Points that the mesh can do without now, as long as nothing comes of it that is worth a point: as long
+  // as a worse one stays, that is nothing but null elements.
   void remove_points(std::size_t from) {
+    if (from == points_.size()) return;
     constexpr std::size_t kWork = 30;
+    const double limit = std::max(bad_from_.flat, std::min(worst_of_all(), bad_from_.null));
     Growth growth{.attempts = 2, .steps = 6, .search = {.most_vertices = 18, .most_nodes = 60}};
     for (std::size_t k = from; k < points_.size(); ++k) {
       const Vertex p = points_[k];
@@ -330,11 +333,18 @@ class Optimiser {
       work_ += kWork;
       created_.clear();
       ball(mesh_, p, created_);
-      growth.search.worst_quality = std::max(bad_from_.flat, badness_of(mesh_, created_, bad_from_).worst);
+      growth.search.worst_quality = std::max(limit, badness_of(mesh_, created_, bad_from_).worst);
       if (!refill_without(mesh_, p, first_free_, growth, random_)) continue;
       ++stats_.removed;
       ++stats_.changed;
     }
+  }
+
+  [[nodiscard]] double worst_of_all() {
+    double worst = 0;
+    for (Tet t = 0; t < mesh_.slot_count(); ++t)
+      if (mesh_.alive(t) && is_ours(t)) worst = std::max(worst, qualities_.of(t));
+    return worst;
   }
 
   // The paper's Q: of what is left alone, of bad elements, of what is worth a search, of what counts as flat,
@@ -351,6 +361,7 @@ class Optimiser {
 
   TetMesh& mesh_;
   const Vertex first_free_;
+  const OptimiseOptions options_;
   const double good_;
   const BadFrom bad_from_;
   Monitor& monitor_;
@@ -374,8 +385,8 @@ class Optimiser {
 }  // namespace
 
 OptimiseStats optimise(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, double target,
-                       Monitor& monitor, PointsToRemove remove) {
-  return Optimiser(mesh, first_free, target, monitor).run(tets, remove);
+                       Monitor& monitor, const OptimiseOptions& options) {
+  return Optimiser(mesh, first_free, target, options, monitor).run(tets);
 }
 
 }  // namespace holdfast

@@ -21,11 +21,15 @@ struct OptimiseStats {
 
 /// Improves the worst of `tets`, which are all of some regions and whose vertices are explicit. Facets and
 /// segments stand, and so do the vertices below `first_free`; the Steiner points, the vertices from there on,
-/// lie on no constraint: they may move, and go where they are in the way. A few are added where a tetrahedron
-/// stays flat without. `target` is the worst Q that the facets ask for (mesh/quality.h). In the end points go
-/// that the mesh can do without: all, or those added here only, where the others are there for a size.
+/// lie on no constraint: they may move, and go where they are in the way. `target` is the worst Q that the
+/// facets ask for (mesh/quality.h).
 enum class PointsToRemove { all, added_here };
+struct OptimiseOptions {
+  bool add_points = true;  ///< a few, where a tetrahedron stays flat without
+  /// That the mesh can do without in the end: not those that are there for a size.
+  PointsToRemove remove = PointsToRemove::all;
+};
 OptimiseStats optimise(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, double target,
-                       Monitor& monitor, PointsToRemove remove = PointsToRemove::all);
+                       Monitor& monitor, const OptimiseOptions& options = {});
 
 }  // namespace holdfast

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <set>
 #include <stdexcept>
@@ -158,7 +159,31 @@ TEST(Mesh, SteinerPointOfSchoenhardt) {
     const Result result = mesh(surface.view(), options);
     expect_done(surface, result);
     EXPECT_GE(result.report.steiner_points, 1u);
+    EXPECT_GE(result.report.forced_points, 1u);
     EXPECT_EQ(result.volume.vertices.size(), 6 + result.report.steiner_points);
+  }
+}
+
+// A ring of points between two far ones: no point is forced, and some elements are flat.
+TEST(Mesh, WithoutPointsNoneAreAddedForFlatElements) {
+  constexpr Index kRing = 300;
+  Surface surface;
+  for (Index k = 0; k < kRing; ++k) {
+    const double angle = 2 * std::numbers::pi * k / kRing;
+    surface.vertices.push_back({std::cos(angle), std::sin(angle), 0});
+    surface.facets.push_back({k, (k + 1) % kRing, kRing});
+    surface.facets.push_back({(k + 1) % kRing, k, kRing + 1});
+  }
+  surface.vertices.push_back({0, 0, 1e4});
+  surface.vertices.push_back({0, 0, -1e4});
+  for (const bool add_points : {true, false}) {
+    Options options;
+    options.add_points = add_points;
+    const Result result = mesh(surface.view(), options);
+    expect_done(surface, result);
+    EXPECT_EQ(result.report.forced_points, 0u);
+    EXPECT_EQ(result.report.steiner_points > 0, add_points);
+    EXPECT_EQ(result.report.optimised.points > 0, add_points);
   }
 }
 
@@ -459,8 +484,8 @@ TEST(Progress, StagesComeInOrder) {
   };
   EXPECT_EQ(mesh(small::box().view(), options).outcome, Outcome::done);
   EXPECT_EQ(stages,
-            (std::vector<Stage>{Stage::validate, Stage::delaunay, Stage::validate, Stage::flips, Stage::partition,
-                                Stage::classify, Stage::suppress, Stage::optimise}));
+            (std::vector<Stage>{Stage::validate, Stage::delaunay, Stage::validate, Stage::flips,
+                                Stage::partition, Stage::classify, Stage::suppress, Stage::optimise}));
 }
 
 TEST(StopAfter, ShowsWhatStands) {

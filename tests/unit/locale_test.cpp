@@ -16,6 +16,10 @@
 #include "small_surfaces.h"
 #include "text/decimal.h"
 
+// The C library keeps what it has parsed of LOCPATH.
+extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier)
+extern "C" const char* __lsan_default_suppressions() { return "leak:__argz_add_sep\n"; }  // NOLINT
+
 namespace holdfast {
 namespace {
 
