@@ -286,8 +286,12 @@ class Pipeline {
       if (!std::all_of(v.begin(), v.end(), [&](Vertex x) { return mesh_.is_explicit(x); })) return;
       tets.push_back(t);
     }
-    const OptimiseStats stats =
-        optimise(mesh_, tets, first_free_, target(), monitor_, {.add_points = options_.add_points});
+    optimise_worst_of(tets, PointsToRemove::all);
+  }
+
+  void optimise_worst_of(const std::vector<Tet>& tets, PointsToRemove remove) {
+    const OptimiseStats stats = optimise(mesh_, tets, first_free_, target(), monitor_,
+                                         {.add_points = options_.add_points, .remove = remove});
     result_.report.optimised = {stats.exchanged + stats.unflattened + stats.reconnected, stats.relocated,
                                 stats.inserted};
     if (stats.changed > 0) flood_again(mesh_, complex_.facets, regions_);
@@ -319,13 +323,7 @@ class Pipeline {
       if (is_flat(mesh_.position(v[0]), mesh_.position(v[1]), mesh_.position(v[2]), mesh_.position(v[3])))
         flat.push_back(t);
     }
-    if (flat.empty()) return;
-    const OptimiseStats stats =
-        optimise(mesh_, flat, first_free_, target(), monitor_,
-                 {.add_points = options_.add_points, .remove = PointsToRemove::added_here});
-    result_.report.optimised = {stats.exchanged + stats.unflattened + stats.reconnected, stats.relocated,
-                                stats.inserted};
-    if (stats.changed > 0) flood_again(mesh_, complex_.facets, regions_);
+    if (!flat.empty()) optimise_worst_of(flat, PointsToRemove::added_here);
   }
 
   [[nodiscard]] VolumeData volume() {
