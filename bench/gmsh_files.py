@@ -65,7 +65,8 @@ def fill_by_hxt(surface, folder, limit):
     if done.returncode != 0 or b"Error" in done.stdout or not (folder / "hxt.msh").exists():
         return None
     position, kept, tetrahedra = read_msh(folder / "hxt.msh")
-
+    if not all(v in position for t in kept + tetrahedra for v in t):  # it has written elements of a node 0
+        return None
     given = [tuple(map(float, p[:3])) for p in points]
     if not tetrahedra or sorted(told(position[v] for v in t) for t in kept) != sorted(
             told(given[int(v)] for v in t) for t in triangles):
