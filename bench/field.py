@@ -245,7 +245,7 @@ def best_angles(results):
 
 
 def write(results, threads, path, timeout):
-    versions = subprocess.run(["dpkg-query", "-W", "-f", "${Package} ${Version}, ", "gmsh", "tetgen", "netgen"],
+    versions = subprocess.run(["dpkg-query", "-W", "-f", "${Package} ${Version}, ", "gmsh", "tetgen", "python3-netgen"],
                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False).stdout.decode()
     text = ["# Meshes to compute with", "", "Written by `make field`; how it was measured stands in `bench/field.py`.", "",
             f"{processor()}; one thread; at most {timeout:.0f} s a surface; {versions.strip(', ')}.", "",
