@@ -191,7 +191,10 @@ class Pipeline {
       if (e.corners == 3) return standing_.facets[e.id];
       return e.corners == 1 ? std::uint8_t{1} : standing_.segments[table_.find(e.vertex[0], e.vertex[1])];
     });
-    if (!all_fit(complex_, elements_, stands, poll_validation(), threads())) refuse_if_any_defect();
+    if (!all_fit(complex_, elements_, stands, poll_validation(), threads())) {
+      refuse_if_any_defect();
+      if (result_.outcome == Outcome::done) throw std::logic_error("holdfast: a misfit without a defect");
+    }
     elements_ = {};
   }
 

@@ -185,7 +185,9 @@ void add_mesh(CLI::App& app, Command& chosen) {
   command->add_option("-o,--output", arguments->output, "Volume file (.vtu .vtk .mesh .meshb .msh .node)")
       ->required()
       ->option_text("VOLUME");
-  command->add_flag("--fill", arguments->fill, "Add no field points: only what the surface forces, and a few where an element stays flat");
+  command->add_flag(
+      "--fill", arguments->fill,
+      "Add no field points: only what the surface forces, and a few where an element stays flat");
   command->add_option("--size", arguments->size, "Field points: no edge inside much longer than this")
       ->option_text("H");
   command

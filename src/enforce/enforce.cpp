@@ -109,7 +109,8 @@ class Enforcer {
     return !in_the_way.empty();
   }
 
-  // The part of v's kernel above the facet is not empty: v lies in its closure, and in no other of its planes.
+  // The part of v's kernel above the facet is not empty: v lies in its closure, and in no other of its
+  // planes.
   void leave_plane(Vertex v, const Triangle& facet) {
     if (mesh_.orient(facet[0], facet[1], facet[2], v) != 0) return;
     std::vector<Tet> tets;

@@ -19,16 +19,19 @@ struct OptimiseStats {
   std::size_t changed = 0;      ///< tetrahedra made, those of attempts that came to nothing included
 };
 
+/// Points that go in the end where the mesh can do without: all, or those added here alone, where the others
+/// are there for a size.
+enum class PointsToRemove { all, added_here };
+
+struct OptimiseOptions {
+  bool add_points = true;  ///< a few, where a tetrahedron stays flat without
+  PointsToRemove remove = PointsToRemove::all;
+};
+
 /// Improves the worst of `tets`, which are all of some regions and whose vertices are explicit. Facets and
 /// segments stand, and so do the vertices below `first_free`; the Steiner points, the vertices from there on,
 /// lie on no constraint: they may move, and go where they are in the way. `target` is the worst Q that the
 /// facets ask for (mesh/quality.h).
-enum class PointsToRemove { all, added_here };
-struct OptimiseOptions {
-  bool add_points = true;  ///< a few, where a tetrahedron stays flat without
-  /// That the mesh can do without in the end: not those that are there for a size.
-  PointsToRemove remove = PointsToRemove::all;
-};
 OptimiseStats optimise(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, double target,
                        Monitor& monitor, const OptimiseOptions& options = {});
 
