@@ -214,8 +214,8 @@ TEST(AabbTree, FindsAllOverlaps) {
     for (std::size_t i = 0; i < n; ++i) {
       Box box = boxes[i];
       for (std::size_t k = 0; k < 3; ++k) box.low[k] = box.high[k];
-      EXPECT_EQ(tree.overlaps_any(box),
-                std::any_of(boxes.begin(), boxes.end(), [&](const Box& other) { return other.overlaps(box); }));
+      EXPECT_EQ(tree.overlaps_any(box), std::any_of(boxes.begin(), boxes.end(),
+                                                    [&](const Box& other) { return other.overlaps(box); }));
     }
   }
 }
