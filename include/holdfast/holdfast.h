@@ -69,8 +69,9 @@ struct Progress {
 struct Options {
   bool flips = true;     ///< recover by flips before partition; without, partition does all the work
   bool optimise = true;  ///< better elements by exchanges and moves of Steiner points, after all else
-  /// And by a few more points, where an element stays flat without. Without sizes, elements may then be as
-  /// flat as the surface's own vertices and the points that it forces make them.
+  /// And by a few points, where an element stays flat without. If not, elements may be as flat as the
+  /// surface's vertices and the points that it forces make them. Field points, for `sizes`, do not depend on
+  /// this.
   bool add_points = true;
   /// With sizes, field points are added, and the whole volume is made fit to compute with. Without, only the
   /// points that the surface forces are added.

@@ -224,8 +224,7 @@ void add_mesh(CLI::App& app, Command& chosen) {
   command
       ->add_option("--without", arguments->without,
                    "Leave out a step: 'flips' (then partition and elimination do all the work), 'optimise', "
-                   "or 'points' "
-                   "(then the optimisation adds none) (repeatable)")
+                   "or 'points' (then none is added for flat elements) (repeatable)")
       ->allow_extra_args(false)
       ->option_text("STEP");
   command->add_option("--seed", arguments->seed, "Seed of the random orders (default 1)")->option_text("N");

@@ -91,18 +91,11 @@ std::size_t peel_from_borders(const SegmentTable& table) {
 Index SegmentTable::find(Index a, Index b) const {
   const auto [low, high] = std::minmax(a, b);
   if (low + std::size_t{1} >= first_of_vertex.size()) return no_index;
-  constexpr Index kShort = 12;  // where to look at each is faster
-  Index begin = first_of_vertex[low];
-  const Index end = first_of_vertex[low + std::size_t{1}];
-  if (end - begin > kShort) {
-    const auto at = std::lower_bound(segments.begin() + begin, segments.begin() + end, high,
-                                     [](const Segment& s, Index wanted) { return s[1] < wanted; });
-    begin = static_cast<Index>(at - segments.begin());
-    return begin != end && segments[begin][1] == high ? begin : no_index;
-  }
-  for (Index s = begin; s < end; ++s)
-    if (segments[s][1] == high) return s;
-  return no_index;
+  const auto begin = segments.begin() + first_of_vertex[low];
+  const auto end = segments.begin() + first_of_vertex[low + std::size_t{1}];
+  const auto at =
+      std::lower_bound(begin, end, high, [](const Segment& s, Index wanted) { return s[1] < wanted; });
+  return at != end && (*at)[1] == high ? static_cast<Index>(at - segments.begin()) : no_index;
 }
 
 SegmentTable segment_table(const Complex& complex) {
