@@ -226,7 +226,7 @@ class Enforcer {
     return out;
   }
 
-  static constexpr FlipRecovery::Effort kRetry{.depth = 20, .budget = 2000, .thorough = true};
+  static constexpr FlipRecovery::Effort kRetry{.depth = Flipper::kDeep, .budget = 2000, .thorough = true};
   static constexpr int kRounds = 2;
   static constexpr int kFlipDepth = 8;
   static constexpr std::size_t kFlipBudget = 200;

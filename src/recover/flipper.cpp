@@ -70,7 +70,7 @@ bool Flipper::stands(const Crossing& crossing) const {
 void Flipper::begin(int depth, std::size_t budget, int most_change) {
   if (levels_.size() <= static_cast<std::size_t>(depth)) levels_.resize(static_cast<std::size_t>(depth) + 1);
   budget_ = budget;
-  work_ = 0;
+  work_before_ = all_work_;
   change_ = 0;
   most_change_ = most_change;
 }
@@ -109,7 +109,7 @@ bool Flipper::flip_face(const Crossing& face) {
   if (mesh_.is_facet(code) || mesh_.is_ghost(face.tet) || mesh_.is_ghost(tet_of(across))) return false;
   const Vertex e = mesh_.apex(across);
   const auto f = mesh_.face_vertices(code);
-  work_ += 3;
+  all_work_ += 3;
   for (std::size_t k = 0; k < 3; ++k)
     if (mesh_.orient(f[k], f[(k + 1) % 3], e, d) <= 0) return false;
   int change = target_.edge(mesh_, d, e) - target_.face(mesh_, f[0], f[1], f[2]);
@@ -168,15 +168,15 @@ void Flipper::list_ears(Level& level) {
 
 bool Flipper::remove_edge_now(const Level& level, Vertex favoured) {
   const EdgeShell& shell = level.shell;
-  work_ += shell.size();
+  all_work_ += shell.size();
   // Every triangulation of a polygon has two ears (Meisters 1975).
   if (std::count_if(level.ears.begin(), level.ears.end(), [](const Ear& e) { return e.sees_both(); }) < 2) {
-    work_ += 2 * shell.size();
+    all_work_ += 2 * shell.size();
     return false;
   }
   ForTarget objective(mesh_, shell, level.ears, target_, favoured);
   const auto cost = triangulation_.find(shell.size(), objective);
-  work_ += 2 * objective.tests;
+  all_work_ += 2 * objective.tests;
   if (!cost || *cost % ForTarget::kWeight != 0) return false;
   const int change = *cost / ForTarget::kWeight - objective.cost_now();
   if (change_ + change > (favoured == kNone ? most_change_ : 0)) return false;
@@ -205,7 +205,7 @@ bool Flipper::clip_ears(EdgeShell& shell) {
 bool Flipper::clip_ear(EdgeShell& shell, std::size_t i) {
   const std::size_t n = shell.size(), last = (i + n - 1) % n, next = (i + 1) % n;
   const Vertex a = shell.a, b = shell.b, u = shell.link[last], p = shell.link[i], w = shell.link[next];
-  work_ += 3;
+  all_work_ += 3;
   if (mesh_.orient(u, p, w, b) <= 0 || mesh_.orient(w, p, u, a) <= 0 || mesh_.orient(a, b, u, w) <= 0)
     return false;
   int change = target_.edge(mesh_, u, w) - target_.face(mesh_, a, b, p);
@@ -227,7 +227,7 @@ bool Flipper::clip_ear(EdgeShell& shell, std::size_t i) {
 bool Flipper::thin_out(int depth) {
   auto& [shell, ears, spokes] = levels_[static_cast<std::size_t>(depth)];
   list_blocked_spokes(ears, spokes);
-  work_ += 2 * ears.size();
+  all_work_ += 2 * ears.size();
   for (const Spoke& spoke : spokes) {
     if (exhausted()) return false;
     const Vertex end = spoke.at_b ? shell.b : shell.a, other = spoke.at_b ? shell.a : shell.b;
@@ -260,7 +260,7 @@ Tet Flipper::survivor(const EdgeShell& shell) {
 void Flipper::apply(std::span<const Tet> old_tets, int change) {
   created_.clear();
   replace(mesh_, {.old_tets = old_tets, .new_tets = fresh_}, &created_);
-  work_ += 8 * old_tets.size();
+  all_work_ += 8 * old_tets.size();
   change_ += change;
 }
 

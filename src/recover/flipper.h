@@ -25,6 +25,10 @@ class Flipper {
  public:
   Flipper(TetMesh& mesh, Random& random) : mesh_(mesh), piercing_(mesh, random), random_(random) {}
 
+  /// Levels of flips that the budget of an attempt, not their number, should end: one mends the way of the
+  /// other over whole strips of prisms.
+  static constexpr int kDeep = 64;
+
   /// Flips from now on work for this target.
   void aim(const Target& target) { target_ = target; }
 
@@ -38,7 +42,9 @@ class Flipper {
   bool remove(Tet t, Vertex a, Vertex b, int depth, std::size_t budget);
 
   /// Of the last call, in sign tests, roughly.
-  [[nodiscard]] std::size_t work() const { return work_; }
+  [[nodiscard]] std::size_t work() const { return all_work_ - work_before_; }
+  /// Of all calls.
+  [[nodiscard]] std::size_t all_work() const { return all_work_; }
 
   /// Whether the tetrahedron of a crossing is still alive and holds it.
   [[nodiscard]] bool stands(const Crossing& crossing) const;
@@ -46,7 +52,7 @@ class Flipper {
 
  private:
   [[nodiscard]] bool holds(Tet t, Vertex a, Vertex b) const;
-  [[nodiscard]] bool exhausted() const { return work_ > budget_; }
+  [[nodiscard]] bool exhausted() const { return work() > budget_; }
   // Whether the triangle at a corner of a shell's link sees the ends of the edge from the right side.
   struct Ear {
     bool sees_a, sees_b;
@@ -83,7 +89,7 @@ class Flipper {
   Piercing piercing_;
   Random& random_;
   Target target_ = Target::none();
-  std::size_t budget_ = 0, work_ = 0;
+  std::size_t budget_ = 0, all_work_ = 0, work_before_ = 0;
   int most_change_ = -1;  // of a flip that ends an attempt
   int change_ = 0;        // of the target's cost since `clear` began; never positive
   FlipCounts counts_;

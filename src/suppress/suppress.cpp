@@ -85,7 +85,7 @@ class Suppressor {
     constexpr int kMostRounds = 20, kPatience = 8;  // rounds without gain
     // In proportion to the rest of the work, so that it matters where few are left.
     const std::size_t most_shakes = std::min<std::size_t>(200, 16 + mesh_.tet_count() / 100);
-    constexpr int kShakenEdges = 40, kShakenDepth = 12;
+    constexpr int kShakenEdges = 40;
     constexpr std::size_t kShakenBudget = 800;
     std::vector<Vertex> spare = points_;
     std::erase_if(spare, [&](Vertex p) { return is_needed(mesh_, p, first_free_); });
@@ -97,7 +97,7 @@ class Suppressor {
         if (shakes++ == most_shakes) break;
         tell();
         shake(mesh_, flipper_, p, kShakenEdges, random_);
-        lower_degree(mesh_, flipper_, p, kShakenDepth, kShakenBudget);
+        lower_degree(mesh_, flipper_, p, Flipper::kDeep, kShakenBudget);
         remove_or_recentre(mesh_, p, {});
       }
       drop_the_gone(stats_.filled);
@@ -113,7 +113,7 @@ class Suppressor {
 
   void remove_harder(Vertex p) {
     const bool is_explicit = mesh_.is_explicit(p);
-    if (lower_degree(mesh_, flipper_, p, kFlipDepth, is_explicit ? kQuickBudget : kPatientBudget)) {
+    if (lower_degree(mesh_, flipper_, p, Flipper::kDeep, is_explicit ? kQuickBudget : kPatientBudget)) {
       const Fate fate = remove_or_recentre(mesh_, p, {});
       if (fate == Fate::collapsed || fate == Fate::filled) return;
     }
@@ -130,7 +130,6 @@ class Suppressor {
 
   static constexpr std::size_t kWorthwhile = 10;
   static constexpr std::size_t kQuickBudget = 2000, kPatientBudget = 20000;
-  static constexpr int kFlipDepth = 12;
   static constexpr int kMostSteps = 30;
   static constexpr Growth kQuickGrowth{
       .attempts = 2, .steps = 5, .search = {.most_vertices = 18, .most_nodes = 60}};
