@@ -73,6 +73,7 @@ void Flipper::begin(int depth, std::size_t budget, int most_change) {
   work_before_ = all_work_;
   change_ = 0;
   most_change_ = most_change;
+  tried_.forget();
 }
 
 bool Flipper::clear(const Crossing& crossing, int depth, std::size_t budget) {
@@ -130,6 +131,7 @@ bool Flipper::remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex favoured)
   if (mesh_.is_segment(t, kEdgeOf[static_cast<std::size_t>(mesh_.index_of(t, a))]
                                  [static_cast<std::size_t>(mesh_.index_of(t, b))]))
     return false;
+  if (!tried_.add(a, b, depth)) return false;
   Level& level = levels_[static_cast<std::size_t>(depth)];
   EdgeShell& shell = level.shell;
   while (gather_shell(mesh_, t, a, b, shell, favoured == kNone ? kMostClipped : kMostLink)) {
@@ -261,6 +263,7 @@ void Flipper::apply(std::span<const Tet> old_tets, int change) {
   created_.clear();
   replace(mesh_, {.old_tets = old_tets, .new_tets = fresh_}, &created_);
   all_work_ += 8 * old_tets.size();
+  tried_.forget();
   change_ += change;
 }
 

@@ -13,6 +13,7 @@
 #include "mesh/tet_mesh.h"
 #include "recover/pierce.h"
 #include "recover/target.h"
+#include "recover/tried_edges.h"
 
 namespace holdfast {
 
@@ -93,6 +94,7 @@ class Flipper {
   int most_change_ = -1;  // of a flip that ends an attempt
   int change_ = 0;        // of the target's cost since `clear` began; never positive
   FlipCounts counts_;
+  TriedEdges tried_;  // in this attempt, since the last flip
 
   std::vector<Level> levels_;  // by depth
   std::vector<TetMesh::Corners> fresh_;

@@ -10,9 +10,9 @@ namespace {
 
 // Pass after pass goes twice as deep, with little work for each entity: what one attempt does not reach, the
 // next may, from the mesh that the attempts for others have left meanwhile.
-constexpr int kMostIdlePasses = 2;
+constexpr int kMostIdlePasses = 3;
 constexpr std::size_t kIdle = 20;           // a pass that recovers less than one in so many
-constexpr std::size_t kBudget = 1000;       // of an attempt at a crossing in a pass
+constexpr std::size_t kBudget = 500;        // of an attempt at a crossing in a pass
 constexpr std::size_t kMostBudget = 10000;  // of one in the last pass
 constexpr std::size_t kMostFailures = 100;  // at the crossings of one facet
 constexpr std::size_t kMostCrossings = 2000;

@@ -20,6 +20,7 @@
 #include "recover/insert_vertex.h"
 #include "recover/pierce.h"
 #include "recover/target.h"
+#include "recover/tried_edges.h"
 
 namespace holdfast {
 namespace {
@@ -366,6 +367,28 @@ TEST(FacetCavities, LeaveTheMeshAsItWasWhenTheyGiveUp) {
   EXPECT_EQ(find_fault(run.mesh), "");
   EXPECT_EQ(find_face(run.mesh, 0, 1, 2), kNone);
   EXPECT_TRUE(cavities.recover(facet, [] {}));
+}
+
+TEST(TriedEdges, AnEdgeIsTriedAgainWithMoreLevelsOnly) {
+  TriedEdges tried;
+  EXPECT_TRUE(tried.add(3, 7, 2));
+  EXPECT_FALSE(tried.add(7, 3, 2)) << "the same edge";
+  EXPECT_FALSE(tried.add(3, 7, 1));
+  EXPECT_TRUE(tried.add(3, 7, 4));
+  EXPECT_FALSE(tried.add(3, 7, 3));
+  tried.forget();
+  EXPECT_TRUE(tried.add(3, 7, 1));
+}
+
+TEST(TriedEdges, GrowsWithoutLosingAny) {
+  TriedEdges tried;
+  tried.add(1, 2, 9);
+  tried.forget();
+  constexpr Vertex kMany = 60;
+  for (Vertex a = 0; a < kMany; ++a)
+    for (Vertex b = a + 1; b < kMany; ++b) ASSERT_TRUE(tried.add(a, b, 1)) << a << ' ' << b;
+  for (Vertex a = 0; a < kMany; ++a)
+    for (Vertex b = a + 1; b < kMany; ++b) ASSERT_FALSE(tried.add(b, a, 1)) << a << ' ' << b;
 }
 
 }  // namespace

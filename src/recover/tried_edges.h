@@ -1,0 +1,66 @@
+// The edges that flips tried in vain since the mesh last changed, so that a deep search tries none twice.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+
+namespace holdfast {
+
+/// A set of edges with the most levels of flips that each was tried with. Forgetting takes no time.
+class TriedEdges {
+ public:
+  void forget() {
+    ++generation_;
+    count_ = 0;
+  }
+
+  /// Notes a trial. Returns false where one with as many levels is noted.
+  bool add(Vertex a, Vertex b, int depth) {
+    if (2 * count_ >= slots_.size()) grow();
+    const Key key = std::minmax(a, b);
+    Slot& slot = slots_[place_of(key)];
+    if (slot.generation != generation_) {
+      slot = {key, generation_, depth};
+      ++count_;
+      return true;
+    }
+    if (slot.depth >= depth) return false;
+    slot.depth = depth;
+    return true;
+  }
+
+ private:
+  using Key = std::pair<Vertex, Vertex>;
+  struct Slot {
+    Key key;
+    std::uint64_t generation = 0;
+    int depth = 0;
+  };
+
+  // That of the key, or the free one where it belongs (linear probing).
+  [[nodiscard]] std::size_t place_of(const Key& key) const {
+    constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15;  // Fibonacci hashing (Knuth, TAOCP 3, 6.4)
+    const std::uint64_t mixed = ((std::uint64_t{key.first} << 32) | key.second) * kMix;
+    std::size_t i = static_cast<std::size_t>(mixed >> 32) & (slots_.size() - 1);
+    while (slots_[i].generation == generation_ && slots_[i].key != key) i = (i + 1) & (slots_.size() - 1);
+    return i;
+  }
+
+  void grow() {
+    std::vector<Slot> before(std::max<std::size_t>(64, 2 * slots_.size()));
+    before.swap(slots_);
+    for (const Slot& slot : before)
+      if (slot.generation == generation_) slots_[place_of(slot.key)] = slot;
+  }
+
+  std::vector<Slot> slots_;  // a power of two of them
+  std::uint64_t generation_ = 1;
+  std::size_t count_ = 0;
+};
+
+}  // namespace holdfast
