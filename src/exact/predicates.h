@@ -122,19 +122,43 @@ class OrientFilter {
     permanent_ = {std::fabs(yz) + std::fabs(zy), std::fabs(zx) + std::fabs(xz),
                   std::fabs(xy) + std::fabs(yx)};
   }
-  /// +1 or -1, or 0 where it cannot tell. The bound is that of orient3d_filter: the determinant's rows have
-  /// become its columns.
+  /// +1 or -1, or 0 where it cannot tell.
   [[nodiscard]] int operator()(const double* d) const {
-    const double x = d[0] - a_[0], y = d[1] - a_[1], z = d[2] - a_[2];
-    const double ax = std::fabs(x), ay = std::fabs(y), az = std::fabs(z);
-    const double det = x * normal_[0] + y * normal_[1] + z * normal_[2];
-    const double permanent = ax * permanent_[0] + ay * permanent_[1] + az * permanent_[2];
-    const double bound =
-        (7 + 64 * detail::kEpsilon) * detail::kEpsilon * permanent + (0x1p-900 + 0x1p-900 * (ax + ay + az));
-    return detail::filtered_sign(det, bound);
+    const Estimate e = estimate(d[0], d[1], d[2]);
+    return detail::filtered_sign(e.determinant, e.bound);
+  }
+
+  static constexpr std::size_t kMost = 32;
+  struct Signs {
+    std::uint32_t positive, negative;  // bit i: of point i
+  };
+  /// The same for `count` <= kMost points, coordinate by coordinate, so that the machine takes several at
+  /// once.
+  [[nodiscard]] Signs of_all(const double* x, const double* y, const double* z, std::size_t count) const {
+    std::array<Estimate, kMost> e;
+    for (std::size_t i = 0; i < count; ++i) e[i] = estimate(x[i], y[i], z[i]);
+    Signs signs{0, 0};
+    for (std::size_t i = 0; i < count; ++i) {
+      signs.positive |= static_cast<std::uint32_t>(e[i].determinant > e[i].bound) << i;
+      signs.negative |= static_cast<std::uint32_t>(e[i].determinant < -e[i].bound) << i;
+    }
+    return signs;
   }
 
  private:
+  struct Estimate {
+    double determinant, bound;
+  };
+  // The bound is that of orient3d_filter: the determinant's rows have become its columns.
+  [[nodiscard]] Estimate estimate(double dx, double dy, double dz) const {
+    const double x = dx - a_[0], y = dy - a_[1], z = dz - a_[2];
+    const double ax = std::fabs(x), ay = std::fabs(y), az = std::fabs(z);
+    const double permanent = ax * permanent_[0] + ay * permanent_[1] + az * permanent_[2];
+    return {
+        x * normal_[0] + y * normal_[1] + z * normal_[2],
+        (7 + 64 * detail::kEpsilon) * detail::kEpsilon * permanent + (0x1p-900 + 0x1p-900 * (ax + ay + az))};
+  }
+
   std::array<double, 3> a_, normal_, permanent_;
 };
 

@@ -48,7 +48,14 @@ class Sides {
         all_are_explicit_(
             std::all_of(vertices_.begin(), vertices_.end(), [&](Vertex v) { return mesh.is_explicit(v); })),
         sign_(kBinomial[vertices_.size()][4], kUnknown),
-        of_triangle_(kBinomial[vertices_.size()][3], {kUnknownMask, 0}) {}
+        of_triangle_(kBinomial[vertices_.size()][3], {kUnknownMask, 0}) {
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+      const Point& p = mesh.position(vertices_[i]);
+      x_[i] = p[0];
+      y_[i] = p[1];
+      z_[i] = p[2];
+    }
+  }
 
   [[nodiscard]] const std::vector<Vertex>& vertices() const { return vertices_; }
 
@@ -87,13 +94,18 @@ class Sides {
   const Pair& of(const LocalFace& f) {
     Pair& sides = of_triangle_[std::size_t{f[0]} + kBinomial[f[1]][2] + kBinomial[f[2]][3]];
     if (sides.above != kUnknownMask) return sides;
+    const Mask corners = Mask{1} << f[0] | Mask{1} << f[1] | Mask{1} << f[2];
+    Mask open = ~corners & ((Mask{1} << vertices_.size()) - 1);
     sides = {0, 0};
-    const exact::OrientFilter filter(at(f[0]), at(f[1]), at(f[2]));
-    for (std::size_t i = 0; i < vertices_.size(); ++i) {
-      const auto d = static_cast<Local>(i);
-      if (d == f[0] || d == f[1] || d == f[2]) continue;
-      int s = all_are_explicit_ ? filter(at(d)) : 0;
-      if (s == 0) s = sign(f, d);
+    if (all_are_explicit_) {
+      const exact::OrientFilter filter(at(f[0]), at(f[1]), at(f[2]));
+      const auto signs = filter.of_all(x_.data(), y_.data(), z_.data(), vertices_.size());
+      sides = {signs.positive & open, signs.negative & open};
+      open &= ~(sides.above | sides.below);
+    }
+    for (; open != 0; open &= open - 1) {
+      const auto d = static_cast<Local>(std::countr_zero(open));
+      const int s = sign(f, d);
       if (s > 0) sides.above |= Mask{1} << d;
       if (s < 0) sides.below |= Mask{1} << d;
     }
@@ -119,6 +131,7 @@ class Sides {
   const TetMesh& mesh_;
   const std::vector<Vertex> vertices_;
   const bool all_are_explicit_;
+  std::array<double, kMostVertices> x_, y_, z_;
   std::vector<std::int8_t> sign_;  // by the number of the four corners
   std::vector<Pair> of_triangle_;  // by the number of the three corners
 };

@@ -37,6 +37,29 @@ void expect_sound(int answer, int truth, const char* filter, const Case& c) {
   }
 }
 
+TEST(PredicateLaw, TheFilterDecidesManyPointsAsItDoesOne) {
+  Random random(22);
+  for (int i = 0; i < 2000; ++i) {
+    std::vector<Case> cases;
+    const std::size_t count = 1 + random() % OrientFilter::kMost;
+    while (cases.size() < count) cases.push_back(random_case(random));
+    std::vector<double> x, y, z;
+    for (const Case& c : cases) {
+      x.push_back(c.p[3][0]);
+      y.push_back(c.p[3][1]);
+      z.push_back(c.p[3][2]);
+    }
+    const Case& c = cases.front();
+    const OrientFilter filter(c.p[0].data(), c.p[1].data(), c.p[2].data());
+    const OrientFilter::Signs signs = filter.of_all(x.data(), y.data(), z.data(), x.size());
+    for (std::size_t k = 0; k < 32; ++k) {
+      const int one = k < cases.size() ? filter(cases[k].p[3].data()) : 0;
+      ASSERT_EQ((signs.positive >> k & 1) == 1, one > 0) << describe(cases[k]);
+      ASSERT_EQ((signs.negative >> k & 1) == 1, one < 0) << describe(cases[k]);
+    }
+  }
+}
+
 TEST(PredicateLaw, Orient3dTiersAgreeWithRationals) {
   Random random(21);
   std::map<Tier, int> decided;
