@@ -24,8 +24,12 @@ class FieldInserter {
   std::span<const Tet> insert(const Point& x, Tet start);
   /// The faces opposite the point inserted last.
   [[nodiscard]] std::span<const PointCavity::Rim> rim() const { return cavity_.rim(); }
-  /// Tetrahedra of cavities that were not filled.
-  [[nodiscard]] std::size_t wasted() const { return wasted_; }
+  /// Between vertices with thousands of neighbours each attempt looks at thousands of tetrahedra, and nearly
+  /// all come to nothing. Elsewhere some ten tetrahedra are looked at in vain for each that is made.
+  [[nodiscard]] bool has_wasted_enough() const {
+    constexpr std::size_t kPatience = 60, kLeast = 1'000'000;
+    return wasted_ > kPatience * mesh_.tet_count() + kLeast;
+  }
 
  private:
   [[nodiscard]] bool fits(Vertex p, Tet start);
@@ -45,7 +49,7 @@ class FieldInserter {
   double wanted_ = 0;  // the same in the frame there
   Metric metric_{};    // at the point, if there are metrics
   Frame frame_;
-  std::size_t wasted_ = 0;
+  std::size_t wasted_ = 0;  // tetrahedra of cavities that were not filled
 };
 
 }  // namespace holdfast

@@ -32,7 +32,7 @@ class Front {
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
       if (volume_.is_inside(t) && is_large(t)) queue(t, kIsLarge);
     shuffle_front();
-    while ((!front_.empty() || !rest_.empty()) && !has_wasted_enough()) {
+    while ((!front_.empty() || !rest_.empty()) && !inserter_.has_wasted_enough()) {
       monitor_.poll(stage_, progress());
       if (!front_.empty()) {
         prefetch_ahead();
@@ -65,13 +65,6 @@ class Front {
       random = random * 6364136223846793005u + 1442695040888963407u;
       std::swap(front_[k - 1], front_[(random >> 33) % k]);
     }
-  }
-
-  // Between vertices with thousands of neighbours each attempt looks at thousands of tetrahedra, and nearly
-  // all come to nothing. Elsewhere some ten tetrahedra are looked at in vain for each that is made.
-  [[nodiscard]] bool has_wasted_enough() const {
-    constexpr std::size_t kPatience = 60, kLeast = 1'000'000;
-    return inserter_.wasted() > kPatience * mesh_.tet_count() + kLeast;
   }
 
   // The front runs through the whole mesh, layer by layer: what comes next is seldom in the cache.

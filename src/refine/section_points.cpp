@@ -44,7 +44,7 @@ class SectionRefiner {
   void run() {
     for (Tet t = 0; t < mesh_.slot_count(); ++t) look_at(t);
     // Dead ones are met, and slots that were filled again: what stands there now is looked at.
-    while (!large_.empty()) {
+    while (!large_.empty() && !inserter_.has_wasted_enough()) {
       const Tet t = large_.front();
       large_.pop_front();
       monitor_.poll(Stage::field_points, 0);
