@@ -26,8 +26,8 @@ class Flipper {
  public:
   Flipper(TetMesh& mesh, Random& random) : mesh_(mesh), piercing_(mesh, random), random_(random) {}
 
-  /// Levels of flips that the budget of an attempt, not their number, should end: one mends the way of the
-  /// other over whole strips of prisms.
+  /// So many levels that the budget ends an attempt and not their number. In strips of prisms one flip makes
+  /// way for the next over dozens of them.
   static constexpr int kDeep = 64;
 
   /// Flips from now on work for this target.
