@@ -1,7 +1,6 @@
 #include "optimise/optimise.h"
 
 #include <algorithm>
-#include <limits>
 #include <queue>
 #include <random>
 #include <tuple>
@@ -35,16 +34,18 @@ class Optimiser {
         flat_remover_(mesh) {}
 
   OptimiseStats run(const std::vector<Tet>& tets) {
-    budget_ = kLeastWork + kWorkPerTet * tets.size();
+    now_.budget = kLeastWork + kWorkPerTet * tets.size();
     list_points(tets);
-    const std::size_t points_before = points_.size();
+    const std::size_t points_before = now_.points.size();
     relocate_all();
     for (const Tet t : tets) push(t);
     note_others(tets);
+    // Where points stand for a size, some more do not matter.
+    saves_points_ = options_.add_points && options_.remove == PointsToRemove::all;
     work_off_queue();
-    shake_the_worst();
+    if (!std::exchange(saves_points_, false) || !try_with_points()) shake_the_worst();
     remove_points(options_.remove == PointsToRemove::all ? 0 : points_before);
-    return stats_;
+    return now_.stats;
   }
 
  private:
@@ -56,6 +57,30 @@ class Optimiser {
       return x.quality != y.quality ? x.quality < y.quality : x.corners > y.corners;
     }
   };
+
+  // All that the search changes but for its patience.
+  struct State {
+    std::priority_queue<Entry> queue;
+    std::vector<Entry> rest;
+    bool takes_all = false, is_shaking = false;
+    std::vector<Entry> stuck;
+    std::vector<Vertex> points;  // all that may move, and some that are gone
+    double worst_stuck = 0;      // in this round
+    int round = 0, failures = 0;
+    std::size_t work = 0, work_at_gain = 0, budget = 0;
+    OptimiseStats stats;
+  };
+  struct Snapshot {
+    TetMesh mesh;
+    State state;
+  };
+
+  void restore(const Snapshot& snapshot) {
+    mesh_ = snapshot.mesh;
+    now_ = snapshot.state;
+    qualities_.forget_all();
+    ++now_.stats.changed;
+  }
 
   static BadFrom bad_from(double target) {
     const double hopeless = std::max(kHopeless, kHopelessForTarget * target);
@@ -70,21 +95,39 @@ class Optimiser {
   }
   [[nodiscard]] bool is_ours(Tet t) const { return t >= is_others_.size() || !is_others_[t]; }
 
+  // What has nothing else left gets points. They stay if they are worth it.
+  bool try_with_points() {
+    const Badness without = badness_of_all();
+    if (without.hopeless == 0) return false;
+    const Snapshot before{mesh_, now_};
+    for (const Entry& e : std::exchange(now_.stuck, {}))
+      if (is_current(e)) now_.queue.push(e);
+    now_.worst_stuck = 0;
+    now_.round = now_.failures = 0;
+    now_.work = now_.work_at_gain = 0;
+    patient_ = reconnections_in_vain_ = 0;
+    work_off_queue();
+    shake_the_worst();
+    if (are_points_worth_it(before, without)) return true;
+    restore(before);
+    return false;
+  }
+
   void work_off_queue() {
-    while ((!queue_.empty() || take_rest()) && !is_spent(queue_.top())) {
-      const Entry worst = queue_.top();
-      queue_.pop();
+    while ((!now_.queue.empty() || take_rest()) && !is_spent(now_.queue.top())) {
+      const Entry worst = now_.queue.top();
+      now_.queue.pop();
       if (is_current(worst)) improve(worst);
-      if (!has_flat() && round_ < kRounds) try_again();
+      if (!has_flat() && now_.round < kRounds) try_again();
     }
   }
 
   // Elements that are not bad wait beside the heap, which would hold most of the mesh with them, and mostly
   // in vain.
   bool take_rest() {
-    if (rest_.empty() || failures_ >= kMostFailures) return false;
-    queue_ = std::priority_queue<Entry>({}, std::exchange(rest_, {}));
-    takes_all_ = true;
+    if (now_.rest.empty() || now_.failures >= kMostFailures) return false;
+    now_.queue = std::priority_queue<Entry>({}, std::exchange(now_.rest, {}));
+    now_.takes_all = true;
     return true;
   }
 
@@ -96,27 +139,20 @@ class Optimiser {
         std::min(kMostTrials, kMostCopied / std::max<std::size_t>(1, mesh_.slot_count()));
     int vain = 0;
     for (std::size_t trial = 0; trial < trials; ++trial) {
-      std::erase_if(stuck_, [&](const Entry& e) { return !is_current(e); });
-      if (stuck_.empty()) return;
-      const Entry worst = *std::max_element(stuck_.begin(), stuck_.end());
+      std::erase_if(now_.stuck, [&](const Entry& e) { return !is_current(e); });
+      if (now_.stuck.empty()) return;
+      const Entry worst = *std::max_element(now_.stuck.begin(), now_.stuck.end());
       if (worst.quality < kBad || vain >= (worst.quality < bad_from_.flat ? kPatience : kPatienceForFlat))
         return;
-      const TetMesh mesh_before = mesh_;
-      const std::vector<Vertex> points_before = points_;
-      const std::vector<Entry> stuck_before = stuck_;
-      const OptimiseStats stats_before = stats_;
-      shake_and_improve(worst, mesh_before);
-      if (is_better_than(mesh_before)) {
-        ++stats_.changed;
+      const Snapshot before{mesh_, now_};
+      shake_and_improve(worst, before.mesh);
+      if (is_better_than(before.mesh)) {
+        ++now_.stats.changed;
         vain = 0;
         continue;
       }
       ++vain;
-      mesh_ = mesh_before;
-      qualities_.forget_all();
-      points_ = points_before;
-      stuck_ = stuck_before;
-      stats_ = stats_before;
+      restore(before);
     }
   }
 
@@ -126,17 +162,16 @@ class Optimiser {
     Flipper flipper(mesh_, random_);
     shake(
         mesh_, flipper, worst.corners, kShakenEdges, [this](Tet t) { return is_ours(t); }, random_);
-    queue_ = {};
-    rest_.clear();
-    takes_all_ = false;
+    now_.queue = {};
+    now_.rest.clear();
+    now_.takes_all = false;
     qualities_.forget_all();
     for (const Tet t : changed_since(before))
       if (mesh_.alive(t)) push(t);
-    round_ = kRounds - 1;
-    failures_ = 0;
-    worst_stuck_ = std::numeric_limits<double>::infinity();  // no point but for null elements
-    budget_ = work_ + kWork;
-    is_shaking_ = true;
+    now_.round = kRounds - 1;
+    now_.failures = 0;
+    now_.budget = now_.work + kWork;
+    now_.is_shaking = true;
     work_off_queue();
   }
 
@@ -149,6 +184,27 @@ class Optimiser {
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
       if (is_ours(t) && is_new(t)) changed.push_back(t);
     return changed;
+  }
+
+  // As many null elements gone as there are more points, or the worst as many times better, and ten times at
+  // least.
+  [[nodiscard]] bool are_points_worth_it(const Snapshot& before, const Badness& was) const {
+    constexpr double kLeastFactor = 10;
+    const auto points_in = [](const TetMesh& mesh, const std::vector<Vertex>& points) {
+      return std::count_if(points.begin(), points.end(), [&](Vertex p) { return mesh.in_mesh(p); });
+    };
+    const auto more =
+        static_cast<double>(points_in(mesh_, now_.points) - points_in(before.mesh, before.state.points));
+    const Badness is = badness_of_all();
+    return more <= static_cast<double>(was.null) - static_cast<double>(is.null) ||
+           std::max(kLeastFactor, more) * is.worst <= was.worst;
+  }
+
+  [[nodiscard]] Badness badness_of_all() const {
+    Badness badness;
+    for (Tet t = 0; t < mesh_.slot_count(); ++t)
+      if (mesh_.alive(t) && is_ours(t)) badness.add(quality_of(mesh_, mesh_.corners(t)), bad_from_);
+    return badness;
   }
 
   // No more hopeless elements than before, and the worst of all better; other flat ones are of less account.
@@ -168,22 +224,24 @@ class Optimiser {
   // element matters only as the worst of all, until that stays. After a shake nothing is worth more than
   // this.
   [[nodiscard]] bool is_spent(const Entry& e) const {
-    if (e.quality < kBad && failures_ >= kMostFailures) return true;
-    if (is_shaking_) return work_ >= budget_;
-    const std::size_t budget = e.quality >= bad_from_.hopeless ? budget_ : budget_ / kUsualShare;
-    const bool is_promising = e.quality >= worst_stuck_ || work_ < work_at_gain_ + kIdle;
-    return work_ >= (is_promising ? kTimes * budget : budget);
+    if (e.quality < kBad && now_.failures >= kMostFailures) return true;
+    if (now_.is_shaking) return now_.work >= now_.budget;
+    const std::size_t budget = e.quality >= bad_from_.hopeless ? now_.budget : now_.budget / kUsualShare;
+    const bool is_promising = e.quality >= now_.worst_stuck || now_.work < now_.work_at_gain + kIdle;
+    return now_.work >= (is_promising ? kTimes * budget : budget);
   }
 
-  [[nodiscard]] bool has_flat() const { return !queue_.empty() && queue_.top().quality >= bad_from_.flat; }
+  [[nodiscard]] bool has_flat() const {
+    return !now_.queue.empty() && now_.queue.top().quality >= bad_from_.flat;
+  }
 
   // Flat tetrahedra that stayed: changes next to them may have made a way, and the search tries another.
   void try_again() {
-    ++round_;
-    worst_stuck_ = 0;
-    std::erase_if(stuck_, [this](const Entry& e) {
+    ++now_.round;
+    now_.worst_stuck = 0;
+    std::erase_if(now_.stuck, [this](const Entry& e) {
       if (e.quality < bad_from_.flat) return false;
-      if (is_current(e)) queue_.push(e);
+      if (is_current(e)) now_.queue.push(e);
       return true;
     });
   }
@@ -192,24 +250,24 @@ class Optimiser {
     const double q = qualities_.of(t);
     if (!(q > good_)) return;
     const Entry entry{q, t, mesh_.corners(t)};
-    if (takes_all_ || q >= kBad)
-      queue_.push(entry);
+    if (now_.takes_all || q >= kBad)
+      now_.queue.push(entry);
     else
-      rest_.push_back(entry);
+      now_.rest.push_back(entry);
   }
   [[nodiscard]] bool is_current(const Entry& e) {
     return mesh_.alive(e.tet) && mesh_.corners(e.tet) == e.corners && qualities_.of(e.tet) == e.quality;
   }
 
   void improve(const Entry& e) {
-    monitor_.poll(Stage::optimise, static_cast<double>(work_) / static_cast<double>(budget_));
+    monitor_.poll(Stage::optimise, static_cast<double>(now_.work) / static_cast<double>(now_.budget));
     created_.clear();
     if (try_ways(e))
-      work_at_gain_ = work_;
+      now_.work_at_gain = now_.work;
     else
       give_up(e);
     // What did not help may have changed something, too.
-    stats_.changed += created_.size();
+    now_.stats.changed += created_.size();
     qualities_.forget(created_);
     for (const Tet t : created_)
       if (mesh_.alive(t)) push(t);
@@ -217,44 +275,46 @@ class Optimiser {
 
   // The cheapest way that helps.
   bool try_ways(const Entry& e) {
-    if (exchange(e.tet)) return ++stats_.exchanged;
-    if (relocate_a_corner(e.tet)) return ++stats_.relocated;
-    if (remove_flat(e)) return ++stats_.unflattened;
+    if (exchange(e.tet)) return ++now_.stats.exchanged;
+    if (relocate_a_corner(e.tet)) return ++now_.stats.relocated;
+    if (remove_flat(e)) return ++now_.stats.unflattened;
     if ((is_worth_reconnecting(e) && reconnect_round(e.tet)) ||
         (e.quality >= bad_from_.hopeless && reconnect_patiently(e.tet)))
-      return ++stats_.reconnected;
-    return options_.add_points && is_worth_a_point(e) && insert_at(e) && ++stats_.inserted;
+      return ++now_.stats.reconnected;
+    return adds_points() && is_worth_a_point(e) && insert_at(e) && ++now_.stats.inserted;
   }
+
+  [[nodiscard]] bool adds_points() const { return options_.add_points && !saves_points_ && !now_.is_shaking; }
 
   // As long as a worse one stays, a point would not better the mesh's worst; but null elements are of no use
   // to anyone.
   [[nodiscard]] bool is_worth_a_point(const Entry& e) const {
-    return e.quality >= std::max(bad_from_.hopeless, std::min(worst_stuck_, bad_from_.null));
+    return e.quality >= std::max(bad_from_.hopeless, std::min(now_.worst_stuck, bad_from_.null));
   }
 
   void give_up(const Entry& e) {
-    worst_stuck_ = std::max(worst_stuck_, e.quality);
-    if (e.quality < kBad) ++failures_;
-    stuck_.push_back(e);
+    now_.worst_stuck = std::max(now_.worst_stuck, e.quality);
+    if (e.quality < kBad) ++now_.failures;
+    now_.stuck.push_back(e);
   }
 
   void list_points(const std::vector<Tet>& tets) {
     for (const Tet t : tets)
       for (const Vertex v : mesh_.corners(t))
-        if (v >= first_free_) points_.push_back(v);
-    std::sort(points_.begin(), points_.end());
-    points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
+        if (v >= first_free_) now_.points.push_back(v);
+    std::sort(now_.points.begin(), now_.points.end());
+    now_.points.erase(std::unique(now_.points.begin(), now_.points.end()), now_.points.end());
   }
 
   void relocate_all() {
-    for (const Vertex p : points_)
-      if (work_ < budget_ / 2 && relocate_with_ball(p)) ++stats_.relocated;
-    stats_.changed += created_.size();
+    for (const Vertex p : now_.points)
+      if (now_.work < now_.budget / 2 && relocate_with_ball(p)) ++now_.stats.relocated;
+    now_.stats.changed += created_.size();
     created_.clear();
   }
 
   bool exchange(Tet t) {
-    ++work_;
+    ++now_.work;
     return exchanger_.improve(t, created_);
   }
 
@@ -269,7 +329,7 @@ class Optimiser {
     std::vector<Tet> tets;
     ball(mesh_, p, tets);
     if (tets.size() > kMostBall) return false;
-    work_ += tets.size() / 2;
+    now_.work += tets.size() / 2;
     if (!relocate(mesh_, p, tets, random_)) return false;
     created_.insert(created_.end(), tets.begin(), tets.end());
     return true;
@@ -277,23 +337,23 @@ class Optimiser {
 
   // What is not flat matters here only as the worst of all.
   bool remove_flat(const Entry& e) {
-    if (e.quality < std::min(bad_from_.flat, worst_stuck_)) return false;
+    if (e.quality < std::min(bad_from_.flat, now_.worst_stuck)) return false;
     const bool removed = flat_remover_.remove(e.tet, bad_from_.limit_for(e.quality), created_);
-    work_ += flat_remover_.work();
+    now_.work += flat_remover_.work();
     return removed;
   }
 
   // A search is long and seldom finds anything: as long as it does so now and then, but always for what
-  // would better the worst of all, or else get a point.
+  // would better the worst of all, or else get a point now.
   [[nodiscard]] bool is_worth_reconnecting(const Entry& e) const {
     constexpr int kMostInVain = 3, kMostInVainForFlat = 12;
-    if (e.quality >= worst_stuck_ || is_worth_a_point(e)) return true;
+    if (!saves_points_ && (e.quality >= now_.worst_stuck || is_worth_a_point(e))) return true;
     return reconnections_in_vain_ < (e.quality >= kWorthReconnecting ? kMostInVainForFlat : kMostInVain);
   }
 
   bool reconnect_round(Tet t) {
     constexpr std::size_t kWork = 50;
-    work_ += kWork;
+    now_.work += kWork;
     const bool reconnected = reconnect(mesh_, t, first_free_, bad_from_, false, random_, created_);
     reconnections_in_vain_ = reconnected ? 0 : reconnections_in_vain_ + 1;
     return reconnected;
@@ -304,17 +364,17 @@ class Optimiser {
     constexpr std::size_t kWork = 200;
     constexpr int kMostPatient = 4;
     if (++patient_ > kMostPatient) return false;
-    work_ += kWork;
+    now_.work += kWork;
     return reconnect(mesh_, t, first_free_, bad_from_, true, random_, created_);
   }
 
   bool insert_at(const Entry& e) {
     constexpr std::size_t kWork = 20;
-    work_ += kWork;
+    now_.work += kWork;
     const double most = e.quality < bad_from_.null ? bad_from_.hopeless : bad_from_.null;
     const Vertex p = insert_point(mesh_, e.tet, first_free_, most, created_);
     if (p == kNone) return false;
-    points_.push_back(p);
+    now_.points.push_back(p);
     relocate_with_ball(p);
     return true;
   }
@@ -322,29 +382,23 @@ class Optimiser {
   // Points that the mesh can do without now, as long as nothing comes of it that is worth a point: as long
   // as a worse one stays, that is nothing but null elements.
   void remove_points(std::size_t from) {
-    if (from == points_.size()) return;
+    if (from == now_.points.size()) return;
     constexpr std::size_t kWork = 30;
-    const double limit = std::max(bad_from_.flat, std::min(worst_of_all(), bad_from_.null));
+    const double limit = std::max(bad_from_.flat, std::min(badness_of_all().worst, bad_from_.null));
     Growth growth{.attempts = 2, .steps = 6, .search = {.most_vertices = 18, .most_nodes = 60}};
-    for (std::size_t k = from; k < points_.size(); ++k) {
-      const Vertex p = points_[k];
+    const std::size_t most_work = std::max(now_.budget, now_.work) + kLeastWork;
+    for (std::size_t k = from; k < now_.points.size(); ++k) {
+      const Vertex p = now_.points[k];
       if (!mesh_.in_mesh(p)) continue;
-      if (work_ > budget_ + kLeastWork) return;
-      work_ += kWork;
-      created_.clear();
-      ball(mesh_, p, created_);
-      growth.search.worst_quality = std::max(limit, badness_of(mesh_, created_, bad_from_).worst);
+      if (now_.work > most_work) return;
+      now_.work += kWork;
+      std::vector<Tet> tets;
+      ball(mesh_, p, tets);
+      growth.search.worst_quality = std::max(limit, badness_of(mesh_, tets, bad_from_).worst);
       if (!refill_without(mesh_, p, first_free_, growth, random_)) continue;
-      ++stats_.removed;
-      ++stats_.changed;
+      ++now_.stats.removed;
+      ++now_.stats.changed;
     }
-  }
-
-  [[nodiscard]] double worst_of_all() {
-    double worst = 0;
-    for (Tet t = 0; t < mesh_.slot_count(); ++t)
-      if (mesh_.alive(t) && is_ours(t)) worst = std::max(worst, qualities_.of(t));
-    return worst;
   }
 
   // The paper's Q: of what is left alone, of bad elements, of what is worth a search, of what counts as flat,
@@ -370,16 +424,10 @@ class Optimiser {
   FlatRemover flat_remover_;
   std::mt19937_64 random_;
   std::vector<bool> is_others_;
-  std::priority_queue<Entry> queue_;
-  std::vector<Entry> rest_;
-  bool takes_all_ = false, is_shaking_ = false;
-  std::vector<Entry> stuck_;
-  std::vector<Vertex> points_;  // all that may move, and some that are gone
-  double worst_stuck_ = 0;      // in this round
-  int round_ = 0, failures_ = 0, reconnections_in_vain_ = 0, patient_ = 0;
+  int reconnections_in_vain_ = 0, patient_ = 0;
   std::vector<Tet> created_;  // or changed
-  std::size_t work_ = 0, work_at_gain_ = 0, budget_ = 0;
-  OptimiseStats stats_;
+  State now_;
+  bool saves_points_ = false;  // until all else has been tried
 };
 
 }  // namespace
