@@ -105,7 +105,6 @@ class Optimiser {
     now_.worst_stuck = 0;
     now_.round = now_.failures = 0;
     now_.work = now_.work_at_gain = 0;
-    patient_ = reconnections_in_vain_ = 0;
     work_off_queue();
     shake_the_worst();
     if (are_points_worth_it(before, without)) return true;
@@ -362,7 +361,7 @@ class Optimiser {
   // A point is worth some milliseconds, a few times.
   bool reconnect_patiently(Tet t) {
     constexpr std::size_t kWork = 200;
-    constexpr int kMostPatient = 4;
+    constexpr int kMostPatient = 2;
     if (++patient_ > kMostPatient) return false;
     now_.work += kWork;
     return reconnect(mesh_, t, first_free_, bad_from_, true, random_, created_);
