@@ -169,17 +169,32 @@ class Pipeline {
 
   void validate() {
     result_.report.input = describe_input(complex_, nullptr);
-    elements_ = elements_of(complex_, threads());
+    const Report::Input input = list_elements_and_segments();
     if (!elements_.flaws.empty() || last_stage() == Stage::validate) refuse_if_any_defect();
     if (result_.outcome != Outcome::done) return;
-    table_ = segment_table(complex_);
-    result_.report.input = describe_input(complex_, &table_);
+    result_.report.input = input;
     // Dangling facets enclose nothing wherever their vertices are; so say this before the long work.
     const bool encloses = result_.report.input.dangling_facets < complex_.facets.size();
     const bool must_enclose = options_.keep != Keep::box && last_stage() >= Stage::classify;
     if (encloses || !must_enclose) return;
     refuse_if_any_defect();
     if (result_.outcome == Outcome::done) refuse({encloses_nothing(complex_, table_)});
+  }
+
+  // Neither list asks for the other. That of segments needs indices in range.
+  Report::Input list_elements_and_segments() {
+    constexpr std::size_t kWorthThreads = 10'000;
+    const unsigned shared = complex_.facets.size() < kWorthThreads ? 1 : threads();
+    Report::Input input;
+    parallel(shared, 2, [&](std::size_t task) {
+      if (task == 0) {
+        elements_ = elements_of(complex_, std::max(1u, shared / 2));
+      } else if (has_indices_in_range(complex_)) {
+        table_ = segment_table(complex_);
+        input = describe_input(complex_, &table_);
+      }
+    });
+    return input;
   }
 
   // What stands in the Delaunay mesh fits together, as faces of one triangulation do. So the exact test is

@@ -98,6 +98,14 @@ Index SegmentTable::find(Index a, Index b) const {
   return at != end && (*at)[1] == high ? static_cast<Index>(at - segments.begin()) : no_index;
 }
 
+bool has_indices_in_range(const Complex& complex) {
+  const auto are_in_range = [&](const auto& corners) {
+    return std::all_of(corners.begin(), corners.end(), [&](Index v) { return v < complex.vertices.size(); });
+  };
+  return std::all_of(complex.facets.begin(), complex.facets.end(), are_in_range) &&
+         std::all_of(complex.segments.begin(), complex.segments.end(), are_in_range);
+}
+
 SegmentTable segment_table(const Complex& complex) {
   const std::vector<Side> sides = sorted_sides(complex);
   const std::size_t facet_sides = 3 * complex.facets.size();

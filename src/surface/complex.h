@@ -41,6 +41,9 @@ struct SegmentTable {
   [[nodiscard]] Index find(Index a, Index b) const;
 };
 
+/// Whether every facet and segment names vertices that there are.
+[[nodiscard]] bool has_indices_in_range(const Complex& complex);
+
 /// Builds the table in O(vertices + facets + segments).
 ///
 /// Every index must be in range. Facets and segments that name a vertex twice give segments with

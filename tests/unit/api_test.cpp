@@ -230,6 +230,27 @@ TEST(Mesh, PointsThatBetterNothingGoAgain) {
   EXPECT_EQ(result.report.optimised.points, 0u);
 }
 
+// So many triangles that two threads list its elements and its segments at a time.
+TEST(Mesh, IndexOutOfRangeIsToldOnTwoThreads) {
+  constexpr Index kSide = 80;
+  Surface surface;
+  for (Index k = 0; k < (kSide + 1) * (kSide + 1); ++k)
+    surface.vertices.push_back({double(k / (kSide + 1)), double(k % (kSide + 1)), 0});
+  for (Index k = 0; k < kSide * (kSide + 1); ++k) {
+    if (k % (kSide + 1) == kSide) continue;
+    surface.facets.push_back({k, k + 1, k + kSide + 2});
+    surface.facets.push_back({k, k + kSide + 2, k + kSide + 1});
+  }
+  surface.facets.back()[2] = 1'000'000;
+  Options options;
+  options.threads = 2;
+  const Result result = mesh(surface.view(), options);
+  EXPECT_EQ(result.outcome, Outcome::invalid_input);
+  ASSERT_EQ(result.defects.size(), 1u);
+  EXPECT_EQ(result.defects[0].kind, DefectKind::index_out_of_range);
+  EXPECT_EQ(result.defects[0].facets, std::vector<Index>{2 * kSide * kSide - 1});
+}
+
 TEST(Mesh, NestedBoxesAreTwoRegions) {
   const Surface surface = small::nested(true);
   const Result result = mesh(surface.view());

@@ -31,6 +31,16 @@ TEST(SegmentTable, TetrahedronHasSixSegmentsOfTwoFacets) {
   }
 }
 
+TEST(SegmentTable, IndicesAreInRangeOrNot) {
+  Surface s = tetrahedron();
+  EXPECT_TRUE(has_indices_in_range(s.view()));
+  s.segments = {{0, 4}};
+  EXPECT_FALSE(has_indices_in_range(s.view()));
+  s.segments.clear();
+  s.facets[2][1] = no_index;
+  EXPECT_FALSE(has_indices_in_range(s.view()));
+}
+
 TEST(SegmentTable, FacetSegmentIsOppositeTheCorner) {
   const Surface s = tetrahedron();
   const SegmentTable table = segment_table(s.view());
