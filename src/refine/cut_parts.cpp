@@ -70,12 +70,15 @@ std::unique_ptr<Parts> cut_evenly(const VolumeData& volume, unsigned threads) {
 }
 
 std::unique_ptr<Parts> join_and_cut_again(Parts& parts, unsigned threads) {
+  constexpr double kMostLeft = 0.5;  // of what was cut before: so there is an end
+  const auto before = static_cast<double>(parts.tet_count());
   parts.join(threads);
   const VolumeData& volume = parts.whole();
   const std::vector<Tet> tets = rings_round(volume, parts.vertices_between());
   if (tets.empty()) return {};
-  if (const Cuts cuts = even_cuts(volume.mesh, tets); cuts.part_count() > 1)
-    if (auto again = cut_into_parts(volume, tets, cuts, kMostAtCuts, threads)) return again;
+  if (static_cast<double>(tets.size()) < kMostLeft * before)
+    if (const Cuts cuts = even_cuts(volume.mesh, tets); cuts.part_count() > 1)
+      if (auto again = cut_into_parts(volume, tets, cuts, kMostAtCuts, threads)) return again;
   return cut_into_parts(volume, tets, Cuts({}, 0), 1, threads);
 }
 

@@ -363,6 +363,12 @@ double Parts::share_at_cuts(unsigned threads) const {
          static_cast<double>(std::max<std::size_t>(all, 1));
 }
 
+std::size_t Parts::tet_count() const {
+  std::size_t count = 0;
+  for (const Part& part : parts_) count += part.mesh.tet_count();
+  return count;
+}
+
 std::size_t Parts::new_vertices() const {
   std::size_t count = 0;
   for (const Part& part : parts_) count += part.mesh.vertex_count() - part.vertices_.size();

@@ -79,6 +79,8 @@ class Parts {
   /// The share of tetrahedra with a vertex on an interface between two parts: small, unless there are
   /// vertices at which much of the mesh is.
   [[nodiscard]] double share_at_cuts(unsigned threads) const;
+  /// In all parts together, ghosts included.
+  [[nodiscard]] std::size_t tet_count() const;
   /// Vertices that came to be in the parts.
   [[nodiscard]] std::size_t new_vertices() const;
   /// Puts the parts in the place of their tetrahedra.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <memory>
 #include <random>
 #include <stdexcept>
 
@@ -15,6 +16,7 @@
 #include "mesh/measure.h"
 #include "mesh/traverse.h"
 #include "mesh/validate.h"
+#include "refine/cut_parts.h"
 #include "refine/cuts.h"
 #include "refine/point_cavity.h"
 #include "refine/section_points.h"
@@ -236,6 +238,30 @@ TEST(Parts, JoinToAValidMeshAfterTheyWereChanged) {
       if (cube.mesh.is_ghost(t) || cube.mesh.is_ghost(n) || cube.mesh.is_facet(face_code(t, i))) continue;
       EXPECT_EQ(cube.region_of[t], cube.region_of[n]);
     }
+}
+
+// A thin layer of points between two far ones: nearly every tetrahedron is near each cut, again and again.
+TEST(Parts, WhatIsLeftAtCutsComesToAnEnd) {
+  std::mt19937_64 random(7);
+  TetMesh mesh;
+  mesh.add_vertex(Point{0.5, 0.5, 1});
+  mesh.add_vertex(Point{0.5, 0.5, -1});
+  for (int k = 0; k < 15000; ++k) {
+    const Point p = random_point(random);
+    mesh.add_vertex(Point{p[0], p[1], 0.01 * p[2]});
+  }
+  ASSERT_TRUE(build_delaunay(mesh, {1}, nullptr));
+  std::vector<RegionId> region_of(mesh.slot_count(), 0);
+  std::vector<double> sizes(mesh.vertex_count(), 0.1);
+  const std::vector<bool> kept{true};
+  std::unique_ptr<Parts> parts =
+      cut_evenly({mesh, region_of, sizes, kept, static_cast<Vertex>(mesh.vertex_count())}, 1);
+  ASSERT_TRUE(parts);
+  for (int rounds = 0; parts; ++rounds) {
+    ASSERT_LT(rounds, 10);
+    parts = join_and_cut_again(*parts, 1);
+  }
+  EXPECT_EQ(find_fault(mesh), "");
 }
 
 TEST(SectionPoints, MakeTheCirclesSmallInWhichSpheresMeetTheCuts) {
