@@ -2,6 +2,7 @@
 JOBS ?= $(shell nproc)
 CORPUS ?=
 RELEASE := build/release
+NATIVE := build/native
 
 .PHONY: help setup build demo test corpus bench field tables format tidy debug asan tsan install clean
 .DEFAULT_GOAL := help
@@ -30,11 +31,13 @@ corpus: build  ## meshes and verifies every surface of CORPUS=dir (options: ARGS
 	@python3 scripts/corpus.py --holdfast $(RELEASE)/holdfast --corpus "$(or $(CORPUS),../shared/corpus)" \
 	  --jobs $(JOBS) $(ARGS)
 
-bench:  ## speed against TetGen, CGAL and Gmsh, written to docs/benchmarks.md
+bench:  ## speed against TetGen, CGAL and Gmsh, to docs/benchmarks.md; goes on where it stopped (ARGS="--again mesh")
 	@scripts/setup.sh build bench
 	@cmake --preset release -DHOLDFAST_BUILD_BENCH=ON
 	@cmake --build $(RELEASE) -j $(JOBS) --target holdfast_cli cgal_delaunay tetgen_delaunay
-	@python3 bench/run.py --build $(RELEASE) --corpus "$(or $(CORPUS),../shared/corpus)" $(ARGS)
+	@cmake --preset native
+	@cmake --build $(NATIVE) -j $(JOBS) --target holdfast_cli
+	@python3 bench/run.py --build $(RELEASE) --native $(NATIVE) --corpus "$(or $(CORPUS),../shared/corpus)" $(ARGS)
 
 field:  ## meshes to compute with, beside Gmsh, TetGen and Netgen, to docs/field.md
 	@scripts/setup.sh build bench field

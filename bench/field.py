@@ -13,7 +13,8 @@ Then the whole of `holdfast mesh`, files and all, with its default options on on
 seconds of some turns. Both must write the same file.
 
 Every row is kept in field.json in the build folder as soon as it is measured, so that an interrupted run goes on where it stopped.
-Rows of another Holdfast, other surfaces or another time limit are measured anew; --again does that for a mesher.
+Rows of another Holdfast, other surfaces or another time limit are measured anew; --again does that for a mesher. The table of
+targets goes to field_targets.json there, for docs/benchmarks.md.
 """
 import argparse
 import hashlib
@@ -32,6 +33,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "scripts"))
 import corpus  # noqa: E402  (the folder of surfaces)
+import field_targets  # noqa: E402
 from gmsh_files import read_off, write_msh  # noqa: E402
 
 SURFACES = ["iglt_3holes", "aj_fandisk", "iglt_arm", "aj_rocker-arm", "irmb_cactus25k", "tgt_armadillo",
@@ -236,21 +238,12 @@ def processor():
     return platform.processor()
 
 
-def best_angles(results):
-    """On how many surfaces Holdfast's least angle is at least the best peer's."""
-    wins = sum(1 for rows in results.values() if "failed" not in rows["Holdfast"]
-               and all("failed" in row or row["min_dihedral"] <= rows["Holdfast"]["min_dihedral"]
-                       for mesher, row in rows.items() if not mesher.startswith("Holdfast")))
-    return f"Holdfast's least angle is at least as good as that of the best of the others on {wins} of {len(results)}."
-
-
-def write(results, threads, path, timeout):
+def write(results, threads, targets, path, timeout):
     versions = subprocess.run(["dpkg-query", "-W", "-f", "${Package} ${Version}, ", "gmsh", "tetgen", "python3-netgen"],
                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False).stdout.decode()
     text = ["# Meshes to compute with", "", "Written by `make field`; how it was measured stands in `bench/field.py`.", "",
-            f"{processor()}; one thread; at most {timeout:.0f} s a surface; {versions.strip(', ')}.", "",
+            f"{processor()}; one thread; at most {timeout:.0f} s a surface; {versions.strip(', ')}.", "", *targets, "",
             *summary({name: rows for name, rows in results.items() if name != RING}), "",
-            best_angles({name: rows for name, rows in results.items() if name != RING}), "",
             "The whole of `holdfast mesh` with its default options, least of "
             f"{TURNS} turns, wall-clock:", "", *threads_table(threads), "",
             f"`{RING}`, a thin torus, is not in the summary.", "",
@@ -290,7 +283,10 @@ def main():
                 print(line(name, mesher, row), flush=True)
             threads[name] = rows.get(THREADS, surface.resolve(), bench.measure)
             print(threads_table({name: threads[name]})[-1], flush=True)
-            write(results, threads, options.output, options.timeout)
+            targets = field_targets.lines(results, threads, extra=[RING])
+            write(results, threads, targets, options.output, options.timeout)
+    if not options.only:
+        field_targets.keep(options.build / "field_targets.json", rows.program, targets)
 
 
 if __name__ == "__main__":

@@ -1,9 +1,11 @@
-"""Runs a program and measures it."""
+"""Runs programs and measures them."""
+import multiprocessing
 import os
 import subprocess
 import sys
 import tempfile
 import time
+from typing import NamedTuple
 
 # Takes memory from the system, writes to every page of it and ends.
 TOUCH = """
@@ -22,8 +24,21 @@ def ready_memory(size):
     subprocess.run([sys.executable, "-I", "-S", "-c", TOUCH, str(size)], check=True)
 
 
+# Bytes: a peak below it may be this process's own, see `apart`.
+MEASURABLE = 64 << 20
+
+
+class Run(NamedTuple):
+    """What became of a process. `code` is None after a timeout; `cpu` is user and system time."""
+    code: int | None
+    output: str
+    wall: float
+    cpu: float
+    peak: int  # bytes
+
+
 def run(command, timeout=600, directory=None, memory=0):
-    """(exit code or None after a timeout, output, wall seconds, peak bytes) of a process that finds `memory` bytes ready."""
+    """Runs a process that finds `memory` bytes ready."""
     if memory:
         ready_memory(memory)
     with tempfile.TemporaryFile() as output:
@@ -38,8 +53,32 @@ def run(command, timeout=600, directory=None, memory=0):
                 process.kill()
                 late = True
             time.sleep(0.0005)
-        seconds = time.monotonic() - started
+        wall = time.monotonic() - started
         process.returncode = os.waitstatus_to_exitcode(status)
         output.seek(0)
         text = output.read().decode(errors="replace")
-    return None if late else process.returncode, text, seconds, usage.ru_maxrss * 1024
+    return Run(None if late else process.returncode, text, wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss * 1024)
+
+
+def take_turns(programs, turns):
+    """name -> its results, the programs taking turns, so that none has the machine's better minutes to itself. `programs` maps
+    names to functions that give a result or, where they fail, None: such a program gets no further turn, and None for its results.
+    `turns` is how many, or a function of the first results that tells it."""
+    results = {name: [program()] for name, program in programs.items()}
+    if callable(turns):
+        turns = turns([first for (first,) in results.values() if first is not None])
+    for _ in range(turns - 1):
+        for name, program in programs.items():
+            if results[name][-1] is not None:
+                results[name].append(program())
+    return {name: None if told[-1] is None else told for name, told in results.items()}
+
+
+def apart(work, *arguments):
+    """Calls a function in a process of its own: a child's peak memory, as the system counts it, is not below its parent's, so that
+    this one must stay small."""
+    worker = multiprocessing.Process(target=work, args=arguments)
+    worker.start()
+    worker.join()
+    if worker.exitcode != 0:
+        sys.exit(f"{work.__name__} failed")

@@ -1,15 +1,16 @@
 """Whole programs on large surfaces: `holdfast mesh --fill` on one and two threads, TetGen, Gmsh with Delaunay and
 with HXT, all of which keep the surface; then where holdfast's time goes, from its reports."""
+import filecmp
 import json
-import multiprocessing
 import struct
 from math import cos, pi, sin
 from statistics import median
 
-from process import run
+from process import MEASURABLE, apart, run, take_turns
+from stages import medians, table
 
 MEMORY = 2 << 30  # bytes that a program finds ready, see process.ready_memory
-TARGETS = (("reading", "read", "delaunay", 0.30), ("validation", "validate", "total", 0.15))
+OURS, OURS_ON_TWO, TETGEN, HXT, SLOW = "holdfast", "holdfast, 2 threads", "TetGen -pYQ", "Gmsh HXT", "Gmsh Delaunay"
 
 
 def torus(rows, columns):
@@ -47,19 +48,16 @@ def write_off(path, points, triangles):
         file.writelines(f"3 {a} {b} {c}\n" for a, b, c in triangles)
 
 
-def write_surface(folder, count):
-    """About `count` triangles in both formats; returns how many. In a process of its own, see run.write_apart."""
-    def write():
-        points, triangles = torus(rows, columns)
-        write_stl(folder / "surface.stl", points, triangles)
-        write_off(folder / "surface.off", points, triangles)
-
+def grid_of(count):
+    """Rows and columns of a torus of about `count` triangles."""
     rows = max(4, round((count / 4) ** 0.5) * 2)
-    columns = max(3, count // (2 * rows))
-    writer = multiprocessing.Process(target=write)
-    writer.start()
-    writer.join()
-    return 2 * rows * columns
+    return rows, max(3, count // (2 * rows))
+
+
+def write_surface(folder, count):
+    points, triangles = torus(*grid_of(count))
+    write_stl(folder / "surface.stl", points, triangles)
+    write_off(folder / "surface.off", points, triangles)
 
 
 def write_geo(path, algorithm):
@@ -69,69 +67,88 @@ def write_geo(path, algorithm):
                     "Mesh.Optimize = 0;\n", encoding="ascii")
 
 
+def whole(folder, command, target, timeout, report=None):
+    """Wall seconds and peak memory of a program that writes `target`, and what it reports; None where it does not."""
+    (folder / target).unlink(missing_ok=True)
+    done = run(command, timeout, folder, MEMORY)
+    if done.code != 0 or not (folder / target).exists():
+        return None
+    return {"wall": done.wall, "peak": done.peak, "report": json.loads((folder / report).read_text(encoding="utf-8")) if report else None}
+
+
+def holdfast(program, folder, threads, timeout):
+    command = [program, "mesh", "surface.stl", "-o", f"{threads}.meshb", "--fill", "-q", "--threads", threads,
+               "--report", f"{threads}.json"]
+    return whole(folder, command, f"{threads}.meshb", timeout, f"{threads}.json")
+
+
+def gmsh(folder, name, algorithm, timeout):
+    write_geo(folder / f"{name}.geo", algorithm)
+    return whole(folder, ["gmsh", "-3", "-nt", "1", "-bin", "-o", f"{name}.msh", f"{name}.geo"], f"{name}.msh", timeout)
+
+
 def programs(options, folder):
-    """name -> (command, file that it must write)."""
-    def gmsh(name):
-        return (["gmsh", "-3", "-nt", "1", "-bin", "-o", f"{name}.msh", f"{name}.geo"], f"{name}.msh")
-
-    def holdfast(threads):
-        return ([options.build.resolve() / "holdfast", "mesh", "surface.stl", "-o", f"{threads}.meshb", "--fill", "-q", "--threads",
-                 threads, "--report", f"{threads}.json"], f"{threads}.meshb")
-
-    write_geo(folder / "delaunay.geo", 1)
-    write_geo(folder / "hxt.geo", 10)
-    return {"holdfast": holdfast(1), "holdfast, 2 threads": holdfast(2),
-            "TetGen -pYQ": (["tetgen", "-pYQ", "surface.off"], "surface.1.ele"),
-            "Gmsh Delaunay": gmsh("delaunay"), "Gmsh HXT": gmsh("hxt")}
+    ours, limit = (options.build / "holdfast").resolve(), options.timeout
+    return {OURS: lambda: holdfast(ours, folder, 1, limit), OURS_ON_TWO: lambda: holdfast(ours, folder, 2, limit),
+            TETGEN: lambda: whole(folder, ["tetgen", "-pYQ", "surface.off"], "surface.1.ele", limit),
+            HXT: lambda: gmsh(folder, "hxt", 10, limit)}
 
 
-def measure(options, folder):
-    """(name -> [(seconds, peak bytes)], reports of holdfast on one thread); a program that fails has no entry."""
-    results, reports = {}, []
-    failed = set()
-    for _ in range(options.runs):
-        for name, (command, target) in programs(options, folder).items():
-            if name in failed:
-                continue
-            (folder / target).unlink(missing_ok=True)
-            code, _, seconds, peak = run(command, options.timeout, folder, MEMORY)
-            if code == 0 and (folder / target).exists():
-                results.setdefault(name, []).append((seconds, peak))
-            else:
-                failed.add(name)
-                results.pop(name, None)
-        if "holdfast" in results:
-            reports.append(json.loads((folder / "1.json").read_text(encoding="utf-8")))
-    same = (folder / "1.meshb").exists() and (folder / "2.meshb").exists() and (
-        (folder / "1.meshb").read_bytes() == (folder / "2.meshb").read_bytes())
-    return results, reports, failed, same
+def measure(options, folder, count, with_slow):
+    apart(write_surface, folder, count)
+    told = take_turns(programs(options, folder), options.runs)
+    told |= take_turns({SLOW: lambda: gmsh(folder, "delaunay", 1, options.timeout)}, 1) if with_slow else {SLOW: None}
+    row = {name: turns and {"wall": median(t["wall"] for t in turns), "peak": median(t["peak"] for t in turns)}
+           for name, turns in told.items()}
+    both = told[OURS] and told[OURS_ON_TWO]
+    return {"programs": row, "same": bool(both) and filecmp.cmp(folder / "1.meshb", folder / "2.meshb", shallow=False),
+            "stages": [medians([t["report"] for t in told[name]]) for name in (OURS, OURS_ON_TWO)] if both else None}
 
 
-def bench_surfaces(options, folder):
-    lines = ["| triangles | program | seconds (median) | peak memory, MB | time against holdfast |", "|---|---|---|---|---|"]
-    profile = []
-    stages = []
-    for count in options.triangles:
-        size = write_surface(folder, count)
-        results, reports, failed, same = measure(options, folder)
-        base = median(r[0] for r in results["holdfast"]) if "holdfast" in results else None
-        for name, values in results.items():
-            seconds, peak = (median(v[i] for v in values) for i in (0, 1))
-            ratio = f"{seconds / base:.2f}" if base else "-"
-            lines.append(f"| {size} | {name} | {seconds:.2f} | {peak / 1e6:.0f} | {ratio} |")
-            print(lines[-1], flush=True)
-        for name in sorted(failed):
-            lines.append(f"| {size} | {name} | failed, or over {options.timeout:.0f} s | | |")
-        if not same:
-            lines.append(f"| {size} | holdfast: one and two threads differ | | | |")
-        if reports:
-            seconds = {stage: median(r["seconds"].get(stage, 0) for r in reports) for stage in reports[0]["seconds"]}
-            stages = stages or [s for s in seconds if s != "total"]
-            total = seconds["total"]
-            profile.append(f"| {size} | {total:.2f} | " + " | ".join(f"{100 * seconds.get(s, 0) / total:.1f}" for s in stages) +
-                           " | " + " | ".join(f"{seconds[a] / seconds[b]:.2f} ({limit})" for _, a, b, limit in TARGETS) + " |")
-    lines += ["", "Where the time of `holdfast mesh --fill` on one thread goes, in percent:", "",
-              "| triangles | seconds | " + " | ".join(stages) + " | " +
-              " | ".join(f"{a} / {b} (target)" for _, a, b, _ in TARGETS) + " |",
-              "|---" * (len(stages) + 2 + len(TARGETS)) + "|", *profile]
-    return lines
+def program_lines(size, row, options):
+    base = row["programs"][OURS]
+    for name, told in row["programs"].items():
+        turns = " (one turn)" if name == SLOW else ""
+        if told:
+            yield (f"| {size:,} | {name}{turns} | {told['wall']:.2f} | {told['peak'] / 1e6:.0f} | "
+                   f"{told['wall'] / base['wall']:.2f} |" if base else f"| {size:,} | {name} | {told['wall']:.2f} | | |")
+        else:
+            yield f"| {size:,} | {name}{turns} | failed, or over {options.timeout:.0f} s | | |"
+    if not row["same"]:
+        yield f"| {size:,} | holdfast: one and two threads DIFFER | | | |"
+
+
+def figures_of(size, row):
+    """Of a surface that Holdfast meshed on one and on two threads."""
+    one, two = row["stages"]
+    ours, tetgen = row["programs"][OURS], row["programs"][TETGEN]
+    return {"triangles": size, "tetgen": tetgen and tetgen["wall"] / ours["wall"],
+            "memory": ours["peak"] / tetgen["peak"] if tetgen and tetgen["peak"] > MEASURABLE else None,
+            "validate": one["validate"] / one["total"], "read": one["read"] / one["delaunay"],
+            "validate_one": one["validate"], "validate_two": two["validate"],
+            "threads": one["validate"] / two["validate"], "whole_threads": one["total"] / two["total"], "same": row["same"]}
+
+
+def bench(options, folder, rows):
+    told, with_slow = {}, True
+    for count in sorted(options.triangles):
+        n, m = grid_of(count)
+        row = rows.get(f"{count} triangles, {options.runs} turns of {options.timeout:.0f} s", measure, options, folder, count, with_slow)
+        told[2 * n * m] = row
+        with_slow = row["programs"][SLOW] is not None
+    figures = [figures_of(size, row) for size, row in told.items() if row["stages"]]
+    lines = ["Rippled tori as binary STL (TetGen: OFF), whole process with reading and writing, wall clock; median of "
+             f"{options.runs} turns, but Gmsh's Delaunay, which takes minutes, has one, and none beyond the size that it fails on. Gmsh keeps "
+             "the surface, as TetGen does. A peak below 64 MB may be that of the process that measures.", "",
+             "| triangles | program | seconds | peak memory, MB | time against holdfast |", "|---:|---|---:|---:|---:|"]
+    for size, row in told.items():
+        lines += program_lines(size, row, options)
+    lines += ["", "Where the time of `holdfast mesh --fill` on one thread goes:", "",
+              *table("triangles", {f"{size:,}": row["stages"][0] for size, row in told.items() if row["stages"]}), "",
+              "Reading against Delaunay, and validation on one and on two threads:", "",
+              "| triangles | reading / Delaunay | validation / whole | validation, s | on two threads, s | one over two |",
+              "|---:|---:|---:|---:|---:|---:|"]
+    for f in figures:
+        lines.append(f"| {f['triangles']:,} | {f['read']:.2f} | {f['validate']:.2f} | {f['validate_one']:.4f} | {f['validate_two']:.4f} "
+                     f"| {f['threads']:.2f} |")
+    return lines, figures

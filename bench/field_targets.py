@@ -1,0 +1,97 @@
+"""The targets of meshes with field points, computed from the rows of field.py: surface -> mesher -> row."""
+import json
+from statistics import mean, median
+
+from target import Target, table
+
+OURS, HXT, GMSH, TETGEN = "Holdfast", "Gmsh HXT", "Gmsh Delaunay", "TetGen"
+PEERS = (HXT, GMSH, TETGEN, "Netgen")
+BEST = 6 / 8  # share of surfaces with the best least angle
+LIKE_HXT = 0.2  # by which the number of tetrahedra may differ
+THREADS, IN_PARTS = 1.5, 60_000  # times on two threads, from so many tetrahedra on
+
+
+def pairs(results, peer):
+    """(row of Holdfast, row of a peer) of the surfaces that both meshed."""
+    return [(rows[OURS], rows[peer]) for rows in results.values()
+            if peer in rows and "failed" not in rows[OURS] and "failed" not in rows[peer]]
+
+
+def least_angle(results):
+    """A surface that Holdfast does not mesh counts against it, one that a peer does not mesh for Holdfast."""
+    best = sum("failed" not in rows[OURS] and all(
+        "failed" in rows[peer] or rows[peer]["min_dihedral"] <= rows[OURS]["min_dihedral"] for peer in PEERS if peer in rows)
+        for rows in results.values())
+    return Target("Least dihedral angle at least the best of the others' on 6 of 8 surfaces", f"on {best} of {len(results)}",
+                  best >= BEST * len(results))
+
+
+def small_angles(results, k):
+    """Each peer on the surfaces that it meshed; the best is the one with the lowest mean."""
+    shares = {peer: tuple(mean(row["below"][k] for row in column) for column in zip(*both))
+              for peer in PEERS if (both := pairs(results, peer))}
+    text = f"Mean share of dihedral angles below {10 * (k + 1)} degrees at most the best of the others'"
+    if not shares:
+        return Target(text, "not measured", None)
+    peer = min(shares, key=lambda p: shares[p][1])
+    ours, theirs = shares[peer]
+    return Target(text, f"{ours:.2g} % ({peer} {theirs:.2g} %)", ours <= theirs)
+
+
+def sizes(results, peer):
+    """Only HXT's number of tetrahedra is a target: it reads sizes as Holdfast does."""
+    ratios = [ours["tetrahedra"] / theirs["tetrahedra"] for ours, theirs in pairs(results, peer)]
+    aim = peer == HXT
+    text = f"Number of tetrahedra within {100 * LIKE_HXT:.0f} % of {peer}'s" if aim else f"Number of tetrahedra over {peer}'s (no target)"
+    if not ratios:
+        return Target(text, "not measured", None)
+    within = sum(abs(r - 1) <= LIKE_HXT for r in ratios)
+    return Target(text, f"median {median(ratios):.2f}, {min(ratios):.2f} to {max(ratios):.2f}; within on {within} of {len(ratios)}",
+                  within == len(ratios) if aim else None)
+
+
+def speed(results, peer, times, per_tetrahedron=False):
+    """CPU seconds of meshing; a tetrahedron where the other program makes far fewer of them."""
+    ratios = [theirs["seconds"] / ours["seconds"] * (ours["tetrahedra"] / theirs["tetrahedra"] if per_tetrahedron else 1)
+              for ours, theirs in pairs(results, peer)]
+    text = f"At least {f'{times} times ' if times > 1 else ''}as fast as {peer}" + (", a tetrahedron" if per_tetrahedron else "")
+    if not ratios:
+        return Target(text, "not measured", None)
+    fast = sum(r >= times for r in ratios)
+    return Target(text, f"on {fast} of {len(ratios)}; median {median(ratios):.2f}, least {min(ratios):.2f}", fast == len(ratios))
+
+
+def on_two_threads(results, threads):
+    """`threads`: surface -> seconds on one and on two threads."""
+    large = [row["one"] / row["two"] for name, row in threads.items() if "failed" not in row and name in results
+             and results[name][OURS].get("tetrahedra", 0) >= IN_PARTS]
+    text = f"Two threads: at least {THREADS} times from {IN_PARTS:,} tetrahedra on"
+    if not large:
+        return Target(text, "not measured", None)
+    fast = sum(r >= THREADS for r in large)
+    return Target(text, f"on {fast} of {len(large)}; median {median(large):.2f}, least {min(large):.2f}", fast == len(large))
+
+
+def same_files(threads):
+    told = [row["same"] for row in threads.values() if "failed" not in row]
+    return Target("Two threads: the same mesh, bit for bit", f"on {sum(told)} of {len(told)}", all(told) if told else None)
+
+
+def lines(results, threads, extra=()):
+    """The table; surfaces of the names in `extra` count on two threads only."""
+    compared = {name: rows for name, rows in results.items() if name not in extra}
+    return table([least_angle(compared), *(small_angles(compared, k) for k in range(3)), *(sizes(compared, peer) for peer in PEERS),
+                  speed(compared, TETGEN, 2, per_tetrahedron=True), speed(compared, GMSH, 2), speed(compared, HXT, 1),
+                  on_two_threads(results, threads), same_files(threads)])
+
+
+def keep(path, program, told):
+    """For docs/benchmarks.md; `program` is a digest of the one that was measured."""
+    path.write_text(json.dumps({"program": program, "lines": told}, indent=1), encoding="utf-8")
+
+
+def kept(path, program):
+    if not path.exists():
+        return ["Not measured yet: `make field`."]
+    told = json.loads(path.read_text(encoding="utf-8"))
+    return told["lines"] if told["program"] == program else ["Measured with another build of Holdfast.", "", *told["lines"]]
