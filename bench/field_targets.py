@@ -23,7 +23,7 @@ def least_angle(results):
         "failed" in rows[peer] or rows[peer]["min_dihedral"] <= rows[OURS]["min_dihedral"] for peer in PEERS if peer in rows)
         for rows in results.values())
     return Target("Least dihedral angle at least the best of the others' on 6 of 8 surfaces", f"on {best} of {len(results)}",
-                  best >= BEST * len(results))
+                  best >= BEST * len(results) if results else None)
 
 
 def small_angles(results, k):

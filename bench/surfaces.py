@@ -97,7 +97,8 @@ def programs(options, folder):
 def measure(options, folder, count, with_slow):
     apart(write_surface, folder, count)
     told = take_turns(programs(options, folder), options.runs)
-    told |= take_turns({SLOW: lambda: gmsh(folder, "delaunay", 1, options.timeout)}, 1) if with_slow else {SLOW: None}
+    if with_slow:
+        told |= take_turns({SLOW: lambda: gmsh(folder, "delaunay", 1, options.timeout)}, 1)
     row = {name: turns and {"wall": median(t["wall"] for t in turns), "peak": median(t["peak"] for t in turns)}
            for name, turns in told.items()}
     both = told[OURS] and told[OURS_ON_TWO]
@@ -108,12 +109,12 @@ def measure(options, folder, count, with_slow):
 def program_lines(size, row, options):
     base = row["programs"][OURS]
     for name, told in row["programs"].items():
-        turns = " (one turn)" if name == SLOW else ""
+        shown = f"{name} (one turn)" if name == SLOW else name
         if told:
-            yield (f"| {size:,} | {name}{turns} | {told['wall']:.2f} | {told['peak'] / 1e6:.0f} | "
-                   f"{told['wall'] / base['wall']:.2f} |" if base else f"| {size:,} | {name} | {told['wall']:.2f} | | |")
+            ratio = f"{told['wall'] / base['wall']:.2f}" if base else "-"
+            yield f"| {size:,} | {shown} | {told['wall']:.2f} | {told['peak'] / 1e6:.0f} | {ratio} |"
         else:
-            yield f"| {size:,} | {name}{turns} | failed, or over {options.timeout:.0f} s | | |"
+            yield f"| {size:,} | {shown} | failed, or over {options.timeout:.0f} s | | |"
     if not row["same"]:
         yield f"| {size:,} | holdfast: one and two threads DIFFER | | | |"
 
@@ -135,7 +136,7 @@ def bench(options, folder, rows):
         n, m = grid_of(count)
         row = rows.get(f"{count} triangles, {options.runs} turns of {options.timeout:.0f} s", measure, options, folder, count, with_slow)
         told[2 * n * m] = row
-        with_slow = row["programs"][SLOW] is not None
+        with_slow = row["programs"].get(SLOW) is not None
     figures = [figures_of(size, row) for size, row in told.items() if row["stages"]]
     lines = ["Rippled tori as binary STL (TetGen: OFF), whole process with reading and writing, wall clock; median of "
              f"{options.runs} turns, but Gmsh's Delaunay, which takes minutes, has one, and none beyond the size that it fails on. Gmsh keeps "
