@@ -127,7 +127,7 @@ def figures_of(size, row):
             "memory": ours["peak"] / tetgen["peak"] if tetgen and tetgen["peak"] > MEASURABLE else None,
             "validate": one["validate"] / one["total"], "read": one["read"] / one["delaunay"],
             "validate_one": one["validate"], "validate_two": two["validate"],
-            "threads": one["validate"] / two["validate"], "whole_threads": one["total"] / two["total"], "same": row["same"]}
+            "threads": one["validate"] / two["validate"], "same": row["same"]}
 
 
 def bench(options, folder, rows):
@@ -139,8 +139,8 @@ def bench(options, folder, rows):
         with_slow = row["programs"].get(SLOW) is not None
     figures = [figures_of(size, row) for size, row in told.items() if row["stages"]]
     lines = ["Rippled tori as binary STL (TetGen: OFF), whole process with reading and writing, wall clock; median of "
-             f"{options.runs} turns, but Gmsh's Delaunay, which takes minutes, has one, and none beyond the size that it fails on. Gmsh keeps "
-             "the surface, as TetGen does. A peak below 64 MB may be that of the process that measures.", "",
+             f"{options.runs} turns, but Gmsh's Delaunay, which takes minutes, has one, and none beyond the size that it fails on. Gmsh "
+             "keeps the surface, as TetGen does. A peak below 64 MB may be that of the process that measures.", "",
              "| triangles | program | seconds | peak memory, MB | time against holdfast |", "|---:|---|---:|---:|---:|"]
     for size, row in told.items():
         lines += program_lines(size, row, options)
