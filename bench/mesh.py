@@ -100,9 +100,9 @@ def bench(options, folder, rows):
     both = [r for r in told if r["holdfast"]["cpu"] and r["TetGen"]["cpu"]]
     missing = {name: [r["name"] for r in told if not r[name]["cpu"]] for name in ("holdfast", "TetGen")}
     lines = [f"{len(told)} of the corpus's {len(closed)} valid closed surfaces, evenly over all sizes, with all from "
-             f"{VAST:,} triangles on. Whole process with reading and writing, one thread; median of {options.runs} turns where a program takes under {QUICK} s, else of three in five. Ratios "
-             "are holdfast over TetGen. CPU time (user and system) counts: wall-clock time of some milliseconds is mostly the making of "
-             "a process.", ""]
+             f"{VAST:,} triangles on. Whole process with reading and writing, one thread; median of {options.runs} turns where a program "
+             f"takes under {QUICK} s, else of three in five. Ratios are holdfast over TetGen. CPU time (user and system) counts: "
+             "wall-clock time of some milliseconds is mostly the making of a process.", ""]
     lines += overview(both) if both else ["No surface was meshed by both."]
     lines += ["", f"Not meshed, or over {options.timeout:.0f} s: holdfast {len(missing['holdfast'])}, TetGen {len(missing['TetGen'])} "
               "(its results were not checked further)."]
