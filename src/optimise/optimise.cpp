@@ -98,7 +98,7 @@ class Optimiser {
   // What has nothing else left gets points. They stay if they are worth it.
   bool try_with_points() {
     const Badness without = badness_of_all();
-    if (without.hopeless == 0) return false;
+    if (without.hopeless == 0 || !may_points_be_worth_it(without)) return false;
     const Snapshot before{mesh_, now_};
     for (const Entry& e : std::exchange(now_.stuck, {}))
       if (is_current(e)) now_.queue.push(e);
@@ -185,10 +185,17 @@ class Optimiser {
     return changed;
   }
 
+  // Points take hopeless elements away, one or two each: so without null ones, the worst gets better as many
+  // times as it is worse than hopeless, or little more.
+  [[nodiscard]] bool may_points_be_worth_it(const Badness& was) const {
+    constexpr double kCuredByOne = 2;
+    const double factor = std::max(kLeastFactor, was.worst / bad_from_.hopeless);
+    return was.null > 0 || static_cast<double>(was.hopeless) <= kCuredByOne * factor;
+  }
+
   // As many null elements gone as there are more points, or the worst as many times better, and ten times at
   // least.
   [[nodiscard]] bool are_points_worth_it(const Snapshot& before, const Badness& was) const {
-    constexpr double kLeastFactor = 10;
     const auto points_in = [](const TetMesh& mesh, const std::vector<Vertex>& points) {
       return std::count_if(points.begin(), points.end(), [&](Vertex p) { return mesh.in_mesh(p); });
     };
@@ -405,6 +412,7 @@ class Optimiser {
   static constexpr double kGood = 2, kBad = 30, kWorthReconnecting = 200;
   static constexpr double kFlat = 100, kFlatForTarget = 2, kHopeless = 1000, kHopelessForTarget = 30,
                           kNull = 1e10;
+  static constexpr double kLeastFactor = 10;  // by which points that stay better the worst
   static constexpr int kRounds = 3, kMostFailures = 12;
   // In exchanges tried, some 10 microseconds each.
   static constexpr std::size_t kLeastWork = 1200, kWorkPerTet = 4;
