@@ -13,7 +13,6 @@ namespace {
 constexpr int kMostIdlePasses = 3;
 constexpr std::size_t kIdle = 20;           // a pass that recovers less than one in so many
 constexpr std::size_t kBudget = 500;        // of an attempt at a crossing in a pass
-constexpr std::size_t kMostBudget = 10000;  // of one in the last pass
 constexpr std::size_t kMostFailures = 100;  // at the crossings of one facet
 constexpr std::size_t kMostCrossings = 2000;
 constexpr std::size_t kMostEdges =
@@ -53,25 +52,18 @@ void FlipRecovery::pass_over(std::vector<std::uint8_t>& stands, int most_passes,
   std::vector<Index> missing;
   for (Index k = 0; k < stands.size(); ++k)
     if (stands[k] == 0) missing.push_back(k);
-  const std::size_t work_before = flipper_.all_work();
-  const auto pass_of = [&](const Effort& effort, double done) {
-    std::shuffle(missing.begin(), missing.end(), random_);
-    std::erase_if(missing, [&](Index k) {
-      tell(done);
-      return attempt(k, effort);
-    });
-  };
   int depth = 1, idle = 0;
   for (int pass = 1; pass <= most_passes && idle < kMostIdlePasses && !missing.empty(); ++pass) {
-    const std::size_t before = missing.size();
-    pass_of({depth, kBudget, false}, static_cast<double>(pass) / most_passes);
+    const std::size_t before = missing.size(), work_before = flipper_.all_work();
+    std::shuffle(missing.begin(), missing.end(), random_);
+    std::erase_if(missing, [&](Index k) {
+      tell(static_cast<double>(pass) / most_passes);
+      return attempt(k, {depth, kBudget, false});
+    });
+    if (flipper_.all_work() == work_before) return;  // nothing is left that flips are tried for
     idle = kIdle * (before - missing.size()) > before ? 0 : idle + 1;
     depth = std::min(2 * depth, Flipper::kDeep);
   }
-  if (missing.empty()) return;
-  // As much again, in equal shares, for what is left.
-  const std::size_t share = (flipper_.all_work() - work_before) / missing.size();
-  if (share > kBudget) pass_of({Flipper::kDeep, std::min(share, kMostBudget), false}, 1.0);
 }
 
 // Clears the first crossing seen from a as long as it can, then likewise from b; a thorough attempt goes on
