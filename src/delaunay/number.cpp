@@ -87,8 +87,10 @@ class Numbering {
     std::vector<std::size_t> starts(parts + 1, size());
     for (std::size_t part = 0; part < parts; ++part) starts[part] = start_of_run(size() * part / parts);
     parallel(threads_, parts, [&](std::size_t part) {
-      for (std::size_t place = starts[part]; place < starts[part + 1];) {
-        const std::size_t end = end_of_run(place);
+      // What stands beyond its part, another thread is sorting.
+      const std::size_t last = starts[part + 1];
+      for (std::size_t place = starts[part]; place < last;) {
+        const std::size_t end = end_of_run(place, last);
         sort_cells(&cells_[place], &cells_[end]);
         for (; place < end; ++place) put(place, cells_[place]);
       }
@@ -155,12 +157,12 @@ class Numbering {
   [[nodiscard]] Vertex highest(std::size_t place) const { return corners_of(cells_[place])[0]; }
   // Of the first run of cells with the same highest vertex that starts at `place` or behind.
   [[nodiscard]] std::size_t start_of_run(std::size_t place) const {
-    return place == 0 || place == size() ? place : end_of_run(place - 1);
+    return place == 0 || place == size() ? place : end_of_run(place - 1, size());
   }
-  [[nodiscard]] std::size_t end_of_run(std::size_t place) const {
+  [[nodiscard]] std::size_t end_of_run(std::size_t place, std::size_t last) const {
     const Vertex v = highest(place);
     do ++place;
-    while (place < size() && highest(place) == v);
+    while (place < last && highest(place) == v);
     return place;
   }
 
