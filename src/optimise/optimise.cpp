@@ -285,7 +285,7 @@ class Optimiser {
     if (relocate_a_corner(e.tet)) return ++now_.stats.relocated;
     if (remove_flat(e)) return ++now_.stats.unflattened;
     if ((is_worth_reconnecting(e) && reconnect_round(e.tet)) ||
-        (e.quality >= bad_from_.hopeless && reconnect_patiently(e.tet)))
+        (adds_points() && e.quality >= bad_from_.hopeless && reconnect_patiently(e.tet)))
       return ++now_.stats.reconnected;
     return adds_points() && is_worth_a_point(e) && insert_at(e) && ++now_.stats.inserted;
   }
@@ -365,7 +365,7 @@ class Optimiser {
     return reconnected;
   }
 
-  // A point is worth some milliseconds, a few times.
+  // A point that would come next is worth some milliseconds, a few times.
   bool reconnect_patiently(Tet t) {
     constexpr std::size_t kWork = 200;
     constexpr int kMostPatient = 2;
