@@ -55,7 +55,7 @@ void FlipRecovery::pass_over(std::vector<std::uint8_t>& stands, int most_passes,
   int depth = 1, idle = 0;
   for (int pass = 1; pass <= most_passes && idle < kMostIdlePasses && !missing.empty(); ++pass) {
     const std::size_t before = missing.size(), work_before = flipper_.all_work();
-    std::shuffle(missing.begin(), missing.end(), random_);
+    shuffle_in_blocks(missing);
     std::erase_if(missing, [&](Index k) {
       tell(static_cast<double>(pass) / most_passes);
       return attempt(k, {depth, kBudget, false});
@@ -63,6 +63,18 @@ void FlipRecovery::pass_over(std::vector<std::uint8_t>& stands, int most_passes,
     if (flipper_.all_work() == work_before) return;  // nothing is left that flips are tried for
     idle = kIdle * (before - missing.size()) > before ? 0 : idle + 1;
     depth = std::min(2 * depth, Flipper::kDeep);
+  }
+}
+
+// In random order, since an attempt stands a better chance where others have changed the mesh meanwhile; but
+// what the surface numbers far apart mostly is so, too, and the mesh there no longer in the caches.
+void FlipRecovery::shuffle_in_blocks(std::vector<Index>& missing) {
+  constexpr std::ptrdiff_t kBlock = 1000;
+  std::sort(missing.begin(), missing.end());
+  for (auto first = missing.begin(); first != missing.end();) {
+    const auto last = first + std::min(kBlock, missing.end() - first);
+    std::shuffle(first, last, random_);
+    first = last;
   }
 }
 

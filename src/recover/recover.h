@@ -49,6 +49,7 @@ class FlipRecovery {
   bool facet(Index f, const Effort& effort);
 
  private:
+  void shuffle_in_blocks(std::vector<Index>& missing);
   bool clear_between(Vertex a, Vertex b, const Effort& effort);
   template <typename Attempt>
   void pass_over(std::vector<std::uint8_t>& stands, int most_passes, Attempt attempt, const Tell& tell);
