@@ -1,7 +1,6 @@
 #include "suppress/degree.h"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "mesh/traverse.h"
@@ -9,17 +8,27 @@
 namespace holdfast {
 namespace {
 
-// The neighbours of p, each with a tetrahedron that holds both.
-std::vector<std::pair<Vertex, Tet>> edges_at(TetMesh& mesh, Vertex p) {
+// An edge from p to a neighbour, with a tetrahedron that holds it.
+struct EdgeAt {
+  Vertex to;
+  Tet tet;
+};
+
+// Of hundreds of neighbours, sorting is most of the work: hence numbers, not pairs.
+std::vector<EdgeAt> edges_at(TetMesh& mesh, Vertex p) {
   std::vector<Tet> tets;
   ball(mesh, p, tets);
-  std::vector<std::pair<Vertex, Tet>> edges;
+  std::vector<std::uint64_t> keys;
+  keys.reserve(3 * tets.size());
   for (const Tet t : tets)
     for (const Vertex q : mesh.corners(t))
-      if (q != p && q != kGhost) edges.emplace_back(q, t);
-  std::sort(edges.begin(), edges.end());
-  const auto same = [](const auto& l, const auto& r) { return l.first == r.first; };
-  edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
+      if (q != p && q != kGhost) keys.push_back(std::uint64_t{q} << 32 | t);
+  std::sort(keys.begin(), keys.end());
+  std::vector<EdgeAt> edges;
+  for (const std::uint64_t key : keys) {
+    const auto q = static_cast<Vertex>(key >> 32);
+    if (edges.empty() || edges.back().to != q) edges.push_back({q, static_cast<Tet>(key)});
+  }
   return edges;
 }
 
@@ -34,12 +43,14 @@ bool lower_degree(TetMesh& mesh, Flipper& flipper, Vertex p, int depth, std::siz
   // Flips that clear the way for others can join p to more, so that the loop needs a measure.
   for (std::size_t last = before + 1; edges.size() < last && left > 0;) {
     last = edges.size();
+    const std::size_t flips = flipper.counts().all();
     for (const auto& [q, t] : edges) {
       if (left == 0) break;
       if (!flipper.stands({t, {p, q}, 2})) continue;
       flipper.remove(t, p, q, depth, std::min(budget, left));
       left -= std::min(left, flipper.work());
     }
+    if (flipper.counts().all() == flips) break;
     edges = edges_at(mesh, p);
   }
   return edges.size() < before;
