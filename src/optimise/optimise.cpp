@@ -35,6 +35,7 @@ class Optimiser {
 
   OptimiseStats run(const std::vector<Tet>& tets) {
     now_.budget = kLeastWork + kWorkPerTet * tets.size();
+    now_.usual_budget = std::min(now_.budget / kUsualShare, kMostUsual);
     list_points(tets);
     const std::size_t points_before = now_.points.size();
     relocate_all();
@@ -68,6 +69,7 @@ class Optimiser {
     double worst_stuck = 0;      // in this round
     int round = 0, failures = 0;
     std::size_t work = 0, work_at_gain = 0, budget = 0;
+    std::size_t usual_budget = 0;  // for what is not worth a point
     OptimiseStats stats;
   };
   struct Snapshot {
@@ -104,6 +106,7 @@ class Optimiser {
       if (is_current(e)) now_.queue.push(e);
     now_.worst_stuck = 0;
     now_.round = now_.failures = 0;
+    now_.usual_budget = std::min(now_.usual_budget, kMostUsualAgain);
     now_.work = now_.work_at_gain = 0;
     work_off_queue();
     shake_the_worst();
@@ -232,7 +235,7 @@ class Optimiser {
   [[nodiscard]] bool is_spent(const Entry& e) const {
     if (e.quality < kBad && now_.failures >= kMostFailures) return true;
     if (now_.is_shaking) return now_.work >= now_.budget;
-    const std::size_t budget = e.quality >= bad_from_.hopeless ? now_.budget : now_.budget / kUsualShare;
+    const std::size_t budget = e.quality >= bad_from_.hopeless ? now_.budget : now_.usual_budget;
     const bool is_promising = e.quality >= now_.worst_stuck || now_.work < now_.work_at_gain + kIdle;
     return now_.work >= (is_promising ? kTimes * budget : budget);
   }
@@ -416,9 +419,11 @@ class Optimiser {
   static constexpr int kRounds = 3, kMostFailures = 12;
   // In exchanges tried, some 10 microseconds each.
   static constexpr std::size_t kLeastWork = 1200, kWorkPerTet = 4;
-  static constexpr std::size_t kUsualShare = 4;  // of the work for what is not worth a point
-  static constexpr std::size_t kTimes = 10;      // as much for what is promising
-  static constexpr std::size_t kIdle = 300;      // without a gain, until nothing is
+  // Of the work for what is not worth a point: the share, and the most, which millions of tetrahedra of a
+  // smooth surface would use up in both searches.
+  static constexpr std::size_t kUsualShare = 4, kMostUsual = 1'000'000, kMostUsualAgain = 200'000;
+  static constexpr std::size_t kTimes = 10;  // as much for what is promising
+  static constexpr std::size_t kIdle = 300;  // without a gain, until nothing is
 
   TetMesh& mesh_;
   const Vertex first_free_;
