@@ -66,8 +66,8 @@ void FlipRecovery::pass_over(std::vector<std::uint8_t>& stands, int most_passes,
   }
 }
 
-// In random order, since an attempt stands a better chance where others have changed the mesh meanwhile; but
-// what the surface numbers far apart mostly is so, too, and the mesh there no longer in the caches.
+// In random order, since an attempt stands a better chance where others have changed the mesh meanwhile; in
+// blocks, since numbers that are close are mostly close in space, so that the mesh there is in the caches.
 void FlipRecovery::shuffle_in_blocks(std::vector<Index>& missing) {
   constexpr std::ptrdiff_t kBlock = 1000;
   std::sort(missing.begin(), missing.end());
