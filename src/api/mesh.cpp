@@ -256,7 +256,7 @@ class Pipeline {
   }
 
   void classify() {
-    regions_ = flood_regions(mesh_, complex_.facets);
+    regions_ = find_regions(mesh_, complex_.facets);
     kept_ = choose_regions(mesh_, regions_, complex_, table_, options_, scale_);
     if (!kept_.defects.empty()) refuse(std::move(kept_.defects));
   }
@@ -277,7 +277,7 @@ class Pipeline {
     std::vector<Vertex> points = kept_points();
     if (points.empty()) return;
     suppress(mesh_, std::move(points), first_free_, monitor_);
-    flood_again(mesh_, complex_.facets, regions_);
+    find_regions_again(mesh_, complex_.facets, regions_);
     result_.report.forced_points = kept_points().size();
   }
 
@@ -312,7 +312,7 @@ class Pipeline {
                                          {.add_points = options_.add_points, .remove = remove});
     result_.report.optimised = {stats.exchanged + stats.unflattened + stats.reconnected, stats.relocated,
                                 stats.inserted};
-    if (stats.changed > 0) flood_again(mesh_, complex_.facets, regions_);
+    if (stats.changed > 0) find_regions_again(mesh_, complex_.facets, regions_);
   }
 
   void improve_volume() {

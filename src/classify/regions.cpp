@@ -9,54 +9,69 @@
 namespace holdfast {
 namespace {
 
-// Regions by slot, each flooded from one of its tetrahedra.
-class Flood {
+// The sets of tetrahedra that no facet separates, by union-find with path halving (Tarjan, van Leeuwen 1984).
+// Neighbours have slots close to each other, so that one sweep over all slots stays in the caches, which a
+// walk from neighbour to neighbour does not.
+class Components {
  public:
-  Flood(const TetMesh& mesh, std::vector<RegionId>& of_tet) : mesh_(mesh), of_tet_(of_tet) {
-    of_tet_.assign(mesh.slot_count(), kNone);
+  /// In the end `of_tet` holds a number for each living tetrahedron: 0 outside, where ghosts are, others in
+  /// the order of the first slots.
+  Components(const TetMesh& mesh, std::vector<RegionId>& of_tet) : mesh_(mesh), parent_(of_tet) {
+    parent_.resize(mesh.slot_count());
+    Tet ghost = kNone;
+    for (Tet t = 0; t < mesh.slot_count(); ++t) {
+      parent_[t] = t;
+      if (!mesh.alive(t)) continue;
+      unite_with_lower_neighbours(t);
+      if (!mesh.is_ghost(t)) continue;
+      if (ghost != kNone) unite(t, ghost);
+      ghost = t;
+    }
+    number(ghost == kNone ? kNone : root(ghost));
   }
 
-  [[nodiscard]] bool has_reached(Tet t) const { return of_tet_[t] != kNone; }
+  [[nodiscard]] RegionId count() const { return count_; }
 
-  void from(Tet start, RegionId region) {
-    if (has_reached(start)) return;
-    reach(start, region);
-    while (!stack_.empty()) {
-      const Tet t = stack_.back();
-      stack_.pop_back();
-      for (int i = 0; i < 4; ++i) {
-        const Tet n = tet_of(mesh_.neighbour(t, i));
-        if (!mesh_.is_facet(face_code(t, i)) && !has_reached(n)) reach(n, region);
-      }
+ private:
+  void unite_with_lower_neighbours(Tet t) {
+    for (int i = 0; i < 4; ++i) {
+      const Tet n = tet_of(mesh_.neighbour(t, i));
+      if (n < t && !mesh_.is_facet(face_code(t, i))) unite(t, n);
     }
   }
 
-  // The outside, which ghosts belong to, is 0.
-  void from_ghosts() {
-    for (Tet t = 0; t < mesh_.slot_count(); ++t)
-      if (mesh_.alive(t) && mesh_.is_ghost(t)) from(t, 0);
+  Tet root(Tet t) {
+    while (parent_[t] != t) {
+      parent_[t] = parent_[parent_[t]];
+      t = parent_[t];
+    }
+    return t;
   }
 
- private:
-  void reach(Tet t, RegionId region) {
-    of_tet_[t] = region;
-    stack_.push_back(t);
+  // The root of a set is its lowest slot.
+  void unite(Tet a, Tet b) {
+    a = root(a);
+    b = root(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+  // In place: no parent is a higher slot, and those of lower slots have been replaced.
+  void number(Tet outside) {
+    for (Tet t = 0; t < mesh_.slot_count(); ++t) {
+      const Tet parent = parent_[t];
+      if (!mesh_.alive(t))
+        parent_[t] = kNone;
+      else if (parent != t)
+        parent_[t] = parent_[parent];
+      else
+        parent_[t] = t == outside ? 0 : count_++;
+    }
   }
 
   const TetMesh& mesh_;
-  std::vector<RegionId>& of_tet_;
-  std::vector<Tet> stack_;
+  std::vector<RegionId>& parent_;
+  RegionId count_ = 1;
 };
-
-// In order of discovery; returns their number.
-RegionId flood(const TetMesh& mesh, std::vector<RegionId>& of_tet) {
-  Flood flood(mesh, of_tet);
-  flood.from_ghosts();
-  RegionId count = 1;
-  for (Tet t = 0; t < mesh.slot_count(); ++t)
-    if (mesh.alive(t) && !flood.has_reached(t)) flood.from(t, count++);
-  return count;
-}
 
 // Whether two triangles with the same corners turn the same way.
 bool same_turn(const Triangle& f, const Triangle& g) {
@@ -159,17 +174,17 @@ bool box_holds(const TetMesh& mesh, Tet t, const double* p) {
 
 }  // namespace
 
-Regions flood_regions(const TetMesh& mesh, std::span<const Triangle> facets) {
+Regions find_regions(const TetMesh& mesh, std::span<const Triangle> facets) {
   Regions regions;
-  regions.count = flood(mesh, regions.of_tet);
+  regions.count = Components(mesh, regions.of_tet).count();
   find_sides(mesh, facets, regions);
   number_by_least_facet(regions);
   return regions;
 }
 
-void flood_again(TetMesh& mesh, std::span<const Triangle> facets, Regions& regions) {
-  Flood flood(mesh, regions.of_tet);
-  flood.from_ghosts();
+void find_regions_again(TetMesh& mesh, std::span<const Triangle> facets, Regions& regions) {
+  std::vector<RegionId> region_of(Components(mesh, regions.of_tet).count(), kNone);
+  region_of[0] = 0;
   std::vector<bool> done(regions.count, false);
   done[0] = true;
   for (Index f = 0; f < facets.size(); ++f) {
@@ -179,10 +194,12 @@ void flood_again(TetMesh& mesh, std::span<const Triangle> facets, Regions& regio
     const Face face = find_face(mesh, v[0], v[1], v[2]);
     if (face == kNone) throw std::logic_error("holdfast: a facet is no mesh face");
     const bool turned = !same_turn(v, mesh.face_vertices(face));
-    flood.from(tet_of(face), turned ? back : front);
-    flood.from(tet_of(mesh.neighbour(face)), turned ? front : back);
+    region_of[regions.of_tet[tet_of(face)]] = turned ? back : front;
+    region_of[regions.of_tet[tet_of(mesh.neighbour(face))]] = turned ? front : back;
     done[front] = done[back] = true;
   }
+  for (RegionId& r : regions.of_tet)
+    if (r != kNone) r = region_of[r];
 }
 
 Winding winding_numbers(const Regions& regions) { return WindingSearch(regions).run(); }

@@ -23,14 +23,14 @@ struct Regions {
   std::vector<std::array<RegionId, 2>> of_facet;
 };
 
-/// Floods through faces without facet bits, the outside first; bounded regions are numbered in the order of
-/// their least facet (in front before behind), so that the numbers depend on the complex alone.
+/// What hangs together through faces without facet bits; bounded regions are numbered in the order of their
+/// least facet (in front before behind), so that the numbers depend on the complex alone.
 ///
 /// Throws std::logic_error unless the faces with facet bits are exactly the facets.
-[[nodiscard]] Regions flood_regions(const TetMesh& mesh, std::span<const Triangle> facets);
+[[nodiscard]] Regions find_regions(const TetMesh& mesh, std::span<const Triangle> facets);
 
 /// Finds the tetrahedra of every region again after changes of the mesh, which left the facets as they were.
-void flood_again(TetMesh& mesh, std::span<const Triangle> facets, Regions& regions);
+void find_regions_again(TetMesh& mesh, std::span<const Triangle> facets, Regions& regions);
 
 /// Winding numbers with respect to the facets that have different regions on their sides.
 struct Winding {

@@ -38,7 +38,7 @@ struct Scene {
     const Options options;
     Monitor monitor(options);
     enforce(mesh, table, surface.facets, standing, first_free, {.seed = 1}, monitor);
-    regions = flood_regions(mesh, surface.facets);
+    regions = find_regions(mesh, surface.facets);
   }
 
   [[nodiscard]] Kept choose(const Options& options, int scale = 0) const {
@@ -118,7 +118,7 @@ TEST(Regions, NumberedByLeastFacet) {
   EXPECT_EQ(scene.at({3, 3, 3}).region, 0u);
 }
 
-TEST(Regions, FloodedAgainAreTheSame) {
+TEST(Regions, FoundAgainAreTheSame) {
   for (const Surface& surface :
        {small::box(), small::nested(true), small::nested(false), small::touching()}) {
     Scene scene(surface);
@@ -132,8 +132,8 @@ TEST(Regions, FloodedAgainAreTheSame) {
       if (++changed == 20) break;
     }
     Regions again = scene.regions;
-    flood_again(scene.mesh, scene.surface.facets, again);
-    const Regions afresh = flood_regions(scene.mesh, scene.surface.facets);
+    find_regions_again(scene.mesh, scene.surface.facets, again);
+    const Regions afresh = find_regions(scene.mesh, scene.surface.facets);
     EXPECT_EQ(again.of_tet, afresh.of_tet);
     EXPECT_EQ(again.of_facet, afresh.of_facet);
     EXPECT_NE(again.of_tet, scene.regions.of_tet);
@@ -143,10 +143,10 @@ TEST(Regions, FloodedAgainAreTheSame) {
 TEST(Regions, RefusesFacesThatAreNoFacets) {
   const Scene scene(small::box());
   std::vector<Triangle> fewer(scene.surface.facets.begin(), scene.surface.facets.end() - 1);
-  EXPECT_THROW(static_cast<void>(flood_regions(scene.mesh, fewer)), std::logic_error);
+  EXPECT_THROW(static_cast<void>(find_regions(scene.mesh, fewer)), std::logic_error);
   std::vector<Triangle> more = scene.surface.facets;
   more.push_back({0, 3, 5});
-  EXPECT_THROW(static_cast<void>(flood_regions(scene.mesh, more)), std::logic_error);
+  EXPECT_THROW(static_cast<void>(find_regions(scene.mesh, more)), std::logic_error);
 }
 
 TEST(Keep, NestedShellsFacingOutwards) {
