@@ -84,6 +84,7 @@ class TetMesh {
     __builtin_prefetch(&corners_[t]);
     __builtin_prefetch(&neighbours_[t]);
   }
+  void prefetch_vertex(Vertex v) const { __builtin_prefetch(&positions_[v]); }
   void prefetch_neighbours(Tet t) const {
     for (const Face f : neighbours_[t]) {
       __builtin_prefetch(&corners_[tet_of(f)]);

@@ -69,6 +69,11 @@ void PointCavity::spread(Tet base, const Frame& frame, std::size_t most) {
   for (std::size_t k = 0; k < tets_.size() && tets_.size() <= most; ++k) {
     const Tet t = tets_[k];
     for (int i = 0; i < 4; ++i) {
+      const Face g = mesh_.neighbour(t, i);
+      mesh_.prefetch(tet_of(g));
+      if (mesh_.apex(g) != kGhost) mesh_.prefetch_vertex(mesh_.apex(g));
+    }
+    for (int i = 0; i < 4; ++i) {
       const Face f = face_code(t, i);
       const Tet n = tet_of(mesh_.neighbour(f));
       if (mesh_.is_facet(f)) {
