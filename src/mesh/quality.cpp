@@ -306,6 +306,22 @@ std::optional<PlainShape> plain_shape(const Point& a, const Point& b, const Poin
   return shape;
 }
 
+template <std::size_t kBins>
+CosineBins<kBins>::CosineBins(double degrees) {
+  for (std::size_t k = 0; k < end_.size(); ++k) {
+    const double end = degrees * static_cast<double>(k + 1);
+    end_[k] = end == 90 ? 0 : std::cos(end * std::numbers::pi / 180);
+  }
+  // Of a cosine half a cell before, which no rounding takes into the cell.
+  for (std::size_t cell = 0; cell < kCells; ++cell) {
+    const double before = 1 - (static_cast<double>(cell) - 0.5) * (2.0 / kCells);
+    first_[cell] = static_cast<std::uint8_t>(
+        std::count_if(end_.begin(), end_.end(), [&](double end) { return before <= end; }));
+  }
+}
+template class CosineBins<std::tuple_size_v<decltype(Report::Shape::least_dihedral)>>;
+template class CosineBins<std::tuple_size_v<decltype(Report::Quality::histogram)>>;
+
 double best_quality_on(const Point& a, const Point& b, const Point& c) {
   const auto p = brought_in_range<3>({a, b, c});
   const BestTetrahedron candidates(p[0], p[1], p[2]);
@@ -343,15 +359,12 @@ class AngleHistogram {
     for (std::size_t k = 0; k < kBins; ++k) {
       const double angle = std::numbers::pi * static_cast<double>(k) / kBins;
       start_[k] = {std::sin(angle), 2 * k == kBins ? 0 : std::cos(angle)};
-      cosine_[k] = start_[k].cosine;
     }
   }
   void add_cosine(double cosine) {
     greatest_cosine_ = std::max(greatest_cosine_, cosine);
     least_cosine_ = std::min(least_cosine_, cosine);
-    std::size_t bin = 0;
-    for (std::size_t k = 1; k < kBins; ++k) bin += cosine <= cosine_[k] ? 1 : 0;
-    ++counts_[bin];
+    ++counts_[bins_(cosine)];
   }
   void add(Angle angle) {
     if (!angle.known()) angle = {0, 1};
@@ -376,8 +389,8 @@ class AngleHistogram {
  private:
   static constexpr std::size_t kBins = std::tuple_size_v<Counts>;
 
-  std::array<Angle, kBins> start_;    // of each bin
-  std::array<double, kBins> cosine_;  // of the same
+  std::array<Angle, kBins> start_;  // of each bin
+  CosineBins<kBins> bins_{180.0 / kBins};
   Counts counts_{};
   double greatest_cosine_ = -1, least_cosine_ = 1;
   Angle least_{0, -1}, most_{0, 1};
@@ -385,26 +398,23 @@ class AngleHistogram {
 
 }  // namespace
 
-ShapeHistogram::ShapeHistogram() {
-  constexpr double kBin = 5;
-  for (std::size_t k = 0; k < cosine_of_end_.size(); ++k)
-    cosine_of_end_[k] = std::cos(kBin * static_cast<double>(k + 1) * std::numbers::pi / 180);
-}
-
 void ShapeHistogram::add(const PlainShape& element) {
-  const auto [of_most, of_least] = std::minmax_element(element.cosines.begin(), element.cosines.end());
-  if (*of_least > of_least_) {
-    of_least_ = *of_least;
+  double of_least = -1, of_most = 1;
+  for (const double cosine : element.cosines) {
+    of_least = std::max(of_least, cosine);
+    of_most = std::min(of_most, cosine);
+  }
+  if (of_least > of_least_) {
+    of_least_ = of_least;
     shape_.min_dihedral_deg = degrees_of(of_least_);
   }
-  if (*of_most < of_most_) {
-    of_most_ = *of_most;
+  if (of_most < of_most_) {
+    of_most_ = of_most;
     shape_.max_dihedral_deg = degrees_of(of_most_);
   }
-  std::size_t bin = 0, q = 0;
-  for (const double end : cosine_of_end_) bin += *of_least <= end ? 1 : 0;
+  std::size_t q = 0;
   for (const double end : Report::quality_bins) q += element.quality < end ? 0 : 1;
-  ++shape_.least_dihedral[bin];
+  ++shape_.least_dihedral[bins_(of_least)];
   ++shape_.quality[q];
 }
 

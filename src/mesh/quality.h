@@ -4,7 +4,9 @@
 // much their terms cancel: where floating point cannot tell, exact differences and products do.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -30,10 +32,28 @@ struct PlainShape {
 [[nodiscard]] std::optional<PlainShape> plain_shape(const Point& a, const Point& b, const Point& c,
                                                     const Point& d);
 
+/// Counts angles by their cosines, in bins of so many degrees; the last one has all larger angles, too.
+template <std::size_t kBins>
+class CosineBins {
+ public:
+  explicit CosineBins(double degrees);
+  /// The bin of an angle from 0 to 180 degrees.
+  [[nodiscard]] std::size_t operator()(double cosine) const {
+    const double cell = std::clamp((1 - cosine) * (kCells / 2.0), 0.0, kCells - 1.0);
+    std::size_t bin = first_[static_cast<std::size_t>(cell)];
+    while (bin + 1 < kBins && cosine <= end_[bin]) ++bin;
+    return bin;
+  }
+
+ private:
+  static constexpr std::size_t kCells = 512;
+  std::array<double, kBins - 1> end_{};       // of each bin, its cosine
+  std::array<std::uint8_t, kCells> first_{};  // bin that may hold cosines of a cell
+};
+
 /// Gathers the shapes of elements.
 class ShapeHistogram {
  public:
-  ShapeHistogram();
   void add(const PlainShape& element);
   void add(const Point& a, const Point& b, const Point& c, const Point& d);
   void add(const ShapeHistogram& other);
@@ -41,7 +61,7 @@ class ShapeHistogram {
 
  private:
   Report::Shape shape_;
-  std::array<double, std::tuple_size_v<decltype(Report::Shape::least_dihedral)> - 1> cosine_of_end_{};
+  CosineBins<std::tuple_size_v<decltype(Report::Shape::least_dihedral)>> bins_{5};
   double of_least_ = -1, of_most_ = 1;  // cosines
 };
 
