@@ -1,19 +1,20 @@
 """Meshes to compute with, side by side: Holdfast, Gmsh (HXT, and Delaunay with optimisation), TetGen and Netgen.
 
-    field.py --build build/release --corpus DIR [--only NAME] [--again MESHER] [--output docs/field.md]
+    field.py --build build/release --corpus DIR [--only NAME] [--again GROUP] [--output docs/field.md]
 
 Every mesher gets the same triangles and keeps them: `holdfast mesh --no-growth --gradation 0.6` (sizes inside lie
 between those of the surface round, as Gmsh has them), `gmsh -3 -algo hxt`, `gmsh -3 -algo del3d` with Mesh.Optimize, `tetgen -pYq1.4`,
-and Netgen's GenerateVolumeMesh through bench/netgen_volume.py. One thread each. Seconds are CPU time of meshing as far
-as a program tells it: reading and writing files is left out. Angles are measured by one program, mesh_shape.
-A mesher has --timeout seconds a surface, which the table states. RING, of half a million triangles, is made here;
-only the faster meshers get it.
+and Netgen's GenerateVolumeMesh through bench/netgen_volume.py. One thread each. Seconds are wall-clock time of meshing as the
+program itself tells it, without reading and writing files (TetGen tells CPU time; Gmsh's CPU time leaves the system's out). The
+faster ones take turns, on memory that is at hand, and their medians count; the others run once. Angles are measured by one
+program, mesh_shape. A mesher has --timeout seconds a surface, which the table states. RING, of half a million triangles, is made
+here; only the faster meshers get it.
 
 Then the whole of `holdfast mesh`, files and all, with its default options on one and on two threads: the least wall-clock
 seconds of some turns. Both must write the same file.
 
-Every row is kept in field.json in the build folder as soon as it is measured, so that an interrupted run goes on where it stopped.
-Rows of another Holdfast, other surfaces or another time limit are measured anew; --again does that for a mesher. The table of
+Rows are kept in field.json in the build folder as soon as they are measured, so that an interrupted run goes on where it stopped.
+Those of another Holdfast, other surfaces or another time limit are measured anew; --again does that for a group. The table of
 targets goes to field_targets.json there, for docs/benchmarks.md.
 """
 import argparse
@@ -21,12 +22,10 @@ import hashlib
 import json
 import platform
 import re
-import resource
 import statistics
 import subprocess
 import sys
 import tempfile
-import time
 from math import cos, pi, sin
 from pathlib import Path
 
@@ -35,11 +34,14 @@ sys.path.insert(0, str(ROOT / "scripts"))
 import corpus  # noqa: E402  (the folder of surfaces)
 import field_targets  # noqa: E402
 from gmsh_files import read_off, write_msh  # noqa: E402
+import process  # noqa: E402
 
 SURFACES = ["iglt_3holes", "aj_fandisk", "iglt_arm", "aj_rocker-arm", "irmb_cactus25k", "tgt_armadillo",
             "irmb_fertility", "tcsg_golf-out", "igl_armadillo", "irmb_armadillo"]
 RING = "ring_500k"
 TURNS = 5
+LARGE = 2.0  # seconds from which on a program gets three of them
+MEMORY = 1 << 30
 GEO = """Merge "{surface}";
 Surface Loop(1) = {{1}};
 Volume(1) = {{1}};
@@ -76,59 +78,45 @@ class Bench:
         self.options, self.folder = options, folder
 
     def run(self, command):
-        """(output, CPU seconds) of a command, or None for one that fails."""
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        try:
-            ended = subprocess.run([str(c) for c in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                   cwd=self.folder, timeout=self.options.timeout, check=False)
-        except subprocess.TimeoutExpired as expired:
-            raise TookTooLong from expired
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        if ended.returncode != 0:
-            return None
-        return (ended.stdout.decode(errors="replace"),
-                after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+        """A command that found memory at hand, or None for one that fails."""
+        done = process.run(command, self.options.timeout, self.folder, MEMORY)
+        if done.code is None:
+            raise TookTooLong
+        return done if done.code == 0 else None
 
-    def shape(self, volume, seconds):
+    def shape(self, volume):
         told = self.run([self.options.build / "mesh_shape", volume])
-        if told is None:
-            return None
-        row = json.loads(told[0])
-        row["seconds"] = seconds
-        return row if row["tetrahedra"] else None
+        return None if told is None else json.loads(told.output)
 
     def holdfast(self, surface, *extra):
-        volume, report = self.folder / "hf.mesh", self.folder / "hf.json"
-        told = self.run([self.options.build / "holdfast", "mesh", surface, "-o", volume, "-q", "--no-growth",
-                         "--gradation", "0.6", "--report", report, *extra])
-        if told is None:
+        volume, report = "hf.mesh", self.folder / "hf.json"
+        if self.run([self.options.build / "holdfast", "mesh", surface, "-o", volume, "-q", "--no-growth", "--gradation", "0.6",
+                     "--report", report, *extra]) is None:
             return None
         seconds = json.loads(report.read_text())["seconds"]
-        files = seconds["read"] + seconds["write"]
-        return self.shape(volume, told[1] * (1 - files / seconds["total"]))
+        return volume, seconds["total"] - seconds["read"] - seconds["write"]
 
-    def threads(self, surface):
-        """Seconds on one and on two threads, and whether the files are the same."""
+    def on_two_threads(self, surface):
         seconds, files = {1: [], 2: []}, {}
         for _ in range(TURNS):
             for count in seconds:
                 volume = self.folder / f"hf{count}.vtu"
-                start = time.monotonic()
-                if self.run([self.options.build / "holdfast", "mesh", surface, "-o", volume, "-q", "--threads",
-                             str(count)]) is None:
+                told = self.run([self.options.build / "holdfast", "mesh", surface, "-o", volume, "-q", "--threads", count,
+                                 "--report", self.folder / "hf.json"])
+                if told is None:
                     return None
-                seconds[count].append(time.monotonic() - start)
+                seconds[count].append(told.wall)
                 files[count] = Rows.digest(volume)
-        return {"one": min(seconds[1]), "two": min(seconds[2]), "same": files[1] == files[2]}
+        tetrahedra = json.loads((self.folder / "hf.json").read_text())["mesh"]["tetrahedra"]
+        return {"one": min(seconds[1]), "two": min(seconds[2]), "same": files[1] == files[2], "tetrahedra": tetrahedra}
 
     def gmsh(self, surface, algorithm):
         write_msh(self.folder / "s.msh", *read_off(surface))
         (self.folder / "s.geo").write_text(GEO.format(surface="s.msh"))
         told = self.run(["gmsh", "-nt", "1", "-3", "-format", "msh2", "-algo", algorithm, "-o", "g.msh", "s.geo"])
-        if told is None or "Error" in told[0]:
+        if told is None or "Error" in told.output:
             return None
-        times = re.findall(r"Done (?:meshing|optimizing) .*CPU ([0-9.]+)s", told[0])
-        return self.shape(self.folder / "g.msh", sum(map(float, times)))
+        return "g.msh", sum(map(float, re.findall(r"Done (?:meshing|optimizing) .*Wall ([0-9.e-]+)s", told.output)))
 
     def tetgen(self, surface):
         points, triangles = read_off(surface)
@@ -141,33 +129,68 @@ class Bench:
         told = self.run(["tetgen", "-pYq1.4", "t.smesh"])
         if told is None:
             return None
-        total = re.search(r"Total running seconds:\s+([0-9.e-]+)", told[0])
-        output = re.search(r"Output seconds:\s+([0-9.e-]+)", told[0])
-        return self.shape(self.folder / "t.1.node",
-                          float(total.group(1)) - (float(output.group(1)) if output else 0)) if total else None
+        total = re.search(r"Total running seconds:\s+([0-9.e-]+)", told.output)
+        output = re.search(r"Output seconds:\s+([0-9.e-]+)", told.output)
+        return ("t.1.node", float(total.group(1)) - (float(output.group(1)) if output else 0)) if total else None
 
     def netgen(self, surface):
         told = self.run(["/usr/bin/python3", ROOT / "bench" / "netgen_volume.py", surface, "n.mesh"])
-        return None if told is None else self.shape(self.folder / "n.mesh", float(told[0].split()[-1]))
+        return None if told is None else ("n.mesh", float(told.output.split()[-1]))
 
-    def measure(self, mesher, surface):
-        """A row; {"failed": why} without a mesh."""
+    def mesh(self, mesher, surface):
+        """(file, seconds), or None without a mesh."""
         run = {"Holdfast": self.holdfast, "Holdfast fast": lambda s: self.holdfast(s, "--quality", "fast"),
                "Gmsh HXT": lambda s: self.gmsh(s, "hxt"), "Gmsh Delaunay": lambda s: self.gmsh(s, "del3d"),
-               "TetGen": self.tetgen, "Netgen": self.netgen, "Holdfast on two threads": self.threads}[mesher]
+               "TetGen": self.tetgen, "Netgen": self.netgen}[mesher]
         try:
-            return run(surface) or {"failed": "fails"}
+            return run(surface)
+        except TookTooLong:
+            self.late.add(mesher)
+            return None
+
+    def in_turns(self, meshers, surface, turns):
+        """mesher -> its row; {"failed": why} without a mesh."""
+        self.late = set()
+        rows = {}
+
+        def turn(mesher):
+            told = self.mesh(mesher, surface)
+            if told is None:
+                return None
+            if mesher not in rows:
+                rows[mesher] = self.shape(told[0])
+            return told[1]
+
+        seconds = process.take_turns({mesher: lambda m=mesher: turn(m) for mesher in meshers}, turns)
+        for mesher, told in seconds.items():
+            if told is None or not rows[mesher] or not rows[mesher]["tetrahedra"]:
+                rows[mesher] = {"failed": f"exceeds {self.options.timeout:.0f} s" if mesher in self.late else "fails"}
+            else:
+                rows[mesher]["seconds"] = statistics.median(told)
+        return rows
+
+    def faster(self, surface):
+        return self.in_turns(FASTER, surface, lambda first: TURNS if max(first, default=0) < LARGE else 3)
+
+    def slower(self, surface):
+        return self.in_turns(SLOWER, surface, 1)
+
+    def threads(self, surface):
+        """Seconds on one and on two threads, and whether the files are the same."""
+        try:
+            return self.on_two_threads(surface) or {"failed": "fails"}
         except TookTooLong:
             return {"failed": f"exceeds {self.options.timeout:.0f} s"}
 
 
-THREADS = "Holdfast on two threads"
+GROUPS = {"side by side": Bench.faster, "once": Bench.slower, "on two threads": Bench.threads}
 FASTER = ["Holdfast", "Holdfast fast", "Gmsh HXT", "TetGen"]
+SLOWER = ["Gmsh Delaunay", "Netgen"]
 MESHERS = ["Holdfast", "Holdfast fast", "Gmsh HXT", "Gmsh Delaunay", "TetGen", "Netgen"]
 
 
 class Rows:
-    """What was measured before, by surface, mesher, and all that the row depends on."""
+    """What was measured before, by surface, group, and all that the rows depend on."""
 
     def __init__(self, options):
         self.path = options.build / "field.json"
@@ -179,17 +202,17 @@ class Rows:
     def digest(path):
         return hashlib.sha256(path.read_bytes()).hexdigest()[:16]
 
-    def key(self, mesher, surface):
-        program = self.program if mesher.startswith("Holdfast") else ""
-        return f"{surface.stem} {self.digest(surface)} {mesher} {program} {self.timeout:.0f}"
+    def key(self, group, surface):
+        program = "" if group == "once" else self.program
+        return f"{surface.stem} {self.digest(surface)} {group} {program} {self.timeout:.0f}"
 
-    def drop(self, meshers):
-        self.rows = {key: row for key, row in self.rows.items() if not any(f" {m} " in key for m in meshers)}
+    def drop(self, groups):
+        self.rows = {key: row for key, row in self.rows.items() if not any(f" {group} " in key for group in groups)}
 
-    def get(self, mesher, surface, measure):
-        key = self.key(mesher, surface)
+    def get(self, group, surface, bench):
+        key = self.key(group, surface)
         if key not in self.rows:
-            self.rows[key] = measure(mesher, surface)
+            self.rows[key] = GROUPS[group](bench, surface)
             self.path.write_text(json.dumps(self.rows, indent=1))
         return self.rows[key]
 
@@ -204,12 +227,12 @@ def line(name, mesher, row):
 
 
 def threads_table(threads):
-    lines = ["| surface | one thread, s | two threads, s | one over two | same file |", "|---|---|---|---|---|"]
+    lines = ["| surface | tetrahedra | one thread, s | two threads, s | one over two | same file |", "|---|---|---|---|---|---|"]
     for name, row in threads.items():
         if "failed" in row:
-            lines.append(f"| {name} | {row['failed']} | | | |")
+            lines.append(f"| {name} | {row['failed']} | | | | |")
         else:
-            lines.append(f"| {name} | {row['one']:.2f} | {row['two']:.2f} | {row['one'] / row['two']:.2f} | "
+            lines.append(f"| {name} | {row['tetrahedra']} | {row['one']:.2f} | {row['two']:.2f} | {row['one'] / row['two']:.2f} | "
                          f"{'yes' if row['same'] else 'NO'} |")
     return lines
 
@@ -258,7 +281,7 @@ def main():
     parser.add_argument("--build", type=lambda p: Path(p).resolve(), required=True)
     parser.add_argument("--corpus", default="")
     parser.add_argument("--only", action="append")
-    parser.add_argument("--again", action="append", choices=MESHERS + [THREADS], default=[])
+    parser.add_argument("--again", action="append", choices=GROUPS, default=[])
     parser.add_argument("--timeout", type=float, default=300)
     parser.add_argument("--output", type=Path, default=ROOT / "docs" / "field.md")
     options = parser.parse_args()
@@ -276,12 +299,12 @@ def main():
             if surface is None:
                 continue
             bench = Bench(options, Path(scratch))
-            results[name] = {}
-            for mesher in FASTER if name == RING else MESHERS:
-                row = rows.get(mesher, surface.resolve(), bench.measure)
-                results[name][mesher] = row
-                print(line(name, mesher, row), flush=True)
-            threads[name] = rows.get(THREADS, surface.resolve(), bench.measure)
+            told = rows.get("side by side", surface.resolve(), bench)
+            if name != RING:
+                told = told | rows.get("once", surface.resolve(), bench)
+            results[name] = {mesher: told[mesher] for mesher in MESHERS if mesher in told}
+            threads[name] = rows.get("on two threads", surface.resolve(), bench)
+            print("\n".join(line(name, mesher, row) for mesher, row in results[name].items()), flush=True)
             print(threads_table({name: threads[name]})[-1], flush=True)
             targets = field_targets.lines(results, threads, extra=[RING])
             write(results, threads, targets, options.output, options.timeout)

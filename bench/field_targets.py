@@ -61,10 +61,9 @@ def speed(results, peer, times, per_tetrahedron=False):
     return Target(text, f"on {fast} of {len(ratios)}; median {median(ratios):.2f}, least {min(ratios):.2f}", fast == len(ratios))
 
 
-def on_two_threads(results, threads):
-    """`threads`: surface -> seconds on one and on two threads."""
-    large = [row["one"] / row["two"] for name, row in threads.items() if "failed" not in row and name in results
-             and results[name][OURS].get("tetrahedra", 0) >= IN_PARTS]
+def on_two_threads(threads):
+    """`threads`: surface -> seconds on one and on two threads, and how many tetrahedra that makes."""
+    large = [row["one"] / row["two"] for row in threads.values() if "failed" not in row and row["tetrahedra"] >= IN_PARTS]
     text = f"Two threads: at least {THREADS} times from {IN_PARTS:,} tetrahedra on"
     if not large:
         return Target(text, "not measured", None)
@@ -82,7 +81,7 @@ def lines(results, threads, extra=()):
     compared = {name: rows for name, rows in results.items() if name not in extra}
     return table([least_angle(compared), *(small_angles(compared, k) for k in range(3)), *(sizes(compared, peer) for peer in PEERS),
                   speed(compared, TETGEN, 2, per_tetrahedron=True), speed(compared, GMSH, 2), speed(compared, HXT, 1),
-                  on_two_threads(results, threads), same_files(threads)])
+                  on_two_threads(threads), same_files(threads)])
 
 
 def keep(path, program, told):
