@@ -5,7 +5,7 @@
 Every mesher gets the same triangles and keeps them: `holdfast mesh --no-growth --gradation 0.6` (sizes inside lie
 between those of the surface round, as Gmsh has them), `gmsh -3 -algo hxt`, `gmsh -3 -algo del3d` with Mesh.Optimize, `tetgen -pYq1.4`,
 and Netgen's GenerateVolumeMesh through bench/netgen_volume.py. One thread each. Seconds are wall-clock time of meshing as the
-program itself tells it, without reading and writing files (TetGen tells CPU time; Gmsh's CPU time leaves the system's out). The
+program itself tells it, without reading and writing files (CPU time of TetGen and Netgen; Gmsh's would leave the system's out). The
 faster ones take turns, on memory that is at hand, and their medians count; the others run once. Angles are measured by one
 program, mesh_shape. A mesher has --timeout seconds a surface, which the table states. RING, of half a million triangles, is made
 here; only the faster meshers get it.

@@ -51,7 +51,7 @@ def sizes(results, peer):
 
 
 def speed(results, peer, times, per_tetrahedron=False):
-    """CPU seconds of meshing; a tetrahedron where the other program makes far fewer of them."""
+    """Seconds of meshing; a tetrahedron where the other program makes far fewer of them."""
     ratios = [theirs["seconds"] / ours["seconds"] * (ours["tetrahedra"] / theirs["tetrahedra"] if per_tetrahedron else 1)
               for ours, theirs in pairs(results, peer)]
     text = f"At least {f'{times} times ' if times > 1 else ''}as fast as {peer}" + (", a tetrahedron" if per_tetrahedron else "")
