@@ -203,10 +203,13 @@ def beside(rows, peer, name):
     for key, how in (("report", ""), ("fewest", ", `--without points`")):
         both = [r for r in rows if r[peer] and r[key]]
         excess = [r[key]["steiner"]["count"] - r[peer]["added"] for r in both]
+        more = sorted(((e, f"{r['name']} {r[key]['steiner']['count']}/{r[peer]['added']}") for e, r in zip(excess, both) if e > 0),
+                      reverse=True)
+        named = ": " + ", ".join(text for _, text in more) if more else ""
         better = sum(r[key]["quality"]["worst"] <= ROUNDING * r[peer]["worst"] for r in both)
         lines.append(
             f"* Beside {name} ({len(both)} surfaces){how}: added points **{sum(r[key]['steiner']['count'] for r in both)}**, {name} "
-            f"**{sum(r[peer]['added'] for r in both)}**, more on {sum(e > 0 for e in excess)}, by {sum(e for e in excess if e > 0)} in all. "
+            f"**{sum(r[peer]['added'] for r in both)}**, more on {len(more)}, by {sum(e for e, _ in more)} in all{named}. "
             f"Worst Q at most {name}'s on **{better}**; median of the ratio "
             f"{median(r[key]['quality']['worst'] / r[peer]['worst'] for r in both):.2g}; above 1e6 on "
             f"{sum(r[key]['quality']['worst'] > 1e6 for r in both)} ({name} {sum(r[peer]['worst'] > 1e6 for r in both)}).")
