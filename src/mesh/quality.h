@@ -32,7 +32,7 @@ struct PlainShape {
 [[nodiscard]] std::optional<PlainShape> plain_shape(const Point& a, const Point& b, const Point& c,
                                                     const Point& d);
 
-/// Counts angles by their cosines, in bins of so many degrees; the last one has all larger angles, too.
+/// In which bin of so many degrees an angle lies, by its cosine; the last bin has all larger angles, too.
 template <std::size_t kBins>
 class CosineBins {
  public:
