@@ -3,75 +3,50 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "mesh/disjoint_sets.h"
 #include "mesh/traverse.h"
 #include "surface/facet_index.h"
 
 namespace holdfast {
 namespace {
 
-// The sets of tetrahedra that no facet separates, by union-find with path halving (Tarjan, van Leeuwen 1984).
-// Neighbours have slots close to each other, so that one sweep over all slots stays in the caches, which a
-// walk from neighbour to neighbour does not.
-class Components {
- public:
-  /// In the end `of_tet` holds a number for each living tetrahedron: 0 outside, where ghosts are, others in
-  /// the order of the first slots.
-  Components(const TetMesh& mesh, std::vector<RegionId>& of_tet) : mesh_(mesh), parent_(of_tet) {
-    parent_.resize(mesh.slot_count());
-    Tet ghost = kNone;
-    for (Tet t = 0; t < mesh.slot_count(); ++t) {
-      parent_[t] = t;
-      if (!mesh.alive(t)) continue;
-      unite_with_lower_neighbours(t);
-      if (!mesh.is_ghost(t)) continue;
-      if (ghost != kNone) unite(t, ghost);
-      ghost = t;
-    }
-    number(ghost == kNone ? kNone : root(ghost));
-  }
-
-  [[nodiscard]] RegionId count() const { return count_; }
-
- private:
-  void unite_with_lower_neighbours(Tet t) {
+// Unites the tetrahedra that no facet separates, and all ghosts. Neighbours have slots close to each other,
+// so that one sweep over all slots stays in the caches, which a walk from neighbour to neighbour does not.
+DisjointSets unite_across_faces(const TetMesh& mesh) {
+  DisjointSets sets(mesh.slot_count());
+  Tet ghost = kNone;
+  for (Tet t = 0; t < mesh.slot_count(); ++t) {
+    if (!mesh.alive(t)) continue;
     for (int i = 0; i < 4; ++i) {
-      const Tet n = tet_of(mesh_.neighbour(t, i));
-      if (n < t && !mesh_.is_facet(face_code(t, i))) unite(t, n);
+      const Tet n = tet_of(mesh.neighbour(t, i));
+      if (n < t && !mesh.is_facet(face_code(t, i))) sets.unite(t, n);
     }
+    if (!mesh.is_ghost(t)) continue;
+    if (ghost != kNone) sets.unite(t, ghost);
+    ghost = t;
   }
+  return sets;
+}
 
-  Tet root(Tet t) {
-    while (parent_[t] != t) {
-      parent_[t] = parent_[parent_[t]];
-      t = parent_[t];
-    }
-    return t;
+// Numbers the regions, by slot: 0 is the outside, where ghosts are, others come in the order of their first
+// slots. Returns how many they are.
+RegionId number_regions(const TetMesh& mesh, std::vector<RegionId>& of_tet) {
+  DisjointSets sets = unite_across_faces(mesh);
+  of_tet.assign(mesh.slot_count(), kNone);
+  for (Tet t = 0; t < mesh.slot_count(); ++t)
+    if (mesh.alive(t) && mesh.is_ghost(t)) of_tet[sets.root(t)] = 0;
+  RegionId count = 1;
+  for (Tet t = 0; t < mesh.slot_count(); ++t) {
+    if (!mesh.alive(t)) continue;
+    // Its root is no higher slot, which has its number.
+    const Tet root = sets.root(t);
+    if (root != t)
+      of_tet[t] = of_tet[root];
+    else if (of_tet[t] == kNone)
+      of_tet[t] = count++;
   }
-
-  // The root of a set is its lowest slot.
-  void unite(Tet a, Tet b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
-  // In place: no parent is a higher slot, and those of lower slots have been replaced.
-  void number(Tet outside) {
-    for (Tet t = 0; t < mesh_.slot_count(); ++t) {
-      const Tet parent = parent_[t];
-      if (!mesh_.alive(t))
-        parent_[t] = kNone;
-      else if (parent != t)
-        parent_[t] = parent_[parent];
-      else
-        parent_[t] = t == outside ? 0 : count_++;
-    }
-  }
-
-  const TetMesh& mesh_;
-  std::vector<RegionId>& parent_;
-  RegionId count_ = 1;
-};
+  return count;
+}
 
 // Whether two triangles with the same corners turn the same way.
 bool same_turn(const Triangle& f, const Triangle& g) {
@@ -176,14 +151,14 @@ bool box_holds(const TetMesh& mesh, Tet t, const double* p) {
 
 Regions find_regions(const TetMesh& mesh, std::span<const Triangle> facets) {
   Regions regions;
-  regions.count = Components(mesh, regions.of_tet).count();
+  regions.count = number_regions(mesh, regions.of_tet);
   find_sides(mesh, facets, regions);
   number_by_least_facet(regions);
   return regions;
 }
 
 void find_regions_again(TetMesh& mesh, std::span<const Triangle> facets, Regions& regions) {
-  std::vector<RegionId> region_of(Components(mesh, regions.of_tet).count(), kNone);
+  std::vector<RegionId> region_of(number_regions(mesh, regions.of_tet), kNone);
   region_of[0] = 0;
   std::vector<bool> done(regions.count, false);
   done[0] = true;

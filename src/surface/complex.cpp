@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mesh/disjoint_sets.h"
+
 namespace holdfast {
 namespace {
 
@@ -37,26 +39,6 @@ std::vector<Side> sorted_sides(const Complex& complex) {
   sort_by(&Side::low, complex.vertices.size(), other, sides);
   return sides;
 }
-
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
-
-  Index root(Index v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  // True if two sets became one.
-  bool unite(Index a, Index b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-    return a != b;
-  }
-
- private:
-  std::vector<Index> parent_;
-};
 
 // Peels facets with a side that no other facet has, until there is none; returns their number.
 std::size_t peel_from_borders(const SegmentTable& table) {
