@@ -68,6 +68,7 @@ void PointCavity::spread(Tet base, const Frame& frame, std::size_t most) {
   const Point& x = mesh_.position(p_);
   for (std::size_t k = 0; k < tets_.size() && tets_.size() <= most; ++k) {
     const Tet t = tets_[k];
+    // The spreading waits for memory more than for the tests.
     for (int i = 0; i < 4; ++i) {
       const Face g = mesh_.neighbour(t, i);
       mesh_.prefetch(tet_of(g));
