@@ -39,9 +39,10 @@ constexpr Effort effort_of(Quality quality) {
 
 class Improver {
  public:
-  Improver(const VolumeData& volume, Quality quality, std::span<const std::uint8_t> spared, Monitor& monitor)
+  Improver(const VolumeData& volume, Quality quality, std::span<const std::uint8_t> spared,
+           std::span<const std::uint8_t> fresh, Monitor& monitor)
       : mesh_(volume.mesh),
-        volume_(volume),
+        volume_(volume, fresh),
         effort_(effort_of(quality)),
         spared_(spared),
         monitor_(monitor),
@@ -237,8 +238,8 @@ class Improver {
 }  // namespace
 
 ImproveStats improve(const VolumeData& volume, Quality quality, Monitor& monitor,
-                     std::span<const std::uint8_t> spared) {
-  return Improver(volume, quality, spared, monitor).run();
+                     std::span<const std::uint8_t> spared, std::span<const std::uint8_t> fresh) {
+  return Improver(volume, quality, spared, fresh, monitor).run();
 }
 
 }  // namespace holdfast

@@ -29,8 +29,10 @@ struct ImproveStats {
 
 /// Improves the tetrahedra of the kept regions; all their vertices are explicit. Facets, segments and the
 /// vertices below the first free one stand. Regions, sizes and metrics are kept up to date. Tetrahedra at
-/// vertices that `spared` marks, by vertex, are left alone unless they are in the way of others.
+/// vertices that `spared` marks, by vertex, are left alone unless they are in the way of others. Passes begin
+/// with those at vertices that `fresh` marks, or that are higher than it tells of, and go on where something
+/// changed.
 ImproveStats improve(const VolumeData& volume, Quality quality, Monitor& monitor,
-                     std::span<const std::uint8_t> spared = {});
+                     std::span<const std::uint8_t> spared = {}, std::span<const std::uint8_t> fresh = {});
 
 }  // namespace holdfast

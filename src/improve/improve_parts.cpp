@@ -11,7 +11,7 @@ ImproveStats improve_each(Parts& parts, Quality quality, std::array<double, 2> w
   std::vector<ImproveStats> stats(parts.parts().size());
   parallel_monitored(threads, stats.size(), monitor, work, [&](std::size_t k, Monitor& own) {
     Part& part = parts.parts()[k];
-    stats[k] = improve(part.data(parts.whole().kept), quality, own, part.on_cut());
+    stats[k] = improve(part.data(parts.whole().kept), quality, own, part.on_cut(), part.was_on_cut());
   });
   ImproveStats sum;
   for (const ImproveStats& own : stats) sum += own;

@@ -2,6 +2,32 @@
 
 namespace holdfast {
 
+ImprovedVolume::ImprovedVolume(const VolumeData& data, std::span<const std::uint8_t> fresh)
+    : data_(data), mesh_(data.mesh), region_of_(data.region_of) {
+  energy_.assign(mesh_.slot_count(), 0);
+  Tet first = kNone;  // of two
+  for (Tet t = 0; t < mesh_.slot_count(); ++t) {
+    if (!is_inside(t)) continue;
+    if (first == kNone) {
+      first = t;
+      continue;
+    }
+    const Pair both = energies_of(mesh_.corners(first), mesh_.corners(t));
+    energy_[std::exchange(first, kNone)] = both[0];
+    energy_[t] = both[1];
+  }
+  if (first != kNone) energy_[first] = energy_of(mesh_.corners(first));
+  touched_.assign(fresh.begin(), fresh.end());
+  touched_.resize(mesh_.vertex_count(), 1);
+  changed_.assign(mesh_.slot_count(), fresh.empty() ? 1 : 0);
+  if (fresh.empty()) return;
+  for (Tet t = 0; t < mesh_.slot_count(); ++t) {
+    const TetMesh::Corners& c = mesh_.corners(t);
+    if (is_inside(t) && std::any_of(c.begin(), c.end(), [&](Vertex v) { return touched_[v] != 0; }))
+      changed_[t] = 1;
+  }
+}
+
 double ImprovedVolume::energy_in_frame(const TetMesh::Corners& c) const {
   return data_.see(c, [](const Point& p, const Point& q, const Point& r, const Point& s) {
     return holdfast::energy(p, q, r, s);

@@ -13,15 +13,9 @@ namespace holdfast {
 
 class ImprovedVolume {
  public:
-  /// Free vertices may move and go. All vertices of kept tetrahedra are explicit.
-  explicit ImprovedVolume(const VolumeData& data)
-      : data_(data), mesh_(data.mesh), region_of_(data.region_of) {
-    energy_.assign(mesh_.slot_count(), 0);
-    changed_.assign(mesh_.slot_count(), 1);
-    touched_.assign(mesh_.vertex_count(), 1);
-    for (Tet t = 0; t < mesh_.slot_count(); ++t)
-      if (is_inside(t)) energy_[t] = energy_of(mesh_.corners(t));
-  }
+  /// Free vertices may move and go. All vertices of kept tetrahedra are explicit. What is at vertices that
+  /// `fresh` marks, or that are higher than it tells of, counts as changed.
+  explicit ImprovedVolume(const VolumeData& data, std::span<const std::uint8_t> fresh = {});
 
   [[nodiscard]] TetMesh& mesh() { return mesh_; }
   [[nodiscard]] const TetMesh& mesh() const { return mesh_; }

@@ -11,12 +11,12 @@ namespace {
 
 constexpr double kMostAtCuts = 0.25;
 
-Cuts even_cuts(const TetMesh& mesh, const std::vector<Tet>& tets) {
+Cuts cuts_of(const TetMesh& mesh, const std::vector<Tet>& tets, double least_share = 0.5) {
   constexpr std::size_t kSamples = 1u << 13;
   std::vector<Cuts::Sample> samples;
   for (std::size_t k = 0; k < tets.size(); k += 1 + tets.size() / kSamples)
     samples.push_back({centroid(mesh, tets[k]), 1});
-  return {std::move(samples), levels_for(static_cast<double>(tets.size()))};
+  return {std::move(samples), levels_for(static_cast<double>(tets.size())), least_share};
 }
 
 // The tetrahedra at these vertices and one ring more: cavities need room to grow.
@@ -64,22 +64,29 @@ std::unique_ptr<Parts> cut_evenly(const VolumeData& volume, unsigned threads) {
   std::vector<Tet> tets;
   for (Tet t = 0; t < volume.mesh.slot_count(); ++t)
     if (volume.is_inside(t)) tets.push_back(t);
-  const Cuts cuts = even_cuts(volume.mesh, tets);
+  const Cuts cuts = cuts_of(volume.mesh, tets);
   if (cuts.part_count() == 1) return {};
   return cut_into_parts(volume, tets, cuts, kMostAtCuts, threads);
 }
 
 std::unique_ptr<Parts> join_and_cut_again(Parts& parts, unsigned threads) {
   constexpr double kMostLeft = 0.5;  // of what was cut before: so there is an end
+  // What is left lies along the planes that cut it before: where they halve it, so do these planes again, and
+  // all that lies along one would be left once more.
+  constexpr double kLeastShare = 0.25;
   const auto before = static_cast<double>(parts.tet_count());
   parts.join(threads);
   const VolumeData& volume = parts.whole();
-  const std::vector<Tet> tets = rings_round(volume, parts.vertices_between());
+  const std::vector<Vertex> between = parts.vertices_between();
+  const std::vector<Tet> tets = rings_round(volume, between);
   if (tets.empty()) return {};
+  std::unique_ptr<Parts> again;
   if (static_cast<double>(tets.size()) < kMostLeft * before)
-    if (const Cuts cuts = even_cuts(volume.mesh, tets); cuts.part_count() > 1)
-      if (auto again = cut_into_parts(volume, tets, cuts, kMostAtCuts, threads)) return again;
-  return cut_into_parts(volume, tets, Cuts({}, 0), 1, threads);
+    if (const Cuts cuts = cuts_of(volume.mesh, tets, kLeastShare); cuts.part_count() > 1)
+      again = cut_into_parts(volume, tets, cuts, kMostAtCuts, threads);
+  if (!again) again = cut_into_parts(volume, tets, Cuts({}, 0), 1, threads);
+  again->set_cut_before(between, threads);
+  return again;
 }
 
 }  // namespace holdfast

@@ -7,26 +7,40 @@
 namespace holdfast {
 namespace {
 
-// Along one axis: the samples in their order, where half of the weight is on each side, and the weight there.
-struct Halves {
+// The samples along one axis, and a plane across it, which has `below` of them on its lower side and samples
+// of the weight `close` near it.
+struct Split {
   std::vector<Cuts::Sample> samples;
   Cuts::Plane plane{0, 0};
   std::size_t below = 0;
-  double close = 0;
+  double close = std::numeric_limits<double>::infinity();
 };
 
-Halves halves(std::span<const Cuts::Sample> samples, std::size_t axis, double margin) {
-  Halves half{{samples.begin(), samples.end()}, {axis, 0}};
-  std::sort(half.samples.begin(), half.samples.end(),
+// Of the planes that leave one of these shares of the weight on their lower side, the one with the least near
+// it.
+Split split_across(std::size_t axis, std::span<const Cuts::Sample> samples, std::span<const double> shares,
+                   double margin) {
+  Split best{{samples.begin(), samples.end()}, {axis, 0}};
+  std::sort(best.samples.begin(), best.samples.end(),
             [&](const Cuts::Sample& x, const Cuts::Sample& y) { return x.at[axis] < y.at[axis]; });
-  double total = 0, sum = 0;
-  for (const Cuts::Sample& s : half.samples) total += s.weight;
-  while (half.below < samples.size() && sum + half.samples[half.below].weight <= 0.5 * total)
-    sum += half.samples[half.below++].weight;
-  if (half.below < samples.size()) half.plane.at = half.samples[half.below].at[axis];
-  for (const Cuts::Sample& s : half.samples)
-    if (std::abs(s.at[axis] - half.plane.at) <= margin) half.close += s.weight;
-  return half;
+  std::vector<double> sums{0};  // of the weights before a sample
+  for (const Cuts::Sample& s : best.samples) sums.push_back(sums.back() + s.weight);
+  const auto weight_below = [&](double at) {
+    const auto end = std::partition_point(best.samples.begin(), best.samples.end(),
+                                          [&](const Cuts::Sample& s) { return s.at[axis] < at; });
+    return sums[static_cast<std::size_t>(end - best.samples.begin())];
+  };
+  for (const double share : shares) {
+    const auto end = std::upper_bound(sums.begin() + 1, sums.end(), share * sums.back());
+    const auto below = static_cast<std::size_t>(end - sums.begin() - 1);
+    const double at = below < samples.size() ? best.samples[below].at[axis] : 0;
+    const double close = weight_below(at + margin) - weight_below(at - margin);
+    if (close >= best.close) continue;
+    best.plane.at = at;
+    best.below = below;
+    best.close = close;
+  }
+  return best;
 }
 
 double longest_extent(std::span<const Cuts::Sample> samples) {
@@ -44,21 +58,28 @@ double longest_extent(std::span<const Cuts::Sample> samples) {
 
 }  // namespace
 
-Cuts::Cuts(std::vector<Sample> samples, int levels) : planes_((std::size_t{1} << levels) - 1) {
-  if (!planes_.empty()) cut(samples, 0);
+Cuts::Cuts(std::vector<Sample> samples, int levels, double least_share)
+    : planes_((std::size_t{1} << levels) - 1) {
+  if (planes_.empty()) return;
+  std::vector<double> shares{0.5};
+  constexpr double kStep = 0.05;
+  for (double share = 0.5 - kStep; share > least_share - kStep / 2; share -= kStep)
+    shares.insert(shares.end(), {share, 1 - share});
+  cut(samples, 0, shares);
 }
 
-void Cuts::cut(std::span<Sample> samples, std::size_t node) {
+void Cuts::cut(std::span<Sample> samples, std::size_t node, std::span<const double> shares) {
   constexpr double kClose = 0.02;  // of the longest extent
   const double margin = kClose * longest_extent(samples);
-  Halves best = halves(samples, 0, margin);
+  Split best = split_across(0, samples, shares, margin);
   for (std::size_t axis = 1; axis < 3; ++axis)
-    if (Halves half = halves(samples, axis, margin); half.close < best.close) best = std::move(half);
+    if (Split split = split_across(axis, samples, shares, margin); split.close < best.close)
+      best = std::move(split);
   planes_[node] = best.plane;
   if (2 * node + 2 >= planes_.size()) return;
   std::copy(best.samples.begin(), best.samples.end(), samples.begin());
-  cut(samples.first(best.below), 2 * node + 1);
-  cut(samples.subspan(best.below), 2 * node + 2);
+  cut(samples.first(best.below), 2 * node + 1, shares);
+  cut(samples.subspan(best.below), 2 * node + 2, shares);
 }
 
 std::uint32_t Cuts::part_of(const Point& p) const {

@@ -21,9 +21,9 @@ class Cuts {
     double at;
   };
 
-  /// 2^levels parts. Of the three planes that leave half of the work on each side, the one is taken that has
-  /// the least close to it.
-  Cuts(std::vector<Sample> samples, int levels);
+  /// 2^levels parts. Of the planes across the three axes that leave half of the work on each side, or at
+  /// least a given share, the one is taken that has the least close to it.
+  Cuts(std::vector<Sample> samples, int levels, double least_share = 0.5);
 
   [[nodiscard]] std::size_t part_count() const { return planes_.size() + 1; }
   /// The part that holds a point.
@@ -41,7 +41,7 @@ class Cuts {
   }
 
  private:
-  void cut(std::span<Sample> samples, std::size_t node);
+  void cut(std::span<Sample> samples, std::size_t node, std::span<const double> shares);
 
   std::vector<Plane> planes_;  // a binary tree: below the k-th one are those at 2 k + 1 and 2 k + 2
 };

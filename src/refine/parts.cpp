@@ -354,6 +354,14 @@ Parts::Parts(const VolumeData& whole, const std::vector<std::uint32_t>& part_of,
   });
 }
 
+void Parts::set_cut_before(const std::vector<Vertex>& vertices, unsigned threads) {
+  std::vector<std::uint8_t> is_among(whole_.mesh.vertex_count(), 0);
+  for (const Vertex v : vertices) is_among[v] = 1;
+  parallel(threads, parts_.size(), [&](std::size_t k) {
+    for (const Vertex v : parts_[k].vertices_) parts_[k].was_on_cut_.push_back(is_among[v]);
+  });
+}
+
 double Parts::share_at_cuts(unsigned threads) const {
   std::vector<std::size_t> at(parts_.size());
   parallel(threads, parts_.size(), [&](std::size_t k) { at[k] = parts_[k].count_at_cuts(); });

@@ -36,6 +36,9 @@ class Part {
   }
   /// By vertex: whether it is on an interface with another part. Higher ones are not.
   [[nodiscard]] std::span<const std::uint8_t> on_cut() const { return on_cut_; }
+  /// By vertex: whether it was on an interface when the whole was cut before. Higher ones are new. Empty if
+  /// the whole was not.
+  [[nodiscard]] std::span<const std::uint8_t> was_on_cut() const { return was_on_cut_; }
   /// Numbers tetrahedra, and vertices that are not the whole's, along a Morton curve.
   void order_along_curve();
 
@@ -63,7 +66,8 @@ class Part {
   std::vector<Vertex> vertices_;  // of the whole, by vertex
   std::vector<Bound> bounds_;     // by ghost
   Tet first_ghost_ = 0;
-  std::vector<std::uint8_t> on_cut_;  // by vertex below first_free
+  std::vector<std::uint8_t> on_cut_;      // by vertex below first_free
+  std::vector<std::uint8_t> was_on_cut_;  // by vertex of the whole
 };
 
 class Parts {
@@ -76,6 +80,8 @@ class Parts {
   [[nodiscard]] const VolumeData& whole() const { return whole_; }
   [[nodiscard]] std::vector<Part>& parts() { return parts_; }
   [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
+  /// Takes note of the vertices that were on interfaces between other parts before, in ascending order.
+  void set_cut_before(const std::vector<Vertex>& vertices, unsigned threads);
   /// The share of tetrahedra with a vertex on an interface between two parts: small, unless there are
   /// vertices at which much of the mesh is.
   [[nodiscard]] double share_at_cuts(unsigned threads) const;

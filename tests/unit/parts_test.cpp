@@ -147,9 +147,40 @@ TEST(Cuts, GoThroughTheWaist) {
   EXPECT_NE(cuts.part_of({0.1, 0.5, 0.5}), cuts.part_of({0.9, 0.5, 0.5}));
 }
 
+// As what is left round a plane that has cut a cube in halves: the plane that halves it is the same.
+TEST(Cuts, AwayFromTheMiddleLeaveAloneWhatLiesAlongIt) {
+  std::mt19937_64 random(4);
+  std::vector<Cuts::Sample> samples;
+  while (samples.size() < 4000) {
+    const Point p = random_point(random);
+    const double x = std::abs(p[0] - 0.5), y = std::abs(p[1] - 0.5), z = std::abs(p[2] - 0.5);
+    if (std::min({x, y, z}) < 0.02) samples.push_back({p, 1});
+  }
+  const auto share_close = [&](double least_share) {
+    const Cuts cuts(samples, 1, least_share);
+    std::array<std::size_t, 2> below{}, close{};  // by part
+    for (const Cuts::Sample& s : samples) {
+      const std::uint32_t part = cuts.part_of(s.at);
+      bool is_close = false;
+      for (std::size_t k = 0; k < 3; ++k)
+        for (const double step : {-0.02, 0.02}) {
+          Point moved = s.at;
+          moved[k] += step;
+          is_close = is_close || cuts.part_of(moved) != part;
+        }
+      ++below[part];
+      close[part] += is_close ? 1 : 0;
+    }
+    EXPECT_GE(static_cast<double>(std::min(below[0], below[1])), 0.99 * least_share * 4000);
+    return static_cast<double>(close[0] + close[1]) / 4000;
+  };
+  EXPECT_GT(share_close(0.5), 0.3);
+  EXPECT_LT(share_close(0.25), 0.15);
+}
+
 TEST(Cuts, OfNothingOrOfOnePlaceAreNoTrouble) {
   EXPECT_EQ(Cuts({}, 0).part_count(), 1u);
-  EXPECT_EQ(Cuts({}, 2).part_count(), 4u);
+  EXPECT_EQ(Cuts({}, 2, 0.25).part_count(), 4u);
   const Cuts one(std::vector<Cuts::Sample>(10, {{1, 2, 3}, 1}), 2);
   EXPECT_LT(one.part_of({1, 2, 3}), 4u);
 }
