@@ -18,6 +18,8 @@ class Extractor {
   void take_tetrahedra(IdOf id_of) {
     const TetMesh& mesh = source_.mesh;
     Volume& volume = extract_.volume;
+    volume.tetrahedra.reserve(mesh.tet_count());
+    volume.regions.reserve(mesh.tet_count());
     for (Tet t = 0; t < mesh.slot_count(); ++t) {
       if (!mesh.alive(t) || mesh.is_ghost(t)) continue;
       const std::optional<int> id = id_of(t);

@@ -59,15 +59,17 @@ class Marker {
   // Tetrahedra that several threads look at share it.
   static void stands(std::uint8_t& flag) { std::atomic_ref(flag).store(1, std::memory_order_relaxed); }
 
-  // The facet with these sides, looked for at the side of fewest facets: some have thousands.
+  // The facet with these sides, looked for at the side of fewest facets: some have thousands. Two sides tell
+  // a facet from others.
   [[nodiscard]] Index facet_between(std::array<Index, 3> sides) const {
     if (std::find(sides.begin(), sides.end(), no_index) != sides.end()) return no_index;
-    std::sort(sides.begin(), sides.end(), [this](Index s, Index r) {
-      return std::pair(table_.facets_of(s).size(), s) < std::pair(table_.facets_of(r).size(), r);
-    });
-    for (const Index f : table_.facets_of(sides[0])) {
+    const auto count = [&](std::size_t k) { return table_.facets_of(sides[k]).size(); };
+    std::size_t least = count(1) < count(0) ? 1 : 0;
+    if (count(2) < count(least)) least = 2;
+    const Index other = sides[(least + 1) % 3];
+    for (const Index f : table_.facets_of(sides[least])) {
       const auto& of_facet = table_.facet_segments[f];
-      if (std::is_permutation(sides.begin(), sides.end(), of_facet.begin())) return f;
+      if (of_facet[0] == other || of_facet[1] == other || of_facet[2] == other) return f;
     }
     return no_index;
   }
