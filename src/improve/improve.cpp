@@ -30,7 +30,7 @@ constexpr Effort effort_of(Quality quality) {
     case Quality::fast:
       return {1, 0.35, 0.50, 0.26, 0.24, 1, 0.2};
     case Quality::good:
-      return {1, 0.45, 0.60, 0.36, 0.24, 1, 8};
+      return {1, 0.45, 0.50, 0.36, 0.24, 1, 8};
     case Quality::best:
       break;
   }
