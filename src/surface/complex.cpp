@@ -3,42 +3,64 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 #include "mesh/disjoint_sets.h"
 
 namespace holdfast {
 namespace {
 
-// A side of a facet (origin = 3 * facet + corner) or a segment (origin = 3 * facets + segment).
+constexpr Index kOwn = 3;
+
+// A side of a facet, opposite a corner, or one of the complex's own segments, at its lesser end.
 struct Side {
-  Index low, high;
-  std::size_t origin;
+  Index high, item, corner;  // `corner` is kOwn for a segment
+
+  friend bool operator<(const Side& x, const Side& y) {
+    return std::tuple(x.high, x.corner == kOwn, x.item, x.corner) <
+           std::tuple(y.high, y.corner == kOwn, y.item, y.corner);
+  }
 };
 
-// Stable counting sort by one of the two ends, O(sides + vertices).
-void sort_by(Index Side::*end, std::size_t vertices, const std::vector<Side>& from, std::vector<Side>& to) {
-  std::vector<std::size_t> first(vertices + 1, 0);
-  for (const Side& side : from) ++first[side.*end + std::size_t{1}];
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  for (const Side& side : from) to[first[side.*end]++] = side;
+// Calls act(lesser end, side).
+template <typename Act>
+void for_each_side(const Complex& complex, Act&& act) {
+  const auto tell = [&](Index a, Index b, Index item, Index corner) {
+    act(std::min(a, b), Side{std::max(a, b), item, corner});
+  };
+  for (Index f = 0; f < complex.facets.size(); ++f) {
+    const Triangle& t = complex.facets[f];
+    for (Index i = 0; i < 3; ++i) tell(t[(i + 1) % 3], t[(i + 2) % 3], f, i);
+  }
+  for (Index s = 0; s < complex.segments.size(); ++s)
+    tell(complex.segments[s][0], complex.segments[s][1], s, kOwn);
 }
 
-// All sides and segments in lexicographic order; equal ones in the order of their origins.
-std::vector<Side> sorted_sides(const Complex& complex) {
+// All of them by their lesser ends: those of v are sides[first[v]] .. sides[first[v + 1] - 1], in ascending
+// order. Few are at one vertex, so that the caches hold what is sorted.
+struct SortedSides {
+  std::vector<std::size_t> first;
   std::vector<Side> sides;
-  sides.reserve(3 * complex.facets.size() + complex.segments.size());
-  const auto add = [&sides](Index a, Index b) {
-    sides.push_back({std::min(a, b), std::max(a, b), sides.size()});
-  };
-  for (const Triangle& t : complex.facets) {
-    for (unsigned i = 0; i < 3; ++i) add(t[(i + 1) % 3], t[(i + 2) % 3]);
+
+  explicit SortedSides(const Complex& complex)
+      : first(complex.vertices.size() + 1, 0), sides(3 * complex.facets.size() + complex.segments.size()) {
+    for_each_side(complex, [&](Index low, const Side&) { ++first[low]; });
+    std::inclusive_scan(first.begin(), first.end(), first.begin());
+    for_each_side(complex, [&](Index low, const Side& side) { sides[--first[low]] = side; });
+    for (std::size_t v = 0; v < complex.vertices.size(); ++v) {
+      const auto at = [&](std::size_t k) { return sides.begin() + static_cast<std::ptrdiff_t>(first[k]); };
+      std::sort(at(v), at(v + 1));
+    }
   }
-  for (const Segment& s : complex.segments) add(s[0], s[1]);
-  std::vector<Side> other(sides.size());
-  sort_by(&Side::high, complex.vertices.size(), sides, other);
-  sort_by(&Side::low, complex.vertices.size(), other, sides);
-  return sides;
-}
+  /// Different pairs of ends.
+  [[nodiscard]] std::size_t segment_count() const {
+    std::size_t count = 0;
+    for (std::size_t v = 0; v + 1 < first.size(); ++v)
+      for (std::size_t k = first[v]; k < first[v + 1]; ++k)
+        count += k == first[v] || sides[k].high != sides[k - 1].high ? 1 : 0;
+    return count;
+  }
+};
 
 // Peels facets with a side that no other facet has, until there is none; returns their number.
 std::size_t peel_from_borders(const SegmentTable& table) {
@@ -89,29 +111,34 @@ bool has_indices_in_range(const Complex& complex) {
 }
 
 SegmentTable segment_table(const Complex& complex) {
-  const std::vector<Side> sides = sorted_sides(complex);
-  const std::size_t facet_sides = 3 * complex.facets.size();
+  const SortedSides sorted(complex);
+  const std::size_t count = sorted.segment_count();
   SegmentTable table;
+  table.segments.reserve(count);
+  table.first_facet.reserve(count + 1);
+  table.input_segment.reserve(count);
+  table.first_of_vertex.reserve(sorted.first.size());
+  table.facets.reserve(3 * complex.facets.size());
   table.facet_segments.resize(complex.facets.size());
-  table.facets.reserve(facet_sides);
-  for (const Side& side : sides) {
-    const Segment ends{side.low, side.high};
-    if (table.segments.empty() || table.segments.back() != ends) {
-      table.first_of_vertex.resize(side.low + std::size_t{1}, static_cast<Index>(table.segments.size()));
-      table.segments.push_back(ends);
-      table.first_facet.push_back(static_cast<Index>(table.facets.size()));
-      table.input_segment.push_back(no_index);
-    }
-    if (side.origin < facet_sides) {
-      const auto facet = static_cast<Index>(side.origin / 3);
-      table.facets.push_back(facet);
-      table.facet_segments[facet][side.origin % 3] = static_cast<Index>(table.segments.size() - 1);
-    } else if (table.input_segment.back() == no_index) {
-      table.input_segment.back() = static_cast<Index>(side.origin - facet_sides);
+  for (Index low = 0; low < complex.vertices.size(); ++low) {
+    table.first_of_vertex.push_back(static_cast<Index>(table.segments.size()));
+    for (std::size_t k = sorted.first[low]; k < sorted.first[low + std::size_t{1}]; ++k) {
+      const Side& side = sorted.sides[k];
+      if (k == sorted.first[low] || side.high != sorted.sides[k - 1].high) {
+        table.segments.push_back({low, side.high});
+        table.first_facet.push_back(static_cast<Index>(table.facets.size()));
+        table.input_segment.push_back(no_index);
+      }
+      if (side.corner != kOwn) {
+        table.facets.push_back(side.item);
+        table.facet_segments[side.item][side.corner] = static_cast<Index>(table.segments.size() - 1);
+      } else if (table.input_segment.back() == no_index) {
+        table.input_segment.back() = side.item;
+      }
     }
   }
+  table.first_of_vertex.push_back(static_cast<Index>(table.segments.size()));
   table.first_facet.push_back(static_cast<Index>(table.facets.size()));
-  table.first_of_vertex.resize(complex.vertices.size() + 1, static_cast<Index>(table.segments.size()));
   return table;
 }
 

@@ -44,7 +44,7 @@ struct SegmentTable {
 /// Whether every facet and segment names vertices that there are.
 [[nodiscard]] bool has_indices_in_range(const Complex& complex);
 
-/// Builds the table in O(vertices + facets + segments).
+/// Builds the table in O(vertices + facets + segments), but for sorting the segments at each vertex.
 ///
 /// Every index must be in range. Facets and segments that name a vertex twice give segments with
 /// equal ends (callers refuse those before: see surface/diagnose.h).
