@@ -63,8 +63,8 @@ Cuts::Cuts(std::vector<Sample> samples, int levels, double least_share)
   if (planes_.empty()) return;
   std::vector<double> shares{0.5};
   constexpr double kStep = 0.05;
-  for (double share = 0.5 - kStep; share > least_share - kStep / 2; share -= kStep)
-    shares.insert(shares.end(), {share, 1 - share});
+  for (int k = 1; 0.5 - k * kStep > least_share - kStep / 2; ++k)
+    shares.insert(shares.end(), {0.5 - k * kStep, 0.5 + k * kStep});
   cut(samples, 0, shares);
 }
 
