@@ -8,11 +8,13 @@
 #include <map>
 #include <memory>
 #include <random>
+#include <set>
 #include <stdexcept>
 
 #include "delaunay/delaunay.h"
 #include "improve/energy.h"
 #include "improve/improve_parts.h"
+#include "improve/volume.h"
 #include "mesh/measure.h"
 #include "mesh/traverse.h"
 #include "mesh/validate.h"
@@ -293,6 +295,45 @@ TEST(Parts, WhatIsLeftAtCutsComesToAnEnd) {
     parts = join_and_cut_again(*parts, 1);
   }
   EXPECT_EQ(find_fault(mesh), "");
+}
+
+TEST(Parts, KnowWhichVerticesWereOnCutsBefore) {
+  Cube cube(14000, false);
+  std::unique_ptr<Parts> parts = cut_evenly(cube.data(), 2);
+  ASSERT_TRUE(parts);
+  for (const Part& part : parts->parts()) EXPECT_TRUE(part.was_on_cut().empty());
+  const std::vector<Vertex> between = parts->vertices_between();
+  std::set<Point> places;
+  for (const Vertex v : between) places.insert(cube.mesh.position(v));
+  parts = join_and_cut_again(*parts, 2);
+  ASSERT_TRUE(parts);
+  std::set<Point> told;
+  for (const Part& part : parts->parts()) {
+    ASSERT_EQ(part.was_on_cut().size(), part.mesh.vertex_count());
+    for (Vertex v = 0; v < part.mesh.vertex_count(); ++v)
+      if (part.was_on_cut()[v] != 0) told.insert(part.mesh.position(v));
+  }
+  EXPECT_EQ(told, places);
+  EXPECT_LT(told.size(), parts->parts().front().mesh.vertex_count());
+}
+
+TEST(ImprovedVolume, CountsAsChangedWhatIsAtFreshVertices) {
+  Cube cube(2000, false);
+  std::vector<std::uint8_t> fresh(cube.mesh.vertex_count(), 0);
+  fresh[100] = 1;
+  fresh.pop_back();  // the last vertex is higher than it tells of
+  ImprovedVolume volume(cube.data(), fresh);
+  ImprovedVolume all(cube.data());
+  const auto last = static_cast<Vertex>(fresh.size());
+  for (Tet t = 0; t < cube.mesh.slot_count(); ++t) {
+    if (!cube.data().is_inside(t)) continue;
+    EXPECT_EQ(volume.energy(t), volume.energy_of(cube.mesh.corners(t)));
+    EXPECT_TRUE(all.take_changed(t));
+    const bool is_at_one = cube.mesh.index_of(t, 100) >= 0 || cube.mesh.index_of(t, last) >= 0;
+    EXPECT_EQ(volume.take_changed(t), is_at_one);
+    EXPECT_FALSE(volume.take_changed(t));
+  }
+  for (Vertex v = 0; v <= last; ++v) EXPECT_EQ(volume.take_touched(v), v == 100 || v == last);
 }
 
 TEST(SectionPoints, MakeTheCirclesSmallInWhichSpheresMeetTheCuts) {
