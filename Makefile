@@ -70,9 +70,9 @@ asan: setup  ## the tests under the address and undefined behaviour sanitizers
 tsan: setup  ## what runs on several threads, under the thread sanitizer
 	@cmake --preset tsan
 	@cmake --build build/tsan -j $(JOBS) --target delaunay_threads_test delaunay_test surface_threads_test \
-	  parts_test field_threads_test
+	  parts_test field_threads_test parallel_test
 	@HOLDFAST_CORPUS=none ctest --preset tsan -j $(JOBS) \
-	  -R '^(Delaunay|DelaunayThreads|SurfaceThreads|Parts|TasksInParts|ImproveInParts|FieldThreads(Stop|Monitor))\.|FieldThreads.*/sphere'
+	  -R '^(Threads|Parallel|Delaunay|DelaunayThreads|SurfaceThreads|Parts|TasksInParts|ImproveInParts|FieldThreads(Stop|Monitor))\.|FieldThreads.*/sphere'
 
 install: build  ## library, headers and program to PREFIX (default /usr/local)
 	@cmake --build $(RELEASE) -j $(JOBS) --target holdfast holdfast_cli

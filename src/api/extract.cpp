@@ -31,15 +31,17 @@ class Extractor {
   }
 
   /// Numbers the vertices in use and writes positions.
-  void take_vertices() {
+  void take_vertices(const Threads& threads) {
     const std::span<const Point> input = source_.complex.vertices;
     Volume& volume = extract_.volume;
     volume.vertices.assign(input.begin(), input.end());
     for (Vertex v = 0; v < input.size(); ++v) new_index_[v] = v;
     for (auto v = static_cast<Vertex>(input.size()); v < new_index_.size(); ++v)
       if (new_index_[v] != kNone) add_vertex(v);
-    for (Tetrahedron& t : volume.tetrahedra)
-      for (Index& v : t) v = new_index_[v];
+    parallel_ranges(threads, volume.tetrahedra.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k)
+        for (Index& v : volume.tetrahedra[k]) v = new_index_[v];
+    });
   }
 
   template <typename Stays>
@@ -99,13 +101,13 @@ class Extractor {
 
 }  // namespace
 
-Extract extract_kept(const Source& source, const Regions& regions, const Kept& kept) {
+Extract extract_kept(const Source& source, const Regions& regions, const Kept& kept, const Threads& threads) {
   Extractor extractor(source);
   extractor.take_tetrahedra([&](Tet t) -> std::optional<int> {
     const RegionId r = regions.of_tet[t];
     return kept.region[r] ? std::optional(kept.id[r]) : std::nullopt;
   });
-  extractor.take_vertices();
+  extractor.take_vertices(threads);
   extractor.take_facets([&](Index f) { return kept.facet(regions, f); });
   extractor.take_facet_regions(regions, kept);
   extractor.take_segments([&](Index s) { return kept.segment[s]; });
@@ -115,7 +117,7 @@ Extract extract_kept(const Source& source, const Regions& regions, const Kept& k
 Extract extract_all(const Source& source, const Standing& standing) {
   Extractor extractor(source);
   extractor.take_tetrahedra([](Tet) { return std::optional(0); });
-  extractor.take_vertices();
+  extractor.take_vertices(1);
   const auto stands = [](const std::vector<std::uint8_t>& flags) {
     return [&flags](Index i) { return i < flags.size() && flags[i] != 0; };
   };

@@ -6,6 +6,7 @@
 
 #include "classify/keep.h"
 #include "holdfast/holdfast.h"
+#include "mesh/parallel.h"
 #include "mesh/tet_mesh.h"
 #include "recover/standing.h"
 #include "surface/complex.h"
@@ -32,7 +33,8 @@ struct Source {
 
 /// The tetrahedra of the kept regions, with the facets and segments that border on them. Vertices are the
 /// complex's, bit for bit, then every other vertex in use in ascending order.
-[[nodiscard]] Extract extract_kept(const Source& source, const Regions& regions, const Kept& kept);
+[[nodiscard]] Extract extract_kept(const Source& source, const Regions& regions, const Kept& kept,
+                                   const Threads& threads);
 
 /// Every tetrahedron of the box as region 0, and the facets and segments that stand: what there is before
 /// classification, for `stop_after`.

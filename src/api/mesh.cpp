@@ -71,7 +71,11 @@ void require_sensible(const Complex& complex, const Options& options) {
 class Pipeline {
  public:
   Pipeline(const Complex& complex, const Options& options)
-      : complex_(complex), options_(options), monitor_(options), seed_(options.seed) {}
+      : complex_(complex),
+        options_(options),
+        threads_(options.threads),
+        monitor_(options),
+        seed_(options.seed) {}
 
   Result run() {
     {
@@ -184,11 +188,11 @@ class Pipeline {
   // Neither list asks for the other. That of segments needs indices in range.
   Report::Input list_elements_and_segments() {
     constexpr std::size_t kWorthThreads = 10'000;
-    const unsigned shared = complex_.facets.size() < kWorthThreads ? 1 : threads();
+    const Threads shared = threads_.at_most(complex_.facets.size() < kWorthThreads ? 1 : threads_.count());
     Report::Input input;
     parallel(shared, 2, [&](std::size_t task) {
       if (task == 0) {
-        elements_ = elements_of(complex_, std::max(1u, shared / 2));
+        elements_ = elements_of(complex_, shared.at_most(shared.count() / 2));
       } else if (has_indices_in_range(complex_)) {
         table_ = segment_table(complex_);
         input = describe_input(complex_, &table_);
@@ -206,7 +210,7 @@ class Pipeline {
       if (e.corners == 3) return standing_.facets[e.id];
       return e.corners == 1 ? std::uint8_t{1} : standing_.segments[table_.find(e.vertex[0], e.vertex[1])];
     });
-    if (!all_fit(complex_, elements_, stands, poll_validation(), threads())) {
+    if (!all_fit(complex_, elements_, stands, poll_validation(), threads_)) {
       refuse_if_any_defect();
       if (result_.outcome == Outcome::done) throw std::logic_error("holdfast: a misfit without a defect");
     }
@@ -215,7 +219,7 @@ class Pipeline {
 
   void refuse_if_any_defect() {
     std::vector<Defect> defects =
-        find_defects(complex_, elements_, kMostDefects, poll_validation(), threads());
+        find_defects(complex_, elements_, kMostDefects, poll_validation(), threads_);
     if (!defects.empty()) refuse(std::move(defects));
   }
   [[nodiscard]] std::function<void(double)> poll_validation() {
@@ -230,9 +234,9 @@ class Pipeline {
     const double margin = options_.keep == Keep::box ? options_.box_margin : kHiddenMargin;
     for (const Point& corner : box_corners(mesh_.positions(), margin)) mesh_.add_vertex(corner);
     first_free_ = static_cast<Vertex>(mesh_.vertex_count());
-    if (!build_delaunay(mesh_, {seed_, options_.threads}, &monitor_))
+    if (!build_delaunay(mesh_, {seed_, threads_}, &monitor_))
       throw std::logic_error("holdfast: the box has no tetrahedra");
-    standing_ = mark_present(mesh_, table_, threads());
+    standing_ = mark_present(mesh_, table_, threads_);
     result_.report.delaunay = missing();
   }
 
@@ -256,13 +260,14 @@ class Pipeline {
   }
 
   void classify() {
-    regions_ = find_regions(mesh_, complex_.facets);
+    regions_ = find_regions(mesh_, complex_.facets, threads_);
     kept_ = choose_regions(mesh_, regions_, complex_, table_, options_, scale_);
     if (!kept_.defects.empty()) refuse(std::move(kept_.defects));
   }
 
   // Points outside the kept regions go with their tetrahedra.
   std::vector<Vertex> kept_points() const {
+    if (mesh_.vertex_count() == first_free_) return {};
     std::vector<bool> inside(mesh_.vertex_count(), false);
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
       if (is_kept(t))
@@ -282,15 +287,15 @@ class Pipeline {
   }
 
   void add_points() {
-    for (Tet t = 0; t < mesh_.slot_count(); ++t)
+    for (Tet t = 0; t < mesh_.slot_count() && mesh_.exact_vertex_count() > 0; ++t)
       if (is_kept(t))
         for (const Vertex v : mesh_.corners(t))
           if (!mesh_.is_explicit(v)) return;  // the outcome is not_representable
     size_function_.emplace(*options_.sizes, complex_, table_, options_, kept_, scale_);
     const std::size_t before = mesh_.vertex_count();
-    parts_ = add_field_points(volume(), *size_function_, threads(), monitor_);
+    parts_ = add_field_points(volume(), *size_function_, threads_, monitor_);
     if (!options_.optimise || last_stage() < Stage::optimise)
-      join_filled(std::move(parts_), *size_function_, threads(), monitor_);
+      join_filled(std::move(parts_), *size_function_, threads_, monitor_);
     result_.report.field.points = mesh_.vertex_count() - before + (parts_ ? parts_->new_vertices() : 0);
   }
 
@@ -317,12 +322,12 @@ class Pipeline {
 
   void improve_volume() {
     Report::Field& report = result_.report.field;
-    report.before = parts_ ? shape_of(*parts_, threads()) : shape_of(volume(), threads());
+    report.before = parts_ ? shape_of(*parts_, threads_) : shape_of(volume(), threads_);
     std::optional<FilledParts> filled;
     if (parts_) filled.emplace(FilledParts{std::move(parts_), *size_function_});
     const ImproveStats stats =
-        improve_in_parts(volume(), std::move(filled), options_.quality, threads(), monitor_);
-    report.edge_lengths = edge_lengths_of(volume(), threads());
+        improve_in_parts(volume(), std::move(filled), options_.quality, threads_, monitor_);
+    report.edge_lengths = edge_lengths_of(volume(), threads_);
     report.moves = stats.moved;
     report.swaps = stats.swapped;
     report.contractions = stats.contracted;
@@ -355,8 +360,8 @@ class Pipeline {
   void deliver() {
     const Stage last = last_stage();
     const Source source{mesh_, complex_, table_, scale_, first_free_};
-    Extract extract =
-        last >= Stage::classify ? extract_kept(source, regions_, kept_) : extract_all(source, standing_);
+    Extract extract = last >= Stage::classify ? extract_kept(source, regions_, kept_, threads_)
+                                              : extract_all(source, standing_);
     result_.volume = std::move(extract.volume);
     result_.facet_regions = std::move(extract.facet_regions);
     result_.exact_vertices = std::move(extract.exact_vertices);
@@ -379,10 +384,11 @@ class Pipeline {
       report.regions = static_cast<std::size_t>(std::count(kept_.region.begin(), kept_.region.end(), true));
     const bool has_all = volume.facets.size() == complex_.facets.size();
     Report::Shape shape;
-    report.quality = measure(volume, has_all ? target() : target_quality(volume.vertices, volume.facets),
-                             &shape, threads());
+    report.quality =
+        measure(volume, has_all ? target() : target_quality(volume.vertices, volume.facets, threads_), &shape,
+                threads_);
     if (sizes_.empty()) return;
-    if (!metrics_.empty()) shape = shape_of(this->volume(), threads());
+    if (!metrics_.empty()) shape = shape_of(this->volume(), threads_);
     if (options_.optimise && last == Stage::optimise) report.field.after = shape;
     const auto& angles = shape.least_dihedral;  // in bins of five degrees
     if (metrics_.empty() && angles[0] + angles[1] > 0) find_forced(volume, report.field);
@@ -390,11 +396,10 @@ class Pipeline {
 
   // Of all facets, computed once.
   double target() {
-    if (!target_) target_ = target_quality(complex_.vertices, complex_.facets);
+    if (!target_) target_ = target_quality(complex_.vertices, complex_.facets, threads_);
     return *target_;
   }
 
-  [[nodiscard]] unsigned threads() const { return thread_count(options_.threads); }
   [[nodiscard]] Stage last_stage() const { return options_.stop_after.value_or(Stage::optimise); }
   [[nodiscard]] Report::Missing missing() const {
     return {standing_.missing_segments(), standing_.missing_facets()};
@@ -402,6 +407,7 @@ class Pipeline {
 
   const Complex& complex_;
   const Options& options_;
+  const Threads threads_;
   Monitor monitor_;
   Result result_;
 

@@ -56,11 +56,12 @@ bool same_turn(const Triangle& f, const Triangle& g) {
 }
 
 // The regions on the sides of each facet, by the mesh faces that carry facet bits.
-void find_sides(const TetMesh& mesh, std::span<const Triangle> facets, Regions& regions) {
+void find_sides(const TetMesh& mesh, std::span<const Triangle> facets, Regions& regions,
+                const Threads& threads) {
   const FacetIndex index(mesh.vertex_count(), facets);
   regions.of_facet.assign(facets.size(), {kNone, kNone});
-  for (Tet t = 0; t < mesh.slot_count(); ++t) {
-    if (!mesh.alive(t) || (mesh.flags(t) & kFacetBits) == 0) continue;
+  const auto find_at = [&](Tet t) {
+    if (!mesh.alive(t) || (mesh.flags(t) & kFacetBits) == 0) return;
     for (int i = 0; i < 4; ++i) {
       if (!mesh.is_facet(face_code(t, i))) continue;
       // (f0 f1 f2 t's apex) is positive: t lies in front of the face as it turns.
@@ -69,7 +70,10 @@ void find_sides(const TetMesh& mesh, std::span<const Triangle> facets, Regions& 
       if (f == no_index) throw std::logic_error("holdfast: a face with a facet bit is no facet");
       regions.of_facet[f][same_turn(facets[f], corners) ? 0 : 1] = regions.of_tet[t];
     }
-  }
+  };
+  parallel_ranges(threads, mesh.slot_count(), [&](std::size_t first, std::size_t last) {
+    for (auto t = static_cast<Tet>(first); t < last; ++t) find_at(t);
+  });
   for (const auto& sides : regions.of_facet)
     if (sides[0] == kNone || sides[1] == kNone) throw std::logic_error("holdfast: a facet is no mesh face");
 }
@@ -149,10 +153,10 @@ bool box_holds(const TetMesh& mesh, Tet t, const double* p) {
 
 }  // namespace
 
-Regions find_regions(const TetMesh& mesh, std::span<const Triangle> facets) {
+Regions find_regions(const TetMesh& mesh, std::span<const Triangle> facets, const Threads& threads) {
   Regions regions;
   regions.count = number_regions(mesh, regions.of_tet);
-  find_sides(mesh, facets, regions);
+  find_sides(mesh, facets, regions, threads);
   number_by_least_facet(regions);
   return regions;
 }

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/parallel.h"
 #include "mesh/tet_mesh.h"
 
 namespace holdfast {
@@ -27,7 +28,8 @@ struct Regions {
 /// least facet (in front before behind), so that the numbers depend on the complex alone.
 ///
 /// Throws std::logic_error unless the faces with facet bits are exactly the facets.
-[[nodiscard]] Regions find_regions(const TetMesh& mesh, std::span<const Triangle> facets);
+[[nodiscard]] Regions find_regions(const TetMesh& mesh, std::span<const Triangle> facets,
+                                   const Threads& threads = 1);
 
 /// Finds the tetrahedra of every region again after changes of the mesh, which left the facets as they were.
 void find_regions_again(TetMesh& mesh, std::span<const Triangle> facets, Regions& regions);

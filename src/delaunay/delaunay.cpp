@@ -19,7 +19,7 @@ constexpr std::size_t kMostVertices = std::size_t{1} << 30;
 
 // Calls take(triangulation) on the triangulation of points that are not coplanar.
 template <class Take>
-bool triangulate(std::span<const Point> points, std::uint64_t seed, unsigned threads,
+bool triangulate(std::span<const Point> points, std::uint64_t seed, const Threads& threads,
                  const InsertionProgress& progress, const Take& take) {
   if (points.size() > kMostVertices) throw std::length_error("holdfast: more than 2^30 points");
   Triangulation triangulation(points, insertion_order(points, seed, threads), threads);
@@ -35,12 +35,11 @@ bool build_delaunay(TetMesh& mesh, const DelaunayOptions& options, Monitor* moni
   assert(mesh.tet_count() == 0 && mesh.exact_vertex_count() == 0);
   InsertionProgress progress;
   if (monitor != nullptr) progress = [&](double fraction) { monitor->poll(Stage::delaunay, fraction); };
-  const unsigned threads = thread_count(options.threads);
   const auto take = [&](Triangulation& triangulation) {
-    NumberedCells cells = all_cells(triangulation, threads);
+    NumberedCells cells = all_cells(triangulation, options.threads);
     mesh.set_tets(std::move(cells.corners), std::move(cells.neighbours));
   };
-  if (!triangulate(mesh.positions(), options.seed, threads, progress, take)) return false;
+  if (!triangulate(mesh.positions(), options.seed, options.threads, progress, take)) return false;
 #ifdef HOLDFAST_VALIDATE
   if (const std::string fault = find_fault(mesh); !fault.empty())
     throw std::logic_error("holdfast: " + fault);
@@ -55,9 +54,9 @@ std::vector<Tetrahedron> delaunay(std::span<const Point> points, std::uint64_t s
       throw std::invalid_argument("holdfast: point " + std::to_string(i) + " is not finite");
   }
   std::vector<Tetrahedron> tets;
-  threads = thread_count(threads);
-  triangulate(points, seed, threads, nullptr,
-              [&](Triangulation& triangulation) { tets = finite_cells(triangulation, threads); });
+  const Threads all(threads);
+  triangulate(points, seed, all, nullptr,
+              [&](Triangulation& triangulation) { tets = finite_cells(triangulation, all); });
   return tets;
 }
 

@@ -4,13 +4,14 @@
 #include <cstdint>
 
 #include "mesh/monitor.h"
+#include "mesh/parallel.h"
 #include "mesh/tet_mesh.h"
 
 namespace holdfast {
 
 struct DelaunayOptions {
   std::uint64_t seed = 1;  ///< of the insertion order
-  unsigned threads = 1;    ///< the result does not depend on it; 0: all that the machine has
+  Threads threads = 1;     ///< the result does not depend on them
 };
 
 /// Triangulates all vertices of a mesh that has no tetrahedra yet. Every vertex must be explicit and

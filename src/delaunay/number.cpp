@@ -67,7 +67,7 @@ void sort_cells(C* first, C* last) {
 template <class C>
 class Numbering {
  public:
-  Numbering(Triangulation& triangulation, unsigned threads)
+  Numbering(Triangulation& triangulation, const Threads& threads)
       : triangulation_(triangulation), threads_(threads) {
     cells_.resize(make_room());
     triangulation.drop_sites();
@@ -101,7 +101,7 @@ class Numbering {
   // Into which so many cells are cut, one a thread.
   [[nodiscard]] std::size_t parts_of(std::size_t cells) const {
     constexpr std::size_t kLeastPart = 8192;  // cells that are worth a thread
-    return std::clamp<std::size_t>(cells / kLeastPart, 1, threads_);
+    return std::clamp<std::size_t>(cells / kLeastPart, 1, threads_.count());
   }
 
   // Where the cells of each vertex come to stand, and how many they are in all.
@@ -109,12 +109,12 @@ class Numbering {
     const Triangulation::Site* const sites = triangulation_.sites();
     const std::size_t vertices = triangulation_.size();
     front_.resize(vertices);
-    if (threads_ > 1) back_.resize(vertices);
+    if (threads_.count() > 1) back_.resize(vertices);
     std::uint32_t sum = 0;
     for (std::size_t v = 0; v < vertices; ++v) {
       front_[v] = sum;
       sum += sites[v].cells;
-      if (threads_ > 1) back_[v] = sum;
+      if (threads_.count() > 1) back_[v] = sum;
     }
     return sum;
   }
@@ -167,7 +167,7 @@ class Numbering {
   }
 
   Triangulation& triangulation_;
-  const unsigned threads_;
+  const Threads threads_;
   LargeArray<std::uint32_t> front_, back_;  // first place of a vertex that is free; behind the last one
   LargeArray<C> cells_;
   std::vector<C> ghosts_;
@@ -184,7 +184,7 @@ std::vector<T> sized_vector(std::size_t size) {
 
 }  // namespace
 
-std::vector<Tetrahedron> finite_cells(Triangulation& triangulation, unsigned threads) {
+std::vector<Tetrahedron> finite_cells(Triangulation& triangulation, const Threads& threads) {
   Numbering<BareCell> numbering(triangulation, threads);
   auto tets = sized_vector<Tetrahedron>(numbering.size());
   const std::uint32_t* const point = triangulation.order().points.data();
@@ -194,7 +194,7 @@ std::vector<Tetrahedron> finite_cells(Triangulation& triangulation, unsigned thr
   return tets;
 }
 
-NumberedCells all_cells(Triangulation& triangulation, unsigned threads) {
+NumberedCells all_cells(Triangulation& triangulation, const Threads& threads) {
   LargeArray<std::uint32_t> placed(triangulation.cells().size());  // of a slot: 4 * place + turn
   Numbering<FullCell> numbering(triangulation, threads);
   std::vector<FullCell>& ghosts = numbering.ghosts();

@@ -13,18 +13,19 @@
 #include <vector>
 
 #include "delaunay/triangulation.h"
+#include "mesh/parallel.h"
 #include "mesh/tet_mesh.h"
 
 namespace holdfast {
 
 /// Corners, as points, of all cells without the ghost. The triangulation's cells are freed on the way.
-[[nodiscard]] std::vector<Tetrahedron> finite_cells(Triangulation& triangulation, unsigned threads);
+[[nodiscard]] std::vector<Tetrahedron> finite_cells(Triangulation& triangulation, const Threads& threads);
 
 struct NumberedCells {
   std::vector<TetMesh::Corners> corners;  ///< points, or kGhost
   std::vector<TetMesh::Neighbours> neighbours;
 };
 /// All cells. Those of the triangulation are freed on the way.
-[[nodiscard]] NumberedCells all_cells(Triangulation& triangulation, unsigned threads);
+[[nodiscard]] NumberedCells all_cells(Triangulation& triangulation, const Threads& threads);
 
 }  // namespace holdfast

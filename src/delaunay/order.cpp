@@ -118,7 +118,7 @@ class Grid {
 // Stable sort by the low `bits` bits of the keys, least significant digit first. Each part of the entries
 // counts its digits and knows from the counts of all where its entries go, so that the result does not
 // depend on the number of parts.
-void radix_sort(std::span<Entry> entries, unsigned bits, unsigned threads) {
+void radix_sort(std::span<Entry> entries, unsigned bits, const Threads& threads) {
   constexpr unsigned kMostDigit = 12;
   constexpr std::size_t kSmall = 512;
   if (entries.size() < kSmall) {
@@ -128,7 +128,7 @@ void radix_sort(std::span<Entry> entries, unsigned bits, unsigned threads) {
   }
   const unsigned passes = (bits + kMostDigit - 1) / kMostDigit;
   const unsigned width = (bits + passes - 1) / passes;
-  const std::size_t parts = std::clamp<std::size_t>(entries.size() / kLeastPart, 1, threads);
+  const std::size_t parts = std::clamp<std::size_t>(entries.size() / kLeastPart, 1, threads.count());
   std::vector<std::array<std::size_t, std::size_t{1} << kMostDigit>> counts(parts);
   LargeArray<Entry> other(entries.size());
   Entry* from = entries.data();
@@ -158,7 +158,7 @@ void radix_sort(std::span<Entry> entries, unsigned bits, unsigned threads) {
 // a cell of the grid again, in the grid of their own extent. That keeps clusters at any scale local.
 // Every run is a proper subset, for the extreme points of an extent lie in different cells.
 void sort_along_curve(std::span<const Point> points, std::span<Entry> entries, unsigned round_bits,
-                      unsigned threads) {
+                      const Threads& threads) {
   const unsigned bits = bits_for(entries.size());
   const Grid grid(points, entries, bits);
   if (grid.flat() && round_bits == 0) return;
@@ -181,7 +181,7 @@ void sort_along_curve(std::span<const Point> points, std::span<Entry> entries, u
 
 }  // namespace
 
-InsertionOrder insertion_order(std::span<const Point> points, std::uint64_t seed, unsigned threads) {
+InsertionOrder insertion_order(std::span<const Point> points, std::uint64_t seed, const Threads& threads) {
   const std::size_t n = points.size();
   if (n == 0) return {};
   unsigned rounds = 0;

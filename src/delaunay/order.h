@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "holdfast/types.h"
+#include "mesh/parallel.h"
 
 namespace holdfast {
 
@@ -20,7 +21,7 @@ struct InsertionOrder {
 /// A function of the coordinates and the seed alone. Equal points of one round are at most
 /// kDuplicateDistance places from the next of them.
 [[nodiscard]] InsertionOrder insertion_order(std::span<const Point> points, std::uint64_t seed,
-                                             unsigned threads = 1);
+                                             const Threads& threads = 1);
 
 inline constexpr std::size_t kDuplicateDistance = 16;
 

@@ -25,10 +25,10 @@ constexpr std::size_t kEntrances = 8;        // points to try to enter a slab by
 
 class Schedule {
  public:
-  Schedule(Triangulation& triangulation, std::uint64_t seed, unsigned threads,
+  Schedule(Triangulation& triangulation, std::uint64_t seed, const Threads& threads,
            const InsertionProgress& progress)
       : triangulation_(triangulation), progress_(progress), threads_(threads) {
-    for (unsigned k = 0; k < threads; ++k)
+    for (unsigned k = 0; k < threads.count(); ++k)
       inserters_.push_back(std::make_unique<Inserter>(triangulation, k, seed));
   }
 
@@ -36,7 +36,8 @@ class Schedule {
     std::size_t first = 4;
     for (const std::size_t end : triangulation_.order().ends) {
       if (end <= first) continue;
-      if (threads_ > 1 && first >= kFewPoints * threads_ && end - first >= kFewPoints * threads_)
+      if (threads_.count() > 1 && first >= kFewPoints * threads_.count() &&
+          end - first >= kFewPoints * threads_.count())
         run_round(static_cast<Vertex>(first), static_cast<Vertex>(end));
       else
         run_alone(static_cast<Vertex>(first), static_cast<Vertex>(end));
@@ -57,7 +58,7 @@ class Schedule {
   void run_round(Vertex first, Vertex end) {
     std::vector<Vertex> points(end - first);
     std::iota(points.begin(), points.end(), first);
-    for (std::size_t axis = 0; axis < 3 && points.size() >= kFewPoints * threads_; ++axis) {
+    for (std::size_t axis = 0; axis < 3 && points.size() >= kFewPoints * threads_.count(); ++axis) {
       const std::vector<Slab> slabs = slabs_across(axis, points);
       if (!slabs.empty()) points = run_phase(slabs, points);
     }
@@ -70,14 +71,15 @@ class Schedule {
   // One slab a thread, none if too many points have the same coordinate.
   [[nodiscard]] std::vector<Slab> slabs_across(std::size_t axis, const std::vector<Vertex>& points) const {
     std::vector<double> sample;
-    const std::size_t step = std::max<std::size_t>(1, points.size() / (kSamplePerSlab * threads_));
+    const std::size_t step = std::max<std::size_t>(1, points.size() / (kSamplePerSlab * threads_.count()));
     for (std::size_t i = 0; i < points.size(); i += step)
       sample.push_back(triangulation_.at(points[i])[axis]);
     std::sort(sample.begin(), sample.end());
-    std::vector<Slab> slabs(threads_, Slab{.axis = axis});
-    for (std::size_t k = 1; k < threads_; ++k)
-      slabs[k - 1].high = slabs[k].low = sample[sample.size() * k / threads_];
-    const auto most = static_cast<std::ptrdiff_t>(kMostShare * static_cast<double>(sample.size()) / threads_);
+    std::vector<Slab> slabs(threads_.count(), Slab{.axis = axis});
+    for (std::size_t k = 1; k < threads_.count(); ++k)
+      slabs[k - 1].high = slabs[k].low = sample[sample.size() * k / threads_.count()];
+    const auto most =
+        static_cast<std::ptrdiff_t>(kMostShare * static_cast<double>(sample.size()) / threads_.count());
     for (const Slab& slab : slabs) {
       const auto low = std::lower_bound(sample.begin(), sample.end(), slab.low);
       if (std::lower_bound(low, sample.end(), slab.high) - low > most) return {};
@@ -87,7 +89,7 @@ class Schedule {
 
   // Returns the points that are left.
   std::vector<Vertex> run_phase(const std::vector<Slab>& slabs, const std::vector<Vertex>& points) {
-    triangulation_.expect_points(points.size(), threads_);
+    triangulation_.expect_points(points.size(), threads_.count());
     std::vector<char> entered(slabs.size(), 0);
     Tet from = inserters_[0]->last();
     for (std::size_t k = 0; k < slabs.size(); ++k) {
@@ -120,7 +122,7 @@ class Schedule {
     for (std::size_t i = 0; i < points.size() && tried < kEntrances; ++i) {
       if (!slab.holds(triangulation_.at(points[i]))) continue;
       if (inserter.enter(slab, points[i], from)) return true;
-      i += points.size() / (2 * threads_ * kEntrances);
+      i += points.size() / (2 * threads_.count() * kEntrances);
       ++tried;
     }
     return false;
@@ -131,7 +133,7 @@ class Schedule {
     std::vector<Vertex> left;
     for (const Vertex k : points) {
       if (!slab.holds(triangulation_.at(k))) continue;
-      if (calling_thread) tell(threads_);
+      if (calling_thread) tell(threads_.count());
       if (stop.load(std::memory_order_relaxed)) break;
       if (!entered || waits_for_equal(k, left) || !inserter.insert_in_slab(k)) left.push_back(k);
     }
@@ -154,16 +156,16 @@ class Schedule {
 
   Triangulation& triangulation_;
   const InsertionProgress& progress_;
-  const unsigned threads_;
+  const Threads threads_;
   std::vector<std::unique_ptr<Inserter>> inserters_;
   std::size_t done_ = 4, untold_ = 0;
 };
 
 }  // namespace
 
-void insert_all(Triangulation& triangulation, std::uint64_t seed, unsigned threads,
+void insert_all(Triangulation& triangulation, std::uint64_t seed, const Threads& threads,
                 const InsertionProgress& progress) {
-  Schedule(triangulation, seed, std::max(1u, threads), progress).run();
+  Schedule(triangulation, seed, threads, progress).run();
 }
 
 }  // namespace holdfast

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "delaunay/triangulation.h"
+#include "mesh/parallel.h"
 
 namespace holdfast {
 
@@ -13,7 +14,7 @@ using InsertionProgress = std::function<void(double fraction)>;
 
 /// Inserts all points but the first four, which start() has inserted. What comes out depends on the numbering
 /// of the vertices alone, but for the order of the cells.
-void insert_all(Triangulation& triangulation, std::uint64_t seed, unsigned threads,
+void insert_all(Triangulation& triangulation, std::uint64_t seed, const Threads& threads,
                 const InsertionProgress& progress);
 
 }  // namespace holdfast

@@ -34,15 +34,15 @@ bool equal(const double* a, const double* b) { return a[0] == b[0] && a[1] == b[
 
 }  // namespace
 
-Triangulation::Triangulation(std::span<const Point> points, InsertionOrder order, unsigned threads)
+Triangulation::Triangulation(std::span<const Point> points, InsertionOrder order, const Threads& threads)
     : order_(std::move(order)),
-      sites_(order_.points.size() + threads),
+      sites_(order_.points.size() + threads.count()),
       ghost_(static_cast<Vertex>(order_.points.size())) {
-  cells_.reserve(room_for(size(), threads));
+  cells_.reserve(room_for(size(), threads.count()));
   read_sites(points, threads);
 }
 
-void Triangulation::read_sites(std::span<const Point> points, unsigned threads) {
+void Triangulation::read_sites(std::span<const Point> points, const Threads& threads) {
   if (points.empty()) return;
   Point low = points[0], high = points[0];
   std::mutex both;

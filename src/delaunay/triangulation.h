@@ -33,6 +33,7 @@
 #include "delaunay/order.h"
 #include "holdfast/types.h"
 #include "mesh/anatomy.h"
+#include "mesh/parallel.h"
 
 namespace holdfast {
 
@@ -50,7 +51,7 @@ class Triangulation {
   };
 
   /// Vertex k is points[order.points[k]]. `threads` is the number of inserters there can be.
-  Triangulation(std::span<const Point> points, InsertionOrder order, unsigned threads);
+  Triangulation(std::span<const Point> points, InsertionOrder order, const Threads& threads);
 
   /// Moves four points that span space to the front and makes their tetrahedron and its four ghosts.
   /// False if all points are coplanar.
@@ -96,7 +97,7 @@ class Triangulation {
   void set_geometry(Cell& cell) const;
 
  private:
-  void read_sites(std::span<const Point> points, unsigned threads);
+  void read_sites(std::span<const Point> points, const Threads& threads);
   void make_first_cells();
   [[nodiscard]] const Cell& sphere_of(const Cell& cell) const;
   [[nodiscard]] int conflict_sign(const Cell& cell, const double* q) const;

@@ -6,7 +6,7 @@
 namespace holdfast {
 namespace {
 
-ImproveStats improve_each(Parts& parts, Quality quality, std::array<double, 2> work, unsigned threads,
+ImproveStats improve_each(Parts& parts, Quality quality, std::array<double, 2> work, const Threads& threads,
                           Monitor& monitor) {
   std::vector<ImproveStats> stats(parts.parts().size());
   parallel_monitored(threads, stats.size(), monitor, work, [&](std::size_t k, Monitor& own) {
@@ -21,7 +21,7 @@ ImproveStats improve_each(Parts& parts, Quality quality, std::array<double, 2> w
 }  // namespace
 
 ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledParts> filled, Quality quality,
-                              unsigned threads, Monitor& monitor) {
+                              const Threads& threads, Monitor& monitor) {
   constexpr double kMost = 0.9;  // of the work: the parts that come first
   std::unique_ptr<Parts> parts;
   if (filled)

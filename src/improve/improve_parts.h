@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "improve/improve.h"
+#include "mesh/parallel.h"
 #include "refine/parts.h"
 #include "size/size_function.h"
 
@@ -20,6 +21,6 @@ struct FilledParts {
 /// the cuts forbade is made up for: what lies near them is filled and improved in the same way, as long as it
 /// has to be cut again. The threads make no difference to the result.
 ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledParts> filled, Quality quality,
-                              unsigned threads, Monitor& monitor);
+                              const Threads& threads, Monitor& monitor);
 
 }  // namespace holdfast

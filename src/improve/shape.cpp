@@ -11,7 +11,7 @@ namespace {
 // Calls act(corners, own) for each, with one `own` a range of them, and join(own) for each of these at the
 // end.
 template <typename Own, typename Act, typename Join>
-void for_each_inside(const VolumeData& volume, unsigned threads, Act&& act, Join&& join) {
+void for_each_inside(const VolumeData& volume, const Threads& threads, Act&& act, Join&& join) {
   std::mutex mutex;
   parallel_ranges(threads, volume.mesh.slot_count(), [&](std::size_t first, std::size_t last) {
     Own own{};
@@ -22,7 +22,7 @@ void for_each_inside(const VolumeData& volume, unsigned threads, Act&& act, Join
   });
 }
 
-ShapeHistogram shapes_of(const VolumeData& volume, unsigned threads) {
+ShapeHistogram shapes_of(const VolumeData& volume, const Threads& threads) {
   ShapeHistogram shapes;
   for_each_inside<ShapeHistogram>(
       volume, threads,
@@ -41,11 +41,11 @@ bool is_flat(const Point& a, const Point& b, const Point& c, const Point& d) {
   return energy(a, b, c, d) > kEnergyOfFlat && quality(a, b, c, d) > kFlat;
 }
 
-Report::Shape shape_of(const VolumeData& volume, unsigned threads) {
+Report::Shape shape_of(const VolumeData& volume, const Threads& threads) {
   return shapes_of(volume, threads).shape();
 }
 
-Report::Shape shape_of(Parts& parts, unsigned threads) {
+Report::Shape shape_of(Parts& parts, const Threads& threads) {
   std::vector<ShapeHistogram> own(parts.parts().size());
   parallel(threads, own.size(),
            [&](std::size_t k) { own[k] = shapes_of(parts.parts()[k].data(parts.whole().kept), 1); });
@@ -54,7 +54,7 @@ Report::Shape shape_of(Parts& parts, unsigned threads) {
   return shapes.shape();
 }
 
-std::array<std::size_t, 24> edge_lengths_of(const VolumeData& volume, unsigned threads) {
+std::array<std::size_t, 24> edge_lengths_of(const VolumeData& volume, const Threads& threads) {
   constexpr double kBinsAUnit = 8;
   using Histogram = std::array<std::size_t, 24>;
   Histogram histogram{};

@@ -5,6 +5,7 @@
 
 #include "holdfast/holdfast.h"
 #include "improve/energy.h"
+#include "mesh/parallel.h"
 #include "refine/parts.h"
 
 namespace holdfast {
@@ -14,13 +15,14 @@ inline constexpr double kEnergyOfFlat = energy_of_sine(0.035);  // 2 degrees
 [[nodiscard]] bool is_flat(const Point& a, const Point& b, const Point& c, const Point& d);
 
 /// Of the tetrahedra of the kept regions, as the metric sees them if there is one.
-[[nodiscard]] Report::Shape shape_of(const VolumeData& volume, unsigned threads = 1);
+[[nodiscard]] Report::Shape shape_of(const VolumeData& volume, const Threads& threads = 1);
 
 /// The same for a mesh in parts.
-[[nodiscard]] Report::Shape shape_of(Parts& parts, unsigned threads = 1);
+[[nodiscard]] Report::Shape shape_of(Parts& parts, const Threads& threads = 1);
 
 /// Lengths of their edges, in the metric if there is one, over the mean of the sizes at the ends, as
 /// Report::Field has them.
-[[nodiscard]] std::array<std::size_t, 24> edge_lengths_of(const VolumeData& volume, unsigned threads = 1);
+[[nodiscard]] std::array<std::size_t, 24> edge_lengths_of(const VolumeData& volume,
+                                                          const Threads& threads = 1);
 
 }  // namespace holdfast

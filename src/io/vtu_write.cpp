@@ -39,7 +39,7 @@ std::string encoded(std::string_view data, const WriteOptions& options) {
     return result.append(data);
   }
   std::vector<std::string> blocks((data.size() + kBlock - 1) / kBlock);
-  parallel(thread_count(options.threads), blocks.size(),
+  parallel(options.threads, blocks.size(),
            [&](std::size_t k) { blocks[k] = deflated(data.substr(k * kBlock, kBlock)); });
   append(result, blocks.size());
   append(result, kBlock);

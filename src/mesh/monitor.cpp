@@ -68,8 +68,8 @@ void Monitor::look_as_task(Stage stage, double fraction) {
   }
 }
 
-void parallel_monitored(unsigned threads, std::size_t count, Monitor& monitor, std::array<double, 2> part,
-                        const std::function<void(std::size_t, Monitor&)>& task) {
+void parallel_monitored(const Threads& threads, std::size_t count, Monitor& monitor,
+                        std::array<double, 2> part, const std::function<void(std::size_t, Monitor&)>& task) {
   MonitoredTasks tasks{.count = count, .part = part};
   parallel(threads, count, [&](std::size_t k) {
     Monitor own(monitor, tasks);

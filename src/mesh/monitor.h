@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "holdfast/holdfast.h"
+#include "mesh/parallel.h"
 
 namespace holdfast {
 
@@ -66,8 +67,8 @@ class Monitor {
 
 /// mesh/parallel.h's `parallel` with a monitor for each task. Where one is interrupted, all end. To the
 /// caller they are the part of the stage's work between two fractions.
-void parallel_monitored(unsigned threads, std::size_t count, Monitor& monitor, std::array<double, 2> part,
-                        const std::function<void(std::size_t, Monitor&)>& task);
+void parallel_monitored(const Threads& threads, std::size_t count, Monitor& monitor,
+                        std::array<double, 2> part, const std::function<void(std::size_t, Monitor&)>& task);
 
 /// Resident memory of the process now and at its peak, in bytes (0 where the system does not tell).
 [[nodiscard]] std::uint64_t resident_memory_bytes();

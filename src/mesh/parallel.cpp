@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <condition_variable>
 #include <exception>
+#include <mutex>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -12,45 +14,121 @@ namespace {
 
 constexpr std::size_t kLeastRange = 4096;  // shorter ranges are not worth a thread
 
+// One call of parallel().
+class Job {
+ public:
+  Job(std::size_t count, const std::function<void(std::size_t)>& task) : task_(task), errors_(count) {}
+
+  std::size_t wanted = 0;   // threads that may yet join in
+  std::size_t helping = 0;  // threads that did
+
+  void run(std::size_t k) {
+    try {
+      task_(k);
+    } catch (...) {
+      errors_[k] = std::current_exception();
+    }
+  }
+  void run_what_is_left() {
+    for (std::size_t k = next_++; k < errors_.size(); k = next_++) run(k);
+  }
+  void throw_first_error() const {
+    for (const std::exception_ptr& error : errors_)
+      if (error) std::rethrow_exception(error);
+  }
+
+ private:
+  const std::function<void(std::size_t)>& task_;
+  std::atomic<std::size_t> next_{1};
+  std::vector<std::exception_ptr> errors_;
+};
+
 }  // namespace
 
-unsigned thread_count(unsigned requested) {
-  return requested != 0 ? requested : std::max(1u, std::thread::hardware_concurrency());
-}
+// Jobs stand in a list as long as threads may join in. Whoever calls for help works too, and waits only for
+// those that did join: so jobs within jobs end.
+class Threads::Helpers {
+ public:
+  Helpers() = default;
+  Helpers(const Helpers&) = delete;
+  Helpers& operator=(const Helpers&) = delete;
+  ~Helpers() {
+    const std::scoped_lock lock(mutex_);
+    ending_ = true;
+    there_is_work_.notify_all();
+  }
 
-void parallel(unsigned threads, std::size_t count, const std::function<void(std::size_t)>& task) {
-  if (count == 0) return;
-  std::vector<std::exception_ptr> errors(count);
-  std::atomic<std::size_t> next{1};
-  const auto attempt = [&](std::size_t k) {
+  void run(Job& job, std::size_t most) {
+    call_for_help(job, most);
+    job.run(0);
+    job.run_what_is_left();
+    std::unique_lock lock(mutex_);
+    std::erase(jobs_, &job);
+    one_is_done_.wait(lock, [&] { return job.helping == 0; });
+  }
+
+ private:
+  void call_for_help(Job& job, std::size_t most) {
+    const std::scoped_lock lock(mutex_);
     try {
-      task(k);
-    } catch (...) {
-      errors[k] = std::current_exception();
-    }
-  };
-  const auto work = [&] {
-    for (std::size_t k = next++; k < count; k = next++) attempt(k);
-  };
-  {
-    std::vector<std::jthread> others;
-    const std::size_t wanted = std::min<std::size_t>(threads, count) - (threads > 0 ? 1 : 0);
-    others.reserve(wanted);
-    try {
-      while (others.size() < wanted) others.emplace_back(work);
+      while (threads_.size() < most) threads_.emplace_back([this] { help(); });
     } catch (const std::system_error&) {
       // Those that there are do the work.
     }
-    attempt(0);
-    work();
+    job.wanted = most;
+    jobs_.push_back(&job);
+    there_is_work_.notify_all();
   }
-  for (const std::exception_ptr& error : errors)
-    if (error) std::rethrow_exception(error);
+
+  void help() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+      there_is_work_.wait(lock, [this] { return ending_ || !jobs_.empty(); });
+      if (ending_) return;
+      Job& job = *jobs_.back();
+      ++job.helping;
+      if (--job.wanted == 0) jobs_.pop_back();
+      lock.unlock();
+      job.run_what_is_left();
+      lock.lock();
+      if (--job.helping == 0) one_is_done_.notify_all();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable there_is_work_, one_is_done_;
+  std::vector<Job*> jobs_;
+  bool ending_ = false;
+  std::vector<std::jthread> threads_;  // joined before all else goes
+};
+
+Threads::Threads(unsigned requested)
+    : count_(requested != 0 ? requested : std::max(1u, std::thread::hardware_concurrency())) {
+  if (count_ > 1) helpers_ = std::make_shared<Helpers>();
 }
 
-void parallel_ranges(unsigned threads, std::size_t size,
+Threads Threads::at_most(unsigned count) const {
+  Threads some = *this;
+  some.count_ = std::clamp(count, 1u, count_);
+  return some;
+}
+
+void parallel(const Threads& threads, std::size_t count, const std::function<void(std::size_t)>& task) {
+  if (count == 0) return;
+  Job job(count, task);
+  const std::size_t most = std::min<std::size_t>(threads.count(), count) - 1;
+  if (most > 0) {
+    threads.helpers_->run(job, most);
+  } else {
+    job.run(0);
+    job.run_what_is_left();
+  }
+  job.throw_first_error();
+}
+
+void parallel_ranges(const Threads& threads, std::size_t size,
                      const std::function<void(std::size_t first, std::size_t last)>& body) {
-  const std::size_t count = std::clamp<std::size_t>(size / kLeastRange, 1, std::max(1u, threads));
+  const std::size_t count = std::clamp<std::size_t>(size / kLeastRange, 1, threads.count());
   parallel(threads, count, [&](std::size_t k) { body(size * k / count, size * (k + 1) / count); });
 }
 

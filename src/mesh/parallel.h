@@ -3,19 +3,38 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 
 namespace holdfast {
 
-/// Threads that `requested` stands for: itself, or for 0 as many as the machine runs at once.
-[[nodiscard]] unsigned thread_count(unsigned requested);
+/// So many threads, the calling one among them. The others start when there is first work for them, and wait
+/// for more as long as there is a copy: a new thread for every piece of work would often begin milliseconds
+/// late, since the system puts it where the one before it was.
+class Threads {
+ public:
+  /// For 0, as many as the machine runs at once.
+  Threads(unsigned requested = 1);  // NOLINT(google-explicit-constructor): a number says all
+  [[nodiscard]] unsigned count() const { return count_; }
+  /// Some of these.
+  [[nodiscard]] Threads at_most(unsigned count) const;
+
+ private:
+  friend void parallel(const Threads& threads, std::size_t count,
+                       const std::function<void(std::size_t)>& task);
+  class Helpers;
+
+  unsigned count_;
+  std::shared_ptr<Helpers> helpers_;  // none for one thread
+};
 
 /// Calls task(0) to task(count - 1), each once, on up to `threads` threads, and returns when all are done.
-/// The calling thread takes part and runs task 0, so that a monitor may be polled there. Threads that the
-/// system refuses are done without. If tasks throw, the exception of the first of them is thrown on.
-void parallel(unsigned threads, std::size_t count, const std::function<void(std::size_t)>& task);
+/// The calling thread takes part and runs task 0, so that a monitor may be polled there. A task may call this
+/// again. Threads that the system refuses are done without. If tasks throw, the exception of the first of
+/// them is thrown on.
+void parallel(const Threads& threads, std::size_t count, const std::function<void(std::size_t)>& task);
 
 /// Cuts 0..size-1 into at most `threads` even ranges of some length and calls body(first, last) for each.
-void parallel_ranges(unsigned threads, std::size_t size,
+void parallel_ranges(const Threads& threads, std::size_t size,
                      const std::function<void(std::size_t first, std::size_t last)>& body);
 
 }  // namespace holdfast

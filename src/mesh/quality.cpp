@@ -328,7 +328,9 @@ double best_quality_on(const Point& a, const Point& b, const Point& c) {
   return candidates.flat() ? kInfinity : candidates.at(candidates.best_angle());
 }
 
-double target_quality(std::span<const Point> vertices, std::span<const Triangle> facets) {
+namespace {
+
+double target_of(std::span<const Point> vertices, std::span<const Triangle> facets) {
   // Any candidate bounds the best one from above: that of the worst triangle so far settles most triangles,
   // and all of its shape.
   constexpr double kRounding = 1e-12;
@@ -344,6 +346,19 @@ double target_quality(std::span<const Point> vertices, std::span<const Triangle>
     angle = best;
   }
   return target;
+}
+
+}  // namespace
+
+double target_quality(std::span<const Point> vertices, std::span<const Triangle> facets,
+                      const Threads& threads) {
+  constexpr std::size_t kBlock = 8192;  // whatever the threads, since the last bits may depend on it
+  std::vector<double> targets(1 + facets.size() / kBlock);
+  parallel(threads, targets.size(), [&](std::size_t k) {
+    const std::size_t first = k * kBlock;
+    targets[k] = target_of(vertices, facets.subspan(first, std::min(kBlock, facets.size() - first)));
+  });
+  return *std::max_element(targets.begin(), targets.end());
 }
 
 namespace {
@@ -467,7 +482,7 @@ struct Measured {
 
 }  // namespace
 
-Report::Quality measure(const Volume& volume, double target, Report::Shape* shape, unsigned threads) {
+Report::Quality measure(const Volume& volume, double target, Report::Shape* shape, const Threads& threads) {
   const std::vector<Point>& v = volume.vertices;
   Measured all;
   std::mutex mutex;

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "holdfast/holdfast.h"
+#include "mesh/parallel.h"
 
 namespace holdfast {
 
@@ -70,12 +71,13 @@ class ShapeHistogram {
 [[nodiscard]] double best_quality_on(const Point& a, const Point& b, const Point& c);
 
 /// The Target of the paper: the best Q of the triangle where that is worst. Zero for none.
-[[nodiscard]] double target_quality(std::span<const Point> vertices, std::span<const Triangle> facets);
+[[nodiscard]] double target_quality(std::span<const Point> vertices, std::span<const Triangle> facets,
+                                    const Threads& threads = 1);
 
 /// Worst quality and dihedral angles of a volume, and the target that was found for its facets. An angle that
 /// is not a number counts as 0 degrees. All zero for a volume without tetrahedra, but for the target.
 /// `shape`, where given, receives the shapes of the elements.
 [[nodiscard]] Report::Quality measure(const Volume& volume, double target, Report::Shape* shape = nullptr,
-                                      unsigned threads = 1);
+                                      const Threads& threads = 1);
 
 }  // namespace holdfast

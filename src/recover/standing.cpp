@@ -22,7 +22,7 @@ class Marker {
         standing_{std::vector<std::uint8_t>(table.segments.size(), 0),
                   std::vector<std::uint8_t>(table.facet_segments.size(), 0)} {}
 
-  Standing run(unsigned threads) {
+  Standing run(const Threads& threads) {
     parallel_ranges(threads, mesh_.slot_count(), [&](std::size_t first, std::size_t last) {
       for (auto t = static_cast<Tet>(first); t < last; ++t)
         if (mesh_.alive(t) && !mesh_.is_ghost(t)) mark(t);
@@ -84,7 +84,7 @@ class Marker {
 std::size_t Standing::missing_segments() const { return zeros(segments); }
 std::size_t Standing::missing_facets() const { return zeros(facets); }
 
-Standing mark_present(TetMesh& mesh, const SegmentTable& table, unsigned threads) {
+Standing mark_present(TetMesh& mesh, const SegmentTable& table, const Threads& threads) {
   return Marker(mesh, table).run(threads);
 }
 

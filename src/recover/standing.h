@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesh/parallel.h"
 #include "mesh/tet_mesh.h"
 #include "surface/complex.h"
 
@@ -19,6 +20,6 @@ struct Standing {
 
 /// Finds the segments and facets that the mesh holds and sets their bits there. One sweep over the
 /// tetrahedra.
-[[nodiscard]] Standing mark_present(TetMesh& mesh, const SegmentTable& table, unsigned threads = 1);
+[[nodiscard]] Standing mark_present(TetMesh& mesh, const SegmentTable& table, const Threads& threads = 1);
 
 }  // namespace holdfast

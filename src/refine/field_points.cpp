@@ -12,6 +12,7 @@
 #include "refine/front.h"
 #include "refine/order.h"
 #include "refine/section_points.h"
+#include "refine/tets_inside.h"
 #include "refine/vector.h"
 
 namespace holdfast {
@@ -49,19 +50,13 @@ Cuts find_cuts(const VolumeData& volume, const SizeFunction& sizes, const std::v
   return {std::move(samples), levels_for(expected)};
 }
 
-std::unique_ptr<Parts> filled_parts(const VolumeData& volume, const SizeFunction& sizes, unsigned threads,
-                                    Monitor& monitor) {
+std::unique_ptr<Parts> filled_parts(const VolumeData& volume, const SizeFunction& sizes,
+                                    const Threads& threads, Monitor& monitor) {
   constexpr double kMostAtCuts = 0.5;
-  const auto inside = [&] {
-    std::vector<Tet> tets;
-    for (Tet t = 0; t < volume.mesh.slot_count(); ++t)
-      if (volume.is_inside(t)) tets.push_back(t);
-    return tets;
-  };
-  const Cuts cuts = find_cuts(volume, sizes, inside());
+  const Cuts cuts = find_cuts(volume, sizes, tets_inside(volume, threads));
   if (cuts.part_count() == 1) return {};
   add_section_points(volume, cuts, sizes, monitor);
-  auto parts = cut_into_parts(volume, inside(), cuts, kMostAtCuts, threads);
+  auto parts = cut_into_parts(volume, tets_inside(volume, threads), cuts, kMostAtCuts, threads);
   if (parts) fill_parts(*parts, sizes, Stage::field_points, {kOnCuts, 1}, threads, monitor);
   return parts;
 }
@@ -69,8 +64,8 @@ std::unique_ptr<Parts> filled_parts(const VolumeData& volume, const SizeFunction
 }  // namespace
 
 std::size_t fill_parts(Parts& parts, const SizeFunction& sizes, Stage stage, std::array<double, 2> work,
-                       unsigned threads, Monitor& monitor) {
-  const unsigned most = sizes.is_the_users() ? 1 : threads;
+                       const Threads& threads, Monitor& monitor) {
+  const Threads most = threads.at_most(sizes.is_the_users() ? 1 : threads.count());
   parallel_monitored(most, parts.parts().size(), monitor, work, [&](std::size_t k, Monitor& own) {
     Part& part = parts.parts()[k];
     advance_front(part.data(parts.whole().kept), sizes, stage, own);
@@ -79,9 +74,9 @@ std::size_t fill_parts(Parts& parts, const SizeFunction& sizes, Stage stage, std
   return parts.new_vertices();
 }
 
-std::unique_ptr<Parts> add_field_points(const VolumeData& volume, const SizeFunction& sizes, unsigned threads,
-                                        Monitor& monitor) {
-  set_sizes_at_vertices(volume, sizes);
+std::unique_ptr<Parts> add_field_points(const VolumeData& volume, const SizeFunction& sizes,
+                                        const Threads& threads, Monitor& monitor) {
+  set_sizes_at_vertices(volume, sizes, threads);
   if (auto parts = filled_parts(volume, sizes, threads, monitor)) return parts;
   order_along_curve(volume);
   advance_front(volume, sizes, Stage::field_points, monitor);
@@ -89,7 +84,7 @@ std::unique_ptr<Parts> add_field_points(const VolumeData& volume, const SizeFunc
   return {};
 }
 
-void join_filled(std::unique_ptr<Parts> parts, const SizeFunction& sizes, unsigned threads,
+void join_filled(std::unique_ptr<Parts> parts, const SizeFunction& sizes, const Threads& threads,
                  Monitor& monitor) {
   while (parts) {
     parts = join_and_cut_again(*parts, threads);

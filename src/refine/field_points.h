@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "mesh/monitor.h"
+#include "mesh/parallel.h"
 #include "refine/parts.h"
 #include "refine/volume_data.h"
 #include "size/size_function.h"
@@ -18,14 +19,15 @@ namespace holdfast {
 /// A large mesh is left in parts, to go on with; points near the interfaces between them are missing. The
 /// threads make no difference to the result.
 [[nodiscard]] std::unique_ptr<Parts> add_field_points(const VolumeData& volume, const SizeFunction& sizes,
-                                                      unsigned threads, Monitor& monitor);
+                                                      const Threads& threads, Monitor& monitor);
 
 /// Adds field points inside parts, which have none yet, and returns their number. `work` is the part of the
 /// stage's work that this is.
 std::size_t fill_parts(Parts& parts, const SizeFunction& sizes, Stage stage, std::array<double, 2> work,
-                       unsigned threads, Monitor& monitor);
+                       const Threads& threads, Monitor& monitor);
 
 /// Joins parts and adds the points that are missing.
-void join_filled(std::unique_ptr<Parts> parts, const SizeFunction& sizes, unsigned threads, Monitor& monitor);
+void join_filled(std::unique_ptr<Parts> parts, const SizeFunction& sizes, const Threads& threads,
+                 Monitor& monitor);
 
 }  // namespace holdfast

@@ -6,6 +6,7 @@
 
 #include "mesh/measure.h"
 #include "refine/field_inserter.h"
+#include "refine/tets_inside.h"
 #include "refine/vector.h"
 
 namespace holdfast {
@@ -256,17 +257,19 @@ void set_metrics_at_vertices(const VolumeData& volume, const SizeFunction& sizes
 
 // Vertices of the surface have their sizes; others, Steiner points and corners of a box, get what the
 // vertices round them allow.
-void set_sizes_at_vertices(const VolumeData& volume, const SizeFunction& sizes) {
+void set_sizes_at_vertices(const VolumeData& volume, const SizeFunction& sizes, const Threads& threads) {
   const TetMesh& mesh = volume.mesh;
   std::vector<double>& size = volume.sizes;
   size.assign(mesh.vertex_count(), kInfinity);
   for (Vertex v = 0; v < sizes.vertex_count(); ++v) size[v] = sizes.of_vertex(v);
+  const auto is_given = [&](Vertex v) { return v < sizes.vertex_count() && sizes.of_vertex(v) < kInfinity; };
+  const std::vector<Tet> at_others = tets_inside(
+      volume, threads, [&](const TetMesh::Corners& c) { return !std::all_of(c.begin(), c.end(), is_given); });
   for (bool changed = true; changed;) {
     changed = false;
-    for (Tet t = 0; t < mesh.slot_count(); ++t) {
-      if (!volume.is_inside(t)) continue;
+    for (const Tet t : at_others) {
       for (const Vertex v : mesh.corners(t)) {
-        if (v < sizes.vertex_count() && sizes.of_vertex(v) < kInfinity) continue;
+        if (is_given(v)) continue;
         for (const Vertex w : mesh.corners(t)) {
           const double h = size[w] + sizes.gradation() * distance(mesh.position(v), mesh.position(w));
           if (!(h < size[v] * (1 - 1e-9))) continue;
@@ -276,7 +279,7 @@ void set_sizes_at_vertices(const VolumeData& volume, const SizeFunction& sizes) 
       }
     }
   }
-  for (Tet t = 0; t < mesh.slot_count(); ++t)
+  for (Tet t = 0; t < mesh.slot_count() && sizes.has_limit(); ++t)
     if (volume.is_inside(t))
       for (const Vertex v : mesh.corners(t))
         size[v] = std::min(size[v], sizes.limit(mesh.position(v), volume.region_of[t]));

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "mesh/monitor.h"
+#include "mesh/parallel.h"
 #include "refine/volume_data.h"
 #include "size/size_function.h"
 
@@ -16,7 +17,7 @@ namespace holdfast {
 
 /// The size at each vertex of the mesh: that of the surface, and for others what the vertices round allow;
 /// and the metric, if there is one.
-void set_sizes_at_vertices(const VolumeData& volume, const SizeFunction& sizes);
+void set_sizes_at_vertices(const VolumeData& volume, const SizeFunction& sizes, const Threads& threads);
 
 /// Adds field points, wherever tetrahedra are too large. Progress is told as that of `stage`.
 void advance_front(const VolumeData& volume, const SizeFunction& sizes, Stage stage, Monitor& monitor);

@@ -333,7 +333,7 @@ void link_seams(TetMesh& mesh, const std::vector<PartJoiner>& joiners) {
 }  // namespace
 
 Parts::Parts(const VolumeData& whole, const std::vector<std::uint32_t>& part_of, std::size_t count,
-             unsigned threads)
+             const Threads& threads)
     : whole_(whole), parts_(count) {
   std::vector<std::size_t> sizes(count, 0);
   for (const std::uint32_t part : part_of)
@@ -354,7 +354,7 @@ Parts::Parts(const VolumeData& whole, const std::vector<std::uint32_t>& part_of,
   });
 }
 
-void Parts::set_cut_before(const std::vector<Vertex>& vertices, unsigned threads) {
+void Parts::set_cut_before(const std::vector<Vertex>& vertices, const Threads& threads) {
   std::vector<std::uint8_t> is_among(whole_.mesh.vertex_count(), 0);
   for (const Vertex v : vertices) is_among[v] = 1;
   parallel(threads, parts_.size(), [&](std::size_t k) {
@@ -362,7 +362,7 @@ void Parts::set_cut_before(const std::vector<Vertex>& vertices, unsigned threads
   });
 }
 
-double Parts::share_at_cuts(unsigned threads) const {
+double Parts::share_at_cuts(const Threads& threads) const {
   std::vector<std::size_t> at(parts_.size());
   parallel(threads, parts_.size(), [&](std::size_t k) { at[k] = parts_[k].count_at_cuts(); });
   std::size_t all = 0;
@@ -383,7 +383,7 @@ std::size_t Parts::new_vertices() const {
   return count;
 }
 
-void Parts::join(unsigned threads) {
+void Parts::join(const Threads& threads) {
   std::vector<PartJoiner> joiners;
   for (Part& part : parts_) joiners.emplace_back(whole_, part);
   parallel(threads, joiners.size(), [&](std::size_t k) { joiners[k].prepare(); });

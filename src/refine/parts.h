@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/parallel.h"
 #include "refine/volume_data.h"
 
 namespace holdfast {
@@ -75,22 +76,22 @@ class Parts {
   /// `part_of`, by slot, is the number of the part of a tetrahedron, or kNone for those that are in none. The
   /// whole must not be changed until the parts are joined.
   Parts(const VolumeData& whole, const std::vector<std::uint32_t>& part_of, std::size_t count,
-        unsigned threads);
+        const Threads& threads);
 
   [[nodiscard]] const VolumeData& whole() const { return whole_; }
   [[nodiscard]] std::vector<Part>& parts() { return parts_; }
   [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
   /// Takes note of the vertices that were on interfaces between other parts before, in ascending order.
-  void set_cut_before(const std::vector<Vertex>& vertices, unsigned threads);
+  void set_cut_before(const std::vector<Vertex>& vertices, const Threads& threads);
   /// The share of tetrahedra with a vertex on an interface between two parts: small, unless there are
   /// vertices at which much of the mesh is.
-  [[nodiscard]] double share_at_cuts(unsigned threads) const;
+  [[nodiscard]] double share_at_cuts(const Threads& threads) const;
   /// In all parts together, ghosts included.
   [[nodiscard]] std::size_t tet_count() const;
   /// Vertices that came to be in the parts.
   [[nodiscard]] std::size_t new_vertices() const;
   /// Puts the parts in the place of their tetrahedra.
-  void join(unsigned threads);
+  void join(const Threads& threads);
   /// Vertices of the whole on interfaces between these parts, in ascending order.
   [[nodiscard]] std::vector<Vertex> vertices_between() const;
 

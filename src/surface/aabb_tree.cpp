@@ -15,7 +15,7 @@ void Box::extend(const Box& other) {
   }
 }
 
-AabbTree::AabbTree(std::span<const Box> boxes, std::span<const Index> group, unsigned threads)
+AabbTree::AabbTree(std::span<const Box> boxes, std::span<const Index> group, const Threads& threads)
     : group_(group) {
   if (boxes.empty()) return;
   items_.reserve(boxes.size());
@@ -43,10 +43,10 @@ AabbTree::AabbTree(std::span<const Box> boxes, std::span<const Index> group, uns
 }
 
 // Nodes from the root down, until there are enough subtrees for all threads; these each on one thread.
-void AabbTree::build_all(unsigned threads) {
+void AabbTree::build_all(const Threads& threads) {
   constexpr Index kLeastSubtree = 2048;  // items that are worth a thread
   std::vector<Index> roots{0};
-  while (threads > 1 && roots.size() < 4 * std::size_t{threads}) {
+  while (threads.count() > 1 && roots.size() < 4 * std::size_t{threads.count()}) {
     std::vector<Index> below;
     for (const Index root : roots) {
       build(nodes_, root);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "holdfast/types.h"
+#include "mesh/parallel.h"
 
 namespace holdfast {
 
@@ -37,7 +38,8 @@ class AabbTree {
 
   /// Item i is boxes[i]. Items with the same entry of `group`, if given, other than ~0 get a subtree of
   /// their own (as a rule: groups with the same centre may mix). O(n log n) time, O(n) memory.
-  explicit AabbTree(std::span<const Box> boxes, std::span<const Index> group = {}, unsigned threads = 1);
+  explicit AabbTree(std::span<const Box> boxes, std::span<const Index> group = {},
+                    const Threads& threads = 1);
 
   /// Number of nodes.
   [[nodiscard]] std::size_t nodes() const { return nodes_.size(); }
@@ -75,7 +77,7 @@ class AabbTree {
   static constexpr Index kLeafItems = 4;
 
   using Nodes = std::vector<Node>;
-  void build_all(unsigned threads);
+  void build_all(const Threads& threads);
   void build_below(Nodes& nodes, Index node);
   void build(Nodes& nodes, Index node);
   Index partition(Node& node);

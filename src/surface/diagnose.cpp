@@ -9,12 +9,12 @@
 namespace holdfast {
 
 std::vector<Defect> find_defects(const Complex& complex, std::size_t most, const Step& step,
-                                 unsigned threads) {
+                                 const Threads& threads) {
   return find_defects(complex, elements_of(complex, threads), most, step, threads);
 }
 
 std::vector<Defect> find_defects(const Complex& complex, const Elements& elements, std::size_t most,
-                                 const Step& step, unsigned threads) {
+                                 const Step& step, const Threads& threads) {
   std::vector<Defect> defects;
   for (const Flaw& flaw : elements.flaws) {
     if (defects.size() == most) return defects;

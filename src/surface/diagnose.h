@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "holdfast/types.h"
+#include "mesh/parallel.h"
 #include "surface/search.h"
 
 namespace holdfast {
@@ -24,11 +25,11 @@ namespace holdfast {
 ///     containing or second simplex as a face, then all those that have the first. Each of the former
 ///     with each of the latter is a pair that does not fit.
 [[nodiscard]] std::vector<Defect> find_defects(const Complex& complex, std::size_t most, const Step& step,
-                                               unsigned threads = 1);
+                                               const Threads& threads = 1);
 
 /// The same, with the complex's elements at hand.
 [[nodiscard]] std::vector<Defect> find_defects(const Complex& complex, const Elements& elements,
-                                               std::size_t most, const Step& step, unsigned threads);
+                                               std::size_t most, const Step& step, const Threads& threads);
 
 /// An element of the complex: a facet, a segment that is no facet's side, a vertex that neither uses.
 struct ElementRef {

@@ -25,7 +25,7 @@ struct Candidate {
 
 class Sorter {
  public:
-  Sorter(const Complex& complex, unsigned threads) : complex_(complex), threads_(threads) {}
+  Sorter(const Complex& complex, const Threads& threads) : complex_(complex), threads_(threads) {}
 
   Elements run() {
     find_identical_vertices();
@@ -43,7 +43,7 @@ class Sorter {
   void sort_in_parts(std::vector<T>& values, const Less& less) const {
     constexpr std::size_t kLeastPart = 10000;
     std::size_t parts = 1;
-    while (2 * parts <= threads_ && values.size() / (2 * parts) >= kLeastPart) parts *= 2;
+    while (2 * parts <= threads_.count() && values.size() / (2 * parts) >= kLeastPart) parts *= 2;
     const auto at = [&](std::size_t part) {
       return values.begin() + static_cast<std::ptrdiff_t>(values.size() * part / parts);
     };
@@ -169,7 +169,7 @@ class Sorter {
   }
 
   const Complex& complex_;
-  const unsigned threads_;
+  const Threads threads_;
   Elements result_;
   std::vector<char> used_;  // by some element
 };
@@ -187,6 +187,8 @@ Simplex Elements::simplex(const Element& element, const Complex& complex) {
   return simplex;
 }
 
-Elements elements_of(const Complex& complex, unsigned threads) { return Sorter(complex, threads).run(); }
+Elements elements_of(const Complex& complex, const Threads& threads) {
+  return Sorter(complex, threads).run();
+}
 
 }  // namespace holdfast

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "holdfast/types.h"
+#include "mesh/parallel.h"
 #include "surface/intersect.h"
 
 namespace holdfast {
@@ -44,6 +45,6 @@ struct Elements {
 /// Sorts out the elements. Left out, with a flaw: entities with an index out of range or a non-finite
 /// corner (told of the vertex), facets of zero area, segments with equal ends. Left out silently: segments
 /// that repeat a facet's side or an earlier segment, and later copies of a vertex.
-[[nodiscard]] Elements elements_of(const Complex& complex, unsigned threads = 1);
+[[nodiscard]] Elements elements_of(const Complex& complex, const Threads& threads = 1);
 
 }  // namespace holdfast

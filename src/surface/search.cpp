@@ -262,7 +262,7 @@ class Search {
     Box all = boxes[0];
     for (const Box& box : boxes) all.extend(box);
     boxes = {};  // the tree has its own
-    if (threads_ > 1 && elements_.all.size() >= kWorthThreads && all_fit_in(tree, all)) return true;
+    if (threads_.count() > 1 && elements_.all.size() >= kWorthThreads && all_fit_in(tree, all)) return true;
     Skip skip(complex_, elements_, known_, hubs_, tree, all, patience_);
     bool go_on = true;
     tree.for_each_overlap(
@@ -273,21 +273,21 @@ class Search {
   // Whether no pair that shares no hub is offending. Which pair is met first depends on the threads; so where
   // there is one, the search starts again on one thread.
   [[nodiscard]] bool all_fit_in(const AabbTree& tree, const Box& all) const {
-    const std::vector<AabbTree::NodePair> tops = tree.divided(kTopsAThread * threads_);
+    const std::vector<AabbTree::NodePair> tops = tree.divided(kTopsAThread * threads_.count());
     const std::thread::id calling_thread = std::this_thread::get_id();
     std::atomic<std::size_t> next = 0;
     std::atomic<bool> stop = false;
     const auto step = [&](double) {
       if (std::this_thread::get_id() == calling_thread)
-        step_(static_cast<double>(next) / static_cast<double>(tops.size() + threads_));
+        step_(static_cast<double>(next) / static_cast<double>(tops.size() + threads_.count()));
     };
     const VisitPair visit = [&](Index, Index, const Contacts&) {
       stop = true;
       return false;
     };
     step(0);  // the other threads may leave nothing to do for this one
-    parallel(threads_, threads_, [&](std::size_t) {
-      Skip skip(complex_, elements_, known_, hubs_, tree, all, patience_ / threads_);
+    parallel(threads_, threads_.count(), [&](std::size_t) {
+      Skip skip(complex_, elements_, known_, hubs_, tree, all, patience_ / threads_.count());
       try {
         for (std::size_t k = next++; k < tops.size() && !stop; k = next++) {
           step(0);
@@ -337,13 +337,13 @@ class Search {
   const VisitPair& visit_;
   const Step& step_;
   std::size_t patience_;
-  unsigned threads_;
+  Threads threads_;
   Hubs hubs_;
 };
 
 // The elements that are not known and those whose boxes overlap one of theirs, and which of them are known.
 std::pair<Elements, std::vector<std::uint8_t>> near_unknown(const Complex& complex, const Elements& elements,
-                                                            Known known, unsigned threads) {
+                                                            Known known, const Threads& threads) {
   std::vector<Box> boxes;
   for (Index e = 0; e < elements.all.size(); ++e)
     if (known[e] == 0) boxes.push_back(box_of(complex, elements.all[e]));
@@ -370,7 +370,7 @@ void for_each_offending_pair(const Complex& complex, const Elements& elements, c
 }
 
 bool all_fit(const Complex& complex, const Elements& elements, Known known, const Step& step,
-             unsigned threads) {
+             const Threads& threads) {
   constexpr std::size_t kFew = 4;  // a part of all
   Elements near;
   std::vector<std::uint8_t> near_known;
@@ -389,7 +389,7 @@ bool all_fit(const Complex& complex, const Elements& elements, Known known, cons
 }
 
 std::vector<Finding> find_root_causes(const Complex& complex, const Elements& elements, std::size_t most,
-                                      const Step& step, unsigned threads) {
+                                      const Step& step, const Threads& threads) {
   if (most == 0) return {};
   RootCauses causes(complex, elements);
   const auto visit = [&](Index i, Index j, const Contacts& contacts) {

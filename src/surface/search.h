@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "holdfast/types.h"
+#include "mesh/parallel.h"
 #include "surface/contacts.h"
 #include "surface/elements.h"
 
@@ -49,7 +50,7 @@ struct SearchTuning {
   /// Tests of two nodes of the tree, an element, after which oriented boxes (oriented_box.h) come in. Good
   /// surfaces need about 5 to 10.
   std::size_t patience = 20;
-  unsigned threads = 1;
+  Threads threads = 1;
 };
 
 /// For each element whether it is known to fit together with all others of which that is known, as faces of
@@ -63,10 +64,11 @@ void for_each_offending_pair(const Complex& complex, const Elements& elements, c
 
 /// Whether there is no such pair. Takes little more than a look at each element where few are not known.
 [[nodiscard]] bool all_fit(const Complex& complex, const Elements& elements, Known known, const Step& step,
-                           unsigned threads = 1);
+                           const Threads& threads = 1);
 
 /// Root causes, ordered by `pair`; `most` of them at most, the first that turn up.
 [[nodiscard]] std::vector<Finding> find_root_causes(const Complex& complex, const Elements& elements,
-                                                    std::size_t most, const Step& step, unsigned threads = 1);
+                                                    std::size_t most, const Step& step,
+                                                    const Threads& threads = 1);
 
 }  // namespace holdfast
