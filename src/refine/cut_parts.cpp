@@ -30,7 +30,8 @@ std::vector<Tet> rings_round(const VolumeData& volume, const std::vector<Vertex>
   for (int ring = 0; ring < kRings; ++ring) {
     for (const Tet t : tets)
       for (const Vertex v : volume.mesh.corners(t)) reached[v] = 1;
-    tets = tets_inside(volume, threads, [&](const TetMesh::Corners& c) {
+    tets = tets_inside(volume, threads, [&](Tet t) {
+      const TetMesh::Corners& c = volume.mesh.corners(t);
       return std::any_of(c.begin(), c.end(), [&](Vertex v) { return reached[v] != 0; });
     });
   }

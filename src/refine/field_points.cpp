@@ -55,7 +55,7 @@ std::unique_ptr<Parts> filled_parts(const VolumeData& volume, const SizeFunction
   constexpr double kMostAtCuts = 0.5;
   const Cuts cuts = find_cuts(volume, sizes, tets_inside(volume, threads));
   if (cuts.part_count() == 1) return {};
-  add_section_points(volume, cuts, sizes, monitor);
+  add_section_points(volume, cuts, sizes, threads, monitor);
   auto parts = cut_into_parts(volume, tets_inside(volume, threads), cuts, kMostAtCuts, threads);
   if (parts) fill_parts(*parts, sizes, Stage::field_points, {kOnCuts, 1}, threads, monitor);
   return parts;
@@ -65,12 +65,12 @@ std::unique_ptr<Parts> filled_parts(const VolumeData& volume, const SizeFunction
 
 std::size_t fill_parts(Parts& parts, const SizeFunction& sizes, Stage stage, std::array<double, 2> work,
                        const Threads& threads, Monitor& monitor) {
-  const Threads most = threads.at_most(sizes.is_the_users() ? 1 : threads.count());
-  parallel_monitored(most, parts.parts().size(), monitor, work, [&](std::size_t k, Monitor& own) {
-    Part& part = parts.parts()[k];
-    advance_front(part.data(parts.whole().kept), sizes, stage, own);
-    part.order_along_curve();
-  });
+  parallel_monitored(sizes.threads_of(threads), parts.parts().size(), monitor, work,
+                     [&](std::size_t k, Monitor& own) {
+                       Part& part = parts.parts()[k];
+                       advance_front(part.data(parts.whole().kept), sizes, stage, own);
+                       part.order_along_curve();
+                     });
   return parts.new_vertices();
 }
 

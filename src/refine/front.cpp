@@ -263,8 +263,10 @@ void set_sizes_at_vertices(const VolumeData& volume, const SizeFunction& sizes, 
   size.assign(mesh.vertex_count(), kInfinity);
   for (Vertex v = 0; v < sizes.vertex_count(); ++v) size[v] = sizes.of_vertex(v);
   const auto is_given = [&](Vertex v) { return v < sizes.vertex_count() && sizes.of_vertex(v) < kInfinity; };
-  const std::vector<Tet> at_others = tets_inside(
-      volume, threads, [&](const TetMesh::Corners& c) { return !std::all_of(c.begin(), c.end(), is_given); });
+  const std::vector<Tet> at_others = tets_inside(volume, threads, [&](Tet t) {
+    const TetMesh::Corners& c = mesh.corners(t);
+    return !std::all_of(c.begin(), c.end(), is_given);
+  });
   for (bool changed = true; changed;) {
     changed = false;
     for (const Tet t : at_others) {

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "refine/field_inserter.h"
+#include "refine/tets_inside.h"
 #include "refine/vector.h"
 
 namespace holdfast {
@@ -41,8 +42,10 @@ class SectionRefiner {
         monitor_(monitor),
         inserter_(volume, sizes) {}
 
-  void run() {
-    for (Tet t = 0; t < mesh_.slot_count(); ++t) look_at(t);
+  void run(const Threads& threads) {
+    const std::vector<Tet> large =
+        tets_inside(volume_, threads, [&](Tet t) { return large_circle(t).has_value(); });
+    large_.assign(large.begin(), large.end());
     // Dead ones are met, and slots that were filled again: what stands there now is looked at.
     while (!large_.empty() && !inserter_.has_wasted_enough()) {
       const Tet t = large_.front();
@@ -122,8 +125,8 @@ class SectionRefiner {
 }  // namespace
 
 void add_section_points(const VolumeData& volume, const Cuts& cuts, const SizeFunction& sizes,
-                        Monitor& monitor) {
-  SectionRefiner(volume, cuts, sizes, monitor).run();
+                        const Threads& threads, Monitor& monitor) {
+  SectionRefiner(volume, cuts, sizes, monitor).run(sizes.threads_of(threads));
 }
 
 }  // namespace holdfast

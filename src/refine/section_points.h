@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesh/monitor.h"
+#include "mesh/parallel.h"
 #include "refine/cuts.h"
 #include "refine/volume_data.h"
 #include "size/size_function.h"
@@ -11,6 +12,6 @@ namespace holdfast {
 /// Puts field points on the cuts, until the empty spheres of the mesh meet the planes in
 /// circles no larger than the size there. Then what is done on one side of a plane hardly reaches the other.
 void add_section_points(const VolumeData& volume, const Cuts& cuts, const SizeFunction& sizes,
-                        Monitor& monitor);
+                        const Threads& threads, Monitor& monitor);
 
 }  // namespace holdfast

@@ -10,7 +10,7 @@
 
 namespace holdfast {
 
-/// The tetrahedra of the kept regions whose corners are wanted, in ascending order.
+/// The tetrahedra of the kept regions that are wanted, in ascending order.
 template <typename IsWanted>
 [[nodiscard]] std::vector<Tet> tets_inside(const VolumeData& volume, const Threads& threads,
                                            IsWanted&& is_wanted) {
@@ -19,7 +19,7 @@ template <typename IsWanted>
   parallel_ranges(threads, volume.mesh.slot_count(), [&](std::size_t first, std::size_t last) {
     std::vector<Tet> own;
     for (auto t = static_cast<Tet>(first); t < last; ++t)
-      if (volume.is_inside(t) && is_wanted(volume.mesh.corners(t))) own.push_back(t);
+      if (volume.is_inside(t) && is_wanted(t)) own.push_back(t);
     const std::scoped_lock lock(mutex);
     ranges[first] = std::move(own);
   });
@@ -29,7 +29,7 @@ template <typename IsWanted>
   return tets;
 }
 [[nodiscard]] inline std::vector<Tet> tets_inside(const VolumeData& volume, const Threads& threads) {
-  return tets_inside(volume, threads, [](const TetMesh::Corners&) { return true; });
+  return tets_inside(volume, threads, [](Tet) { return true; });
 }
 
 }  // namespace holdfast

@@ -15,6 +15,7 @@
 
 #include "classify/keep.h"
 #include "holdfast/holdfast.h"
+#include "mesh/parallel.h"
 #include "metric/metric.h"
 #include "surface/complex.h"
 
@@ -41,8 +42,10 @@ class SizeFunction {
   [[nodiscard]] bool has_limit() const {
     return most_ < std::numeric_limits<double>::infinity() || !of_region_.empty() || field_;
   }
-  /// Whether this is a function of the user, which is called on the calling thread alone.
-  [[nodiscard]] bool is_the_users() const { return field_ || metric_; }
+  /// Those of the threads that may ask for sizes: a function of the user is called on the calling one alone.
+  [[nodiscard]] Threads threads_of(const Threads& all) const {
+    return field_ || metric_ ? all.at_most(1) : all;
+  }
   [[nodiscard]] double gradation() const { return gradation_; }
   /// Inside, sizes do not grow beyond those of the surface round it.
   [[nodiscard]] bool grows() const { return grows_; }

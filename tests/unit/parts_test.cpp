@@ -346,7 +346,7 @@ TEST(SectionPoints, MakeTheCirclesSmallInWhichSpheresMeetTheCuts) {
   const Sizes sizes{.size = 0.1};
   const SizeFunction size_function(sizes, {}, {}, options, {}, 0);
   Monitor monitor(options);
-  add_section_points(cube.data(), cuts, size_function, monitor);
+  add_section_points(cube.data(), cuts, size_function, 2, monitor);
   EXPECT_EQ(find_fault(cube.mesh), "");
   const std::size_t points = cube.mesh.vertex_count() - 8;
   EXPECT_GT(points, 120u);  // two unit squares and a half, in triangles of this size or larger ones
