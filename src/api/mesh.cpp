@@ -192,7 +192,7 @@ class Pipeline {
     Report::Input input;
     parallel(shared, 2, [&](std::size_t task) {
       if (task == 0) {
-        elements_ = elements_of(complex_, shared.at_most(shared.count() / 2));
+        elements_ = elements_of(complex_, shared);
       } else if (has_indices_in_range(complex_)) {
         table_ = segment_table(complex_);
         input = describe_input(complex_, &table_);

@@ -30,8 +30,7 @@ class Sorter {
   Elements run() {
     find_identical_vertices();
     used_.assign(complex_.vertices.size(), 0);
-    result_.all.reserve(complex_.facets.size() + complex_.segments.size());
-    for (Index f = 0; f < complex_.facets.size(); ++f) add_facet(f);
+    add_facets();
     add_segments();
     add_vertices();
     return std::move(result_);
@@ -54,8 +53,6 @@ class Sorter {
         std::inplace_merge(at(first), at(first + width), at(first + 2 * width), less);
       });
   }
-
-  void flaw(DefectKind kind, unsigned corners, Index id) { result_.flaws.push_back({kind, corners, id}); }
 
   // Sets `representative`; flaws of vertices.
   void find_identical_vertices() {
@@ -81,7 +78,7 @@ class Sorter {
     }
     for (Index v = 0; v < points.size(); ++v) {
       if (!finite(points[v])) {
-        flaw(DefectKind::non_finite_coordinate, 1, v);
+        result_.flaws.push_back({DefectKind::non_finite_coordinate, 1, v});
       } else if (result_.representative[v] != v) {
         result_.flaws.push_back({DefectKind::repeated_vertex, 1, v, result_.representative[v]});
       }
@@ -90,10 +87,10 @@ class Sorter {
 
   // Replaces the corners by representatives; false, with a flaw or without, if they are no good.
   template <std::size_t N>
-  bool resolve(std::array<Index, N>& corners, Index id) {
+  bool resolve(std::array<Index, N>& corners, Index id, std::vector<Flaw>& flaws) const {
     for (const Index v : corners) {
       if (v >= complex_.vertices.size()) {
-        flaw(DefectKind::index_out_of_range, N, id);
+        flaws.push_back({DefectKind::index_out_of_range, N, id});
         return false;
       }
     }
@@ -105,28 +102,46 @@ class Sorter {
     return good;
   }
 
-  void add_facet(Index f) {
+  // In blocks, so that a thread that is done with other work can join in.
+  void add_facets() {
+    constexpr std::size_t kBlock = 16384;
+    const std::size_t count = complex_.facets.size();
+    result_.all.reserve(count + complex_.segments.size());
+    result_.all.resize(count);
+    std::vector<std::vector<Flaw>> flaws(1 + count / kBlock);
+    parallel(threads_, flaws.size(), [&](std::size_t block) {
+      for (std::size_t f = block * kBlock; f < std::min(count, (block + 1) * kBlock); ++f)
+        result_.all[f] = facet_element(static_cast<Index>(f), flaws[block]);
+    });
+    std::erase_if(result_.all, [](const Element& element) { return element.corners == 0; });
+    for (const Element& element : result_.all)
+      for (const Index v : element.vertex) used_[v] = 1;
+    for (const auto& own : flaws) result_.flaws.insert(result_.flaws.end(), own.begin(), own.end());
+  }
+
+  // Without corners if it is no good.
+  Element facet_element(Index f, std::vector<Flaw>& flaws) const {
     Triangle corners = complex_.facets[f];
-    if (!resolve(corners, f)) return;
+    if (!resolve(corners, f, flaws)) return {};
     Element element{corners, f, 3};
     Simplex simplex = Elements::simplex(element, complex_);
     const bool repeats = corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
     if (repeats || !set_projection(simplex)) {
-      flaw(DefectKind::degenerate_facet, 3, f);
-      return;
+      flaws.push_back({DefectKind::degenerate_facet, 3, f});
+      return {};
     }
     element.axis = static_cast<std::uint8_t>(simplex.axis);
     element.turn = static_cast<std::int16_t>(simplex.turn);
-    add(element);
+    return element;
   }
 
   void add_segments() {
     std::vector<Candidate> candidates;
     for (Index s = 0; s < complex_.segments.size(); ++s) {
       Segment ends = complex_.segments[s];
-      if (!resolve(ends, s)) continue;
+      if (!resolve(ends, s, result_.flaws)) continue;
       if (ends[0] == ends[1]) {
-        flaw(DefectKind::degenerate_segment, 2, s);
+        result_.flaws.push_back({DefectKind::degenerate_segment, 2, s});
       } else {
         candidates.push_back({{std::min(ends[0], ends[1]), std::max(ends[0], ends[1])}, s});
       }
