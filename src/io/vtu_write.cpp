@@ -32,14 +32,14 @@ std::string deflated(std::string_view block) {
 }
 
 /// One array as the appended section holds it: sizes, then the data.
-std::string encoded(std::string_view data, const WriteOptions& options) {
+std::string encoded(std::string_view data, bool compress, const Threads& threads) {
   std::string result;
-  if (!options.compress) {
+  if (!compress) {
     append(result, data.size());
     return result.append(data);
   }
   std::vector<std::string> blocks((data.size() + kBlock - 1) / kBlock);
-  parallel(options.threads, blocks.size(),
+  parallel(threads, blocks.size(),
            [&](std::size_t k) { blocks[k] = deflated(data.substr(k * kBlock, kBlock)); });
   append(result, blocks.size());
   append(result, kBlock);
@@ -52,13 +52,14 @@ std::string encoded(std::string_view data, const WriteOptions& options) {
 }  // namespace
 
 void write_vtu_arrays(AtomicWriter& out, const VtuArrays& arrays, const WriteOptions& options) {
+  const Threads threads(options.threads);
   std::string data;
   const auto array = [&](const VtuArray& a) {
     out << "<DataArray type=\"" << a.type << "\" Name=\"" << a.name << '"';
     // Left out for scalars: meshio would give their values a second dimension.
     if (a.components != 1) out << " NumberOfComponents=\"" << std::uint64_t{a.components} << '"';
     out << " format=\"appended\" offset=\"" << std::uint64_t{data.size()} << "\"/>\n";
-    data += encoded({reinterpret_cast<const char*>(a.bytes.data()), a.bytes.size()}, options);
+    data += encoded({reinterpret_cast<const char*>(a.bytes.data()), a.bytes.size()}, options.compress, threads);
   };
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
       << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
