@@ -287,10 +287,11 @@ class Pipeline {
   }
 
   void add_points() {
-    for (Tet t = 0; t < mesh_.slot_count() && mesh_.exact_vertex_count() > 0; ++t)
-      if (is_kept(t))
-        for (const Vertex v : mesh_.corners(t))
-          if (!mesh_.is_explicit(v)) return;  // the outcome is not_representable
+    if (mesh_.exact_vertex_count() > 0)
+      for (Tet t = 0; t < mesh_.slot_count(); ++t)
+        if (is_kept(t))
+          for (const Vertex v : mesh_.corners(t))
+            if (!mesh_.is_explicit(v)) return;  // the outcome is not_representable
     size_function_.emplace(*options_.sizes, complex_, table_, options_, kept_, scale_);
     const std::size_t before = mesh_.vertex_count();
     parts_ = add_field_points(volume(), *size_function_, threads_, monitor_);

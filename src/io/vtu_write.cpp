@@ -59,7 +59,8 @@ void write_vtu_arrays(AtomicWriter& out, const VtuArrays& arrays, const WriteOpt
     // Left out for scalars: meshio would give their values a second dimension.
     if (a.components != 1) out << " NumberOfComponents=\"" << std::uint64_t{a.components} << '"';
     out << " format=\"appended\" offset=\"" << std::uint64_t{data.size()} << "\"/>\n";
-    data += encoded({reinterpret_cast<const char*>(a.bytes.data()), a.bytes.size()}, options.compress, threads);
+    data +=
+        encoded({reinterpret_cast<const char*>(a.bytes.data()), a.bytes.size()}, options.compress, threads);
   };
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
       << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")

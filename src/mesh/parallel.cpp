@@ -17,7 +17,9 @@ constexpr std::size_t kLeastRange = 4096;  // shorter ranges are not worth a thr
 // One call of parallel().
 class Job {
  public:
-  Job(std::size_t count, const std::function<void(std::size_t)>& task) : task_(task), errors_(count) {}
+  Job(std::size_t count, const std::function<void(std::size_t)>& task) : task_(task) {
+    errors_.resize(count);
+  }
 
   std::size_t wanted = 0;   // threads that may yet join in
   std::size_t helping = 0;  // threads that did

@@ -281,8 +281,8 @@ void set_sizes_at_vertices(const VolumeData& volume, const SizeFunction& sizes, 
       }
     }
   }
-  for (Tet t = 0; t < mesh.slot_count() && sizes.has_limit(); ++t)
-    if (volume.is_inside(t))
+  if (sizes.has_limit())
+    for (const Tet t : tets_inside(volume, threads))
       for (const Vertex v : mesh.corners(t))
         size[v] = std::min(size[v], sizes.limit(mesh.position(v), volume.region_of[t]));
   if (sizes.has_metric()) set_metrics_at_vertices(volume, sizes);
