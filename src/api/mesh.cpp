@@ -27,6 +27,7 @@
 #include "mesh/quality.h"
 #include "mesh/tet_mesh.h"
 #include "optimise/optimise.h"
+#include "recover/other_diagonals.h"
 #include "recover/recover.h"
 #include "recover/standing.h"
 #include "refine/field_points.h"
@@ -205,12 +206,13 @@ class Pipeline {
   // left for what is missing there: of a fine surface, next to nothing.
   void validate_missing() {
     if (std::exchange(elements_fit_, true)) return;
-    std::vector<std::uint8_t> stands(elements_.all.size());
-    std::transform(elements_.all.begin(), elements_.all.end(), stands.begin(), [&](const Element& e) {
-      if (e.corners == 3) return standing_.facets[e.id];
-      return e.corners == 1 ? std::uint8_t{1} : standing_.segments[table_.find(e.vertex[0], e.vertex[1])];
+    const Standing fitting = with_other_diagonals(mesh_, complex_, table_, standing_);
+    std::vector<std::uint8_t> fits(elements_.all.size());
+    std::transform(elements_.all.begin(), elements_.all.end(), fits.begin(), [&](const Element& e) {
+      if (e.corners == 3) return fitting.facets[e.id];
+      return e.corners == 1 ? std::uint8_t{1} : fitting.segments[table_.find(e.vertex[0], e.vertex[1])];
     });
-    if (!all_fit(complex_, elements_, stands, poll_validation(), threads_)) {
+    if (!all_fit(complex_, elements_, fits, poll_validation(), threads_)) {
       refuse_if_any_defect();
       if (result_.outcome == Outcome::done) throw std::logic_error("holdfast: a misfit without a defect");
     }

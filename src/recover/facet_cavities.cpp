@@ -362,13 +362,13 @@ bool FacetCavities::recover(const FaceCorners& facet, const Tell& tell, const Fi
   tets_.clear();
   added_.clear();
   in_the_way_.clear();
-  if (!piercing_.tets_across(facet, tets_)) return false;
-  if (tets_.empty()) {
-    const Face f = piercing_.find_face(facet[0], facet[1], facet[2]);
-    if (f == kNone) return list_coplanar(facet);
-    mesh_.set_facet(f);
+  const std::optional<Face> face = piercing_.tets_across(facet, tets_);
+  if (!face) return false;
+  if (*face != kNone) {
+    mesh_.set_facet(*face);
     return true;
   }
+  if (tets_.empty()) return list_coplanar(facet);
   Pair pair(mesh_, facet, tets_);
   in_the_way_ = pair.split(tets_);
   if (!in_the_way_.empty()) return false;

@@ -117,13 +117,14 @@ Piercing::Exit Piercing::pass_edge(const Exit& in, Vertex a, Vertex b) const {
   return {};
 }
 
-bool Piercing::by_segment(Vertex a, Vertex b, std::vector<Crossing>& out, std::size_t most) {
+std::optional<Tet> Piercing::by_segment(Vertex a, Vertex b, std::vector<Crossing>& out, std::size_t most) {
   Exit exit = leave_vertex(a, b);
   while (exit.count > 1 && out.size() < most) {
     out.push_back(exit);
     exit = exit.count == 3 ? pass_face(exit, a, b) : pass_edge(exit, a, b);
   }
-  return exit.count > 1 || (exit.count == 1 && exit.corners[0] == b);
+  if (exit.count > 1 || (exit.count == 1 && exit.corners[0] == b)) return exit.tet;
+  return std::nullopt;
 }
 
 Tet Piercing::find_edge(Vertex a, Vertex b) {
@@ -145,8 +146,8 @@ Face Piercing::find_face(Vertex a, Vertex b, Vertex c) {
   return kNone;
 }
 
-bool Piercing::of_facet(const std::array<Vertex, 3>& facet, std::vector<PiercingEdge>& out,
-                        std::size_t most) {
+std::optional<Face> Piercing::of_facet(const std::array<Vertex, 3>& facet, std::vector<PiercingEdge>& out,
+                                       std::size_t most) {
   const auto collect = [&](Tet t, const std::array<int, 4>& s) {
     for (const auto& e : kEdgeVertex) {
       const int s0 = s[static_cast<std::size_t>(e[0])], s1 = s[static_cast<std::size_t>(e[1])];
@@ -156,51 +157,52 @@ bool Piercing::of_facet(const std::array<Vertex, 3>& facet, std::vector<Piercing
     }
     return out.size() < 6 * most;
   };
-  if (!flood(facet, collect)) return false;
+  const std::optional<Face> face = flood(facet, collect);
   const auto key = [](const PiercingEdge& e) { return std::pair(e.above, e.below); };
   std::sort(out.begin(), out.end(), [&](const auto& l, const auto& r) { return key(l) < key(r); });
   out.erase(
       std::unique(out.begin(), out.end(), [&](const auto& l, const auto& r) { return key(l) == key(r); }),
       out.end());
-  return true;
+  return face;
 }
 
-bool Piercing::tets_across(const std::array<Vertex, 3>& facet, std::vector<Tet>& out) {
+std::optional<Face> Piercing::tets_across(const std::array<Vertex, 3>& facet, std::vector<Tet>& out) {
   return flood(facet, [&](Tet t, const std::array<int, 4>&) {
     out.push_back(t);
     return true;
   });
 }
 
-// A tetrahedron at the facet's first side through whose inside the facet passes; kNone where it stands.
 // Nothing where a side is no edge.
-std::optional<Tet> Piercing::first_across(const std::array<Vertex, 3>& facet) {
+std::optional<Piercing::Start> Piercing::start_of(const std::array<Vertex, 3>& facet) {
   const auto [a, b, inside] = facet;
   const Tet start = find_edge(a, b);
-  if (start == kNone || find_edge(b, inside) == kNone || find_edge(inside, a) == kNone) return std::nullopt;
+  if (start == kNone) return std::nullopt;
+  Start found;
   Tet t = start;
   do {
     const auto [c, d] = opposite_edge(mesh_, t, a, b);
-    if (c == inside) return kNone;
-    if (!mesh_.is_ghost(t) && d != inside && mesh_.orient(a, b, inside, d) > 0 &&
+    if (c == inside) return Start{.face = face_code(t, mesh_.index_of(t, d))};
+    if (found.across == kNone && !mesh_.is_ghost(t) && d != inside && mesh_.orient(a, b, inside, d) > 0 &&
         mesh_.orient(a, b, c, inside) > 0)
-      return t;
+      found.across = t;
     t = tet_of(mesh_.neighbour(t, mesh_.index_of(t, c)));
   } while (t != start);
-  return kNone;
+  if (find_edge(b, inside) == kNone || find_edge(inside, a) == kNone) return std::nullopt;
+  return found;
 }
 
 // Across faces with vertices strictly on both sides of the plane. The sides being edges, a section cell
 // never leaves the facet (design §2.4), and no mesh face or edge lies in the facet's inside, since none of
 // the mesh's vertices does.
 template <typename Visit>
-bool Piercing::flood(const std::array<Vertex, 3>& facet, Visit visit) {
-  const std::optional<Tet> first = first_across(facet);
-  if (!first) return false;
+std::optional<Face> Piercing::flood(const std::array<Vertex, 3>& facet, Visit visit) {
+  const std::optional<Start> start = start_of(facet);
+  if (!start) return std::nullopt;
   tets_.clear();
-  if (*first == kNone) return true;
-  tets_.push_back(*first);
-  mesh_.set_flags(*first, kVisited);
+  if (start->across == kNone) return start->face;
+  tets_.push_back(start->across);
+  mesh_.set_flags(start->across, kVisited);
   for (std::size_t n = 0; n < tets_.size(); ++n) {
     const Tet t = tets_[n];
     std::array<int, 4> s{};
@@ -223,7 +225,7 @@ bool Piercing::flood(const std::array<Vertex, 3>& facet, Visit visit) {
     }
   }
   for (const Tet t : tets_) mesh_.clear_flags(t, kVisited);
-  return true;
+  return kNone;
 }
 
 }  // namespace holdfast

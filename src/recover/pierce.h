@@ -40,16 +40,18 @@ class Piercing {
   /// The face abc (one of its two codes), or kNone.
   [[nodiscard]] Face find_face(Vertex a, Vertex b, Vertex c);
 
-  /// The faces and edges that segment ab crosses, from a to b, at most `most`; empty where ab is an edge.
-  /// Returns false where a vertex or the hull lies in the way.
-  bool by_segment(Vertex a, Vertex b, std::vector<Crossing>& out, std::size_t most);
+  /// The faces and edges that segment ab crosses, from a to b, at most `most`; none where ab is an edge.
+  /// Returns the last tetrahedron on the way, which then holds ab; nothing where a vertex or the hull lies in
+  /// the way.
+  std::optional<Tet> by_segment(Vertex a, Vertex b, std::vector<Crossing>& out, std::size_t most);
 
-  /// The edges that pierce a facet whose sides are edges, each once, at most about `most`. Returns false
-  /// where a side is no edge.
-  bool of_facet(const std::array<Vertex, 3>& facet, std::vector<PiercingEdge>& out, std::size_t most);
+  /// The edges that pierce a facet, each once, at most about `most`. Returns the facet's own face (one of its
+  /// two codes) where it stands, else kNone; nothing where a side is no edge.
+  std::optional<Face> of_facet(const std::array<Vertex, 3>& facet, std::vector<PiercingEdge>& out,
+                               std::size_t most);
 
-  /// The tetrahedra that have such an edge, each once. Returns false where a side is no edge.
-  bool tets_across(const std::array<Vertex, 3>& facet, std::vector<Tet>& out);
+  /// The tetrahedra that have such an edge, each once. Returns the same.
+  std::optional<Face> tets_across(const std::array<Vertex, 3>& facet, std::vector<Tet>& out);
 
  private:
   // What a ray meets next: 3, 2 or 1 corners of `tet`, which lies before a face.
@@ -60,9 +62,15 @@ class Piercing {
   [[nodiscard]] Exit leave_by_face(Tet t, Vertex a, const std::array<int, 3>& signs) const;
   [[nodiscard]] Exit pass_face(const Exit& in, Vertex a, Vertex b) const;
   [[nodiscard]] Exit pass_edge(const Exit& in, Vertex a, Vertex b) const;
-  [[nodiscard]] std::optional<Tet> first_across(const std::array<Vertex, 3>& facet);
+  // Where a facet begins at its first side: with its own face, or else with a tetrahedron through whose
+  // inside it passes, if there is one.
+  struct Start {
+    Face face = kNone;
+    Tet across = kNone;
+  };
+  [[nodiscard]] std::optional<Start> start_of(const std::array<Vertex, 3>& facet);
   template <typename Visit>
-  bool flood(const std::array<Vertex, 3>& facet, Visit visit);
+  std::optional<Face> flood(const std::array<Vertex, 3>& facet, Visit visit);
 
   TetMesh& mesh_;
   Random& random_;

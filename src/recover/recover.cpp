@@ -1,6 +1,7 @@
 #include "recover/recover.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "mesh/traverse.h"
@@ -82,10 +83,13 @@ void FlipRecovery::shuffle_in_blocks(std::vector<Index>& missing) {
 // with the crossings in between.
 bool FlipRecovery::segment(Index s, const Effort& effort) {
   enum class Way { open, blocked, invalid };
+  Tet edge = kNone;
   const auto clear_first = [&](Vertex from, Vertex to) {
     while (true) {
       crossings_.clear();
-      if (!piercing_.by_segment(from, to, crossings_, 1)) return Way::invalid;
+      const std::optional<Tet> last = piercing_.by_segment(from, to, crossings_, 1);
+      if (!last) return Way::invalid;
+      edge = *last;
       if (crossings_.empty()) return Way::open;
       if (!flipper_.clear(crossings_.front(), effort.depth, effort.budget)) return Way::blocked;
     }
@@ -98,7 +102,7 @@ bool FlipRecovery::segment(Index s, const Effort& effort) {
     if (way == Way::blocked) way = clear_first(b, a);
   } while (way == Way::blocked && effort.thorough && clear_between(a, b, effort));
   if (way != Way::open) return false;
-  set_segment(mesh_, piercing_.find_edge(a, b), a, b);
+  set_segment(mesh_, edge, a, b);
   standing_.segments[s] = 1;
   return true;
 }
@@ -121,12 +125,11 @@ bool FlipRecovery::facet(Index f, const Effort& effort) {
   for (bool gained = true; gained;) {
     gained = false;
     edges_.clear();
-    if (!piercing_.of_facet(facets_[f], edges_, kMostCrossings)) return false;
-    if (edges_.size() > kMostEdges) return false;
+    const std::optional<Face> face = piercing_.of_facet(facets_[f], edges_, kMostCrossings);
+    if (!face || edges_.size() > kMostEdges) return false;
     if (edges_.empty()) {
-      const Face face = piercing_.find_face(facets_[f][0], facets_[f][1], facets_[f][2]);
-      if (face == kNone) return false;
-      mesh_.set_facet(face);
+      if (*face == kNone) return false;
+      mesh_.set_facet(*face);
       standing_.facets[f] = 1;
       return true;
     }

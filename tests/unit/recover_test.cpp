@@ -211,8 +211,11 @@ TEST(Piercing, AgreesWithAnExhaustiveSearch) {
                b = static_cast<Vertex>(trial % 2 == 0 ? random() % points.size() : 60 + random() % 27);
     if (a == b) continue;
     std::vector<Crossing> found;
-    const bool reached = piercing.by_segment(a, b, found, 10000);
+    const std::optional<Tet> reached = piercing.by_segment(a, b, found, 10000);
     EXPECT_EQ(reached && found.empty(), find_edge(mesh, a, b) != kNone);
+    if (reached && found.empty()) {
+      EXPECT_TRUE(mesh.index_of(*reached, a) >= 0 && mesh.index_of(*reached, b) >= 0);
+    }
     EXPECT_EQ(piercing.find_edge(a, b) != kNone, find_edge(mesh, a, b) != kNone);
     if (!reached) continue;  // a grid point lies between
     const Target target = Target::segment(a, b);
