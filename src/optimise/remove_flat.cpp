@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "mesh/replace.h"
 #include "mesh/traverse.h"
 #include "optimise/badness.h"
 
@@ -85,10 +84,8 @@ bool FlatRemover::remove_now(const EdgeShell& shell, Vertex avoided) {
   NothingBad objective(mesh_, shell, bad_from_, avoided);
   if (!triangulation_.find(shell.size(), objective)) return false;
   triangles_.clear();
-  fresh_.clear();
   triangulation_.triangles(shell.size(), triangles_);
-  tetrahedra_of(shell, triangles_, fresh_);
-  replace(mesh_, {.old_tets = shell.tets, .new_tets = fresh_}, created_);
+  replace_shell(mesh_, shell, triangles_, created_);
   return true;
 }
 

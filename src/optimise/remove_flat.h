@@ -38,7 +38,6 @@ class FlatRemover {
   double bad_from_ = 0;
   std::array<EdgeShell, kDepth + 1> shells_;  // by depth; kept, like what follows, to allocate nothing
   std::vector<LinkTriangle> triangles_;
-  std::vector<TetMesh::Corners> fresh_;
   LinkTriangulation<double> triangulation_;
   std::size_t work_ = 0;
   std::vector<Tet>* created_ = nullptr;

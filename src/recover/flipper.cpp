@@ -183,10 +183,9 @@ bool Flipper::remove_edge_now(const Level& level, Vertex favoured) {
   const int change = *cost / ForTarget::kWeight - objective.cost_now();
   if (change_ + change > (favoured == kNone ? most_change_ : 0)) return false;
   triangles_.clear();
-  fresh_.clear();
   triangulation_.triangles(shell.size(), triangles_);
-  tetrahedra_of(shell, triangles_, fresh_);
-  apply(shell.tets, change);
+  replace_shell(mesh_, shell, triangles_);
+  note_flip(shell.size(), change);
   ++counts_.edge_removals;
   return true;
 }
@@ -262,7 +261,11 @@ Tet Flipper::survivor(const EdgeShell& shell) {
 void Flipper::apply(std::span<const Tet> old_tets, int change) {
   created_.clear();
   replace(mesh_, {.old_tets = old_tets, .new_tets = fresh_}, &created_);
-  all_work_ += 8 * old_tets.size();
+  note_flip(old_tets.size(), change);
+}
+
+void Flipper::note_flip(std::size_t old_tets, int change) {
+  all_work_ += 8 * old_tets;
   tried_.forget();
   change_ += change;
 }

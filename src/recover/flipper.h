@@ -85,6 +85,7 @@ class Flipper {
   void list_blocked_spokes(const std::vector<Ear>& ears, std::vector<Spoke>& spokes);
   [[nodiscard]] Tet survivor(const EdgeShell& shell);
   void apply(std::span<const Tet> old_tets, int change);
+  void note_flip(std::size_t old_tets, int change);
 
   TetMesh& mesh_;
   Piercing piercing_;

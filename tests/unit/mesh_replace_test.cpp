@@ -107,6 +107,56 @@ void constrain_at_random(TetMesh& mesh, Random& random, int count) {
   }
 }
 
+// With all that counts: what is where, and in which slot.
+void expect_same(const TetMesh& mesh, const TetMesh& other) {
+  ASSERT_EQ(mesh.slot_count(), other.slot_count());
+  for (Tet t = 0; t < mesh.slot_count(); ++t) {
+    ASSERT_EQ(mesh.flags(t), other.flags(t));
+    if (!mesh.alive(t)) continue;
+    ASSERT_EQ(mesh.corners(t), other.corners(t));
+    for (int i = 0; i < 4; ++i) ASSERT_EQ(mesh.neighbour(t, i), other.neighbour(t, i));
+  }
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) ASSERT_EQ(mesh.incident(v), other.incident(v));
+}
+
+// A random triangulation of a polygon with the corners from..to.
+void triangulate(std::uint8_t from, std::uint8_t to, Random& random, std::vector<LinkTriangle>& out) {
+  if (to - from < 2) return;
+  const auto apex = static_cast<std::uint8_t>(from + 1 + random() % static_cast<unsigned>(to - from - 1));
+  out.push_back({from, apex, to});
+  triangulate(from, apex, random, out);
+  triangulate(apex, to, random, out);
+}
+
+TEST(Replace, AShellAsAnyOtherCavity) {
+  TetMesh mesh = delaunay_in_box(random_points(120, 5));
+  Random random(5);
+  constrain_at_random(mesh, random, 150);
+  int flips = 0, large = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    const Tet t = random_tet(mesh, random);
+    const auto& e = kEdgeVertex[random() % 6];
+    EdgeShell shell;
+    if (!gather_shell(mesh, t, mesh.corner(t, e[0]), mesh.corner(t, e[1]), shell)) continue;
+    std::vector<LinkTriangle> triangles;
+    triangulate(0, static_cast<std::uint8_t>(shell.size() - 1), random, triangles);
+    Plan plan{shell.tets, {}};
+    tetrahedra_of(shell, triangles, plan.new_tets);
+    if (!all_positive(mesh, plan.new_tets) || holds_constraints(mesh, plan)) continue;
+    TetMesh other = mesh;
+    std::vector<Tet> created, created_there;
+    replace(other, {.old_tets = shell.tets, .new_tets = plan.new_tets}, &created_there);
+    replace_shell(mesh, shell, triangles, &created);
+    ASSERT_EQ(created, created_there);
+    expect_same(mesh, other);
+    ++flips;
+    large += shell.size() > 4;
+  }
+  EXPECT_EQ(find_fault(mesh), "");
+  EXPECT_GT(flips, 100);
+  EXPECT_GT(large, 20);
+}
+
 TEST(Replace, RandomFlipsKeepTheMeshAndItsConstraints) {
   Random random(3);
   TetMesh mesh = delaunay_in_box(random_points(80, 3));

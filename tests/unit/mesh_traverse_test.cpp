@@ -239,8 +239,10 @@ TEST(EdgeRemoval, RemovesEdgesFromTheMesh) {
     tetrahedra_of(shell, triangles, fresh);
     ASSERT_EQ(fresh.size(), 2 * shell.size() - 4);
     ASSERT_TRUE(all_positive(mesh, fresh));
-    replace(mesh, {.old_tets = shell.tets, .new_tets = fresh});
+    std::vector<Tet> created;
+    replace_shell(mesh, shell, triangles, &created);
     EXPECT_EQ(find_edge(mesh, a, b), kNone);
+    for (std::size_t k = 0; k < fresh.size(); ++k) EXPECT_EQ(mesh.corners(created[k]), fresh[k]);
     ++removed;
   }
   EXPECT_EQ(find_fault(mesh), "");
