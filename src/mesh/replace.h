@@ -1,4 +1,5 @@
-// Replacing a cavity: the one operation through which every stage after Delaunay changes the mesh.
+// Replacing a cavity: the one operation through which every stage after Delaunay changes the mesh (but for
+// edge removal, which has a shorter way to the same: edge_removal.h).
 //
 // A flip, a split, a collapse, a cut-and-cone are all "these tetrahedra go, those come, and both fill
 // the same space". The caller plans (pure, exact sign tests) and then applies; applying cannot fail

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mesh/replace.h"
 
@@ -43,12 +44,12 @@ class LeastBadness {
 }  // namespace
 
 bool Exchanger::improve(Tet t, std::vector<Tet>& created) {
-  old_.clear();
+  way_ = Way::none;
   for (int edge = 0; edge < 6; ++edge) try_edge(t, edge);
   for (int side = 0; side < 4; ++side) try_face(face_code(t, side));
-  if (old_.empty()) return false;
-  replace(mesh_, {.old_tets = old_, .new_tets = fresh_}, &created);
-  return true;
+  if (way_ == Way::edge) replace_shell(mesh_, best_shell_, best_triangles_, &created);
+  if (way_ == Way::face) replace(mesh_, {.old_tets = best_pair_, .new_tets = best_three_}, &created);
+  return way_ != Way::none;
 }
 
 void Exchanger::try_edge(Tet t, int edge) {
@@ -59,12 +60,11 @@ void Exchanger::try_edge(Tet t, int edge) {
   const Badness before = qualities_.badness_of(shell_.tets, bad_from_);
   LeastBadness objective(mesh_, shell_, before, bad_from_);
   const std::optional<Badness> after = triangulation_.find(shell_.size(), objective);
-  if (!after || !after->is_worthwhile_after(before)) return;
-  triangles_.clear();
-  candidate_.clear();
-  triangulation_.triangles(shell_.size(), triangles_);
-  tetrahedra_of(shell_, triangles_, candidate_);
-  offer(before, *after, shell_.tets);
+  if (!after || !after->is_worthwhile_after(before) || !is_best(before, *after)) return;
+  way_ = Way::edge;
+  best_triangles_.clear();
+  triangulation_.triangles(shell_.size(), best_triangles_);
+  std::swap(best_shell_, shell_);
 }
 
 void Exchanger::try_face(Face f) {
@@ -84,19 +84,22 @@ void Exchanger::try_face(Face f) {
     if (!after.is_worthwhile_after(before)) return;
     candidate_.push_back(tet);
   }
-  offer(before, after, both);
+  if (!is_best(before, after)) return;
+  way_ = Way::face;
+  best_pair_ = both;
+  best_three_.swap(candidate_);
 }
 
-void Exchanger::offer(const Badness& before, const Badness& after, std::span<const Tet> old_tets) {
+// Compared with those before; then it is the one to beat.
+bool Exchanger::is_best(const Badness& before, const Badness& after) {
   const auto fewer = [](std::size_t x, std::size_t y) {
     return static_cast<std::ptrdiff_t>(y) - static_cast<std::ptrdiff_t>(x);
   };
   const Gain gain{fewer(before.null, after.null), fewer(before.hopeless, after.hopeless),
                   fewer(before.flat, after.flat), std::isinf(before.worst) ? 0 : after.worst / before.worst};
-  if (!old_.empty() && gain >= gain_) return;
+  if (way_ != Way::none && gain >= gain_) return false;
   gain_ = gain;
-  fresh_.swap(candidate_);
-  old_.assign(old_tets.begin(), old_tets.end());
+  return true;
 }
 
 }  // namespace holdfast

@@ -2,8 +2,8 @@
 // triangulation of each link found by dynamic programming.
 #pragma once
 
+#include <array>
 #include <cstddef>
-#include <span>
 #include <tuple>
 #include <vector>
 
@@ -27,21 +27,23 @@ class Exchanger {
  private:
   void try_edge(Tet t, int edge);
   void try_face(Face f);
-  void offer(const Badness& before, const Badness& after, std::span<const Tet> old_tets);
+  [[nodiscard]] bool is_best(const Badness& before, const Badness& after);
 
   TetMesh& mesh_;
   Qualities& qualities_;
   const BadFrom bad_from_;
   EdgeShell shell_;
   LinkTriangulation<Badness> triangulation_;
-  std::vector<LinkTriangle> triangles_;
   std::vector<TetMesh::Corners> candidate_;
   // The best so far, by what it changes: numbers of null, hopeless and flat ones, then the ratio of the worst
   // Q.
   using Gain = std::tuple<std::ptrdiff_t, std::ptrdiff_t, std::ptrdiff_t, double>;
   Gain gain_;
-  std::vector<TetMesh::Corners> fresh_;
-  std::vector<Tet> old_;
+  enum class Way { none, edge, face } way_ = Way::none;
+  EdgeShell best_shell_;
+  std::vector<LinkTriangle> best_triangles_;
+  std::array<Tet, 2> best_pair_{};
+  std::vector<TetMesh::Corners> best_three_;
 };
 
 }  // namespace holdfast

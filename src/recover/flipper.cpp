@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesh/face_swap.h"
 #include "mesh/replace.h"
 
 namespace holdfast {
@@ -96,11 +97,6 @@ bool Flipper::remove(Tet t, Vertex a, Vertex b, int depth, std::size_t budget) {
   return remove_edge(t, a, b, depth, kNone);
 }
 
-//          d                       The 2-3 flip: face (f0 f1 f2) between apexes d and e gives way to
-//        / | \                     edge de, and (f0 f1 f2 d), (f0 f2 f1 e) to (f0 f1 e d), (f1 f2 e d)
-//      f0--|--f2                   and (f2 f0 e d). These are positive exactly if de passes through the
-//        \ f1 /                    inside of the face.
-//          e
 bool Flipper::flip_face(const Crossing& face) {
   Vertex d = kNone;
   for (const Vertex v : mesh_.corners(face.tet))
@@ -116,10 +112,8 @@ bool Flipper::flip_face(const Crossing& face) {
   int change = target_.edge(mesh_, d, e) - target_.face(mesh_, f[0], f[1], f[2]);
   for (const Vertex v : f) change += target_.face(mesh_, v, d, e);
   if (change >= 0) return false;
-  fresh_.clear();
-  for (std::size_t k = 0; k < 3; ++k) fresh_.push_back({f[k], f[(k + 1) % 3], e, d});
-  const std::array<Tet, 2> old_tets{face.tet, tet_of(across)};
-  apply(old_tets, change);
+  swap_face(mesh_, code);
+  note_flip(2, change);
   ++counts_.face_flips;
   return true;
 }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "mesh/edge_removal.h"
+#include "mesh/face_swap.h"
 #include "mesh/replace.h"
 #include "mesh/validate.h"
 #include "mesh_fixtures.h"
@@ -155,6 +156,27 @@ TEST(Replace, AShellAsAnyOtherCavity) {
   EXPECT_EQ(find_fault(mesh), "");
   EXPECT_GT(flips, 100);
   EXPECT_GT(large, 20);
+}
+
+TEST(Replace, ASwappedFaceAsAnyOtherCavity) {
+  TetMesh mesh = delaunay_in_box(random_points(120, 6));
+  Random random(6);
+  constrain_at_random(mesh, random, 150);
+  int flips = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const Face f = face_code(random_tet(mesh, random), static_cast<int>(random() % 4));
+    const std::optional<Plan> plan = face_flip(mesh, f);
+    if (!plan || holds_constraints(mesh, *plan)) continue;
+    TetMesh other = mesh;
+    std::vector<Tet> created;
+    replace(other, {.old_tets = plan->old_tets, .new_tets = plan->new_tets}, &created);
+    const auto tets = swap_face(mesh, f);
+    ASSERT_EQ(created, std::vector<Tet>(tets.begin(), tets.end()));
+    expect_same(mesh, other);
+    ++flips;
+  }
+  EXPECT_EQ(find_fault(mesh), "");
+  EXPECT_GT(flips, 100);
 }
 
 TEST(Replace, RandomFlipsKeepTheMeshAndItsConstraints) {

@@ -1,0 +1,69 @@
+#include "mesh/face_swap.h"
+
+#include "mesh/validate.h"
+
+namespace holdfast {
+namespace {
+
+// What stays of one of the two tetrahedra: by k, the face at f_k, f_k+1 and the apex, the edge from f_k to
+// the apex, and the edge from f_k to f_k+1.
+struct Side {
+  std::array<Face, 3> across{};
+  std::array<bool, 3> is_facet{}, is_spoke_segment{}, is_rim_segment{};
+};
+
+Side side_of_face(const TetMesh& mesh, Face f, const std::array<Vertex, 3>& corners) {
+  const Tet t = tet_of(f);
+  const auto apex = static_cast<std::size_t>(side_of(f));
+  std::array<std::size_t, 3> local{};
+  for (std::size_t k = 0; k < 3; ++k) local[k] = static_cast<std::size_t>(mesh.index_of(t, corners[k]));
+  Side side;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto opposite = static_cast<int>(local[(k + 2) % 3]);
+    side.across[k] = mesh.neighbour(t, opposite);
+    side.is_facet[k] = mesh.is_facet(face_code(t, opposite));
+    side.is_spoke_segment[k] = mesh.is_segment(t, kEdgeOf[local[k]][apex]);
+    side.is_rim_segment[k] = mesh.is_segment(t, kEdgeOf[local[k]][local[(k + 1) % 3]]);
+  }
+  return side;
+}
+
+Flags bits_of(const Side& of_d, const Side& of_e, std::size_t k) {
+  unsigned bits = 0;
+  const auto set = [&](bool is, Flags bit) { bits |= is ? bit : 0u; };
+  const auto segment = [](std::size_t u, std::size_t v) { return segment_bit(kEdgeOf[u][v]); };
+  const std::size_t next = (k + 1) % 3;
+  set(of_e.is_facet[k], facet_bit(3));
+  set(of_d.is_facet[k], facet_bit(2));
+  set(of_d.is_rim_segment[k], segment(0, 1));
+  set(of_e.is_spoke_segment[k], segment(0, 2));
+  set(of_e.is_spoke_segment[next], segment(1, 2));
+  set(of_d.is_spoke_segment[k], segment(0, 3));
+  set(of_d.is_spoke_segment[next], segment(1, 3));
+  return static_cast<Flags>(bits);
+}
+
+}  // namespace
+
+std::array<Tet, 3> swap_face(TetMesh& mesh, Face f) {
+  const Face g = mesh.neighbour(f);
+  const auto corners = mesh.face_vertices(f);
+  const Vertex d = mesh.apex(f), e = mesh.apex(g);
+  const Side of_d = side_of_face(mesh, f, corners), of_e = side_of_face(mesh, g, corners);
+  mesh.remove_tet(tet_of(f));
+  mesh.remove_tet(tet_of(g));
+  std::array<Tet, 3> tets{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const TetMesh::Corners fresh{corners[k], corners[(k + 1) % 3], e, d};
+    const Tet t = tets[k] = mesh.add_tet(fresh);
+    mesh.set_flags(t, bits_of(of_d, of_e, k));
+    mesh.link(face_code(t, 3), of_e.across[k]);
+    mesh.link(face_code(t, 2), of_d.across[k]);
+    for (const Vertex v : fresh) mesh.set_incident(v, t);
+  }
+  for (std::size_t k = 0; k < 3; ++k) mesh.link(face_code(tets[k], 0), face_code(tets[(k + 1) % 3], 1));
+  validate_after_operation(mesh, tets);
+  return tets;
+}
+
+}  // namespace holdfast
