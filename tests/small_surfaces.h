@@ -2,10 +2,21 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 #include "holdfast/types.h"
 
 namespace holdfast::small {
+
+inline Surface surface_of(std::vector<Point> vertices, std::vector<Triangle> facets,
+                          std::vector<Segment> segments = {}) {
+  Surface surface;
+  surface.vertices = std::move(vertices);
+  surface.facets = std::move(facets);
+  surface.segments = std::move(segments);
+  return surface;
+}
 
 /// Adds a box of 12 triangles that face outwards, or inwards. Corner 0 is `low`; bits of the corner's number
 /// are x, y, z.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mesh_fixtures.h"
+#include "small_surfaces.h"
 #include "surface/elements.h"
 #include "surface/search.h"
 
@@ -21,15 +22,6 @@ using Random = std::mt19937_64;
 
 // Round the edge 0 1 of their Delaunay mesh.
 const std::vector<Point> kSpindle{{0, 0, -0.5}, {0, 0, 0.5}, {-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}};
-
-Surface surface_of(std::vector<Point> vertices, std::vector<Triangle> facets,
-                   std::vector<Segment> segments = {}) {
-  Surface surface;
-  surface.vertices = std::move(vertices);
-  surface.facets = std::move(facets);
-  surface.segments = std::move(segments);
-  return surface;
-}
 
 struct Told {
   Standing standing, fitting;
@@ -43,7 +35,7 @@ Told told_of(const Surface& surface) {
   TetMesh mesh = testing::delaunay_in_box(surface.vertices, 100);
   Told told{mark_present(mesh, table), {}, false};
   told.fitting = with_other_diagonals(mesh, complex, table, told.standing);
-  Surface flagged = surface_of(surface.vertices, {});
+  Surface flagged = small::surface_of(surface.vertices, {});
   for (Index f = 0; f < surface.facets.size(); ++f)
     if (told.fitting.facets[f] != 0) flagged.facets.push_back(surface.facets[f]);
   for (Index s = 0; s < table.segments.size(); ++s)
@@ -71,7 +63,7 @@ std::vector<Point> grid_points(int size) {
 
 // The squares of a grid of cells, each left out or divided along a diagonal at random.
 Surface divided_squares(int size, Random& random, unsigned percent) {
-  Surface surface = surface_of(grid_points(size), {});
+  Surface surface = small::surface_of(grid_points(size), {});
   const auto at = [&](int x, int y, int z) { return static_cast<Index>(x + size * (y + size * z)); };
   const auto add = [&](Index a, Index b, Index c, Index d) {
     if (random() % 100 >= percent) return;
@@ -133,7 +125,7 @@ TEST(OtherDiagonals, FitWhateverElseIsThere) {
 // Two squares through one diagonal that the mesh has, so that each of them alone would do.
 TEST(OtherDiagonals, TwoOfOneDiagonalAreLeftOut) {
   const std::vector<Triangle> one{{2, 3, 0}, {2, 3, 1}}, other{{4, 5, 0}, {4, 5, 1}};
-  Surface surface = surface_of(kSpindle, one);
+  Surface surface = small::surface_of(kSpindle, one);
   EXPECT_EQ(told_of(surface).standing.missing_facets(), 2u);
   EXPECT_EQ(told_of(surface).fitting.missing_facets(), 0u);
   surface.facets.insert(surface.facets.end(), other.begin(), other.end());
@@ -141,7 +133,7 @@ TEST(OtherDiagonals, TwoOfOneDiagonalAreLeftOut) {
 }
 
 TEST(OtherDiagonals, ASegmentInThePlaceOfOneIsLeftOut) {
-  const Told told = told_of(surface_of(kSpindle, {{2, 3, 0}, {2, 3, 1}}, {{0, 1}}));
+  const Told told = told_of(small::surface_of(kSpindle, {{2, 3, 0}, {2, 3, 1}}, {{0, 1}}));
   EXPECT_EQ(told.standing.missing_segments(), 1u);
   EXPECT_EQ(told.fitting.missing_segments(), 1u);
   EXPECT_EQ(told.fitting.missing_facets(), 2u);
@@ -152,7 +144,7 @@ TEST(OtherDiagonals, BentOnesAndOverlapsAreLeftOut) {
   for (const Point& corner : {Point{0, 0x1p-50, 0.5}, Point{0, 0, -0.25}}) {
     std::vector<Point> points = kSpindle;
     points[1] = corner;
-    const Told told = told_of(surface_of(points, {{2, 3, 0}, {2, 3, 1}}));
+    const Told told = told_of(small::surface_of(points, {{2, 3, 0}, {2, 3, 1}}));
     EXPECT_EQ(told.fitting.missing_facets(), told.standing.missing_facets());
   }
 }
@@ -164,7 +156,7 @@ TEST(OtherDiagonals, PiercedOnesAreLeftOut) {
   points[1] = {0, 0, 1};
   points[4] = {0, -0.5, 0};
   points[5] = {0, 0.5, 0};
-  const Told told = told_of(surface_of(points, {{2, 3, 0}, {2, 3, 1}}, {{4, 5}}));
+  const Told told = told_of(small::surface_of(points, {{2, 3, 0}, {2, 3, 1}}, {{4, 5}}));
   EXPECT_EQ(told.standing.missing_segments(), 1u);
   EXPECT_EQ(told.fitting.missing_facets(), 2u);
 }

@@ -6,21 +6,13 @@
 #include <stdexcept>
 
 #include "holdfast/holdfast.h"
+#include "small_surfaces.h"
 #include "surface/diagnose.h"
 
 namespace holdfast {
 namespace {
 
 using Indices = std::vector<Index>;
-
-Surface surface(std::vector<Point> vertices, std::vector<Triangle> facets,
-                std::vector<Segment> segments = {}) {
-  Surface s;
-  s.vertices = std::move(vertices);
-  s.facets = std::move(facets);
-  s.segments = std::move(segments);
-  return s;
-}
 
 std::vector<Defect> diagnose(const Surface& s) { return holdfast::diagnose(s.view()); }
 
@@ -33,15 +25,16 @@ Defect only(const Surface& s) {
 
 TEST(Defects, ValidInputHasNone) {
   EXPECT_TRUE(holdfast::diagnose(Complex{}).empty());
-  const Surface s = surface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 5, 5}, {6, 5, 5}},
-                            {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, {{4, 5}, {4, 5}, {5, 4}, {0, 1}});
+  const Surface s =
+      small::surface_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 5, 5}, {6, 5, 5}},
+                        {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, {{4, 5}, {4, 5}, {5, 4}, {0, 1}});
   EXPECT_TRUE(diagnose(s).empty()) << "repeated segments and segments along sides are merged";
 }
 
 TEST(Defects, NonFiniteCoordinate) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   const Surface s =
-      surface({{0, 0, 0}, {nan, 0, 0}, {0, 1, 0}, {0, 0, -inf}}, {{0, 1, 2}, {0, 2, 3}}, {{1, 3}});
+      small::surface_of({{0, 0, 0}, {nan, 0, 0}, {0, 1, 0}, {0, 0, -inf}}, {{0, 1, 2}, {0, 2, 3}}, {{1, 3}});
   const std::vector<Defect> defects = diagnose(s);
   ASSERT_EQ(defects.size(), 2u);
   EXPECT_EQ(defects[0].kind, DefectKind::non_finite_coordinate);
@@ -52,8 +45,8 @@ TEST(Defects, NonFiniteCoordinate) {
 }
 
 TEST(Defects, IndexOutOfRange) {
-  const Surface s =
-      surface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 3}, {0, 1, 2}, {4000000000u, 1, 2}}, {{0, 3}});
+  const Surface s = small::surface_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                                      {{0, 1, 3}, {0, 1, 2}, {4000000000u, 1, 2}}, {{0, 3}});
   const std::vector<Defect> defects = diagnose(s);
   ASSERT_EQ(defects.size(), 3u);
   for (const Defect& d : defects) EXPECT_EQ(d.kind, DefectKind::index_out_of_range);
@@ -66,8 +59,8 @@ TEST(Defects, IndexOutOfRange) {
 
 TEST(Defects, RepeatedVertexIsToldOnceAndNotOfNeighbours) {
   // A square whose triangles do not share vertices; +0 and -0 are one.
-  const Surface s = surface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, -0.0, 0}, {1, 1, 0}, {-0.0, 1, 0}},
-                            {{0, 1, 2}, {3, 4, 5}});
+  const Surface s = small::surface_of(
+      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, -0.0, 0}, {1, 1, 0}, {-0.0, 1, 0}}, {{0, 1, 2}, {3, 4, 5}});
   const std::vector<Defect> defects = diagnose(s);
   ASSERT_EQ(defects.size(), 2u);
   EXPECT_EQ(defects[0].kind, DefectKind::repeated_vertex);
@@ -77,7 +70,7 @@ TEST(Defects, RepeatedVertexIsToldOnceAndNotOfNeighbours) {
 }
 
 TEST(Defects, DegenerateFacets) {
-  const Surface s = surface({{0, 0, 0}, {0.1, 0.1, 0.1}, {0.3, 0.3, 0.3}}, {{0, 1, 1}, {0, 2, 1}});
+  const Surface s = small::surface_of({{0, 0, 0}, {0.1, 0.1, 0.1}, {0.3, 0.3, 0.3}}, {{0, 1, 1}, {0, 2, 1}});
   const std::vector<Defect> defects = diagnose(s);
   ASSERT_EQ(defects.size(), 2u);
   EXPECT_EQ(defects[0].kind, DefectKind::degenerate_facet);
@@ -91,7 +84,7 @@ TEST(Defects, DegenerateFacets) {
 }
 
 TEST(Defects, DegenerateSegments) {
-  const Surface s = surface({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}}, {}, {{1, 1}, {1, 2}});
+  const Surface s = small::surface_of({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}}, {}, {{1, 1}, {1, 2}});
   const std::vector<Defect> defects = diagnose(s);
   ASSERT_EQ(defects.size(), 3u);
   EXPECT_EQ(defects[1].message, "segment 0 names vertex 1 twice: remove it");
@@ -99,7 +92,7 @@ TEST(Defects, DegenerateSegments) {
 }
 
 TEST(Defects, RepeatedFacet) {
-  const Defect d = only(surface({{0, 0, 0}, {3, 0, 0}, {0, 3, 0}}, {{0, 1, 2}, {1, 0, 2}}));
+  const Defect d = only(small::surface_of({{0, 0, 0}, {3, 0, 0}, {0, 3, 0}}, {{0, 1, 2}, {1, 0, 2}}));
   EXPECT_EQ(d.kind, DefectKind::repeated_facet);
   EXPECT_EQ(d.facets, (Indices{0, 1}));
   EXPECT_EQ(d.where, (std::vector<Point>{{1, 1, 0}}));
@@ -108,7 +101,7 @@ TEST(Defects, RepeatedFacet) {
 
 TEST(Defects, TJunctionIsToldOnce) {
   // Vertex 4 lies inside side 0-1 of two facets and is itself a corner of three others.
-  const Surface s = surface(
+  const Surface s = small::surface_of(
       {{0, 0, 0}, {4, 0, 0}, {0, 0, 4}, {0, 0, -4}, {1, 0, 0}, {1, 2, 0}, {2, 2, 0}, {3, 2, 1}, {3, 2, 2}},
       {{0, 1, 2}, {0, 1, 3}, {4, 5, 6}, {4, 6, 7}, {4, 7, 8}});
   const Defect d = only(s);
@@ -124,7 +117,7 @@ TEST(Defects, TJunctionIsToldOnce) {
 }
 
 TEST(Defects, VertexInFacet) {
-  const Defect d = only(surface({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0}}, {{0, 1, 2}}));
+  const Defect d = only(small::surface_of({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0}}, {{0, 1, 2}}));
   EXPECT_EQ(d.kind, DefectKind::vertex_in_facet);
   EXPECT_EQ(d.vertices, Indices{3});
   EXPECT_EQ(d.facets, Indices{0});
@@ -134,7 +127,8 @@ TEST(Defects, VertexInFacet) {
 }
 
 TEST(Defects, SegmentsCross) {
-  const Defect d = only(surface({{0, 0, 0}, {3, 3, 3}, {3, 0, 3}, {0, 3, 0}}, {}, {{0, 1}, {2, 3}}));
+  const Defect d =
+      only(small::surface_of({{0, 0, 0}, {3, 3, 3}, {3, 0, 3}, {0, 3, 0}}, {}, {{0, 1}, {2, 3}}));
   EXPECT_EQ(d.kind, DefectKind::segments_cross);
   EXPECT_EQ(d.segments, (Indices{0, 1}));
   EXPECT_EQ(d.vertices, (Indices{0, 1, 2, 3}));
@@ -145,8 +139,8 @@ TEST(Defects, SegmentsCross) {
 
 TEST(Defects, SidesCross) {
   // Two facets in different planes that touch in one point inside a side of each.
-  const Defect d = only(
-      surface({{-1, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}}, {{0, 1, 2}, {3, 4, 5}}));
+  const Defect d = only(small::surface_of(
+      {{-1, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}}, {{0, 1, 2}, {3, 4, 5}}));
   EXPECT_EQ(d.kind, DefectKind::segments_cross);
   EXPECT_EQ(d.facets, (Indices{1, 0}));
   EXPECT_EQ(d.where, (std::vector<Point>{{0, 0, 0}}));
@@ -154,7 +148,7 @@ TEST(Defects, SidesCross) {
 
 TEST(Defects, SegmentsOverlap) {
   const std::vector<Defect> defects =
-      diagnose(surface({{0, 0, 0}, {3, 0, 0}, {1, 0, 0}, {5, 0, 0}}, {}, {{0, 1}, {2, 3}}));
+      diagnose(small::surface_of({{0, 0, 0}, {3, 0, 0}, {1, 0, 0}, {5, 0, 0}}, {}, {{0, 1}, {2, 3}}));
   ASSERT_EQ(defects.size(), 3u) << "and each has an end inside the other";
   EXPECT_EQ(defects[2].kind, DefectKind::segments_overlap);
   EXPECT_EQ(defects[2].segments, (Indices{0, 1}));
@@ -162,8 +156,8 @@ TEST(Defects, SegmentsOverlap) {
 }
 
 TEST(Defects, SegmentPiercesFacet) {
-  const Defect d =
-      only(surface({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 3}, {1, 1, -1}}, {{0, 1, 2}}, {{3, 4}}));
+  const Defect d = only(
+      small::surface_of({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 3}, {1, 1, -1}}, {{0, 1, 2}}, {{3, 4}}));
   EXPECT_EQ(d.kind, DefectKind::segment_pierces_facet);
   EXPECT_EQ(d.facets, Indices{0});
   EXPECT_EQ(d.segments, Indices{0});
@@ -174,8 +168,8 @@ TEST(Defects, SegmentPiercesFacet) {
 }
 
 TEST(Defects, FacetsCross) {
-  const Defect d = only(
-      surface({{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {2, 2, -4}, {2, 2, 4}, {2, -8, 4}}, {{0, 1, 2}, {3, 4, 5}}));
+  const Defect d = only(small::surface_of(
+      {{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {2, 2, -4}, {2, 2, 4}, {2, -8, 4}}, {{0, 1, 2}, {3, 4, 5}}));
   EXPECT_EQ(d.kind, DefectKind::facets_cross);
   EXPECT_EQ(d.facets, (Indices{0, 1}));
   EXPECT_EQ(d.where, (std::vector<Point>{{2, 0, 0}, {2, 2, 0}}));
@@ -185,8 +179,8 @@ TEST(Defects, FacetsCross) {
 
 TEST(Defects, FacetsOverlap) {
   // A star of two triangles: no corner of one inside the other.
-  const Defect d = only(surface({{-3, -1, 0}, {3, -1, 0}, {0, 2, 0}, {-3, 1, 0}, {3, 1, 0}, {0, -2, 0}},
-                                {{0, 1, 2}, {3, 4, 5}}));
+  const Defect d = only(small::surface_of(
+      {{-3, -1, 0}, {3, -1, 0}, {0, 2, 0}, {-3, 1, 0}, {3, 1, 0}, {0, -2, 0}}, {{0, 1, 2}, {3, 4, 5}}));
   EXPECT_EQ(d.kind, DefectKind::facets_overlap);
   ASSERT_EQ(d.where.size(), 1u);
   EXPECT_NEAR(d.where[0][0], 0, 1e-15);
@@ -197,16 +191,16 @@ TEST(Defects, PlacesAreRightWhereFloatingPointIsLost) {
   // Two needles that cross at an angle of 1e-12, far from the origin: the crossing is at a third of each.
   const double far = 0x1p30;
   const Surface s =
-      surface({{far, 0, 0}, {far + 3, 3 * 0x1p-40, 0}, {far, 0x1p-40, 0}, {far + 3, 0x1p-40, 0}}, {},
-              {{0, 1}, {2, 3}});
+      small::surface_of({{far, 0, 0}, {far + 3, 3 * 0x1p-40, 0}, {far, 0x1p-40, 0}, {far + 3, 0x1p-40, 0}},
+                        {}, {{0, 1}, {2, 3}});
   const Defect d = only(s);
   ASSERT_EQ(d.where.size(), 1u);
   EXPECT_EQ(d.where[0], (Point{far + 1, 0x1p-40, 0}));
 }
 
 TEST(Defects, LimitsAreKept) {
-  Surface s =
-      surface({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {5, 0, 0}, {0, 5, 0}, {1, 1, 0}, {2, 1, 0}}, {{0, 3, 4}});
+  Surface s = small::surface_of({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {5, 0, 0}, {0, 5, 0}, {1, 1, 0}, {2, 1, 0}},
+                                {{0, 3, 4}});
   EXPECT_EQ(diagnose(s).size(), 4u);
   for (std::size_t most = 0; most <= 5; ++most) {
     EXPECT_EQ(holdfast::diagnose(s.view(), most).size(), std::min<std::size_t>(most, 4));
@@ -236,19 +230,24 @@ TEST(Defects, StepIsCalledAndMayThrow) {
 TEST(Defects, EndsOfTheRange) {
   const double big = std::numeric_limits<double>::max(), tiny = std::numeric_limits<double>::denorm_min();
   // Crossing at both ends of the exponent range, and far-apart magnitudes in one complex.
-  EXPECT_EQ(only(surface({{-big, 0, 0}, {big, 0, 0}, {0, -big, 0}, {0, big, 0}}, {}, {{0, 1}, {2, 3}})).kind,
+  EXPECT_EQ(
+      only(small::surface_of({{-big, 0, 0}, {big, 0, 0}, {0, -big, 0}, {0, big, 0}}, {}, {{0, 1}, {2, 3}}))
+          .kind,
+      DefectKind::segments_cross);
+  EXPECT_EQ(only(small::surface_of({{-tiny, 0, 0}, {tiny, 0, 0}, {0, -tiny, 0}, {0, tiny, 0}}, {},
+                                   {{0, 1}, {2, 3}}))
+                .kind,
             DefectKind::segments_cross);
   EXPECT_EQ(
-      only(surface({{-tiny, 0, 0}, {tiny, 0, 0}, {0, -tiny, 0}, {0, tiny, 0}}, {}, {{0, 1}, {2, 3}})).kind,
+      only(small::surface_of({{-big, 0, 0}, {big, 0, 0}, {0, -tiny, 0}, {0, tiny, 0}}, {}, {{0, 1}, {2, 3}}))
+          .kind,
       DefectKind::segments_cross);
-  EXPECT_EQ(
-      only(surface({{-big, 0, 0}, {big, 0, 0}, {0, -tiny, 0}, {0, tiny, 0}}, {}, {{0, 1}, {2, 3}})).kind,
-      DefectKind::segments_cross);
-  EXPECT_TRUE(diagnose(surface({{-big, 0, 0}, {big, 0, 0}, {0, tiny, 0}, {0, big, 0}}, {}, {{0, 1}, {2, 3}}))
+  EXPECT_TRUE(diagnose(small::surface_of({{-big, 0, 0}, {big, 0, 0}, {0, tiny, 0}, {0, big, 0}}, {},
+                                         {{0, 1}, {2, 3}}))
                   .empty());
   EXPECT_TRUE(
       diagnose(
-          surface(
+          small::surface_of(
               {{-big, -big, 0}, {big, -big, 0}, {0, big, 0}, {0, 0, tiny}, {big, 0, tiny}, {0, big, tiny}},
               {{0, 1, 2}, {3, 4, 5}}))
           .empty());
