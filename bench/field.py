@@ -27,7 +27,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
-from math import cos, pi, sin
+from math import cos, dist, pi, sin
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -69,6 +69,15 @@ def write_ring(path, rows=8334, columns=30):
                 a, b = here + j, here + (j + 1) % columns
                 c, d = there + (j + odd) % columns, there + (j - 1 + odd) % columns
                 out.write(f"3 {a} {c} {b}\n3 {a} {d} {c}\n")
+
+
+def spread_of_edges(surface):
+    """How far the sizes that a surface asks for differ: the 95th percentile of its triangles' sides over the 5th."""
+    points, triangles = read_off(surface)
+    points = [tuple(map(float, p[:3])) for p in points]
+    corners = [[points[int(v)] for v in t] for t in triangles]
+    lengths = sorted(dist(t[k - 1], t[k]) for t in corners for k in range(3))
+    return lengths[int(0.95 * len(lengths))] / lengths[int(0.05 * len(lengths))]
 
 
 class TookTooLong(Exception):
@@ -177,6 +186,9 @@ class Bench:
     def slower(self, surface):
         return self.in_turns(SLOWER, surface, 1)
 
+    def edges(self, surface):
+        return spread_of_edges(surface)
+
     def threads(self, surface):
         """Seconds on one and on two threads, and whether the files are the same."""
         try:
@@ -185,7 +197,8 @@ class Bench:
             return {"failed": f"exceeds {self.options.timeout:.0f} s"}
 
 
-GROUPS = {"side by side": Bench.faster, "once": Bench.slower, "on two threads": Bench.threads}
+GROUPS = {"side by side": Bench.faster, "once": Bench.slower, "on two threads": Bench.threads, "edges": Bench.edges}
+OF_HOLDFAST = ("side by side", "on two threads")  # measured anew for another one
 FASTER = ["Holdfast", "Holdfast fast", "Gmsh HXT", "TetGen"]
 SLOWER = ["Gmsh Delaunay", "Netgen"]
 MESHERS = ["Holdfast", "Holdfast fast", "Gmsh HXT", "Gmsh Delaunay", "TetGen", "Netgen"]
@@ -205,7 +218,7 @@ class Rows:
         return hashlib.sha256(path.read_bytes()).hexdigest()[:16]
 
     def key(self, group, surface):
-        program = "" if group == "once" else self.program
+        program = self.program if group in OF_HOLDFAST else ""
         return f"{surface.stem} {self.digest(surface)} {group} {program} {self.timeout:.0f}"
 
     def drop(self, groups):
@@ -290,7 +303,7 @@ def main():
     folder = corpus.locate(options.corpus, False)
     if folder is None:
         sys.exit("field.py: no corpus of surfaces")
-    results, threads = {}, {}
+    results, threads, spreads = {}, {}, {}
     rows = Rows(options)
     rows.drop(options.again)
     with tempfile.TemporaryDirectory(prefix="holdfast-field-") as scratch:
@@ -304,11 +317,12 @@ def main():
             told = rows.get("side by side", surface.resolve(), bench)
             if name != RING:
                 told = told | rows.get("once", surface.resolve(), bench)
+                spreads[name] = rows.get("edges", surface.resolve(), bench)
             results[name] = {mesher: told[mesher] for mesher in MESHERS if mesher in told}
             threads[name] = rows.get("on two threads", surface.resolve(), bench)
             print("\n".join(line(name, mesher, row) for mesher, row in results[name].items()), flush=True)
             print(threads_table({name: threads[name]})[-1], flush=True)
-            targets = field_targets.lines(results, threads, extra=[RING])
+            targets = field_targets.lines(results, threads, spreads, extra=[RING])
             write(results, threads, targets, options.output, options.timeout)
     if not options.only:
         field_targets.keep(options.build / "field_targets.json", rows.program, targets)

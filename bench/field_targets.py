@@ -8,13 +8,14 @@ OURS, HXT, GMSH, TETGEN = "Holdfast", "Gmsh HXT", "Gmsh Delaunay", "TetGen"
 PEERS = (HXT, GMSH, TETGEN, "Netgen")
 BEST = 6 / 8  # share of surfaces with the best least angle
 LIKE_HXT = 0.2  # by which the number of tetrahedra may differ
+EVEN = 2.5  # times, by which sizes may differ that count as the same
 THREADS, IN_PARTS = 1.5, 60_000  # times on two threads, from so many tetrahedra on
 
 
-def pairs(results, peer):
-    """(row of Holdfast, row of a peer) of the surfaces that both meshed."""
-    return [(rows[OURS], rows[peer]) for rows in results.values()
-            if peer in rows and "failed" not in rows[OURS] and "failed" not in rows[peer]]
+def pairs(results, peer, ours=OURS):
+    """(row of Holdfast, or of another, row of a peer) of the surfaces that both meshed."""
+    return [(rows[ours], rows[peer]) for rows in results.values()
+            if peer in rows and "failed" not in rows[ours] and "failed" not in rows[peer]]
 
 
 def least_angle(results):
@@ -38,16 +39,24 @@ def small_angles(results, k):
     return Target(text, f"{ours:.2g} % ({peer} {theirs:.2g} %)", ours <= theirs)
 
 
-def sizes(results, peer):
-    """Only HXT's number of tetrahedra is a target: it reads sizes as Holdfast does."""
-    ratios = [ours["tetrahedra"] / theirs["tetrahedra"] for ours, theirs in pairs(results, peer)]
-    aim = peer == HXT
-    text = f"Number of tetrahedra within {100 * LIKE_HXT:.0f} % of {peer}'s" if aim else f"Number of tetrahedra over {peer}'s (no target)"
+def counts(text, results, peer, ours=OURS):
+    """Numbers of tetrahedra over those of a peer; a target where the peer is HXT, which reads sizes as Holdfast does."""
+    ratios = [mine["tetrahedra"] / theirs["tetrahedra"] for mine, theirs in pairs(results, peer, ours)]
     if not ratios:
         return Target(text, "not measured", None)
     within = sum(abs(r - 1) <= LIKE_HXT for r in ratios)
     return Target(text, f"median {median(ratios):.2f}, {min(ratios):.2f} to {max(ratios):.2f}; within on {within} of {len(ratios)}",
-                  within == len(ratios) if aim else None)
+                  within == len(ratios) if peer == HXT else None)
+
+
+def sizes(results, spreads):
+    """Where a surface asks for different sizes, each mesher has its own between; only where it asks for much the same everywhere
+    are they the same for all."""
+    even = {name: rows for name, rows in results.items() if spreads[name] <= EVEN}
+    aim = f"Number of tetrahedra within {100 * LIKE_HXT:.0f} % of {HXT}'s"
+    return [counts(aim, results, HXT), counts(f"The same, where edges of the surface differ by at most {EVEN} times (95th over 5th percentile)", even, HXT),
+            *(counts(f"Number of tetrahedra over {peer}'s (no target)", results, peer) for peer in PEERS if peer != HXT),
+            counts(f"{HXT}'s number over {GMSH}'s, for comparison", results, GMSH, HXT)]
 
 
 def speed(results, peer, times, per_tetrahedron=False):
@@ -76,10 +85,10 @@ def same_files(threads):
     return Target("Two threads: the same mesh, bit for bit", f"on {sum(told)} of {len(told)}", all(told) if told else None)
 
 
-def lines(results, threads, extra=()):
-    """The table; surfaces of the names in `extra` count on two threads only."""
+def lines(results, threads, spreads, extra=()):
+    """The table; surfaces of the names in `extra` count on two threads only. `spreads`: surface -> how far its sizes differ."""
     compared = {name: rows for name, rows in results.items() if name not in extra}
-    return table([least_angle(compared), *(small_angles(compared, k) for k in range(3)), *(sizes(compared, peer) for peer in PEERS),
+    return table([least_angle(compared), *(small_angles(compared, k) for k in range(3)), *sizes(compared, spreads),
                   speed(compared, TETGEN, 2, per_tetrahedron=True), speed(compared, GMSH, 2), speed(compared, HXT, 1),
                   on_two_threads(threads), same_files(threads)])
 
