@@ -1,0 +1,21 @@
+// One attempt at a mesh: all that comes after the input was looked at (design §2).
+#pragma once
+
+#include <cstdint>
+
+#include "api/input.h"
+#include "holdfast/holdfast.h"
+#include "mesh/monitor.h"
+#include "mesh/parallel.h"
+
+namespace holdfast {
+
+/// Meshes with the random orders of one seed. `result` comes with the outcome `done` and a report of what was
+/// before, to which the attempt adds its own.
+void attempt(Input& input, const Options& options, std::uint64_t seed, const Threads& threads,
+             Monitor& monitor, Result& result);
+
+/// For a result whose outcome is `invalid_input`: its defects, and how many.
+void refuse(Result& result, std::vector<Defect> defects);
+
+}  // namespace holdfast

@@ -1,0 +1,80 @@
+#include "api/input.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "api/report.h"
+#include "classify/outside.h"
+#include "mesh/quality.h"
+#include "recover/other_diagonals.h"
+#include "surface/diagnose.h"
+#include "surface/search.h"
+
+namespace holdfast {
+
+std::vector<Defect> Input::validate(Report::Input& counts) {
+  const Stage last = options_.stop_after.value_or(Stage::optimise);
+  counts = describe_input(complex_, nullptr);
+  const Report::Input all_counts = list_elements_and_segments();
+  if (!elements_.flaws.empty() || last == Stage::validate)
+    if (std::vector<Defect> found = defects(); !found.empty()) return found;
+  counts = all_counts;
+  // Dangling facets enclose nothing wherever their vertices are; so say this before the long work.
+  const bool encloses = counts.dangling_facets < complex_.facets.size();
+  const bool must_enclose = options_.keep != Keep::box && last >= Stage::classify;
+  if (encloses || !must_enclose) return {};
+  std::vector<Defect> found = defects();
+  if (found.empty()) found.push_back(encloses_nothing(complex_, table_));
+  return found;
+}
+
+// Neither list asks for the other. That of segments needs indices in range.
+Report::Input Input::list_elements_and_segments() {
+  constexpr std::size_t kWorthThreads = 10'000;
+  const Threads shared = threads_.at_most(complex_.facets.size() < kWorthThreads ? 1 : threads_.count());
+  Report::Input counts;
+  parallel(shared, 2, [&](std::size_t task) {
+    if (task == 0) {
+      elements_ = elements_of(complex_, shared);
+    } else if (has_indices_in_range(complex_)) {
+      table_ = segment_table(complex_);
+      counts = describe_input(complex_, &table_);
+    }
+  });
+  return counts;
+}
+
+// What stands in the Delaunay mesh fits together, as faces of one triangulation do. So the exact test is
+// left for what is missing there: of a fine surface, next to nothing.
+std::vector<Defect> Input::validate_missing(TetMesh& mesh, const Standing& standing) {
+  if (std::exchange(elements_fit_, true)) return {};
+  const Standing fitting = with_other_diagonals(mesh, complex_, table_, standing);
+  std::vector<std::uint8_t> fits(elements_.all.size());
+  std::transform(elements_.all.begin(), elements_.all.end(), fits.begin(), [&](const Element& e) {
+    if (e.corners == 3) return fitting.facets[e.id];
+    return e.corners == 1 ? std::uint8_t{1} : fitting.segments[table_.find(e.vertex[0], e.vertex[1])];
+  });
+  if (!all_fit(complex_, elements_, fits, poll(), threads_)) {
+    std::vector<Defect> found = defects();
+    if (found.empty()) throw std::logic_error("holdfast: a misfit without a defect");
+    return found;
+  }
+  elements_ = {};
+  return {};
+}
+
+double Input::target() {
+  if (!target_) target_ = target_quality(complex_.vertices, complex_.facets, threads_);
+  return *target_;
+}
+
+std::vector<Defect> Input::defects() const {
+  return find_defects(complex_, elements_, kMostDefects, poll(), threads_);
+}
+
+std::function<void(double)> Input::poll() const {
+  return [this](double fraction) { monitor_.poll(Stage::validate, fraction); };
+}
+
+}  // namespace holdfast
