@@ -3,8 +3,10 @@ JOBS ?= $(shell nproc)
 CORPUS ?=
 RELEASE := build/release
 NATIVE := build/native
+N ?= 100000
+SEED ?= 1
 
-.PHONY: help setup build demo test corpus bench field tables format tidy debug asan tsan install clean
+.PHONY: help setup build demo test corpus random bench field tables format tidy debug asan tsan install clean
 .DEFAULT_GOAL := help
 
 help:  ## this list
@@ -29,6 +31,11 @@ test: build  ## every test, with a subset of the corpus where there is one
 
 corpus: build  ## meshes and verifies every surface of CORPUS=dir (options: ARGS="--only 'gen_*'")
 	@python3 scripts/corpus.py --holdfast $(RELEASE)/holdfast --corpus "$(or $(CORPUS),../shared/corpus)" \
+	  --jobs $(JOBS) $(ARGS)
+
+random: setup $(RELEASE)/build.ninja  ## meshes N random complexes of SEED and checks every mesh; goes on where it stopped
+	@cmake --build $(RELEASE) -j $(JOBS) --target random_complexes
+	@python3 scripts/random_complexes.py --program $(RELEASE)/tests/random/random_complexes --count $(N) --seed $(SEED) \
 	  --jobs $(JOBS) $(ARGS)
 
 bench:  ## speed against TetGen, CGAL and Gmsh, to docs/benchmarks.md; goes on where it stopped (ARGS="--again mesh")

@@ -12,22 +12,20 @@
 
 #include "holdfast/holdfast.h"
 #include "property/surface_oracle.h"
+#include "property/surface_truth.h"
 #include "surface/complex.h"
 #include "surface/diagnose.h"
 
 namespace holdfast {
 namespace {
 
+using oracle::ElementKey;
 using oracle::IntPoint;
+using oracle::PairKey;
+using oracle::Sample;
+using oracle::Truth;
+using oracle::truth_of;
 using Random = std::mt19937_64;
-using ElementKey = std::pair<unsigned, Index>;  // 3 - corners (facets first), id
-using PairKey = std::pair<ElementKey, ElementKey>;
-
-struct Sample {
-  std::vector<IntPoint> points;
-  std::vector<Triangle> facets;
-  std::vector<Segment> segments;
-};
 
 struct Shape {
   int size_x, size_y, size_z;  // of the grid
@@ -49,70 +47,6 @@ Sample make_sample(const Shape& shape, Random& random) {
   for (int i = 0; i < shape.facets; ++i) sample.facets.push_back({pick(), pick(), pick()});
   for (int i = 0; i < shape.segments; ++i) sample.segments.push_back({pick(), pick()});
   return sample;
-}
-
-// --- What the oracle says -----------------------------------------------------------------------
-
-struct Truth {
-  std::vector<Index> representative;
-  std::map<ElementKey, std::vector<Index>> elements;
-  std::set<Index> flat_facets, flat_segments;
-  std::set<PairKey> pairs;
-
-  [[nodiscard]] bool valid() const {
-    bool distinct = true;
-    for (Index v = 0; v < representative.size(); ++v) distinct = distinct && representative[v] == v;
-    return distinct && flat_facets.empty() && flat_segments.empty() && pairs.empty();
-  }
-};
-
-bool collinear(const IntPoint& a, const IntPoint& b, const IntPoint& c) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t x = (k + 1) % 3, y = (k + 2) % 3;
-    if ((b[x] - a[x]) * (c[y] - a[y]) != (b[y] - a[y]) * (c[x] - a[x])) return false;
-  }
-  return true;
-}
-
-Truth truth_of(const Sample& sample) {
-  Truth truth;
-  std::map<IntPoint, Index> first;
-  for (Index v = 0; v < sample.points.size(); ++v) {
-    truth.representative.push_back(first.try_emplace(sample.points[v], v).first->second);
-  }
-  const auto& same = truth.representative;
-  std::set<std::set<Index>> edges;  // sides of facets and segments so far
-  std::set<Index> used;
-  for (Index f = 0; f < sample.facets.size(); ++f) {
-    const auto [a, b, c] = sample.facets[f];
-    if (collinear(sample.points[a], sample.points[b], sample.points[c])) {
-      truth.flat_facets.insert(f);
-      continue;
-    }
-    truth.elements[{0, f}] = {same[a], same[b], same[c]};
-    edges.insert({{same[a], same[b]}, {same[b], same[c]}, {same[c], same[a]}});
-    used.insert({same[a], same[b], same[c]});
-  }
-  for (Index s = 0; s < sample.segments.size(); ++s) {
-    const auto [a, b] = sample.segments[s];
-    if (same[a] == same[b]) {
-      truth.flat_segments.insert(s);
-    } else if (edges.insert({same[a], same[b]}).second) {
-      truth.elements[{1, s}] = {same[a], same[b]};
-      used.insert({same[a], same[b]});
-    }
-  }
-  for (Index v = 0; v < sample.points.size(); ++v) {
-    if (same[v] == v && used.count(v) == 0) truth.elements[{2, v}] = {v};
-  }
-  for (auto p = truth.elements.begin(); p != truth.elements.end(); ++p) {
-    for (auto q = std::next(p); q != truth.elements.end(); ++q) {
-      const std::set<Index> a(p->second.begin(), p->second.end()), b(q->second.begin(), q->second.end());
-      if (a == b || oracle::misfit(sample.points, p->second, q->second))
-        truth.pairs.insert({p->first, q->first});
-    }
-  }
-  return truth;
 }
 
 // --- What the library says ----------------------------------------------------------------------
