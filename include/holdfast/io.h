@@ -26,6 +26,11 @@ class FileError : public std::runtime_error {
   std::string where_;
 };
 
+/// The open descriptor of this process that a path names by itself, links not followed: "/dev/stdin",
+/// "/dev/stdout", "/dev/stderr", "/dev/fd/N". Functions here read it from where it stands and write straight
+/// through, as they do with pipes and devices: there is nothing to rename.
+[[nodiscard]] std::optional<int> descriptor_of(const std::filesystem::path& path);
+
 /// Reads a surface; the format follows the extension unless `format` (".stl", ...) is given.
 ///
 /// .off, .stl, .obj, .ply, .mesh, .meshb (GMF), .poly, .smesh, .node (TetGen), .vtu, .vtp, .vtk, .msh
@@ -51,6 +56,10 @@ class FileError : public std::runtime_error {
 /// ordered by node tag. Neither positive volumes nor anything else of the promise is checked (see
 /// `check`), except that indices are in range. Throws FileError.
 [[nodiscard]] Volume read_volume(const std::filesystem::path& path, std::string_view format = {});
+
+/// Reads points: an .xyz text (three numbers a line, what follows them on it is ignored), or the vertices of
+/// whatever `read_surface` reads. Throws FileError.
+[[nodiscard]] std::vector<Point> read_points(const std::filesystem::path& path, std::string_view format = {});
 
 struct WriteOptions {
   bool compress = true;     ///< .vtu: zlib blocks
@@ -94,6 +103,19 @@ struct SizeField {
 /// outside: for `Sizes::metric`. Throws std::invalid_argument for a field without a positive definite tensor
 /// for every vertex.
 [[nodiscard]] std::function<Metric(const Point&)> metric_function(SizeField field);
+
+/// Writes bytes as a file that appears under its name complete or not at all, as every file here. Throws
+/// FileError.
+void write_bytes(const std::filesystem::path& path, std::string_view bytes);
+
+/// The files that `read_surface` looks for, given a name: often this one alone. They need not exist.
+[[nodiscard]] std::vector<std::filesystem::path> files_of_surface(const std::filesystem::path& path,
+                                                                  std::string_view format = {});
+/// The same for `read_volume` and `write_volume`: .node, .ele, .face and .edge go together.
+[[nodiscard]] std::vector<std::filesystem::path> files_of_volume(const std::filesystem::path& path,
+                                                                 std::string_view format = {});
+/// The same for `read_size_field`: the mesh and its .sol, the .mtr and its .node.
+[[nodiscard]] std::vector<std::filesystem::path> files_of_size_field(const std::filesystem::path& path);
 
 /// Extensions that `write_volume` knows, with the dot, in lower case.
 [[nodiscard]] std::vector<std::string> volume_formats();

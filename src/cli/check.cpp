@@ -7,6 +7,7 @@
 
 #include "command.h"
 #include "files.h"
+#include "files_of_run.h"
 #include "report.h"
 #include "signals.h"
 
@@ -16,7 +17,7 @@ namespace {
 struct CheckArguments {
   std::vector<std::filesystem::path> files;  // surfaces, then the volume
   std::filesystem::path report;
-  std::string format;
+  std::string input_format, format;
   CheckOptions options;
   bool quiet = false;
 };
@@ -28,24 +29,33 @@ Json report_of(const CheckResult& result) {
   return {{"holds", result.holds()}, {"rules", rules}, {"version", version()}};
 }
 
+std::string listing_of(const CheckResult& result) {
+  std::string text;
+  for (const Rule& rule : result.rules)
+    text += fmt::format("{}  {}{}{}\n", rule.holds ? "holds " : "BROKEN", rule.name,
+                        rule.detail.empty() ? "" : ": ", rule.detail);
+  return text;
+}
+
 int run(const CheckArguments& arguments) {
   if (arguments.files.size() < 2)
     throw UsageError("check: a surface and a volume are expected, as in `holdfast check part.stl part.vtu`");
-  require_writable(arguments.report);
-  cancel_at_once();
+  const std::vector<std::filesystem::path> surfaces(arguments.files.begin(), arguments.files.end() - 1);
   const std::filesystem::path& volume_path = arguments.files.back();
-  const Surface surface = read_surfaces({arguments.files.begin(), arguments.files.end() - 1}, {});
+  FilesOfRun files;
+  files.read_surfaces(surfaces, arguments.input_format);
+  files.read_volume(volume_path, arguments.format);
+  files.write("--report", arguments.report);
+  cancel_at_once();
+  const Surface surface = read_surfaces(surfaces, arguments.input_format);
   const Volume volume = read_volume(volume_path, arguments.format);
 
   const CheckResult result = check(surface.view(), volume, arguments.options);
-  if (!arguments.quiet)
-    for (const Rule& rule : result.rules)
-      fmt::print("{}  {}{}{}\n", rule.holds ? "holds " : "BROKEN", rule.name, rule.detail.empty() ? "" : ": ",
-                 rule.detail);
+  if (!arguments.quiet) files.list(listing_of(result));
+  cancel_by_flag();  // from here on files are open
   write_json(arguments.report, report_of(result));
   if (result.holds()) return exit_done;
-  fmt::print(stderr, "holdfast: {} does not keep the surface; the rules marked BROKEN say where\n",
-             volume_path.string());
+  say("holdfast: {} does not keep the surface; the rules marked BROKEN say where\n", volume_path.string());
   return exit_check_failed;
 }
 
@@ -57,6 +67,7 @@ void add_check(CLI::App& app, Command& chosen) {
   command
       ->add_option("SURFACE VOLUME", arguments->files,
                    "The surfaces that were meshed, then the volume (.vtu .vtk .mesh .meshb .msh .node)")
+      ->transform(or_standard_input)
       ->required();
   command->add_flag("--outside-dropped", arguments->options.outside_dropped,
                     "Accept missing facets that lie outside every tetrahedron (mesh --drop-outside)");
@@ -64,7 +75,11 @@ void add_check(CLI::App& app, Command& chosen) {
                     "The mesh goes out to an enclosing box (mesh --keep box)");
   command->add_option("--format", arguments->format, "Volume format, instead of by ending")
       ->option_text("FORMAT");
-  command->add_option("--report", arguments->report, "Write the rules as JSON")->option_text("FILE.json");
+  command->add_option("--input-format", arguments->input_format, "Surface format, instead of by ending")
+      ->option_text("FORMAT");
+  command->add_option("--report", arguments->report, "Write the rules as JSON")
+      ->transform(or_standard_output)
+      ->option_text("FILE.json");
   command->add_flag("-q,--quiet", arguments->quiet, "Only the exit code and failures");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }

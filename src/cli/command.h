@@ -1,10 +1,14 @@
 // What every command of the program shares: exit codes, failures, how a command is registered.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace holdfast::cli {
 
@@ -25,6 +29,13 @@ class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Tells the user something, on stderr. That nobody may be there to read it is no failure of the work.
+template <typename... Values>
+void say(fmt::format_string<Values...> text, Values&&... values) {
+  const std::string said = fmt::format(text, std::forward<Values>(values)...);
+  static_cast<void>(std::fwrite(said.data(), 1, said.size(), stderr));
+}
 
 /// Of --threads.
 inline constexpr const char* threads_help =

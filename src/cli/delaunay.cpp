@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "command.h"
-#include "files.h"
+#include "files_of_run.h"
 #include "report.h"
 #include "signals.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 struct DelaunayArguments {
   std::filesystem::path points, output, report;
-  std::string format;
+  std::string input_format, format;
   std::uint64_t seed = 1;
   unsigned threads = 1;
   bool quiet = false;
@@ -39,25 +39,27 @@ std::uint64_t peak_memory_bytes() {
 
 int run(const DelaunayArguments& arguments) {
   const auto whole = std::chrono::steady_clock::now();
-  VolumeTarget target = volume_target(arguments.output, arguments.format, {arguments.points});
+  FilesOfRun files;
+  files.read_points(arguments.points, arguments.input_format);
+  VolumeTarget target = files.write_volume("-o", arguments.output, arguments.format);
   target.options.threads = arguments.threads;
-  require_writable(arguments.report);
+  files.write("--report", arguments.report);
   cancel_at_once();
   Volume volume;
-  volume.vertices = read_points(arguments.points);
+  volume.vertices = read_points(arguments.points, arguments.input_format);
   const double reading = seconds_since(whole);
 
   const auto start = std::chrono::steady_clock::now();
   try {
     volume.tetrahedra = delaunay(volume.vertices, arguments.seed, arguments.threads);
   } catch (const std::invalid_argument& error) {
-    fmt::print(stderr, "holdfast: {}: {}\n", arguments.points.string(), error.what());
+    say("holdfast: {}: {}\n", arguments.points.string(), error.what());
     return exit_invalid_surface;
   }
   const double seconds = seconds_since(start);
   if (volume.tetrahedra.empty())
-    fmt::print(stderr, "holdfast: {}: all {} points lie in one plane, so there is no tetrahedron\n",
-               arguments.points.string(), volume.vertices.size());
+    say("holdfast: {}: all {} points lie in one plane, so there is no tetrahedron\n",
+        arguments.points.string(), volume.vertices.size());
 
   cancel_by_flag();  // from here on files are open
   volume.regions.assign(volume.tetrahedra.size(), 1);
@@ -78,8 +80,8 @@ int run(const DelaunayArguments& arguments) {
         {{"points", arguments.points.string()}, {"seed", arguments.seed}, {"threads", arguments.threads}}},
        {"outcome", "done"}});
   if (!arguments.quiet)
-    fmt::print(stderr, "{}: {} points, {} tetrahedra, {:.2f} s ({:.2f} s Delaunay)\n", target.path.string(),
-               volume.vertices.size(), volume.tetrahedra.size(), seconds_since(whole), seconds);
+    say("{}: {} points, {} tetrahedra, {:.2f} s ({:.2f} s Delaunay)\n", target.path.string(),
+        volume.vertices.size(), volume.tetrahedra.size(), seconds_since(whole), seconds);
   return exit_done;
 }
 
@@ -91,8 +93,12 @@ void add_delaunay(CLI::App& app, Command& chosen) {
   command
       ->add_option("POINTS", arguments->points,
                    "Points: .xyz (three numbers a line), .node (TetGen), or the vertices of a surface file")
+      ->transform(or_standard_input)
       ->required();
-  command->add_option("-o,--output", arguments->output, "Volume file (.vtu .vtk .mesh .meshb .msh .node)")
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Volume file (.vtu .vtk .mesh .meshb .msh .node), -: standard output")
+      ->transform(or_standard_output)
       ->required()
       ->option_text("VOLUME");
   command->add_option("--seed", arguments->seed, "Seed of the random order (default 1)")->option_text("N");
@@ -100,8 +106,11 @@ void add_delaunay(CLI::App& app, Command& chosen) {
       ->check(CLI::Range(0u, 4096u))
       ->option_text("N");
   command->add_option("--report", arguments->report, "Write counts and times as JSON")
+      ->transform(or_standard_output)
       ->option_text("FILE.json");
   command->add_option("--format", arguments->format, "Volume format, instead of by ending; msh2 is .msh 2.2")
+      ->option_text("FORMAT");
+  command->add_option("--input-format", arguments->input_format, "Format of the points, instead of by ending")
       ->option_text("FORMAT");
   command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });

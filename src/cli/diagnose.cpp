@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "files.h"
+#include "files_of_run.h"
 #include "report.h"
 #include "signals.h"
 
@@ -28,9 +29,22 @@ Json report_of(const Surface& surface, const std::vector<Defect>& defects) {
           {"defects", to_json(defects)}};
 }
 
+std::string listing_of(const Surface& surface, const std::vector<Defect>& defects) {
+  if (defects.empty())
+    return fmt::format("valid: {} vertices, {} segments, {} facets\n", surface.vertices.size(),
+                       surface.segments.size(), surface.facets.size());
+  std::string text;
+  for (const Defect& defect : defects) text += fmt::format("{}: {}\n", name(defect.kind), defect.message);
+  return text;
+}
+
 int run(const DiagnoseArguments& arguments) {
-  require_writable(arguments.marks);
-  require_writable(arguments.report);
+  FilesOfRun files;
+  files.read_surfaces(arguments.surfaces, arguments.input_format);
+  files.write("--marks", arguments.marks);
+  files.write("--report", arguments.report);
+  const std::filesystem::path json = arguments.json ? or_standard_output("-") : "";
+  files.write("--json", json);
   cancel_at_once();
   const Surface surface = read_surfaces(arguments.surfaces, arguments.input_format);
   const std::vector<Defect> defects = diagnose(surface.view());
@@ -39,20 +53,11 @@ int run(const DiagnoseArguments& arguments) {
   if (!arguments.marks.empty()) write_marks(arguments.marks, surface.view(), defects);
   const Json report = report_of(surface, defects);
   write_json(arguments.report, report);
-  if (arguments.json)
-    fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
-  else if (!arguments.quiet)
-    print_defects(stdout, defects, defects.size());
-  if (defects.empty()) {
-    if (!arguments.quiet && !arguments.json)
-      fmt::print("valid: {} vertices, {} segments, {} facets\n", surface.vertices.size(),
-                 surface.segments.size(), surface.facets.size());
-    return exit_done;
-  }
-  std::fflush(stdout);
-  fmt::print(stderr, "holdfast: the surface is not valid: {} defect{}{}\n", defects.size(),
-             defects.size() == 1 ? "" : "s",
-             arguments.marks.empty() ? "; --marks FILE.vtu writes the places for a viewer" : "");
+  write_json(json, report);
+  if (!arguments.quiet && !arguments.json) files.list(listing_of(surface, defects));
+  if (defects.empty()) return exit_done;
+  say("holdfast: the surface is not valid: {} defect{}{}\n", defects.size(), defects.size() == 1 ? "" : "s",
+      arguments.marks.empty() ? "; --marks FILE.vtu writes the places for a viewer" : "");
   return exit_invalid_surface;
 }
 
@@ -67,10 +72,14 @@ void add_diagnose(CLI::App& app, Command& chosen) {
                    "Surface files (.stl .off .obj .ply .mesh .meshb .poly .smesh .msh .vtu .vtp .vtk); "
                    "several are joined where "
                    "coordinates are identical")
+      ->transform(or_standard_input)
       ->required();
   command->add_option("--marks", arguments->marks, "Write the places of the defects for a viewer")
+      ->transform(or_standard_output)
       ->option_text("FILE.vtu");
-  command->add_option("--report", arguments->report, "Write the defects as JSON")->option_text("FILE.json");
+  command->add_option("--report", arguments->report, "Write the defects as JSON")
+      ->transform(or_standard_output)
+      ->option_text("FILE.json");
   command->add_flag("--json", arguments->json, "Print the defects as JSON");
   command->add_option("--input-format", arguments->input_format, "Surface format, instead of by ending")
       ->option_text("FORMAT");

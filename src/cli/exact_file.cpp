@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "files.h"
+#include "holdfast/io.h"
 #include "report.h"
 
 namespace holdfast::cli {
@@ -23,7 +23,7 @@ void write_exact(const std::filesystem::path& path, const Result& result) {
     if (i < result.volume.regions.size()) line["region"] = result.volume.regions[i];
     text += line.dump() + "\n";
   }
-  write_text(path, text);
+  write_bytes(path, text);
 }
 
 }  // namespace holdfast::cli

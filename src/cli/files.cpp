@@ -1,17 +1,7 @@
 #include "files.h"
 
-#include <fmt/core.h>
-#include <fmt/ranges.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <system_error>
 #include <unordered_map>
-
-#include "command.h"
 
 namespace holdfast::cli {
 namespace {
@@ -59,12 +49,6 @@ void append_markers(std::vector<int>& whole, const std::vector<int>& part, std::
     whole.insert(whole.end(), part.begin(), part.end());
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 }  // namespace
 
 Surface read_surfaces(const std::vector<fs::path>& paths, std::string_view format) {
@@ -88,63 +72,6 @@ Surface read_surfaces(const std::vector<fs::path>& paths, std::string_view forma
       append_markers(whole.segment_markers, parts[i].segment_markers, parts[i].segments.size(), 0);
   }
   return whole;
-}
-
-VolumeTarget volume_target(const fs::path& path, std::string format, const std::vector<fs::path>& inputs) {
-  VolumeTarget target{path, {}};
-  if (!format.empty() && format.front() != '.') format.insert(format.begin(), '.');
-  target.options.format = lower(format);
-  if (target.options.format == ".msh2") {
-    target.options.format = ".msh";
-    target.options.legacy_msh = true;
-  }
-  const std::string kind =
-      target.options.format.empty() ? lower(path.extension().string()) : target.options.format;
-  const std::vector<std::string> known = volume_formats();
-  if (std::find(known.begin(), known.end(), kind) == known.end())
-    throw UsageError(
-        fmt::format("{}: '{}' is no volume format; use {} (--format msh2 for version 2.2 of .msh) as the "
-                    "file's ending or by --format",
-                    path.string(), kind, fmt::join(known, " ")));
-  for (const fs::path& input : inputs) {
-    std::error_code ignored;
-    if (fs::equivalent(path, input, ignored))
-      throw UsageError(
-          fmt::format("{}: the output would overwrite an input; give another name to -o", path.string()));
-  }
-  require_writable(path);
-  return target;
-}
-
-void require_writable(const fs::path& path) {
-  if (path.empty()) return;
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  std::error_code ignored;
-  if (!fs::is_directory(folder, ignored))
-    throw FileError(path, "", fmt::format("there is no folder '{}'; create it first", folder.string()));
-  if (fs::is_directory(path, ignored)) throw FileError(path, "", "is a folder; name a file in it");
-  if (access(folder.c_str(), W_OK) != 0)
-    throw FileError(path, "",
-                    fmt::format("cannot write to folder '{}' ({}); choose another or change its permissions",
-                                folder.string(), std::strerror(errno)));
-}
-
-void write_text(const fs::path& path, std::string_view text) {
-  fs::path beside = path;
-  beside += fmt::format(".{}.part", getpid());
-  std::error_code failure;
-  {
-    std::ofstream file(beside, std::ios::binary);
-    file.write(text.data(), static_cast<std::streamsize>(text.size()));
-    file.close();
-    if (!file) failure = std::error_code(errno, std::generic_category());
-  }
-  if (!failure) fs::rename(beside, path, failure);
-  if (failure) {
-    std::error_code ignored;
-    fs::remove(beside, ignored);
-    throw FileError(path, "", fmt::format("cannot be written ({})", failure.message()));
-  }
 }
 
 }  // namespace holdfast::cli

@@ -1,4 +1,7 @@
 // The program `holdfast`: reads the command line, runs one command, turns failures into exit codes.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -10,6 +13,7 @@
 #include "command.h"
 #include "holdfast/holdfast.h"
 #include "holdfast/io.h"
+#include "signals.h"
 
 namespace holdfast::cli {
 namespace {
@@ -34,7 +38,17 @@ void add_commands(CLI::App& app, Command& chosen, std::string_view asked) {
     if (!one || is_asked(command)) command.second(app, chosen);
 }
 
+/// A program may be started without standard streams. The next files that it opens would become them, and get
+/// its messages; so something is opened that refuses what they are for.
+void open_standard_streams() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(descriptor, F_GETFD) < 0)
+      static_cast<void>(open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+}
+
 int run(int count, const char* const* arguments) {
+  open_standard_streams();
+  fail_rather_than_die();
   CLI::App app("Holdfast fills triangulated surfaces with tetrahedra and keeps every triangle.", "holdfast");
   app.set_version_flag("--version", std::string("holdfast ") + version());
   app.require_subcommand(1);

@@ -9,6 +9,7 @@
 #include "command.h"
 #include "exact_file.h"
 #include "files.h"
+#include "files_of_run.h"
 #include "mesh_options.h"
 #include "progress.h"
 #include "report.h"
@@ -40,34 +41,33 @@ std::string counted(std::size_t count, const char* what) {
 }
 
 void print_field(const Report::Field& field) {
-  fmt::print(stderr, "field      {}, least dihedral angle {:.3g} degrees before optimisation, {:.3g} after\n",
-             counted(field.points, "point"), field.before.min_dihedral_deg, field.after.min_dihedral_deg);
+  say("field      {}, least dihedral angle {:.3g} degrees before optimisation, {:.3g} after\n",
+      counted(field.points, "point"), field.before.min_dihedral_deg, field.after.min_dihedral_deg);
   if (field.below_10_deg == 0) return;
-  fmt::print(stderr, "           {} below 10 degrees, {} of them forced by the surface",
-             counted(field.below_10_deg, "element"), field.forced);
+  say("           {} below 10 degrees, {} of them forced by the surface",
+      counted(field.below_10_deg, "element"), field.forced);
   if (!field.worst_forced.empty())
-    fmt::print(stderr, ": the worst, of {:.3g} degrees, by triangles {}",
-               field.worst_forced[0].min_dihedral_deg, fmt::join(field.worst_forced[0].facets, " and "));
-  fmt::print(stderr, "\n");
+    say(": the worst, of {:.3g} degrees, by triangles {}", field.worst_forced[0].min_dihedral_deg,
+        fmt::join(field.worst_forced[0].facets, " and "));
+  say("\n");
 }
 
 void print_details(const Report& report) {
-  fmt::print(stderr, "input      {} vertices, {} segments, {} facets in {}, {}\n", report.input.vertices,
-             report.input.segments, report.input.facets, counted(report.input.components, "component"),
-             report.input.closed ? "closed" : "not closed");
-  fmt::print(stderr, "delaunay   missing: {}, {}\n", counted(report.delaunay.segments, "segment"),
-             counted(report.delaunay.facets, "facet"));
-  fmt::print(stderr, "flips      missing: {}, {}\n", counted(report.flips.segments, "segment"),
-             counted(report.flips.facets, "facet"));
-  fmt::print(stderr, "partition  {} on segments, {} in facets\n", counted(report.segment_points, "point"),
-             counted(report.facet_points, "point"));
-  fmt::print(stderr, "steiner    {} left by suppression, {} in the end, {} of them without doubles\n",
-             counted(report.forced_points, "point"), report.steiner_points, report.unrounded_points);
+  say("input      {} vertices, {} segments, {} facets in {}, {}\n", report.input.vertices,
+      report.input.segments, report.input.facets, counted(report.input.components, "component"),
+      report.input.closed ? "closed" : "not closed");
+  say("delaunay   missing: {}, {}\n", counted(report.delaunay.segments, "segment"),
+      counted(report.delaunay.facets, "facet"));
+  say("flips      missing: {}, {}\n", counted(report.flips.segments, "segment"),
+      counted(report.flips.facets, "facet"));
+  say("partition  {} on segments, {} in facets\n", counted(report.segment_points, "point"),
+      counted(report.facet_points, "point"));
+  say("steiner    {} left by suppression, {} in the end, {} of them without doubles\n",
+      counted(report.forced_points, "point"), report.steiner_points, report.unrounded_points);
   if (report.field.points > 0) print_field(report.field);
-  fmt::print(stderr, "quality    worst {:.4g}, dihedral angles {:.3g} to {:.3g} degrees\n",
-             report.quality.worst, report.quality.min_dihedral_deg, report.quality.max_dihedral_deg);
-  for (const auto& [stage, seconds] : report.seconds)
-    fmt::print(stderr, "seconds    {} {:.3f}\n", stage, seconds);
+  say("quality    worst {:.4g}, dihedral angles {:.3g} to {:.3g} degrees\n", report.quality.worst,
+      report.quality.min_dihedral_deg, report.quality.max_dihedral_deg);
+  for (const auto& [stage, seconds] : report.seconds) say("seconds    {} {:.3f}\n", stage, seconds);
 }
 
 /// Says how the run ended and what the user can do; returns the exit code.
@@ -77,32 +77,30 @@ int conclude(const MeshArguments& arguments, const Result& result) {
     case Outcome::done:
       return exit_done;
     case Outcome::invalid_input: {
-      fmt::print(stderr, "holdfast: the surface is not valid: {}\n", message);
-      print_defects(stderr, result.defects, defects_shown);
+      say("holdfast: the surface is not valid: {}\n", message);
+      print_defects(result.defects, defects_shown);
       if (result.defects.size() > defects_shown)
-        fmt::print(stderr, "... and {} more\n", result.defects.size() - defects_shown);
-      fmt::print(stderr, "`holdfast diagnose` lists every defect; --marks FILE.vtu shows them in a viewer\n");
+        say("... and {} more\n", result.defects.size() - defects_shown);
+      say("`holdfast diagnose` lists every defect; --marks FILE.vtu shows them in a viewer\n");
       return exit_invalid_surface;
     }
     case Outcome::time_limit:
-      fmt::print(stderr, "holdfast: {}; nothing was written; give a longer --time-limit\n", message);
+      say("holdfast: {}; nothing was written; give a longer --time-limit\n", message);
       return exit_limit;
     case Outcome::memory_limit:
-      fmt::print(stderr, "holdfast: {}; nothing was written; give a larger --memory-limit\n", message);
+      say("holdfast: {}; nothing was written; give a larger --memory-limit\n", message);
       return exit_limit;
     case Outcome::cancelled:
-      fmt::print(stderr, "holdfast: cancelled; nothing was written\n");
+      say("holdfast: cancelled; nothing was written\n");
       return exit_limit;
     case Outcome::not_representable:
-      fmt::print(
-          stderr, "holdfast: {} ({} of {} added points have no position in doubles); {} was not written\n",
-          message, result.report.unrounded_points, result.report.steiner_points, arguments.output.string());
+      say("holdfast: {} ({} of {} added points have no position in doubles); {} was not written\n", message,
+          result.report.unrounded_points, result.report.steiner_points, arguments.output.string());
       if (arguments.exact.empty())
-        fmt::print(stderr,
-                   "--exact FILE writes the mesh with exact coordinates; a surface in finer units or "
-                   "nearer to the origin may have a mesh in doubles\n");
+        say("--exact FILE writes the mesh with exact coordinates; a surface in finer units or "
+            "nearer to the origin may have a mesh in doubles\n");
       else
-        fmt::print(stderr, "the mesh with exact coordinates is in {}\n", arguments.exact.string());
+        say("the mesh with exact coordinates is in {}\n", arguments.exact.string());
       return exit_not_representable;
   }
   return exit_internal_error;
@@ -118,17 +116,15 @@ void print_summary(const MeshArguments& arguments, const Result& result, double 
   if (arguments.verbose) print_details(result.report);
   if (result.outcome != Outcome::done) return;
   if (!result.defects.empty()) {
-    print_defects(stderr, result.defects, defects_shown);
+    print_defects(result.defects, defects_shown);
     if (result.defects.size() > defects_shown)
-      fmt::print(stderr, "... and {} more in the report (--report FILE.json)\n",
-                 result.defects.size() - defects_shown);
+      say("... and {} more in the report (--report FILE.json)\n", result.defects.size() - defects_shown);
   }
-  fmt::print(stderr, "{}: {} vertices ({} added), {} in {}, {:.2f} s\n", arguments.output.string(),
-             result.volume.vertices.size(), result.report.steiner_points,
-             result.volume.tetrahedra.size() == 1
-                 ? "1 tetrahedron"
-                 : fmt::format("{} tetrahedra", result.volume.tetrahedra.size()),
-             counted(result.report.regions, "region"), seconds);
+  say("{}: {} vertices ({} added), {} in {}, {:.2f} s\n", arguments.output.string(),
+      result.volume.vertices.size(), result.report.steiner_points,
+      result.volume.tetrahedra.size() == 1 ? "1 tetrahedron"
+                                           : fmt::format("{} tetrahedra", result.volume.tetrahedra.size()),
+      counted(result.report.regions, "region"), seconds);
 }
 
 /// Options that do not suit the surface (a hole on a facet, say) are wrong usage.
@@ -142,11 +138,14 @@ Result mesh_or_refuse(const Surface& surface, const Options& options) {
 
 int run(const MeshArguments& arguments) {
   const Stopwatch whole;
-  Options options = to_options(arguments);
-  VolumeTarget target = volume_target(arguments.output, arguments.format, arguments.surfaces);
+  FilesOfRun files;
+  files.read_surfaces(arguments.surfaces, arguments.input_format);
+  files.read_size_field("--size-field", arguments.size_field);
+  VolumeTarget target = files.write_volume("-o", arguments.output, arguments.format);
   target.options.threads = arguments.threads;
-  require_writable(arguments.report);
-  require_writable(arguments.exact);
+  files.write("--report", arguments.report);
+  files.write("--exact", arguments.exact);
+  Options options = to_options(arguments);
   cancel_by_flag();
 
   const Surface surface = read_surfaces(arguments.surfaces, arguments.input_format);
@@ -181,8 +180,12 @@ void add_mesh(CLI::App& app, Command& chosen) {
                    "Surface files (.stl .off .obj .ply .mesh .meshb .poly .smesh .msh .vtu .vtp .vtk); "
                    "several are joined where "
                    "coordinates are identical")
+      ->transform(or_standard_input)
       ->required();
-  command->add_option("-o,--output", arguments->output, "Volume file (.vtu .vtk .mesh .meshb .msh .node)")
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Volume file (.vtu .vtk .mesh .meshb .msh .node), -: standard output")
+      ->transform(or_standard_output)
       ->required()
       ->option_text("VOLUME");
   command->add_flag(
@@ -236,10 +239,12 @@ void add_mesh(CLI::App& app, Command& chosen) {
   command->add_option("--memory-limit", arguments->memory_limit, "Give up beyond so much memory (exit 5)")
       ->option_text("GB");
   command->add_option("--report", arguments->report, "Write counts, times and quality as JSON")
+      ->transform(or_standard_output)
       ->option_text("FILE.json");
   command
       ->add_option("--exact", arguments->exact,
                    "Where no positive mesh in doubles is found (exit 7), write the exact one as JSON lines")
+      ->transform(or_standard_output)
       ->option_text("FILE");
   command
       ->add_option("--stop-after", arguments->stop_after,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "command.h"
 #include "signals.h"
 
 namespace holdfast::cli {
@@ -29,7 +30,7 @@ bool ProgressView::tell(int order, const char* what, double fraction) {
   const bool first_time = !order_ || *order_ < order;
   if (first_time) order_ = order;
   if (show_ == Show::lines && first_time) {
-    fmt::print(stderr, "[{:8.2f} s] {}\n", std::chrono::duration<double>(now - started_).count(), what);
+    say("[{:8.2f} s] {}\n", std::chrono::duration<double>(now - started_).count(), what);
   } else if (show_ == Show::bar && now - drawn_ >= redraw_after) {
     drawn_ = now;
     draw_bar(what, fraction);
@@ -40,13 +41,12 @@ bool ProgressView::tell(int order, const char* what, double fraction) {
 void ProgressView::draw_bar(const char* what, double fraction) {
   const double share = std::clamp(fraction, 0.0, 1.0);
   const int filled = static_cast<int>(share * bar_width);
-  fmt::print(stderr, "\r{:<10} [{:=<{}}{:{}}] {:3.0f} %", what, "", filled, "", bar_width - filled,
-             100 * share);
+  say("\r{:<10} [{:=<{}}{:{}}] {:3.0f} %", what, "", filled, "", bar_width - filled, 100 * share);
   std::fflush(stderr);
 }
 
 void ProgressView::finish() {
-  if (show_ == Show::bar && order_) fmt::print(stderr, "\r{:{}}\r", "", bar_width + 20);
+  if (show_ == Show::bar && order_) say("\r{:{}}\r", "", bar_width + 20);
   order_.reset();
 }
 

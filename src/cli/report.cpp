@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include "files.h"
+#include "command.h"
+#include "holdfast/io.h"
 
 namespace holdfast::cli {
 
@@ -156,13 +157,12 @@ Json to_json(const Result& result, Json options) {
 
 void write_json(const std::filesystem::path& path, const Json& json) {
   // Paths on the command line need not be UTF-8, so bytes that are not are replaced.
-  if (!path.empty()) write_text(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  if (!path.empty()) write_bytes(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-void print_defects(std::FILE* stream, const std::vector<Defect>& defects, std::size_t most) {
+void print_defects(const std::vector<Defect>& defects, std::size_t most) {
   const std::size_t shown = std::min(most, defects.size());
-  for (std::size_t i = 0; i < shown; ++i)
-    fmt::print(stream, "{}: {}\n", name(defects[i].kind), defects[i].message);
+  for (std::size_t i = 0; i < shown; ++i) say("{}: {}\n", name(defects[i].kind), defects[i].message);
 }
 
 }  // namespace holdfast::cli

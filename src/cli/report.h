@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 /// Writes JSON as text; nothing when `path` is empty. Throws FileError.
 void write_json(const std::filesystem::path& path, const Json& json);
 
-/// Prints at most `most` defects to `stream`, one a line.
-void print_defects(std::FILE* stream, const std::vector<Defect>& defects, std::size_t most);
+/// Prints at most `most` defects to stderr, one a line.
+void print_defects(const std::vector<Defect>& defects, std::size_t most);
 
 }  // namespace holdfast::cli

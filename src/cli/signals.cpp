@@ -23,17 +23,25 @@ void leave(int) {
   _exit(exit_limit);
 }
 
+/// Of the signals that ask a program to end, those that whoever started it did not have ignored, as `nohup`
+/// does and shells for what runs in the background.
+void on_cancel(void (*handler)(int)) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const auto before = std::signal(signal, handler);
+    if (before == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
+}
+
 }  // namespace
 
-void cancel_by_flag() {
-  std::signal(SIGINT, set_flag);
-  std::signal(SIGTERM, set_flag);
+void fail_rather_than_die() {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
-void cancel_at_once() {
-  std::signal(SIGINT, leave);
-  std::signal(SIGTERM, leave);
-}
+void cancel_by_flag() { on_cancel(set_flag); }
+
+void cancel_at_once() { on_cancel(leave); }
 
 bool cancel_requested() { return cancelled != 0; }
 

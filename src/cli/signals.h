@@ -1,13 +1,17 @@
-// Ctrl-C and termination requests.
+// Ctrl-C, termination requests, and signals that stand for errors.
 #pragma once
 
 namespace holdfast::cli {
 
-/// From now on SIGINT and SIGTERM only set the flag that `cancel_requested` reads; a second one of them
-/// ends the program at once.
+/// From now on writing to a pipe that nobody reads, or beyond the largest size of a file, is an error of that
+/// call, which has its exit code, and ends nothing else.
+void fail_rather_than_die();
+
+/// From now on SIGINT, SIGTERM and SIGHUP only set the flag that `cancel_requested` reads; a second one of
+/// them ends the program at once.
 void cancel_by_flag();
 
-/// From now on SIGINT and SIGTERM end the program with the exit code of a cancellation. For work that
+/// From now on SIGINT, SIGTERM and SIGHUP end the program with the exit code of a cancellation. For work that
 /// cannot be asked to stop and has no file open.
 void cancel_at_once();
 

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "command.h"
-#include "files.h"
+#include "files_of_run.h"
 #include "progress.h"
 #include "report.h"
 #include "signals.h"
@@ -77,25 +77,24 @@ int conclude(const UntangleArguments& arguments, const UntangleResult& result) {
     case Outcome::done:
       return exit_done;
     case Outcome::invalid_input:
-      fmt::print(stderr, "holdfast: {}; nothing was written\n", result.message);
-      print_defects(stderr, result.defects, defects_shown);
+      say("holdfast: {}; nothing was written\n", result.message);
+      print_defects(result.defects, defects_shown);
       if (result.defects.size() > defects_shown)
-        fmt::print(stderr, "... and {} more\n", result.defects.size() - defects_shown);
+        say("... and {} more\n", result.defects.size() - defects_shown);
       return exit_invalid_surface;
     case Outcome::time_limit:
-      fmt::print(stderr, "holdfast: {}; nothing was written; give a longer --time-limit\n", result.message);
+      say("holdfast: {}; nothing was written; give a longer --time-limit\n", result.message);
       return exit_limit;
     case Outcome::memory_limit:
-      fmt::print(stderr, "holdfast: {}; nothing was written; give a larger --memory-limit\n", result.message);
+      say("holdfast: {}; nothing was written; give a larger --memory-limit\n", result.message);
       return exit_limit;
     case Outcome::cancelled:
-      fmt::print(stderr, "holdfast: cancelled; nothing was written\n");
+      say("holdfast: cancelled; nothing was written\n");
       return exit_limit;
     case Outcome::not_representable:
-      fmt::print(stderr, "holdfast: {} ({} negative and {} null tetrahedra are left); {} was not written{}\n",
-                 result.message, result.report.negative_after, result.report.null_after,
-                 arguments.output.string(),
-                 arguments.no_refill ? "; without --no-refill cavities are filled again" : "");
+      say("holdfast: {} ({} negative and {} null tetrahedra are left); {} was not written{}\n",
+          result.message, result.report.negative_after, result.report.null_after, arguments.output.string(),
+          arguments.no_refill ? "; without --no-refill cavities are filled again" : "");
       return exit_not_representable;
   }
   return exit_internal_error;
@@ -104,12 +103,9 @@ int conclude(const UntangleArguments& arguments, const UntangleResult& result) {
 void print_summary(const UntangleArguments& arguments, const UntangleResult& result) {
   const UntangleReport& report = result.report;
   if (arguments.verbose)
-    for (const auto& [step, seconds] : report.seconds)
-      fmt::print(stderr, "seconds    {} {:.3f}\n", step, seconds);
+    for (const auto& [step, seconds] : report.seconds) say("seconds    {} {:.3f}\n", step, seconds);
   if (result.outcome != Outcome::done) return;
-  fmt::print(
-      stderr,
-      "{}: {} negative and {} null of {} tetrahedra untangled: {} vertices moved, {} swaps, {} cavities "
+  say("{}: {} negative and {} null of {} tetrahedra untangled: {} vertices moved, {} swaps, {} cavities "
       "refilled, {} vertices added, {} removed, {:.2f} s\n",
       arguments.output.string(), report.negative, report.null, report.tetrahedra, report.moved,
       report.swapped, report.cavities, report.added, report.removed, report.seconds.at("total"));
@@ -118,8 +114,10 @@ void print_summary(const UntangleArguments& arguments, const UntangleResult& res
 int run(const UntangleArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   UntangleOptions options = to_options(arguments);
-  const VolumeTarget target = volume_target(arguments.output, arguments.format, {arguments.input});
-  require_writable(arguments.report);
+  FilesOfRun files;
+  files.read_volume(arguments.input, arguments.input_format);
+  const VolumeTarget target = files.write_volume("-o", arguments.output, arguments.format);
+  files.write("--report", arguments.report);
   cancel_by_flag();
 
   const Volume volume = read_volume(arguments.input, arguments.input_format);
@@ -150,8 +148,12 @@ void add_untangle(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand(
       "untangle", "Make every tetrahedron of a tangled volume positive, with its boundary as it is");
   command->add_option("VOLUME", arguments->input, "Tangled volume file (.vtu .vtk .mesh .meshb .msh .node)")
+      ->transform(or_standard_input)
       ->required();
-  command->add_option("-o,--output", arguments->output, "Volume file (.vtu .vtk .mesh .meshb .msh .node)")
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Volume file (.vtu .vtk .mesh .meshb .msh .node), -: standard output")
+      ->transform(or_standard_output)
       ->required()
       ->option_text("VOLUME");
   command->add_flag("--no-refill", arguments->no_refill,
@@ -162,6 +164,7 @@ void add_untangle(CLI::App& app, Command& chosen) {
   command->add_option("--memory-limit", arguments->memory_limit, "Give up beyond so much memory (exit 5)")
       ->option_text("GB");
   command->add_option("--report", arguments->report, "Write counts and times as JSON")
+      ->transform(or_standard_output)
       ->option_text("FILE.json");
   command->add_option("--format", arguments->format, "Volume format, instead of by ending; msh2 is .msh 2.2")
       ->option_text("FORMAT");

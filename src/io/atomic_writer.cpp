@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "holdfast/io.h"
+#include "io/descriptor.h"
 
 namespace holdfast::io {
 namespace {
@@ -34,7 +35,13 @@ AtomicWriter::AtomicWriter(std::filesystem::path target)
   // A link is followed, as every program that opens a file for writing does, also where it leads to
   // nothing yet; renaming onto the link itself would replace it.
   constexpr int kMostLinks = 40;
-  for (int link = 0; std::filesystem::is_symlink(written_, error); ++link) {
+  for (int link = 0;; ++link) {
+    if (const std::optional<int> descriptor = descriptor_of(written_)) {
+      file_ = copy_of_descriptor(*descriptor);
+      if (file_ < 0) fail("cannot be opened for writing", errno);
+      return;
+    }
+    if (!std::filesystem::is_symlink(written_, error)) break;
     if (link == kMostLinks) fail("cannot be written", ELOOP);
     written_ = folder_of(written_) / std::filesystem::read_symlink(written_, error);
     if (error) fail("cannot be written", error.value());

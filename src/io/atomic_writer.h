@@ -13,8 +13,8 @@ namespace holdfast::io {
 ///
 /// Bytes go to a temporary in the target's folder; `commit` closes and renames it. Until
 /// then the destructor removes it, so that an exception or a cancellation leaves nothing behind.
-/// A target that is a pipe or a device ("/dev/stdout") is written directly. Every function throws
-/// FileError.
+/// What is no regular file, a pipe or a device, is written directly, and so is an open descriptor
+/// ("/dev/stdout", "/dev/fd/3"), at its place. Every function throws FileError.
 class AtomicWriter {
  public:
   explicit AtomicWriter(std::filesystem::path target);

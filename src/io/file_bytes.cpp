@@ -1,14 +1,18 @@
 // A whole file in memory.
 #include "io/file_bytes.h"
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <new>
-#include <system_error>
+#include <optional>
 
 #include "holdfast/io.h"
+#include "io/descriptor.h"
 
 namespace holdfast::io {
 namespace {
@@ -25,31 +29,55 @@ std::unique_ptr<char[]> allocate(const std::filesystem::path& path, std::uintmax
   }
 }
 
-/// What kind of file `path` names, links followed; refuses what cannot hold a mesh.
-std::filesystem::file_type checked_type(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto type = std::filesystem::status(path, error).type();
-  using std::filesystem::file_type;
-  if (type == file_type::not_found) throw FileError(path, "", "no such file");
-  if (error) throw FileError(path, "", "cannot be opened: " + error.message());
-  if (type == file_type::directory) throw FileError(path, "", "is a directory, not a file");
-  if (type == file_type::block || type == file_type::character)
+/// Refuses what cannot hold a mesh. What someone types is one, other devices have no end.
+void require_readable(const std::filesystem::path& path, const struct stat& status, bool is_terminal) {
+  if (S_ISDIR(status.st_mode)) throw FileError(path, "", "is a directory, not a file");
+  if (S_ISBLK(status.st_mode) || (S_ISCHR(status.st_mode) && !is_terminal))
     throw FileError(path, "", "is a device, not a file");
-  return type;
+}
+
+[[noreturn]] void fail(const std::filesystem::path& path, const char* what) {
+  throw FileError(path, "", std::string(what) + ": " + std::strerror(errno));
+}
+
+/// Opens a file, or an open descriptor at its place.
+std::unique_ptr<std::FILE, CloseFile> open(const std::filesystem::path& path) {
+  struct stat status {};
+  std::unique_ptr<std::FILE, CloseFile> file;
+  if (const std::optional<int> descriptor = descriptor_of(path)) {
+    if (::fstat(*descriptor, &status) != 0) fail(path, "cannot be opened");
+    require_readable(path, status, ::isatty(*descriptor) != 0);
+    const int copy = copy_of_descriptor(*descriptor);
+    file.reset(copy < 0 ? nullptr : ::fdopen(copy, "rb"));
+    if (!file && copy >= 0) ::close(copy);
+  } else {
+    if (::stat(path.c_str(), &status) != 0) {
+      if (errno == ENOENT) throw FileError(path, "", "no such file");
+      fail(path, "cannot be opened");
+    }
+    require_readable(path, status, false);
+    file.reset(std::fopen(path.c_str(), "rb"));
+  }
+  if (!file) fail(path, "cannot be opened");
+  return file;
+}
+
+/// How many bytes are left to read; nothing for pipes and the like.
+std::optional<std::size_t> size_of(std::FILE* file) {
+  struct stat status {};
+  if (::fstat(::fileno(file), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+  const off_t at = ::lseek(::fileno(file), 0, SEEK_CUR);
+  return static_cast<std::size_t>(std::max<off_t>(0, status.st_size - std::max<off_t>(0, at)));
 }
 
 }  // namespace
 
 FileBytes::FileBytes(const std::filesystem::path& path) {
-  const bool regular = checked_type(path) == std::filesystem::file_type::regular;
-  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
-  if (!file) throw FileError(path, "", std::string("cannot be opened: ") + std::strerror(errno));
-  std::error_code error;
-  const std::uintmax_t expected = regular ? std::filesystem::file_size(path, error) : 0;
+  const std::unique_ptr<std::FILE, CloseFile> file = open(path);
+  const std::optional<std::size_t> expected = size_of(file.get());
   // One byte more than the file has, so that its end shows without growing the buffer; a pipe, or a
   // file that grows meanwhile, doubles it.
-  std::size_t capacity = static_cast<std::size_t>(error ? 0 : expected) + 1;
-  if (!regular) capacity = std::size_t{1} << 16;
+  std::size_t capacity = expected ? *expected + 1 : std::size_t{1} << 16;
   bytes_ = allocate(path, capacity);
   for (;;) {
     const std::size_t got = std::fread(bytes_.get() + size_, 1, capacity - size_, file.get());
@@ -60,8 +88,7 @@ FileBytes::FileBytes(const std::filesystem::path& path) {
     bytes_ = std::move(larger);
     capacity *= 2;
   }
-  if (std::ferror(file.get()))
-    throw FileError(path, "", std::string("cannot be read: ") + std::strerror(errno));
+  if (std::ferror(file.get())) fail(path, "cannot be read");
 }
 
 }  // namespace holdfast::io

@@ -10,7 +10,8 @@ namespace holdfast::io {
 /// The bytes of a file, read at once.
 class FileBytes {
  public:
-  /// Reads a regular file or a pipe. Throws FileError, also for directories and devices.
+  /// Reads a regular file, a pipe or an open descriptor ("/dev/stdin"), this from where it stands. Throws
+  /// FileError, also for directories and for devices but a terminal.
   explicit FileBytes(const std::filesystem::path& path);
   [[nodiscard]] std::string_view view() const { return {bytes_.get(), size_}; }
 

@@ -16,6 +16,7 @@ namespace holdfast::io {
 [[nodiscard]] MeshData read_smesh(const Source& source);
 /// The vertices of a .node file alone.
 [[nodiscard]] MeshData read_node(const Source& source);
+[[nodiscard]] MeshData read_xyz(const Source& source);
 /// The .node, .ele, .face and .edge files beside the source, whose own bytes are not used.
 [[nodiscard]] MeshData read_tetgen_volume(const Source& source);
 [[nodiscard]] MeshData read_medit(const Source& source);

@@ -141,6 +141,12 @@ Volume read_volume(const std::filesystem::path& path, std::string_view format) {
   return volume;
 }
 
+std::vector<Point> read_points(const std::filesystem::path& path, std::string_view format) {
+  if (io::extension_of(path, format) != ".xyz") return read_surface(path, format).vertices;
+  const io::FileBytes bytes(path);
+  return io::read_xyz({path, bytes.view()}).vertices;
+}
+
 std::vector<std::string> volume_formats() {
   std::vector<std::string> extensions;
   for (const io::Format& format : io::kFormats)
@@ -153,6 +159,12 @@ void write_volume(const std::filesystem::path& path, const Volume& volume, const
                                              [](const io::Format& f) { return f.write != nullptr; });
   io::require_consistent(volume);
   writer.write(path, volume, options);
+}
+
+void write_bytes(const std::filesystem::path& path, std::string_view bytes) {
+  io::AtomicWriter out(path);
+  out << bytes;
+  out.commit();
 }
 
 }  // namespace holdfast

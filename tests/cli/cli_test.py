@@ -11,61 +11,13 @@ import signal
 import struct
 import subprocess
 import sys
-import tempfile
 import time
-import unittest
 from pathlib import Path
 
-PROGRAM = ""
+from cli_case import CUBE_FACETS, CUBE_POINTS, CliTest, cube, main, off, read_terminal, shifted
+
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 BENCH = EXAMPLES.parent / "bench"
-
-CUBE_POINTS = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
-CUBE_FACETS = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4),
-               (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2), (1, 3, 7), (1, 7, 5)]
-
-
-def off(points, facets):
-    return (f"OFF\n{len(points)} {len(facets)} 0\n" + "".join("%r %r %r\n" % tuple(p) for p in points)
-            + "".join(f"{len(f)} {' '.join(map(str, f))}\n" for f in facets))
-
-
-def cube(corner=(0, 0, 0), size=1):
-    return [tuple(c + size * x for c, x in zip(corner, p)) for p in CUBE_POINTS]
-
-
-def shifted(facets, by):
-    return [tuple(v + by for v in f) for f in facets]
-
-
-def read_terminal(descriptor):
-    """What a terminal's other side wrote; nothing once that side is closed."""
-    try:
-        return os.read(descriptor, 65536)
-    except OSError:
-        return b""
-
-
-class CliTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-        self.write("cube.off", off(CUBE_POINTS, CUBE_FACETS))
-
-    def write(self, name, content):
-        path = self.folder / name
-        path.write_bytes(content) if isinstance(content, bytes) else path.write_text(content)
-        return path
-
-    def run_program(self, *arguments, expect=0):
-        ended = subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, stdout=subprocess.PIPE,
-                               stderr=subprocess.PIPE, text=True, timeout=120, check=False)
-        self.assertEqual(ended.returncode, expect, ended.stdout + ended.stderr)
-        return ended
-
-    def files(self):
-        return sorted(p.name for p in self.folder.iterdir())
 
 
 class Usage(CliTest):
@@ -176,7 +128,7 @@ class Mesh(CliTest):
 
     def test_a_bar_on_a_terminal(self):
         ours, theirs = pty.openpty()
-        code = subprocess.run([PROGRAM, "mesh", "cube.off", "-o", "a.vtu", "--fill"], cwd=self.folder, stderr=theirs,
+        code = subprocess.run([self.program, "mesh", "cube.off", "-o", "a.vtu", "--fill"], cwd=self.folder, stderr=theirs,
                               timeout=120, check=False).returncode
         os.close(theirs)
         shown = b""
@@ -392,7 +344,7 @@ class Limits(CliTest):
     def test_interrupt_and_termination_are_5_and_leave_nothing(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             with self.subTest(number):
-                process = subprocess.Popen([PROGRAM, "mesh", "part.stl", "-o", "a.vtu", "--fill", "--without", "flips",
+                process = subprocess.Popen([self.program, "mesh", "part.stl", "-o", "a.vtu", "--fill", "--without", "flips",
                                             "--verbose"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
                 process.stderr.readline()  # the first stage has begun
                 os.kill(process.pid, number)
@@ -568,7 +520,7 @@ class Untangle(CliTest):
     def test_interrupt_is_5_and_leaves_nothing(self):
         self.tangle("a.mesh", self.bench.displaced(self.bench.grid(28, 0.2, random.Random(1)), 1, random.Random(3)))
         before = self.files()
-        process = subprocess.Popen([PROGRAM, "untangle", "a.mesh", "-o", "b.mesh", "-v"], cwd=self.folder,
+        process = subprocess.Popen([self.program, "untangle", "a.mesh", "-o", "b.mesh", "-v"], cwd=self.folder,
                                    stderr=subprocess.PIPE, text=True)
         process.stderr.readline()  # the first step has begun
         process.send_signal(signal.SIGINT)
@@ -614,5 +566,4 @@ class Delaunay(CliTest):
 
 
 if __name__ == "__main__":
-    PROGRAM = str(Path(sys.argv.pop(1)).resolve())
-    unittest.main()
+    main()

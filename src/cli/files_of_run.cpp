@@ -1,0 +1,226 @@
+#include "files_of_run.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "command.h"
+
+namespace holdfast::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* standard_input = "/dev/stdin";
+constexpr const char* standard_output = "/dev/stdout";
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
+  return text;
+}
+
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c); });
+  return text;
+}
+
+/// What the user would call it.
+std::string called(const fs::path& path) {
+  if (path == standard_input) return "standard input";
+  if (path == standard_output) return "standard output";
+  return path.string();
+}
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+/// Where links lead, also if that is not there yet; an open descriptor is a file of its own.
+fs::path linked(fs::path path) {
+  constexpr int most_links = 40;
+  std::error_code error;
+  for (int link = 0; link < most_links; ++link) {
+    if (descriptor_of(path) || !fs::is_symlink(path, error)) break;
+    const fs::path target = fs::read_symlink(path, error);
+    if (error) break;
+    path = folder_of(path) / target;
+  }
+  return path;
+}
+
+bool status_of(const fs::path& path, struct stat& status) {
+  const std::optional<int> descriptor = descriptor_of(linked(path));
+  return (descriptor ? fstat(*descriptor, &status) : stat(path.c_str(), &status)) == 0;
+}
+
+bool same_inode(const struct stat& a, const struct stat& b) {
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
+/// Whether names in a folder that differ in case alone are one: found out by a file, as no call tells.
+bool ignores_case(const fs::path& folder) {
+  const std::string name = fmt::format(".holdfast-{}-case.tmp", getpid());
+  const fs::path file = folder / name;
+  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (descriptor < 0) return false;
+  close(descriptor);
+  const bool found = access((folder / upper(name)).c_str(), F_OK) == 0;
+  unlink(file.c_str());
+  return found;
+}
+
+/// Throws FileError unless a file of this name can be created, or written through.
+void require_writable(const fs::path& path) {
+  const fs::path target = linked(path);
+  if (const std::optional<int> descriptor = descriptor_of(target)) {
+    const int flags = fcntl(*descriptor, F_GETFL);
+    if (flags < 0 || (flags & O_ACCMODE) == O_RDONLY) throw FileError(path, "", "is not open for writing");
+    return;
+  }
+  std::error_code ignored;
+  if (fs::is_directory(target, ignored)) throw FileError(path, "", "is a folder; name a file in it");
+  if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) {
+    if (access(target.c_str(), W_OK) != 0)
+      throw FileError(path, "", fmt::format("cannot be written ({})", std::strerror(errno)));
+    return;
+  }
+  const fs::path folder = folder_of(target);
+  if (!fs::is_directory(folder, ignored))
+    throw FileError(path, "", fmt::format("there is no folder '{}'; create it first", folder.string()));
+  if (access(folder.c_str(), W_OK) != 0)
+    throw FileError(path, "",
+                    fmt::format("cannot write to folder '{}' ({}); choose another or change its permissions",
+                                folder.string(), std::strerror(errno)));
+}
+
+/// Without an ending the format must be told; a pipe has none, and what is in it can be read only once.
+void require_format(const fs::path& path, std::string_view format) {
+  std::error_code ignored;
+  if (format.empty() && !path.has_extension() && (descriptor_of(path) || fs::is_fifo(path, ignored)))
+    throw UsageError(
+        fmt::format("{}: there is no ending that tells the format; give --input-format", called(path)));
+}
+
+}  // namespace
+
+std::string or_standard_input(const std::string& path) { return path == "-" ? standard_input : path; }
+
+std::string or_standard_output(const std::string& path) { return path == "-" ? standard_output : path; }
+
+void FilesOfRun::read_surfaces(const std::vector<fs::path>& paths, std::string_view format) {
+  for (const fs::path& path : paths) {
+    require_format(path, format);
+    read("the input", files_of_surface(path, format));
+  }
+}
+
+void FilesOfRun::read_points(const fs::path& path, std::string_view format) { read_surfaces({path}, format); }
+
+void FilesOfRun::read_volume(const fs::path& path, std::string_view format) {
+  require_format(path, format);
+  read("the input", files_of_volume(path, format));
+}
+
+void FilesOfRun::read_size_field(std::string_view option, const fs::path& path) {
+  if (path.empty()) return;
+  if (path == standard_input)
+    throw UsageError(fmt::format("{}: name a file, whose ending tells the format", option));
+  read(option, files_of_size_field(path));
+}
+
+void FilesOfRun::read(std::string_view option, const std::vector<fs::path>& paths) {
+  for (const fs::path& path : paths) {
+    File file{std::string(option), path, false, true, {}, {}};
+    // What is not there cannot be lost; the reader says so.
+    if (status_of(path, file.status)) add(std::move(file));
+  }
+}
+
+void FilesOfRun::write(std::string_view option, const fs::path& path) {
+  if (path.empty()) return;
+  File file{std::string(option), path, true, true, {}, {}};
+  const fs::path target = linked(path);
+  if (!status_of(path, file.status)) {
+    file.exists = false;
+    file.name = target.filename();
+    static_cast<void>(stat(folder_of(target).c_str(), &file.status));
+  }
+  require_writable(path);
+  if (descriptor_of(target) == STDOUT_FILENO) writes_stdout_ = true;
+  add(std::move(file));
+}
+
+VolumeTarget FilesOfRun::write_volume(std::string_view option, const fs::path& path, std::string format) {
+  VolumeTarget target{path, {}};
+  if (!format.empty() && format.front() != '.') format.insert(format.begin(), '.');
+  target.options.format = lower(format);
+  if (target.options.format == ".msh2") {
+    target.options.format = ".msh";
+    target.options.legacy_msh = true;
+  }
+  const std::string kind =
+      target.options.format.empty() ? lower(path.extension().string()) : target.options.format;
+  const std::vector<std::string> known = volume_formats();
+  if (std::find(known.begin(), known.end(), kind) == known.end())
+    throw UsageError(fmt::format(
+        "{}: {}; use {} (--format msh2 for version 2.2 of .msh) {}by --format", called(path),
+        kind.empty() ? "there is no ending that tells the format" : "'" + kind + "' is no volume format",
+        fmt::join(known, " "), path == standard_output ? "" : "as the file's ending or "));
+  const std::vector<fs::path> files = files_of_volume(path, target.options.format);
+  struct stat status {};
+  if (files.size() > 1 && status_of(path, status) && !S_ISREG(status.st_mode))
+    throw UsageError(fmt::format("{}: the format {} is of {} files beside one another, which need a name",
+                                 called(path), kind, files.size()));
+  for (const fs::path& file : files) write(option, file);
+  return target;
+}
+
+void FilesOfRun::list(std::string_view text) const {
+  write_bytes(writes_stdout_ ? "/dev/stderr" : standard_output, text);
+}
+
+void FilesOfRun::add(File file) {
+  for (const File& other : files_) {
+    if (file.written || other.written) {
+      require_different(file.written ? file : other, file.written ? other : file);
+    } else if (file.path == standard_input && other.path == standard_input) {
+      throw UsageError("standard input can be read only once");
+    }
+  }
+  files_.push_back(std::move(file));
+}
+
+void FilesOfRun::require_different(const File& written, const File& other) {
+  if (written.exists != other.exists || !same_inode(written.status, other.status)) return;
+  if (!written.exists && written.name != other.name &&
+      (lower(written.name.string()) != lower(other.name.string()) ||
+       !ignores_case(folder_of(linked(written.path)))))
+    return;
+  if (written.exists) {
+    // Bytes written to a terminal, or to nowhere, replace nothing; nor do those to what is read by the other
+    // end of a pipe. Two that go out by one pipe would be one stream that nobody can read.
+    const mode_t kind = written.status.st_mode;
+    const bool replaces = S_ISREG(kind) || S_ISBLK(kind);
+    const bool twice = other.written && (!S_ISCHR(kind) || written.path == other.path);
+    const bool is_nowhere = written.path == "/dev/null";
+    if (is_nowhere || (!replaces && !twice)) return;
+  }
+  if (!other.written)
+    throw UsageError(fmt::format("{}: {} would overwrite {}{}; give another name", called(written.path),
+                                 written.option, other.option,
+                                 written.path == other.path ? "" : " " + called(other.path)));
+  const std::string both =
+      written.option == other.option ? other.option : other.option + " and " + written.option;
+  throw UsageError(fmt::format("{}: {} would write the same file{}; give another name", called(written.path),
+                               both, written.path == other.path ? "" : ", " + called(other.path)));
+}
+
+}  // namespace holdfast::cli

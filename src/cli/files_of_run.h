@@ -1,0 +1,64 @@
+// The files that a command reads and writes: none is lost.
+#pragma once
+
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "holdfast/io.h"
+
+namespace holdfast::cli {
+
+/// "-" as the system names standard input or output, any other path as it is: for CLI::Option::transform.
+[[nodiscard]] std::string or_standard_input(const std::string& path);
+[[nodiscard]] std::string or_standard_output(const std::string& path);
+
+/// Where and how to write a volume.
+struct VolumeTarget {
+  std::filesystem::path path;
+  WriteOptions options;
+};
+
+/// Every file of a run. A command names them all before it does any work; each is compared with those named
+/// before it. What is written must be none that is read or written otherwise, whatever it is called: files
+/// are compared by identity, so that links and other spellings count, and those that are not there yet by
+/// folder and name. `option` is what the user knows a file by ("-o", "the input"). An empty path names no
+/// file.
+class FilesOfRun {
+ public:
+  /// Surfaces in, with the files that lie beside them. All functions throw UsageError.
+  void read_surfaces(const std::vector<std::filesystem::path>& paths, std::string_view format);
+  void read_points(const std::filesystem::path& path, std::string_view format);
+  void read_volume(const std::filesystem::path& path, std::string_view format);
+  void read_size_field(std::string_view option, const std::filesystem::path& path);
+
+  /// A file of the program's own making. Throws FileError, too, if it cannot be created.
+  void write(std::string_view option, const std::filesystem::path& path);
+  /// A volume of a format that is known (`format`, or the extension when it is empty), and what belongs to
+  /// it.
+  [[nodiscard]] VolumeTarget write_volume(std::string_view option, const std::filesystem::path& path,
+                                          std::string format);
+
+  /// Prints what a command has found: to stderr if a file goes to stdout. Throws FileError.
+  void list(std::string_view text) const;
+
+ private:
+  struct File {
+    std::string option;
+    std::filesystem::path path;  ///< as named
+    bool written, exists;
+    struct stat status;          ///< if it exists; else of its folder
+    std::filesystem::path name;  ///< in this folder
+  };
+  void read(std::string_view option, const std::vector<std::filesystem::path>& paths);
+  void add(File file);
+  static void require_different(const File& written, const File& other);
+
+  std::vector<File> files_;
+  bool writes_stdout_ = false;
+};
+
+}  // namespace holdfast::cli

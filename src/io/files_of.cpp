@@ -1,0 +1,71 @@
+// Which files a name stands for: those of TetGen, and a mesh with its sizes, come in several.
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+#include "holdfast/io.h"
+#include "io/text_reader.h"
+
+namespace holdfast {
+namespace {
+
+using Paths = std::vector<std::filesystem::path>;
+
+std::filesystem::path with_extension(std::filesystem::path path, const char* extension) {
+  return path.replace_extension(extension);
+}
+
+std::string extension_of(const std::filesystem::path& path, std::string_view format) {
+  std::string extension = io::lower(format.empty() ? path.extension().string() : std::string(format));
+  if (!extension.empty() && extension[0] != '.') extension.insert(0, 1, '.');
+  return extension;
+}
+
+/// Whether the vertices are in the .node file beside: the first number, their count, is 0.
+bool has_nodes_beside(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return true;  // a pipe is read only once
+  std::ifstream file(path, std::ios::binary);
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t start = line.find_first_not_of(" \t\r");
+    if (start == std::string::npos || line[start] == '#') continue;
+    const std::size_t digit = line.find_first_not_of('0', start);
+    return digit != start && (digit == std::string::npos || line[digit] < '0' || line[digit] > '9');
+  }
+  return false;
+}
+
+Paths tetgen_files(const std::filesystem::path& path) {
+  return {with_extension(path, ".node"), with_extension(path, ".ele"), with_extension(path, ".face"),
+          with_extension(path, ".edge")};
+}
+
+}  // namespace
+
+Paths files_of_surface(const std::filesystem::path& path, std::string_view format) {
+  const std::string extension = extension_of(path, format);
+  if ((extension == ".poly" || extension == ".smesh") && has_nodes_beside(path))
+    return {path, with_extension(path, ".node")};
+  return {path};
+}
+
+Paths files_of_volume(const std::filesystem::path& path, std::string_view format) {
+  const std::string extension = extension_of(path, format);
+  if (extension == ".node" || extension == ".ele" || extension == ".face") return tetgen_files(path);
+  return {path};
+}
+
+Paths files_of_size_field(const std::filesystem::path& path) {
+  const std::string extension = extension_of(path, {});
+  Paths files{path};
+  const auto add = [&](std::initializer_list<const char*> extensions) {
+    for (const char* other : extensions) files.push_back(with_extension(path, other));
+  };
+  if (extension == ".mesh" || extension == ".meshb") add({".sol", ".solb"});
+  if (extension == ".sol" || extension == ".solb") add({".mesh", ".meshb"});
+  if (extension == ".mtr") add({".node", ".ele", ".face", ".edge"});
+  return files;
+}
+
+}  // namespace holdfast
