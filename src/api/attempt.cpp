@@ -79,7 +79,9 @@ class Attempt {
     mesh_.reserve(complex().vertices.size() + 8, kTetsAVertex * complex().vertices.size());
     for (const Point& p : complex().vertices) mesh_.add_vertex(scaled(p, scale_));
     const double margin = options_.keep == Keep::box ? options_.box_margin : kHiddenMargin;
-    for (const Point& corner : box_corners(mesh_.positions(), margin)) mesh_.add_vertex(corner);
+    const exact::DoubleGrid grid = grid_after(scale_);
+    for (const Point& corner : box_corners(mesh_.positions(), margin, grid)) mesh_.add_vertex(corner);
+    mesh_.set_grid(grid);
     first_free_ = static_cast<Vertex>(mesh_.vertex_count());
     if (!build_delaunay(mesh_, {seed_, threads_}, &monitor_))
       throw std::logic_error("holdfast: the box has no tetrahedra");
@@ -229,7 +231,13 @@ class Attempt {
   void fill_report() {
     const Stage last = last_stage();
     Report& report = result_.report;
-    const Volume& volume = result_.volume;
+    // Measures over- and underflow where the mesh was scaled.
+    Volume scaled_volume;
+    if (scale_ != 0) {
+      scaled_volume = result_.volume;
+      scaled_volume.vertices = scaled(result_.volume.vertices, scale_);
+    }
+    const Volume& volume = scale_ == 0 ? result_.volume : scaled_volume;
     report.unrounded_points = result_.exact_vertices.size();
     report.vertices = volume.vertices.size();
     report.tetrahedra = volume.tetrahedra.size();

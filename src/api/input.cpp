@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "api/report.h"
+#include "api/scale.h"
 #include "classify/outside.h"
 #include "mesh/quality.h"
 #include "recover/other_diagonals.h"
@@ -65,7 +66,11 @@ std::vector<Defect> Input::validate_missing(TetMesh& mesh, const Standing& stand
 }
 
 double Input::target() {
-  if (!target_) target_ = target_quality(complex_.vertices, complex_.facets, threads_);
+  if (!target_) {
+    const int scale = choose_scale(complex_.vertices);  // measures over- and underflow
+    target_ = scale == 0 ? target_quality(complex_.vertices, complex_.facets, threads_)
+                         : target_quality(scaled(complex_.vertices, scale), complex_.facets, threads_);
+  }
   return *target_;
 }
 

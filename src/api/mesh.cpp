@@ -56,15 +56,18 @@ class Call {
       refuse(result_, std::move(defects));
   }
 
-  // Where no doubles were found for some point, others may be with another random order. The attempt with
-  // the fewest such points counts, also where a limit ends the next one: then returns false.
+  // Where no doubles were found for some point, others may be with another random order, or where flips have
+  // not put the points there: every other attempt leaves them out. The attempt with the fewest such points
+  // counts, also where a limit ends the next one: then returns false.
   bool try_again() {
     Result best = std::move(result_);
     result_ = {};
     result_.report = best.report;
     ++seed_;
+    Options options = options_;
+    options.flips = options.flips && (seed_ - options.seed) % 2 == 0;
     try {
-      attempt(input_, options_, seed_, threads_, monitor_, result_);
+      attempt(input_, options, seed_, threads_, monitor_, result_);
     } catch (const Interrupted& interrupted) {
       if (interrupted.outcome() == Outcome::cancelled) throw;
       result_ = std::move(best);

@@ -1,31 +1,53 @@
 #include "api/scale.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+
+#include "exact/float_bits.h"
 
 namespace holdfast {
 namespace {
 
 constexpr int kUsual = 64;  // 2^-64 .. 2^64: products of sixteen differences neither over- nor underflow
-constexpr int kLeastBit = -1074;  // of any double
-constexpr int kRoomBehind = 300;  // bits behind the leading one that added vertices may use
+
+// The exponent of the last bit that is set, of all coordinates but zeros.
+int least_bit(std::span<const Point> vertices) {
+  int least = 1024;
+  for (const Point& p : vertices)
+    for (const double x : p) {
+      if (x == 0) continue;
+      const exact::FloatParts parts = exact::float_parts(exact::magnitude_bits(x));
+      least = std::min(least, parts.exponent + std::countr_zero(parts.mantissa));
+    }
+  return least;
+}
 
 }  // namespace
 
+// Larger numbers are always exact. Smaller ones are while the last bit of each stays above the denormals'.
 int choose_scale(std::span<const Point> vertices) {
   double largest = 0;
   for (const Point& p : vertices)
     for (const double x : p) largest = std::max(largest, std::abs(x));
   if (largest == 0) return 0;
   const int k = -std::ilogb(largest);
-  if (std::abs(k) <= kUsual || -kRoomBehind - k < kLeastBit) return 0;
-  const bool exact = std::all_of(vertices.begin(), vertices.end(),
-                                 [k](const Point& p) { return scaled(scaled(p, k), -k) == p; });
-  return exact ? k : 0;
+  if (std::abs(k) <= kUsual) return 0;
+  return k > 0 ? k : std::max(k, std::min(0, exact::DoubleGrid::kLeastExponent - least_bit(vertices)));
+}
+
+exact::DoubleGrid grid_after(int k) {
+  return k > 0 ? exact::DoubleGrid(exact::DoubleGrid::kLeastExponent + k) : exact::DoubleGrid();
 }
 
 Point scaled(const Point& p, int k) {
   return {std::ldexp(p[0], k), std::ldexp(p[1], k), std::ldexp(p[2], k)};
+}
+
+std::vector<Point> scaled(std::span<const Point> points, int k) {
+  std::vector<Point> out(points.size());
+  std::transform(points.begin(), points.end(), out.begin(), [k](const Point& p) { return scaled(p, k); });
+  return out;
 }
 
 exact::ExactPoint scaled(const exact::ExactPoint& p, int k) {

@@ -6,6 +6,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "api/scale.h"
 #include "holdfast/check.h"
 #include "mesh/monitor.h"
 #include "surface/diagnose.h"
@@ -52,6 +53,14 @@ std::vector<Point> finite_positions(const Volume& volume, const std::vector<bool
   for (std::size_t v = 0; v < points.size(); ++v)
     if (!fixed[v] && !finite(points[v])) points[v] = finite(middle) ? middle : Point{};
   return points;
+}
+
+// That of the vertices that stay; the others may be anywhere.
+int scale_of_fixed(const Volume& volume, const std::vector<bool>& fixed) {
+  std::vector<Point> points;
+  for (std::size_t v = 0; v < fixed.size(); ++v)
+    if (fixed[v]) points.push_back(volume.vertices[v]);
+  return choose_scale(points);
 }
 
 // A volume and its boundary with the constrained vertices first, as `check` wants them.
@@ -165,10 +174,16 @@ class Untangling {
     }
     const std::vector<bool>& fixed = connectivity_.constraints.fixed;
     result_.report.free_vertices = static_cast<std::size_t>(std::count(fixed.begin(), fixed.end(), false));
-    const std::vector<Point> points = finite_positions(volume_, fixed);
+    scale_ = scale_of_fixed(volume_, fixed);
+    if (scale_ != 0) {
+      scaled_ = volume_;
+      scaled_.vertices = scaled(volume_.vertices, scale_);
+    }
+    const std::vector<Point> points = finite_positions(scaled_volume(), fixed);
     turn_outwards(connectivity_, points);
     result_.report.turned = connectivity_.turned;
-    tangle_.emplace(points, connectivity_.tets, connectivity_.regions, connectivity_.constraints);
+    tangle_.emplace(points, connectivity_.tets, connectivity_.regions, connectivity_.constraints,
+                    grid_after(scale_));
     at_first_ = tangle_->nonpositive_count();
     count_signs(result_.report.negative, result_.report.null);
     return true;
@@ -178,7 +193,12 @@ class Untangling {
     for (const Tet t : tangle_->nonpositive()) ++(tangle_->sign(t) < 0 ? negative : null);
   }
 
-  Result fill(const Complex& complex) {
+  [[nodiscard]] const Volume& scaled_volume() const { return scale_ == 0 ? volume_ : scaled_; }
+
+  // The mesher is given what comes out, and finds a scale of its own.
+  Result fill(Complex complex) {
+    const std::vector<Point> points = scaled(complex.vertices, -scale_);
+    complex.vertices = points;
     Options options;
     options.keep = Keep::bounded;
     options.drop_outside = true;  // free vertices that lie outside
@@ -190,6 +210,9 @@ class Untangling {
     if (result.outcome == Outcome::time_limit || result.outcome == Outcome::memory_limit ||
         result.outcome == Outcome::cancelled)
       throw Interrupted(result.outcome);
+    std::vector<Point> found = scaled(result.volume.vertices, scale_);
+    if (scaled(found, -scale_) != result.volume.vertices) result.outcome = Outcome::not_representable;
+    result.volume.vertices = std::move(found);
     return result;
   }
 
@@ -219,7 +242,8 @@ class Untangling {
   }
 
   void deliver() {
-    Assembled assembled = assemble(volume_, *tangle_);
+    Assembled assembled = assemble(scaled_volume(), *tangle_);
+    if (scale_ != 0) undo_scale(assembled.volume.vertices);
     result_.report.moved = assembled.moved;
     result_.report.added = assembled.added;
     result_.report.removed = assembled.removed;
@@ -236,6 +260,14 @@ class Untangling {
     result_.volume = std::move(assembled.volume);
   }
 
+  // What did not move is as it was, also where scaling it down has rounded it.
+  void undo_scale(std::vector<Point>& points) const {
+    for (std::size_t v = 0; v < points.size(); ++v) {
+      const bool stands = v < volume_.vertices.size() && points[v] == scaled_.vertices[v];
+      points[v] = stands ? volume_.vertices[v] : scaled(points[v], -scale_);
+    }
+  }
+
   const Volume& volume_;
   const UntangleOptions& options_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -243,6 +275,8 @@ class Untangling {
   Monitor monitor_;
   Watch watch_;
   Connectivity connectivity_;
+  int scale_ = 0;  // the tangle is the volume times 2^scale_
+  Volume scaled_;  // as large, if that is not 0
   std::optional<Tangle> tangle_;
   std::size_t at_first_ = 0;  // tetrahedra that were not positive
   UntangleResult result_;

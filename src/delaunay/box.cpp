@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace holdfast {
 
-std::array<Point, 8> box_corners(std::span<const Point> vertices, double margin) {
+std::array<Point, 8> box_corners(std::span<const Point> vertices, double margin,
+                                 const exact::DoubleGrid& grid) {
   Point low{}, high{};
   if (!vertices.empty()) low = high = vertices[0];
   for (const Point& p : vertices)
@@ -17,11 +17,10 @@ std::array<Point, 8> box_corners(std::span<const Point> vertices, double margin)
   double extent = 0;
   for (std::size_t i = 0; i < 3; ++i) extent = std::max(extent, high[i] - low[i]);
   const double step = margin * (extent > 0 ? extent : 1);
-  // A step below the spacing of the doubles there would leave vertices on the box.
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  // A step below the spacing of the grid there would leave vertices on the box.
   for (std::size_t i = 0; i < 3; ++i) {
-    low[i] = std::min(low[i] - step, std::nextafter(low[i], -kInfinity));
-    high[i] = std::max(high[i] + step, std::nextafter(high[i], kInfinity));
+    low[i] = std::min(grid.nearest(low[i] - step), grid.next(low[i], false));
+    high[i] = std::max(grid.nearest(high[i] + step), grid.next(high[i], true));
   }
   std::array<Point, 8> corners{};
   for (std::size_t k = 0; k < 8; ++k)

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "exact/rounding.h"
 #include "exact/volume.h"
@@ -182,14 +181,12 @@ HalfSpace Kernel::half_space_over(const std::array<Vertex, 3>& f, PointRef origi
 
 // A kernel thinner than the spacing of doubles may still hold one next to the centre.
 std::optional<Point> Kernel::double_next_to(const Point& centre) const {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const Point middle = mesh_.on_grid(centre);
   for (int code = 0; code < 27; ++code) {
-    Point p = centre;
+    Point p = middle;
     int rest = code;
-    for (std::size_t k = 0; k < 3; ++k, rest /= 3) {
-      if (rest % 3 == 1) p[k] = std::nextafter(p[k], kInfinity);
-      if (rest % 3 == 2) p[k] = std::nextafter(p[k], -kInfinity);
-    }
+    for (std::size_t k = 0; k < 3; ++k, rest /= 3)
+      if (rest % 3 != 0) p[k] = mesh_.grid().next(p[k], rest % 3 == 1);
     if (holds({p.data(), nullptr})) return p;
   }
   return std::nullopt;

@@ -6,7 +6,7 @@
 namespace holdfast {
 
 Vertex TetMesh::add_vertex(const Point& p) {
-  positions_.push_back(p);
+  positions_.push_back(on_grid(p));
   exact_of_.push_back(kNone);
   incident_.push_back(kNone);
   return static_cast<Vertex>(positions_.size() - 1);
@@ -28,7 +28,7 @@ Vertex TetMesh::add_vertices(std::size_t count) {
 
 void TetMesh::move_vertex(Vertex v, const Point& p) {
   release_exact(v);
-  positions_[v] = p;
+  positions_[v] = on_grid(p);
 }
 
 void TetMesh::move_vertex(Vertex v, const exact::ExactPoint& p) { set_exact(v, p); }
@@ -57,7 +57,7 @@ void TetMesh::set_exact(Vertex v, const exact::ExactPoint& p) {
   const exact::ExactPoint copy = p;  // p may live in exact_, which is about to change
   release_exact(v);
   positions_[v] = {copy.c[0].to_double(), copy.c[1].to_double(), copy.c[2].to_double()};
-  if (copy.c[0].is_double() && copy.c[1].is_double() && copy.c[2].is_double()) return;
+  if (grid_.holds(copy.c[0]) && grid_.holds(copy.c[1]) && grid_.holds(copy.c[2])) return;
   if (exact_free_.empty()) {
     exact_of_[v] = static_cast<std::uint32_t>(exact_.size());
     exact_.push_back(copy);

@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "exact/double_grid.h"
 #include "exact/point.h"
 #include "exact/predicates.h"
 #include "holdfast/types.h"
@@ -28,8 +29,16 @@ class TetMesh {
   using Neighbours = std::array<Face, 4>;
 
   // --- vertices
+  /// From now on vertices get no doubles but those of this grid.
+  void set_grid(const exact::DoubleGrid& grid) { grid_ = grid; }
+  [[nodiscard]] const exact::DoubleGrid& grid() const { return grid_; }
+  /// The point of the grid nearest to p.
+  [[nodiscard]] Point on_grid(const Point& p) const {
+    return {grid_.nearest(p[0]), grid_.nearest(p[1]), grid_.nearest(p[2])};
+  }
+  /// A vertex at the point of the grid nearest to p.
   Vertex add_vertex(const Point& p);
-  /// A vertex at an exact position; becomes explicit when doubles hold it.
+  /// A vertex at an exact position; becomes explicit when the grid holds it.
   Vertex add_vertex(const exact::ExactPoint& p);
   /// `count` more explicit vertices, one after another, that move_vertex places. Returns the first.
   Vertex add_vertices(std::size_t count);
@@ -148,6 +157,7 @@ class TetMesh {
   std::vector<Flags> flags_;
   std::vector<Tet> free_;
 
+  exact::DoubleGrid grid_;
   std::vector<Point> positions_;
   std::vector<std::uint32_t> exact_of_;  // index in exact_, or kNone
   std::vector<Tet> incident_;

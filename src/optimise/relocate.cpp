@@ -40,7 +40,8 @@ class Relocation {
     return worst;
   }
 
-  bool step_to(const Point& x) {
+  bool step_to(const Point& to) {
+    const Point x = mesh_.on_grid(to);
     const double worst = worst_at(x, worst_);
     if (!(worst < worst_) || !kernel_.holds({x.data(), nullptr})) return false;
     worst_ = worst;

@@ -135,6 +135,7 @@ class Cavity {
   bool triangulate(const Local& local, std::uint64_t seed, TetMesh& mesh) const {
     for (const Vertex v : vertices_) mesh.add_vertex(mesh_.position(mesh_.is_explicit(v) ? v : facet_[0]));
     for (const Point& p : far_points(local)) mesh.add_vertex(p);
+    mesh.set_grid(mesh_.grid());
     if (!build_delaunay(mesh, {seed}, nullptr)) return false;
     std::uint32_t random = 1;
     for (Vertex k = 0; k < vertices_.size(); ++k) {

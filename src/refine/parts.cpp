@@ -78,6 +78,7 @@ class PartMaker {
   }
 
   void copy_vertices() {
+    part_.mesh.set_grid(whole_.mesh.grid());
     part_.mesh.add_vertices(part_.vertices_.size());
     part_.sizes.resize(part_.vertices_.size());
     for (Vertex v = 0; v < part_.vertices_.size(); ++v) {

@@ -10,12 +10,18 @@ constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
-// The mean length of the edges at each vertex.
-std::vector<double> edge_lengths(const Complex& complex, const SegmentTable& table) {
+Point times_power(const Point& p, int k) {
+  return {std::ldexp(p[0], k), std::ldexp(p[1], k), std::ldexp(p[2], k)};
+}
+
+// The mean length of the edges at each vertex, times 2^scale: where lengths neither over- nor underflow.
+std::vector<double> edge_lengths(const Complex& complex, const SegmentTable& table, int scale) {
   std::vector<double> sum(complex.vertices.size(), 0);
   std::vector<unsigned> count(complex.vertices.size(), 0);
   for (const Segment& s : table.segments) {
-    const double length = distance(complex.vertices[s[0]], complex.vertices[s[1]]);
+    const Point &a = complex.vertices[s[0]], &b = complex.vertices[s[1]];
+    const double length =
+        scale == 0 ? distance(a, b) : distance(times_power(a, scale), times_power(b, scale));
     for (const Index v : s) {
       sum[v] += length;
       ++count[v];
@@ -35,10 +41,9 @@ SizeFunction::SizeFunction(const Sizes& sizes, const Complex& complex, const Seg
       scale_(scale),
       field_(sizes.field),
       metric_(sizes.metric),
-      of_vertex_(edge_lengths(complex, table)) {
+      of_vertex_(edge_lengths(complex, table, scale)) {
   for (std::size_t v = 0; v < std::min(of_vertex_.size(), sizes.vertex_sizes.size()); ++v)
-    if (sizes.vertex_sizes[v] > 0) of_vertex_[v] = sizes.vertex_sizes[v];
-  for (double& h : of_vertex_) h = std::ldexp(h, scale);
+    if (sizes.vertex_sizes[v] > 0) of_vertex_[v] = std::ldexp(sizes.vertex_sizes[v], scale);
   const auto has_size = [](const RegionSeed& seed) { return seed.size > 0; };
   if (std::any_of(options.regions.begin(), options.regions.end(), has_size)) {
     of_region_.assign(kept.id.size(), most_);
@@ -49,9 +54,7 @@ SizeFunction::SizeFunction(const Sizes& sizes, const Complex& complex, const Seg
   }
 }
 
-Point SizeFunction::unscaled(const Point& p) const {
-  return {std::ldexp(p[0], -scale_), std::ldexp(p[1], -scale_), std::ldexp(p[2], -scale_)};
-}
+Point SizeFunction::unscaled(const Point& p) const { return times_power(p, -scale_); }
 
 double SizeFunction::field_at(const Point& p) const {
   const double h = field_(unscaled(p));

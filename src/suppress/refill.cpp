@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "mesh/double_in_kernel.h"
 #include "mesh/kernel.h"
 #include "mesh/replace.h"
 #include "mesh/traverse.h"
@@ -28,27 +29,43 @@ bool fill(TetMesh& mesh, const Cavity& cavity, const PolyhedronOptions& search) 
   return true;
 }
 
-bool cone(TetMesh& mesh, const Cavity& cavity, Vertex apex, const Kernel::Centre& centre) {
-  const auto position = kernel_of(mesh, cavity).double_at(mesh.point(apex), centre);
-  if (!position) return false;
+void cone(TetMesh& mesh, const Cavity& cavity, Vertex apex, const Point& position) {
   const std::vector<Vertex> inner = cavity.inner();
   std::vector<TetMesh::Corners> fresh;
   for (const auto& f : cavity.faces()) fresh.push_back({f[0], f[1], f[2], apex});
-  mesh.move_vertex(apex, *position);
+  mesh.move_vertex(apex, position);
   replace(mesh, {.old_tets = cavity.tets(), .new_tets = fresh});
   for (const Vertex v : inner)
     if (v != apex) mesh.remove_vertex(v);
-  return true;
+}
+
+enum class Search { next_to_centre, complete };
+
+std::optional<Point> place_in(const TetMesh& mesh, const Kernel& kernel, Vertex apex,
+                              const Kernel::Centre& centre, Search search) {
+  if (const auto place = kernel.double_at(mesh.point(apex), centre)) return place;
+  return search == Search::complete ? find_double(mesh, kernel.faces()).point : std::nullopt;
 }
 
 // Across the faces that leave the centre least room until it can be had in doubles.
-bool cone_grown(TetMesh& mesh, Cavity& cavity, Vertex apex, int steps) {
+bool cone_grown(TetMesh& mesh, Cavity& cavity, Vertex apex, int steps, Search search) {
   for (int step = 0; step <= steps; ++step) {
-    const Kernel::Centre centre = kernel_of(mesh, cavity).centre(mesh.point(apex));
-    if (cone(mesh, cavity, apex, centre)) return true;
+    const Kernel kernel = kernel_of(mesh, cavity);
+    const Kernel::Centre centre = kernel.centre(mesh.point(apex));
+    if (const auto place = place_in(mesh, kernel, apex, centre, search)) {
+      cone(mesh, cavity, apex, *place);
+      return true;
+    }
     if (!cavity.grow_across_lowest(centre.heights)) return false;
   }
   return false;
+}
+
+bool round(TetMesh& mesh, Vertex p, Vertex first_free, int steps, Search search) {
+  std::vector<Tet> tets;
+  ball(mesh, p, tets);
+  Cavity cavity(mesh, tets, first_free);
+  return cone_grown(mesh, cavity, p, steps, search);
 }
 
 }  // namespace
@@ -77,14 +94,16 @@ bool merge(TetMesh& mesh, Vertex p, Vertex neighbour, Vertex first_free, int ste
   tets.clear();
   ball(mesh, neighbour, tets);
   if (tets.size() > kMostMerged) return false;
-  return cavity.swallow(tets) && (fill(mesh, cavity, search) || cone_grown(mesh, cavity, p, steps));
+  return cavity.swallow(tets) &&
+         (fill(mesh, cavity, search) || cone_grown(mesh, cavity, p, steps, Search::next_to_centre));
 }
 
 bool round_with_neighbours(TetMesh& mesh, Vertex p, Vertex first_free, int steps) {
-  std::vector<Tet> tets;
-  ball(mesh, p, tets);
-  Cavity cavity(mesh, tets, first_free);
-  return cone_grown(mesh, cavity, p, steps);
+  return round(mesh, p, first_free, steps, Search::next_to_centre);
+}
+
+bool round_completely(TetMesh& mesh, Vertex p, Vertex first_free, int steps) {
+  return round(mesh, p, first_free, steps, Search::complete);
 }
 
 }  // namespace holdfast

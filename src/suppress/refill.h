@@ -30,5 +30,7 @@ bool merge(TetMesh& mesh, Vertex p, Vertex neighbour, Vertex first_free, int ste
 /// Gives p a position in doubles: its ball grows across the faces that leave least room until the kernel
 /// holds one. At most `steps` tetrahedra are added. Returns whether p has one.
 bool round_with_neighbours(TetMesh& mesh, Vertex p, Vertex first_free, int steps);
+/// The same with a complete search, which is slow: a kernel that it passes by holds no double.
+bool round_completely(TetMesh& mesh, Vertex p, Vertex first_free, int steps);
 
 }  // namespace holdfast

@@ -33,6 +33,7 @@ class Suppressor {
     while (!points_.empty() && refill());
     shrink();
     insist();
+    round_the_rest();
     stats_.left = points_.size();
     stats_.unrounded = unrounded(mesh_, points_);
     return stats_;
@@ -104,6 +105,23 @@ class Suppressor {
       std::erase_if(spare, [&](Vertex p) { return !mesh_.in_mesh(p); });
       if (shakes > most_shakes) return;
       idle = spare.size() < before ? 0 : idle + 1;
+    }
+  }
+
+  // Nothing but complete searches is left to try, and other meshes round what they do not find.
+  void round_the_rest() {
+    constexpr int kMostRounds = 6, kShakenEdges = 40;
+    for (int round = 0; round < kMostRounds; ++round) {
+      std::vector<Vertex> rest = points_;
+      std::erase_if(rest, [&](Vertex p) { return mesh_.is_explicit(p); });
+      if (rest.empty()) return;
+      for (const Vertex p : rest) {
+        tell();
+        if (!mesh_.in_mesh(p) || round_completely(mesh_, p, first_free_, kMostSteps)) continue;
+        shake(mesh_, flipper_, p, kShakenEdges, random_);
+        remove_or_recentre(mesh_, p, {});
+      }
+      drop_the_gone(stats_.filled);
     }
   }
 

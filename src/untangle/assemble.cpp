@@ -65,6 +65,7 @@ class Assembly {
     for (const Vertex v : c)
       for (std::size_t k = 0; k < 3; ++k) centre[k] += tangle_.position(v)[k] / 4;
     if (!std::isfinite(centre[0] + centre[1] + centre[2])) return false;
+    centre = tangle_.points().on_grid(centre);
     const exact::PointRef p{centre.data(), nullptr};
     for (int i = 0; i < 4; ++i) {
       const auto f = tangle_.face(t, i);

@@ -6,9 +6,10 @@
 namespace holdfast {
 
 Tangle::Tangle(std::span<const Point> points, std::vector<Corners> tets, std::vector<int> regions,
-               Constraints constraints)
+               Constraints constraints, const exact::DoubleGrid& grid)
     : corners_(std::move(tets)), constraints_(std::move(constraints)) {
   points_.reserve(points.size(), 0);
+  points_.set_grid(grid);
   for (const Point& p : points) points_.add_vertex(p);
   star_.resize(points.size());
   region_of_.reserve(corners_.size());

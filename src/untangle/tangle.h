@@ -44,8 +44,9 @@ class Tangle {
  public:
   using Corners = TetMesh::Corners;
 
+  /// Vertices that move, or come, get points of the grid.
   Tangle(std::span<const Point> points, std::vector<Corners> tets, std::vector<int> regions,
-         Constraints constraints);
+         Constraints constraints, const exact::DoubleGrid& grid = {});
 
   // --- vertices
   [[nodiscard]] std::size_t vertex_count() const { return points_.vertex_count(); }
