@@ -102,7 +102,8 @@ CurveOrder order_of(const TetMesh& mesh, Vertex first) {
 
 void renumber(TetMesh& mesh, const CurveOrder& order, Vertex first, std::vector<RegionId>& region_of,
               std::vector<double>& sizes, std::vector<Metric>* metrics) {
-  const auto& [tets, vertices] = order;
+  const auto& tets = order.tets;
+  const auto& vertices = order.vertices;
   std::vector<RegionId> regions(tets.size());
   for (std::size_t k = 0; k < tets.size(); ++k) regions[k] = region_of[tets[k]];
   region_of = std::move(regions);
