@@ -51,7 +51,7 @@ class CliTest(unittest.TestCase):
 
     def run_program(self, *arguments, expect=0):
         ended = subprocess.run([self.program, *map(str, arguments)], cwd=self.folder, stdout=subprocess.PIPE,
-                               stderr=subprocess.PIPE, text=True, timeout=120, check=False)
+                               stderr=subprocess.PIPE, text=True, timeout=240, check=False)
         self.assertEqual(ended.returncode, expect, ended.stdout + ended.stderr)
         return ended
 

@@ -157,6 +157,37 @@ TEST(Exchange, NeverWorseAndNothingLost) {
   }
 }
 
+// Null ones count most, then hopeless, then flat ones, then the worst Q: also where what counts less gets
+// worse for it.
+TEST(Exchange, GoesDownInTheOrderOfBadness) {
+  int more_of_a_lesser_kind = 0, worse_for_fewer = 0;
+  for (std::uint64_t seed = 0; seed < 80; ++seed) {
+    const BadFrom from = seed % 2 == 0 ? BadFrom{8, 1e3, 1e6} : BadFrom{5, 100, 1e4};
+    TetMesh mesh = slivers(std::pow(10, -2 - static_cast<double>(seed / 2 % 6)), seed);
+    Qualities qualities(mesh);
+    Exchanger exchanger(mesh, qualities, from);
+    Badness before = badness_of(mesh, solid(mesh), from);
+    for (const Tet t : solid(mesh)) {
+      std::vector<Tet> created;
+      if (!mesh.alive(t) || !exchanger.improve(t, created)) continue;
+      qualities.forget(created);
+      const Badness after = badness_of(mesh, solid(mesh), from);
+      const auto was = std::tuple(before.null, before.hopeless, before.flat);
+      const auto is = std::tuple(after.null, after.hopeless, after.flat);
+      EXPECT_LE(is, was);
+      EXPECT_LE(is == was ? after.worst : 0, before.worst);
+      const bool more =
+          (after.null < before.null && (after.hopeless > before.hopeless || after.flat > before.flat)) ||
+          (after.hopeless < before.hopeless && after.flat > before.flat);
+      more_of_a_lesser_kind += more ? 1 : 0;
+      worse_for_fewer += is < was && after.worst > before.worst ? 1 : 0;
+      before = after;
+    }
+  }
+  EXPECT_GT(more_of_a_lesser_kind, 0);
+  EXPECT_GT(worse_for_fewer, 0);
+}
+
 // Tries the removal of each tetrahedron that is as bad as its limit, and counts the successes.
 std::size_t remove_bad(double flatness, const std::function<double(double)>& limit_of, double least_limit) {
   std::size_t removed = 0;
