@@ -1,5 +1,7 @@
 #include "api/report.h"
 
+#include <new>
+
 #include "text/decimal.h"
 
 namespace holdfast {
@@ -21,7 +23,12 @@ Report::Input describe_input(const Complex& complex, const SegmentTable* table) 
 
 Stopwatch::~Stopwatch() {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  report_.seconds[key_] += seconds;
+  // Memory may be what ended the stage. Then there may be none for a new entry, and no one to catch it.
+  try {
+    report_.seconds[key_] += seconds;
+  } catch (const std::bad_alloc&) {
+    return;
+  }
 }
 
 std::string interruption_message(Outcome outcome, Stage stage, const Options& options) {

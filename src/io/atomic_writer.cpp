@@ -68,17 +68,16 @@ void AtomicWriter::open_temporary() {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const std::string name =
         ".holdfast-" + std::to_string(::getpid()) + "-" + std::to_string(temporaries++) + ".tmp";
-    const std::filesystem::path candidate = folder / name;
-    file_ = ::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file_ >= 0) {
-      temporary_ = candidate;
-      break;
-    }
-    if (errno != EEXIST) break;
+    // Its name is kept before there is a file: a constructor that ends by an exception has no destructor.
+    temporary_ = folder / name;
+    file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file_ >= 0 || errno != EEXIST) break;
   }
   if (file_ < 0) {
-    if (errno == ENOENT) throw FileError(target_, "", "cannot be written: its folder does not exist");
-    fail("cannot be written: no file can be made in its folder", errno);
+    const int error = errno;
+    temporary_.clear();
+    if (error == ENOENT) throw FileError(target_, "", "cannot be written: its folder does not exist");
+    fail("cannot be written: no file can be made in its folder", error);
   }
   // A file that is replaced hands on its permissions; a file system without any is no error.
   struct stat existing {};

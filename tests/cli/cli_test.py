@@ -11,7 +11,6 @@ import signal
 import struct
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 from cli_case import CUBE_FACETS, CUBE_POINTS, CliTest, cube, main, off, read_terminal, shifted
@@ -129,7 +128,7 @@ class Mesh(CliTest):
     def test_a_bar_on_a_terminal(self):
         ours, theirs = pty.openpty()
         code = subprocess.run([self.program, "mesh", "cube.off", "-o", "a.vtu", "--fill"], cwd=self.folder, stderr=theirs,
-                              timeout=120, check=False).returncode
+                              timeout=240, check=False).returncode
         os.close(theirs)
         shown = b""
         while chunk := read_terminal(ours):
