@@ -5,8 +5,9 @@ RELEASE := build/release
 NATIVE := build/native
 N ?= 100000
 SEED ?= 1
+MINUTES ?= 5
 
-.PHONY: help setup build demo test corpus random bench field tables format tidy debug asan tsan install clean
+.PHONY: help setup build demo test corpus random fuzz bench field tables format tidy debug asan tsan install clean
 .DEFAULT_GOAL := help
 
 help:  ## this list
@@ -37,6 +38,12 @@ random: setup $(RELEASE)/build.ninja  ## meshes N random complexes of SEED and c
 	@cmake --build $(RELEASE) -j $(JOBS) --target random_complexes
 	@python3 scripts/random_complexes.py --program $(RELEASE)/tests/random/random_complexes --count $(N) --seed $(SEED) \
 	  --jobs $(JOBS) $(ARGS)
+
+fuzz:  ## every reader, mesh, untangle and check on arbitrary bytes, each for MINUTES, under the sanitizers
+	@scripts/setup.sh build fuzz
+	@cmake --preset fuzz
+	@cmake --build build/fuzz -j $(JOBS) --target fuzz_targets
+	@scripts/fuzz.sh build/fuzz $$(( $(MINUTES) * 60 )) $(JOBS)
 
 bench:  ## speed against TetGen, CGAL and Gmsh, to docs/benchmarks.md; goes on where it stopped (ARGS="--again mesh")
 	@scripts/setup.sh build bench

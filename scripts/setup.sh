@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that a job needs and that are missing; says nothing when none is.
-# Usage: scripts/setup.sh [build|test|bench|field|lint]...
+# Usage: scripts/setup.sh [build|test|bench|field|fuzz|lint]...
 set -euo pipefail
 
 declare -A packages=(
@@ -10,6 +10,7 @@ declare -A packages=(
   [test]="python3-dolfinx"
   [bench]="tetgen libtet1.5-dev gmsh libcgal-dev libgmp-dev libmpfr-dev libtbb-dev libbenchmark-dev"
   [field]="gmsh tetgen python3-netgen"
+  [fuzz]="clang-14 clang libclang-rt-14-dev"
   [lint]="clang-format clang-tidy"
 )
 
