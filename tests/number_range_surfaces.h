@@ -259,7 +259,9 @@ inline Case number(std::uint64_t n) {
     }
     default: {  // two pieces of different size, or the second one far away
       Case second = piece(random);
-      scale(second.surface, static_cast<int>(between(random, 0, 900)));
+      const bool least = random() % 2 == 0 && extent(s) < 0x1p53;
+      if (least) scale(s, -1074);
+      scale(second.surface, static_cast<int>(between(random, least ? -900 : 0, 900)));
       const double gap = 4 * (extent(s) + extent(second.surface));
       const double far = std::ldexp(1.0, std::ilogb(gap));
       Surface moved_second = second.surface;

@@ -10,6 +10,7 @@ namespace holdfast {
 namespace {
 
 constexpr int kUsual = 64;  // 2^-64 .. 2^64: products of sixteen differences neither over- nor underflow
+constexpr int kRoom = 160;  // bits below the last one of any coordinate that added vertices may have
 
 // The exponent of the last bit that is set, of all coordinates but zeros.
 int least_bit(std::span<const Point> vertices) {
@@ -25,7 +26,8 @@ int least_bit(std::span<const Point> vertices) {
 
 }  // namespace
 
-// Larger numbers are always exact. Smaller ones are while the last bit of each stays above the denormals'.
+// Larger numbers are always exact. Smaller ones are while the last bit of each is no denormal's; below it
+// there must be room for the doubles that would be lost.
 int choose_scale(std::span<const Point> vertices) {
   double largest = 0;
   for (const Point& p : vertices)
@@ -33,7 +35,8 @@ int choose_scale(std::span<const Point> vertices) {
   if (largest == 0) return 0;
   const int k = -std::ilogb(largest);
   if (std::abs(k) <= kUsual) return 0;
-  return k > 0 ? k : std::max(k, std::min(0, exact::DoubleGrid::kLeastExponent - least_bit(vertices)));
+  return k > 0 ? k
+               : std::max(k, std::min(0, exact::DoubleGrid::kLeastExponent + kRoom - least_bit(vertices)));
 }
 
 exact::DoubleGrid grid_after(int k) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace holdfast {
 
@@ -18,9 +19,10 @@ std::array<Point, 8> box_corners(std::span<const Point> vertices, double margin,
   for (std::size_t i = 0; i < 3; ++i) extent = std::max(extent, high[i] - low[i]);
   const double step = margin * (extent > 0 ? extent : 1);
   // A step below the spacing of the grid there would leave vertices on the box.
+  constexpr double kMost = std::numeric_limits<double>::max();
   for (std::size_t i = 0; i < 3; ++i) {
-    low[i] = std::min(grid.nearest(low[i] - step), grid.next(low[i], false));
-    high[i] = std::max(grid.nearest(high[i] + step), grid.next(high[i], true));
+    low[i] = std::min(std::max(grid.nearest(low[i] - step), -kMost), grid.next(low[i], false));
+    high[i] = std::max(std::min(grid.nearest(high[i] + step), kMost), grid.next(high[i], true));
   }
   std::array<Point, 8> corners{};
   for (std::size_t k = 0; k < 8; ++k)

@@ -11,7 +11,7 @@ namespace holdfast {
 
 /// The 8 corners of a box that holds all vertices strictly inside, `margin` times their largest extent away
 /// on every side, so that it is no flatter than 2 margin : 1 + 2 margin. The corners are points of the grid,
-/// as the vertices are; these must be finite and small enough for the corners not to overflow.
+/// as the vertices are; these must be finite and below the greatest double, where the box ends at the latest.
 [[nodiscard]] std::array<Point, 8> box_corners(std::span<const Point> vertices, double margin,
                                                const exact::DoubleGrid& grid = {});
 

@@ -158,7 +158,10 @@ HalfSpace Kernel::half_space_over(const std::array<Vertex, 3>& f, PointRef origi
     a[k] /= unit;
   }
   std::array<double, 3> n = cross(u, w);
-  double scale = su * sw;  // the true cross product is n scaled so
+  // The true cross product is n times scale * 2^exponent: that may be out of the range of doubles.
+  int exponent_u = 0, exponent_w = 0, exponent_unit = 0;
+  double scale = std::frexp(su, &exponent_u) * std::frexp(sw, &exponent_w);
+  std::int64_t exponent = std::int64_t{exponent_u} + exponent_w;
   if (!(dot(n, n) > kSliver * kSliver)) {
     const ExactPoint first = mesh_.exact_position(f[0]);
     const ExactVector exact_n =
@@ -166,7 +169,8 @@ HalfSpace Kernel::half_space_over(const std::array<Vertex, 3>& f, PointRef origi
     const std::int64_t top = top_exponent(exact_n);
     const ExactVector near_one = scaled(exact_n, -top);
     for (std::size_t k = 0; k < 3; ++k) n[k] = near_one[k].to_double();
-    scale = std::ldexp(1.0, static_cast<int>(top));
+    scale = 1;
+    exponent = top;
   }
   const double length = std::sqrt(dot(n, n));
   HalfSpace out;
@@ -175,7 +179,8 @@ HalfSpace Kernel::half_space_over(const std::array<Vertex, 3>& f, PointRef origi
   if (std::abs(out.b) > kNear) return out;
   const Dyadic volume = exact::determinant(mesh_.exact_position(f[0]), mesh_.exact_position(f[1]),
                                            mesh_.exact_position(f[2]), exact::lift(origin));
-  out.b = volume.to_double() / scale / length / unit;
+  const double unit_mantissa = std::frexp(unit, &exponent_unit);
+  out.b = volume.scaled(-exponent - exponent_unit).to_double() / scale / length / unit_mantissa;
   return out;
 }
 

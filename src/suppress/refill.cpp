@@ -106,4 +106,17 @@ bool round_completely(TetMesh& mesh, Vertex p, Vertex first_free, int steps) {
   return round(mesh, p, first_free, steps, Search::complete);
 }
 
+bool round_completely(TetMesh& mesh, Vertex p, Vertex first_free, int steps, std::mt19937_64& random) {
+  std::vector<Tet> tets;
+  ball(mesh, p, tets);
+  Cavity cavity(mesh, tets, first_free);
+  for (int step = 0; step < steps && cavity.grow(random); ++step) {
+    const auto place = find_double(mesh, cavity.faces()).point;
+    if (!place) continue;
+    cone(mesh, cavity, p, *place);
+    return true;
+  }
+  return false;
+}
+
 }  // namespace holdfast

@@ -32,5 +32,7 @@ bool merge(TetMesh& mesh, Vertex p, Vertex neighbour, Vertex first_free, int ste
 bool round_with_neighbours(TetMesh& mesh, Vertex p, Vertex first_free, int steps);
 /// The same with a complete search, which is slow: a kernel that it passes by holds no double.
 bool round_completely(TetMesh& mesh, Vertex p, Vertex first_free, int steps);
+/// The same with a ball that grows at random.
+bool round_completely(TetMesh& mesh, Vertex p, Vertex first_free, int steps, std::mt19937_64& random);
 
 }  // namespace holdfast

@@ -118,11 +118,19 @@ class Suppressor {
       for (const Vertex p : rest) {
         tell();
         if (!mesh_.in_mesh(p) || round_completely(mesh_, p, first_free_, kMostSteps)) continue;
+        if (round_at_random(p)) continue;
         shake(mesh_, flipper_, p, kShakenEdges, random_);
         remove_or_recentre(mesh_, p, {});
       }
       drop_the_gone(stats_.filled);
     }
+  }
+
+  bool round_at_random(Vertex p) {
+    constexpr int kTries = 4, kMostRandomSteps = 12;
+    for (int k = 0; k < kTries; ++k)
+      if (round_completely(mesh_, p, first_free_, kMostRandomSteps, random_)) return true;
+    return false;
   }
 
   void drop_the_gone(std::size_t& count) {

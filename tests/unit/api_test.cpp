@@ -655,9 +655,10 @@ TEST(Scale, IsUsedWhereItLosesNothing) {
   EXPECT_EQ(of(0x1p64, 1), 0);
   EXPECT_EQ(of(0x1p65, 1), -65);
   EXPECT_EQ(of(0x1p500, 3), -500);
-  EXPECT_EQ(of(0x1p1023, 0x1p-51), -1023);
-  EXPECT_EQ(of(0x1p1023, 0x1p-52), -1022);
-  EXPECT_EQ(of(0x1p1023, 0x1p-1074), 0);
+  EXPECT_EQ(of(0x1p1000, 1), -914);  // 160 bits below 1 are left
+  EXPECT_EQ(of(0x1p1000, 0x1p86), -1000);
+  EXPECT_EQ(of(0x1p1000, 0x1p-914), 0);
+  EXPECT_EQ(of(0x1p1000, 0x1p-1074), 0);
   EXPECT_EQ(of(0x1p-300, 0x1p-1074), 300);
   EXPECT_EQ(of(0x1p-774, 0), 774);
   EXPECT_EQ(of(0x1p-1000, 0x1p-1074), 1000);
