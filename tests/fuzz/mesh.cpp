@@ -89,8 +89,8 @@ Options options_from(Bytes& bytes, const Surface& surface) {
     options.holes.push_back(bytes.point());
     options.regions.push_back({bytes.point(), bytes.byte()});
   }
-  // A count, not a clock: what a run does depends on its bytes alone.
-  int calls = 20'000;
+  // The callback is asked at intervals: what would take long is cancelled.
+  int calls = 200;
   if (bytes.byte() % 16 == 1) calls = bytes.byte();
   options.progress = [calls](const Progress&) mutable { return --calls >= 0; };
   return options;
