@@ -1,0 +1,66 @@
+// Where one random order leaves points without doubles, another may not: attempts follow one another in a
+// call.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "holdfast/check.h"
+#include "holdfast/holdfast.h"
+#include "small_surfaces.h"
+
+namespace holdfast {
+namespace {
+
+// Four triangles and five segments among points of a grid of seven a side, in multiples of the least double,
+// so that a point inside has few places to go to.
+Surface scattered_on_a_coarse_grid() {
+  Surface surface = small::surface_of({{3, 2, 4},
+                                       {3, 2, 2},
+                                       {2, 4, 4},
+                                       {0, 2, 1},
+                                       {4, 6, 2},
+                                       {1, 2, 3},
+                                       {0, 4, 4},
+                                       {2, 3, 6},
+                                       {3, 0, 6},
+                                       {0, 1, 4},
+                                       {6, 6, 6},
+                                       {5, 1, 0},
+                                       {0, 1, 0},
+                                       {2, 0, 2},
+                                       {6, 5, 3},
+                                       {6, 2, 4},
+                                       {2, 1, 2}},
+                                      {{2, 3, 4}, {7, 8, 9}, {12, 11, 0}, {12, 9, 5}},
+                                      {{0, 1}, {5, 6}, {7, 11}, {14, 9}, {15, 16}});
+  for (Point& p : surface.vertices)
+    for (double& x : p) x = std::ldexp(x, -1074);
+  return surface;
+}
+
+TEST(Retry, AnotherOrderSucceedsWhereOneHasNot) {
+  const Surface surface = scattered_on_a_coarse_grid();
+  Options options;
+  options.keep = Keep::box;
+  int attempts = 0;
+  Stage last = Stage::validate;
+  options.progress = [&](const Progress& progress) {
+    if (progress.stage == Stage::delaunay && last != Stage::delaunay) ++attempts;
+    last = progress.stage;
+    return true;
+  };
+  const Result result = mesh(surface.view(), options);
+  ASSERT_EQ(result.outcome, Outcome::done) << result.message;
+  EXPECT_GT(attempts, 1) << "this surface no longer needs a second attempt: take another one";
+  EXPECT_TRUE(result.exact_vertices.empty());
+  EXPECT_TRUE(result.message.empty());
+  EXPECT_EQ(result.report.unrounded_points, 0u);
+  EXPECT_EQ(result.report.tetrahedra, result.volume.tetrahedra.size());
+  CheckOptions box;
+  box.box = true;
+  for (const Rule& rule : check(surface.view(), result.volume, box).rules)
+    EXPECT_TRUE(rule.holds) << rule.name << ": " << rule.detail;
+}
+
+}  // namespace
+}  // namespace holdfast
