@@ -5,6 +5,7 @@
 #include "api/attempt.h"
 #include "api/input.h"
 #include "api/judge.h"
+#include "api/remote_components.h"
 #include "api/report.h"
 #include "holdfast/holdfast.h"
 #include "mesh/monitor.h"
@@ -47,6 +48,9 @@ class Call {
     int attempts = 1;
     while (attempts++ < kMostAttempts && result_.outcome == Outcome::not_representable && try_again()) {
     }
+    const bool has_all = options_.stop_after.value_or(Stage::optimise) == Stage::optimise;
+    if (result_.outcome == Outcome::done && options_.sizes && has_all && options_.keep != Keep::box)
+      mesh_remote_components(input_.complex(), options_, mesh, result_);
   }
 
   void validate() {

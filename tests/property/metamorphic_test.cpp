@@ -133,6 +133,30 @@ TEST(Metamorphic, FieldPointsAmongTheDenormals) {
   EXPECT_GT(found.vertices.size(), 20u);
 }
 
+// Two components whose sizes are so far apart that none suits both: each has its field points.
+TEST(Metamorphic, FieldPointsInComponentsOfDifferentSize) {
+  const Surface small_part = surfaces()[0], large_part = small::box({-6, -6, -6}, {-4, -4, -4});
+  for (const auto& [low, high] : {std::pair{0, 400}, {0, 1000}, {-500, 500}, {-1000, 0}, {-1020, 1018}}) {
+    Surface both = Map{.name = "low", .exponent = low}(small_part);
+    number_range::append(both, Map{.name = "high", .exponent = high}(large_part));
+    Options options;
+    options.sizes = Sizes{.size = std::ldexp(0.7, high), .vertex_sizes = {}};
+    options.sizes->vertex_sizes.assign(both.vertices.size(), 0);
+    for (std::size_t v = 0; v < small_part.vertices.size(); ++v)
+      options.sizes->vertex_sizes[v] = std::ldexp(0.2, low);
+    const Result result = mesh(both.view(), options);
+    ASSERT_EQ(result.outcome, Outcome::done) << low << ": " << result.message;
+    EXPECT_EQ(broken_rules(both, result.volume), "") << low;
+    std::size_t in_small = 0, in_large = 0;
+    for (std::size_t v = both.vertices.size(); v < result.volume.vertices.size(); ++v)
+      ++(std::abs(result.volume.vertices[v][0]) < std::ldexp(4, low) ? in_small : in_large);
+    EXPECT_GT(in_small, 10u) << low;
+    EXPECT_GT(in_large, 5u) << low;
+    EXPECT_EQ(result.report.steiner_points, in_small + in_large) << low;
+    EXPECT_EQ(result.volume.regions.size(), result.volume.tetrahedra.size());
+  }
+}
+
 // Inner vertices go astray, half of them far.
 Volume tangled(const Surface& surface) {
   Volume volume = meshed(surface, kSize, "to be tangled");

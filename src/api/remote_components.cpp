@@ -1,0 +1,205 @@
+#include "api/remote_components.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "api/scale.h"
+#include "mesh/anatomy.h"
+#include "mesh/disjoint_sets.h"
+#include "mesh/quality.h"
+
+namespace holdfast {
+namespace {
+
+constexpr int kReach = 300;  // 2^-300 .. 2^300: squares and cubes of lengths neither over- nor underflow
+
+template <std::size_t size>
+std::array<Index, size> sorted(std::array<Index, size> corners) {
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+// As the tetrahedron sees it: (f0 f1 f2 x) is positive for x inside.
+Triangle face_of(const Tetrahedron& t, std::size_t i) {
+  const auto& k = kFaceVertex[i];
+  return {t[static_cast<std::size_t>(k[0])], t[static_cast<std::size_t>(k[1])],
+          t[static_cast<std::size_t>(k[2])]};
+}
+
+class RemoteComponents {
+ public:
+  RemoteComponents(const Complex& complex, const Options& options, Result& result)
+      : complex_(complex),
+        options_(options),
+        result_(result),
+        volume_(result.volume),
+        scale_(choose_scale(complex.vertices)) {}
+
+  void run(const Mesher& mesh) {
+    const std::vector<Point>& v = volume_.vertices;
+    if (std::none_of(volume_.tetrahedra.begin(), volume_.tetrahedra.end(), [&](const Tetrahedron& t) {
+          return is_remote(extent({v[t[0]], v[t[1]], v[t[2]], v[t[3]]}));
+        }))
+      return;
+    find_components();
+    if (components_.size() == 1) return;
+    for (const std::vector<std::size_t>& tets : components_) {
+      std::vector<Point> points;
+      for (const std::size_t t : tets)
+        for (const Index x : volume_.tetrahedra[t]) points.push_back(v[x]);
+      if (is_remote(extent(points))) mesh_again(tets, mesh);
+    }
+    if (!fresh_.empty()) join();
+  }
+
+ private:
+  // Exponent of the largest side of the box round the points.
+  [[nodiscard]] static std::optional<std::int64_t> extent(const std::vector<Point>& points) {
+    double most = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax_element(
+          points.begin(), points.end(), [k](const Point& p, const Point& q) { return p[k] < q[k]; });
+      most = std::max(most, (*high)[k] / 2 - (*low)[k] / 2);
+    }
+    return most > 0 ? std::optional<std::int64_t>(std::ilogb(most) + 1) : std::nullopt;
+  }
+  [[nodiscard]] bool is_remote(const std::optional<std::int64_t>& extent) const {
+    return extent && std::abs(*extent + scale_) > kReach;
+  }
+
+  void find_components() {
+    std::set<Triangle> walls;
+    for (const Triangle& f : volume_.facets) walls.insert(sorted(f));
+    std::map<Triangle, Index> first;
+    DisjointSets sets(volume_.tetrahedra.size());
+    for (Index t = 0; t < volume_.tetrahedra.size(); ++t)
+      for (std::size_t i = 0; i < 4; ++i) {
+        const Triangle f = sorted(face_of(volume_.tetrahedra[t], i));
+        if (walls.contains(f)) continue;
+        const auto [at, is_new] = first.try_emplace(f, t);
+        if (!is_new) sets.unite(t, at->second);
+      }
+    std::map<Index, std::vector<std::size_t>> by_root;
+    for (Index t = 0; t < volume_.tetrahedra.size(); ++t) by_root[sets.root(t)].push_back(t);
+    for (auto& [root, tets] : by_root) components_.push_back(std::move(tets));
+  }
+
+  // The component's own facets face outwards, so that what they enclose is kept, and nothing in its holes.
+  Surface boundary_of(const std::vector<std::size_t>& tets, std::vector<Index>& vertices) const {
+    std::map<Index, Index> local;
+    std::map<Triangle, std::vector<Triangle>> faces;
+    std::set<Segment> edges;
+    for (const std::size_t t : tets) {
+      const Tetrahedron& c = volume_.tetrahedra[t];
+      for (const Index v : c)
+        if (v < complex_.vertices.size() && local.try_emplace(v, static_cast<Index>(local.size())).second)
+          vertices.push_back(v);
+      for (std::size_t i = 0; i < 4; ++i) faces[sorted(face_of(c, i))].push_back(face_of(c, i));
+      for (const auto& e : kEdgeVertex)
+        edges.insert(sorted(Segment{c[static_cast<std::size_t>(e[0])], c[static_cast<std::size_t>(e[1])]}));
+    }
+    Surface out;
+    for (const Index v : vertices) out.vertices.push_back(complex_.vertices[v]);
+    for (const Triangle& f : volume_.facets) {
+      const auto at = faces.find(sorted(f));
+      if (at == faces.end()) continue;
+      const Triangle& inwards = at->second[0];
+      out.facets.push_back({local.at(inwards[0]), local.at(inwards[2]), local.at(inwards[1])});
+    }
+    for (const Segment& s : volume_.segments)
+      if (edges.contains(sorted(s))) out.segments.push_back({local.at(s[0]), local.at(s[1])});
+    return out;
+  }
+
+  void mesh_again(const std::vector<std::size_t>& tets, const Mesher& mesh) {
+    const int id = volume_.regions[tets[0]];
+    std::vector<Index> vertices;
+    const Surface boundary = boundary_of(tets, vertices);
+    Options options = options_;
+    options.keep = Keep::automatic;
+    options.holes.clear();
+    options.regions.clear();
+    Sizes& sizes = *options.sizes;
+    sizes.vertex_sizes.clear();
+    if (!options_.sizes->vertex_sizes.empty())
+      for (const Index v : vertices) sizes.vertex_sizes.push_back(options_.sizes->vertex_sizes[v]);
+    for (const RegionSeed& seed : options_.regions)
+      if (seed.id == id && seed.size > 0)
+        sizes.size = sizes.size > 0 ? std::min(sizes.size, seed.size) : seed.size;
+    Result found = mesh(boundary.view(), options);
+    if (found.outcome != Outcome::done) return;
+    gone_.insert(tets.begin(), tets.end());
+    fresh_.push_back({id, std::move(vertices), std::move(found)});
+  }
+
+  // What stays keeps its order; then come the new tetrahedra. Vertices that nothing holds any more go.
+  void join() {
+    std::vector<Point> points = volume_.vertices;
+    std::vector<Tetrahedron> tets;
+    std::vector<int> regions;
+    for (std::size_t t = 0; t < volume_.tetrahedra.size(); ++t) {
+      if (gone_.contains(t)) continue;
+      tets.push_back(volume_.tetrahedra[t]);
+      regions.push_back(volume_.regions[t]);
+    }
+    for (Fresh& fresh : fresh_) {
+      const Volume& found = fresh.result.volume;
+      for (std::size_t v = fresh.vertices.size(); v < found.vertices.size(); ++v) {
+        fresh.vertices.push_back(static_cast<Index>(points.size()));
+        points.push_back(found.vertices[v]);
+      }
+      for (Tetrahedron t : found.tetrahedra) {
+        for (Index& v : t) v = fresh.vertices[v];
+        tets.push_back(t);
+        regions.push_back(fresh.id);
+      }
+      result_.report.field.points += fresh.result.report.field.points;
+    }
+    std::vector<bool> used(points.size(), false);
+    for (const Tetrahedron& t : tets)
+      for (const Index v : t) used[v] = true;
+    std::vector<Index> index(points.size());
+    volume_.vertices.clear();
+    for (std::size_t v = 0; v < points.size(); ++v) {
+      index[v] = static_cast<Index>(volume_.vertices.size());
+      if (v < complex_.vertices.size() || used[v]) volume_.vertices.push_back(points[v]);
+    }
+    for (Tetrahedron& t : tets)
+      for (Index& v : t) v = index[v];
+    volume_.tetrahedra = std::move(tets);
+    volume_.regions = std::move(regions);
+    Report& report = result_.report;
+    report.steiner_points += volume_.vertices.size();
+    report.steiner_points -= report.vertices;
+    report.vertices = volume_.vertices.size();
+    report.tetrahedra = volume_.tetrahedra.size();
+    report.quality = measure(volume_, report.quality.target, &report.field.after);
+  }
+
+  struct Fresh {
+    int id;
+    std::vector<Index> vertices;  // of the whole, by number in the result
+    Result result;
+  };
+
+  const Complex& complex_;
+  const Options& options_;
+  Result& result_;
+  Volume& volume_;
+  const int scale_;
+  std::vector<std::vector<std::size_t>> components_;  // their tetrahedra
+  std::set<std::size_t> gone_;
+  std::vector<Fresh> fresh_;
+};
+
+}  // namespace
+
+void mesh_remote_components(const Complex& complex, const Options& options, const Mesher& mesh,
+                            Result& result) {
+  RemoteComponents(complex, options, result).run(mesh);
+}
+
+}  // namespace holdfast
