@@ -287,12 +287,31 @@ void attempt(Input& input, const Options& options, std::uint64_t seed, const Thr
   Attempt(input, options, seed, threads, monitor, result).run();
 }
 
+namespace {
+
+std::string message_of(const std::vector<Defect>& defects) {
+  // The last rules are not of the surface alone, but of what is to be kept of it.
+  switch (defects[0].kind) {
+    case DefectKind::encloses_nothing:
+      return "nothing to fill: the surface encloses nothing";
+    case DefectKind::outside_region:
+      return defects.size() == 1
+                 ? "a piece of the surface borders on no kept region"
+                 : std::to_string(defects.size()) + " pieces of the surface border on no kept region";
+    case DefectKind::inconsistent_orientation:
+      return "the surface has no winding number";
+    default:
+      return defects.size() == 1 ? "1 defect was found"
+                                 : std::to_string(defects.size()) + " defects were found" +
+                                       (defects.size() == Input::kMostDefects ? "; there may be more" : "");
+  }
+}
+
+}  // namespace
+
 void refuse(Result& result, std::vector<Defect> defects) {
   result.outcome = Outcome::invalid_input;
-  result.message = defects.size() == 1
-                       ? "1 defect was found"
-                       : std::to_string(defects.size()) + " defects were found" +
-                             (defects.size() == Input::kMostDefects ? "; there may be more" : "");
+  result.message = message_of(defects);
   result.defects = std::move(defects);
 }
 

@@ -21,7 +21,7 @@ Defect not_oriented(const Complex& complex, const std::array<Index, 2>& facets) 
       (one ? "triangle " + std::to_string(facets[0]) + " is"
            : "triangles " + std::to_string(facets[0]) + " and " + std::to_string(facets[1]) + " are") +
       " not turned consistently with the rest at " + place(defect.where[0]) +
-      "; turn the triangles of every shell the same way, or use --keep bounded";
+      "; turn the triangles of every shell the same way, or keep every bounded region";
   return defect;
 }
 

@@ -100,9 +100,8 @@ Defect describe(const Piece& piece, const Complex& complex, const SegmentTable& 
   if (piece.border > 0)
     defect.message += " (" + std::to_string(piece.border) +
                       (piece.border == 1 ? " open border edge)" : " open border edges)");
-  defect.message += one ? ": remove it, keep more (--keep bounded, --keep box), or drop it (--drop-outside)"
-                        : ": remove them, keep more (--keep bounded, --keep box), or drop them "
-                          "(--drop-outside)";
+  defect.message +=
+      one ? ": remove it, keep more regions, or drop it" : ": remove them, keep more regions, or drop them";
   return defect;
 }
 
@@ -149,7 +148,7 @@ Defect encloses_nothing(const Complex& complex, const SegmentTable& table) {
     defect.message += ": it has " + std::to_string(borders.size()) +
                       (borders.size() == 1 ? " open border, " : " open borders, ") +
                       list(borders, complex, table);
-  defect.message += "; close it, or use --keep box to fill everything out to an enclosing box";
+  defect.message += "; close it, or fill everything out to an enclosing box";
   return defect;
 }
 

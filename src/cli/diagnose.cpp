@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "command.h"
+#include "defects.h"
 #include "files.h"
 #include "files_of_run.h"
 #include "report.h"
@@ -16,26 +17,40 @@ struct DiagnoseArguments {
   std::vector<std::filesystem::path> surfaces;
   std::filesystem::path marks, report;
   std::string input_format;
-  bool json = false, quiet = false;
+  bool all = false, json = false, quiet = false;
 };
 
-Json report_of(const Surface& surface, const std::vector<Defect>& defects) {
+Json report_of(const Surface& surface, const std::vector<Defect>& defects, const DefectSummary& summary) {
   return {{"valid", defects.empty()},
           {"input",
            {{"vertices", surface.vertices.size()},
             {"segments", surface.segments.size()},
             {"facets", surface.facets.size()}}},
           {"version", version()},
+          {"summary", to_json(summary)},
           {"defects", to_json(defects)}};
 }
 
-std::string listing_of(const Surface& surface, const std::vector<Defect>& defects) {
-  if (defects.empty())
-    return fmt::format("valid: {} vertices, {} segments, {} facets\n", surface.vertices.size(),
-                       surface.segments.size(), surface.facets.size());
+std::string counted(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+/// The summary, then the list.
+std::string listing_of(const Surface& surface, const std::vector<Defect>& defects,
+                       const DefectSummary& summary, std::size_t most) {
+  const std::string input =
+      fmt::format("{} vertices, {} segments, {} facets in {}", surface.vertices.size(),
+                  surface.segments.size(), surface.facets.size(), counted(summary.parts, "part"));
   std::string text;
-  for (const Defect& defect : defects) text += fmt::format("{}: {}\n", name(defect.kind), defect.message);
-  return text;
+  if (!defects.empty())
+    text = fmt::format("not valid: {}; {}\n", input, counted(defects.size(), "defect"));
+  else if (summary.enclosed == std::size_t{0})
+    text = fmt::format("valid, encloses nothing: needs `--keep box` to be filled; {}\n", input);
+  else
+    text = fmt::format("valid: {}; encloses {}\n", input, counted(summary.enclosed.value_or(0), "region"));
+  text += summary_text(summary);
+  const std::string list = list_text(summary, defects, most, "--all lists them, --report FILE.json, too");
+  return list.empty() ? text : text + "\n" + list;
 }
 
 int run(const DiagnoseArguments& arguments) {
@@ -51,10 +66,14 @@ int run(const DiagnoseArguments& arguments) {
 
   cancel_by_flag();  // from here on files are open
   if (!arguments.marks.empty()) write_marks(arguments.marks, surface.view(), defects);
-  const Json report = report_of(surface, defects);
+  const DefectSummary summary = summarise(surface.view(), defects);
+  const Json report = report_of(surface, defects, summary);
   write_json(arguments.report, report);
   write_json(json, report);
-  if (!arguments.quiet && !arguments.json) files.list(listing_of(surface, defects));
+  if (!arguments.quiet && !arguments.json) {
+    const bool cut = !arguments.all && files.list_is_on_terminal();
+    files.list(listing_of(surface, defects, summary, cut ? shown_on_terminal : SIZE_MAX));
+  }
   if (defects.empty()) return exit_done;
   say("holdfast: the surface is not valid: {} defect{}{}\n", defects.size(), defects.size() == 1 ? "" : "s",
       arguments.marks.empty() ? "; --marks FILE.vtu writes the places for a viewer" : "");
@@ -65,8 +84,9 @@ int run(const DiagnoseArguments& arguments) {
 
 void add_diagnose(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<DiagnoseArguments>();
-  CLI::App* command =
-      app.add_subcommand("diagnose", "List what is wrong with a surface (exit 4), or nothing");
+  CLI::App* command = app.add_subcommand(
+      "diagnose",
+      "Tell what is wrong with a surface (exit 4), by cause and one by one, and what it encloses");
   command
       ->add_option("SURFACE", arguments->surfaces,
                    "Surface files (.stl .off .obj .ply .mesh .meshb .poly .smesh .msh .vtu .vtp .vtk); "
@@ -80,6 +100,7 @@ void add_diagnose(CLI::App& app, Command& chosen) {
   command->add_option("--report", arguments->report, "Write the defects as JSON")
       ->transform(or_standard_output)
       ->option_text("FILE.json");
+  command->add_flag("--all", arguments->all, "List every defect on a terminal, too, not 100 of a kind");
   command->add_flag("--json", arguments->json, "Print the defects as JSON");
   command->add_option("--input-format", arguments->input_format, "Surface format, instead of by ending")
       ->option_text("FORMAT");

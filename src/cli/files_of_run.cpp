@@ -187,6 +187,10 @@ void FilesOfRun::list(std::string_view text) const {
   write_bytes(writes_stdout_ ? "/dev/stderr" : standard_output, text);
 }
 
+bool FilesOfRun::list_is_on_terminal() const {
+  return isatty(writes_stdout_ ? STDERR_FILENO : STDOUT_FILENO) != 0;
+}
+
 void FilesOfRun::add(File file) {
   for (const File& other : files_) {
     if (file.written || other.written) {

@@ -44,6 +44,7 @@ class FilesOfRun {
 
   /// Prints what a command has found: to stderr if a file goes to stdout. Throws FileError.
   void list(std::string_view text) const;
+  [[nodiscard]] bool list_is_on_terminal() const;
 
  private:
   struct File {

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "command.h"
+#include "defects.h"
 #include "exact_file.h"
 #include "files.h"
 #include "files_of_run.h"
@@ -70,20 +71,29 @@ void print_details(const Report& report) {
   for (const auto& [stage, seconds] : report.seconds) say("seconds    {} {:.3f}\n", stage, seconds);
 }
 
+/// The surface is not valid, or valid and nothing to fill.
+void print_refusal(const Surface& surface, const Result& result) {
+  const DefectSummary summary = summarise(surface.view(), result.defects);
+  if (is_valid(result.defects)) {
+    // The defects say what and where themselves; what may be the reason is that the borders do not meet.
+    say("holdfast: the surface is valid, but cannot be filled so\n{}",
+        list_text(summary, result.defects, shown_in_passing, "--report FILE.json has them"));
+    return;
+  }
+  say("holdfast: the surface is not valid: {}\n{}\n{}", result.message, summary_text(summary),
+      list_text(summary, result.defects, shown_in_passing, "`holdfast diagnose` lists them"));
+  say("`holdfast diagnose` lists every defect; --marks FILE.vtu shows them in a viewer\n");
+}
+
 /// Says how the run ended and what the user can do; returns the exit code.
-int conclude(const MeshArguments& arguments, const Result& result) {
+int conclude(const MeshArguments& arguments, const Surface& surface, const Result& result) {
   const std::string message = result.message.empty() ? name(result.outcome) : result.message;
   switch (result.outcome) {
     case Outcome::done:
       return exit_done;
-    case Outcome::invalid_input: {
-      say("holdfast: the surface is not valid: {}\n", message);
-      print_defects(result.defects, defects_shown);
-      if (result.defects.size() > defects_shown)
-        say("... and {} more\n", result.defects.size() - defects_shown);
-      say("`holdfast diagnose` lists every defect; --marks FILE.vtu shows them in a viewer\n");
+    case Outcome::invalid_input:
+      print_refusal(surface, result);
       return exit_invalid_surface;
-    }
     case Outcome::time_limit:
       say("holdfast: {}; nothing was written; give a longer --time-limit\n", message);
       return exit_limit;
@@ -165,9 +175,13 @@ int run(const MeshArguments& arguments) {
   result.report.seconds["read"] = reading;
   result.report.seconds["write"] = writing.seconds();
   result.report.seconds["total"] = whole.seconds();
-  if (!arguments.report.empty()) write_json(arguments.report, to_json(result, to_json(arguments)));
+  if (!arguments.report.empty()) {
+    Json report = to_json(result, to_json(arguments));
+    if (!result.defects.empty()) report["summary"] = to_json(summarise(surface.view(), result.defects));
+    write_json(arguments.report, report);
+  }
   if (!arguments.quiet) print_summary(arguments, result, whole.seconds());
-  return conclude(arguments, result);
+  return conclude(arguments, surface, result);
 }
 
 }  // namespace

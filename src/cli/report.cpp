@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "command.h"
+#include "defects.h"
 #include "holdfast/io.h"
 
 namespace holdfast::cli {
@@ -162,7 +163,7 @@ void write_json(const std::filesystem::path& path, const Json& json) {
 
 void print_defects(const std::vector<Defect>& defects, std::size_t most) {
   const std::size_t shown = std::min(most, defects.size());
-  for (std::size_t i = 0; i < shown; ++i) say("{}: {}\n", name(defects[i].kind), defects[i].message);
+  for (std::size_t i = 0; i < shown; ++i) say("{}: {}\n", name(defects[i].kind), message_of(defects[i]));
 }
 
 }  // namespace holdfast::cli

@@ -62,8 +62,9 @@ struct SortedSides {
   }
 };
 
-// Peels facets with a side that no other facet has, until there is none; returns their number.
-std::size_t peel_from_borders(const SegmentTable& table) {
+}  // namespace
+
+std::vector<char> peeled_from_borders(const SegmentTable& table) {
   std::vector<Index> left(table.segments.size());
   std::vector<Index> stack;
   std::vector<char> gone(table.facet_segments.size(), 0);
@@ -76,21 +77,17 @@ std::size_t peel_from_borders(const SegmentTable& table) {
     left[s] = static_cast<Index>(table.facets_of(s).size());
     if (left[s] == 1) push_facet_left_at(s);
   }
-  std::size_t peeled = 0;
   while (!stack.empty()) {
     const Index f = stack.back();
     stack.pop_back();
     if (gone[f]) continue;
     gone[f] = 1;
-    ++peeled;
     for (const Index s : table.facet_segments[f]) {
       if (--left[s] == 1) push_facet_left_at(s);
     }
   }
-  return peeled;
+  return gone;
 }
-
-}  // namespace
 
 Index SegmentTable::find(Index a, Index b) const {
   const auto [low, high] = std::minmax(a, b);
@@ -162,7 +159,8 @@ SurfaceTopology surface_topology(const Complex& complex, const SegmentTable& tab
   }
   topology.isolated_vertices = static_cast<std::size_t>(std::count(used.begin(), used.end(), 0));
   topology.closed = topology.facets > 0 && topology.border_segments == 0;
-  topology.dangling_facets = peel_from_borders(table);
+  const std::vector<char> peeled = peeled_from_borders(table);
+  topology.dangling_facets = static_cast<std::size_t>(std::count(peeled.begin(), peeled.end(), 1));
   return topology;
 }
 

@@ -50,6 +50,10 @@ struct SegmentTable {
 /// equal ends (callers refuse those before: see surface/diagnose.h).
 [[nodiscard]] SegmentTable segment_table(const Complex& complex);
 
+/// For each facet whether it goes when facets with a side that no other has are taken away until there is
+/// none.
+[[nodiscard]] std::vector<char> peeled_from_borders(const SegmentTable& table);
+
 /// How the complex hangs together; combinatorial numbers only.
 struct SurfaceTopology {
   std::size_t vertices = 0, facets = 0;

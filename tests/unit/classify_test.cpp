@@ -217,7 +217,7 @@ TEST(Keep, OpenSurfaceEnclosesNothing) {
     EXPECT_EQ(kept.defects[0].kind, DefectKind::encloses_nothing);
     EXPECT_TRUE(contains(kept.defects[0].message, "1 open border, 4 edges at vertex 4 (0, 0, 1)"))
         << kept.defects[0].message;
-    EXPECT_TRUE(contains(kept.defects[0].message, "--keep box"));
+    EXPECT_TRUE(contains(kept.defects[0].message, "enclosing box"));
     EXPECT_EQ(kept.defects[0].vertices.size(), 8u);
     EXPECT_EQ(kept.defects[0].where.size(), 8u);
   }

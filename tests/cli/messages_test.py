@@ -1,0 +1,150 @@
+"""What is told of a surface that cannot be filled: the cause first, then the list, and what to do.
+
+    messages_test.py PROGRAM [unittest options]
+"""
+import json
+import os
+import pty
+import subprocess
+
+from cli_case import CUBE_FACETS, CUBE_POINTS, CliTest, cube, main, off, read_terminal, shifted
+
+OPEN_FACETS = CUBE_FACETS[:2] + CUBE_FACETS[4:]  # without its side z = 1
+
+
+class DiagnoseAndMesh(CliTest):
+    def test_an_open_surface_is_valid_to_both(self):
+        self.write("open.off", off(CUBE_POINTS, OPEN_FACETS))
+        told = self.run_program("diagnose", "open.off", "--report", "r.json").stdout
+        self.assertTrue(told.startswith("valid, encloses nothing: needs `--keep box`"), told)
+        self.assertIn("4 sides of one triangle alone", told)
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertTrue(report["valid"])
+        self.assertEqual(report["summary"]["encloses"], 0)
+        self.assertEqual(sorted(map(sorted, report["summary"]["open_sides"])), [[4, 5], [4, 6], [5, 7], [6, 7]])
+
+        said = self.run_program("mesh", "open.off", "-o", "a.vtu", expect=4).stderr
+        self.assertNotIn("not valid", said)
+        self.assertIn("encloses nothing", said)
+        self.assertIn("--keep box", said)
+        self.assertIn("4 edges at vertex 4", said)
+        self.run_program("mesh", "open.off", "-o", "a.vtu", "--keep", "box", "--fill")
+
+    def test_what_a_valid_surface_encloses(self):
+        for points, facets, regions in [
+            (CUBE_POINTS, CUBE_FACETS, "1 region"),
+            (CUBE_POINTS + cube((0.25, 0.25, 0.25), 0.5), CUBE_FACETS + shifted(CUBE_FACETS, 8), "2 regions"),
+            (CUBE_POINTS, CUBE_FACETS + [(0, 1, 7)], "1 region"),
+        ]:
+            self.write("s.off", off(points, facets))
+            self.assertRegex(self.run_program("diagnose", "s.off").stdout, rf"^valid: .*; encloses {regions}\n")
+
+    def test_what_does_not_suit_the_kept_regions_leaves_the_surface_valid(self):
+        self.write("wing.off", off(CUBE_POINTS + [(3, 0, 0), (3, 1, 0)], CUBE_FACETS + [(1, 8, 9)]))
+        said = self.run_program("mesh", "wing.off", "-o", "a.vtu", expect=4).stderr
+        self.assertNotIn("not valid", said)
+        self.assertIn("--drop-outside", said)
+        turned = [CUBE_FACETS[0][::-1]] + CUBE_FACETS[1:]
+        self.write("turned.off", off(CUBE_POINTS, turned))
+        said = self.run_program("mesh", "turned.off", "-o", "a.vtu", "--keep", "winding", expect=4).stderr
+        self.assertNotIn("not valid", said)
+        self.assertIn("--keep bounded", said)
+
+
+class Causes(CliTest):
+    def test_a_crack_names_both_vertices_and_the_distance(self):
+        # The side z = 1 has corners of its own, which lie 2^-30 above those of the walls.
+        above = [(x, y, 1 + 2**-30) for x, y, z in CUBE_POINTS if z == 1]
+        lid = [tuple(v + 4 for v in f) for f in CUBE_FACETS[2:4]]
+        self.write("crack.off", off(CUBE_POINTS + above, OPEN_FACETS + lid))
+        told = self.run_program("diagnose", "crack.off").stdout
+        self.assertIn("4 vertices of open borders that lie almost on another border, at most 9.31e-10 apart", told)
+        for vertex in (4, 5, 6, 7):
+            self.assertRegex(told, rf"crack: vertex {vertex} \(.*\) lies 9.31e-10 from vertex {vertex + 4}: merge")
+        said = self.run_program("mesh", "crack.off", "-o", "a.vtu", expect=4).stderr
+        self.assertIn("lies 9.31e-10 from vertex", said)
+
+    def test_unwelded_vertices_are_told_where_triangles_cross(self):
+        # The same, but that two of the corners lie below.
+        lid = [(x, y, 1 + (2**-30 if x == y else -2**-30)) for x, y, z in CUBE_POINTS if z == 1]
+        self.write("unwelded.off", off(CUBE_POINTS + lid, OPEN_FACETS + shifted(CUBE_FACETS[2:4], 4)))
+        told = self.run_program("diagnose", "unwelded.off", "--report", "r.json", expect=4).stdout
+        self.assertRegex(told.splitlines()[1], r"^  \d+ misfits? at vertices that are almost one .*apart.*: merge")
+        self.assertRegex(told, r"unwelded: vertex \d \(.*\) lies 9.31e-10 from vertex \d+: merge")
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertEqual(report["summary"]["causes"][0]["cause"], "unwelded vertices")
+        self.assertEqual(report["summary"]["gaps"][0]["distance"], 2**-30)
+
+    def test_a_t_junction_beside_a_border_is_told_as_a_crack(self):
+        # A vertex on the wall's upper side but for 1e-9, of a lid in three triangles.
+        points = CUBE_POINTS + [(0.5, 0, 1 + 1e-9)]
+        lid = [(4, 8, 6), (8, 7, 6), (8, 5, 7)]
+        self.write("t.off", off(points, OPEN_FACETS + lid))
+        self.assertRegex(self.run_program("diagnose", "t.off").stdout,
+                         r"crack: vertex 8 \(.*\) lies 1e-09 from the side 4-5: split it")
+
+    def test_separate_parts_and_one_part_that_crosses_itself(self):
+        self.write("parts.off", off(CUBE_POINTS + cube((0.5, 0.25, 0.125)), CUBE_FACETS + shifted(CUBE_FACETS, 8)))
+        told = self.run_program("diagnose", "parts.off", expect=4).stdout
+        self.assertRegex(told, r"^not valid: 16 vertices, 0 segments, 24 facets in 2 parts; \d+ defects\n"
+                               r"  \d+ crossings of separate parts, the longest: triangles \d+ and \d+ along")
+        self.write("self.off", off(CUBE_POINTS[:-1] + [(-1, -1, 0.5)], CUBE_FACETS))
+        told = self.run_program("diagnose", "self.off", expect=4).stdout
+        self.assertIn("where a part passes through itself", told)
+        self.assertNotIn("separate parts", told)
+
+    def test_the_summary_counts_every_kind(self):
+        points = CUBE_POINTS + [(0.5, 0, 0), (0.5, 0.25, 1)]
+        facets = CUBE_FACETS + [CUBE_FACETS[5], (0, 8, 1)]
+        self.write("many.off", off(points, facets))
+        told = self.run_program("diagnose", "many.off", "--report", "r.json", expect=4).stdout
+        report = json.loads((self.folder / "r.json").read_text())
+        causes = {cause["cause"]: cause for cause in report["summary"]["causes"]}
+        self.assertEqual(causes["no extent"]["count"], 1)
+        self.assertEqual(causes["repeated triangles"]["count"], 1)
+        self.assertEqual(causes["T-junctions"]["count"], 1)
+        self.assertEqual(causes["vertices in triangles"]["count"], 1)
+        listed = [i for cause in causes.values() for i in cause["defects"]]
+        self.assertEqual(sorted(listed), list(range(len(report["defects"]))))
+        for cause in causes.values():
+            self.assertIn("\n  " + cause["message"] + "\n", told)
+        said = self.run_program("mesh", "many.off", "-o", "a.vtu", expect=4).stderr
+        self.assertIn("not valid", said)
+        self.assertIn("  1 T-junction", said)
+
+
+class LongLists(CliTest):
+    def setUp(self):
+        super().setUp()
+        # 300 triangles in a row, each twice.
+        points = [(i, j, 0) for i in range(301) for j in range(2)]
+        self.write("rows.off", off(points, 2 * [(2 * i, 2 * i + 1, 2 * i + 2) for i in range(300)]))
+
+    def on_terminal(self, *arguments):
+        ours, theirs = pty.openpty()
+        process = subprocess.Popen([self.program, *arguments], cwd=self.folder, stdout=theirs,
+                                   stderr=subprocess.DEVNULL)
+        os.close(theirs)
+        shown = b"".join(iter(lambda: read_terminal(ours), b"")).decode().replace("\r\n", "\n")
+        os.close(ours)
+        self.assertEqual(process.wait(60), 4)
+        return shown
+
+    def test_a_terminal_gets_the_summary_and_a_hundred_of_a_kind(self):
+        shown = self.on_terminal("diagnose", "rows.off")
+        self.assertIn("  300 repeated triangles", shown)
+        self.assertEqual(shown.count("repeated facet:"), 100)
+        self.assertIn("... and 200 more like these; --all", shown)
+        self.assertEqual(self.on_terminal("diagnose", "rows.off", "--all").count("repeated facet:"), 300)
+
+    def test_a_file_gets_all(self):
+        self.assertEqual(self.run_program("diagnose", "rows.off", expect=4).stdout.count("repeated facet:"), 300)
+
+    def test_mesh_shows_the_summary_and_a_few(self):
+        said = self.run_program("mesh", "rows.off", "-o", "a.vtu", expect=4).stderr
+        self.assertEqual(said.count("repeated facet:"), 20)
+        self.assertIn("more like these; `holdfast diagnose`", said)
+
+
+if __name__ == "__main__":
+    main()
