@@ -20,7 +20,8 @@ namespace {
 
 constexpr const char* footer =
     "Exit codes: 0 done; 1 internal error; 2 wrong usage; 3 a file cannot be read or written;\n"
-    "4 the surface is not valid; 5 time or memory limit, or cancelled; 6 `check` found a violation;\n"
+    "4 the surface is not valid, or nothing to fill; 5 time or memory limit, or cancelled; 6 `check` found a "
+    "violation;\n"
     "7 no positive mesh in double precision was found.";
 
 // The command that is asked for, or all of them for help: on a small surface the options of the others would

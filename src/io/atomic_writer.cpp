@@ -25,6 +25,14 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
 
+constexpr int kAttempts = 100;
+
+std::filesystem::path unused_name(const std::filesystem::path& folder) {
+  return folder / (".holdfast-" + std::to_string(::getpid()) + "-" + std::to_string(temporaries++) + ".tmp");
+}
+
+std::string path_of(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
+
 }  // namespace
 
 AtomicWriter::AtomicWriter(std::filesystem::path target)
@@ -63,25 +71,59 @@ AtomicWriter::~AtomicWriter() {
 }
 
 void AtomicWriter::open_temporary() {
-  constexpr int kAttempts = 100;
-  const std::filesystem::path folder = folder_of(written_);
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    const std::string name =
-        ".holdfast-" + std::to_string(::getpid()) + "-" + std::to_string(temporaries++) + ".tmp";
-    // Its name is kept before there is a file: a constructor that ends by an exception has no destructor.
-    temporary_ = folder / name;
-    file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file_ >= 0 || errno != EEXIST) break;
-  }
-  if (file_ < 0) {
-    const int error = errno;
-    temporary_.clear();
-    if (error == ENOENT) throw FileError(target_, "", "cannot be written: its folder does not exist");
-    fail("cannot be written: no file can be made in its folder", error);
-  }
+#ifdef O_TMPFILE
+  // Where the system knows files without a name, nothing is left of one however this process ends. It gets
+  // its name through the folder of open descriptors.
+  file_ = ::open(folder_of(written_).c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+  if (file_ >= 0 && ::access(path_of(file_).c_str(), F_OK) != 0) ::close(std::exchange(file_, -1));
+#endif
+  nameless_ = file_ >= 0;
+  if (!nameless_) create_named();
   // A file that is replaced hands on its permissions; a file system without any is no error.
   struct stat existing {};
   if (::stat(written_.c_str(), &existing) == 0) static_cast<void>(::fchmod(file_, existing.st_mode & 07777));
+}
+
+void AtomicWriter::create_named() {
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    // Its name is kept before there is a file: a constructor that ends by an exception has no destructor.
+    temporary_ = unused_name(folder_of(written_));
+    file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file_ >= 0 || errno != EEXIST) break;
+  }
+  if (file_ >= 0) return;
+  const int error = errno;
+  temporary_.clear();
+  if (error == ENOENT) throw FileError(target_, "", "cannot be written: its folder does not exist");
+  fail("cannot be written: no file can be made in its folder", error);
+}
+
+void AtomicWriter::give_name() {
+  nameless_ = false;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    temporary_ = unused_name(folder_of(written_));
+    if (::linkat(AT_FDCWD, path_of(file_).c_str(), AT_FDCWD, temporary_.c_str(), AT_SYMLINK_FOLLOW) == 0)
+      return;
+    if (errno != EEXIST) break;
+  }
+  // A link may be forbidden where a file is not: then the bytes are copied.
+  temporary_.clear();
+  struct stat status {};
+  static_cast<void>(::fstat(file_, &status));
+  const int nameless = std::exchange(file_, -1);
+  try {
+    create_named();
+    static_cast<void>(::fchmod(file_, status.st_mode & 07777));
+    off_t at = 0;
+    for (ssize_t got; (got = ::pread(nameless, buffer_.get(), kBuffer, at)) != 0; at += got) {
+      if (got < 0) fail("cannot be written", errno);
+      write_through({buffer_.get(), static_cast<std::size_t>(got)});
+    }
+  } catch (...) {
+    ::close(nameless);
+    throw;
+  }
+  ::close(nameless);
 }
 
 void AtomicWriter::write_through(std::string_view bytes) {
@@ -126,6 +168,7 @@ AtomicWriter& AtomicWriter::operator<<(std::uint64_t value) {
 void AtomicWriter::finish() {
   if (file_ < 0) return;
   flush();
+  if (nameless_) give_name();
   const int handle = std::exchange(file_, -1);
   if (::close(handle) != 0 && errno != EINTR) fail("cannot be written", errno);
 }

@@ -45,6 +45,8 @@ class AtomicWriter {
   static constexpr std::size_t kBuffer = std::size_t{1} << 18;
 
   void open_temporary();
+  void create_named();
+  void give_name();
   void write_large(std::string_view bytes);
   void flush();
   void write_through(std::string_view bytes);
@@ -52,7 +54,8 @@ class AtomicWriter {
 
   std::filesystem::path target_;
   std::filesystem::path written_;    ///< the target where its links lead
-  std::filesystem::path temporary_;  ///< empty when written directly, or committed
+  std::filesystem::path temporary_;  ///< empty when written directly, committed, or as yet without a name
+  bool nameless_ = false;            ///< the file is to get a name when it is complete
   int file_ = -1;
   std::unique_ptr<char[]> buffer_;
   std::size_t used_ = 0;

@@ -69,7 +69,7 @@ class Causes(CliTest):
         lid = [(x, y, 1 + (2**-30 if x == y else -2**-30)) for x, y, z in CUBE_POINTS if z == 1]
         self.write("unwelded.off", off(CUBE_POINTS + lid, OPEN_FACETS + shifted(CUBE_FACETS[2:4], 4)))
         told = self.run_program("diagnose", "unwelded.off", "--report", "r.json", expect=4).stdout
-        self.assertRegex(told.splitlines()[1], r"^  \d+ misfits? at vertices that are almost one .*apart.*: merge")
+        self.assertRegex(told.splitlines()[1], r"^  \d+ misfits? at vertices that are almost one .*apart.*merge them")
         self.assertRegex(told, r"unwelded: vertex \d \(.*\) lies 9.31e-10 from vertex \d+: merge")
         report = json.loads((self.folder / "r.json").read_text())
         self.assertEqual(report["summary"]["causes"][0]["cause"], "unwelded vertices")
