@@ -3,11 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "command.h"
 #include "holdfast/io.h"
+#include "number.h"
 
 namespace holdfast::cli {
 namespace {
@@ -22,7 +22,7 @@ std::vector<double> numbers(const char* option, const std::string& text, std::si
   const char* const end = at + text.size();
   for (;;) {
     double value = 0;
-    const auto [stop, error] = std::from_chars(at, end, value);
+    const auto [stop, error] = parse_double(at, end, value);
     if (error != std::errc() || !std::isfinite(value)) break;
     values.push_back(value);
     at = stop;

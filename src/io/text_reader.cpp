@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "text/parse.h"
+
 namespace holdfast::io {
 namespace {
 
@@ -121,7 +123,7 @@ double TextReader::real(std::string_view what) {
   const char* first = begin + position_;
   if (*first == '+' && first + 1 != end && first[1] != '-') ++first;
   double value = 0;
-  const auto result = std::from_chars(first, end, value);
+  const auto result = parse_double(first, end, value);
   if (result.ec == std::errc::result_out_of_range) {
     const std::string_view number(first, static_cast<std::size_t>(result.ptr - first));
     // The nearest double is the zero of that sign; beyond the largest there is none.

@@ -55,9 +55,12 @@ class Threads::Helpers {
   Helpers(const Helpers&) = delete;
   Helpers& operator=(const Helpers&) = delete;
   ~Helpers() {
-    const std::scoped_lock lock(mutex_);
-    ending_ = true;
-    there_is_work_.notify_all();
+    {
+      const std::scoped_lock lock(mutex_);
+      ending_ = true;
+      there_is_work_.notify_all();
+    }
+    for (std::thread& thread : threads_) thread.join();
   }
 
   void run(Job& job, std::size_t most) {
@@ -101,7 +104,7 @@ class Threads::Helpers {
   std::condition_variable there_is_work_, one_is_done_;
   std::vector<Job*> jobs_;
   bool ending_ = false;
-  std::vector<std::jthread> threads_;  // joined before all else goes
+  std::vector<std::thread> threads_;
 };
 
 Threads::Threads(unsigned requested)

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <memory_resource>
 #include <stdexcept>
 #include <utility>
 
+#include "mesh/scratch.h"
 #include "mesh/validate.h"
 
 namespace holdfast {
@@ -31,21 +31,11 @@ EdgeKey edge_key(const TetMesh::Corners& c, int edge) {
   return edge_key(c[static_cast<std::size_t>(e[0])], c[static_cast<std::size_t>(e[1])]);
 }
 
-// Memory of one replacement: flips are many and small, and fit the stack.
-class Scratch {
- public:
-  std::pmr::memory_resource* memory() { return &memory_; }
-
- private:
-  alignas(std::max_align_t) std::array<std::byte, 6144> buffer_;
-  std::pmr::monotonic_buffer_resource memory_{buffer_.data(), buffer_.size()};
-};
-
 // Constraints that stand inside a cavity or on its edges, and those that the caller adds. Facets on its
 // faces are known to the tetrahedra outside.
 class Constraints {
  public:
-  explicit Constraints(std::pmr::memory_resource* memory) : facets_(memory), segments_(memory) {}
+  explicit Constraints(Scratch& memory) : facets_(memory), segments_(memory) {}
 
   void add_facet(const FaceKey& key) { facets_.push_back(key); }
   void add_segment(EdgeKey key) {
@@ -83,8 +73,8 @@ class Constraints {
     return (seen_ & bit_of(key)) != 0 && std::binary_search(segments_.begin(), segments_.end(), key);
   }
 
-  std::pmr::vector<FaceKey> facets_;
-  std::pmr::vector<EdgeKey> segments_;
+  ScratchVector<FaceKey> facets_;
+  ScratchVector<EdgeKey> segments_;
   std::uint64_t seen_ = 0;
 };
 
@@ -97,7 +87,7 @@ constexpr Face kNewFace = 0x80000000u;
 // cavity, or another new one. Notes the constraints on the way.
 class Plan {
  public:
-  Plan(TetMesh& mesh, const Replacement& r, std::pmr::memory_resource* memory)
+  Plan(TetMesh& mesh, const Replacement& r, Scratch& memory)
       : mesh_(mesh),
         r_(r),
         constraints_(memory),
@@ -130,7 +120,7 @@ class Plan {
   }
 
   /// By new tetrahedron.
-  [[nodiscard]] const std::pmr::vector<TetMesh::Neighbours>& links() const { return links_; }
+  [[nodiscard]] const ScratchVector<TetMesh::Neighbours>& links() const { return links_; }
   [[nodiscard]] const Constraints& constraints() const { return constraints_; }
 
  private:
@@ -209,9 +199,9 @@ class Plan {
   TetMesh& mesh_;
   const Replacement& r_;
   Constraints constraints_;
-  std::pmr::vector<OuterFace> outer_;
-  std::pmr::vector<Slot> slots_;
-  std::pmr::vector<TetMesh::Neighbours> links_;
+  ScratchVector<OuterFace> outer_;
+  ScratchVector<Slot> slots_;
+  ScratchVector<TetMesh::Neighbours> links_;
   std::size_t distinct_ = 0, open_ = 0;  // faces met, and those without a partner yet
 };
 
@@ -219,7 +209,7 @@ class Plan {
 
 void replace(TetMesh& mesh, const Replacement& r, std::vector<Tet>* created) {
   Scratch scratch;
-  Plan plan(mesh, r, scratch.memory());
+  Plan plan(mesh, r, scratch);
   plan.make();
 
   for (const Tet t : r.old_tets)

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <utility>
 
 #include "mesh/parallel.h"
@@ -57,7 +56,8 @@ class Marker {
   }
 
   // Tetrahedra that several threads look at share it.
-  static void stands(std::uint8_t& flag) { std::atomic_ref(flag).store(1, std::memory_order_relaxed); }
+  // (std::atomic_ref, which libc++ lacks before version 19.)
+  static void stands(std::uint8_t& flag) { __atomic_store_n(&flag, std::uint8_t{1}, __ATOMIC_RELAXED); }
 
   // The facet with these sides, looked for at the side of fewest facets: some have thousands. Two sides tell
   // a facet from others.

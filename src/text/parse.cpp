@@ -1,0 +1,83 @@
+#include "text/parse.h"
+
+#include <version>
+
+#if !defined(__cpp_lib_to_chars)
+#include <locale.h>
+#include <stdlib.h>
+#if defined(__APPLE__) || defined(__FreeBSD__)
+#include <xlocale.h>
+#endif
+
+#include <cmath>
+#include <string>
+#endif
+
+namespace holdfast {
+
+#if defined(__cpp_lib_to_chars)
+
+std::from_chars_result parse_double(const char* first, const char* last, double& value) {
+  return std::from_chars(first, last, value);
+}
+
+#else
+
+namespace {
+
+const char* past_digits(const char* at, const char* last) {
+  while (at != last && *at >= '0' && *at <= '9') ++at;
+  return at;
+}
+
+const char* past_word(const char* at, const char* last, const char* lower) {
+  for (; *lower != '\0'; ++at, ++lower)
+    if (at == last || (*at | 0x20) != *lower) return nullptr;
+  return at;
+}
+
+// The end of the number that the text begins with, or null.
+const char* past_number(const char* first, const char* last) {
+  const char* const begin = first != last && *first == '-' ? first + 1 : first;
+  for (const char* word : {"infinity", "inf", "nan"})
+    if (const char* const end = past_word(begin, last, word)) return end;
+  const char* at = past_digits(begin, last);
+  auto digits = at - begin;
+  if (at != last && *at == '.') {
+    const char* const fraction = at + 1;
+    at = past_digits(fraction, last);
+    digits += at - fraction;
+  }
+  if (digits == 0) return nullptr;
+  if (at != last && (*at | 0x20) == 'e') {
+    const char* exponent = at + 1;
+    if (exponent != last && (*exponent == '-' || *exponent == '+')) ++exponent;
+    if (const char* const end = past_digits(exponent, last); end != exponent) at = end;
+  }
+  return at;
+}
+
+locale_t plain_locale() {
+  static const locale_t plain = newlocale(LC_ALL_MASK, "C", nullptr);
+  return plain;
+}
+
+}  // namespace
+
+std::from_chars_result parse_double(const char* first, const char* last, double& value) {
+  const char* const end = past_number(first, last);
+  if (end == nullptr) return {first, std::errc::invalid_argument};
+  const std::string number(first, end);
+  const double nearest = strtod_l(number.c_str(), nullptr, plain_locale());
+  const bool is_finite_number = number.find_first_of("iInN") == std::string::npos;
+  const bool is_lost =
+      nearest == 0 &&
+      number.substr(0, number.find_first_of("eE")).find_first_of("123456789") != std::string::npos;
+  if (is_finite_number && (std::isinf(nearest) || is_lost)) return {end, std::errc::result_out_of_range};
+  value = nearest;
+  return {end, std::errc()};
+}
+
+#endif
+
+}  // namespace holdfast
