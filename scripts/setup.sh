@@ -1,17 +1,18 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that a job needs and that are missing; says nothing when none is.
-# Usage: scripts/setup.sh [build|test|bench|field|fuzz|lint]...
+# Usage: scripts/setup.sh [build|test|bench|field|fuzz|lint|libcxx]...
 set -euo pipefail
 
 declare -A packages=(
   # libgmp-dev is for the independent checker of `make corpus`, not for the product.
   [build]="cmake ninja-build g++ ccache python3 xz-utils zlib1g-dev libboost-dev libcli11-dev libfmt-dev
-           libeigen3-dev nlohmann-json3-dev libgtest-dev libgmp-dev locales"
+           nlohmann-json3-dev libgtest-dev libgmp-dev locales"
   [test]="python3-dolfinx"
   [bench]="tetgen libtet1.5-dev gmsh libcgal-dev libgmp-dev libmpfr-dev libtbb-dev libbenchmark-dev"
   [field]="gmsh tetgen python3-netgen"
   [fuzz]="clang-14 clang libclang-rt-14-dev"
   [lint]="clang-format clang-tidy"
+  [libcxx]="clang libc++-dev libc++abi-dev"
 )
 
 wanted=""

@@ -1,30 +1,55 @@
 #include "metric/metric.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
+
+#include "metric/eigen.h"
+#include "numbers/elementary.h"
 
 namespace holdfast {
 namespace {
 
-using Matrix = Eigen::Matrix3d;
+Matrix matrix_of(const Metric& m) { return {{{m[0], m[1], m[3]}, {m[1], m[2], m[4]}, {m[3], m[4], m[5]}}}; }
 
-Matrix matrix_of(const Metric& m) {
-  Matrix matrix;
-  matrix << m[0], m[1], m[3],  //
-      m[1], m[2], m[4],        //
-      m[3], m[4], m[5];
-  return matrix;
+// sum of values[k] axes[k] axes[k]^T
+Metric metric_of(const Matrix& axes, const std::array<double, 3>& values) {
+  const auto entry = [&](std::size_t i, std::size_t j) {
+    return values[0] * axes[0][i] * axes[0][j] + values[1] * axes[1][i] * axes[1][j] +
+           values[2] * axes[2][i] * axes[2][j];
+  };
+  return {entry(0, 0), entry(0, 1), entry(1, 1), entry(0, 2), entry(1, 2), entry(2, 2)};
 }
-
-Metric metric_of(const Matrix& m) { return {m(0, 0), m(0, 1), m(1, 1), m(0, 2), m(1, 2), m(2, 2)}; }
 
 // With f of each eigenvalue in its place.
 template <typename Function>
 Metric with_eigenvalues(const Metric& m, Function&& f) {
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(matrix_of(m));
-  const Matrix& axes = solver.eigenvectors();
-  const Eigen::Vector3d values = solver.eigenvalues().unaryExpr(f);
-  return metric_of(axes * values.asDiagonal() * axes.transpose());
+  auto [values, axes] = eigen(matrix_of(m));
+  for (double& value : values) value = f(value);
+  return metric_of(axes, values);
+}
+
+// The lower triangle L of L L^T = m. A pivot may be lost in rounding where sizes differ by eight orders of
+// magnitude.
+Matrix root_of(const Metric& m) {
+  constexpr double kLeast = 1e-16;
+  Matrix l{};
+  l[0][0] = std::sqrt(m[0]);
+  l[1][0] = m[1] / l[0][0];
+  l[2][0] = m[3] / l[0][0];
+  l[1][1] = std::sqrt(std::max(m[2] - l[1][0] * l[1][0], kLeast * m[2]));
+  l[2][1] = (m[4] - l[2][0] * l[1][0]) / l[1][1];
+  l[2][2] = std::sqrt(std::max(m[5] - l[2][0] * l[2][0] - l[2][1] * l[2][1], kLeast * m[5]));
+  return l;
+}
+
+// The transpose of l^-1 m.
+Matrix solved(const Matrix& l, const Matrix& m) {
+  Matrix out{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    out[k][0] = m[0][k] / l[0][0];
+    out[k][1] = (m[1][k] - l[1][0] * out[k][0]) / l[1][1];
+    out[k][2] = (m[2][k] - l[2][0] * out[k][0] - l[2][1] * out[k][1]) / l[2][2];
+  }
+  return out;
 }
 
 // By the pivots of elimination.
@@ -45,14 +70,15 @@ bool dominates(const Metric& a, const Metric& b) {
 double length(const Metric& a, const Metric& b, const std::array<double, 3>& e) {
   constexpr double kEqual = 1e-3;
   const double l = length(a, e), m = length(b, e);
-  return std::abs(l - m) < kEqual * l ? 0.5 * (l + m) : (l - m) / std::log(l / m);
+  return std::abs(l - m) < kEqual * l ? 0.5 * (l + m) : (l - m) / numbers::log(l / m);
 }
 
 double largest_size(const Metric& m) {
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(matrix_of(m), Eigen::EigenvaluesOnly);
+  const auto values = eigen(matrix_of(m)).values;
   // Rounding may lose a small one: see Frame.
   constexpr double kLeast = 1e-16;
-  return 1 / std::sqrt(std::max(solver.eigenvalues()[0], kLeast * solver.eigenvalues()[2]));
+  const auto [least, most] = std::minmax({values[0], values[1], values[2]});
+  return 1 / std::sqrt(std::max(least, kLeast * most));
 }
 
 bool is_positive_definite(const Metric& m) {
@@ -63,22 +89,19 @@ Metric intersection(const Metric& a, const Metric& b) {
   if (dominates(a, b)) return a;
   if (dominates(b, a)) return b;
   // In coordinates where `a` is the unit metric, both are diagonal along the axes of b.
-  const Matrix to_space = matrix_of(a).llt().matrixL();
-  const auto lower = to_space.triangularView<Eigen::Lower>();
-  const Matrix half = lower.solve(matrix_of(b));
-  const Matrix whole = lower.solve(half.transpose());
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(whole);
-  const Matrix axes = to_space * solver.eigenvectors();
-  const Eigen::Vector3d values = solver.eigenvalues().cwiseMax(1);
-  return metric_of(axes * values.asDiagonal() * axes.transpose());
+  const Matrix to_space = root_of(a);
+  auto [values, axes] = eigen(solved(to_space, solved(to_space, matrix_of(b))));
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::array<double, 3> v = axes[k];
+    for (std::size_t i = 0; i < 3; ++i)
+      axes[k][i] = to_space[i][0] * v[0] + to_space[i][1] * v[1] + to_space[i][2] * v[2];
+    values[k] = std::max(values[k], 1.0);
+  }
+  return metric_of(axes, values);
 }
 
-Metric logarithm(const Metric& m) {
-  return with_eigenvalues(m, [](double x) { return std::log(x); });
-}
+Metric logarithm(const Metric& m) { return with_eigenvalues(m, numbers::log); }
 
-Metric exponential(const Metric& m) {
-  return with_eigenvalues(m, [](double x) { return std::exp(x); });
-}
+Metric exponential(const Metric& m) { return with_eigenvalues(m, numbers::exp); }
 
 }  // namespace holdfast
