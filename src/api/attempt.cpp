@@ -135,7 +135,7 @@ class Attempt {
   void suppress_points() {
     std::vector<Vertex> points = kept_points();
     if (points.empty()) return;
-    suppress(mesh_, std::move(points), first_free_, monitor_);
+    suppress(mesh_, std::move(points), first_free_, monitor_, seed_);
     find_regions_again(mesh_, complex().facets, regions_);
     result_.report.forced_points = kept_points().size();
   }
@@ -168,8 +168,9 @@ class Attempt {
   }
 
   void optimise_worst_of(const std::vector<Tet>& tets, PointsToRemove remove) {
-    const OptimiseStats stats = optimise(mesh_, tets, first_free_, input_.target(), monitor_,
-                                         {.add_points = options_.add_points, .remove = remove});
+    const OptimiseStats stats =
+        optimise(mesh_, tets, first_free_, input_.target(), monitor_,
+                 {.add_points = options_.add_points, .remove = remove, .seed = seed_});
     result_.report.optimised = {stats.exchanged + stats.unflattened + stats.reconnected, stats.relocated,
                                 stats.inserted};
     if (stats.changed > 0) find_regions_again(mesh_, complex().facets, regions_);
@@ -206,7 +207,7 @@ class Attempt {
 
   [[nodiscard]] VolumeData volume() {
     std::vector<Metric>* const metrics = options_.sizes && options_.sizes->metric ? &metrics_ : nullptr;
-    return {mesh_, regions_.of_tet, sizes_, kept_.region, first_free_, nullptr, metrics};
+    return {mesh_, regions_.of_tet, sizes_, kept_.region, first_free_, nullptr, metrics, seed_};
   }
   [[nodiscard]] bool is_kept(Tet t) const {
     return mesh_.alive(t) && !mesh_.is_ghost(t) && kept_.region[regions_.of_tet[t]];

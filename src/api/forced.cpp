@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <numbers>
-#include <unordered_map>
+#include <span>
 
 #include "mesh/anatomy.h"
 #include "mesh/quality.h"
+#include "numbers/elementary.h"
 
 namespace holdfast {
 namespace {
@@ -30,7 +32,7 @@ double angle_at(const Point& p, const Point& q, const Point& r) {
     vv += (r[k] - p[k]) * (r[k] - p[k]);
     uv += (q[k] - p[k]) * (r[k] - p[k]);
   }
-  return std::atan2(std::sqrt(std::max(0.0, uu * vv - uv * uv)), uv) * 180 / std::numbers::pi;
+  return numbers::atan2(std::sqrt(std::max(0.0, uu * vv - uv * uv)), uv) * 180 / std::numbers::pi;
 }
 
 class ForcedElements {
@@ -82,17 +84,24 @@ class ForcedElements {
   }
 
   struct Wing {
+    std::uint64_t key;
     Index facet, apex;  // the corner that is not on the edge
+    friend auto operator<=>(const Wing&, const Wing&) = default;
   };
+  static std::span<const Wing> with_key(const std::vector<Wing>& wings, std::uint64_t key) {
+    const auto first = std::lower_bound(wings.begin(), wings.end(), Wing{key, 0, 0});
+    auto last = first;
+    while (last != wings.end() && last->key == key) ++last;
+    return {first, last};
+  }
 
   // Two facets at an edge with a small angle between them: whatever lies there has no larger one.
   std::vector<Index> wedge_at(Index a, Index b) {
     if (by_edge_.empty()) list_edges();
-    const auto [first, last] = by_edge_.equal_range(key_of_edge(a, b));
-    for (auto i = first; i != last; ++i)
-      for (auto j = first; j != i; ++j)
-        if (angle_between(a, b, i->second.apex, j->second.apex) < kSmall)
-          return {j->second.facet, i->second.facet};
+    const auto wings = with_key(by_edge_, key_of_edge(a, b));
+    for (auto i = wings.begin(); i != wings.end(); ++i)
+      for (auto j = wings.begin(); j != i; ++j)
+        if (angle_between(a, b, i->apex, j->apex) < kSmall) return {j->facet, i->facet};
     return {};
   }
 
@@ -100,8 +109,9 @@ class ForcedElements {
     for (Index f = 0; f < volume_.facets.size(); ++f) {
       const Triangle& c = volume_.facets[f];
       for (std::size_t k = 0; k < 3; ++k)
-        by_edge_.emplace(key_of_edge(c[(k + 1) % 3], c[(k + 2) % 3]), Wing{f, c[k]});
+        by_edge_.push_back({key_of_edge(c[(k + 1) % 3], c[(k + 2) % 3]), f, c[k]});
     }
+    std::sort(by_edge_.begin(), by_edge_.end());
   }
 
   // Of the half-planes from the line ab through p and through q, in degrees.
@@ -132,18 +142,18 @@ class ForcedElements {
 
   // The table is built when first asked: most volumes have no such element.
   std::optional<Index> facet_at(Triangle face) {
-    if (by_key_.empty())
-      for (Index f = 0; f < volume_.facets.size(); ++f) by_key_.emplace(key_of(volume_.facets[f]), f);
-    const auto [first, last] = by_key_.equal_range(key_of(face));
-    for (auto it = first; it != last; ++it)
-      if (std::is_permutation(face.begin(), face.end(), volume_.facets[it->second].begin()))
-        return it->second;
+    if (by_key_.empty()) {
+      for (Index f = 0; f < volume_.facets.size(); ++f) by_key_.push_back({key_of(volume_.facets[f]), f, 0});
+      std::sort(by_key_.begin(), by_key_.end());
+    }
+    for (const Wing& found : with_key(by_key_, key_of(face)))
+      if (std::is_permutation(face.begin(), face.end(), volume_.facets[found.facet].begin()))
+        return found.facet;
     return std::nullopt;
   }
 
   const Volume& volume_;
-  std::unordered_multimap<std::uint64_t, Index> by_key_;
-  std::unordered_multimap<std::uint64_t, Wing> by_edge_;
+  std::vector<Wing> by_key_, by_edge_;  // in their order
 };
 
 }  // namespace

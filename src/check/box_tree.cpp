@@ -1,7 +1,9 @@
 // Check: a tree of axis-parallel boxes, split at the median of the centres along the longest axis.
 #include "check/box_tree.h"
 
+#include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace holdfast::checking {
 
@@ -22,7 +24,10 @@ void BoxTree::build(std::uint32_t first, std::uint32_t last) {
   for (std::uint32_t i = first + 1; i < last; ++i) box.extend(boxes_[items_[i]]);
   const std::size_t at = nodes_.size();
   nodes_.push_back({box, 0, first, last});
-  if (last - first <= leaf_size) return;
+  if (last - first <= leaf_size) {
+    std::sort(items_.begin() + first, items_.begin() + last);
+    return;
+  }
 
   // Halves, because sums and differences of huge coordinates overflow.
   const auto extent = [&](std::size_t axis) { return box.high[axis] / 2 - box.low[axis] / 2; };
@@ -33,8 +38,9 @@ void BoxTree::build(std::uint32_t first, std::uint32_t last) {
     return boxes_[item].low[axis] / 2 + boxes_[item].high[axis] / 2;
   };
   const std::uint32_t middle = first + (last - first) / 2;
-  std::nth_element(items_.begin() + first, items_.begin() + middle, items_.begin() + last,
-                   [&](std::uint32_t x, std::uint32_t y) { return centre(x) < centre(y); });
+  std::nth_element(
+      items_.begin() + first, items_.begin() + middle, items_.begin() + last,
+      [&](std::uint32_t x, std::uint32_t y) { return std::pair(centre(x), x) < std::pair(centre(y), y); });
   build(first, middle);
   nodes_[at].right = static_cast<std::uint32_t>(nodes_.size());
   build(middle, last);

@@ -12,7 +12,7 @@ namespace holdfast {
 
 class PointAdder {
  public:
-  explicit PointAdder(ImprovedVolume& volume) : volume_(volume), cavity_(volume.mesh()) {}
+  explicit PointAdder(ImprovedVolume& volume) : volume_(volume), cavity_(volume.mesh(), volume.seed()) {}
 
   /// Fills the shell of an edge of t anew from a point near its middle, if the energy is less then; a patient
   /// search tries the cavity that the in-sphere test gives such a point, too. Returns whether there is a new

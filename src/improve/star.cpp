@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "numbers/elementary.h"
+
 namespace holdfast {
 
 void Star::clear() {
@@ -116,7 +118,7 @@ bool Star::step_down(double size) {
     x[k] += h;
     gradient[k] = energy_at(x, kNoEnergy) - energy_;
   }
-  const double length = std::hypot(gradient[0], gradient[1], gradient[2]);
+  const double length = numbers::hypot(gradient[0], gradient[1], gradient[2]);
   if (!(length > 0 && length < kNoEnergy)) return false;
   constexpr int kTrials = 4;
   double step = 0.15 * size;

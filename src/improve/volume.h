@@ -20,6 +20,7 @@ class ImprovedVolume {
   [[nodiscard]] TetMesh& mesh() { return mesh_; }
   [[nodiscard]] const TetMesh& mesh() const { return mesh_; }
   [[nodiscard]] Vertex first_free() const { return data_.first_free; }
+  [[nodiscard]] std::uint64_t seed() const { return data_.seed; }
   [[nodiscard]] bool is_inside(Tet t) const { return data_.is_inside(t); }
   [[nodiscard]] bool may_move(Vertex v) const { return v >= data_.first_free; }
 

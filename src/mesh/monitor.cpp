@@ -60,7 +60,7 @@ void Monitor::look_as_task(Stage stage, double fraction) {
     if (std::this_thread::get_id() != tasks_->caller) return;
     const auto done = static_cast<double>(tasks_->done);
     const double of_tasks = (done + fraction) / static_cast<double>(tasks_->count);
-    whole_->call_back(stage, std::lerp(tasks_->part[0], tasks_->part[1], of_tasks), false);
+    whole_->call_back(stage, tasks_->part[0] + of_tasks * (tasks_->part[1] - tasks_->part[0]), false);
   } catch (const Interrupted& interrupted) {
     tasks_->why = interrupted.outcome();
     tasks_->stop = true;

@@ -12,6 +12,7 @@
 #include "exact/expansion.h"
 #include "exact/point.h"
 #include "mesh/parallel.h"
+#include "numbers/elementary.h"
 
 namespace holdfast {
 namespace {
@@ -128,7 +129,7 @@ struct Angle {
 
   [[nodiscard]] bool known() const { return sine != 0 || cosine != 0; }
   [[nodiscard]] double degrees() const {
-    return known() ? std::atan2(sine, cosine) * 180.0 / std::numbers::pi : kNan;
+    return known() ? numbers::atan2(sine, cosine) * 180.0 / std::numbers::pi : kNan;
   }
   friend bool operator<(const Angle& x, const Angle& y) {
     if (x.sine == 0 && y.sine == 0) return x.cosine > 0 && y.cosine < 0;
@@ -182,7 +183,7 @@ struct Measures {
     const std::array<Angle, 6> angles = dihedral_angles();
     for (std::size_t k = 0; k < 6; ++k)
       shape.cosines[k] =
-          angles[k].known() ? angles[k].cosine / std::hypot(angles[k].sine, angles[k].cosine) : 1;
+          angles[k].known() ? angles[k].cosine / numbers::hypot(angles[k].sine, angles[k].cosine) : 1;
     return shape;
   }
 };
@@ -230,7 +231,7 @@ class BestTetrahedron {
   [[nodiscard]] double at(double angle) const {
     const double l = longest_;
     const double reach = l * std::numbers::sqrt3 / 2;
-    const Vector apex{l / 2, reach * std::cos(angle), reach * std::sin(angle)};
+    const Vector apex{l / 2, reach * numbers::cos(angle), reach * numbers::sin(angle)};
     const double twice_lateral = l * reach + twice_area({along_, height_, 0}, apex) +
                                  twice_area({along_ - l, height_, 0}, {-l / 2, apex[1], apex[2]});
     const Vector to_third{along_ - apex[0], height_ - apex[1], apex[2]};
@@ -310,7 +311,7 @@ template <std::size_t kBins>
 CosineBins<kBins>::CosineBins(double degrees) {
   for (std::size_t k = 0; k < end_.size(); ++k) {
     const double end = degrees * static_cast<double>(k + 1);
-    end_[k] = end == 90 ? 0 : std::cos(end * std::numbers::pi / 180);
+    end_[k] = end == 90 ? 0 : numbers::cos(end * std::numbers::pi / 180);
   }
   // Of a cosine half a cell before, which no rounding takes into the cell.
   for (std::size_t cell = 0; cell < kCells; ++cell) {
@@ -363,7 +364,7 @@ double target_quality(std::span<const Point> vertices, std::span<const Triangle>
 
 namespace {
 
-double degrees_of(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi; }
+double degrees_of(double cosine) { return numbers::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi; }
 
 // Gathers the angles of a volume: cosines where they are good enough, which is nearly everywhere.
 class AngleHistogram {
@@ -373,7 +374,7 @@ class AngleHistogram {
   AngleHistogram() {
     for (std::size_t k = 0; k < kBins; ++k) {
       const double angle = std::numbers::pi * static_cast<double>(k) / kBins;
-      start_[k] = {std::sin(angle), 2 * k == kBins ? 0 : std::cos(angle)};
+      start_[k] = {numbers::sin(angle), 2 * k == kBins ? 0 : numbers::cos(angle)};
     }
   }
   void add_cosine(double cosine) {

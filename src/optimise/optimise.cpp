@@ -31,7 +31,8 @@ class Optimiser {
         monitor_(monitor),
         qualities_(mesh),
         exchanger_(mesh, qualities_, bad_from_),
-        flat_remover_(mesh) {}
+        flat_remover_(mesh),
+        random_(options.seed) {}
 
   OptimiseStats run(const std::vector<Tet>& tets) {
     now_.budget = kLeastWork + kWorkPerTet * tets.size();
@@ -55,7 +56,7 @@ class Optimiser {
     Tet tet;
     TetMesh::Corners corners;  // a slot may have been given to another tetrahedron since
     friend bool operator<(const Entry& x, const Entry& y) {
-      return x.quality != y.quality ? x.quality < y.quality : x.corners > y.corners;
+      return std::tie(x.quality, y.corners, y.tet) < std::tie(y.quality, x.corners, x.tet);
     }
   };
 

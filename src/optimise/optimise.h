@@ -26,6 +26,7 @@ enum class PointsToRemove { all, added_here };
 struct OptimiseOptions {
   bool add_points = true;  ///< a few, where a tetrahedron stays flat without
   PointsToRemove remove = PointsToRemove::all;
+  std::uint64_t seed = 1;  ///< of the random orders
 };
 
 /// Improves the worst of `tets`, which are all of some regions and whose vertices are explicit. Facets and

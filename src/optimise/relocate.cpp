@@ -5,6 +5,7 @@
 
 #include "mesh/kernel.h"
 #include "mesh/quality.h"
+#include "numbers/random.h"
 #include "optimise/badness.h"
 
 namespace holdfast {
@@ -63,12 +64,11 @@ class Relocation {
     constexpr int kTries = 60;
     constexpr int kPatience = 4;
     constexpr double kFirstStep = 0.1;
-    std::normal_distribution<double> normal;
     double step = kFirstStep * size_;
     int failures = 0;
     for (int k = 0; k < kTries; ++k) {
       Point x = at_;
-      for (double& c : x) c += step * normal(random);
+      for (double& c : x) c += step * numbers::bell(random);
       if (step_to(x)) {
         step *= 2;
         failures = 0;

@@ -89,7 +89,7 @@ class Cavity {
     FlipRecovery(mesh, table, local.facets, standing, seed).run([&](double) { tell(); }, kPasses);
     const auto all_stands = [&] { return standing.missing_facets() + standing.missing_segments() == 0; };
     if (!all_stands() && finish) finish(mesh, table, local.facets, standing, first_free);
-    if (all_stands()) return inside_of(mesh, first_free);
+    if (all_stands()) return inside_of(mesh, first_free, seed);
     for (Index f = 0; f < local.facets.size(); ++f)
       if (standing.facets[f] == 0) missing_.push_back(global(local.facets[f]));
     return std::nullopt;
@@ -137,7 +137,7 @@ class Cavity {
     for (const Point& p : far_points(local)) mesh.add_vertex(p);
     mesh.set_grid(mesh_.grid());
     if (!build_delaunay(mesh, {seed}, nullptr)) return false;
-    std::uint32_t random = 1;
+    auto random = static_cast<std::uint32_t>(seed);
     for (Vertex k = 0; k < vertices_.size(); ++k) {
       if (mesh_.is_explicit(vertices_[k])) continue;
       mesh.move_vertex(k, mesh_.exact_position(vertices_[k]));
@@ -204,14 +204,14 @@ class Cavity {
   }
 
   // From the facet through all faces but the cavity's own.
-  [[nodiscard]] std::optional<Filling> inside_of(TetMesh& mesh, Vertex first_free) const {
+  [[nodiscard]] std::optional<Filling> inside_of(TetMesh& mesh, Vertex first_free, std::uint64_t seed) const {
     const auto is_boundary = [&](Face f) {
       if (!mesh.is_facet(f)) return false;
       const FaceCorners key = sorted(global(mesh.face_vertices(f)));
       return key == sorted(facet_) || faces_.contains(key);
     };
     const FaceCorners start = local(facet_);
-    Random random;
+    Random random(seed);
     Face f = Piercing(mesh, random).find_face(start[0], start[1], start[2]);
     if (f == kNone) return std::nullopt;
     if (mesh.orient(start[0], start[1], start[2], mesh.apex(f)) <= 0) f = mesh.neighbour(f);

@@ -4,6 +4,7 @@
 
 #include "mesh/face_swap.h"
 #include "mesh/replace.h"
+#include "numbers/random.h"
 
 namespace holdfast {
 
@@ -241,7 +242,7 @@ void Flipper::list_blocked_spokes(const std::vector<Ear>& ears, std::vector<Spok
     if (!sees_b) spokes.push_back({i, true, !sees_a});
     if (!sees_a) spokes.push_back({i, false, !sees_b});
   }
-  std::shuffle(spokes.begin(), spokes.end(), random_);
+  numbers::shuffle(spokes.begin(), spokes.end(), random_);
   std::stable_partition(spokes.begin(), spokes.end(), [](const Spoke& s) { return !s.blocked_twice; });
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mesh/traverse.h"
+#include "numbers/random.h"
 
 namespace holdfast {
 namespace {
@@ -74,7 +75,7 @@ void FlipRecovery::shuffle_in_blocks(std::vector<Index>& missing) {
   std::sort(missing.begin(), missing.end());
   for (auto first = missing.begin(); first != missing.end();) {
     const auto last = first + std::min(kBlock, missing.end() - first);
-    std::shuffle(first, last, random_);
+    numbers::shuffle(first, last, random_);
     first = last;
   }
 }
@@ -111,7 +112,7 @@ bool FlipRecovery::segment(Index s, const Effort& effort) {
 bool FlipRecovery::clear_between(Vertex a, Vertex b, const Effort& effort) {
   crossings_.clear();
   piercing_.by_segment(a, b, crossings_, kMostCrossings);
-  std::shuffle(crossings_.begin(), crossings_.end(), random_);
+  numbers::shuffle(crossings_.begin(), crossings_.end(), random_);
   return std::any_of(crossings_.begin(), crossings_.end(), [&](const Crossing& c) {
     return flipper_.stands(c) && flipper_.clear(c, effort.depth, effort.budget);
   });
@@ -133,7 +134,7 @@ bool FlipRecovery::facet(Index f, const Effort& effort) {
       standing_.facets[f] = 1;
       return true;
     }
-    std::shuffle(edges_.begin(), edges_.end(), random_);
+    numbers::shuffle(edges_.begin(), edges_.end(), random_);
     for (const PiercingEdge& e : edges_) {
       const Crossing crossing{e.tet, {e.above, e.below}, 2};
       if (!flipper_.stands(crossing)) continue;

@@ -21,8 +21,8 @@ struct Split {
 Split split_across(std::size_t axis, std::span<const Cuts::Sample> samples, std::span<const double> shares,
                    double margin) {
   Split best{{samples.begin(), samples.end()}, {axis, 0}};
-  std::sort(best.samples.begin(), best.samples.end(),
-            [&](const Cuts::Sample& x, const Cuts::Sample& y) { return x.at[axis] < y.at[axis]; });
+  std::stable_sort(best.samples.begin(), best.samples.end(),
+                   [&](const Cuts::Sample& x, const Cuts::Sample& y) { return x.at[axis] < y.at[axis]; });
   std::vector<double> sums{0};  // of the weights before a sample
   for (const Cuts::Sample& s : best.samples) sums.push_back(sums.back() + s.weight);
   const auto weight_below = [&](double at) {

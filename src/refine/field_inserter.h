@@ -17,7 +17,7 @@ class FieldInserter {
  public:
   /// In a part, points keep away from interfaces that spheres beyond may reach across.
   FieldInserter(const VolumeData& volume, const SizeFunction& sizes)
-      : volume_(volume), mesh_(volume.mesh), sizes_(sizes), cavity_(volume.mesh) {}
+      : volume_(volume), mesh_(volume.mesh), sizes_(sizes), cavity_(volume.mesh, volume.seed) {}
 
   /// Inserts a point at x, in the region of `start` and not far from it, unless it would be too near to a
   /// vertex or a facet. Returns the tetrahedra round it, none if it was not inserted.

@@ -63,7 +63,7 @@ class Front {
   // random within blocks, so that points find the mesh in the caches, and so on layer after layer.
   void shuffle_front() {
     constexpr std::size_t kBlock = 10'000;
-    std::uint64_t random = 1;
+    std::uint64_t random = volume_.seed;
     for (std::size_t first = 0; first < front_.size(); first += kBlock) {
       const std::size_t last = std::min(first + kBlock, front_.size());
       for (std::size_t k = last - first; k > 1; --k) {

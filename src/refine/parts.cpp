@@ -342,6 +342,7 @@ Parts::Parts(const VolumeData& whole, const std::vector<std::uint32_t>& part_of,
   for (std::size_t k = 0; k < count; ++k) parts_[k].slots_.reserve(sizes[k]);
   for (Tet t = 0; t < part_of.size(); ++t)
     if (part_of[t] != kNone) parts_[part_of[t]].slots_.push_back(t);
+  for (Part& part : parts_) part.seed = whole.seed;
   const CurveKeys keys(whole.mesh);
   std::vector<std::vector<Tet>> tets(count);  // as they come along the curve
   std::vector<Tet> local_of(whole.mesh.slot_count());

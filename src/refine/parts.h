@@ -22,9 +22,10 @@ class Part {
   std::vector<double> sizes;        ///< by vertex
   std::vector<Metric> metrics;      ///< by vertex, if there are any
   Vertex first_free = 0;            ///< lower ones stand: they are the whole's, or on an interface
+  std::uint64_t seed = 1;           ///< the whole's
 
   [[nodiscard]] VolumeData data(const std::vector<bool>& kept) {
-    return {mesh, region_of, sizes, kept, first_free, this, metrics_if_any()};
+    return {mesh, region_of, sizes, kept, first_free, this, metrics_if_any(), seed};
   }
   /// Whether a tetrahedron is the ghost on a face of an interface.
   [[nodiscard]] bool is_beyond_interface(Tet t) const {

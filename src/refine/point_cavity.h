@@ -26,7 +26,9 @@ class PointCavity {
   static constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
 
   /// All vertices of the tetrahedra that points are put in are explicit.
-  explicit PointCavity(TetMesh& mesh) : mesh_(mesh) {}
+  /// `seed` is that of walks.
+  explicit PointCavity(TetMesh& mesh, std::uint64_t seed = 1)
+      : mesh_(mesh), random_(static_cast<std::uint32_t>(seed)) {}
 
   /// The tetrahedron that holds vertex p, which is in no tetrahedron yet, by a walk from `start`.
   [[nodiscard]] Tet locate(Vertex p, Tet start) { return walk_to(mesh_, p, start, random_); }
@@ -96,7 +98,7 @@ class PointCavity {
   };
   std::vector<Side> sides_;           // where the ring is too large for the table
   std::vector<std::uint64_t> edges_;  // of the rim, sorted; likewise
-  std::uint32_t random_ = 1;
+  std::uint32_t random_;
   std::size_t work_ = 0;
 };
 

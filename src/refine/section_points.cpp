@@ -24,7 +24,7 @@ Point middle_of_section(const std::array<Point, 4>& corners, const Cuts::Plane& 
     const Point &a = corners[static_cast<std::size_t>(i)], &b = corners[static_cast<std::size_t>(j)];
     const double from = a[plane.axis] - plane.at, to = b[plane.axis] - plane.at;
     if ((from < 0) == (to < 0)) continue;
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += std::lerp(a[k], b[k], from / (from - to));
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += a[k] + from / (from - to) * (b[k] - a[k]);
     count += 1;
   }
   for (double& x : sum) x /= count;

@@ -21,6 +21,7 @@ struct VolumeData {
   Vertex first_free;              ///< vertices from here on lie on no constraint
   const Part* part = nullptr;     ///< that this is, unless the mesh is whole
   std::vector<Metric>* metrics = nullptr;  ///< by vertex: the wanted metric, if there is one
+  std::uint64_t seed = 1;                  ///< of the random orders
 
   [[nodiscard]] bool is_inside(Tet t) const {
     return mesh.alive(t) && !mesh.is_ghost(t) && kept[region_of[t]];

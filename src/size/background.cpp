@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "metric/metric.h"
+#include "numbers/elementary.h"
 
 namespace holdfast {
 namespace {
@@ -38,7 +39,7 @@ Background::Background(SizeField field) : field_(std::move(field)) {
   constexpr double kMostAlong = 512;
   double extent = 0;
   for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, high[k] - low_[k]);
-  const double along = std::clamp(std::cbrt(static_cast<double>(field_.tetrahedra.size())), 1.0, kMostAlong);
+  const double along = std::clamp(numbers::cbrt(static_cast<double>(field_.tetrahedra.size())), 1.0, kMostAlong);
   for (std::size_t k = 0; k < 3; ++k) {
     const double part = extent > 0 ? (high[k] - low_[k]) / extent : 0;
     count_[k] = static_cast<std::size_t>(std::max(1.0, std::ceil(along * part)));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "numbers/random.h"
+
 namespace holdfast {
 
 Cavity::Cavity(const TetMesh& mesh, std::span<const Tet> ball, Vertex first_free)
@@ -20,8 +22,8 @@ bool Cavity::grow_across(std::size_t k) { return add(across_[k]); }
 bool Cavity::grow_across_lowest(const std::vector<double>& heights) {
   std::vector<std::size_t> order(heights.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t i, std::size_t j) { return heights[i] < heights[j]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return heights[i] < heights[j]; });
   return std::any_of(order.begin(), order.end(), [&](std::size_t k) { return grow_across(k); });
 }
 
@@ -109,7 +111,7 @@ std::vector<Tet> Cavity::neighbours(std::mt19937_64& random) const {
   std::vector<Tet> out = across_;
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
-  std::shuffle(out.begin(), out.end(), random);
+  numbers::shuffle(out.begin(), out.end(), random);
   std::stable_partition(out.begin(), out.end(), [&](Tet t) {
     const auto& v = mesh_.corners(t);
     return std::all_of(v.begin(), v.end(), [&](Vertex x) { return on_boundary(x); });

@@ -20,12 +20,14 @@ std::size_t unrounded(const TetMesh& mesh, const std::vector<Vertex>& points) {
 
 class Suppressor {
  public:
-  Suppressor(TetMesh& mesh, std::vector<Vertex> points, Vertex first_free, Monitor& monitor)
+  Suppressor(TetMesh& mesh, std::vector<Vertex> points, Vertex first_free, Monitor& monitor,
+             std::uint64_t seed)
       : mesh_(mesh),
         points_(std::move(points)),
         first_free_(first_free),
         all_(points_.size()),
         monitor_(monitor),
+        random_(seed),
         flipper_(mesh, random_) {}
 
   SuppressStats run() {
@@ -176,8 +178,9 @@ class Suppressor {
 
 }  // namespace
 
-SuppressStats suppress(TetMesh& mesh, std::vector<Vertex> points, Vertex first_free, Monitor& monitor) {
-  return Suppressor(mesh, std::move(points), first_free, monitor).run();
+SuppressStats suppress(TetMesh& mesh, std::vector<Vertex> points, Vertex first_free, Monitor& monitor,
+                       std::uint64_t seed) {
+  return Suppressor(mesh, std::move(points), first_free, monitor, seed).run();
 }
 
 }  // namespace holdfast

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "mesh/monitor.h"
@@ -20,7 +21,8 @@ struct SuppressStats {
 /// Tries to remove each of `points`, cheapest way first, and recentres those that stay, round after round
 /// until neither removes one nor rounds one. The mesh stays exactly positive throughout. The mesh's Steiner
 /// points are its vertices from `first_free` on, strictly off every constraint; `points` are all of some
-/// regions.
-SuppressStats suppress(TetMesh& mesh, std::vector<Vertex> points, Vertex first_free, Monitor& monitor);
+/// regions. `seed` is that of the random orders.
+SuppressStats suppress(TetMesh& mesh, std::vector<Vertex> points, Vertex first_free, Monitor& monitor,
+                       std::uint64_t seed = 1);
 
 }  // namespace holdfast

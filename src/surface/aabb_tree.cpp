@@ -132,6 +132,10 @@ void AabbTree::build(Nodes& nodes, Index node) {
     part.first = middle;
     part.count = current.count - (middle - current.first);
     nodes.push_back(part);
+  } else {
+    // How a library partitions decides on the order of the items, but not on what a part holds.
+    std::sort(items_.begin() + current.first, items_.begin() + current.first + current.count,
+              [](const Item& a, const Item& b) { return a.id < b.id; });
   }
   nodes[node] = current;
 }

@@ -1,6 +1,7 @@
 #include "surface/facet_index.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace holdfast {
@@ -26,7 +27,7 @@ FacetIndex::FacetIndex(std::size_t vertices, std::span<const Triangle> facets)
     entries_[next[t[0]]++] = {t[1], t[2], f};
   }
   const auto before = [](const Entry& x, const Entry& y) {
-    return std::pair(x.middle, x.most) < std::pair(y.middle, y.most);
+    return std::tie(x.middle, x.most, x.facet) < std::tie(y.middle, y.most, y.facet);
   };
   for (std::size_t v = 0; v < vertices; ++v)
     if (first_[v + 1] - first_[v] > 1)

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "numbers/elementary.h"
+
 namespace holdfast {
 namespace {
 
@@ -77,7 +79,7 @@ double FoldoverEnergy::operator()(std::span<const double> x, std::span<double> g
     const double chi = d > 0 ? (d + root) / 2 : epsilon_ * epsilon_ / (2 * (root - d));
     const double slope = chi / root;  // of chi
     const double trace = (dot(j[0], j[0]) + dot(j[1], j[1]) + dot(j[2], j[2])) / 3;
-    const double power = std::cbrt(chi) * std::cbrt(chi);
+    const double root3 = numbers::cbrt(chi), power = root3 * root3;
     const double f = trace / power, g = (d * d + 1) / (2 * chi);
     energy += f + kLambda * g;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/elementary.h"
 #include "untangle/foldover_energy.h"
 #include "untangle/lbfgs.h"
 
@@ -141,7 +142,7 @@ class Smoothing {
       for (const auto& [i, k] : kEdgeVertex) {
         const Point& a = tangle_.position(tangle_.corners(t)[static_cast<std::size_t>(i)]);
         const Point& b = tangle_.position(tangle_.corners(t)[static_cast<std::size_t>(k)]);
-        sum += std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+        sum += numbers::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
       }
     unit_ = sum / (6 * static_cast<double>(tets_.size()));
     if (!(unit_ > 0) || !std::isfinite(unit_)) unit_ = 1;
@@ -195,7 +196,7 @@ class Smoothing {
   [[nodiscard]] static double next_epsilon(double epsilon, double least_determinant, double ratio) {
     constexpr double kLeast = 1e-9;
     const double d = least_determinant;
-    const double root = std::hypot(epsilon, d);
+    const double root = numbers::hypot(epsilon, d);
     const double chi = d > 0 ? (d + root) / 2 : epsilon * epsilon / (2 * (root - d));
     const double mu = std::min(ratio, 0.9) * chi;
     return d < mu ? std::max(kLeast, 2 * std::sqrt(mu * (mu - d))) : kLeast;
