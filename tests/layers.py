@@ -1,5 +1,6 @@
 """Fails when a layer of src/ includes a header of a layer above it, or when library code prints, exits, or converts
-numbers by functions that heed the locale of the program round it (src/text/decimal.h is for that).
+numbers by functions that heed the locale of the program round it (src/text/decimal.h is for that), or uses what the
+standard leaves to each library, so that meshes would differ between platforms (src/numbers is for that).
 
     layers.py ROOT LAYER...      LAYER... from the lowest to the highest (HOLDFAST_LAYERS of CMakeLists.txt)
     layers.py --selftest
@@ -10,7 +11,7 @@ import tempfile
 from pathlib import Path
 
 # Layers that may use less than everything below them.
-ONLY = {"check": {"text", "exact"}, "io": {"text", "metric"}}
+ONLY = {"check": {"text", "numbers", "exact"}, "io": {"text", "numbers", "metric"}}
 # Threads are no part of the mesh that they lie beside.
 BESIDES = {"io": {"mesh/parallel.h"}}
 
@@ -23,6 +24,11 @@ FORBIDDEN = re.compile(
 LOCALE = re.compile(
     r"(?<![\w.>])(?:std::)?(?:v?s(?:n?printf|scanf)|ato[fil]|atoll|strto[dfl]|strtold|sto[dfi]|stold|setlocale)\s*\("
     r"|#\s*include\s*<(?:sstream|iomanip)>|std::[io]?stringstream\b")
+UNDEFINED = re.compile(
+    r"std::(?:shuffle|sample|\w+_distribution|random_device|default_random_engine|random_shuffle|lerp|hash|"
+    r"unordered_multi(?:map|set)|"
+    r"(?:exp|exp2|expm1|log|log2|log10|log1p|pow|cbrt|hypot|sin|cos|tan|asin|acos|atan|atan2|sinh|cosh|tanh|asinh|acosh|"
+    r"atanh|erf|erfc|tgamma|lgamma|fma)[fl]?\s*\()")
 
 
 def blank(match):
@@ -57,6 +63,9 @@ def broken_rules(root, layers):
             for match in LOCALE.finditer(code):
                 line = code.count("\n", 0, match.start()) + 1
                 yield f"{path}:{line}: numbers must not depend on the locale: {match.group().strip()}"
+            for match in UNDEFINED.finditer(code):
+                line = code.count("\n", 0, match.start()) + 1
+                yield f"{path}:{line}: not the same on all platforms, see src/numbers: {match.group().strip()}"
 
 
 def selftest():
@@ -76,6 +85,8 @@ def selftest():
         ("src/mesh/c.cpp", 'void f() { std::fprintf(stderr, "x"); }\n', 1),
         ("src/mesh/d.cpp", "void f() { on_exit(1); q.exit(); std::cout << 1; }\n", 1),
         ("src/cli/a.cpp", '#include "api/b.h"\nint main() { exit(1); }\n', 1),
+        ("src/mesh/e.cpp", "std::shuffle(a, b, r);\nstd::normal_distribution<double> d;\ndouble x = std::hypot(1, 2);\n", 3),
+        ("src/mesh/f.cpp", "double x = std::sqrt(2.0) + numbers::log(2) + std::logb(3);  // std::log(2)\n", 0),
         ("src/other/a.cpp", "", 1),
         ("include/holdfast/a.h", '#include "mesh/b.h"\n', 1),
     ]

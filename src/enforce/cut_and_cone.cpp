@@ -222,11 +222,10 @@ Kernel kernel_of(const TetMesh& mesh, const Sector& sector, const std::vector<Cu
 
 }  // namespace
 
-std::vector<Vertex> cut_and_cone(TetMesh& mesh, Vertex p, std::optional<std::array<Vertex, 2>> ends,
-                                 std::mt19937_64& random) {
+std::vector<Vertex> cut_and_cone(TetMesh& mesh, Vertex p, std::optional<std::array<Vertex, 2>> ends) {
   std::vector<Vertex> created;
   const std::vector<CutPath> fictitious =
-      ends ? fictitious_cuts(mesh, p, *ends, random, created) : std::vector<CutPath>{};
+      ends ? fictitious_cuts(mesh, p, *ends, created) : std::vector<CutPath>{};
   const BallCutter cutter(mesh, p, ends, fictitious);
   std::vector<TetMesh::Corners> fresh;
   std::vector<Triangle3> facets;
@@ -235,6 +234,8 @@ std::vector<Vertex> cut_and_cone(TetMesh& mesh, Vertex p, std::optional<std::arr
     Vertex apex = best_apex(mesh, kernel);
     if (apex == kNone) {
       const auto position = kernel.find(mesh.point(p));
+      // P is on one plane or two that the sector must see, and strictly before all others: the kernel finds a
+      // place.
       if (!position) throw std::logic_error("holdfast: a sector has no kernel");
       apex = add_vertex(mesh, *position);
       created.push_back(apex);

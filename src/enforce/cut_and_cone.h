@@ -17,7 +17,6 @@
 
 #include <array>
 #include <optional>
-#include <random>
 #include <vector>
 
 #include "mesh/tet_mesh.h"
@@ -30,7 +29,6 @@ namespace holdfast {
 /// segment bits of the mesh say where the constraints are; afterwards A'B' is a segment edge and P is
 /// gone. A segment with fewer than two facets is cut along fictitious polygons too (fictitious_cut.h).
 /// Returns the new vertices (Steiner points strictly off every constraint that stands).
-std::vector<Vertex> cut_and_cone(TetMesh& mesh, Vertex p, std::optional<std::array<Vertex, 2>> ends,
-                                 std::mt19937_64& random);
+std::vector<Vertex> cut_and_cone(TetMesh& mesh, Vertex p, std::optional<std::array<Vertex, 2>> ends);
 
 }  // namespace holdfast

@@ -10,6 +10,7 @@
 #include "enforce/partition_segment.h"
 #include "mesh/kernel.h"
 #include "mesh/traverse.h"
+#include "numbers/random.h"
 #include "recover/facet_cavities.h"
 #include "recover/recover.h"
 #include "suppress/collapse.h"
@@ -40,8 +41,8 @@ class Enforcer {
       if (standing.segments[s] == 0) missing_segments_.push_back(s);
     for (Index f = 0; f < facets.size(); ++f)
       if (standing.facets[f] == 0) missing_facets_.push_back(f);
-    std::shuffle(missing_segments_.begin(), missing_segments_.end(), random_);
-    std::shuffle(missing_facets_.begin(), missing_facets_.end(), random_);
+    numbers::shuffle(missing_segments_.begin(), missing_segments_.end(), random_);
+    numbers::shuffle(missing_facets_.begin(), missing_facets_.end(), random_);
   }
 
   // All segments, then all facets, each group in random order, and the points of one are eliminated before
@@ -125,7 +126,7 @@ class Enforcer {
     standing_.facets[f] = 1;
     ++laid_;
     if (!eliminate_) return;
-    std::shuffle(inner.begin(), inner.end(), random_);
+    numbers::shuffle(inner.begin(), inner.end(), random_);
     for (const Vertex p : inner) {
       tell();
       eliminate(p, std::nullopt);
@@ -159,7 +160,7 @@ class Enforcer {
     std::vector<Vertex>& chain = chains_[s];
     std::vector<Vertex> points(chain.begin() + 1, chain.end() - 1);
     on_chain_.insert(points.begin(), points.end());
-    std::shuffle(points.begin(), points.end(), random_);
+    numbers::shuffle(points.begin(), points.end(), random_);
     constexpr std::size_t kSettleEvery = 4;
     for (std::size_t k = 0; k < points.size(); ++k) {
       tell();
@@ -180,7 +181,7 @@ class Enforcer {
     const bool gone = ends ? collapse_within(mesh_, p, *ends, std::span(&*ends, 1))
                            : collapse_within(mesh_, p, facet_neighbours(mesh_, p), {});
     if (gone) return;
-    const std::vector<Vertex> fresh = cut_and_cone(mesh_, p, ends, random_);
+    const std::vector<Vertex> fresh = cut_and_cone(mesh_, p, ends);
     restless_.insert(restless_.end(), fresh.begin(), fresh.end());
     steiner_.insert(steiner_.end(), fresh.begin(), fresh.end());
   }

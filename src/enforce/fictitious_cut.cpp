@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "enforce/partition_segment.h"
 #include "exact/rounding.h"
@@ -31,14 +32,18 @@ Vector scaled_to_one(Vector a) {
 
 // A half-plane through A'B', by a point of it, and the link edges that it crosses from A' to B'.
 struct HalfPlane {
-  Point through{};
+  ExactPoint through;
+  Point approx{};
+  bool is_double = false;  // whether `approx` is the point
   std::vector<Edge> crossed;
+
+  [[nodiscard]] exact::PointRef ref() const { return {approx.data(), is_double ? nullptr : &through}; }
 };
 
 class CutMaker {
  public:
-  CutMaker(TetMesh& mesh, Vertex p, const Edge& ends, std::mt19937_64& random, std::vector<Vertex>& created)
-      : mesh_(mesh), p_(p), a_(ends[0]), b_(ends[1]), random_(random), created_(created) {}
+  CutMaker(TetMesh& mesh, Vertex p, const Edge& ends, std::vector<Vertex>& created)
+      : mesh_(mesh), p_(p), a_(ends[0]), b_(ends[1]), created_(created) {}
 
   std::vector<CutPath> run() {
     collect_facet_directions();
@@ -63,17 +68,19 @@ class CutMaker {
     return std::find(taken_.begin(), taken_.end(), sorted(e)) != taken_.end();
   }
 
-  // From the segment towards v, at right angles to it, of length one.
-  [[nodiscard]] Vector across(Vertex v) const {
+  // From the segment towards a point, at right angles to it.
+  [[nodiscard]] Vector distance_to(exact::PointRef x) const {
     Vector axis{};
     Vector d{};
     exact::difference(mesh_.point(b_), mesh_.point(a_), axis.data());
-    exact::difference(mesh_.point(v), mesh_.point(p_), d.data());
+    exact::difference(x, mesh_.point(p_), d.data());
     axis = scaled_to_one(axis);
     const double along = dot(axis, d);
     for (std::size_t k = 0; k < 3; ++k) d[k] -= along * axis[k];
-    return scaled_to_one(d);
+    return d;
   }
+  // The same, of length one.
+  [[nodiscard]] Vector across(Vertex v) const { return scaled_to_one(distance_to(mesh_.point(v))); }
 
   // The faces of the facet, where there is one: its fan at A' gives its direction.
   void collect_facet_directions() {
@@ -148,41 +155,111 @@ class CutMaker {
     return first;
   }
 
-  // Of some random half-planes the one that crosses the fewest link edges, the more even angle on a tie.
+  // The half-planes of one gap between directions to link vertices cross the same link edges, and those of
+  // the cuts there are lie in the directions of their vertices: so any gap will do. Of the widest the one
+  // whose half-planes cross the fewest link edges, the more even angle on a tie.
   HalfPlane choose_half_plane() {
-    constexpr int kWanted = 12;
-    constexpr int kTries = 4000;
-    std::normal_distribution<double> normal;
+    constexpr std::size_t kWanted = 12;
+    const std::vector<Edge> gaps = widest_gaps(kWanted);
     std::optional<HalfPlane> best;
     double best_closeness = 0;
-    int found = 0;
-    double size = 0;
-    Vector d{};
-    exact::difference(mesh_.point(b_), mesh_.point(a_), d.data());
-    for (const double x : d) size = std::max(size, std::abs(x));
-    for (int k = 0; k < kTries && found < kWanted; ++k) {
-      HalfPlane plane;
-      Vector g{};
-      for (std::size_t i = 0; i < 3; ++i) {
-        g[i] = normal(random_);
-        plane.through[i] = mesh_.position(p_)[i] + size * g[i];
-      }
-      if (!trace(plane)) continue;
-      ++found;
-      const double c = closeness(scaled_to_one(g));
-      if (!best || plane.crossed.size() < best->crossed.size() ||
-          (plane.crossed.size() == best->crossed.size() && c < best_closeness)) {
-        best = std::move(plane);
-        best_closeness = c;
-      }
+    for (const Edge& gap : gaps) {
+      HalfPlane plane = half_plane_between(gap);
+      trace(plane);
+      const double c = closeness(scaled_to_one(distance_to(plane.ref())));
+      if (best && (plane.crossed.size() > best->crossed.size() ||
+                   (plane.crossed.size() == best->crossed.size() && c >= best_closeness)))
+        continue;
+      best = std::move(plane);
+      best_closeness = c;
     }
-    if (!best) throw std::logic_error("holdfast: no half-plane through a segment point");
     return *best;
   }
 
-  // The link edges crossed by the half-plane, from A' to B'; false if it meets a link vertex or a cut.
-  bool trace(HalfPlane& plane) {
-    const exact::PointRef q{plane.through.data(), nullptr};
+  // Two link vertices each, between whose directions there is no other.
+  [[nodiscard]] std::vector<Edge> widest_gaps(std::size_t most) const {
+    const std::vector<Vertex> around = directions_round();
+    struct Gap {
+      double cosine;
+      Edge sides;
+    };
+    std::vector<Gap> gaps;
+    for (std::size_t k = 0; k < around.size(); ++k) {
+      const Edge sides{around[k], around[(k + 1) % around.size()]};
+      gaps.push_back({dot(across(sides[0]), across(sides[1])), sides});
+    }
+    std::stable_sort(gaps.begin(), gaps.end(),
+                     [](const Gap& x, const Gap& y) { return x.cosine < y.cosine; });
+    std::vector<Edge> widest;
+    for (std::size_t k = 0; k < std::min(most, gaps.size()); ++k) widest.push_back(gaps[k].sides);
+    return widest;
+  }
+
+  // A link vertex for each direction that the link is seen in along the segment, as they turn round it. P
+  // lies inside its ball and on the segment, so that there is one in each open half of the circle: three at
+  // least, and less than 180 degrees from one to the next.
+  [[nodiscard]] std::vector<Vertex> directions_round() const {
+    std::vector<Tet> tets;
+    ball(mesh_, p_, tets);
+    std::vector<Vertex> link;
+    for (const Tet t : tets)
+      for (const Vertex v : mesh_.corners(t))
+        if (v != p_ && v != a_ && v != b_) link.push_back(v);
+    std::sort(link.begin(), link.end());
+    link.erase(std::unique(link.begin(), link.end()), link.end());
+
+    // From 0 to 180 degrees ahead of the first, or from 180 to 360.
+    const auto turn = [&](Vertex v, Vertex w) { return mesh_.orient(a_, b_, v, w); };
+    const Vertex first = link.front();
+    const Vertex beside =
+        *std::find_if(link.begin(), link.end(), [&](Vertex v) { return turn(first, v) != 0; });
+    struct Direction {
+      bool is_in_second_half;
+      Vertex vertex;
+    };
+    std::vector<Direction> directions;
+    for (const Vertex v : link) {
+      const int s = turn(first, v);
+      directions.push_back({s < 0 || (s == 0 && turn(beside, v) != turn(beside, first)), v});
+    }
+    std::stable_sort(directions.begin(), directions.end(), [&](const Direction& x, const Direction& y) {
+      return x.is_in_second_half != y.is_in_second_half ? y.is_in_second_half : turn(x.vertex, y.vertex) > 0;
+    });
+    std::vector<Vertex> around;
+    for (std::size_t k = 0; k < directions.size(); ++k)
+      if (k == 0 || directions[k - 1].is_in_second_half != directions[k].is_in_second_half ||
+          turn(directions[k - 1].vertex, directions[k].vertex) != 0)
+        around.push_back(directions[k].vertex);
+    return around;
+  }
+
+  // A sum of positive multiples of two directions less than 180 degrees apart is strictly between them;
+  // exactly, and rounded to doubles where that holds as well.
+  [[nodiscard]] HalfPlane half_plane_between(const Edge& gap) const {
+    const ExactPoint p = mesh_.exact_position(p_);
+    HalfPlane plane{p, {}, false, {}};
+    const std::array<Vector, 2> distance{distance_to(mesh_.point(gap[0])), distance_to(mesh_.point(gap[1]))};
+    const std::array<int, 2> size{exponent_of(distance[0]), exponent_of(distance[1])};
+    const int unit = std::max(size[0], size[1]);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const ExactPoint v = mesh_.exact_position(gap[i]);
+      for (std::size_t k = 0; k < 3; ++k) plane.through.c[k] += (v.c[k] - p.c[k]).scaled(unit - size[i]);
+    }
+    for (std::size_t k = 0; k < 3; ++k) plane.approx[k] = plane.through.c[k].to_double();
+    const exact::PointRef rounded{plane.approx.data(), nullptr};
+    plane.is_double = std::isfinite(plane.approx[0] + plane.approx[1] + plane.approx[2]) &&
+                      mesh_.orient(a_, b_, gap[0], rounded) > 0 && mesh_.orient(b_, a_, gap[1], rounded) > 0;
+    if (plane.is_double) plane.through = exact::lift(plane.approx.data());
+    return plane;
+  }
+  // Of its length; of some number where that is lost in rounding.
+  [[nodiscard]] static int exponent_of(const Vector& d) {
+    const double length = std::sqrt(dot(d, d));
+    return length > 0 && std::isfinite(length) ? std::ilogb(length) : 0;
+  }
+
+  // The link edges crossed by the half-plane, from A' to B'.
+  void trace(HalfPlane& plane) {
     std::vector<Tet> ring;
     shell(mesh_, find_edge(mesh_, a_, p_), a_, p_, ring);
     for (const Tet t : ring) {
@@ -190,35 +267,24 @@ class CutMaker {
                                 [static_cast<std::size_t>(mesh_.index_of(t, p_))];
       const Vertex c = mesh_.corner(t, cd[0]);
       const Vertex d = mesh_.corner(t, cd[1]);
-      if (mesh_.orient(a_, p_, c, q) <= 0 ||
-          exact::orient3d(mesh_.point(a_), mesh_.point(p_), q, mesh_.point(d)) <= 0)
-        continue;
-      return follow(plane, t, {c, d});
+      if (mesh_.orient(a_, p_, c, plane.ref()) > 0 && mesh_.orient(p_, a_, d, plane.ref()) > 0)
+        return follow(plane, t, {c, d});
     }
-    return false;
+    throw std::logic_error("holdfast: a half-plane through a segment point starts nowhere");
   }
 
-  bool follow(HalfPlane& plane, Tet t, Edge e) {
-    const exact::PointRef q{plane.through.data(), nullptr};
-    const auto side = [&](Vertex v) { return mesh_.orient(a_, b_, v, q); };
+  void follow(HalfPlane& plane, Tet t, Edge e) {
+    const auto side = [&](Vertex v) { return mesh_.orient(a_, b_, v, plane.ref()); };
     Vertex behind = a_;
     for (;;) {
-      if (is_taken(e)) return false;
       plane.crossed.push_back(e);
       t = tet_of(mesh_.neighbour(t, mesh_.index_of(t, behind)));
       Vertex ahead = kNone;
       for (const Vertex v : mesh_.corners(t))
         if (v != p_ && v != e[0] && v != e[1]) ahead = v;
-      if (ahead == b_) return true;
-      const int s = side(ahead);
-      if (s == 0) return false;
-      if (s == side(e[0])) {
-        behind = e[0];
-        e[0] = ahead;
-      } else {
-        behind = e[1];
-        e[1] = ahead;
-      }
+      if (ahead == b_) return;
+      const std::size_t i = side(ahead) == side(e[0]) ? 0 : 1;
+      behind = std::exchange(e[i], ahead);
     }
   }
 
@@ -233,19 +299,22 @@ class CutMaker {
            exact::orient3d(p, x, y, a) * exact::orient3d(p, x, y, w) < 0;
   }
 
-  // Splits the face (P, e_j) at a point so close to P that the way from A' over it to B' stays inside the
-  // faces (P, e_i).
+  // Splits the face (P, e_j) at a point w so close to P that the way from A' over it to B' stays inside the
+  // faces (P, e_i). Let c_i be the point where e_i crosses the half-plane. From A' to a w on the ray from P
+  // through c_j the way crosses the rays through all c_i in between, as close to P as w is; beside the
+  // half-plane, where e_j need not cross it in a binary fraction, by less than a 2^30-th of that distance,
+  // and a quarter of this each step closer. So the way ends inside the faces, and some step is the last.
   Vertex put_vertex(const HalfPlane& plane, std::size_t j) {
     const Edge e = plane.crossed[j];
     const ExactPoint x = mesh_.exact_position(e[0]);
     const ExactPoint y = mesh_.exact_position(e[1]);
     const ExactPoint a = mesh_.exact_position(a_);
     const ExactPoint b = mesh_.exact_position(b_);
-    const ExactPoint q = exact::lift(plane.through.data());
+    const ExactPoint& q = plane.through;
     const Dyadic gx = exact::determinant(a, b, q, x);
     const Dyadic gy = exact::determinant(a, b, q, y);
     const ExactPoint p = mesh_.exact_position(p_);
-    for (int step = 1;; ++step) {  // closer to P, and closer to the plane
+    for (int step = 1;; step += std::max(1, step / 2)) {  // closer to P, and closer to the plane
       const Dyadic s = exact::quotient(gx, gx - gy, 30 + 2 * step);
       ExactPoint w;
       for (std::size_t k = 0; k < 3; ++k)
@@ -277,7 +346,6 @@ class CutMaker {
 
   TetMesh& mesh_;
   const Vertex p_, a_, b_;
-  std::mt19937_64& random_;
   std::vector<Vertex>& created_;
   std::size_t facet_fans_ = 0;
   std::vector<Edge> taken_;         // link edges of the cuts there are
@@ -287,8 +355,8 @@ class CutMaker {
 }  // namespace
 
 std::vector<CutPath> fictitious_cuts(TetMesh& mesh, Vertex p, const std::array<Vertex, 2>& ends,
-                                     std::mt19937_64& random, std::vector<Vertex>& created) {
-  return CutMaker(mesh, p, ends, random, created).run();
+                                     std::vector<Vertex>& created) {
+  return CutMaker(mesh, p, ends, created).run();
 }
 
 }  // namespace holdfast

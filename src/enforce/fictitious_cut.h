@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <random>
 #include <vector>
 
 #include "mesh/tet_mesh.h"
@@ -20,6 +19,6 @@ using CutPath = std::vector<Vertex>;
 /// evenly. Way 3, always possible: in a half-plane through AB that avoids the facet and all link vertices,
 /// a vertex is put close to P and joined to A' and B' by chains. Vertices made so are appended to `created`.
 [[nodiscard]] std::vector<CutPath> fictitious_cuts(TetMesh& mesh, Vertex p, const std::array<Vertex, 2>& ends,
-                                                   std::mt19937_64& random, std::vector<Vertex>& created);
+                                                   std::vector<Vertex>& created);
 
 }  // namespace holdfast

@@ -85,6 +85,10 @@ class EarClipper {
     corners_[k].rank = is_ear(k) ? shape(mesh_, a, b, c) : kNoEar;
   }
 
+  // There is one: a simple polygon, with its flat corners, has a triangulation without flat triangles (from a
+  // strictly convex corner either the diagonal between its neighbours is free, or one to the corner in its
+  // closed triangle that is farthest from that diagonal), and of more than three corners it has two triangles
+  // with two sides on the border.
   std::size_t best_ear() {
     std::size_t best = find_best();
     if (best == rest_.size()) {  // a clipped ear may have uncovered others than its neighbours

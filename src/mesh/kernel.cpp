@@ -57,16 +57,12 @@ ExactVector direction_above(const ExactVector& n1, const ExactVector& n2) {
   }
 }
 
-// The greatest exponent up to `start` that is good, if all below a good one are.
+// The greatest exponent up to `start` that is good, where all below some one are.
 template <typename Good>
-std::optional<std::int64_t> greatest_exponent(std::int64_t start, Good good) {
-  constexpr std::int64_t kFarthest = std::int64_t{1} << 24;
+std::int64_t greatest_exponent(std::int64_t start, Good good) {
   if (good(start)) return start;
   std::int64_t bad = start, step = 1;
-  for (; !good(start - step); step *= 2) {
-    if (step > kFarthest) return std::nullopt;
-    bad = start - step;
-  }
+  for (; !good(start - step); step *= 2) bad = start - step;
   std::int64_t low = start - step;
   while (bad - low > 1) {
     const std::int64_t middle = low + (bad - low) / 2;
@@ -233,7 +229,9 @@ std::optional<Position> Kernel::along_direction(PointRef origin, double size) co
   const ExactPoint o = exact::lift(origin);
   std::vector<ExactVector> normals;
   for (const auto& f : faces_) {
-    if (mesh_.orient(f[0], f[1], f[2], origin) != 0) continue;
+    const int side = mesh_.orient(f[0], f[1], f[2], origin);
+    if (side < 0) return std::nullopt;
+    if (side > 0) continue;
     const ExactPoint a = mesh_.exact_position(f[0]);
     const ExactVector n =
         normalised(cross(minus(mesh_.exact_position(f[1]), a), minus(mesh_.exact_position(f[2]), a)));
@@ -244,6 +242,11 @@ std::optional<Position> Kernel::along_direction(PointRef origin, double size) co
     if (!known) normals.push_back(n);
   }
   if (normals.empty() || normals.size() > 2) return std::nullopt;
+  const auto is_opposite = [](const ExactVector& n, const ExactVector& m) {
+    const ExactVector c = cross(n, m);
+    return c[0].sign() == 0 && c[1].sign() == 0 && c[2].sign() == 0;
+  };
+  if (normals.size() == 2 && is_opposite(normals[0], normals[1])) return std::nullopt;
   const ExactVector u =
       normalised(normals.size() == 1 ? normals[0] : direction_above(normals[0], normals[1]));
   const auto step = [&](std::int64_t e) {
@@ -252,15 +255,15 @@ std::optional<Position> Kernel::along_direction(PointRef origin, double size) co
     return p;
   };
   const auto inside = [&](std::int64_t e) { return holds(View(step(e)).ref()); };
-  const auto e = greatest_exponent(size > 0 ? std::ilogb(size) : 0, inside);
-  if (!e) return std::nullopt;
-  for (std::int64_t grid = *e - 2; grid > *e - 64; grid -= 4) {  // few bits, where few will do
-    ExactPoint p = step(*e - 1);
+  constexpr double kLargest = std::numeric_limits<double>::max();
+  const std::int64_t e = greatest_exponent(size > 0 ? std::ilogb(std::min(size, kLargest)) : 0, inside);
+  for (std::int64_t grid = e - 2; grid > e - 64; grid -= 4) {  // few bits, where few will do
+    ExactPoint p = step(e - 1);
     for (Dyadic& x : p.c) x = exact::rounded_to(x, grid);
     const View coarse(std::move(p));
     if (holds(coarse.ref())) return coarse.exact;
   }
-  return step(*e);
+  return step(e);
 }
 
 Kernel kernel_of_ball(const TetMesh& mesh, Vertex v, std::span<const Tet> tets) {
