@@ -3,11 +3,12 @@ JOBS ?= $(shell nproc)
 CORPUS ?=
 RELEASE := build/release
 NATIVE := build/native
+LIBCXX := build/libcxx
 N ?= 100000
 SEED ?= 1
 MINUTES ?= 5
 
-.PHONY: help setup build demo test corpus random fuzz bench field tables format tidy debug asan tsan install clean
+.PHONY: help setup build demo test corpus random fuzz bench field tables format tidy debug asan tsan libcxx install clean
 .DEFAULT_GOAL := help
 
 help:  ## this list
@@ -87,6 +88,12 @@ tsan: setup  ## what runs on several threads, under the thread sanitizer
 	  parts_test field_threads_test parallel_test
 	@HOLDFAST_CORPUS=none ctest --preset tsan -j $(JOBS) \
 	  -R '^(Threads|Parallel|Delaunay|DelaunayThreads|SurfaceThreads|Parts|TasksInParts|ImproveInParts|FieldThreads(Stop|Monitor))\.|FieldThreads.*/sphere'
+
+libcxx: build  ## build/libcxx/holdfast by clang++ and libc++, and a comparison of its meshes with those of the program
+	@scripts/setup.sh libcxx
+	@cmake --preset libcxx
+	@cmake --build $(LIBCXX) -j $(JOBS) --target holdfast_cli
+	@python3 tests/cli/same_bits.py $(RELEASE)/holdfast --other $(LIBCXX)/holdfast
 
 install: build  ## library, headers and program to PREFIX (default /usr/local)
 	@cmake --build $(RELEASE) -j $(JOBS) --target holdfast holdfast_cli

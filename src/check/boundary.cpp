@@ -161,7 +161,8 @@ std::vector<Boundary::Cover> Boundary::covers() const {
   std::vector<Cover> covers;
   for (const std::vector<Index>& sheet : sheets.members()) {
     // From the face that reaches furthest along x, the ray meets the fewest others.
-    const Index face = *std::ranges::max_element(sheet, {}, [&](Index member) { return reach(member); });
+    const Index face =
+        *std::max_element(sheet.begin(), sheet.end(), [&](Index x, Index y) { return reach(x) < reach(y); });
     covers.push_back({face, cross(beside(face, true))});
   }
   return covers;

@@ -22,7 +22,10 @@ bool sort_corners(Triangle& face) {
 FaceTable::FaceTable(std::span<const Tetrahedron> tetrahedra, std::size_t vertex_count)
     : start_(vertex_count + 1, 0), half_faces_(4 * tetrahedra.size()) {
   for (const Tetrahedron& tetrahedron : tetrahedra)
-    for (unsigned side = 0; side < 4; ++side) ++start_[std::ranges::min(side_of(tetrahedron, side)) + 1];
+    for (unsigned side = 0; side < 4; ++side) {
+      const auto corners = side_of(tetrahedron, side);
+      ++start_[*std::min_element(corners.begin(), corners.end()) + 1];
+    }
   for (std::size_t vertex = 0; vertex < vertex_count; ++vertex) start_[vertex + 1] += start_[vertex];
 
   std::vector<std::size_t> next(start_.begin(), start_.end() - 1);

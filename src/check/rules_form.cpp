@@ -35,7 +35,8 @@ template <std::size_t size>
 void find_out_of_range(std::string_view kind, std::span<const std::array<Index, size>> entities,
                        std::span<const Point> vertices, Findings& findings) {
   for (std::size_t i = 0; i < entities.size(); ++i)
-    if (!std::ranges::all_of(entities[i], [&](Index vertex) { return vertex < vertices.size(); }))
+    if (!std::all_of(entities[i].begin(), entities[i].end(),
+                     [&](Index vertex) { return vertex < vertices.size(); }))
       findings.add(
           [&] { return words(kind, i, entities[i], vertices) + " names a vertex that does not exist"; });
 }

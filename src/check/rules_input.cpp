@@ -147,7 +147,9 @@ Rule nothing_dropped(const Examination& on) {
   const std::string name = "nothing dropped";
   if (!on.well_formed) return not_examined(name, not_well_formed);
   Findings findings;
-  const auto lost = [&](const std::vector<Fate>& fates) { return std::ranges::count(fates, Fate::lost) > 0; };
+  const auto lost = [&](const std::vector<Fate>& fates) {
+    return std::count(fates.begin(), fates.end(), Fate::lost) > 0;
+  };
   if ((lost(on.facets) || lost(on.segments)) && !(on.disjoint && on.vertices_kept))
     return not_examined(name,
                         "facets or segments are missing, and the mesh has no outside that could be told");

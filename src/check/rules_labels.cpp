@@ -82,7 +82,7 @@ void find_wrong_markers(const Listing<Entity>& on, std::span<const Point> vertic
     for (const std::size_t j : same) seen[j] = true;
     if (!marked || on.listed_markers.empty()) continue;
     const int marker = on.listed_markers[i];
-    if (std::ranges::none_of(same, [&](std::size_t j) { return on.input_markers[j] == marker; }))
+    if (std::none_of(same.begin(), same.end(), [&](std::size_t j) { return on.input_markers[j] == marker; }))
       say(" has marker " + std::to_string(marker) + " instead of " +
           std::to_string(on.input_markers[same[0]]));
   }

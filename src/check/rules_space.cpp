@@ -24,7 +24,7 @@ std::string face_words(const Examination& on, const BoundaryFace& face) {
 bool in_side_of_box(const Triangle& face, std::span<const Point> vertices, const Box& box) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (const double side : {box.low[axis], box.high[axis]})
-      if (std::ranges::all_of(face, [&](Index vertex) { return vertices[vertex][axis] == side; }))
+      if (std::all_of(face.begin(), face.end(), [&](Index vertex) { return vertices[vertex][axis] == side; }))
         return true;
   return false;
 }

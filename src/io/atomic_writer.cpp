@@ -36,9 +36,7 @@ std::string path_of(int descriptor) { return "/proc/self/fd/" + std::to_string(d
 }  // namespace
 
 AtomicWriter::AtomicWriter(std::filesystem::path target)
-    : target_(std::move(target)),
-      written_(target_),
-      buffer_(std::make_unique_for_overwrite<char[]>(kBuffer)) {
+    : target_(std::move(target)), written_(target_), buffer_(new char[kBuffer]) {
   std::error_code error;
   // A link is followed, as every program that opens a file for writing does, also where it leads to
   // nothing yet; renaming onto the link itself would replace it.

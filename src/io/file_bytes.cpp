@@ -23,7 +23,7 @@ struct CloseFile {
 
 std::unique_ptr<char[]> allocate(const std::filesystem::path& path, std::uintmax_t size) {
   try {
-    return std::make_unique_for_overwrite<char[]>(static_cast<std::size_t>(size));
+    return std::unique_ptr<char[]>(new char[static_cast<std::size_t>(size)]);
   } catch (const std::bad_alloc&) {
     throw FileError(path, "", "the file (" + std::to_string(size) + " bytes) does not fit in memory");
   }

@@ -87,7 +87,8 @@ void RefillCavity::take_segments() {
 // Those that must stay; then the free ones that are well placed, as far as signs tell.
 void RefillCavity::take_points() {
   const auto well_placed = [this](Vertex v) {
-    return std::ranges::all_of(tangle_.star(v), [this](Tet t) { return tangle_.sign(t) > 0; });
+    const auto star = tangle_.star(v);
+    return std::all_of(star.begin(), star.end(), [this](Tet t) { return tangle_.sign(t) > 0; });
   };
   for (const bool fixed : {true, false}) {
     if (!fixed) first_point_ = vertex_.size();
@@ -154,10 +155,11 @@ bool RefillCavity::claim(const Volume& volume, std::size_t tet, std::vector<std:
 // A new edge or face that exists outside the cavity already: the mesh there is still tangled with this one.
 bool RefillCavity::joins_outside(const Volume& volume) const {
   const auto only_outside = [this](std::span<const Index> corners) {
-    if (std::ranges::any_of(corners, [this](Index v) { return v >= first_point_; })) return false;
+    if (std::any_of(corners.begin(), corners.end(), [this](Index v) { return v >= first_point_; }))
+      return false;
     bool outside = false, inside = false;
     for (const Tet s : tangle_.star(vertex_[corners[0]]))
-      if (std::ranges::all_of(corners, [&](Index v) { return tangle_.holds(s, vertex_[v]); }))
+      if (std::all_of(corners.begin(), corners.end(), [&](Index v) { return tangle_.holds(s, vertex_[v]); }))
         (component_of(s) == kOutside ? outside : inside) = true;
     return outside && !inside;
   };

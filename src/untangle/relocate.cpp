@@ -87,7 +87,8 @@ class Relocation {
     candidates_.clear();
     const Point& p = tangle_.position(v);
     const auto star = tangle_.star(v);
-    if (star.size() <= kMostFaces && std::ranges::all_of(star, [&](Tet t) { return has_area(t, v); })) {
+    if (star.size() <= kMostFaces &&
+        std::all_of(star.begin(), star.end(), [&](Tet t) { return has_area(t, v); })) {
       Kernel kernel(tangle_.points());
       for (const Tet t : star) {
         const auto f = tangle_.face(t, tangle_.index_of(t, v));
