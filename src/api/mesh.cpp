@@ -10,6 +10,7 @@
 #include "holdfast/holdfast.h"
 #include "mesh/monitor.h"
 #include "mesh/parallel.h"
+#include "numbers/float_environment.h"
 
 namespace holdfast {
 namespace {
@@ -104,6 +105,7 @@ class Call {
 }  // namespace
 
 Result mesh(const Complex& complex, const Options& options) {
+  const FloatEnvironment environment;
   require_sensible(complex, options);
   return Call(complex, options).run();
 }

@@ -9,6 +9,7 @@
 #include "api/scale.h"
 #include "holdfast/check.h"
 #include "mesh/monitor.h"
+#include "numbers/float_environment.h"
 #include "surface/diagnose.h"
 #include "untangle/assemble.h"
 #include "untangle/connectivity.h"
@@ -303,6 +304,7 @@ const char* name(UntangleStep step) {
 }
 
 UntangleResult untangle(const Volume& volume, const UntangleOptions& options) {
+  const FloatEnvironment environment;
   require_sensible(volume, options);
   return Untangling(volume, options).run();
 }

@@ -2,10 +2,12 @@
 #include "holdfast/check.h"
 
 #include "check/examination.h"
+#include "numbers/float_environment.h"
 
 namespace holdfast {
 
 CheckResult check(const Complex& surface, const Volume& volume, const CheckOptions& options) {
+  const FloatEnvironment environment;
   namespace rules = checking;
   rules::Examination on{surface, volume, options};
   // The order of these calls is the order in which rules establish facts for later ones.

@@ -11,6 +11,7 @@
 #include "delaunay/triangulation.h"
 #include "mesh/parallel.h"
 #include "mesh/validate.h"
+#include "numbers/float_environment.h"
 
 namespace holdfast {
 namespace {
@@ -48,6 +49,7 @@ bool build_delaunay(TetMesh& mesh, const DelaunayOptions& options, Monitor* moni
 }
 
 std::vector<Tetrahedron> delaunay(std::span<const Point> points, std::uint64_t seed, unsigned threads) {
+  const FloatEnvironment environment;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& p = points[i];
     if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))

@@ -4,6 +4,7 @@
 #include "exact/determinant.h"
 #include "exact/expansion.h"
 #include "exact/tiers.h"
+#include "numbers/float_environment.h"
 
 namespace holdfast::exact::detail {
 namespace {

@@ -6,6 +6,7 @@
 #include "exact/fixed_int.h"
 #include "exact/float_bits.h"
 #include "exact/tiers.h"
+#include "numbers/float_environment.h"
 
 namespace holdfast::exact::detail {
 namespace {

@@ -2,6 +2,7 @@
 #include "exact/predicates.h"
 
 #include "exact/tiers.h"
+#include "numbers/float_environment.h"
 
 namespace holdfast::exact {
 namespace detail {

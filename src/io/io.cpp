@@ -6,6 +6,7 @@
 #include "io/file_bytes.h"
 #include "io/formats.h"
 #include "io/text_reader.h"
+#include "numbers/float_environment.h"
 
 namespace holdfast {
 namespace io {
@@ -111,6 +112,7 @@ MeshData parse_volume(const Source& source, std::string_view format) {
 }  // namespace io
 
 Surface read_surface(const std::filesystem::path& path, std::string_view format) {
+  const FloatEnvironment environment;
   static_cast<void>(io::surface_format(path, format));  // before a large file is read in vain
   const io::FileBytes bytes(path);
   io::MeshData mesh = io::parse_surface({path, bytes.view()}, format);
@@ -126,6 +128,7 @@ Surface read_surface(const std::filesystem::path& path, std::string_view format)
 }
 
 Volume read_volume(const std::filesystem::path& path, std::string_view format) {
+  const FloatEnvironment environment;
   static_cast<void>(io::volume_format(path, format));
   const io::FileBytes bytes(path);
   io::MeshData mesh = io::parse_volume({path, bytes.view()}, format);
@@ -155,6 +158,7 @@ std::vector<std::string> volume_formats() {
 }
 
 void write_volume(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options) {
+  const FloatEnvironment environment;
   const io::Format& writer = io::find_format(path, io::extension_of(path, options.format), "written",
                                              [](const io::Format& f) { return f.write != nullptr; });
   io::require_consistent(volume);

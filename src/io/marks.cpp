@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "io/vtu_arrays.h"
+#include "numbers/float_environment.h"
 
 namespace holdfast {
 namespace {
@@ -56,6 +57,7 @@ void add_entities(Marks& marks, const Complex& complex, const Defect& defect, st
 }  // namespace
 
 void write_marks(const std::filesystem::path& path, const Complex& complex, std::span<const Defect> defects) {
+  const FloatEnvironment environment;
   Marks marks;
   for (std::size_t i = 0; i < defects.size(); ++i) {
     const std::vector<Point>& where = defects[i].where;

@@ -8,6 +8,7 @@
 #include "io/formats.h"
 #include "io/text_reader.h"
 #include "metric/metric.h"
+#include "numbers/float_environment.h"
 
 namespace holdfast::io {
 namespace {
@@ -220,6 +221,7 @@ SizeField read_by_extension(const std::filesystem::path& path) {
 namespace holdfast {
 
 SizeField read_size_field(const std::filesystem::path& path) {
+  const FloatEnvironment environment;
   SizeField field = io::read_by_extension(path);
   const std::size_t count = field.sizes.size() + field.metrics.size();
   if (!field.vertices.empty() && count != field.vertices.size())

@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "numbers/float_environment.h"
+
 namespace holdfast {
 namespace {
 
@@ -86,6 +88,7 @@ class Threads::Helpers {
   }
 
   void help() {
+    const FloatEnvironment environment;
     std::unique_lock lock(mutex_);
     while (true) {
       there_is_work_.wait(lock, [this] { return ending_ || !jobs_.empty(); });

@@ -8,6 +8,7 @@
 
 #include "metric/metric.h"
 #include "numbers/elementary.h"
+#include "numbers/float_environment.h"
 
 namespace holdfast {
 namespace {
@@ -39,7 +40,8 @@ Background::Background(SizeField field) : field_(std::move(field)) {
   constexpr double kMostAlong = 512;
   double extent = 0;
   for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, high[k] - low_[k]);
-  const double along = std::clamp(numbers::cbrt(static_cast<double>(field_.tetrahedra.size())), 1.0, kMostAlong);
+  const double along =
+      std::clamp(numbers::cbrt(static_cast<double>(field_.tetrahedra.size())), 1.0, kMostAlong);
   for (std::size_t k = 0; k < 3; ++k) {
     const double part = extent > 0 ? (high[k] - low_[k]) / extent : 0;
     count_[k] = static_cast<std::size_t>(std::max(1.0, std::ceil(along * part)));
@@ -114,9 +116,11 @@ std::shared_ptr<const Background> background_of(SizeField field) {
 }  // namespace
 
 std::function<double(const Point&)> size_function(SizeField field) {
+  const FloatEnvironment environment;
   if (field.sizes.size() != field.vertices.size())
     throw std::invalid_argument("a size field needs a size for every vertex");
   return [background = background_of(std::move(field))](const Point& p) {
+    const FloatEnvironment environment;
     double size = 0;
     if (const auto place = background->locate(p))
       for (std::size_t i = 0; i < 4; ++i)
@@ -126,11 +130,13 @@ std::function<double(const Point&)> size_function(SizeField field) {
 }
 
 std::function<Metric(const Point&)> metric_function(SizeField field) {
+  const FloatEnvironment environment;
   if (field.metrics.size() != field.vertices.size() ||
       !std::all_of(field.metrics.begin(), field.metrics.end(), is_positive_definite))
     throw std::invalid_argument("a metric field needs a positive definite tensor for every vertex");
   for (Metric& m : field.metrics) m = logarithm(m);
   return [background = background_of(std::move(field))](const Point& p) {
+    const FloatEnvironment environment;
     const auto place = background->locate(p);
     if (!place) return Metric{};
     Metric sum{};

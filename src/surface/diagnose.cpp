@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "holdfast/holdfast.h"
+#include "numbers/float_environment.h"
 #include "surface/describe.h"
 
 namespace holdfast {
@@ -52,6 +53,7 @@ std::vector<std::array<ElementRef, 2>> offending_pairs(const Complex& complex, s
 }
 
 std::vector<Defect> diagnose(const Complex& complex, std::size_t most) {
+  const FloatEnvironment environment;
   return find_defects(complex, most, [](double) {});
 }
 
