@@ -43,7 +43,8 @@ class FileError : public std::runtime_error {
 /// - Markers: references (.mesh, .meshb), boundary markers (.poly, .smesh), physical or else elementary
 ///   tags (.msh), the cell array "marker" (.vtu, .vtp, .vtk), numbers of the solids (.stl with several).
 ///   Marker vectors are empty if all markers are 0.
-/// - Tetrahedra in the file are ignored; .poly and .smesh may also fill `holes` and `regions`.
+/// - Tetrahedra in the file are left out; .poly and .smesh may also fill `holes` and `regions`.
+/// - What else the file holds and a surface does not, `remarks` say.
 /// Indices in the result are always in range, but nothing else of design section 1 is checked.
 /// Throws FileError, also for a file without vertices.
 [[nodiscard]] Surface read_surface(const std::filesystem::path& path, std::string_view format = {});
@@ -54,8 +55,10 @@ class FileError : public std::runtime_error {
 /// Region ids are references (.mesh, .meshb), the cell array "region" (.vtu, .vtk), physical or else
 /// elementary tags (.msh), the first attribute (.ele); 0 where there is none. Vertices of .msh are
 /// ordered by node tag. Neither positive volumes nor anything else of the promise is checked (see
-/// `check`), except that indices are in range. Throws FileError.
-[[nodiscard]] Volume read_volume(const std::filesystem::path& path, std::string_view format = {});
+/// `check`), except that indices are in range. `remarks` get what the file holds and a volume does not.
+/// Throws FileError.
+[[nodiscard]] Volume read_volume(const std::filesystem::path& path, std::string_view format = {},
+                                 std::vector<Remark>* remarks = nullptr);
 
 /// Reads points: an .xyz text (three numbers a line, what follows them on it is ignored), or the vertices of
 /// whatever `read_surface` reads. Throws FileError.
@@ -92,16 +95,18 @@ struct SizeField {
 /// nothing but sizes.
 /// - Metrics are symmetric tensors of type 3 (.sol), of 6 columns (.mtr), both m11 m12 m22 m13 m23 m33; of 6
 ///   components (.vtu, xx yy zz xy yz xz as in VTK); or full 3 x 3 ones (.vtu with 9 components, .pos TT).
-/// Throws FileError, also for sizes that are not positive and tensors that are not positive definite.
+/// Throws FileError, also for coordinates that are not finite, sizes that are not positive and tensors that
+/// are not positive definite.
 [[nodiscard]] SizeField read_size_field(const std::filesystem::path& path);
 
 /// The size at a point, linear in each tetrahedron of the field; 0, no limit, outside: for `Sizes::field`.
-/// Throws std::invalid_argument for a field without a size for every vertex.
+/// Throws std::invalid_argument for a field without a size for every vertex, and for numbers that are not
+/// finite.
 [[nodiscard]] std::function<double(const Point&)> size_function(SizeField field);
 
 /// The metric at a point, whose logarithm is linear in each tetrahedron of the field; zero, no limit,
 /// outside: for `Sizes::metric`. Throws std::invalid_argument for a field without a positive definite tensor
-/// for every vertex.
+/// for every vertex, and for coordinates that are not finite.
 [[nodiscard]] std::function<Metric(const Point&)> metric_function(SizeField field);
 
 /// Writes bytes as a file that appears under its name complete or not at all, as every file here. Throws

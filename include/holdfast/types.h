@@ -33,6 +33,22 @@ struct Complex {
   std::span<const Segment> segments;
   std::span<const int> facet_markers;
   std::span<const int> segment_markers;
+  std::span<const int> vertex_markers = {};
+};
+
+/// What a remark is about. The numbers are stable.
+enum class RemarkKind : int {
+  left_out = 1,      ///< something in the file that a surface or volume has no place for
+  polygons_cut = 2,  ///< polygons of more than three corners, cut into triangles
+  size_limits = 3,   ///< limits on volumes, taken as sizes
+  not_held = 4,      ///< something that a format has no place for, when a file is written
+};
+
+/// Something that is not in a file, or not in what was read from it, as it stood on the other side.
+struct Remark {
+  RemarkKind kind;
+  std::size_t count;    ///< of the entities or values concerned
+  std::string message;  ///< one sentence
 };
 
 /// A piecewise linear complex that owns its arrays: what the readers give.
@@ -42,6 +58,7 @@ struct Surface {
   std::vector<Segment> segments;
   std::vector<int> facet_markers;    ///< empty, or one a facet
   std::vector<int> segment_markers;  ///< empty, or one a segment
+  std::vector<int> vertex_markers;   ///< empty, or one a vertex
   /// Region seeds and hole seeds that some formats carry (.poly, .smesh).
   struct RegionSeed {
     Point where;
@@ -50,8 +67,11 @@ struct Surface {
   };
   std::vector<RegionSeed> regions;
   std::vector<Point> holes;
+  std::vector<Remark> remarks;  ///< what the file holds besides, or in another way
 
-  [[nodiscard]] Complex view() const { return {vertices, facets, segments, facet_markers, segment_markers}; }
+  [[nodiscard]] Complex view() const {
+    return {vertices, facets, segments, facet_markers, segment_markers, vertex_markers};
+  }
 };
 
 /// A tetrahedral mesh that conforms to a complex.
@@ -63,6 +83,7 @@ struct Volume {
   std::vector<int> facet_markers;  ///< empty, or one a facet
   std::vector<Segment> segments;
   std::vector<int> segment_markers;  ///< empty, or one a segment
+  std::vector<int> vertex_markers;   ///< empty, or one a vertex: 0 for Steiner points
 };
 
 /// Which rule of a valid input is broken (design §1). The numbers are stable.

@@ -38,6 +38,11 @@ class Extractor {
     for (Vertex v = 0; v < input.size(); ++v) new_index_[v] = v;
     for (auto v = static_cast<Vertex>(input.size()); v < new_index_.size(); ++v)
       if (new_index_[v] != kNone) add_vertex(v);
+    if (!source_.complex.vertex_markers.empty()) {
+      volume.vertex_markers.assign(source_.complex.vertex_markers.begin(),
+                                   source_.complex.vertex_markers.end());
+      volume.vertex_markers.resize(volume.vertices.size(), 0);
+    }
     parallel_ranges(threads, volume.tetrahedra.size(), [&](std::size_t first, std::size_t last) {
       for (std::size_t k = first; k < last; ++k)
         for (Index& v : volume.tetrahedra[k]) v = new_index_[v];

@@ -10,6 +10,8 @@ void require_sensible(const Complex& complex, const Options& options) {
   const auto finite = [](const Point& p) {
     return std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
   };
+  if (!complex.vertex_markers.empty() && complex.vertex_markers.size() != complex.vertices.size())
+    throw std::invalid_argument("as many vertex markers as vertices are needed, or none");
   if (!complex.facet_markers.empty() && complex.facet_markers.size() != complex.facets.size())
     throw std::invalid_argument("as many facet markers as facets are needed, or none");
   if (!complex.segment_markers.empty() && complex.segment_markers.size() != complex.segments.size())

@@ -31,6 +31,8 @@ void require_sensible(const Volume& volume, const UntangleOptions& options) {
     throw std::invalid_argument("as many facet markers as facets are needed, or none");
   if (!fits(volume.segment_markers, volume.segments))
     throw std::invalid_argument("as many segment markers as segments are needed, or none");
+  if (!fits(volume.vertex_markers, volume.vertices))
+    throw std::invalid_argument("as many vertex markers as vertices are needed, or none");
   for (const Index v : options.fixed)
     if (v >= volume.vertices.size())
       throw std::invalid_argument("vertex " + std::to_string(v) + " is to be fixed, but there are " +
@@ -92,6 +94,7 @@ Ordered constrained_first(const Volume& volume, const Connectivity& connectivity
   };
   out.volume.facets.insert(out.volume.facets.end(), connectivity.outer_faces.begin(),
                            connectivity.outer_faces.end());
+  out.volume.vertex_markers.clear();
   out.volume.facet_markers.clear();
   out.volume.segment_markers.clear();
   renumber(out.volume.tetrahedra);

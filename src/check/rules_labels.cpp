@@ -95,6 +95,27 @@ void find_wrong_markers(const Listing<Entity>& on, std::span<const Point> vertic
       });
 }
 
+// Vertex i of the mesh is vertex i of the input, where `input vertices kept` holds.
+void find_wrong_vertex_markers(const Examination& on, Findings& findings) {
+  const std::span<const int> input = on.surface.vertex_markers, kept = on.volume.vertex_markers;
+  if (input.empty()) return;
+  if (input.size() != on.surface.vertices.size() || kept.size() != on.volume.vertices.size()) {
+    findings.add([&] {
+      return std::to_string(input.size()) + " vertex markers for " +
+             std::to_string(on.surface.vertices.size()) + " vertices of the input, " +
+             std::to_string(kept.size()) + " for " + std::to_string(on.volume.vertices.size()) +
+             " of the mesh";
+    });
+    return;
+  }
+  for (std::size_t v = 0; v < std::min(input.size(), kept.size()); ++v)
+    if (kept[v] != input[v] && on.volume.vertices[v] == on.surface.vertices[v])
+      findings.add([&] {
+        return "vertex " + std::to_string(v) + " has marker " + std::to_string(kept[v]) + " instead of " +
+               std::to_string(input[v]);
+      });
+}
+
 }  // namespace
 
 Rule regions_numbered(const Examination& on) {
@@ -135,6 +156,7 @@ Rule markers_kept(const Examination& on) {
   const Complex& surface = on.surface;
   const Volume& volume = on.volume;
   Findings findings;
+  find_wrong_vertex_markers(on, findings);
   find_wrong_markers<Triangle>(
       {"facet", surface.facets, surface.facet_markers, volume.facets, volume.facet_markers, on.facets},
       surface.vertices, findings);

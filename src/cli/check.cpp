@@ -48,6 +48,7 @@ int run(const CheckArguments& arguments) {
   files.write("--report", arguments.report);
   cancel_at_once();
   const Surface surface = read_surfaces(surfaces, arguments.input_format);
+  if (!arguments.quiet) tell(surface.remarks);
   const Volume volume = read_volume(volume_path, arguments.format);
 
   const CheckResult result = check(surface.view(), volume, arguments.options);

@@ -28,6 +28,7 @@ Json report_of(const Surface& surface, const std::vector<Defect>& defects, const
             {"facets", surface.facets.size()}}},
           {"version", version()},
           {"summary", to_json(summary)},
+          {"remarks", to_json(surface.remarks)},
           {"defects", to_json(defects)}};
 }
 
@@ -62,6 +63,7 @@ int run(const DiagnoseArguments& arguments) {
   files.write("--json", json);
   cancel_at_once();
   const Surface surface = read_surfaces(arguments.surfaces, arguments.input_format);
+  if (!arguments.quiet) tell(surface.remarks);
   const std::vector<Defect> defects = diagnose(surface.view());
 
   cancel_by_flag();  // from here on files are open

@@ -17,7 +17,8 @@ struct PointHash {
 };
 
 /// Appends `part` to `whole`; `known` maps the coordinates of earlier files to their vertices.
-void append(Surface& whole, const Surface& part, std::unordered_map<Point, Index, PointHash>& known) {
+void append(Surface& whole, const Surface& part, std::unordered_map<Point, Index, PointHash>& known,
+            bool vertices_marked) {
   std::vector<Index> index(part.vertices.size());
   const std::size_t before = whole.vertices.size();
   for (std::size_t i = 0; i < index.size(); ++i) {
@@ -27,6 +28,8 @@ void append(Surface& whole, const Surface& part, std::unordered_map<Point, Index
     } else {
       index[i] = static_cast<Index>(whole.vertices.size());
       whole.vertices.push_back(part.vertices[i]);
+      if (vertices_marked)
+        whole.vertex_markers.push_back(part.vertex_markers.empty() ? 0 : part.vertex_markers[i]);
     }
   }
   // Only now: identical vertices within one file are that file's own defect, which `diagnose` reports.
@@ -39,6 +42,7 @@ void append(Surface& whole, const Surface& part, std::unordered_map<Point, Index
   for (const Segment& s : part.segments) whole.segments.push_back({shifted(s[0]), shifted(s[1])});
   whole.regions.insert(whole.regions.end(), part.regions.begin(), part.regions.end());
   whole.holes.insert(whole.holes.end(), part.holes.begin(), part.holes.end());
+  whole.remarks.insert(whole.remarks.end(), part.remarks.begin(), part.remarks.end());
 }
 
 /// Appends the markers of `part`, or `otherwise` for each of its `count` entities when it has none.
@@ -51,12 +55,20 @@ void append_markers(std::vector<int>& whole, const std::vector<int>& part, std::
 
 }  // namespace
 
-Surface read_surfaces(const std::vector<fs::path>& paths, std::string_view format) {
-  if (paths.size() == 1) return read_surface(paths.front(), format);
+void tell(const std::vector<Remark>& remarks) {
+  for (const Remark& remark : remarks) fmt::print(stderr, "holdfast: {}\n", remark.message);
+}
 
+Surface read_surfaces(const std::vector<fs::path>& paths, std::string_view format) {
   std::vector<Surface> parts;
   parts.reserve(paths.size());
-  for (const fs::path& path : paths) parts.push_back(read_surface(path, format));
+  for (const fs::path& path : paths) {
+    parts.push_back(read_surface(path, format));
+    for (Remark& remark : parts.back().remarks) remark.message = path.string() + ": " + remark.message;
+  }
+  if (parts.size() == 1) return std::move(parts.front());
+  const bool vertices_marked =
+      std::any_of(parts.begin(), parts.end(), [](const Surface& s) { return !s.vertex_markers.empty(); });
   const bool facets_marked =
       std::any_of(parts.begin(), parts.end(), [](const Surface& s) { return !s.facet_markers.empty(); });
   const bool segments_marked =
@@ -65,7 +77,7 @@ Surface read_surfaces(const std::vector<fs::path>& paths, std::string_view forma
   Surface whole;
   std::unordered_map<Point, Index, PointHash> known;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    append(whole, parts[i], known);
+    append(whole, parts[i], known, vertices_marked);
     append_markers(whole.facet_markers, parts[i].facet_markers, parts[i].facets.size(),
                    facets_marked ? 0 : static_cast<int>(i) + 1);
     if (segments_marked)

@@ -161,6 +161,7 @@ int run(const MeshArguments& arguments) {
   const Surface surface = read_surfaces(arguments.surfaces, arguments.input_format);
   options.holes.insert(options.holes.end(), surface.holes.begin(), surface.holes.end());
   options.regions.insert(options.regions.end(), surface.regions.begin(), surface.regions.end());
+  if (!arguments.quiet) tell(surface.remarks);
   const double reading = whole.seconds();
   // The limit is on the whole command; 0 would mean none.
   if (options.time_limit > 0) options.time_limit = std::max(1e-6, options.time_limit - reading);
@@ -178,6 +179,7 @@ int run(const MeshArguments& arguments) {
   if (!arguments.report.empty()) {
     Json report = to_json(result, to_json(arguments));
     if (!result.defects.empty()) report["summary"] = to_json(summarise(surface.view(), result.defects));
+    report["remarks"] = to_json(surface.remarks);
     write_json(arguments.report, report);
   }
   if (!arguments.quiet) print_summary(arguments, result, whole.seconds());

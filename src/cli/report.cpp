@@ -82,6 +82,15 @@ Json to_json(const std::vector<Defect>& defects) {
   return list;
 }
 
+Json to_json(const std::vector<Remark>& remarks) {
+  Json list = Json::array();
+  for (const Remark& remark : remarks)
+    list.push_back({{"kind", static_cast<int>(remark.kind)},
+                    {"count", remark.count},
+                    {"message", remark.message}});
+  return list;
+}
+
 namespace {
 
 Json to_json(const Report::Shape& shape) {

@@ -18,6 +18,7 @@ using Json = nlohmann::ordered_json;
 
 [[nodiscard]] Json to_json(const Defect& defect);
 [[nodiscard]] Json to_json(const std::vector<Defect>& defects);
+[[nodiscard]] Json to_json(const std::vector<Remark>& remarks);
 
 /// The whole report of `mesh`; `options` is what the user asked for.
 [[nodiscard]] Json to_json(const Result& result, Json options);

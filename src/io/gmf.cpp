@@ -3,6 +3,7 @@
 // A file is a chain of sections: keyword, position of the next one, and for most a count and as many
 // entries. Positions have 32 bits in versions 1 and 2, else 64; counts and indices 32 bits up to
 // version 3; coordinates are floats in version 1, else doubles.
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -36,7 +37,7 @@ std::endian order_of(const Source& source) {
 
 class GmfReader {
  public:
-  explicit GmfReader(const Source& source) : bytes_(source, order_of(source), 4) {}
+  explicit GmfReader(const Source& source) : bytes_(source, order_of(source), 4), finite_(source.finite) {}
 
   MeshData read() {
     read_sections();
@@ -62,7 +63,11 @@ class GmfReader {
     return version_ >= 3 ? bytes_.read<std::int64_t>() : bytes_.read<std::int32_t>();
   }
   std::int64_t integer() { return version_ >= 4 ? bytes_.read<std::int64_t>() : bytes_.read<std::int32_t>(); }
-  double real() { return version_ == 1 ? static_cast<double>(bytes_.read<float>()) : bytes_.read<double>(); }
+  double real() {
+    const double value = version_ == 1 ? static_cast<double>(bytes_.read<float>()) : bytes_.read<double>();
+    if (finite_ && !std::isfinite(value)) bytes_.fail("a number that is not finite stands before it");
+    return value;
+  }
 
   [[nodiscard]] std::size_t integer_size() const { return version_ >= 4 ? 8 : 4; }
 
@@ -129,8 +134,8 @@ class GmfReader {
     mesh_.vertices.reserve(vertices);
     for (std::size_t i = 0; i < vertices; ++i) {
       const double x = real(), y = real();
-      mesh_.vertices.push_back({x, y, real()});
-      static_cast<void>(integer());
+      const Point point{x, y, real()};
+      mesh_.add_vertex(point, tag());
     }
   }
 
@@ -167,6 +172,7 @@ class GmfReader {
   }
 
   ByteReader bytes_;
+  bool finite_;
   std::int32_t version_ = 0;
   MeshData mesh_;
   std::optional<GmfSolution> solution_;  // where it is asked for
@@ -184,9 +190,9 @@ class GmfWriter {
     put<std::int32_t>(3);
     start(kVertices, 4 + 28 * volume.vertices.size());
     put(static_cast<std::int32_t>(volume.vertices.size()));
-    for (const Point& point : volume.vertices) {
-      for (const double x : point) put(x);
-      put<std::int32_t>(0);
+    for (std::size_t i = 0; i < volume.vertices.size(); ++i) {
+      for (const double x : volume.vertices[i]) put(x);
+      put<std::int32_t>(tag_of(volume.vertex_markers, i));
     }
     write_entities(kEdges, volume.segments, volume.segment_markers);
     write_entities(kTriangles, volume.facets, volume.facet_markers);

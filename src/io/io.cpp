@@ -91,7 +91,8 @@ void require_consistent(const Volume& volume) {
   const auto matches = [](const std::vector<int>& tags, std::size_t count) {
     return tags.empty() || tags.size() == count;
   };
-  if (!matches(volume.regions, volume.tetrahedra.size()) ||
+  if (!matches(volume.vertex_markers, volume.vertices.size()) ||
+      !matches(volume.regions, volume.tetrahedra.size()) ||
       !matches(volume.facet_markers, volume.facets.size()) ||
       !matches(volume.segment_markers, volume.segments.size()))
     throw std::invalid_argument("a volume with regions or markers of another number than their entities");
@@ -116,7 +117,9 @@ Surface read_surface(const std::filesystem::path& path, std::string_view format)
   static_cast<void>(io::surface_format(path, format));  // before a large file is read in vain
   const io::FileBytes bytes(path);
   io::MeshData mesh = io::parse_surface({path, bytes.view()}, format);
+  if (!mesh.tetrahedra.empty()) mesh.leave_out(mesh.tetrahedra.size(), "tetrahedra", "tetrahedron");
   Surface surface;
+  surface.vertex_markers = mesh.vertex_markers.take(mesh.vertices.size());
   surface.facet_markers = mesh.facet_markers.take(mesh.facets.size());
   surface.segment_markers = mesh.segment_markers.take(mesh.segments.size());
   surface.vertices = std::move(mesh.vertices);
@@ -124,10 +127,11 @@ Surface read_surface(const std::filesystem::path& path, std::string_view format)
   surface.segments = std::move(mesh.segments);
   surface.regions = std::move(mesh.region_seeds);
   surface.holes = std::move(mesh.holes);
+  surface.remarks = std::move(mesh.remarks);
   return surface;
 }
 
-Volume read_volume(const std::filesystem::path& path, std::string_view format) {
+Volume read_volume(const std::filesystem::path& path, std::string_view format, std::vector<Remark>* remarks) {
   const FloatEnvironment environment;
   static_cast<void>(io::volume_format(path, format));
   const io::FileBytes bytes(path);
@@ -135,12 +139,14 @@ Volume read_volume(const std::filesystem::path& path, std::string_view format) {
   Volume volume;
   volume.regions = mesh.regions.take(mesh.tetrahedra.size());
   volume.regions.resize(mesh.tetrahedra.size(), 0);
+  volume.vertex_markers = mesh.vertex_markers.take(mesh.vertices.size());
   volume.facet_markers = mesh.facet_markers.take(mesh.facets.size());
   volume.segment_markers = mesh.segment_markers.take(mesh.segments.size());
   volume.vertices = std::move(mesh.vertices);
   volume.tetrahedra = std::move(mesh.tetrahedra);
   volume.facets = std::move(mesh.facets);
   volume.segments = std::move(mesh.segments);
+  if (remarks != nullptr) *remarks = std::move(mesh.remarks);
   return volume;
 }
 

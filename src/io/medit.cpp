@@ -22,8 +22,8 @@ void read_vertices(TextReader& text, MeshData& mesh) {
   const std::size_t count = text.count("the number of vertices", 8);
   mesh.vertices.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
-    mesh.vertices.push_back(text.point());
-    static_cast<void>(text.real("a reference"));  // integers, but some programs write reals
+    const Point point = text.point();
+    mesh.add_vertex(point, text.tag_from_real("a reference"));  // some programs write "1.0"
   }
 }
 
@@ -109,7 +109,10 @@ void write_entities(AtomicWriter& out, std::string_view keyword,
 void write_medit(AtomicWriter& out, const Volume& volume) {
   out << "MeshVersionFormatted 2\n\nDimension 3\n\nVertices\n"
       << std::uint64_t{volume.vertices.size()} << '\n';
-  for (const Point& p : volume.vertices) out << p[0] << ' ' << p[1] << ' ' << p[2] << " 0\n";
+  for (std::size_t i = 0; i < volume.vertices.size(); ++i) {
+    const Point& p = volume.vertices[i];
+    out << p[0] << ' ' << p[1] << ' ' << p[2] << ' ' << tag_of(volume.vertex_markers, i) << '\n';
+  }
   write_entities(out, "Edges", volume.segments, volume.segment_markers);
   write_entities(out, "Triangles", volume.facets, volume.facet_markers);
   write_entities(out, "Tetrahedra", volume.tetrahedra, volume.regions);

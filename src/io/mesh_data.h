@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace holdfast::io {
 struct Source {
   const std::filesystem::path& path;
   std::string_view bytes;
+  bool finite = false;  ///< numbers that are not finite are refused, as where nothing judges them later
 };
 
 /// Tags of entities of one kind that stay empty as long as every tag is 0.
@@ -42,10 +44,23 @@ struct MeshData {
   std::vector<Triangle> facets;
   std::vector<Segment> segments;
   std::vector<Tetrahedron> tetrahedra;
-  Tags facet_markers, segment_markers, regions;
+  Tags vertex_markers, facet_markers, segment_markers, regions;
   std::vector<Surface::RegionSeed> region_seeds;
   std::vector<Point> holes;
+  std::vector<Remark> remarks;
 
+  /// Says that `count` of `what` (a plural, which `one` is the singular of) are in the file and left out.
+  void leave_out(std::size_t count, std::string_view what, std::string_view one = {}) {
+    if (count == 0) return;
+    const std::string_view words = count == 1 && !one.empty() ? one : what;
+    remarks.push_back(
+        {RemarkKind::left_out, count,
+         std::to_string(count) + " " + std::string(words) + (count == 1 ? " is" : " are") + " left out"});
+  }
+  void add_vertex(const Point& vertex, int marker) {
+    vertex_markers.add(vertices.size(), marker);
+    vertices.push_back(vertex);
+  }
   void add_facet(const Triangle& facet, int marker = 0) {
     facet_markers.add(facets.size(), marker);
     facets.push_back(facet);

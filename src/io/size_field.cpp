@@ -25,9 +25,15 @@ bool is_there(const std::filesystem::path& path) {
 // A size, or a metric if the tensor has its six numbers there, m11 m12 m22 m13 m23 m33.
 constexpr std::size_t kTensor = 6;
 
+double read_size(TextReader& text) {
+  const double size = text.real("a size");
+  if (!(size > 0)) text.fail("the size is not positive");
+  return size;
+}
+
 void read_value(TextReader& text, std::size_t columns, SizeField& field) {
   if (columns == 1) {
-    field.sizes.push_back(text.real("a size"));
+    field.sizes.push_back(read_size(text));
     return;
   }
   Metric m{};
@@ -111,9 +117,9 @@ SizeField read_mesh_and_sol(const std::filesystem::path& path, const std::string
   const std::filesystem::path mesh_path = is_mesh ? path : beside(path, ".mesh", ".meshb"),
                               sol_path = is_mesh ? beside(path, ".sol", ".solb") : path;
   const FileBytes mesh_bytes(mesh_path), sol_bytes(sol_path);
-  MeshData mesh = parse_volume({mesh_path, mesh_bytes.view()});
+  MeshData mesh = parse_volume({mesh_path, mesh_bytes.view(), true});
   const auto read = lower(sol_path.extension().string()) == ".solb" ? read_solb : read_sol;
-  SizeField field = read({sol_path, sol_bytes.view()}, mesh.vertices.size());
+  SizeField field = read({sol_path, sol_bytes.view(), true}, mesh.vertices.size());
   return on_mesh(std::move(mesh), std::move(field));
 }
 
@@ -141,7 +147,7 @@ SizeField read_pos(const Source& source) {
   std::string plain(source.bytes);
   for (char& c : plain)
     if (c == ',' || c == '(' || c == ')' || c == '{' || c == '}' || c == ';') c = ' ';
-  TextReader text({source.path, plain}, '\0');
+  TextReader text({source.path, plain, source.finite}, '\0');
   SizeField field;
   while (!text.at_end()) {
     const std::string word = lower(text.word("SS"));
@@ -159,7 +165,7 @@ SizeField read_pos(const Source& source) {
     }
     for (int i = 0; i < 4; ++i)
       if (word == "ss")
-        field.sizes.push_back(text.real("a size"));
+        field.sizes.push_back(read_size(text));
       else
         field.metrics.push_back(read_full_tensor(text));
     field.tetrahedra.push_back(corners);
@@ -193,11 +199,11 @@ SizeField read_by_extension(const std::filesystem::path& path) {
   for (const char* ending : {".mesh", ".meshb", ".sol", ".solb"})
     if (extension == ending) return read_mesh_and_sol(path, extension);
   const FileBytes bytes(path);
-  const Source source{path, bytes.view()};
+  const Source source{path, bytes.view(), true};
   if (extension == ".mtr") {
     SizeField field = read_mtr(source);
     if (is_there(with_extension(path, ".ele")))
-      return on_mesh(read_tetgen_volume({with_extension(path, ".node"), {}}), std::move(field));
+      return on_mesh(read_tetgen_volume({with_extension(path, ".node"), {}, true}), std::move(field));
     if (!field.metrics.empty())
       throw FileError(path, "", "metric tensors need a background mesh, its .node and .ele beside the .mtr");
     return field;
@@ -228,6 +234,10 @@ SizeField read_size_field(const std::filesystem::path& path) {
     throw FileError(path, "",
                     "there are " + std::to_string(count) + " sizes for " +
                         std::to_string(field.vertices.size()) + " vertices");
+  for (std::size_t v = 0; v < field.vertices.size(); ++v)
+    for (const double x : field.vertices[v])
+      if (!std::isfinite(x))
+        throw FileError(path, "vertex " + std::to_string(v), "a coordinate is not finite");
   if (!field.vertices.empty() && field.tetrahedra.empty())
     throw FileError(path, "", "the background mesh has no tetrahedra");
   for (std::size_t v = 0; v < field.sizes.size(); ++v)

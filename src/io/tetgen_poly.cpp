@@ -17,9 +17,9 @@ class PolyReader {
 
   MeshData read() {
     TetgenNodes nodes = read_tetgen_nodes(text_);
-    if (nodes.vertices.empty()) nodes = read_tetgen_node_file(text_.source().path);
+    if (nodes.vertices.empty()) nodes = read_tetgen_node_file(text_.source());
     base_ = nodes.base;
-    mesh_.vertices = std::move(nodes.vertices);
+    take_nodes(mesh_, nodes);
     read_facets();
     read_holes();
     read_regions();
@@ -108,7 +108,10 @@ TetgenNodes read_tetgen_nodes(TextReader& text) {
   TetgenNodes nodes;
   const std::size_t count = text.count("the number of vertices", 8);
   if (!text.at_line_end() && text.integer("the dimension") != 3) text.fail("the dimension is not 3");
-  text.skip_line();  // numbers of attributes and markers, which stand behind the coordinates
+  const std::size_t attributes = text.at_line_end() ? 0 : text.count("the number of attributes", 1);
+  const bool marked = !text.at_line_end() && text.integer("whether there are markers") != 0;
+  nodes.attributes = attributes;
+  text.skip_line();
   nodes.vertices.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const std::int64_t number = text.integer("the vertex's number");
@@ -117,17 +120,26 @@ TetgenNodes read_tetgen_nodes(TextReader& text) {
     if (number != nodes.base + static_cast<std::int64_t>(i))
       text.fail("expected vertex " + std::to_string(nodes.base + static_cast<std::int64_t>(i)) +
                 ", found the number " + std::to_string(number));
-    nodes.vertices.push_back(text.point());
+    const Point point = text.point();
+    for (std::size_t k = 0; k < attributes; ++k) static_cast<void>(text.real("an attribute"));
+    nodes.markers.add(i, marked ? text.tag_from_real("a boundary marker") : 0);
+    nodes.vertices.push_back(point);
     text.skip_line();
   }
   return nodes;
 }
 
-TetgenNodes read_tetgen_node_file(const std::filesystem::path& path) {
-  std::filesystem::path beside = path;
+void take_nodes(MeshData& mesh, TetgenNodes& nodes) {
+  mesh.leave_out(nodes.attributes * nodes.vertices.size(), "attributes of vertices", "attribute of a vertex");
+  mesh.vertices = std::move(nodes.vertices);
+  mesh.vertex_markers = std::move(nodes.markers);
+}
+
+TetgenNodes read_tetgen_node_file(const Source& source) {
+  std::filesystem::path beside = source.path;
   beside.replace_extension(".node");
   const FileBytes bytes(beside);
-  TextReader text({beside, bytes.view()});
+  TextReader text({beside, bytes.view(), source.finite});
   return read_tetgen_nodes(text);
 }
 
@@ -143,7 +155,8 @@ MeshData read_smesh(const Source& source) { return PolyReader(source, true).read
 MeshData read_node(const Source& source) {
   TextReader text(source);
   MeshData mesh;
-  mesh.vertices = read_tetgen_nodes(text).vertices;
+  TetgenNodes nodes = read_tetgen_nodes(text);
+  take_nodes(mesh, nodes);
   return mesh;
 }
 

@@ -59,27 +59,30 @@ void write_lines(AtomicWriter& out, std::string_view columns,
 
 MeshData read_tetgen_volume(const Source& source) {
   const std::filesystem::path elements = with_extension(source.path, ".ele");
-  const TetgenNodes nodes = read_tetgen_node_file(source.path);
+  TetgenNodes nodes = read_tetgen_node_file(source);
   const FileBytes bytes(elements);
   TextReader text({elements, bytes.view()});
   MeshData mesh;
-  mesh.vertices = nodes.vertices;
   read_lines<4>(text, "the tetrahedron's number", nodes,
                 [&](const Tetrahedron& corners, int region) { mesh.add_tetrahedron(corners, region); });
   read_optional<3>(with_extension(source.path, ".face"), "the face's number", nodes,
                    [&](const Triangle& corners, int marker) { mesh.add_facet(corners, marker); });
   read_optional<2>(with_extension(source.path, ".edge"), "the edge's number", nodes,
                    [&](const Segment& corners, int marker) { mesh.add_segment(corners, marker); });
+  take_nodes(mesh, nodes);
   return mesh;
 }
 
 void write_tetgen(const std::filesystem::path& path, const Volume& volume) {
   AtomicWriter node(with_extension(path, ".node")), ele(with_extension(path, ".ele")),
       face(with_extension(path, ".face")), edge(with_extension(path, ".edge"));
-  node << std::uint64_t{volume.vertices.size()} << " 3 0 0\n";
+  const bool marked = !volume.vertex_markers.empty();
+  node << std::uint64_t{volume.vertices.size()} << (marked ? " 3 0 1\n" : " 3 0 0\n");
   for (std::size_t i = 0; i < volume.vertices.size(); ++i) {
     const Point& p = volume.vertices[i];
-    node << std::uint64_t{i} << ' ' << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+    node << std::uint64_t{i} << ' ' << p[0] << ' ' << p[1] << ' ' << p[2];
+    if (marked) node << ' ' << volume.vertex_markers[i];
+    node << '\n';
   }
   write_lines(ele, " 4 1", volume.tetrahedra, volume.regions);
   write_lines(face, " 1", volume.facets, volume.facet_markers);

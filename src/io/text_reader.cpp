@@ -134,6 +134,7 @@ double TextReader::real(std::string_view what) {
   }
   position_ = static_cast<std::size_t>(result.ptr - begin);
   if (!delimiter_at(position_)) fail_expected(what);
+  if (source_.finite && !std::isfinite(value)) fail(std::string(what) + " is not finite");
   return value;
 }
 
@@ -146,6 +147,9 @@ std::int64_t TextReader::integer(std::string_view what) {
   std::int64_t value = 0;
   const auto result = std::from_chars(first, end, value);
   position_ = static_cast<std::size_t>(result.ptr - begin);
+  if (result.ec == std::errc::result_out_of_range)
+    fail(std::string(what) +
+         " is beyond 64 bits: " + in_quotes(source_.bytes.substr(last_, position_ - last_)));
   if (result.ec != std::errc() || !delimiter_at(position_)) fail_expected(what);
   return value;
 }

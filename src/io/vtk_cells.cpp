@@ -21,6 +21,10 @@ class CellReader {
     for (const auto* tags : {&grid_.regions, &grid_.markers})
       if (!tags->empty() && tags->size() != cells)
         throw FileError(path_, "", "'region' or 'marker' has not one value a cell");
+    if (!grid_.point_markers.empty() && grid_.point_markers.size() != mesh_.vertices.size())
+      throw FileError(path_, "", "'marker' has not one value a point");
+    for (std::size_t i = 0; i < grid_.point_markers.size(); ++i)
+      mesh_.vertex_markers.add(i, grid_.point_markers[i]);
     std::size_t begin = 0;
     for (cell_ = 0; cell_ < cells; ++cell_) {
       const std::int64_t end = grid_.ends[cell_];

@@ -2,7 +2,8 @@
 //
 // Holdfast writes tetrahedra first, then facets as triangles, then segments as lines, with three
 // integers a cell: "region" (of a tetrahedron, else 0), "marker" (of a facet or segment, else 0) and
-// "kind" (the cell's dimension: 3 tetrahedron, 2 facet, 1 segment).
+// "kind" (the cell's dimension: 3 tetrahedron, 2 facet, 1 segment); and where vertices are marked, an integer
+// "marker" a point.
 #pragma once
 
 #include <cstdint>
@@ -47,6 +48,7 @@ struct VtkGrid {
   std::vector<std::int64_t> ends;          ///< where each cell's corners end
   std::vector<std::int64_t> connectivity;  ///< the corners of all cells
   std::vector<int> regions, markers;       ///< empty, or one a cell
+  std::vector<int> point_markers;          ///< empty, or one a point
 };
 
 /// The mesh of a grid. Polygons are fanned where they are convex. Throws FileError with the cell's

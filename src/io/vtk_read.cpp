@@ -86,6 +86,7 @@ class VtkReader {
       grid_.types = values<std::uint8_t>(VtkType::int32, text_.count("the number of cells", 1));
     } else if (keyword == "cell_data" || keyword == "point_data") {
       of_cells_ = keyword == "cell_data";
+      of_points_ = !of_cells_;
       tuples_ = text_.count("the number of values", 1);
     } else if (keyword == "field") {
       read_field();
@@ -178,6 +179,8 @@ class VtkReader {
       grid_.regions = values<int>(type, count);
     else if (of_cells_ && name == "marker")
       grid_.markers = values<int>(type, count);
+    else if (of_points_ && name == "marker")
+      grid_.point_markers = values<int>(type, count);
     else
       static_cast<void>(values<double>(type, count));
   }
@@ -247,8 +250,8 @@ class VtkReader {
 
   TextReader text_;
   bool binary_ = false, has_points_ = false;
-  bool of_cells_ = false;     ///< whether the current attributes belong to cells
-  std::uint64_t tuples_ = 0;  ///< of the current attributes
+  bool of_cells_ = false, of_points_ = false;  ///< what the current attributes belong to
+  std::uint64_t tuples_ = 0;                   ///< of the current attributes
   VtkGrid grid_;
 };
 

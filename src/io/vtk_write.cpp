@@ -30,6 +30,10 @@ void write_vtk(AtomicWriter& out, const Volume& volume) {
                   [&](VtkCell, std::span<const Index>, int, int, int marker) { out << marker << '\n'; });
   out << "SCALARS kind int 1\nLOOKUP_TABLE default\n";
   visit_vtk_cells(volume, [&](VtkCell, std::span<const Index>, int kind, int, int) { out << kind << '\n'; });
+  if (volume.vertex_markers.empty()) return;
+  out << "POINT_DATA " << std::uint64_t{volume.vertices.size()}
+      << "\nSCALARS marker int 1\nLOOKUP_TABLE default\n";
+  for (const int marker : volume.vertex_markers) out << marker << '\n';
 }
 
 }  // namespace holdfast::io

@@ -38,6 +38,7 @@ struct VtuArrays {
   std::size_t points, cells;
   VtuArray coordinates, connectivity, offsets, types;
   std::vector<VtuArray> cell_data;
+  std::vector<VtuArray> point_data = {};
 };
 
 /// Cells in VTK's flat form.

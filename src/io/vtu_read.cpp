@@ -165,7 +165,7 @@ class VtuReader {
     if (array.tag.empty) return result;
     const std::size_t end = source_.bytes.find('<', array.content);
     if (end == std::string_view::npos) xml_.fail(array.tag, "the array does not end; the file is truncated");
-    TextReader text({source_.path, source_.bytes.substr(0, end)}, '\0');
+    TextReader text({source_.path, source_.bytes.substr(0, end), source_.finite}, '\0');
     text.seek(array.content);
     while (!text.at_end()) result.push_back(text_value<T>(text));
     return result;
@@ -193,6 +193,7 @@ class VtuReader {
   void read_tags() {
     if (find("CellData/region")) grid_.regions = values<int>("CellData/region", cells_);
     if (find("CellData/marker")) grid_.markers = values<int>("CellData/marker", cells_);
+    if (find("PointData/marker")) grid_.point_markers = values<int>("PointData/marker", points_);
   }
 
   void read_cells() {

@@ -74,7 +74,13 @@ void write_vtu_arrays(AtomicWriter& out, const VtuArrays& arrays, const WriteOpt
   array(arrays.types);
   out << "</Cells>\n<CellData>\n";
   for (const VtuArray& a : arrays.cell_data) array(a);
-  out << "</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" << data
+  out << "</CellData>\n";
+  if (!arrays.point_data.empty()) {
+    out << "<PointData>\n";
+    for (const VtuArray& a : arrays.point_data) array(a);
+    out << "</PointData>\n";
+  }
+  out << "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" << data
       << "\n</AppendedData>\n</VTKFile>\n";
 }
 
@@ -92,10 +98,10 @@ void write_vtu(AtomicWriter& out, const Volume& volume, const WriteOptions& opti
                     markers.push_back(marker);
                   });
   // The region first: it is what viewers colour by, and what meshio keeps where it keeps one array.
-  write_vtu_arrays(out,
-                   cells.arrays(volume.vertices, {vtu_array("region", regions), vtu_array("marker", markers),
-                                                  vtu_array("kind", kinds)}),
-                   options);
+  VtuArrays arrays = cells.arrays(volume.vertices, {vtu_array("region", regions),
+                                                    vtu_array("marker", markers), vtu_array("kind", kinds)});
+  if (!volume.vertex_markers.empty()) arrays.point_data = {vtu_array("marker", volume.vertex_markers)};
+  write_vtu_arrays(out, arrays, options);
 }
 
 }  // namespace holdfast::io

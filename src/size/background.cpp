@@ -24,9 +24,23 @@ double six_volumes(const Point& a, const Point& b, const Point& c, const Point& 
          u[2] * (v[0] * w[1] - v[1] * w[0]);
 }
 
+/// The powers of two by which the largest coordinate along each axis is about 1.
+Point scale_of(const std::vector<Point>& points) {
+  Point most{};
+  for (const Point& p : points)
+    for (std::size_t k = 0; k < 3; ++k) most[k] = std::max(most[k], std::abs(p[k]));
+  Point scale{1, 1, 1};
+  constexpr int kMostExponent = 1022;  // both 2^1022 and 2^-1022 are normal numbers
+  for (std::size_t k = 0; k < 3; ++k)
+    if (most[k] > 0)
+      scale[k] = std::ldexp(1.0, std::clamp(-std::ilogb(most[k]) - 1, -kMostExponent, kMostExponent));
+  return scale;
+}
+
 }  // namespace
 
-Background::Background(SizeField field) : field_(std::move(field)) {
+Background::Background(SizeField field) : field_(std::move(field)), scale_(scale_of(field_.vertices)) {
+  for (Point& p : field_.vertices) p = scaled(p);
   Point high;
   low_.fill(std::numeric_limits<double>::infinity());
   high.fill(-std::numeric_limits<double>::infinity());
@@ -59,7 +73,8 @@ Background::Background(SizeField field) : field_(std::move(field)) {
 std::size_t Background::bucket_along(double x, std::size_t axis) const {
   if (!(step_[axis] > 0)) return 0;
   const double k = (x - low_[axis]) / step_[axis];
-  return static_cast<std::size_t>(std::clamp(k, 0.0, static_cast<double>(count_[axis] - 1)));
+  if (!(k > 0)) return 0;  // nor is a NaN a number of a bucket
+  return static_cast<std::size_t>(std::min(k, static_cast<double>(count_[axis] - 1)));
 }
 
 template <typename Visit>
@@ -79,8 +94,9 @@ void Background::visit_buckets(const Tetrahedron& t, Visit&& visit) const {
       for (std::size_t x = from[0]; x <= to[0]; ++x) visit((z * count_[1] + y) * count_[0] + x);
 }
 
-std::optional<Background::Place> Background::locate(const Point& p) const {
+std::optional<Background::Place> Background::locate(const Point& point) const {
   if (tets_.empty()) return {};
+  const Point p = scaled(point);
   const std::size_t bucket =
       (bucket_along(p[2], 2) * count_[1] + bucket_along(p[1], 1)) * count_[0] + bucket_along(p[0], 0);
   for (std::size_t k = first_[bucket]; k < first_[bucket + 1]; ++k)
@@ -106,6 +122,11 @@ std::optional<Background::Place> Background::place_in(const Tetrahedron& t, cons
 namespace {
 
 std::shared_ptr<const Background> background_of(SizeField field) {
+  const auto finite = [](const Point& p) {
+    return std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
+  };
+  if (!std::all_of(field.vertices.begin(), field.vertices.end(), finite))
+    throw std::invalid_argument("a size field has a coordinate that is not finite");
   for (const Tetrahedron& t : field.tetrahedra)
     for (const Index v : t)
       if (v >= field.vertices.size())
@@ -119,12 +140,13 @@ std::function<double(const Point&)> size_function(SizeField field) {
   const FloatEnvironment environment;
   if (field.sizes.size() != field.vertices.size())
     throw std::invalid_argument("a size field needs a size for every vertex");
+  if (!std::all_of(field.sizes.begin(), field.sizes.end(), [](double h) { return std::isfinite(h); }))
+    throw std::invalid_argument("a size field has a size that is not finite");
   return [background = background_of(std::move(field))](const Point& p) {
     const FloatEnvironment environment;
     double size = 0;
     if (const auto place = background->locate(p))
-      for (std::size_t i = 0; i < 4; ++i)
-        size += place->parts[i] * background->field().sizes[place->tetrahedron[i]];
+      for (std::size_t i = 0; i < 4; ++i) size += place->parts[i] * background->size(place->tetrahedron[i]);
     return size;
   };
 }
@@ -141,7 +163,7 @@ std::function<Metric(const Point&)> metric_function(SizeField field) {
     if (!place) return Metric{};
     Metric sum{};
     for (std::size_t i = 0; i < 4; ++i)
-      sum = sum + place->parts[i] * background->field().metrics[place->tetrahedron[i]];
+      sum = sum + place->parts[i] * background->metric(place->tetrahedron[i]);
     return exponential(sum);
   };
 }

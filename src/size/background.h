@@ -12,7 +12,7 @@ namespace holdfast {
 /// Finds the tetrahedron by a grid of buckets. Guesses in floating point are good enough for a size.
 class Background {
  public:
-  /// Only the vertices and tetrahedra of the field count.
+  /// Only the vertices and tetrahedra of the field count, which are finite and in range.
   explicit Background(SizeField field);
 
   struct Place {
@@ -20,9 +20,10 @@ class Background {
     std::array<double, 4> parts;  ///< the weights of its corners
   };
   /// Where p is; nothing outside.
-  [[nodiscard]] std::optional<Place> locate(const Point& p) const;
+  [[nodiscard]] std::optional<Place> locate(const Point& point) const;
 
-  [[nodiscard]] const SizeField& field() const { return field_; }
+  [[nodiscard]] double size(Index vertex) const { return field_.sizes[vertex]; }
+  [[nodiscard]] const Metric& metric(Index vertex) const { return field_.metrics[vertex]; }
 
  private:
   [[nodiscard]] std::size_t bucket_along(double x, std::size_t axis) const;
@@ -30,7 +31,12 @@ class Background {
   void visit_buckets(const Tetrahedron& t, Visit&& visit) const;
   [[nodiscard]] std::optional<Place> place_in(const Tetrahedron& t, const Point& p) const;
 
-  SizeField field_;
+  [[nodiscard]] Point scaled(const Point& p) const {
+    return {p[0] * scale_[0], p[1] * scale_[1], p[2] * scale_[2]};
+  }
+
+  SizeField field_;  // its vertices times scale_
+  Point scale_{};    // powers of two that bring each axis to [-1, 1]: ratios of volumes stay the same
   Point low_{}, step_{};
   std::array<std::size_t, 3> count_{1, 1, 1};
   std::vector<std::size_t> first_;  // of each bucket, in tets_

@@ -102,6 +102,14 @@ class Assembly {
       gaps_.pop_back();
       points.pop_back();
     }
+    write_vertex_markers();
+  }
+
+  void write_vertex_markers() {
+    std::vector<int>& markers = out_.volume.vertex_markers;
+    if (markers.empty()) return;
+    markers.resize(out_.volume.vertices.size(), 0);
+    for (const Vertex v : added_) markers[index_[v]] = 0;
   }
 
   void write_tetrahedra() {
