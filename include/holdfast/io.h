@@ -34,23 +34,27 @@ class FileError : public std::runtime_error {
 /// Reads a surface; the format follows the extension unless `format` (".stl", ...) is given.
 ///
 /// .off, .stl, .obj, .ply, .mesh, .meshb (GMF), .poly, .smesh, .node (TetGen), .vtu, .vtp, .vtk, .msh
-/// (2.x and 4.1). ASCII and binary, except .off, .obj and .msh: ASCII only. Lengths are in the file's
-/// own unit.
+/// (2.x and 4.1), ASCII and binary where the format has both; each also packed by gzip (.stl.gz). Lengths are
+/// in the file's own unit.
 /// - Coordinates keep their bits, -0 and numbers that are not finite included (`diagnose` reports them).
 /// - Vertices of .stl with identical coordinates (+0 and -0 are one) are welded, nothing else is.
 /// - A polygon of two corners is a segment (.off, .poly, .smesh, .ply), one of a single corner nothing
-///   but its vertex. A polygon of more than three is fanned if it is convex, and refused otherwise.
+///   but its vertex. A polygon of more than three is fanned if it is convex, and refused otherwise; corners
+///   that repeat the place of the one before do not count.
 /// - Markers: references (.mesh, .meshb), boundary markers (.poly, .smesh), physical or else elementary
 ///   tags (.msh), the cell array "marker" (.vtu, .vtp, .vtk), numbers of the solids (.stl with several).
+///   Of vertices: references, boundary markers, physical tags of point elements, the point array "marker".
 ///   Marker vectors are empty if all markers are 0.
+/// - The largest volume V of a region (.poly, .smesh) becomes its size H = (6 sqrt(2) V)^(1/3), the edge of a
+///   regular tetrahedron of that volume.
 /// - Tetrahedra in the file are left out; .poly and .smesh may also fill `holes` and `regions`.
 /// - What else the file holds and a surface does not, `remarks` say.
 /// Indices in the result are always in range, but nothing else of design section 1 is checked.
 /// Throws FileError, also for a file without vertices.
 [[nodiscard]] Surface read_surface(const std::filesystem::path& path, std::string_view format = {});
 
-/// Reads a volume: .vtu, .vtk, .mesh, .meshb, .msh (ASCII), and .node, .ele, .face, .edge (TetGen) beside
-/// one another.
+/// Reads a volume: .vtu, .vtk, .mesh, .meshb, .msh, and .node, .ele, .face, .edge (TetGen) beside one another;
+/// each also packed by gzip.
 ///
 /// Region ids are references (.mesh, .meshb), the cell array "region" (.vtu, .vtk), physical or else
 /// elementary tags (.msh), the first attribute (.ele); 0 where there is none. Vertices of .msh are
@@ -77,8 +81,15 @@ struct WriteOptions {
 /// .ele, .face and .edge; vertices from 0). Coordinates read back bit for bit, from text too. Vertices,
 /// and the corners of tetrahedra and facets, keep their order; .msh 4.1 groups the entities by marker.
 /// Throws FileError, and std::invalid_argument if regions or markers are neither empty nor as many as
-/// their entities.
+/// their entities. What the format does not hold, `not_held` says.
 void write_volume(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options = {});
+
+/// What of a volume the file that `write_volume` writes does not hold as it is, so that the same volume is not
+/// what other programs, or `read_volume`, make of it. Empty for .vtu, .vtk, .mesh, .meshb and .node, which hold
+/// everything; .msh stores negative ids that Gmsh does not take for ids, and version 4.1 changes the order of
+/// entities.
+[[nodiscard]] std::vector<Remark> not_held(const std::filesystem::path& path, const Volume& volume,
+                                           const WriteOptions& options = {});
 
 /// Sizes that edges should have, or metrics in which their length should be 1, at the vertices of a
 /// background mesh.

@@ -55,8 +55,9 @@ void append_markers(std::vector<int>& whole, const std::vector<int>& part, std::
 
 }  // namespace
 
-void tell(const std::vector<Remark>& remarks) {
-  for (const Remark& remark : remarks) fmt::print(stderr, "holdfast: {}\n", remark.message);
+void tell(const std::vector<Remark>& remarks, const fs::path& file) {
+  const std::string name = file.empty() ? "" : file.string() + ": ";
+  for (const Remark& remark : remarks) fmt::print(stderr, "holdfast: {}{}\n", name, remark.message);
 }
 
 Surface read_surfaces(const std::vector<fs::path>& paths, std::string_view format) {

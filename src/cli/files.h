@@ -14,7 +14,8 @@ namespace holdfast::cli {
 /// their file, from 1. Remarks begin with their file. Throws FileError.
 [[nodiscard]] Surface read_surfaces(const std::vector<std::filesystem::path>& paths, std::string_view format);
 
-/// Prints what readers and writers left out or changed, one line each, on stderr.
-void tell(const std::vector<Remark>& remarks);
+/// Prints what readers and writers left out or changed, one line each, on stderr; behind the name of a file
+/// unless it is empty.
+void tell(const std::vector<Remark>& remarks, const std::filesystem::path& file = {});
 
 }  // namespace holdfast::cli

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 
@@ -117,7 +118,10 @@ int conclude(const MeshArguments& arguments, const Surface& surface, const Resul
 }
 
 void write_result(const MeshArguments& arguments, const VolumeTarget& target, const Result& result) {
-  if (result.outcome == Outcome::done) write_volume(target.path, result.volume, target.options);
+  if (result.outcome == Outcome::done) {
+    write_volume(target.path, result.volume, target.options);
+    if (!arguments.quiet) tell(not_held(target.path, result.volume, target.options), target.path);
+  }
   if (result.outcome == Outcome::not_representable && !arguments.exact.empty())
     write_exact(arguments.exact, result);
 }
@@ -135,6 +139,27 @@ void print_summary(const MeshArguments& arguments, const Result& result, double 
       result.volume.tetrahedra.size() == 1 ? "1 tetrahedron"
                                            : fmt::format("{} tetrahedra", result.volume.tetrahedra.size()),
       counted(result.report.regions, "region"), seconds);
+}
+
+/// Sizes of the regions in the file are for field points.
+void tell_unused_sizes(const MeshArguments& arguments, const Surface& surface) {
+  const auto sizes = std::count_if(surface.regions.begin(), surface.regions.end(),
+                                   [](const RegionSeed& seed) { return seed.size > 0; });
+  if (arguments.fill && !arguments.quiet && sizes > 0)
+    fmt::print(stderr, "holdfast: with --fill the sizes of {} in the file are unused\n",
+               counted(static_cast<std::size_t>(sizes), "region"));
+}
+
+/// Sizes in a file without a background mesh are those of the surface's vertices.
+void require_a_size_a_vertex(const MeshArguments& arguments, const Options& options, const Surface& surface) {
+  if (!options.sizes || options.sizes->vertex_sizes.empty()) return;
+  const std::size_t sizes = options.sizes->vertex_sizes.size();
+  if (sizes != surface.vertices.size())
+    throw FileError(
+        arguments.size_field, "",
+        fmt::format(
+            "there are {} for {} of the surface", counted(sizes, "size"),
+            surface.vertices.size() == 1 ? "1 vertex" : fmt::format("{} vertices", surface.vertices.size())));
 }
 
 /// Options that do not suit the surface (a hole on a facet, say) are wrong usage.
@@ -162,6 +187,8 @@ int run(const MeshArguments& arguments) {
   options.holes.insert(options.holes.end(), surface.holes.begin(), surface.holes.end());
   options.regions.insert(options.regions.end(), surface.regions.begin(), surface.regions.end());
   if (!arguments.quiet) tell(surface.remarks);
+  tell_unused_sizes(arguments, surface);
+  require_a_size_a_vertex(arguments, options, surface);
   const double reading = whole.seconds();
   // The limit is on the whole command; 0 would mean none.
   if (options.time_limit > 0) options.time_limit = std::max(1e-6, options.time_limit - reading);

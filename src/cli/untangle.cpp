@@ -120,7 +120,9 @@ int run(const UntangleArguments& arguments) {
   files.write("--report", arguments.report);
   cancel_by_flag();
 
-  const Volume volume = read_volume(arguments.input, arguments.input_format);
+  std::vector<Remark> remarks;
+  const Volume volume = read_volume(arguments.input, arguments.input_format, &remarks);
+  if (!arguments.quiet) tell(remarks, arguments.input);
   const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - start;
   // The limit is on the whole command; 0 would mean none.
   if (options.time_limit > 0) options.time_limit = std::max(1e-6, options.time_limit - reading.count());
@@ -132,7 +134,10 @@ int run(const UntangleArguments& arguments) {
   UntangleResult result = untangle(volume, options);
   progress.finish();
 
-  if (result.outcome == Outcome::done) write_volume(target.path, result.volume, target.options);
+  if (result.outcome == Outcome::done) {
+    write_volume(target.path, result.volume, target.options);
+    if (!arguments.quiet) tell(not_held(target.path, result.volume, target.options), target.path);
+  }
   const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start;
   result.report.seconds["read"] = reading.count();
   result.report.seconds["total"] = total.count();

@@ -10,9 +10,12 @@
 #include <cstring>
 #include <new>
 #include <optional>
+#include <system_error>
 
 #include "holdfast/io.h"
 #include "io/descriptor.h"
+#include "io/gunzip.h"
+#include "io/text_reader.h"
 
 namespace holdfast::io {
 namespace {
@@ -72,6 +75,18 @@ std::optional<std::size_t> size_of(std::FILE* file) {
 
 }  // namespace
 
+std::filesystem::path without_gz(std::filesystem::path path) {
+  return lower(path.extension().string()) == ".gz" ? path.replace_extension() : path;
+}
+
+std::filesystem::path sibling(const std::filesystem::path& path, const char* extension) {
+  std::filesystem::path plain = without_gz(path).replace_extension(extension);
+  std::filesystem::path packed = plain;
+  packed += ".gz";
+  std::error_code error;
+  return !std::filesystem::exists(plain, error) && std::filesystem::exists(packed, error) ? packed : plain;
+}
+
 FileBytes::FileBytes(const std::filesystem::path& path) {
   const std::unique_ptr<std::FILE, CloseFile> file = open(path);
   const std::optional<std::size_t> expected = size_of(file.get());
@@ -89,6 +104,9 @@ FileBytes::FileBytes(const std::filesystem::path& path) {
     capacity *= 2;
   }
   if (std::ferror(file.get())) fail(path, "cannot be read");
+  if (!is_gzip(view())) return;
+  unpacked_ = gunzipped({path, view()});
+  bytes_.reset();
 }
 
 }  // namespace holdfast::io

@@ -3,21 +3,32 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
 
 namespace holdfast::io {
 
-/// The bytes of a file, read at once.
+/// A path without the ".gz" at its end, whose extension tells the format.
+[[nodiscard]] std::filesystem::path without_gz(std::filesystem::path path);
+
+/// The file beside `path` with another extension, or with ".gz" behind that if only this one is there.
+[[nodiscard]] std::filesystem::path sibling(const std::filesystem::path& path, const char* extension);
+
+/// The bytes of a file, read at once, and unpacked if gzip has packed them.
 class FileBytes {
  public:
   /// Reads a regular file, a pipe or an open descriptor ("/dev/stdin"), this from where it stands. Throws
   /// FileError, also for directories and for devices but a terminal.
   explicit FileBytes(const std::filesystem::path& path);
-  [[nodiscard]] std::string_view view() const { return {bytes_.get(), size_}; }
+  [[nodiscard]] std::string_view view() const {
+    return unpacked_ ? std::string_view(*unpacked_) : std::string_view(bytes_.get(), size_);
+  }
 
  private:
   std::unique_ptr<char[]> bytes_;
   std::size_t size_ = 0;
+  std::optional<std::string> unpacked_;  ///< instead, of a packed file
 };
 
 }  // namespace holdfast::io

@@ -9,6 +9,7 @@
 
 #include "io/byte_reader.h"
 #include "io/formats.h"
+#include "io/polygon.h"
 
 namespace holdfast::io {
 namespace {
@@ -115,15 +116,21 @@ class GmfReader {
         return read_entities<4>("tetrahedra",
                                 [&](const Tetrahedron& c, int tag) { mesh_.add_tetrahedron(c, tag); });
       case kQuadrilaterals:
+        return read_entities<4>("quadrilaterals", [&](const std::array<Index, 4>& c, int tag) {
+          add_polygon(mesh_, c, tag, [&](const std::string& reason) { bytes_.fail(reason); });
+        });
       case kPrisms:
       case kHexahedra:
       case kPyramids:
-        if (integer() != 0) bytes_.fail("quadrilaterals, prisms, hexahedra or pyramids; split them first");
+        if (integer() != 0) bytes_.fail("prisms, hexahedra or pyramids; split them first");
         return;
       case kSolAtVertices:
         if (solution_) read_values();
         return;
       default:
+        if (!solution_ && keyword != kSolAtVertices)
+          mesh_.remarks.push_back({RemarkKind::left_out, 1,
+                                   "the section of keyword " + std::to_string(keyword) + " is left out"});
         return;  // the next section's position leads past it
     }
   }

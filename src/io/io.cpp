@@ -1,6 +1,7 @@
 // The public functions of holdfast/io.h: formats by extension, and what a file must hold.
 #include "holdfast/io.h"
 
+#include <algorithm>
 #include <type_traits>
 
 #include "io/file_bytes.h"
@@ -77,12 +78,12 @@ const Format& find_format(const std::filesystem::path& path, std::string_view ex
 }
 
 const Format& surface_format(const std::filesystem::path& path, std::string_view format) {
-  return find_format(path, extension_of(path, format), "read as a surface",
+  return find_format(path, extension_of(without_gz(path), format), "read as a surface",
                      [](const Format& f) { return f.surface != nullptr; });
 }
 
 const Format& volume_format(const std::filesystem::path& path, std::string_view format) {
-  return find_format(path, extension_of(path, format), "read as a volume",
+  return find_format(path, extension_of(without_gz(path), format), "read as a volume",
                      [](const Format& f) { return f.volume != nullptr; });
 }
 
@@ -98,16 +99,28 @@ void require_consistent(const Volume& volume) {
     throw std::invalid_argument("a volume with regions or markers of another number than their entities");
 }
 
+void tell_polygons(MeshData& mesh) {
+  if (mesh.polygons_cut > 0)
+    mesh.remarks.push_back({RemarkKind::polygons_cut, mesh.polygons_cut,
+                            std::to_string(mesh.polygons_cut) + " polygon" +
+                                (mesh.polygons_cut == 1 ? "" : "s") + " of more than three corners " +
+                                (mesh.polygons_cut == 1 ? "is" : "are") + " cut into triangles"});
+}
+
 }  // namespace
 
 MeshData parse_surface(const Source& source, std::string_view format) {
   MeshData mesh = surface_format(source.path, format).surface(source);
   if (mesh.vertices.empty()) throw FileError(source.path, "", "the file holds no vertices");
+  tell_polygons(mesh);
+  mesh.leave_out(mesh.tetrahedra.size(), "tetrahedra", "tetrahedron");
   return mesh;
 }
 
 MeshData parse_volume(const Source& source, std::string_view format) {
-  return volume_format(source.path, format).volume(source);
+  MeshData mesh = volume_format(source.path, format).volume(source);
+  tell_polygons(mesh);
+  return mesh;
 }
 
 }  // namespace io
@@ -117,7 +130,6 @@ Surface read_surface(const std::filesystem::path& path, std::string_view format)
   static_cast<void>(io::surface_format(path, format));  // before a large file is read in vain
   const io::FileBytes bytes(path);
   io::MeshData mesh = io::parse_surface({path, bytes.view()}, format);
-  if (!mesh.tetrahedra.empty()) mesh.leave_out(mesh.tetrahedra.size(), "tetrahedra", "tetrahedron");
   Surface surface;
   surface.vertex_markers = mesh.vertex_markers.take(mesh.vertices.size());
   surface.facet_markers = mesh.facet_markers.take(mesh.facets.size());
@@ -161,6 +173,31 @@ std::vector<std::string> volume_formats() {
   for (const io::Format& format : io::kFormats)
     if (format.write != nullptr) extensions.emplace_back(format.extension);
   return extensions;
+}
+
+std::vector<Remark> not_held(const std::filesystem::path& path, const Volume& volume,
+                             const WriteOptions& options) {
+  const std::string extension = io::extension_of(path, options.format);
+  std::vector<Remark> remarks;
+  if (extension != ".msh") return remarks;
+  std::size_t negative = 0;
+  for (const auto* ids :
+       {&volume.regions, &volume.facet_markers, &volume.segment_markers, &volume.vertex_markers})
+    negative +=
+        static_cast<std::size_t>(std::count_if(ids->begin(), ids->end(), [](int id) { return id < 0; }));
+  if (negative > 0)
+    remarks.push_back({RemarkKind::not_held, negative,
+                       std::to_string(negative) +
+                           " negative region ids and markers are in the file, but Gmsh takes "
+                           "a negative physical tag for a reversed orientation; other formats hold them"});
+  const auto descends = [](const std::vector<int>& ids) { return !std::is_sorted(ids.begin(), ids.end()); };
+  if (!options.legacy_msh &&
+      (descends(volume.regions) || descends(volume.facet_markers) || descends(volume.segment_markers)))
+    remarks.push_back(
+        {RemarkKind::not_held, volume.tetrahedra.size() + volume.facets.size() + volume.segments.size(),
+         "version 4.1 of .msh groups tetrahedra, triangles and lines by their ids, so that they stand in "
+         "another order; version 2.2 and other formats keep it"});
+  return remarks;
 }
 
 void write_volume(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options) {

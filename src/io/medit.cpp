@@ -1,6 +1,7 @@
 // Medit's .mesh, the ASCII form of GMF (Frey, Medit: an interactive mesh visualization software,
 // INRIA RT-0253, 2001).
 #include "io/formats.h"
+#include "io/polygon.h"
 #include "io/text_reader.h"
 
 namespace holdfast::io {
@@ -28,7 +29,8 @@ void read_vertices(TextReader& text, MeshData& mesh) {
 }
 
 /// Skips a section that Holdfast has no use for: everything up to the next keyword.
-void skip_section(TextReader& text) {
+void skip_section(TextReader& text, const std::string& keyword, MeshData& mesh) {
+  mesh.remarks.push_back({RemarkKind::left_out, 1, "the section " + in_quotes(keyword) + " is left out"});
   while (!text.at_end()) {
     const std::size_t start = text.position();
     const std::string word = lower(text.word("a number"));
@@ -66,11 +68,16 @@ bool read_section(TextReader& text, const std::string& keyword, MeshData& mesh) 
   } else if (keyword == "tetrahedra") {
     read_entities<4>(text, "the number of tetrahedra", vertices,
                      [&](const Tetrahedron& corners, int tag) { mesh.add_tetrahedron(corners, tag); });
-  } else if (keyword == "quadrilaterals" || keyword == "hexahedra" || keyword == "hexaedra" ||
-             keyword == "prisms" || keyword == "pyramids" || keyword.ends_with("p2")) {
+  } else if (keyword == "quadrilaterals") {
+    read_entities<4>(text, "the number of quadrilaterals", vertices,
+                     [&](const std::array<Index, 4>& corners, int tag) {
+                       add_polygon(mesh, corners, tag, [&](const std::string& reason) { text.fail(reason); });
+                     });
+  } else if (keyword == "hexahedra" || keyword == "hexaedra" || keyword == "prisms" ||
+             keyword == "pyramids" || keyword.ends_with("p2")) {
     refuse_elements(text, keyword);
   } else {
-    skip_section(text);
+    skip_section(text, keyword, mesh);
   }
   return false;
 }

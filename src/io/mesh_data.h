@@ -48,6 +48,7 @@ struct MeshData {
   std::vector<Surface::RegionSeed> region_seeds;
   std::vector<Point> holes;
   std::vector<Remark> remarks;
+  std::size_t polygons_cut = 0;  ///< polygons of more than three corners, which became fans
 
   /// Says that `count` of `what` (a plural, which `one` is the singular of) are in the file and left out.
   void leave_out(std::size_t count, std::string_view what, std::string_view one = {}) {

@@ -1,13 +1,15 @@
-// Reads Gmsh's .msh, versions 2.x and 4.1, ASCII (Gmsh reference manual, "File formats").
+// Reads Gmsh's .msh, versions 2.x and 4.1, ASCII and binary (Gmsh reference manual, "File formats").
 //
-// A marker or region is the first physical tag, or the elementary entity's tag where there is none.
-// Vertices are ordered by node tag, which is the order in which Holdfast numbers them.
+// A marker or region is the first physical tag, or the elementary entity's tag where there is none; the
+// marker of a vertex is the physical tag of a point element. Vertices are ordered by node tag, which is the
+// order in which Holdfast numbers them.
 #include <algorithm>
 #include <map>
 #include <numeric>
 
 #include "io/formats.h"
-#include "io/text_reader.h"
+#include "io/msh_numbers.h"
+#include "io/polygon.h"
 
 namespace holdfast::io {
 namespace {
@@ -22,8 +24,8 @@ class MshNodes {
   void add_tag(std::int64_t tag) { tags_.push_back(tag); }
   void add_point(const Point& point) { points_.push_back(point); }
 
-  /// Sorts by tag; a tag that occurs twice fails at the text's position.
-  void finish(const TextReader& text) {
+  /// Sorts by tag; a tag that occurs twice fails at the numbers' position.
+  void finish(const MshNumbers& numbers) {
     if (std::is_sorted(tags_.begin(), tags_.end(), std::less_equal<>())) return;
     std::vector<std::size_t> order(tags_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -32,22 +34,23 @@ class MshNodes {
     sorted.reserve(order.size());
     for (const std::size_t i : order) {
       if (!sorted.tags_.empty() && sorted.tags_.back() == tags_[i])
-        text.fail("the node tag " + std::to_string(tags_[i]) + " occurs twice");
+        numbers.fail("the node tag " + std::to_string(tags_[i]) + " occurs twice");
       sorted.add_tag(tags_[i]);
       sorted.add_point(points_[i]);
     }
     *this = std::move(sorted);
   }
 
-  [[nodiscard]] Index index(const TextReader& text, std::int64_t tag) const {
+  [[nodiscard]] Index index(const MshNumbers& numbers, std::int64_t tag) const {
     // Tags without gaps are the rule; then no search is needed.
     if (!tags_.empty() && tag >= tags_.front() && tag <= tags_.back()) {
-      const auto guess = static_cast<std::size_t>(tag - tags_.front());
+      // The difference may be beyond 63 bits.
+      const std::size_t guess = static_cast<std::uint64_t>(tag) - static_cast<std::uint64_t>(tags_.front());
       if (guess < tags_.size() && tags_[guess] == tag) return static_cast<Index>(guess);
       const auto found = std::lower_bound(tags_.begin(), tags_.end(), tag);
       if (*found == tag) return static_cast<Index>(found - tags_.begin());
     }
-    text.fail("the node " + std::to_string(tag) + " does not exist");
+    numbers.fail("the node " + std::to_string(tag) + " does not exist");
   }
 
   [[nodiscard]] std::size_t size() const { return tags_.size(); }
@@ -60,14 +63,14 @@ class MshNodes {
 
 class MshReader {
  public:
-  explicit MshReader(const Source& source) : text_(source, '\0') {}
+  explicit MshReader(const Source& source) : in_(source), text_(in_.text()) {}
 
   MeshData read() {
     if (text_.word("$MeshFormat") != "$MeshFormat")
       text_.fail("not a Gmsh mesh: it does not start with $MeshFormat");
     read_format();
     while (!text_.at_end()) read_section();
-    mesh_.vertices = nodes_.take_points();
+    for (std::size_t i = 0; i < point_markers_.size(); ++i) mesh_.vertex_markers.add(i, point_markers_[i]);
     return std::move(mesh_);
   }
 
@@ -77,10 +80,24 @@ class MshReader {
     modern_ = version == "4.1";
     if (!modern_ && version != "2" && !version.starts_with("2."))
       text_.fail("version " + in_quotes(version) + " is not read; save it as 4.1 or 2.2");
-    if (text_.integer("the file type") != 0)
-      text_.fail("binary .msh is not read; save it as ASCII (gmsh -save -setnumber Mesh.Binary 0)");
-    static_cast<void>(text_.integer("the data size"));
+    const std::int64_t type = text_.integer("the file type");
+    if (type != 0 && type != 1) text_.fail("the file type is neither 0 (text) nor 1 (binary)");
+    const std::int64_t size = text_.integer("the data size");
+    if (type == 1) read_byte_order(size);
     expect_end("$EndMeshFormat");
+  }
+
+  /// The number 1 as bytes tells their order.
+  void read_byte_order(std::int64_t size) {
+    if (size != 8 && !(modern_ && size == 4))
+      text_.fail("numbers of " + std::to_string(size) + " bytes are not read");
+    text_.skip_line();
+    const std::string_view one = text_.remaining().substr(0, 4);
+    if (one.size() < 4) text_.fail_truncated("the number 1, which tells the order of bytes");
+    for (const std::endian order : {std::endian::little, std::endian::big})
+      if (load<std::int32_t>(one.data(), order) == 1) in_.set_binary(order, static_cast<std::size_t>(size));
+    if (!in_.binary()) text_.fail("the number 1, which tells the order of bytes, is missing");
+    text_.seek(text_.position() + 4);
   }
 
   void expect_end(std::string_view end) {
@@ -94,7 +111,8 @@ class MshReader {
     if (name == "$Nodes") {
       if (nodes_.size() > 0) text_.fail("a second section of nodes");
       modern_ ? read_nodes_4() : read_nodes_2();
-      nodes_.finish(text_);
+      nodes_.finish(in_);
+      mesh_.vertices = nodes_.take_points();
       expect_end("$EndNodes");
     } else if (name == "$Elements") {
       modern_ ? read_elements_4() : read_elements_2();
@@ -104,10 +122,18 @@ class MshReader {
       expect_end("$EndEntities");
     } else {
       skip_section("$End" + name.substr(1));
+      if (name != "$Entities" && name != "$Comments")
+        mesh_.remarks.push_back({RemarkKind::left_out, 1, "the section " + name + " is left out"});
     }
   }
 
   void skip_section(const std::string& end) {
+    if (in_.binary()) {
+      const std::size_t found = text_.remaining().find("\n" + end);
+      if (found == std::string_view::npos) text_.fail_truncated(end);
+      text_.seek(text_.position() + found + 1 + end.size());
+      return;
+    }
     text_.skip_line();
     while (!text_.at_end()) {
       if (text_.word_on_line() == end) return;
@@ -117,84 +143,95 @@ class MshReader {
   }
 
   void read_nodes_2() {
-    const std::size_t count = text_.count("the number of nodes", 8);
+    const std::size_t count = in_.text_count("the number of nodes", 8, 28);
+    in_.begin();
     nodes_.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
-      nodes_.add_tag(text_.integer("a node tag"));
-      nodes_.add_point(text_.point());
+      nodes_.add_tag(in_.integer("a node tag"));
+      nodes_.add_point(in_.point());
     }
   }
 
+  /// Binary elements come in groups of one type; in text each one is such a group.
   void read_elements_2() {
-    const std::size_t count = text_.count("the number of elements", 6);
-    for (std::size_t i = 0; i < count; ++i) {
-      static_cast<void>(text_.integer("an element tag"));
-      const std::int64_t type = text_.integer("an element type");
-      const std::size_t tags = text_.count("the number of tags", 2);
-      int physical = 0, elementary = 0;
-      for (std::size_t tag = 0; tag < tags; ++tag) {
-        const int value = text_.tag("a tag");
-        if (tag == 0) physical = value;
-        if (tag == 1) elementary = value;
+    const std::size_t count = in_.text_count("the number of elements", 6, 8);
+    in_.begin();
+    for (std::size_t done = 0; done < count;) {
+      if (!in_.binary()) static_cast<void>(in_.integer("an element tag"));
+      const std::int64_t type = in_.integer("an element type");
+      const std::size_t group = in_.binary() ? in_.short_count("the number of elements", 1, 8) : 1;
+      if (group == 0 || group > count - done) in_.fail("a group of elements that is empty or too large");
+      const std::size_t tags = in_.short_count("the number of tags", 2, 4);
+      for (std::size_t i = 0; i < group; ++i, ++done) {
+        if (in_.binary()) static_cast<void>(in_.integer("an element tag"));
+        int physical = 0, elementary = 0;
+        for (std::size_t tag = 0; tag < tags; ++tag) {
+          const int value = in_.tag("a tag");
+          if (tag == 0) physical = value;
+          if (tag == 1) elementary = value;
+        }
+        read_element(type, physical, elementary);
       }
-      read_element(type, physical != 0 ? physical : elementary);
     }
   }
 
   /// Reads the physical tags of the entities of each dimension.
   void read_entities() {
+    in_.begin();
     std::array<std::size_t, 4> counts{};
-    for (std::size_t& count : counts) count = text_.count("the number of entities", 10);
+    for (std::size_t& count : counts) count = in_.count("the number of entities", 10, 4);
     for (std::size_t dimension = 0; dimension < 4; ++dimension) {
       for (std::size_t i = 0; i < counts[dimension]; ++i) {
-        const std::int64_t tag = text_.integer("an entity tag");
-        for (int bound = 0; bound < (dimension == 0 ? 3 : 6); ++bound)
-          static_cast<void>(text_.real("a bound"));
-        const std::size_t physicals = text_.count("the number of physical tags", 2);
+        const std::int64_t tag = in_.integer("an entity tag");
+        for (int bound = 0; bound < (dimension == 0 ? 3 : 6); ++bound) static_cast<void>(in_.real("a bound"));
+        const std::size_t physicals = in_.count("the number of physical tags", 2, 4);
         for (std::size_t k = 0; k < physicals; ++k) {
-          const int physical = text_.tag("a physical tag");
+          const int physical = in_.tag("a physical tag");
           if (k == 0) physicals_[{dimension, tag}] = physical;
         }
         if (dimension == 0) continue;
-        const std::size_t borders = text_.count("the number of bounding entities", 2);
-        for (std::size_t k = 0; k < borders; ++k) static_cast<void>(text_.integer("an entity tag"));
+        const std::size_t borders = in_.count("the number of bounding entities", 2, 4);
+        for (std::size_t k = 0; k < borders; ++k) static_cast<void>(in_.integer("an entity tag"));
       }
     }
   }
 
   void read_nodes_4() {
-    const std::size_t blocks = text_.count("the number of blocks", 8);
-    nodes_.reserve(text_.count("the number of nodes", 8));
-    static_cast<void>(text_.integer("the least node tag"));
-    static_cast<void>(text_.integer("the largest node tag"));
+    in_.begin();
+    const std::size_t blocks = in_.count("the number of blocks", 8, 12);
+    nodes_.reserve(in_.count("the number of nodes", 8, 24));
+    static_cast<void>(in_.size("the least node tag"));
+    static_cast<void>(in_.size("the largest node tag"));
     for (std::size_t block = 0; block < blocks; ++block) {
-      const std::int64_t dimension = text_.integer("a dimension");
-      static_cast<void>(text_.integer("an entity tag"));
-      const bool parametric = text_.integer("the parametric flag") != 0;
-      const std::size_t count = text_.count("the number of nodes", 8);
-      for (std::size_t i = 0; i < count; ++i) nodes_.add_tag(text_.integer("a node tag"));
+      const std::int64_t dimension = in_.integer("a dimension");
+      static_cast<void>(in_.integer("an entity tag"));
+      const bool parametric = in_.integer("the parametric flag") != 0;
+      const std::size_t count = in_.count("the number of nodes", 8, 24);
+      for (std::size_t i = 0; i < count; ++i) nodes_.add_tag(in_.size("a node tag"));
       for (std::size_t i = 0; i < count; ++i) {
-        nodes_.add_point(text_.point());
+        nodes_.add_point(in_.point());
         for (std::int64_t axis = 0; parametric && axis < std::min<std::int64_t>(dimension, 3); ++axis)
-          static_cast<void>(text_.real("a parametric coordinate"));
+          static_cast<void>(in_.real("a parametric coordinate"));
       }
     }
   }
 
   void read_elements_4() {
-    const std::size_t blocks = text_.count("the number of blocks", 8);
+    in_.begin();
+    const std::size_t blocks = in_.count("the number of blocks", 8, 12);
     for (const char* what : {"the number of elements", "the least element tag", "the largest element tag"})
-      static_cast<void>(text_.integer(what));
+      static_cast<void>(in_.size(what));
     for (std::size_t block = 0; block < blocks; ++block) {
-      const std::int64_t dimension = text_.integer("a dimension");
-      const int entity = text_.tag("an entity tag");
-      const std::int64_t type = text_.integer("an element type");
-      const std::size_t count = text_.count("the number of elements", 4);
-      const auto physical = physicals_.find({static_cast<std::size_t>(dimension), entity});
-      const int tag = physical == physicals_.end() ? entity : physical->second;
+      const std::int64_t dimension = in_.integer("a dimension");
+      const int entity = in_.tag("an entity tag");
+      const std::int64_t type = in_.integer("an element type");
+      const std::size_t count = in_.count("the number of elements", 4, 4);
+      const auto found = physicals_.find({static_cast<std::size_t>(dimension), entity});
+      const int physical = found == physicals_.end() ? 0 : found->second;
+      const int elementary = found == physicals_.end() ? entity : 0;
       for (std::size_t i = 0; i < count; ++i) {
-        static_cast<void>(text_.integer("an element tag"));
-        read_element(type, tag);
+        static_cast<void>(in_.size("an element tag"));
+        read_element(type, physical, elementary);
       }
     }
   }
@@ -202,31 +239,43 @@ class MshReader {
   template <std::size_t N>
   std::array<Index, N> corners() {
     std::array<Index, N> result{};
-    for (Index& corner : result) corner = nodes_.index(text_, text_.integer("a node tag"));
+    for (Index& corner : result)
+      corner = nodes_.index(in_, modern_ ? in_.size("a node tag") : in_.integer("a node tag"));
     return result;
   }
 
-  void read_element(std::int64_t type, int tag) {
+  void read_element(std::int64_t type, int physical, int elementary) {
+    const int tag = physical != 0 ? physical : elementary;
     switch (type) {
       case 1:
         return mesh_.add_segment(corners<2>(), tag);
       case 2:
         return mesh_.add_facet(corners<3>(), tag);
+      case 3:
+        return add_polygon(mesh_, corners<4>(), tag, [&](const std::string& reason) { in_.fail(reason); });
       case 4:
         return mesh_.add_tetrahedron(corners<4>(), tag);
       case 15:
-        static_cast<void>(corners<1>());
-        return;
+        return mark_vertex(corners<1>()[0], physical);
       default:
-        text_.fail("elements of type " + std::to_string(type) +
-                   " are not read; only points, lines, triangles and tetrahedra of first order are");
+        in_.fail(
+            "elements of type " + std::to_string(type) +
+            " are not read; only points, lines, triangles, quadrangles and tetrahedra of first order are");
     }
   }
 
-  TextReader text_;
+  void mark_vertex(Index vertex, int physical) {
+    if (physical == 0) return;
+    point_markers_.resize(mesh_.vertices.size(), 0);
+    point_markers_[vertex] = physical;
+  }
+
+  MshNumbers in_;
+  TextReader& text_;
   bool modern_ = false;  ///< version 4.1
   MshNodes nodes_;
   std::map<std::pair<std::size_t, std::int64_t>, int> physicals_;  ///< by dimension and entity tag
+  std::vector<int> point_markers_;                                 ///< by vertex, where any is marked
   MeshData mesh_;
 };
 

@@ -12,7 +12,21 @@
 namespace holdfast::io {
 namespace {
 
-constexpr int kLine = 1, kTriangle = 2, kTetrahedron = 4;
+constexpr int kLine = 1, kTriangle = 2, kTetrahedron = 4, kPoint = 15;
+
+/// Marked vertices as elements: nodes have no tags of their own.
+struct MarkedVertices {
+  std::vector<std::array<Index, 1>> vertices;
+  std::vector<int> markers;
+
+  explicit MarkedVertices(const Volume& volume) {
+    for (std::size_t i = 0; i < volume.vertex_markers.size(); ++i) {
+      if (volume.vertex_markers[i] == 0) continue;
+      vertices.push_back({static_cast<Index>(i)});
+      markers.push_back(volume.vertex_markers[i]);
+    }
+  }
+};
 
 void write_point(AtomicWriter& out, const Point& p) { out << p[0] << ' ' << p[1] << ' ' << p[2] << '\n'; }
 
@@ -97,6 +111,15 @@ void write_entities(AtomicWriter& out, const Entities& entities, const std::arra
   }
 }
 
+void write_point_entities(AtomicWriter& out, const Entities& entities, const MarkedVertices& marked,
+                          const std::vector<Point>& points) {
+  for (std::size_t e = 0; e < entities.size(); ++e) {
+    const Point& p = points[marked.vertices[entities.elements(e)[0]][0]];
+    out << std::uint64_t{e + 1} << ' ' << p[0] << ' ' << p[1] << ' ' << p[2] << " 1 " << entities.tag(e)
+        << '\n';
+  }
+}
+
 template <std::size_t N>
 void write_blocks(AtomicWriter& out, const Entities& entities, int dimension, int type,
                   const std::vector<std::array<Index, N>>& elements, std::uint64_t& number) {
@@ -124,23 +147,30 @@ void write_nodes_4(AtomicWriter& out, const std::vector<Point>& vertices, int di
 }
 
 void write_msh_4(AtomicWriter& out, const Volume& volume) {
+  const MarkedVertices marked(volume);
+  const Entities points(marked.markers, marked.vertices.size());
   const Entities curves(volume.segment_markers, volume.segments.size());
   const Entities surfaces(volume.facet_markers, volume.facets.size());
   Entities volumes(volume.regions, volume.tetrahedra.size());
   if (curves.size() + surfaces.size() + volumes.size() == 0) volumes = Entities::lone();
   const std::array<Point, 2> box = bounds(volume.vertices);
-  out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 " << std::uint64_t{curves.size()} << ' '
+  out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n"
+      << std::uint64_t{points.size()} << ' ' << std::uint64_t{curves.size()} << ' '
       << std::uint64_t{surfaces.size()} << ' ' << std::uint64_t{volumes.size()} << '\n';
+  write_point_entities(out, points, marked, volume.vertices);
   write_entities(out, curves, box);
   write_entities(out, surfaces, box);
   write_entities(out, volumes, box);
   out << "$EndEntities\n";
   write_nodes_4(out, volume.vertices, volumes.size() > 0 ? 3 : surfaces.size() > 0 ? 2 : 1);
-  const std::uint64_t elements = volume.tetrahedra.size() + volume.facets.size() + volume.segments.size();
-  const std::uint64_t blocks = elements == 0 ? 0 : curves.size() + surfaces.size() + volumes.size();
+  const std::uint64_t elements =
+      marked.vertices.size() + volume.tetrahedra.size() + volume.facets.size() + volume.segments.size();
+  const std::uint64_t blocks =
+      (volume.tetrahedra.empty() ? 0 : volumes.size()) + points.size() + curves.size() + surfaces.size();
   out << "$Elements\n"
       << blocks << ' ' << elements << ' ' << (elements == 0 ? 0 : 1) << ' ' << elements << '\n';
   std::uint64_t number = 0;
+  write_blocks(out, points, 0, kPoint, marked.vertices, number);
   write_blocks(out, curves, 1, kLine, volume.segments, number);
   write_blocks(out, surfaces, 2, kTriangle, volume.facets, number);
   write_blocks(out, volumes, 3, kTetrahedron, volume.tetrahedra, number);
@@ -153,9 +183,13 @@ void write_msh_2(AtomicWriter& out, const Volume& volume) {
     out << std::uint64_t{i + 1} << ' ';
     write_point(out, volume.vertices[i]);
   }
+  const MarkedVertices marked(volume);
   out << "$EndNodes\n$Elements\n"
-      << std::uint64_t{volume.tetrahedra.size() + volume.facets.size() + volume.segments.size()} << '\n';
+      << std::uint64_t{marked.vertices.size() + volume.tetrahedra.size() + volume.facets.size() +
+                       volume.segments.size()}
+      << '\n';
   std::uint64_t number = 0;
+  write_elements_2(out, kPoint, marked.vertices, marked.markers, number);
   write_elements_2(out, kLine, volume.segments, volume.segment_markers, number);
   write_elements_2(out, kTriangle, volume.facets, volume.facet_markers, number);
   write_elements_2(out, kTetrahedron, volume.tetrahedra, volume.regions, number);

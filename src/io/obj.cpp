@@ -1,5 +1,6 @@
 // Wavefront OBJ: v, f, l and p; the rest describes looks (Wavefront Advanced Visualizer, appendix B1).
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <iterator>
 
@@ -27,6 +28,7 @@ class ObjReader {
       if (keyword == "v") mesh_.vertices.push_back(text.point());
     });
     each_line([&](std::string_view keyword, TextReader& text) { read_element(keyword, text); });
+    tell_looks();
     return std::move(mesh_);
   }
 
@@ -68,9 +70,23 @@ class ObjReader {
       read_corners(text);  // isolated points are vertices already; the indices are checked
     } else if (keyword == "curv" || keyword == "surf") {
       text.fail("free-form curves and surfaces are not read; export them as triangles");
-    } else if (std::find(std::begin(kLooks), std::end(kLooks), keyword) == std::end(kLooks)) {
+    } else if (const auto looks = std::find(std::begin(kLooks), std::end(kLooks), keyword);
+               looks != std::end(kLooks)) {
+      ++looks_[static_cast<std::size_t>(looks - std::begin(kLooks))];
+    } else {
       text.fail("unknown statement " + in_quotes(keyword));
     }
+  }
+
+  void tell_looks() {
+    std::string names;
+    std::size_t lines = 0;
+    for (std::size_t i = 0; i < looks_.size(); ++i) {
+      if (looks_[i] > 0) names += (names.empty() ? "" : ", ") + std::string(kLooks[i]);
+      lines += looks_[i];
+    }
+    mesh_.leave_out(lines, "lines of looks, groups or names (" + names + ")",
+                    "line of looks, groups or names (" + names + ")");
   }
 
   void read_corners(TextReader& text) {
@@ -102,6 +118,7 @@ class ObjReader {
   MeshData mesh_;
   std::size_t seen_ = 0;  ///< vertices above the current line
   std::vector<Index> corners_;
+  std::array<std::size_t, std::size(kLooks)> looks_{};  ///< lines of each
 };
 
 }  // namespace

@@ -1,8 +1,9 @@
-// OFF (Geomview's object file format, http://www.geomview.org/docs/html/OFF.html).
+// OFF, text and binary (Geomview's object file format, http://www.geomview.org/docs/html/OFF.html).
 //
 // Here a "face" of two corners is a segment and one of a single corner an isolated vertex, as in the
-// surfaces of Holdfast's corpus. What follows the coordinates or the corners on a line (normals,
-// colours, texture coordinates) is skipped.
+// surfaces of Holdfast's corpus. What follows the coordinates or the corners (normals, colours, texture
+// coordinates) is left out.
+#include "io/byte_reader.h"
 #include "io/formats.h"
 #include "io/polygon.h"
 #include "io/text_reader.h"
@@ -10,57 +11,128 @@
 namespace holdfast::io {
 namespace {
 
-/// Reads "[ST][C][N][4][n]OFF", which may be missing, and refuses what is not three-dimensional text.
-void read_header(TextReader& text) {
+struct Header {
+  bool binary = false;
+  std::size_t floats_behind = 0;  ///< numbers behind the coordinates of a vertex
+};
+
+/// Reads "[ST][C][N][4][n]OFF [BINARY]", which may be missing, and refuses other than three dimensions.
+Header read_header(TextReader& text) {
+  Header header;
   const bool number = text.number_follows();
   const std::size_t start = text.position();
   const std::string keyword = lower(text.word("the keyword OFF"));
   if (!keyword.ends_with("off")) {
     if (!number) text.fail("not an OFF file: it starts with " + in_quotes(keyword));
     text.seek(start);
-    return;
+    return header;
   }
+  struct Part {
+    std::string_view name;
+    std::size_t floats;
+  };
   std::string_view prefix = std::string_view(keyword).substr(0, keyword.size() - 3);
-  for (const char* part : {"st", "c", "n"})
-    if (prefix.starts_with(part)) prefix.remove_prefix(std::string_view(part).size());
+  for (const Part& part : {Part{"st", 2}, Part{"c", 4}, Part{"n", 3}}) {
+    if (!prefix.starts_with(part.name)) continue;
+    prefix.remove_prefix(part.name.size());
+    header.floats_behind += part.floats;
+  }
   if (!prefix.empty()) text.fail(in_quotes(keyword) + " is not OFF of three dimensions");
-  if (text.at_line_end() || text.number_follows()) return;
-  if (lower(text.word_on_line()) == "binary") text.fail("binary OFF is not read; save it as text");
-  text.fail("expected the number of vertices");
+  if (text.at_line_end() || text.number_follows()) return header;
+  header.binary = lower(text.word_on_line()) == "binary";
+  if (!header.binary) text.fail("expected the number of vertices");
+  return header;
 }
 
-void read_face(TextReader& text, MeshData& mesh, std::vector<Index>& corners) {
-  const std::size_t size = text.count("the number of corners", 2);
-  const std::size_t start = text.last();
-  corners.clear();
-  for (std::size_t i = 0; i < size; ++i)
-    corners.push_back(text.index("a vertex index", 0, mesh.vertices.size()));
-  add_polygon(mesh, corners, 0, [&](const std::string& reason) { text.fail_at(start, reason); });
-  text.skip_line();
-}
+class OffReader {
+ public:
+  explicit OffReader(const Source& source) : source_(source), text_(source) {}
+
+  MeshData read() {
+    const Header header = read_header(text_);
+    header.binary ? read_bytes(header) : read_text();
+    mesh_.leave_out(decorated_, "vertices' and faces' normals, colours or texture coordinates",
+                    "vertex's or face's normal, colour or texture coordinates");
+    return std::move(mesh_);
+  }
+
+ private:
+  void read_text() {
+    const std::size_t vertices = text_.count("the number of vertices", 6);
+    const std::size_t faces = text_.count("the number of faces", 2);
+    text_.skip_line();  // the number of edges, which nobody maintains
+    mesh_.vertices.reserve(vertices);
+    for (std::size_t i = 0; i < vertices; ++i) {
+      mesh_.vertices.push_back(text_.point());
+      end_line();
+    }
+    mesh_.facets.reserve(faces);
+    for (std::size_t i = 0; i < faces; ++i) {
+      corners_.resize(text_.count("the number of corners", 2));
+      const std::size_t start = text_.last();
+      for (Index& corner : corners_) corner = text_.index("a vertex index", 0, mesh_.vertices.size());
+      add_polygon(mesh_, corners_, 0, [&](const std::string& reason) { text_.fail_at(start, reason); });
+      end_line();
+    }
+    if (!text_.at_end()) {
+      text_.seek(text_.position());
+      text_.fail("text after the last of " + std::to_string(faces) + " faces; the counts are wrong");
+    }
+  }
+
+  void end_line() {
+    decorated_ += text_.at_line_end() ? 0 : 1;
+    text_.skip_line();
+  }
+
+  /// Big-endian numbers of 32 bits behind the header's line; the colour of a face has its count in front.
+  void read_bytes(const Header& header) {
+    text_.skip_line();
+    ByteReader bytes(source_, std::endian::big, text_.position());
+    const auto vertices = bytes.read<std::uint32_t>(), faces = bytes.read<std::uint32_t>();
+    static_cast<void>(bytes.read<std::uint32_t>());  // the number of edges
+    bytes.require_items(vertices, 4 * (3 + header.floats_behind), "vertices");
+    mesh_.vertices.reserve(vertices);
+    for (std::uint32_t i = 0; i < vertices; ++i) {
+      const double x = bytes.read<float>(), y = bytes.read<float>();
+      mesh_.vertices.push_back({x, y, bytes.read<float>()});
+      static_cast<void>(bytes.take(4 * header.floats_behind));
+    }
+    if (header.floats_behind > 0) decorated_ += vertices;
+    bytes.require_items(faces, 8, "faces");
+    mesh_.facets.reserve(faces);
+    for (std::uint32_t i = 0; i < faces; ++i) read_face(bytes);
+    if (bytes.left() > 0)
+      bytes.fail("bytes after the last of " + std::to_string(faces) + " faces; the counts are wrong");
+  }
+
+  void read_face(ByteReader& bytes) {
+    const auto size = bytes.read<std::uint32_t>();
+    bytes.require_items(size, 4, "corners");
+    corners_.resize(size);
+    for (Index& corner : corners_) {
+      corner = bytes.read<std::uint32_t>();
+      if (corner >= mesh_.vertices.size())
+        bytes.fail("the vertex index " + std::to_string(corner) + " is out of range; there are " +
+                   std::to_string(mesh_.vertices.size()) + " vertices and the first is 0");
+    }
+    add_polygon(mesh_, corners_, 0, [&](const std::string& reason) { bytes.fail(reason); });
+    const auto components = bytes.read<std::uint32_t>();
+    if (components > 4)
+      bytes.fail("a colour of " + std::to_string(components) + " components; there are 4 at most");
+    static_cast<void>(bytes.take(std::size_t{4} * components));
+    decorated_ += components > 0 ? 1 : 0;
+  }
+
+  Source source_;
+  TextReader text_;
+  MeshData mesh_;
+  std::vector<Index> corners_;
+  std::size_t decorated_ = 0;
+};
 
 }  // namespace
 
-MeshData read_off(const Source& source) {
-  TextReader text(source);
-  read_header(text);
-  const std::size_t vertices = text.count("the number of vertices", 6);
-  const std::size_t faces = text.count("the number of faces", 2);
-  text.skip_line();  // the number of edges, which nobody maintains
-  MeshData mesh;
-  mesh.vertices.reserve(vertices);
-  for (std::size_t i = 0; i < vertices; ++i) {
-    mesh.vertices.push_back(text.point());
-    text.skip_line();
-  }
-  mesh.facets.reserve(faces);
-  std::vector<Index> corners;
-  for (std::size_t i = 0; i < faces; ++i) read_face(text, mesh, corners);
-  if (!text.at_end()) {
-    text.seek(text.position());
-    text.fail("text after the last of " + std::to_string(faces) + " faces; the counts are wrong");
-  }
-  return mesh;
-}
+MeshData read_off(const Source& source) { return OffReader(source).read(); }
 
 }  // namespace holdfast::io

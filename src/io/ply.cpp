@@ -2,6 +2,8 @@
 //
 // Read are vertex {x, y, z}, face {vertex_indices or vertex_index} and edge {vertex1, vertex2};
 // other elements and properties are skipped.
+#include <algorithm>
+#include <iterator>
 #include <optional>
 
 #include "io/byte_reader.h"
@@ -196,10 +198,31 @@ class PlyReader {
       else
         skip(element);
     }
+    tell_skipped();
     return std::move(mesh_);
   }
 
  private:
+  /// Says which properties of what is read, and which elements, have no place in a mesh.
+  void tell_skipped() {
+    constexpr std::string_view kRead[] = {"x",       "y",      "z", "vertex_indices", "vertex_index",
+                                          "vertex1", "vertex2"};
+    for (const Element& element : header_.elements) {
+      if (element.count == 0) continue;
+      const bool is_read = element.name == "vertex" || element.name == "face" || element.name == "edge";
+      std::string names;
+      for (const Property& property : element.properties)
+        if (std::find(std::begin(kRead), std::end(kRead), property.name) == std::end(kRead))
+          names += (names.empty() ? "" : ", ") + property.name;
+      if (!is_read)
+        mesh_.leave_out(element.count, "elements " + in_quotes(element.name),
+                        "element " + in_quotes(element.name));
+      else if (!names.empty())
+        mesh_.remarks.push_back(
+            {RemarkKind::left_out, element.count, "of every " + element.name + " is left out: " + names});
+    }
+  }
+
   static std::size_t least_size(const Element& element) {
     std::size_t size = 0;
     for (const Property& property : element.properties)

@@ -31,6 +31,14 @@ std::vector<Point> local_corners(std::span<const Point> vertices, std::span<cons
 
 }  // namespace
 
+std::vector<Index> without_repeats(std::span<const Point> vertices, std::span<const Index> corners) {
+  std::vector<Index> distinct;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    if (vertices[corners[i]] != vertices[corners[(i + corners.size() - 1) % corners.size()]])
+      distinct.push_back(corners[i]);
+  return distinct;
+}
+
 std::vector<Triangle> fan(std::span<const Point> vertices, std::span<const Index> corners) {
   const std::size_t n = corners.size();
   const std::vector<Point> local = local_corners(vertices, corners);

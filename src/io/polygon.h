@@ -16,9 +16,14 @@ namespace holdfast::io {
 /// and `diagnose` then judges the triangles exactly.
 [[nodiscard]] std::vector<Triangle> fan(std::span<const Point> vertices, std::span<const Index> corners);
 
+/// The corners without those at the place of the one before them, which the first follows.
+[[nodiscard]] std::vector<Index> without_repeats(std::span<const Point> vertices,
+                                                 std::span<const Index> corners);
+
 /// Adds a "face" of any number of corners to `mesh`: a triangle as it is, two corners as a segment,
-/// one as nothing more than the vertex that it names, more as a fan. `fail` is called with the
-/// reason, and must throw, if the polygon cannot be fanned.
+/// one as nothing more than the vertex that it names, more as a fan. A corner that repeats the place of the
+/// one before it does not count. `fail` is called with the reason, and must throw, if the polygon cannot be
+/// fanned.
 template <typename Fail>
 void add_polygon(MeshData& mesh, std::span<const Index> corners, int marker, Fail&& fail) {
   switch (corners.size()) {
@@ -36,11 +41,27 @@ void add_polygon(MeshData& mesh, std::span<const Index> corners, int marker, Fai
     default:
       break;
   }
-  const std::vector<Triangle> triangles = fan(mesh.vertices, corners);
+  const std::vector<Index> distinct = without_repeats(mesh.vertices, corners);
+  if (distinct.size() <= 3) {  // of one or two places: a triangle that `diagnose` calls degenerate
+    const std::span<const Index> triangle = distinct.size() == 3 ? std::span<const Index>(distinct) : corners;
+    return mesh.add_facet({triangle[0], triangle[1], triangle[2]}, marker);
+  }
+  const std::vector<Triangle> triangles = fan(mesh.vertices, distinct);
   if (triangles.empty())
     fail("a polygon of " + std::to_string(corners.size()) +
          " corners that is not convex; split it into triangles");
   for (const Triangle& triangle : triangles) mesh.add_facet(triangle, marker);
+  ++mesh.polygons_cut;
+}
+
+/// Adds the triangles of a strip: corners i, i + 1, i + 2, with every other one turned round. Those that name
+/// a vertex twice only join strips.
+inline void add_strip(MeshData& mesh, std::span<const Index> corners, int marker) {
+  for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
+    const Triangle triangle{corners[i + i % 2], corners[i + 1 - i % 2], corners[i + 2]};
+    if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])
+      mesh.add_facet(triangle, marker);
+  }
 }
 
 }  // namespace holdfast::io

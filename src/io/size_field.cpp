@@ -13,10 +13,6 @@
 namespace holdfast::io {
 namespace {
 
-std::filesystem::path with_extension(std::filesystem::path path, const char* extension) {
-  return path.replace_extension(extension);
-}
-
 bool is_there(const std::filesystem::path& path) {
   std::error_code error;
   return std::filesystem::exists(path, error);
@@ -107,8 +103,8 @@ SizeField read_solb(const Source& source, std::size_t vertices) {
 
 /// The file beside `path` with one of two endings, the first if both are there.
 std::filesystem::path beside(const std::filesystem::path& path, const char* ending, const char* other) {
-  const std::filesystem::path first = with_extension(path, ending);
-  return is_there(first) ? first : with_extension(path, other);
+  const std::filesystem::path first = sibling(path, ending);
+  return is_there(first) ? first : sibling(path, other);
 }
 
 /// A mesh and the values at its vertices in another file, of which `path` is either.
@@ -118,7 +114,7 @@ SizeField read_mesh_and_sol(const std::filesystem::path& path, const std::string
                               sol_path = is_mesh ? beside(path, ".sol", ".solb") : path;
   const FileBytes mesh_bytes(mesh_path), sol_bytes(sol_path);
   MeshData mesh = parse_volume({mesh_path, mesh_bytes.view(), true});
-  const auto read = lower(sol_path.extension().string()) == ".solb" ? read_solb : read_sol;
+  const auto read = lower(without_gz(sol_path).extension().string()) == ".solb" ? read_solb : read_sol;
   SizeField field = read({sol_path, sol_bytes.view(), true}, mesh.vertices.size());
   return on_mesh(std::move(mesh), std::move(field));
 }
@@ -195,15 +191,16 @@ SizeField field_of(const PointArray& array, const std::filesystem::path& path) {
 }
 
 SizeField read_by_extension(const std::filesystem::path& path) {
-  const std::string extension = lower(path.extension().string());
+  const std::string extension = lower(without_gz(path).extension().string());
   for (const char* ending : {".mesh", ".meshb", ".sol", ".solb"})
     if (extension == ending) return read_mesh_and_sol(path, extension);
   const FileBytes bytes(path);
   const Source source{path, bytes.view(), true};
   if (extension == ".mtr") {
     SizeField field = read_mtr(source);
-    if (is_there(with_extension(path, ".ele")))
-      return on_mesh(read_tetgen_volume({with_extension(path, ".node"), {}, true}), std::move(field));
+    const std::filesystem::path nodes = sibling(path, ".node");
+    if (is_there(sibling(path, ".ele")))
+      return on_mesh(read_tetgen_volume({nodes, {}, true}), std::move(field));
     if (!field.metrics.empty())
       throw FileError(path, "", "metric tensors need a background mesh, its .node and .ele beside the .mtr");
     return field;

@@ -59,6 +59,12 @@ MeshData read_binary(const Source& source) {
                              weld.add(points[i + 2], hashes[i + 2])});
     record += kRecord * kBatch;
   }
+  const char* const attributes = source.bytes.data() + kHeader + 4 + kRecord - 2;
+  std::size_t set = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    set += load<std::uint16_t>(attributes + kRecord * i, std::endian::little) != 0 ? 1 : 0;
+  mesh.leave_out(set, "attributes of triangles (colours, perhaps)",
+                 "attribute of a triangle (its colour, perhaps)");
   return mesh;
 }
 

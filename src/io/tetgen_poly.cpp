@@ -3,6 +3,9 @@
 //
 // A polygon of two corners is a segment, one of a single corner a vertex, one of more than three is
 // fanned where it is convex. A facet with holes is refused: it is no set of polygons.
+#include <algorithm>
+#include <cmath>
+
 #include "io/file_bytes.h"
 #include "io/formats.h"
 #include "io/polygon.h"
@@ -10,6 +13,17 @@
 
 namespace holdfast::io {
 namespace {
+
+/// By Newton's method, whose arithmetic is the same everywhere, which that of std::cbrt is not.
+double cube_root(double x) {
+  int exponent = 0;
+  double m = std::frexp(x, &exponent);
+  const int thirds = exponent >= 0 ? (exponent + 2) / 3 : exponent / 3;
+  m = std::ldexp(m, exponent - 3 * thirds);  // 1/8 <= m < 1
+  double root = 1;
+  for (int i = 0; i < 12; ++i) root = (2 * root + m / (root * root)) / 3;
+  return std::ldexp(root, thirds);
+}
 
 class PolyReader {
  public:
@@ -90,9 +104,27 @@ class PolyReader {
     for (std::size_t i = 0; i < count; ++i) {
       static_cast<void>(text_.integer("the region's number"));
       const Point where = text_.point();
-      mesh_.region_seeds.push_back({where, text_.tag_from_real("a region's attribute")});
-      text_.skip_line();  // the largest volume of its tetrahedra
+      const int id = text_.tag_from_real("a region's attribute");
+      mesh_.region_seeds.push_back({where, id, text_.at_line_end() ? 0 : read_size()});
+      text_.skip_line();
     }
+    const auto limits = static_cast<std::size_t>(
+        std::count_if(mesh_.region_seeds.begin(), mesh_.region_seeds.end(),
+                      [](const Surface::RegionSeed& seed) { return seed.size > 0; }));
+    if (limits > 0)
+      mesh_.remarks.push_back(
+          {RemarkKind::size_limits, limits,
+           std::to_string(limits) + (limits == 1 ? " region's limit V" : " regions' limits V") +
+               " on the volume of tetrahedra " + (limits == 1 ? "is taken as a size" : "are taken as sizes") +
+               " H = (6 sqrt(2) V)^(1/3)"});
+  }
+
+  /// The edge of the regular tetrahedron that has the largest volume of a region; 0 for no limit.
+  double read_size() {
+    constexpr double kEdgeOfVolumeOne = 2.0396489026555056;  // (6 sqrt(2))^(1/3)
+    const double volume = text_.real("a region's largest volume");
+    if (!std::isfinite(volume)) text_.fail("a region's largest volume is not finite");
+    return volume > 0 ? kEdgeOfVolumeOne * cube_root(volume) : 0;
   }
 
   TextReader text_;
@@ -121,8 +153,9 @@ TetgenNodes read_tetgen_nodes(TextReader& text) {
       text.fail("expected vertex " + std::to_string(nodes.base + static_cast<std::int64_t>(i)) +
                 ", found the number " + std::to_string(number));
     const Point point = text.point();
-    for (std::size_t k = 0; k < attributes; ++k) static_cast<void>(text.real("an attribute"));
-    nodes.markers.add(i, marked ? text.tag_from_real("a boundary marker") : 0);
+    for (std::size_t k = 0; k < attributes && !text.at_line_end(); ++k)
+      static_cast<void>(text.real("an attribute"));
+    nodes.markers.add(i, marked && !text.at_line_end() ? text.tag_from_real("a boundary marker") : 0);
     nodes.vertices.push_back(point);
     text.skip_line();
   }
@@ -136,8 +169,7 @@ void take_nodes(MeshData& mesh, TetgenNodes& nodes) {
 }
 
 TetgenNodes read_tetgen_node_file(const Source& source) {
-  std::filesystem::path beside = source.path;
-  beside.replace_extension(".node");
+  const std::filesystem::path beside = sibling(source.path, ".node");
   const FileBytes bytes(beside);
   TextReader text({beside, bytes.view(), source.finite});
   return read_tetgen_nodes(text);

@@ -1,4 +1,5 @@
 // TetGen's volumes: .node, .ele, .face and .edge beside one another (manual, section 5.2).
+#include <limits>
 #include <system_error>
 
 #include "io/file_bytes.h"
@@ -13,25 +14,32 @@ std::filesystem::path with_extension(std::filesystem::path path, const char* ext
 }
 
 /// Reads the lines "number corner... tag..." of one of the files. `columns` of the header follow the
-/// count; the tag is the first number behind the corners, 0 where there is none.
+/// count; the tag is the first number behind the corners, 0 where there is none. Returns how many lines have
+/// further attributes.
 template <std::size_t N, typename Add>
-void read_lines(TextReader& text, const char* what, const TetgenNodes& nodes, Add&& add) {
+std::size_t read_lines(TextReader& text, const char* what, const TetgenNodes& nodes, Add&& add) {
   const std::size_t count = text.count("the number of elements", 2 * N + 2);
   if (N == 4 && !text.at_line_end() && text.integer("the number of corners") != 4)
     text.fail("tetrahedra of other than 4 corners are not read");
+  const std::int64_t attributes =
+      N == 4 && !text.at_line_end() ? text.integer("the number of attributes") : 1;
   text.skip_line();
   std::int64_t first = nodes.base;
   for (std::size_t i = 0; i < count; ++i) {
-    if (i == 0)
+    if (i == 0) {
       first = text.integer(what);
-    else
+      if (first < 0 || first > std::numeric_limits<Index>::max())
+        text.fail(std::string(what) + " is negative or beyond 32 bits: " + std::to_string(first));
+    } else {
       read_tetgen_number(text, what, first + static_cast<std::int64_t>(i));
+    }
     std::array<Index, N> corners{};
     for (Index& corner : corners) corner = text.index("a vertex index", nodes.base, nodes.vertices.size());
     // Regions are attributes, which TetGen writes as reals.
     add(corners, text.at_line_end() ? 0 : text.tag_from_real("a marker"));
     text.skip_line();
   }
+  return attributes > 1 ? count : 0;
 }
 
 /// Reads a file that may be missing.
@@ -41,7 +49,7 @@ void read_optional(const std::filesystem::path& path, const char* what, const Te
   if (!std::filesystem::exists(path, error)) return;
   const FileBytes bytes(path);
   TextReader text({path, bytes.view()});
-  read_lines<N>(text, what, nodes, add);
+  static_cast<void>(read_lines<N>(text, what, nodes, add));
 }
 
 template <std::size_t N>
@@ -58,16 +66,19 @@ void write_lines(AtomicWriter& out, std::string_view columns,
 }  // namespace
 
 MeshData read_tetgen_volume(const Source& source) {
-  const std::filesystem::path elements = with_extension(source.path, ".ele");
+  const std::filesystem::path elements = sibling(source.path, ".ele");
   TetgenNodes nodes = read_tetgen_node_file(source);
   const FileBytes bytes(elements);
   TextReader text({elements, bytes.view()});
   MeshData mesh;
-  read_lines<4>(text, "the tetrahedron's number", nodes,
-                [&](const Tetrahedron& corners, int region) { mesh.add_tetrahedron(corners, region); });
-  read_optional<3>(with_extension(source.path, ".face"), "the face's number", nodes,
+  const std::size_t more =
+      read_lines<4>(text, "the tetrahedron's number", nodes,
+                    [&](const Tetrahedron& corners, int region) { mesh.add_tetrahedron(corners, region); });
+  mesh.leave_out(more, "attributes of tetrahedra behind the first",
+                 "attribute of a tetrahedron behind the first");
+  read_optional<3>(sibling(source.path, ".face"), "the face's number", nodes,
                    [&](const Triangle& corners, int marker) { mesh.add_facet(corners, marker); });
-  read_optional<2>(with_extension(source.path, ".edge"), "the edge's number", nodes,
+  read_optional<2>(sibling(source.path, ".edge"), "the edge's number", nodes,
                    [&](const Segment& corners, int marker) { mesh.add_segment(corners, marker); });
   take_nodes(mesh, nodes);
   return mesh;

@@ -1,7 +1,10 @@
 // Turns the cells of the VTK formats into facets, segments and tetrahedra.
 #include "io/vtk_cells.h"
 
+#include <utility>
+
 #include "io/polygon.h"
+#include "io/text_reader.h"
 
 namespace holdfast::io {
 namespace {
@@ -23,8 +26,7 @@ class CellReader {
         throw FileError(path_, "", "'region' or 'marker' has not one value a cell");
     if (!grid_.point_markers.empty() && grid_.point_markers.size() != mesh_.vertices.size())
       throw FileError(path_, "", "'marker' has not one value a point");
-    for (std::size_t i = 0; i < grid_.point_markers.size(); ++i)
-      mesh_.vertex_markers.add(i, grid_.point_markers[i]);
+    tell_arrays();
     std::size_t begin = 0;
     for (cell_ = 0; cell_ < cells; ++cell_) {
       const std::int64_t end = grid_.ends[cell_];
@@ -35,10 +37,26 @@ class CellReader {
       add_cell();
       begin = static_cast<std::size_t>(end);
     }
+    for (std::size_t i = 0; i < grid_.point_markers.size(); ++i)
+      mesh_.vertex_markers.add(i, grid_.point_markers[i]);
     return std::move(mesh_);
   }
 
  private:
+  void tell_arrays() {
+    std::string names;
+    for (const std::string& name : grid_.other_arrays) names += (names.empty() ? "" : ", ") + in_quotes(name);
+    mesh_.leave_out(grid_.other_arrays.size(), "arrays (" + names + ")", "array (" + names + ")");
+  }
+
+  /// A cell that is a vertex gives it a marker where no array of the points does.
+  void mark_vertices(int marker) {
+    if (marker == 0) return;
+    grid_.point_markers.resize(mesh_.vertices.size(), 0);
+    for (const Index vertex : corners_)
+      if (grid_.point_markers[vertex] == 0) grid_.point_markers[vertex] = marker;
+  }
+
   [[noreturn]] void fail(const std::string& reason) const {
     throw FileError(path_, "cell " + std::to_string(cell_), reason);
   }
@@ -64,7 +82,7 @@ class CellReader {
     switch (static_cast<VtkCell>(grid_.types[cell_])) {
       case VtkCell::vertex:
       case VtkCell::poly_vertex:
-        return;
+        return mark_vertices(marker);
       case VtkCell::line:
         require_corners(2);
         [[fallthrough]];
@@ -75,6 +93,13 @@ class CellReader {
       case VtkCell::triangle:
         require_corners(3);
         return mesh_.add_facet({corners_[0], corners_[1], corners_[2]}, marker);
+      case VtkCell::triangle_strip:
+        if (corners_.size() < 3) fail("is a strip of fewer than 3 corners");
+        return add_strip(mesh_, corners_, marker);
+      case VtkCell::pixel:
+        require_corners(4);
+        std::swap(corners_[2], corners_[3]);  // a pixel's corners go row by row, not round
+        return add_polygon(mesh_, corners_, marker, [&](const std::string& reason) { fail(reason); });
       case VtkCell::quad:
         require_corners(4);
         [[fallthrough]];
@@ -99,6 +124,13 @@ class CellReader {
 };
 
 }  // namespace
+
+void append_cells(VtkGrid& grid, const VtkGrid& part) {
+  const auto base = static_cast<std::int64_t>(grid.connectivity.size());
+  for (const std::int64_t end : part.ends) grid.ends.push_back(base + end);
+  grid.types.insert(grid.types.end(), part.types.begin(), part.types.end());
+  grid.connectivity.insert(grid.connectivity.end(), part.connectivity.begin(), part.connectivity.end());
+}
 
 MeshData mesh_of(const std::filesystem::path& path, VtkGrid&& grid) {
   return CellReader(path, std::move(grid)).read();

@@ -21,6 +21,7 @@ enum class VtkCell : std::uint8_t {
   triangle = 5,
   triangle_strip = 6,
   polygon = 7,
+  pixel = 8,
   quad = 9,
   tetrahedron = 10,
 };
@@ -41,6 +42,11 @@ void visit_vtk_cells(const Volume& volume, Visit&& visit) {
   return volume.tetrahedra.size() + volume.facets.size() + volume.segments.size();
 }
 
+/// Whether Holdfast reads an array of this name, or writes it for viewers alone.
+[[nodiscard]] inline bool is_known_array(std::string_view name) {
+  return name == "region" || name == "marker" || name == "kind";
+}
+
 /// Cells as they come from a file, not yet checked.
 struct VtkGrid {
   std::vector<Point> points;
@@ -49,7 +55,11 @@ struct VtkGrid {
   std::vector<std::int64_t> connectivity;  ///< the corners of all cells
   std::vector<int> regions, markers;       ///< empty, or one a cell
   std::vector<int> point_markers;          ///< empty, or one a point
+  std::vector<std::string> other_arrays;   ///< names of arrays that have no place in a mesh
 };
+
+/// Appends the cells of a part, which names the same points.
+void append_cells(VtkGrid& grid, const VtkGrid& part);
 
 /// The mesh of a grid. Polygons are fanned where they are convex. Throws FileError with the cell's
 /// number for types that cannot be used, and for corners that do not exist.

@@ -1,5 +1,7 @@
 // Reads legacy VTK files, ASCII and binary, versions 1 to 5 (VTK User's Guide, "VTK File Formats";
 // version 5.1 lists offsets and connectivity apart). Unstructured grids and polygonal data.
+#include <array>
+#include <limits>
 #include <utility>
 
 #include "io/formats.h"
@@ -49,6 +51,7 @@ class VtkReader {
     read_header();
     while (!text_.at_end()) read_section();
     if (!has_points_) throw FileError(text_.source().path, "", "the file has no POINTS");
+    for (const VtkGrid& part : parts_) append_cells(grid_, part);
     return mesh_of(text_.source().path, std::move(grid_));
   }
 
@@ -87,7 +90,7 @@ class VtkReader {
     } else if (keyword == "cell_data" || keyword == "point_data") {
       of_cells_ = keyword == "cell_data";
       of_points_ = !of_cells_;
-      tuples_ = text_.count("the number of values", 1);
+      tuples_ = tuples();
     } else if (keyword == "field") {
       read_field();
     } else if (keyword == "metadata") {
@@ -95,6 +98,14 @@ class VtkReader {
     } else {
       read_attribute(keyword);
     }
+  }
+
+  /// The number of values of arrays that may not follow, so that the file need not hold them.
+  std::uint64_t tuples() {
+    const std::int64_t value = text_.integer("the number of values");
+    if (value < 0 || value > std::numeric_limits<Index>::max())
+      text_.fail("the number of values is negative or beyond 32 bits: " + std::to_string(value));
+    return static_cast<std::uint64_t>(value);
   }
 
   /// `count` values of a type as T; the data starts in the next line if it is binary.
@@ -168,9 +179,18 @@ class VtkReader {
     return offsets.empty() ? 0 : offsets.size() - 1;
   }
 
+  /// Sections of polygonal data may come in any order, but their cells are numbered by kind.
   void read_typed_cells(VtkCell type) {
+    VtkGrid& part = parts_[type == VtkCell::poly_vertex ? 0
+                           : type == VtkCell::poly_line ? 1
+                           : type == VtkCell::polygon   ? 2
+                                                        : 3];
+    std::swap(grid_.ends, part.ends);
+    std::swap(grid_.connectivity, part.connectivity);
     const std::size_t count = read_cells();
-    grid_.types.insert(grid_.types.end(), count, static_cast<std::uint8_t>(type));
+    std::swap(grid_.ends, part.ends);
+    std::swap(grid_.connectivity, part.connectivity);
+    part.types.insert(part.types.end(), count, static_cast<std::uint8_t>(type));
   }
 
   /// Reads an array behind its name, and keeps it if it is the cells' regions or markers.
@@ -182,7 +202,12 @@ class VtkReader {
     else if (of_points_ && name == "marker")
       grid_.point_markers = values<int>(type, count);
     else
-      static_cast<void>(values<double>(type, count));
+      skip_array(name, type, count);
+  }
+
+  void skip_array(const std::string& name, VtkType type, std::uint64_t count) {
+    static_cast<void>(values<double>(type, count));
+    if (!is_known_array(name)) grid_.other_arrays.push_back(name);
   }
 
   void read_field() {
@@ -195,7 +220,7 @@ class VtkReader {
         name = text_.word("a name");
       }
       const std::uint64_t components = text_.count("the number of components", 1);
-      const std::uint64_t tuples = text_.count("the number of tuples", 1);
+      const std::uint64_t tuples = this->tuples();
       const VtkType type = type_of(text_, text_.word("a type"));
       read_array(name, type, components * tuples);
     }
@@ -217,21 +242,21 @@ class VtkReader {
     const std::string name(text_.word("a name"));
     if (keyword == "lookup_table") {
       const std::uint64_t size = text_.count("the size of the table", 1);
-      return read_array("", binary_ ? VtkType::uint8 : VtkType::float32, 4 * size);
+      return static_cast<void>(values<double>(binary_ ? VtkType::uint8 : VtkType::float32, 4 * size));
     }
     if (keyword == "color_scalars") {
       const std::uint64_t components = text_.count("the number of components", 1);
-      return read_array("", binary_ ? VtkType::uint8 : VtkType::float32, components * tuples_);
+      return skip_array(name, binary_ ? VtkType::uint8 : VtkType::float32, components * tuples_);
     }
     if (keyword == "texture_coordinates") {
       const std::uint64_t components = text_.count("the number of components", 1);
-      return read_array("", type_of(text_, text_.word("a type")), components * tuples_);
+      return skip_array(name, type_of(text_, text_.word("a type")), components * tuples_);
     }
     for (const Attribute& attribute : kAttributes)
       if (attribute.keyword == keyword)
-        return read_array("", type_of(text_, text_.word("a type")), attribute.components * tuples_);
+        return skip_array(name, type_of(text_, text_.word("a type")), attribute.components * tuples_);
     if (keyword == "global_ids" || keyword == "pedigree_ids")
-      return read_array("", type_of(text_, text_.word("a type")), tuples_);
+      return skip_array(name, type_of(text_, text_.word("a type")), tuples_);
     text_.fail("unknown keyword " + in_quotes(keyword));
   }
 
@@ -253,6 +278,7 @@ class VtkReader {
   bool of_cells_ = false, of_points_ = false;  ///< what the current attributes belong to
   std::uint64_t tuples_ = 0;                   ///< of the current attributes
   VtkGrid grid_;
+  std::array<VtkGrid, 4> parts_;  ///< cells of polygonal data: vertices, lines, polygons, strips
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <array>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -85,6 +86,16 @@ class ArrayDecoder {
   ArrayDecoder(const Source& source, const VtuEncoding& encoding, bool base64, std::size_t position)
       : encoding_(encoding), stream_(source, base64, position) {}
 
+  std::uint64_t size() {
+    if (!encoding_.zlib) return size_word();
+    const std::uint64_t blocks = size_word();
+    if (blocks == 0) return 0;
+    const std::uint64_t block = size_word(), last = size_word();
+    if (block > 0 && blocks > std::numeric_limits<std::uint64_t>::max() / block)
+      stream_.fail("blocks of impossible size are announced; the file is damaged");
+    return last == 0 ? blocks * block : (blocks - 1) * block + last;
+  }
+
   std::string decode() {
     if (encoding_.zlib) return decode_blocks();
     const std::uint64_t size = size_word();
@@ -133,6 +144,11 @@ class ArrayDecoder {
 };
 
 }  // namespace
+
+std::uint64_t announced_size(const Source& source, const VtuEncoding& encoding, bool base64,
+                             std::size_t position) {
+  return ArrayDecoder(source, encoding, base64, position).size();
+}
 
 std::string decode_vtu_array(const Source& source, const VtuEncoding& encoding, bool base64,
                              std::size_t position) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <cstdint>
 #include <string>
 
 #include "io/mesh_data.h"
@@ -14,6 +15,11 @@ struct VtuEncoding {
   bool wide_header = false;  ///< sizes have 64 bits instead of 32
   bool zlib = false;
 };
+
+/// How many bytes the array whose header starts at `position` says it has, before it is unpacked. Throws
+/// FileError with the byte.
+[[nodiscard]] std::uint64_t announced_size(const Source& source, const VtuEncoding& encoding, bool base64,
+                                           std::size_t position);
 
 /// The bytes of the array whose header starts at `position`. Throws FileError with the byte. Never
 /// allocates more than the data that is there can stand for.

@@ -96,8 +96,10 @@ class VtuReader {
     has_piece_ = true;
     points_ = xml_.number(tag, "NumberOfPoints");
     if (polydata_)
-      for (const char* kind : {"NumberOfVerts", "NumberOfLines", "NumberOfStrips", "NumberOfPolys"})
-        cells_ += tag.attribute(kind).empty() ? 0 : xml_.number(tag, kind);
+      for (const std::string kind : {"Verts", "Lines", "Strips", "Polys"}) {
+        counts_[kind] = tag.attribute("NumberOf" + kind).empty() ? 0 : xml_.number(tag, "NumberOf" + kind);
+        cells_ += counts_[kind];
+      }
     else
       cells_ = xml_.number(tag, "NumberOfCells");
   }
@@ -129,32 +131,45 @@ class VtuReader {
   std::vector<T> values(const std::string& name, std::optional<std::uint64_t> count) {
     const DataArray* array = find(name);
     if (!array) throw FileError(source_.path, "", "the array " + in_quotes(name) + " is missing");
-    std::vector<T> result = values<T>(*array);
-    if (count && result.size() != *count)
-      xml_.fail(array->tag, "the array has " + std::to_string(result.size()) + " values instead of " +
-                                std::to_string(*count));
+    std::vector<T> result = read_values<T>(*array, count);
+    require_count(*array, result.size(), count);
     return result;
   }
 
+  void require_count(const DataArray& array, std::uint64_t size, std::optional<std::uint64_t> count) const {
+    if (count && size != *count)
+      xml_.fail(array.tag,
+                "the array has " + std::to_string(size) + " values instead of " + std::to_string(*count));
+  }
+
+  /// The bytes of an array, which are unpacked only if they are as many as they must be.
+  [[nodiscard]] std::string decoded(const DataArray& array, bool base64, std::size_t position,
+                                    std::optional<std::uint64_t> count) const {
+    const std::uint64_t bytes = announced_size(source_, encoding_, base64, position);
+    const std::size_t bytes_each = size_of(type_of(array));
+    if (bytes % bytes_each != 0) xml_.fail(array.tag, "the array's data ends within a value");
+    require_count(array, bytes / bytes_each, count);
+    return decode_vtu_array(source_, encoding_, base64, position);
+  }
+
   template <typename T>
-  std::vector<T> values(const DataArray& array) {
+  std::vector<T> read_values(const DataArray& array, std::optional<std::uint64_t> count) {
     const std::string format = array.tag.attribute("format");
     if (format == "ascii" || format.empty()) return text_values<T>(array);
     const VtkType type = type_of(array);
     std::string bytes;
     if (format == "binary") {
       const std::size_t start = source_.bytes.find_first_not_of(" \t\r\n", array.content);
-      bytes = decode_vtu_array(source_, encoding_, true, std::min(start, source_.bytes.size()));
+      bytes = decoded(array, true, std::min(start, source_.bytes.size()), count);
     } else if (format == "appended") {
       if (!appended_) xml_.fail(array.tag, "the appended data is missing; the file is truncated");
       const std::uint64_t offset = xml_.number(array.tag, "offset");
       if (offset > source_.bytes.size() - *appended_)
         xml_.fail(array.tag, "the array's data lies beyond the end of the file; it is truncated");
-      bytes = decode_vtu_array(source_, encoding_, appended_base64_, *appended_ + offset);
+      bytes = decoded(array, appended_base64_, *appended_ + offset, count);
     } else {
       xml_.fail(array.tag, "the format " + in_quotes(format) + " is not read");
     }
-    if (bytes.size() % size_of(type) != 0) xml_.fail(array.tag, "the array's data ends within a value");
     return binary_values<T>(type, bytes, encoding_.order,
                             [&](const std::string& reason) { xml_.fail(array.tag, reason); });
   }
@@ -191,6 +206,12 @@ class VtuReader {
   }
 
   void read_tags() {
+    for (const auto& [path, array] : arrays_) {
+      const bool of_points = path.starts_with("PointData/");
+      const std::string name = array.tag.attribute("Name");
+      if ((of_points || path.starts_with("CellData/")) && !is_known_array(name))
+        grid_.other_arrays.push_back(name);
+    }
     if (find("CellData/region")) grid_.regions = values<int>("CellData/region", cells_);
     if (find("CellData/marker")) grid_.markers = values<int>("CellData/marker", cells_);
     if (find("PointData/marker")) grid_.point_markers = values<int>("PointData/marker", points_);
@@ -200,8 +221,13 @@ class VtuReader {
     if (cells_ == 0) return;
     grid_.types = values<std::uint8_t>("Cells/types", cells_);
     grid_.ends = values<std::int64_t>("Cells/offsets", cells_);
-    grid_.connectivity = values<std::int64_t>("Cells/connectivity", std::nullopt);
+    grid_.connectivity = values<std::int64_t>("Cells/connectivity", last_end(grid_.ends));
     read_tags();
+  }
+
+  /// How many corners cells with these ends have; that these do not descend is checked later.
+  static std::uint64_t last_end(const std::vector<std::int64_t>& ends) {
+    return ends.empty() || ends.back() < 0 ? 0 : static_cast<std::uint64_t>(ends.back());
   }
 
   void read_polydata() {
@@ -211,22 +237,20 @@ class VtuReader {
     };
     constexpr Section kSections[] = {{"Verts", VtkCell::poly_vertex},
                                      {"Lines", VtkCell::poly_line},
-                                     {"Strips", VtkCell::triangle_strip},
-                                     {"Polys", VtkCell::polygon}};
-    // Cell data lists vertices, lines, polygons, strips; strips are refused, so their place is moot.
+                                     {"Polys", VtkCell::polygon},
+                                     {"Strips", VtkCell::triangle_strip}};
+    // In the order in which cell data lists them.
     for (const Section& section : kSections) {
       const std::string name = section.name;
       if (!find(name + "/offsets")) continue;
-      const auto base = static_cast<std::int64_t>(grid_.connectivity.size());
-      const auto ends = values<std::int64_t>(name + "/offsets", std::nullopt);
-      const auto corners = values<std::int64_t>(name + "/connectivity", std::nullopt);
-      for (const std::int64_t end : ends) {
-        if (end < 0 || static_cast<std::uint64_t>(end) > corners.size())
+      VtkGrid part;
+      part.ends = values<std::int64_t>(name + "/offsets", counts_[name]);
+      part.connectivity = values<std::int64_t>(name + "/connectivity", last_end(part.ends));
+      for (const std::int64_t end : part.ends)
+        if (end < 0 || static_cast<std::uint64_t>(end) > part.connectivity.size())
           throw FileError(source_.path, "", "an offset of " + name + " is out of range");
-        grid_.ends.push_back(base + end);
-      }
-      grid_.connectivity.insert(grid_.connectivity.end(), corners.begin(), corners.end());
-      grid_.types.insert(grid_.types.end(), ends.size(), static_cast<std::uint8_t>(section.type));
+      part.types.assign(part.ends.size(), static_cast<std::uint8_t>(section.type));
+      append_cells(grid_, part);
     }
     read_tags();
   }
@@ -236,9 +260,10 @@ class VtuReader {
   VtuEncoding encoding_;
   bool has_file_ = false, has_piece_ = false, has_end_ = false, polydata_ = false;
   std::uint64_t points_ = 0, cells_ = 0;
-  std::string section_;                      ///< the element that holds the current arrays
-  std::map<std::string, DataArray> arrays_;  ///< by "section/name"
-  std::optional<std::size_t> appended_;      ///< offset of the appended data
+  std::map<std::string, std::uint64_t> counts_;  ///< of the cells of polygonal data, by section
+  std::string section_;                          ///< the element that holds the current arrays
+  std::map<std::string, DataArray> arrays_;      ///< by "section/name"
+  std::optional<std::size_t> appended_;          ///< offset of the appended data
   bool appended_base64_ = false;
   VtkGrid grid_;
 };

@@ -55,7 +55,7 @@ bool same(const Volume& a, const Volume& b) {
   return std::equal(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(), same_bits) &&
          a.tetrahedra == b.tetrahedra && a.regions == b.regions && a.facets == b.facets &&
          a.segments == b.segments && a.facet_markers == b.facet_markers &&
-         a.segment_markers == b.segment_markers;
+         a.segment_markers == b.segment_markers && a.vertex_markers == b.vertex_markers;
 }
 
 std::set<int> ids(const Volume& volume) { return {volume.regions.begin(), volume.regions.end()}; }
@@ -358,12 +358,19 @@ TEST(Mesh, KeepsMarkersAndMergesRepeatedSegments) {
   for (int f = 0; f < 12; ++f) surface.facet_markers.push_back(100 - f);
   surface.segments = {{0, 1}, {1, 0}, {0, 2}, {0, 1}};
   surface.segment_markers = {7, 7, -3, 7};
-  const Result result = mesh(surface.view());
+  for (int v = 0; v < 8; ++v) surface.vertex_markers.push_back(20 - 3 * v);
+  Options options;
+  options.sizes = Sizes{.size = 0.4};
+  const Result result = mesh(surface.view(), options);
   expect_done(surface, result);
   EXPECT_EQ(result.volume.facets, surface.facets);
   EXPECT_EQ(result.volume.facet_markers, surface.facet_markers);
   EXPECT_EQ(result.volume.segments, (std::vector<Segment>{{0, 1}, {0, 2}}));
   EXPECT_EQ(result.volume.segment_markers, (std::vector<int>{7, -3}));
+  ASSERT_GT(result.volume.vertices.size(), 8u);
+  std::vector<int> expected = surface.vertex_markers;
+  expected.resize(result.volume.vertices.size(), 0);
+  EXPECT_EQ(result.volume.vertex_markers, expected);
 }
 
 TEST(Mesh, KeepsTheSignOfZero) {
@@ -491,6 +498,9 @@ TEST(Refusal, OfOptionsThatMakeNoSense) {
   surface.facet_markers = {1, 2, 3};
   refused({});
   surface.facet_markers.clear();
+  surface.vertex_markers = {1};
+  EXPECT_THROW(static_cast<void>(mesh(surface.view())), std::invalid_argument);
+  surface.vertex_markers.clear();
   surface.segment_markers = {1};
   refused({});
 }

@@ -478,6 +478,10 @@ Case marked() {
   std::rotate(c.volume.facets[3].begin(), c.volume.facets[3].begin() + 1, c.volume.facets[3].end());
   c.volume.segments = {{2, 0}, {0, 1}};
   c.volume.segment_markers = {6, 5};
+  for (std::size_t v = 0; v < c.surface.vertices.size(); ++v)
+    c.surface.vertex_markers.push_back(static_cast<int>(v) - 3);
+  c.volume.vertex_markers = c.surface.vertex_markers;
+  c.volume.vertex_markers.resize(c.volume.vertices.size(), 0);
   return c;
 }
 
@@ -492,6 +496,9 @@ TEST(Markers, KeptOnesHold) {
 TEST(Markers, EveryWrongListIsTold) {
   const std::vector<std::function<void(Case&)>> spoils{
       [](Case& c) { c.volume.facet_markers[5] += 1; },
+      [](Case& c) { c.volume.vertex_markers[1] += 1; },
+      [](Case& c) { c.volume.vertex_markers.clear(); },
+      [](Case& c) { c.surface.vertex_markers.pop_back(); },
       [](Case& c) { c.volume.segment_markers[1] = 8; },
       [](Case& c) { c.volume.facets.pop_back(), c.volume.facet_markers.pop_back(); },
       [](Case& c) { c.volume.segments.pop_back(), c.volume.segment_markers.pop_back(); },

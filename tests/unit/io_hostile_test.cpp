@@ -32,7 +32,13 @@ std::vector<Sample> valid_files() {
                                {".vtk", binary_vtk()},
                                {".vtu", kVtu},
                                {".ply", binary_ply(false)},
-                               {".ply", binary_ply(true)}};
+                               {".ply", binary_ply(true)},
+                               {".off", binary_off(false)},
+                               {".off", binary_off(true)},
+                               {".msh", binary_msh(false, true)},
+                               {".msh", binary_msh(true, false)},
+                               {".msh", binary_msh(true, true, 4)},
+                               {".vtk", kStrips}};
   files.push_back({".stl", binary_stl("solid", {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1}})});
   for (const std::int32_t version : {1, 2, 3, 4})
     files.push_back({".meshb", binary_gmf(version, version == 2)});

@@ -47,6 +47,7 @@ void expect_same(const Volume& a, const Volume& b) {
   EXPECT_EQ(tagged(a.tetrahedra, a.regions), tagged(b.tetrahedra, b.regions));
   EXPECT_EQ(tagged(a.facets, a.facet_markers), tagged(b.facets, b.facet_markers));
   EXPECT_EQ(tagged(a.segments, a.segment_markers), tagged(b.segments, b.segment_markers));
+  EXPECT_EQ(a.vertex_markers, b.vertex_markers);
 }
 
 TEST_P(RoundTrip, KeepsEverything) {

@@ -78,6 +78,7 @@ inline Volume sample_volume() {
   volume.facet_markers = {-2147483647, 7};
   volume.segments = {{4, 0}, {1, 0}, {3, 2}};
   volume.segment_markers = {0, 5, 9};
+  volume.vertex_markers = {0, 3, -3, 0, 3, 2147483647};
   return volume;
 }
 
@@ -145,6 +146,14 @@ inline const char* const kVtu =
     "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">4 7 9</DataArray>\n"
     "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">10 5 3</DataArray>\n"
     "</Cells></Piece></UnstructuredGrid></VTKFile>\n";
+
+/// Polygonal data whose sections do not stand in the order of its cell data: vertices, lines, polygons,
+/// strips.
+inline const char* const kStrips =
+    "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 6 float\n0 0 0 1 0 0 0 1 0 1 1 0 0 2 0 "
+    "1 2 1\n"
+    "TRIANGLE_STRIPS 1 7\n6 0 1 2 3 4 5\nPOLYGONS 1 4\n3 0 2 1\nVERTICES 1 2\n1 5\n"
+    "CELL_DATA 3\nSCALARS marker int\n3 1 2\nPOINT_DATA 6\nSCALARS heat float\n0 0 0 0 0 0\n";
 
 /// Bytes of a number, in either byte order.
 template <typename T>
@@ -249,6 +258,68 @@ inline std::string binary_vtk() {
            raw(std::int32_t{0}, true);
   return bytes + "\nFIELD FieldData 1\nmarker 1 2 long\n" + raw(std::int64_t{0}, true) +
          raw(std::int64_t{7}, true) + "\n";
+}
+
+/// A binary .msh of one tetrahedron, one triangle and one quadrangle, one line and one marked vertex; in
+/// version 4.1 sizes have `size_bytes`.
+inline std::string binary_msh(bool modern, bool big, std::size_t size_bytes = 8) {
+  const auto i = [&](std::int32_t value) { return raw(value, big); };
+  const auto n = [&](std::uint64_t value) {
+    return size_bytes == 8 ? raw(value, big) : raw(static_cast<std::uint32_t>(value), big);
+  };
+  const auto point = [&](double x, double y, double z) { return raw(x, big) + raw(y, big) + raw(z, big); };
+  const std::string bounds = point(0, 0, 0) + point(1, 1, 1);
+  std::string bytes = std::string("$MeshFormat\n") + (modern ? "4.1" : "2.2") + " 1 " +
+                      std::to_string(size_bytes) + "\n" + i(1) + "\n$EndMeshFormat\n";
+  bytes += "$PhysicalNames\n1\n2 7 \"wall\"\n$EndPhysicalNames\n";
+  const std::array<std::string, 5> points = {point(0, 0, 0), point(1, 0, 0), point(0, 0, 1), point(0, 1, 0),
+                                             point(1, 1, 0)};
+  const std::array<std::int32_t, 5> tags = {10, 20, 40, 30, 50};
+  if (!modern) {
+    bytes += "$Nodes\n5\n";
+    for (std::size_t k = 0; k < 5; ++k) bytes += i(tags[k]) + points[k];
+    bytes += "\n$EndNodes\n$Elements\n5\n";
+    bytes += i(15) + i(1) + i(2) + i(1) + i(6) + i(1) + i(20);
+    bytes += i(1) + i(1) + i(2) + i(2) + i(0) + i(3) + i(10) + i(20);
+    bytes += i(2) + i(1) + i(2) + i(3) + i(7) + i(1) + i(10) + i(30) + i(20);
+    bytes += i(3) + i(1) + i(2) + i(4) + i(8) + i(2) + i(10) + i(20) + i(50) + i(30);
+    bytes += i(4) + i(1) + i(2) + i(5) + i(9) + i(1) + i(10) + i(20) + i(30) + i(40);
+    return bytes + "\n$EndElements\n";
+  }
+  bytes += "$Entities\n" + n(1) + n(1) + n(2) + n(1);
+  bytes += i(1) + point(1, 0, 0) + n(1) + i(6);
+  bytes += i(3) + bounds + n(0) + n(1) + i(-1);
+  bytes += i(1) + bounds + n(1) + i(7) + n(0) + i(2) + bounds + n(1) + i(8) + n(0);
+  bytes += i(4) + bounds + n(2) + i(9) + i(10) + n(0);
+  bytes += "\n$EndEntities\n$Nodes\n" + n(2) + n(5) + n(10) + n(50);
+  bytes += i(0) + i(1) + i(0) + n(1) + n(10) + points[0];
+  bytes += i(2) + i(1) + i(1) + n(4);
+  for (std::size_t k = 1; k < 5; ++k) bytes += n(static_cast<std::uint64_t>(tags[k]));
+  for (std::size_t k = 1; k < 5; ++k) bytes += points[k] + raw(0.5, big) + raw(0.25, big);
+  bytes += "\n$EndNodes\n$Elements\n" + n(5) + n(5) + n(1) + n(5);
+  bytes += i(0) + i(1) + i(15) + n(1) + n(1) + n(20);
+  bytes += i(1) + i(3) + i(1) + n(1) + n(2) + n(10) + n(20);
+  bytes += i(2) + i(1) + i(2) + n(1) + n(3) + n(10) + n(30) + n(20);
+  bytes += i(2) + i(2) + i(3) + n(1) + n(4) + n(10) + n(20) + n(50) + n(30);
+  bytes += i(3) + i(4) + i(4) + n(1) + n(5) + n(10) + n(20) + n(30) + n(40);
+  return bytes + "\n$EndElements\n";
+}
+
+/// A binary OFF file of a triangle, a coloured quadrangle and a segment; with a normal a vertex if wanted.
+inline std::string binary_off(bool normals) {
+  std::string bytes = normals ? "NOFF BINARY\n" : "OFF BINARY\n";
+  const auto real = [](float x) { return raw(x, true); };
+  const auto number = [](std::int32_t value) { return raw(value, true); };
+  bytes += number(5) + number(3) + number(0);
+  for (const std::array<float, 3>& p :
+       {std::array<float, 3>{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0.1f, 1}}) {
+    for (const float x : p) bytes += real(x);
+    if (normals) bytes += real(0) + real(0) + real(1);
+  }
+  bytes += number(3) + number(0) + number(1) + number(4) + number(0);
+  bytes +=
+      number(4) + number(0) + number(3) + number(2) + number(1) + number(3) + real(1) + real(0) + real(0);
+  return bytes + number(2) + number(3) + number(4) + number(0);
 }
 
 }  // namespace holdfast::samples

@@ -396,6 +396,8 @@ TEST(Untangle, SegmentsAndFixedVerticesStay) {
         if (t[i] >= n && t[k] >= n) inner.insert({std::min(t[i], t[k]), std::max(t[i], t[k])});
   g.volume.segments = {*inner.begin(), *inner.rbegin()};
   g.volume.segment_markers = {3, 4};
+  for (std::size_t v = 0; v < g.volume.vertices.size(); ++v)
+    g.volume.vertex_markers.push_back(static_cast<int>(v % 5));
   UntangleOptions options;
   options.fixed = {n + 13};
   std::set<Index> fixed{n + 13};
@@ -408,6 +410,9 @@ TEST(Untangle, SegmentsAndFixedVerticesStay) {
   EXPECT_EQ(nonpositive(result.volume), 0u);
   EXPECT_EQ(result.volume.segments, before.segments);
   EXPECT_EQ(result.volume.segment_markers, before.segment_markers);
+  EXPECT_EQ(result.volume.vertex_markers.size(), result.volume.vertices.size());
+  for (const Triangle& f : result.volume.facets)
+    for (const Index v : f) EXPECT_EQ(result.volume.vertex_markers[v], before.vertex_markers[v]);
   for (Index v = 0; v < n; ++v) EXPECT_EQ(result.volume.vertices[v], before.vertices[v]);
   for (const Index v : fixed) EXPECT_EQ(result.volume.vertices[v], before.vertices[v]);
 }

@@ -1,0 +1,18 @@
+// Files compressed by gzip.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "io/mesh_data.h"
+
+namespace holdfast::io {
+
+/// Whether bytes begin as gzip's do (RFC 1952), and as no mesh does.
+[[nodiscard]] inline bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1F\x8B\x08"); }
+
+/// What is in a gzip file. Throws FileError with the byte for one that is damaged, or packed more tightly
+/// than meshes are.
+[[nodiscard]] std::string gunzipped(const Source& source);
+
+}  // namespace holdfast::io

@@ -1,0 +1,235 @@
+// Variants of formats that many programs write: binary OFF and .msh, strips, quadrangles, packed files,
+// sections without data; and numbers that no file can mean.
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <chrono>
+
+#include "io_samples.h"
+
+namespace holdfast {
+namespace {
+
+using namespace samples;
+using Facets = std::vector<Triangle>;
+using Segments = std::vector<Segment>;
+
+class Variants : public ::testing::Test {
+ protected:
+  Surface surface(const std::string& bytes, const std::string& name) {
+    put(folder_ / name, bytes);
+    return read_surface(folder_ / name);
+  }
+  Volume volume(const std::string& bytes, const std::string& name) {
+    put(folder_ / name, bytes);
+    return read_volume(folder_ / name);
+  }
+  /// The error that reading gives, without the path.
+  std::string error(const std::string& bytes, const std::string& name) {
+    put(folder_ / name, bytes);
+    try {
+      static_cast<void>(read_surface(folder_ / name));
+    } catch (const FileError& failure) {
+      return std::string(failure.what()).substr(failure.path().string().size() + 2);
+    }
+    return "read";
+  }
+  TemporaryFolder folder_;
+};
+
+std::string gzip(const std::string& bytes) {
+  std::string packed(compressBound(bytes.size()) + 64, '\0');
+  z_stream stream{};
+  constexpr int kGzip = 16;
+  EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, MAX_WBITS + kGzip, 9, Z_DEFAULT_STRATEGY), Z_OK);
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  return packed;
+}
+
+TEST_F(Variants, BinaryOff) {
+  for (const bool normals : {false, true}) {
+    const Surface s = surface(binary_off(normals), "a.off");
+    ASSERT_EQ(s.vertices.size(), 5u);
+    EXPECT_EQ(s.vertices[4], (Point{0, static_cast<double>(0.1f), 1}));
+    EXPECT_EQ(s.facets, (Facets{{0, 1, 4}, {0, 3, 2}, {0, 2, 1}}));
+    EXPECT_EQ(s.segments, (Segments{{3, 4}}));
+  }
+  const std::string bytes = binary_off(false);
+  EXPECT_NE(error(bytes + '\0', "a.off").find("bytes after the last of 3 faces"), std::string::npos);
+  std::string wrong = bytes;
+  wrong.replace(bytes.size() - 8, 4, raw(std::int32_t{5}, true));
+  EXPECT_NE(error(wrong, "a.off").find("the vertex index 5 is out of range"), std::string::npos);
+}
+
+TEST_F(Variants, BinaryMshInBothVersionsAndByteOrders) {
+  for (const bool big : {false, true})
+    for (const auto& [modern, size] : {std::pair(false, 8u), std::pair(true, 8u), std::pair(true, 4u)}) {
+      const Volume v = volume(binary_msh(modern, big, size), "a.msh");
+      EXPECT_EQ(v.vertices, (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}}));
+      EXPECT_EQ(v.tetrahedra, (std::vector<Tetrahedron>{{0, 1, 2, 3}}));
+      EXPECT_EQ(v.regions, (std::vector<int>{9}));
+      EXPECT_EQ(v.facets, (Facets{{0, 2, 1}, {0, 1, 4}, {0, 4, 2}}));
+      EXPECT_EQ(v.facet_markers, (std::vector<int>{7, 8, 8}));
+      EXPECT_EQ(v.segments, (Segments{{0, 1}}));
+      EXPECT_EQ(v.segment_markers, (std::vector<int>{3}));
+      EXPECT_EQ(v.vertex_markers, (std::vector<int>{0, 6, 0, 0, 0}));
+    }
+  EXPECT_NE(error(binary_msh(true, false).substr(0, 300), "a.msh").find("truncated"), std::string::npos);
+}
+
+TEST_F(Variants, QuadranglesAreCutInEveryFormat) {
+  const std::string points = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+  const Facets cut{{0, 1, 2}, {0, 2, 3}};
+  const std::string numbered = "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n";
+  EXPECT_EQ(surface("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n" + numbered +
+                        "$EndNodes\n$Elements\n1\n1 3 2 5 1 1 2 3 4\n$EndElements\n",
+                    "a.msh")
+                .facets,
+            cut);
+  EXPECT_EQ(surface("MeshVersionFormatted 2 Dimension 3 Vertices 4\n0 0 0 0\n1 0 0 0\n1 1 0 0\n0 1 0 0\n"
+                    "Quadrilaterals 1\n1 2 3 4 5\nEnd\n",
+                    "a.mesh")
+                .facet_markers,
+            (std::vector<int>{5, 5}));
+  BinaryGmf gmf(2, false);
+  gmf.section(4, gmf.integer(4) + gmf.real(0) + gmf.real(0) + gmf.real(0) + gmf.integer(0) + gmf.real(1) +
+                     gmf.real(0) + gmf.real(0) + gmf.integer(0) + gmf.real(1) + gmf.real(1) + gmf.real(0) +
+                     gmf.integer(0) + gmf.real(0) + gmf.real(1) + gmf.real(0) + gmf.integer(0));
+  gmf.section(
+      7, gmf.integer(1) + gmf.integer(1) + gmf.integer(2) + gmf.integer(3) + gmf.integer(4) + gmf.integer(5));
+  EXPECT_EQ(surface(gmf.ended(), "a.meshb").facets, cut);
+  EXPECT_EQ(surface("# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n"
+                    "0 0 0 1 0 0 0 1 0 1 1 0\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n8\n",
+                    "a.vtk")
+                .facets,
+            (Facets{{0, 1, 3}, {0, 3, 2}}));
+}
+
+TEST_F(Variants, AQuadrangleWithARepeatedCornerIsATriangle) {
+  const std::string points = "OFF 5 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 1 -0\n";
+  EXPECT_EQ(surface(points + "4 0 1 2 2\n", "a.off").facets, (Facets{{0, 1, 2}}));
+  EXPECT_EQ(surface(points + "4 0 1 2 0\n", "a.off").facets, (Facets{{1, 2, 0}}));
+  EXPECT_EQ(surface(points + "5 0 1 1 2 3\n", "a.off").facets, (Facets{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(surface(points + "4 0 1 3 4\n", "a.off").facets, (Facets{{0, 1, 3}}));  // at one place
+  // Two places make no triangle; that is for `diagnose` to say.
+  EXPECT_EQ(surface(points + "4 0 0 1 1\n", "a.off").facets, (Facets{{0, 0, 1}}));
+}
+
+TEST_F(Variants, TriangleStrips) {
+  const Surface s = surface(kStrips, "a.vtk");
+  EXPECT_EQ(s.facets, (Facets{{0, 2, 1}, {0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}}));
+  EXPECT_EQ(s.facet_markers, (std::vector<int>{1, 2, 2, 2, 2}));
+  EXPECT_EQ(s.vertex_markers, (std::vector<int>{0, 0, 0, 0, 0, 3}));
+  const Surface p = surface(
+      "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"4\" NumberOfVerts=\"0\" "
+      "NumberOfLines=\"0\" "
+      "NumberOfStrips=\"1\" NumberOfPolys=\"1\"><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" "
+      "format=\"ascii\">0 0 0 1 0 0 0 1 0 1 1 0</DataArray></Points><Strips><DataArray type=\"Int32\" "
+      "Name=\"connectivity\" format=\"ascii\">0 1 2 2 3</DataArray><DataArray type=\"Int32\" "
+      "Name=\"offsets\" "
+      "format=\"ascii\">5</DataArray></Strips><Polys><DataArray type=\"Int32\" Name=\"connectivity\" "
+      "format=\"ascii\">0 2 1</DataArray><DataArray type=\"Int32\" Name=\"offsets\" "
+      "format=\"ascii\">3</DataArray>"
+      "</Polys><CellData><DataArray type=\"Int32\" Name=\"marker\" format=\"ascii\">5 "
+      "6</DataArray></CellData>"
+      "</Piece></PolyData></VTKFile>",
+      "a.vtp");
+  EXPECT_EQ(p.facets, (Facets{{0, 2, 1}, {0, 1, 2}}));
+  EXPECT_EQ(p.facet_markers, (std::vector<int>{5, 6}));
+}
+
+TEST_F(Variants, LegacyVtkSectionsWithoutArrays) {
+  for (const std::string tail : {"\nCELL_DATA 2\nPOINT_DATA 4\n", "\nPOINT_DATA 4", "\nCELL_DATA 2"}) {
+    const std::string whole = binary_vtk();
+    const std::string bytes = whole.substr(0, whole.find("\nCELL_DATA")) + tail;
+    EXPECT_EQ(surface(bytes, "a.vtk").facets, (Facets{{0, 2, 1}})) << tail;
+    const std::string text = std::string(kVtk).substr(0, std::string(kVtk).find("CELL_DATA"));
+    EXPECT_EQ(surface(text + tail, "a.vtk").facets, (Facets{{0, 2, 1}})) << tail;
+  }
+}
+
+TEST_F(Variants, PackedFiles) {
+  put(folder_ / "plain.off", kOff);
+  const Surface plain = read_surface(folder_ / "plain.off");
+  for (const auto& [name, bytes] :
+       {std::pair<std::string, std::string>{"a.off.gz", kOff}, {"a.OFF.GZ", kOff}, {"a.off", kOff}}) {
+    EXPECT_EQ(surface(gzip(bytes), name).facets, plain.facets) << name;
+  }
+  const std::string text = kOff;  // two members, as `cat a.gz b.gz` makes them, and padding
+  EXPECT_EQ(
+      surface(gzip(text.substr(0, 30)) + gzip(text.substr(30)) + std::string(512, '\0'), "a.off.gz").facets,
+      plain.facets);
+  EXPECT_EQ(surface(gzip(binary_stl("", {{0, 0, 0, 1, 0, 0, 0, 1, 0}})), "a.stl.gz").facets.size(), 1u);
+  EXPECT_EQ(surface(gzip(kObj), "a.obj.gz").facets.size(), 3u);
+  EXPECT_EQ(volume(gzip(kVtu), "a.vtu.gz").tetrahedra.size(), 1u);
+  put(folder_ / "b.node.gz", gzip("4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n"));
+  put(folder_ / "b.ele.gz", gzip("1 4 0\n0 0 1 2 3\n"));
+  put(folder_ / "b.mtr.gz", gzip("4 1\n1\n2\n3\n4\n"));
+  EXPECT_EQ(read_volume(folder_ / "b.node.gz").tetrahedra.size(), 1u);
+  EXPECT_EQ(read_size_field(folder_ / "b.mtr.gz").tetrahedra.size(), 1u);
+}
+
+TEST_F(Variants, DamagedPackedFiles) {
+  const std::string packed = gzip(kOff);
+  for (std::size_t size = 3; size < packed.size(); ++size)
+    EXPECT_NE(error(packed.substr(0, size), "a.off.gz"), "read") << size;
+  std::string wrong = packed;
+  wrong[packed.size() / 2] = static_cast<char>(wrong[packed.size() / 2] ^ 0x55);
+  EXPECT_NE(error(wrong, "a.off.gz"), "read");
+  // 400 MB of blanks in 400 kB.
+  const std::string bomb = gzip(std::string(std::size_t{400} << 20, ' '));
+  EXPECT_NE(error(bomb, "a.off.gz").find("200 times its size"), std::string::npos);
+}
+
+TEST_F(Variants, AnArrayOfTooManyValuesIsNotUnpacked) {
+  // One block stands for all: 3 GiB of zeros that would take seconds to unpack.
+  const std::uint64_t block = std::uint64_t{1} << 20, blocks = 3072;
+  std::string packed(compressBound(block), '\0');
+  uLongf size = packed.size();
+  const std::string zeros(block, '\0');
+  compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(zeros.data()),
+           block);
+  packed.resize(size);
+  std::string data = raw(blocks) + raw(block) + raw(std::uint64_t{0});
+  for (std::uint64_t i = 0; i < blocks; ++i) data += raw(std::uint64_t{size});
+  for (std::uint64_t i = 0; i < blocks; ++i) data += packed;
+  const std::string file =
+      "<VTKFile type=\"PolyData\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
+      "compressor=\"vtkZLibDataCompressor\">\n<PolyData><Piece NumberOfPoints=\"6\" NumberOfPolys=\"1\">\n"
+      "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"appended\" "
+      "offset=\"0\"/></Points>\n"
+      "</Piece></PolyData><AppendedData encoding=\"raw\">_" +
+      data;
+  EXPECT_EQ(error(file, "a.vtp"), "line 3: the array has 402653184 values instead of 18");
+}
+
+TEST_F(Variants, NumbersBeyond64Bits) {
+  const std::string huge = "99999999999999999999", most = "9223372036854775807",
+                    least = "-9223372036854775808";
+  for (const std::string& index : {huge, most, least}) {
+    EXPECT_EQ(error("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 " + index + "\n", "a.off").substr(0, 7),
+              "line 5:");
+    EXPECT_EQ(error("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 " + index + "\n", "a.obj").substr(0, 7), "line 4:");
+    EXPECT_EQ(error("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n2\n" + least +
+                        " 0 0 0\n1 1 0 0\n$EndNodes\n"
+                        "$Elements\n1\n1 2 0 1 " +
+                        index + " 2\n$EndElements\n",
+                    "a.msh")
+                  .substr(0, 8),
+              "line 11:");
+    put(folder_ / "a.node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n");
+    put(folder_ / "a.ele", "2 4 0\n" + index + " 0 1 2 3\n1 0 1 2 3\n");
+    EXPECT_THROW(static_cast<void>(read_volume(folder_ / "a.node")), FileError);
+  }
+  EXPECT_EQ(error("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 " + huge + "\n", "a.off"),
+            "line 5: a vertex index is beyond 64 bits: '99999999999999999999'");
+}
+
+}  // namespace
+}  // namespace holdfast
