@@ -91,7 +91,8 @@ void add_diagnose(CLI::App& app, Command& chosen) {
       "Tell what is wrong with a surface (exit 4), by cause and one by one, and what it encloses");
   command
       ->add_option("SURFACE", arguments->surfaces,
-                   "Surface files (.stl .off .obj .ply .mesh .meshb .poly .smesh .msh .vtu .vtp .vtk); "
+                   "Surface files (.stl .off .obj .ply .mesh .meshb .poly .smesh .node .msh .vtu .vtp .vtk, "
+                   "each also .gz); "
                    "several are joined where "
                    "coordinates are identical")
       ->transform(or_standard_input)

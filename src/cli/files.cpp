@@ -1,5 +1,7 @@
 #include "files.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <unordered_map>
 

@@ -220,7 +220,8 @@ void add_mesh(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("mesh", "Fill surfaces with tetrahedra, keeping every triangle");
   command
       ->add_option("SURFACE", arguments->surfaces,
-                   "Surface files (.stl .off .obj .ply .mesh .meshb .poly .smesh .msh .vtu .vtp .vtk); "
+                   "Surface files (.stl .off .obj .ply .mesh .meshb .poly .smesh .node .msh .vtu .vtp .vtk, "
+                   "each also .gz); "
                    "several are joined where "
                    "coordinates are identical")
       ->transform(or_standard_input)

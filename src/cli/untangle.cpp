@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "command.h"
+#include "files.h"
 #include "files_of_run.h"
 #include "progress.h"
 #include "report.h"

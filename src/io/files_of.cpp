@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "holdfast/io.h"
+#include "io/file_bytes.h"
 #include "io/text_reader.h"
 
 namespace holdfast {
@@ -12,12 +13,9 @@ namespace {
 
 using Paths = std::vector<std::filesystem::path>;
 
-std::filesystem::path with_extension(std::filesystem::path path, const char* extension) {
-  return path.replace_extension(extension);
-}
-
 std::string extension_of(const std::filesystem::path& path, std::string_view format) {
-  std::string extension = io::lower(format.empty() ? path.extension().string() : std::string(format));
+  std::string extension =
+      io::lower(format.empty() ? io::without_gz(path).extension().string() : std::string(format));
   if (!extension.empty() && extension[0] != '.') extension.insert(0, 1, '.');
   return extension;
 }
@@ -25,7 +23,8 @@ std::string extension_of(const std::filesystem::path& path, std::string_view for
 /// Whether the vertices are in the .node file beside: the first number, their count, is 0.
 bool has_nodes_beside(const std::filesystem::path& path) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return true;  // a pipe is read only once
+  // A pipe is read only once, and a packed file not for this.
+  if (!std::filesystem::is_regular_file(path, error) || io::without_gz(path) != path) return true;
   std::ifstream file(path, std::ios::binary);
   for (std::string line; std::getline(file, line);) {
     const std::size_t start = line.find_first_not_of(" \t\r");
@@ -37,8 +36,8 @@ bool has_nodes_beside(const std::filesystem::path& path) {
 }
 
 Paths tetgen_files(const std::filesystem::path& path) {
-  return {with_extension(path, ".node"), with_extension(path, ".ele"), with_extension(path, ".face"),
-          with_extension(path, ".edge")};
+  return {io::sibling(path, ".node"), io::sibling(path, ".ele"), io::sibling(path, ".face"),
+          io::sibling(path, ".edge")};
 }
 
 }  // namespace
@@ -46,7 +45,7 @@ Paths tetgen_files(const std::filesystem::path& path) {
 Paths files_of_surface(const std::filesystem::path& path, std::string_view format) {
   const std::string extension = extension_of(path, format);
   if ((extension == ".poly" || extension == ".smesh") && has_nodes_beside(path))
-    return {path, with_extension(path, ".node")};
+    return {path, io::sibling(path, ".node")};
   return {path};
 }
 
@@ -60,7 +59,7 @@ Paths files_of_size_field(const std::filesystem::path& path) {
   const std::string extension = extension_of(path, {});
   Paths files{path};
   const auto add = [&](std::initializer_list<const char*> extensions) {
-    for (const char* other : extensions) files.push_back(with_extension(path, other));
+    for (const char* other : extensions) files.push_back(io::sibling(path, other));
   };
   if (extension == ".mesh" || extension == ".meshb") add({".sol", ".solb"});
   if (extension == ".sol" || extension == ".solb") add({".mesh", ".meshb"});

@@ -66,7 +66,10 @@ class GmfReader {
   std::int64_t integer() { return version_ >= 4 ? bytes_.read<std::int64_t>() : bytes_.read<std::int32_t>(); }
   double real() {
     const double value = version_ == 1 ? static_cast<double>(bytes_.read<float>()) : bytes_.read<double>();
-    if (finite_ && !std::isfinite(value)) bytes_.fail("a number that is not finite stands before it");
+    if (finite_ && !std::isfinite(value)) {
+      bytes_.seek(bytes_.position() - (version_ == 1 ? sizeof(float) : sizeof(double)));
+      bytes_.fail("a number is not finite");
+    }
     return value;
   }
 

@@ -47,7 +47,21 @@ def read_vtk(path):
     points = [grid.GetPoint(i) for i in range(grid.GetNumberOfPoints())]
     named = {"tetrahedra": 10, "facets": 5, "segments": 3}
     found = {name: entities(*zip(*cells[t])) if cells[t] else [] for name, t in named.items()}
+    markers = grid.GetPointData().GetArray("marker")
+    found["vertex_markers"] = [int(markers.GetTuple1(i)) for i in range(len(points))]
     return {"points": hexes(points), **found}
+
+
+def vertex_markers(mesh, suffix):
+    """Markers of the points as meshio has them; a .msh has them as elements that are points."""
+    if suffix != ".msh":
+        return [int(m) for m in mesh.point_data["medit:ref" if suffix == ".mesh" else "marker"]]
+    markers = [0] * len(mesh.points)
+    for i, block in enumerate(mesh.cells):
+        if block.type == "vertex":
+            for corner, tag in zip(block.data, mesh.cell_data["gmsh:physical"][i]):
+                markers[int(corner[0])] = int(tag)
+    return markers
 
 
 def read_meshio(path):
@@ -58,11 +72,13 @@ def read_meshio(path):
     region, marker = names.get(path.suffix, ("region", "marker"))
     cells = {"tetra": [], "triangle": [], "line": []}
     for i, block in enumerate(mesh.cells):
+        if block.type == "vertex":
+            continue
         tags = mesh.cell_data[region if block.type == "tetra" else marker][i]
         cells[block.type] += list(zip(block.data, tags))
     named = {"tetrahedra": "tetra", "facets": "triangle", "segments": "line"}
     found = {name: entities(*zip(*cells[t])) if cells[t] else [] for name, t in named.items()}
-    return {"points": hexes(mesh.points), **found}
+    return {"points": hexes(mesh.points), "vertex_markers": vertex_markers(mesh, path.suffix), **found}
 
 
 def read_gmsh(path):

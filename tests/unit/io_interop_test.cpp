@@ -47,6 +47,7 @@ Volume volume() {
   volume.facet_markers = {40, 7};
   volume.segments = {{1, 0}};
   volume.segment_markers = {3};
+  volume.vertex_markers = {0, 5, 0, 8, 0, 8};
   return volume;
 }
 
@@ -62,8 +63,8 @@ TEST(Interop, OtherProgramsReadTheSame) {
     for (const double x : point) points += (points.empty() ? "\"" : ", \"") + hex(x) + "\"";
   put(folder / "expected.json",
       "{\"points\": [" + points + "], \"tetrahedra\": " + json(original.tetrahedra, original.regions) +
-          ", \"facets\": " + json(original.facets, original.facet_markers) +
-          ", \"segments\": " + json(original.segments, original.segment_markers) + "}");
+          ", \"facets\": " + json(original.facets, original.facet_markers) + ", \"segments\": " +
+          json(original.segments, original.segment_markers) + ", \"vertex_markers\": [0, 5, 0, 8, 0, 8]}");
   const std::string script = (std::filesystem::path(__FILE__).parent_path() / "io_interop.py").string();
   int worst = 77 << 8;
   // The system's Python has the packages more often than one of the user's own.

@@ -116,7 +116,7 @@ TEST_F(SizeFiles, InTextAreRefusedWithTheLine) {
 TEST_F(SizeFiles, InBinaryAreRefusedWithTheirPlace) {
   for (const double x : {kInfinity, kNan}) {
     expect_refused({{"a.solb", samples::binary_sol(2, false, 4, 1, {1, 2, x, 4})}, {"a.mesh", mesh("1")}},
-                   "byte 68", "not finite");
+                   "byte 56", "not finite");
     Volume volume;
     volume.vertices = kUnit;
     volume.vertices[3][0] = x;
