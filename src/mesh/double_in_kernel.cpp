@@ -219,7 +219,7 @@ class Search {
   std::int64_t grid_;      // no double of the mesh has a bit below 2^grid_
   std::int64_t unit_ = 0;  // 2^unit_ is one in the polytope's coordinates
   std::vector<IntegerHalfSpace> faces_;
-  std::size_t parts_left_ = 300;
+  std::size_t parts_left_ = 100;
   bool is_complete_ = true;
 };
 

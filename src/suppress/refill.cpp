@@ -39,20 +39,21 @@ void cone(TetMesh& mesh, const Cavity& cavity, Vertex apex, const Point& positio
     if (v != apex) mesh.remove_vertex(v);
 }
 
-enum class Search { next_to_centre, complete };
-
+// `tell`, called before each, asks for complete searches.
 std::optional<Point> place_in(const TetMesh& mesh, const Kernel& kernel, Vertex apex,
-                              const Kernel::Centre& centre, Search search) {
+                              const Kernel::Centre& centre, const Tell& tell) {
   if (const auto place = kernel.double_at(mesh.point(apex), centre)) return place;
-  return search == Search::complete ? find_double(mesh, kernel.faces()).point : std::nullopt;
+  if (!tell) return std::nullopt;
+  tell();
+  return find_double(mesh, kernel.faces()).point;
 }
 
 // Across the faces that leave the centre least room until it can be had in doubles.
-bool cone_grown(TetMesh& mesh, Cavity& cavity, Vertex apex, int steps, Search search) {
+bool cone_grown(TetMesh& mesh, Cavity& cavity, Vertex apex, int steps, const Tell& tell) {
   for (int step = 0; step <= steps; ++step) {
     const Kernel kernel = kernel_of(mesh, cavity);
     const Kernel::Centre centre = kernel.centre(mesh.point(apex));
-    if (const auto place = place_in(mesh, kernel, apex, centre, search)) {
+    if (const auto place = place_in(mesh, kernel, apex, centre, tell)) {
       cone(mesh, cavity, apex, *place);
       return true;
     }
@@ -61,11 +62,11 @@ bool cone_grown(TetMesh& mesh, Cavity& cavity, Vertex apex, int steps, Search se
   return false;
 }
 
-bool round(TetMesh& mesh, Vertex p, Vertex first_free, int steps, Search search) {
+bool round(TetMesh& mesh, Vertex p, Vertex first_free, int steps, const Tell& tell) {
   std::vector<Tet> tets;
   ball(mesh, p, tets);
   Cavity cavity(mesh, tets, first_free);
-  return cone_grown(mesh, cavity, p, steps, search);
+  return cone_grown(mesh, cavity, p, steps, tell);
 }
 
 }  // namespace
@@ -94,23 +95,24 @@ bool merge(TetMesh& mesh, Vertex p, Vertex neighbour, Vertex first_free, int ste
   tets.clear();
   ball(mesh, neighbour, tets);
   if (tets.size() > kMostMerged) return false;
-  return cavity.swallow(tets) &&
-         (fill(mesh, cavity, search) || cone_grown(mesh, cavity, p, steps, Search::next_to_centre));
+  return cavity.swallow(tets) && (fill(mesh, cavity, search) || cone_grown(mesh, cavity, p, steps, {}));
 }
 
 bool round_with_neighbours(TetMesh& mesh, Vertex p, Vertex first_free, int steps) {
-  return round(mesh, p, first_free, steps, Search::next_to_centre);
+  return round(mesh, p, first_free, steps, {});
 }
 
-bool round_completely(TetMesh& mesh, Vertex p, Vertex first_free, int steps) {
-  return round(mesh, p, first_free, steps, Search::complete);
+bool round_completely(TetMesh& mesh, Vertex p, Vertex first_free, int steps, const Tell& tell) {
+  return round(mesh, p, first_free, steps, tell);
 }
 
-bool round_completely(TetMesh& mesh, Vertex p, Vertex first_free, int steps, std::mt19937_64& random) {
+bool round_completely(TetMesh& mesh, Vertex p, Vertex first_free, int steps, const Tell& tell,
+                      std::mt19937_64& random) {
   std::vector<Tet> tets;
   ball(mesh, p, tets);
   Cavity cavity(mesh, tets, first_free);
   for (int step = 0; step < steps && cavity.grow(random); ++step) {
+    tell();
     const auto place = find_double(mesh, cavity.faces()).point;
     if (!place) continue;
     cone(mesh, cavity, p, *place);

@@ -1,6 +1,7 @@
 // Filling a grown cavity again without a Steiner point, or with it at a better place (design §2.7).
 #pragma once
 
+#include <functional>
 #include <random>
 
 #include "mesh/tet_mesh.h"
@@ -30,9 +31,12 @@ bool merge(TetMesh& mesh, Vertex p, Vertex neighbour, Vertex first_free, int ste
 /// Gives p a position in doubles: its ball grows across the faces that leave least room until the kernel
 /// holds one. At most `steps` tetrahedra are added. Returns whether p has one.
 bool round_with_neighbours(TetMesh& mesh, Vertex p, Vertex first_free, int steps);
-/// The same with a complete search, which is slow: a kernel that it passes by holds no double.
-bool round_completely(TetMesh& mesh, Vertex p, Vertex first_free, int steps);
+
+using Tell = std::function<void()>;
+/// The same with complete searches (mesh/double_in_kernel.h), which are slow: `tell` is called before each.
+bool round_completely(TetMesh& mesh, Vertex p, Vertex first_free, int steps, const Tell& tell);
 /// The same with a ball that grows at random.
-bool round_completely(TetMesh& mesh, Vertex p, Vertex first_free, int steps, std::mt19937_64& random);
+bool round_completely(TetMesh& mesh, Vertex p, Vertex first_free, int steps, const Tell& tell,
+                      std::mt19937_64& random);
 
 }  // namespace holdfast

@@ -119,7 +119,7 @@ class Suppressor {
       if (rest.empty()) return;
       for (const Vertex p : rest) {
         tell();
-        if (!mesh_.in_mesh(p) || round_completely(mesh_, p, first_free_, kMostSteps)) continue;
+        if (!mesh_.in_mesh(p) || round_completely(mesh_, p, first_free_, kMostSteps, tell_)) continue;
         if (round_at_random(p)) continue;
         shake(mesh_, flipper_, p, kShakenEdges, random_);
         remove_or_recentre(mesh_, p, {});
@@ -131,7 +131,7 @@ class Suppressor {
   bool round_at_random(Vertex p) {
     constexpr int kTries = 4, kMostRandomSteps = 12;
     for (int k = 0; k < kTries; ++k)
-      if (round_completely(mesh_, p, first_free_, kMostRandomSteps, random_)) return true;
+      if (round_completely(mesh_, p, first_free_, kMostRandomSteps, tell_, random_)) return true;
     return false;
   }
 
@@ -173,6 +173,7 @@ class Suppressor {
   Monitor& monitor_;
   std::mt19937_64 random_;
   Flipper flipper_;
+  const Tell tell_ = [this] { tell(); };
   SuppressStats stats_;
 };
 
