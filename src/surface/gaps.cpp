@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "numbers/elementary.h"
 #include "surface/aabb_tree.h"
 
 namespace holdfast {
@@ -15,7 +16,9 @@ namespace {
 /// that people overlook, too narrow for what was modelled.
 constexpr double kReach = 0.02;
 
-double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+double distance(const Point& a, const Point& b) {
+  return numbers::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
 
 bool is_finite(const Point& p) {
   return std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });

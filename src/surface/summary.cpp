@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "numbers/elementary.h"
 #include "surface/complex.h"
 #include "surface/describe.h"
 #include "surface/enclosed.h"
@@ -167,7 +168,7 @@ std::string place_of(const std::vector<Point>& where) {
 double extent(const Defect& defect) {
   if (defect.where.size() != 2) return 0;
   const auto &a = defect.where[0], &b = defect.where[1];
-  const double length = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+  const double length = numbers::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
   return std::isfinite(length) ? length : 0;
 }
 
@@ -305,7 +306,7 @@ class Summariser {
 
   [[nodiscard]] double length(const Segment& s) const {
     const Point &a = complex_.vertices[s[0]], &b = complex_.vertices[s[1]];
-    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    return numbers::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
   }
 
   /// Finds the worst of a group and says where it is.
