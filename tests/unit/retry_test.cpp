@@ -38,28 +38,47 @@ Surface scattered_on_a_coarse_grid() {
   return surface;
 }
 
-TEST(Retry, AnotherOrderSucceedsWhereOneHasNot) {
-  const Surface surface = scattered_on_a_coarse_grid();
+struct Run {
+  Result result;
+  int attempts = 0;
+};
+
+Run run_with(const Surface& surface, std::uint64_t seed) {
+  Run run;
+  Stage last = Stage::validate;
   Options options;
   options.keep = Keep::box;
-  int attempts = 0;
-  Stage last = Stage::validate;
+  options.seed = seed;
   options.progress = [&](const Progress& progress) {
-    if (progress.stage == Stage::delaunay && last != Stage::delaunay) ++attempts;
+    if (progress.stage == Stage::delaunay && last != Stage::delaunay) ++run.attempts;
     last = progress.stage;
     return true;
   };
-  const Result result = mesh(surface.view(), options);
-  ASSERT_EQ(result.outcome, Outcome::done) << result.message;
-  EXPECT_GT(attempts, 1) << "this surface no longer needs a second attempt: take another one";
-  EXPECT_TRUE(result.exact_vertices.empty());
-  EXPECT_TRUE(result.message.empty());
-  EXPECT_EQ(result.report.unrounded_points, 0u);
-  EXPECT_EQ(result.report.tetrahedra, result.volume.tetrahedra.size());
-  CheckOptions box;
-  box.box = true;
-  for (const Rule& rule : check(surface.view(), result.volume, box).rules)
-    EXPECT_TRUE(rule.holds) << rule.name << ": " << rule.detail;
+  run.result = mesh(surface.view(), options);
+  return run;
+}
+
+// Which seeds need another attempt may change with the algorithms; that some do is what makes attempts worth
+// it.
+TEST(Retry, AnotherOrderSucceedsWhereOneHasNot) {
+  const Surface surface = scattered_on_a_coarse_grid();
+  constexpr std::uint64_t kSeeds = 30;
+  bool found = false;
+  for (std::uint64_t seed = 1; seed <= kSeeds && !found; ++seed) {
+    const auto [result, attempts] = run_with(surface, seed);
+    if (result.outcome == Outcome::not_representable) continue;
+    ASSERT_EQ(result.outcome, Outcome::done) << result.message;
+    found = attempts > 1;
+    EXPECT_TRUE(result.exact_vertices.empty());
+    EXPECT_TRUE(result.message.empty());
+    EXPECT_EQ(result.report.unrounded_points, 0u);
+    EXPECT_EQ(result.report.tetrahedra, result.volume.tetrahedra.size());
+    CheckOptions box;
+    box.box = true;
+    for (const Rule& rule : check(surface.view(), result.volume, box).rules)
+      EXPECT_TRUE(rule.holds) << rule.name << ": " << rule.detail;
+  }
+  EXPECT_TRUE(found) << "no seed needs a second attempt and succeeds with it";
 }
 
 }  // namespace
