@@ -63,6 +63,8 @@ enum class Quality { fast, good, best };
 struct Progress {
   Stage stage;
   double fraction;  ///< of this stage, 0 to 1
+  /// Of the whole call, 0 to 1, and never less than before: an estimate by what stages usually take.
+  double overall = 0;
 };
 
 /// Options of `mesh`. Every default gives the promise of design §1.
@@ -85,11 +87,14 @@ struct Options {
   /// Ends after this stage with what stands then, exact vertices rounded. Before `classify` that is every
   /// tetrahedron of the enclosing box, as region 0, and the facets and segments that stand.
   std::optional<Stage> stop_after;
-  std::uint64_t seed = 1;          ///< of the random orders
-  unsigned threads = 1;            ///< 0: all there are; the result is the same
-  double time_limit = 0;           ///< seconds; 0: none
-  std::uint64_t memory_limit = 0;  ///< bytes of the process; 0: none
-  /// Called now and then from the calling thread; returns false to cancel.
+  std::uint64_t seed = 1;  ///< of the random orders
+  unsigned threads = 1;    ///< 0: all there are; the result is the same
+  double time_limit = 0;   ///< seconds; 0: none
+  /// When the time limit began to run, if not with the call.
+  std::optional<std::chrono::steady_clock::time_point> started = {};
+  /// Bytes of the process; 0: none. Refused where the system does not tell how many there are.
+  std::uint64_t memory_limit = 0;
+  /// Called every 20 ms or so from the calling thread; returns false to cancel. What it throws ends the call.
   std::function<bool(const Progress&)> progress;
 };
 
@@ -111,9 +116,10 @@ struct Report {
   } input;
   struct Missing {
     std::size_t segments = 0, facets = 0;
-  } delaunay, flips;                                 ///< missing after Delaunay, and after the flips
-  std::size_t segment_points = 0, facet_points = 0;  ///< added by the partition
-  std::size_t steiner_points = 0;                    ///< left in the volume; corners of a box do not count
+  } delaunay, flips;  ///< missing after Delaunay, and after the flips
+  /// Added by the partition, in the cavities of facets and in attempts that came to nothing, too.
+  std::size_t segment_points = 0, facet_points = 0;
+  std::size_t steiner_points = 0;  ///< left in the volume; corners of a box do not count
   /// Left by suppression: what the surface forces, as far as was found. The optimisation adds some, and
   /// removes some.
   std::size_t forced_points = 0;
@@ -145,14 +151,24 @@ struct Report {
     /// 1/8, the last without end; an edge counts once for each element.
     std::array<std::size_t, 24> edge_lengths{};
     std::size_t moves = 0, swaps = 0, contractions = 0, insertions = 0;  ///< of the optimisation
-    /// Elements with such an angle, and those that facets ask for; not looked for with a metric.
-    std::size_t below_10_deg = 0, forced = 0;
+    /// Elements with such an angle; those that facets ask for; and of the others, those whose corners are all
+    /// the surface's: its triangles are larger than it is thick there. Not looked for with a metric.
+    std::size_t below_10_deg = 0, forced = 0, across = 0;
+    bool stopped_early = false;        ///< too much was tried in vain: edges may be longer than was asked for
     std::vector<Forced> worst_forced;  ///< the worst of these, at most 100
   } field;
   std::size_t vertices = 0, tetrahedra = 0, regions = 0;
+  /// The rule by which regions were kept: never Keep::automatic once they were chosen.
+  Keep keep = Keep::automatic;
+  /// If Keep::automatic found no winding numbers and kept every bounded region: facets that are turned
+  /// against those round them, or, where there are none, two (an interface's, say) that leave no such
+  /// numbers.
+  std::vector<Index> turned_facets;
+  std::size_t attempts = 0;  ///< with other random orders; all but the last found no doubles for some point
   struct Quality {
     double target = 0, worst = 0;  ///< the paper's Q = sqrt(6)/12 h_max / inradius, 1 is regular
     double min_dihedral_deg = 0, max_dihedral_deg = 0;
+    std::size_t below_10_deg = 0;             ///< elements with a dihedral angle below 10 degrees
     std::array<std::size_t, 18> histogram{};  ///< dihedral angles in bins of 10 degrees
   } quality;
   std::map<std::string, double> seconds;  ///< by stage, and "total"; "partition" includes elimination
@@ -165,6 +181,23 @@ struct ExactVertex {
   std::array<std::string, 3> coordinates;  ///< "m*2^e", both decimal integers
 };
 
+/// What `Warning` is about. The numbers are stable.
+enum class WarningKind : int {
+  orientation = 1,  ///< facets are turned against others, so that Keep::automatic kept every bounded region
+  open_interface = 2,  ///< facets with an opening between what would be two regions without it
+  field_points = 3,    ///< field points stopped early
+  attempt_failed = 4,  ///< an attempt ended by an error; what an earlier one had is delivered
+};
+
+/// What was decided, or may not be as it was meant, in a mesh that keeps the promise.
+struct Warning {
+  WarningKind kind;
+  std::vector<Index> facets;    ///< of the complex
+  std::vector<Segment> border;  ///< for open_interface, the edges of the opening
+  std::vector<Point> where;
+  std::string message;  ///< one sentence with indices and coordinates
+};
+
 /// Ids of the regions in front of a facet (where its corners turn counterclockwise) and behind it; nothing
 /// on a side without tetrahedra.
 using FacetRegions = std::array<std::optional<int>, 2>;
@@ -175,6 +208,7 @@ struct Result {
   std::vector<FacetRegions> facet_regions;  ///< one a facet of `volume`; none if stopped before `classify`
   Report report;
   std::vector<Defect> defects;
+  std::vector<Warning> warnings;            ///< where the outcome is done or not_representable
   std::vector<ExactVertex> exact_vertices;  ///< for not_representable
   std::string message;                      ///< one sentence when the outcome is not done
 };

@@ -68,6 +68,12 @@ class FileError : public std::runtime_error {
 /// whatever `read_surface` reads. Throws FileError.
 [[nodiscard]] std::vector<Point> read_points(const std::filesystem::path& path, std::string_view format = {});
 
+/// The surface of a volume, to be meshed again: its facets and segments with their markers, then the faces on
+/// its boundary and between regions that are not among them, seen from outside. Only vertices that these use,
+/// in the order that they have. Throws std::invalid_argument for regions that are neither none nor one a
+/// tetrahedron.
+[[nodiscard]] Surface surface_of(const Volume& volume);
+
 struct WriteOptions {
   bool compress = true;     ///< .vtu: zlib blocks
   bool legacy_msh = false;  ///< .msh: version 2.2 instead of 4.1

@@ -33,7 +33,9 @@ struct UntangleOptions {
   bool refill = true;        ///< empties and refills what nothing else untangles: may add and remove points
   std::uint64_t seed = 1;    ///< of the random orders when refilling
   double time_limit = 0;     ///< seconds; 0: none
-  std::uint64_t memory_limit = 0;  ///< bytes of the process; 0: none
+  /// When the time limit began to run, if not with the call.
+  std::optional<std::chrono::steady_clock::time_point> started = {};
+  std::uint64_t memory_limit = 0;  ///< bytes of the process; 0: none; refused as by `mesh`
   /// Called now and then from the calling thread; returns false to cancel.
   std::function<bool(const UntangleProgress&)> progress;
 };

@@ -6,11 +6,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "api/course.h"
 #include "api/extract.h"
 #include "api/forced.h"
 #include "api/report.h"
 #include "api/scale.h"
 #include "classify/keep.h"
+#include "classify/open_interface.h"
 #include "classify/regions.h"
 #include "delaunay/box.h"
 #include "delaunay/delaunay.h"
@@ -44,33 +46,38 @@ class Attempt {
 
   void run() {
     // Elimination is part of the partition's loop (design §2.5).
-    static constexpr std::array<Step, 8> kSteps{{{Stage::delaunay, &Attempt::build_box_mesh},
-                                                 {Stage::validate, &Attempt::validate_missing},
-                                                 {Stage::flips, &Attempt::recover},
-                                                 {Stage::partition, &Attempt::enforce_missing},
-                                                 {Stage::classify, &Attempt::classify},
-                                                 {Stage::suppress, &Attempt::suppress_points},
-                                                 {Stage::field_points, &Attempt::add_points},
-                                                 {Stage::optimise, &Attempt::optimise_elements}}};
+    static constexpr std::array<Step, 8> kSteps{
+        {{Stage::delaunay, CallStep::delaunay, &Attempt::build_box_mesh},
+         {Stage::validate, CallStep::validate_missing, &Attempt::validate_missing},
+         {Stage::flips, CallStep::flips, &Attempt::recover},
+         {Stage::partition, CallStep::partition, &Attempt::enforce_missing},
+         {Stage::classify, CallStep::classify, &Attempt::classify},
+         {Stage::suppress, CallStep::suppress, &Attempt::suppress_points},
+         {Stage::field_points, CallStep::field_points, &Attempt::add_points},
+         {Stage::optimise, CallStep::optimise, &Attempt::optimise_elements}}};
     for (const Step& step : kSteps) {
       if (step.stage > last_stage()) break;
       if (step.stage == Stage::field_points && !options_.sizes) continue;
       run_step(step);
       if (result_.outcome != Outcome::done) return;
     }
+    monitor_.begin_part(part_of_call(CallStep::deliver, monitor_.overall(), options_));
     deliver();
   }
 
  private:
   struct Step {
     Stage stage;
+    CallStep step;
     void (Attempt::*run)();
   };
 
   void run_step(const Step& step) {
     const Stopwatch watch(result_.report, name(step.stage));
+    monitor_.begin_part(part_of_call(step.step, monitor_.overall(), options_));
     monitor_.enter(step.stage);
     (this->*step.run)();
+    monitor_.end_part();
   }
 
   void build_box_mesh() {
@@ -108,15 +115,26 @@ class Attempt {
     const EnforceStats stats =
         enforce(mesh_, input_.table(), complex().facets, standing_, first_free_,
                 {.seed = seed_, .flips = options_.flips, .eliminate = eliminate}, monitor_);
-    result_.report.segment_points = stats.segment_points;
-    result_.report.facet_points = stats.facet_points;
+    result_.report.segment_points += stats.segment_points;
+    result_.report.facet_points += stats.facet_points;
     if (!eliminate) standing_ = standing_before_partition_;  // the others are cut into pieces
   }
 
   void classify() {
     regions_ = find_regions(mesh_, complex().facets, threads_);
     kept_ = choose_regions(mesh_, regions_, complex(), input_.table(), options_, scale_);
-    if (!kept_.defects.empty()) refuse(result_, std::move(kept_.defects));
+    if (!kept_.defects.empty()) return refuse(result_, std::move(kept_.defects));
+    tell_what_was_chosen();
+  }
+
+  void tell_what_was_chosen() {
+    result_.report.keep = kept_.rule;
+    if (kept_.conflict) result_.report.turned_facets.assign(kept_.conflict->begin(), kept_.conflict->end());
+    if (!kept_.turned.empty()) result_.report.turned_facets = kept_.turned;
+    if (!kept_.turned.empty()) result_.warnings.push_back(warn_of_turned(complex(), kept_.turned));
+    for (Warning& warning : find_open_interfaces(mesh_, regions_, kept_, complex(), input_.table(),
+                                                 [&] { monitor_.poll(Stage::classify, 1); }))
+      result_.warnings.push_back(std::move(warning));
   }
 
   // Points outside the kept regions go with their tetrahedra.
@@ -146,12 +164,30 @@ class Attempt {
         if (is_kept(t))
           for (const Vertex v : mesh_.corners(t))
             if (!mesh_.is_explicit(v)) return;  // the outcome is not_representable
-    size_function_.emplace(*options_.sizes, complex(), input_.table(), options_, kept_, scale_);
+    size_function_.emplace(polling(*options_.sizes), complex(), input_.table(), options_, kept_, scale_);
     const std::size_t before = mesh_.vertex_count();
-    parts_ = add_field_points(volume(), *size_function_, threads_, monitor_);
+    FieldPoints added = add_field_points(volume(), *size_function_, threads_, monitor_);
+    parts_ = std::move(added.parts);
+    result_.report.field.stopped_early = added.stopped_early;
     if (!options_.optimise || last_stage() < Stage::optimise)
-      join_filled(std::move(parts_), *size_function_, threads_, monitor_);
+      result_.report.field.stopped_early |=
+          join_filled(std::move(parts_), *size_function_, threads_, monitor_);
     result_.report.field.points = mesh_.vertex_count() - before + (parts_ ? parts_->new_vertices() : 0);
+  }
+
+  // Functions of the caller may be slow, and are called from the calling thread alone.
+  [[nodiscard]] Sizes polling(Sizes sizes) const {
+    if (sizes.field)
+      sizes.field = [this, field = std::move(sizes.field)](const Point& p) {
+        monitor_.poll_again();
+        return field(p);
+      };
+    if (sizes.metric)
+      sizes.metric = [this, metric = std::move(sizes.metric)](const Point& p) {
+        monitor_.poll_again();
+        return metric(p);
+      };
+    return sizes;
   }
 
   void optimise_elements() {
@@ -189,6 +225,7 @@ class Attempt {
     report.contractions = stats.contracted;
     report.insertions = stats.inserted;
     report.points += stats.filled_in;
+    report.stopped_early |= stats.filling_stopped_early;
     // Flat ones are told from others in space; in a metric they may be as they should be.
     if (stats.worst > kEnergyOfFlat && metrics_.empty()) remove_flat();
   }
@@ -223,10 +260,21 @@ class Attempt {
     result_.exact_vertices = std::move(extract.exact_vertices);
     result_.report.steiner_points = extract.steiner_points;
     fill_report();
+    if (result_.report.field.stopped_early) result_.warnings.push_back(warn_of_field_points());
     if (last >= Stage::suppress && !result_.exact_vertices.empty()) {
       result_.outcome = Outcome::not_representable;
       result_.message = "no positive mesh in double precision was found";
     }
+  }
+
+  static Warning warn_of_field_points() {
+    return {
+        WarningKind::field_points,
+        {},
+        {},
+        {},
+        "field points stopped early: too many were tried in vain, so that edges may be longer than was asked "
+        "for; the sizes differ too much from those of the surface's triangles"};
   }
 
   void fill_report() {
@@ -249,11 +297,13 @@ class Attempt {
     report.quality =
         measure(volume, has_all ? input_.target() : target_quality(volume.vertices, volume.facets, threads_),
                 &shape, threads_);
+    const auto& angles = shape.least_dihedral;  // in bins of five degrees
+    report.quality.below_10_deg = angles[0] + angles[1];
     if (sizes_.empty()) return;
     if (!metrics_.empty()) shape = shape_of(this->volume(), threads_);
     if (options_.optimise && last == Stage::optimise) report.field.after = shape;
-    const auto& angles = shape.least_dihedral;  // in bins of five degrees
-    if (metrics_.empty() && angles[0] + angles[1] > 0) find_forced(volume, report.field);
+    if (metrics_.empty() && report.quality.below_10_deg > 0)
+      find_forced(volume, complex().vertices.size(), report.field, [&] { monitor_.poll_again(); });
   }
 
   [[nodiscard]] Stage last_stage() const { return options_.stop_after.value_or(Stage::optimise); }

@@ -15,19 +15,22 @@ class Extractor {
 
   /// `id_of` gives a tetrahedron's region id, or nothing where it stays out.
   template <typename IdOf>
-  void take_tetrahedra(IdOf id_of) {
+  void take_tetrahedra(IdOf id_of, const Threads& threads) {
     const TetMesh& mesh = source_.mesh;
     Volume& volume = extract_.volume;
     volume.tetrahedra.reserve(mesh.tet_count());
     volume.regions.reserve(mesh.tet_count());
-    for (Tet t = 0; t < mesh.slot_count(); ++t) {
-      if (!mesh.alive(t) || mesh.is_ghost(t)) continue;
+    const auto take = [&](Tet t) {
+      if (!mesh.alive(t) || mesh.is_ghost(t)) return;
       const std::optional<int> id = id_of(t);
-      if (!id) continue;
+      if (!id) return;
       volume.tetrahedra.push_back(mesh.corners(t));
       volume.regions.push_back(*id);
       for (const Vertex v : mesh.corners(t)) new_index_[v] = 0;
-    }
+    };
+    parallel_ranges(threads.at_most(1), mesh.slot_count(), [&](std::size_t first, std::size_t last) {
+      for (auto t = static_cast<Tet>(first); t < last; ++t) take(t);
+    });
   }
 
   /// Numbers the vertices in use and writes positions.
@@ -108,10 +111,12 @@ class Extractor {
 
 Extract extract_kept(const Source& source, const Regions& regions, const Kept& kept, const Threads& threads) {
   Extractor extractor(source);
-  extractor.take_tetrahedra([&](Tet t) -> std::optional<int> {
-    const RegionId r = regions.of_tet[t];
-    return kept.region[r] ? std::optional(kept.id[r]) : std::nullopt;
-  });
+  extractor.take_tetrahedra(
+      [&](Tet t) -> std::optional<int> {
+        const RegionId r = regions.of_tet[t];
+        return kept.region[r] ? std::optional(kept.id[r]) : std::nullopt;
+      },
+      threads);
   extractor.take_vertices(threads);
   extractor.take_facets([&](Index f) { return kept.facet(regions, f); });
   extractor.take_facet_regions(regions, kept);
@@ -121,7 +126,7 @@ Extract extract_kept(const Source& source, const Regions& regions, const Kept& k
 
 Extract extract_all(const Source& source, const Standing& standing) {
   Extractor extractor(source);
-  extractor.take_tetrahedra([](Tet) { return std::optional(0); });
+  extractor.take_tetrahedra([](Tet) { return std::optional(0); }, 1);
   extractor.take_vertices(1);
   const auto stands = [](const std::vector<std::uint8_t>& flags) {
     return [&flags](Index i) { return i < flags.size() && flags[i] != 0; };

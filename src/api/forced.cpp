@@ -37,10 +37,12 @@ double angle_at(const Point& p, const Point& q, const Point& r) {
 
 class ForcedElements {
  public:
-  explicit ForcedElements(const Volume& volume) : volume_(volume) {}
+  ForcedElements(const Volume& volume, std::size_t first_added, const std::function<void()>& tell)
+      : volume_(volume), first_added_(first_added), tell_(tell) {}
 
   void find(Report::Field& report) {
     for (Index t = 0; t < volume_.tetrahedra.size(); ++t) {
+      tell_();
       const Tetrahedron& c = volume_.tetrahedra[t];
       const auto& v = volume_.vertices;
       if (quality(v[c[0]], v[c[1]], v[c[2]], v[c[3]]) < kQualityOfSmall) continue;
@@ -49,7 +51,10 @@ class ForcedElements {
       if (*least >= kSmall) continue;
       ++report.below_10_deg;
       std::vector<Index> facets = to_blame(c, static_cast<int>(least - angles.begin()));
-      if (facets.empty()) continue;
+      if (facets.empty()) {
+        if (std::all_of(c.begin(), c.end(), [&](Index x) { return x < first_added_; })) ++report.across;
+        continue;
+      }
       ++report.forced;
       report.worst_forced.push_back({t, *least, std::move(facets)});
     }
@@ -107,6 +112,7 @@ class ForcedElements {
 
   void list_edges() {
     for (Index f = 0; f < volume_.facets.size(); ++f) {
+      tell_();
       const Triangle& c = volume_.facets[f];
       for (std::size_t k = 0; k < 3; ++k)
         by_edge_.push_back({key_of_edge(c[(k + 1) % 3], c[(k + 2) % 3]), f, c[k]});
@@ -143,7 +149,10 @@ class ForcedElements {
   // The table is built when first asked: most volumes have no such element.
   std::optional<Index> facet_at(Triangle face) {
     if (by_key_.empty()) {
-      for (Index f = 0; f < volume_.facets.size(); ++f) by_key_.push_back({key_of(volume_.facets[f]), f, 0});
+      for (Index f = 0; f < volume_.facets.size(); ++f) {
+        tell_();
+        by_key_.push_back({key_of(volume_.facets[f]), f, 0});
+      }
       std::sort(by_key_.begin(), by_key_.end());
     }
     for (const Wing& found : with_key(by_key_, key_of(face)))
@@ -153,11 +162,16 @@ class ForcedElements {
   }
 
   const Volume& volume_;
+  const std::size_t first_added_;
+  const std::function<void()>& tell_;
   std::vector<Wing> by_key_, by_edge_;  // in their order
 };
 
 }  // namespace
 
-void find_forced(const Volume& volume, Report::Field& report) { ForcedElements(volume).find(report); }
+void find_forced(const Volume& volume, std::size_t first_added, Report::Field& report,
+                 const std::function<void()>& tell) {
+  ForcedElements(volume, first_added, tell).find(report);
+}
 
 }  // namespace holdfast

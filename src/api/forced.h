@@ -7,7 +7,9 @@ namespace holdfast {
 
 /// Counts the elements of a volume with a dihedral angle below 10 degrees, and finds those for which facets
 /// are to blame: the two that meet at that angle, or those of the element's faces that have such an angle
-/// themselves.
-void find_forced(const Volume& volume, Report::Field& report);
+/// themselves. Counts the others whose corners are all below `first_added`. `tell` is called now and then,
+/// and may throw.
+void find_forced(const Volume& volume, std::size_t first_added, Report::Field& report,
+                 const std::function<void()>& tell);
 
 }  // namespace holdfast

@@ -4,32 +4,81 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "classify/keep.h"
+#include "surface/whereabouts.h"
+
 namespace holdfast {
 
+namespace {
+
+void require(bool sensible, const char* otherwise) {
+  if (!sensible) throw std::invalid_argument(otherwise);
+}
+
+bool is_finite(const Point& p) {
+  return std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
+}
+
+bool is_length_or_none(double x) { return x >= 0 && std::isfinite(x); }
+
+void require_sensible_sizes(const Complex& complex, const Sizes& sizes) {
+  require(is_length_or_none(sizes.size), "a size must be finite and not negative");
+  require(sizes.gradation >= 0 && sizes.gradation <= 1, "the gradation must lie between 0 and 1");
+  require(sizes.vertex_sizes.empty() || sizes.vertex_sizes.size() == complex.vertices.size(),
+          "as many sizes as vertices are needed, or none");
+  require(std::all_of(sizes.vertex_sizes.begin(), sizes.vertex_sizes.end(), is_length_or_none),
+          "sizes of vertices must be finite and not negative");
+}
+
+// Corners of the box that is kept lie within this one, however they are rounded.
+bool is_far_outside(const Point& p, const Complex& complex, double margin) {
+  if (complex.vertices.empty()) return false;
+  Point low = complex.vertices[0], high = low;
+  for (const Point& v : complex.vertices)
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], v[k]);
+      high[k] = std::max(high[k], v[k]);
+    }
+  const double extent = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+  const double room = 2 * margin * extent;
+  for (std::size_t k = 0; extent > 0 && k < 3; ++k)
+    if (p[k] < low[k] - room || p[k] > high[k] + room) return true;
+  return false;
+}
+
+}  // namespace
+
 void require_sensible(const Complex& complex, const Options& options) {
-  const auto finite = [](const Point& p) {
-    return std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
-  };
-  if (!complex.vertex_markers.empty() && complex.vertex_markers.size() != complex.vertices.size())
-    throw std::invalid_argument("as many vertex markers as vertices are needed, or none");
-  if (!complex.facet_markers.empty() && complex.facet_markers.size() != complex.facets.size())
-    throw std::invalid_argument("as many facet markers as facets are needed, or none");
-  if (!complex.segment_markers.empty() && complex.segment_markers.size() != complex.segments.size())
-    throw std::invalid_argument("as many segment markers as segments are needed, or none");
-  if (!std::all_of(options.holes.begin(), options.holes.end(), finite))
-    throw std::invalid_argument("a hole has a coordinate that is not finite");
-  if (!std::all_of(options.regions.begin(), options.regions.end(),
-                   [&](const RegionSeed& seed) { return finite(seed.where); }))
-    throw std::invalid_argument("a region seed has a coordinate that is not finite");
-  if (options.sizes) {
-    const Sizes& sizes = *options.sizes;
-    if (!(sizes.size >= 0) || !(sizes.gradation >= 0 && sizes.gradation <= 1))
-      throw std::invalid_argument("a size must not be negative, and the gradation lie between 0 and 1");
-    if (!sizes.vertex_sizes.empty() && sizes.vertex_sizes.size() != complex.vertices.size())
-      throw std::invalid_argument("as many sizes as vertices are needed, or none");
+  require(complex.vertex_markers.empty() || complex.vertex_markers.size() == complex.vertices.size(),
+          "as many vertex markers as vertices are needed, or none");
+  require(complex.facet_markers.empty() || complex.facet_markers.size() == complex.facets.size(),
+          "as many facet markers as facets are needed, or none");
+  require(complex.segment_markers.empty() || complex.segment_markers.size() == complex.segments.size(),
+          "as many segment markers as segments are needed, or none");
+  require(std::all_of(options.holes.begin(), options.holes.end(), is_finite),
+          "a hole has a coordinate that is not finite");
+  for (const RegionSeed& seed : options.regions) {
+    require(is_finite(seed.where), "a region seed has a coordinate that is not finite");
+    require(is_length_or_none(seed.size), "the size of a region must be finite and not negative");
   }
-  if (options.keep == Keep::box && !(options.box_margin > 0 && options.box_margin < 1e6))
-    throw std::invalid_argument("the margin of the box must be positive and below a million");
+  if (options.sizes) require_sensible_sizes(complex, *options.sizes);
+  require(options.keep != Keep::box || (options.box_margin > 0 && options.box_margin < 1e6),
+          "the margin of the box must be positive and below a million");
+  require(options.time_limit >= 0, "the time limit must not be negative");
+}
+
+void require_well_placed(const Complex& complex, const Options& options, const std::function<void()>& step) {
+  std::vector<Point> points = options.holes;
+  for (const RegionSeed& seed : options.regions) points.push_back(seed.where);
+  if (points.empty() || options.stop_after.value_or(Stage::optimise) < Stage::classify) return;
+  const std::vector<Whereabouts> where = whereabouts(complex, points, step);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const char* const what = i < options.holes.size() ? "hole" : "region seed";
+    if (where[i] == Whereabouts::on_facet) throw on_the_surface(what, points[i]);
+    const bool is_outside = options.keep == Keep::box ? is_far_outside(points[i], complex, options.box_margin)
+                                                      : where[i] == Whereabouts::unbounded;
+    if (is_outside) throw in_no_region(what, points[i]);
+  }
 }
 
 }  // namespace holdfast

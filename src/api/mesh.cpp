@@ -1,13 +1,19 @@
 // A call of `mesh`: judge the options, validate, then attempts with one seed after the other.
+#include <algorithm>
+#include <exception>
 #include <new>
+#include <string>
+#include <thread>
 #include <utility>
 
 #include "api/attempt.h"
+#include "api/course.h"
 #include "api/input.h"
 #include "api/judge.h"
 #include "api/remote_components.h"
 #include "api/report.h"
 #include "holdfast/holdfast.h"
+#include "mesh/memory.h"
 #include "mesh/monitor.h"
 #include "mesh/parallel.h"
 #include "numbers/float_environment.h"
@@ -15,14 +21,14 @@
 namespace holdfast {
 namespace {
 
-constexpr int kMostAttempts = 5;
+constexpr std::size_t kMostAttempts = 5;
 
 class Call {
  public:
   Call(const Complex& complex, const Options& options)
       : options_(options),
-        threads_(options.threads),
         monitor_(options),
+        threads_(Threads(options.threads).polling([this] { poll(); })),
         input_(complex, options, threads_, monitor_) {}
 
   Result run() {
@@ -45,45 +51,102 @@ class Call {
   void run_stages() {
     validate();
     if (result_.outcome != Outcome::done) return;
-    attempt(input_, options_, options_.seed, threads_, monitor_, result_);
-    int attempts = 1;
-    while (attempts++ < kMostAttempts && result_.outcome == Outcome::not_representable && try_again()) {
+    try_once();
+    while (result_.report.attempts < kMostAttempts && result_.outcome == Outcome::not_representable &&
+           try_again()) {
     }
     const bool has_all = options_.stop_after.value_or(Stage::optimise) == Stage::optimise;
     if (result_.outcome == Outcome::done && options_.sizes && has_all && options_.keep != Keep::box)
       mesh_remote_components(input_.complex(), options_, mesh, result_);
   }
 
+  // Jobs within jobs have other callers.
+  void poll() {
+    if (std::this_thread::get_id() == caller_) monitor_.poll_again();
+  }
+
   void validate() {
     const Stopwatch watch(result_.report, name(Stage::validate));
+    monitor_.begin_part(part_of_call(CallStep::validate, 0, options_));
     monitor_.enter(Stage::validate);
     if (std::vector<Defect> defects = input_.validate(result_.report.input); !defects.empty())
-      refuse(result_, std::move(defects));
+      return refuse(result_, std::move(defects));
+    require_well_placed(input_.complex(), options_, [&] { monitor_.poll(Stage::validate, 0.5); });
+    monitor_.end_part();
+  }
+
+  void try_once() {
+    Options options = options_;
+    options.flips = options.flips && result_.report.attempts % 2 == 0;
+    ++result_.report.attempts;
+    attempt(input_, options, seed_++, threads_, monitor_, result_);
   }
 
   // Where no doubles were found for some point, others may be with another random order, or where flips have
   // not put the points there: every other attempt leaves them out. The attempt with the fewest such points
-  // counts, also where a limit ends the next one: then returns false.
+  // counts, also where a limit or an error ends the next one: then returns false.
   bool try_again() {
-    Result best = std::move(result_);
-    result_ = {};
-    result_.report = best.report;
-    ++seed_;
-    Options options = options_;
-    options.flips = options.flips && (seed_ - options.seed) % 2 == 0;
+    Result best = std::exchange(result_, {});
     try {
-      attempt(input_, options, seed_, threads_, monitor_, result_);
+      result_.report = of_all_attempts(best.report);
+      try_once();
     } catch (const Interrupted& interrupted) {
       if (interrupted.outcome() == Outcome::cancelled) throw;
-      result_ = std::move(best);
+      go_back_to(std::move(best));
+      return false;
+    } catch (...) {
+      if (monitor_.caller_threw()) throw;
+      go_back_to(std::move(best));
+      warn_of(std::current_exception());
       return false;
     }
     if (result_.outcome == Outcome::not_representable &&
-        result_.exact_vertices.size() >= best.exact_vertices.size()) {
-      best.report.seconds = result_.report.seconds;
-      result_ = std::move(best);
-    }
+        result_.exact_vertices.size() >= best.exact_vertices.size())
+      go_back_to(std::move(best));
     return true;
+  }
+
+  // What counts over all attempts.
+  static Report of_all_attempts(const Report& report) {
+    Report sum;
+    sum.input = report.input;
+    sum.seconds = report.seconds;
+    sum.attempts = report.attempts;
+    sum.segment_points = report.segment_points;
+    sum.facet_points = report.facet_points;
+    return sum;
+  }
+
+  // Asks for no memory, which may be what there is none of.
+  void go_back_to(Result best) noexcept {
+    const Report last = std::move(result_.report);
+    result_ = std::move(best);
+    Report& report = result_.report;
+    for (auto& [stage, seconds] : report.seconds)
+      if (const auto it = last.seconds.find(stage); it != last.seconds.end()) seconds = it->second;
+    report.attempts = std::max(report.attempts, last.attempts);
+    report.segment_points = std::max(report.segment_points, last.segment_points);
+    report.facet_points = std::max(report.facet_points, last.facet_points);
+  }
+
+  void warn_of(const std::exception_ptr& error) noexcept {
+    try {
+      std::string what = "an unknown exception";
+      try {
+        std::rethrow_exception(error);
+      } catch (const std::exception& thrown) {
+        what = thrown.what();
+      } catch (...) {  // NOLINT(bugprone-empty-catch): of a kind of its own
+      }
+      result_.warnings.push_back({WarningKind::attempt_failed,
+                                  {},
+                                  {},
+                                  {},
+                                  "attempt " + std::to_string(result_.report.attempts) +
+                                      " ended by an error (" + what +
+                                      "); what an earlier one had is delivered"});
+    } catch (...) {  // NOLINT(bugprone-empty-catch): there is no memory for the words
+    }
   }
 
   void give_up(Outcome outcome) {
@@ -95,10 +158,11 @@ class Call {
   }
 
   const Options& options_;
-  const Threads threads_;
+  const std::thread::id caller_ = std::this_thread::get_id();
   Monitor monitor_;
+  const Threads threads_;
   Input input_;
-  std::uint64_t seed_ = options_.seed;
+  std::uint64_t seed_ = options_.seed;  // of the next attempt
   Result result_;
 };
 

@@ -8,6 +8,7 @@
 
 #include "api/scale.h"
 #include "holdfast/check.h"
+#include "mesh/memory.h"
 #include "mesh/monitor.h"
 #include "numbers/float_environment.h"
 #include "surface/diagnose.h"
@@ -131,6 +132,7 @@ class Untangling {
   Options limits() {
     Options limits;
     limits.time_limit = options_.time_limit;
+    limits.started = options_.started;
     limits.memory_limit = options_.memory_limit;
     if (options_.progress) limits.progress = [this](const Progress&) { return tell(); };
     return limits;

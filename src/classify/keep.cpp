@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "classify/outside.h"
+#include "classify/words.h"
 #include "surface/describe.h"
 
 namespace holdfast {
@@ -57,12 +58,19 @@ class Chooser {
  private:
   void apply_rule() {
     kept_.region.assign(regions_.count, true);
+    kept_.rule = options_.keep;
     if (options_.keep == Keep::box) return;
     kept_.region[0] = false;
     if (options_.keep == Keep::bounded) return;
     const Winding winding = winding_numbers(regions_);
+    if (winding.conflict && options_.keep == Keep::winding) {
+      kept_.defects.push_back(not_oriented(complex_, *winding.conflict));
+      return;
+    }
+    kept_.rule = winding.conflict ? Keep::bounded : Keep::winding;
     if (winding.conflict) {
-      if (options_.keep == Keep::winding) kept_.defects.push_back(not_oriented(complex_, *winding.conflict));
+      kept_.conflict = winding.conflict;
+      kept_.turned = turned_facets(regions_);
       return;
     }
     for (RegionId r = 1; r < regions_.count; ++r) kept_.region[r] = winding.number[r] != 0;
@@ -74,13 +82,23 @@ class Chooser {
     for (exact::Dyadic& x : moved.c) x = x.scaled(scale_);
     const Point approx{moved.c[0].to_double(), moved.c[1].to_double(), moved.c[2].to_double()};
     const Located located = locate(mesh_, regions_, {approx.data(), &moved});
-    if (located.on_facet)
-      throw std::invalid_argument("the " + what + " at " + place(p) +
-                                  " lies on the surface; move it inside a region");
-    if (!located.in_mesh || (located.region == 0 && options_.keep != Keep::box))
-      throw std::invalid_argument("the " + what + " at " + place(p) +
-                                  " lies in no bounded region; move it inside one");
+    if (located.on_facet) throw on_the_surface(what, p);
+    if (!located.in_mesh || (located.region == 0 && options_.keep != Keep::box)) throw in_no_region(what, p);
     return located.region;
+  }
+
+  // What may have made one region of two.
+  [[nodiscard]] std::string opening_in(RegionId r) const {
+    for (Index f = 0; f < complex_.facets.size(); ++f) {
+      if (regions_.of_facet[f] != std::array<RegionId, 2>{r, r}) continue;
+      for (const Index s : table_.facet_segments[f]) {
+        if (table_.facets_of(s).size() != 1) continue;
+        const Index v = table_.segments[s][0];
+        return ", or close the open border of the triangles inside this region, at vertex " +
+               std::to_string(v) + " " + place(complex_.vertices[v]);
+      }
+    }
+    return {};
   }
 
   void number() {
@@ -95,7 +113,7 @@ class Chooser {
       if (seeded[r] && kept_.id[r] != seed.id)
         throw std::invalid_argument("the region seed at " + place(seed.where) + " gives id " +
                                     std::to_string(seed.id) + " to a region that another seed calls " +
-                                    std::to_string(kept_.id[r]) + "; leave out one of them");
+                                    std::to_string(kept_.id[r]) + "; leave out one of them" + opening_in(r));
       kept_.id[r] = seed.id;
       seeded[r] = true;
       taken.insert(seed.id);
@@ -144,6 +162,24 @@ class Chooser {
 Kept choose_regions(const TetMesh& mesh, const Regions& regions, const Complex& complex,
                     const SegmentTable& table, const Options& options, int scale) {
   return Chooser(mesh, regions, complex, table, options, scale).run();
+}
+
+std::invalid_argument on_the_surface(const std::string& what, const Point& p) {
+  return std::invalid_argument("the " + what + " at " + place(p) +
+                               " lies on the surface; move it inside a region");
+}
+
+std::invalid_argument in_no_region(const std::string& what, const Point& p) {
+  return std::invalid_argument("the " + what + " at " + place(p) +
+                               " lies in no bounded region; move it inside one");
+}
+
+Warning warn_of_turned(const Complex& complex, const std::vector<Index>& turned) {
+  Warning warning{WarningKind::orientation, turned, {}, {complex.vertices[complex.facets[turned[0]][0]]}, {}};
+  warning.message = "every bounded region was kept: there are no winding numbers, since " +
+                    listed("triangle", "triangles", turned) + (turned.size() == 1 ? " is" : " are") +
+                    " turned against the rest, at " + place(warning.where[0]);
+  return warning;
 }
 
 }  // namespace holdfast

@@ -1,6 +1,8 @@
 // Which regions stay in the volume, and their ids (design §2.6).
 #pragma once
 
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "classify/regions.h"
@@ -10,9 +12,14 @@
 namespace holdfast {
 
 struct Kept {
-  std::vector<bool> region;     ///< by region of Regions: whether it stays
-  std::vector<int> id;          ///< by region: the id that users see; 0 unless seeded for the outside
-  std::vector<bool> segment;    ///< by segment of the table: whether it borders on a kept region
+  std::vector<bool> region;   ///< by region of Regions: whether it stays
+  std::vector<int> id;        ///< by region: the id that users see; 0 unless seeded for the outside
+  std::vector<bool> segment;  ///< by segment of the table: whether it borders on a kept region
+  Keep rule = Keep::bounded;  ///< that was applied: never Keep::automatic
+  /// Two facets that leave no winding number, where Keep::automatic met them; and those that are turned
+  /// against others, if that is why.
+  std::optional<std::array<Index, 2>> conflict;
+  std::vector<Index> turned;
   std::vector<Defect> defects;  ///< of kinds 14 to 16; empty when all is well
 
   /// Whether a facet borders on a kept region.
@@ -31,5 +38,12 @@ struct Kept {
 /// could mean, and for seeds that give one region two ids.
 [[nodiscard]] Kept choose_regions(const TetMesh& mesh, const Regions& regions, const Complex& complex,
                                   const SegmentTable& table, const Options& options, int scale = 0);
+
+/// What is said of a hole or region seed, as `what` calls it, that cannot be meant where it is.
+[[nodiscard]] std::invalid_argument on_the_surface(const std::string& what, const Point& p);
+[[nodiscard]] std::invalid_argument in_no_region(const std::string& what, const Point& p);
+
+/// Says that every bounded region was kept, since there are no winding numbers.
+[[nodiscard]] Warning warn_of_turned(const Complex& complex, const std::vector<Index>& turned);
 
 }  // namespace holdfast

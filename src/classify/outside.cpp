@@ -4,25 +4,13 @@
 #include <map>
 #include <numeric>
 
+#include "classify/words.h"
 #include "surface/describe.h"
 
 namespace holdfast {
 namespace {
 
 constexpr std::size_t kListed = 3;
-
-// "triangle 4", "triangles 4 and 7", "triangles 4, 7, 9 and 12 more"; nothing for no ids.
-std::string list(const std::string& noun, const std::string& plural, const std::vector<Index>& ids) {
-  if (ids.empty()) return {};
-  const std::size_t shown = ids.size() <= kListed + 1 ? ids.size() : kListed;
-  std::string words = (ids.size() == 1 ? noun : plural) + " ";
-  for (std::size_t i = 0; i < shown; ++i) {
-    if (i > 0) words += i + 1 == ids.size() ? " and " : ", ";
-    words += std::to_string(ids[i]);
-  }
-  if (shown < ids.size()) words += " and " + std::to_string(ids.size() - shown) + " more";
-  return words;
-}
 
 // Facets, segments of the table and vertices that hang together.
 struct Piece {
@@ -91,8 +79,8 @@ Defect describe(const Piece& piece, const Complex& complex, const SegmentTable& 
   defect.where.push_back(complex.vertices[first]);
   std::string names;
   for (const std::string& part :
-       {list("triangle", "triangles", defect.facets), list("segment", "segments", defect.segments),
-        list("isolated vertex", "isolated vertices", defect.vertices)})
+       {listed("triangle", "triangles", defect.facets), listed("segment", "segments", defect.segments),
+        listed("isolated vertex", "isolated vertices", defect.vertices)})
     if (!part.empty()) names += (names.empty() ? "" : " with ") + part;
   const bool one = piece.facets.size() + piece.segments.size() + piece.vertices.size() == 1;
   defect.message = names + " at " + place(complex.vertices[first]) +

@@ -1,6 +1,7 @@
 #include "classify/regions.h"
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 
 #include "mesh/disjoint_sets.h"
@@ -12,26 +13,29 @@ namespace {
 
 // Unites the tetrahedra that no facet separates, and all ghosts. Neighbours have slots close to each other,
 // so that one sweep over all slots stays in the caches, which a walk from neighbour to neighbour does not.
-DisjointSets unite_across_faces(const TetMesh& mesh) {
+DisjointSets unite_across_faces(const TetMesh& mesh, const Threads& threads) {
   DisjointSets sets(mesh.slot_count());
   Tet ghost = kNone;
-  for (Tet t = 0; t < mesh.slot_count(); ++t) {
-    if (!mesh.alive(t)) continue;
+  const auto unite = [&](Tet t) {
+    if (!mesh.alive(t)) return;
     for (int i = 0; i < 4; ++i) {
       const Tet n = tet_of(mesh.neighbour(t, i));
       if (n < t && !mesh.is_facet(face_code(t, i))) sets.unite(t, n);
     }
-    if (!mesh.is_ghost(t)) continue;
+    if (!mesh.is_ghost(t)) return;
     if (ghost != kNone) sets.unite(t, ghost);
     ghost = t;
-  }
+  };
+  parallel_ranges(threads.at_most(1), mesh.slot_count(), [&](std::size_t first, std::size_t last) {
+    for (auto t = static_cast<Tet>(first); t < last; ++t) unite(t);
+  });
   return sets;
 }
 
 // Numbers the regions, by slot: 0 is the outside, where ghosts are, others come in the order of their first
 // slots. Returns how many they are.
-RegionId number_regions(const TetMesh& mesh, std::vector<RegionId>& of_tet) {
-  DisjointSets sets = unite_across_faces(mesh);
+RegionId number_regions(const TetMesh& mesh, std::vector<RegionId>& of_tet, const Threads& threads) {
+  DisjointSets sets = unite_across_faces(mesh, threads);
   of_tet.assign(mesh.slot_count(), kNone);
   for (Tet t = 0; t < mesh.slot_count(); ++t)
     if (mesh.alive(t) && mesh.is_ghost(t)) of_tet[sets.root(t)] = 0;
@@ -155,14 +159,14 @@ bool box_holds(const TetMesh& mesh, Tet t, const double* p) {
 
 Regions find_regions(const TetMesh& mesh, std::span<const Triangle> facets, const Threads& threads) {
   Regions regions;
-  regions.count = number_regions(mesh, regions.of_tet);
+  regions.count = number_regions(mesh, regions.of_tet, threads);
   find_sides(mesh, facets, regions, threads);
   number_by_least_facet(regions);
   return regions;
 }
 
 void find_regions_again(TetMesh& mesh, std::span<const Triangle> facets, Regions& regions) {
-  std::vector<RegionId> region_of(number_regions(mesh, regions.of_tet), kNone);
+  std::vector<RegionId> region_of(number_regions(mesh, regions.of_tet, 1), kNone);
   region_of[0] = 0;
   std::vector<bool> done(regions.count, false);
   done[0] = true;
@@ -179,6 +183,25 @@ void find_regions_again(TetMesh& mesh, std::span<const Triangle> facets, Regions
   }
   for (RegionId& r : regions.of_tet)
     if (r != kNone) r = region_of[r];
+}
+
+std::vector<Index> turned_facets(const Regions& regions) {
+  std::map<std::array<RegionId, 2>, std::array<std::vector<Index>, 2>> between;
+  for (Index f = 0; f < regions.of_facet.size(); ++f) {
+    const auto& [front, back] = regions.of_facet[f];
+    if (front != back)
+      between[{std::min(front, back), std::max(front, back)}][front < back ? 0 : 1].push_back(f);
+  }
+  std::vector<Index> turned;
+  for (const auto& [pair, ways] : between) {
+    // Of equally many, those that have not the least facet among them.
+    const bool second = ways[1].size() != ways[0].size() ? ways[1].size() < ways[0].size()
+                                                         : ways[1].front() > ways[0].front();
+    const std::vector<Index>& fewer = ways[second ? 1 : 0];
+    turned.insert(turned.end(), fewer.begin(), fewer.end());
+  }
+  std::sort(turned.begin(), turned.end());
+  return turned;
 }
 
 Winding winding_numbers(const Regions& regions) { return WindingSearch(regions).run(); }

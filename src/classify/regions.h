@@ -43,6 +43,10 @@ struct Winding {
   /// then the facets are not consistently oriented.
   std::optional<std::array<Index, 2>> conflict;
 };
+/// Facets that are turned against most others between the same two regions, in ascending order. There may be
+/// a conflict without: where an interface parts two regions that would have the same number.
+[[nodiscard]] std::vector<Index> turned_facets(const Regions& regions);
+
 [[nodiscard]] Winding winding_numbers(const Regions& regions);
 
 /// Where a point lies; `region` is one of those that touch it.

@@ -62,11 +62,15 @@ void tell(const std::vector<Remark>& remarks, const fs::path& file) {
   for (const Remark& remark : remarks) fmt::print(stderr, "holdfast: {}{}\n", name, remark.message);
 }
 
-Surface read_surfaces(const std::vector<fs::path>& paths, std::string_view format) {
+Surface read_surfaces(const std::vector<fs::path>& paths, std::string_view format, bool of_volumes) {
+  const auto read = [&](const fs::path& path) {
+    return of_volumes ? surface_of(read_volume(path, format)) : read_surface(path, format);
+  };
+
   std::vector<Surface> parts;
   parts.reserve(paths.size());
   for (const fs::path& path : paths) {
-    parts.push_back(read_surface(path, format));
+    parts.push_back(read(path));
     for (Remark& remark : parts.back().remarks) remark.message = path.string() + ": " + remark.message;
   }
   if (parts.size() == 1) return std::move(parts.front());

@@ -11,8 +11,10 @@ namespace holdfast::cli {
 
 /// Reads surfaces and joins them. A vertex that has the same coordinates (+0 and -0 are one) as a vertex of
 /// an earlier file becomes that vertex. Where no file carries markers, facets are marked with the number of
-/// their file, from 1. Remarks begin with their file. Throws FileError.
-[[nodiscard]] Surface read_surfaces(const std::vector<std::filesystem::path>& paths, std::string_view format);
+/// their file, from 1. With `of_volumes`, files are volumes, of which the surface is taken.
+/// Remarks begin with their file. Throws FileError.
+[[nodiscard]] Surface read_surfaces(const std::vector<std::filesystem::path>& paths, std::string_view format,
+                                    bool of_volumes = false);
 
 /// Prints what readers and writers left out or changed, one line each, on stderr; behind the name of a file
 /// unless it is empty.

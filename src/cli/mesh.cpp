@@ -1,7 +1,6 @@
 // `holdfast mesh`: surfaces in, tetrahedra out.
 #include <fmt/core.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -12,10 +11,12 @@
 #include "exact_file.h"
 #include "files.h"
 #include "files_of_run.h"
+#include "idle_options.h"
 #include "mesh_options.h"
 #include "progress.h"
 #include "report.h"
 #include "signals.h"
+#include "summary.h"
 
 namespace holdfast::cli {
 namespace {
@@ -24,6 +25,7 @@ constexpr std::size_t defects_shown = 20;
 
 class Stopwatch {
  public:
+  [[nodiscard]] std::chrono::steady_clock::time_point start() const { return start_; }
   [[nodiscard]] double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
@@ -31,46 +33,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-Show how_to_show(const MeshArguments& arguments) {
-  if (arguments.quiet) return Show::nothing;
-  if (arguments.verbose) return Show::lines;
-  return isatty(STDERR_FILENO) != 0 ? Show::bar : Show::nothing;
-}
-
-std::string counted(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
-void print_field(const Report::Field& field) {
-  say("field      {}, least dihedral angle {:.3g} degrees before optimisation, {:.3g} after\n",
-      counted(field.points, "point"), field.before.min_dihedral_deg, field.after.min_dihedral_deg);
-  if (field.below_10_deg == 0) return;
-  say("           {} below 10 degrees, {} of them forced by the surface",
-      counted(field.below_10_deg, "element"), field.forced);
-  if (!field.worst_forced.empty())
-    say(": the worst, of {:.3g} degrees, by triangles {}", field.worst_forced[0].min_dihedral_deg,
-        fmt::join(field.worst_forced[0].facets, " and "));
-  say("\n");
-}
-
-void print_details(const Report& report) {
-  say("input      {} vertices, {} segments, {} facets in {}, {}\n", report.input.vertices,
-      report.input.segments, report.input.facets, counted(report.input.components, "component"),
-      report.input.closed ? "closed" : "not closed");
-  say("delaunay   missing: {}, {}\n", counted(report.delaunay.segments, "segment"),
-      counted(report.delaunay.facets, "facet"));
-  say("flips      missing: {}, {}\n", counted(report.flips.segments, "segment"),
-      counted(report.flips.facets, "facet"));
-  say("partition  {} on segments, {} in facets\n", counted(report.segment_points, "point"),
-      counted(report.facet_points, "point"));
-  say("steiner    {} left by suppression, {} in the end, {} of them without doubles\n",
-      counted(report.forced_points, "point"), report.steiner_points, report.unrounded_points);
-  if (report.field.points > 0) print_field(report.field);
-  say("quality    worst {:.4g}, dihedral angles {:.3g} to {:.3g} degrees\n", report.quality.worst,
-      report.quality.min_dihedral_deg, report.quality.max_dihedral_deg);
-  for (const auto& [stage, seconds] : report.seconds) say("seconds    {} {:.3f}\n", stage, seconds);
-}
 
 /// The surface is not valid, or valid and nothing to fill.
 void print_refusal(const Surface& surface, const Result& result) {
@@ -126,19 +88,36 @@ void write_result(const MeshArguments& arguments, const VolumeTarget& target, co
     write_exact(arguments.exact, result);
 }
 
-void print_summary(const MeshArguments& arguments, const Result& result, double seconds) {
+void tell_the_end(const MeshArguments& arguments, const Options& options, const Result& result,
+                  double seconds) {
   if (arguments.verbose) print_details(result.report);
+  print_decisions(result);
   if (result.outcome != Outcome::done) return;
   if (!result.defects.empty()) {
     print_defects(result.defects, defects_shown);
     if (result.defects.size() > defects_shown)
       say("... and {} more in the report (--report FILE.json)\n", result.defects.size() - defects_shown);
   }
-  say("{}: {} vertices ({} added), {} in {}, {:.2f} s\n", arguments.output.string(),
-      result.volume.vertices.size(), result.report.steiner_points,
-      result.volume.tetrahedra.size() == 1 ? "1 tetrahedron"
-                                           : fmt::format("{} tetrahedra", result.volume.tetrahedra.size()),
-      counted(result.report.regions, "region"), seconds);
+  print_summary(arguments, options, result, seconds);
+}
+
+/// Vertices on no facet and no segment become vertices of the mesh, which is seldom meant for those inside a
+/// volume that is meshed again.
+void tell_of_lone_vertices(const MeshArguments& arguments, const Surface& surface, ProgressView& progress) {
+  std::vector<bool> used(surface.vertices.size());
+  const auto use = [&](Index v) {
+    if (v < used.size()) used[v] = true;
+  };
+  for (const Triangle& t : surface.facets) std::for_each(t.begin(), t.end(), use);
+  for (const Segment& s : surface.segments) std::for_each(s.begin(), s.end(), use);
+  const auto lone = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
+  if (lone == 0) return;
+  progress.finish();
+  say("holdfast: {} in {} on no triangle and no segment {} as the mesh's, too{}\n",
+      counted(lone, "vertex", "vertices"),
+      arguments.surfaces.size() == 1 ? arguments.surfaces[0].string() : "the files",
+      lone == 1 ? "is kept" : "are kept",
+      arguments.surface_of ? "" : "; --surface-of takes the surface of a volume alone");
 }
 
 /// Sizes of the regions in the file are for field points.
@@ -173,33 +152,41 @@ Result mesh_or_refuse(const Surface& surface, const Options& options) {
 
 int run(const MeshArguments& arguments) {
   const Stopwatch whole;
+  Options options = to_options(arguments);
+  options.started = whole.start();  // the limit is on the whole command
   FilesOfRun files;
-  files.read_surfaces(arguments.surfaces, arguments.input_format);
+  if (arguments.surface_of)
+    for (const auto& volume : arguments.surfaces) files.read_volume(volume, arguments.input_format);
+  else
+    files.read_surfaces(arguments.surfaces, arguments.input_format);
   files.read_size_field("--size-field", arguments.size_field);
   VolumeTarget target = files.write_volume("-o", arguments.output, arguments.format);
   target.options.threads = arguments.threads;
   files.write("--report", arguments.report);
   files.write("--exact", arguments.exact);
-  Options options = to_options(arguments);
-  cancel_by_flag();
+  cancel_at_once();
 
-  const Surface surface = read_surfaces(arguments.surfaces, arguments.input_format);
+  ProgressView progress(how_to_show(arguments.quiet, arguments.verbose));
+  progress.reading();
+  read_size_field(arguments, options);
+  const Surface surface = read_surfaces(arguments.surfaces, arguments.input_format, arguments.surface_of);
+  if (!arguments.quiet) tell_of_lone_vertices(arguments, surface, progress);
   options.holes.insert(options.holes.end(), surface.holes.begin(), surface.holes.end());
   options.regions.insert(options.regions.end(), surface.regions.begin(), surface.regions.end());
+  if (!surface.remarks.empty()) progress.finish();
   if (!arguments.quiet) tell(surface.remarks);
   tell_unused_sizes(arguments, surface);
   require_a_size_a_vertex(arguments, options, surface);
+  refuse_idle_options(arguments, options);
   const double reading = whole.seconds();
-  // The limit is on the whole command; 0 would mean none.
-  if (options.time_limit > 0) options.time_limit = std::max(1e-6, options.time_limit - reading);
 
-  ProgressView progress(how_to_show(arguments));
+  cancel_by_flag();  // from here on the mesher asks, and files are open
   options.progress = std::ref(progress);
   Result result = mesh_or_refuse(surface, options);
-  progress.finish();
-
   const Stopwatch writing;
+  progress.writing();
   write_result(arguments, target, result);
+  progress.finish();
   result.report.seconds["read"] = reading;
   result.report.seconds["write"] = writing.seconds();
   result.report.seconds["total"] = whole.seconds();
@@ -209,7 +196,7 @@ int run(const MeshArguments& arguments) {
     report["remarks"] = to_json(surface.remarks);
     write_json(arguments.report, report);
   }
-  if (!arguments.quiet) print_summary(arguments, result, whole.seconds());
+  if (!arguments.quiet) tell_the_end(arguments, options, result, whole.seconds());
   return conclude(arguments, surface, result);
 }
 
@@ -232,6 +219,8 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->transform(or_standard_output)
       ->required()
       ->option_text("VOLUME");
+  command->add_flag("--surface-of", arguments->surface_of,
+                    "SURFACE is a volume file: mesh its surface and interfaces, without its inner vertices");
   command->add_flag(
       "--fill", arguments->fill,
       "Add no field points: only what the surface forces, and a few where an element stays flat");

@@ -7,12 +7,11 @@
 
 #include "command.h"
 #include "holdfast/io.h"
+#include "idle_options.h"
 #include "number.h"
 
 namespace holdfast::cli {
 namespace {
-
-constexpr double bytes_per_gigabyte = 1e9;
 
 /// Splits at commas into exactly `count` finite numbers. Throws UsageError that says `what` is expected.
 std::vector<double> numbers(const char* option, const std::string& text, std::size_t count,
@@ -52,33 +51,17 @@ void set_keep(Options& options, const std::string& keep) {
   }
 }
 
-Stage stage_named(const std::string& text) {
-  std::string known;
-  for (int i = 0; i <= static_cast<int>(Stage::optimise); ++i) {
-    const auto stage = static_cast<Stage>(i);
-    if (text == holdfast::name(stage)) return stage;
-    known += std::string(i == 0 ? "" : ", ") + holdfast::name(stage);
-  }
-  throw UsageError("--stop-after " + text + ": there is no such stage; there are " + known);
-}
+bool is_positive(double x) { return x > 0 && std::isfinite(x); }
 
 Sizes to_sizes(const MeshArguments& arguments) {
-  if (!(arguments.size >= 0)) throw UsageError("--size: the length must be positive");
-  if (!(arguments.gradation >= 0 && arguments.gradation <= 1))
-    throw UsageError("--gradation: a number from 0 to 1 is expected");
+  if (arguments.size && !is_positive(*arguments.size))
+    throw UsageError("--size: the length must be positive");
   Sizes sizes;
-  sizes.size = arguments.size;
-  sizes.gradation = arguments.gradation;
+  sizes.size = arguments.size.value_or(sizes.size);
+  sizes.gradation = arguments.gradation.value_or(sizes.gradation);
+  if (!(sizes.gradation >= 0 && sizes.gradation <= 1))
+    throw UsageError("--gradation: a number from 0 to 1 is expected");
   sizes.grow = !arguments.no_growth;
-  if (!arguments.size_field.empty()) {
-    SizeField field = read_size_field(arguments.size_field);
-    if (field.vertices.empty())
-      sizes.vertex_sizes = std::move(field.sizes);
-    else if (!field.metrics.empty())
-      sizes.metric = metric_function(std::move(field));
-    else
-      sizes.field = size_function(std::move(field));
-  }
   return sizes;
 }
 
@@ -91,9 +74,46 @@ Quality quality_named(const std::string& text) {
 
 }  // namespace
 
+Stage stage_named(const std::string& text) {
+  std::string known;
+  for (int i = 0; i <= static_cast<int>(Stage::optimise); ++i) {
+    const auto stage = static_cast<Stage>(i);
+    if (text == holdfast::name(stage)) return stage;
+    known += std::string(i == 0 ? "" : ", ") + holdfast::name(stage);
+  }
+  throw UsageError("--stop-after " + text + ": there is no such stage; there are " + known);
+}
+
+double time_limit_of(const std::optional<double>& seconds) {
+  if (seconds && !is_positive(*seconds))
+    throw UsageError(
+        "--time-limit: a positive number of seconds is expected; without the option there is no limit");
+  return seconds.value_or(0);
+}
+
+std::uint64_t memory_limit_of(const std::optional<double>& gigabytes) {
+  constexpr double bytes_per_gigabyte = 1e9, most = 1e9;
+  if (gigabytes && !(*gigabytes > 0 && *gigabytes < most))
+    throw UsageError(
+        "--memory-limit: a positive number of gigabytes is expected; without the option there is no limit");
+  return static_cast<std::uint64_t>(std::ceil(gigabytes.value_or(0) * bytes_per_gigabyte));
+}
+
+void read_size_field(const MeshArguments& arguments, Options& options) {
+  if (arguments.size_field.empty()) return;
+  SizeField field = holdfast::read_size_field(arguments.size_field);
+  Sizes& sizes = *options.sizes;
+  if (field.vertices.empty())
+    sizes.vertex_sizes = std::move(field.sizes);
+  else if (!field.metrics.empty())
+    sizes.metric = metric_function(std::move(field));
+  else
+    sizes.field = size_function(std::move(field));
+}
+
 Options to_options(const MeshArguments& arguments) {
   Options options;
-  set_keep(options, arguments.keep);
+  set_keep(options, arguments.keep.value_or("auto"));
   for (const std::string& hole : arguments.holes) {
     const std::vector<double> x = numbers("--hole ", hole, 3, "three numbers x,y,z are");
     options.holes.push_back({x[0], x[1], x[2]});
@@ -104,7 +124,8 @@ Options to_options(const MeshArguments& arguments) {
                                           "three numbers and an id x,y,z,ID, and perhaps a size ,H, are");
     if (x[3] != std::floor(x[3]) || std::abs(x[3]) > INT32_MAX)
       throw UsageError("--region " + region + ": the region id must be an integer");
-    if (with_size && !(x[4] > 0)) throw UsageError("--region " + region + ": the size must be positive");
+    if (with_size && !is_positive(x[4]))
+      throw UsageError("--region " + region + ": the size must be positive");
     options.regions.push_back({{x[0], x[1], x[2]}, static_cast<int>(x[3]), with_size ? x[4] : 0});
   }
   for (const std::string& step : arguments.without) {
@@ -118,16 +139,14 @@ Options to_options(const MeshArguments& arguments) {
       throw UsageError("--without " + step + ": only 'flips', 'optimise' and 'points' can be left out");
   }
   if (!arguments.fill) options.sizes = to_sizes(arguments);
-  options.quality = quality_named(arguments.quality);
+  options.quality = quality_named(arguments.quality.value_or("good"));
   if (!arguments.stop_after.empty()) options.stop_after = stage_named(arguments.stop_after);
-  if (!(arguments.time_limit >= 0)) throw UsageError("--time-limit: seconds must not be negative");
-  if (!(arguments.memory_limit >= 0 && arguments.memory_limit < 1e9))
-    throw UsageError("--memory-limit: gigabytes must not be negative");
   options.drop_outside = arguments.drop_outside;
   options.seed = arguments.seed;
   options.threads = arguments.threads;
-  options.time_limit = arguments.time_limit;
-  options.memory_limit = static_cast<std::uint64_t>(arguments.memory_limit * bytes_per_gigabyte);
+  options.time_limit = time_limit_of(arguments.time_limit);
+  options.memory_limit = memory_limit_of(arguments.memory_limit);
+  refuse_idle_options(arguments);
   return options;
 }
 
@@ -135,14 +154,15 @@ Json to_json(const MeshArguments& arguments) {
   Json surfaces = Json::array();
   for (const std::filesystem::path& path : arguments.surfaces) surfaces.push_back(path.string());
   return {{"surfaces", surfaces},
+          {"surface_of", arguments.surface_of},
           {"output", arguments.output.string()},
           {"fill", arguments.fill},
-          {"size", arguments.size},
-          {"gradation", arguments.gradation},
+          {"size", arguments.size.value_or(0)},
+          {"gradation", arguments.gradation.value_or(Sizes{}.gradation)},
           {"no_growth", arguments.no_growth},
           {"size_field", arguments.size_field.string()},
-          {"quality", arguments.quality},
-          {"keep", arguments.keep},
+          {"quality", arguments.quality.value_or("good")},
+          {"keep", arguments.keep.value_or("auto")},
           {"holes", arguments.holes},
           {"regions", arguments.regions},
           {"drop_outside", arguments.drop_outside},
@@ -150,8 +170,8 @@ Json to_json(const MeshArguments& arguments) {
           {"stop_after", arguments.stop_after},
           {"seed", arguments.seed},
           {"threads", arguments.threads},
-          {"time_limit", arguments.time_limit},
-          {"memory_limit", arguments.memory_limit}};
+          {"time_limit", arguments.time_limit.value_or(0)},
+          {"memory_limit", arguments.memory_limit.value_or(0)}};
 }
 
 }  // namespace holdfast::cli

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,22 +16,31 @@ struct MeshArguments {
   std::vector<std::filesystem::path> surfaces;
   std::filesystem::path output, report, exact;
   std::string input_format, format;
-  bool fill = false, drop_outside = false, quiet = false, verbose = false;
-  std::string keep = "auto";
+  bool surface_of = false, fill = false, drop_outside = false, quiet = false, verbose = false;
+  std::optional<std::string> keep, quality;
   std::vector<std::string> holes, regions, without;
   std::string stop_after;
-  double size = 0, gradation = Sizes{}.gradation;
+  std::optional<double> size, gradation;
   bool no_growth = false;
   std::filesystem::path size_field;
-  std::string quality = "good";
   std::uint64_t seed = 1;
   unsigned threads = 1;
-  double time_limit = 0;
-  double memory_limit = 0;
+  std::optional<double> time_limit, memory_limit;
 };
 
-/// The library's options. Throws UsageError that says what is wrong and what is right.
+/// The library's options, but for the size field. Reads no file. Throws UsageError that says what is wrong
+/// and what is right, also for options that do nothing beside others.
 [[nodiscard]] Options to_options(const MeshArguments& arguments);
+
+/// Reads the size field, if there is one, into the sizes. Throws FileError.
+void read_size_field(const MeshArguments& arguments, Options& options);
+
+/// The stage of that name. Throws UsageError.
+[[nodiscard]] Stage stage_named(const std::string& text);
+
+/// Bytes of a limit in gigabytes, or 0 for none; seconds, or 0. Both throw UsageError unless it is positive.
+[[nodiscard]] std::uint64_t memory_limit_of(const std::optional<double>& gigabytes);
+[[nodiscard]] double time_limit_of(const std::optional<double>& seconds);
 
 /// What the user typed, for the report.
 [[nodiscard]] Json to_json(const MeshArguments& arguments);

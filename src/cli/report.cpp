@@ -66,6 +66,34 @@ const char* name(Outcome outcome) {
   return "unknown";
 }
 
+const char* name(Keep keep) {
+  switch (keep) {
+    case Keep::automatic:
+      return "auto";
+    case Keep::bounded:
+      return "bounded";
+    case Keep::winding:
+      return "winding";
+    case Keep::box:
+      return "box";
+  }
+  return "unknown";
+}
+
+const char* name(WarningKind kind) {
+  switch (kind) {
+    case WarningKind::orientation:
+      return "orientation";
+    case WarningKind::open_interface:
+      return "open_interface";
+    case WarningKind::field_points:
+      return "field_points";
+    case WarningKind::attempt_failed:
+      return "attempt_failed";
+  }
+  return "unknown";
+}
+
 Json to_json(const Defect& defect) {
   return {{"rule", static_cast<int>(defect.kind)},
           {"name", name(defect.kind)},
@@ -93,6 +121,18 @@ Json to_json(const std::vector<Remark>& remarks) {
 
 namespace {
 
+Json to_json(const std::vector<Warning>& warnings) {
+  Json list = Json::array();
+  for (const Warning& warning : warnings)
+    list.push_back({{"kind", static_cast<int>(warning.kind)},
+                    {"name", name(warning.kind)},
+                    {"facets", warning.facets},
+                    {"border", warning.border},
+                    {"where", warning.where},
+                    {"message", warning.message}});
+  return list;
+}
+
 Json to_json(const Report::Shape& shape) {
   return {{"min_dihedral_deg", shape.min_dihedral_deg},
           {"max_dihedral_deg", shape.max_dihedral_deg},
@@ -115,6 +155,8 @@ Json to_json(const Report::Field& field) {
           {"insertions", field.insertions},
           {"below_10_deg", field.below_10_deg},
           {"forced", field.forced},
+          {"across", field.across},
+          {"stopped_early", field.stopped_early},
           {"worst_forced", forced}};
 }
 
@@ -154,13 +196,17 @@ Json to_json(const Result& result, Json options) {
         {"worst", report.quality.worst},
         {"min_dihedral_deg", report.quality.min_dihedral_deg},
         {"max_dihedral_deg", report.quality.max_dihedral_deg},
+        {"below_10_deg", report.quality.below_10_deg},
         {"histogram", report.quality.histogram}}},
       {"seconds", report.seconds},
       {"peak_memory_bytes", report.peak_memory_bytes},
       {"version", version()},
       {"options", std::move(options)},
       {"outcome", name(result.outcome)},
+      {"attempts", report.attempts},
+      {"keep", {{"rule", name(report.keep)}, {"turned_facets", report.turned_facets}}},
       {"message", result.message},
+      {"warnings", to_json(result.warnings)},
       {"defects", to_json(result.defects)},
   };
 }

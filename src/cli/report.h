@@ -16,6 +16,9 @@ using Json = nlohmann::ordered_json;
 /// "done", "invalid_input", ... as the report spells it.
 [[nodiscard]] const char* name(Outcome outcome);
 
+[[nodiscard]] const char* name(Keep keep);
+[[nodiscard]] const char* name(WarningKind kind);
+
 [[nodiscard]] Json to_json(const Defect& defect);
 [[nodiscard]] Json to_json(const std::vector<Defect>& defects);
 [[nodiscard]] Json to_json(const std::vector<Remark>& remarks);

@@ -2,13 +2,13 @@
 #include "holdfast/untangle.h"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <memory>
 
 #include "command.h"
 #include "files.h"
 #include "files_of_run.h"
+#include "mesh_options.h"
 #include "progress.h"
 #include "report.h"
 #include "signals.h"
@@ -17,25 +17,21 @@ namespace holdfast::cli {
 namespace {
 
 constexpr std::size_t defects_shown = 20;
-constexpr double bytes_per_gigabyte = 1e9;
 
 struct UntangleArguments {
   std::filesystem::path input, output, report;
   std::string input_format, format;
   bool no_refill = false, quiet = false, verbose = false;
   std::uint64_t seed = 1;
-  double time_limit = 0, memory_limit = 0;
+  std::optional<double> time_limit, memory_limit;
 };
 
 UntangleOptions to_options(const UntangleArguments& arguments) {
-  if (!(arguments.time_limit >= 0)) throw UsageError("--time-limit: seconds must not be negative");
-  if (!(arguments.memory_limit >= 0 && arguments.memory_limit < 1e9))
-    throw UsageError("--memory-limit: gigabytes must not be negative");
   UntangleOptions options;
   options.refill = !arguments.no_refill;
   options.seed = arguments.seed;
-  options.time_limit = arguments.time_limit;
-  options.memory_limit = static_cast<std::uint64_t>(arguments.memory_limit * bytes_per_gigabyte);
+  options.time_limit = time_limit_of(arguments.time_limit);
+  options.memory_limit = memory_limit_of(arguments.memory_limit);
   return options;
 }
 
@@ -65,8 +61,8 @@ Json report_of(const UntangleArguments& arguments, const UntangleResult& result)
             {"output", arguments.output.string()},
             {"refill", !arguments.no_refill},
             {"seed", arguments.seed},
-            {"time_limit", arguments.time_limit},
-            {"memory_limit", arguments.memory_limit}}},
+            {"time_limit", arguments.time_limit.value_or(0)},
+            {"memory_limit", arguments.memory_limit.value_or(0)}}},
           {"outcome", name(result.outcome)},
           {"message", result.message},
           {"defects", to_json(result.defects)}};
@@ -115,22 +111,19 @@ void print_summary(const UntangleArguments& arguments, const UntangleResult& res
 int run(const UntangleArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   UntangleOptions options = to_options(arguments);
+  options.started = start;  // the limit is on the whole command
   FilesOfRun files;
   files.read_volume(arguments.input, arguments.input_format);
   const VolumeTarget target = files.write_volume("-o", arguments.output, arguments.format);
   files.write("--report", arguments.report);
-  cancel_by_flag();
+  cancel_at_once();
 
   std::vector<Remark> remarks;
   const Volume volume = read_volume(arguments.input, arguments.input_format, &remarks);
   if (!arguments.quiet) tell(remarks, arguments.input);
   const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - start;
-  // The limit is on the whole command; 0 would mean none.
-  if (options.time_limit > 0) options.time_limit = std::max(1e-6, options.time_limit - reading.count());
-  ProgressView progress(arguments.quiet              ? Show::nothing
-                        : arguments.verbose          ? Show::lines
-                        : isatty(STDERR_FILENO) != 0 ? Show::bar
-                                                     : Show::nothing);
+  ProgressView progress(how_to_show(arguments.quiet, arguments.verbose));
+  cancel_by_flag();  // from here on the mesher asks, and files are open
   options.progress = std::ref(progress);
   UntangleResult result = untangle(volume, options);
   progress.finish();

@@ -78,7 +78,10 @@ class Enforcer {
   bool recover_by_cavities(Index f) {
     const auto finish = [&](TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets,
                             Standing& standing, Vertex first_free) {
-      enforce(mesh, table, facets, standing, first_free, {.seed = random_(), .cavities = false}, monitor_);
+      const EnforceStats inside = enforce(mesh, table, facets, standing, first_free,
+                                          {.seed = random_(), .cavities = false}, monitor_);
+      stats_.segment_points += inside.segment_points;
+      stats_.facet_points += inside.facet_points;
     };
     const auto recover = [&] {
       return cavities_.recover(

@@ -20,8 +20,8 @@ struct EnforceOptions {
 };
 
 struct EnforceStats {
-  std::size_t segment_points = 0;  ///< partition points put on segments
-  std::size_t facet_points = 0;    ///< partition points put inside facets
+  std::size_t segment_points = 0;  ///< partition points put on segments, of the cavities of facets too
+  std::size_t facet_points = 0;    ///< partition points put inside facets, of these cavities' faces too
 };
 
 /// Makes every facet one face and every segment one edge of the mesh, by partition and elimination,

@@ -14,7 +14,8 @@ namespace holdfast {
 struct ImproveStats {
   std::size_t moved = 0, swapped = 0, contracted = 0, inserted = 0;
   std::size_t filled_in = 0;  ///< field points that were missing (improve_parts.h)
-  double worst = 0;           ///< energy (improve/energy.h): of what is not spared, nothing worse is left
+  bool filling_stopped_early = false;
+  double worst = 0;  ///< energy (improve/energy.h): of what is not spared, nothing worse is left
 
   ImproveStats& operator+=(const ImproveStats& other) {
     moved += other.moved;
@@ -22,6 +23,7 @@ struct ImproveStats {
     contracted += other.contracted;
     inserted += other.inserted;
     filled_in += other.filled_in;
+    filling_stopped_early |= other.filling_stopped_early;
     worst = std::max(worst, other.worst);
     return *this;
   }

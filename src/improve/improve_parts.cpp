@@ -33,8 +33,11 @@ ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledPart
   for (std::array<double, 2> work{0, kMost}; parts; work = {kMost, 1}) {
     stats += improve_each(*parts, quality, work, threads, monitor);
     parts = join_and_cut_again(*parts, threads);
-    if (parts && filled)
-      stats.filled_in += fill_parts(*parts, filled->sizes, Stage::optimise, {kMost, kMost}, threads, monitor);
+    if (!parts || !filled) continue;
+    const FilledIn missing =
+        fill_parts(*parts, filled->sizes, Stage::optimise, {kMost, kMost}, threads, monitor);
+    stats.filled_in += missing.points;
+    stats.filling_stopped_early |= missing.stopped_early;
   }
   return stats;
 }

@@ -1,12 +1,11 @@
 #include "mesh/monitor.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
+#include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <string>
+#include <stdexcept>
+#include <utility>
 
+#include "mesh/memory.h"
 #include "mesh/parallel.h"
 
 namespace holdfast {
@@ -15,48 +14,70 @@ using namespace std::chrono_literals;
 
 Monitor::Monitor(const Options& options)
     : options_(options),
-      start_(std::chrono::steady_clock::now()),
+      start_(options.started.value_or(std::chrono::steady_clock::now())),
       last_told_(start_),
-      last_measured_(start_) {}
+      last_measured_(start_),
+      last_looked_(start_) {
+  if (options.memory_limit > 0 && !resident_memory_bytes())
+    throw std::invalid_argument(
+        "a memory limit cannot be kept here: the system does not tell how much memory is in use");
+}
 
 Monitor::Monitor(Monitor& whole, MonitoredTasks& tasks)
     : options_(whole.options_),
       start_(whole.start_),
       last_told_(start_),
       last_measured_(start_),
+      last_looked_(start_),
       stage_(whole.stage_),
       whole_(&whole),
       tasks_(&tasks) {}
 
 void Monitor::look(Stage stage, double fraction, bool tell) {
+  calls_ = 0;
   stage_ = stage;
+  fraction_ = fraction;
+  const auto now = std::chrono::steady_clock::now();
+  choose_pace(now);
   if (tasks_ != nullptr) return look_as_task(stage, fraction);
-  look_at_limits(tell);
+  look_at_limits(now, tell);
   call_back(stage, fraction, tell);
 }
 
-void Monitor::look_at_limits(bool at_once) {
-  const auto now = std::chrono::steady_clock::now();
+// A loop may turn in nanoseconds or in tens of milliseconds.
+void Monitor::choose_pace(std::chrono::steady_clock::time_point now) {
+  constexpr std::chrono::microseconds kOften{100}, kSeldom{1000};
+  const auto since = now - std::exchange(last_looked_, now);
+  if (since > kSeldom) calls_a_look_ = 1;
+  if (since < kOften) calls_a_look_ = std::min(2 * calls_a_look_, kMostCallsALook);
+}
+
+void Monitor::look_at_limits(std::chrono::steady_clock::time_point now, bool at_once) {
   if (options_.time_limit > 0 && std::chrono::duration<double>(now - start_).count() > options_.time_limit)
     throw Interrupted(Outcome::time_limit);
   if (options_.memory_limit > 0 && (at_once || now - last_measured_ > 20ms)) {
     last_measured_ = now;
-    if (resident_memory_bytes() > options_.memory_limit) throw Interrupted(Outcome::memory_limit);
+    if (resident_memory_bytes().value_or(0) > options_.memory_limit) throw Interrupted(Outcome::memory_limit);
   }
 }
 
 void Monitor::call_back(Stage stage, double fraction, bool at_once) {
+  const double within = std::clamp(fraction, 0.0, 1.0);
+  overall_ = std::max(overall_, std::lerp(part_[0], part_[1], within));
   if (!options_.progress) return;
   const auto now = std::chrono::steady_clock::now();
-  if (!at_once && now - last_told_ <= 50ms) return;
+  if (!at_once && now - last_told_ < 20ms) return;
   last_told_ = now;
-  if (!options_.progress({stage, fraction})) throw Interrupted(Outcome::cancelled);
+  caller_threw_ = true;
+  const bool go_on = options_.progress({stage, within, overall_});
+  caller_threw_ = false;
+  if (!go_on) throw Interrupted(Outcome::cancelled);
 }
 
 void Monitor::look_as_task(Stage stage, double fraction) {
   if (tasks_->stop) throw Interrupted(tasks_->why);
   try {
-    look_at_limits(false);
+    look_at_limits(last_looked_, false);
     if (std::this_thread::get_id() != tasks_->caller) return;
     const auto done = static_cast<double>(tasks_->done);
     const double of_tasks = (done + fraction) / static_cast<double>(tasks_->count);
@@ -71,31 +92,28 @@ void Monitor::look_as_task(Stage stage, double fraction) {
 void parallel_monitored(const Threads& threads, std::size_t count, Monitor& monitor,
                         std::array<double, 2> part, const std::function<void(std::size_t, Monitor&)>& task) {
   MonitoredTasks tasks{.count = count, .part = part};
-  parallel(threads, count, [&](std::size_t k) {
+  const auto end_all = [&](Outcome why) {
+    tasks.why = why;
+    tasks.stop = true;
+  };
+  const Threads polling = threads.polling([&] {
+    try {
+      monitor.poll_again();
+    } catch (...) {
+      end_all(Outcome::cancelled);  // what was thrown is thrown on
+      throw;
+    }
+  });
+  parallel(polling, count, [&](std::size_t k) {
     Monitor own(monitor, tasks);
-    task(k, own);
+    try {
+      task(k, own);
+    } catch (const Interrupted& interrupted) {
+      end_all(interrupted.outcome());
+      throw;
+    }
     ++tasks.done;
   });
-}
-
-std::uint64_t resident_memory_bytes() {
-  std::ifstream statm("/proc/self/statm");
-  std::uint64_t total = 0;
-  std::uint64_t resident = 0;
-  statm >> total >> resident;
-  return statm ? resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
-}
-
-std::uint64_t peak_memory_bytes() {
-  // Linux: getrusage would also count the program that started this one.
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;) {
-    std::uint64_t kib = 0;
-    if (word == "VmHWM:" && status >> kib) return kib * 1024;
-  }
-  rusage usage{};
-  if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
 }
 
 }  // namespace holdfast

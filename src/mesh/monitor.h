@@ -1,6 +1,7 @@
 // Progress, limits and cancellation: what a long stage polls.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -34,32 +35,50 @@ struct MonitoredTasks {
   std::atomic<Outcome> why = Outcome::done;  ///< set before `stop`
 };
 
-/// One a call of the API. `poll` is cheap enough for inner loops: it looks at the clock now and then.
+/// One a call of the API. `poll` is cheap enough for inner loops: where they turn fast, it looks at the clock
+/// now and then.
 class Monitor {
  public:
+  /// Throws std::invalid_argument for a memory limit where the system does not tell what is in use.
   explicit Monitor(const Options& options);
   /// For one of several tasks: it sees to the limits on any thread, but calls back on the caller's alone.
   Monitor(Monitor& whole, MonitoredTasks& tasks);
   /// Throws Interrupted when the time or memory limit is reached or the callback returns false.
   void poll(Stage stage, double fraction) {
-    if ((++calls_ & 0xFu) == 0) look(stage, fraction, false);
+    if (++calls_ >= calls_a_look_) look(stage, fraction, false);
   }
   /// As poll, but looks at once and always tells the caller: a stage begins.
   void enter(Stage stage) { look(stage, 0, true); }
+  /// As poll, where a loop does not know what is going on.
+  void poll_again() { poll(stage_, fraction_); }
+  /// From now on fractions are of this part of the whole call.
+  void begin_part(std::array<double, 2> part) { part_ = part; }
+  /// Whatever fraction was told last, all of it is done.
+  void end_part() { overall_ = std::max(overall_, part_[1]); }
+  /// Part of the whole call that is done.
+  [[nodiscard]] double overall() const { return overall_; }
+  /// Whether the caller's progress callback threw.
+  [[nodiscard]] bool caller_threw() const { return caller_threw_; }
   /// The stage of the last look.
   [[nodiscard]] Stage stage() const { return stage_; }
 
  private:
   void look(Stage stage, double fraction, bool tell);
-  void look_at_limits(bool at_once);
+  void look_at_limits(std::chrono::steady_clock::time_point now, bool at_once);
   void call_back(Stage stage, double fraction, bool at_once);
   void look_as_task(Stage stage, double fraction);
+  void choose_pace(std::chrono::steady_clock::time_point now);
 
   const Options& options_;
   std::chrono::steady_clock::time_point start_;
   std::chrono::steady_clock::time_point last_told_;
   std::chrono::steady_clock::time_point last_measured_;
-  unsigned calls_ = 0;
+  std::chrono::steady_clock::time_point last_looked_;
+  static constexpr unsigned kMostCallsALook = 16;
+  unsigned calls_ = 0, calls_a_look_ = 1;
+  std::array<double, 2> part_{0, 1};
+  double fraction_ = 0, overall_ = 0;
+  bool caller_threw_ = false;
   Stage stage_ = Stage::validate;
   Monitor* whole_ = nullptr;  // of a task's
   MonitoredTasks* tasks_ = nullptr;
@@ -69,9 +88,5 @@ class Monitor {
 /// caller they are the part of the stage's work between two fractions.
 void parallel_monitored(const Threads& threads, std::size_t count, Monitor& monitor,
                         std::array<double, 2> part, const std::function<void(std::size_t, Monitor&)>& task);
-
-/// Resident memory of the process now and at its peak, in bytes (0 where the system does not tell).
-[[nodiscard]] std::uint64_t resident_memory_bytes();
-[[nodiscard]] std::uint64_t peak_memory_bytes();
 
 }  // namespace holdfast

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -16,10 +17,13 @@ namespace {
 
 constexpr std::size_t kLeastRange = 4096;  // shorter ranges are not worth a thread
 
+constexpr std::size_t kPolledRange = 1u << 15;  // a few milliseconds' work
+
 // One call of parallel().
 class Job {
  public:
-  Job(std::size_t count, const std::function<void(std::size_t)>& task) : task_(task) {
+  Job(std::size_t count, const std::function<void(std::size_t)>& task, const std::function<void()>* between)
+      : task_(task), between_(between) {
     errors_.resize(count);
   }
 
@@ -36,13 +40,35 @@ class Job {
   void run_what_is_left() {
     for (std::size_t k = next_++; k < errors_.size(); k = next_++) run(k);
   }
+  void run_as_caller() {
+    run(0);
+    poll();
+    for (std::size_t k = next_++; k < errors_.size(); k = next_++) {
+      run(k);
+      poll();
+    }
+  }
+  // By the caller alone.
+  void poll() {
+    if (between_ == nullptr || interruption_) return;
+    try {
+      (*between_)();
+    } catch (...) {
+      interruption_ = std::current_exception();
+      next_ = errors_.size();
+    }
+  }
+  [[nodiscard]] bool polls() const { return between_ != nullptr && !interruption_; }
   void throw_first_error() const {
+    if (interruption_) std::rethrow_exception(interruption_);
     for (const std::exception_ptr& error : errors_)
       if (error) std::rethrow_exception(error);
   }
 
  private:
   const std::function<void(std::size_t)>& task_;
+  const std::function<void()>* between_;
+  std::exception_ptr interruption_;
   std::atomic<std::size_t> next_{1};
   std::vector<std::exception_ptr> errors_;
 };
@@ -67,11 +93,17 @@ class Threads::Helpers {
 
   void run(Job& job, std::size_t most) {
     call_for_help(job, most);
-    job.run(0);
-    job.run_what_is_left();
+    job.run_as_caller();
     std::unique_lock lock(mutex_);
     std::erase(jobs_, &job);
-    one_is_done_.wait(lock, [&] { return job.helping == 0; });
+    const auto is_done = [&] { return job.helping == 0; };
+    constexpr std::chrono::milliseconds kBetween{20};
+    while (job.polls() && !one_is_done_.wait_for(lock, kBetween, is_done)) {
+      lock.unlock();
+      job.poll();
+      lock.lock();
+    }
+    one_is_done_.wait(lock, is_done);
   }
 
  private:
@@ -121,22 +153,28 @@ Threads Threads::at_most(unsigned count) const {
   return some;
 }
 
+Threads Threads::polling(std::function<void()> between) const {
+  Threads polling = *this;
+  polling.between_ = std::make_shared<const std::function<void()>>(std::move(between));
+  return polling;
+}
+
 void parallel(const Threads& threads, std::size_t count, const std::function<void(std::size_t)>& task) {
   if (count == 0) return;
-  Job job(count, task);
+  Job job(count, task, threads.between_.get());
   const std::size_t most = std::min<std::size_t>(threads.count(), count) - 1;
   if (most > 0) {
     threads.helpers_->run(job, most);
   } else {
-    job.run(0);
-    job.run_what_is_left();
+    job.run_as_caller();
   }
   job.throw_first_error();
 }
 
 void parallel_ranges(const Threads& threads, std::size_t size,
                      const std::function<void(std::size_t first, std::size_t last)>& body) {
-  const std::size_t count = std::clamp<std::size_t>(size / kLeastRange, 1, threads.count());
+  std::size_t count = std::clamp<std::size_t>(size / kLeastRange, 1, threads.count());
+  if (threads.between_) count = std::max(count, size / kPolledRange);
   parallel(threads, count, [&](std::size_t k) { body(size * k / count, size * (k + 1) / count); });
 }
 

@@ -17,14 +17,20 @@ class Threads {
   [[nodiscard]] unsigned count() const { return count_; }
   /// Some of these.
   [[nodiscard]] Threads at_most(unsigned count) const;
+  /// The same, but that the thread that calls `parallel` calls `between`, too: between tasks, and while it
+  /// waits for those of others. What it throws ends the work as soon as may be and is thrown on.
+  [[nodiscard]] Threads polling(std::function<void()> between) const;
 
  private:
   friend void parallel(const Threads& threads, std::size_t count,
                        const std::function<void(std::size_t)>& task);
+  friend void parallel_ranges(const Threads& threads, std::size_t size,
+                              const std::function<void(std::size_t, std::size_t)>& body);
   class Helpers;
 
   unsigned count_;
   std::shared_ptr<Helpers> helpers_;  // none for one thread
+  std::shared_ptr<const std::function<void()>> between_;
 };
 
 /// Calls task(0) to task(count - 1), each once, on up to `threads` threads, and returns when all are done.
@@ -33,7 +39,8 @@ class Threads {
 /// them is thrown on.
 void parallel(const Threads& threads, std::size_t count, const std::function<void(std::size_t)>& task);
 
-/// Cuts 0..size-1 into at most `threads` even ranges of some length and calls body(first, last) for each.
+/// Cuts 0..size-1 into even ranges of some length and calls body(first, last) for each: at most as many as
+/// `threads`, or where these poll, so many that each takes a moment.
 void parallel_ranges(const Threads& threads, std::size_t size,
                      const std::function<void(std::size_t first, std::size_t last)>& body);
 

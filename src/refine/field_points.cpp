@@ -50,8 +50,8 @@ Cuts find_cuts(const VolumeData& volume, const SizeFunction& sizes, const std::v
   return {std::move(samples), levels_for(expected)};
 }
 
-std::unique_ptr<Parts> filled_parts(const VolumeData& volume, const SizeFunction& sizes,
-                                    const Threads& threads, Monitor& monitor) {
+FieldPoints filled_parts(const VolumeData& volume, const SizeFunction& sizes, const Threads& threads,
+                         Monitor& monitor) {
   // More than for the improvement: the first points inside are on the cuts, so that the surface is joined to
   // them from afar (half of the tetrahedra of a torus of a million triangles).
   constexpr double kMostAtCuts = 0.8;
@@ -59,39 +59,44 @@ std::unique_ptr<Parts> filled_parts(const VolumeData& volume, const SizeFunction
   if (cuts.part_count() == 1) return {};
   add_section_points(volume, cuts, sizes, threads, monitor);
   auto parts = cut_into_parts(volume, tets_inside(volume, threads), cuts, kMostAtCuts, threads);
-  if (parts) fill_parts(*parts, sizes, Stage::field_points, {kOnCuts, 1}, threads, monitor);
-  return parts;
+  if (!parts) return {};
+  const FilledIn filled = fill_parts(*parts, sizes, Stage::field_points, {kOnCuts, 1}, threads, monitor);
+  return {std::move(parts), filled.stopped_early};
 }
 
 }  // namespace
 
-std::size_t fill_parts(Parts& parts, const SizeFunction& sizes, Stage stage, std::array<double, 2> work,
-                       const Threads& threads, Monitor& monitor) {
+FilledIn fill_parts(Parts& parts, const SizeFunction& sizes, Stage stage, std::array<double, 2> work,
+                    const Threads& threads, Monitor& monitor) {
+  std::vector<std::uint8_t> stopped(parts.parts().size());
   parallel_monitored(sizes.threads_of(threads), parts.parts().size(), monitor, work,
                      [&](std::size_t k, Monitor& own) {
                        Part& part = parts.parts()[k];
-                       advance_front(part.data(parts.whole().kept), sizes, stage, own);
+                       stopped[k] = advance_front(part.data(parts.whole().kept), sizes, stage, own);
                        part.order_along_curve();
                      });
-  return parts.new_vertices();
+  return {parts.new_vertices(), std::find(stopped.begin(), stopped.end(), 1) != stopped.end()};
 }
 
-std::unique_ptr<Parts> add_field_points(const VolumeData& volume, const SizeFunction& sizes,
-                                        const Threads& threads, Monitor& monitor) {
-  set_sizes_at_vertices(volume, sizes, threads);
-  if (auto parts = filled_parts(volume, sizes, threads, monitor)) return parts;
+FieldPoints add_field_points(const VolumeData& volume, const SizeFunction& sizes, const Threads& threads,
+                             Monitor& monitor) {
+  set_sizes_at_vertices(volume, sizes, threads, monitor);
+  if (FieldPoints filled = filled_parts(volume, sizes, threads, monitor); filled.parts) return filled;
   order_along_curve(volume);
-  advance_front(volume, sizes, Stage::field_points, monitor);
+  const bool stopped_early = advance_front(volume, sizes, Stage::field_points, monitor);
   order_along_curve(volume);
-  return {};
+  return {nullptr, stopped_early};
 }
 
-void join_filled(std::unique_ptr<Parts> parts, const SizeFunction& sizes, const Threads& threads,
+bool join_filled(std::unique_ptr<Parts> parts, const SizeFunction& sizes, const Threads& threads,
                  Monitor& monitor) {
+  bool stopped_early = false;
   while (parts) {
     parts = join_and_cut_again(*parts, threads);
-    if (parts) fill_parts(*parts, sizes, Stage::field_points, {1, 1}, threads, monitor);
+    if (parts)
+      stopped_early |= fill_parts(*parts, sizes, Stage::field_points, {1, 1}, threads, monitor).stopped_early;
   }
+  return stopped_early;
 }
 
 }  // namespace holdfast

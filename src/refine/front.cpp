@@ -28,10 +28,12 @@ class Front {
         monitor_(monitor),
         inserter_(volume, sizes) {}
 
-  void run() {
+  bool run() {
     state_.assign(mesh_.slot_count(), 0);
-    for (Tet t = 0; t < mesh_.slot_count(); ++t)
+    for (Tet t = 0; t < mesh_.slot_count(); ++t) {
+      monitor_.poll(stage_, 0);
       if (volume_.is_inside(t) && is_large(t)) queue(t, kIsLarge);
+    }
     shuffle_front();
     while ((!front_.empty() || !rest_.empty()) && !inserter_.has_wasted_enough()) {
       monitor_.poll(stage_, progress());
@@ -53,6 +55,9 @@ class Front {
         split_long_edge(t);
       }
     }
+    const auto is_left = [&](Tet t) { return mesh_.alive(t) && (state_[t] & (kQueued | kInRest)) != 0; };
+    return std::any_of(front_.begin(), front_.end(), is_left) ||
+           std::any_of(rest_.begin(), rest_.end(), is_left);
   }
 
  private:
@@ -243,11 +248,12 @@ class Front {
 };
 
 // The user's metric with no size above those that are set.
-void set_metrics_at_vertices(const VolumeData& volume, const SizeFunction& sizes) {
+void set_metrics_at_vertices(const VolumeData& volume, const SizeFunction& sizes, Monitor& monitor) {
   constexpr double kMost = 0x1p200;  // in the place of none
   std::vector<Metric>& metrics = *volume.metrics;
   metrics.resize(volume.mesh.vertex_count());
   for (Vertex v = 0; v < metrics.size(); ++v) {
+    monitor.poll(Stage::field_points, 0);
     metrics[v] = sizes.metric(volume.mesh.position(v), std::min(volume.sizes[v], kMost));
     volume.sizes[v] = largest_size(metrics[v]);
   }
@@ -257,7 +263,8 @@ void set_metrics_at_vertices(const VolumeData& volume, const SizeFunction& sizes
 
 // Vertices of the surface have their sizes; others, Steiner points and corners of a box, get what the
 // vertices round them allow.
-void set_sizes_at_vertices(const VolumeData& volume, const SizeFunction& sizes, const Threads& threads) {
+void set_sizes_at_vertices(const VolumeData& volume, const SizeFunction& sizes, const Threads& threads,
+                           Monitor& monitor) {
   const TetMesh& mesh = volume.mesh;
   std::vector<double>& size = volume.sizes;
   size.assign(mesh.vertex_count(), kInfinity);
@@ -270,6 +277,7 @@ void set_sizes_at_vertices(const VolumeData& volume, const SizeFunction& sizes, 
   for (bool changed = true; changed;) {
     changed = false;
     for (const Tet t : at_others) {
+      monitor.poll(Stage::field_points, 0);
       for (const Vertex v : mesh.corners(t)) {
         if (is_given(v)) continue;
         for (const Vertex w : mesh.corners(t)) {
@@ -282,14 +290,16 @@ void set_sizes_at_vertices(const VolumeData& volume, const SizeFunction& sizes, 
     }
   }
   if (sizes.has_limit())
-    for (const Tet t : tets_inside(volume, threads))
+    for (const Tet t : tets_inside(volume, threads)) {
+      monitor.poll(Stage::field_points, 0);
       for (const Vertex v : mesh.corners(t))
         size[v] = std::min(size[v], sizes.limit(mesh.position(v), volume.region_of[t]));
-  if (sizes.has_metric()) set_metrics_at_vertices(volume, sizes);
+    }
+  if (sizes.has_metric()) set_metrics_at_vertices(volume, sizes, monitor);
 }
 
-void advance_front(const VolumeData& volume, const SizeFunction& sizes, Stage stage, Monitor& monitor) {
-  Front(volume, sizes, stage, monitor).run();
+bool advance_front(const VolumeData& volume, const SizeFunction& sizes, Stage stage, Monitor& monitor) {
+  return Front(volume, sizes, stage, monitor).run();
 }
 
 }  // namespace holdfast

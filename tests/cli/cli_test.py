@@ -149,7 +149,7 @@ class Mesh(CliTest):
             counts.append(report["mesh"]["tetrahedra"])
             self.run_program("check", "cube.off", "a.vtu")
         self.assertGreater(counts[1], 5 * counts[0])
-        self.run_program("mesh", "cube.off", "-o", "a.vtu", "--fill", "--size", "0.25", "--report", "r.json")
+        self.run_program("mesh", "cube.off", "-o", "a.vtu", "--fill", "--report", "r.json")
         self.assertEqual(json.loads((self.folder / "r.json").read_text())["field_points"], 0)
 
     def test_size_fields_of_files(self):

@@ -1,0 +1,15 @@
+// Options that do nothing beside others: wrong usage, since their user expects something of them.
+#pragma once
+
+#include "holdfast/holdfast.h"
+#include "mesh_options.h"
+
+namespace holdfast::cli {
+
+/// Throws UsageError for the first option that does nothing beside another one.
+void refuse_idle_options(const MeshArguments& arguments);
+
+/// The same, once files are read: a size field may be a metric, and surfaces may bring holes.
+void refuse_idle_options(const MeshArguments& arguments, const Options& options);
+
+}  // namespace holdfast::cli

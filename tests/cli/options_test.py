@@ -1,0 +1,83 @@
+"""Options of `holdfast mesh` that make no sense, or do nothing together: exit 2 before any file is read.
+
+    options_test.py PROGRAM [unittest options]
+"""
+from cli_case import CliTest, main
+
+# The option that does nothing, as the message names it, and what makes it so.
+IDLE = [
+    ("--size", ["--fill", "--size", "0.5"]),
+    ("--gradation", ["--fill", "--gradation", "0.2"]),
+    ("--gradation", ["--fill", "--gradation", "0.3"]),
+    ("--size-field", ["--fill", "--size-field", "missing.pos"]),
+    ("--no-growth", ["--fill", "--no-growth"]),
+    ("--quality", ["--fill", "--quality", "good"]),
+    ("--region", ["--fill", "--region", "0.4,0.5,0.6,1,0.2"]),
+    ("--quality", ["--without", "optimise", "--quality", "fast"]),
+    ("--without points", ["--fill", "--without", "optimise", "--without", "points"]),
+    ("--without flips", ["--stop-after", "delaunay", "--without", "flips"]),
+    ("--keep bounded", ["--stop-after", "eliminate", "--keep", "bounded"]),
+    ("--hole", ["--stop-after", "flips", "--hole", "0.4,0.5,0.6"]),
+    ("--region", ["--stop-after", "flips", "--region", "0.4,0.5,0.6,1"]),
+    ("--drop-outside", ["--stop-after", "flips", "--drop-outside"]),
+    ("--exact", ["--stop-after", "classify", "--exact", "e.jsonl"]),
+    ("--size", ["--stop-after", "suppress", "--size", "0.5"]),
+    ("--quality", ["--stop-after", "field_points", "--quality", "fast"]),
+    ("--without points", ["--stop-after", "suppress", "--without", "points"]),
+    ("--fill", ["--stop-after", "suppress", "--fill"]),
+    ("field_points", ["--stop-after", "field_points", "--fill"]),
+]
+SENSELESS = [
+    ("--size", ["--size", "0"]), ("--size", ["--size", "inf"]), ("--size", ["--size", "nan"]),
+    ("--gradation", ["--gradation", "nan"]),
+    ("--time-limit", ["--time-limit", "0"]), ("--time-limit", ["--time-limit", "nan"]),
+    ("--time-limit", ["--time-limit", "inf"]),
+    ("--memory-limit", ["--memory-limit", "0"]), ("--memory-limit", ["--memory-limit", "-1"]),
+    ("--region", ["--region", "0,0,0,1,0"]),
+]
+SENSIBLE = [
+    ["--fill", "--without", "points"], ["--without", "points"], ["--without", "optimise", "--size", "0.5"],
+    ["--fill", "--without", "optimise"], ["--no-growth", "--gradation", "0.2"],
+    ["--stop-after", "flips", "--keep", "box=0.2"], ["--stop-after", "field_points", "--size", "0.5"],
+    ["--stop-after", "flips", "--without", "flips"], ["--keep", "box", "--drop-outside", "--hole", "0.4,0.5,0.6"],
+    ["--fill", "--region", "0.4,0.5,0.6,1"], ["--time-limit", "60", "--memory-limit", "4"],
+]
+
+
+class Options(CliTest):
+    def test_options_that_do_nothing_together_are_2(self):
+        for option, arguments in IDLE:
+            with self.subTest(arguments):
+                # No file is read: else it would be 3.
+                said = self.run_program("mesh", "missing.off", "-o", "out.vtu", *arguments, expect=2).stderr
+                self.assertIn(option, said)
+
+    def test_values_that_make_no_sense_are_2(self):
+        for option, arguments in SENSELESS:
+            with self.subTest(arguments):
+                said = self.run_program("mesh", "missing.off", "-o", "out.vtu", *arguments, expect=2).stderr
+                self.assertIn(option, said)
+
+    def test_others_are_accepted(self):
+        for arguments in SENSIBLE:
+            with self.subTest(arguments):
+                self.run_program("mesh", "cube.off", "-o", "out.vtu", *arguments)
+
+    def test_what_files_make_idle(self):
+        self.run_program("mesh", "cube.off", "-o", "a.vtu", "--keep", "box", "--drop-outside", expect=2)
+        self.write("field.pos", 'View "m" {\nTT(-9,-9,-9, 99,-9,-9, -9,99,-9, -9,-9,99){'
+                   + ",".join(["4,0,0,0,4,0,0,0,4"] * 4) + "};\n};\n")
+        self.run_program("mesh", "cube.off", "-o", "a.vtu", "--size-field", "field.pos")
+        said = self.run_program("mesh", "cube.off", "-o", "b.vtu", "--size-field", "field.pos", "--no-growth",
+                                expect=2).stderr
+        self.assertIn("--no-growth", said)
+
+    def test_untangle_limits(self):
+        self.run_program("mesh", "cube.off", "-o", "a.vtu")
+        for option in ("--time-limit", "--memory-limit"):
+            self.assertIn(option, self.run_program("untangle", "a.vtu", "-o", "b.vtu", option, "0",
+                                                   expect=2).stderr)
+
+
+if __name__ == "__main__":
+    main()

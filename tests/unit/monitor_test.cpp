@@ -1,0 +1,106 @@
+// How often a call asks its caller whether to go on, and what it knows of memory.
+#include "mesh/monitor.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <ctime>
+#include <numbers>
+
+#include "mesh/memory.h"
+#include "small_surfaces.h"
+
+namespace holdfast {
+namespace {
+
+double cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+Surface torus(Index around, Index across) {
+  Surface surface;
+  for (Index i = 0; i < around; ++i)
+    for (Index j = 0; j < across; ++j) {
+      const double a = 2 * std::numbers::pi * i / around, b = 2 * std::numbers::pi * j / across;
+      const double r = 1 + 0.4 * std::cos(b);
+      surface.vertices.push_back({r * std::cos(a), r * std::sin(a), 0.4 * std::sin(b)});
+      const Index p = i * across + j, q = (i + 1) % around * across + j;
+      const Index s = i * across + (j + 1) % across, r2 = (i + 1) % around * across + (j + 1) % across;
+      surface.facets.push_back({p, q, r2});
+      surface.facets.push_back({p, r2, s});
+    }
+  return surface;
+}
+
+// The caller's own function may be slow, too.
+TEST(Monitor, AsksWhileSizesAreAskedFor) {
+  const Surface surface = torus(30, 20);
+  std::size_t calls = 0, most = 0;
+  Options options;
+  options.sizes = Sizes{};
+  options.sizes->field = [&](const Point&) {
+    ++calls;
+    const double until = cpu_seconds() + 1e-4;
+    while (cpu_seconds() < until) {
+    }
+    return 0.0;
+  };
+  options.progress = [&](const Progress& progress) {
+    most = std::max(most, std::exchange(calls, 0));
+    return progress.stage != Stage::optimise;
+  };
+  EXPECT_EQ(mesh(surface.view(), options).outcome, Outcome::cancelled);
+  EXPECT_GT(most, 0u);
+  EXPECT_LE(most, 1000u);  // a tenth of a second of them
+}
+
+TEST(Monitor, TellsWhatTheCallerThrew) {
+  Options options;
+  options.progress = [](const Progress&) -> bool { throw std::runtime_error("enough"); };
+  Monitor monitor(options);
+  EXPECT_THROW(monitor.enter(Stage::flips), std::runtime_error);
+  EXPECT_TRUE(monitor.caller_threw());
+}
+
+TEST(Memory, IsUnknownWithoutASystemThatTells) {
+  EXPECT_GT(resident_memory_bytes().value_or(0), 1'000'000u);
+  EXPECT_FALSE(resident_memory_bytes("/nowhere/statm"));
+  EXPECT_FALSE(resident_memory_bytes("/dev/null"));
+}
+
+TEST(Limits, RunFromTheTimeThatIsGiven) {
+  const Surface box = small::box();
+  Options options;
+  options.time_limit = 3600;
+  EXPECT_EQ(mesh(box.view(), options).outcome, Outcome::done);
+  options.started = std::chrono::steady_clock::now() - std::chrono::hours(2);
+  const Result result = mesh(box.view(), options);
+  EXPECT_EQ(result.outcome, Outcome::time_limit);
+  EXPECT_NE(result.message.find("of 3600 s"), std::string::npos) << result.message;
+}
+
+TEST(Threads, CallBetweenTasks) {
+  for (const unsigned count : {1u, 3u}) {
+    std::size_t called = 0;
+    const Threads threads = Threads(count).polling([&] { ++called; });
+    std::atomic<std::size_t> sum = 0;
+    parallel_ranges(threads, 1'000'000, [&](std::size_t first, std::size_t last) { sum += last - first; });
+    EXPECT_EQ(sum, 1'000'000u);
+    EXPECT_GT(called, 0u);
+  }
+}
+
+TEST(Threads, WhatIsThrownBetweenTasksEndsThem) {
+  for (const unsigned count : {1u, 3u}) {
+    std::atomic<std::size_t> done = 0;
+    const Threads threads = Threads(count).polling([&] { throw Interrupted(Outcome::cancelled); });
+    EXPECT_THROW(parallel(threads, 1'000'000, [&](std::size_t) { ++done; }), Interrupted);
+    EXPECT_LT(done, 1'000'000u);
+  }
+}
+
+}  // namespace
+}  // namespace holdfast
