@@ -1,5 +1,5 @@
-"""Fails when a layer of src/ includes a header of a layer above it, or when library code prints, exits, or converts
-numbers by functions that heed the locale of the program round it (src/text/decimal.h is for that), or uses what the
+"""Fails when a layer of src/ includes a header of a layer above it, or when library code prints, exits, names
+options of the command line, or converts numbers by functions that heed the locale of the program round it (src/text/decimal.h is for that), or uses what the
 standard leaves to each library, so that meshes would differ between platforms (src/numbers is for that).
 
     layers.py ROOT LAYER...      LAYER... from the lowest to the highest (HOLDFAST_LAYERS of CMakeLists.txt)
@@ -12,8 +12,8 @@ from pathlib import Path
 
 # Layers that may use less than everything below them.
 ONLY = {"check": {"text", "numbers", "exact"}, "io": {"text", "numbers", "metric"}}
-# Threads are no part of the mesh that they lie beside.
-BESIDES = {"io": {"mesh/parallel.h"}}
+# Threads are no part of the mesh that they lie beside, and the table of places asks for nothing but points.
+BESIDES = {"io": {"mesh/parallel.h", "surface/weld.h"}}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]', re.M)
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|R"\((?:.*?)\)"|"(?:\\.|[^"\\\n])*"', re.S)
@@ -29,6 +29,7 @@ UNDEFINED = re.compile(
     r"unordered_multi(?:map|set)|"
     r"(?:exp|exp2|expm1|log|log2|log10|log1p|pow|cbrt|hypot|sin|cos|tan|asin|acos|atan|atan2|sinh|cosh|tanh|asinh|acosh|"
     r"atanh|erf|erfc|tgamma|lgamma|fma)[fl]?\s*\()")
+OPTION = re.compile(r"(?<![\w-])--[a-z]")
 
 
 def blank(match):
@@ -60,6 +61,10 @@ def broken_rules(root, layers):
             for match in FORBIDDEN.finditer(code):
                 line = code.count("\n", 0, match.start()) + 1
                 yield f"{path}:{line}: library code must not print or exit: {match.group().strip()}"
+            for match in COMMENT_OR_STRING.finditer(text):
+                if not match.group().startswith("/") and OPTION.search(match.group()):
+                    line = text.count("\n", 0, match.start()) + 1
+                    yield f"{path}:{line}: the library knows no options of the command line: {match.group()}"
             for match in LOCALE.finditer(code):
                 line = code.count("\n", 0, match.start()) + 1
                 yield f"{path}:{line}: numbers must not depend on the locale: {match.group().strip()}"
@@ -69,13 +74,14 @@ def broken_rules(root, layers):
 
 
 def selftest():
-    layers = ["text", "exact", "mesh", "check", "io", "api"]
+    layers = ["text", "exact", "mesh", "surface", "check", "io", "api"]
     cases = [  # file, text, number of broken rules
         ("src/mesh/a.h", '#include "exact/b.h"\n#include <vector>\n#include "mesh/c.h"\n', 0),
         ("src/exact/a.h", '#include "mesh/b.h"\n', 1),
         ("src/check/a.cpp", '#include "mesh/b.h"\n', 1),
         ("src/check/b.cpp", '#include "exact/b.h"\n', 0),
         ("src/io/a.cpp", '#include "exact/b.h"\n', 1),
+        ("src/io/stl.cpp", '#include "surface/weld.h"\n#include "surface/places.h"\n', 1),
         ("src/io/parallel.cpp", '#include "mesh/parallel.h"\n', 0),
         ("src/io/b.cpp", '#include "holdfast/io.h"\nint n = std::strlen("exit(1)");  // exit(1)\n', 0),
         ("src/io/c.cpp", '#include "text/b.h"\nauto s = decimal(1.5) + std::to_string(1);\n', 0),
@@ -84,6 +90,7 @@ def selftest():
         ("src/mesh/b.cpp", "void f() { std::exit(1); }\n", 1),
         ("src/mesh/c.cpp", 'void f() { std::fprintf(stderr, "x"); }\n', 1),
         ("src/mesh/d.cpp", "void f() { on_exit(1); q.exit(); std::cout << 1; }\n", 1),
+        ("src/mesh/e.cpp", '// --keep\nconst char* s = "give --keep box";  // or --fill\nint n = i--a;\n', 1),
         ("src/cli/a.cpp", '#include "api/b.h"\nint main() { exit(1); }\n', 1),
         ("src/mesh/e.cpp", "std::shuffle(a, b, r);\nstd::normal_distribution<double> d;\ndouble x = std::hypot(1, 2);\n", 3),
         ("src/mesh/f.cpp", "double x = std::sqrt(2.0) + numbers::log(2) + std::logb(3);  // std::log(2)\n", 0),

@@ -29,6 +29,10 @@ struct CheckOptions {
 
 /// Checks a volume against the surface that it should keep, exactly.
 ///
+/// Vertices of the surface with identical coordinates are one vertex; the volume should begin with the
+/// distinct ones, in the order that `vertex_map` (holdfast.h) tells. Findings name the surface's own indices.
+/// Vertices of the volume are never taken together.
+///
 /// The rules, always all of them and in this order: "input vertices kept", "well formed", "no vertex
 /// unused", "volumes positive", "facets kept", "segments kept", "faces matched", "boundary is input",
 /// "no overlap", "Steiner points inside regions", "regions numbered", "markers kept", "nothing dropped".

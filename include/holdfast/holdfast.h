@@ -44,7 +44,8 @@ struct Sizes {
   double gradation = 0.3;
   /// Whether sizes grow inside beyond those of the surface round; else they lie between them.
   bool grow = true;
-  /// One a vertex of the complex, instead of the mean length of its edges (0: keep that); or none.
+  /// One a vertex of the complex, instead of the mean length of its edges (0: keep that); or none. Of several
+  /// vertices at one place the least counts.
   std::vector<double> vertex_sizes = {};
   /// The most at a point; what is not positive is no limit. Called often, from the calling thread.
   std::function<double(const Point&)> field = {};
@@ -110,7 +111,10 @@ enum class Outcome {
 /// Numbers of a run; the paper's Tables I and II (design §3.3).
 struct Report {
   struct Input {
-    std::size_t vertices = 0, segments = 0, facets = 0, components = 0;
+    std::size_t vertices = 0;           ///< distinct ones; besides these the complex has
+    std::size_t merged_vertices = 0;    ///< vertices at the place of an earlier one
+    std::size_t left_out_vertices = 0;  ///< unused ones, not finite or at the place of another
+    std::size_t segments = 0, facets = 0, components = 0;
     bool closed = false;
     std::size_t nonmanifold_segments = 0, dangling_facets = 0;
   } input;
@@ -209,6 +213,8 @@ struct Result {
   Report report;
   std::vector<Defect> defects;
   std::vector<Warning> warnings;            ///< where the outcome is done or not_representable
+  /// What `vertex_map` gives for the complex; with a volume only.
+  std::vector<std::int64_t> vertex_map;
   std::vector<ExactVertex> exact_vertices;  ///< for not_representable
   std::string message;                      ///< one sentence when the outcome is not done
 };
@@ -220,6 +226,13 @@ struct Result {
 /// it could mean, a margin that is not positive), std::length_error beyond 2^28 vertices, std::bad_alloc when
 /// memory runs out without a limit, and std::logic_error if an internal invariant breaks (please report it).
 [[nodiscard]] Result mesh(const Complex& complex, const Options& options = {});
+
+/// For each vertex of a complex the vertex that it is in a mesh of it, or -1 where it is left out; empty
+/// where each is the one with its own index. A mesh has each place (vertices with identical coordinates, +0
+/// and -0 being one) once, in the order of the first vertices in use there. Vertices that no facet and no
+/// segment uses are left out where they are not finite or at the place of another vertex (of several unused
+/// ones the first stays).
+[[nodiscard]] std::vector<std::int64_t> vertex_map(const Complex& complex);
 
 /// Every broken rule of a valid input (design §1), exactly; empty for a valid complex.
 /// `most` bounds the number of defects returned.

@@ -37,7 +37,8 @@ class FileError : public std::runtime_error {
 /// (2.x and 4.1), ASCII and binary where the format has both; each also packed by gzip (.stl.gz). Lengths are
 /// in the file's own unit.
 /// - Coordinates keep their bits, -0 and numbers that are not finite included (`diagnose` reports them).
-/// - Vertices of .stl with identical coordinates (+0 and -0 are one) are welded, nothing else is.
+/// - Vertices keep their indices, those with identical coordinates too (`mesh` and all else take them as one,
+///   see Complex); but .stl has no indices, and numbers its distinct vertices as they come.
 /// - A polygon of two corners is a segment (.off, .poly, .smesh, .ply), one of a single corner nothing
 ///   but its vertex. A polygon of more than three is fanned if it is convex, and refused otherwise; corners
 ///   that repeat the place of the one before do not count.
@@ -83,10 +84,10 @@ struct WriteOptions {
 
 /// Writes a volume beside its name and renames it, so that no partial file is ever left.
 ///
-/// .vtu (appended raw data), .vtk (ASCII), .mesh, .meshb (GMF version 3), .msh (ASCII), .node (with
+/// .vtu (appended raw data, with `input_vertices` as the point array "input_vertex"), .vtk (ASCII), .mesh, .meshb (GMF version 3), .msh (ASCII), .node (with
 /// .ele, .face and .edge; vertices from 0). Coordinates read back bit for bit, from text too. Vertices,
 /// and the corners of tetrahedra and facets, keep their order; .msh 4.1 groups the entities by marker.
-/// Throws FileError, and std::invalid_argument if regions or markers are neither empty nor as many as
+/// Throws FileError, and std::invalid_argument if regions, markers or input vertices are neither empty nor as many as
 /// their entities. What the format does not hold, `not_held` says.
 void write_volume(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options = {});
 

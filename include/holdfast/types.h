@@ -25,7 +25,9 @@ using Tetrahedron = std::array<Index, 4>;
 
 /// A piecewise linear complex as non-owning views: what the mesher takes.
 ///
-/// Vertices that no facet and no segment uses are isolated points and become mesh vertices too.
+/// Vertices with identical coordinates (+0 and -0 are one) are one vertex, whatever their indices: a place.
+/// Vertices that no facet and no segment uses are isolated points and become mesh vertices too, but for those
+/// that are not finite or at the place of another vertex: these are left out.
 /// Marker spans are either empty or as long as the entities that they mark.
 struct Complex {
   std::span<const Point> vertices;
@@ -76,7 +78,9 @@ struct Surface {
 
 /// A tetrahedral mesh that conforms to a complex.
 struct Volume {
-  std::vector<Point> vertices;  ///< 0..n-1 are the input's, bit for bit; then the Steiner points
+  /// First the input's distinct places, in the order of their first vertices and with these vertices' bits,
+  /// so that an input that repeats none keeps its indices; then the Steiner points.
+  std::vector<Point> vertices;
   std::vector<Tetrahedron> tetrahedra;
   std::vector<int> regions;  ///< region id, one a tetrahedron
   std::vector<Triangle> facets;
@@ -84,16 +88,18 @@ struct Volume {
   std::vector<Segment> segments;
   std::vector<int> segment_markers;  ///< empty, or one a segment
   std::vector<int> vertex_markers;   ///< empty, or one a vertex: 0 for Steiner points
+  /// Empty, or one a vertex: the first of the input's vertices at its place, -1 for an added one.
+  std::vector<std::int64_t> input_vertices;
 };
 
 /// Which rule of a valid input is broken (design §1). The numbers are stable.
 enum class DefectKind : int {
-  non_finite_coordinate = 1,      ///< a vertex with NaN or infinity
+  non_finite_coordinate = 1,      ///< a vertex in use with NaN or infinity
   index_out_of_range = 2,         ///< a facet or segment that names a vertex which does not exist
-  repeated_vertex = 3,            ///< two vertices with identical coordinates
-  degenerate_facet = 4,           ///< a facet that names one vertex twice, or of zero area
-  degenerate_segment = 5,         ///< a segment that names one vertex twice
-  repeated_facet = 6,             ///< two facets with the same three vertices
+  repeated_vertex = 3,            ///< two vertices at one place; of volumes only, surfaces have one there
+  degenerate_facet = 4,           ///< a facet that names one place twice, or of zero area
+  degenerate_segment = 5,         ///< a segment that names one place twice
+  repeated_facet = 6,             ///< two facets with the same three vertices (places)
   vertex_in_segment = 7,          ///< a vertex in the interior of a segment or facet side (T-junction)
   vertex_in_facet = 8,            ///< a vertex in the interior of a facet
   segments_cross = 9,             ///< two segments or sides that meet in an interior point
@@ -106,7 +112,7 @@ enum class DefectKind : int {
   inconsistent_orientation = 16,  ///< facets turned so that there is no winding number (Keep::winding only)
 };
 
-/// One broken rule, with the entities that break it.
+/// One broken rule, with the entities that break it, by their indices in the input.
 struct Defect {
   DefectKind kind;
   std::vector<Index> vertices;

@@ -122,7 +122,7 @@ class Attempt {
 
   void classify() {
     regions_ = find_regions(mesh_, complex().facets, threads_);
-    kept_ = choose_regions(mesh_, regions_, complex(), input_.table(), options_, scale_);
+    kept_ = choose_regions(mesh_, regions_, complex(), input_.table(), options_, scale_, input_.names());
     if (!kept_.defects.empty()) return refuse(result_, std::move(kept_.defects));
     tell_what_was_chosen();
   }
@@ -164,7 +164,7 @@ class Attempt {
         if (is_kept(t))
           for (const Vertex v : mesh_.corners(t))
             if (!mesh_.is_explicit(v)) return;  // the outcome is not_representable
-    size_function_.emplace(polling(*options_.sizes), complex(), input_.table(), options_, kept_, scale_);
+    size_function_.emplace(polling(input_.sizes()), complex(), input_.table(), options_, kept_, scale_);
     const std::size_t before = mesh_.vertex_count();
     FieldPoints added = add_field_points(volume(), *size_function_, threads_, monitor_);
     parts_ = std::move(added.parts);
@@ -256,6 +256,7 @@ class Attempt {
     Extract extract = last >= Stage::classify ? extract_kept(source, regions_, kept_, threads_)
                                               : extract_all(source, standing_);
     result_.volume = std::move(extract.volume);
+    tell_vertices();
     result_.facet_regions = std::move(extract.facet_regions);
     result_.exact_vertices = std::move(extract.exact_vertices);
     result_.report.steiner_points = extract.steiner_points;
@@ -275,6 +276,13 @@ class Attempt {
         {},
         "field points stopped early: too many were tried in vain, so that edges may be longer than was asked "
         "for; the sizes differ too much from those of the surface's triangles"};
+  }
+
+  void tell_vertices() {
+    result_.vertex_map = input_.vertex_map();
+    std::vector<std::int64_t>& input = result_.volume.input_vertices;
+    input.assign(result_.volume.vertices.size(), -1);
+    for (Index v = 0; v < complex().vertices.size(); ++v) input[v] = input_.names()(v);
   }
 
   void fill_report() {

@@ -16,8 +16,9 @@ namespace holdfast {
 
 std::vector<Defect> Input::validate(Report::Input& counts) {
   const Stage last = options_.stop_after.value_or(Stage::optimise);
-  counts = describe_input(complex_, nullptr);
+  counts = describe_input(given_, nullptr);
   const Report::Input all_counts = list_elements_and_segments();
+  count_places(counts);
   if (!elements_.flaws.empty() || last == Stage::validate)
     if (std::vector<Defect> found = defects(); !found.empty()) return found;
   counts = all_counts;
@@ -26,24 +27,47 @@ std::vector<Defect> Input::validate(Report::Input& counts) {
   const bool must_enclose = options_.keep != Keep::box && last >= Stage::classify;
   if (encloses || !must_enclose) return {};
   std::vector<Defect> found = defects();
-  if (found.empty()) found.push_back(encloses_nothing(complex_, table_));
+  if (found.empty()) found.push_back(encloses_nothing(complex_, table_, names_));
   return found;
 }
 
 // Neither list asks for the other. That of segments needs indices in range.
 Report::Input Input::list_elements_and_segments() {
   constexpr std::size_t kWorthThreads = 10'000;
-  const Threads shared = threads_.at_most(complex_.facets.size() < kWorthThreads ? 1 : threads_.count());
+  const Threads shared = threads_.at_most(given_.facets.size() < kWorthThreads ? 1 : threads_.count());
   Report::Input counts;
+  bool in_range = true;
   parallel(shared, 2, [&](std::size_t task) {
     if (task == 0) {
-      elements_ = elements_of(complex_, shared);
-    } else if (has_indices_in_range(complex_)) {
-      table_ = segment_table(complex_);
-      counts = describe_input(complex_, &table_);
+      elements_ = elements_of(given_, shared, same_place_);
+    } else if (in_range = has_indices_in_range(given_); in_range) {
+      table_ = segment_table(given_);
+      counts = describe_input(given_, &table_);
     }
   });
+  if (in_range && !elements_.places.all_distinct()) {
+    merge_vertices();
+    counts = describe_input(complex_, &table_);
+  }
+  count_places(counts);
   return counts;
+}
+
+void Input::count_places(Report::Input& counts) const {
+  const Places& places = elements_.places;
+  counts.merged_vertices = places.merged;
+  counts.left_out_vertices = places.left_out;
+  counts.vertices = given_.vertices.size() - places.merged - places.left_out;
+}
+
+void Input::merge_vertices() {
+  merged_ = merge(given_, elements_.places);
+  complex_.vertices = merged_.vertices;
+  complex_.facets = merged_.facets;
+  complex_.segments = merged_.segments;
+  complex_.vertex_markers = merged_.vertex_markers;
+  table_ = segment_table(complex_);
+  names_ = VertexNames(merged_.first);
 }
 
 // What stands in the Delaunay mesh fits together, as faces of one triangulation do. So the exact test is
@@ -51,18 +75,27 @@ Report::Input Input::list_elements_and_segments() {
 std::vector<Defect> Input::validate_missing(TetMesh& mesh, const Standing& standing) {
   if (std::exchange(elements_fit_, true)) return {};
   const Standing fitting = with_other_diagonals(mesh, complex_, table_, standing);
+  const auto here = [&](Index given) { return merged_.index.empty() ? given : merged_.index[given]; };
   std::vector<std::uint8_t> fits(elements_.all.size());
   std::transform(elements_.all.begin(), elements_.all.end(), fits.begin(), [&](const Element& e) {
     if (e.corners == 3) return fitting.facets[e.id];
-    return e.corners == 1 ? std::uint8_t{1} : fitting.segments[table_.find(e.vertex[0], e.vertex[1])];
+    return e.corners == 1 ? std::uint8_t{1}
+                          : fitting.segments[table_.find(here(e.vertex[0]), here(e.vertex[1]))];
   });
-  if (!all_fit(complex_, elements_, fits, poll(), threads_)) {
+  if (!all_fit(given_, elements_, fits, poll(), threads_)) {
     std::vector<Defect> found = defects();
     if (found.empty()) throw std::logic_error("holdfast: a misfit without a defect");
     return found;
   }
   elements_ = {};
   return {};
+}
+
+Sizes Input::sizes() const {
+  Sizes sizes = options_.sizes.value();
+  if (!merged_.index.empty() && !sizes.vertex_sizes.empty())
+    sizes.vertex_sizes = merged_sizes(merged_, sizes.vertex_sizes);
+  return sizes;
 }
 
 double Input::target() {
@@ -75,7 +108,7 @@ double Input::target() {
 }
 
 std::vector<Defect> Input::defects() const {
-  return find_defects(complex_, elements_, kMostDefects, poll(), threads_);
+  return find_defects(given_, elements_, kMostDefects, poll(), threads_);
 }
 
 std::function<void(double)> Input::poll() const {

@@ -1,6 +1,8 @@
-// The input of a call: what validation finds out about it, once for all attempts.
+// The input of a call: what validation finds out about it, once for all attempts. From then on the complex
+// has each place once (surface/places.h); only what goes back to the caller is told as it was given.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -11,20 +13,34 @@
 #include "recover/standing.h"
 #include "surface/complex.h"
 #include "surface/elements.h"
+#include "surface/places.h"
 
 namespace holdfast {
 
 class Input {
  public:
-  Input(const Complex& complex, const Options& options, const Threads& threads, Monitor& monitor)
-      : complex_(complex), options_(options), threads_(threads), monitor_(monitor) {}
+  Input(const Complex& complex, SamePlace same_place, const Options& options, const Threads& threads,
+        Monitor& monitor)
+      : given_(complex),
+        complex_(complex),
+        same_place_(same_place),
+        options_(options),
+        threads_(threads),
+        monitor_(monitor) {}
 
   /// Defects that can be told before Delaunay, and the counts of the input; none where all is well so far.
   [[nodiscard]] std::vector<Defect> validate(Report::Input& counts);
   /// The rest, with Delaunay tetrahedra at hand; nothing to do after the first time.
   [[nodiscard]] std::vector<Defect> validate_missing(TetMesh& mesh, const Standing& standing);
 
+  /// With each place once.
   [[nodiscard]] const Complex& complex() const { return complex_; }
+  /// What the caller calls the vertices of `complex`.
+  [[nodiscard]] const VertexNames& names() const { return names_; }
+  /// Of Result.
+  [[nodiscard]] std::vector<std::int64_t> vertex_map() const { return as_map(merged_.index); }
+  /// Those of the options, for the vertices of `complex`.
+  [[nodiscard]] Sizes sizes() const;
   [[nodiscard]] const SegmentTable& table() const { return table_; }
   /// The paper's Target, of all facets; computed once.
   [[nodiscard]] double target();
@@ -34,14 +50,20 @@ class Input {
 
  private:
   Report::Input list_elements_and_segments();
+  void count_places(Report::Input& counts) const;
+  void merge_vertices();
   [[nodiscard]] std::vector<Defect> defects() const;
   [[nodiscard]] std::function<void(double)> poll() const;
 
-  const Complex& complex_;
+  const Complex& given_;
+  Complex complex_;  // what was given, or merged_
+  Merged merged_;    // empty unless the vertices given repeat a place, or some are left out
+  VertexNames names_;
+  const SamePlace same_place_;
   const Options& options_;
   const Threads threads_;
   Monitor& monitor_;
-  Elements elements_;  // until they are known to fit together
+  Elements elements_;  // of what was given, until they are known to fit together
   bool elements_fit_ = false;
   SegmentTable table_;
   std::optional<double> target_;

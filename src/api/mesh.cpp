@@ -1,4 +1,6 @@
 // A call of `mesh`: judge the options, validate, then attempts with one seed after the other.
+#include "api/mesh.h"
+
 #include <algorithm>
 #include <exception>
 #include <new>
@@ -25,11 +27,11 @@ constexpr std::size_t kMostAttempts = 5;
 
 class Call {
  public:
-  Call(const Complex& complex, const Options& options)
+  Call(const Complex& complex, const Options& options, SamePlace same_place)
       : options_(options),
         monitor_(options),
         threads_(Threads(options.threads).polling([this] { poll(); })),
-        input_(complex, options, threads_, monitor_) {}
+        input_(complex, same_place, options, threads_, monitor_) {}
 
   Result run() {
     {
@@ -154,6 +156,7 @@ class Call {
     result_.message = interruption_message(outcome, monitor_.stage(), options_);
     result_.volume = {};
     result_.facet_regions.clear();
+    result_.vertex_map.clear();
     result_.exact_vertices.clear();
   }
 
@@ -171,7 +174,12 @@ class Call {
 Result mesh(const Complex& complex, const Options& options) {
   const FloatEnvironment environment;
   require_sensible(complex, options);
-  return Call(complex, options).run();
+  return Call(complex, options, SamePlace::one_vertex).run();
+}
+
+Result mesh_as_given(const Complex& complex, const Options& options) {
+  require_sensible(complex, options);
+  return Call(complex, options, SamePlace::defect).run();
 }
 
 }  // namespace holdfast

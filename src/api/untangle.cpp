@@ -6,6 +6,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "api/mesh.h"
 #include "api/scale.h"
 #include "holdfast/check.h"
 #include "mesh/memory.h"
@@ -173,7 +174,8 @@ class Untangling {
       return false;
     }
     const Surface boundary = boundary_surface(volume_, connectivity_);
-    result_.defects = find_defects(boundary.view(), kMostDefects, [this](double) { watch_.poll(); });
+    result_.defects = find_defects(
+        boundary.view(), kMostDefects, [this](double) { watch_.poll(); }, 1, SamePlace::defect);
     if (!result_.defects.empty()) {
       refuse("the boundary, which stays as it is, is not a valid surface");
       return false;
@@ -212,7 +214,7 @@ class Untangling {
     if (options_.time_limit > 0) options.time_limit = std::max(1e-6, options_.time_limit - seconds());
     options.memory_limit = options_.memory_limit;
     if (options_.progress) options.progress = [this](const Progress&) { return tell(); };
-    Result result = mesh(complex, options);
+    Result result = mesh_as_given(complex, options);
     if (result.outcome == Outcome::time_limit || result.outcome == Outcome::memory_limit ||
         result.outcome == Outcome::cancelled)
       throw Interrupted(result.outcome);

@@ -9,7 +9,7 @@ namespace holdfast {
 CheckResult check(const Complex& surface, const Volume& volume, const CheckOptions& options) {
   const FloatEnvironment environment;
   namespace rules = checking;
-  rules::Examination on{surface, volume, options};
+  rules::Examination on{surface, volume, options, rules::input_of(surface)};
   // The order of these calls is the order in which rules establish facts for later ones.
   Rule vertices = rules::vertices_kept(on);
   Rule form = rules::well_formed(on);

@@ -8,6 +8,7 @@
 
 #include "check/boundary.h"
 #include "check/face_table.h"
+#include "check/input.h"
 #include "holdfast/check.h"
 
 namespace holdfast::checking {
@@ -20,9 +21,10 @@ enum class Fate : std::uint8_t {
 };
 
 struct Examination {
-  const Complex& surface;
+  const Complex& surface;  ///< findings name its entities by their indices here
   const Volume& volume;
   const CheckOptions& options;
+  const Input input;  ///< the surface's entities by vertices of the mesh
 
   // Established by the rules, in this order.
   bool vertices_kept = false;
@@ -36,7 +38,8 @@ struct Examination {
   bool disjoint = false;               ///< no overlap: the mesh is a simplicial complex
   std::vector<Fate> facets{}, segments{}, vertices{};
 
-  [[nodiscard]] std::size_t input_vertices() const { return surface.vertices.size(); }
+  /// How many of the mesh's vertices the input asks for: they come first.
+  [[nodiscard]] std::size_t input_vertices() const { return input.first.size(); }
 };
 
 inline constexpr const char* not_well_formed = "the input or the mesh is not well formed";

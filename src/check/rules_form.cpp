@@ -25,12 +25,6 @@ std::string vertex_words(std::string_view whose, std::size_t vertex, const Point
   return std::string(whose) + " vertex " + std::to_string(vertex) + " " + words(point);
 }
 
-void find_non_finite(std::string_view whose, std::span<const Point> points, Findings& findings) {
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (!finite(points[i]))
-      findings.add([&] { return vertex_words(whose, i, points[i]) + " is not finite"; });
-}
-
 template <std::size_t size>
 void find_out_of_range(std::string_view kind, std::span<const std::array<Index, size>> entities,
                        std::span<const Point> vertices, Findings& findings) {
@@ -49,15 +43,24 @@ bool repeats(const Tetrahedron& t) {
 
 Rule vertices_kept(Examination& on) {
   Findings findings;
+  const auto given = [&](std::size_t i) { return on.input.first[i]; };
   const std::size_t there = std::min(on.input_vertices(), on.volume.vertices.size());
   for (std::size_t i = 0; i < there; ++i)
-    if (const Point& was = on.surface.vertices[i], &is = on.volume.vertices[i]; !same_bits(was, is))
-      findings.add([&] { return vertex_words("input", i, was) + " became " + words(is); });
+    if (const Point& was = on.surface.vertices[given(i)], &is = on.volume.vertices[i]; !same_bits(was, is))
+      findings.add([&] {
+        return vertex_words("input", given(i), was) +
+               (given(i) == i ? "" : ", mesh vertex " + std::to_string(i) + ",") + " became " + words(is);
+      });
   for (std::size_t i = there; i < on.input_vertices(); ++i)
-    findings.add([&] { return vertex_words("input", i, on.surface.vertices[i]) + " is missing"; });
+    findings.add(
+        [&] { return vertex_words("input", given(i), on.surface.vertices[given(i)]) + " is missing"; });
   on.vertices_kept = findings.empty();
+  const std::string all = std::to_string(on.surface.vertices.size()) + " input vertices";
   return judge("input vertices kept", findings, "input vertices changed or missing",
-               std::to_string(on.input_vertices()) + " input vertices, bit for bit");
+               (on.input_vertices() == on.surface.vertices.size()
+                    ? all
+                    : std::to_string(on.input_vertices()) + " distinct places of " + all) +
+                   ", bit for bit");
 }
 
 Rule well_formed(Examination& on) {
@@ -66,8 +69,12 @@ Rule well_formed(Examination& on) {
   if (volume.tetrahedra.empty()) findings.add([] { return std::string("the mesh has no tetrahedra"); });
   if (volume.tetrahedra.size() > FaceTable::most_tetrahedra)
     findings.add([] { return std::string("the mesh has more tetrahedra than can be examined"); });
-  find_non_finite("mesh", volume.vertices, findings);
-  find_non_finite("input", on.surface.vertices, findings);
+  for (std::size_t i = 0; i < volume.vertices.size(); ++i)
+    if (!finite(volume.vertices[i]))
+      findings.add([&] { return vertex_words("mesh", i, volume.vertices[i]) + " is not finite"; });
+  for (const Index v : on.input.first)
+    if (const Point& point = on.surface.vertices[v]; !finite(point))
+      findings.add([&] { return vertex_words("input", v, point) + " is not finite"; });
   find_out_of_range<4>("tetrahedron", volume.tetrahedra, volume.vertices, findings);
   find_out_of_range<3>("input facet", on.surface.facets, on.surface.vertices, findings);
   find_out_of_range<2>("input segment", on.surface.segments, on.surface.vertices, findings);
@@ -94,7 +101,8 @@ Rule no_vertex_unused(const Examination& on) {
       continue;
     }
     findings.add([&] {
-      return vertex_words(i < on.input_vertices() ? "input" : "Steiner", i, on.volume.vertices[i]) +
+      const bool given = i < on.input_vertices();
+      return vertex_words(given ? "input" : "Steiner", given ? on.input.first[i] : i, on.volume.vertices[i]) +
              (on.vertices[i] == Fate::dropped ? " is outside all tetrahedra" : " is in no tetrahedron");
     });
   }

@@ -77,9 +77,9 @@ void find_input_faces(Examination& on) {
   if (!on.well_formed) return;
   on.faces = FaceTable(on.volume.tetrahedra, on.volume.vertices.size());
   on.input_face.assign(on.faces.size(), false);
-  on.facets.assign(on.surface.facets.size(), Fate::lost);
-  for (std::size_t i = 0; i < on.surface.facets.size(); ++i)
-    if (const std::size_t place = on.faces.find(on.surface.facets[i]); place != FaceTable::none) {
+  on.facets.assign(on.input.facets.size(), Fate::lost);
+  for (std::size_t i = 0; i < on.input.facets.size(); ++i)
+    if (const std::size_t place = on.faces.find(on.input.facets[i]); place != FaceTable::none) {
       on.input_face[place] = true;
       on.facets[i] = Fate::kept;
     }
@@ -88,11 +88,10 @@ void find_input_faces(Examination& on) {
 void find_fates(Examination& on) {
   if (!on.well_formed) return;
   for (std::size_t i = 0; i < on.facets.size(); ++i)
-    if (on.facets[i] == Fate::lost) on.facets[i] = fate_of_missing(on, on.surface.facets[i]);
+    if (on.facets[i] == Fate::lost) on.facets[i] = fate_of_missing(on, on.input.facets[i]);
 
-  const std::vector<Segment> wanted(on.surface.segments.begin(), on.surface.segments.end());
-  for (const bool exists : edges_exist(wanted, on.volume))
-    on.segments.push_back(exists ? Fate::kept : fate_of_missing(on, wanted[on.segments.size()]));
+  for (const bool exists : edges_exist(on.input.segments, on.volume))
+    on.segments.push_back(exists ? Fate::kept : fate_of_missing(on, on.input.segments[on.segments.size()]));
 
   on.vertices.assign(on.volume.vertices.size(), Fate::lost);
   for (const Tetrahedron& tetrahedron : on.volume.tetrahedra)
@@ -129,7 +128,7 @@ Rule segments_kept(const Examination& on) {
   // The sides of kept facets are edges since a face's are.
   std::vector<Segment> sides;
   for (std::size_t i = 0; i < on.facets.size(); ++i)
-    if (const Triangle& facet = on.surface.facets[i]; on.facets[i] == Fate::lost)
+    if (const Triangle& facet = on.input.facets[i]; on.facets[i] == Fate::lost)
       for (std::size_t k = 0; k < 3; ++k)
         sides.push_back({std::min(facet[k], facet[(k + 1) % 3]), std::max(facet[k], facet[(k + 1) % 3])});
   std::sort(sides.begin(), sides.end());
@@ -137,8 +136,10 @@ Rule segments_kept(const Examination& on) {
   const std::vector<bool> exist = edges_exist(sides, on.volume);
   for (std::size_t i = 0; i < sides.size(); ++i)
     if (!exist[i])
-      findings.add(
-          [&] { return words("facet side", sides[i], on.surface.vertices) + " is no edge of the mesh"; });
+      findings.add([&] {
+        const Segment given{on.input.first[sides[i][0]], on.input.first[sides[i][1]]};
+        return words("facet side", given, on.surface.vertices) + " is no edge of the mesh";
+      });
   return judge(name, findings, "input segments or facet sides lost",
                std::to_string(kept) + " input segments and all facet sides are edges of the mesh");
 }

@@ -41,7 +41,8 @@ class Lookup {
 template <class Entity>
 struct Listing {
   std::string_view kind;
-  std::span<const Entity> input;
+  std::span<const Entity> input;  ///< by vertices of the mesh
+  std::span<const Entity> given;  ///< the same by vertices of the surface
   std::span<const int> input_markers;
   std::span<const Entity> listed;
   std::span<const int> listed_markers;
@@ -49,7 +50,7 @@ struct Listing {
 };
 
 template <class Entity>
-void find_wrong_markers(const Listing<Entity>& on, std::span<const Point> vertices, Findings& findings) {
+void find_wrong_markers(const Listing<Entity>& on, const Examination& whole, Findings& findings) {
   const auto bad_length = [&](std::string_view whose, std::size_t markers, std::size_t entities) {
     if (markers == 0 || markers == entities) return false;
     findings.add([&] {
@@ -70,7 +71,9 @@ void find_wrong_markers(const Listing<Entity>& on, std::span<const Point> vertic
   std::vector<bool> seen(on.input.size(), false);
   for (std::size_t i = 0; i < on.listed.size(); ++i) {
     const auto say = [&](const std::string& what) {
-      findings.add([&] { return words("listed " + std::string(on.kind), i, on.listed[i], vertices) + what; });
+      findings.add([&] {
+        return words("listed " + std::string(on.kind), i, on.listed[i], whole.volume.vertices) + what;
+      });
     };
     const std::span<const std::size_t> same = lookup.find(on.listed[i]);
     if (same.empty()) {
@@ -90,12 +93,12 @@ void find_wrong_markers(const Listing<Entity>& on, std::span<const Point> vertic
   for (std::size_t i = 0; i < on.input.size(); ++i)
     if (!seen[i] && in_mesh(i))
       findings.add([&] {
-        return words("input " + std::string(on.kind), i, on.input[i], vertices) + " of marker " +
-               std::to_string(on.input_markers[i]) + " is not listed";
+        return words("input " + std::string(on.kind), i, on.given[i], whole.surface.vertices) +
+               " of marker " + std::to_string(on.input_markers[i]) + " is not listed";
       });
 }
 
-// Vertex i of the mesh is vertex i of the input, where `input vertices kept` holds.
+// Of several vertices at a place the first marker that is not 0 counts.
 void find_wrong_vertex_markers(const Examination& on, Findings& findings) {
   const std::span<const int> input = on.surface.vertex_markers, kept = on.volume.vertex_markers;
   if (input.empty()) return;
@@ -108,11 +111,14 @@ void find_wrong_vertex_markers(const Examination& on, Findings& findings) {
     });
     return;
   }
-  for (std::size_t v = 0; v < std::min(input.size(), kept.size()); ++v)
-    if (kept[v] != input[v] && on.volume.vertices[v] == on.surface.vertices[v])
+  std::vector<int> wanted(on.input_vertices(), 0);
+  for (std::size_t v = 0; v < input.size(); ++v)
+    if (const Index i = on.input.vertex[v]; i != no_vertex && wanted[i] == 0) wanted[i] = input[v];
+  for (std::size_t i = 0; i < std::min(wanted.size(), kept.size()); ++i)
+    if (kept[i] != wanted[i] && on.volume.vertices[i] == on.surface.vertices[on.input.first[i]])
       findings.add([&] {
-        return "vertex " + std::to_string(v) + " has marker " + std::to_string(kept[v]) + " instead of " +
-               std::to_string(input[v]);
+        return "vertex " + std::to_string(on.input.first[i]) + " has marker " + std::to_string(kept[i]) +
+               " instead of " + std::to_string(wanted[i]);
       });
 }
 
@@ -157,12 +163,12 @@ Rule markers_kept(const Examination& on) {
   const Volume& volume = on.volume;
   Findings findings;
   find_wrong_vertex_markers(on, findings);
-  find_wrong_markers<Triangle>(
-      {"facet", surface.facets, surface.facet_markers, volume.facets, volume.facet_markers, on.facets},
-      surface.vertices, findings);
-  find_wrong_markers<Segment>({"segment", surface.segments, surface.segment_markers, volume.segments,
-                               volume.segment_markers, on.segments},
-                              surface.vertices, findings);
+  find_wrong_markers<Triangle>({"facet", on.input.facets, surface.facets, surface.facet_markers,
+                                volume.facets, volume.facet_markers, on.facets},
+                               on, findings);
+  find_wrong_markers<Segment>({"segment", on.input.segments, surface.segments, surface.segment_markers,
+                               volume.segments, volume.segment_markers, on.segments},
+                              on, findings);
   return judge("markers kept", findings, "wrong facets, segments or markers",
                std::to_string(volume.facets.size()) + " facets and " +
                    std::to_string(volume.segments.size()) + " segments listed");

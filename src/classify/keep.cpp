@@ -29,12 +29,18 @@ Defect not_oriented(const Complex& complex, const std::array<Index, 2>& facets) 
 class Chooser {
  public:
   Chooser(const TetMesh& mesh, const Regions& regions, const Complex& complex, const SegmentTable& table,
-          const Options& options, int scale)
-      : mesh_(mesh), regions_(regions), complex_(complex), table_(table), options_(options), scale_(scale) {}
+          const Options& options, int scale, const VertexNames& names)
+      : mesh_(mesh),
+        regions_(regions),
+        complex_(complex),
+        table_(table),
+        options_(options),
+        scale_(scale),
+        names_(names) {}
 
   Kept run() {
     if (regions_.count == 1 && options_.keep != Keep::box) {
-      kept_.defects.push_back(encloses_nothing(complex_, table_));
+      kept_.defects.push_back(encloses_nothing(complex_, table_, names_));
       return std::move(kept_);
     }
     apply_rule();
@@ -51,7 +57,8 @@ class Chooser {
     }
     number();
     find_kept_segments();
-    if (!options_.drop_outside) kept_.defects = find_outside(mesh_, regions_, kept_, complex_, table_);
+    if (!options_.drop_outside)
+      kept_.defects = find_outside(mesh_, regions_, kept_, complex_, table_, names_);
     return std::move(kept_);
   }
 
@@ -109,7 +116,7 @@ class Chooser {
       const RegionId r = region_at(seed.where, "region seed");
       if (!kept_.region[r])
         throw std::invalid_argument("the region seed at " + place(seed.where) +
-                                    " lies in a region that is not kept; move it, or keep more (--keep)");
+                                    " lies in a region that is not kept; move it, or keep more regions");
       if (seeded[r] && kept_.id[r] != seed.id)
         throw std::invalid_argument("the region seed at " + place(seed.where) + " gives id " +
                                     std::to_string(seed.id) + " to a region that another seed calls " +
@@ -154,14 +161,15 @@ class Chooser {
   const SegmentTable& table_;
   const Options& options_;
   const int scale_;
+  const VertexNames& names_;
   Kept kept_;
 };
 
 }  // namespace
 
 Kept choose_regions(const TetMesh& mesh, const Regions& regions, const Complex& complex,
-                    const SegmentTable& table, const Options& options, int scale) {
-  return Chooser(mesh, regions, complex, table, options, scale).run();
+                    const SegmentTable& table, const Options& options, int scale, const VertexNames& names) {
+  return Chooser(mesh, regions, complex, table, options, scale, names).run();
 }
 
 std::invalid_argument on_the_surface(const std::string& what, const Point& p) {

@@ -8,6 +8,7 @@
 #include "classify/regions.h"
 #include "holdfast/holdfast.h"
 #include "surface/complex.h"
+#include "surface/places.h"
 
 namespace holdfast {
 
@@ -32,12 +33,13 @@ struct Kept {
 ///
 /// A region with a seed has the seed's id. The others that are kept have the least positive ids that no
 /// seed takes, in the order of their numbers. The mesh is the complex times 2^scale; holes and seeds are in
-/// the complex's units.
+/// the complex's units. `names` are those of the complex's vertices.
 ///
 /// Throws std::invalid_argument for a hole or region seed that lies on a facet or in no region that it
 /// could mean, and for seeds that give one region two ids.
 [[nodiscard]] Kept choose_regions(const TetMesh& mesh, const Regions& regions, const Complex& complex,
-                                  const SegmentTable& table, const Options& options, int scale = 0);
+                                  const SegmentTable& table, const Options& options, int scale = 0,
+                                  const VertexNames& names = {});
 
 /// What is said of a hole or region seed, as `what` calls it, that cannot be meant where it is.
 [[nodiscard]] std::invalid_argument on_the_surface(const std::string& what, const Point& p);

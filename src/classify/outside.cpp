@@ -70,20 +70,22 @@ class PieceFinder {
   std::vector<Index> facets_, segments_, vertices_;
 };
 
-Defect describe(const Piece& piece, const Complex& complex, const SegmentTable& table) {
-  Defect defect{DefectKind::outside_region, piece.vertices, piece.facets, {}, {}, {}};
+Defect describe(const Piece& piece, const Complex& complex, const SegmentTable& table,
+                const VertexNames& names) {
+  Defect defect{DefectKind::outside_region, {}, piece.facets, {}, {}, {}};
+  for (const Index v : piece.vertices) defect.vertices.push_back(names(v));
   for (const Index s : piece.segments) defect.segments.push_back(table.input_segment[s]);
   const Index first = !piece.facets.empty()     ? complex.facets[piece.facets[0]][0]
                       : !piece.segments.empty() ? table.segments[piece.segments[0]][0]
                                                 : piece.vertices[0];
   defect.where.push_back(complex.vertices[first]);
-  std::string names;
+  std::string words;
   for (const std::string& part :
        {listed("triangle", "triangles", defect.facets), listed("segment", "segments", defect.segments),
         listed("isolated vertex", "isolated vertices", defect.vertices)})
-    if (!part.empty()) names += (names.empty() ? "" : " with ") + part;
+    if (!part.empty()) words += (words.empty() ? "" : " with ") + part;
   const bool one = piece.facets.size() + piece.segments.size() + piece.vertices.size() == 1;
-  defect.message = names + " at " + place(complex.vertices[first]) +
+  defect.message = words + " at " + place(complex.vertices[first]) +
                    (one ? " borders on no kept region" : " border on no kept region");
   if (piece.border > 0)
     defect.message += " (" + std::to_string(piece.border) +
@@ -94,13 +96,14 @@ Defect describe(const Piece& piece, const Complex& complex, const SegmentTable& 
 }
 
 // "4 edges at vertex 7 (1, 2, 3), 12 edges at vertex 0 (4, 5, 6) and 3 more".
-std::string list(const std::vector<Piece>& borders, const Complex& complex, const SegmentTable& table) {
+std::string list(const std::vector<Piece>& borders, const Complex& complex, const SegmentTable& table,
+                 const VertexNames& names) {
   std::string words;
   for (std::size_t i = 0; i < std::min(borders.size(), kListed); ++i) {
     const std::vector<Index>& edges = borders[i].segments;
     const Index v = table.segments[edges[0]][0];
     words += (i > 0 ? ", " : "") + std::to_string(edges.size()) + (edges.size() == 1 ? " edge" : " edges") +
-             " at vertex " + std::to_string(v) + " " + place(complex.vertices[v]);
+             " at vertex " + std::to_string(names(v)) + " " + place(complex.vertices[v]);
   }
   if (borders.size() > kListed) words += " and " + std::to_string(borders.size() - kListed) + " more";
   return words;
@@ -117,14 +120,14 @@ std::vector<bool> vertices_in_kept(const TetMesh& mesh, const Regions& regions, 
 
 }  // namespace
 
-Defect encloses_nothing(const Complex& complex, const SegmentTable& table) {
+Defect encloses_nothing(const Complex& complex, const SegmentTable& table, const VertexNames& names) {
   Defect defect{DefectKind::encloses_nothing, {}, {}, {}, {}, {}};
   PieceFinder finder(complex, table);
   for (Index s = 0; s < table.segments.size(); ++s) {
     if (table.facets_of(s).size() != 1) continue;
     finder.add_segment(s);
     for (const Index v : table.segments[s]) {
-      defect.vertices.push_back(v);
+      defect.vertices.push_back(names(v));
       defect.where.push_back(complex.vertices[v]);
     }
   }
@@ -135,13 +138,14 @@ Defect encloses_nothing(const Complex& complex, const SegmentTable& table) {
   else if (!borders.empty())
     defect.message += ": it has " + std::to_string(borders.size()) +
                       (borders.size() == 1 ? " open border, " : " open borders, ") +
-                      list(borders, complex, table);
+                      list(borders, complex, table, names);
   defect.message += "; close it, or fill everything out to an enclosing box";
   return defect;
 }
 
 std::vector<Defect> find_outside(const TetMesh& mesh, const Regions& regions, const Kept& kept,
-                                 const Complex& complex, const SegmentTable& table) {
+                                 const Complex& complex, const SegmentTable& table,
+                                 const VertexNames& names) {
   PieceFinder finder(complex, table);
   for (Index f = 0; f < complex.facets.size(); ++f)
     if (!kept.facet(regions, f)) finder.add_facet(f);
@@ -156,7 +160,7 @@ std::vector<Defect> find_outside(const TetMesh& mesh, const Regions& regions, co
       if (isolated[v] && !in[v]) finder.add_vertex(v);
   }
   std::vector<Defect> defects;
-  for (const Piece& piece : finder.pieces()) defects.push_back(describe(piece, complex, table));
+  for (const Piece& piece : finder.pieces()) defects.push_back(describe(piece, complex, table, names));
   return defects;
 }
 

@@ -8,11 +8,13 @@
 namespace holdfast {
 
 /// A surface without any bounded region: names the open borders.
-[[nodiscard]] Defect encloses_nothing(const Complex& complex, const SegmentTable& table);
+[[nodiscard]] Defect encloses_nothing(const Complex& complex, const SegmentTable& table,
+                                      const VertexNames& names = {});
 
 /// Facets, dangling segments and isolated vertices that border on no kept region: one defect for each set of
 /// them that hangs together. `kept` has its regions and segments.
 [[nodiscard]] std::vector<Defect> find_outside(const TetMesh& mesh, const Regions& regions, const Kept& kept,
-                                               const Complex& complex, const SegmentTable& table);
+                                               const Complex& complex, const SegmentTable& table,
+                                               const VertexNames& names = {});
 
 }  // namespace holdfast

@@ -20,12 +20,15 @@ struct DiagnoseArguments {
   bool all = false, json = false, quiet = false;
 };
 
-Json report_of(const Surface& surface, const std::vector<Defect>& defects, const DefectSummary& summary) {
+Json report_of(const Surface& surface, const Report::Input& input, const std::vector<Defect>& defects,
+               const DefectSummary& summary) {
   return {{"valid", defects.empty()},
           {"input",
-           {{"vertices", surface.vertices.size()},
-            {"segments", surface.segments.size()},
-            {"facets", surface.facets.size()}}},
+           {{"vertices", input.vertices},
+            {"merged_vertices", input.merged_vertices},
+            {"left_out_vertices", input.left_out_vertices},
+            {"segments", input.segments},
+            {"facets", input.facets}}},
           {"version", version()},
           {"summary", to_json(summary)},
           {"remarks", to_json(surface.remarks)},
@@ -37,11 +40,10 @@ std::string counted(std::size_t count, const char* what) {
 }
 
 /// The summary, then the list.
-std::string listing_of(const Surface& surface, const std::vector<Defect>& defects,
+std::string listing_of(const Report::Input& counts, const std::vector<Defect>& defects,
                        const DefectSummary& summary, std::size_t most) {
-  const std::string input =
-      fmt::format("{} vertices, {} segments, {} facets in {}", surface.vertices.size(),
-                  surface.segments.size(), surface.facets.size(), counted(summary.parts, "part"));
+  const std::string input = fmt::format("{} vertices, {} segments, {} facets in {}", counts.vertices,
+                                        counts.segments, counts.facets, counted(summary.parts, "part"));
   std::string text;
   if (!defects.empty())
     text = fmt::format("not valid: {}; {}\n", input, counted(defects.size(), "defect"));
@@ -68,13 +70,15 @@ int run(const DiagnoseArguments& arguments) {
 
   cancel_by_flag();  // from here on files are open
   if (!arguments.marks.empty()) write_marks(arguments.marks, surface.view(), defects);
+  const Report::Input input = count_vertices(surface);
+  if (!arguments.quiet) print_merged(input);
   const DefectSummary summary = summarise(surface.view(), defects);
-  const Json report = report_of(surface, defects, summary);
+  const Json report = report_of(surface, input, defects, summary);
   write_json(arguments.report, report);
   write_json(json, report);
   if (!arguments.quiet && !arguments.json) {
     const bool cut = !arguments.all && files.list_is_on_terminal();
-    files.list(listing_of(surface, defects, summary, cut ? shown_on_terminal : SIZE_MAX));
+    files.list(listing_of(input, defects, summary, cut ? shown_on_terminal : SIZE_MAX));
   }
   if (defects.empty()) return exit_done;
   say("holdfast: the surface is not valid: {} defect{}{}\n", defects.size(), defects.size() == 1 ? "" : "s",
@@ -93,8 +97,8 @@ void add_diagnose(CLI::App& app, Command& chosen) {
       ->add_option("SURFACE", arguments->surfaces,
                    "Surface files (.stl .off .obj .ply .mesh .meshb .poly .smesh .node .msh .vtu .vtp .vtk, "
                    "each also .gz); "
-                   "several are joined where "
-                   "coordinates are identical")
+                   "several count on from "
+                   "one another; vertices with identical coordinates are one")
       ->transform(or_standard_input)
       ->required();
   command->add_option("--marks", arguments->marks, "Write the places of the defects for a viewer")

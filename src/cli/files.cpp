@@ -3,43 +3,18 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <unordered_map>
 
 namespace holdfast::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct PointHash {
-  std::size_t operator()(const Point& point) const {
-    std::size_t hash = 0;
-    for (const double x : point) hash = hash * 0x9E3779B97F4A7C15u + std::hash<double>{}(x);
-    return hash;
-  }
-};
-
-/// Appends `part` to `whole`; `known` maps the coordinates of earlier files to their vertices.
-void append(Surface& whole, const Surface& part, std::unordered_map<Point, Index, PointHash>& known,
-            bool vertices_marked) {
-  std::vector<Index> index(part.vertices.size());
+/// Appends `part` to `whole`. Vertices at one place are one vertex wherever they come from, so nothing is to
+/// be joined here.
+void append(Surface& whole, const Surface& part) {
   const std::size_t before = whole.vertices.size();
-  for (std::size_t i = 0; i < index.size(); ++i) {
-    const auto found = known.find(part.vertices[i]);
-    if (found != known.end()) {
-      index[i] = found->second;
-    } else {
-      index[i] = static_cast<Index>(whole.vertices.size());
-      whole.vertices.push_back(part.vertices[i]);
-      if (vertices_marked)
-        whole.vertex_markers.push_back(part.vertex_markers.empty() ? 0 : part.vertex_markers[i]);
-    }
-  }
-  // Only now: identical vertices within one file are that file's own defect, which `diagnose` reports.
-  for (std::size_t i = before; i < whole.vertices.size(); ++i)
-    known.emplace(whole.vertices[i], static_cast<Index>(i));
-
-  // An index that names no vertex must stay wrong after the shift.
-  const auto shifted = [&](Index vertex) { return vertex < index.size() ? index[vertex] : ~Index{0}; };
+  const auto shifted = [&](Index vertex) { return static_cast<Index>(before + vertex); };
+  whole.vertices.insert(whole.vertices.end(), part.vertices.begin(), part.vertices.end());
   for (const Triangle& f : part.facets) whole.facets.push_back({shifted(f[0]), shifted(f[1]), shifted(f[2])});
   for (const Segment& s : part.segments) whole.segments.push_back({shifted(s[0]), shifted(s[1])});
   whole.regions.insert(whole.regions.end(), part.regions.begin(), part.regions.end());
@@ -82,9 +57,10 @@ Surface read_surfaces(const std::vector<fs::path>& paths, std::string_view forma
       std::any_of(parts.begin(), parts.end(), [](const Surface& s) { return !s.segment_markers.empty(); });
 
   Surface whole;
-  std::unordered_map<Point, Index, PointHash> known;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    append(whole, parts[i], known, vertices_marked);
+    append(whole, parts[i]);
+    if (vertices_marked)
+      append_markers(whole.vertex_markers, parts[i].vertex_markers, parts[i].vertices.size(), 0);
     append_markers(whole.facet_markers, parts[i].facet_markers, parts[i].facets.size(),
                    facets_marked ? 0 : static_cast<int>(i) + 1);
     if (segments_marked)

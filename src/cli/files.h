@@ -9,10 +9,9 @@
 
 namespace holdfast::cli {
 
-/// Reads surfaces and joins them. A vertex that has the same coordinates (+0 and -0 are one) as a vertex of
-/// an earlier file becomes that vertex. Where no file carries markers, facets are marked with the number of
-/// their file, from 1. With `of_volumes`, files are volumes, of which the surface is taken.
-/// Remarks begin with their file. Throws FileError.
+/// Reads surfaces and puts them together: indices count through the files in turn. Where no file carries
+/// markers, facets are marked with the number of their file, from 1. With `of_volumes`, files are volumes, of
+/// which the surface is taken. Remarks begin with their file. Throws FileError.
 [[nodiscard]] Surface read_surfaces(const std::vector<std::filesystem::path>& paths, std::string_view format,
                                     bool of_volumes = false);
 

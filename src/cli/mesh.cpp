@@ -90,6 +90,7 @@ void write_result(const MeshArguments& arguments, const VolumeTarget& target, co
 
 void tell_the_end(const MeshArguments& arguments, const Options& options, const Result& result,
                   double seconds) {
+  print_merged(result.report.input);
   if (arguments.verbose) print_details(result.report);
   print_decisions(result);
   if (result.outcome != Outcome::done) return;
@@ -209,8 +210,8 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->add_option("SURFACE", arguments->surfaces,
                    "Surface files (.stl .off .obj .ply .mesh .meshb .poly .smesh .node .msh .vtu .vtp .vtk, "
                    "each also .gz); "
-                   "several are joined where "
-                   "coordinates are identical")
+                   "several count on from "
+                   "one another; vertices with identical coordinates are one")
       ->transform(or_standard_input)
       ->required();
   command

@@ -113,9 +113,8 @@ Json to_json(const std::vector<Defect>& defects) {
 Json to_json(const std::vector<Remark>& remarks) {
   Json list = Json::array();
   for (const Remark& remark : remarks)
-    list.push_back({{"kind", static_cast<int>(remark.kind)},
-                    {"count", remark.count},
-                    {"message", remark.message}});
+    list.push_back(
+        {{"kind", static_cast<int>(remark.kind)}, {"count", remark.count}, {"message", remark.message}});
   return list;
 }
 
@@ -162,6 +161,30 @@ Json to_json(const Report::Field& field) {
 
 }  // namespace
 
+Report::Input count_vertices(const Surface& surface) {
+  Report::Input input;
+  input.vertices = surface.vertices.size();
+  input.segments = surface.segments.size();
+  input.facets = surface.facets.size();
+  const std::vector<std::int64_t> map = vertex_map(surface.view());
+  if (map.empty()) return input;
+  input.vertices = static_cast<std::size_t>(*std::max_element(map.begin(), map.end()) + 1);
+  input.left_out_vertices = static_cast<std::size_t>(std::count(map.begin(), map.end(), -1));
+  input.merged_vertices = map.size() - input.left_out_vertices - input.vertices;
+  return input;
+}
+
+void print_merged(const Report::Input& input) {
+  if (input.merged_vertices + input.left_out_vertices == 0) return;
+  const std::size_t all = input.vertices + input.merged_vertices + input.left_out_vertices;
+  say("{} vertices at {} places:{}{}{}\n", all, input.vertices,
+      input.merged_vertices == 0 ? "" : fmt::format(" {} merged", input.merged_vertices),
+      input.merged_vertices > 0 && input.left_out_vertices > 0 ? "," : "",
+      input.left_out_vertices == 0
+          ? ""
+          : fmt::format(" {} unused (repeated or not finite) left out", input.left_out_vertices));
+}
+
 Json to_json(const Result& result, Json options) {
   const Report& report = result.report;
   const auto missing = [](const Report::Missing& m) {
@@ -170,6 +193,8 @@ Json to_json(const Result& result, Json options) {
   return {
       {"input",
        {{"vertices", report.input.vertices},
+        {"merged_vertices", report.input.merged_vertices},
+        {"left_out_vertices", report.input.left_out_vertices},
         {"segments", report.input.segments},
         {"facets", report.input.facets},
         {"components", report.input.components},
@@ -208,6 +233,7 @@ Json to_json(const Result& result, Json options) {
       {"message", result.message},
       {"warnings", to_json(result.warnings)},
       {"defects", to_json(result.defects)},
+      {"vertex_map", result.vertex_map},
   };
 }
 

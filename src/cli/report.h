@@ -26,6 +26,12 @@ using Json = nlohmann::ordered_json;
 /// The whole report of `mesh`; `options` is what the user asked for.
 [[nodiscard]] Json to_json(const Result& result, Json options);
 
+/// How many vertices of a surface share a place with others or are left out, as `Report::Input` counts them.
+[[nodiscard]] Report::Input count_vertices(const Surface& surface);
+
+/// Says so in a line on stderr; nothing where each vertex is a place of its own.
+void print_merged(const Report::Input& input);
+
 /// Writes JSON as text; nothing when `path` is empty. Throws FileError.
 void write_json(const std::filesystem::path& path, const Json& json);
 

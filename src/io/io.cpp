@@ -89,14 +89,16 @@ const Format& volume_format(const std::filesystem::path& path, std::string_view 
 
 /// A volume whose tags do not match its entities is the caller's mistake.
 void require_consistent(const Volume& volume) {
-  const auto matches = [](const std::vector<int>& tags, std::size_t count) {
+  const auto matches = [](const auto& tags, std::size_t count) {
     return tags.empty() || tags.size() == count;
   };
   if (!matches(volume.vertex_markers, volume.vertices.size()) ||
       !matches(volume.regions, volume.tetrahedra.size()) ||
       !matches(volume.facet_markers, volume.facets.size()) ||
-      !matches(volume.segment_markers, volume.segments.size()))
-    throw std::invalid_argument("a volume with regions or markers of another number than their entities");
+      !matches(volume.segment_markers, volume.segments.size()) ||
+      !matches(volume.input_vertices, volume.vertices.size()))
+    throw std::invalid_argument(
+        "a volume with regions, markers or input vertices of another number than their entities");
 }
 
 void tell_polygons(MeshData& mesh) {

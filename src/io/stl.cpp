@@ -8,7 +8,7 @@
 #include "io/byte_reader.h"
 #include "io/formats.h"
 #include "io/text_reader.h"
-#include "io/weld.h"
+#include "surface/weld.h"
 
 namespace holdfast::io {
 namespace {

@@ -54,14 +54,16 @@ class VtuCells {
     offsets_.push_back(static_cast<std::int64_t>(connectivity_.size()));
     types_.push_back(static_cast<std::uint8_t>(type));
   }
-  [[nodiscard]] VtuArrays arrays(const std::vector<Point>& points, std::vector<VtuArray> cell_data) const {
+  [[nodiscard]] VtuArrays arrays(const std::vector<Point>& points, std::vector<VtuArray> cell_data,
+                                 std::vector<VtuArray> point_data = {}) const {
     return {points.size(),
             types_.size(),
             vtu_array("Points", points),
             vtu_array("connectivity", connectivity_),
             vtu_array("offsets", offsets_),
             vtu_array("types", types_),
-            std::move(cell_data)};
+            std::move(cell_data),
+            std::move(point_data)};
   }
 
  private:

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "io/vtk_cells.h"
 #include "io/vtu_arrays.h"
@@ -97,10 +98,13 @@ void write_vtu(AtomicWriter& out, const Volume& volume, const WriteOptions& opti
                     regions.push_back(region);
                     markers.push_back(marker);
                   });
+  std::vector<VtuArray> point_data;
+  if (!volume.input_vertices.empty()) point_data.push_back(vtu_array("input_vertex", volume.input_vertices));
   // The region first: it is what viewers colour by, and what meshio keeps where it keeps one array.
   VtuArrays arrays = cells.arrays(volume.vertices, {vtu_array("region", regions),
                                                     vtu_array("marker", markers), vtu_array("kind", kinds)});
-  if (!volume.vertex_markers.empty()) arrays.point_data = {vtu_array("marker", volume.vertex_markers)};
+  if (!volume.vertex_markers.empty()) point_data.push_back(vtu_array("marker", volume.vertex_markers));
+  arrays.point_data = std::move(point_data);
   write_vtu_arrays(out, arrays, options);
 }
 

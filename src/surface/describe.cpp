@@ -168,8 +168,9 @@ Stars::Stars(const Complex& complex, const Elements& elements) : elements_(eleme
   for_each_corner([&](Index i, Index v) { at_[next[v]++] = i; });
   for (Index s = 0; s < complex.segments.size(); ++s) {
     const auto [a, b] = complex.segments[s];
-    if (a >= elements.representative.size() || b >= elements.representative.size()) continue;
-    const Index p = elements.representative[a], q = elements.representative[b];
+    const std::vector<Index>& first = elements.places.first;
+    if (a >= first.size() || b >= first.size()) continue;
+    const Index p = first[a], q = first[b];
     segments_.push_back({{std::min(p, q), std::max(p, q)}, s});
   }
   std::sort(segments_.begin(), segments_.end());
@@ -237,16 +238,25 @@ Defect describe(const Complex& complex, const Flaw& flaw) {
   const auto [low, high] = std::minmax_element(corners.begin(), corners.end(), less);
   defect.where = {complex.vertices[*low]};
   if (complex.vertices[*high] != complex.vertices[*low]) defect.where.push_back(complex.vertices[*high]);
-  std::sort(corners.begin(), corners.end());
-  const auto twice = std::adjacent_find(corners.begin(), corners.end());
-  if (twice != corners.end()) {
-    defect.message = name + " names vertex " + text(*twice) + " twice: remove it";
+  // Corners at one place stand together.
+  std::sort(corners.begin(), corners.end(),
+            [&](Index a, Index b) { return less(a, b) || (!less(b, a) && a < b); });
+  const auto same_place = [&](Index a, Index b) { return complex.vertices[a] == complex.vertices[b]; };
+  const auto twin = std::adjacent_find(corners.begin(), corners.end(), same_place);
+  const auto triangle = [&] {
+    return name + " (" + text(defect.vertices[0]) + ", " + text(defect.vertices[1]) + ", " +
+           text(defect.vertices[2]) + ")";
+  };
+  if (twin != corners.end() && twin[0] == twin[1]) {
+    defect.message = name + " names vertex " + text(*twin) + " twice: remove it";
   } else if (flaw.kind == DefectKind::degenerate_segment) {
     defect.message = name + " has zero length" + places(defect.where) + ": remove it";
+  } else if (twin != corners.end()) {
+    defect.message = triangle() + " has zero area: vertices " + text(twin[0]) + " and " + text(twin[1]) +
+                     " are one, at " + text(complex.vertices[*twin]) + "; remove it";
   } else {
-    defect.message = name + " (" + text(defect.vertices[0]) + ", " + text(defect.vertices[1]) + ", " +
-                     text(defect.vertices[2]) + ") has zero area: its vertices are collinear" +
-                     places(defect.where) + "; remove it, or move a vertex";
+    defect.message = triangle() + " has zero area: its vertices are collinear" + places(defect.where) +
+                     "; remove it, or move a vertex";
   }
   return defect;
 }

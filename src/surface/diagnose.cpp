@@ -10,8 +10,8 @@
 namespace holdfast {
 
 std::vector<Defect> find_defects(const Complex& complex, std::size_t most, const Step& step,
-                                 const Threads& threads) {
-  return find_defects(complex, elements_of(complex, threads), most, step, threads);
+                                 const Threads& threads, SamePlace same_place) {
+  return find_defects(complex, elements_of(complex, threads, same_place), most, step, threads);
 }
 
 std::vector<Defect> find_defects(const Complex& complex, const Elements& elements, std::size_t most,

@@ -11,9 +11,9 @@
 
 namespace holdfast {
 
-/// Every broken rule of a valid input, exactly and by root cause: first of single entities and identical
-/// vertices, then of elements that do not fit together (search.h), ordered by the least pair of elements
-/// concerned (facets before segments before vertices). Empty for a valid complex.
+/// Every broken rule of a valid input, exactly and by root cause: first of single entities, then of elements
+/// that do not fit together (search.h), ordered by the least pair of elements concerned (facets before
+/// segments before vertices). Empty for a valid complex.
 ///
 /// `most` bounds the number of defects; then they are the first that turn up. `step` is called now and
 /// then from the calling thread with the share of the work that is done and may throw to stop (a Monitor's
@@ -25,7 +25,8 @@ namespace holdfast {
 ///     containing or second simplex as a face, then all those that have the first. Each of the former
 ///     with each of the latter is a pair that does not fit.
 [[nodiscard]] std::vector<Defect> find_defects(const Complex& complex, std::size_t most, const Step& step,
-                                               const Threads& threads = 1);
+                                               const Threads& threads = 1,
+                                               SamePlace same_place = SamePlace::one_vertex);
 
 /// The same, with the complex's elements at hand.
 [[nodiscard]] std::vector<Defect> find_defects(const Complex& complex, const Elements& elements,
@@ -40,7 +41,7 @@ struct ElementRef {
 };
 
 /// Every pair of elements that do not meet in a common face or not at all, one by one: what an all-pairs
-/// test would find once identical vertices are identified and facets of zero area left out. Ordered;
+/// test would find once vertices at one place are one vertex and facets of zero area left out. Ordered;
 /// facets before segments before vertices. May be quadratic in size: `most` bounds it.
 [[nodiscard]] std::vector<std::array<ElementRef, 2>> offending_pairs(const Complex& complex, std::size_t most,
                                                                      const Step& step);

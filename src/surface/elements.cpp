@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "mesh/parallel.h"
 
@@ -12,7 +11,7 @@ namespace {
 
 bool finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
 
-// A segment of the complex by its representatives, the lesser first.
+// A segment of the complex by the first vertices at its ends' places, the lesser first.
 struct Candidate {
   Segment ends;
   Index id;
@@ -25,10 +24,11 @@ struct Candidate {
 
 class Sorter {
  public:
-  Sorter(const Complex& complex, const Threads& threads) : complex_(complex), threads_(threads) {}
+  Sorter(const Complex& complex, const Threads& threads, SamePlace same_place)
+      : complex_(complex), threads_(threads), same_place_(same_place) {}
 
   Elements run() {
-    find_identical_vertices();
+    find_places();
     used_.assign(complex_.vertices.size(), 0);
     add_facets();
     add_segments();
@@ -37,55 +37,24 @@ class Sorter {
   }
 
  private:
-  // Sorts by a strict total order: parts of the array at a time, which are then merged by pairs.
-  template <class T, class Less>
-  void sort_in_parts(std::vector<T>& values, const Less& less) const {
-    constexpr std::size_t kLeastPart = 10000;
-    std::size_t parts = 1;
-    while (2 * parts <= threads_.count() && values.size() / (2 * parts) >= kLeastPart) parts *= 2;
-    const auto at = [&](std::size_t part) {
-      return values.begin() + static_cast<std::ptrdiff_t>(values.size() * part / parts);
-    };
-    parallel(threads_, parts, [&](std::size_t k) { std::sort(at(k), at(k + 1), less); });
-    for (std::size_t width = 1; width < parts; width *= 2)
-      parallel(threads_, parts / (2 * width), [&](std::size_t k) {
-        const std::size_t first = 2 * width * k;
-        std::inplace_merge(at(first), at(first + width), at(first + 2 * width), less);
-      });
-  }
-
-  // Sets `representative`; flaws of vertices.
-  void find_identical_vertices() {
+  void find_places() {
     const auto& points = complex_.vertices;
-    result_.representative.resize(points.size());
-    std::iota(result_.representative.begin(), result_.representative.end(), Index{0});
-    // Sorted by x beside the index, which saves most look-ups.
-    std::vector<std::pair<double, Index>> order;
-    order.reserve(points.size());
+    Places& places = result_.places;
+    if (same_place_ == SamePlace::one_vertex)
+      places = places_of(complex_);
+    else
+      places.first = first_at_places(points);
     for (Index v = 0; v < points.size(); ++v) {
-      if (finite(points[v])) order.emplace_back(points[v][0], v);
-    }
-    sort_in_parts(order, [&points](const auto& a, const auto& b) {
-      if (a.first != b.first) return a.first < b.first;
-      const Point &p = points[a.second], &q = points[b.second];
-      if (p[1] != q[1]) return p[1] < q[1];
-      if (p[2] != q[2]) return p[2] < q[2];
-      return a.second < b.second;
-    });
-    for (std::size_t i = 1; i < order.size(); ++i) {
-      const Index before = order[i - 1].second, v = order[i].second;
-      if (points[before] == points[v]) result_.representative[v] = result_.representative[before];
-    }
-    for (Index v = 0; v < points.size(); ++v) {
-      if (!finite(points[v])) {
+      const Index first = places.first[v];
+      if (first == no_index) continue;
+      if (!finite(points[v]))
         result_.flaws.push_back({DefectKind::non_finite_coordinate, 1, v});
-      } else if (result_.representative[v] != v) {
-        result_.flaws.push_back({DefectKind::repeated_vertex, 1, v, result_.representative[v]});
-      }
+      else if (first != v && same_place_ == SamePlace::defect)
+        result_.flaws.push_back({DefectKind::repeated_vertex, 1, v, first});
     }
   }
 
-  // Replaces the corners by representatives; false, with a flaw or without, if they are no good.
+  // Replaces the corners by the first at their places; false, with a flaw or without, if they are no good.
   template <std::size_t N>
   bool resolve(std::array<Index, N>& corners, Index id, std::vector<Flaw>& flaws) const {
     for (const Index v : corners) {
@@ -97,7 +66,7 @@ class Sorter {
     bool good = true;
     for (Index& v : corners) {
       good = good && finite(complex_.vertices[v]);
-      v = result_.representative[v];
+      v = result_.places.first[v];
     }
     return good;
   }
@@ -174,7 +143,7 @@ class Sorter {
 
   void add_vertices() {
     for (Index v = 0; v < complex_.vertices.size(); ++v) {
-      if (!used_[v] && result_.representative[v] == v && finite(complex_.vertices[v])) add({{v, 0, 0}, v, 1});
+      if (!used_[v] && result_.places.first[v] == v && finite(complex_.vertices[v])) add({{v, 0, 0}, v, 1});
     }
   }
 
@@ -185,6 +154,7 @@ class Sorter {
 
   const Complex& complex_;
   const Threads threads_;
+  const SamePlace same_place_;
   Elements result_;
   std::vector<char> used_;  // by some element
 };
@@ -202,8 +172,8 @@ Simplex Elements::simplex(const Element& element, const Complex& complex) {
   return simplex;
 }
 
-Elements elements_of(const Complex& complex, const Threads& threads) {
-  return Sorter(complex, threads).run();
+Elements elements_of(const Complex& complex, const Threads& threads, SamePlace same_place) {
+  return Sorter(complex, threads, same_place).run();
 }
 
 }  // namespace holdfast

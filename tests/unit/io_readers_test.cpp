@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "io/formats.h"
-#include "io/weld.h"
+#include "surface/weld.h"
 #include "io_samples.h"
 
 namespace holdfast {
@@ -157,7 +157,7 @@ TEST(Stl, Errors) {
 
 TEST(Weld, IdenticalOnly) {
   std::vector<Point> points;
-  io::Welder weld(points);
+  Welder weld(points);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(weld.add({-0.0, 1, 2}), 0u);
   EXPECT_EQ(weld.add({0.0, 1, 2}), 0u);
