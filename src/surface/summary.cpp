@@ -13,6 +13,7 @@
 #include "surface/describe.h"
 #include "surface/enclosed.h"
 #include "surface/gaps.h"
+#include "surface/places.h"
 #include "text/decimal.h"
 
 namespace holdfast {
@@ -28,18 +29,7 @@ struct Identified {
   std::vector<Segment> segments;
   Complex view;
 
-  explicit Identified(const Complex& complex) : first(complex.vertices.size()) {
-    std::vector<Index> order(first.size());
-    std::iota(order.begin(), order.end(), Index{0});
-    std::iota(first.begin(), first.end(), Index{0});
-    const auto& at = complex.vertices;
-    std::erase_if(order, [&](Index v) {
-      return std::any_of(at[v].begin(), at[v].end(), [](double x) { return std::isnan(x); });
-    });
-    std::sort(order.begin(), order.end(),
-              [&](Index a, Index b) { return at[a] != at[b] ? at[a] < at[b] : a < b; });
-    for (std::size_t i = 1; i < order.size(); ++i)
-      if (at[order[i]] == at[order[i - 1]]) first[order[i]] = first[order[i - 1]];
+  explicit Identified(const Complex& complex) : first(first_at_places(complex.vertices)) {
     const auto in_range = [&](Index v) { return v < first.size(); };
     for (const Triangle& f : complex.facets) {
       if (!std::all_of(f.begin(), f.end(), in_range)) continue;
