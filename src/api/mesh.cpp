@@ -59,7 +59,13 @@ class Call {
     }
     const bool has_all = options_.stop_after.value_or(Stage::optimise) == Stage::optimise;
     if (result_.outcome == Outcome::done && options_.sizes && has_all && options_.keep != Keep::box)
-      mesh_remote_components(input_.complex(), options_, mesh, result_);
+      mesh_remote_components(input_.complex(), with_sizes(input_.sizes()), mesh, result_);
+  }
+
+  [[nodiscard]] Options with_sizes(Sizes sizes) const {
+    Options options = options_;
+    options.sizes = std::move(sizes);
+    return options;
   }
 
   // Jobs within jobs have other callers.

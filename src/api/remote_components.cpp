@@ -167,6 +167,8 @@ class RemoteComponents {
       index[v] = static_cast<Index>(volume_.vertices.size());
       if (v < complex_.vertices.size() || used[v]) volume_.vertices.push_back(points[v]);
     }
+    volume_.input_vertices.resize(volume_.vertices.size(), -1);
+    if (!volume_.vertex_markers.empty()) volume_.vertex_markers.resize(volume_.vertices.size(), 0);
     for (Tetrahedron& t : tets)
       for (Index& v : t) v = index[v];
     volume_.tetrahedra = std::move(tets);

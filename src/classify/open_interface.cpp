@@ -201,8 +201,14 @@ class LeastCut {
 class Finder {
  public:
   Finder(TetMesh& mesh, const Regions& regions, const Kept& kept, const Complex& complex,
-         const SegmentTable& table, const Tell& tell)
-      : mesh_(mesh), regions_(regions), kept_(kept), complex_(complex), table_(table), tell_(tell) {}
+         const SegmentTable& table, const VertexNames& names, const Tell& tell)
+      : mesh_(mesh),
+        regions_(regions),
+        kept_(kept),
+        complex_(complex),
+        table_(table),
+        names_(names),
+        tell_(tell) {}
 
   std::vector<Warning> run() {
     std::vector<Warning> warnings;
@@ -267,10 +273,13 @@ class Finder {
   [[nodiscard]] Warning warn(const Sheet& sheet) const {
     Warning warning{WarningKind::open_interface, sheet.facets, {}, {}, {}};
     std::sort(warning.facets.begin(), warning.facets.end());
-    for (const Index s : sheet.border) warning.border.push_back(table_.segments[s]);
-    std::sort(warning.border.begin(), warning.border.end());
+    std::vector<Index> border = sheet.border;
+    std::sort(border.begin(), border.end(),
+              [&](Index a, Index b) { return table_.segments[a] < table_.segments[b]; });
+    for (const Index s : border)
+      warning.border.push_back({names_(table_.segments[s][0]), names_(table_.segments[s][1])});
     const Index first = warning.border.front()[0];
-    warning.where.push_back(complex_.vertices[first]);
+    warning.where.push_back(complex_.vertices[table_.segments[border.front()][0]]);
     const bool one = warning.facets.size() == 1;
     const std::size_t edges = warning.border.size();
     warning.message = "region " + std::to_string(kept_.id[sheet.region]) + " would be two, parted by " +
@@ -286,6 +295,7 @@ class Finder {
   const Kept& kept_;
   const Complex& complex_;
   const SegmentTable& table_;
+  const VertexNames& names_;
   const Tell& tell_;
   std::optional<LeastCut> cut_;
   std::optional<FacetIndex> index_;
@@ -295,8 +305,8 @@ class Finder {
 
 std::vector<Warning> find_open_interfaces(TetMesh& mesh, const Regions& regions, const Kept& kept,
                                           const Complex& complex, const SegmentTable& table,
-                                          const std::function<void()>& tell) {
-  return Finder(mesh, regions, kept, complex, table, tell).run();
+                                          const VertexNames& names, const std::function<void()>& tell) {
+  return Finder(mesh, regions, kept, complex, table, names, tell).run();
 }
 
 }  // namespace holdfast

@@ -14,6 +14,7 @@
 #include "classify/keep.h"
 #include "holdfast/holdfast.h"
 #include "surface/complex.h"
+#include "surface/places.h"
 
 namespace holdfast {
 
@@ -25,6 +26,7 @@ namespace holdfast {
 [[nodiscard]] std::vector<Warning> find_open_interfaces(TetMesh& mesh, const Regions& regions,
                                                         const Kept& kept, const Complex& complex,
                                                         const SegmentTable& table,
+                                                        const VertexNames& names,
                                                         const std::function<void()>& tell);
 
 }  // namespace holdfast
