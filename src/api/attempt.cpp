@@ -132,8 +132,8 @@ class Attempt {
     if (kept_.conflict) result_.report.turned_facets.assign(kept_.conflict->begin(), kept_.conflict->end());
     if (!kept_.turned.empty()) result_.report.turned_facets = kept_.turned;
     if (!kept_.turned.empty()) result_.warnings.push_back(warn_of_turned(complex(), kept_.turned));
-    for (Warning& warning : find_open_interfaces(mesh_, regions_, kept_, complex(), input_.table(), input_.names(),
-                                                 [&] { monitor_.poll(Stage::classify, 1); }))
+    for (Warning& warning : find_open_interfaces(mesh_, regions_, kept_, complex(), input_.table(),
+                                                 input_.names(), [&] { monitor_.poll(Stage::classify, 1); }))
       result_.warnings.push_back(std::move(warning));
   }
 

@@ -1,6 +1,45 @@
 #include "exact/volume.h"
 
+#include <array>
+#include <cmath>
+#include <cstddef>
+
 namespace holdfast::exact {
+namespace {
+
+constexpr double kHalfUlp = 0x1p-53;
+// What products that underflow lose; coordinates are near one.
+constexpr double kUnderflow = 0x1p-1060;
+// Bounds are themselves computed in doubles.
+constexpr double kRoundedUp = 1 + 0x1p-40;
+
+}  // namespace
+
+Bounded& Bounded::operator+=(const Bounded& other) {
+  value += other.value;
+  error = (error + other.error + kHalfUlp * std::abs(value)) * kRoundedUp;
+  return *this;
+}
+
+Bounded bounded_determinant(const std::array<double, 3>& a, const std::array<double, 3>& b,
+                            const std::array<double, 3>& c, const std::array<double, 3>& d) {
+  std::array<double, 3> u{}, v{}, w{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    u[k] = b[k] - a[k];
+    v[k] = c[k] - a[k];
+    w[k] = d[k] - a[k];
+  }
+  Bounded out;
+  double permanent = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    const double plus = v[i] * w[j], minus = v[j] * w[i];
+    out.value += u[k] * (plus - minus);
+    permanent += std::abs(u[k]) * (std::abs(plus) + std::abs(minus));
+  }
+  out.error = ((7 + 56 * kHalfUlp) * kHalfUlp * permanent) * kRoundedUp + kUnderflow;
+  return out;
+}
 
 Dyadic determinant(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, const ExactPoint& d) {
   std::array<std::array<Dyadic, 3>, 3> m;

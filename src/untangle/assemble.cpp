@@ -47,14 +47,14 @@ class Assembly {
   void split_largest(std::size_t count) {
     std::priority_queue<Entry> largest;
     for (Tet t = 0; t < tangle_.slot_count(); ++t)
-      if (tangle_.alive(t)) largest.push({tangle_.determinant(tangle_.corners(t)), t});
+      if (tangle_.alive(t)) largest.push({tangle_.determinant(tangle_.corners(t)).value, t});
     while (count > 0 && !largest.empty()) {
       const Tet t = largest.top().second;
       largest.pop();
       if (!split(t)) continue;
       --count;
       for (const Tet s : tangle_.star(added_.back()))
-        largest.push({tangle_.determinant(tangle_.corners(s)), s});
+        largest.push({tangle_.determinant(tangle_.corners(s)).value, s});
     }
   }
 

@@ -239,25 +239,17 @@ Connectivity read_connectivity(const Volume& volume, std::span<const Index> fixe
 }
 
 void turn_outwards(Connectivity& connectivity, std::span<const Point> p) {
-  constexpr double kSure = 1e-9;  // of the sum of |V|: rounding is far below
-  std::vector<double> sum(connectivity.component_count, 0), absolute(connectivity.component_count, 0);
+  std::vector<exact::Bounded> sum(connectivity.component_count);
   std::vector<std::size_t> size(connectivity.component_count, 0);
   for (Tet t = 0; t < connectivity.tets.size(); ++t) {
     const Tetrahedron& c = connectivity.tets[t];
-    std::array<std::array<double, 3>, 3> m{};
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t k = 0; k < 3; ++k) m[i][k] = p[c[i + 1]][k] - p[c[0]][k];
-    const double v = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) +
-                     m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
-                     m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-    sum[connectivity.component[t]] += v;
-    absolute[connectivity.component[t]] += std::abs(v);
+    sum[connectivity.component[t]] += exact::bounded_determinant(p[c[0]], p[c[1]], p[c[2]], p[c[3]]);
     ++size[connectivity.component[t]];
   }
   std::vector<bool> turn(connectivity.component_count, false);
   for (Index i = 0; i < connectivity.component_count; ++i) {
-    const bool sure = std::abs(sum[i]) > kSure * absolute[i] && std::isfinite(absolute[i]);
-    turn[i] = sure ? sum[i] < 0 : exact_volume(connectivity, p, i).sign() < 0;
+    const bool sure = std::abs(sum[i].value) > sum[i].error;
+    turn[i] = sure ? sum[i].value < 0 : exact_volume(connectivity, p, i).sign() < 0;
     if (turn[i]) connectivity.turned += size[i];
   }
   for (Tet t = 0; t < connectivity.tets.size(); ++t)

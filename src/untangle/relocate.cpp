@@ -57,7 +57,7 @@ class Relocation {
     for (const Vertex v : tangle_.corners(t)) {
       if (tangle_.is_fixed(v) || visits_[v] == kMostVisits) continue;
       versions_.resize(tangle_.vertex_count(), 0);
-      queue_.push({tangle_.deficit(tangle_.star(v)).volume, v, ++versions_[v]});
+      queue_.push({tangle_.deficit(tangle_.star(v)).volume.value, v, ++versions_[v]});
     }
   }
 

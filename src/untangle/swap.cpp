@@ -116,7 +116,7 @@ class Swaps {
     triangulation_.triangles(shell_.size(), triangles);
     std::vector<Tangle::Corners> tets;
     tetrahedra_of(shell_, triangles, tets);
-    propose({shell_.tets, std::move(tets), before.volume - cost->volume, true});
+    propose({shell_.tets, std::move(tets), before.volume.value - cost->volume.value, true});
   }
 
   //     d above and e below the face (f0 f1 f2): three tetrahedra round the new edge ed.
@@ -137,7 +137,8 @@ class Swaps {
     }
     const std::vector<Tet> old{t, s};
     const Deficit before = tangle_.deficit(old);
-    if (after.better_than(before)) propose({old, std::move(tets), before.volume - after.volume, true});
+    if (after.better_than(before))
+      propose({old, std::move(tets), before.volume.value - after.volume.value, true});
   }
 
   void propose(Exchange exchange) {

@@ -120,26 +120,26 @@ bool Tangle::is_segment(Vertex a, Vertex b) const {
                             ascending(std::array<Vertex, 2>{a, b}));
 }
 
-double Tangle::determinant(const Corners& corners) const {
-  const Point& o = position(corners[0]);
-  double m[3][3];
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t k = 0; k < 3; ++k) m[i][k] = position(corners[i + 1])[k] - o[k];
-  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) +
-         m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
-         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+exact::Bounded Tangle::determinant(const Corners& c) const {
+  return exact::bounded_determinant(position(c[0]), position(c[1]), position(c[2]), position(c[3]));
+}
+
+exact::Bounded Tangle::absolute_volume(const Corners& c) const {
+  exact::Bounded volume = determinant(c);
+  volume.value = std::abs(volume.value);
+  return volume;
 }
 
 Deficit Tangle::deficit(const Corners& c) const {
   const int sign = points_.orient(c[0], c[1], c[2], c[3]);
   if (sign > 0) return {};
-  return {sign < 0 ? std::abs(determinant(c)) : 0, 1};
+  return {sign < 0 ? absolute_volume(c) : exact::Bounded{}, 1};
 }
 
 Deficit Tangle::deficit(std::span<const Tet> tets) const {
   Deficit sum;
   for (const Tet t : tets)
-    if (sign_[t] <= 0) sum += {sign_[t] < 0 ? std::abs(determinant(corners_[t])) : 0, 1};
+    if (sign_[t] <= 0) sum += {sign_[t] < 0 ? absolute_volume(corners_[t]) : exact::Bounded{}, 1};
   return sum;
 }
 

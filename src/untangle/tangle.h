@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "exact/volume.h"
 #include "mesh/tet_mesh.h"
 
 namespace holdfast {
@@ -17,7 +18,7 @@ namespace holdfast {
 /// How far tetrahedra are from being positive. A mesh is positive where its sum of |V| equals its sum of V,
 /// which the boundary alone determines (paper §6.4): the less negative volume, the nearer.
 struct Deficit {
-  double volume = 0;      ///< six times the absolute volume of the negative ones, approximately
+  exact::Bounded volume;  ///< six times the absolute volume of the negative ones
   std::size_t count = 0;  ///< negative and null ones, exactly
 
   Deficit& operator+=(const Deficit& other) {
@@ -25,11 +26,11 @@ struct Deficit {
     count += other.count;
     return *this;
   }
-  /// Less negative volume by more than rounding, or as much of it in fewer tetrahedra. An order in which no
-  /// sequence of improvements comes back.
+  /// Surely less negative volume; or none on either side, and fewer null ones. The exact volume and then the
+  /// count fall with every improvement, so that no sequence of improvements comes back.
   [[nodiscard]] bool better_than(const Deficit& other) const {
-    constexpr double kLess = 1 - 1e-9;
-    return volume < kLess * other.volume || (volume <= other.volume && count < other.count);
+    if (volume.surely_below(other.volume)) return true;
+    return volume.value == 0 && other.volume.value == 0 && count < other.count;
   }
 };
 
@@ -90,12 +91,13 @@ class Tangle {
 
   // --- measures
   /// Six times the signed volume, approximately.
-  [[nodiscard]] double determinant(const Corners& corners) const;
+  [[nodiscard]] exact::Bounded determinant(const Corners& corners) const;
   [[nodiscard]] Deficit deficit(const Corners& corners) const;
   [[nodiscard]] Deficit deficit(std::span<const Tet> tets) const;
   [[nodiscard]] Deficit deficit() const;
 
  private:
+  [[nodiscard]] exact::Bounded absolute_volume(const Corners& corners) const;
   struct Region {
     int id;
     bool alive;
