@@ -69,7 +69,6 @@ void refuse_after_end(const MeshArguments& a) {
             {"--without optimise", leaves_out(a, "optimise")},
             {"--without points", leaves_out(a, "points")}},
            beside, reason);
-  if (a.fill) refuse({{"--fill", last < Stage::field_points}}, beside, reason);
   if (a.fill && last == Stage::field_points)
     throw UsageError("--stop-after field_points has no such stage with --fill");
 }

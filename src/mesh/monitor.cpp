@@ -63,7 +63,7 @@ void Monitor::look_at_limits(std::chrono::steady_clock::time_point now, bool at_
 
 void Monitor::call_back(Stage stage, double fraction, bool at_once) {
   const double within = std::clamp(fraction, 0.0, 1.0);
-  overall_ = std::max(overall_, std::lerp(part_[0], part_[1], within));
+  overall_ = std::max(overall_, part_[0] + within * (part_[1] - part_[0]));
   if (!options_.progress) return;
   const auto now = std::chrono::steady_clock::now();
   if (!at_once && now - last_told_ < 20ms) return;

@@ -24,7 +24,6 @@ IDLE = [
     ("--size", ["--stop-after", "suppress", "--size", "0.5"]),
     ("--quality", ["--stop-after", "field_points", "--quality", "fast"]),
     ("--without points", ["--stop-after", "suppress", "--without", "points"]),
-    ("--fill", ["--stop-after", "suppress", "--fill"]),
     ("field_points", ["--stop-after", "field_points", "--fill"]),
 ]
 SENSELESS = [

@@ -36,7 +36,7 @@ class ProgressOnATerminal(CliTest):
         return shown.decode()
 
     def test_one_bar_that_never_goes_back(self):
-        self.write("torus.off", torus(120, 60))
+        self.write("torus.off", torus(300, 150))
         shown = self.on_terminal()
         bars = re.findall(r"\r(\w+) +\[(=*) *\] +(\d+) %", shown)
         self.assertGreater(len(bars), 5)

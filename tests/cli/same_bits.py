@@ -202,7 +202,7 @@ CASES = {
     "chazelle-seed": "mesh chazelle.off --fill --seed 7 -o {out}",
     "chazelle-torture": "mesh chazelle.off --fill --without flips -o {out}",
     "chazelle-field": "mesh chazelle.off -o {out}",
-    "chazelle-forced": "mesh chazelle.off --fill --without points --without optimise -o {out}",
+    "chazelle-forced": "mesh chazelle.off --fill --without optimise -o {out}",
     "spiky": "mesh spiky.mesh --fill -o {out}",
     "spiky-torture": "mesh spiky.mesh --fill --without flips -o {out}",
     "rough": "mesh rough.mesh --fill -o {out}",

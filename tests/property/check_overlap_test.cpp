@@ -155,10 +155,18 @@ class Pile {
   std::vector<Triangle> turns_;  ///< sides as they turn in their tetrahedra, smallest vertex first
 };
 
+// A mesh has each place once; more is an error of its own.
+bool repeats_a_place(const Volume& volume) {
+  std::vector<Point> points = volume.vertices;
+  std::ranges::sort(points);
+  return std::ranges::adjacent_find(points) != points.end();
+}
+
 TEST(CheckAgainstOracle, OverlapIsFoundExactlyWhereItIs) {
   int overlapping = 0, disjoint = 0, touching = 0, covered = 0;
-  for (unsigned seed = 0; seed < 6000; ++seed) {
+  for (unsigned seed = 0; seed < 20000; ++seed) {
     const Case c = filled(Pile(seed).volume);
+    if (repeats_a_place(c.volume)) continue;
     const Names names = broken(c);
     const bool found = names.contains("no overlap");
     ASSERT_TRUE(names.empty() || names == Names{"no overlap"}) << seed;

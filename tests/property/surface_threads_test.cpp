@@ -68,9 +68,9 @@ TEST(SurfaceThreads, CrossingFacets) {
   expect_same_defects(s, 5, 5);
 }
 
-TEST(SurfaceThreads, RepeatedVertices) {
+TEST(SurfaceThreads, RepeatedFacets) {
   Surface s = sheet(110);
-  for (std::size_t k = 0; k < 3000; ++k) s.vertices.push_back(s.vertices[k * 4]);
+  for (std::size_t k = 0; k < 3000; ++k) s.facets.push_back(s.facets[k * 4]);
   expect_same_defects(s, SIZE_MAX, 3000);
 }
 

@@ -126,6 +126,7 @@ int status_under_limit(Action action) {
 TEST(AtomicWriter, AFullDiskLeavesTheOldFilesAndNothingElse) {
   Volume volume = sample_volume();
   volume.vertices.resize(100000, {0.1, 0.2, 0.3});
+  volume.vertex_markers.clear();
   for (const char* name : {"a.mesh", "a.vtk", "a.node"}) {
     const TemporaryFolder folder;
     put(folder / name, "old");

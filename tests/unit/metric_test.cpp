@@ -259,10 +259,10 @@ TEST_F(MetricFiles, TensorsThatAreNotPositiveDefiniteAreRefusedWithTheirPlace) {
   expect_refused("nine.vtu", "vertex 0", "not positive definite");
   expect_refused("six.vtu", "vertex 0", "not positive definite");
   write("9 1 8 2 3 nan", "9,1,2,4,8,3,2,3,7", "9,8,nan,1,3,2");
-  expect_refused("m.sol", "line 6", "not positive definite");
+  expect_refused("m.sol", "line 6", "not finite");
   expect_refused("g.pos", "line 2", "symmetric");
   expect_refused("nine.vtu", "vertex 0", "not symmetric");
-  expect_refused("six.vtu", "vertex 0", "not positive definite");
+  expect_refused("six.vtu", "line 1", "not finite");
 }
 
 TEST_F(MetricFiles, BrokenOnesAreRefused) {
