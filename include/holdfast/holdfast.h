@@ -212,7 +212,7 @@ struct Result {
   std::vector<FacetRegions> facet_regions;  ///< one a facet of `volume`; none if stopped before `classify`
   Report report;
   std::vector<Defect> defects;
-  std::vector<Warning> warnings;            ///< where the outcome is done or not_representable
+  std::vector<Warning> warnings;  ///< where the outcome is done or not_representable
   /// What `vertex_map` gives for the complex; with a volume only.
   std::vector<std::int64_t> vertex_map;
   std::vector<ExactVertex> exact_vertices;  ///< for not_representable

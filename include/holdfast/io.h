@@ -54,8 +54,8 @@ class FileError : public std::runtime_error {
 /// Throws FileError, also for a file without vertices.
 [[nodiscard]] Surface read_surface(const std::filesystem::path& path, std::string_view format = {});
 
-/// Reads a volume: .vtu, .vtk, .mesh, .meshb, .msh, and .node, .ele, .face, .edge (TetGen) beside one another;
-/// each also packed by gzip.
+/// Reads a volume: .vtu, .vtk, .mesh, .meshb, .msh, and .node, .ele, .face, .edge (TetGen) beside one
+/// another; each also packed by gzip.
 ///
 /// Region ids are references (.mesh, .meshb), the cell array "region" (.vtu, .vtk), physical or else
 /// elementary tags (.msh), the first attribute (.ele); 0 where there is none. Vertices of .msh are
@@ -84,17 +84,18 @@ struct WriteOptions {
 
 /// Writes a volume beside its name and renames it, so that no partial file is ever left.
 ///
-/// .vtu (appended raw data, with `input_vertices` as the point array "input_vertex"), .vtk (ASCII), .mesh, .meshb (GMF version 3), .msh (ASCII), .node (with
-/// .ele, .face and .edge; vertices from 0). Coordinates read back bit for bit, from text too. Vertices,
-/// and the corners of tetrahedra and facets, keep their order; .msh 4.1 groups the entities by marker.
-/// Throws FileError, and std::invalid_argument if regions, markers or input vertices are neither empty nor as many as
-/// their entities. What the format does not hold, `not_held` says.
+/// .vtu (appended raw data, with `input_vertices` as the point array "input_vertex"), .vtk (ASCII), .mesh,
+/// .meshb (GMF version 3), .msh (ASCII), .node (with .ele, .face and .edge; vertices from 0). Coordinates
+/// read back bit for bit, from text too. Vertices, and the corners of tetrahedra and facets, keep their
+/// order; .msh 4.1 groups the entities by marker. Throws FileError, and std::invalid_argument if regions,
+/// markers or input vertices are neither empty nor as many as their entities. What the format does not hold,
+/// `not_held` says.
 void write_volume(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options = {});
 
-/// What of a volume the file that `write_volume` writes does not hold as it is, so that the same volume is not
-/// what other programs, or `read_volume`, make of it. Empty for .vtu, .vtk, .mesh, .meshb and .node, which hold
-/// everything; .msh stores negative ids that Gmsh does not take for ids, and version 4.1 changes the order of
-/// entities.
+/// What of a volume the file that `write_volume` writes does not hold as it is, so that the same volume is
+/// not what other programs, or `read_volume`, make of it. Empty for .vtu, .vtk, .mesh, .meshb and .node,
+/// which hold everything; .msh stores negative ids that Gmsh does not take for ids, and version 4.1 changes
+/// the order of entities.
 [[nodiscard]] std::vector<Remark> not_held(const std::filesystem::path& path, const Volume& volume,
                                            const WriteOptions& options = {});
 

@@ -25,8 +25,7 @@ namespace holdfast {
 /// `tell` is called now and then, and may throw.
 [[nodiscard]] std::vector<Warning> find_open_interfaces(TetMesh& mesh, const Regions& regions,
                                                         const Kept& kept, const Complex& complex,
-                                                        const SegmentTable& table,
-                                                        const VertexNames& names,
+                                                        const SegmentTable& table, const VertexNames& names,
                                                         const std::function<void()>& tell);
 
 }  // namespace holdfast

@@ -364,7 +364,9 @@ double target_quality(std::span<const Point> vertices, std::span<const Triangle>
 
 namespace {
 
-double degrees_of(double cosine) { return numbers::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi; }
+double degrees_of(double cosine) {
+  return numbers::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
+}
 
 // Gathers the angles of a volume: cosines where they are good enough, which is nearly everywhere.
 class AngleHistogram {

@@ -10,7 +10,9 @@ namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-double distance(const Point& a, const Point& b) { return numbers::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+double distance(const Point& a, const Point& b) {
+  return numbers::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
 
 Point times_power(const Point& p, int k) {
   return {std::ldexp(p[0], k), std::ldexp(p[1], k), std::ldexp(p[2], k)};

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "io/formats.h"
-#include "surface/weld.h"
 #include "io_samples.h"
+#include "surface/weld.h"
 
 namespace holdfast {
 namespace {
