@@ -15,8 +15,8 @@ std::vector<bool> used_vertices(const Complex& surface) {
   const auto use = [&](Index vertex) {
     if (vertex < used.size()) used[vertex] = true;
   };
-  for (const Triangle& facet : surface.facets) std::ranges::for_each(facet, use);
-  for (const Segment& segment : surface.segments) std::ranges::for_each(segment, use);
+  for (const Triangle& facet : surface.facets) std::for_each(facet.begin(), facet.end(), use);
+  for (const Segment& segment : surface.segments) std::for_each(segment.begin(), segment.end(), use);
   return used;
 }
 
