@@ -159,7 +159,8 @@ std::optional<Face> Piercing::of_facet(const std::array<Vertex, 3>& facet, std::
   };
   const std::optional<Face> face = flood(facet, collect);
   const auto key = [](const PiercingEdge& e) { return std::pair(e.above, e.below); };
-  std::sort(out.begin(), out.end(), [&](const auto& l, const auto& r) { return key(l) < key(r); });
+  // Of each edge the tetrahedron met first stays, with every standard library.
+  std::stable_sort(out.begin(), out.end(), [&](const auto& l, const auto& r) { return key(l) < key(r); });
   out.erase(
       std::unique(out.begin(), out.end(), [&](const auto& l, const auto& r) { return key(l) == key(r); }),
       out.end());
