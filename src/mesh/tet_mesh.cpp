@@ -3,7 +3,13 @@
 #include <cassert>
 #include <utility>
 
+#include "mesh/undo_log.h"
+
 namespace holdfast {
+
+void TetMesh::tell_slot(Tet t) { log_.log->note_slot(t); }
+
+void TetMesh::tell_vertex(Vertex v) { log_.log->note_vertex(v); }
 
 Vertex TetMesh::add_vertex(const Point& p) {
   positions_.push_back(on_grid(p));
@@ -27,6 +33,7 @@ Vertex TetMesh::add_vertices(std::size_t count) {
 }
 
 void TetMesh::move_vertex(Vertex v, const Point& p) {
+  note_vertex(v);
   release_exact(v);
   positions_[v] = on_grid(p);
 }
@@ -34,11 +41,13 @@ void TetMesh::move_vertex(Vertex v, const Point& p) {
 void TetMesh::move_vertex(Vertex v, const exact::ExactPoint& p) { set_exact(v, p); }
 
 void TetMesh::remove_vertex(Vertex v) {
+  note_vertex(v);
   release_exact(v);
   incident_[v] = kNone;
 }
 
 void TetMesh::remove_last_vertex() {
+  note_vertex(static_cast<Vertex>(positions_.size() - 1));
   release_exact(static_cast<Vertex>(positions_.size() - 1));
   positions_.pop_back();
   exact_of_.pop_back();
@@ -54,6 +63,7 @@ void TetMesh::release_exact(Vertex v) {
 }
 
 void TetMesh::set_exact(Vertex v, const exact::ExactPoint& p) {
+  assert(log_.log == nullptr);
   const exact::ExactPoint copy = p;  // p may live in exact_, which is about to change
   release_exact(v);
   positions_[v] = {copy.c[0].to_double(), copy.c[1].to_double(), copy.c[2].to_double()};
@@ -81,6 +91,9 @@ Tet TetMesh::add_tet(const Corners& v) {
     return static_cast<Tet>(corners_.size() - 1);
   }
   const Tet t = free_.back();
+  if (log_.log != nullptr) [[unlikely]]
+    log_.log->note_free(t, true);
+  note_slot(t);
   free_.pop_back();
   corners_[t] = v;
   neighbours_[t] = {kNone, kNone, kNone, kNone};
@@ -98,6 +111,9 @@ Tet TetMesh::add_slots(std::size_t count) {
 
 void TetMesh::remove_tet(Tet t) {
   assert(alive(t));
+  note_slot(t);
+  if (log_.log != nullptr) [[unlikely]]
+    log_.log->note_free(t, false);
   flags_[t] = kDead;
   free_.push_back(t);
 }
@@ -114,7 +130,7 @@ void TetMesh::set_tets(std::vector<Corners> corners, std::vector<Neighbours> nei
 }
 
 void TetMesh::renumber(std::span<const Tet> tets, Vertex first, std::span<const Vertex> vertices) {
-  assert(tets.size() == tet_count() && first + vertices.size() == vertex_count());
+  assert(log_.log == nullptr && tets.size() == tet_count() && first + vertices.size() == vertex_count());
   std::vector<Tet> tet_now(slot_count(), kNone);
   for (std::size_t k = 0; k < tets.size(); ++k) tet_now[tets[k]] = static_cast<Tet>(k);
   std::vector<Vertex> vertex_now(vertices.size());

@@ -23,6 +23,8 @@
 
 namespace holdfast {
 
+class UndoLog;
+
 class TetMesh {
  public:
   using Corners = std::array<Vertex, 4>;
@@ -60,7 +62,10 @@ class TetMesh {
   [[nodiscard]] exact::ExactPoint exact_position(Vertex v) const;
   [[nodiscard]] Tet incident(Vertex v) const { return incident_[v]; }
   [[nodiscard]] bool in_mesh(Vertex v) const { return incident_[v] != kNone; }
-  void set_incident(Vertex v, Tet t) { incident_[v] = t; }
+  void set_incident(Vertex v, Tet t) {
+    note_vertex(v);
+    incident_[v] = t;
+  }
 
   // --- tetrahedra
   /// A slot for a tetrahedron; its neighbours are the caller's to set.
@@ -76,6 +81,7 @@ class TetMesh {
   Tet add_slots(std::size_t count);
   /// Fills a slot that is not free. Threads may fill different slots at the same time.
   void put_tet(Tet t, const Corners& v, const Neighbours& n, Flags f) {
+    note_slot(t);
     corners_[t] = v;
     neighbours_[t] = n;
     flags_[t] = f;
@@ -101,12 +107,22 @@ class TetMesh {
     }
   }
   void link(Face f, Face g) {
+    if (log_.log != nullptr) [[unlikely]] {
+      note_slot(tet_of(f));
+      note_slot(tet_of(g));
+    }
     neighbours_[tet_of(f)][f & 3u] = g;
     neighbours_[tet_of(g)][g & 3u] = f;
   }
   [[nodiscard]] Flags flags(Tet t) const { return flags_[t]; }
-  void set_flags(Tet t, Flags f) { flags_[t] = static_cast<Flags>(flags_[t] | f); }
-  void clear_flags(Tet t, Flags f) { flags_[t] = static_cast<Flags>(flags_[t] & ~f); }
+  void set_flags(Tet t, Flags f) {
+    if ((f & ~kVisited) != 0) note_slot(t);
+    flags_[t] = static_cast<Flags>(flags_[t] | f);
+  }
+  void clear_flags(Tet t, Flags f) {
+    if ((f & ~kVisited) != 0) note_slot(t);
+    flags_[t] = static_cast<Flags>(flags_[t] & ~f);
+  }
   [[nodiscard]] bool is_facet(Face f) const { return (flags_[tet_of(f)] & facet_bit(side_of(f))) != 0; }
   [[nodiscard]] bool is_segment(Tet t, int edge) const { return (flags_[t] & segment_bit(edge)) != 0; }
   /// Marks a face on both sides.
@@ -149,6 +165,26 @@ class TetMesh {
   void reserve(std::size_t vertices, std::size_t tets);
 
  private:
+  friend class UndoLog;
+  // The log of this object (undo_log.h): a copy has none.
+  struct Log {
+    UndoLog* log = nullptr;
+    Log() = default;
+    Log(const Log&) {}
+    Log& operator=(const Log&) { return *this; }
+    ~Log() = default;
+  };
+  // Called before a slot or a vertex changes.
+  void note_slot(Tet t) {
+    if (log_.log != nullptr) [[unlikely]]
+      tell_slot(t);
+  }
+  void note_vertex(Vertex v) {
+    if (log_.log != nullptr) [[unlikely]]
+      tell_vertex(v);
+  }
+  void tell_slot(Tet t);
+  void tell_vertex(Vertex v);
   void release_exact(Vertex v);
   void set_exact(Vertex v, const exact::ExactPoint& p);
 
@@ -164,6 +200,7 @@ class TetMesh {
   std::vector<exact::ExactPoint> exact_;
   std::vector<std::uint32_t> exact_free_;
   std::size_t exact_in_use_ = 0;
+  Log log_;
 };
 
 }  // namespace holdfast

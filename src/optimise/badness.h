@@ -9,14 +9,12 @@
 #include <vector>
 
 #include "mesh/tet_mesh.h"
+#include "optimise/tuning.h"
 
 namespace holdfast {
 
 /// The paper's Q of the doubles nearest to four vertices (mesh/quality.h): 1 is regular, more is worse.
 [[nodiscard]] double quality_of(const TetMesh& mesh, const TetMesh::Corners& corners);
-
-/// Part of the worst Q that is left by a change worth its time, at most.
-inline constexpr double kLeastGain = 0.98;
 
 /// Where Q begins to count otherwise: of flat tetrahedra, those of a Q that no facet asks for, of hopeless
 /// ones, which are worth a point, and of null ones, whose vertices are of one plane but for rounding.
@@ -27,7 +25,7 @@ struct BadFrom {
   /// What comes for a tetrahedron of this Q has to be below. A thin room may hold nothing but flat ones, yet
   /// these are of use, and null ones of none.
   [[nodiscard]] double limit_for(double quality) const {
-    return quality < null ? std::min(flat, kLeastGain * quality) : null;
+    return quality < null ? std::min(flat, tuning::kLeastGain * quality) : null;
   }
 };
 
@@ -48,7 +46,7 @@ struct Badness {
   }
   /// Whether this is better than `other` by so much that the change is worth its time.
   [[nodiscard]] bool is_worthwhile_after(const Badness& other) const {
-    return counts() != other.counts() ? counts() < other.counts() : worst < kLeastGain * other.worst;
+    return counts() != other.counts() ? counts() < other.counts() : worst < tuning::kLeastGain * other.worst;
   }
   friend bool operator<(const Badness& x, const Badness& y) {
     return x.counts() != y.counts() ? x.counts() < y.counts() : x.worst < y.worst;

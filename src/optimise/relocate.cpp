@@ -25,7 +25,7 @@ class Relocation {
     const double before = worst_ = worst_at(at_, std::numeric_limits<double>::infinity());
     try_centre();
     search(random);
-    if (!(worst_ < kLeastGain * before)) return false;
+    if (!(worst_ < tuning::kLeastGain * before)) return false;
     mesh_.move_vertex(p_, at_);
     return true;
   }

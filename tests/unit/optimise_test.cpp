@@ -110,7 +110,7 @@ TEST(Badness, NullOnesCountFirstAndGoForFlatOnes) {
   EXPECT_FALSE(null.is_worthwhile_after(flat));
   EXPECT_EQ(from.limit_for(1e15), 1e10);
   EXPECT_EQ(from.limit_for(1e6), 100);
-  EXPECT_EQ(from.limit_for(50), kLeastGain * 50);
+  EXPECT_EQ(from.limit_for(50), tuning::kLeastGain * 50);
 }
 
 TEST(Badness, WideEdgesOfASliverAndOfACap) {

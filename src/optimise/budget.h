@@ -1,0 +1,52 @@
+// How much work elements may have, so that the time of the optimisation is proportional to the mesh.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "optimise/tuning.h"
+
+namespace holdfast {
+
+/// Work is counted in exchanges tried, some 10 microseconds each.
+class Budget {
+ public:
+  explicit Budget(std::size_t tets)
+      : most_(tuning::kLeastWork + tuning::kWorkPerTet * tets),
+        usual_(std::min(most_ / tuning::kUsualShare, tuning::kMostUsual)) {}
+
+  void spend(std::size_t work) { spent_ += work; }
+  void note_gain() { at_gain_ = spent_; }
+
+  /// What is worth a point, which comes first, may take most of the budget, and several times as much where
+  /// it would better the worst of all, or where something has helped of late: heaps go one by one.
+  [[nodiscard]] bool is_spent(bool worth_a_point, bool betters_the_worst) const {
+    if (is_fixed_) return spent_ >= most_;
+    const std::size_t budget = worth_a_point ? most_ : usual_;
+    const bool is_promising = betters_the_worst || spent_ < at_gain_ + tuning::kIdle;
+    return spent_ >= (is_promising ? tuning::kPromisingTimes * budget : budget);
+  }
+  [[nodiscard]] bool is_half_spent() const { return spent_ >= most_ / 2; }
+  [[nodiscard]] double fraction() const { return static_cast<double>(spent_) / static_cast<double>(most_); }
+
+  /// For another search of the same mesh.
+  void begin_again() {
+    usual_ = std::min(usual_, tuning::kMostUsualAgain);
+    spent_ = at_gain_ = 0;
+  }
+  /// From now on so much is left, whatever an element is worth.
+  void fix(std::size_t left) {
+    most_ = spent_ + left;
+    is_fixed_ = true;
+  }
+  /// The work done after which nothing is done any more, even if the budget is spent now.
+  [[nodiscard]] std::size_t end_with(std::size_t more) const { return std::max(most_, spent_) + more; }
+  [[nodiscard]] std::size_t spent() const { return spent_; }
+
+ private:
+  std::size_t most_, usual_;  // for what is worth a point, and for the rest
+  std::size_t spent_ = 0, at_gain_ = 0;
+  bool is_fixed_ = false;
+};
+
+}  // namespace holdfast

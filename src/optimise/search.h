@@ -1,0 +1,87 @@
+// The search of the optimisation: the worst element first, by the cheapest way that helps (paper §8).
+#pragma once
+
+#include <vector>
+
+#include "mesh/monitor.h"
+#include "mesh/undo_log.h"
+#include "optimise/agenda.h"
+#include "optimise/budget.h"
+#include "optimise/optimise.h"
+#include "optimise/qualities.h"
+#include "optimise/ways.h"
+
+namespace holdfast {
+
+/// Every element of the regions whose Q is to be better waits in the agenda, has been given up, or is gone.
+class Search {
+ public:
+  /// The tetrahedra are all of some regions; their vertices from `first_free` on may move and go.
+  Search(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, double target, std::uint64_t seed,
+         Monitor& monitor);
+
+  /// Moves the points that were there, to begin with.
+  void move_points();
+  void push(std::span<const Tet> tets);
+  /// Until the agenda is empty or the budget spent. While points come later, other ways are tried less hard.
+  void work_off(Ways::Points points);
+
+  /// Part of the search that may be taken back.
+  class Trial {
+   public:
+    /// With what waits, or without: then the search goes on from what the trial changes.
+    enum class Agenda { kept, set_aside };
+    Trial(Search& search, Agenda agenda);
+    ~Trial() { search_.log_.release(); }
+    Trial(const Trial&) = delete;
+    Trial& operator=(const Trial&) = delete;
+    void take_back();
+    [[nodiscard]] UndoLog::Before before() const { return search_.log_.before(mark_); }
+    [[nodiscard]] std::size_t points() const { return points_in_mesh_; }
+
+   private:
+    Search& search_;
+    const UndoLog::Mark mark_;
+    holdfast::Agenda agenda_;
+    const Budget budget_;
+    const OptimiseStats stats_;
+    const std::size_t points_, points_in_mesh_;
+  };
+
+  [[nodiscard]] TetMesh& mesh() { return mesh_; }
+  [[nodiscard]] const BadFrom& bad_from() const { return bad_from_; }
+  [[nodiscard]] Vertex first_free() const { return first_free_; }
+  [[nodiscard]] Agenda& agenda() { return agenda_; }
+  [[nodiscard]] Budget& budget() { return budget_; }
+  [[nodiscard]] OptimiseStats& stats() { return stats_; }
+  [[nodiscard]] std::mt19937_64& random() { return ways_.random(); }
+  /// All points that may move, and some that are gone.
+  [[nodiscard]] const std::vector<Vertex>& points() const { return points_; }
+  [[nodiscard]] std::size_t points_in_mesh() const;
+  /// Whether a slot holds a tetrahedron of the regions, or a dead one.
+  [[nodiscard]] bool is_ours(Tet t) const { return t >= is_others_.size() || !is_others_[t]; }
+  [[nodiscard]] bool is_current(const Element& e);
+  [[nodiscard]] Badness badness() const;
+  void forget(std::span<const Tet> tets) { qualities_.forget(tets); }
+
+ private:
+  void push(Tet t);
+  void improve(const Element& e, Ways::Points points);
+
+  TetMesh& mesh_;
+  const Vertex first_free_;
+  const double good_;
+  const BadFrom bad_from_;
+  Monitor& monitor_;
+  std::vector<bool> is_others_;  // by slot
+  Qualities qualities_;
+  Ways ways_;
+  UndoLog log_;
+  Agenda agenda_;
+  Budget budget_;
+  std::vector<Vertex> points_;
+  OptimiseStats stats_;
+  std::vector<Tet> changed_;
+};
+
+}  // namespace holdfast

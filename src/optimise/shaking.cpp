@@ -1,0 +1,129 @@
+#include "optimise/shaking.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "mesh/traverse.h"
+#include "optimise/tuning.h"
+#include "suppress/refill.h"
+#include "suppress/shake.h"
+
+namespace holdfast {
+namespace {
+
+// The slots of our tetrahedra that were replaced, or are new.
+std::vector<Tet> changed_since(const Search& search, const UndoLog::Before& before) {
+  std::vector<Tet> changed = before.changed();
+  std::erase_if(changed, [&](Tet t) { return !search.is_ours(t); });
+  return changed;
+}
+
+double quality_before(const UndoLog::Before& before, Tet t) {
+  const TetMesh::Corners& c = before.corners(t);
+  return quality(before.position(c[0]), before.position(c[1]), before.position(c[2]), before.position(c[3]));
+}
+
+// No more hopeless elements than before, and the worst of all better; other flat ones are of less account.
+bool is_better(Search& search, const UndoLog::Before& before) {
+  const TetMesh& mesh = search.mesh();
+  Badness was, is;
+  for (const Tet t : changed_since(search, before)) {
+    if (before.existed(t) && before.alive(t)) was.add(quality_before(before, t), search.bad_from());
+    if (mesh.alive(t)) is.add(quality_of(mesh, mesh.corners(t)), search.bad_from());
+  }
+  return std::tuple(is.null, is.hopeless, is.worst) <
+         std::tuple(was.null, was.hopeless, tuning::kLeastGain * was.worst);
+}
+
+void shake_and_improve(Search& search, const Element& worst, const Search::Trial& trial) {
+  Flipper flipper(search.mesh(), search.random());
+  shake(
+      search.mesh(), flipper, worst.corners, tuning::kShakenEdges, [&](Tet t) { return search.is_ours(t); },
+      search.random());
+  const std::vector<Tet> changed = changed_since(search, trial.before());
+  search.forget(changed);
+  search.push(changed);
+  search.budget().fix(tuning::kShakeWork);
+  search.work_off(Ways::Points::none);
+}
+
+// Points take hopeless elements away, one or two each: so without null ones, the worst gets better as many
+// times as it is worse than hopeless, or little more.
+bool may_points_be_worth_it(const Search& search, const Badness& was) {
+  const double factor = std::max(tuning::kLeastPointGain, was.worst / search.bad_from().hopeless);
+  return was.null > 0 || static_cast<double>(was.hopeless) <= tuning::kCuredByOnePoint * factor;
+}
+
+// As many null elements gone as there are more points, or the worst as many times better, and ten times at
+// least.
+bool are_points_worth_it(const Search& search, const Search::Trial& trial, const Badness& was) {
+  const auto more = static_cast<double>(search.points_in_mesh()) - static_cast<double>(trial.points());
+  const Badness is = search.badness();
+  return more <= static_cast<double>(was.null) - static_cast<double>(is.null) ||
+         std::max(tuning::kLeastPointGain, more) * is.worst <= was.worst;
+}
+
+}  // namespace
+
+void shake_the_worst(Search& search) {
+  const std::size_t slots = std::max<std::size_t>(1, search.mesh().slot_count());
+  const std::size_t most = std::min(tuning::kMostShakes, tuning::kMostShakenSlots / slots);
+  int vain = 0;
+  for (std::size_t k = 0; k < most; ++k) {
+    std::vector<Element>& stuck = search.agenda().stuck();
+    std::erase_if(stuck, [&](const Element& e) { return !search.is_current(e); });
+    if (stuck.empty()) return;
+    const Element worst = *std::max_element(stuck.begin(), stuck.end());
+    const bool is_flat = worst.quality >= search.bad_from().flat;
+    if (worst.quality < tuning::kBad ||
+        vain >= (is_flat ? tuning::kShakesInVainForFlat : tuning::kShakesInVain))
+      return;
+    Search::Trial trial(search, Search::Trial::Agenda::set_aside);
+    shake_and_improve(search, worst, trial);
+    if (is_better(search, trial.before())) {
+      ++search.stats().changed;
+      vain = 0;
+      continue;
+    }
+    ++vain;
+    trial.take_back();
+  }
+}
+
+bool try_with_points(Search& search) {
+  const Badness without = search.badness();
+  if (without.hopeless == 0 || !may_points_be_worth_it(search, without)) return false;
+  Search::Trial trial(search, Search::Trial::Agenda::kept);
+  search.agenda().try_all_again([&](const Element& e) { return search.is_current(e); });
+  search.budget().begin_again();
+  search.work_off(Ways::Points::now);
+  shake_the_worst(search);
+  if (are_points_worth_it(search, trial, without)) return true;
+  trial.take_back();
+  return false;
+}
+
+void remove_points(Search& search, std::size_t from) {
+  const std::vector<Vertex>& points = search.points();
+  if (from == points.size()) return;
+  TetMesh& mesh = search.mesh();
+  // As long as a worse one stays, nothing is worth a point but null elements.
+  const double limit =
+      std::max(search.bad_from().flat, std::min(search.badness().worst, search.bad_from().null));
+  Growth growth{.attempts = 2, .steps = 6, .search = {.most_vertices = 18, .most_nodes = 60}};
+  const std::size_t most_work = search.budget().end_with(tuning::kLeastWork);
+  for (std::size_t k = from; k < points.size(); ++k) {
+    const Vertex p = points[k];
+    if (!mesh.in_mesh(p)) continue;
+    if (search.budget().spent() > most_work) return;
+    search.budget().spend(tuning::kRemoveWork);
+    std::vector<Tet> tets;
+    ball(mesh, p, tets);
+    growth.search.worst_quality = std::max(limit, badness_of(mesh, tets, search.bad_from()).worst);
+    if (!refill_without(mesh, p, search.first_free(), growth, search.random())) continue;
+    ++search.stats().removed;
+    ++search.stats().changed;
+  }
+}
+
+}  // namespace holdfast

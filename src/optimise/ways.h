@@ -1,0 +1,68 @@
+// The ways to take a bad element away, from the cheapest to the dearest (paper §8), for meshes whose Q
+// counts.
+#pragma once
+
+#include <cstddef>
+#include <random>
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+#include "optimise/agenda.h"
+#include "optimise/badness.h"
+#include "optimise/budget.h"
+#include "optimise/exchange.h"
+#include "optimise/optimise.h"
+#include "optimise/qualities.h"
+#include "optimise/remove_flat.h"
+
+namespace holdfast {
+
+class Ways {
+ public:
+  Ways(TetMesh& mesh, Qualities& qualities, Vertex first_free, const BadFrom& bad_from, std::uint64_t seed)
+      : mesh_(mesh),
+        first_free_(first_free),
+        bad_from_(bad_from),
+        exchanger_(mesh, qualities, bad_from),
+        flat_remover_(mesh),
+        random_(seed) {}
+
+  enum class Points { none, later, now };  ///< whether an element may get a point
+  /// What the ways depend on beside the element, and what they leave.
+  struct Attempt {
+    const Element& element;
+    double worst_stuck;  ///< the worst Q that stays: what is better does not better the mesh's worst
+    Points points;
+    Budget& budget;
+    std::vector<Tet>& changed;  ///< tetrahedra made or moved, some of which may be gone again
+    Vertex added = kNone;       ///< the point that was added
+  };
+  /// The count of the cheapest way that helped; null if none has. Even then something may have changed.
+  [[nodiscard]] std::size_t OptimiseStats::*try_all(Attempt& attempt);
+
+  /// Moves p if its ball gets better. Balls of hundreds are left alone.
+  bool move(Vertex p, Budget& budget, std::vector<Tet>& changed);
+
+  [[nodiscard]] std::mt19937_64& random() { return random_; }
+
+ private:
+  struct Way;
+  bool exchange(Attempt& attempt);
+  bool move_a_corner(Attempt& attempt);
+  bool remove_flat(Attempt& attempt);
+  bool reconnect_round(Attempt& attempt);
+  bool reconnect_patiently(Attempt& attempt);
+  bool insert(Attempt& attempt);
+  [[nodiscard]] bool is_worth_a_point(const Attempt& attempt) const;
+  [[nodiscard]] bool is_worth_reconnecting(const Attempt& attempt) const;
+
+  TetMesh& mesh_;
+  const Vertex first_free_;
+  const BadFrom& bad_from_;
+  Exchanger exchanger_;
+  FlatRemover flat_remover_;
+  std::mt19937_64 random_;
+  int reconnections_in_vain_ = 0, patient_ = 0;
+};
+
+}  // namespace holdfast
