@@ -1,13 +1,72 @@
-// Face swaps (2-3) and edge removals (3-2, 4-4, n to 2n-4) that make the energy less, the best triangulation
-// of each link found by dynamic programming.
+// Exchanges (mesh/exchange.h) that make the sum of energies less.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "improve/volume.h"
-#include "mesh/edge_removal.h"
+#include "mesh/exchange.h"
 
 namespace holdfast {
+
+/// The objective of one choice among exchanges: the energy falls most.
+class LeastEnergy : public ExchangesInMesh {
+ public:
+  using Cost = double;
+
+  /// Nothing with more energy than `most` goes.
+  LeastEnergy(const ImprovedVolume& volume, double most);
+
+  [[nodiscard]] std::optional<double> before(std::span<const Tet> tets) const {
+    double sum = 0;
+    for (const Tet t : tets) {
+      if (volume_.energy(t) > most_) return std::nullopt;
+      sum += volume_.energy(t);
+    }
+    return sum <= gain_ ? std::nullopt : std::optional(sum);
+  }
+  [[nodiscard]] std::optional<double> after(const std::array<TetMesh::Corners, 3>& three,
+                                            double before) const {
+    const Pair e = volume_.energies_of(three[0], three[1]);
+    const double two = e[0] + e[1];
+    if (!(two < before)) return std::nullopt;
+    return two + volume_.energy_of(three[2]);
+  }
+  [[nodiscard]] bool gains(double before, double after) const {
+    return is_less(after, before) && before - after > gain_;
+  }
+  bool take(double before, double after, std::span<const TetMesh::Corners> tets) {
+    for (const TetMesh::Corners& c : tets)
+      if (!volume_.is_positive(c)) return false;
+    gain_ = before - after;
+    return true;
+  }
+
+  /// Triangulations of a link by the sum of energies.
+  struct Link {
+    const ImprovedVolume& volume;
+    const EdgeShell& shell;
+    double before;
+
+    static double none() { return 0; }
+    static double join(double x, double y) { return x + y; }
+    static bool better(double x, double y) { return x < y; }
+    static double diagonal(std::size_t, std::size_t) { return 0; }
+    [[nodiscard]] std::optional<double> triangle(std::size_t i, std::size_t k, std::size_t j) const {
+      const Vertex pi = shell.link[i], pk = shell.link[k], pj = shell.link[j];
+      const Pair e = volume.energies_of({pi, pk, pj, shell.b}, {pj, pk, pi, shell.a});
+      const double both = e[0] + e[1];
+      if (!(both < before)) return std::nullopt;
+      return both;
+    }
+  };
+  [[nodiscard]] Link link(const EdgeShell& shell, double before) const { return {volume_, shell, before}; }
+
+ private:
+  const ImprovedVolume& volume_;
+  const double most_;
+  double gain_ = 0;
+};
 
 class EnergySwapper {
  public:
@@ -19,31 +78,8 @@ class EnergySwapper {
   std::span<const Tet> improve(Tet t, bool as_worst = false);
 
  private:
-  struct Objective {
-    using Cost = double;
-    const ImprovedVolume& volume;
-    const EdgeShell& shell;
-    double before;
-
-    static Cost none() { return 0; }
-    static Cost join(Cost x, Cost y) { return x + y; }
-    static bool better(Cost x, Cost y) { return x < y; }
-    static Cost diagonal(std::size_t, std::size_t) { return 0; }
-    [[nodiscard]] std::optional<Cost> triangle(std::size_t i, std::size_t k, std::size_t j) const;
-  };
-
-  void try_edge(Tet t, int edge);
-  void try_face(Face f);
-  void offer(double before, double after, std::span<const Tet> old_tets);
-
   ImprovedVolume& volume_;
-  EdgeShell shell_;
-  LinkTriangulation<double> triangulation_;
-  std::vector<LinkTriangle> triangles_;
-  std::vector<TetMesh::Corners> candidate_, fresh_;
-  std::vector<Tet> old_;
-  double gain_ = 0;
-  double most_ = 0;  // the energy of an element that goes
+  ExchangeSearch<LeastEnergy> search_;
 };
 
 }  // namespace holdfast

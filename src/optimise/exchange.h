@@ -1,49 +1,84 @@
-// Exchanges of tetrahedra for better ones: face swaps (2-3) and edge removals (3-2, 4-4, n to 2n-4), the best
-// triangulation of each link found by dynamic programming.
+// Exchanges (mesh/exchange.h) where the worst Q counts.
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <optional>
 #include <tuple>
 #include <vector>
 
-#include "mesh/edge_removal.h"
-#include "mesh/tet_mesh.h"
+#include "mesh/exchange.h"
 #include "optimise/badness.h"
 #include "optimise/qualities.h"
 
 namespace holdfast {
+
+/// The objective of one choice among exchanges: what comes must be better than what goes, and no part of it
+/// as bad. Of several the one that takes most null elements away, then most hopeless, then most flat ones, or
+/// else leaves the least part of the worst Q.
+class LeastBadness : public ExchangesInMesh {
+ public:
+  using Cost = Badness;
+
+  LeastBadness(const TetMesh& mesh, Qualities& qualities, const BadFrom& bad_from);
+
+  std::optional<Badness> before(std::span<const Tet> tets) { return qualities_.badness_of(tets, bad_from_); }
+  [[nodiscard]] std::optional<Badness> after(const std::array<TetMesh::Corners, 3>& three,
+                                             const Badness& before) const;
+  [[nodiscard]] bool gains(const Badness& before, const Badness& after) const {
+    return after.is_worthwhile_after(before) && (!best_ || gain_of(before, after) < *best_);
+  }
+  bool take(const Badness& before, const Badness& after, std::span<const TetMesh::Corners>) {
+    best_ = gain_of(before, after);
+    return true;
+  }
+
+  class Link;
+  [[nodiscard]] Link link(const EdgeShell& shell, const Badness& before) const;
+
+ private:
+  // What changes: numbers of null, hopeless and flat ones, then the ratio of the worst Q.
+  using Gain = std::tuple<std::ptrdiff_t, std::ptrdiff_t, std::ptrdiff_t, double>;
+  static Gain gain_of(const Badness& before, const Badness& after);
+
+  Qualities& qualities_;
+  const BadFrom& bad_from_;
+  std::optional<Gain> best_;
+};
+
+/// Triangulations of a link by the badness of their tetrahedra, none with more flat ones than go.
+class LeastBadness::Link {
+ public:
+  Link(const TetMesh& mesh, const EdgeShell& shell, const Badness& before, const BadFrom& bad_from)
+      : mesh_(mesh), shell_(shell), before_(before), bad_from_(bad_from) {}
+
+  static Badness none() { return {}; }
+  static Badness join(const Badness& x, const Badness& y) { return holdfast::join(x, y); }
+  static bool better(const Badness& x, const Badness& y) { return x < y; }
+  static Badness diagonal(std::size_t, std::size_t) { return {}; }
+  [[nodiscard]] std::optional<Badness> triangle(std::size_t i, std::size_t k, std::size_t j) const;
+
+ private:
+  const TetMesh& mesh_;
+  const EdgeShell& shell_;
+  const Badness before_;
+  const BadFrom& bad_from_;
+};
 
 class Exchanger {
  public:
   Exchanger(TetMesh& mesh, Qualities& qualities, const BadFrom& bad_from)
       : mesh_(mesh), qualities_(qualities), bad_from_(bad_from) {}
 
-  /// Makes the best of the ten exchanges at a tetrahedron, those of its six edges and four faces, if what
-  /// comes is better than what goes. Constraints stand. `created` receives the new tetrahedra, whose
-  /// qualities the caller has to forget. Returns whether an exchange was made.
+  /// Makes the best of the ten exchanges at a tetrahedron, if what comes is better than what goes.
+  /// Constraints stand. `created` receives the new tetrahedra, whose qualities the caller has to forget.
+  /// Returns whether an exchange was made.
   bool improve(Tet t, std::vector<Tet>& created);
 
  private:
-  void try_edge(Tet t, int edge);
-  void try_face(Face f);
-  [[nodiscard]] bool is_best(const Badness& before, const Badness& after);
-
   TetMesh& mesh_;
   Qualities& qualities_;
   const BadFrom bad_from_;
-  EdgeShell shell_;
-  LinkTriangulation<Badness> triangulation_;
-  std::vector<TetMesh::Corners> candidate_;
-  // The best so far, by what it changes: numbers of null, hopeless and flat ones, then the ratio of the worst
-  // Q.
-  using Gain = std::tuple<std::ptrdiff_t, std::ptrdiff_t, std::ptrdiff_t, double>;
-  Gain gain_;
-  enum class Way { none, edge, face } way_ = Way::none;
-  EdgeShell best_shell_;
-  std::vector<LinkTriangle> best_triangles_;
-  std::array<Tet, 2> best_pair_{};
-  std::vector<TetMesh::Corners> best_three_;
+  ExchangeSearch<LeastBadness> search_;
 };
 
 }  // namespace holdfast

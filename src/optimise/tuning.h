@@ -44,6 +44,10 @@ inline constexpr std::size_t kMostShakes = 40;  ///< a mesh
 inline constexpr int kShakenEdges = 30;         ///< a shake
 /// Slots of all shakes of a mesh together: what a shake takes back once was a copy of the mesh.
 inline constexpr std::size_t kMostShakenSlots = 1'000'000;
+/// Tetrahedra of a shell that is exchanged: larger ones hardly ever pay, and cost their cube. With field
+/// points the elements are many, so that the rest is not worth the time.
+inline constexpr std::size_t kMostShellForQ = 12, kMostShellForEnergy = 9;
+inline constexpr int kMostInsertSteps = 16;         ///< tetrahedra by which the cavity of a point grows
 inline constexpr std::size_t kMostMovedBall = 200;  ///< tetrahedra at a vertex that is moved: Q takes time
 
 }  // namespace holdfast::tuning

@@ -3,7 +3,7 @@
 #include <deque>
 #include <optional>
 
-#include "mesh/edge_removal.h"
+#include "mesh/exchange.h"
 
 namespace holdfast {
 namespace {
@@ -29,11 +29,11 @@ bool gather_ring(const Tangle& tangle, Tet first, Vertex a, Vertex b, EdgeShell&
 }
 
 // The best triangulation of a ring's link by the deficit of the tetrahedra.
-class LeastDeficit {
+class LinkDeficit {
  public:
   using Cost = Deficit;
 
-  LeastDeficit(const Tangle& tangle, const EdgeShell& shell) : tangle_(tangle), shell_(shell) {
+  LinkDeficit(const Tangle& tangle, const EdgeShell& shell) : tangle_(tangle), shell_(shell) {
     const std::size_t n = shell.size();
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = i + 2; j < n; ++j)
@@ -58,11 +58,56 @@ class LeastDeficit {
   std::array<std::array<bool, kMostLink>, kMostLink> taken_{};
 };
 
-struct Exchange {
-  std::vector<Tet> old_tets;
-  std::vector<Tangle::Corners> new_tets;
-  double gain = 0;  // of negative volume
-  bool found = false;
+// The objective of one choice among exchanges in a tangle: the negative volume falls most. No edge or face is
+// made twice (paper, Fig. 12).
+class LeastDeficit {
+ public:
+  using Cost = Deficit;
+
+  explicit LeastDeficit(const Tangle& tangle) : tangle_(tangle) {}
+
+  bool gather_edge(Tet t, int edge, EdgeShell& out) const {
+    const auto& ends = kEdgeVertex[static_cast<std::size_t>(edge)];
+    const Tangle::Corners& c = tangle_.corners(t);
+    return gather_ring(tangle_, t, c[static_cast<std::size_t>(ends[0])], c[static_cast<std::size_t>(ends[1])],
+                       out) &&
+           out.size() >= 3;
+  }
+  bool gather_face(Tet t, int side, SharedFace& out) const {
+    const auto f = tangle_.face(t, side);
+    const Tet s = tangle_.across(t, side);
+    if (s == kNone || tangle_.region(s) != tangle_.region(t) || tangle_.is_constraint(f)) return false;
+    out = {{t, s}, f, tangle_.corners(t)[static_cast<std::size_t>(side)], kNone};
+    for (const Vertex v : tangle_.corners(s))
+      if (v != f[0] && v != f[1] && v != f[2]) out.bottom = v;
+    return !tangle_.has_edge(out.top, out.bottom);
+  }
+  static Tangle::Corners beside(const SharedFace& f, std::size_t k) {
+    return {f.v[k], f.v[(k + 1) % 3], f.bottom, f.top};
+  }
+  [[nodiscard]] std::optional<Deficit> before(std::span<const Tet> tets) const {
+    return tangle_.deficit(tets);
+  }
+  [[nodiscard]] std::optional<Deficit> after(const std::array<Tangle::Corners, 3>& three,
+                                             const Deficit&) const {
+    Deficit sum;
+    for (const Tangle::Corners& c : three) sum += tangle_.deficit(c);
+    return sum;
+  }
+  [[nodiscard]] bool gains(const Deficit& before, const Deficit& after) const {
+    return after.better_than(before) && (!found_ || before.volume.value - after.volume.value > gain_);
+  }
+  bool take(const Deficit& before, const Deficit& after, std::span<const Tangle::Corners>) {
+    found_ = true;
+    gain_ = before.volume.value - after.volume.value;
+    return true;
+  }
+  [[nodiscard]] LinkDeficit link(const EdgeShell& shell, const Deficit&) const { return {tangle_, shell}; }
+
+ private:
+  const Tangle& tangle_;
+  bool found_ = false;
+  double gain_ = 0;  // of negative volume
 };
 
 class Swaps {
@@ -91,67 +136,23 @@ class Swaps {
   }
 
   void improve(Tet t) {
-    best_ = {};
-    const Tangle::Corners c = tangle_.corners(t);
-    for (const auto& [i, k] : kEdgeVertex)
-      plan_edge_removal(t, c[static_cast<std::size_t>(i)], c[static_cast<std::size_t>(k)]);
-    for (int i = 0; i < 4; ++i) plan_face_removal(t, i);
-    if (!best_.found) return;
-    tangle_.exchange(best_.old_tets, best_.new_tets);
+    LeastDeficit objective(tangle_);
+    const Exchange* const best = search_.best_at(t, objective);
+    if (best == nullptr) return;
+    tangle_.exchange(best->old_tets, best->new_tets);
     ++swaps_;
     // Whatever is left near by may have become possible.
-    for (const Tangle::Corners& corners : best_.new_tets)
+    for (const Tangle::Corners& corners : best->new_tets)
       for (const Vertex v : corners)
         for (const Tet s : tangle_.star(v))
           if (tangle_.sign(s) <= 0) push(s);
-  }
-
-  void plan_edge_removal(Tet t, Vertex a, Vertex b) {
-    if (!gather_ring(tangle_, t, a, b, shell_) || shell_.size() < 3) return;
-    LeastDeficit objective(tangle_, shell_);
-    const auto cost = triangulation_.find(shell_.size(), objective);
-    const Deficit before = tangle_.deficit(shell_.tets);
-    if (!cost || !cost->better_than(before)) return;
-    std::vector<LinkTriangle> triangles;
-    triangulation_.triangles(shell_.size(), triangles);
-    std::vector<Tangle::Corners> tets;
-    tetrahedra_of(shell_, triangles, tets);
-    propose({shell_.tets, std::move(tets), before.volume.value - cost->volume.value, true});
-  }
-
-  //     d above and e below the face (f0 f1 f2): three tetrahedra round the new edge ed.
-  void plan_face_removal(Tet t, int i) {
-    const auto f = tangle_.face(t, i);
-    const Tet s = tangle_.across(t, i);
-    if (s == kNone || tangle_.region(s) != tangle_.region(t) || tangle_.is_constraint(f)) return;
-    const Vertex d = tangle_.corners(t)[static_cast<std::size_t>(i)];
-    Vertex e = kNone;
-    for (const Vertex v : tangle_.corners(s))
-      if (v != f[0] && v != f[1] && v != f[2]) e = v;
-    if (tangle_.has_edge(d, e)) return;
-    std::vector<Tangle::Corners> tets;
-    Deficit after;
-    for (std::size_t k = 0; k < 3; ++k) {
-      tets.push_back({f[k], f[(k + 1) % 3], e, d});
-      after += tangle_.deficit(tets.back());
-    }
-    const std::vector<Tet> old{t, s};
-    const Deficit before = tangle_.deficit(old);
-    if (after.better_than(before))
-      propose({old, std::move(tets), before.volume.value - after.volume.value, true});
-  }
-
-  void propose(Exchange exchange) {
-    if (!best_.found || exchange.gain > best_.gain) best_ = std::move(exchange);
   }
 
   Tangle& tangle_;
   Watch& watch_;
   std::deque<Tet> queue_;
   std::vector<bool> queued_;
-  EdgeShell shell_;
-  LinkTriangulation<Deficit> triangulation_;
-  Exchange best_;
+  ExchangeSearch<LeastDeficit> search_;
   std::size_t swaps_ = 0;
 };
 
