@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "mesh/kernel.h"
-#include "suppress/small_polyhedron.h"
+#include "suppress/fill_cavity.h"
 
 namespace holdfast {
 
@@ -74,9 +73,7 @@ void CavityRefiller::find_place(const Cavity& cavity) {
   heights_.clear();
   star_.start_at(frame_.to(middle));
   if (!(star_.energy() < kNoEnergy)) {
-    Kernel kernel(mesh);
-    for (const auto& f : cavity.faces()) kernel.add(f[0], f[1], f[2]);
-    Kernel::Centre centre = kernel.centre({middle.data(), nullptr});
+    Kernel::Centre centre = kernel_of(mesh, cavity).centre({middle.data(), nullptr});
     for (std::size_t k = 0; k < 3; ++k) middle[k] += centre.offset[k];
     star_.start_at(frame_.to(middle));
     if (!(star_.energy() < kNoEnergy)) {
@@ -101,7 +98,7 @@ std::span<const Tet> CavityRefiller::apply() {
   const bool with_point = best_.fresh.empty();
   if (with_point) {
     point_ = volume_.add_vertex(best_.place, near_);
-    for (const auto& f : best_.faces) best_.fresh.push_back({f[0], f[1], f[2], point_});
+    best_.fresh = cone_of(best_.faces, point_);
   }
   if (!std::all_of(best_.fresh.begin(), best_.fresh.end(),
                    [&](const TetMesh::Corners& c) { return volume_.is_positive(c); }) ||

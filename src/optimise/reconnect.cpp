@@ -3,10 +3,8 @@
 #include <algorithm>
 
 #include "mesh/edge_removal.h"
-#include "mesh/replace.h"
 #include "optimise/badness.h"
-#include "suppress/cavity.h"
-#include "suppress/small_polyhedron.h"
+#include "suppress/fill_cavity.h"
 
 namespace holdfast {
 namespace {
@@ -44,12 +42,7 @@ class Reconnection {
  private:
   bool fill(const Cavity& cavity, PolyhedronOptions search) {
     search.worst_quality = bad_from_.limit_for(badness_of(mesh_, cavity.tets(), bad_from_).worst);
-    const auto fresh = fill_polyhedron(mesh_, cavity.faces(), search);
-    if (!fresh) return false;
-    const std::vector<Vertex> inner = cavity.inner();
-    replace(mesh_, {.old_tets = cavity.tets(), .new_tets = *fresh}, &created_);
-    for (const Vertex v : inner) mesh_.remove_vertex(v);
-    return true;
+    return holdfast::fill(mesh_, cavity, search, &created_);
   }
 
   TetMesh& mesh_;

@@ -7,6 +7,17 @@
 
 namespace holdfast {
 
+bool any_holds(std::span<const std::array<Vertex, 3>> faces, Vertex v) {
+  return std::any_of(faces.begin(), faces.end(),
+                     [&](const auto& f) { return f[0] == v || f[1] == v || f[2] == v; });
+}
+
+bool any_holds(std::span<const std::array<Vertex, 3>> faces, Vertex u, Vertex v) {
+  return std::any_of(faces.begin(), faces.end(), [&](const auto& f) {
+    return std::find(f.begin(), f.end(), u) != f.end() && std::find(f.begin(), f.end(), v) != f.end();
+  });
+}
+
 Cavity::Cavity(const TetMesh& mesh, std::span<const Tet> ball, Vertex first_free)
     : mesh_(mesh), first_free_(first_free), tets_(ball.begin(), ball.end()) {
   collect_faces();
@@ -93,17 +104,6 @@ bool Cavity::may_add(Tet t) const {
   for (int i = 0; i < 4; ++i)
     if (mesh_.is_facet(face_code(t, i)) && holds(tet_of(mesh_.neighbour(t, i)))) return false;
   return !mesh_.is_ghost(t);
-}
-
-bool Cavity::on_boundary(Vertex v) const {
-  return std::any_of(faces_.begin(), faces_.end(),
-                     [&](const auto& f) { return f[0] == v || f[1] == v || f[2] == v; });
-}
-
-bool Cavity::on_boundary(Vertex u, Vertex v) const {
-  return std::any_of(faces_.begin(), faces_.end(), [&](const auto& f) {
-    return std::find(f.begin(), f.end(), u) != f.end() && std::find(f.begin(), f.end(), v) != f.end();
-  });
 }
 
 // Across the faces, each once, in random order but those without a new vertex first.

@@ -10,6 +10,10 @@
 
 namespace holdfast {
 
+/// Whether a vertex, or an edge, is one of any of some faces.
+[[nodiscard]] bool any_holds(std::span<const std::array<Vertex, 3>> faces, Vertex v);
+[[nodiscard]] bool any_holds(std::span<const std::array<Vertex, 3>> faces, Vertex u, Vertex v);
+
 /// No constraint ever lies strictly inside, and no vertex but Steiner points, which go with it.
 class Cavity {
  public:
@@ -41,8 +45,8 @@ class Cavity {
   [[nodiscard]] bool may_add(Tet t) const;
   [[nodiscard]] bool encloses_a_constraint(Tet t) const;
   void drop_from(std::size_t size);
-  [[nodiscard]] bool on_boundary(Vertex v) const;
-  [[nodiscard]] bool on_boundary(Vertex u, Vertex v) const;
+  [[nodiscard]] bool on_boundary(Vertex v) const { return any_holds(faces_, v); }
+  [[nodiscard]] bool on_boundary(Vertex u, Vertex v) const { return any_holds(faces_, u, v); }
   [[nodiscard]] std::vector<Tet> neighbours(std::mt19937_64& random) const;
   void collect_faces();
 

@@ -4,6 +4,7 @@
 #include "mesh/measure.h"
 #include "mesh/replace.h"
 #include "mesh/traverse.h"
+#include "suppress/fill_cavity.h"
 
 namespace holdfast {
 
@@ -16,10 +17,7 @@ Fate remove_or_recentre(TetMesh& mesh, Vertex p, const PolyhedronOptions& search
     mesh.remove_vertex(p);
   };
   if (const Vertex apex = best_apex(mesh, kernel); apex != kNone) {
-    std::vector<TetMesh::Corners> fresh;
-    for (const auto& f : kernel.faces())
-      if (f[0] != apex && f[1] != apex && f[2] != apex) fresh.push_back({f[0], f[1], f[2], apex});
-    refill(fresh);
+    refill(cone_of(kernel.faces(), apex));
     return Fate::collapsed;
   }
   if (const auto fresh = fill_polyhedron(mesh, kernel.faces(), search)) {

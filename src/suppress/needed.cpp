@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mesh/traverse.h"
+#include "suppress/cavity.h"
 #include "suppress/small_polyhedron.h"
 
 namespace holdfast {
@@ -31,32 +32,21 @@ bool is_small_solid(const TetMesh& mesh, const std::vector<Tet>& tets) {
          std::none_of(tets.begin(), tets.end(), [&](Tet t) { return mesh.is_ghost(t); });
 }
 
-struct Boundary {
-  std::vector<std::array<Vertex, 3>> faces;  // from inside
-
-  [[nodiscard]] bool holds(Vertex v) const {
-    return std::any_of(faces.begin(), faces.end(),
-                       [&](const auto& f) { return std::find(f.begin(), f.end(), v) != f.end(); });
-  }
-  [[nodiscard]] bool holds(Vertex u, Vertex v) const {
-    return std::any_of(faces.begin(), faces.end(), [&](const auto& f) {
-      return std::find(f.begin(), f.end(), u) != f.end() && std::find(f.begin(), f.end(), v) != f.end();
-    });
-  }
-};
+using Faces = std::vector<std::array<Vertex, 3>>;  // from inside
 
 // Whether nothing but p stands inside: no vertex, segment or facet that a filling would have to keep.
-bool holds_only(const TetMesh& mesh, const std::vector<Tet>& tets, const Boundary& boundary, Vertex p) {
+bool holds_only(const TetMesh& mesh, const std::vector<Tet>& tets, const Faces& boundary, Vertex p) {
   const auto is_inside = [&](Tet t) { return std::find(tets.begin(), tets.end(), t) != tets.end(); };
   return std::all_of(tets.begin(), tets.end(), [&](Tet t) {
     for (int i = 0; i < 4; ++i) {
       const Face f = face_code(t, i);
-      if (mesh.corner(t, i) != p && !boundary.holds(mesh.corner(t, i))) return false;
+      if (mesh.corner(t, i) != p && !any_holds(boundary, mesh.corner(t, i))) return false;
       if (mesh.is_facet(f) && is_inside(tet_of(mesh.neighbour(f)))) return false;
     }
     for (int k = 0; k < 6; ++k) {
       const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
-      if (mesh.is_segment(t, k) && !boundary.holds(mesh.corner(t, e[0]), mesh.corner(t, e[1]))) return false;
+      if (mesh.is_segment(t, k) && !any_holds(boundary, mesh.corner(t, e[0]), mesh.corner(t, e[1])))
+        return false;
     }
     return true;
   });
@@ -67,16 +57,14 @@ bool holds_only(const TetMesh& mesh, const std::vector<Tet>& tets, const Boundar
 bool is_needed(TetMesh& mesh, Vertex p, Vertex first_free) {
   const std::vector<Tet> tets = component_of(mesh, p);
   if (!is_small_solid(mesh, tets)) return false;
-  Boundary boundary;
+  Faces boundary;
   for (const Tet t : tets)
     for (int i = 0; i < 4; ++i)
-      if (mesh.is_facet(face_code(t, i))) boundary.faces.push_back(mesh.face_vertices(face_code(t, i)));
-  const bool has_steiner_points =
-      std::any_of(boundary.faces.begin(), boundary.faces.end(), [&](const auto& f) {
-        return std::any_of(f.begin(), f.end(), [&](Vertex v) { return v >= first_free; });
-      });
-  return !has_steiner_points && holds_only(mesh, tets, boundary, p) &&
-         is_unfillable(mesh, boundary.faces, kSearch);
+      if (mesh.is_facet(face_code(t, i))) boundary.push_back(mesh.face_vertices(face_code(t, i)));
+  const bool has_steiner_points = std::any_of(boundary.begin(), boundary.end(), [&](const auto& f) {
+    return std::any_of(f.begin(), f.end(), [&](Vertex v) { return v >= first_free; });
+  });
+  return !has_steiner_points && holds_only(mesh, tets, boundary, p) && is_unfillable(mesh, boundary, kSearch);
 }
 
 }  // namespace holdfast

@@ -1,43 +1,15 @@
 #include "suppress/refill.h"
 
-#include <algorithm>
 #include <vector>
 
 #include "mesh/double_in_kernel.h"
-#include "mesh/kernel.h"
-#include "mesh/replace.h"
 #include "mesh/traverse.h"
-#include "suppress/cavity.h"
+#include "suppress/fill_cavity.h"
 
 namespace holdfast {
 namespace {
 
 constexpr std::size_t kMostMerged = 200;  // tetrahedra of a ball: a cavity's growth is quadratic
-
-Kernel kernel_of(const TetMesh& mesh, const Cavity& cavity) {
-  Kernel kernel(mesh);
-  for (const auto& f : cavity.faces()) kernel.add(f[0], f[1], f[2]);
-  return kernel;
-}
-
-bool fill(TetMesh& mesh, const Cavity& cavity, const PolyhedronOptions& search) {
-  const auto fresh = fill_polyhedron(mesh, cavity.faces(), search);
-  if (!fresh) return false;
-  const std::vector<Vertex> inner = cavity.inner();
-  replace(mesh, {.old_tets = cavity.tets(), .new_tets = *fresh});
-  for (const Vertex v : inner) mesh.remove_vertex(v);
-  return true;
-}
-
-void cone(TetMesh& mesh, const Cavity& cavity, Vertex apex, const Point& position) {
-  const std::vector<Vertex> inner = cavity.inner();
-  std::vector<TetMesh::Corners> fresh;
-  for (const auto& f : cavity.faces()) fresh.push_back({f[0], f[1], f[2], apex});
-  mesh.move_vertex(apex, position);
-  replace(mesh, {.old_tets = cavity.tets(), .new_tets = fresh});
-  for (const Vertex v : inner)
-    if (v != apex) mesh.remove_vertex(v);
-}
 
 // `tell`, called before each, asks for complete searches.
 std::optional<Point> place_in(const TetMesh& mesh, const Kernel& kernel, Vertex apex,
@@ -48,18 +20,19 @@ std::optional<Point> place_in(const TetMesh& mesh, const Kernel& kernel, Vertex 
   return find_double(mesh, kernel.faces()).point;
 }
 
-// Across the faces that leave the centre least room until it can be had in doubles.
+void move_and_cone(TetMesh& mesh, const Cavity& cavity, Vertex apex, const Point& position) {
+  mesh.move_vertex(apex, position);
+  cone(mesh, cavity, apex);
+}
+
 bool cone_grown(TetMesh& mesh, Cavity& cavity, Vertex apex, int steps, const Tell& tell) {
-  for (int step = 0; step <= steps; ++step) {
-    const Kernel kernel = kernel_of(mesh, cavity);
-    const Kernel::Centre centre = kernel.centre(mesh.point(apex));
-    if (const auto place = place_in(mesh, kernel, apex, centre, tell)) {
-      cone(mesh, cavity, apex, *place);
-      return true;
-    }
-    if (!cavity.grow_across_lowest(centre.heights)) return false;
-  }
-  return false;
+  const auto place = grow_until_placed(
+      mesh, cavity, steps, [&](const Cavity&) { return mesh.point(apex); },
+      [&](const Kernel& kernel, const Kernel::Centre& centre) {
+        return place_in(mesh, kernel, apex, centre, tell);
+      });
+  if (place) move_and_cone(mesh, cavity, apex, *place);
+  return place.has_value();
 }
 
 bool round(TetMesh& mesh, Vertex p, Vertex first_free, int steps, const Tell& tell) {
@@ -115,7 +88,7 @@ bool round_completely(TetMesh& mesh, Vertex p, Vertex first_free, int steps, con
     tell();
     const auto place = find_double(mesh, cavity.faces()).point;
     if (!place) continue;
-    cone(mesh, cavity, p, *place);
+    move_and_cone(mesh, cavity, p, *place);
     return true;
   }
   return false;

@@ -1,0 +1,44 @@
+// Filling a cavity (suppress/cavity.h) again: without a point, or from one that sees all its faces.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "mesh/kernel.h"
+#include "mesh/tet_mesh.h"
+#include "suppress/cavity.h"
+#include "suppress/small_polyhedron.h"
+
+namespace holdfast {
+
+[[nodiscard]] Kernel kernel_of(const TetMesh& mesh, const Cavity& cavity);
+
+/// The tetrahedra that join an apex to the faces that do not hold it.
+[[nodiscard]] std::vector<TetMesh::Corners> cone_of(std::span<const std::array<Vertex, 3>> faces,
+                                                    Vertex apex);
+
+/// Fills a cavity without new points; the Steiner points inside go. Returns false, with the mesh unchanged,
+/// where the search finds nothing. `created`, where given, receives the new tetrahedra.
+bool fill(TetMesh& mesh, const Cavity& cavity, const PolyhedronOptions& search,
+          std::vector<Tet>* created = nullptr);
+
+/// Fills a cavity from an apex in its kernel; the other Steiner points inside go.
+void cone(TetMesh& mesh, const Cavity& cavity, Vertex apex, std::vector<Tet>* created = nullptr);
+
+/// A place for a point that joins all faces. While there is none the cavity grows, by at most `steps`
+/// tetrahedra, across the faces that leave least room. `origin(cavity)` is where the centre of the kernel is
+/// looked for from, `place(kernel, centre)` tells the place, if any.
+template <typename Origin, typename Place>
+[[nodiscard]] std::optional<Point> grow_until_placed(const TetMesh& mesh, Cavity& cavity, int steps,
+                                                     Origin&& origin, Place&& place) {
+  for (int step = 0; step <= steps; ++step) {
+    const Kernel kernel = kernel_of(mesh, cavity);
+    const Kernel::Centre centre = kernel.centre(origin(cavity));
+    if (const std::optional<Point> found = place(kernel, centre)) return found;
+    if (!cavity.grow_across_lowest(centre.heights)) break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace holdfast
