@@ -4,19 +4,11 @@
 
 #include "mesh/edge_removal.h"
 #include "optimise/badness.h"
+#include "optimise/tuning.h"
 #include "suppress/fill_cavity.h"
 
 namespace holdfast {
 namespace {
-
-struct Effort {
-  int attempts, steps;
-  int every;  // steps: a search costs more than growing on
-  PolyhedronOptions search;
-};
-constexpr Effort kUsual{1, 10, 4, {.most_vertices = 14, .most_nodes = 100}};
-constexpr Effort kForFlat{1, 20, 4, {.most_vertices = 20, .most_nodes = 100}};
-constexpr Effort kPatient{2, 20, 2, {.most_vertices = 20, .most_nodes = 300}};
 
 class Reconnection {
  public:
@@ -25,13 +17,13 @@ class Reconnection {
       : mesh_(mesh), first_free_(first_free), bad_from_(bad_from), random_(random), created_(created) {}
 
   // Every attempt grows the cavity from the same tetrahedra another way.
-  bool from(std::span<const Tet> seed, const Effort& effort) {
-    constexpr std::size_t kFirst = 3;  // fewer tetrahedra cannot be filled another way
+  bool from(std::span<const Tet> seed, const tuning::Reconnecting& effort) {
     for (int attempt = 0; attempt < effort.attempts; ++attempt) {
       Cavity cavity(mesh_, seed, first_free_);
       for (int step = 0; step < effort.steps; ++step) {
-        if (cavity.vertex_count() > effort.search.most_vertices) break;
-        if (cavity.tets().size() >= kFirst && step % effort.every == 0 && fill(cavity, effort.search))
+        if (cavity.vertex_count() > effort.most_vertices) break;
+        if (cavity.tets().size() >= tuning::kLeastTets && step % effort.every == 0 &&
+            fill(cavity, {.most_vertices = effort.most_vertices, .most_nodes = effort.most_nodes}))
           return true;
         if (!cavity.grow(random_)) break;
       }
@@ -58,8 +50,8 @@ bool reconnect(TetMesh& mesh, Tet t, Vertex first_free, const BadFrom& bad_from,
                std::mt19937_64& random, std::vector<Tet>& created) {
   Reconnection reconnection(mesh, first_free, bad_from, random, created);
   const std::array<Tet, 1> alone{t};
-  if (quality_of(mesh, mesh.corners(t)) < bad_from.flat) return reconnection.from(alone, kUsual);
-  const Effort& effort = patient ? kPatient : kForFlat;
+  if (quality_of(mesh, mesh.corners(t)) < bad_from.flat) return reconnection.from(alone, tuning::kUsual);
+  const tuning::Reconnecting& effort = patient ? tuning::kPatient : tuning::kForFlat;
   // Some edge of a flat tetrahedron has to go.
   for (const int edge : wide_edges(mesh, t)) {
     const auto& ends = kEdgeVertex[static_cast<std::size_t>(edge)];

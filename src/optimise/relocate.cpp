@@ -61,18 +61,15 @@ class Relocation {
 
   // Random directions, the step twice as long after a success and half as long after some failures.
   void search(std::mt19937_64& random) {
-    constexpr int kTries = 60;
-    constexpr int kPatience = 4;
-    constexpr double kFirstStep = 0.1;
-    double step = kFirstStep * size_;
+    double step = tuning::kFirstStep * size_;
     int failures = 0;
-    for (int k = 0; k < kTries; ++k) {
+    for (int k = 0; k < tuning::kMoveTries; ++k) {
       Point x = at_;
       for (double& c : x) c += step * numbers::bell(random);
       if (step_to(x)) {
         step *= 2;
         failures = 0;
-      } else if (++failures == kPatience) {
+      } else if (++failures == tuning::kMovePatience) {
         step /= 2;
         failures = 0;
       }

@@ -52,7 +52,7 @@ bool FlatRemover::remove(Tet t, double bad_from, std::vector<Tet>& created) {
     const auto& ends = kEdgeVertex[static_cast<std::size_t>(edge)];
     const Vertex a = corners[static_cast<std::size_t>(ends[0])],
                  b = corners[static_cast<std::size_t>(ends[1])];
-    if (remove_edge(t, a, b, kDepth, kNone)) return true;
+    if (remove_edge(t, a, b, tuning::kFlatDepth, kNone)) return true;
     if (!mesh_.alive(t) || mesh_.corners(t) != corners) return true;
   }
   return false;
@@ -63,8 +63,8 @@ bool FlatRemover::remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex avoid
   EdgeShell& shell = shells_[static_cast<std::size_t>(depth)];
   while (t != kNone) {
     const auto local = [&](Vertex v) { return static_cast<std::size_t>(mesh_.index_of(t, v)); };
-    if (++work_ > kBudget || mesh_.is_segment(t, kEdgeOf[local(a)][local(b)]) ||
-        !gather_shell(mesh_, t, a, b, shell, kMostShell))
+    if (++work_ > tuning::kFlatShells || mesh_.is_segment(t, kEdgeOf[local(a)][local(b)]) ||
+        !gather_shell(mesh_, t, a, b, shell, tuning::kMostShellForFlat))
       return false;
     if (remove_now(shell, avoided)) return true;
     if (depth == 0 || !thin_out(shell, depth)) return false;

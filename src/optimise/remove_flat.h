@@ -8,6 +8,7 @@
 
 #include "mesh/edge_removal.h"
 #include "mesh/tet_mesh.h"
+#include "optimise/tuning.h"
 
 namespace holdfast {
 
@@ -30,13 +31,10 @@ class FlatRemover {
   [[nodiscard]] Tet survivor(const EdgeShell& shell);
   [[nodiscard]] bool is_good(Vertex a, Vertex b, Vertex c, Vertex d) const;
 
-  static constexpr int kDepth = 4;
-  static constexpr std::size_t kMostShell = 14;
-  static constexpr std::size_t kBudget = 200;  // shells looked at
-
   TetMesh& mesh_;
   double bad_from_ = 0;
-  std::array<EdgeShell, kDepth + 1> shells_;  // by depth; kept, like what follows, to allocate nothing
+  std::array<EdgeShell, tuning::kFlatDepth + 1>
+      shells_;  // by depth; kept, like what follows, to allocate nothing
   std::vector<LinkTriangle> triangles_;
   LinkTriangulation<double> triangulation_;
   std::size_t work_ = 0;

@@ -9,7 +9,7 @@
 #include "optimise/budget.h"
 #include "optimise/optimise.h"
 #include "optimise/qualities.h"
-#include "optimise/ways.h"
+#include "optimise/ways_for_quality.h"
 
 namespace holdfast {
 

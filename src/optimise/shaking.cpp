@@ -110,7 +110,10 @@ void remove_points(Search& search, std::size_t from) {
   // As long as a worse one stays, nothing is worth a point but null elements.
   const double limit =
       std::max(search.bad_from().flat, std::min(search.badness().worst, search.bad_from().null));
-  Growth growth{.attempts = 2, .steps = 6, .search = {.most_vertices = 18, .most_nodes = 60}};
+  Growth growth{.attempts = tuning::kWithoutPoint.attempts,
+                .steps = tuning::kWithoutPoint.steps,
+                .search = {.most_vertices = tuning::kWithoutPoint.most_vertices,
+                           .most_nodes = tuning::kWithoutPoint.most_nodes}};
   const std::size_t most_work = search.budget().end_with(tuning::kLeastWork);
   for (std::size_t k = from; k < points.size(); ++k) {
     const Vertex p = points[k];

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "holdfast/holdfast.h"
+
 namespace holdfast::tuning {
 
 // --- With --fill. Thresholds of the paper's Q (1 is regular).
@@ -49,5 +51,90 @@ inline constexpr std::size_t kMostShakenSlots = 1'000'000;
 inline constexpr std::size_t kMostShellForQ = 12, kMostShellForEnergy = 9;
 inline constexpr int kMostInsertSteps = 16;         ///< tetrahedra by which the cavity of a point grows
 inline constexpr std::size_t kMostMovedBall = 200;  ///< tetrahedra at a vertex that is moved: Q takes time
+
+// A cavity that grows from a bad element until it can be filled another way.
+struct Reconnecting {
+  int attempts, steps;        ///< tetrahedra that each may add
+  int every;                  ///< steps between two searches: a search costs more than growing on
+  std::size_t most_vertices;  ///< of the cavity
+  std::size_t most_nodes;     ///< of the search tree
+};
+inline constexpr Reconnecting kUsual{1, 10, 4, 14, 100};
+inline constexpr Reconnecting kForFlat{1, 20, 4, 20, 100};     ///< a flat element is worth larger cavities
+inline constexpr Reconnecting kPatient{2, 20, 2, 20, 300};     ///< for an element that would get a point
+inline constexpr Reconnecting kWithoutPoint{2, 6, 1, 18, 60};  ///< to do without a point in the end
+inline constexpr std::size_t kLeastTets = 3;  ///< fewer tetrahedra cannot be filled another way
+
+// A vertex is moved in random directions, the step twice as long after a gain, half as long after failures.
+inline constexpr int kMoveTries = 60, kMovePatience = 4;  ///< tries, and failures in a row
+inline constexpr double kFirstStep = 0.1;                 ///< of the size of the kernel
+
+// Flips that clear each other's way.
+inline constexpr int kFlatDepth = 4;                  ///< levels of flips
+inline constexpr std::size_t kMostShellForFlat = 14;  ///< tetrahedra of a shell
+inline constexpr std::size_t kFlatShells = 200;       ///< shells looked at for one element
+
+// --- With field points. Angles are told by their sines.
+/// Passes over the whole volume, then work on single elements.
+struct Effort {
+  int passes;
+  double sine;         ///< of the angle below which elements are exchanged in a pass
+  double smooth_sine;  ///< of the angle below which the vertices of elements are moved in a pass
+  double aim;          ///< of the angle below which single elements are worked on
+  double patient_aim;  ///< of that below which everything is tried on them
+  int rounds;
+  /// For a round, in elements tried, some three microseconds each. Most volumes take a small part of it: it
+  /// is for those full of elements that the surface forces, which nothing helps.
+  double work_per_tet;
+};
+[[nodiscard]] constexpr Effort effort_of(Quality quality) {
+  switch (quality) {
+    case Quality::fast:
+      return {1, 0.35, 0.50, 0.26, 0.24, 1, 0.2};
+    case Quality::good:
+      return {1, 0.45, 0.50, 0.36, 0.24, 1, 8};
+    case Quality::best:
+      break;
+  }
+  return {6, 0.65, 0.80, 0.60, 0.34, 6, 10};
+}
+inline constexpr int kMostPasses = 6;     ///< while many elements are bad, which passes help faster
+inline constexpr double kManyBad = 0.1;   ///< of the elements: as many are many
+inline constexpr int kPatientRounds = 3;  ///< times the rounds: the very worst are few and get all that help
+inline constexpr double kPatientShare = 0.1;       ///< of the work of a round for each of these
+inline constexpr double kBeyondPatientAim = 0.02;  ///< so that what is just better gets the cheap ways, too
+inline constexpr double kSineWorthAPoint = 0.42;   ///< 25 degrees; no element above is worth a vertex
+inline constexpr double kLongestContracted = 1.6;  ///< sizes: longer edges would undo the sizes asked for
+// Work, in elements tried, some three microseconds each, as timed.
+inline constexpr double kLeastElements = 1500;     ///< so that small meshes are done thoroughly
+inline constexpr double kRefillWork = 300;         ///< 0.7 to 1.5 ms
+inline constexpr double kAddWork = 6;              ///< the shells of a point
+inline constexpr double kAddTetsAWork = 60;        ///< tetrahedra of its cavities
+inline constexpr double kContractTetsAWork = 100;  ///< tetrahedra looked at
+inline constexpr double kSmoothTetsAWork = 10;     ///< tetrahedra of a ball
+
+inline constexpr double kObtuse = 1.5;  ///< square of what the sine of an obtuse angle counts for: less harm
+inline constexpr double kSineOfFlat = 0.035;  ///< 2 degrees: what is worse gets the ways of --fill, too
+/// Part of a sum of energies that is rounding, and a gain that is worth a change.
+inline constexpr double kEnergyRounding = 1e-9, kLeastEnergyGain = 0.02;
+
+// Where a vertex is best: the place that its faces would have it at, then down the gradient.
+inline constexpr int kIdealTrials = 3;              ///< each goes half as far
+inline constexpr double kLeastPatientGain = 0.997;  ///< part of the energy that a patient move leaves at most
+inline constexpr int kDescentSteps = 6, kDescentTrials = 4;  ///< trials a step
+inline constexpr double kDifference = 1e-5;     ///< sizes of the star, for the gradient by differences
+inline constexpr double kDescentStep = 0.15;    ///< sizes of the star, in the first trial
+inline constexpr double kStepDivisor = 2.5;     ///< of the step from trial to trial
+inline constexpr double kLeastDescent = 0.995;  ///< part of the energy above which the descent ends
+
+// Cavities, in tetrahedra: balls of hundreds take long and are seldom bad.
+inline constexpr std::size_t kMostContractedBall = 100, kMostAddedBall = 200;
+inline constexpr std::size_t kMostRefilled = 80;        ///< the best one for a point has mostly some twenty
+inline constexpr std::size_t kFartherThanBest = 12;     ///< by which it grows beyond the best so far
+inline constexpr std::size_t kMostRefillVertices = 13;  ///< a search without a point soon takes too long
+inline constexpr std::size_t kRefillNodes = 100;        ///< of that search
+inline constexpr double kRefillGain =
+    0.5;  ///< part of the worst energy that a filling without a point leaves
+inline constexpr double kWorkOfFirstParts = 0.9;  ///< share of progress; the rest is what was near the cuts
 
 }  // namespace holdfast::tuning

@@ -12,7 +12,7 @@
 #include "mesh/validate.h"
 #include "mesh_fixtures.h"
 #include "optimise/badness.h"
-#include "optimise/exchange.h"
+#include "optimise/exchange_for_quality.h"
 #include "optimise/insert_point.h"
 #include "optimise/reconnect.h"
 #include "optimise/relocate.h"

@@ -12,9 +12,9 @@
 #include <stdexcept>
 
 #include "delaunay/delaunay.h"
-#include "improve/energy.h"
-#include "improve/improve_parts.h"
-#include "improve/volume.h"
+#include "optimise/energy.h"
+#include "optimise/improve_parts.h"
+#include "optimise/volume.h"
 #include "mesh/measure.h"
 #include "mesh/traverse.h"
 #include "mesh/validate.h"

@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "improve/star.h"
-#include "improve/volume.h"
 #include "mesh/edge_removal.h"
+#include "optimise/star.h"
+#include "optimise/volume.h"
 #include "refine/point_cavity.h"
 
 namespace holdfast {

@@ -15,7 +15,7 @@ struct ImproveStats {
   std::size_t moved = 0, swapped = 0, contracted = 0, inserted = 0;
   std::size_t filled_in = 0;  ///< field points that were missing (improve_parts.h)
   bool filling_stopped_early = false;
-  double worst = 0;  ///< energy (improve/energy.h): of what is not spared, nothing worse is left
+  double worst = 0;  ///< energy (energy.h): of what is not spared, nothing worse is left
 
   ImproveStats& operator+=(const ImproveStats& other) {
     moved += other.moved;

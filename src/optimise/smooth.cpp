@@ -1,16 +1,17 @@
-#include "improve/smooth.h"
+#include "optimise/smooth.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "mesh/traverse.h"
+#include "optimise/tuning.h"
 
 namespace holdfast {
 
 bool VertexSmoother::smooth(Vertex v, bool patient) {
   tets_.clear();
   holdfast::ball(volume_.mesh(), v, tets_);
-  if (tets_.size() > kMostBall) return false;
+  if (tets_.size() > tuning::kMostMovedBall) return false;
   gather_star(v);
   const double before = volume_.energy(tets_);
   if (frame_.is_plain())
@@ -20,7 +21,8 @@ bool VertexSmoother::smooth(Vertex v, bool patient) {
   const double from = star_.energy();
   star_.step_to_ideal_place();
   if (patient) star_.descend();
-  if (!is_less(star_.energy(), from) || (patient && star_.energy() > 0.997 * from)) return false;
+  if (!is_less(star_.energy(), from) || (patient && star_.energy() > tuning::kLeastPatientGain * from))
+    return false;
   return settle(v, before);
 }
 

@@ -13,6 +13,7 @@
 
 #include "holdfast/types.h"
 #include "mesh/pair.h"
+#include "optimise/tuning.h"
 
 namespace holdfast {
 
@@ -47,9 +48,8 @@ template <typename Number>
   const Number iab = 1 / (na * nb), icd = 1 / (nc * nd);
   const Number ia = nb * iab, ib = na * iab, ic = nd * icd, id = nc * icd;
   // Inward normals at an obtuse edge have a positive product.
-  constexpr double kObtuse = 1.5;
   const auto sine2 = [](Number length2, Number i, Number product) {
-    const Number s = length2 * i, obtuse = s * kObtuse;
+    const Number s = length2 * i, obtuse = s * tuning::kObtuse;
     return product > 0 ? obtuse : s;
   };
   const auto less = [](Number p, Number q) { return p < q ? p : q; };

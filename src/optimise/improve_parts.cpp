@@ -1,5 +1,6 @@
-#include "improve/improve_parts.h"
+#include "optimise/improve_parts.h"
 
+#include "optimise/tuning.h"
 #include "refine/cut_parts.h"
 #include "refine/field_points.h"
 
@@ -22,7 +23,7 @@ ImproveStats improve_each(Parts& parts, Quality quality, std::array<double, 2> w
 
 ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledParts> filled, Quality quality,
                               const Threads& threads, Monitor& monitor) {
-  constexpr double kMost = 0.9;  // of the work: the parts that come first
+  constexpr double kMost = tuning::kWorkOfFirstParts;
   std::unique_ptr<Parts> parts;
   if (filled)
     parts = std::move(filled->parts);

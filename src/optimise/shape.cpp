@@ -1,4 +1,4 @@
-#include "improve/shape.h"
+#include "optimise/shape.h"
 
 #include <mutex>
 
@@ -37,8 +37,7 @@ ShapeHistogram shapes_of(const VolumeData& volume, const Threads& threads) {
 }  // namespace
 
 bool is_flat(const Point& a, const Point& b, const Point& c, const Point& d) {
-  constexpr double kFlat = 30;  // Q
-  return energy(a, b, c, d) > kEnergyOfFlat && quality(a, b, c, d) > kFlat;
+  return energy(a, b, c, d) > kEnergyOfFlat && quality(a, b, c, d) > tuning::kBad;
 }
 
 Report::Shape shape_of(const VolumeData& volume, const Threads& threads) {

@@ -10,7 +10,7 @@
 #include "optimise/agenda.h"
 #include "optimise/badness.h"
 #include "optimise/budget.h"
-#include "optimise/exchange.h"
+#include "optimise/exchange_for_quality.h"
 #include "optimise/optimise.h"
 #include "optimise/qualities.h"
 #include "optimise/remove_flat.h"

@@ -1,9 +1,10 @@
-#include "improve/star.h"
+#include "optimise/star.h"
 
 #include <cmath>
 #include <utility>
 
 #include "numbers/elementary.h"
+#include "optimise/tuning.h"
 
 namespace holdfast {
 
@@ -59,9 +60,8 @@ bool Star::step_to(const Point& x) {
 
 bool Star::step_to_ideal_place() {
   const Point from = at_, target = ideal_place();
-  constexpr int kTrials = 3;
   double part = 1;
-  for (int trial = 0; trial < kTrials; ++trial, part /= 2) {
+  for (int trial = 0; trial < tuning::kIdealTrials; ++trial, part /= 2) {
     Point x;
     for (std::size_t k = 0; k < 3; ++k) x[k] = from[k] + part * (target[k] - from[k]);
     if (step_to(x)) return true;
@@ -95,9 +95,8 @@ Point Star::ideal_place() const {
 }
 
 void Star::descend() {
-  constexpr int kSteps = 6;
   const double length = size();
-  for (int k = 0; k < kSteps && step_down(length); ++k) {
+  for (int k = 0; k < tuning::kDescentSteps && step_down(length); ++k) {
   }
 }
 
@@ -111,7 +110,7 @@ double Star::size() const {
 
 // One step down the gradient, by differences: the length of the first trial is a part of the star's size.
 bool Star::step_down(double size) {
-  const double h = 1e-5 * size;
+  const double h = tuning::kDifference * size;
   Point gradient;
   for (std::size_t k = 0; k < 3; ++k) {
     Point x = at_;
@@ -120,13 +119,12 @@ bool Star::step_down(double size) {
   }
   const double length = numbers::hypot(gradient[0], gradient[1], gradient[2]);
   if (!(length > 0 && length < kNoEnergy)) return false;
-  constexpr int kTrials = 4;
-  double step = 0.15 * size;
-  for (int trial = 0; trial < kTrials; ++trial, step /= 2.5) {
+  double step = tuning::kDescentStep * size;
+  for (int trial = 0; trial < tuning::kDescentTrials; ++trial, step /= tuning::kStepDivisor) {
     Point x = at_;
     for (std::size_t k = 0; k < 3; ++k) x[k] -= step * gradient[k] / length;
     const double before = energy_;
-    if (step_to(x)) return energy_ < 0.995 * before;
+    if (step_to(x)) return energy_ < tuning::kLeastDescent * before;
   }
   return false;
 }

@@ -1,28 +1,28 @@
-#include "improve/refill.h"
+#include "optimise/refill.h"
 
 #include <algorithm>
 
+#include "optimise/tuning.h"
 #include "suppress/fill_cavity.h"
 
 namespace holdfast {
 
 std::span<const Tet> CavityRefiller::refill(Tet t) {
-  // The best cavity for a point has mostly some twenty tetrahedra; a search without one soon takes too long.
-  constexpr std::size_t kMostTets = 80, kFartherThanBest = 12, kLeastForSearch = 3, kMostForSearch = 13;
   best_ = {};
   point_ = kNone;
   near_ = volume_.mesh().corners(t);
   frame_ = volume_.frame_of(near_);
   Cavity cavity(volume_.mesh(), std::array{t}, volume_.first_free());
-  std::size_t last = kMostTets;
+  std::size_t last = tuning::kMostRefilled;
   do {
     const double before = best_.gain;
     try_point(cavity);
     // The search measures elements in space.
-    if (frame_.is_plain() && cavity.tets().size() >= kLeastForSearch &&
-        cavity.vertex_count() <= kMostForSearch)
+    if (frame_.is_plain() && cavity.tets().size() >= tuning::kLeastTets &&
+        cavity.vertex_count() <= tuning::kMostRefillVertices)
       try_without(cavity);
-    if (best_.gain > before) last = std::min(kMostTets, cavity.tets().size() + kFartherThanBest);
+    if (best_.gain > before)
+      last = std::min(tuning::kMostRefilled, cavity.tets().size() + tuning::kFartherThanBest);
   } while (cavity.tets().size() < last && grow(cavity));
   return best_.gain > 0 ? apply() : std::span<const Tet>{};
 }
@@ -37,8 +37,9 @@ void CavityRefiller::try_without(const Cavity& cavity) {
   const TetMesh& mesh = volume_.mesh();
   double worst = 0;
   for (const Tet t : cavity.tets()) worst = std::max(worst, volume_.energy(t));
-  const auto fresh = fill_polyhedron(mesh, cavity.faces(),
-                                     {.most_nodes = 100, .worst_quality = 0.5 * worst, .measure = energy});
+  const auto fresh = fill_polyhedron(
+      mesh, cavity.faces(),
+      {.most_nodes = tuning::kRefillNodes, .worst_quality = tuning::kRefillGain * worst, .measure = energy});
   if (!fresh) return;
   double after = 0;
   for (const TetMesh::Corners& c : *fresh) after += volume_.energy_of(c);

@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
-#include "improve/improve.h"
 #include "mesh/parallel.h"
+#include "optimise/improve.h"
 #include "refine/parts.h"
 #include "size/size_function.h"
 

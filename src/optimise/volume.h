@@ -5,8 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "improve/energy.h"
+#include "mesh/exchange.h"
 #include "mesh/replace.h"
+#include "optimise/energy.h"
+#include "optimise/tuning.h"
 #include "refine/volume_data.h"
 
 namespace holdfast {
@@ -88,6 +90,14 @@ class ImprovedVolume {
     adopt(created_, region);
     return created_;
   }
+  std::span<const Tet> make(const Exchange& exchange) {
+    if (!exchange.removes_edge) return replace(exchange.old_tets, exchange.new_tets);
+    const RegionId region = region_of_[exchange.old_tets.front()];
+    created_.clear();
+    replace_shell(mesh_, exchange.shell, exchange.triangles, &created_);
+    adopt(created_, region);
+    return created_;
+  }
   /// Takes note of tetrahedra that were made otherwise.
   void adopt(std::span<const Tet> tets, RegionId region) {
     if (energy_.size() < mesh_.slot_count()) {
@@ -123,6 +133,8 @@ class ImprovedVolume {
 
 /// Whether a change of a sum of energies is worth making; differences below are rounding or not worth the
 /// time.
-[[nodiscard]] inline bool is_less(double after, double before) { return after < before * (1 - 1e-9) - 0.02; }
+[[nodiscard]] inline bool is_less(double after, double before) {
+  return after < before * (1 - tuning::kEnergyRounding) - tuning::kLeastEnergyGain;
+}
 
 }  // namespace holdfast

@@ -1,4 +1,4 @@
-#include "optimise/ways.h"
+#include "optimise/ways_for_quality.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "improve/swap.h"
+#include "optimise/exchange_for_energy.h"
 
 #include "optimise/tuning.h"
 
@@ -10,8 +10,7 @@ LeastEnergy::LeastEnergy(const ImprovedVolume& volume, double most)
 std::span<const Tet> EnergySwapper::improve(Tet t, bool as_worst) {
   LeastEnergy objective(volume_, as_worst ? volume_.energy(t) : kNoEnergy);
   const Exchange* const best = search_.best_at(t, objective);
-  if (best == nullptr) return {};
-  return volume_.replace(best->old_tets, best->new_tets);
+  return best != nullptr ? volume_.make(*best) : std::span<const Tet>{};
 }
 
 }  // namespace holdfast

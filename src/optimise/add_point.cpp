@@ -1,6 +1,8 @@
-#include "improve/add_point.h"
+#include "optimise/add_point.h"
 
 #include <algorithm>
+
+#include "optimise/tuning.h"
 
 namespace holdfast {
 
@@ -46,13 +48,12 @@ bool PointAdder::add_at(const Point& place, Tet t, std::span<const Tet> tets) {
 }
 
 bool PointAdder::find_cavity(Vertex p, Tet t, std::span<const Tet> tets) {
-  constexpr std::size_t kMostTets = 200;
   const Tet base = cavity_.locate(p, t);
   if (base == kNone || volume_.mesh().is_ghost(base) || volume_.region_of(base) != volume_.region_of(t))
     return false;
   if (!tets.empty() && std::find(tets.begin(), tets.end(), base) == tets.end()) return false;
-  const bool found =
-      tets.empty() ? cavity_.find(p, base, frame_, kMostTets) : cavity_.find_among(p, base, tets);
+  const bool found = tets.empty() ? cavity_.find(p, base, frame_, tuning::kMostAddedBall)
+                                  : cavity_.find_among(p, base, tets);
   work_ += static_cast<double>(cavity_.work());
   return found;
 }

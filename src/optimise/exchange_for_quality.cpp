@@ -1,4 +1,4 @@
-#include "optimise/exchange.h"
+#include "optimise/exchange_for_quality.h"
 
 #include <cmath>
 

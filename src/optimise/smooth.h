@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "improve/star.h"
-#include "improve/volume.h"
+#include "optimise/star.h"
+#include "optimise/volume.h"
 
 namespace holdfast {
 
@@ -19,8 +19,6 @@ class VertexSmoother {
   [[nodiscard]] const std::vector<Tet>& ball() const { return tets_; }
 
  private:
-  static constexpr std::size_t kMostBall = 200;
-
   void gather_star(Vertex v);
   bool settle(Vertex v, double before);
   [[nodiscard]] bool is_better(double before);

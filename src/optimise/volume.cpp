@@ -1,4 +1,4 @@
-#include "improve/volume.h"
+#include "optimise/volume.h"
 
 namespace holdfast {
 

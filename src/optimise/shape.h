@@ -4,13 +4,13 @@
 #include <array>
 
 #include "holdfast/holdfast.h"
-#include "improve/energy.h"
 #include "mesh/parallel.h"
+#include "optimise/energy.h"
 #include "refine/parts.h"
 
 namespace holdfast {
 
-inline constexpr double kEnergyOfFlat = energy_of_sine(0.035);  // 2 degrees
+inline constexpr double kEnergyOfFlat = energy_of_sine(tuning::kSineOfFlat);
 /// Whether a tetrahedron is nearly flat: needles have a large Q, too, but no such angle.
 [[nodiscard]] bool is_flat(const Point& a, const Point& b, const Point& c, const Point& d);
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "improve/volume.h"
+#include "optimise/volume.h"
 
 namespace holdfast {
 
@@ -21,8 +21,6 @@ class VertexContractor {
   [[nodiscard]] double energy_with(Vertex v, Vertex w, double longest, double limit);
 
   ImprovedVolume& volume_;
-  static constexpr std::size_t kMostBall = 100;
-
   std::vector<Tet> tets_;
   std::vector<Vertex> link_;
   std::vector<TetMesh::Corners> candidate_, fresh_;

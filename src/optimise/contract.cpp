@@ -1,8 +1,9 @@
-#include "improve/contract.h"
+#include "optimise/contract.h"
 
 #include <algorithm>
 
 #include "mesh/traverse.h"
+#include "optimise/tuning.h"
 
 namespace holdfast {
 
@@ -11,7 +12,7 @@ std::span<const Tet> VertexContractor::contract(Vertex v, double longest) {
   tets_.clear();
   ball(mesh, v, tets_);
   work_ = static_cast<double>(tets_.size());
-  if (tets_.size() > kMostBall) return {};
+  if (tets_.size() > tuning::kMostContractedBall) return {};
   link_.clear();
   for (const Tet t : tets_)
     for (const Vertex w : mesh.corners(t))

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "improve/energy.h"
+#include "optimise/energy.h"
 
 namespace holdfast {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "improve/volume.h"
 #include "mesh/exchange.h"
+#include "optimise/volume.h"
 
 namespace holdfast {
 

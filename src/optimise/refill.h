@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "improve/star.h"
-#include "improve/volume.h"
+#include "optimise/star.h"
+#include "optimise/volume.h"
 #include "suppress/cavity.h"
 
 namespace holdfast {

@@ -1,0 +1,144 @@
+#include "optimise/improve.h"
+
+#include <algorithm>
+#include <queue>
+
+#include "optimise/tuning.h"
+#include "optimise/ways_for_energy.h"
+
+namespace holdfast {
+namespace {
+
+class Improver {
+ public:
+  Improver(const VolumeData& volume, Quality quality, std::span<const std::uint8_t> spared,
+           std::span<const std::uint8_t> fresh, Monitor& monitor)
+      : mesh_(volume.mesh),
+        volume_(volume, fresh),
+        effort_(tuning::effort_of(quality)),
+        spared_(spared),
+        monitor_(monitor),
+        ways_(volume_, energy_of_sine(effort_.patient_aim)) {}
+
+  ImproveStats run() {
+    const int steps = effort_.passes + effort_.rounds;
+    for (int pass = 0; pass < effort_.passes || (pass < tuning::kMostPasses && has_many_bad()); ++pass) {
+      stage_ = {static_cast<double>(pass) / steps, 1.0 / steps};
+      swap_pass();
+      smooth_pass();
+    }
+    for (int round = 0; round < effort_.rounds; ++round) {
+      stage_ = {static_cast<double>(effort_.passes + round) / steps, 1.0 / steps};
+      volume_.touch_all();
+      if (!work_on_the_worst(effort_.aim, effort_.work_per_tet, false)) break;
+    }
+    // The very worst are few: they get as many rounds as help.
+    const double aim = effort_.patient_aim + tuning::kBeyondPatientAim;
+    for (int round = 0; round < tuning::kPatientRounds * effort_.rounds; ++round) {
+      volume_.touch_all();
+      if (!work_on_the_worst(aim, tuning::kPatientShare * effort_.work_per_tet, true)) break;
+    }
+    for (Tet t = 0; t < mesh_.slot_count(); ++t)
+      if (is_worse(t, stats_.worst)) stats_.worst = volume_.energy(t);
+    return stats_;
+  }
+
+ private:
+  struct Entry {
+    double energy;
+    Tet tet;
+    friend bool operator<(const Entry& x, const Entry& y) {
+      return x.energy != y.energy ? x.energy < y.energy : x.tet > y.tet;
+    }
+  };
+
+  void poll(double fraction) { monitor_.poll(Stage::optimise, stage_[0] + stage_[1] * fraction); }
+
+  // Whether t is to be looked at, being worse than that.
+  [[nodiscard]] bool is_worse(Tet t, double from) const {
+    return volume_.energy(t) > from && volume_.is_inside(t) && !is_spared(t);
+  }
+  [[nodiscard]] bool is_spared(Tet t) const {
+    const TetMesh::Corners& c = mesh_.corners(t);
+    return std::any_of(c.begin(), c.end(), [&](Vertex v) { return v < spared_.size() && spared_[v] != 0; });
+  }
+
+  void swap_pass() {
+    const double from = energy_of_sine(effort_.sine);
+    const auto count = static_cast<double>(mesh_.slot_count());
+    // Slots that are filled on the way are met again, here or in the next pass.
+    for (Tet t = 0; t < mesh_.slot_count(); ++t) {
+      if (!is_worse(t, from) || !volume_.take_changed(t)) continue;
+      poll(0.5 * t / count);
+      if (ways_.swap_as_worst(t)) ++stats_.swapped;
+    }
+  }
+
+  void smooth_pass() {
+    const double from = energy_of_sine(effort_.smooth_sine);
+    std::vector<std::uint8_t> bad(mesh_.vertex_count(), 0);
+    for (Tet t = 0; t < mesh_.slot_count(); ++t)
+      if (is_worse(t, from))
+        for (const Vertex v : mesh_.corners(t)) bad[v] = 1;
+    for (Vertex v = volume_.first_free(); v < mesh_.vertex_count(); ++v) {
+      if (bad[v] == 0 || !mesh_.in_mesh(v) || !volume_.take_touched(v)) continue;
+      poll(0.5 + 0.5 * v / static_cast<double>(mesh_.vertex_count()));
+      if (ways_.smooth(v)) ++stats_.moved;
+    }
+  }
+
+  // So many that passes are the faster way.
+  [[nodiscard]] bool has_many_bad() const {
+    const double from = energy_of_sine(effort_.aim);
+    std::size_t bad = 0;
+    for (Tet t = 0; t < mesh_.slot_count(); ++t)
+      if (is_worse(t, from)) ++bad;
+    return static_cast<double>(bad) > tuning::kManyBad * static_cast<double>(mesh_.tet_count());
+  }
+
+  // One element after another, the worst first, each in every way, or in every one but the slowest. Returns
+  // whether any became better.
+  bool work_on_the_worst(double aim, double work_per_tet, bool refill) {
+    const double from = energy_of_sine(aim);
+    std::priority_queue<Entry> queue;
+    const auto push = [&](Tet t) {
+      if (is_worse(t, from)) queue.push({volume_.energy(t), t});
+    };
+    for (Tet t = 0; t < mesh_.slot_count(); ++t) push(t);
+    const double count = 1 + static_cast<double>(queue.size());
+    const double budget = tuning::kLeastElements + work_per_tet * static_cast<double>(mesh_.tet_count());
+    double work = 0;
+    bool any = false;
+    while (!queue.empty() && work < budget) {
+      const Entry worst = queue.top();
+      queue.pop();
+      if (!volume_.is_inside(worst.tet) || volume_.energy(worst.tet) != worst.energy) continue;
+      if (!volume_.take_changed(worst.tet)) continue;
+      poll(std::max(work / budget, 1 - std::min(1.0, static_cast<double>(queue.size()) / count)));
+      const EnergyWays::Outcome outcome = ways_.try_all(worst.tet, refill, work);
+      if (outcome.changed.empty()) continue;
+      any = true;
+      ++(stats_.*outcome.count);
+      for (const Tet t : outcome.changed) push(t);
+    }
+    return any;
+  }
+
+  TetMesh& mesh_;
+  ImprovedVolume volume_;
+  const tuning::Effort effort_;
+  const std::span<const std::uint8_t> spared_;  // by vertex
+  Monitor& monitor_;
+  EnergyWays ways_;
+  std::array<double, 2> stage_{};
+  ImproveStats stats_;
+};
+
+}  // namespace
+
+ImproveStats improve(const VolumeData& volume, Quality quality, Monitor& monitor,
+                     std::span<const std::uint8_t> spared, std::span<const std::uint8_t> fresh) {
+  return Improver(volume, quality, spared, fresh, monitor).run();
+}
+
+}  // namespace holdfast

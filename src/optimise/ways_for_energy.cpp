@@ -1,0 +1,79 @@
+#include "optimise/ways_for_energy.h"
+
+#include <array>
+
+#include "optimise/tuning.h"
+
+namespace holdfast {
+
+EnergyWays::EnergyWays(ImprovedVolume& volume, double very_bad)
+    : volume_(volume),
+      very_bad_(very_bad),
+      smoother_(volume),
+      swapper_(volume),
+      contractor_(volume),
+      adder_(volume),
+      refiller_(volume) {}
+
+struct EnergyWays::Way {
+  void (EnergyWays::*attempt)(Tet, Outcome&, double&);
+  std::size_t ImproveStats::*count;
+};
+
+EnergyWays::Outcome EnergyWays::try_all(Tet t, bool with_refill, double& work) {
+  static constexpr std::array<Way, 5> kWays{{{&EnergyWays::swap, &ImproveStats::swapped},
+                                             {&EnergyWays::smooth_a_corner, &ImproveStats::moved},
+                                             {&EnergyWays::contract_a_corner, &ImproveStats::contracted},
+                                             {&EnergyWays::add_point, &ImproveStats::inserted},
+                                             {&EnergyWays::refill, &ImproveStats::swapped}}};
+  Outcome out;
+  work += 1;
+  for (const Way& way : std::span(kWays).first(with_refill ? kWays.size() : kWays.size() - 1)) {
+    out.count = way.count;
+    (this->*way.attempt)(t, out, work);
+    if (!out.changed.empty()) return out;
+  }
+  return out;
+}
+
+void EnergyWays::swap(Tet t, Outcome& out, double&) { out.changed = swapper_.improve(t); }
+
+void EnergyWays::smooth_a_corner(Tet t, Outcome& out, double& work) {
+  const TetMesh::Corners corners = volume_.mesh().corners(t);
+  for (const Vertex v : corners) {
+    if (!volume_.may_move(v)) continue;
+    const bool moved = smoother_.smooth(v, true);
+    work += static_cast<double>(smoother_.ball().size()) / tuning::kSmoothTetsAWork;
+    if (!moved) continue;
+    out.changed = smoother_.ball();
+    return;
+  }
+}
+
+void EnergyWays::contract_a_corner(Tet t, Outcome& out, double& work) {
+  const TetMesh::Corners corners = volume_.mesh().corners(t);
+  for (const Vertex v : corners) {
+    if (!volume_.may_move(v)) continue;
+    out.changed = contractor_.contract(v, tuning::kLongestContracted * volume_.size(v));
+    work += contractor_.work() / tuning::kContractTetsAWork;
+    if (!out.changed.empty()) return;
+  }
+}
+
+void EnergyWays::add_point(Tet t, Outcome& out, double& work) {
+  constexpr double worth_a_point = energy_of_sine(tuning::kSineWorthAPoint);
+  const double energy = volume_.energy(t);
+  if (!(energy > worth_a_point)) return;
+  const bool is_added = adder_.add(t, energy > very_bad_);
+  work += tuning::kAddWork + adder_.work() / tuning::kAddTetsAWork;
+  if (is_added) out.changed = adder_.ball();
+}
+
+void EnergyWays::refill(Tet t, Outcome& out, double& work) {
+  if (!(volume_.energy(t) > very_bad_)) return;
+  work += tuning::kRefillWork;
+  out.changed = refiller_.refill(t);
+  if (refiller_.point() != kNone) out.count = &ImproveStats::inserted;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,52 @@
+// The ways to better an element, from the cheapest to the dearest (paper §8), where energies count.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "optimise/add_point.h"
+#include "optimise/contract.h"
+#include "optimise/exchange_for_energy.h"
+#include "optimise/improve.h"
+#include "optimise/refill.h"
+#include "optimise/smooth.h"
+#include "optimise/volume.h"
+
+namespace holdfast {
+
+/// Each changes the volume only where the sum of the energies falls.
+class EnergyWays {
+ public:
+  /// What has more energy than `very_bad` is worth patience.
+  EnergyWays(ImprovedVolume& volume, double very_bad);
+
+  /// Better elements, and the way that made them.
+  struct Outcome {
+    std::span<const Tet> changed;  // until the next call; none where no way helped
+    std::size_t ImproveStats::*count = nullptr;
+  };
+  /// Every way on one element, or all but the slowest. `work` grows, in elements tried.
+  Outcome try_all(Tet t, bool with_refill, double& work);
+
+  /// One way alone, for passes over the volume: whether it helped.
+  bool swap_as_worst(Tet t) { return !swapper_.improve(t, true).empty(); }
+  bool smooth(Vertex v) { return smoother_.smooth(v, false); }
+
+ private:
+  struct Way;
+  void swap(Tet t, Outcome& out, double& work);
+  void smooth_a_corner(Tet t, Outcome& out, double& work);
+  void contract_a_corner(Tet t, Outcome& out, double& work);
+  void add_point(Tet t, Outcome& out, double& work);
+  void refill(Tet t, Outcome& out, double& work);
+
+  ImprovedVolume& volume_;
+  const double very_bad_;
+  VertexSmoother smoother_;
+  EnergySwapper swapper_;
+  VertexContractor contractor_;
+  PointAdder adder_;
+  CavityRefiller refiller_;
+};
+
+}  // namespace holdfast
