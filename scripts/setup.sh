@@ -6,7 +6,7 @@ set -euo pipefail
 declare -A packages=(
   # libgmp-dev is for the independent checker of `make corpus`, not for the product.
   [build]="cmake ninja-build g++ ccache python3 xz-utils zlib1g-dev libboost-dev libcli11-dev libfmt-dev
-           nlohmann-json3-dev libgtest-dev libgmp-dev locales"
+           nlohmann-json3-dev libgtest-dev libgmp-dev locales pkg-config dpkg-dev"
   [test]="python3-dolfinx"
   [bench]="tetgen libtet1.5-dev gmsh libcgal-dev libgmp-dev libmpfr-dev libtbb-dev libbenchmark-dev"
   [field]="gmsh tetgen python3-netgen"

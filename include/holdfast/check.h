@@ -1,13 +1,36 @@
-// Holdfast: an exact check of the promise (design §1), independent of the mesher's own state.
+// Holdfast: an exact check of the promise, independent of the mesher's own state.
 #pragma once
 
+#include "holdfast/export.h"
+#include "holdfast/limits.h"
 #include "holdfast/types.h"
 
 namespace holdfast {
 
+/// The rules of the promise, in the order in which a check lists them. The numbers are stable.
+enum class RuleKind : int {
+  input_vertices_kept = 1,
+  well_formed = 2,
+  no_vertex_unused = 3,
+  volumes_positive = 4,
+  facets_kept = 5,
+  segments_kept = 6,
+  faces_matched = 7,
+  boundary_is_input = 8,
+  no_overlap = 9,
+  steiner_points_inside = 10,
+  regions_numbered = 11,
+  markers_kept = 12,
+  nothing_dropped = 13,
+};
+
+/// "facets kept" and so on; stable.
+[[nodiscard]] HOLDFAST_API const char* name(RuleKind kind);
+
 /// One rule of the promise and whether it holds.
 struct Rule {
-  std::string name;  ///< stable, e.g. "facets kept"
+  RuleKind kind;
+  std::string name;  ///< that of `kind`
   bool holds;
   std::string detail;  ///< counts where it holds; the first offending entities where it does not
 };
@@ -22,9 +45,10 @@ struct CheckResult {
 };
 
 /// What a check may take as given.
-struct CheckOptions {
+struct CheckOptions : Limits {
   bool outside_dropped = false;  ///< input facets outside every tetrahedron are accepted
   bool box = false;              ///< the mesh may extend to an enclosing box (--keep box)
+  ProgressFunction progress = {};
 };
 
 /// Checks a volume against the surface that it should keep, exactly.
@@ -33,12 +57,10 @@ struct CheckOptions {
 /// distinct ones, in the order that `vertex_map` (holdfast.h) tells. Findings name the surface's own indices.
 /// Vertices of the volume are never taken together.
 ///
-/// The rules, always all of them and in this order: "input vertices kept", "well formed", "no vertex
-/// unused", "volumes positive", "facets kept", "segments kept", "faces matched", "boundary is input",
-/// "no overlap", "Steiner points inside regions", "regions numbered", "markers kept", "nothing dropped".
-/// A rule that cannot be decided because another is broken does not hold, and its detail begins with
-/// "not examined". Any arrays are accepted, however wrong. Throws std::bad_alloc only.
-[[nodiscard]] CheckResult check(const Complex& surface, const Volume& volume,
-                                const CheckOptions& options = {});
+/// The result has all rules, in the order of `RuleKind`. A rule that cannot be decided because another is
+/// broken does not hold, and its detail begins with "not examined". Any arrays are accepted, however wrong.
+/// Throws Interrupted for its limits, and std::bad_alloc.
+[[nodiscard]] HOLDFAST_API CheckResult check(const Complex& surface, const Volume& volume,
+                                             const CheckOptions& options = {});
 
 }  // namespace holdfast

@@ -1,15 +1,18 @@
 // Holdfast: fills any triangulated surface with tetrahedra and keeps every input triangle.
 #pragma once
 
-#include <chrono>
+#include <concepts>
 #include <functional>
 #include <map>
 
+#include "holdfast/export.h"
+#include "holdfast/limits.h"
 #include "holdfast/types.h"
+#include "holdfast/version.h"
 
 namespace holdfast {
 
-/// Stages of the pipeline (design §2), in order.
+/// Stages of the pipeline, in order.
 enum class Stage {
   validate,
   delaunay,
@@ -23,9 +26,9 @@ enum class Stage {
 };
 
 /// Name of a stage as the command line and the report spell it.
-[[nodiscard]] const char* name(Stage stage);
+[[nodiscard]] HOLDFAST_API const char* name(Stage stage);
 
-/// Which regions stay in the volume (design §2.6).
+/// Which regions stay in the volume.
 enum class Keep {
   automatic,  ///< winding number where the surface is consistently oriented, else every bounded region
   bounded,    ///< every bounded region
@@ -36,7 +39,7 @@ enum class Keep {
 /// A region to number: the region that holds `where` gets `id`.
 using RegionSeed = Surface::RegionSeed;
 
-/// How long edges should be, for field points (design §2.8). The least of all limits counts.
+/// How long edges should be, for field points. The least of all limits counts.
 struct Sizes {
   double size = 0;  ///< the most anywhere; 0: as the surface has it
   /// From a vertex of the surface, whose size is the mean length of its edges, sizes grow by this much a unit
@@ -57,7 +60,7 @@ struct Sizes {
 };
 
 /// How long to improve the elements with field points: each is some times slower than the one before.
-enum class Quality { fast, good, best };
+enum class Effort { fast, good, best };
 
 /// What a running call tells, and may be told. Stages come in order, but that validation goes on after
 /// Delaunay, and that another attempt, where one is needed, begins with Delaunay.
@@ -68,8 +71,8 @@ struct Progress {
   double overall = 0;
 };
 
-/// Options of `mesh`. Every default gives the promise of design §1.
-struct Options {
+/// Options of `mesh`. Every default gives the promise.
+struct Options : Limits {
   bool flips = true;     ///< recover by flips before partition; without, partition does all the work
   bool optimise = true;  ///< better elements by exchanges and moves of Steiner points, after all else
   /// And by a few points, where an element stays flat without. If not, elements may be as flat as the
@@ -79,7 +82,7 @@ struct Options {
   /// With sizes, field points are added, and the whole volume is made fit to compute with. Without, only the
   /// points that the surface forces are added.
   std::optional<Sizes> sizes;
-  Quality quality = Quality::good;  ///< for `sizes`
+  Effort effort = Effort::good;  ///< for `sizes`
   Keep keep = Keep::automatic;
   double box_margin = 0.1;  ///< of the largest extent, for Keep::box
   std::vector<Point> holes;
@@ -88,27 +91,14 @@ struct Options {
   /// Ends after this stage with what stands then, exact vertices rounded. Before `classify` that is every
   /// tetrahedron of the enclosing box, as region 0, and the facets and segments that stand.
   std::optional<Stage> stop_after;
-  std::uint64_t seed = 1;  ///< of the random orders
-  unsigned threads = 1;    ///< 0: all there are; the result is the same
-  double time_limit = 0;   ///< seconds; 0: none
-  /// When the time limit began to run, if not with the call.
-  std::optional<std::chrono::steady_clock::time_point> started = {};
-  /// Bytes of the process; 0: none. Refused where the system does not tell how many there are.
-  std::uint64_t memory_limit = 0;
+  std::uint64_t seed = 1;   ///< of the random orders
+  unsigned threads = 1;     ///< 0: all there are; the result is the same
+  bool neighbours = false;  ///< fills `Result::neighbours`
   /// Called every 20 ms or so from the calling thread; returns false to cancel. What it throws ends the call.
   std::function<bool(const Progress&)> progress;
 };
 
-enum class Outcome {
-  done,
-  invalid_input,      ///< `defects` says which rule is broken and where
-  time_limit,         ///< `options.time_limit` ran out
-  memory_limit,       ///< `options.memory_limit` ran out
-  cancelled,          ///< the progress callback returned false
-  not_representable,  ///< valid, but some Steiner point has no position in doubles
-};
-
-/// Numbers of a run; the paper's Tables I and II (design §3.3).
+/// Numbers of a run; the paper's Tables I and II.
 struct Report {
   struct Input {
     std::size_t vertices = 0;           ///< distinct ones; besides these the complex has
@@ -169,12 +159,13 @@ struct Report {
   /// numbers.
   std::vector<Index> turned_facets;
   std::size_t attempts = 0;  ///< with other random orders; all but the last found no doubles for some point
-  struct Quality {
+  /// Shape of all elements.
+  struct Elements {
     double target = 0, worst = 0;  ///< the paper's Q = sqrt(6)/12 h_max / inradius, 1 is regular
     double min_dihedral_deg = 0, max_dihedral_deg = 0;
     std::size_t below_10_deg = 0;             ///< elements with a dihedral angle below 10 degrees
     std::array<std::size_t, 18> histogram{};  ///< dihedral angles in bins of 10 degrees
-  } quality;
+  } elements;
   std::map<std::string, double> seconds;  ///< by stage, and "total"; "partition" includes elimination
   std::uint64_t peak_memory_bytes = 0;
 };
@@ -206,6 +197,9 @@ struct Warning {
 /// on a side without tetrahedra.
 using FacetRegions = std::array<std::optional<int>, 2>;
 
+/// Of a tetrahedron, at i the one behind the face opposite to its corner i; `no_entity` where there is none.
+using Neighbours = std::array<Index, 4>;
+
 struct Result {
   Outcome outcome = Outcome::done;
   Volume volume;                            ///< empty unless `outcome` is done or not_representable
@@ -215,38 +209,66 @@ struct Result {
   std::vector<Warning> warnings;  ///< where the outcome is done or not_representable
   /// What `vertex_map` gives for the complex; with a volume only.
   std::vector<std::int64_t> vertex_map;
+  /// If `Options::neighbours` asks for them: what `neighbours` gives for the volume's tetrahedra.
+  std::vector<Neighbours> neighbours;
   std::vector<ExactVertex> exact_vertices;  ///< for not_representable
   std::string message;                      ///< one sentence when the outcome is not done
 };
 
-/// Fills a complex with tetrahedra, keeping every facet and segment (the promise of design §1).
+/// Fills a complex with tetrahedra, keeping every facet and segment (the promise).
 ///
 /// Expected endings are outcomes. Throws std::invalid_argument for options that make no sense or do not
 /// suit the complex (marker arrays of a wrong length, a hole or region seed on a facet or in no region that
 /// it could mean, a margin that is not positive), std::length_error beyond 2^28 vertices, std::bad_alloc when
 /// memory runs out without a limit, and std::logic_error if an internal invariant breaks (please report it).
-[[nodiscard]] Result mesh(const Complex& complex, const Options& options = {});
+[[nodiscard]] HOLDFAST_API Result mesh(const Complex& complex, const Options& options = {});
+
+/// The same for a surface that owns its arrays, be it a temporary.
+template <std::same_as<Surface> Owner>
+[[nodiscard]] Result mesh(const Owner& surface, const Options& options = {}) {
+  return mesh(surface.view(), options);
+}
 
 /// For each vertex of a complex the vertex that it is in a mesh of it, or -1 where it is left out; empty
 /// where each is the one with its own index. A mesh has each place (vertices with identical coordinates, +0
 /// and -0 being one) once, in the order of the first vertices in use there. Vertices that no facet and no
 /// segment uses are left out where they are not finite or at the place of another vertex (of several unused
 /// ones the first stays).
-[[nodiscard]] std::vector<std::int64_t> vertex_map(const Complex& complex);
+[[nodiscard]] HOLDFAST_API std::vector<std::int64_t> vertex_map(const Complex& complex);
 
-/// Every broken rule of a valid input (design §1), exactly; empty for a valid complex.
-/// `most` bounds the number of defects returned.
-[[nodiscard]] std::vector<Defect> diagnose(const Complex& complex, std::size_t most = SIZE_MAX);
+struct DiagnoseOptions : Limits {
+  std::size_t most = SIZE_MAX;  ///< bounds the number of defects
+  unsigned threads = 1;         ///< 0: all there are; the result is the same
+  ProgressFunction progress = {};
+};
 
-/// Delaunay tetrahedra of the convex hull of `points`; repeated points are left unused.
-///
-/// `seed` decides how cospherical points are joined, and the order of the tetrahedra; `threads` (0: all that
-/// the machine has) changes nothing in the result. Throws std::invalid_argument for non-finite coordinates.
-/// All points coplanar: no tetrahedra.
-[[nodiscard]] std::vector<Tetrahedron> delaunay(std::span<const Point> points, std::uint64_t seed = 1,
-                                                unsigned threads = 1);
+/// Every broken rule of a valid input, exactly; empty for a valid complex. Throws Interrupted for its limits.
+[[nodiscard]] HOLDFAST_API std::vector<Defect> diagnose(const Complex& complex,
+                                                        const DiagnoseOptions& options);
 
-/// Library version, "major.minor.patch".
-[[nodiscard]] const char* version();
+/// The same without limits. `most` bounds the number of defects returned.
+[[nodiscard]] HOLDFAST_API std::vector<Defect> diagnose(const Complex& complex, std::size_t most = SIZE_MAX);
+
+struct DelaunayOptions : Limits {
+  std::uint64_t seed = 1;  ///< decides how cospherical points are joined, and the order of the tetrahedra
+  unsigned threads = 1;    ///< 0: all there are; the result is the same
+  ProgressFunction progress = {};
+};
+
+/// Delaunay tetrahedra of the convex hull of `points`; repeated points are left unused. All points coplanar:
+/// no tetrahedra. Throws std::invalid_argument for non-finite coordinates, and Interrupted for its limits.
+[[nodiscard]] HOLDFAST_API std::vector<Tetrahedron> delaunay(std::span<const Point> points,
+                                                             const DelaunayOptions& options);
+
+/// The same without limits.
+[[nodiscard]] HOLDFAST_API std::vector<Tetrahedron> delaunay(std::span<const Point> points,
+                                                             std::uint64_t seed = 1, unsigned threads = 1);
+
+/// Which tetrahedra share a face, one entry a tetrahedron. Where more than two have a face, or one has it
+/// twice, as only in what is no mesh, they count as none there. Any indices are accepted.
+[[nodiscard]] HOLDFAST_API std::vector<Neighbours> neighbours(std::span<const Tetrahedron> tetrahedra);
+
+/// Version of the library that runs, "major.minor.patch"; version.h has that of the headers.
+[[nodiscard]] HOLDFAST_API const char* version();
 
 }  // namespace holdfast

@@ -1,4 +1,4 @@
-// Holdfast: reading surfaces, reading and writing volumes (design §3.2).
+// Holdfast: reading surfaces, reading and writing volumes.
 #pragma once
 
 #include <filesystem>
@@ -6,12 +6,14 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "holdfast/export.h"
+#include "holdfast/limits.h"
 #include "holdfast/types.h"
 
 namespace holdfast {
 
 /// A file that cannot be read or written: what, where in it, and why.
-class FileError : public std::runtime_error {
+class HOLDFAST_API FileError : public std::runtime_error {
  public:
   FileError(std::filesystem::path path, std::string where, const std::string& reason)
       : std::runtime_error(path.string() + (where.empty() ? "" : ": " + where) + ": " + reason),
@@ -29,7 +31,13 @@ class FileError : public std::runtime_error {
 /// The open descriptor of this process that a path names by itself, links not followed: "/dev/stdin",
 /// "/dev/stdout", "/dev/stderr", "/dev/fd/N". Functions here read it from where it stands and write straight
 /// through, as they do with pipes and devices: there is nothing to rename.
-[[nodiscard]] std::optional<int> descriptor_of(const std::filesystem::path& path);
+[[nodiscard]] HOLDFAST_API std::optional<int> descriptor_of(const std::filesystem::path& path);
+
+/// What bounds and watches the reading of a file. All readers throw Interrupted for their limits.
+struct ReadOptions : Limits {
+  std::string format;  ///< overrides the extension: ".stl", ...
+  ProgressFunction progress = {};
+};
 
 /// Reads a surface; the format follows the extension unless `format` (".stl", ...) is given.
 ///
@@ -50,9 +58,12 @@ class FileError : public std::runtime_error {
 ///   regular tetrahedron of that volume.
 /// - Tetrahedra in the file are left out; .poly and .smesh may also fill `holes` and `regions`.
 /// - What else the file holds and a surface does not, `remarks` say.
-/// Indices in the result are always in range, but nothing else of design section 1 is checked.
+/// Indices in the result are always in range, but nothing else that `diagnose` tells is checked.
 /// Throws FileError, also for a file without vertices.
-[[nodiscard]] Surface read_surface(const std::filesystem::path& path, std::string_view format = {});
+[[nodiscard]] HOLDFAST_API Surface read_surface(const std::filesystem::path& path,
+                                                std::string_view format = {});
+[[nodiscard]] HOLDFAST_API Surface read_surface(const std::filesystem::path& path,
+                                                const ReadOptions& options);
 
 /// Reads a volume: .vtu, .vtk, .mesh, .meshb, .msh, and .node, .ele, .face, .edge (TetGen) beside one
 /// another; each also packed by gzip.
@@ -62,27 +73,34 @@ class FileError : public std::runtime_error {
 /// ordered by node tag. Neither positive volumes nor anything else of the promise is checked (see
 /// `check`), except that indices are in range. `remarks` get what the file holds and a volume does not.
 /// Throws FileError.
-[[nodiscard]] Volume read_volume(const std::filesystem::path& path, std::string_view format = {},
-                                 std::vector<Remark>* remarks = nullptr);
+[[nodiscard]] HOLDFAST_API Volume read_volume(const std::filesystem::path& path, std::string_view format = {},
+                                              std::vector<Remark>* remarks = nullptr);
+[[nodiscard]] HOLDFAST_API Volume read_volume(const std::filesystem::path& path, const ReadOptions& options,
+                                              std::vector<Remark>* remarks = nullptr);
 
 /// Reads points: an .xyz text (three numbers a line, what follows them on it is ignored), or the vertices of
 /// whatever `read_surface` reads. Throws FileError.
-[[nodiscard]] std::vector<Point> read_points(const std::filesystem::path& path, std::string_view format = {});
+[[nodiscard]] HOLDFAST_API std::vector<Point> read_points(const std::filesystem::path& path,
+                                                          std::string_view format = {});
+[[nodiscard]] HOLDFAST_API std::vector<Point> read_points(const std::filesystem::path& path,
+                                                          const ReadOptions& options);
 
 /// The surface of a volume, to be meshed again: its facets and segments with their markers, then the faces on
 /// its boundary and between regions that are not among them, seen from outside. Only vertices that these use,
 /// in the order that they have. Throws std::invalid_argument for regions that are neither none nor one a
 /// tetrahedron.
-[[nodiscard]] Surface surface_of(const Volume& volume);
+[[nodiscard]] HOLDFAST_API Surface surface_of(const Volume& volume);
 
-struct WriteOptions {
+struct WriteOptions : Limits {
   bool compress = true;     ///< .vtu: zlib blocks
   bool legacy_msh = false;  ///< .msh: version 2.2 instead of 4.1
   unsigned threads = 1;     ///< for compression, 0: all there are; the file is the same
   std::string format;       ///< overrides the extension
+  ProgressFunction progress = {};
 };
 
-/// Writes a volume beside its name and renames it, so that no partial file is ever left.
+/// Writes a volume beside its name and renames it, so that no partial file is ever left. Throws Interrupted
+/// for its limits; the file that had the name is then as it was.
 ///
 /// .vtu (appended raw data, with `input_vertices` as the point array "input_vertex"), .vtk (ASCII), .mesh,
 /// .meshb (GMF version 3), .msh (ASCII), .node (with .ele, .face and .edge; vertices from 0). Coordinates
@@ -90,14 +108,16 @@ struct WriteOptions {
 /// order; .msh 4.1 groups the entities by marker. Throws FileError, and std::invalid_argument if regions,
 /// markers or input vertices are neither empty nor as many as their entities. What the format does not hold,
 /// `not_held` says.
-void write_volume(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options = {});
+HOLDFAST_API void write_volume(const std::filesystem::path& path, const Volume& volume,
+                               const WriteOptions& options = {});
 
 /// What of a volume the file that `write_volume` writes does not hold as it is, so that the same volume is
 /// not what other programs, or `read_volume`, make of it. Empty for .vtu, .vtk, .mesh, .meshb and .node,
 /// which hold everything; .msh stores negative ids that Gmsh does not take for ids, and version 4.1 changes
 /// the order of entities.
-[[nodiscard]] std::vector<Remark> not_held(const std::filesystem::path& path, const Volume& volume,
-                                           const WriteOptions& options = {});
+[[nodiscard]] HOLDFAST_API std::vector<Remark> not_held(const std::filesystem::path& path,
+                                                        const Volume& volume,
+                                                        const WriteOptions& options = {});
 
 /// Sizes that edges should have, or metrics in which their length should be 1, at the vertices of a
 /// background mesh.
@@ -116,38 +136,41 @@ struct SizeField {
 ///   components (.vtu, xx yy zz xy yz xz as in VTK); or full 3 x 3 ones (.vtu with 9 components, .pos TT).
 /// Throws FileError, also for coordinates that are not finite, sizes that are not positive and tensors that
 /// are not positive definite.
-[[nodiscard]] SizeField read_size_field(const std::filesystem::path& path);
+[[nodiscard]] HOLDFAST_API SizeField read_size_field(const std::filesystem::path& path,
+                                                     const ReadOptions& options = {});
 
 /// The size at a point, linear in each tetrahedron of the field; 0, no limit, outside: for `Sizes::field`.
 /// Throws std::invalid_argument for a field without a size for every vertex, and for numbers that are not
 /// finite.
-[[nodiscard]] std::function<double(const Point&)> size_function(SizeField field);
+[[nodiscard]] HOLDFAST_API std::function<double(const Point&)> size_function(SizeField field);
 
 /// The metric at a point, whose logarithm is linear in each tetrahedron of the field; zero, no limit,
 /// outside: for `Sizes::metric`. Throws std::invalid_argument for a field without a positive definite tensor
 /// for every vertex, and for coordinates that are not finite.
-[[nodiscard]] std::function<Metric(const Point&)> metric_function(SizeField field);
+[[nodiscard]] HOLDFAST_API std::function<Metric(const Point&)> metric_function(SizeField field);
 
 /// Writes bytes as a file that appears under its name complete or not at all, as every file here. Throws
 /// FileError.
-void write_bytes(const std::filesystem::path& path, std::string_view bytes);
+HOLDFAST_API void write_bytes(const std::filesystem::path& path, std::string_view bytes);
 
 /// The files that `read_surface` looks for, given a name: often this one alone. They need not exist.
-[[nodiscard]] std::vector<std::filesystem::path> files_of_surface(const std::filesystem::path& path,
-                                                                  std::string_view format = {});
+[[nodiscard]] HOLDFAST_API std::vector<std::filesystem::path> files_of_surface(
+    const std::filesystem::path& path, std::string_view format = {});
 /// The same for `read_volume` and `write_volume`: .node, .ele, .face and .edge go together.
-[[nodiscard]] std::vector<std::filesystem::path> files_of_volume(const std::filesystem::path& path,
-                                                                 std::string_view format = {});
+[[nodiscard]] HOLDFAST_API std::vector<std::filesystem::path> files_of_volume(
+    const std::filesystem::path& path, std::string_view format = {});
 /// The same for `read_size_field`: the mesh and its .sol, the .mtr and its .node.
-[[nodiscard]] std::vector<std::filesystem::path> files_of_size_field(const std::filesystem::path& path);
+[[nodiscard]] HOLDFAST_API std::vector<std::filesystem::path> files_of_size_field(
+    const std::filesystem::path& path);
 
 /// Extensions that `write_volume` knows, with the dot, in lower case.
-[[nodiscard]] std::vector<std::string> volume_formats();
+[[nodiscard]] HOLDFAST_API std::vector<std::string> volume_formats();
 
 /// Writes the places of defects as points and lines for a viewer, a .vtu file whatever its name.
 ///
 /// Cell arrays: "kind" (the DefectKind's number) and "defect" (index into `defects`). A defect without
 /// places is marked by its vertices, segments and sides of facets. Throws FileError.
-void write_marks(const std::filesystem::path& path, const Complex& complex, std::span<const Defect> defects);
+HOLDFAST_API void write_marks(const std::filesystem::path& path, const Complex& complex,
+                              std::span<const Defect> defects);
 
 }  // namespace holdfast

@@ -4,6 +4,7 @@
 // gone wrong. Distances serve as hints in this, measured by the edges nearby; they decide nothing.
 #pragma once
 
+#include "holdfast/export.h"
 #include "holdfast/types.h"
 
 namespace holdfast {
@@ -29,7 +30,7 @@ enum class Cause {
 };
 
 /// "unwelded vertices" and so on.
-[[nodiscard]] const char* name(Cause cause);
+[[nodiscard]] HOLDFAST_API const char* name(Cause cause);
 
 /// A vertex that lies almost on another one, or almost on a side where a border is open: nearer than a
 /// fiftieth of every edge at it, and of every edge at the other vertex.
@@ -60,6 +61,6 @@ struct DefectSummary {
 };
 
 /// Groups defects that `diagnose` or `mesh` has found in a complex. Vertices at one place count as one.
-[[nodiscard]] DefectSummary summarise(const Complex& complex, std::span<const Defect> defects);
+[[nodiscard]] HOLDFAST_API DefectSummary summarise(const Complex& complex, std::span<const Defect> defects);
 
 }  // namespace holdfast

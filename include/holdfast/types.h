@@ -12,6 +12,8 @@ namespace holdfast {
 
 /// Index of a vertex, facet, segment or tetrahedron; always zero-based.
 using Index = std::uint32_t;
+/// Where there is no tetrahedron, vertex, facet or segment.
+inline constexpr Index no_entity = ~Index{0};
 /// x, y, z in the input's own unit.
 using Point = std::array<double, 3>;
 /// A symmetric tensor, m11 m12 m22 m13 m23 m33. As a metric it gives a vector e the length sqrt(e^T M e).
@@ -71,9 +73,11 @@ struct Surface {
   std::vector<Point> holes;
   std::vector<Remark> remarks;  ///< what the file holds besides, or in another way
 
-  [[nodiscard]] Complex view() const {
+  /// Of a surface that outlives it.
+  [[nodiscard]] Complex view() const& {
     return {vertices, facets, segments, facet_markers, segment_markers, vertex_markers};
   }
+  Complex view() const&& = delete;
 };
 
 /// A tetrahedral mesh that conforms to a complex.
@@ -92,7 +96,7 @@ struct Volume {
   std::vector<std::int64_t> input_vertices;
 };
 
-/// Which rule of a valid input is broken (design §1). The numbers are stable.
+/// Which rule of a valid input is broken. The numbers are stable.
 enum class DefectKind : int {
   non_finite_coordinate = 1,      ///< a vertex in use with NaN or infinity
   index_out_of_range = 2,         ///< a facet or segment that names a vertex which does not exist

@@ -1,4 +1,4 @@
-// Holdfast: a tangled volume mesh made positive, with its boundary fixed (design §2.7, paper §6.4).
+// Holdfast: a tangled volume mesh made positive, with its boundary fixed.
 //
 // After P.L. George, H. Borouchaki, E. Saltel, "'Ultimate' robustness in meshing an arbitrary polyhedron"
 // (Int. J. Numer. Meth. Engng 2003), §6.4: relocation, exchange of tetrahedra, added points; and V. Garanzha,
@@ -21,21 +21,17 @@ enum class UntangleStep {
 };
 
 /// Name of a step as the command line and the report spell it.
-[[nodiscard]] const char* name(UntangleStep step);
+[[nodiscard]] HOLDFAST_API const char* name(UntangleStep step);
 
 struct UntangleProgress {
   UntangleStep step;
   double fraction;  ///< of the tetrahedra that were not positive, those that are by now; 0 to 1
 };
 
-struct UntangleOptions {
+struct UntangleOptions : Limits {
   std::vector<Index> fixed;  ///< vertices to keep besides those of the boundary, facets and segments
   bool refill = true;        ///< empties and refills what nothing else untangles: may add and remove points
   std::uint64_t seed = 1;    ///< of the random orders when refilling
-  double time_limit = 0;     ///< seconds; 0: none
-  /// When the time limit began to run, if not with the call.
-  std::optional<std::chrono::steady_clock::time_point> started = {};
-  std::uint64_t memory_limit = 0;  ///< bytes of the process; 0: none; refused as by `mesh`
   /// Called now and then from the calling thread; returns false to cancel.
   std::function<bool(const UntangleProgress&)> progress;
 };
@@ -80,6 +76,6 @@ struct UntangleResult {
 ///
 /// Throws std::invalid_argument if arrays of regions or markers have a wrong length or `fixed` is out of
 /// range, std::length_error beyond 2^28 vertices, std::bad_alloc when memory runs out without a limit.
-[[nodiscard]] UntangleResult untangle(const Volume& volume, const UntangleOptions& options = {});
+[[nodiscard]] HOLDFAST_API UntangleResult untangle(const Volume& volume, const UntangleOptions& options = {});
 
 }  // namespace holdfast

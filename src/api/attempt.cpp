@@ -218,7 +218,7 @@ class Attempt {
     std::optional<FilledParts> filled;
     if (parts_) filled.emplace(FilledParts{std::move(parts_), *size_function_});
     const ImproveStats stats =
-        improve_in_parts(volume(), std::move(filled), options_.quality, threads_, monitor_);
+        improve_in_parts(volume(), std::move(filled), options_.effort, threads_, monitor_);
     report.edge_lengths = edge_lengths_of(volume(), threads_);
     report.moves = stats.moved;
     report.swaps = stats.swapped;
@@ -302,15 +302,15 @@ class Attempt {
       report.regions = static_cast<std::size_t>(std::count(kept_.region.begin(), kept_.region.end(), true));
     const bool has_all = volume.facets.size() == complex().facets.size();
     Report::Shape shape;
-    report.quality =
+    report.elements =
         measure(volume, has_all ? input_.target() : target_quality(volume.vertices, volume.facets, threads_),
                 &shape, threads_);
     const auto& angles = shape.least_dihedral;  // in bins of five degrees
-    report.quality.below_10_deg = angles[0] + angles[1];
+    report.elements.below_10_deg = angles[0] + angles[1];
     if (sizes_.empty()) return;
     if (!metrics_.empty()) shape = shape_of(this->volume(), threads_);
     if (options_.optimise && last == Stage::optimise) report.field.after = shape;
-    if (metrics_.empty() && report.quality.below_10_deg > 0)
+    if (metrics_.empty() && report.elements.below_10_deg > 0)
       find_forced(volume, complex().vertices.size(), report.field, [&] { monitor_.poll_again(); });
   }
 

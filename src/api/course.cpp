@@ -12,9 +12,9 @@ Costs costs(const Options& options) {
   Costs cost{0.02, 0.1, 0.01, 0.05, 0.05, 0.01, 0.04, 0, 0.3, 0.03};
   if (options.sizes) {
     cost[static_cast<std::size_t>(CallStep::field_points)] = 0.3;
-    cost[static_cast<std::size_t>(CallStep::optimise)] = options.quality == Quality::fast   ? 0.3
-                                                         : options.quality == Quality::good ? 1.5
-                                                                                            : 10;
+    cost[static_cast<std::size_t>(CallStep::optimise)] = options.effort == Effort::fast   ? 0.3
+                                                         : options.effort == Effort::good ? 1.5
+                                                                                          : 10;
   }
   if (!options.optimise) cost[static_cast<std::size_t>(CallStep::optimise)] = 0;
   return cost;

@@ -25,6 +25,9 @@ namespace {
 
 constexpr std::size_t kMostAttempts = 5;
 
+// The one of the overloads that is no template.
+Result mesh_complex(const Complex& complex, const Options& options) { return mesh(complex, options); }
+
 class Call {
  public:
   Call(const Complex& complex, const Options& options, SamePlace same_place)
@@ -59,12 +62,13 @@ class Call {
     }
     const bool has_all = options_.stop_after.value_or(Stage::optimise) == Stage::optimise;
     if (result_.outcome == Outcome::done && options_.sizes && has_all && options_.keep != Keep::box)
-      mesh_remote_components(input_.complex(), with_sizes(input_.sizes()), mesh, result_);
+      mesh_remote_components(input_.complex(), with_sizes(input_.sizes()), mesh_complex, result_);
   }
 
   [[nodiscard]] Options with_sizes(Sizes sizes) const {
     Options options = options_;
     options.sizes = std::move(sizes);
+    options.neighbours = false;  // those of the whole volume follow
     return options;
   }
 
@@ -180,7 +184,9 @@ class Call {
 Result mesh(const Complex& complex, const Options& options) {
   const FloatEnvironment environment;
   require_sensible(complex, options);
-  return Call(complex, options, SamePlace::one_vertex).run();
+  Result result = Call(complex, options, SamePlace::one_vertex).run();
+  if (options.neighbours) result.neighbours = neighbours(result.volume.tetrahedra);
+  return result;
 }
 
 Result mesh_as_given(const Complex& complex, const Options& options) {

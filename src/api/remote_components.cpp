@@ -178,7 +178,7 @@ class RemoteComponents {
     report.steiner_points -= report.vertices;
     report.vertices = volume_.vertices.size();
     report.tetrahedra = volume_.tetrahedra.size();
-    report.quality = measure(volume_, report.quality.target, &report.field.after);
+    report.elements = measure(volume_, report.elements.target, &report.field.after);
   }
 
   struct Fresh {

@@ -132,9 +132,7 @@ class Untangling {
   // The monitor's options: limits, and a callback that tells the step and how much is done.
   Options limits() {
     Options limits;
-    limits.time_limit = options_.time_limit;
-    limits.started = options_.started;
-    limits.memory_limit = options_.memory_limit;
+    static_cast<Limits&>(limits) = options_;
     if (options_.progress) limits.progress = [this](const Progress&) { return tell(); };
     return limits;
   }
@@ -213,6 +211,7 @@ class Untangling {
     options.seed = options_.seed;
     if (options_.time_limit > 0) options.time_limit = std::max(1e-6, options_.time_limit - seconds());
     options.memory_limit = options_.memory_limit;
+    options.cancel = options_.cancel;
     if (options_.progress) options.progress = [this](const Progress&) { return tell(); };
     Result result = mesh_as_given(complex, options);
     if (result.outcome == Outcome::time_limit || result.outcome == Outcome::memory_limit ||
@@ -249,6 +248,15 @@ class Untangling {
                                       : "relocation and swaps leave tetrahedra that are not positive";
   }
 
+  [[nodiscard]] std::vector<Rule> examined(const Ordered& ordered) {
+    CheckOptions options;
+    options.progress = [this](double) {
+      watch_.poll_slow_loop();
+      return true;
+    };
+    return check(ordered.boundary.view(), ordered.volume, options).rules;
+  }
+
   void deliver() {
     Assembled assembled = assemble(scaled_volume(), *tangle_);
     if (scale_ != 0) undo_scale(assembled.volume.vertices);
@@ -256,13 +264,13 @@ class Untangling {
     result_.report.added = assembled.added;
     result_.report.removed = assembled.removed;
     const Ordered ordered = constrained_first(assembled.volume, connectivity_);
-    for (const Rule& rule : check(ordered.boundary.view(), ordered.volume).rules) {
+    for (const Rule& rule : examined(ordered)) {
       if (rule.holds) continue;
-      if (rule.name == "no overlap")
+      if (rule.kind == RuleKind::no_overlap)
         return refuse("parts of the mesh overlap, though all of it is positive: " + rule.detail);
-      if (rule.name == "volumes positive" || rule.name == "facets kept" || rule.name == "segments kept" ||
-          rule.name == "faces matched" || rule.name == "boundary is input" ||
-          rule.name == "input vertices kept")
+      if (rule.kind == RuleKind::volumes_positive || rule.kind == RuleKind::facets_kept ||
+          rule.kind == RuleKind::segments_kept || rule.kind == RuleKind::faces_matched ||
+          rule.kind == RuleKind::boundary_is_input || rule.kind == RuleKind::input_vertices_kept)
         throw std::logic_error("holdfast: untangling broke the mesh: " + rule.name + ": " + rule.detail);
     }
     result_.volume = std::move(assembled.volume);
@@ -291,24 +299,6 @@ class Untangling {
 };
 
 }  // namespace
-
-const char* name(UntangleStep step) {
-  switch (step) {
-    case UntangleStep::validate:
-      return "validate";
-    case UntangleStep::relocate:
-      return "relocate";
-    case UntangleStep::swap:
-      return "swap";
-    case UntangleStep::smooth:
-      return "smooth";
-    case UntangleStep::refill:
-      return "refill";
-    case UntangleStep::check:
-      return "check";
-  }
-  return "unknown";
-}
 
 UntangleResult untangle(const Volume& volume, const UntangleOptions& options) {
   const FloatEnvironment environment;

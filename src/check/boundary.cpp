@@ -27,9 +27,10 @@ int Germ::side_of_plane(const double* u, const double* v, const double* w) const
 }
 
 Boundary::Boundary(const FaceTable& faces, std::span<const Tetrahedron> tetrahedra,
-                   std::span<const Point> vertices)
+                   std::span<const Point> vertices, Pulse& pulse)
     : vertices_(vertices) {
   faces.for_each([&](std::size_t, const Triangle&, std::span<const HalfFace> halves) {
+    pulse();
     if (halves.size() != 1) return;
     const Index tetrahedron = halves[0].tetrahedron();
     const unsigned side = halves[0].side();
@@ -46,9 +47,10 @@ Corners Boundary::corners(Index face) const {
   return {at(corner[0]), at(corner[1]), at(corner[2])};
 }
 
-std::vector<std::array<Index, 2>> Boundary::crossing_pairs() const {
+std::vector<std::array<Index, 2>> Boundary::crossing_pairs(Pulse& pulse) const {
   std::vector<std::array<Index, 2>> pairs;
   tree_.self_pairs([&](Index x, Index y) {
+    pulse();
     if (meet_badly(faces_[x].corners, corners(x), faces_[y].corners, corners(y)))
       pairs.push_back({std::min(x, y), std::max(x, y)});
   });
@@ -146,10 +148,11 @@ void Boundary::turn_sort(std::span<Side> fan) const {
   });
 }
 
-std::vector<Boundary::Cover> Boundary::covers() const {
+std::vector<Boundary::Cover> Boundary::covers(Pulse& pulse) const {
   DisjointSets sheets(faces_.size());
   std::vector<Side> sides = sorted_sides();
   for_each_fan(sides, [&](std::span<Side> fan) {
+    pulse();
     if (fan.size() > 2) turn_sort(fan);
     bool alternate = true;
     for (std::size_t i = 1; i < fan.size(); ++i)

@@ -60,12 +60,13 @@ class Boundary {
  public:
   Boundary() = default;
   /// Tetrahedra must be positive and faces matched (see above).
-  Boundary(const FaceTable& faces, std::span<const Tetrahedron> tetrahedra, std::span<const Point> vertices);
+  Boundary(const FaceTable& faces, std::span<const Tetrahedron> tetrahedra, std::span<const Point> vertices,
+           Pulse& pulse);
 
   [[nodiscard]] const std::vector<BoundaryFace>& faces() const { return faces_; }
 
   /// Pairs of boundary faces that meet outside common vertices and sides; B is embedded if none.
-  [[nodiscard]] std::vector<std::array<Index, 2>> crossing_pairs() const;
+  [[nodiscard]] std::vector<std::array<Index, 2>> crossing_pairs(Pulse& pulse) const;
 
   /// A face and how many tetrahedra cover the space just inside it.
   struct Cover {
@@ -73,7 +74,7 @@ class Boundary {
     int count;
   };
   /// One of every sheet of (3). B must be embedded.
-  [[nodiscard]] std::vector<Cover> covers() const;
+  [[nodiscard]] std::vector<Cover> covers(Pulse& pulse) const;
 
   /// Bounded regions of space that no tetrahedron covers: one face of each.
   /// The tetrahedra must be free of overlap.

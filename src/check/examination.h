@@ -9,6 +9,7 @@
 #include "check/boundary.h"
 #include "check/face_table.h"
 #include "check/input.h"
+#include "check/pulse.h"
 #include "holdfast/check.h"
 
 namespace holdfast::checking {
@@ -25,6 +26,7 @@ struct Examination {
   const Volume& volume;
   const CheckOptions& options;
   const Input input;  ///< the surface's entities by vertices of the mesh
+  Pulse& pulse;       ///< for loops over what may be many
 
   // Established by the rules, in this order.
   bool vertices_kept = false;

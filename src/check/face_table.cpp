@@ -19,31 +19,37 @@ bool sort_corners(Triangle& face) {
   return odd;
 }
 
-FaceTable::FaceTable(std::span<const Tetrahedron> tetrahedra, std::size_t vertex_count)
+FaceTable::FaceTable(std::span<const Tetrahedron> tetrahedra, std::size_t vertex_count, Pulse& pulse)
     : start_(vertex_count + 1, 0), half_faces_(4 * tetrahedra.size()) {
-  for (const Tetrahedron& tetrahedron : tetrahedra)
+  for (const Tetrahedron& tetrahedron : tetrahedra) {
+    pulse();
     for (unsigned side = 0; side < 4; ++side) {
       const auto corners = side_of(tetrahedron, side);
       ++start_[*std::min_element(corners.begin(), corners.end()) + 1];
     }
+  }
   for (std::size_t vertex = 0; vertex < vertex_count; ++vertex) start_[vertex + 1] += start_[vertex];
 
   std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
-  for (std::size_t t = 0; t < tetrahedra.size(); ++t)
+  for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
+    pulse();
     for (unsigned side = 0; side < 4; ++side) {
       Triangle face = side_of(tetrahedra[t], side);
       const bool odd = sort_corners(face);
       const auto code = static_cast<std::uint32_t>(8 * t + 2 * side + (odd ? 1U : 0U));
       half_faces_[next[face[0]]++] = {face[1], face[2], code};
     }
+  }
 
   const auto earlier = [](const HalfFace& x, const HalfFace& y) {
     if (x.middle != y.middle) return x.middle < y.middle;
     return x.largest != y.largest ? x.largest < y.largest : x.code < y.code;
   };
-  for (std::size_t vertex = 0; vertex < vertex_count; ++vertex)
+  for (std::size_t vertex = 0; vertex < vertex_count; ++vertex) {
+    pulse();
     std::sort(half_faces_.begin() + static_cast<std::ptrdiff_t>(start_[vertex]),
               half_faces_.begin() + static_cast<std::ptrdiff_t>(start_[vertex + 1]), earlier);
+  }
 }
 
 std::size_t FaceTable::find(Triangle face) const {

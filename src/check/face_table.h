@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "check/pulse.h"
 #include "holdfast/types.h"
 
 namespace holdfast::checking {
@@ -37,7 +38,7 @@ class FaceTable {
 
   FaceTable() = default;
   /// All indices must be below `vertex_count` and distinct within a tetrahedron.
-  FaceTable(std::span<const Tetrahedron> tetrahedra, std::size_t vertex_count);
+  FaceTable(std::span<const Tetrahedron> tetrahedra, std::size_t vertex_count, Pulse& pulse);
 
   /// Where the half-faces of the face with these vertices begin, or `none`. Any indices are accepted.
   [[nodiscard]] std::size_t find(Triangle face) const;

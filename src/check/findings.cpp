@@ -19,13 +19,13 @@ std::string Findings::text(std::string_view what) const {
   return text;
 }
 
-Rule judge(std::string name, const Findings& findings, std::string_view what, std::string good) {
-  if (findings.empty()) return {std::move(name), true, std::move(good)};
-  return {std::move(name), false, findings.text(what)};
+Rule judge(RuleKind kind, const Findings& findings, std::string_view what, std::string good) {
+  if (findings.empty()) return {kind, name(kind), true, std::move(good)};
+  return {kind, name(kind), false, findings.text(what)};
 }
 
-Rule not_examined(std::string name, const std::string& reason) {
-  return {std::move(name), false, "not examined: " + reason};
+Rule not_examined(RuleKind kind, const std::string& reason) {
+  return {kind, name(kind), false, "not examined: " + reason};
 }
 
 std::string words(const Point& point) {

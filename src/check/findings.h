@@ -33,9 +33,9 @@ class Findings {
 };
 
 /// A rule that holds when nothing was found; `good` is its detail then.
-[[nodiscard]] Rule judge(std::string name, const Findings& findings, std::string_view what, std::string good);
+[[nodiscard]] Rule judge(RuleKind kind, const Findings& findings, std::string_view what, std::string good);
 /// A rule that cannot be decided, because of `reason`: it counts as not holding.
-[[nodiscard]] Rule not_examined(std::string name, const std::string& reason);
+[[nodiscard]] Rule not_examined(RuleKind kind, const std::string& reason);
 
 /// "(x, y, z)", in the fewest digits that give the same doubles.
 [[nodiscard]] std::string words(const Point& point);

@@ -21,7 +21,7 @@ std::vector<bool> used_vertices(const Complex& surface) {
 }
 
 /// For each vertex the one that stands for its place, or `no_vertex`.
-std::vector<Index> find_places(const Complex& surface) {
+std::vector<Index> find_places(const Complex& surface, Pulse& pulse) {
   const std::vector<bool> used = used_vertices(surface);
   std::vector<Index> place(surface.vertices.size(), no_vertex);
   std::vector<Index> order;
@@ -36,7 +36,10 @@ std::vector<Index> find_places(const Complex& surface) {
     const Point& p = surface.vertices[v];
     return std::tuple(p[0], p[1], p[2], !used[v], v);
   };
-  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return key(a) < key(b); });
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+    pulse();
+    return key(a) < key(b);
+  });
   for (std::size_t i = 0; i < order.size(); ++i) {
     const bool repeats = i > 0 && surface.vertices[order[i]] == surface.vertices[order[i - 1]];
     if (!repeats)
@@ -49,8 +52,8 @@ std::vector<Index> find_places(const Complex& surface) {
 
 }  // namespace
 
-Input input_of(const Complex& surface) {
-  const std::vector<Index> place = find_places(surface);
+Input input_of(const Complex& surface, Pulse& pulse) {
+  const std::vector<Index> place = find_places(surface, pulse);
   Input input;
   input.vertex.assign(place.size(), no_vertex);
   for (Index v = 0; v < place.size(); ++v)

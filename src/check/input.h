@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "check/pulse.h"
 #include "holdfast/types.h"
 
 namespace holdfast::checking {
@@ -23,6 +24,6 @@ struct Input {
 };
 
 /// Any indices and coordinates are accepted.
-[[nodiscard]] Input input_of(const Complex& surface);
+[[nodiscard]] Input input_of(const Complex& surface, Pulse& pulse);
 
 }  // namespace holdfast::checking

@@ -56,7 +56,7 @@ Rule vertices_kept(Examination& on) {
         [&] { return vertex_words("input", given(i), on.surface.vertices[given(i)]) + " is missing"; });
   on.vertices_kept = findings.empty();
   const std::string all = std::to_string(on.surface.vertices.size()) + " input vertices";
-  return judge("input vertices kept", findings, "input vertices changed or missing",
+  return judge(RuleKind::input_vertices_kept, findings, "input vertices changed or missing",
                (on.input_vertices() == on.surface.vertices.size()
                     ? all
                     : std::to_string(on.input_vertices()) + " distinct places of " + all) +
@@ -84,14 +84,14 @@ Rule well_formed(Examination& on) {
         return words("tetrahedron", i, volume.tetrahedra[i], volume.vertices) + " names a vertex twice";
       });
   on.well_formed = findings.empty();
-  return judge("well formed", findings, "malformed entities",
+  return judge(RuleKind::well_formed, findings, "malformed entities",
                std::to_string(volume.tetrahedra.size()) + " tetrahedra, " +
                    std::to_string(volume.vertices.size()) + " vertices");
 }
 
 Rule no_vertex_unused(const Examination& on) {
-  const std::string name = "no vertex unused";
-  if (!on.well_formed) return not_examined(name, not_well_formed);
+  constexpr RuleKind kind = RuleKind::no_vertex_unused;
+  if (!on.well_formed) return not_examined(kind, not_well_formed);
   Findings findings;
   std::size_t dropped = 0;
   for (std::size_t i = 0; i < on.vertices.size(); ++i) {
@@ -106,7 +106,7 @@ Rule no_vertex_unused(const Examination& on) {
              (on.vertices[i] == Fate::dropped ? " is outside all tetrahedra" : " is in no tetrahedron");
     });
   }
-  return judge(name, findings, "unused vertices",
+  return judge(kind, findings, "unused vertices",
                std::to_string(on.vertices.size() - dropped) + " vertices used" +
                    (dropped > 0 ? ", " + std::to_string(dropped) + " input vertices outside" : ""));
 }

@@ -12,7 +12,7 @@ namespace holdfast::checking {
 namespace {
 
 /// Whether the edges of a list are edges of tetrahedra.
-std::vector<bool> edges_exist(const std::vector<Segment>& wanted, const Volume& volume) {
+std::vector<bool> edges_exist(const std::vector<Segment>& wanted, const Volume& volume, Pulse& pulse) {
   if (wanted.empty()) return {};
   std::vector<Segment> edges;
   std::vector<bool> is_end(volume.vertices.size(), false);
@@ -23,7 +23,8 @@ std::vector<bool> edges_exist(const std::vector<Segment>& wanted, const Volume& 
   }
   std::sort(edges.begin(), edges.end());
   std::vector<bool> seen(edges.size(), false);
-  for (const Tetrahedron& t : volume.tetrahedra)
+  for (const Tetrahedron& t : volume.tetrahedra) {
+    pulse();
     for (std::size_t i = 0; i < 3; ++i) {
       if (!is_end[t[i]]) continue;
       for (std::size_t j = i + 1; j < 4; ++j) {
@@ -34,6 +35,7 @@ std::vector<bool> edges_exist(const std::vector<Segment>& wanted, const Volume& 
           seen[static_cast<std::size_t>(place - edges.begin())] = true;
       }
     }
+  }
   std::vector<bool> exist;
   exist.reserve(wanted.size());
   for (const auto& [x, y] : wanted) {
@@ -48,6 +50,7 @@ std::vector<bool> edges_exist(const std::vector<Segment>& wanted, const Volume& 
 /// The fate of an entity that is not in the mesh.
 template <class Entity>
 Fate fate_of_missing(const Examination& on, const Entity& entity) {
+  on.pulse();
   const bool decidable = on.disjoint && on.vertices_kept;
   return decidable && on.boundary->outside(entity) ? Fate::dropped : Fate::lost;
 }
@@ -75,14 +78,16 @@ std::string voids_words(const Examination& on) {
 
 void find_input_faces(Examination& on) {
   if (!on.well_formed) return;
-  on.faces = FaceTable(on.volume.tetrahedra, on.volume.vertices.size());
+  on.faces = FaceTable(on.volume.tetrahedra, on.volume.vertices.size(), on.pulse);
   on.input_face.assign(on.faces.size(), false);
   on.facets.assign(on.input.facets.size(), Fate::lost);
-  for (std::size_t i = 0; i < on.input.facets.size(); ++i)
+  for (std::size_t i = 0; i < on.input.facets.size(); ++i) {
+    on.pulse();
     if (const std::size_t place = on.faces.find(on.input.facets[i]); place != FaceTable::none) {
       on.input_face[place] = true;
       on.facets[i] = Fate::kept;
     }
+  }
 }
 
 void find_fates(Examination& on) {
@@ -90,7 +95,7 @@ void find_fates(Examination& on) {
   for (std::size_t i = 0; i < on.facets.size(); ++i)
     if (on.facets[i] == Fate::lost) on.facets[i] = fate_of_missing(on, on.input.facets[i]);
 
-  for (const bool exists : edges_exist(on.input.segments, on.volume))
+  for (const bool exists : edges_exist(on.input.segments, on.volume, on.pulse))
     on.segments.push_back(exists ? Fate::kept : fate_of_missing(on, on.input.segments[on.segments.size()]));
 
   on.vertices.assign(on.volume.vertices.size(), Fate::lost);
@@ -102,8 +107,8 @@ void find_fates(Examination& on) {
 }
 
 Rule facets_kept(const Examination& on) {
-  const std::string name = "facets kept";
-  if (!on.well_formed) return not_examined(name, not_well_formed);
+  constexpr RuleKind kind = RuleKind::facets_kept;
+  if (!on.well_formed) return not_examined(kind, not_well_formed);
   Findings findings;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < on.facets.size(); ++i) {
@@ -111,13 +116,13 @@ Rule facets_kept(const Examination& on) {
     if (on.facets[i] == Fate::lost)
       findings.add([&] { return facet_words(on, i) + " is no face of the mesh"; });
   }
-  return judge(name, findings, "input facets lost",
+  return judge(kind, findings, "input facets lost",
                std::to_string(kept) + " input facets, each one face of the mesh");
 }
 
 Rule segments_kept(const Examination& on) {
-  const std::string name = "segments kept";
-  if (!on.well_formed) return not_examined(name, not_well_formed);
+  constexpr RuleKind kind = RuleKind::segments_kept;
+  if (!on.well_formed) return not_examined(kind, not_well_formed);
   Findings findings;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < on.segments.size(); ++i) {
@@ -133,26 +138,26 @@ Rule segments_kept(const Examination& on) {
         sides.push_back({std::min(facet[k], facet[(k + 1) % 3]), std::max(facet[k], facet[(k + 1) % 3])});
   std::sort(sides.begin(), sides.end());
   sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
-  const std::vector<bool> exist = edges_exist(sides, on.volume);
+  const std::vector<bool> exist = edges_exist(sides, on.volume, on.pulse);
   for (std::size_t i = 0; i < sides.size(); ++i)
     if (!exist[i])
       findings.add([&] {
         const Segment given{on.input.first[sides[i][0]], on.input.first[sides[i][1]]};
         return words("facet side", given, on.surface.vertices) + " is no edge of the mesh";
       });
-  return judge(name, findings, "input segments or facet sides lost",
+  return judge(kind, findings, "input segments or facet sides lost",
                std::to_string(kept) + " input segments and all facet sides are edges of the mesh");
 }
 
 Rule nothing_dropped(const Examination& on) {
-  const std::string name = "nothing dropped";
-  if (!on.well_formed) return not_examined(name, not_well_formed);
+  constexpr RuleKind kind = RuleKind::nothing_dropped;
+  if (!on.well_formed) return not_examined(kind, not_well_formed);
   Findings findings;
   const auto lost = [&](const std::vector<Fate>& fates) {
     return std::count(fates.begin(), fates.end(), Fate::lost) > 0;
   };
   if ((lost(on.facets) || lost(on.segments)) && !(on.disjoint && on.vertices_kept))
-    return not_examined(name,
+    return not_examined(kind,
                         "facets or segments are missing, and the mesh has no outside that could be told");
   for (std::size_t i = 0; i < on.facets.size(); ++i)
     if (on.facets[i] == Fate::dropped) findings.add([&] { return facet_words(on, i); });
@@ -160,8 +165,8 @@ Rule nothing_dropped(const Examination& on) {
     if (on.segments[i] == Fate::dropped) findings.add([&] { return segment_words(on, i); });
   const std::string_view what = "input facets and segments lie outside all tetrahedra";
   if (on.options.outside_dropped && !findings.empty())
-    return {name, true, findings.text(what) + voids_words(on)};
-  Rule rule = judge(name, findings, what, "no input facet or segment is outside");
+    return {kind, name(kind), true, findings.text(what) + voids_words(on)};
+  Rule rule = judge(kind, findings, what, "no input facet or segment is outside");
   rule.detail += voids_words(on);
   return rule;
 }

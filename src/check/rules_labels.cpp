@@ -75,6 +75,7 @@ void find_wrong_markers(const Listing<Entity>& on, const Examination& whole, Fin
         return words("listed " + std::string(on.kind), i, on.listed[i], whole.volume.vertices) + what;
       });
     };
+    whole.pulse();
     const std::span<const std::size_t> same = lookup.find(on.listed[i]);
     if (same.empty()) {
       say(" is not in the input");
@@ -125,17 +126,18 @@ void find_wrong_vertex_markers(const Examination& on, Findings& findings) {
 }  // namespace
 
 Rule regions_numbered(const Examination& on) {
-  const std::string name = "regions numbered";
+  constexpr RuleKind kind = RuleKind::regions_numbered;
   const std::vector<int>& ids = on.volume.regions;
   if (ids.size() != on.volume.tetrahedra.size())
-    return {name, false,
+    return {kind, name(kind), false,
             std::to_string(ids.size()) + " region ids for " + std::to_string(on.volume.tetrahedra.size()) +
                 " tetrahedra"};
-  if (!on.well_formed) return not_examined(name, not_well_formed);
+  if (!on.well_formed) return not_examined(kind, not_well_formed);
 
   Findings findings;
   DisjointSets regions(ids.size());
   on.faces.for_each([&](std::size_t begin, const Triangle& face, std::span<const HalfFace> halves) {
+    on.pulse();
     if (on.input_face[begin]) return;
     for (const HalfFace& half : halves.subspan(1)) {
       const Index x = halves[0].tetrahedron(), y = half.tetrahedron();
@@ -154,7 +156,7 @@ Rule regions_numbered(const Examination& on) {
   const std::size_t count = of_region.size();
   std::sort(of_region.begin(), of_region.end());
   of_region.erase(std::unique(of_region.begin(), of_region.end()), of_region.end());
-  return judge(name, findings, "places where ids change inside a region",
+  return judge(kind, findings, "places where ids change inside a region",
                std::to_string(count) + " regions, " + std::to_string(of_region.size()) + " different ids");
 }
 
@@ -169,7 +171,7 @@ Rule markers_kept(const Examination& on) {
   find_wrong_markers<Segment>({"segment", on.input.segments, surface.segments, surface.segment_markers,
                                volume.segments, volume.segment_markers, on.segments},
                               on, findings);
-  return judge("markers kept", findings, "wrong facets, segments or markers",
+  return judge(RuleKind::markers_kept, findings, "wrong facets, segments or markers",
                std::to_string(volume.facets.size()) + " facets and " +
                    std::to_string(volume.segments.size()) + " segments listed");
 }

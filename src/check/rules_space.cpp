@@ -39,11 +39,12 @@ Box box_of_tetrahedra(const Volume& volume) {
 }  // namespace
 
 Rule positive_volumes(Examination& on) {
-  const std::string name = "volumes positive";
-  if (!on.well_formed) return not_examined(name, not_well_formed);
+  constexpr RuleKind kind = RuleKind::volumes_positive;
+  if (!on.well_formed) return not_examined(kind, not_well_formed);
   Findings findings;
   on.orientation.reserve(on.volume.tetrahedra.size());
   for (std::size_t i = 0; i < on.volume.tetrahedra.size(); ++i) {
+    on.pulse();
     const Tetrahedron& t = on.volume.tetrahedra[i];
     const auto corner = [&](std::size_t k) { return on.volume.vertices[t[k]].data(); };
     const int sign = exact::orient3d(corner(0), corner(1), corner(2), corner(3));
@@ -53,16 +54,17 @@ Rule positive_volumes(Examination& on) {
           [&] { return tetrahedron_words(on, i) + (sign < 0 ? " is negative" : " is of zero volume"); });
   }
   on.positive = findings.empty();
-  return judge(name, findings, "tetrahedra are not positive",
+  return judge(kind, findings, "tetrahedra are not positive",
                std::to_string(on.volume.tetrahedra.size()) + " tetrahedra, all positive");
 }
 
 Rule faces_matched(Examination& on) {
-  const std::string name = "faces matched";
-  if (!on.well_formed) return not_examined(name, not_well_formed);
+  constexpr RuleKind kind = RuleKind::faces_matched;
+  if (!on.well_formed) return not_examined(kind, not_well_formed);
   Findings crowded, folded;
   std::size_t shared = 0, alone = 0;
   on.faces.for_each([&](std::size_t, const Triangle& face, std::span<const HalfFace> halves) {
+    on.pulse();
     const auto face_and_two = [&](std::string_view what) {
       return words("face", face, on.volume.vertices) + std::string(what) + " tetrahedra " +
              std::to_string(halves[0].tetrahedron()) + " and " + std::to_string(halves[1].tetrahedron());
@@ -83,21 +85,22 @@ Rule faces_matched(Examination& on) {
   });
   on.matched = crowded.empty() && folded.empty();
   if (!crowded.empty()) {
-    Rule rule = judge(name, crowded, "faces of more than two tetrahedra", {});
+    Rule rule = judge(kind, crowded, "faces of more than two tetrahedra", {});
     if (!folded.empty()) rule.detail += "; " + folded.text("faces with both tetrahedra on one side");
     return rule;
   }
-  return judge(name, folded, "faces with both tetrahedra on one side",
+  return judge(kind, folded, "faces with both tetrahedra on one side",
                std::to_string(shared) + " faces of two tetrahedra, " + std::to_string(alone) + " of one");
 }
 
 Rule boundary_is_input(const Examination& on) {
-  const std::string name = "boundary is input";
-  if (!on.well_formed) return not_examined(name, not_well_formed);
+  constexpr RuleKind kind = RuleKind::boundary_is_input;
+  if (!on.well_formed) return not_examined(kind, not_well_formed);
   Findings findings;
   std::size_t facets = 0, others = 0;
   const Box box = box_of_tetrahedra(on.volume);
   on.faces.for_each([&](std::size_t begin, const Triangle& face, std::span<const HalfFace> halves) {
+    on.pulse();
     if (halves.size() != 1) return;
     if (on.input_face[begin]) {
       ++facets;
@@ -110,27 +113,27 @@ Rule boundary_is_input(const Examination& on) {
       });
     }
   });
-  return judge(name, findings, "boundary faces are not input facets",
+  return judge(kind, findings, "boundary faces are not input facets",
                std::to_string(facets) + " boundary faces are input facets" +
                    (others > 0 ? ", " + std::to_string(others) + " in the sides of the box" : ""));
 }
 
 Rule no_overlap(Examination& on) {
-  const std::string name = "no overlap";
-  if (!on.well_formed) return not_examined(name, not_well_formed);
-  if (!on.positive) return not_examined(name, "some tetrahedra are not positive");
-  if (!on.matched) return not_examined(name, "some faces are not matched");
-  on.boundary.emplace(on.faces, on.volume.tetrahedra, on.volume.vertices);
+  constexpr RuleKind kind = RuleKind::no_overlap;
+  if (!on.well_formed) return not_examined(kind, not_well_formed);
+  if (!on.positive) return not_examined(kind, "some tetrahedra are not positive");
+  if (!on.matched) return not_examined(kind, "some faces are not matched");
+  on.boundary.emplace(on.faces, on.volume.tetrahedra, on.volume.vertices, on.pulse);
   const std::vector<BoundaryFace>& faces = on.boundary->faces();
 
   Findings crossing;
-  for (const auto& [x, y] : on.boundary->crossing_pairs())
+  for (const auto& [x, y] : on.boundary->crossing_pairs(on.pulse))
     crossing.add([&, x = x, y = y] { return face_words(on, faces[x]) + " and " + face_words(on, faces[y]); });
-  if (!crossing.empty()) return judge(name, crossing, "pairs of boundary faces intersect", {});
+  if (!crossing.empty()) return judge(kind, crossing, "pairs of boundary faces intersect", {});
 
   Findings multiple;
   std::size_t sheets = 0;
-  for (const auto& [face, count] : on.boundary->covers()) {
+  for (const auto& [face, count] : on.boundary->covers(on.pulse)) {
     ++sheets;
     if (count != 1)
       multiple.add([&, face = face, count = count] {
@@ -139,14 +142,14 @@ Rule no_overlap(Examination& on) {
       });
   }
   on.disjoint = multiple.empty();
-  return judge(name, multiple, "boundary sheets lie inside other tetrahedra",
+  return judge(kind, multiple, "boundary sheets lie inside other tetrahedra",
                std::to_string(faces.size()) + " boundary faces in " + std::to_string(sheets) +
                    " sheets, each covered once");
 }
 
 Rule steiner_points_inside(const Examination& on) {
-  const std::string name = "Steiner points inside regions";
-  if (!on.well_formed) return not_examined(name, not_well_formed);
+  constexpr RuleKind kind = RuleKind::steiner_points_inside;
+  if (!on.well_formed) return not_examined(kind, not_well_formed);
   const std::span<const Point> vertices = on.volume.vertices;
   const std::size_t first = std::min(on.input_vertices(), vertices.size());
   std::vector<Index> facet_at(vertices.size(), 0);  // 1 + a boundary face's tetrahedron
@@ -170,6 +173,7 @@ Rule steiner_points_inside(const Examination& on) {
   std::size_t on_box = 0;
   const auto at = [&](Index vertex) { return on.surface.vertices[vertex].data(); };
   for (std::size_t i = first; i < vertices.size(); ++i) {
+    on.pulse();
     const Point& point = vertices[i];
     const std::string_view what = "Steiner vertex ";
     if (facet_at[i] != 0 && on.options.box) ++on_box;
@@ -198,7 +202,7 @@ Rule steiner_points_inside(const Examination& on) {
                  }
                });
   }
-  return judge(name, findings, "places where Steiner points are on the input or the boundary",
+  return judge(kind, findings, "places where Steiner points are on the input or the boundary",
                std::to_string(vertices.size() - first) + " Steiner points" +
                    (on_box > 0 ? ", " + std::to_string(on_box) + " of them on the box" : ""));
 }

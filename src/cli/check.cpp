@@ -8,6 +8,7 @@
 #include "command.h"
 #include "files.h"
 #include "files_of_run.h"
+#include "limits.h"
 #include "report.h"
 #include "signals.h"
 
@@ -19,6 +20,7 @@ struct CheckArguments {
   std::filesystem::path report;
   std::string input_format, format;
   CheckOptions options;
+  LimitArguments limits;
   bool quiet = false;
 };
 
@@ -40,6 +42,8 @@ std::string listing_of(const CheckResult& result) {
 int run(const CheckArguments& arguments) {
   if (arguments.files.size() < 2)
     throw UsageError("check: a surface and a volume are expected, as in `holdfast check part.stl part.vtu`");
+  CheckOptions options = arguments.options;
+  static_cast<Limits&>(options) = limits_of(arguments.limits);
   const std::vector<std::filesystem::path> surfaces(arguments.files.begin(), arguments.files.end() - 1);
   const std::filesystem::path& volume_path = arguments.files.back();
   FilesOfRun files;
@@ -47,11 +51,11 @@ int run(const CheckArguments& arguments) {
   files.read_volume(volume_path, arguments.format);
   files.write("--report", arguments.report);
   cancel_at_once();
-  const Surface surface = read_surfaces(surfaces, arguments.input_format);
+  const Surface surface = read_surfaces(surfaces, reading(options, arguments.input_format));
   if (!arguments.quiet) tell(surface.remarks);
-  const Volume volume = read_volume(volume_path, arguments.format);
+  const Volume volume = read_volume(volume_path, reading(options, arguments.format));
 
-  const CheckResult result = check(surface.view(), volume, arguments.options);
+  const CheckResult result = check(surface.view(), volume, options);
   if (!arguments.quiet) files.list(listing_of(result));
   cancel_by_flag();  // from here on files are open
   write_json(arguments.report, report_of(result));
@@ -81,6 +85,7 @@ void add_check(CLI::App& app, Command& chosen) {
   command->add_option("--report", arguments->report, "Write the rules as JSON")
       ->transform(or_standard_output)
       ->option_text("FILE.json");
+  add_limits(*command, arguments->limits);
   command->add_flag("-q,--quiet", arguments->quiet, "Only the exit code and failures");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }

@@ -7,6 +7,7 @@
 
 #include "command.h"
 #include "files_of_run.h"
+#include "limits.h"
 #include "report.h"
 #include "signals.h"
 
@@ -16,6 +17,7 @@ namespace {
 struct DelaunayArguments {
   std::filesystem::path points, output, report;
   std::string input_format, format;
+  LimitArguments limits;
   std::uint64_t seed = 1;
   unsigned threads = 1;
   bool quiet = false;
@@ -39,19 +41,24 @@ std::uint64_t peak_memory_bytes() {
 
 int run(const DelaunayArguments& arguments) {
   const auto whole = std::chrono::steady_clock::now();
+  DelaunayOptions options;
+  static_cast<Limits&>(options) = limits_of(arguments.limits);
+  options.seed = arguments.seed;
+  options.threads = arguments.threads;
   FilesOfRun files;
   files.read_points(arguments.points, arguments.input_format);
   VolumeTarget target = files.write_volume("-o", arguments.output, arguments.format);
   target.options.threads = arguments.threads;
+  watch_writing(target.options, options);
   files.write("--report", arguments.report);
   cancel_at_once();
   Volume volume;
-  volume.vertices = read_points(arguments.points, arguments.input_format);
+  volume.vertices = read_points(arguments.points, reading(options, arguments.input_format));
   const double reading = seconds_since(whole);
 
   const auto start = std::chrono::steady_clock::now();
   try {
-    volume.tetrahedra = delaunay(volume.vertices, arguments.seed, arguments.threads);
+    volume.tetrahedra = delaunay(volume.vertices, options);
   } catch (const std::invalid_argument& error) {
     say("holdfast: {}: {}\n", arguments.points.string(), error.what());
     return exit_invalid_surface;
@@ -112,6 +119,7 @@ void add_delaunay(CLI::App& app, Command& chosen) {
       ->option_text("FORMAT");
   command->add_option("--input-format", arguments->input_format, "Format of the points, instead of by ending")
       ->option_text("FORMAT");
+  add_limits(*command, arguments->limits);
   command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }

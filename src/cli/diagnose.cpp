@@ -7,6 +7,7 @@
 #include "defects.h"
 #include "files.h"
 #include "files_of_run.h"
+#include "limits.h"
 #include "report.h"
 #include "signals.h"
 
@@ -17,6 +18,8 @@ struct DiagnoseArguments {
   std::vector<std::filesystem::path> surfaces;
   std::filesystem::path marks, report;
   std::string input_format;
+  LimitArguments limits;
+  unsigned threads = 1;
   bool all = false, json = false, quiet = false;
 };
 
@@ -57,6 +60,9 @@ std::string listing_of(const Report::Input& counts, const std::vector<Defect>& d
 }
 
 int run(const DiagnoseArguments& arguments) {
+  DiagnoseOptions options;
+  static_cast<Limits&>(options) = limits_of(arguments.limits);
+  options.threads = arguments.threads;
   FilesOfRun files;
   files.read_surfaces(arguments.surfaces, arguments.input_format);
   files.write("--marks", arguments.marks);
@@ -64,9 +70,9 @@ int run(const DiagnoseArguments& arguments) {
   const std::filesystem::path json = arguments.json ? or_standard_output("-") : "";
   files.write("--json", json);
   cancel_at_once();
-  const Surface surface = read_surfaces(arguments.surfaces, arguments.input_format);
+  const Surface surface = read_surfaces(arguments.surfaces, reading(options, arguments.input_format));
   if (!arguments.quiet) tell(surface.remarks);
-  const std::vector<Defect> defects = diagnose(surface.view());
+  const std::vector<Defect> defects = diagnose(surface.view(), options);
 
   cancel_by_flag();  // from here on files are open
   if (!arguments.marks.empty()) write_marks(arguments.marks, surface.view(), defects);
@@ -111,6 +117,10 @@ void add_diagnose(CLI::App& app, Command& chosen) {
   command->add_flag("--json", arguments->json, "Print the defects as JSON");
   command->add_option("--input-format", arguments->input_format, "Surface format, instead of by ending")
       ->option_text("FORMAT");
+  command->add_option("--threads", arguments->threads, threads_help)
+      ->check(CLI::Range(0u, 4096u))
+      ->option_text("N");
+  add_limits(*command, arguments->limits);
   command->add_flag("-q,--quiet", arguments->quiet, "Only the exit code and a closing line");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }

@@ -37,9 +37,9 @@ void tell(const std::vector<Remark>& remarks, const fs::path& file) {
   for (const Remark& remark : remarks) fmt::print(stderr, "holdfast: {}{}\n", name, remark.message);
 }
 
-Surface read_surfaces(const std::vector<fs::path>& paths, std::string_view format, bool of_volumes) {
+Surface read_surfaces(const std::vector<fs::path>& paths, const ReadOptions& options, bool of_volumes) {
   const auto read = [&](const fs::path& path) {
-    return of_volumes ? surface_of(read_volume(path, format)) : read_surface(path, format);
+    return of_volumes ? surface_of(read_volume(path, options)) : read_surface(path, options);
   };
 
   std::vector<Surface> parts;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string_view>
 #include <vector>
 
 #include "holdfast/io.h"
@@ -11,9 +10,10 @@ namespace holdfast::cli {
 
 /// Reads surfaces and puts them together: indices count through the files in turn. Where no file carries
 /// markers, facets are marked with the number of their file, from 1. With `of_volumes`, files are volumes, of
-/// which the surface is taken. Remarks begin with their file. Throws FileError.
-[[nodiscard]] Surface read_surfaces(const std::vector<std::filesystem::path>& paths, std::string_view format,
-                                    bool of_volumes = false);
+/// which the surface is taken. Remarks begin with their file. Throws FileError, and Interrupted for the
+/// limits.
+[[nodiscard]] Surface read_surfaces(const std::vector<std::filesystem::path>& paths,
+                                    const ReadOptions& options, bool of_volumes = false);
 
 /// Prints what readers and writers left out or changed, one line each, on stderr; behind the name of a file
 /// unless it is empty.

@@ -92,6 +92,15 @@ int main(int count, char** arguments) {
   } catch (const holdfast::FileError& error) {
     say("", error.what());
     return cli::exit_file;
+  } catch (const holdfast::Interrupted& interrupted) {
+    // While files are read or written, or in a call that has no outcome.
+    const char* const advice = interrupted.outcome() == holdfast::Outcome::time_limit
+                                   ? "; nothing was written; give a longer --time-limit"
+                               : interrupted.outcome() == holdfast::Outcome::memory_limit
+                                   ? "; nothing was written; give a larger --memory-limit"
+                                   : "; nothing was written";
+    say(interrupted.what(), advice);
+    return cli::exit_limit;
   } catch (const std::length_error& error) {
     say("", error.what());
     return cli::exit_limit;

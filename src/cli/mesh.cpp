@@ -12,6 +12,7 @@
 #include "files.h"
 #include "files_of_run.h"
 #include "idle_options.h"
+#include "limits.h"
 #include "mesh_options.h"
 #include "progress.h"
 #include "report.h"
@@ -163,6 +164,7 @@ int run(const MeshArguments& arguments) {
   files.read_size_field("--size-field", arguments.size_field);
   VolumeTarget target = files.write_volume("-o", arguments.output, arguments.format);
   target.options.threads = arguments.threads;
+  watch_writing(target.options, options);
   files.write("--report", arguments.report);
   files.write("--exact", arguments.exact);
   cancel_at_once();
@@ -170,7 +172,8 @@ int run(const MeshArguments& arguments) {
   ProgressView progress(how_to_show(arguments.quiet, arguments.verbose));
   progress.reading();
   read_size_field(arguments, options);
-  const Surface surface = read_surfaces(arguments.surfaces, arguments.input_format, arguments.surface_of);
+  const Surface surface =
+      read_surfaces(arguments.surfaces, reading(options, arguments.input_format), arguments.surface_of);
   if (!arguments.quiet) tell_of_lone_vertices(arguments, surface, progress);
   options.holes.insert(options.holes.end(), surface.holes.begin(), surface.holes.end());
   options.regions.insert(options.regions.end(), surface.regions.begin(), surface.regions.end());

@@ -7,7 +7,9 @@
 
 #include "command.h"
 #include "holdfast/io.h"
+#include "holdfast/names.h"
 #include "idle_options.h"
+#include "limits.h"
 #include "number.h"
 
 namespace holdfast::cli {
@@ -65,22 +67,17 @@ Sizes to_sizes(const MeshArguments& arguments) {
   return sizes;
 }
 
-Quality quality_named(const std::string& text) {
-  if (text == "fast") return Quality::fast;
-  if (text == "good") return Quality::good;
-  if (text == "best") return Quality::best;
+Effort effort_named(const std::string& text) {
+  if (const std::optional<Effort> effort = from_name<Effort>(text)) return *effort;
   throw UsageError("--quality " + text + ": fast, good or best is expected");
 }
 
 }  // namespace
 
 Stage stage_named(const std::string& text) {
+  if (const std::optional<Stage> stage = from_name<Stage>(text)) return *stage;
   std::string known;
-  for (int i = 0; i <= static_cast<int>(Stage::optimise); ++i) {
-    const auto stage = static_cast<Stage>(i);
-    if (text == holdfast::name(stage)) return stage;
-    known += std::string(i == 0 ? "" : ", ") + holdfast::name(stage);
-  }
+  for (const Stage stage : values_of<Stage>()) known += std::string(known.empty() ? "" : ", ") + name(stage);
   throw UsageError("--stop-after " + text + ": there is no such stage; there are " + known);
 }
 
@@ -101,7 +98,7 @@ std::uint64_t memory_limit_of(const std::optional<double>& gigabytes) {
 
 void read_size_field(const MeshArguments& arguments, Options& options) {
   if (arguments.size_field.empty()) return;
-  SizeField field = holdfast::read_size_field(arguments.size_field);
+  SizeField field = holdfast::read_size_field(arguments.size_field, reading(options, {}));
   Sizes& sizes = *options.sizes;
   if (field.vertices.empty())
     sizes.vertex_sizes = std::move(field.sizes);
@@ -139,7 +136,7 @@ Options to_options(const MeshArguments& arguments) {
       throw UsageError("--without " + step + ": only 'flips', 'optimise' and 'points' can be left out");
   }
   if (!arguments.fill) options.sizes = to_sizes(arguments);
-  options.quality = quality_named(arguments.quality.value_or("good"));
+  options.effort = effort_named(arguments.quality.value_or("good"));
   if (!arguments.stop_after.empty()) options.stop_after = stage_named(arguments.stop_after);
   options.drop_outside = arguments.drop_outside;
   options.seed = arguments.seed;

@@ -10,90 +10,6 @@
 
 namespace holdfast::cli {
 
-const char* name(DefectKind kind) {
-  switch (kind) {
-    case DefectKind::non_finite_coordinate:
-      return "non-finite coordinate";
-    case DefectKind::index_out_of_range:
-      return "index out of range";
-    case DefectKind::repeated_vertex:
-      return "repeated vertex";
-    case DefectKind::degenerate_facet:
-      return "degenerate facet";
-    case DefectKind::degenerate_segment:
-      return "degenerate segment";
-    case DefectKind::repeated_facet:
-      return "repeated facet";
-    case DefectKind::vertex_in_segment:
-      return "vertex in segment";
-    case DefectKind::vertex_in_facet:
-      return "vertex in facet";
-    case DefectKind::segments_cross:
-      return "segments cross";
-    case DefectKind::segment_pierces_facet:
-      return "segment pierces facet";
-    case DefectKind::facets_cross:
-      return "facets cross";
-    case DefectKind::facets_overlap:
-      return "facets overlap";
-    case DefectKind::segments_overlap:
-      return "segments overlap";
-    case DefectKind::encloses_nothing:
-      return "encloses nothing";
-    case DefectKind::outside_region:
-      return "outside every region";
-    case DefectKind::inconsistent_orientation:
-      return "inconsistent orientation";
-  }
-  return "unknown";
-}
-
-const char* name(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::done:
-      return "done";
-    case Outcome::invalid_input:
-      return "invalid_input";
-    case Outcome::time_limit:
-      return "time_limit";
-    case Outcome::memory_limit:
-      return "memory_limit";
-    case Outcome::cancelled:
-      return "cancelled";
-    case Outcome::not_representable:
-      return "not_representable";
-  }
-  return "unknown";
-}
-
-const char* name(Keep keep) {
-  switch (keep) {
-    case Keep::automatic:
-      return "auto";
-    case Keep::bounded:
-      return "bounded";
-    case Keep::winding:
-      return "winding";
-    case Keep::box:
-      return "box";
-  }
-  return "unknown";
-}
-
-const char* name(WarningKind kind) {
-  switch (kind) {
-    case WarningKind::orientation:
-      return "orientation";
-    case WarningKind::open_interface:
-      return "open_interface";
-    case WarningKind::field_points:
-      return "field_points";
-    case WarningKind::attempt_failed:
-      return "attempt_failed";
-  }
-  return "unknown";
-}
-
 Json to_json(const Defect& defect) {
   return {{"rule", static_cast<int>(defect.kind)},
           {"name", name(defect.kind)},
@@ -217,12 +133,12 @@ Json to_json(const Result& result, Json options) {
       {"mesh",
        {{"vertices", report.vertices}, {"tetrahedra", report.tetrahedra}, {"regions", report.regions}}},
       {"quality",
-       {{"target", report.quality.target},
-        {"worst", report.quality.worst},
-        {"min_dihedral_deg", report.quality.min_dihedral_deg},
-        {"max_dihedral_deg", report.quality.max_dihedral_deg},
-        {"below_10_deg", report.quality.below_10_deg},
-        {"histogram", report.quality.histogram}}},
+       {{"target", report.elements.target},
+        {"worst", report.elements.worst},
+        {"min_dihedral_deg", report.elements.min_dihedral_deg},
+        {"max_dihedral_deg", report.elements.max_dihedral_deg},
+        {"below_10_deg", report.elements.below_10_deg},
+        {"histogram", report.elements.histogram}}},
       {"seconds", report.seconds},
       {"peak_memory_bytes", report.peak_memory_bytes},
       {"version", version()},

@@ -1,23 +1,15 @@
-// The report of a run as JSON, with the stable keys of design §3.3, and names for defects.
+// The report of a run as JSON, with stable keys.
 #pragma once
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "holdfast/holdfast.h"
+#include "holdfast/names.h"
 
 namespace holdfast::cli {
 
 using Json = nlohmann::ordered_json;
-
-/// "facets cross" and so on, for people and for the report.
-[[nodiscard]] const char* name(DefectKind kind);
-
-/// "done", "invalid_input", ... as the report spells it.
-[[nodiscard]] const char* name(Outcome outcome);
-
-[[nodiscard]] const char* name(Keep keep);
-[[nodiscard]] const char* name(WarningKind kind);
 
 [[nodiscard]] Json to_json(const Defect& defect);
 [[nodiscard]] Json to_json(const std::vector<Defect>& defects);

@@ -44,7 +44,7 @@ struct Angles {
 };
 
 Angles angles_of(const Report& report, bool with_metric) {
-  if (!with_metric) return {report.quality.min_dihedral_deg, report.quality.below_10_deg, false};
+  if (!with_metric) return {report.elements.min_dihedral_deg, report.elements.below_10_deg, false};
   const auto& bins = report.field.after.least_dihedral;  // of 5 degrees
   return {report.field.after.min_dihedral_deg, bins[0] + bins[1], true};
 }
@@ -109,8 +109,8 @@ void print_details(const Report& report) {
   say("steiner    {} left by suppression, {} in the end, {} of them without doubles\n",
       counted(report.forced_points, "point"), report.steiner_points, report.unrounded_points);
   if (report.field.points > 0) print_field(report.field);
-  say("quality    worst {:.4g}, dihedral angles {:.3g} to {:.3g} degrees\n", report.quality.worst,
-      report.quality.min_dihedral_deg, report.quality.max_dihedral_deg);
+  say("quality    worst {:.4g}, dihedral angles {:.3g} to {:.3g} degrees\n", report.elements.worst,
+      report.elements.min_dihedral_deg, report.elements.max_dihedral_deg);
   say("attempts   {}\n", report.attempts);
   for (const auto& [stage, seconds] : report.seconds) say("seconds    {} {:.3f}\n", stage, seconds);
 }

@@ -8,6 +8,7 @@
 #include "command.h"
 #include "files.h"
 #include "files_of_run.h"
+#include "limits.h"
 #include "mesh_options.h"
 #include "progress.h"
 #include "report.h"
@@ -114,12 +115,13 @@ int run(const UntangleArguments& arguments) {
   options.started = start;  // the limit is on the whole command
   FilesOfRun files;
   files.read_volume(arguments.input, arguments.input_format);
-  const VolumeTarget target = files.write_volume("-o", arguments.output, arguments.format);
+  VolumeTarget target = files.write_volume("-o", arguments.output, arguments.format);
+  watch_writing(target.options, options);
   files.write("--report", arguments.report);
   cancel_at_once();
 
   std::vector<Remark> remarks;
-  const Volume volume = read_volume(arguments.input, arguments.input_format, &remarks);
+  const Volume volume = read_volume(arguments.input, reading(options, arguments.input_format), &remarks);
   if (!arguments.quiet) tell(remarks, arguments.input);
   const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - start;
   ProgressView progress(how_to_show(arguments.quiet, arguments.verbose));

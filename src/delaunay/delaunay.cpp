@@ -1,7 +1,6 @@
 #include "delaunay/delaunay.h"
 
 #include <cassert>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -11,7 +10,6 @@
 #include "delaunay/triangulation.h"
 #include "mesh/parallel.h"
 #include "mesh/validate.h"
-#include "numbers/float_environment.h"
 
 namespace holdfast {
 namespace {
@@ -32,7 +30,7 @@ bool triangulate(std::span<const Point> points, std::uint64_t seed, const Thread
 
 }  // namespace
 
-bool build_delaunay(TetMesh& mesh, const DelaunayOptions& options, Monitor* monitor) {
+bool build_delaunay(TetMesh& mesh, const DelaunayOrder& options, Monitor* monitor) {
   assert(mesh.tet_count() == 0 && mesh.exact_vertex_count() == 0);
   InsertionProgress progress;
   if (monitor != nullptr) progress = [&](double fraction) { monitor->poll(Stage::delaunay, fraction); };
@@ -48,17 +46,11 @@ bool build_delaunay(TetMesh& mesh, const DelaunayOptions& options, Monitor* moni
   return true;
 }
 
-std::vector<Tetrahedron> delaunay(std::span<const Point> points, std::uint64_t seed, unsigned threads) {
-  const FloatEnvironment environment;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Point& p = points[i];
-    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
-      throw std::invalid_argument("holdfast: point " + std::to_string(i) + " is not finite");
-  }
+std::vector<Tetrahedron> delaunay_of(std::span<const Point> points, std::uint64_t seed,
+                                     const Threads& threads, const std::function<void(double)>& progress) {
   std::vector<Tetrahedron> tets;
-  const Threads all(threads);
-  triangulate(points, seed, all, nullptr,
-              [&](Triangulation& triangulation) { tets = finite_cells(triangulation, all); });
+  triangulate(points, seed, threads, progress,
+              [&](Triangulation& triangulation) { tets = finite_cells(triangulation, threads); });
   return tets;
 }
 

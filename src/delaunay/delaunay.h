@@ -1,7 +1,10 @@
-// Delaunay tetrahedralisation of the vertices of a mesh (design §2.2, paper §5.1).
+// Delaunay tetrahedralisation of the vertices of a mesh (paper §5.1).
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
 
 #include "mesh/monitor.h"
 #include "mesh/parallel.h"
@@ -9,7 +12,7 @@
 
 namespace holdfast {
 
-struct DelaunayOptions {
+struct DelaunayOrder {
   std::uint64_t seed = 1;  ///< of the insertion order
   Threads threads = 1;     ///< the result does not depend on them
 };
@@ -25,6 +28,11 @@ struct DelaunayOptions {
 /// Returns false, with no tetrahedra made, if all vertices are coplanar (or fewer than four).
 /// Throws Interrupted through the monitor, which may be null, and std::length_error beyond 2^30 vertices
 /// or tetrahedra; the mesh then has no tetrahedra.
-bool build_delaunay(TetMesh& mesh, const DelaunayOptions& options, Monitor* monitor);
+bool build_delaunay(TetMesh& mesh, const DelaunayOrder& options, Monitor* monitor);
+
+/// Delaunay tetrahedra of points that are finite; none if all are coplanar. `progress` may throw.
+[[nodiscard]] std::vector<Tetrahedron> delaunay_of(std::span<const Point> points, std::uint64_t seed,
+                                                   const Threads& threads,
+                                                   const std::function<void(double)>& progress);
 
 }  // namespace holdfast

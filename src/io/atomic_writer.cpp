@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <charconv>
@@ -27,6 +28,9 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
 
 constexpr int kAttempts = 100;
 
+/// Written in a few milliseconds.
+constexpr std::size_t kChunk = std::size_t{1} << 20;
+
 std::filesystem::path unused_name(const std::filesystem::path& folder) {
   return folder / (".holdfast-" + std::to_string(::getpid()) + "-" + std::to_string(temporaries++) + ".tmp");
 }
@@ -35,8 +39,8 @@ std::string path_of(int descriptor) { return "/proc/self/fd/" + std::to_string(d
 
 }  // namespace
 
-AtomicWriter::AtomicWriter(std::filesystem::path target)
-    : target_(std::move(target)), written_(target_), buffer_(new char[kBuffer]) {
+AtomicWriter::AtomicWriter(std::filesystem::path target, Watch* watch)
+    : target_(std::move(target)), watch_(watch), written_(target_), buffer_(new char[kBuffer]) {
   std::error_code error;
   // A link is followed, as every program that opens a file for writing does, also where it leads to
   // nothing yet; renaming onto the link itself would replace it.
@@ -126,7 +130,8 @@ void AtomicWriter::give_name() {
 
 void AtomicWriter::write_through(std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t written = ::write(file_, bytes.data(), bytes.size());
+    step(watch_);
+    const ssize_t written = ::write(file_, bytes.data(), std::min(bytes.size(), kChunk));
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail("cannot be written", errno);
     bytes.remove_prefix(static_cast<std::size_t>(written));

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "io/watch.h"
+
 namespace holdfast::io {
 
 /// A file that appears under its name complete or not at all.
@@ -14,10 +16,10 @@ namespace holdfast::io {
 /// Bytes go to a temporary in the target's folder; `commit` closes and renames it. Until
 /// then the destructor removes it, so that an exception or a cancellation leaves nothing behind.
 /// What is no regular file, a pipe or a device, is written directly, and so is an open descriptor
-/// ("/dev/stdout", "/dev/fd/3"), at its place. Every function throws FileError.
+/// ("/dev/stdout", "/dev/fd/3"), at its place. Every function throws FileError, and Interrupted by the watch.
 class AtomicWriter {
  public:
-  explicit AtomicWriter(std::filesystem::path target);
+  explicit AtomicWriter(std::filesystem::path target, Watch* watch = nullptr);
   ~AtomicWriter();
   AtomicWriter(AtomicWriter&&) = delete;
 
@@ -35,6 +37,7 @@ class AtomicWriter {
   AtomicWriter& operator<<(int value) { return *this << std::int64_t{value}; }
   AtomicWriter& operator<<(std::uint32_t value) { return *this << std::uint64_t{value}; }
 
+  [[nodiscard]] Watch* watch() const { return watch_; }
   /// Gives every byte to the system; after it only `commit` may follow. Files that belong together are
   /// all finished before the first is committed.
   void finish();
@@ -53,6 +56,7 @@ class AtomicWriter {
   [[noreturn]] void fail(const char* what, int error) const;
 
   std::filesystem::path target_;
+  Watch* watch_;
   std::filesystem::path written_;    ///< the target where its links lead
   std::filesystem::path temporary_;  ///< empty when written directly, committed, or as yet without a name
   bool nameless_ = false;            ///< the file is to get a name when it is complete

@@ -41,6 +41,7 @@ class ByteReader {
   template <typename T>
   T read() {
     require(sizeof(T));
+    beat(source_.watch);
     const T value = load<T>(source_.bytes.data() + position_, order_);
     position_ += sizeof(T);
     return value;

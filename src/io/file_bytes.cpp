@@ -24,6 +24,9 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
+/// Read in a few milliseconds.
+constexpr std::size_t kChunk = std::size_t{4} << 20;
+
 std::unique_ptr<char[]> allocate(const std::filesystem::path& path, std::uintmax_t size) {
   try {
     return std::unique_ptr<char[]>(new char[static_cast<std::size_t>(size)]);
@@ -87,7 +90,7 @@ std::filesystem::path sibling(const std::filesystem::path& path, const char* ext
   return !std::filesystem::exists(plain, error) && std::filesystem::exists(packed, error) ? packed : plain;
 }
 
-FileBytes::FileBytes(const std::filesystem::path& path) {
+FileBytes::FileBytes(const std::filesystem::path& path, Watch* watch) {
   const std::unique_ptr<std::FILE, CloseFile> file = open(path);
   const std::optional<std::size_t> expected = size_of(file.get());
   // One byte more than the file has, so that its end shows without growing the buffer; a pipe, or a
@@ -95,9 +98,12 @@ FileBytes::FileBytes(const std::filesystem::path& path) {
   std::size_t capacity = expected ? *expected + 1 : std::size_t{1} << 16;
   bytes_ = allocate(path, capacity);
   for (;;) {
-    const std::size_t got = std::fread(bytes_.get() + size_, 1, capacity - size_, file.get());
+    const std::size_t asked = std::min(capacity - size_, kChunk);
+    const std::size_t got = std::fread(bytes_.get() + size_, 1, asked, file.get());
     size_ += got;
-    if (size_ < capacity) break;
+    step(watch);
+    if (got < asked) break;
+    if (size_ < capacity) continue;
     std::unique_ptr<char[]> larger = allocate(path, 2 * capacity);
     std::copy_n(bytes_.get(), size_, larger.get());
     bytes_ = std::move(larger);
@@ -105,7 +111,7 @@ FileBytes::FileBytes(const std::filesystem::path& path) {
   }
   if (std::ferror(file.get())) fail(path, "cannot be read");
   if (!is_gzip(view())) return;
-  unpacked_ = gunzipped({path, view()});
+  unpacked_ = gunzipped({path, view(), false, watch});
   bytes_.reset();
 }
 

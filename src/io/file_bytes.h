@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "io/watch.h"
+
 namespace holdfast::io {
 
 /// A path without the ".gz" at its end, whose extension tells the format.
@@ -19,8 +21,8 @@ namespace holdfast::io {
 class FileBytes {
  public:
   /// Reads a regular file, a pipe or an open descriptor ("/dev/stdin"), this from where it stands. Throws
-  /// FileError, also for directories and for devices but a terminal.
-  explicit FileBytes(const std::filesystem::path& path);
+  /// FileError, also for directories and for devices but a terminal, and Interrupted by the watch.
+  explicit FileBytes(const std::filesystem::path& path, Watch* watch = nullptr);
   [[nodiscard]] std::string_view view() const {
     return unpacked_ ? std::string_view(*unpacked_) : std::string_view(bytes_.get(), size_);
   }

@@ -44,7 +44,7 @@ struct PointArray {
 void write_medit(AtomicWriter& out, const Volume& volume);
 void write_msh(AtomicWriter& out, const Volume& volume, const WriteOptions& options);
 /// Writes .node, .ele, .face and .edge beside `path`.
-void write_tetgen(const std::filesystem::path& path, const Volume& volume);
+void write_tetgen(const std::filesystem::path& path, const Volume& volume, Watch* watch = nullptr);
 void write_gmf(AtomicWriter& out, const Volume& volume);
 void write_vtk(AtomicWriter& out, const Volume& volume);
 void write_vtu(AtomicWriter& out, const Volume& volume, const WriteOptions& options);

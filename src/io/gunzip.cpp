@@ -25,6 +25,7 @@ class Inflater {
     std::size_t size = 0;
     for (;;) {
       if (size == unpacked.size()) grow(unpacked);
+      holdfast::io::step(source_.watch);
       const int status = step(unpacked, size);
       if (status == Z_STREAM_END) {
         // What follows the last member, as zeros that pad a tape, is not data.
@@ -41,9 +42,9 @@ class Inflater {
 
  private:
   int step(std::string& unpacked, std::size_t& size) {
-    constexpr std::size_t kMost = std::numeric_limits<uInt>::max();
+    constexpr std::size_t kMost = std::numeric_limits<uInt>::max(), kChunk = std::size_t{1} << 20;
     const std::size_t in = std::min(source_.bytes.size() - used_, kMost);
-    const std::size_t out = std::min(unpacked.size() - size, kMost);
+    const std::size_t out = std::min(unpacked.size() - size, kChunk);
     stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(source_.bytes.data() + used_));
     stream_.avail_in = static_cast<uInt>(in);
     stream_.next_out = reinterpret_cast<Bytef*>(unpacked.data() + size);

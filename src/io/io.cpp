@@ -14,12 +14,13 @@ namespace io {
 namespace {
 
 using Reader = MeshData (*)(const Source&);
-using Writer = void (*)(const std::filesystem::path&, const Volume&, const WriteOptions&);
+using Writer = void (*)(const std::filesystem::path&, const Volume&, const WriteOptions&, Watch&);
 
 /// A writer of one file, which gets its name when it is complete.
 template <auto write>
-void write_file(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options) {
-  AtomicWriter out(path);
+void write_file(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options,
+                Watch& watch) {
+  AtomicWriter out(path, &watch);
   if constexpr (std::is_invocable_v<decltype(write), AtomicWriter&, const Volume&, const WriteOptions&>)
     write(out, volume, options);
   else
@@ -27,9 +28,12 @@ void write_file(const std::filesystem::path& path, const Volume& volume, const W
   out.commit();
 }
 
-void write_tetgen_files(const std::filesystem::path& path, const Volume& volume, const WriteOptions&) {
-  write_tetgen(path, volume);
+void write_tetgen_files(const std::filesystem::path& path, const Volume& volume, const WriteOptions&,
+                        Watch& watch) {
+  write_tetgen(path, volume, &watch);
 }
+
+constexpr double kRead = 0.3;  // of the work, once the bytes of a file are in memory
 
 struct Format {
   std::string_view extension;
@@ -127,11 +131,13 @@ MeshData parse_volume(const Source& source, std::string_view format) {
 
 }  // namespace io
 
-Surface read_surface(const std::filesystem::path& path, std::string_view format) {
+Surface read_surface(const std::filesystem::path& path, const ReadOptions& options) {
   const FloatEnvironment environment;
-  static_cast<void>(io::surface_format(path, format));  // before a large file is read in vain
-  const io::FileBytes bytes(path);
-  io::MeshData mesh = io::parse_surface({path, bytes.view()}, format);
+  static_cast<void>(io::surface_format(path, options.format));  // before a large file is read in vain
+  io::Watch watch(options, options.progress);
+  const io::FileBytes bytes(path, &watch);
+  watch.step(io::kRead);
+  io::MeshData mesh = io::parse_surface({path, bytes.view(), false, &watch}, options.format);
   Surface surface;
   surface.vertex_markers = mesh.vertex_markers.take(mesh.vertices.size());
   surface.facet_markers = mesh.facet_markers.take(mesh.facets.size());
@@ -142,14 +148,18 @@ Surface read_surface(const std::filesystem::path& path, std::string_view format)
   surface.regions = std::move(mesh.region_seeds);
   surface.holes = std::move(mesh.holes);
   surface.remarks = std::move(mesh.remarks);
+  watch.finish();
   return surface;
 }
 
-Volume read_volume(const std::filesystem::path& path, std::string_view format, std::vector<Remark>* remarks) {
+Volume read_volume(const std::filesystem::path& path, const ReadOptions& options,
+                   std::vector<Remark>* remarks) {
   const FloatEnvironment environment;
-  static_cast<void>(io::volume_format(path, format));
-  const io::FileBytes bytes(path);
-  io::MeshData mesh = io::parse_volume({path, bytes.view()}, format);
+  static_cast<void>(io::volume_format(path, options.format));
+  io::Watch watch(options, options.progress);
+  const io::FileBytes bytes(path, &watch);
+  watch.step(io::kRead);
+  io::MeshData mesh = io::parse_volume({path, bytes.view(), false, &watch}, options.format);
   Volume volume;
   volume.regions = mesh.regions.take(mesh.tetrahedra.size());
   volume.regions.resize(mesh.tetrahedra.size(), 0);
@@ -161,13 +171,37 @@ Volume read_volume(const std::filesystem::path& path, std::string_view format, s
   volume.facets = std::move(mesh.facets);
   volume.segments = std::move(mesh.segments);
   if (remarks != nullptr) *remarks = std::move(mesh.remarks);
+  watch.finish();
   return volume;
 }
 
+std::vector<Point> read_points(const std::filesystem::path& path, const ReadOptions& options) {
+  if (io::extension_of(path, options.format) != ".xyz") return read_surface(path, options).vertices;
+  const FloatEnvironment environment;
+  io::Watch watch(options, options.progress);
+  const io::FileBytes bytes(path, &watch);
+  watch.step(io::kRead);
+  std::vector<Point> points = io::read_xyz({path, bytes.view(), false, &watch}).vertices;
+  watch.finish();
+  return points;
+}
+
+Surface read_surface(const std::filesystem::path& path, std::string_view format) {
+  ReadOptions options;
+  options.format = format;
+  return read_surface(path, options);
+}
+
+Volume read_volume(const std::filesystem::path& path, std::string_view format, std::vector<Remark>* remarks) {
+  ReadOptions options;
+  options.format = format;
+  return read_volume(path, options, remarks);
+}
+
 std::vector<Point> read_points(const std::filesystem::path& path, std::string_view format) {
-  if (io::extension_of(path, format) != ".xyz") return read_surface(path, format).vertices;
-  const io::FileBytes bytes(path);
-  return io::read_xyz({path, bytes.view()}).vertices;
+  ReadOptions options;
+  options.format = format;
+  return read_points(path, options);
 }
 
 std::vector<std::string> volume_formats() {
@@ -207,7 +241,9 @@ void write_volume(const std::filesystem::path& path, const Volume& volume, const
   const io::Format& writer = io::find_format(path, io::extension_of(path, options.format), "written",
                                              [](const io::Format& f) { return f.write != nullptr; });
   io::require_consistent(volume);
-  writer.write(path, volume, options);
+  io::Watch watch(options, options.progress);
+  writer.write(path, volume, options, watch);
+  watch.finish();
 }
 
 void write_bytes(const std::filesystem::path& path, std::string_view bytes) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "holdfast/io.h"
+#include "io/watch.h"
 
 namespace holdfast::io {
 
@@ -16,6 +17,7 @@ struct Source {
   const std::filesystem::path& path;
   std::string_view bytes;
   bool finite = false;  ///< numbers that are not finite are refused, as where nothing judges them later
+  Watch* watch = nullptr;
 };
 
 /// Tags of entities of one kind that stay empty as long as every tag is 0.

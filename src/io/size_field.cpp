@@ -108,14 +108,14 @@ std::filesystem::path beside(const std::filesystem::path& path, const char* endi
 }
 
 /// A mesh and the values at its vertices in another file, of which `path` is either.
-SizeField read_mesh_and_sol(const std::filesystem::path& path, const std::string& extension) {
+SizeField read_mesh_and_sol(const std::filesystem::path& path, const std::string& extension, Watch& watch) {
   const bool is_mesh = extension == ".mesh" || extension == ".meshb";
   const std::filesystem::path mesh_path = is_mesh ? path : beside(path, ".mesh", ".meshb"),
                               sol_path = is_mesh ? beside(path, ".sol", ".solb") : path;
-  const FileBytes mesh_bytes(mesh_path), sol_bytes(sol_path);
-  MeshData mesh = parse_volume({mesh_path, mesh_bytes.view(), true});
+  const FileBytes mesh_bytes(mesh_path, &watch), sol_bytes(sol_path, &watch);
+  MeshData mesh = parse_volume({mesh_path, mesh_bytes.view(), true, &watch});
   const auto read = lower(without_gz(sol_path).extension().string()) == ".solb" ? read_solb : read_sol;
-  SizeField field = read({sol_path, sol_bytes.view(), true}, mesh.vertices.size());
+  SizeField field = read({sol_path, sol_bytes.view(), true, &watch}, mesh.vertices.size());
   return on_mesh(std::move(mesh), std::move(field));
 }
 
@@ -190,17 +190,17 @@ SizeField field_of(const PointArray& array, const std::filesystem::path& path) {
   return field;
 }
 
-SizeField read_by_extension(const std::filesystem::path& path) {
+SizeField read_by_extension(const std::filesystem::path& path, Watch& watch) {
   const std::string extension = lower(without_gz(path).extension().string());
   for (const char* ending : {".mesh", ".meshb", ".sol", ".solb"})
-    if (extension == ending) return read_mesh_and_sol(path, extension);
-  const FileBytes bytes(path);
-  const Source source{path, bytes.view(), true};
+    if (extension == ending) return read_mesh_and_sol(path, extension, watch);
+  const FileBytes bytes(path, &watch);
+  const Source source{path, bytes.view(), true, &watch};
   if (extension == ".mtr") {
     SizeField field = read_mtr(source);
     const std::filesystem::path nodes = sibling(path, ".node");
     if (is_there(sibling(path, ".ele")))
-      return on_mesh(read_tetgen_volume({nodes, {}, true}), std::move(field));
+      return on_mesh(read_tetgen_volume({nodes, {}, true, &watch}), std::move(field));
     if (!field.metrics.empty())
       throw FileError(path, "", "metric tensors need a background mesh, its .node and .ele beside the .mtr");
     return field;
@@ -223,9 +223,10 @@ SizeField read_by_extension(const std::filesystem::path& path) {
 
 namespace holdfast {
 
-SizeField read_size_field(const std::filesystem::path& path) {
+SizeField read_size_field(const std::filesystem::path& path, const ReadOptions& options) {
   const FloatEnvironment environment;
-  SizeField field = io::read_by_extension(path);
+  io::Watch watch(options, options.progress);
+  SizeField field = io::read_by_extension(path, watch);
   const std::size_t count = field.sizes.size() + field.metrics.size();
   if (!field.vertices.empty() && count != field.vertices.size())
     throw FileError(path, "",
@@ -243,6 +244,7 @@ SizeField read_size_field(const std::filesystem::path& path) {
   for (std::size_t v = 0; v < field.metrics.size(); ++v)
     if (!is_positive_definite(field.metrics[v]))
       throw FileError(path, "vertex " + std::to_string(v), "the tensor is not positive definite");
+  watch.finish();
   return field;
 }
 

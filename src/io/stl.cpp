@@ -47,6 +47,7 @@ MeshData read_binary(const Source& source) {
   std::array<std::uint64_t, 3 * kBatch> hashes;
   const char* record = source.bytes.data() + bytes.position();
   for (std::uint32_t first = 0; first < count; first += kBatch) {
+    beat(source.watch);
     const std::size_t corners = 3 * std::size_t{std::min(kBatch, count - first)};
     for (std::size_t i = 0; i < corners; ++i) {
       const char* corner = record + kRecord * (i / 3) + 12 * (i % 3 + 1);  // behind the normal's 12 bytes

@@ -170,8 +170,8 @@ void take_nodes(MeshData& mesh, TetgenNodes& nodes) {
 
 TetgenNodes read_tetgen_node_file(const Source& source) {
   const std::filesystem::path beside = sibling(source.path, ".node");
-  const FileBytes bytes(beside);
-  TextReader text({beside, bytes.view(), source.finite});
+  const FileBytes bytes(beside, source.watch);
+  TextReader text({beside, bytes.view(), source.finite, source.watch});
   return read_tetgen_nodes(text);
 }
 

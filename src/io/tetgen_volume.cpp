@@ -44,11 +44,12 @@ std::size_t read_lines(TextReader& text, const char* what, const TetgenNodes& no
 
 /// Reads a file that may be missing.
 template <std::size_t N, typename Add>
-void read_optional(const std::filesystem::path& path, const char* what, const TetgenNodes& nodes, Add&& add) {
+void read_optional(const std::filesystem::path& path, Watch* watch, const char* what,
+                   const TetgenNodes& nodes, Add&& add) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return;
-  const FileBytes bytes(path);
-  TextReader text({path, bytes.view()});
+  const FileBytes bytes(path, watch);
+  TextReader text({path, bytes.view(), false, watch});
   static_cast<void>(read_lines<N>(text, what, nodes, add));
 }
 
@@ -68,25 +69,25 @@ void write_lines(AtomicWriter& out, std::string_view columns,
 MeshData read_tetgen_volume(const Source& source) {
   const std::filesystem::path elements = sibling(source.path, ".ele");
   TetgenNodes nodes = read_tetgen_node_file(source);
-  const FileBytes bytes(elements);
-  TextReader text({elements, bytes.view()});
+  const FileBytes bytes(elements, source.watch);
+  TextReader text({elements, bytes.view(), false, source.watch});
   MeshData mesh;
   const std::size_t more =
       read_lines<4>(text, "the tetrahedron's number", nodes,
                     [&](const Tetrahedron& corners, int region) { mesh.add_tetrahedron(corners, region); });
   mesh.leave_out(more, "attributes of tetrahedra behind the first",
                  "attribute of a tetrahedron behind the first");
-  read_optional<3>(sibling(source.path, ".face"), "the face's number", nodes,
+  read_optional<3>(sibling(source.path, ".face"), source.watch, "the face's number", nodes,
                    [&](const Triangle& corners, int marker) { mesh.add_facet(corners, marker); });
-  read_optional<2>(sibling(source.path, ".edge"), "the edge's number", nodes,
+  read_optional<2>(sibling(source.path, ".edge"), source.watch, "the edge's number", nodes,
                    [&](const Segment& corners, int marker) { mesh.add_segment(corners, marker); });
   take_nodes(mesh, nodes);
   return mesh;
 }
 
-void write_tetgen(const std::filesystem::path& path, const Volume& volume) {
-  AtomicWriter node(with_extension(path, ".node")), ele(with_extension(path, ".ele")),
-      face(with_extension(path, ".face")), edge(with_extension(path, ".edge"));
+void write_tetgen(const std::filesystem::path& path, const Volume& volume, Watch* watch) {
+  AtomicWriter node(with_extension(path, ".node"), watch), ele(with_extension(path, ".ele"), watch),
+      face(with_extension(path, ".face"), watch), edge(with_extension(path, ".edge"), watch);
   const bool marked = !volume.vertex_markers.empty();
   node << std::uint64_t{volume.vertices.size()} << (marked ? " 3 0 1\n" : " 3 0 0\n");
   for (std::size_t i = 0; i < volume.vertices.size(); ++i) {

@@ -90,6 +90,7 @@ std::size_t TextReader::word_end(std::size_t position) const {
 }
 
 void TextReader::start(std::string_view what) {
+  beat(source_.watch);
   if (at_end()) fail_truncated(what);
   last_ = position_;
 }
@@ -101,6 +102,7 @@ std::string_view TextReader::word(std::string_view what) {
 }
 
 std::string_view TextReader::word_on_line() {
+  beat(source_.watch);
   if (at_line_end()) return {};
   last_ = position_;
   position_ = word_end(position_);

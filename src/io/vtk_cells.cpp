@@ -11,7 +11,8 @@ namespace {
 
 class CellReader {
  public:
-  CellReader(const std::filesystem::path& path, VtkGrid&& grid) : path_(path), grid_(std::move(grid)) {
+  CellReader(const Source& source, VtkGrid&& grid)
+      : path_(source.path), watch_(source.watch), grid_(std::move(grid)) {
     mesh_.vertices = std::move(grid_.points);
   }
 
@@ -29,6 +30,7 @@ class CellReader {
     tell_arrays();
     std::size_t begin = 0;
     for (cell_ = 0; cell_ < cells; ++cell_) {
+      beat(watch_);
       const std::int64_t end = grid_.ends[cell_];
       if (end < static_cast<std::int64_t>(begin) ||
           static_cast<std::uint64_t>(end) > grid_.connectivity.size())
@@ -117,6 +119,7 @@ class CellReader {
   }
 
   const std::filesystem::path& path_;
+  Watch* const watch_;
   VtkGrid grid_;
   MeshData mesh_;
   std::size_t cell_ = 0;
@@ -132,8 +135,6 @@ void append_cells(VtkGrid& grid, const VtkGrid& part) {
   grid.connectivity.insert(grid.connectivity.end(), part.connectivity.begin(), part.connectivity.end());
 }
 
-MeshData mesh_of(const std::filesystem::path& path, VtkGrid&& grid) {
-  return CellReader(path, std::move(grid)).read();
-}
+MeshData mesh_of(const Source& source, VtkGrid&& grid) { return CellReader(source, std::move(grid)).read(); }
 
 }  // namespace holdfast::io

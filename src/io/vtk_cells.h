@@ -63,6 +63,6 @@ void append_cells(VtkGrid& grid, const VtkGrid& part);
 
 /// The mesh of a grid. Polygons are fanned where they are convex. Throws FileError with the cell's
 /// number for types that cannot be used, and for corners that do not exist.
-[[nodiscard]] MeshData mesh_of(const std::filesystem::path& path, VtkGrid&& grid);
+[[nodiscard]] MeshData mesh_of(const Source& source, VtkGrid&& grid);
 
 }  // namespace holdfast::io

@@ -52,7 +52,7 @@ class VtkReader {
     while (!text_.at_end()) read_section();
     if (!has_points_) throw FileError(text_.source().path, "", "the file has no POINTS");
     for (const VtkGrid& part : parts_) append_cells(grid_, part);
-    return mesh_of(text_.source().path, std::move(grid_));
+    return mesh_of(text_.source(), std::move(grid_));
   }
 
  private:
@@ -122,9 +122,10 @@ class VtkReader {
       const std::string_view bytes = text_.remaining().substr(0, count * bytes_each);
       const std::size_t start = text_.position();
       text_.seek(start + bytes.size());
-      return binary_values<T>(type, bytes, std::endian::big, [&](const std::string& reason) {
-        throw FileError(text_.source().path, "byte " + std::to_string(start), reason);
-      });
+      return binary_values<T>(type, bytes, std::endian::big, text_.source().watch,
+                              [&](const std::string& reason) {
+                                throw FileError(text_.source().path, "byte " + std::to_string(start), reason);
+                              });
     }
     std::vector<T> result;
     result.reserve(count);

@@ -83,10 +83,11 @@ void visit_binary(VtkType type, std::string_view bytes, std::endian order, Visit
 /// All values of `bytes` as T. `fail` is called with the reason, and must throw.
 template <typename T, typename Fail>
 [[nodiscard]] std::vector<T> binary_values(VtkType type, std::string_view bytes, std::endian order,
-                                           Fail&& fail) {
+                                           Watch* watch, Fail&& fail) {
   std::vector<T> values;
   values.reserve(bytes.size() / size_of(type));
   visit_binary(type, bytes, order, [&](auto value) {
+    beat(watch);
     const std::optional<T> result = converted<T>(value);
     if (!result) fail("a value that is not an integer, or out of range: " + words(value));
     values.push_back(*result);

@@ -54,12 +54,16 @@ class Stream {
   /// Drops what is left of the current group: what follows is encoded apart.
   void drop_pending() { pending_.clear(); }
 
+  /// A block takes up to some milliseconds.
+  void step() const { holdfast::io::step(source_.watch); }
+
   [[noreturn]] void fail(const std::string& reason) const {
     throw FileError(source_.path, "byte " + std::to_string(position_), reason);
   }
 
  private:
   void decode_group(std::string& bytes) {
+    beat(source_.watch);
     static constexpr std::array<std::int8_t, 256> kValues = base64_values();
     const std::string_view group = source_.bytes.substr(position_, 4);
     if (group.size() < 4) fail("the base64 data ends too early; the file is truncated");
@@ -119,6 +123,7 @@ class ArrayDecoder {
     stream_.drop_pending();
     std::string result;
     for (std::uint64_t i = 0; i < blocks; ++i) {
+      stream_.step();
       const bool partial = i + 1 == blocks && last != 0;
       inflate_block(result, sizes[i], partial ? last : block);
     }

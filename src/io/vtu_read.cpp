@@ -41,7 +41,7 @@ class VtuReader {
       read_polydata();
     else
       read_cells();
-    return mesh_of(source_.path, std::move(grid_));
+    return mesh_of(source_, std::move(grid_));
   }
 
   /// The first of these arrays of the points that is there, after `read`.
@@ -170,7 +170,7 @@ class VtuReader {
     } else {
       xml_.fail(array.tag, "the format " + in_quotes(format) + " is not read");
     }
-    return binary_values<T>(type, bytes, encoding_.order,
+    return binary_values<T>(type, bytes, encoding_.order, source_.watch,
                             [&](const std::string& reason) { xml_.fail(array.tag, reason); });
   }
 

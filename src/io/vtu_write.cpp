@@ -53,7 +53,7 @@ std::string encoded(std::string_view data, bool compress, const Threads& threads
 }  // namespace
 
 void write_vtu_arrays(AtomicWriter& out, const VtuArrays& arrays, const WriteOptions& options) {
-  const Threads threads(options.threads);
+  const Threads threads = Threads(options.threads).polling([&] { step(out.watch()); });
   std::string data;
   const auto array = [&](const VtuArray& a) {
     out << "<DataArray type=\"" << a.type << "\" Name=\"" << a.name << '"';
@@ -93,6 +93,7 @@ void write_vtu(AtomicWriter& out, const Volume& volume, const WriteOptions& opti
   for (auto* array : {&kinds, &regions, &markers}) array->reserve(vtk_cell_count(volume));
   visit_vtk_cells(volume,
                   [&](VtkCell type, std::span<const Index> corners, int kind, int region, int marker) {
+                    beat(out.watch());
                     cells.add(type, corners);
                     kinds.push_back(kind);
                     regions.push_back(region);

@@ -12,19 +12,21 @@ namespace holdfast {
 
 using namespace std::chrono_literals;
 
-Monitor::Monitor(const Options& options)
-    : options_(options),
-      start_(options.started.value_or(std::chrono::steady_clock::now())),
+Monitor::Monitor(const Limits& limits, const std::function<bool(const Progress&)>& progress)
+    : limits_(limits),
+      progress_(progress),
+      start_(limits.started.value_or(std::chrono::steady_clock::now())),
       last_told_(start_),
       last_measured_(start_),
       last_looked_(start_) {
-  if (options.memory_limit > 0 && !resident_memory_bytes())
+  if (limits.memory_limit > 0 && !resident_memory_bytes())
     throw std::invalid_argument(
         "a memory limit cannot be kept here: the system does not tell how much memory is in use");
 }
 
 Monitor::Monitor(Monitor& whole, MonitoredTasks& tasks)
-    : options_(whole.options_),
+    : limits_(whole.limits_),
+      progress_(whole.progress_),
       start_(whole.start_),
       last_told_(start_),
       last_measured_(start_),
@@ -53,23 +55,24 @@ void Monitor::choose_pace(std::chrono::steady_clock::time_point now) {
 }
 
 void Monitor::look_at_limits(std::chrono::steady_clock::time_point now, bool at_once) {
-  if (options_.time_limit > 0 && std::chrono::duration<double>(now - start_).count() > options_.time_limit)
+  if (limits_.cancel && limits_.cancel->cancelled()) throw Interrupted(Outcome::cancelled);
+  if (limits_.time_limit > 0 && std::chrono::duration<double>(now - start_).count() > limits_.time_limit)
     throw Interrupted(Outcome::time_limit);
-  if (options_.memory_limit > 0 && (at_once || now - last_measured_ > 20ms)) {
+  if (limits_.memory_limit > 0 && (at_once || now - last_measured_ > 20ms)) {
     last_measured_ = now;
-    if (resident_memory_bytes().value_or(0) > options_.memory_limit) throw Interrupted(Outcome::memory_limit);
+    if (resident_memory_bytes().value_or(0) > limits_.memory_limit) throw Interrupted(Outcome::memory_limit);
   }
 }
 
 void Monitor::call_back(Stage stage, double fraction, bool at_once) {
   const double within = std::clamp(fraction, 0.0, 1.0);
   overall_ = std::max(overall_, part_[0] + within * (part_[1] - part_[0]));
-  if (!options_.progress) return;
+  if (!progress_) return;
   const auto now = std::chrono::steady_clock::now();
   if (!at_once && now - last_told_ < 20ms) return;
   last_told_ = now;
   caller_threw_ = true;
-  const bool go_on = options_.progress({stage, within, overall_});
+  const bool go_on = progress_({stage, within, overall_});
   caller_threw_ = false;
   if (!go_on) throw Interrupted(Outcome::cancelled);
 }

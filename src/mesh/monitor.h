@@ -5,7 +5,6 @@
 #include <array>
 #include <atomic>
 #include <chrono>
-#include <exception>
 #include <functional>
 #include <thread>
 
@@ -13,17 +12,6 @@
 #include "mesh/parallel.h"
 
 namespace holdfast {
-
-/// Thrown out of a stage when a limit is reached or the caller cancels; the API turns it into an outcome.
-class Interrupted : public std::exception {
- public:
-  explicit Interrupted(Outcome outcome) : outcome_(outcome) {}
-  [[nodiscard]] Outcome outcome() const { return outcome_; }
-  [[nodiscard]] const char* what() const noexcept override { return "holdfast: interrupted"; }
-
- private:
-  Outcome outcome_;
-};
 
 /// What the monitors of tasks that run at the same time share.
 struct MonitoredTasks {
@@ -40,10 +28,13 @@ struct MonitoredTasks {
 class Monitor {
  public:
   /// Throws std::invalid_argument for a memory limit where the system does not tell what is in use.
-  explicit Monitor(const Options& options);
+  explicit Monitor(const Options& options) : Monitor(options, options.progress) {}
+  /// Both must outlive the monitor. `progress` may be empty.
+  Monitor(const Limits& limits, const std::function<bool(const Progress&)>& progress);
   /// For one of several tasks: it sees to the limits on any thread, but calls back on the caller's alone.
   Monitor(Monitor& whole, MonitoredTasks& tasks);
-  /// Throws Interrupted when the time or memory limit is reached or the callback returns false.
+  /// Throws Interrupted when the time or memory limit is reached, the token is cancelled or the callback
+  /// returns false.
   void poll(Stage stage, double fraction) {
     if (++calls_ >= calls_a_look_) look(stage, fraction, false);
   }
@@ -69,7 +60,8 @@ class Monitor {
   void look_as_task(Stage stage, double fraction);
   void choose_pace(std::chrono::steady_clock::time_point now);
 
-  const Options& options_;
+  const Limits& limits_;
+  const std::function<bool(const Progress&)>& progress_;
   std::chrono::steady_clock::time_point start_;
   std::chrono::steady_clock::time_point last_told_;
   std::chrono::steady_clock::time_point last_measured_;

@@ -321,7 +321,7 @@ CosineBins<kBins>::CosineBins(double degrees) {
   }
 }
 template class CosineBins<std::tuple_size_v<decltype(Report::Shape::least_dihedral)>>;
-template class CosineBins<std::tuple_size_v<decltype(Report::Quality::histogram)>>;
+template class CosineBins<std::tuple_size_v<decltype(Report::Elements::histogram)>>;
 
 double best_quality_on(const Point& a, const Point& b, const Point& c) {
   const auto p = brought_in_range<3>({a, b, c});
@@ -371,7 +371,7 @@ double degrees_of(double cosine) {
 // Gathers the angles of a volume: cosines where they are good enough, which is nearly everywhere.
 class AngleHistogram {
  public:
-  using Counts = decltype(Report::Quality::histogram);
+  using Counts = decltype(Report::Elements::histogram);
 
   AngleHistogram() {
     for (std::size_t k = 0; k < kBins; ++k) {
@@ -485,7 +485,7 @@ struct Measured {
 
 }  // namespace
 
-Report::Quality measure(const Volume& volume, double target, Report::Shape* shape, const Threads& threads) {
+Report::Elements measure(const Volume& volume, double target, Report::Shape* shape, const Threads& threads) {
   const std::vector<Point>& v = volume.vertices;
   Measured all;
   std::mutex mutex;
@@ -499,7 +499,7 @@ Report::Quality measure(const Volume& volume, double target, Report::Shape* shap
     all.add(own);
   });
   if (shape != nullptr) *shape = all.shapes.shape();
-  Report::Quality q;
+  Report::Elements q;
   q.worst = all.worst;
   q.histogram = all.angles.counts();
   q.min_dihedral_deg = volume.tetrahedra.empty() ? 0 : all.angles.least_degrees();

@@ -77,7 +77,7 @@ class ShapeHistogram {
 /// Worst quality and dihedral angles of a volume, and the target that was found for its facets. An angle that
 /// is not a number counts as 0 degrees. All zero for a volume without tetrahedra, but for the target.
 /// `shape`, where given, receives the shapes of the elements.
-[[nodiscard]] Report::Quality measure(const Volume& volume, double target, Report::Shape* shape = nullptr,
-                                      const Threads& threads = 1);
+[[nodiscard]] Report::Elements measure(const Volume& volume, double target, Report::Shape* shape = nullptr,
+                                       const Threads& threads = 1);
 
 }  // namespace holdfast

@@ -11,32 +11,32 @@ namespace {
 
 class Improver {
  public:
-  Improver(const VolumeData& volume, Quality quality, std::span<const std::uint8_t> spared,
+  Improver(const VolumeData& volume, Effort effort, std::span<const std::uint8_t> spared,
            std::span<const std::uint8_t> fresh, Monitor& monitor)
       : mesh_(volume.mesh),
         volume_(volume, fresh),
-        effort_(tuning::effort_of(quality)),
+        passes_(tuning::passes_of(effort)),
         spared_(spared),
         monitor_(monitor),
-        ways_(volume_, energy_of_sine(effort_.patient_aim)) {}
+        ways_(volume_, energy_of_sine(passes_.patient_aim)) {}
 
   ImproveStats run() {
-    const int steps = effort_.passes + effort_.rounds;
-    for (int pass = 0; pass < effort_.passes || (pass < tuning::kMostPasses && has_many_bad()); ++pass) {
+    const int steps = passes_.passes + passes_.rounds;
+    for (int pass = 0; pass < passes_.passes || (pass < tuning::kMostPasses && has_many_bad()); ++pass) {
       stage_ = {static_cast<double>(pass) / steps, 1.0 / steps};
       swap_pass();
       smooth_pass();
     }
-    for (int round = 0; round < effort_.rounds; ++round) {
-      stage_ = {static_cast<double>(effort_.passes + round) / steps, 1.0 / steps};
+    for (int round = 0; round < passes_.rounds; ++round) {
+      stage_ = {static_cast<double>(passes_.passes + round) / steps, 1.0 / steps};
       volume_.touch_all();
-      if (!work_on_the_worst(effort_.aim, effort_.work_per_tet, false)) break;
+      if (!work_on_the_worst(passes_.aim, passes_.work_per_tet, false)) break;
     }
     // The very worst are few: they get as many rounds as help.
-    const double aim = effort_.patient_aim + tuning::kBeyondPatientAim;
-    for (int round = 0; round < tuning::kPatientRounds * effort_.rounds; ++round) {
+    const double aim = passes_.patient_aim + tuning::kBeyondPatientAim;
+    for (int round = 0; round < tuning::kPatientRounds * passes_.rounds; ++round) {
       volume_.touch_all();
-      if (!work_on_the_worst(aim, tuning::kPatientShare * effort_.work_per_tet, true)) break;
+      if (!work_on_the_worst(aim, tuning::kPatientShare * passes_.work_per_tet, true)) break;
     }
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
       if (is_worse(t, stats_.worst)) stats_.worst = volume_.energy(t);
@@ -64,7 +64,7 @@ class Improver {
   }
 
   void swap_pass() {
-    const double from = energy_of_sine(effort_.sine);
+    const double from = energy_of_sine(passes_.sine);
     const auto count = static_cast<double>(mesh_.slot_count());
     // Slots that are filled on the way are met again, here or in the next pass.
     for (Tet t = 0; t < mesh_.slot_count(); ++t) {
@@ -75,7 +75,7 @@ class Improver {
   }
 
   void smooth_pass() {
-    const double from = energy_of_sine(effort_.smooth_sine);
+    const double from = energy_of_sine(passes_.smooth_sine);
     std::vector<std::uint8_t> bad(mesh_.vertex_count(), 0);
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
       if (is_worse(t, from))
@@ -89,7 +89,7 @@ class Improver {
 
   // So many that passes are the faster way.
   [[nodiscard]] bool has_many_bad() const {
-    const double from = energy_of_sine(effort_.aim);
+    const double from = energy_of_sine(passes_.aim);
     std::size_t bad = 0;
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
       if (is_worse(t, from)) ++bad;
@@ -126,7 +126,7 @@ class Improver {
 
   TetMesh& mesh_;
   ImprovedVolume volume_;
-  const tuning::Effort effort_;
+  const tuning::Passes passes_;
   const std::span<const std::uint8_t> spared_;  // by vertex
   Monitor& monitor_;
   EnergyWays ways_;
@@ -136,9 +136,9 @@ class Improver {
 
 }  // namespace
 
-ImproveStats improve(const VolumeData& volume, Quality quality, Monitor& monitor,
+ImproveStats improve(const VolumeData& volume, Effort effort, Monitor& monitor,
                      std::span<const std::uint8_t> spared, std::span<const std::uint8_t> fresh) {
-  return Improver(volume, quality, spared, fresh, monitor).run();
+  return Improver(volume, effort, spared, fresh, monitor).run();
 }
 
 }  // namespace holdfast

@@ -34,7 +34,7 @@ struct ImproveStats {
 /// vertices that `spared` marks, by vertex, are left alone unless they are in the way of others. Passes begin
 /// with those at vertices that `fresh` marks, or that are higher than it tells of, and go on where something
 /// changed.
-ImproveStats improve(const VolumeData& volume, Quality quality, Monitor& monitor,
+ImproveStats improve(const VolumeData& volume, Effort effort, Monitor& monitor,
                      std::span<const std::uint8_t> spared = {}, std::span<const std::uint8_t> fresh = {});
 
 }  // namespace holdfast

@@ -7,12 +7,12 @@
 namespace holdfast {
 namespace {
 
-ImproveStats improve_each(Parts& parts, Quality quality, std::array<double, 2> work, const Threads& threads,
+ImproveStats improve_each(Parts& parts, Effort effort, std::array<double, 2> work, const Threads& threads,
                           Monitor& monitor) {
   std::vector<ImproveStats> stats(parts.parts().size());
   parallel_monitored(threads, stats.size(), monitor, work, [&](std::size_t k, Monitor& own) {
     Part& part = parts.parts()[k];
-    stats[k] = improve(part.data(parts.whole().kept), quality, own, part.on_cut(), part.was_on_cut());
+    stats[k] = improve(part.data(parts.whole().kept), effort, own, part.on_cut(), part.was_on_cut());
   });
   ImproveStats sum;
   for (const ImproveStats& own : stats) sum += own;
@@ -21,7 +21,7 @@ ImproveStats improve_each(Parts& parts, Quality quality, std::array<double, 2> w
 
 }  // namespace
 
-ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledParts> filled, Quality quality,
+ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledParts> filled, Effort effort,
                               const Threads& threads, Monitor& monitor) {
   constexpr double kMost = tuning::kWorkOfFirstParts;
   std::unique_ptr<Parts> parts;
@@ -29,10 +29,10 @@ ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledPart
     parts = std::move(filled->parts);
   else
     parts = cut_evenly(volume, threads);
-  if (!parts) return improve(volume, quality, monitor);
+  if (!parts) return improve(volume, effort, monitor);
   ImproveStats stats;
   for (std::array<double, 2> work{0, kMost}; parts; work = {kMost, 1}) {
-    stats += improve_each(*parts, quality, work, threads, monitor);
+    stats += improve_each(*parts, effort, work, threads, monitor);
     parts = join_and_cut_again(*parts, threads);
     if (!parts || !filled) continue;
     const FilledIn missing =

@@ -20,7 +20,7 @@ struct FilledParts {
 /// As `improve`, but a large mesh is cut into parts, unless it comes in parts. When these are joined, what
 /// the cuts forbade is made up for: what lies near them is filled and improved in the same way, as long as it
 /// has to be cut again. The threads make no difference to the result.
-ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledParts> filled, Quality quality,
+ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledParts> filled, Effort effort,
                               const Threads& threads, Monitor& monitor);
 
 }  // namespace holdfast

@@ -76,7 +76,7 @@ inline constexpr std::size_t kFlatShells = 200;       ///< shells looked at for 
 
 // --- With field points. Angles are told by their sines.
 /// Passes over the whole volume, then work on single elements.
-struct Effort {
+struct Passes {
   int passes;
   double sine;         ///< of the angle below which elements are exchanged in a pass
   double smooth_sine;  ///< of the angle below which the vertices of elements are moved in a pass
@@ -87,13 +87,13 @@ struct Effort {
   /// is for those full of elements that the surface forces, which nothing helps.
   double work_per_tet;
 };
-[[nodiscard]] constexpr Effort effort_of(Quality quality) {
-  switch (quality) {
-    case Quality::fast:
+[[nodiscard]] constexpr Passes passes_of(Effort effort) {
+  switch (effort) {
+    case Effort::fast:
       return {1, 0.35, 0.50, 0.26, 0.24, 1, 0.2};
-    case Quality::good:
+    case Effort::good:
       return {1, 0.45, 0.50, 0.36, 0.24, 1, 8};
-    case Quality::best:
+    case Effort::best:
       break;
   }
   return {6, 0.65, 0.80, 0.60, 0.34, 6, 10};

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "holdfast/holdfast.h"
-#include "numbers/float_environment.h"
 #include "surface/describe.h"
 
 namespace holdfast {
@@ -50,11 +49,6 @@ std::vector<std::array<ElementRef, 2>> offending_pairs(const Complex& complex, s
     pairs.push_back({{{a.corners, a.id}, {b.corners, b.id}}});
   }
   return pairs;
-}
-
-std::vector<Defect> diagnose(const Complex& complex, std::size_t most) {
-  const FloatEnvironment environment;
-  return find_defects(complex, most, [](double) {});
 }
 
 }  // namespace holdfast

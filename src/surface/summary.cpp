@@ -346,44 +346,6 @@ class Summariser {
 
 }  // namespace
 
-const char* name(Cause cause) {
-  switch (cause) {
-    case Cause::not_finite:
-      return "coordinates that are not finite";
-    case Cause::bad_index:
-      return "indices out of range";
-    case Cause::repeated_vertex:
-      return "repeated vertices";
-    case Cause::no_extent:
-      return "no extent";
-    case Cause::repeated_facet:
-      return "repeated triangles";
-    case Cause::unwelded:
-      return "unwelded vertices";
-    case Cause::t_junction:
-      return "T-junctions";
-    case Cause::vertex_in_facet:
-      return "vertices in triangles";
-    case Cause::overlap:
-      return "overlaps";
-    case Cause::parts_cross:
-      return "parts cross";
-    case Cause::self_crossing:
-      return "self-crossings";
-    case Cause::encloses_nothing:
-      return "encloses nothing";
-    case Cause::outside:
-      return "outside every region";
-    case Cause::orientation:
-      return "orientation";
-    case Cause::crack:
-      return "cracks";
-    case Cause::open_border:
-      return "open borders";
-  }
-  return "unknown";
-}
-
 DefectSummary summarise(const Complex& complex, std::span<const Defect> defects) {
   return Summariser(complex, defects).run();
 }

@@ -83,7 +83,7 @@ Options options_from(Bytes& bytes, const Surface& surface) {
   options.box_margin = (1 + bytes.byte()) / 64.0;
   options.seed = bytes.byte();
   if ((flags & 32u) != 0) options.sizes = sizes_from(bytes, surface);
-  options.quality = static_cast<Quality>(bytes.byte() % 3);
+  options.effort = static_cast<Effort>(bytes.byte() % 3);
   if ((flags & 64u) != 0) options.stop_after = static_cast<Stage>(bytes.byte() % 9);
   if ((flags & 128u) != 0) {
     options.holes.push_back(bytes.point());

@@ -29,7 +29,7 @@ bool finite(const std::vector<Point>& points) {
 
 void require_round_trip(const Volume& volume, const fuzz::Folder& folder, std::size_t format) {
   const auto path = folder / (std::string("copy") + kFormats[format][0]);
-  write_volume(path, volume, {.legacy_msh = false, .format = {}});
+  write_volume(path, volume, WriteOptions{});
   const Volume copy = read_volume(path);
   fuzz::require(same_bits(copy.vertices, volume.vertices), "other vertices after writing and reading");
   fuzz::require(copy.tetrahedra == volume.tetrahedra, "other tetrahedra after writing and reading");

@@ -31,7 +31,8 @@ class Garbage {
     labels(made.surface.segment_markers, made.surface.segments.size());
     labels(made.volume.facet_markers, made.volume.facets.size());
     labels(made.volume.segment_markers, made.volume.segments.size());
-    made.options = {.outside_dropped = one_in(2), .box = one_in(2)};
+    made.options.outside_dropped = one_in(2);
+    made.options.box = one_in(2);
     // Facets that are faces, as random ones seldom are.
     for (const Tetrahedron& t : made.volume.tetrahedra)
       if (one_in(2)) made.surface.facets.push_back({t[2], t[0], t[3]});

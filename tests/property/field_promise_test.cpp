@@ -48,7 +48,7 @@ TEST_P(FieldPromise, IsKept) {
     Options options;
     options.keep = family.keep;
     options.sizes = Sizes{.size = family.size};
-    options.quality = k % 2 == 0 ? Quality::good : Quality::fast;
+    options.effort = k % 2 == 0 ? Effort::good : Effort::fast;
     Result result;
     ASSERT_NO_THROW(result = mesh(surface.view(), options)) << k;
     ASSERT_EQ(result.outcome, Outcome::done) << k << ": " << result.message;

@@ -42,7 +42,7 @@ TEST_P(FieldThreads, MakeNoDifference) {
   Options options;
   options.keep = family.keep;
   options.sizes = Sizes{.size = family.size};
-  options.quality = Quality::fast;
+  options.effort = Effort::fast;
   const Result one = mesh(surface.view(), options);
   ASSERT_EQ(one.outcome, Outcome::done) << one.message;
   EXPECT_GT(one.volume.tetrahedra.size(), 60'000u);
@@ -61,7 +61,7 @@ TEST_P(FieldThreads, MakeNoDifference) {
     EXPECT_EQ(more.report.field.after.min_dihedral_deg, one.report.field.after.min_dihedral_deg);
     EXPECT_EQ(more.report.field.before.least_dihedral, one.report.field.before.least_dihedral);
     EXPECT_EQ(more.report.field.edge_lengths, one.report.field.edge_lengths);
-    EXPECT_EQ(more.report.quality.histogram, one.report.quality.histogram);
+    EXPECT_EQ(more.report.elements.histogram, one.report.elements.histogram);
   }
 }
 

@@ -80,7 +80,7 @@ class Trial {
     if (one_in(random_, 4)) {
       options.flips = true;
       options.sizes = sizes();
-      options.quality = one_in(random_, 2) ? Quality::fast : Quality::good;
+      options.effort = one_in(random_, 2) ? Effort::fast : Effort::good;
       if (std::string wrong = mesh_once(options, valid, counts); !wrong.empty())
         return wrong + " (with sizes)";
     }

@@ -129,8 +129,8 @@ TEST(Mesh, Tetrahedron) {
   EXPECT_EQ(report.vertices, 4u);
   EXPECT_EQ(report.tetrahedra, 1u);
   EXPECT_EQ(report.regions, 1u);
-  EXPECT_NEAR(report.quality.worst, std::sqrt(6.0) / 12 * std::sqrt(2.0) * (3 + std::sqrt(3.0)), 1e-12);
-  EXPECT_LE(report.quality.target, report.quality.worst);
+  EXPECT_NEAR(report.elements.worst, std::sqrt(6.0) / 12 * std::sqrt(2.0) * (3 + std::sqrt(3.0)), 1e-12);
+  EXPECT_LE(report.elements.target, report.elements.worst);
   EXPECT_GT(report.peak_memory_bytes, 0u);
   for (const char* key : {"validate", "delaunay", "flips", "partition", "classify", "suppress", "total"})
     EXPECT_TRUE(report.seconds.contains(key)) << key;
@@ -206,9 +206,9 @@ TEST(Mesh, WithoutPointsNoneAreAddedForFlatElements) {
     EXPECT_EQ(result.report.steiner_points > 0, add_points);
     EXPECT_EQ(result.report.optimised.points > 0, add_points);
     if (add_points)
-      worst_with_points = result.report.quality.worst;
+      worst_with_points = result.report.elements.worst;
     else
-      EXPECT_LT(10 * worst_with_points, result.report.quality.worst);
+      EXPECT_LT(10 * worst_with_points, result.report.elements.worst);
   }
 }
 
@@ -260,7 +260,7 @@ TEST(Mesh, NestedBoxesAreTwoRegions) {
 }
 
 TEST(Mesh, TellsTheRegionsOnBothSidesOfAFacet) {
-  const Result box_result = mesh(small::box().view());
+  const Result box_result = mesh(small::box());
   ASSERT_EQ(box_result.facet_regions.size(), 12u);
   for (const FacetRegions& regions : box_result.facet_regions)
     EXPECT_EQ(regions, (FacetRegions{std::nullopt, 1}));  // its facets face outwards
@@ -404,7 +404,7 @@ TEST(Mesh, ExtremeMagnitudes) {
     ASSERT_EQ(result.volume.tetrahedra, expected.volume.tetrahedra) << "2^" << k;
     for (std::size_t i = 0; i < expected.volume.vertices.size(); ++i)
       EXPECT_EQ(result.volume.vertices[i], scaled(expected.volume.vertices[i], k));
-    EXPECT_NEAR(result.report.quality.worst, expected.report.quality.worst, 1e-9);
+    EXPECT_NEAR(result.report.elements.worst, expected.report.elements.worst, 1e-9);
   }
 }
 
@@ -529,7 +529,7 @@ TEST(Mesh, TheSeedDecidesAndNothingElseDoes) {
 TEST(Interruption, ByTime) {
   Options options;
   options.time_limit = 1e-9;
-  const Result result = mesh(small::box().view(), options);
+  const Result result = mesh(small::box(), options);
   EXPECT_EQ(result.outcome, Outcome::time_limit);
   EXPECT_NE(result.message.find("time limit"), std::string::npos) << result.message;
   EXPECT_TRUE(result.report.seconds.contains("total"));
@@ -539,7 +539,7 @@ TEST(Interruption, ByTime) {
 TEST(Interruption, ByMemory) {
   Options options;
   options.memory_limit = 1;
-  const Result result = mesh(small::box().view(), options);
+  const Result result = mesh(small::box(), options);
   EXPECT_EQ(result.outcome, Outcome::memory_limit);
   EXPECT_NE(result.message.find("memory limit"), std::string::npos) << result.message;
   expect_empty(result.volume);
@@ -566,7 +566,7 @@ TEST(Interruption, WithinAStage) {
   options.progress = [](const Progress& progress) { return progress.fraction == 0; };
   Outcome outcome = Outcome::done;
   for (int size = 100; outcome == Outcome::done && size <= 1600; size *= 2)
-    outcome = mesh(bumpy(size, 200).view(), options).outcome;
+    outcome = mesh(bumpy(size, 200), options).outcome;
   EXPECT_EQ(outcome, Outcome::cancelled);
 }
 
@@ -579,7 +579,7 @@ TEST(Progress, StagesComeInOrder) {
     if (stages.empty() || stages.back() != progress.stage) stages.push_back(progress.stage);
     return true;
   };
-  EXPECT_EQ(mesh(small::box().view(), options).outcome, Outcome::done);
+  EXPECT_EQ(mesh(small::box(), options).outcome, Outcome::done);
   EXPECT_EQ(stages,
             (std::vector<Stage>{Stage::validate, Stage::delaunay, Stage::validate, Stage::flips,
                                 Stage::partition, Stage::classify, Stage::suppress, Stage::optimise}));
@@ -630,7 +630,7 @@ TEST(StopAfter, ShowsWhatStands) {
 TEST(StopAfter, OpenSurfacesCanBeLookedAt) {
   Options options;
   options.stop_after = Stage::delaunay;
-  EXPECT_EQ(mesh(small::open_box().view(), options).outcome, Outcome::done);
+  EXPECT_EQ(mesh(small::open_box(), options).outcome, Outcome::done);
 }
 
 TEST(Names, OfStagesAndVersion) {

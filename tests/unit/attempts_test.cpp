@@ -58,8 +58,8 @@ std::function<bool(const Progress&)> at_attempt(int which, std::function<void()>
 }
 
 TEST(Attempts, AreCounted) {
-  EXPECT_EQ(mesh(small::box().view()).report.attempts, 1u);
-  const Result result = mesh(without_doubles().view());
+  EXPECT_EQ(mesh(small::box()).report.attempts, 1u);
+  const Result result = mesh(without_doubles());
   EXPECT_EQ(result.outcome, Outcome::not_representable);
   EXPECT_EQ(result.report.attempts, 5u);
   EXPECT_TRUE(failures(result).empty());
@@ -98,7 +98,7 @@ TEST(Attempts, WhatTheCallbackThrowsEndsTheCall) {
   struct Stop {};
   Options options;
   options.progress = at_attempt(2, [] { throw Stop(); });
-  EXPECT_THROW(static_cast<void>(mesh(without_doubles().view(), options)), Stop);
+  EXPECT_THROW(static_cast<void>(mesh(without_doubles(), options)), Stop);
 }
 
 TEST(Attempts, ACancelledOneCancelsTheCall) {
@@ -106,7 +106,7 @@ TEST(Attempts, ACancelledOneCancelsTheCall) {
   bool go_on = true;
   auto watch = at_attempt(2, [&] { go_on = false; });
   options.progress = [&](const Progress& progress) { return watch(progress) && go_on; };
-  EXPECT_EQ(mesh(without_doubles().view(), options).outcome, Outcome::cancelled);
+  EXPECT_EQ(mesh(without_doubles(), options).outcome, Outcome::cancelled);
 }
 
 TEST(Attempts, PartitionPointsOfAllOfThemCount) {
@@ -137,7 +137,7 @@ TEST(Attempts, ProgressNeverGoesBack) {
     ++told;
     return true;
   };
-  EXPECT_EQ(mesh(without_doubles().view(), options).report.attempts, 5u);
+  EXPECT_EQ(mesh(without_doubles(), options).report.attempts, 5u);
   EXPECT_GT(told, 30u);
   EXPECT_GT(last, 0.5);
 }

@@ -231,7 +231,9 @@ TEST(Form, DegenerateInputEntitiesAreLost) {
 
 TEST(Form, EmptyIsNotAMesh) {
   EXPECT_TRUE(broken(check({}, {})).contains("well formed"));
-  EXPECT_FALSE(check({}, {}, {.outside_dropped = true, .box = true}).holds());
+  CheckOptions allowing_all;
+  allowing_all.outside_dropped = allowing_all.box = true;
+  EXPECT_FALSE(check({}, {}, allowing_all).holds());
 }
 
 // ---- Tetrahedra

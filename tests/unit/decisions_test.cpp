@@ -48,7 +48,7 @@ TEST(Decisions, TheTriangleThatIsTurned) {
 
 // The wall between two materials faces one of them: no triangle is wrong.
 TEST(Decisions, AnInterfaceTurnsNothing) {
-  const Result result = mesh(small::touching().view());
+  const Result result = mesh(small::touching());
   EXPECT_EQ(result.report.keep, Keep::bounded);
   EXPECT_EQ(result.report.turned_facets.size(), 2u);
   EXPECT_EQ(kinds(result), Kinds{});

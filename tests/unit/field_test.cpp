@@ -79,7 +79,7 @@ Surface double_fan(Index n) {
 TEST(FieldPoints, CavitiesOfThousandsAreNotTriedWithoutEnd) {
   std::map<Stage, std::clock_t> begun;
   Options options;
-  options.quality = Quality::fast;
+  options.effort = Effort::fast;
   options.progress = [&](const Progress& progress) {
     begun.try_emplace(progress.stage, std::clock());
     return true;
@@ -109,9 +109,9 @@ TEST(FieldPoints, SizesGrowInwardUnlessToldNotTo) {
 
 TEST(FieldPoints, TheVolumeOfASphereIsFitToComputeWith) {
   const Surface sphere = hard::icosphere(4);
-  const auto below_30_deg = [&](Quality quality) {
+  const auto below_30_deg = [&](Effort effort) {
     Options options;
-    options.quality = quality;
+    options.effort = effort;
     const Result result = mesh_with(sphere, {.grow = false}, options);
     const Report::Field& field = result.report.field;
     EXPECT_GT(field.after.min_dihedral_deg, 20);
@@ -123,8 +123,8 @@ TEST(FieldPoints, TheVolumeOfASphereIsFitToComputeWith) {
     const std::size_t below = std::accumulate(least.begin(), least.begin() + 6, std::size_t{0});
     return static_cast<double>(below) / static_cast<double>(result.volume.tetrahedra.size());
   };
-  EXPECT_LT(below_30_deg(Quality::good), 0.02);
-  EXPECT_LT(below_30_deg(Quality::best), 0.01);
+  EXPECT_LT(below_30_deg(Effort::good), 0.02);
+  EXPECT_LT(below_30_deg(Effort::best), 0.01);
 }
 
 TEST(FieldPoints, AFunctionOfTheUserIsAsked) {
@@ -199,9 +199,9 @@ TEST(FieldPoints, SameResultAndFileOnAnyNumberOfThreads) {
     EXPECT_EQ(other.volume.vertices, one.volume.vertices);
     EXPECT_EQ(other.volume.tetrahedra, one.volume.tetrahedra);
     EXPECT_EQ(other_file, file);
-    EXPECT_EQ(other.report.quality.histogram, one.report.quality.histogram);
-    EXPECT_EQ(other.report.quality.worst, one.report.quality.worst);
-    EXPECT_EQ(other.report.quality.min_dihedral_deg, one.report.quality.min_dihedral_deg);
+    EXPECT_EQ(other.report.elements.histogram, one.report.elements.histogram);
+    EXPECT_EQ(other.report.elements.worst, one.report.elements.worst);
+    EXPECT_EQ(other.report.elements.min_dihedral_deg, one.report.elements.min_dihedral_deg);
     for (const auto shape : {&Report::Field::before, &Report::Field::after}) {
       EXPECT_EQ((other.report.field.*shape).least_dihedral, (one.report.field.*shape).least_dihedral);
       EXPECT_EQ((other.report.field.*shape).quality, (one.report.field.*shape).quality);
@@ -367,7 +367,7 @@ TEST(Improve, LeavesAValidMeshWithBetterElements) {
   const std::size_t before = below_10();
   const Options options;
   Monitor monitor(options);
-  const ImproveStats stats = improve(volume, Quality::good, monitor);
+  const ImproveStats stats = improve(volume, Effort::good, monitor);
   EXPECT_EQ(find_fault(mesh), "");
   EXPECT_GT(stats.moved, 0u);
   EXPECT_GT(stats.swapped, 0u);

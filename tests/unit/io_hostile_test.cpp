@@ -48,7 +48,7 @@ std::vector<Sample> valid_files() {
     files.push_back({format, get(folder / ("a" + format))});
   };
   written(".vtu", {});
-  written(".vtu", {.compress = false, .format = {}});
+  written(".vtu", uncompressed());
   written(".msh", {});
   return files;
 }

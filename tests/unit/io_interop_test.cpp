@@ -56,8 +56,8 @@ TEST(Interop, OtherProgramsReadTheSame) {
   const Volume original = volume();
   for (const char* name : {"volume.vtu", "volume.vtk", "volume.mesh", "volume.msh"})
     write_volume(folder / name, original);
-  write_volume(folder / "volume_raw.vtu", original, {.compress = false, .format = {}});
-  write_volume(folder / "volume_22.msh", original, {.legacy_msh = true, .format = {}});
+  write_volume(folder / "volume_raw.vtu", original, uncompressed());
+  write_volume(folder / "volume_22.msh", original, legacy_msh());
   std::string points;
   for (const Point& point : original.vertices)
     for (const double x : point) points += (points.empty() ? "\"" : ", \"") + hex(x) + "\"";

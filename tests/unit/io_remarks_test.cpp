@@ -110,7 +110,7 @@ TEST_F(Remarks, SayWhatAFormatDoesNotHold) {
   const Volume volume = sample_volume();
   for (const char* name : {"a.vtu", "a.vtk", "a.mesh", "a.meshb", "a.node"})
     EXPECT_TRUE(not_held(folder_ / name, volume).empty()) << name;
-  const std::vector<Remark> remarks = not_held(folder_ / "a.msh", volume, {.legacy_msh = true, .format = {}});
+  const std::vector<Remark> remarks = not_held(folder_ / "a.msh", volume, legacy_msh());
   ASSERT_EQ(remarks.size(), 1u);
   EXPECT_EQ(remarks[0].kind, RemarkKind::not_held);
   EXPECT_EQ(remarks[0].count, 3u);
@@ -123,8 +123,8 @@ TEST_F(Remarks, SayWhatAFormatDoesNotHold) {
   EXPECT_EQ(not_held(folder_ / "b.msh", turned).size(), 1u);
   write_volume(folder_ / "b.msh", turned);
   EXPECT_NE(read_volume(folder_ / "b.msh").tetrahedra, turned.tetrahedra);
-  EXPECT_TRUE(not_held(folder_ / "b.msh", turned, {.legacy_msh = true, .format = {}}).empty());
-  write_volume(folder_ / "b.msh", turned, {.legacy_msh = true, .format = {}});
+  EXPECT_TRUE(not_held(folder_ / "b.msh", turned, legacy_msh()).empty());
+  write_volume(folder_ / "b.msh", turned, legacy_msh());
   EXPECT_EQ(read_volume(folder_ / "b.msh").tetrahedra, turned.tetrahedra);
 }
 

@@ -98,14 +98,14 @@ TEST_P(RoundTrip, ManyRandomDoubles) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip,
-                         testing::Values(Case{"a.vtu"}, Case{"a.vtu", {.compress = false, .format = {}}},
+                         testing::Values(Case{"a.vtu"}, Case{"a.vtu", uncompressed()},
                                          Case{"a.vtk"}, Case{"a.mesh"}, Case{"a.meshb"}, Case{"a.msh"},
-                                         Case{"a.msh", {.legacy_msh = true, .format = {}}}, Case{"a.node"},
+                                         Case{"a.msh", legacy_msh()}, Case{"a.node"},
                                          Case{"a.ele"}, Case{"A.VTU"}));
 
 TEST(RoundTrip, FormatOverridesTheExtension) {
   const TemporaryFolder folder;
-  write_volume(folder / "mesh.out", sample_volume(), {.format = "mesh"});
+  write_volume(folder / "mesh.out", sample_volume(), as_format("mesh"));
   EXPECT_EQ(read_volume(folder / "mesh.out", ".mesh").tetrahedra, sample_volume().tetrahedra);
   EXPECT_THROW(read_volume(folder / "mesh.out"), FileError);
 }

@@ -18,6 +18,24 @@
 
 namespace holdfast::samples {
 
+inline WriteOptions uncompressed() {
+  WriteOptions options;
+  options.compress = false;
+  return options;
+}
+
+inline WriteOptions legacy_msh() {
+  WriteOptions options;
+  options.legacy_msh = true;
+  return options;
+}
+
+inline WriteOptions as_format(const std::string& format) {
+  WriteOptions options;
+  options.format = format;
+  return options;
+}
+
 /// A folder that is removed with all that is in it.
 class TemporaryFolder {
  public:

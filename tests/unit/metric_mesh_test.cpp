@@ -157,7 +157,7 @@ TEST(MetricMesh, ThreadsMakeNoDifference) {
   const auto on = [&](unsigned threads) {
     Options options;
     options.threads = threads;
-    options.quality = Quality::fast;
+    options.effort = Effort::fast;
     const auto metric = [](const Point& p) {
       const double r = std::hypot(p[0], p[1], p[2]) + 1e-9;
       return layer({p[0] / r, p[1] / r, p[2] / r}, std::min(0.06, 0.008 + 0.3 * std::abs(r - 0.6)), 0.06);

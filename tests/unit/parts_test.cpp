@@ -398,7 +398,7 @@ TEST(ImproveInParts, IsTheSameOnAnyNumberOfThreadsAndMissesNothing) {
     Cube cube(14000, false);  // some 90,000 tetrahedra: two parts
     const Options options;
     Monitor monitor(options);
-    improve_in_parts(cube.data(), {}, Quality::fast, threads, monitor);
+    improve_in_parts(cube.data(), {}, Effort::fast, threads, monitor);
     EXPECT_EQ(find_fault(cube.mesh), "");
     return cube;
   };

@@ -60,7 +60,7 @@ TEST(Quality, CornersThatShareADouble) {
   Volume volume;
   volume.vertices = {kA, kB, kC, kC};
   volume.tetrahedra = {{0, 1, 2, 3}};
-  const Report::Quality q = measure(volume, 0);
+  const Report::Elements q = measure(volume, 0);
   EXPECT_EQ(q.worst, kInfinity);
   EXPECT_EQ(q.min_dihedral_deg, 0);
   EXPECT_EQ(std::accumulate(q.histogram.begin(), q.histogram.end(), std::size_t{0}), 6u);
@@ -148,7 +148,7 @@ TEST(Measure, CountsEveryAngleOnce) {
   volume.vertices[4] = {kTop[0], kTop[1], -kTop[2]};
   volume.tetrahedra = {{0, 1, 2, 3}, {0, 2, 1, 4}};
   const std::vector<Triangle> facets{{0, 1, 3}, {1, 2, 3}};
-  const Report::Quality q = measure(volume, target_quality(volume.vertices, facets));
+  const Report::Elements q = measure(volume, target_quality(volume.vertices, facets));
   EXPECT_NEAR(q.worst, 1, 1e-14);
   EXPECT_NEAR(q.target, 1, 1e-12);
   EXPECT_NEAR(q.min_dihedral_deg, 70.5287793655, 1e-9);
@@ -166,7 +166,7 @@ TEST(Measure, TargetIsTheWorstTriangles) {
 }
 
 TEST(Measure, NothingIsZero) {
-  const Report::Quality q = measure({}, 0);
+  const Report::Elements q = measure({}, 0);
   EXPECT_EQ(q.worst, 0);
   EXPECT_EQ(q.target, 0);
   EXPECT_EQ(q.min_dihedral_deg, 0);

@@ -1,0 +1,66 @@
+// Holdfast: how a call may be bounded, stopped and watched.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "holdfast/export.h"
+
+namespace holdfast {
+
+/// How a call ended.
+enum class Outcome {
+  done,
+  invalid_input,      ///< `defects` says which rule is broken and where
+  time_limit,         ///< `Limits::time_limit` ran out
+  memory_limit,       ///< `Limits::memory_limit` was reached
+  cancelled,          ///< the progress callback returned false, or the token was cancelled
+  not_representable,  ///< valid, but some Steiner point has no position in doubles
+};
+
+/// Stops calls from another thread. Copies are one token: keep one and give another to `Limits::cancel`.
+/// A token may be given to many calls; once cancelled it stays so.
+class CancelToken {
+ public:
+  /// From any thread, and from a signal handler.
+  void cancel() const noexcept { state_->store(true, std::memory_order_relaxed); }
+  [[nodiscard]] bool cancelled() const noexcept { return state_->load(std::memory_order_relaxed); }
+
+ private:
+  static_assert(std::atomic<bool>::is_always_lock_free);
+  std::shared_ptr<std::atomic<bool>> state_ = std::make_shared<std::atomic<bool>>(false);
+};
+
+/// When a call ends before it is done. What it asks for is looked at every 50 ms at most.
+struct Limits {
+  double time_limit = 0;  ///< seconds; 0: none
+  /// When the time limit began to run, if not with the call.
+  std::optional<std::chrono::steady_clock::time_point> started = {};
+  /// Bytes of the process; 0: none. Refused where the system does not tell how many there are.
+  std::uint64_t memory_limit = 0;
+  std::optional<CancelToken> cancel = {};
+};
+
+/// Called every 20 ms or so, from the thread that made the call, with the share of the work that is done, 0
+/// to 1; returns false to cancel. What it throws ends the call.
+using ProgressFunction = std::function<bool(double)>;
+
+/// Thrown by calls whose result has no `Outcome` (diagnose, check, delaunay, readers and writers) when a
+/// limit is reached or the caller cancels. Nothing is left under the name of a file that was being written.
+class HOLDFAST_API Interrupted : public std::exception {
+ public:
+  explicit Interrupted(Outcome outcome) noexcept : outcome_(outcome) {}
+  /// time_limit, memory_limit or cancelled.
+  [[nodiscard]] Outcome outcome() const noexcept { return outcome_; }
+  [[nodiscard]] const char* what() const noexcept override;
+
+ private:
+  Outcome outcome_;
+};
+
+}  // namespace holdfast

@@ -1,0 +1,51 @@
+// Holdfast: names of all enumerations, as the command line and the reports spell them.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "holdfast/check.h"
+#include "holdfast/holdfast.h"
+#include "holdfast/summary.h"
+#include "holdfast/untangle.h"
+
+namespace holdfast {
+
+// `name(Stage)`, `name(UntangleStep)` and `name(Cause)` are declared beside their enumerations.
+
+/// "unknown" for a value that is none of the enumeration's.
+[[nodiscard]] HOLDFAST_API const char* name(Outcome outcome);
+[[nodiscard]] HOLDFAST_API const char* name(Keep keep);
+[[nodiscard]] HOLDFAST_API const char* name(Effort effort);
+[[nodiscard]] HOLDFAST_API const char* name(WarningKind kind);
+[[nodiscard]] HOLDFAST_API const char* name(RemarkKind kind);
+[[nodiscard]] HOLDFAST_API const char* name(DefectKind kind);
+
+/// The value with a name, or nothing: `from_name<Keep>("winding")`. For every enumeration that has names.
+template <class Enum>
+[[nodiscard]] std::optional<Enum> from_name(std::string_view text);
+
+/// All values of an enumeration, in order: `values_of<Stage>()`.
+template <class Enum>
+[[nodiscard]] std::span<const Enum> values_of();
+
+// The library holds these for each enumeration.
+#define HOLDFAST_NAMED(Enum)                                               \
+  template <>                                                              \
+  HOLDFAST_API std::optional<Enum> from_name<Enum>(std::string_view text); \
+  template <>                                                              \
+  HOLDFAST_API std::span<const Enum> values_of<Enum>();
+HOLDFAST_NAMED(Outcome)
+HOLDFAST_NAMED(Stage)
+HOLDFAST_NAMED(Keep)
+HOLDFAST_NAMED(Effort)
+HOLDFAST_NAMED(WarningKind)
+HOLDFAST_NAMED(RemarkKind)
+HOLDFAST_NAMED(DefectKind)
+HOLDFAST_NAMED(RuleKind)
+HOLDFAST_NAMED(UntangleStep)
+HOLDFAST_NAMED(Cause)
+#undef HOLDFAST_NAMED
+
+}  // namespace holdfast

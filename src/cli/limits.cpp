@@ -1,0 +1,38 @@
+#include "limits.h"
+
+#include "command.h"
+#include "mesh_options.h"
+#include "signals.h"
+
+namespace holdfast::cli {
+
+void add_limits(CLI::App& command, LimitArguments& arguments) {
+  command.add_option("--time-limit", arguments.time_limit, "Give up after so many seconds (exit 5)")
+      ->option_text("S");
+  command.add_option("--memory-limit", arguments.memory_limit, "Give up beyond so much memory (exit 5)")
+      ->option_text("GB");
+}
+
+Limits limits_of(const LimitArguments& arguments) {
+  Limits limits;
+  limits.started = std::chrono::steady_clock::now();
+  limits.time_limit = time_limit_of(arguments.time_limit);
+  limits.memory_limit = memory_limit_of(arguments.memory_limit);
+  return limits;
+}
+
+ReadOptions reading(const Limits& limits, const std::string& format) {
+  ReadOptions options;
+  static_cast<Limits&>(options) = limits;
+  options.format = format;
+  return options;
+}
+
+void watch_writing(WriteOptions& options, const Limits& limits) {
+  static_cast<Limits&>(options) = limits;
+  options.progress = goes_on;
+}
+
+bool goes_on(double) { return !cancel_requested(); }
+
+}  // namespace holdfast::cli

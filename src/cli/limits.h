@@ -1,0 +1,32 @@
+// Limits on a whole command: --time-limit, --memory-limit and signals, while it computes, reads and writes.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "holdfast/io.h"
+#include "holdfast/limits.h"
+
+namespace holdfast::cli {
+
+/// What --time-limit and --memory-limit were given.
+struct LimitArguments {
+  std::optional<double> time_limit, memory_limit;
+};
+
+void add_limits(CLI::App& command, LimitArguments& arguments);
+
+/// Of a command that begins now. Throws UsageError for numbers that are no limits.
+[[nodiscard]] Limits limits_of(const LimitArguments& arguments);
+
+/// For reading. A signal ends the program at once then, as reading may wait for a pipe.
+[[nodiscard]] ReadOptions reading(const Limits& limits, const std::string& format);
+
+/// Lets limits and signals end the writing of a file.
+void watch_writing(WriteOptions& options, const Limits& limits);
+
+/// For `progress` of calls that tell nothing: false after a signal.
+[[nodiscard]] bool goes_on(double fraction);
+
+}  // namespace holdfast::cli

@@ -1,0 +1,63 @@
+"""Compiles and runs the programs in docs/library.md, against a shared library.
+
+    documents.py SOURCE CXX CC LIBRARY FOLDER
+
+Blocks of ```cpp and ```c that have a main are programs; each is given the names of a surface and of a volume to write,
+and must write it.
+"""
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+CUBE = """OFF
+8 12 0
+0 0 0
+1 0 0
+1 1 0
+0 1 0
+0 0 1
+1 0 1
+1 1 1
+0 1 1
+3 0 2 1
+3 0 3 2
+3 4 5 6
+3 4 6 7
+3 0 1 5
+3 0 5 4
+3 1 2 6
+3 1 6 5
+3 2 3 7
+3 2 7 6
+3 3 0 4
+3 3 4 7
+"""
+
+
+def main(source, cxx, cc, library, folder):
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    surface = folder / "cube.off"
+    surface.write_text(CUBE)
+    libraries = Path(library).parent
+    text = (Path(source) / "docs/library.md").read_text()
+    programs = [(kind, code) for kind, code in re.findall(r"^```(cpp|c)\n(.*?)^```", text, flags=re.S | re.M) if "main(" in code]
+    kinds = [kind for kind, _ in programs]
+    if kinds.count("cpp") < 1 or kinds.count("c") < 1:
+        sys.exit("docs/library.md has no program in C++ or none in C")
+    for number, (kind, code) in enumerate(programs):
+        file = folder / f"program{number}.{kind}"
+        file.write_text(code)
+        program, volume = folder / f"program{number}", folder / f"cube{number}.vtu"
+        volume.unlink(missing_ok=True)
+        compiler = [cxx, "-std=c++20"] if kind == "cpp" else [cc, "-std=c99"]
+        subprocess.run([*compiler, "-Wall", "-Wextra", "-Wpedantic", "-Werror", f"-I{source}/include", file, library,
+                        "-o", program], check=True)
+        subprocess.run([program, surface, volume], check=True, env={**os.environ, "LD_LIBRARY_PATH": str(libraries)})
+        if not volume.stat().st_size:
+            sys.exit(f"{file} has written nothing")
+
+
+main(*sys.argv[1:])
