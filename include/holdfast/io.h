@@ -61,9 +61,8 @@ struct ReadOptions : Limits {
 /// Indices in the result are always in range, but nothing else that `diagnose` tells is checked.
 /// Throws FileError, also for a file without vertices.
 [[nodiscard]] HOLDFAST_API Surface read_surface(const std::filesystem::path& path,
-                                                std::string_view format = {});
-[[nodiscard]] HOLDFAST_API Surface read_surface(const std::filesystem::path& path,
-                                                const ReadOptions& options);
+                                                const ReadOptions& options = {});
+[[nodiscard]] HOLDFAST_API Surface read_surface(const std::filesystem::path& path, std::string_view format);
 
 /// Reads a volume: .vtu, .vtk, .mesh, .meshb, .msh, and .node, .ele, .face, .edge (TetGen) beside one
 /// another; each also packed by gzip.
@@ -73,17 +72,17 @@ struct ReadOptions : Limits {
 /// ordered by node tag. Neither positive volumes nor anything else of the promise is checked (see
 /// `check`), except that indices are in range. `remarks` get what the file holds and a volume does not.
 /// Throws FileError.
-[[nodiscard]] HOLDFAST_API Volume read_volume(const std::filesystem::path& path, std::string_view format = {},
+[[nodiscard]] HOLDFAST_API Volume read_volume(const std::filesystem::path& path,
+                                              const ReadOptions& options = {},
                                               std::vector<Remark>* remarks = nullptr);
-[[nodiscard]] HOLDFAST_API Volume read_volume(const std::filesystem::path& path, const ReadOptions& options,
-                                              std::vector<Remark>* remarks = nullptr);
+[[nodiscard]] HOLDFAST_API Volume read_volume(const std::filesystem::path& path, std::string_view format);
 
 /// Reads points: an .xyz text (three numbers a line, what follows them on it is ignored), or the vertices of
 /// whatever `read_surface` reads. Throws FileError.
 [[nodiscard]] HOLDFAST_API std::vector<Point> read_points(const std::filesystem::path& path,
-                                                          std::string_view format = {});
+                                                          const ReadOptions& options = {});
 [[nodiscard]] HOLDFAST_API std::vector<Point> read_points(const std::filesystem::path& path,
-                                                          const ReadOptions& options);
+                                                          std::string_view format);
 
 /// The surface of a volume, to be meshed again: its facets and segments with their markers, then the faces on
 /// its boundary and between regions that are not among them, seen from outside. Only vertices that these use,

@@ -192,10 +192,10 @@ Surface read_surface(const std::filesystem::path& path, std::string_view format)
   return read_surface(path, options);
 }
 
-Volume read_volume(const std::filesystem::path& path, std::string_view format, std::vector<Remark>* remarks) {
+Volume read_volume(const std::filesystem::path& path, std::string_view format) {
   ReadOptions options;
   options.format = format;
-  return read_volume(path, options, remarks);
+  return read_volume(path, options);
 }
 
 std::vector<Point> read_points(const std::filesystem::path& path, std::string_view format) {
