@@ -8,8 +8,8 @@
 #include "delaunay/number.h"
 #include "delaunay/schedule.h"
 #include "delaunay/triangulation.h"
+#include "mesh/editor.h"
 #include "mesh/parallel.h"
-#include "mesh/validate.h"
 
 namespace holdfast {
 namespace {
@@ -36,13 +36,10 @@ bool build_delaunay(TetMesh& mesh, const DelaunayOrder& options, Monitor* monito
   if (monitor != nullptr) progress = [&](double fraction) { monitor->poll(Stage::delaunay, fraction); };
   const auto take = [&](Triangulation& triangulation) {
     NumberedCells cells = all_cells(triangulation, options.threads);
-    mesh.set_tets(std::move(cells.corners), std::move(cells.neighbours));
+    MeshEditor(mesh).load(std::move(cells.corners), std::move(cells.neighbours));
   };
   if (!triangulate(mesh.positions(), options.seed, options.threads, progress, take)) return false;
-#ifdef HOLDFAST_VALIDATE
-  if (const std::string fault = find_fault(mesh); !fault.empty())
-    throw std::logic_error("holdfast: " + fault);
-#endif
+  MeshEditor(mesh).finish();
   return true;
 }
 

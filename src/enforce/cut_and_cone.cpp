@@ -137,12 +137,12 @@ class BallCutter {
     }
     above_.assign(cuts_.size(), kNone);
     std::vector<double> height(cuts_.size(), -1);
-    for (const Tet t : tets_) mesh_.set_flags(t, kVisited);  // set: of the ball, not yet in a sector
+    for (const Tet t : tets_) mesh_.mark_visited(t);  // set: of the ball, not yet in a sector
     for (const Tet seed : tets_) {
       if ((mesh_.flags(seed) & kVisited) == 0) continue;
       Sector sector;
       std::vector<Tet> stack{seed};
-      mesh_.clear_flags(seed, kVisited);
+      mesh_.clear_visited(seed);
       while (!stack.empty()) {
         const Tet t = stack.back();
         stack.pop_back();
@@ -159,7 +159,7 @@ class BallCutter {
           }
           const Tet n = tet_of(mesh_.neighbour(t, i));
           if ((mesh_.flags(n) & kVisited) == 0) continue;
-          mesh_.clear_flags(n, kVisited);
+          mesh_.clear_visited(n);
           stack.push_back(n);
         }
       }

@@ -4,6 +4,7 @@
 
 #include "exact/rounding.h"
 #include "exact/volume.h"
+#include "mesh/editor.h"
 #include "mesh/kernel.h"
 #include "mesh/replace.h"
 #include "mesh/traverse.h"
@@ -85,7 +86,7 @@ std::vector<Vertex> partition_facet(TetMesh& mesh, const FacetFrame& frame, std:
     section = facet_section(mesh, frame);
     if (!section.stands()) throw std::logic_error("holdfast: a facet is pierced after its partition");
   }
-  for (const Face f : section.faces) mesh.set_facet(f);
+  for (const Face f : section.faces) MeshEditor(mesh).set_facet(f);
   return section.inner;
 }
 

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <span>
 
-#include "mesh/validate.h"
+#include "mesh/editor.h"
 
 namespace holdfast {
 namespace {
@@ -47,14 +47,14 @@ class ShellBoundary {
 // what lies across the shell's outer faces.
 class ShellFilling {
  public:
-  ShellFilling(TetMesh& mesh, const ShellBoundary& boundary, std::size_t size)
-      : mesh_(mesh), boundary_(boundary), n_(size) {
+  ShellFilling(MeshEditor& editor, const ShellBoundary& boundary, std::size_t size)
+      : editor_(editor), boundary_(boundary), n_(size) {
     for (std::size_t i = 0; i < n_; ++i) std::fill_n(open_[i].begin(), n_, std::array<Face, 2>{kNone, kNone});
   }
 
   /// The triangle's tetrahedra are (p_j p_k p_i a) and (p_i p_k p_j b).
   void join(const LinkTriangle& triangle, const std::array<Tet, 2>& tets) {
-    mesh_.link(face_code(tets[0], 3), face_code(tets[1], 3));
+    editor_.link(face_code(tets[0], 3), face_code(tets[1], 3));
     const auto [i, k, j] = triangle;
     for (std::size_t end = 0; end < 2; ++end) {
       // Corners of the tetrahedron at this end.
@@ -75,24 +75,24 @@ class ShellFilling {
     const bool closes = x == 0 && y + 1 == n_;
     if (!closes && y != x + 1) {
       Face& other = open_[x][y][end];
-      if (other != kNone) mesh_.link(face, other);
+      if (other != kNone) editor_.link(face, other);
       other = face;
       return;
     }
     const std::size_t side = closes ? y : x;
-    mesh_.link(face, boundary_.across(end, side));
-    if (boundary_.is_facet(end, side)) mesh_.set_flags(t, facet_bit(c));
+    editor_.link(face, boundary_.across(end, side));
+    if (boundary_.is_facet(end, side)) editor_.set_flags(t, facet_bit(c));
     // The two other corners of the link triangle.
     const std::size_t u = c == 0 ? 1 : 0, v = c == 2 ? 1 : 2;
-    if (boundary_.is_side_segment(side)) mesh_.set_flags(t, segment_bit(kEdgeOf[u][v]));
+    if (boundary_.is_side_segment(side)) editor_.set_flags(t, segment_bit(kEdgeOf[u][v]));
   }
 
   void set_spoke(std::size_t end, Tet t, std::size_t corner, int c) {
     if (boundary_.is_spoke_segment(end, corner))
-      mesh_.set_flags(t, segment_bit(kEdgeOf[static_cast<std::size_t>(c)][3]));
+      editor_.set_flags(t, segment_bit(kEdgeOf[static_cast<std::size_t>(c)][3]));
   }
 
-  TetMesh& mesh_;
+  MeshEditor& editor_;
   const ShellBoundary& boundary_;
   const std::size_t n_;
   // At each end, the face at a diagonal that has no neighbour yet.
@@ -131,15 +131,16 @@ void replace_shell(TetMesh& mesh, const EdgeShell& shell, const std::vector<Link
                    std::vector<Tet>* created) {
   assert(shell.size() <= kMostLink && triangles.size() + 2 == shell.size());
   const ShellBoundary boundary(mesh, shell);
-  for (const Tet t : shell.tets) mesh.remove_tet(t);
-  ShellFilling filling(mesh, boundary, shell.size());
+  MeshEditor editor(mesh);
+  for (const Tet t : shell.tets) editor.remove_tet(t);
+  ShellFilling filling(editor, boundary, shell.size());
   std::vector<Tet> local;
   std::vector<Tet>& tets = created != nullptr ? *created : local;
   const std::size_t first = tets.size();
   const auto add = [&](const TetMesh::Corners& corners) {
-    const Tet t = mesh.add_tet(corners);
+    const Tet t = editor.add_tet(corners);
     tets.push_back(t);
-    for (const Vertex v : corners) mesh.set_incident(v, t);
+    for (const Vertex v : corners) editor.set_incident(v, t);
     return t;
   };
   for (const LinkTriangle& triangle : triangles) {
@@ -148,7 +149,7 @@ void replace_shell(TetMesh& mesh, const EdgeShell& shell, const std::vector<Link
     const Tet at_b = add({pi, pk, pj, shell.b}), at_a = add({pj, pk, pi, shell.a});
     filling.join(triangle, {at_a, at_b});
   }
-  validate_after_operation(mesh, std::span(tets).subspan(first));
+  editor.finish(std::span(tets).subspan(first));
 }
 
 }  // namespace holdfast

@@ -1,6 +1,6 @@
 #include "mesh/face_swap.h"
 
-#include "mesh/validate.h"
+#include "mesh/editor.h"
 
 namespace holdfast {
 namespace {
@@ -50,19 +50,20 @@ std::array<Tet, 3> swap_face(TetMesh& mesh, Face f) {
   const auto corners = mesh.face_vertices(f);
   const Vertex d = mesh.apex(f), e = mesh.apex(g);
   const Side of_d = side_of_face(mesh, f, corners), of_e = side_of_face(mesh, g, corners);
-  mesh.remove_tet(tet_of(f));
-  mesh.remove_tet(tet_of(g));
+  MeshEditor editor(mesh);
+  editor.remove_tet(tet_of(f));
+  editor.remove_tet(tet_of(g));
   std::array<Tet, 3> tets{};
   for (std::size_t k = 0; k < 3; ++k) {
     const TetMesh::Corners fresh{corners[k], corners[(k + 1) % 3], e, d};
-    const Tet t = tets[k] = mesh.add_tet(fresh);
-    mesh.set_flags(t, bits_of(of_d, of_e, k));
-    mesh.link(face_code(t, 3), of_e.across[k]);
-    mesh.link(face_code(t, 2), of_d.across[k]);
-    for (const Vertex v : fresh) mesh.set_incident(v, t);
+    const Tet t = tets[k] = editor.add_tet(fresh);
+    editor.set_flags(t, bits_of(of_d, of_e, k));
+    editor.link(face_code(t, 3), of_e.across[k]);
+    editor.link(face_code(t, 2), of_d.across[k]);
+    for (const Vertex v : fresh) editor.set_incident(v, t);
   }
-  for (std::size_t k = 0; k < 3; ++k) mesh.link(face_code(tets[k], 0), face_code(tets[(k + 1) % 3], 1));
-  validate_after_operation(mesh, tets);
+  for (std::size_t k = 0; k < 3; ++k) editor.link(face_code(tets[k], 0), face_code(tets[(k + 1) % 3], 1));
+  editor.finish(tets);
   return tets;
 }
 

@@ -5,6 +5,7 @@
 
 #include "exact/rounding.h"
 #include "exact/volume.h"
+#include "mesh/editor.h"
 
 namespace holdfast {
 namespace {
@@ -87,7 +88,7 @@ Vertex add_vertex(TetMesh& mesh, const Position& position) {
 }
 
 void move_vertex(TetMesh& mesh, Vertex v, const Position& position) {
-  std::visit([&](const auto& p) { mesh.move_vertex(v, p); }, position);
+  std::visit([&](const auto& p) { MeshEditor(mesh).move_vertex(v, p); }, position);
 }
 
 bool Kernel::holds(PointRef x) const {

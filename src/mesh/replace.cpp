@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "mesh/editor.h"
 #include "mesh/scratch.h"
-#include "mesh/validate.h"
 
 namespace holdfast {
 namespace {
@@ -149,7 +149,7 @@ class Plan {
 
   // In a mesh that is left as it was.
   void look_at_cavity() {
-    for (const Tet t : r_.old_tets) mesh_.set_flags(t, kVisited);
+    for (const Tet t : r_.old_tets) mesh_.mark_visited(t);
     for (const Tet t : r_.old_tets) {
       const Marks marks = marks_of(mesh_.corners(t));
       for (int i = 0; i < 4; ++i) {
@@ -161,7 +161,7 @@ class Plan {
       }
       constraints_.add_segments_of(mesh_, t);
     }
-    for (const Tet t : r_.old_tets) mesh_.clear_flags(t, kVisited);
+    for (const Tet t : r_.old_tets) mesh_.clear_visited(t);
   }
 
   // The face met before with the same vertices; none if this is the first.
@@ -212,32 +212,33 @@ void replace(TetMesh& mesh, const Replacement& r, std::vector<Tet>* created) {
   Plan plan(mesh, r, scratch);
   plan.make();
 
+  MeshEditor editor(mesh);
   for (const Tet t : r.old_tets)
     for (const Vertex v : mesh.corners(t))
-      if (v != kGhost) mesh.set_incident(v, kNone);
-  for (const Tet t : r.old_tets) mesh.remove_tet(t);
+      if (v != kGhost) editor.set_incident(v, kNone);
+  for (const Tet t : r.old_tets) editor.remove_tet(t);
   std::vector<Tet> local;
   std::vector<Tet>& tets = created != nullptr ? *created : local;
   const std::size_t first = tets.size();
   for (const TetMesh::Corners& c : r.new_tets) {
-    const Tet t = mesh.add_tet(c);
+    const Tet t = editor.add_tet(c);
     tets.push_back(t);
-    mesh.set_flags(t, plan.constraints().bits(c));
+    editor.set_flags(t, plan.constraints().bits(c));
     for (const Vertex v : c)
-      if (v != kGhost) mesh.set_incident(v, t);
+      if (v != kGhost) editor.set_incident(v, t);
   }
   for (std::size_t n = 0; n < r.new_tets.size(); ++n)
     for (int i = 0; i < 4; ++i) {
       const Face code = plan.links()[n][static_cast<std::size_t>(i)];
       const Tet t = tets[first + n];
       if ((code & kNewFace) != 0) {
-        mesh.link(face_code(t, i), face_code(tets[first + ((code & ~kNewFace) >> 2)], side_of(code)));
+        editor.link(face_code(t, i), face_code(tets[first + ((code & ~kNewFace) >> 2)], side_of(code)));
       } else {
-        mesh.link(face_code(t, i), code);
-        if (mesh.is_facet(code)) mesh.set_flags(t, facet_bit(i));
+        editor.link(face_code(t, i), code);
+        if (mesh.is_facet(code)) editor.set_flags(t, facet_bit(i));
       }
     }
-  validate_after_operation(mesh, std::span(tets).subspan(first));
+  editor.finish(std::span(tets).subspan(first));
 }
 
 }  // namespace holdfast

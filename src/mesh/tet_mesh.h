@@ -9,6 +9,9 @@
 //   2. every tetrahedron without a ghost is strictly positive, decided exactly;
 //   3. a facet bit is set on both sides of a face, a segment bit in the whole shell of an edge;
 //   4. incident(v) is a living tetrahedron that holds v, or kNone for a vertex that is not in the mesh.
+//
+// To all but MeshEditor (editor.h) and UndoLog the tetrahedra are read-only; vertices in none of them may
+// come and go.
 #pragma once
 
 #include <cstddef>
@@ -23,6 +26,7 @@
 
 namespace holdfast {
 
+class MeshEditor;
 class UndoLog;
 
 class TetMesh {
@@ -42,10 +46,8 @@ class TetMesh {
   Vertex add_vertex(const Point& p);
   /// A vertex at an exact position; becomes explicit when the grid holds it.
   Vertex add_vertex(const exact::ExactPoint& p);
-  /// `count` more explicit vertices, one after another, that move_vertex places. Returns the first.
+  /// `count` more explicit vertices, one after another, that MeshEditor places. Returns the first.
   Vertex add_vertices(std::size_t count);
-  void move_vertex(Vertex v, const Point& p);
-  void move_vertex(Vertex v, const exact::ExactPoint& p);
   /// Takes back the position of a vertex that is in no tetrahedron.
   void remove_vertex(Vertex v);
   /// Takes back the vertex added last, which no tetrahedron may hold.
@@ -62,30 +64,8 @@ class TetMesh {
   [[nodiscard]] exact::ExactPoint exact_position(Vertex v) const;
   [[nodiscard]] Tet incident(Vertex v) const { return incident_[v]; }
   [[nodiscard]] bool in_mesh(Vertex v) const { return incident_[v] != kNone; }
-  void set_incident(Vertex v, Tet t) {
-    note_vertex(v);
-    incident_[v] = t;
-  }
 
   // --- tetrahedra
-  /// A slot for a tetrahedron; its neighbours are the caller's to set.
-  Tet add_tet(const Corners& v);
-  void remove_tet(Tet t);
-  /// New numbers for all tetrahedra and for the vertices from `first` on: `tets` lists the living ones, and
-  /// `vertices` those vertices, in their new order. Free slots go.
-  void renumber(std::span<const Tet> tets, Vertex first, std::span<const Vertex> vertices);
-  /// All tetrahedra of a mesh that had none, at once. The two arrays are as long as each other and
-  /// satisfy the invariants above; flags are cleared and incident tetrahedra set here.
-  void set_tets(std::vector<Corners> corners, std::vector<Neighbours> neighbours);
-  /// Slots for `count` more tetrahedra, one after another, that put_tet fills. Returns the first.
-  Tet add_slots(std::size_t count);
-  /// Fills a slot that is not free. Threads may fill different slots at the same time.
-  void put_tet(Tet t, const Corners& v, const Neighbours& n, Flags f) {
-    note_slot(t);
-    corners_[t] = v;
-    neighbours_[t] = n;
-    flags_[t] = f;
-  }
   [[nodiscard]] std::size_t slot_count() const { return corners_.size(); }
   [[nodiscard]] std::size_t tet_count() const { return corners_.size() - free_.size(); }
   [[nodiscard]] bool alive(Tet t) const { return (flags_[t] & kDead) == 0; }
@@ -106,27 +86,12 @@ class TetMesh {
       __builtin_prefetch(&flags_[tet_of(f)]);
     }
   }
-  void link(Face f, Face g) {
-    if (log_.log != nullptr) [[unlikely]] {
-      note_slot(tet_of(f));
-      note_slot(tet_of(g));
-    }
-    neighbours_[tet_of(f)][f & 3u] = g;
-    neighbours_[tet_of(g)][g & 3u] = f;
-  }
   [[nodiscard]] Flags flags(Tet t) const { return flags_[t]; }
-  void set_flags(Tet t, Flags f) {
-    if ((f & ~kVisited) != 0) note_slot(t);
-    flags_[t] = static_cast<Flags>(flags_[t] | f);
-  }
-  void clear_flags(Tet t, Flags f) {
-    if ((f & ~kVisited) != 0) note_slot(t);
-    flags_[t] = static_cast<Flags>(flags_[t] & ~f);
-  }
+  /// Notes of a search, which takes them away again: a mesh between two operations has none.
+  void mark_visited(Tet t) { flags_[t] = static_cast<Flags>(flags_[t] | kVisited); }
+  void clear_visited(Tet t) { flags_[t] = static_cast<Flags>(flags_[t] & ~kVisited); }
   [[nodiscard]] bool is_facet(Face f) const { return (flags_[tet_of(f)] & facet_bit(side_of(f))) != 0; }
   [[nodiscard]] bool is_segment(Tet t, int edge) const { return (flags_[t] & segment_bit(edge)) != 0; }
-  /// Marks a face on both sides.
-  void set_facet(Face f);
 
   [[nodiscard]] Vertex apex(Face f) const { return corner(tet_of(f), side_of(f)); }
   [[nodiscard]] std::array<Vertex, 3> face_vertices(Face f) const {
@@ -166,6 +131,52 @@ class TetMesh {
 
  private:
   friend class UndoLog;
+  friend class MeshEditor;
+
+  // --- what changes the mesh: see MeshEditor
+  void move_vertex(Vertex v, const Point& p);
+  void move_vertex(Vertex v, const exact::ExactPoint& p);
+  void set_incident(Vertex v, Tet t) {
+    note_vertex(v);
+    incident_[v] = t;
+  }
+  // A slot for a tetrahedron; its neighbours are the caller's to set.
+  Tet add_tet(const Corners& v);
+  void remove_tet(Tet t);
+  // New numbers for all tetrahedra and for the vertices from `first` on: `tets` lists the living ones, and
+  // `vertices` those vertices, in their new order. Free slots go.
+  void renumber(std::span<const Tet> tets, Vertex first, std::span<const Vertex> vertices);
+  // All tetrahedra of a mesh that had none, at once. The two arrays are as long as each other and
+  // satisfy the invariants above; flags are cleared and incident tetrahedra set here.
+  void set_tets(std::vector<Corners> corners, std::vector<Neighbours> neighbours);
+  // Slots for `count` more tetrahedra, one after another, that put_tet fills. Returns the first.
+  Tet add_slots(std::size_t count);
+  // Fills a slot that is not free. Threads may fill different slots at the same time.
+  void put_tet(Tet t, const Corners& v, const Neighbours& n, Flags f) {
+    note_slot(t);
+    corners_[t] = v;
+    neighbours_[t] = n;
+    flags_[t] = f;
+  }
+  void link(Face f, Face g) {
+    if (log_.log != nullptr) [[unlikely]] {
+      note_slot(tet_of(f));
+      note_slot(tet_of(g));
+    }
+    neighbours_[tet_of(f)][f & 3u] = g;
+    neighbours_[tet_of(g)][g & 3u] = f;
+  }
+  void set_flags(Tet t, Flags f) {
+    if ((f & ~kVisited) != 0) note_slot(t);
+    flags_[t] = static_cast<Flags>(flags_[t] | f);
+  }
+  void clear_flags(Tet t, Flags f) {
+    if ((f & ~kVisited) != 0) note_slot(t);
+    flags_[t] = static_cast<Flags>(flags_[t] & ~f);
+  }
+  // Marks a face on both sides.
+  void set_facet(Face f);
+
   // The log of this object (undo_log.h): a copy has none.
   struct Log {
     UndoLog* log = nullptr;

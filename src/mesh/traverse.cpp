@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mesh/editor.h"
+
 namespace holdfast {
 namespace {
 
@@ -13,7 +15,7 @@ Tet visit_ball(TetMesh& mesh, Vertex v, std::vector<Tet>& out, Stop stop) {
   const Tet start = mesh.incident(v);
   if (start == kNone) return kNone;
   out.push_back(start);
-  mesh.set_flags(start, kVisited);
+  mesh.mark_visited(start);
   for (std::size_t k = first; k < out.size() && found == kNone; ++k) {
     const Tet t = out[k];
     if (stop(t)) found = t;
@@ -21,11 +23,11 @@ Tet visit_ball(TetMesh& mesh, Vertex v, std::vector<Tet>& out, Stop stop) {
       if (mesh.corner(t, i) == v) continue;
       const Tet s = tet_of(mesh.neighbour(t, i));
       if ((mesh.flags(s) & kVisited) != 0) continue;
-      mesh.set_flags(s, kVisited);
+      mesh.mark_visited(s);
       out.push_back(s);
     }
   }
-  for (std::size_t k = first; k < out.size(); ++k) mesh.clear_flags(out[k], kVisited);
+  for (std::size_t k = first; k < out.size(); ++k) mesh.clear_visited(out[k]);
   return found;
 }
 
@@ -103,9 +105,11 @@ Tet walk_to(const TetMesh& mesh, Vertex v, Tet start, std::uint32_t& random) {
 void set_segment(TetMesh& mesh, Tet t, Vertex a, Vertex b) {
   std::vector<Tet> tets;
   shell(mesh, t, a, b, tets);
+  MeshEditor editor(mesh);
   for (const Tet s : tets)
-    mesh.set_flags(s, segment_bit(kEdgeOf[static_cast<std::size_t>(mesh.index_of(s, a))]
-                                         [static_cast<std::size_t>(mesh.index_of(s, b))]));
+    editor.set_flags(s, segment_bit(kEdgeOf[static_cast<std::size_t>(mesh.index_of(s, a))]
+                                           [static_cast<std::size_t>(mesh.index_of(s, b))]));
+  editor.finish(tets);
 }
 
 }  // namespace holdfast

@@ -75,4 +75,9 @@ void throw_on_fault(const TetMesh& mesh, std::span<const Tet> tets) {
       throw std::logic_error("holdfast: " + fault);
 }
 
+void throw_on_fault(const TetMesh& mesh) {
+  if (const std::string fault = find_fault(mesh); !fault.empty())
+    throw std::logic_error("holdfast: " + fault);
+}
+
 }  // namespace holdfast

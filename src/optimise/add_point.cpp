@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesh/editor.h"
 #include "optimise/tuning.h"
 
 namespace holdfast {
@@ -71,7 +72,7 @@ bool PointAdder::improves(Vertex p) {
   star_.descend();
   const double before = volume_.energy(cavity_.tets());
   if (!is_less(star_.energy(), before)) return false;
-  mesh.move_vertex(p, frame_.from(star_.at()));
+  MeshEditor(mesh).move_vertex(p, frame_.from(star_.at()));
   if (!frame_.is_plain() && !is_less(energy_of_ball(p), before)) return false;
   return std::all_of(cavity_.rim().begin(), cavity_.rim().end(), [&](const PointCavity::Rim& rim) {
     return mesh.orient(rim.v[0], rim.v[1], rim.v[2], p) > 0;

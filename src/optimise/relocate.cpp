@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/editor.h"
 #include "mesh/kernel.h"
 #include "mesh/quality.h"
 #include "numbers/random.h"
@@ -26,7 +27,7 @@ class Relocation {
     try_centre();
     search(random);
     if (!(worst_ < tuning::kLeastGain * before)) return false;
-    mesh_.move_vertex(p_, at_);
+    MeshEditor(mesh_).move_vertex(p_, at_);
     return true;
   }
 

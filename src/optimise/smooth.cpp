@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/editor.h"
 #include "mesh/traverse.h"
 #include "optimise/tuning.h"
 
@@ -42,12 +43,14 @@ void VertexSmoother::gather_star(Vertex v) {
 bool VertexSmoother::settle(Vertex v, double before) {
   TetMesh& mesh = volume_.mesh();
   const Point old = mesh.position(v);
-  mesh.move_vertex(v, frame_.from(star_.at()));
+  MeshEditor editor(mesh);
+  editor.place_vertex(v, frame_.from(star_.at()));
   const auto is_positive = [&](Tet t) { return volume_.is_positive(mesh.corners(t)); };
   if (!std::all_of(tets_.begin(), tets_.end(), is_positive) || (!frame_.is_plain() && !is_better(before))) {
-    mesh.move_vertex(v, old);
+    editor.place_vertex(v, old);
     return false;
   }
+  editor.finish(tets_);
   if (frame_.is_plain())
     star_.for_each_energy([&](std::size_t k, double e) { volume_.note(tets_[k], e); });
   else

@@ -9,6 +9,7 @@
 
 #include "delaunay/box.h"
 #include "delaunay/delaunay.h"
+#include "mesh/editor.h"
 #include "mesh/replace.h"
 #include "mesh/traverse.h"
 #include "recover/insert_vertex.h"
@@ -140,7 +141,7 @@ class Cavity {
     auto random = static_cast<std::uint32_t>(seed);
     for (Vertex k = 0; k < vertices_.size(); ++k) {
       if (mesh_.is_explicit(vertices_[k])) continue;
-      mesh.move_vertex(k, mesh_.exact_position(vertices_[k]));
+      MeshEditor(mesh).move_vertex(k, mesh_.exact_position(vertices_[k]));
       if (!insert_vertex(mesh, k, random)) return false;
     }
     return true;
@@ -226,7 +227,7 @@ class Cavity {
       return n;
     };
     std::vector<Tet> stack{tet_of(f)};
-    mesh.set_flags(stack.front(), kVisited);
+    mesh.mark_visited(stack.front());
     while (!stack.empty()) {
       const Tet t = stack.back();
       stack.pop_back();
@@ -240,7 +241,7 @@ class Cavity {
       for (int i = 0; i < 4; ++i) {
         const Tet n = tet_of(mesh.neighbour(t, i));
         if ((mesh.flags(n) & kVisited) != 0 || is_boundary(face_code(t, i))) continue;
-        mesh.set_flags(n, kVisited);
+        mesh.mark_visited(n);
         stack.push_back(n);
       }
     }
@@ -366,7 +367,7 @@ bool FacetCavities::recover(const FaceCorners& facet, const Tell& tell, const Fi
   const std::optional<Face> face = piercing_.tets_across(facet, tets_);
   if (!face) return false;
   if (*face != kNone) {
-    mesh_.set_facet(*face);
+    MeshEditor(mesh_).set_facet(*face);
     return true;
   }
   if (tets_.empty()) return list_coplanar(facet);

@@ -16,7 +16,7 @@ int side_of_face(const TetMesh& mesh, Face f, Vertex v) {
 // The tetrahedron, or those that share the face or edge that holds the vertex; none on the hull.
 std::vector<Tet> all_that_hold(TetMesh& mesh, Vertex v, Tet t) {
   std::vector<Tet> tets{t};
-  mesh.set_flags(t, kVisited);
+  mesh.mark_visited(t);
   bool is_inside = true;
   for (std::size_t k = 0; k < tets.size() && is_inside; ++k)
     for (int i = 0; i < 4; ++i) {
@@ -27,10 +27,10 @@ std::vector<Tet> all_that_hold(TetMesh& mesh, Vertex v, Tet t) {
         is_inside = false;
         break;
       }
-      mesh.set_flags(next, kVisited);
+      mesh.mark_visited(next);
       tets.push_back(next);
     }
-  for (const Tet s : tets) mesh.clear_flags(s, kVisited);
+  for (const Tet s : tets) mesh.clear_visited(s);
   if (!is_inside) tets.clear();
   return tets;
 }

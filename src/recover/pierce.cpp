@@ -203,7 +203,7 @@ std::optional<Face> Piercing::flood(const std::array<Vertex, 3>& facet, Visit vi
   tets_.clear();
   if (start->across == kNone) return start->face;
   tets_.push_back(start->across);
-  mesh_.set_flags(start->across, kVisited);
+  mesh_.mark_visited(start->across);
   for (std::size_t n = 0; n < tets_.size(); ++n) {
     const Tet t = tets_[n];
     std::array<int, 4> s{};
@@ -221,11 +221,11 @@ std::optional<Face> Piercing::flood(const std::array<Vertex, 3>& facet, Visit vi
       }
       const Tet next = tet_of(mesh_.neighbour(t, i));
       if (!above || !below || mesh_.is_ghost(next) || (mesh_.flags(next) & kVisited) != 0) continue;
-      mesh_.set_flags(next, kVisited);
+      mesh_.mark_visited(next);
       tets_.push_back(next);
     }
   }
-  for (const Tet t : tets_) mesh_.clear_flags(t, kVisited);
+  for (const Tet t : tets_) mesh_.clear_visited(t);
   return kNone;
 }
 

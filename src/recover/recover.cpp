@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "mesh/editor.h"
 #include "mesh/traverse.h"
 #include "numbers/random.h"
 
@@ -130,7 +131,7 @@ bool FlipRecovery::facet(Index f, const Effort& effort) {
     if (!face || edges_.size() > kMostEdges) return false;
     if (edges_.empty()) {
       if (*face == kNone) return false;
-      mesh_.set_facet(*face);
+      MeshEditor(mesh_).set_facet(*face);
       standing_.facets[f] = 1;
       return true;
     }

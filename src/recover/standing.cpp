@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "mesh/editor.h"
 #include "mesh/parallel.h"
 
 namespace holdfast {
@@ -52,7 +53,7 @@ class Marker {
       flags |= facet_bit(i);
       stands(standing_.facets[f]);
     }
-    if (flags != 0) mesh_.set_flags(t, flags);
+    if (flags != 0) MeshEditor(mesh_).set_flags(t, flags);
   }
 
   // Tetrahedra that several threads look at share it.

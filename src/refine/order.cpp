@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/editor.h"
+
 namespace holdfast {
 namespace {
 
@@ -113,7 +115,7 @@ void renumber(TetMesh& mesh, const CurveOrder& order, Vertex first, std::vector<
   };
   if (!sizes.empty()) reorder(sizes);
   if (metrics != nullptr) reorder(*metrics);
-  mesh.renumber(tets, first, vertices);
+  MeshEditor(mesh).renumber(tets, first, vertices);
 }
 
 void order_along_curve(const VolumeData& volume) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mesh/validate.h"
+#include "mesh/editor.h"
 
 namespace holdfast {
 namespace {
@@ -63,7 +63,7 @@ void PointCavity::spread(Tet base, const Frame& frame, std::size_t most) {
   tets_.clear();
   faces_.clear();
   tets_.push_back(base);
-  mesh_.set_flags(base, kVisited);
+  mesh_.mark_visited(base);
   const bool is_plain = frame.is_plain();
   const Point& x = mesh_.position(p_);
   for (std::size_t k = 0; k < tets_.size() && tets_.size() <= most; ++k) {
@@ -83,7 +83,7 @@ void PointCavity::spread(Tet base, const Frame& frame, std::size_t most) {
       }
       if ((mesh_.flags(n) & kVisited) != 0) continue;
       if (!mesh_.is_ghost(n) && (is_plain ? is_in_sphere(n, x) : is_in_sphere_of(frame, n))) {
-        mesh_.set_flags(n, kVisited);
+        mesh_.mark_visited(n);
         mesh_.prefetch_neighbours(n);
         tets_.push_back(n);
       } else {
@@ -105,7 +105,7 @@ bool PointCavity::is_in_sphere_of(const Frame& frame, Tet t) const {
 void PointCavity::gather(std::span<const Tet> tets) {
   tets_.assign(tets.begin(), tets.end());
   faces_.clear();
-  for (const Tet t : tets_) mesh_.set_flags(t, kVisited);
+  for (const Tet t : tets_) mesh_.mark_visited(t);
   for (const Tet t : tets_)
     for (int i = 0; i < 4; ++i) {
       const Face f = face_code(t, i);
@@ -116,7 +116,7 @@ void PointCavity::gather(std::span<const Tet> tets) {
 // Takes a tetrahedron out of the cavity; its faces towards the rest become the boundary's.
 bool PointCavity::release(Tet t, Tet base) {
   if (t == base) return false;
-  mesh_.clear_flags(t, kVisited);
+  mesh_.clear_visited(t);
   for (int i = 0; i < 4; ++i) {
     const Face g = mesh_.neighbour(t, i);
     if ((mesh_.flags(tet_of(g)) & kVisited) != 0 && !mesh_.is_facet(g)) faces_.push_back(g);
@@ -220,26 +220,27 @@ bool PointCavity::on_rim(Vertex a, Vertex b) const {
 }
 
 void PointCavity::abandon() {
-  for (const Tet t : tets_) mesh_.clear_flags(t, kVisited);
+  for (const Tet t : tets_) mesh_.clear_visited(t);
 }
 
 void PointCavity::insert() {
-  for (const Tet t : tets_) mesh_.remove_tet(t);
+  MeshEditor editor(mesh_);
+  for (const Tet t : tets_) editor.remove_tet(t);
   created_.resize(rim_.size());
   for (std::size_t k = 0; k < rim_.size(); ++k) {
     const Rim& rim = rim_[k];
-    const Tet t = mesh_.add_tet({rim.v[0], rim.v[1], rim.v[2], p_});
+    const Tet t = editor.add_tet({rim.v[0], rim.v[1], rim.v[2], p_});
     created_[k] = t;
-    mesh_.set_flags(t, rim.flags);
-    mesh_.link(face_code(t, 3), rim.outer);
-    for (const Vertex v : rim.v) mesh_.set_incident(v, t);
+    editor.set_flags(t, rim.flags);
+    editor.link(face_code(t, 3), rim.outer);
+    for (const Vertex v : rim.v) editor.set_incident(v, t);
   }
-  mesh_.set_incident(p_, created_.front());
+  editor.set_incident(p_, created_.front());
   if (fits_table())
     link_by_table();
   else
     link_by_sorting();
-  validate_after_operation(mesh_, created_);
+  editor.finish(created_);
 }
 
 // Face i of a new tetrahedron, i < 3, lies at side i of its face of the rim; the neighbour has the same edge
@@ -249,8 +250,8 @@ void PointCavity::link_by_table() {
   for (std::size_t k = 0; k < rim_.size(); ++k)
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t entry = table_[rim_[k].local[kSide[i][1]] * n + rim_[k].local[kSide[i][0]]];
-      mesh_.link(face_code(created_[k], static_cast<int>(i)),
-                 face_code(created_[tet_of(entry)], side_of(entry)));
+      MeshEditor(mesh_).link(face_code(created_[k], static_cast<int>(i)),
+                             face_code(created_[tet_of(entry)], side_of(entry)));
     }
 }
 
@@ -264,7 +265,8 @@ void PointCavity::link_by_sorting() {
   std::sort(sides_.begin(), sides_.end(), [](const Side& x, const Side& y) {
     return x.edge != y.edge ? x.edge < y.edge : x.face < y.face;
   });
-  for (std::size_t k = 0; k + 1 < sides_.size(); k += 2) mesh_.link(sides_[k].face, sides_[k + 1].face);
+  for (std::size_t k = 0; k + 1 < sides_.size(); k += 2)
+    MeshEditor(mesh_).link(sides_[k].face, sides_[k + 1].face);
 }
 
 }  // namespace holdfast

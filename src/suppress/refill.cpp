@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "mesh/double_in_kernel.h"
+#include "mesh/editor.h"
 #include "mesh/traverse.h"
 #include "suppress/fill_cavity.h"
 
@@ -21,7 +22,7 @@ std::optional<Point> place_in(const TetMesh& mesh, const Kernel& kernel, Vertex 
 }
 
 void move_and_cone(TetMesh& mesh, const Cavity& cavity, Vertex apex, const Point& position) {
-  mesh.move_vertex(apex, position);
+  MeshEditor(mesh).place_vertex(apex, position);
   cone(mesh, cavity, apex);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/editor.h"
+
 namespace holdfast {
 
 Tangle::Tangle(std::span<const Point> points, std::vector<Corners> tets, std::vector<int> regions,
@@ -37,7 +39,7 @@ Vertex Tangle::add_vertex(const Point& p) {
 }
 
 void Tangle::move_vertex(Vertex v, const Point& p) {
-  points_.move_vertex(v, p);
+  MeshEditor(points_).move_vertex(v, p);
   for (const Tet t : star_[v]) set_sign(t);
 }
 

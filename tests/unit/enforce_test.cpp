@@ -15,6 +15,7 @@
 #include "enforce/partition_facet.h"
 #include "enforce/partition_segment.h"
 #include "hard_surfaces.h"
+#include "mesh/editor.h"
 #include "mesh/validate.h"
 #include "mesh_fixtures.h"
 
@@ -415,17 +416,17 @@ TetMesh mesh_of_ball(const std::vector<Point>& points, const std::vector<Triangl
   for (const Point& p : points) mesh.add_vertex(p);
   std::map<FaceKey, Face> open;
   const auto add = [&](const TetMesh::Corners& corners) {
-    const Tet t = mesh.add_tet(corners);
+    const Tet t = MeshEditor(mesh).add_tet(corners);
     for (int i = 0; i < 4; ++i) {
       FaceKey key{};
       std::size_t n = 0;
       for (int k = 0; k < 4; ++k)
         if (k != i) key[n++] = mesh.corner(t, k);
       const auto [at, is_first] = open.try_emplace(sorted(key), face_code(t, i));
-      if (!is_first) mesh.link(face_code(t, i), at->second);
+      if (!is_first) MeshEditor(mesh).link(face_code(t, i), at->second);
     }
     for (const Vertex v : corners)
-      if (v != kGhost) mesh.set_incident(v, t);
+      if (v != kGhost) MeshEditor(mesh).set_incident(v, t);
   };
   for (const auto& [a, b, c] : link) add({a, c, b, kGhost});
   for (const auto& [a, b, c] : link) add({a, b, c, 0});

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "mesh/edge_removal.h"
+#include "mesh/editor.h"
 #include "mesh/face_swap.h"
 #include "mesh/replace.h"
 #include "mesh/validate.h"
@@ -101,7 +102,7 @@ bool holds_constraints(const TetMesh& mesh, const Plan& plan) {
 void constrain_at_random(TetMesh& mesh, Random& random, int count) {
   for (int k = 0; k < count; ++k) {
     const Tet t = random_tet(mesh, random);
-    mesh.set_facet(face_code(t, static_cast<int>(random() % 4)));
+    MeshEditor(mesh).set_facet(face_code(t, static_cast<int>(random() % 4)));
     const auto& e = kEdgeVertex[random() % 6];
     const Tet s = random_tet(mesh, random);
     set_segment(mesh, s, mesh.corner(s, e[0]), mesh.corner(s, e[1]));
@@ -232,7 +233,7 @@ TEST(Replace, DropsConstraintsThatNoLongerStand) {
     const Face f = face_code(random_tet(mesh, random), static_cast<int>(random() % 4));
     const auto plan = face_flip(mesh, f);
     if (!plan) continue;
-    mesh.set_facet(f);
+    MeshEditor(mesh).set_facet(f);
     EXPECT_EQ(facet_faces(mesh).size(), 1u);
     replace(mesh, plan->view());
     EXPECT_EQ(facet_faces(mesh).size(), 0u);
@@ -295,7 +296,7 @@ TEST(Replace, RefusesACavityThatIsNotFilledAndChangesNothing) {
     // A free slot or two, and a vertex at an exact position.
     exact::ExactPoint elsewhere = mesh.exact_position(p);
     elsewhere.c[0] += exact::Dyadic(1, -80);
-    mesh.move_vertex(p, elsewhere);
+    MeshEditor(mesh).move_vertex(p, elsewhere);
     std::vector<Plan> plans{split(mesh, random_tet(mesh, random), 4)};
     for (int tries = 0; tries < 100; ++tries) {
       const Tet t = random_tet(mesh, random);

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "mesh/edge_removal.h"
+#include "mesh/editor.h"
 #include "mesh/replace.h"
 #include "mesh/traverse.h"
 #include "mesh/validate.h"
@@ -260,71 +261,73 @@ struct PlantedFault {
 const PlantedFault kFaults[] = {
     {"neighbour",
      [](TetMesh& m, Tet t) {  // two faces of t at once claim the same neighbour
-       m.link(face_code(t, 0), m.neighbour(t, 1));
+       MeshEditor(m).link(face_code(t, 0), m.neighbour(t, 1));
      }},
     {"shares no face",
      [](TetMesh& m, Tet t) {
        const Face f = m.neighbour(t, 0), g = m.neighbour(t, 1);
-       m.link(face_code(t, 0), g);
-       m.link(face_code(t, 1), f);
+       MeshEditor(m).link(face_code(t, 0), g);
+       MeshEditor(m).link(face_code(t, 1), f);
      }},
     {"not positive",
      [](TetMesh& m, Tet t) {  // one corner goes through the opposite face
        const Vertex v = m.corner(t, 0);
        Point p{};
        for (std::size_t k = 0; k < 3; ++k) p[k] = 2 * m.position(m.corner(t, 1))[k] - m.position(v)[k];
-       m.move_vertex(v, p);
+       MeshEditor(m).place_vertex(v, p);
      }},
     {"not positive",
      [](TetMesh& m, Tet t) {  // flat: one corner on another's place
-       m.move_vertex(m.corner(t, 0), m.position(m.corner(t, 1)));
+       MeshEditor(m).place_vertex(m.corner(t, 0), m.position(m.corner(t, 1)));
      }},
-    {"facet bit on one side", [](TetMesh& m, Tet t) { m.set_flags(t, facet_bit(2)); }},
+    {"facet bit on one side", [](TetMesh& m, Tet t) { MeshEditor(m).set_flags(t, facet_bit(2)); }},
     {"facet bit on one side",
      [](TetMesh& m, Tet t) {
-       m.set_facet(face_code(t, 1));
-       m.clear_flags(tet_of(m.neighbour(t, 1)), kFacetBits);
+       MeshEditor(m).set_facet(face_code(t, 1));
+       MeshEditor(m).clear_flags(tet_of(m.neighbour(t, 1)), kFacetBits);
      }},
-    {"shell lacks", [](TetMesh& m, Tet t) { m.set_flags(t, segment_bit(4)); }},
+    {"shell lacks", [](TetMesh& m, Tet t) { MeshEditor(m).set_flags(t, segment_bit(4)); }},
     {"shell lacks",
      [](TetMesh& m, Tet t) {
        set_segment(m, t, m.corner(t, 0), m.corner(t, 1));
-       m.clear_flags(t, kSegmentBits);
+       MeshEditor(m).clear_flags(t, kSegmentBits);
      }},
-    {"left visited", [](TetMesh& m, Tet t) { m.set_flags(t, kVisited); }},
+    {"left visited", [](TetMesh& m, Tet t) { m.mark_visited(t); }},
     {"lacks a neighbour",
      [](TetMesh& m, Tet t) {
        const Tet lost = tet_of(m.neighbour(t, 3));
        for (const Tet s : living(m))
          if (s != lost)
            for (const Vertex v : m.corners(s))
-             if (v != kGhost) m.set_incident(v, s);
-       m.remove_tet(lost);
+             if (v != kGhost) MeshEditor(m).set_incident(v, s);
+       MeshEditor(m).remove_tet(lost);
      }},
-    {"without an incident", [](TetMesh& m, Tet t) { m.set_incident(m.corner(t, 3), kNone); }},
+    {"without an incident", [](TetMesh& m, Tet t) { MeshEditor(m).set_incident(m.corner(t, 3), kNone); }},
     {"without an incident",
      [](TetMesh& m, Tet t) {
        const Vertex v = m.corner(t, 3);
        for (const Tet s : living(m))
-         if (m.index_of(s, v) < 0) m.set_incident(v, s);
+         if (m.index_of(s, v) < 0) MeshEditor(m).set_incident(v, s);
      }},
     {"names a vertex twice",
      [](TetMesh& m, Tet t) {
-       m.add_tet({m.corner(t, 0), m.corner(t, 1), m.corner(t, 2), m.corner(t, 1)});
+       MeshEditor(m).add_tet({m.corner(t, 0), m.corner(t, 1), m.corner(t, 2), m.corner(t, 1)});
      }},
     {"names no vertex",
      [](TetMesh& m, Tet t) {
-       m.add_tet({m.corner(t, 0), static_cast<Vertex>(m.vertex_count()), m.corner(t, 2), m.corner(t, 3)});
+       MeshEditor(m).add_tet(
+           {m.corner(t, 0), static_cast<Vertex>(m.vertex_count()), m.corner(t, 2), m.corner(t, 3)});
      }},
     {"names no vertex",
      [](TetMesh& m, Tet t) {
-       m.add_tet({m.corner(t, 0), m.corner(t, 1), m.corner(t, 2), static_cast<Vertex>(m.vertex_count())});
+       MeshEditor(m).add_tet(
+           {m.corner(t, 0), m.corner(t, 1), m.corner(t, 2), static_cast<Vertex>(m.vertex_count())});
      }},
     {"names no vertex",
      [](TetMesh& m, Tet t) {
-       m.add_tet({m.corner(t, 0), kGhost, m.corner(t, 2), m.corner(t, 3)});
+       MeshEditor(m).add_tet({m.corner(t, 0), kGhost, m.corner(t, 2), m.corner(t, 3)});
      }},
-    {"lacks a neighbour", [](TetMesh& m, Tet t) { m.add_tet(m.corners(t)); }},
+    {"lacks a neighbour", [](TetMesh& m, Tet t) { MeshEditor(m).add_tet(m.corners(t)); }},
 };
 
 TEST(Validate, FindsPlantedFaults) {
@@ -350,11 +353,11 @@ TEST(Validate, ThrowsForTheTetrahedraNamed) {
   TetMesh mesh = sample_mesh(9);
   const std::vector<Tet> all = living(mesh);
   throw_on_fault(mesh, all);
-  mesh.set_flags(all[5], kVisited);
+  mesh.mark_visited(all[5]);
   throw_on_fault(mesh, std::span(all).first(5));
   EXPECT_THROW(throw_on_fault(mesh, all), std::logic_error);
-  mesh.clear_flags(all[5], kVisited);
-  mesh.remove_tet(all[9]);
+  mesh.clear_visited(all[5]);
+  MeshEditor(mesh).remove_tet(all[9]);
   EXPECT_NE(find_fault(mesh, all[9]), "");
 }
 

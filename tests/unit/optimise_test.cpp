@@ -7,6 +7,7 @@
 #include <functional>
 #include <random>
 
+#include "mesh/editor.h"
 #include "mesh/quality.h"
 #include "mesh/replace.h"
 #include "mesh/validate.h"
@@ -50,7 +51,7 @@ void constrain(TetMesh& mesh, std::mt19937_64& random) {
     if (random() % 12 != 0) continue;
     const Face f = face_code(t, static_cast<int>(random() % 4));
     if (mesh.is_ghost(tet_of(mesh.neighbour(f)))) continue;
-    mesh.set_facet(f);
+    MeshEditor(mesh).set_facet(f);
     const auto v = mesh.face_vertices(f);
     for (std::size_t k = 0; k < 3; ++k)
       set_segment(mesh, find_edge(mesh, v[k], v[(k + 1) % 3]), v[k], v[(k + 1) % 3]);
@@ -117,11 +118,11 @@ TEST(Badness, WideEdgesOfASliverAndOfACap) {
   TetMesh mesh;
   for (const Point& p : {Point{0, 0, 0}, Point{1, 0, 1e-9}, Point{1, 1, 0}, Point{0, 1, 1e-9}})
     mesh.add_vertex(p);
-  const Tet sliver = mesh.add_tet({0, 1, 2, 3});
+  const Tet sliver = MeshEditor(mesh).add_tet({0, 1, 2, 3});
   EXPECT_EQ(wide_edges(mesh, sliver), (std::vector<int>{1, 4}));  // the diagonals 02 and 13
   for (const Point& p : {Point{0, 0, 0}, Point{1, 0, 0}, Point{0, 1, 0}, Point{0.3, 0.3, 1e-9}})
     mesh.add_vertex(p);
-  const Tet cap = mesh.add_tet({4, 5, 6, 7});
+  const Tet cap = MeshEditor(mesh).add_tet({4, 5, 6, 7});
   EXPECT_EQ(wide_edges(mesh, cap), (std::vector<int>{2, 4, 5}));  // those at vertex 7
 }
 
@@ -271,7 +272,7 @@ TEST(InsertPoint, WhereThreeFacetsMakeACap) {
   const std::vector<Tet> old_tets{above};
   replace(mesh, {.old_tets = old_tets, .new_tets = cone(outer_faces(mesh, old_tets), top)});
   for (const FaceKey& f : {FaceKey{0, 1, top}, FaceKey{1, 2, top}, FaceKey{2, 0, top}}) {
-    mesh.set_facet(find_face(mesh, f[0], f[1], f[2]));
+    MeshEditor(mesh).set_facet(find_face(mesh, f[0], f[1], f[2]));
     for (std::size_t k = 0; k < 3; ++k)
       set_segment(mesh, find_edge(mesh, f[k], f[(k + 1) % 3]), f[k], f[(k + 1) % 3]);
   }

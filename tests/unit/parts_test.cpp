@@ -12,12 +12,13 @@
 #include <stdexcept>
 
 #include "delaunay/delaunay.h"
-#include "optimise/energy.h"
-#include "optimise/improve_parts.h"
-#include "optimise/volume.h"
+#include "mesh/editor.h"
 #include "mesh/measure.h"
 #include "mesh/traverse.h"
 #include "mesh/validate.h"
+#include "optimise/energy.h"
+#include "optimise/improve_parts.h"
+#include "optimise/volume.h"
 #include "refine/cut_parts.h"
 #include "refine/cuts.h"
 #include "refine/point_cavity.h"
@@ -62,7 +63,7 @@ struct Cube {
         const Face f = face_code(t, i);
         const Tet n = tet_of(mesh.neighbour(f));
         if (mesh.is_ghost(t) || mesh.is_ghost(n) || region_of[t] >= region_of[n]) continue;
-        mesh.set_facet(f);
+        MeshEditor(mesh).set_facet(f);
         const auto v = mesh.face_vertices(f);
         for (std::size_t k = 0; k < 3; ++k) set_segment(mesh, t, v[k], v[(k + 1) % 3]);
       }

@@ -10,6 +10,7 @@
 
 #include "enforce/enforce.h"
 #include "hard_surfaces.h"
+#include "mesh/editor.h"
 #include "mesh/replace.h"
 #include "mesh/validate.h"
 #include "mesh_fixtures.h"
@@ -156,7 +157,7 @@ TEST(SmallPolyhedron, AgreesWithAnExhaustiveSearch) {
     for (Vertex v = 0; v < p.mesh.vertex_count(); ++v) {
       Point at = p.mesh.position(v);
       for (double& x : at) x += 0.05 * u(random);
-      p.mesh.move_vertex(v, at);
+      MeshEditor(p.mesh).place_vertex(v, at);
     }
     const auto filling = fill_polyhedron(p.mesh, p.faces, kExhaustive);
     ASSERT_EQ(filling.has_value(), can_be_filled(p, as_set(p.faces), volume_of(p).to_double())) << trial;
@@ -209,7 +210,7 @@ struct Scene {
 
 void constrain(TetMesh& mesh, Tet t, int face) {
   const auto [a, b, c] = mesh.face_vertices(face_code(t, face));
-  mesh.set_facet(face_code(t, face));
+  MeshEditor(mesh).set_facet(face_code(t, face));
   for (const auto& e : {EdgeKey{a, b}, EdgeKey{b, c}, EdgeKey{c, a}}) set_segment(mesh, t, e[0], e[1]);
 }
 
@@ -239,7 +240,7 @@ Scene scene(std::size_t input, std::size_t steiner, double share_of_facets, std:
 void make_exact(TetMesh& mesh, Vertex p) {
   exact::ExactPoint x = mesh.exact_position(p);
   x.c[1] += exact::Dyadic(1, -70);
-  mesh.move_vertex(p, x);
+  MeshEditor(mesh).move_vertex(p, x);
 }
 
 bool can_collapse(TetMesh& mesh, Vertex p) {

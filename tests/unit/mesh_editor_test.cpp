@@ -1,0 +1,97 @@
+// MeshEditor: operations of its own, and where the validator stands. Cavities: mesh_replace_test.cpp.
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "mesh/editor.h"
+#include "mesh_fixtures.h"
+
+namespace holdfast {
+namespace {
+
+using testing::delaunay_in_box;
+using testing::living;
+using testing::random_points;
+
+constexpr Vertex kMoved = 7;  // one of the points, inside the box
+
+// Runs an operation that breaks an invariant: builds with HOLDFAST_VALIDATE throw, and in others the
+// validator finds the fault afterwards.
+template <typename Operation>
+void expect_caught(TetMesh& mesh, Operation operation) {
+#ifdef HOLDFAST_VALIDATE
+  EXPECT_THROW(operation(), std::logic_error);
+#else
+  operation();
+#endif
+  EXPECT_NE(find_fault(mesh), "");
+}
+
+TEST(MeshEditor, MovesAVertexInsideItsKernel) {
+  TetMesh mesh = delaunay_in_box(random_points(40, 1));
+  std::vector<Tet> tets;
+  ball(mesh, kMoved, tets);
+  const auto place = kernel_of_ball(mesh, kMoved, tets).find(mesh.point(kMoved));
+  ASSERT_TRUE(place.has_value());
+  move_vertex(mesh, kMoved, *place);
+  EXPECT_EQ(find_fault(mesh), "");
+  EXPECT_EQ(mesh.position(kMoved), std::get<Point>(*place));
+}
+
+TEST(MeshEditor, AMoveOutOfTheKernelIsCaught) {
+  TetMesh mesh = delaunay_in_box(random_points(40, 1));
+  expect_caught(mesh, [&] { MeshEditor(mesh).move_vertex(kMoved, Point{100, 0, 0}); });
+}
+
+TEST(MeshEditor, AVertexOutsideTheMeshMovesAnywhere) {
+  TetMesh mesh = delaunay_in_box(random_points(40, 1));
+  const Vertex v = mesh.add_vertex(Point{0, 0, 0});
+  MeshEditor(mesh).move_vertex(v, Point{100, 0, 0});
+  EXPECT_EQ(mesh.position(v), (Point{100, 0, 0}));
+  EXPECT_EQ(find_fault(mesh), "");
+}
+
+TEST(MeshEditor, MarksAFacetOnBothSides) {
+  TetMesh mesh = delaunay_in_box(random_points(40, 2));
+  const Face f = face_code(mesh.incident(0), 2);
+  MeshEditor(mesh).set_facet(f);
+  EXPECT_TRUE(mesh.is_facet(f));
+  EXPECT_TRUE(mesh.is_facet(mesh.neighbour(f)));
+  EXPECT_EQ(find_fault(mesh), "");
+}
+
+TEST(MeshEditor, LoadsAndRenumbersAWholeMesh) {
+  const TetMesh from = delaunay_in_box(random_points(40, 3));
+  TetMesh mesh;
+  for (const Point& p : from.positions()) mesh.add_vertex(p);
+  std::vector<TetMesh::Corners> corners;
+  std::vector<TetMesh::Neighbours> neighbours;
+  for (Tet t = 0; t < from.slot_count(); ++t) {
+    ASSERT_TRUE(from.alive(t));
+    corners.push_back(from.corners(t));
+    neighbours.push_back(
+        {from.neighbour(t, 0), from.neighbour(t, 1), from.neighbour(t, 2), from.neighbour(t, 3)});
+  }
+  MeshEditor editor(mesh);
+  editor.load(corners, neighbours);
+  editor.finish();
+  EXPECT_EQ(find_fault(mesh), "");
+
+  const std::vector<Tet> all = living(mesh);
+  editor.renumber(std::vector<Tet>(all.rbegin(), all.rend()), static_cast<Vertex>(mesh.vertex_count()), {});
+  EXPECT_EQ(find_fault(mesh), "");
+  EXPECT_EQ(mesh.corners(0), from.corners(all.back()));
+}
+
+TEST(MeshEditor, ALostNeighbourIsCaught) {
+  TetMesh mesh = delaunay_in_box(random_points(40, 4));
+  expect_caught(mesh, [&] {
+    MeshEditor editor(mesh);
+    const Tet t = mesh.incident(0);
+    editor.link(face_code(t, 0), mesh.neighbour(t, 1));
+    editor.finish(std::array{t});
+  });
+}
+
+}  // namespace
+}  // namespace holdfast
