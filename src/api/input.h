@@ -33,6 +33,9 @@ class Input {
   /// The rest, with Delaunay tetrahedra at hand; nothing to do after the first time.
   [[nodiscard]] std::vector<Defect> validate_missing(TetMesh& mesh, const Standing& standing);
 
+  /// All of both, by a search of its own that takes as long as `diagnose`.
+  [[nodiscard]] std::vector<Defect> defects() const;
+
   /// With each place once.
   [[nodiscard]] const Complex& complex() const { return complex_; }
   /// What the caller calls the vertices of `complex`.
@@ -52,7 +55,6 @@ class Input {
   Report::Input list_elements_and_segments();
   void count_places(Report::Input& counts) const;
   void merge_vertices();
-  [[nodiscard]] std::vector<Defect> defects() const;
   [[nodiscard]] std::function<void(double)> poll() const;
 
   const Complex& given_;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <span>
 #include <stdexcept>
 
 #include "classify/keep.h"
@@ -46,6 +49,44 @@ bool is_far_outside(const Point& p, const Complex& complex, double margin) {
   return false;
 }
 
+// A vertex of an open border in the region of `seed`: facets that end there may once have divided it.
+std::optional<Index> open_border_beside(const Complex& complex, const SegmentTable& table, const Point& seed,
+                                        const std::function<void()>& step) {
+  const std::vector<char> gone = peeled_from_borders(table);
+  std::vector<Triangle> closed;
+  for (Index f = 0; f < complex.facets.size(); ++f)
+    if (!gone[f]) closed.push_back(complex.facets[f]);
+  std::vector<Point> points{seed};
+  std::vector<Index> border{no_index};
+  for (Index s = 0; s < table.segments.size(); ++s) {
+    if (table.facets_of(s).size() != 1) continue;
+    for (const Index v : table.segments[s]) {
+      border.push_back(v);
+      points.push_back(complex.vertices[v]);
+    }
+  }
+  const Complex rest{complex.vertices, closed, {}, {}, {}};
+  const std::vector<Whereabouts> where = whereabouts(rest, Separation(segment_table(rest)), points, step);
+  for (std::size_t i = 1; i < where.size(); ++i)
+    if (!where[i].on_facet && where[i].region == where[0].region) return border[i];
+  return std::nullopt;
+}
+
+void require_seeds_agree(const Complex& complex, const SegmentTable& table, std::span<const RegionSeed> seeds,
+                         std::span<const Whereabouts> holes, std::span<const Whereabouts> where,
+                         const VertexNames& names, const std::function<void()>& step) {
+  std::map<Separation::Region, int> ids;
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    const Separation::Region& region = where[i].region;
+    if (std::any_of(holes.begin(), holes.end(), [&](const Whereabouts& h) { return h.region == region; }))
+      throw in_region_not_kept(seeds[i].where);
+    const int id = ids.try_emplace(region, seeds[i].id).first->second;
+    if (id == seeds[i].id) continue;
+    throw with_two_ids(seeds[i], id, complex, open_border_beside(complex, table, seeds[i].where, step),
+                       names);
+  }
+}
+
 }  // namespace
 
 void require_sensible(const Complex& complex, const Options& options) {
@@ -67,18 +108,22 @@ void require_sensible(const Complex& complex, const Options& options) {
   require(options.time_limit >= 0, "the time limit must not be negative");
 }
 
-void require_well_placed(const Complex& complex, const Options& options, const std::function<void()>& step) {
+void require_well_placed(const Complex& complex, const SegmentTable& table, const Options& options,
+                         const VertexNames& names, const std::function<void()>& step) {
   std::vector<Point> points = options.holes;
   for (const RegionSeed& seed : options.regions) points.push_back(seed.where);
   if (points.empty() || options.stop_after.value_or(Stage::optimise) < Stage::classify) return;
-  const std::vector<Whereabouts> where = whereabouts(complex, points, step);
+  const std::vector<Whereabouts> where = whereabouts(complex, Separation(table), points, step);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const char* const what = i < options.holes.size() ? "hole" : "region seed";
-    if (where[i] == Whereabouts::on_facet) throw on_the_surface(what, points[i]);
+    if (where[i].on_facet) throw on_the_surface(what, points[i]);
     const bool is_outside = options.keep == Keep::box ? is_far_outside(points[i], complex, options.box_margin)
-                                                      : where[i] == Whereabouts::unbounded;
+                                                      : where[i].region.empty();
     if (is_outside) throw in_no_region(what, points[i]);
   }
+  const auto holes = std::span(where).first(options.holes.size());
+  require_seeds_agree(complex, table, options.regions, holes, std::span(where).subspan(holes.size()), names,
+                      step);
 }
 
 }  // namespace holdfast

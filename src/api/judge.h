@@ -2,6 +2,8 @@
 #pragma once
 
 #include "holdfast/holdfast.h"
+#include "surface/complex.h"
+#include "surface/places.h"
 
 namespace holdfast {
 
@@ -9,9 +11,11 @@ namespace holdfast {
 /// be told without a mesh.
 void require_sensible(const Complex& complex, const Options& options);
 
-/// Throws std::invalid_argument for holes and region seeds that lie on a facet, or where it takes no mesh to
-/// see that no bounded region is: `choose_regions` sees to the others. Indices must be in range and
-/// coordinates finite. `step` is called now and then, and may throw.
-void require_well_placed(const Complex& complex, const Options& options, const std::function<void()>& step);
+/// Throws std::invalid_argument for holes and region seeds that lie on a facet or in no bounded region, for
+/// seeds that give one region two ids, and for those in a region with a hole. Which regions there are is
+/// right for a valid complex only; `table` and `names` are those of the complex. `step` is called now and
+/// then, and may throw.
+void require_well_placed(const Complex& complex, const SegmentTable& table, const Options& options,
+                         const VertexNames& names, const std::function<void()>& step);
 
 }  // namespace holdfast

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <exception>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
@@ -83,8 +84,20 @@ class Call {
     monitor_.enter(Stage::validate);
     if (std::vector<Defect> defects = input_.validate(result_.report.input); !defects.empty())
       return refuse(result_, std::move(defects));
-    require_well_placed(input_.complex(), options_, [&] { monitor_.poll(Stage::validate, 0.5); });
+    judge_places();
     monitor_.end_part();
+  }
+
+  // Regions of a surface that is not valid are none, so that is told first.
+  void judge_places() {
+    try {
+      require_well_placed(input_.complex(), input_.table(), options_, input_.names(),
+                          [&] { monitor_.poll(Stage::validate, 0.5); });
+    } catch (const std::invalid_argument&) {
+      std::vector<Defect> defects = input_.defects();
+      if (defects.empty()) throw;
+      refuse(result_, std::move(defects));
+    }
   }
 
   void try_once() {

@@ -95,17 +95,13 @@ class Chooser {
   }
 
   // What may have made one region of two.
-  [[nodiscard]] std::string opening_in(RegionId r) const {
+  [[nodiscard]] std::optional<Index> open_border_in(RegionId r) const {
     for (Index f = 0; f < complex_.facets.size(); ++f) {
       if (regions_.of_facet[f] != std::array<RegionId, 2>{r, r}) continue;
-      for (const Index s : table_.facet_segments[f]) {
-        if (table_.facets_of(s).size() != 1) continue;
-        const Index v = table_.segments[s][0];
-        return ", or close the open border of the triangles inside this region, at vertex " +
-               std::to_string(v) + " " + place(complex_.vertices[v]);
-      }
+      for (const Index s : table_.facet_segments[f])
+        if (table_.facets_of(s).size() == 1) return table_.segments[s][0];
     }
-    return {};
+    return std::nullopt;
   }
 
   void number() {
@@ -114,13 +110,9 @@ class Chooser {
     std::set<int> taken;
     for (const RegionSeed& seed : options_.regions) {
       const RegionId r = region_at(seed.where, "region seed");
-      if (!kept_.region[r])
-        throw std::invalid_argument("the region seed at " + place(seed.where) +
-                                    " lies in a region that is not kept; move it, or keep more regions");
+      if (!kept_.region[r]) throw in_region_not_kept(seed.where);
       if (seeded[r] && kept_.id[r] != seed.id)
-        throw std::invalid_argument("the region seed at " + place(seed.where) + " gives id " +
-                                    std::to_string(seed.id) + " to a region that another seed calls " +
-                                    std::to_string(kept_.id[r]) + "; leave out one of them" + opening_in(r));
+        throw with_two_ids(seed, kept_.id[r], complex_, open_border_in(r), names_);
       kept_.id[r] = seed.id;
       seeded[r] = true;
       taken.insert(seed.id);
@@ -180,6 +172,22 @@ std::invalid_argument on_the_surface(const std::string& what, const Point& p) {
 std::invalid_argument in_no_region(const std::string& what, const Point& p) {
   return std::invalid_argument("the " + what + " at " + place(p) +
                                " lies in no bounded region; move it inside one");
+}
+
+std::invalid_argument in_region_not_kept(const Point& seed) {
+  return std::invalid_argument("the region seed at " + place(seed) +
+                               " lies in a region that is not kept; move it, or keep more regions");
+}
+
+std::invalid_argument with_two_ids(const RegionSeed& seed, int id, const Complex& complex,
+                                   std::optional<Index> border, const VertexNames& names) {
+  std::string message = "the region seed at " + place(seed.where) + " gives id " + std::to_string(seed.id) +
+                        " to a region that another seed calls " + std::to_string(id) +
+                        "; leave out one of them";
+  if (border)
+    message += ", or close the open border of the triangles inside this region, at vertex " +
+               std::to_string(names(*border)) + " " + place(complex.vertices[*border]);
+  return std::invalid_argument(message);
 }
 
 Warning warn_of_turned(const Complex& complex, const std::vector<Index>& turned) {

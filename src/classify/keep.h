@@ -1,6 +1,7 @@
 // Which regions stay in the volume, and their ids (design §2.6).
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -44,6 +45,11 @@ struct Kept {
 /// What is said of a hole or region seed, as `what` calls it, that cannot be meant where it is.
 [[nodiscard]] std::invalid_argument on_the_surface(const std::string& what, const Point& p);
 [[nodiscard]] std::invalid_argument in_no_region(const std::string& what, const Point& p);
+[[nodiscard]] std::invalid_argument in_region_not_kept(const Point& seed);
+/// `id` is that of another seed in the region; `border` a vertex of an open border in it, if there is one, as
+/// `names` calls it.
+[[nodiscard]] std::invalid_argument with_two_ids(const RegionSeed& seed, int id, const Complex& complex,
+                                                 std::optional<Index> border, const VertexNames& names);
 
 /// Says that every bounded region was kept, since there are no winding numbers.
 [[nodiscard]] Warning warn_of_turned(const Complex& complex, const std::vector<Index>& turned);

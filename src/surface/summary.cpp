@@ -11,7 +11,7 @@
 #include "numbers/elementary.h"
 #include "surface/complex.h"
 #include "surface/describe.h"
-#include "surface/enclosed.h"
+#include "surface/separation.h"
 #include "surface/gaps.h"
 #include "surface/places.h"
 #include "text/decimal.h"
@@ -180,7 +180,7 @@ class Summariser {
     for (const Nearness& gap : finder_.between_borders()) add(gap, true);
     if (std::all_of(defects_.begin(), defects_.end(),
                     [](const Defect& d) { return d.kind >= DefectKind::encloses_nothing; }))
-      summary_.enclosed = enclosed_regions(table_);
+      summary_.enclosed = Separation(table_).enclosed();
     tell();
     return std::move(summary_);
   }

@@ -31,88 +31,95 @@ class Sorted {
   std::vector<std::size_t> order_;
 };
 
+// Lines up along the last axis, moved by (e, e^2) for a positive e without end small, so that they meet no
+// side and no facet that is seen from its edge (Edelsbrunner and Mücke 1990).
 class Search {
  public:
   Search(const Complex& complex, std::span<const Point> points)
       : complex_(complex),
         points_(points),
-        sorted_{Sorted(points, 0), Sorted(points, 1), Sorted(points, 2)},
-        is_blocked_(points.size()),
-        on_facet_(points.size()) {}
+        sorted_(points, 0),
+        on_facet_(points.size()),
+        crossed_(points.size()) {}
 
-  // Lines along each axis: the facet's shadow along it holds the point, or not.
-  void look_at(const Triangle& facet) {
-    Point low = complex_.vertices[facet[0]], high = low;
-    for (const Index v : facet)
+  void look_at(Index f) {
+    Point low = complex_.vertices[complex_.facets[f][0]], high = low;
+    for (const Index v : complex_.facets[f])
       for (std::size_t k = 0; k < 3; ++k) {
         low[k] = std::min(low[k], complex_.vertices[v][k]);
         high[k] = std::max(high[k], complex_.vertices[v][k]);
       }
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
-      for (const std::size_t i : sorted_[x].between(low[x], high[x]))
-        if (points_[i][y] >= low[y] && points_[i][y] <= high[y]) look_along(axis, facet, i);
+    const Corners corners = corners_of(f);
+    for (const std::size_t i : sorted_.between(low[0], high[0])) {
+      const Point& p = points_[i];
+      if (p[1] < low[1] || p[1] > high[1] || p[2] > high[2]) continue;
+      if (p[2] >= low[2] && holds(corners, p.data())) on_facet_[i] = true;
+      if (is_crossed(corners, p.data())) crossed_[i].push_back(f);
     }
   }
 
-  [[nodiscard]] Whereabouts of(std::size_t i) const {
-    if (on_facet_[i]) return Whereabouts::on_facet;
-    const auto& sides = is_blocked_[i];
-    return std::find(sides.begin(), sides.end(), false) != sides.end() ? Whereabouts::unbounded
-                                                                       : Whereabouts::open;
-  }
+  [[nodiscard]] bool on_facet(std::size_t i) const { return on_facet_[i]; }
+  [[nodiscard]] std::span<const Index> crossed(std::size_t i) const { return crossed_[i]; }
 
  private:
-  void look_along(std::size_t axis, const Triangle& facet, std::size_t i) {
-    const double* const p = points_[i].data();
-    const std::array<const double*, 3> c{complex_.vertices[facet[0]].data(),
-                                         complex_.vertices[facet[1]].data(),
-                                         complex_.vertices[facet[2]].data()};
-    const auto turn = [&](const double* a, const double* b, const double* q) {
-      return exact::orient2d({a, nullptr}, {b, nullptr}, {q, nullptr}, static_cast<int>(axis));
-    };
-    const int shadow = turn(c[0], c[1], c[2]);
-    // A facet seen from its edge: what of the line it holds matters not, as it ends at facets or in the open.
-    if (shadow == 0) return block_edgewise(axis, facet, i);
-    for (std::size_t k = 0; k < 3; ++k)
-      if (turn(c[k], c[(k + 1) % 3], p) * shadow < 0) return;
-    // Along the axis, the facet's normal looks up where its shadow turns counterclockwise.
-    const int above = exact::orient3d(c[0], c[1], c[2], p) * shadow;
-    if (above == 0) on_facet_[i] = true;
-    if (above <= 0) is_blocked_[i][2 * axis] = true;
-    if (above >= 0) is_blocked_[i][2 * axis + 1] = true;
+  using Corners = std::array<const double*, 3>;
+
+  [[nodiscard]] Corners corners_of(Index f) const {
+    const Triangle& t = complex_.facets[f];
+    return {complex_.vertices[t[0]].data(), complex_.vertices[t[1]].data(), complex_.vertices[t[2]].data()};
   }
 
-  // Rather a line too many is blocked than one too few.
-  void block_edgewise(std::size_t axis, const Triangle& facet, std::size_t i) {
-    bool above = false, below = false;
-    for (const Index v : facet) {
-      above = above || complex_.vertices[v][axis] >= points_[i][axis];
-      below = below || complex_.vertices[v][axis] <= points_[i][axis];
+  static int turn(const double* a, const double* b, const double* p, int axis) {
+    return exact::orient2d({a, nullptr}, {b, nullptr}, {p, nullptr}, axis);
+  }
+
+  // In its plane, and in its shadow along an axis that the plane is not parallel to.
+  static bool holds(const Corners& c, const double* p) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const int shadow = turn(c[0], c[1], c[2], axis);
+      if (shadow == 0) continue;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (turn(c[k], c[(k + 1) % 3], p, axis) * shadow < 0) return false;
+      return exact::orient3d(c[0], c[1], c[2], p) == 0;
     }
-    if (above) is_blocked_[i][2 * axis] = true;
-    if (below) is_blocked_[i][2 * axis + 1] = true;
+    return false;
+  }
+
+  // Derivatives of the turn by p's first coordinate, then by its second, where it is zero itself.
+  static int turn_of_moved(const double* a, const double* b, const double* p) {
+    if (const int sign = turn(a, b, p, 2); sign != 0) return sign;
+    if (a[1] != b[1]) return a[1] > b[1] ? 1 : -1;
+    return a[0] < b[0] ? 1 : -1;
+  }
+
+  // The facet's normal looks up where its shadow turns counterclockwise.
+  static bool is_crossed(const Corners& c, const double* p) {
+    const int shadow = turn(c[0], c[1], c[2], 2);
+    if (shadow == 0) return false;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (turn_of_moved(c[k], c[(k + 1) % 3], p) * shadow < 0) return false;
+    return exact::orient3d(c[0], c[1], c[2], p) * shadow < 0;
   }
 
   const Complex& complex_;
   std::span<const Point> points_;
-  std::array<Sorted, 3> sorted_;
-  std::vector<std::array<bool, 6>> is_blocked_;  // by point: up and down along each axis
-  std::vector<bool> on_facet_;
+  Sorted sorted_;
+  std::vector<bool> on_facet_;               // by point
+  std::vector<std::vector<Index>> crossed_;  // by point: the facets above it
 };
 
 }  // namespace
 
-std::vector<Whereabouts> whereabouts(const Complex& complex, std::span<const Point> points,
-                                     const std::function<void()>& step) {
-  if (points.empty()) return {};
+std::vector<Whereabouts> whereabouts(const Complex& complex, const Separation& separation,
+                                     std::span<const Point> points, const std::function<void()>& step) {
   Search search(complex, points);
-  for (const Triangle& facet : complex.facets) {
+  for (Index f = 0; f < complex.facets.size(); ++f) {
     step();
-    search.look_at(facet);
+    search.look_at(f);
   }
   std::vector<Whereabouts> all(points.size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = search.of(i);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    all[i] = {search.on_facet(i), separation.beyond(search.crossed(i))};
   return all;
 }
 
