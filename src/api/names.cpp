@@ -11,6 +11,8 @@ struct Named {
   Enum value;
   const char* name;
 };
+template <class Enum>
+Named(Enum, const char*) -> Named<Enum>;  // clang++ 14 deduces none for aggregates
 
 constexpr std::array kOutcomes{Named{Outcome::done, "done"},
                                Named{Outcome::invalid_input, "invalid_input"},
