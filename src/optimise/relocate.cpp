@@ -14,12 +14,8 @@ namespace {
 
 class Relocation {
  public:
-  Relocation(TetMesh& mesh, Vertex p, std::span<const Tet> ball) : mesh_(mesh), p_(p), kernel_(mesh) {
-    for (const Tet t : ball) {
-      const auto f = mesh.face_vertices(face_code(t, mesh.index_of(t, p)));
-      kernel_.add(f[0], f[1], f[2]);
-    }
-  }
+  Relocation(TetMesh& mesh, Vertex p, std::span<const Tet> ball)
+      : mesh_(mesh), p_(p), kernel_(kernel_of_ball(mesh, p, ball)) {}
 
   bool run(std::mt19937_64& random) {
     at_ = mesh_.position(p_);

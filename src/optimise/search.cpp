@@ -37,7 +37,6 @@ std::vector<bool> slots_of_others(const TetMesh& mesh, const std::vector<Tet>& t
 Search::Search(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, double target,
                std::uint64_t seed, Monitor& monitor)
     : mesh_(mesh),
-      first_free_(first_free),
       good_(std::max(tuning::kGood, target)),
       bad_from_(holdfast::bad_from(target)),
       monitor_(monitor),

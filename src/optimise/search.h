@@ -50,7 +50,7 @@ class Search {
 
   [[nodiscard]] TetMesh& mesh() { return mesh_; }
   [[nodiscard]] const BadFrom& bad_from() const { return bad_from_; }
-  [[nodiscard]] Vertex first_free() const { return first_free_; }
+  [[nodiscard]] Vertex first_free() const { return ways_.first_free(); }
   [[nodiscard]] Agenda& agenda() { return agenda_; }
   [[nodiscard]] Budget& budget() { return budget_; }
   [[nodiscard]] OptimiseStats& stats() { return stats_; }
@@ -69,7 +69,6 @@ class Search {
   void improve(const Element& e, Ways::Points points);
 
   TetMesh& mesh_;
-  const Vertex first_free_;
   const double good_;
   const BadFrom bad_from_;
   Monitor& monitor_;

@@ -44,7 +44,8 @@ inline constexpr int kShakesInVain = 2, kShakesInVainForFlat = 8;
 
 inline constexpr std::size_t kMostShakes = 40;  ///< a mesh
 inline constexpr int kShakenEdges = 30;         ///< a shake
-/// Slots of all shakes of a mesh together: what a shake takes back once was a copy of the mesh.
+/// Slots of all shakes of a mesh together, so that large meshes get few. (A shake itself costs what it
+/// changes.)
 inline constexpr std::size_t kMostShakenSlots = 1'000'000;
 /// Tetrahedra of a shell that is exchanged: larger ones hardly ever pay, and cost their cube. With field
 /// points the elements are many, so that the rest is not worth the time.

@@ -44,6 +44,8 @@ class Ways {
   bool move(Vertex p, Budget& budget, std::vector<Tet>& changed);
 
   [[nodiscard]] std::mt19937_64& random() { return random_; }
+  /// The vertices from here on may move and go.
+  [[nodiscard]] Vertex first_free() const { return first_free_; }
 
  private:
   struct Way;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mesh/traverse.h"
+#include "suppress/tuning.h"
 
 namespace holdfast {
 namespace {
@@ -32,14 +33,12 @@ std::vector<EdgeAt> edges_at(TetMesh& mesh, Vertex p) {
   return edges;
 }
 
-constexpr std::size_t kMostEdges = 20;  // as many edges' budgets are spent on a point
-
 }  // namespace
 
 bool lower_degree(TetMesh& mesh, Flipper& flipper, Vertex p, int depth, std::size_t budget) {
   auto edges = edges_at(mesh, p);
   const std::size_t before = edges.size();
-  std::size_t left = kMostEdges * budget;
+  std::size_t left = tuning::kMostEdges * budget;
   // Flips that clear the way for others can join p to more, so that the loop needs a measure.
   for (std::size_t last = before + 1; edges.size() < last && left > 0;) {
     last = edges.size();

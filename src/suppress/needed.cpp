@@ -6,18 +6,16 @@
 #include "mesh/traverse.h"
 #include "suppress/cavity.h"
 #include "suppress/small_polyhedron.h"
+#include "suppress/tuning.h"
 
 namespace holdfast {
 namespace {
-
-constexpr PolyhedronOptions kSearch{.most_vertices = 20, .most_nodes = 1000};
-constexpr std::size_t kMostTets = 60;
 
 // The tetrahedra that can be reached from p without crossing a facet; fewer than all where there are many.
 std::vector<Tet> component_of(TetMesh& mesh, Vertex p) {
   std::vector<Tet> tets;
   ball(mesh, p, tets);
-  for (std::size_t k = 0; k < tets.size() && tets.size() <= kMostTets; ++k)
+  for (std::size_t k = 0; k < tets.size() && tets.size() <= tuning::kMostTetsOfProof; ++k)
     for (int i = 0; i < 4; ++i) {
       const Face f = face_code(tets[k], i);
       const Tet next = tet_of(mesh.neighbour(f));
@@ -28,7 +26,7 @@ std::vector<Tet> component_of(TetMesh& mesh, Vertex p) {
 
 // Whether the component has an end: the outside of an open surface, ghosts and all, has none.
 bool is_small_solid(const TetMesh& mesh, const std::vector<Tet>& tets) {
-  return tets.size() <= kMostTets &&
+  return tets.size() <= tuning::kMostTetsOfProof &&
          std::none_of(tets.begin(), tets.end(), [&](Tet t) { return mesh.is_ghost(t); });
 }
 
@@ -64,7 +62,8 @@ bool is_needed(TetMesh& mesh, Vertex p, Vertex first_free) {
   const bool has_steiner_points = std::any_of(boundary.begin(), boundary.end(), [&](const auto& f) {
     return std::any_of(f.begin(), f.end(), [&](Vertex v) { return v >= first_free; });
   });
-  return !has_steiner_points && holds_only(mesh, tets, boundary, p) && is_unfillable(mesh, boundary, kSearch);
+  return !has_steiner_points && holds_only(mesh, tets, boundary, p) &&
+         is_unfillable(mesh, boundary, tuning::kProofSearch);
 }
 
 }  // namespace holdfast

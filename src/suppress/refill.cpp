@@ -6,11 +6,10 @@
 #include "mesh/editor.h"
 #include "mesh/traverse.h"
 #include "suppress/fill_cavity.h"
+#include "suppress/tuning.h"
 
 namespace holdfast {
 namespace {
-
-constexpr std::size_t kMostMerged = 200;  // tetrahedra of a ball: a cavity's growth is quadratic
 
 // `tell`, called before each, asks for complete searches.
 std::optional<Point> place_in(const TetMesh& mesh, const Kernel& kernel, Vertex apex,
@@ -64,11 +63,11 @@ bool merge(TetMesh& mesh, Vertex p, Vertex neighbour, Vertex first_free, int ste
            const PolyhedronOptions& search) {
   std::vector<Tet> tets;
   ball(mesh, p, tets);
-  if (tets.size() > kMostMerged) return false;
+  if (tets.size() > tuning::kMostMerged) return false;
   Cavity cavity(mesh, tets, first_free);
   tets.clear();
   ball(mesh, neighbour, tets);
-  if (tets.size() > kMostMerged) return false;
+  if (tets.size() > tuning::kMostMerged) return false;
   return cavity.swallow(tets) && (fill(mesh, cavity, search) || cone_grown(mesh, cavity, p, steps, {}));
 }
 

@@ -3,14 +3,14 @@
 #include <vector>
 
 #include "mesh/traverse.h"
+#include "suppress/tuning.h"
 
 namespace holdfast {
 namespace {
 
 // Some steps from t across faces that are no facets.
 Tet wander(const TetMesh& mesh, Tet t, std::mt19937_64& random) {
-  constexpr std::size_t kMostSteps = 4;
-  for (std::size_t steps = random() % kMostSteps; steps > 0; --steps) {
+  for (std::size_t steps = random() % tuning::kMostWander; steps > 0; --steps) {
     const Face f = face_code(t, static_cast<int>(random() % 4));
     const Tet next = tet_of(mesh.neighbour(f));
     if (!mesh.is_facet(f) && !mesh.is_ghost(next)) t = next;
@@ -20,13 +20,12 @@ Tet wander(const TetMesh& mesh, Tet t, std::mt19937_64& random) {
 
 // Returns whether any flip was made.
 bool remove_an_edge(TetMesh& mesh, Flipper& flipper, const std::vector<Tet>& of, std::mt19937_64& random) {
-  constexpr int kDepth = 1;
-  constexpr std::size_t kBudget = 200;
   if (of.empty()) return false;
   const std::size_t before = flipper.counts().all();
   const Tet t = wander(mesh, of[random() % of.size()], random);
   const auto& ends = kEdgeVertex[random() % 6];
-  flipper.remove(t, mesh.corner(t, ends[0]), mesh.corner(t, ends[1]), kDepth, kBudget);
+  flipper.remove(t, mesh.corner(t, ends[0]), mesh.corner(t, ends[1]), tuning::kShakeDepth,
+                 tuning::kShakeBudget);
   return flipper.counts().all() > before;
 }
 
@@ -44,12 +43,11 @@ void shake(TetMesh& mesh, Flipper& flipper, Vertex p, int edges, std::mt19937_64
 
 void shake(TetMesh& mesh, Flipper& flipper, const TetMesh::Corners& corners, int edges,
            const std::function<bool(Tet)>& may_change, std::mt19937_64& random) {
-  constexpr std::size_t kMostBall = 500;
   std::vector<Tet> tets;
   for (; edges > 0; --edges) {
     tets.clear();
     ball(mesh, corners[random() % 4], tets);
-    if (tets.size() > kMostBall) continue;
+    if (tets.size() > tuning::kMostShakenBall) continue;
     std::erase_if(tets, [&](Tet t) { return !may_change(t); });
     remove_an_edge(mesh, flipper, tets, random);
   }

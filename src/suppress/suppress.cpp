@@ -9,6 +9,7 @@
 #include "suppress/needed.h"
 #include "suppress/refill.h"
 #include "suppress/shake.h"
+#include "suppress/tuning.h"
 
 namespace holdfast {
 namespace {
@@ -48,10 +49,9 @@ class Suppressor {
 
   // Round after round until none removes or rounds a point.
   void shrink() {
-    constexpr int kMostRounds = 30;
-    constexpr int kPatience = 3;  // rounds without gain: recentring may open a way only later
     int idle = 0;
-    for (int round = 0; round < kMostRounds && idle < kPatience && !points_.empty(); ++round) {
+    for (int round = 0; round < tuning::kShrinkRounds && idle < tuning::kShrinkIdle && !points_.empty();
+         ++round) {
       const std::size_t points_before = points_.size();
       const std::size_t unrounded_before = unrounded(mesh_, points_);
       std::erase_if(points_, [&](Vertex p) {
@@ -79,28 +79,27 @@ class Suppressor {
     drop_the_gone(stats_.merged);
     const std::size_t gone = before - points_.size();
     const std::size_t unrounded_now = unrounded(mesh_, points_);
-    return gone * kWorthwhile > before ||
+    return gone * tuning::kWorthwhile > before ||
            (unrounded_now > 0 && (gone > 0 || unrounded_now < unrounded_before));
   }
 
   // What is left may go from another mesh round it, but for what is proven to stay.
   void insist() {
-    constexpr int kMostRounds = 20, kPatience = 8;  // rounds without gain
     // In proportion to the rest of the work, so that it matters where few are left.
-    const std::size_t most_shakes = std::min<std::size_t>(200, 16 + mesh_.tet_count() / 100);
-    constexpr int kShakenEdges = 40;
-    constexpr std::size_t kShakenBudget = 800;
+    const std::size_t most_shakes =
+        std::min(tuning::kMostPointShakes, tuning::kFewShakes + mesh_.tet_count() / tuning::kTetsAShake);
     std::vector<Vertex> spare = points_;
     std::erase_if(spare, [&](Vertex p) { return is_needed(mesh_, p, first_free_); });
     std::size_t shakes = 0;
     int idle = 0;
-    for (int round = 0; round < kMostRounds && idle < kPatience && !spare.empty(); ++round) {
+    for (int round = 0; round < tuning::kInsistRounds && idle < tuning::kInsistIdle && !spare.empty();
+         ++round) {
       const std::size_t before = spare.size();
       for (const Vertex p : spare) {
         if (shakes++ == most_shakes) break;
         tell();
-        shake(mesh_, flipper_, p, kShakenEdges, random_);
-        lower_degree(mesh_, flipper_, p, Flipper::kDeep, kShakenBudget);
+        shake(mesh_, flipper_, p, tuning::kShakenEdgesOfPoint, random_);
+        lower_degree(mesh_, flipper_, p, Flipper::kDeep, tuning::kShakenBudget);
         remove_or_recentre(mesh_, p, {});
       }
       drop_the_gone(stats_.filled);
@@ -112,16 +111,15 @@ class Suppressor {
 
   // Nothing but complete searches is left to try, and other meshes round what they do not find.
   void round_the_rest() {
-    constexpr int kMostRounds = 6, kShakenEdges = 40;
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < tuning::kRoundingRounds; ++round) {
       std::vector<Vertex> rest = points_;
       std::erase_if(rest, [&](Vertex p) { return mesh_.is_explicit(p); });
       if (rest.empty()) return;
       for (const Vertex p : rest) {
         tell();
-        if (!mesh_.in_mesh(p) || round_completely(mesh_, p, first_free_, kMostSteps, tell_)) continue;
+        if (!mesh_.in_mesh(p) || round_completely(mesh_, p, first_free_, tuning::kMostSteps, tell_)) continue;
         if (round_at_random(p)) continue;
-        shake(mesh_, flipper_, p, kShakenEdges, random_);
+        shake(mesh_, flipper_, p, tuning::kShakenEdgesOfPoint, random_);
         remove_or_recentre(mesh_, p, {});
       }
       drop_the_gone(stats_.filled);
@@ -129,9 +127,8 @@ class Suppressor {
   }
 
   bool round_at_random(Vertex p) {
-    constexpr int kTries = 4, kMostRandomSteps = 12;
-    for (int k = 0; k < kTries; ++k)
-      if (round_completely(mesh_, p, first_free_, kMostRandomSteps, tell_, random_)) return true;
+    for (int k = 0; k < tuning::kRandomTries; ++k)
+      if (round_completely(mesh_, p, first_free_, tuning::kMostRandomSteps, tell_, random_)) return true;
     return false;
   }
 
@@ -141,30 +138,21 @@ class Suppressor {
 
   void remove_harder(Vertex p) {
     const bool is_explicit = mesh_.is_explicit(p);
-    if (lower_degree(mesh_, flipper_, p, Flipper::kDeep, is_explicit ? kQuickBudget : kPatientBudget)) {
+    if (lower_degree(mesh_, flipper_, p, Flipper::kDeep,
+                     is_explicit ? tuning::kQuickBudget : tuning::kPatientBudget)) {
       const Fate fate = remove_or_recentre(mesh_, p, {});
       if (fate == Fate::collapsed || fate == Fate::filled) return;
     }
-    const Growth& growth = is_explicit ? kQuickGrowth : kPatientGrowth;
+    const Growth& growth = is_explicit ? tuning::kQuickGrowth : tuning::kPatientGrowth;
     if (refill_without(mesh_, p, first_free_, growth, random_)) return;
-    if (!mesh_.is_explicit(p)) round_with_neighbours(mesh_, p, first_free_, kMostSteps);
+    if (!mesh_.is_explicit(p)) round_with_neighbours(mesh_, p, first_free_, tuning::kMostSteps);
   }
 
   void merge_with_neighbours(Vertex p) {
     for (const Vertex q : link_vertices(mesh_, p))
       if (q >= first_free_ && mesh_.in_mesh(p) && find_edge(mesh_, p, q) != kNone)
-        merge(mesh_, p, q, first_free_, kMergeSteps, kMergeSearch);
+        merge(mesh_, p, q, first_free_, tuning::kMergeSteps, tuning::kMergeSearch);
   }
-
-  static constexpr std::size_t kWorthwhile = 10;
-  static constexpr std::size_t kQuickBudget = 2000, kPatientBudget = 20000;
-  static constexpr int kMostSteps = 30;
-  static constexpr Growth kQuickGrowth{
-      .attempts = 2, .steps = 5, .search = {.most_vertices = 18, .most_nodes = 60}};
-  static constexpr int kMergeSteps = 4;
-  static constexpr PolyhedronOptions kMergeSearch{.most_vertices = 20, .most_nodes = 200};
-  static constexpr Growth kPatientGrowth{
-      .attempts = 20, .steps = 12, .search = {.most_vertices = 22, .most_nodes = 1000}};
 
   TetMesh& mesh_;
   std::vector<Vertex> points_;
