@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "exact/predicates.h"
+#include "mesh/editor.h"
 #include "mesh/tet_mesh.h"
 #include "mesh/validate.h"
 
@@ -19,7 +20,7 @@ namespace holdfast::testing {
 
 inline TetMesh mesh_of(std::span<const Point> points) {
   TetMesh mesh;
-  for (const Point& p : points) mesh.add_vertex(p);
+  for (const Point& p : points) MeshEditor(mesh).add_vertex(p);
   return mesh;
 }
 

@@ -12,7 +12,7 @@
 
 #include "enforce/polygon.h"
 #include "holdfast/holdfast.h"
-#include "mesh/tet_mesh.h"
+#include "mesh/editor.h"
 #include "small_surfaces.h"
 
 namespace holdfast::hard {
@@ -373,13 +373,13 @@ inline Surface chazelle(int n) {
     outline.insert(outline.end(), line.rbegin(), line.rend());
     TetMesh plane;
     std::vector<Vertex> polygon;
-    for (const Point& p : outline) polygon.push_back(plane.add_vertex(p));
+    for (const Point& p : outline) polygon.push_back(MeshEditor(plane).add_vertex(p));
     Point beside = outline[0];
     beside[axis] -= 1;
-    Vertex above = plane.add_vertex(beside);
+    Vertex above = MeshEditor(plane).add_vertex(beside);
     if (plane.orient(0, 1, 2, above) < 0) {
       beside[axis] += 2;
-      above = plane.add_vertex(beside);
+      above = MeshEditor(plane).add_vertex(beside);
     }
     for (const auto& t : triangulate_polygon(plane, polygon, above))
       s.facets.push_back({vertex(outline[t[0]]), vertex(outline[t[1]]), vertex(outline[t[2]])});

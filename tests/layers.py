@@ -1,6 +1,7 @@
 """Fails when a layer of src/ includes a header of a layer above it, or when library code prints, exits, names
-options of the command line, changes the mesh by single steps of MeshEditor outside the operations, or converts numbers by functions that heed the locale of the program round it (src/text/decimal.h is for that), or uses what the
-standard leaves to each library, so that meshes would differ between platforms (src/numbers is for that).
+options of the command line, changes the mesh by single steps (mesh/assembly.h), converts numbers by functions that heed
+the locale of the program round it (src/text/decimal.h is for that), or uses what the standard leaves to each library,
+so that meshes would differ between platforms (src/numbers is for that).
 
     layers.py ROOT LAYER...      LAYER... from the lowest to the highest (HOLDFAST_LAYERS of CMakeLists.txt)
     layers.py --selftest
@@ -29,11 +30,9 @@ UNDEFINED = re.compile(
     r"unordered_multi(?:map|set)|"
     r"(?:exp|exp2|expm1|log|log2|log10|log1p|pow|cbrt|hypot|sin|cos|tan|asin|acos|atan|atan2|sinh|cosh|tanh|asinh|acosh|"
     r"atanh|erf|erfc|tgamma|lgamma|fma)[fl]?\s*\()")
-# Single steps of MeshEditor, after which the mesh is not whole, and the operations outside src/mesh that take them.
-STEP = re.compile(r"(?:MeshEditor\([^;]*?\)|\beditor_?)\.(?:add_tet|remove_tet|link|set_flags|clear_flags|set_incident|"
-                  r"place_vertex|add_slots|put_tet)\b")
-OPERATIONS = {"refine/point_cavity.cpp", "refine/parts.cpp", "recover/standing.cpp", "suppress/refill.cpp",
-              "optimise/smooth.cpp"}
+# TetMesh gives its mutators to MeshEditor alone, and single steps have a header of their own, for these.
+ASSEMBLY = "mesh/assembly.h"
+ASSEMBLERS = {"refine/parts.cpp"}
 OPTION = re.compile(r"(?<![\w-])--[a-z]")
 
 
@@ -57,6 +56,8 @@ def broken_rules(root, layers):
         for match in INCLUDE.finditer(text):
             used = match.group(1).split("/")[0]
             line = text.count("\n", 0, match.start(1)) + 1
+            if match.group(1) == ASSEMBLY and path.relative_to(root / "src").as_posix() not in ASSEMBLERS:
+                yield f"{path}:{line}: single steps change the mesh: use MeshEditor"
             if match.group(1) in BESIDES.get(layer, set()):
                 continue
             if used in layers and used not in allowed:
@@ -70,10 +71,6 @@ def broken_rules(root, layers):
                 if not match.group().startswith("/") and OPTION.search(match.group()):
                     line = text.count("\n", 0, match.start()) + 1
                     yield f"{path}:{line}: the library knows no options of the command line: {match.group()}"
-            if layer != "mesh" and path.relative_to(root / ("include" if public else "src")).as_posix() not in OPERATIONS:
-                for match in STEP.finditer(code):
-                    line = code.count("\n", 0, match.start()) + 1
-                    yield f"{path}:{line}: a step of MeshEditor outside the operations: {match.group().strip()}"
             for match in LOCALE.finditer(code):
                 line = code.count("\n", 0, match.start()) + 1
                 yield f"{path}:{line}: numbers must not depend on the locale: {match.group().strip()}"
@@ -83,7 +80,7 @@ def broken_rules(root, layers):
 
 
 def selftest():
-    layers = ["text", "exact", "mesh", "surface", "check", "io", "api"]
+    layers = ["text", "exact", "mesh", "surface", "refine", "check", "io", "api"]
     cases = [  # file, text, number of broken rules
         ("src/mesh/a.h", '#include "exact/b.h"\n#include <vector>\n#include "mesh/c.h"\n', 0),
         ("src/exact/a.h", '#include "mesh/b.h"\n', 1),
@@ -103,9 +100,9 @@ def selftest():
         ("src/cli/a.cpp", '#include "api/b.h"\nint main() { exit(1); }\n', 1),
         ("src/mesh/e.cpp", "std::shuffle(a, b, r);\nstd::normal_distribution<double> d;\ndouble x = std::hypot(1, 2);\n", 3),
         ("src/mesh/f.cpp", "double x = std::sqrt(2.0) + numbers::log(2) + std::logb(3);  // std::log(2)\n", 0),
-        ("src/mesh/g.cpp", "void f(MeshEditor& editor) { editor.link(f, g); }\n", 0),
-        ("src/surface/a.cpp", "MeshEditor(mesh).link(f, g);\nMeshEditor editor(mesh);\neditor.remove_tet(t);\n", 2),
-        ("src/surface/b.cpp", "MeshEditor(mesh).move_vertex(v, p);\nMeshEditor(mesh).set_facet(f);\n", 0),
+        ("src/refine/parts.cpp", '#include "mesh/assembly.h"\n', 0),
+        ("src/refine/front.cpp", '#include "mesh/assembly.h"\n#include "mesh/editor.h"\n', 1),
+        ("src/mesh/g.cpp", '#include "mesh/assembly.h"\n', 1),
         ("src/other/a.cpp", "", 1),
         ("include/holdfast/a.h", '#include "mesh/b.h"\n', 1),
     ]

@@ -13,14 +13,15 @@
 
 #include "delaunay/delaunay.h"
 #include "exact/volume.h"
+#include "mesh/editor.h"
 #include "mesh/kernel.h"
+#include "mesh/keys.h"
 #include "mesh/tet_mesh.h"
 #include "mesh/traverse.h"
 
 namespace holdfast::testing {
 
-using FaceKey = std::array<Vertex, 3>;
-using EdgeKey = std::array<Vertex, 2>;
+using EdgeEnds = std::array<Vertex, 2>;
 
 template <typename Key>
 Key sorted(Key key) {
@@ -40,11 +41,11 @@ inline std::vector<Point> random_points(std::size_t n, std::uint64_t seed) {
 // The Delaunay mesh of points and of the corners of a box round them, which come after the points.
 inline TetMesh delaunay_in_box(const std::vector<Point>& points, double half_extent = 10) {
   TetMesh mesh;
-  for (const Point& p : points) mesh.add_vertex(p);
+  for (const Point& p : points) MeshEditor(mesh).add_vertex(p);
   for (unsigned k = 0; k < 8; ++k)
-    mesh.add_vertex(Point{(k & 1u) != 0 ? half_extent : -half_extent,
-                          (k & 2u) != 0 ? half_extent : -half_extent,
-                          (k & 4u) != 0 ? half_extent : -half_extent});
+    MeshEditor(mesh).add_vertex(Point{(k & 1u) != 0 ? half_extent : -half_extent,
+                                      (k & 2u) != 0 ? half_extent : -half_extent,
+                                      (k & 4u) != 0 ? half_extent : -half_extent});
   EXPECT_TRUE(build_delaunay(mesh, {}, nullptr));
   return mesh;
 }
@@ -141,13 +142,13 @@ inline std::set<FaceKey> facet_faces(const TetMesh& mesh) {
   return faces;
 }
 
-inline std::set<EdgeKey> segment_edges(const TetMesh& mesh) {
-  std::set<EdgeKey> edges;
+inline std::set<EdgeEnds> segment_edges(const TetMesh& mesh) {
+  std::set<EdgeEnds> edges;
   for (const Tet t : living(mesh))
     for (int k = 0; k < 6; ++k)
       if (mesh.is_segment(t, k)) {
         const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
-        edges.insert(sorted(EdgeKey{mesh.corner(t, e[0]), mesh.corner(t, e[1])}));
+        edges.insert(sorted(EdgeEnds{mesh.corner(t, e[0]), mesh.corner(t, e[1])}));
       }
   return edges;
 }

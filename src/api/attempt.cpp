@@ -17,6 +17,7 @@
 #include "delaunay/box.h"
 #include "delaunay/delaunay.h"
 #include "enforce/enforce.h"
+#include "mesh/editor.h"
 #include "mesh/quality.h"
 #include "mesh/tet_mesh.h"
 #include "optimise/improve_parts.h"
@@ -83,12 +84,13 @@ class Attempt {
   void build_box_mesh() {
     scale_ = choose_scale(complex().vertices);
     constexpr std::size_t kTetsAVertex = 7;
-    mesh_.reserve(complex().vertices.size() + 8, kTetsAVertex * complex().vertices.size());
-    for (const Point& p : complex().vertices) mesh_.add_vertex(scaled(p, scale_));
+    MeshEditor(mesh_).reserve(complex().vertices.size() + 8, kTetsAVertex * complex().vertices.size());
+    for (const Point& p : complex().vertices) MeshEditor(mesh_).add_vertex(scaled(p, scale_));
     const double margin = options_.keep == Keep::box ? options_.box_margin : kHiddenMargin;
     const exact::DoubleGrid grid = grid_after(scale_);
-    for (const Point& corner : box_corners(mesh_.positions(), margin, grid)) mesh_.add_vertex(corner);
-    mesh_.set_grid(grid);
+    for (const Point& corner : box_corners(mesh_.positions(), margin, grid))
+      MeshEditor(mesh_).add_vertex(corner);
+    MeshEditor(mesh_).set_grid(grid);
     first_free_ = static_cast<Vertex>(mesh_.vertex_count());
     if (!build_delaunay(mesh_, {seed_, threads_}, &monitor_))
       throw std::logic_error("holdfast: the box has no tetrahedra");

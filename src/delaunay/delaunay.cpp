@@ -38,9 +38,7 @@ bool build_delaunay(TetMesh& mesh, const DelaunayOrder& options, Monitor* monito
     NumberedCells cells = all_cells(triangulation, options.threads);
     MeshEditor(mesh).load(std::move(cells.corners), std::move(cells.neighbours));
   };
-  if (!triangulate(mesh.positions(), options.seed, options.threads, progress, take)) return false;
-  MeshEditor(mesh).finish();
-  return true;
+  return triangulate(mesh.positions(), options.seed, options.threads, progress, take);
 }
 
 std::vector<Tetrahedron> delaunay_of(std::span<const Point> points, std::uint64_t seed,

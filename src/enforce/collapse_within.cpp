@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "mesh/editor.h"
 #include "mesh/kernel.h"
 #include "mesh/measure.h"
-#include "mesh/replace.h"
 #include "mesh/traverse.h"
 
 namespace holdfast {
@@ -53,8 +53,8 @@ bool collapse_within(TetMesh& mesh, Vertex p, std::span<const Vertex> candidates
   for (const auto& f : kernel.faces())
     if (f[0] != v && f[1] != v && f[2] != v) fresh.push_back({f[0], f[1], f[2], v});
   const auto facets = moved_facets(mesh, tets, p, v);
-  replace(mesh, {.old_tets = tets, .new_tets = fresh, .facets = facets, .segments = segment});
-  mesh.remove_vertex(p);
+  MeshEditor(mesh).replace({.old_tets = tets, .new_tets = fresh, .facets = facets, .segments = segment});
+  MeshEditor(mesh).remove_vertex(p);
   return true;
 }
 

@@ -7,9 +7,9 @@
 
 #include "enforce/fictitious_cut.h"
 #include "enforce/polygon.h"
+#include "mesh/editor.h"
 #include "mesh/kernel.h"
 #include "mesh/measure.h"
-#include "mesh/replace.h"
 #include "mesh/traverse.h"
 
 namespace holdfast {
@@ -237,7 +237,7 @@ std::vector<Vertex> cut_and_cone(TetMesh& mesh, Vertex p, std::optional<std::arr
       // P is on one plane or two that the sector must see, and strictly before all others: the kernel finds a
       // place.
       if (!position) throw std::logic_error("holdfast: a sector has no kernel");
-      apex = add_vertex(mesh, *position);
+      apex = MeshEditor(mesh).add_vertex(*position);
       created.push_back(apex);
     }
     for (const auto& f : kernel.faces())
@@ -247,8 +247,9 @@ std::vector<Vertex> cut_and_cone(TetMesh& mesh, Vertex p, std::optional<std::arr
     if (cut.facet) facets.insert(facets.end(), cut.triangles.begin(), cut.triangles.end());
   std::vector<std::array<Vertex, 2>> segments;
   if (ends) segments.push_back(*ends);
-  replace(mesh, {.old_tets = cutter.tets(), .new_tets = fresh, .facets = facets, .segments = segments});
-  mesh.remove_vertex(p);
+  MeshEditor(mesh).replace(
+      {.old_tets = cutter.tets(), .new_tets = fresh, .facets = facets, .segments = segments});
+  MeshEditor(mesh).remove_vertex(p);
   return created;
 }
 

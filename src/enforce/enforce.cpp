@@ -8,6 +8,7 @@
 #include "enforce/cut_and_cone.h"
 #include "enforce/partition_facet.h"
 #include "enforce/partition_segment.h"
+#include "mesh/editor.h"
 #include "mesh/kernel.h"
 #include "mesh/traverse.h"
 #include "numbers/random.h"
@@ -121,7 +122,8 @@ class Enforcer {
     ball(mesh_, v, tets);
     Kernel above = kernel_of_ball(mesh_, v, tets);
     above.add(facet[0], facet[1], facet[2]);
-    if (const std::optional<Position> place = above.find(mesh_.point(v))) move_vertex(mesh_, v, *place);
+    if (const std::optional<Position> place = above.find(mesh_.point(v)))
+      MeshEditor(mesh_).move_vertex(v, *place);
   }
 
   void lay_facet(Index f) {

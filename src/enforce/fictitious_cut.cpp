@@ -9,8 +9,8 @@
 #include "enforce/partition_segment.h"
 #include "exact/rounding.h"
 #include "exact/volume.h"
+#include "mesh/editor.h"
 #include "mesh/kernel.h"
-#include "mesh/replace.h"
 #include "mesh/traverse.h"
 
 namespace holdfast {
@@ -319,12 +319,12 @@ class CutMaker {
       ExactPoint w;
       for (std::size_t k = 0; k < 3; ++k)
         w.c[k] = p.c[k] + (x.c[k] + s * (y.c[k] - x.c[k]) - p.c[k]).scaled(-step);
-      const Vertex v = mesh_.add_vertex(w);
+      const Vertex v = MeshEditor(mesh_).add_vertex(w);
       bool good = true;
       for (std::size_t i = 0; i < plane.crossed.size() && good; ++i)
         good = i == j || passes(i < j ? a_ : b_, mesh_.point(v), plane.crossed[i]);
       if (good && split_face_at(v, e)) return v;
-      mesh_.remove_last_vertex();
+      MeshEditor(mesh_).remove_last_vertex();
     }
   }
 
@@ -340,7 +340,7 @@ class CutMaker {
     if (!kernel.holds(mesh_.point(v))) return false;
     std::vector<TetMesh::Corners> fresh;
     for (const auto& face : kernel.faces()) fresh.push_back({face[0], face[1], face[2], v});
-    replace(mesh_, {.old_tets = old, .new_tets = fresh});
+    MeshEditor(mesh_).replace({.old_tets = old, .new_tets = fresh});
     return true;
   }
 

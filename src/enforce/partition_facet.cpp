@@ -6,7 +6,6 @@
 #include "exact/volume.h"
 #include "mesh/editor.h"
 #include "mesh/kernel.h"
-#include "mesh/replace.h"
 #include "mesh/traverse.h"
 
 namespace holdfast {
@@ -63,14 +62,14 @@ void split_edge(TetMesh& mesh, const Plane& plane, Vertex above, Vertex below) {
   const Plane::Crossing crossing = plane.crossing(mesh.exact_position(above), mesh.exact_position(below));
   constexpr int kFirstBits = 26;  // well inside an ordinary kernel, and still short
   for (int bits = kFirstBits;; bits *= 2) {
-    const Vertex p = mesh.add_vertex(plane.near(crossing, bits));
+    const Vertex p = MeshEditor(mesh).add_vertex(plane.near(crossing, bits));
     if (!kernel.holds(mesh.point(p))) {
-      mesh.remove_last_vertex();
+      MeshEditor(mesh).remove_last_vertex();
       continue;
     }
     std::vector<TetMesh::Corners> fresh;
     for (const auto& f : kernel.faces()) fresh.push_back({f[0], f[1], f[2], p});
-    replace(mesh, {.old_tets = ring, .new_tets = fresh});
+    MeshEditor(mesh).replace({.old_tets = ring, .new_tets = fresh});
     return;
   }
 }

@@ -5,7 +5,7 @@
 
 #include "exact/rounding.h"
 #include "exact/volume.h"
-#include "mesh/replace.h"
+#include "mesh/editor.h"
 #include "mesh/traverse.h"
 
 namespace holdfast {
@@ -117,7 +117,7 @@ class Slide {
 void mark_chain_edge(TetMesh& mesh, Vertex a, Vertex b) {
   const Tet t = find_edge(mesh, a, b);
   if (t == kNone) throw std::logic_error("holdfast: a chain edge is missing");
-  set_segment(mesh, t, a, b);
+  MeshEditor(mesh).set_segment(t, a, b);
 }
 
 enum class Mark { none, segment };
@@ -137,12 +137,12 @@ std::vector<Vertex> walk(TetMesh& mesh, Vertex a, Vertex b, Vertex first_free, M
       continue;
     }
     const Cavity cavity = cavity_of(mesh, exit);
-    const Vertex p = mesh.add_vertex(slide.at(slide.find(mesh, cavity)));
+    const Vertex p = MeshEditor(mesh).add_vertex(slide.at(slide.find(mesh, cavity)));
     fresh.clear();
     for (const auto& f : cavity.faces) fresh.push_back({f[0], f[1], f[2], p});
     const std::array<std::array<Vertex, 2>, 1> edge{{{from, p}}};
     const auto segments = std::span(edge).first(mark == Mark::segment ? 1 : 0);
-    replace(mesh, {.old_tets = cavity.tets, .new_tets = fresh, .segments = segments});
+    MeshEditor(mesh).replace({.old_tets = cavity.tets, .new_tets = fresh, .segments = segments});
     chain.push_back(p);
   }
   return chain;

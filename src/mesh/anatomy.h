@@ -18,6 +18,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace holdfast {
@@ -45,6 +46,23 @@ inline constexpr std::array<std::array<int, 2>, 6> kEdgeVertex{
 /// Edge between two local vertices.
 inline constexpr std::array<std::array<int, 4>, 4> kEdgeOf{
     {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}}};
+
+inline constexpr int edge_between(int i, int j) {
+  return kEdgeOf[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+}
+
+/// What an array of four, one a corner, holds at the corners of face i, and at the ends of edge k.
+template <typename T>
+constexpr std::array<T, 3> corners_of_face(const std::array<T, 4>& at, int i) {
+  const auto& k = kFaceVertex[static_cast<std::size_t>(i)];
+  return {at[static_cast<std::size_t>(k[0])], at[static_cast<std::size_t>(k[1])],
+          at[static_cast<std::size_t>(k[2])]};
+}
+template <typename T>
+constexpr std::array<T, 2> ends_of_edge(const std::array<T, 4>& at, int k) {
+  const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
+  return {at[static_cast<std::size_t>(e[0])], at[static_cast<std::size_t>(e[1])]};
+}
 
 /// For local vertices a != b the other two, ordered so that (a b c d) is an even permutation.
 inline constexpr std::array<std::array<std::array<int, 2>, 4>, 4> kOpposite{{

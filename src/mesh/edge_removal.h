@@ -116,11 +116,4 @@ class LinkTriangulation {
 void tetrahedra_of(const EdgeShell& shell, const std::vector<LinkTriangle>& triangles,
                    std::vector<TetMesh::Corners>& out);
 
-/// Replaces the shell of an edge by the tetrahedra of its triangulated link, all positive: what `replace`
-/// would do (replace.h), with all neighbours known from the polygon. `created`, where given, receives the
-/// new ones in the order of tetrahedra_of. No segment and no facet may be lost: the edge is none, and no
-/// face at it.
-void replace_shell(TetMesh& mesh, const EdgeShell& shell, const std::vector<LinkTriangle>& triangles,
-                   std::vector<Tet>* created = nullptr);
-
 }  // namespace holdfast

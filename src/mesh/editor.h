@@ -1,24 +1,30 @@
 // The one way to change the mesh: TetMesh gives its mutators to nobody else.
 //
-// An operation opens an editor, plans while the mesh is still whole, applies with the steps below, which
-// cannot fail, and finishes. Between the first step and finish() the invariants of tet_mesh.h need not hold;
-// finish() is where the validator stands. The operations are
-//   replace, replace_shell, swap_face     a cavity, the shell of an edge, a face (replace.h, edge_removal.h,
-//                                         face_swap.h)
-//   PointCavity::insert                   the star of a new point
-//   Parts, cut_parts                      parts cut out and joined
-//   load, renumber                        the whole mesh
-//   move_vertex, set_facet, set_segment   one vertex, one constraint
-// and tests/layers.py holds the list of the files that take single steps.
+// Every operation is planned, checked and applied. The plan is pure: it works out each new tetrahedron with
+// its neighbours and constraint bits while the mesh is whole. The check is the planner's, and exact: where it
+// throws, the mesh is unchanged. apply() cannot fail; in builds with HOLDFAST_VALIDATE it ends with the
+// validator.
+//
+// The general plan is that of any cavity. Three kinds of cavity are so frequent that they have shorter plans,
+// which match no faces since all neighbours are known beforehand:
+//   replace          any cavity                                             cavity_plan.h
+//   replace_shell    shell: the tetrahedra round an edge, without it        shell_plan.h
+//   swap_face        face: two tetrahedra become three, round a new edge    face_plan.h
+//   apply            star: a point and the faces that it sees               refine/point_cavity.h
+// All four leave the same mesh, slot by slot, as the tests check.
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "mesh/cavity_plan.h"
+#include "mesh/change.h"
+#include "mesh/edge_removal.h"
 #include "mesh/tet_mesh.h"
-#include "mesh/validate.h"
+#include "mesh/undo_log.h"
 
 namespace holdfast {
 
@@ -26,11 +32,77 @@ class MeshEditor {
  public:
   explicit MeshEditor(TetMesh& mesh) : mesh_(mesh) {}
 
-  // --- whole operations
-  /// All tetrahedra of a mesh that had none, at once. The two arrays are as long as each other and satisfy
-  /// the invariants once the operation is finished; flags are cleared and incident tetrahedra set here.
+  // --- vertices in no tetrahedron
+  void reserve(std::size_t vertices, std::size_t tets) { mesh_.reserve(vertices, tets); }
+  /// From now on vertices get no doubles but those of this grid.
+  void set_grid(const exact::DoubleGrid& grid) { mesh_.grid_ = grid; }
+  /// A vertex at the point of the grid nearest to p.
+  Vertex add_vertex(const Point& p) { return mesh_.add_vertex(p); }
+  /// A vertex at an exact position; becomes explicit when the grid holds it.
+  Vertex add_vertex(const exact::ExactPoint& p) {
+    const Vertex v = mesh_.add_vertex(Point{});
+    mesh_.move_vertex(v, p);
+    return v;
+  }
+  Vertex add_vertex(const Position& place) {
+    return std::visit([&](const auto& p) { return add_vertex(p); }, place);
+  }
+  /// Takes back the position of a vertex that is in no tetrahedron.
+  void remove_vertex(Vertex v) { mesh_.remove_vertex(v); }
+  /// Takes back the vertex added last, which no tetrahedron may hold.
+  void remove_last_vertex() { mesh_.remove_last_vertex(); }
+
+  // --- tetrahedra
+  /// Throws std::logic_error, with the mesh unchanged, if the outer faces do not match. `created`, where
+  /// given, receives the new tetrahedra in order. Vertices that lose their last tetrahedron have
+  /// incident() == kNone afterwards.
+  void replace(const Replacement& replacement, std::vector<Tet>* created = nullptr);
+  /// Replaces the shell of an edge by the tetrahedra of its triangulated link, all positive. `created`, where
+  /// given, receives the new ones in the order of tetrahedra_of. No segment and no facet may be lost: the
+  /// edge is none, and no face at it.
+  void replace_shell(const EdgeShell& shell, const std::vector<LinkTriangle>& triangles,
+                     std::vector<Tet>* created = nullptr);
+  /// Makes the 2-3 flip of a face that is no facet. The three tetrahedra must be positive.
+  std::array<Tet, 3> swap_face(Face f);
+  /// Makes a change that is planned. `created` receives the new tetrahedra in order.
+  void apply(const Change& change, std::vector<Tet>& created);
+
+  // --- positions
+  /// Moves a vertex inside the kernel of its ball, or anywhere if it is in no tetrahedron.
+  void move_vertex(Vertex v, const Point& p) { move(v, p); }
+  void move_vertex(Vertex v, const exact::ExactPoint& p) { move(v, p); }
+  void move_vertex(Vertex v, const Position& place) {
+    std::visit([&](const auto& p) { move(v, p); }, place);
+  }
+  /// Moves a vertex and asks `is_right()` about the mesh as it is then; puts it back where that is false.
+  /// `ball` is that of the vertex.
+  template <typename Check>
+  bool move_if(Vertex v, const Point& p, std::span<const Tet> ball, Check&& is_right) {
+    const Point before = mesh_.position(v);
+    mesh_.move_vertex(v, p);
+    if (!is_right()) {
+      mesh_.move_vertex(v, before);
+      return false;
+    }
+    finish(ball);
+    return true;
+  }
+
+  // --- constraints
+  /// Marks a face on both sides.
+  void set_facet(Face f);
+  /// Marks edge ab of tetrahedron t in its whole shell as part of an input segment.
+  void set_segment(Tet t, Vertex a, Vertex b);
+  /// Marks constraints of one tetrahedron; threads may mark different ones at the same time. They are set
+  /// from all sides when finish() is called.
+  void mark_constraints(Tet t, Flags f) { mesh_.set_flags(t, f); }
+
+  // --- the whole mesh
+  /// All tetrahedra of a mesh that had none, at once. The two arrays are as long as each other; flags are
+  /// cleared and incident tetrahedra set here.
   void load(std::vector<TetMesh::Corners> corners, std::vector<TetMesh::Neighbours> neighbours) {
-    mesh_.set_tets(std::move(corners), std::move(neighbours));
+    set_tets(std::move(corners), std::move(neighbours));
+    finish();
   }
   /// New numbers for all tetrahedra and for the vertices from `first` on: `tets` lists the living ones, and
   /// `vertices` those vertices, in their new order. Free slots go.
@@ -38,45 +110,45 @@ class MeshEditor {
     mesh_.renumber(tets, first, vertices);
     finish();
   }
-  /// Moves a vertex inside the kernel of its ball.
-  void move_vertex(Vertex v, const Point& p) {
-    mesh_.move_vertex(v, p);
-    finish_move(v);
-  }
-  void move_vertex(Vertex v, const exact::ExactPoint& p) {
-    mesh_.move_vertex(v, p);
-    finish_move(v);
-  }
-  /// Marks a face on both sides.
-  void set_facet(Face f) {
-    mesh_.set_facet(f);
-    finish(std::array{tet_of(f), tet_of(mesh_.neighbour(f))});
-  }
 
-  // --- steps of an operation
-  Tet add_tet(const TetMesh::Corners& v) { return mesh_.add_tet(v); }
-  void remove_tet(Tet t) { mesh_.remove_tet(t); }
-  void link(Face f, Face g) { mesh_.link(f, g); }
-  void set_flags(Tet t, Flags f) { mesh_.set_flags(t, f); }
-  void clear_flags(Tet t, Flags f) { mesh_.clear_flags(t, f); }
-  void set_incident(Vertex v, Tet t) { mesh_.set_incident(v, t); }
-  /// The position of a vertex whose ball is not yet, or no longer, as it will be when the operation is done.
-  void place_vertex(Vertex v, const Point& p) { mesh_.move_vertex(v, p); }
-  /// Slots for `count` more tetrahedra, one after another, that put_tet fills. Returns the first.
-  Tet add_slots(std::size_t count) { return mesh_.add_slots(count); }
-  /// Fills a slot that is not free. Threads may fill different slots at the same time.
-  void put_tet(Tet t, const TetMesh::Corners& v, const TetMesh::Neighbours& n, Flags f) {
-    mesh_.put_tet(t, v, n, f);
+  // --- taking back
+  /// Every change from now on is noted in a log, or in none: one at a time.
+  void note_in(UndoLog* log) {
+    assert(log == nullptr || mesh_.log_.log == nullptr);
+    mesh_.log_.log = log;
   }
+  /// Takes back what the log has noted since a mark.
+  void undo(UndoLog& log, const UndoLog::Mark& mark);
 
-  // Where the validator stands in builds with HOLDFAST_VALIDATE: it throws std::logic_error.
+  // --- where the validator stands in builds with HOLDFAST_VALIDATE: it throws std::logic_error
   /// The operation is done, and these are the tetrahedra that it made or changed.
   void finish(std::span<const Tet> changed) const {
-    if constexpr (kValidates) throw_on_fault(mesh_, changed);
+    if constexpr (kValidates) throw_on_fault(changed);
   }
   /// The operation is done, and it changed the whole mesh.
   void finish() const {
-    if constexpr (kValidates) throw_on_fault(mesh_);
+    if constexpr (kValidates) throw_on_fault();
+  }
+
+ protected:
+  // Single steps, during which the mesh need not be whole. MeshAssembly has them.
+  void set_tets(std::vector<TetMesh::Corners> corners, std::vector<TetMesh::Neighbours> neighbours) {
+    mesh_.set_tets(std::move(corners), std::move(neighbours));
+  }
+  void link(Face f, Face g) {
+    mesh_.set_neighbour(f, g);
+    mesh_.set_neighbour(g, f);
+  }
+  void set_flags(Tet t, Flags f) { mesh_.set_flags(t, f); }
+  void clear_flags(Tet t, Flags f) { mesh_.clear_flags(t, f); }
+  void set_incident(Vertex v, Tet t) { mesh_.set_incident(v, t); }
+  void place_vertex(Vertex v, const Point& p) { mesh_.move_vertex(v, p); }
+  Vertex add_vertices(std::size_t count) { return mesh_.add_vertices(count); }
+  Tet add_tet(TetMesh::Corners v);
+  void remove_tet(Tet t) { mesh_.remove_tet(t); }
+  Tet add_slots(std::size_t count) { return mesh_.add_slots(count); }
+  void put_tet(Tet t, const TetMesh::Corners& v, const TetMesh::Neighbours& n, Flags f) {
+    mesh_.put_tet(t, v, n, f);
   }
 
  private:
@@ -85,11 +157,17 @@ class MeshEditor {
 #else
   static constexpr bool kValidates = false;
 #endif
+  void throw_on_fault(std::span<const Tet> changed) const;
+  void throw_on_fault() const;
 
-  void finish_move(Vertex v) {
-    if constexpr (kValidates) throw_on_fault_round(v);
+  template <typename Place>
+  void move(Vertex v, const Place& p) {
+    mesh_.move_vertex(v, p);
+    if constexpr (kValidates) finish_ball(v);
   }
-  void throw_on_fault_round(Vertex v);
+  void finish_ball(Vertex v);
+  void put(const Change& change, std::span<Tet> slots);
+  void undo_vertices(UndoLog& log, const UndoLog::Mark& mark);
 
   TetMesh& mesh_;
 };

@@ -5,7 +5,6 @@
 
 #include "exact/rounding.h"
 #include "exact/volume.h"
-#include "mesh/editor.h"
 
 namespace holdfast {
 namespace {
@@ -82,14 +81,6 @@ struct View {  // an exact point as the predicates see it
 };
 
 }  // namespace
-
-Vertex add_vertex(TetMesh& mesh, const Position& position) {
-  return std::visit([&](const auto& p) { return mesh.add_vertex(p); }, position);
-}
-
-void move_vertex(TetMesh& mesh, Vertex v, const Position& position) {
-  std::visit([&](const auto& p) { MeshEditor(mesh).move_vertex(v, p); }, position);
-}
 
 bool Kernel::holds(PointRef x) const {
   return std::all_of(faces_.begin(), faces_.end(),

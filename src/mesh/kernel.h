@@ -6,19 +6,12 @@
 
 #include <optional>
 #include <span>
-#include <variant>
 #include <vector>
 
 #include "mesh/inscribed_ball.h"
 #include "mesh/tet_mesh.h"
 
 namespace holdfast {
-
-/// Where a vertex goes: in doubles, or at an exact position that no double holds.
-using Position = std::variant<Point, exact::ExactPoint>;
-
-[[nodiscard]] Vertex add_vertex(TetMesh& mesh, const Position& position);
-void move_vertex(TetMesh& mesh, Vertex v, const Position& position);
 
 class Kernel {
  public:

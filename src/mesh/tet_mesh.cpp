@@ -18,12 +18,6 @@ Vertex TetMesh::add_vertex(const Point& p) {
   return static_cast<Vertex>(positions_.size() - 1);
 }
 
-Vertex TetMesh::add_vertex(const exact::ExactPoint& p) {
-  const Vertex v = add_vertex(Point{});
-  set_exact(v, p);
-  return v;
-}
-
 Vertex TetMesh::add_vertices(std::size_t count) {
   const auto first = static_cast<Vertex>(positions_.size());
   positions_.resize(first + count);
@@ -37,8 +31,6 @@ void TetMesh::move_vertex(Vertex v, const Point& p) {
   release_exact(v);
   positions_[v] = on_grid(p);
 }
-
-void TetMesh::move_vertex(Vertex v, const exact::ExactPoint& p) { set_exact(v, p); }
 
 void TetMesh::remove_vertex(Vertex v) {
   note_vertex(v);
@@ -62,7 +54,7 @@ void TetMesh::release_exact(Vertex v) {
   --exact_in_use_;
 }
 
-void TetMesh::set_exact(Vertex v, const exact::ExactPoint& p) {
+void TetMesh::move_vertex(Vertex v, const exact::ExactPoint& p) {
   assert(log_.log == nullptr);
   const exact::ExactPoint copy = p;  // p may live in exact_, which is about to change
   release_exact(v);
@@ -83,21 +75,17 @@ exact::ExactPoint TetMesh::exact_position(Vertex v) const {
   return is_explicit(v) ? exact::lift(positions_[v].data()) : exact_[exact_of_[v]];
 }
 
-Tet TetMesh::add_tet(const Corners& v) {
+Tet TetMesh::take_slot() {
   if (free_.empty()) {
-    corners_.push_back(v);
-    neighbours_.push_back({kNone, kNone, kNone, kNone});
+    corners_.emplace_back();
+    neighbours_.emplace_back();
     flags_.push_back(0);
     return static_cast<Tet>(corners_.size() - 1);
   }
   const Tet t = free_.back();
   if (log_.log != nullptr) [[unlikely]]
     log_.log->note_free(t, true);
-  note_slot(t);
   free_.pop_back();
-  corners_[t] = v;
-  neighbours_[t] = {kNone, kNone, kNone, kNone};
-  flags_[t] = 0;
   return t;
 }
 
@@ -161,12 +149,6 @@ void TetMesh::renumber(std::span<const Tet> tets, Vertex first, std::span<const 
   }
   for (Tet& t : incident_)
     if (t != kNone) t = tet_now[t];
-}
-
-void TetMesh::set_facet(Face f) {
-  set_flags(tet_of(f), facet_bit(side_of(f)));
-  const Face g = neighbour(f);
-  set_flags(tet_of(g), facet_bit(side_of(g)));
 }
 
 std::size_t TetMesh::memory_bytes() const {

@@ -10,12 +10,13 @@
 //   3. a facet bit is set on both sides of a face, a segment bit in the whole shell of an edge;
 //   4. incident(v) is a living tetrahedron that holds v, or kNone for a vertex that is not in the mesh.
 //
-// To all but MeshEditor (editor.h) and UndoLog the tetrahedra are read-only; vertices in none of them may
-// come and go.
+// Only MeshEditor (editor.h) changes a mesh: to everybody else it is read-only, but for the notes of
+// searches.
 #pragma once
 
 #include <cstddef>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "exact/double_grid.h"
@@ -29,29 +30,21 @@ namespace holdfast {
 class MeshEditor;
 class UndoLog;
 
+/// Where a vertex goes: in doubles, or at an exact position that no double holds.
+using Position = std::variant<Point, exact::ExactPoint>;
+
 class TetMesh {
  public:
   using Corners = std::array<Vertex, 4>;
   using Neighbours = std::array<Face, 4>;
 
   // --- vertices
-  /// From now on vertices get no doubles but those of this grid.
-  void set_grid(const exact::DoubleGrid& grid) { grid_ = grid; }
+  /// Vertices get no doubles but those of this grid.
   [[nodiscard]] const exact::DoubleGrid& grid() const { return grid_; }
   /// The point of the grid nearest to p.
   [[nodiscard]] Point on_grid(const Point& p) const {
     return {grid_.nearest(p[0]), grid_.nearest(p[1]), grid_.nearest(p[2])};
   }
-  /// A vertex at the point of the grid nearest to p.
-  Vertex add_vertex(const Point& p);
-  /// A vertex at an exact position; becomes explicit when the grid holds it.
-  Vertex add_vertex(const exact::ExactPoint& p);
-  /// `count` more explicit vertices, one after another, that MeshEditor places. Returns the first.
-  Vertex add_vertices(std::size_t count);
-  /// Takes back the position of a vertex that is in no tetrahedron.
-  void remove_vertex(Vertex v);
-  /// Takes back the vertex added last, which no tetrahedron may hold.
-  void remove_last_vertex();
   [[nodiscard]] std::size_t vertex_count() const { return positions_.size(); }
   [[nodiscard]] bool is_explicit(Vertex v) const { return exact_of_[v] == kNone; }
   /// The position, or the doubles nearest to it.
@@ -71,6 +64,7 @@ class TetMesh {
   [[nodiscard]] bool alive(Tet t) const { return (flags_[t] & kDead) == 0; }
   [[nodiscard]] bool is_ghost(Tet t) const { return corners_[t][3] == kGhost; }
   [[nodiscard]] const Corners& corners(Tet t) const { return corners_[t]; }
+  [[nodiscard]] const Neighbours& neighbours(Tet t) const { return neighbours_[t]; }
   [[nodiscard]] Vertex corner(Tet t, int i) const { return corners_[t][static_cast<std::size_t>(i)]; }
   [[nodiscard]] Face neighbour(Tet t, int i) const { return neighbours_[t][static_cast<std::size_t>(i)]; }
   [[nodiscard]] Face neighbour(Face f) const { return neighbour(tet_of(f), side_of(f)); }
@@ -95,15 +89,16 @@ class TetMesh {
 
   [[nodiscard]] Vertex apex(Face f) const { return corner(tet_of(f), side_of(f)); }
   [[nodiscard]] std::array<Vertex, 3> face_vertices(Face f) const {
-    const Corners& v = corners_[tet_of(f)];
-    const auto& k = kFaceVertex[f & 3u];
-    return {v[static_cast<std::size_t>(k[0])], v[static_cast<std::size_t>(k[1])],
-            v[static_cast<std::size_t>(k[2])]};
+    return corners_of_face(corners_[tet_of(f)], side_of(f));
   }
   /// Local index of v in t, or -1.
   [[nodiscard]] int index_of(Tet t, Vertex v) const {
     const Corners& c = corners_[t];
     return c[0] == v ? 0 : c[1] == v ? 1 : c[2] == v ? 2 : c[3] == v ? 3 : -1;
+  }
+  /// Local number of the edge between two corners of t.
+  [[nodiscard]] int edge_of(Tet t, Vertex a, Vertex b) const {
+    return edge_between(index_of(t, a), index_of(t, b));
   }
 
   /// Sign of det(b-a, c-a, d-a), exactly.
@@ -127,55 +122,47 @@ class TetMesh {
   /// Vertices whose position no double holds.
   [[nodiscard]] std::size_t exact_vertex_count() const { return exact_in_use_; }
   [[nodiscard]] std::size_t memory_bytes() const;
-  void reserve(std::size_t vertices, std::size_t tets);
 
  private:
-  friend class UndoLog;
   friend class MeshEditor;
 
-  // --- what changes the mesh: see MeshEditor
+  Vertex add_vertex(const Point& p);
+  Vertex add_vertices(std::size_t count);
+  void remove_vertex(Vertex v);
+  void remove_last_vertex();
   void move_vertex(Vertex v, const Point& p);
   void move_vertex(Vertex v, const exact::ExactPoint& p);
   void set_incident(Vertex v, Tet t) {
     note_vertex(v);
     incident_[v] = t;
   }
-  // A slot for a tetrahedron; its neighbours are the caller's to set.
-  Tet add_tet(const Corners& v);
-  void remove_tet(Tet t);
-  // New numbers for all tetrahedra and for the vertices from `first` on: `tets` lists the living ones, and
-  // `vertices` those vertices, in their new order. Free slots go.
+  void reserve(std::size_t vertices, std::size_t tets);
   void renumber(std::span<const Tet> tets, Vertex first, std::span<const Vertex> vertices);
-  // All tetrahedra of a mesh that had none, at once. The two arrays are as long as each other and
-  // satisfy the invariants above; flags are cleared and incident tetrahedra set here.
   void set_tets(std::vector<Corners> corners, std::vector<Neighbours> neighbours);
-  // Slots for `count` more tetrahedra, one after another, that put_tet fills. Returns the first.
+
+  // A free slot, or one more, for put_tet to fill; and `count` more, one after another.
+  Tet take_slot();
   Tet add_slots(std::size_t count);
-  // Fills a slot that is not free. Threads may fill different slots at the same time.
   void put_tet(Tet t, const Corners& v, const Neighbours& n, Flags f) {
     note_slot(t);
     corners_[t] = v;
     neighbours_[t] = n;
     flags_[t] = f;
   }
-  void link(Face f, Face g) {
-    if (log_.log != nullptr) [[unlikely]] {
-      note_slot(tet_of(f));
-      note_slot(tet_of(g));
-    }
+  void remove_tet(Tet t);
+  // What f sees; not what sees f.
+  void set_neighbour(Face f, Face g) {
+    note_slot(tet_of(f));
     neighbours_[tet_of(f)][f & 3u] = g;
-    neighbours_[tet_of(g)][g & 3u] = f;
   }
   void set_flags(Tet t, Flags f) {
-    if ((f & ~kVisited) != 0) note_slot(t);
+    note_slot(t);
     flags_[t] = static_cast<Flags>(flags_[t] | f);
   }
   void clear_flags(Tet t, Flags f) {
-    if ((f & ~kVisited) != 0) note_slot(t);
+    note_slot(t);
     flags_[t] = static_cast<Flags>(flags_[t] & ~f);
   }
-  // Marks a face on both sides.
-  void set_facet(Face f);
 
   // The log of this object (undo_log.h): a copy has none.
   struct Log {
@@ -197,12 +184,11 @@ class TetMesh {
   void tell_slot(Tet t);
   void tell_vertex(Vertex v);
   void release_exact(Vertex v);
-  void set_exact(Vertex v, const exact::ExactPoint& p);
 
   std::vector<Corners> corners_;
   std::vector<Neighbours> neighbours_;
   std::vector<Flags> flags_;
-  std::vector<Tet> free_;
+  std::vector<Tet> free_;  // slots; the last is filled first
 
   exact::DoubleGrid grid_;
   std::vector<Point> positions_;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "mesh/editor.h"
-
 namespace holdfast {
 namespace {
 
@@ -100,16 +98,6 @@ Tet walk_to(const TetMesh& mesh, Vertex v, Tet start, std::uint32_t& random) {
     if (!moved) return t;
   }
   return kNone;
-}
-
-void set_segment(TetMesh& mesh, Tet t, Vertex a, Vertex b) {
-  std::vector<Tet> tets;
-  shell(mesh, t, a, b, tets);
-  MeshEditor editor(mesh);
-  for (const Tet s : tets)
-    editor.set_flags(s, segment_bit(kEdgeOf[static_cast<std::size_t>(mesh.index_of(s, a))]
-                                           [static_cast<std::size_t>(mesh.index_of(s, b))]));
-  editor.finish(tets);
 }
 
 }  // namespace holdfast

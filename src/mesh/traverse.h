@@ -29,7 +29,4 @@ void shell(const TetMesh& mesh, Tet t, Vertex a, Vertex b, std::vector<Tet>& out
 /// the walk arrive nearly always (Devillers, Pion, Teillaud 2002). `random` is its state.
 [[nodiscard]] Tet walk_to(const TetMesh& mesh, Vertex v, Tet start, std::uint32_t& random);
 
-/// Marks edge ab in its whole shell as part of an input segment.
-void set_segment(TetMesh& mesh, Tet t, Vertex a, Vertex b);
-
 }  // namespace holdfast

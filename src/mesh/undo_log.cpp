@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "mesh/editor.h"
+
 namespace holdfast {
 namespace {
 
@@ -24,22 +26,19 @@ const std::size_t* find(const std::vector<std::pair<Number, std::size_t>>& notes
 }  // namespace
 
 UndoLog::~UndoLog() {
-  if (held_ > 0) mesh_.log_.log = nullptr;
+  if (held_ > 0) MeshEditor(mesh_).note_in(nullptr);
 }
 
 UndoLog::Mark UndoLog::mark() {
-  if (held_++ == 0) {
-    assert(mesh_.log_.log == nullptr);
-    mesh_.log_.log = this;
-  }
-  ++epoch_;
+  if (held_++ == 0) MeshEditor(mesh_).note_in(this);
+  begin_epoch();
   return {slots_.size(), vertices_.size(), free_moves_.size(), mesh_.slot_count(), mesh_.vertex_count()};
 }
 
 void UndoLog::release() {
   assert(held_ > 0);
   if (--held_ > 0) return;
-  mesh_.log_.log = nullptr;
+  MeshEditor(mesh_).note_in(nullptr);
   slots_.clear();
   vertices_.clear();
   free_moves_.clear();
@@ -49,53 +48,18 @@ void UndoLog::note_slot(Tet t) {
   if (t >= slot_epoch_.size()) slot_epoch_.resize(mesh_.slot_count(), 0);
   if (std::exchange(slot_epoch_[t], epoch_) == epoch_) return;
   // A mesh between two operations has no visited tetrahedra.
-  const auto flags = static_cast<Flags>(mesh_.flags_[t] & ~kVisited);
-  slots_.push_back({t, mesh_.corners_[t], mesh_.neighbours_[t], flags});
+  const auto flags = static_cast<Flags>(mesh_.flags(t) & ~kVisited);
+  slots_.push_back({t, mesh_.corners(t), mesh_.neighbours(t), flags});
 }
 
 void UndoLog::note_vertex(Vertex v) {
   assert(mesh_.is_explicit(v));
   if (v >= vertex_epoch_.size()) vertex_epoch_.resize(mesh_.vertex_count(), 0);
   if (std::exchange(vertex_epoch_[v], epoch_) == epoch_) return;
-  vertices_.push_back({v, mesh_.positions_[v], mesh_.incident_[v]});
+  vertices_.push_back({v, mesh_.position(v), mesh_.incident(v)});
 }
 
-void UndoLog::undo(const Mark& mark) {
-  // The newest first, so that the oldest note of a slot, which is that of the mark, decides.
-  while (slots_.size() > mark.slots) {
-    const Slot& old = slots_.back();
-    mesh_.corners_[old.tet] = old.corners;
-    mesh_.neighbours_[old.tet] = old.neighbours;
-    mesh_.flags_[old.tet] = old.flags;
-    slots_.pop_back();
-  }
-  mesh_.corners_.resize(mark.slot_count);
-  mesh_.neighbours_.resize(mark.slot_count);
-  mesh_.flags_.resize(mark.slot_count);
-  while (free_moves_.size() > mark.free_moves) {
-    if (free_moves_.back().taken)
-      mesh_.free_.push_back(free_moves_.back().tet);
-    else
-      mesh_.free_.pop_back();
-    free_moves_.pop_back();
-  }
-  const auto resize_vertices = [this](std::size_t count) {
-    mesh_.positions_.resize(count);
-    mesh_.exact_of_.resize(count, kNone);
-    mesh_.incident_.resize(count, kNone);
-  };
-  if (mesh_.vertex_count() < mark.vertex_count) resize_vertices(mark.vertex_count);
-  while (vertices_.size() > mark.vertices) {
-    const VertexState& old = vertices_.back();
-    if (old.vertex < mark.vertex_count) {
-      mesh_.positions_[old.vertex] = old.position;
-      mesh_.incident_[old.vertex] = old.incident;
-    }
-    vertices_.pop_back();
-  }
-  resize_vertices(mark.vertex_count);
-  ++epoch_;
-}
+void UndoLog::undo(const Mark& mark) { MeshEditor(mesh_).undo(*this, mark); }
 
 UndoLog::Before::Before(const UndoLog& log, const Mark& mark) : log_(log), slot_count_(mark.slot_count) {
   for (std::size_t k = mark.slots; k < log.slots_.size(); ++k)

@@ -63,6 +63,7 @@ class UndoLog {
 
  private:
   friend class TetMesh;
+  friend class MeshEditor;
   struct Slot {
     Tet tet;
     TetMesh::Corners corners;
@@ -83,6 +84,7 @@ class UndoLog {
   void note_slot(Tet t);
   void note_vertex(Vertex v);
   void note_free(Tet t, bool taken) { free_moves_.push_back({t, taken}); }
+  void begin_epoch() { ++epoch_; }
 
   TetMesh& mesh_;
   std::vector<Slot> slots_;

@@ -61,8 +61,7 @@ std::string find_fault(const TetMesh& mesh) {
       ring.clear();
       shell(mesh, t, a, b, ring);
       for (const Tet s : ring)
-        if (!mesh.is_segment(s, kEdgeOf[static_cast<std::size_t>(mesh.index_of(s, a))]
-                                       [static_cast<std::size_t>(mesh.index_of(s, b))]))
+        if (!mesh.is_segment(s, mesh.edge_of(s, a, b)))
           return say(t, "has a segment bit that its shell lacks");
     }
   }

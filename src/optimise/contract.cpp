@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesh/editor.h"
 #include "mesh/traverse.h"
 #include "optimise/tuning.h"
 
@@ -34,7 +35,7 @@ std::span<const Tet> VertexContractor::contract(Vertex v, double longest) {
   }
   if (fresh_.empty()) return {};
   const auto created = volume_.replace(tets_, fresh_);
-  mesh.remove_vertex(v);
+  MeshEditor(mesh).remove_vertex(v);
   return created;
 }
 

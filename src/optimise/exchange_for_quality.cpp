@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "mesh/replace.h"
+#include "mesh/editor.h"
 #include "optimise/tuning.h"
 
 namespace holdfast {
@@ -49,9 +49,9 @@ bool Exchanger::improve(Tet t, std::vector<Tet>& created) {
   const Exchange* const best = search_.best_at(t, objective);
   if (best == nullptr) return false;
   if (best->removes_edge)
-    replace_shell(mesh_, best->shell, best->triangles, &created);
+    MeshEditor(mesh_).replace_shell(best->shell, best->triangles, &created);
   else
-    replace(mesh_, {.old_tets = best->old_tets, .new_tets = best->new_tets}, &created);
+    MeshEditor(mesh_).replace({.old_tets = best->old_tets, .new_tets = best->new_tets}, &created);
   return true;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesh/edge_removal.h"
+#include "mesh/editor.h"
 #include "mesh/quality.h"
 #include "optimise/badness.h"
 #include "optimise/tuning.h"
@@ -40,7 +41,7 @@ Vertex insert_into(TetMesh& mesh, Cavity cavity, double most, std::vector<Tet>& 
   };
   const auto place = grow_until_placed(mesh, cavity, tuning::kMostInsertSteps, origin, place_in);
   if (!place) return kNone;
-  const Vertex p = mesh.add_vertex(*place);
+  const Vertex p = MeshEditor(mesh).add_vertex(*place);
   cone(mesh, cavity, p, &created);
   return p;
 }

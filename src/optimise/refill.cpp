@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesh/editor.h"
 #include "optimise/tuning.h"
 #include "suppress/fill_cavity.h"
 
@@ -109,7 +110,7 @@ std::span<const Tet> CavityRefiller::apply() {
     return {};
   }
   const auto created = volume_.replace(best_.old_tets, best_.fresh);
-  for (const Vertex v : best_.inner) mesh.remove_vertex(v);
+  for (const Vertex v : best_.inner) MeshEditor(mesh).remove_vertex(v);
   return created;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "mesh/editor.h"
 #include "mesh/traverse.h"
 #include "optimise/badness.h"
 
@@ -62,8 +63,7 @@ bool FlatRemover::remove(Tet t, double bad_from, std::vector<Tet>& created) {
 bool FlatRemover::remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex avoided) {
   EdgeShell& shell = shells_[static_cast<std::size_t>(depth)];
   while (t != kNone) {
-    const auto local = [&](Vertex v) { return static_cast<std::size_t>(mesh_.index_of(t, v)); };
-    if (++work_ > tuning::kFlatShells || mesh_.is_segment(t, kEdgeOf[local(a)][local(b)]) ||
+    if (++work_ > tuning::kFlatShells || mesh_.is_segment(t, mesh_.edge_of(t, a, b)) ||
         !gather_shell(mesh_, t, a, b, shell, tuning::kMostShellForFlat))
       return false;
     if (remove_now(shell, avoided)) return true;
@@ -85,7 +85,7 @@ bool FlatRemover::remove_now(const EdgeShell& shell, Vertex avoided) {
   if (!triangulation_.find(shell.size(), objective)) return false;
   triangles_.clear();
   triangulation_.triangles(shell.size(), triangles_);
-  replace_shell(mesh_, shell, triangles_, created_);
+  MeshEditor(mesh_).replace_shell(shell, triangles_, created_);
   return true;
 }
 

@@ -42,15 +42,12 @@ void VertexSmoother::gather_star(Vertex v) {
 // Makes the move if the exact signs agree.
 bool VertexSmoother::settle(Vertex v, double before) {
   TetMesh& mesh = volume_.mesh();
-  const Point old = mesh.position(v);
-  MeshEditor editor(mesh);
-  editor.place_vertex(v, frame_.from(star_.at()));
   const auto is_positive = [&](Tet t) { return volume_.is_positive(mesh.corners(t)); };
-  if (!std::all_of(tets_.begin(), tets_.end(), is_positive) || (!frame_.is_plain() && !is_better(before))) {
-    editor.place_vertex(v, old);
+  if (!MeshEditor(mesh).move_if(v, frame_.from(star_.at()), tets_, [&] {
+        return std::all_of(tets_.begin(), tets_.end(), is_positive) &&
+               (frame_.is_plain() || is_better(before));
+      }))
     return false;
-  }
-  editor.finish(tets_);
   if (frame_.is_plain())
     star_.for_each_energy([&](std::size_t k, double e) { volume_.note(tets_[k], e); });
   else

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "mesh/editor.h"
 #include "mesh/exchange.h"
-#include "mesh/replace.h"
 #include "optimise/energy.h"
 #include "optimise/tuning.h"
 #include "refine/volume_data.h"
@@ -62,14 +62,14 @@ class ImprovedVolume {
 
   /// Adds a vertex with the size and metric of those near it.
   Vertex add_vertex(const Point& place, const TetMesh::Corners& near) {
-    const Vertex p = mesh_.add_vertex(place);
+    const Vertex p = MeshEditor(mesh_).add_vertex(place);
     data_.sizes.resize(mesh_.vertex_count(), 0);
     for (const Vertex v : near) data_.sizes[p] = std::max(data_.sizes[p], data_.sizes[v]);
     if (data_.metrics != nullptr) data_.metrics->push_back(data_.mean_metric(near));
     return p;
   }
   void remove_last_vertex() {
-    mesh_.remove_last_vertex();
+    MeshEditor(mesh_).remove_last_vertex();
     data_.sizes.pop_back();
     if (data_.metrics != nullptr) data_.metrics->pop_back();
   }
@@ -86,7 +86,7 @@ class ImprovedVolume {
   std::span<const Tet> replace(std::span<const Tet> old_tets, std::span<const TetMesh::Corners> fresh) {
     const RegionId region = region_of_[old_tets.front()];
     created_.clear();
-    holdfast::replace(mesh_, {.old_tets = old_tets, .new_tets = fresh}, &created_);
+    MeshEditor(mesh_).replace({.old_tets = old_tets, .new_tets = fresh}, &created_);
     adopt(created_, region);
     return created_;
   }
@@ -94,7 +94,7 @@ class ImprovedVolume {
     if (!exchange.removes_edge) return replace(exchange.old_tets, exchange.new_tets);
     const RegionId region = region_of_[exchange.old_tets.front()];
     created_.clear();
-    replace_shell(mesh_, exchange.shell, exchange.triangles, &created_);
+    MeshEditor(mesh_).replace_shell(exchange.shell, exchange.triangles, &created_);
     adopt(created_, region);
     return created_;
   }

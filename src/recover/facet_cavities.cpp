@@ -10,7 +10,6 @@
 #include "delaunay/box.h"
 #include "delaunay/delaunay.h"
 #include "mesh/editor.h"
-#include "mesh/replace.h"
 #include "mesh/traverse.h"
 #include "recover/insert_vertex.h"
 #include "recover/recover.h"
@@ -134,9 +133,10 @@ class Cavity {
   // Delaunay tetrahedra of the vertices that have doubles and of the far points; then come the others, which
   // have waited in the place of a corner of the facet, where Delaunay leaves them out.
   bool triangulate(const Local& local, std::uint64_t seed, TetMesh& mesh) const {
-    for (const Vertex v : vertices_) mesh.add_vertex(mesh_.position(mesh_.is_explicit(v) ? v : facet_[0]));
-    for (const Point& p : far_points(local)) mesh.add_vertex(p);
-    mesh.set_grid(mesh_.grid());
+    for (const Vertex v : vertices_)
+      MeshEditor(mesh).add_vertex(mesh_.position(mesh_.is_explicit(v) ? v : facet_[0]));
+    for (const Point& p : far_points(local)) MeshEditor(mesh).add_vertex(p);
+    MeshEditor(mesh).set_grid(mesh_.grid());
     if (!build_delaunay(mesh, {seed}, nullptr)) return false;
     auto random = static_cast<std::uint32_t>(seed);
     for (Vertex k = 0; k < vertices_.size(); ++k) {
@@ -376,11 +376,12 @@ bool FacetCavities::recover(const FaceCorners& facet, const Tell& tell, const Fi
   if (!in_the_way_.empty()) return false;
   std::optional<Filling> filling = pair.fill(random_(), finish, tell);
   if (!filling) return false;
-  for (const exact::ExactPoint& p : filling->points) added_.push_back(mesh_.add_vertex(p));
+  for (const exact::ExactPoint& p : filling->points) added_.push_back(MeshEditor(mesh_).add_vertex(p));
   for (TetMesh::Corners& t : filling->tets)
     for (Vertex& v : t)
       if (v >= Filling::kAdded) v = added_[v - Filling::kAdded];
-  replace(mesh_, {.old_tets = pair.tets(), .new_tets = filling->tets, .facets = std::span(&facet, 1)});
+  MeshEditor(mesh_).replace(
+      {.old_tets = pair.tets(), .new_tets = filling->tets, .facets = std::span(&facet, 1)});
   return true;
 }
 

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "mesh/face_swap.h"
-#include "mesh/replace.h"
+#include "mesh/editor.h"
 #include "numbers/random.h"
 
 namespace holdfast {
@@ -113,7 +112,7 @@ bool Flipper::flip_face(const Crossing& face) {
   int change = target_.edge(mesh_, d, e) - target_.face(mesh_, f[0], f[1], f[2]);
   for (const Vertex v : f) change += target_.face(mesh_, v, d, e);
   if (change >= 0) return false;
-  swap_face(mesh_, code);
+  MeshEditor(mesh_).swap_face(code);
   note_flip(2, change);
   ++counts_.face_flips;
   return true;
@@ -123,9 +122,7 @@ bool Flipper::flip_face(const Crossing& face) {
 // is none for an edge that the target crosses, which is to lessen the crossings; else it is a vertex that
 // the new edges avoid, so that the edge from a or b to it loses a tetrahedron of its shell.
 bool Flipper::remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex favoured) {
-  if (mesh_.is_segment(t, kEdgeOf[static_cast<std::size_t>(mesh_.index_of(t, a))]
-                                 [static_cast<std::size_t>(mesh_.index_of(t, b))]))
-    return false;
+  if (mesh_.is_segment(t, mesh_.edge_of(t, a, b))) return false;
   if (!tried_.add(a, b, depth)) return false;
   Level& level = levels_[static_cast<std::size_t>(depth)];
   EdgeShell& shell = level.shell;
@@ -179,7 +176,7 @@ bool Flipper::remove_edge_now(const Level& level, Vertex favoured) {
   if (change_ + change > (favoured == kNone ? most_change_ : 0)) return false;
   triangles_.clear();
   triangulation_.triangles(shell.size(), triangles_);
-  replace_shell(mesh_, shell, triangles_);
+  MeshEditor(mesh_).replace_shell(shell, triangles_);
   note_flip(shell.size(), change);
   ++counts_.edge_removals;
   return true;
@@ -255,7 +252,7 @@ Tet Flipper::survivor(const EdgeShell& shell) {
 
 void Flipper::apply(std::span<const Tet> old_tets, int change) {
   created_.clear();
-  replace(mesh_, {.old_tets = old_tets, .new_tets = fresh_}, &created_);
+  MeshEditor(mesh_).replace({.old_tets = old_tets, .new_tets = fresh_}, &created_);
   note_flip(old_tets.size(), change);
 }
 

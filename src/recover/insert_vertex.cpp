@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "mesh/replace.h"
+#include "mesh/editor.h"
 #include "mesh/traverse.h"
 
 namespace holdfast {
@@ -53,7 +53,7 @@ bool insert_vertex(TetMesh& mesh, Vertex v, std::uint32_t& random) {
       const auto c = mesh.face_vertices(f);
       cone.push_back({c[0], c[1], c[2], v});
     }
-  replace(mesh, {.old_tets = holders, .new_tets = cone});
+  MeshEditor(mesh).replace({.old_tets = holders, .new_tets = cone});
   return true;
 }
 

@@ -104,7 +104,7 @@ bool FlipRecovery::segment(Index s, const Effort& effort) {
     if (way == Way::blocked) way = clear_first(b, a);
   } while (way == Way::blocked && effort.thorough && clear_between(a, b, effort));
   if (way != Way::open) return false;
-  set_segment(mesh_, edge, a, b);
+  MeshEditor(mesh_).set_segment(edge, a, b);
   standing_.segments[s] = 1;
   return true;
 }

@@ -53,7 +53,7 @@ class Marker {
       flags |= facet_bit(i);
       stands(standing_.facets[f]);
     }
-    if (flags != 0) MeshEditor(mesh_).set_flags(t, flags);
+    if (flags != 0) MeshEditor(mesh_).mark_constraints(t, flags);
   }
 
   // Tetrahedra that several threads look at share it.
@@ -86,7 +86,9 @@ std::size_t Standing::missing_segments() const { return zeros(segments); }
 std::size_t Standing::missing_facets() const { return zeros(facets); }
 
 Standing mark_present(TetMesh& mesh, const SegmentTable& table, const Threads& threads) {
-  return Marker(mesh, table).run(threads);
+  Standing standing = Marker(mesh, table).run(threads);
+  MeshEditor(mesh).finish();
+  return standing;
 }
 
 }  // namespace holdfast

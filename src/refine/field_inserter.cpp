@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesh/editor.h"
 #include "refine/parts.h"
 #include "refine/vector.h"
 
@@ -15,9 +16,9 @@ constexpr double kNearest = 0.7, kLeastHeight = 0.4;
 
 std::span<const Tet> FieldInserter::insert(const Point& x, Tet start) {
   const RegionId region = volume_.region_of[start];
-  const Vertex p = mesh_.add_vertex(x);
+  const Vertex p = MeshEditor(mesh_).add_vertex(x);
   if (!fits(p, start)) {
-    mesh_.remove_last_vertex();
+    MeshEditor(mesh_).remove_last_vertex();
     return {};
   }
   volume_.sizes.push_back(size_);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "mesh/editor.h"
+#include "mesh/assembly.h"
 #include "mesh/parallel.h"
 #include "refine/order.h"
 
@@ -79,11 +79,11 @@ class PartMaker {
   }
 
   void copy_vertices() {
-    part_.mesh.set_grid(whole_.mesh.grid());
-    part_.mesh.add_vertices(part_.vertices_.size());
+    MeshAssembly(part_.mesh).set_grid(whole_.mesh.grid());
+    MeshAssembly(part_.mesh).add_vertices(part_.vertices_.size());
     part_.sizes.resize(part_.vertices_.size());
     for (Vertex v = 0; v < part_.vertices_.size(); ++v) {
-      MeshEditor(part_.mesh).place_vertex(v, whole_.mesh.position(part_.vertices_[v]));
+      MeshAssembly(part_.mesh).place_vertex(v, whole_.mesh.position(part_.vertices_[v]));
       part_.sizes[v] = whole_.sizes[part_.vertices_[v]];
     }
     if (whole_.metrics == nullptr) return;
@@ -107,12 +107,13 @@ class PartMaker {
       corners[k] = {place_[v[0]], place_[v[2]], place_[v[1]], kGhost};
       neighbours_.push_back({kNone, kNone, kNone, face_code(local_of_[tet_of(inner)], side_of(inner))});
     }
-    MeshEditor(part_.mesh).load(std::move(corners), std::move(neighbours_));
+    MeshAssembly(part_.mesh).set_tets(std::move(corners), std::move(neighbours_));
   }
 
   void copy_flags() {
     for (Tet t = 0; t < part_.first_ghost_; ++t)
-      MeshEditor(part_.mesh).set_flags(t, static_cast<Flags>(whole_.mesh.flags(tets_[t]) & kConstraintBits));
+      MeshAssembly(part_.mesh)
+          .set_flags(t, static_cast<Flags>(whole_.mesh.flags(tets_[t]) & kConstraintBits));
   }
 
   // Two ghosts are neighbours where turning through the part leads from one to the other.
@@ -122,11 +123,11 @@ class PartMaker {
       if (part_.is_beyond_interface(ghost)) part_.hold_interface(ghost);
       for (int j = 0; j < 3; ++j)
         if (mesh.neighbour(ghost, j) == kNone)
-          MeshEditor(mesh).link(face_code(ghost, j),
-                                part_.turn(mesh.neighbour(ghost, 3), mesh.corner(ghost, j), [](Tet, int) {}));
+          MeshAssembly(mesh).link(face_code(ghost, j), part_.turn(mesh.neighbour(ghost, 3),
+                                                                  mesh.corner(ghost, j), [](Tet, int) {}));
     }
     for (Tet ghost = part_.first_ghost_; ghost < mesh.slot_count(); ++ghost) part_.copy_constraints_to(ghost);
-    MeshEditor(mesh).finish();
+    MeshAssembly(mesh).finish();
   }
 
   const VolumeData& whole_;
@@ -156,12 +157,12 @@ Face Part::turn(Face in, Vertex across, Act&& act) const {
 
 void Part::hold_interface(Tet ghost) {
   const Face inner = mesh.neighbour(ghost, 3);
-  MeshEditor(mesh).set_flags(tet_of(inner), facet_bit(side_of(inner)));
+  MeshAssembly(mesh).set_flags(tet_of(inner), facet_bit(side_of(inner)));
   for (int j = 0; j < 3; ++j) {
     bool is_held = false;
     turn(inner, mesh.corner(ghost, j), [&](Tet t, int edge) {
       is_held = is_held || !mesh.is_segment(t, edge);
-      if (is_held) MeshEditor(mesh).set_flags(t, segment_bit(edge));
+      if (is_held) MeshAssembly(mesh).set_flags(t, segment_bit(edge));
     });
     if (is_held) bounds_[ghost - first_ghost_].held |= static_cast<std::uint8_t>(1u << j);
   }
@@ -170,13 +171,13 @@ void Part::hold_interface(Tet ghost) {
 void Part::copy_constraints_to(Tet ghost) {
   const Face inner = mesh.neighbour(ghost, 3);
   const Tet t = tet_of(inner);
-  if (mesh.is_facet(inner)) MeshEditor(mesh).set_flags(ghost, facet_bit(3));
+  if (mesh.is_facet(inner)) MeshAssembly(mesh).set_flags(ghost, facet_bit(3));
   for (int edge = 0; edge < 6; ++edge) {
     const auto& ends = kEdgeVertex[static_cast<std::size_t>(edge)];
     if (!mesh.is_segment(t, edge) || ends[0] == side_of(inner) || ends[1] == side_of(inner)) continue;
     const auto i = static_cast<std::size_t>(mesh.index_of(ghost, mesh.corner(t, ends[0])));
     const auto j = static_cast<std::size_t>(mesh.index_of(ghost, mesh.corner(t, ends[1])));
-    MeshEditor(mesh).set_flags(ghost, segment_bit(kEdgeOf[i][j]));
+    MeshAssembly(mesh).set_flags(ghost, segment_bit(kEdgeOf[i][j]));
   }
 }
 
@@ -185,11 +186,11 @@ void Part::release_interfaces() {
     if (!bounds_[k].is_interface) continue;
     const Tet ghost = first_ghost_ + k;
     const Face inner = mesh.neighbour(ghost, 3);
-    MeshEditor(mesh).clear_flags(tet_of(inner), facet_bit(side_of(inner)));
+    MeshAssembly(mesh).clear_flags(tet_of(inner), facet_bit(side_of(inner)));
     for (int j = 0; j < 3; ++j)
       if ((bounds_[k].held >> j & 1) != 0)
         turn(inner, mesh.corner(ghost, j),
-             [&](Tet t, int edge) { MeshEditor(mesh).clear_flags(t, segment_bit(edge)); });
+             [&](Tet t, int edge) { MeshAssembly(mesh).clear_flags(t, segment_bit(edge)); });
   }
 }
 
@@ -262,11 +263,11 @@ class PartJoiner {
   /// For one part at a time: slots that are left, and vertices that may be in other parts, too.
   void tidy() {
     for (std::size_t k = tets_.size(); k < part_.slots_.size(); ++k)
-      MeshEditor(whole_.mesh).remove_tet(part_.slots_[k]);
+      MeshAssembly(whole_.mesh).remove_tet(part_.slots_[k]);
     for (Vertex v = 0; v < part_.first_free; ++v) {
       Tet t = part_.mesh.incident(v);
       if (part_.mesh.is_ghost(t)) t = tet_of(part_.mesh.neighbour(t, 3));
-      MeshEditor(whole_.mesh).set_incident(part_.vertices_[v], joined_[t]);
+      MeshAssembly(whole_.mesh).set_incident(part_.vertices_[v], joined_[t]);
     }
   }
 
@@ -281,8 +282,8 @@ class PartJoiner {
     for (Vertex v = part_.first_free; v < part_.vertices_.size(); ++v) {
       const Vertex w = part_.vertices_[v];
       const Tet t = part_.mesh.incident(v);
-      MeshEditor(whole_.mesh).place_vertex(w, part_.mesh.position(v));
-      MeshEditor(whole_.mesh).set_incident(w, t == kNone ? kNone : joined_[t]);
+      MeshAssembly(whole_.mesh).place_vertex(w, part_.mesh.position(v));
+      MeshAssembly(whole_.mesh).set_incident(w, t == kNone ? kNone : joined_[t]);
       whole_.sizes[w] = part_.sizes[v];
       if (whole_.metrics != nullptr) (*whole_.metrics)[w] = part_.metrics[v];
     }
@@ -297,7 +298,7 @@ class PartJoiner {
         const Face g = part_.mesh.neighbour(t, i);
         neighbours[static_cast<std::size_t>(i)] = face_code(joined_[tet_of(g)], side_of(g));
       }
-      MeshEditor(whole_.mesh)
+      MeshAssembly(whole_.mesh)
           .put_tet(joined_[t], corners, neighbours,
                    static_cast<Flags>(part_.mesh.flags(t) & kConstraintBits));
       whole_.region_of[joined_[t]] = part_.region_of[t];
@@ -306,7 +307,7 @@ class PartJoiner {
 
   void link_to_what_stands() {
     for (Tet k = 0; k < part_.bounds_.size(); ++k)
-      if (!part_.bounds_[k].is_next_a_part) MeshEditor(whole_.mesh).link(now_at(k), part_.bounds_[k].outer);
+      if (!part_.bounds_[k].is_next_a_part) MeshAssembly(whole_.mesh).link(now_at(k), part_.bounds_[k].outer);
   }
 
   const VolumeData& whole_;
@@ -332,7 +333,7 @@ void link_seams(TetMesh& mesh, const std::vector<PartJoiner>& joiners) {
     if (seam.outer < seam.inner) continue;
     const auto other =
         std::lower_bound(seams.begin(), seams.end(), PartJoiner::Seam{seam.outer, 0, 0}, by_inner);
-    MeshEditor(mesh).link(seam.now, other->now);
+    MeshAssembly(mesh).link(seam.now, other->now);
   }
 }
 
@@ -402,8 +403,8 @@ void Parts::join(const Threads& threads) {
     tet += static_cast<Tet>(joiner.new_tets());
     vertex += static_cast<Vertex>(joiner.new_vertices());
   }
-  MeshEditor(whole_.mesh).add_slots(tet - whole_.mesh.slot_count());
-  whole_.mesh.add_vertices(vertex - whole_.mesh.vertex_count());
+  MeshAssembly(whole_.mesh).add_slots(tet - whole_.mesh.slot_count());
+  MeshAssembly(whole_.mesh).add_vertices(vertex - whole_.mesh.vertex_count());
   whole_.region_of.resize(whole_.mesh.slot_count(), kNone);
   whole_.sizes.resize(whole_.mesh.vertex_count(), 0);
   if (whole_.metrics != nullptr) whole_.metrics->resize(whole_.mesh.vertex_count());
@@ -413,7 +414,7 @@ void Parts::join(const Threads& threads) {
   });
   for (PartJoiner& joiner : joiners) joiner.tidy();
   link_seams(whole_.mesh, joiners);
-  MeshEditor(whole_.mesh).finish();
+  MeshAssembly(whole_.mesh).finish();
 }
 
 std::vector<Vertex> Parts::vertices_between() const {

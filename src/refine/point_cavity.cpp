@@ -7,8 +7,6 @@
 namespace holdfast {
 namespace {
 
-std::uint64_t edge_key(std::uint64_t a, std::uint64_t b) { return std::min(a, b) << 32 | std::max(a, b); }
-
 // Side i < 3 of a face of the rim is its edge opposite corner i.
 constexpr std::array<std::array<std::size_t, 2>, 3> kSide{{{1, 2}, {2, 0}, {0, 1}}};
 
@@ -224,23 +222,17 @@ void PointCavity::abandon() {
 }
 
 void PointCavity::insert() {
-  MeshEditor editor(mesh_);
-  for (const Tet t : tets_) editor.remove_tet(t);
-  created_.resize(rim_.size());
+  new_tets_.resize(rim_.size());
   for (std::size_t k = 0; k < rim_.size(); ++k) {
-    const Rim& rim = rim_[k];
-    const Tet t = editor.add_tet({rim.v[0], rim.v[1], rim.v[2], p_});
-    created_[k] = t;
-    editor.set_flags(t, rim.flags);
-    editor.link(face_code(t, 3), rim.outer);
-    for (const Vertex v : rim.v) editor.set_incident(v, t);
+    const auto& [v, local, outer, flags] = rim_[k];
+    new_tets_[k] = {{v[0], v[1], v[2], p_}, {kNone, kNone, kNone, outer}, flags};
   }
-  editor.set_incident(p_, created_.front());
   if (fits_table())
     link_by_table();
   else
     link_by_sorting();
-  editor.finish(created_);
+  created_.clear();
+  MeshEditor(mesh_).apply({tets_, new_tets_, p_}, created_);
 }
 
 // Face i of a new tetrahedron, i < 3, lies at side i of its face of the rim; the neighbour has the same edge
@@ -248,25 +240,24 @@ void PointCavity::insert() {
 void PointCavity::link_by_table() {
   const std::size_t n = ring_.size();
   for (std::size_t k = 0; k < rim_.size(); ++k)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t entry = table_[rim_[k].local[kSide[i][1]] * n + rim_[k].local[kSide[i][0]]];
-      MeshEditor(mesh_).link(face_code(created_[k], static_cast<int>(i)),
-                             face_code(created_[tet_of(entry)], side_of(entry)));
-    }
+    for (std::size_t i = 0; i < 3; ++i)
+      new_tets_[k].neighbours[i] =
+          table_[rim_[k].local[kSide[i][1]] * n + rim_[k].local[kSide[i][0]]] | kNewFace;
 }
 
 void PointCavity::link_by_sorting() {
   sides_.clear();
   for (std::size_t k = 0; k < rim_.size(); ++k)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint64_t a = rim_[k].local[(i + 1) % 3], b = rim_[k].local[(i + 2) % 3];
-      sides_.push_back({edge_key(a, b), face_code(created_[k], static_cast<int>(i))});
-    }
+    for (std::size_t i = 0; i < 3; ++i)
+      sides_.push_back({edge_key(rim_[k].local[(i + 1) % 3], rim_[k].local[(i + 2) % 3]), new_face(k, i)});
   std::sort(sides_.begin(), sides_.end(), [](const Side& x, const Side& y) {
     return x.edge != y.edge ? x.edge < y.edge : x.face < y.face;
   });
-  for (std::size_t k = 0; k + 1 < sides_.size(); k += 2)
-    MeshEditor(mesh_).link(sides_[k].face, sides_[k + 1].face);
+  for (std::size_t k = 0; k + 1 < sides_.size(); k += 2) {
+    const Face f = sides_[k].face, g = sides_[k + 1].face;
+    new_tets_[number_of_new(f)].neighbours[f & 3u] = g;
+    new_tets_[number_of_new(g)].neighbours[g & 3u] = f;
+  }
 }
 
 }  // namespace holdfast

@@ -15,6 +15,8 @@
 #include <span>
 #include <vector>
 
+#include "mesh/change.h"
+#include "mesh/keys.h"
 #include "mesh/tet_mesh.h"
 #include "mesh/traverse.h"
 #include "metric/frame.h"
@@ -88,16 +90,17 @@ class PointCavity {
   std::vector<Rim> rim_;
   std::vector<Vertex> ring_;
   std::vector<std::uint32_t> place_;  // by vertex: position in the ring, if the ring holds it there
+  std::vector<NewTet> new_tets_;      // the star of p: new_tets_[k] stands on rim_[k]
   std::vector<Tet> created_;
   // By the ring's two vertices of an edge of the rim: 4 * face of the rim + side. Entries of other cavities
   // stay: who reads one compares.
   std::vector<std::uint32_t> table_;
   struct Side {
-    std::uint64_t edge;
+    EdgeKey edge;
     Face face;
   };
-  std::vector<Side> sides_;           // where the ring is too large for the table
-  std::vector<std::uint64_t> edges_;  // of the rim, sorted; likewise
+  std::vector<Side> sides_;     // where the ring is too large for the table
+  std::vector<EdgeKey> edges_;  // of the rim, sorted; likewise
   std::uint32_t random_;
   std::size_t work_ = 0;
 };

@@ -1,8 +1,8 @@
 #include "suppress/collapse.h"
 
+#include "mesh/editor.h"
 #include "mesh/kernel.h"
 #include "mesh/measure.h"
-#include "mesh/replace.h"
 #include "mesh/traverse.h"
 #include "suppress/fill_cavity.h"
 
@@ -13,8 +13,8 @@ Fate remove_or_recentre(TetMesh& mesh, Vertex p, const PolyhedronOptions& search
   ball(mesh, p, tets);
   const Kernel kernel = kernel_of_ball(mesh, p, tets);
   const auto refill = [&](const std::vector<TetMesh::Corners>& fresh) {
-    replace(mesh, {.old_tets = tets, .new_tets = fresh});
-    mesh.remove_vertex(p);
+    MeshEditor(mesh).replace({.old_tets = tets, .new_tets = fresh});
+    MeshEditor(mesh).remove_vertex(p);
   };
   if (const Vertex apex = best_apex(mesh, kernel); apex != kNone) {
     refill(cone_of(kernel.faces(), apex));
@@ -26,7 +26,7 @@ Fate remove_or_recentre(TetMesh& mesh, Vertex p, const PolyhedronOptions& search
   }
   const auto position = kernel.find(mesh.point(p));
   if (!position) return Fate::stays;
-  move_vertex(mesh, p, *position);
+  MeshEditor(mesh).move_vertex(p, *position);
   return Fate::moved;
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mesh/replace.h"
+#include "mesh/editor.h"
 
 namespace holdfast {
 
@@ -23,17 +23,20 @@ bool fill(TetMesh& mesh, const Cavity& cavity, const PolyhedronOptions& search, 
   const auto fresh = fill_polyhedron(mesh, cavity.faces(), search);
   if (!fresh) return false;
   const std::vector<Vertex> inner = cavity.inner();
-  replace(mesh, {.old_tets = cavity.tets(), .new_tets = *fresh}, created);
-  for (const Vertex v : inner) mesh.remove_vertex(v);
+  MeshEditor(mesh).replace({.old_tets = cavity.tets(), .new_tets = *fresh}, created);
+  for (const Vertex v : inner) MeshEditor(mesh).remove_vertex(v);
   return true;
 }
 
-void cone(TetMesh& mesh, const Cavity& cavity, Vertex apex, std::vector<Tet>* created) {
+void cone(TetMesh& mesh, const Cavity& cavity, Vertex apex, std::vector<Tet>* created,
+          const std::optional<Point>& place) {
   const std::vector<Vertex> inner = cavity.inner();
   const std::vector<TetMesh::Corners> fresh = cone_of(cavity.faces(), apex);
-  replace(mesh, {.old_tets = cavity.tets(), .new_tets = fresh}, created);
+  Replacement replacement{.old_tets = cavity.tets(), .new_tets = fresh};
+  if (place) replacement.move = {apex, *place};
+  MeshEditor(mesh).replace(replacement, created);
   for (const Vertex v : inner)
-    if (v != apex) mesh.remove_vertex(v);
+    if (v != apex) MeshEditor(mesh).remove_vertex(v);
 }
 
 }  // namespace holdfast

@@ -23,8 +23,10 @@ namespace holdfast {
 bool fill(TetMesh& mesh, const Cavity& cavity, const PolyhedronOptions& search,
           std::vector<Tet>* created = nullptr);
 
-/// Fills a cavity from an apex in its kernel; the other Steiner points inside go.
-void cone(TetMesh& mesh, const Cavity& cavity, Vertex apex, std::vector<Tet>* created = nullptr);
+/// Fills a cavity from an apex in its kernel, or one that moves into it, to `place`; the other Steiner points
+/// inside go.
+void cone(TetMesh& mesh, const Cavity& cavity, Vertex apex, std::vector<Tet>* created = nullptr,
+          const std::optional<Point>& place = {});
 
 /// A place for a point that joins all faces. While there is none the cavity grows, by at most `steps`
 /// tetrahedra, across the faces that leave least room. `origin(cavity)` is where the centre of the kernel is

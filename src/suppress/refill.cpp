@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "mesh/double_in_kernel.h"
-#include "mesh/editor.h"
 #include "mesh/traverse.h"
 #include "suppress/fill_cavity.h"
 #include "suppress/tuning.h"
@@ -20,18 +19,13 @@ std::optional<Point> place_in(const TetMesh& mesh, const Kernel& kernel, Vertex 
   return find_double(mesh, kernel.faces()).point;
 }
 
-void move_and_cone(TetMesh& mesh, const Cavity& cavity, Vertex apex, const Point& position) {
-  MeshEditor(mesh).place_vertex(apex, position);
-  cone(mesh, cavity, apex);
-}
-
 bool cone_grown(TetMesh& mesh, Cavity& cavity, Vertex apex, int steps, const Tell& tell) {
   const auto place = grow_until_placed(
       mesh, cavity, steps, [&](const Cavity&) { return mesh.point(apex); },
       [&](const Kernel& kernel, const Kernel::Centre& centre) {
         return place_in(mesh, kernel, apex, centre, tell);
       });
-  if (place) move_and_cone(mesh, cavity, apex, *place);
+  if (place) cone(mesh, cavity, apex, nullptr, place);
   return place.has_value();
 }
 
@@ -88,7 +82,7 @@ bool round_completely(TetMesh& mesh, Vertex p, Vertex first_free, int steps, con
     tell();
     const auto place = find_double(mesh, cavity.faces()).point;
     if (!place) continue;
-    move_and_cone(mesh, cavity, p, *place);
+    cone(mesh, cavity, p, nullptr, place);
     return true;
   }
   return false;

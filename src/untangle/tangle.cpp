@@ -10,9 +10,9 @@ namespace holdfast {
 Tangle::Tangle(std::span<const Point> points, std::vector<Corners> tets, std::vector<int> regions,
                Constraints constraints, const exact::DoubleGrid& grid)
     : corners_(std::move(tets)), constraints_(std::move(constraints)) {
-  points_.reserve(points.size(), 0);
-  points_.set_grid(grid);
-  for (const Point& p : points) points_.add_vertex(p);
+  MeshEditor(points_).reserve(points.size(), 0);
+  MeshEditor(points_).set_grid(grid);
+  for (const Point& p : points) MeshEditor(points_).add_vertex(p);
   star_.resize(points.size());
   region_of_.reserve(corners_.size());
   sign_.assign(corners_.size(), 1);
@@ -35,7 +35,7 @@ void Tangle::set_sign(Tet t) {
 Vertex Tangle::add_vertex(const Point& p) {
   star_.emplace_back();
   constraints_.fixed.push_back(false);
-  return points_.add_vertex(p);
+  return MeshEditor(points_).add_vertex(p);
 }
 
 void Tangle::move_vertex(Vertex v, const Point& p) {

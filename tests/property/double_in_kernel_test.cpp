@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "mesh/editor.h"
 #include "mesh/kernel.h"
 #include "mesh_fixtures.h"
 
@@ -39,7 +40,8 @@ struct Faces {
     v.c[axis] -= n[j];
     v.c[j] += n[axis];
     if (n[axis].sign() < 0) std::swap(u, v);
-    faces.push_back({mesh.add_vertex(at), mesh.add_vertex(u), mesh.add_vertex(v)});
+    faces.push_back(
+        {MeshEditor(mesh).add_vertex(at), MeshEditor(mesh).add_vertex(u), MeshEditor(mesh).add_vertex(v)});
   }
   void add_box(const ExactPoint& low, const ExactPoint& high) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -68,7 +70,7 @@ struct Trial {
 
 Trial trial_at(Random& random, const Point& middle, const Point& spacing, int grid) {
   Trial out;
-  if (grid > exact::DoubleGrid::kLeastExponent) out.faces.mesh.set_grid(exact::DoubleGrid(grid));
+  if (grid > exact::DoubleGrid::kLeastExponent) MeshEditor(out.faces.mesh).set_grid(exact::DoubleGrid(grid));
   ExactPoint low = exact::lift(middle.data()), high = low, near = low;
   std::array<std::vector<double>, 3> doubles;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -11,7 +11,7 @@
 #include "classify/regions.h"
 #include "delaunay/delaunay.h"
 #include "enforce/enforce.h"
-#include "mesh/replace.h"
+#include "mesh/editor.h"
 #include "recover/standing.h"
 #include "small_surfaces.h"
 #include "surface/complex.h"
@@ -28,7 +28,8 @@ struct Scene {
 
   explicit Scene(Surface s, int scale = 0) : surface(std::move(s)), table(segment_table(surface.view())) {
     const auto add = [&](const Point& p) {
-      mesh.add_vertex(Point{std::ldexp(p[0], scale), std::ldexp(p[1], scale), std::ldexp(p[2], scale)});
+      MeshEditor(mesh).add_vertex(
+          Point{std::ldexp(p[0], scale), std::ldexp(p[1], scale), std::ldexp(p[2], scale)});
     };
     for (const Point& p : surface.vertices) add(p);
     for (const Point& p : small::box({-9, -9, -9}, {9, 9, 9}).vertices) add(p);
@@ -126,9 +127,9 @@ TEST(Regions, FoundAgainAreTheSame) {
     std::size_t changed = 0;
     for (Tet t = 0; t < scene.mesh.slot_count(); ++t) {
       if (!scene.mesh.alive(t) || scene.mesh.is_ghost(t)) continue;
-      const Vertex p = scene.mesh.add_vertex(middle_of(scene.mesh, t));
+      const Vertex p = MeshEditor(scene.mesh).add_vertex(middle_of(scene.mesh, t));
       const std::vector<TetMesh::Corners> fresh = cone(scene.mesh, t, p);
-      replace(scene.mesh, {.old_tets = std::array{t}, .new_tets = fresh});
+      MeshEditor(scene.mesh).replace({.old_tets = std::array{t}, .new_tets = fresh});
       if (++changed == 20) break;
     }
     Regions again = scene.regions;

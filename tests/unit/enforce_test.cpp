@@ -15,7 +15,7 @@
 #include "enforce/partition_facet.h"
 #include "enforce/partition_segment.h"
 #include "hard_surfaces.h"
-#include "mesh/editor.h"
+#include "mesh/assembly.h"
 #include "mesh/validate.h"
 #include "mesh_fixtures.h"
 
@@ -42,14 +42,14 @@ Task task(const Surface& surface, const std::vector<Point>& steiner = {}) {
   t.surface = surface;
   double reach = 0;
   for (const Point& p : surface.vertices) {
-    t.mesh.add_vertex(p);
+    MeshEditor(t.mesh).add_vertex(p);
     for (const double x : p) reach = std::max(reach, 2 * std::abs(x));
   }
   for (unsigned k = 0; k < 8; ++k)
-    t.mesh.add_vertex(Point{(k & 1u) != 0 ? reach : -reach, (k & 2u) != 0 ? reach : -reach,
-                            (k & 4u) != 0 ? reach : -reach});
+    MeshEditor(t.mesh).add_vertex(Point{(k & 1u) != 0 ? reach : -reach, (k & 2u) != 0 ? reach : -reach,
+                                        (k & 4u) != 0 ? reach : -reach});
   t.first_free = static_cast<Vertex>(t.mesh.vertex_count());
-  for (const Point& p : steiner) t.mesh.add_vertex(p);
+  for (const Point& p : steiner) MeshEditor(t.mesh).add_vertex(p);
   EXPECT_TRUE(build_delaunay(t.mesh, {}, nullptr));
   t.table = segment_table(surface.view());
   t.standing = mark_present(t.mesh, t.table);
@@ -134,10 +134,10 @@ void expect_laid(const Task& t) {
   for (Vertex v = t.first_free; v < t.mesh.vertex_count(); ++v)
     exact_ones += t.mesh.in_mesh(v) && !t.mesh.is_explicit(v) ? 1 : 0;
   ASSERT_EQ(t.mesh.exact_vertex_count(), exact_ones);
-  std::set<EdgeKey> chains;
+  std::set<EdgeEnds> chains;
   for (const auto& [a, b] : t.table.segments) {
     const std::vector<Vertex> chain = vertices_on(t.mesh, a, b);
-    for (std::size_t k = 1; k < chain.size(); ++k) chains.insert(sorted(EdgeKey{chain[k - 1], chain[k]}));
+    for (std::size_t k = 1; k < chain.size(); ++k) chains.insert(sorted(EdgeEnds{chain[k - 1], chain[k]}));
   }
   ASSERT_EQ(segment_edges(t.mesh), chains);
   const std::set<FaceKey> faces = facet_faces(t.mesh);
@@ -157,8 +157,8 @@ void expect_enforced(const Task& t) {
   expect_laid(t);
   std::set<FaceKey> facets;
   for (const Triangle& f : t.surface.facets) facets.insert(sorted(FaceKey{f[0], f[1], f[2]}));
-  std::set<EdgeKey> segments;
-  for (const auto& [a, b] : t.table.segments) segments.insert(sorted(EdgeKey{a, b}));
+  std::set<EdgeEnds> segments;
+  for (const auto& [a, b] : t.table.segments) segments.insert(sorted(EdgeEnds{a, b}));
   EXPECT_EQ(facet_faces(t.mesh), facets);
   EXPECT_EQ(segment_edges(t.mesh), segments);
   for (Vertex v = t.first_free; v < t.mesh.vertex_count(); ++v)
@@ -241,9 +241,9 @@ std::vector<Vertex> inside(const Task& t, const FacetFrame& frame) {
 }
 
 // The edges through the inside of the facet, from above to below.
-std::set<EdgeKey> piercing(const Task& t, const FacetFrame& frame) {
+std::set<EdgeEnds> piercing(const Task& t, const FacetFrame& frame) {
   const auto [a, b, c] = frame.corners;
-  std::set<EdgeKey> out;
+  std::set<EdgeEnds> out;
   for (const Tet tet : living(t.mesh))
     for (const Vertex u : t.mesh.corners(tet))
       for (const Vertex v : t.mesh.corners(tet))
@@ -261,7 +261,7 @@ TEST(PartitionFacet, CoversTheFacetAndFindsAllThatIsInside) {
       frame.sides[i] = partition_segment(t.mesh, (i + 1) % 3, (i + 2) % 3, t.first_free);
     const FacetSection section = facet_section(t.mesh, frame);
     EXPECT_EQ(section.inner, inside(t, frame));
-    std::set<EdgeKey> found;
+    std::set<EdgeEnds> found;
     for (const auto& e : section.piercing) found.insert({e.above, e.below});
     EXPECT_EQ(found, piercing(t, frame));
     EXPECT_GT(found.size(), 0u);
@@ -360,7 +360,7 @@ TEST(CollapseWithin, TakesAPointAlongItsConstraintWhereOneSeesAll) {
 }
 
 void expect_fictitious(Task& t, Vertex p, const Ends& ends, const std::vector<CutPath>& cuts) {
-  std::set<EdgeKey> taken;
+  std::set<EdgeEnds> taken;
   for (const CutPath& path : cuts) {
     ASSERT_GE(path.size(), 3u);
     EXPECT_EQ((Ends{path.front(), path.back()}), ends);
@@ -369,7 +369,7 @@ void expect_fictitious(Task& t, Vertex p, const Ends& ends, const std::vector<Cu
       const Face f = find_face(t.mesh, p, path[j - 1], path[j]);
       ASSERT_NE(f, kNone);
       EXPECT_FALSE(t.mesh.is_facet(f));
-      EXPECT_TRUE(taken.insert(sorted(EdgeKey{path[j - 1], path[j]})).second);
+      EXPECT_TRUE(taken.insert(sorted(EdgeEnds{path[j - 1], path[j]})).second);
     }
   }
 }
@@ -413,20 +413,20 @@ std::vector<std::array<int, 2>> directions_of_grid(int reach) {
 // The ball of vertex 0, whose link has these triangles, each positive with it, closed by ghosts.
 TetMesh mesh_of_ball(const std::vector<Point>& points, const std::vector<Triangle>& link) {
   TetMesh mesh;
-  for (const Point& p : points) mesh.add_vertex(p);
+  for (const Point& p : points) MeshEditor(mesh).add_vertex(p);
   std::map<FaceKey, Face> open;
   const auto add = [&](const TetMesh::Corners& corners) {
-    const Tet t = MeshEditor(mesh).add_tet(corners);
+    const Tet t = MeshAssembly(mesh).add_tet(corners);
     for (int i = 0; i < 4; ++i) {
       FaceKey key{};
       std::size_t n = 0;
       for (int k = 0; k < 4; ++k)
         if (k != i) key[n++] = mesh.corner(t, k);
       const auto [at, is_first] = open.try_emplace(sorted(key), face_code(t, i));
-      if (!is_first) MeshEditor(mesh).link(face_code(t, i), at->second);
+      if (!is_first) MeshAssembly(mesh).link(face_code(t, i), at->second);
     }
     for (const Vertex v : corners)
-      if (v != kGhost) MeshEditor(mesh).set_incident(v, t);
+      if (v != kGhost) MeshAssembly(mesh).set_incident(v, t);
   };
   for (const auto& [a, b, c] : link) add({a, c, b, kGhost});
   for (const auto& [a, b, c] : link) add({a, b, c, 0});

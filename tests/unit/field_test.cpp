@@ -13,13 +13,14 @@
 #include "hard_surfaces.h"
 #include "holdfast/check.h"
 #include "holdfast/holdfast.h"
+#include "io_samples.h"
+#include "mesh/editor.h"
+#include "mesh/quality.h"
+#include "mesh/validate.h"
 #include "optimise/energy.h"
 #include "optimise/improve.h"
 #include "optimise/refill.h"
 #include "optimise/shape.h"
-#include "io_samples.h"
-#include "mesh/quality.h"
-#include "mesh/validate.h"
 #include "refine/order.h"
 #include "refine/point_cavity.h"
 #include "small_surfaces.h"
@@ -305,8 +306,8 @@ TetMesh random_mesh(int points, std::uint64_t seed, double margin = 0) {
   TetMesh mesh;
   const auto side = [&](bool high) { return high ? 1 + margin : -margin; };
   for (int k = 0; k < 8; ++k)
-    mesh.add_vertex(Point{side((k & 1) != 0), side((k & 2) != 0), side((k & 4) != 0)});
-  for (int k = 0; k < points; ++k) mesh.add_vertex(Point{any(random), any(random), any(random)});
+    MeshEditor(mesh).add_vertex(Point{side((k & 1) != 0), side((k & 2) != 0), side((k & 4) != 0)});
+  for (int k = 0; k < points; ++k) MeshEditor(mesh).add_vertex(Point{any(random), any(random), any(random)});
   EXPECT_TRUE(build_delaunay(mesh, {1}, nullptr));
   return mesh;
 }
@@ -323,13 +324,13 @@ TEST(PointCavity, InsertsPointAfterPointAndKeepsTheMeshValid) {
   TetMesh mesh = random_mesh(0, 3, 0.5);
   PointCavity cavity(mesh);
   for (int k = 0; k < 300; ++k) {
-    const Vertex p = mesh.add_vertex(Point{any(random), any(random), any(random)});
+    const Vertex p = MeshEditor(mesh).add_vertex(Point{any(random), any(random), any(random)});
     const Tet base = cavity.locate(p, any_solid(mesh));
     ASSERT_NE(base, kNone);
     ASSERT_TRUE(cavity.find(p, base, {}));
     if (k % 3 == 0) {
       cavity.abandon();
-      mesh.remove_last_vertex();
+      MeshEditor(mesh).remove_last_vertex();
     } else {
       cavity.insert();
     }

@@ -3,7 +3,8 @@
 
 #include <stdexcept>
 
-#include "mesh/editor.h"
+#include "mesh/assembly.h"
+#include "mesh/validate.h"
 #include "mesh_fixtures.h"
 
 namespace holdfast {
@@ -12,6 +13,22 @@ namespace {
 using testing::delaunay_in_box;
 using testing::living;
 using testing::random_points;
+
+// Whether code that holds a mesh may change it without the editor.
+template <typename Mesh>
+concept Writable = requires(Mesh& m) {
+  m.add_vertex(Point{});
+}
+|| requires(Mesh& m) { m.move_vertex(0, Point{}); }
+|| requires(Mesh& m) { m.remove_vertex(0); }
+|| requires(Mesh& m) { m.remove_tet(0); }
+|| requires(Mesh& m) { m.put_tet(0, {}, {}, 0); }
+|| requires(Mesh& m) { m.set_neighbour(0, 0); }
+|| requires(Mesh& m) { m.set_flags(0, 0); }
+|| requires(Mesh& m) { m.set_incident(0, 0); }
+|| requires(Mesh& m) { m.set_tets({}, {}); }
+|| requires(Mesh& m) { m.renumber({}, 0, {}); };
+static_assert(!Writable<TetMesh>);
 
 constexpr Vertex kMoved = 7;  // one of the points, inside the box
 
@@ -33,7 +50,7 @@ TEST(MeshEditor, MovesAVertexInsideItsKernel) {
   ball(mesh, kMoved, tets);
   const auto place = kernel_of_ball(mesh, kMoved, tets).find(mesh.point(kMoved));
   ASSERT_TRUE(place.has_value());
-  move_vertex(mesh, kMoved, *place);
+  MeshEditor(mesh).move_vertex(kMoved, *place);
   EXPECT_EQ(find_fault(mesh), "");
   EXPECT_EQ(mesh.position(kMoved), std::get<Point>(*place));
 }
@@ -45,7 +62,7 @@ TEST(MeshEditor, AMoveOutOfTheKernelIsCaught) {
 
 TEST(MeshEditor, AVertexOutsideTheMeshMovesAnywhere) {
   TetMesh mesh = delaunay_in_box(random_points(40, 1));
-  const Vertex v = mesh.add_vertex(Point{0, 0, 0});
+  const Vertex v = MeshEditor(mesh).add_vertex(Point{0, 0, 0});
   MeshEditor(mesh).move_vertex(v, Point{100, 0, 0});
   EXPECT_EQ(mesh.position(v), (Point{100, 0, 0}));
   EXPECT_EQ(find_fault(mesh), "");
@@ -63,7 +80,7 @@ TEST(MeshEditor, MarksAFacetOnBothSides) {
 TEST(MeshEditor, LoadsAndRenumbersAWholeMesh) {
   const TetMesh from = delaunay_in_box(random_points(40, 3));
   TetMesh mesh;
-  for (const Point& p : from.positions()) mesh.add_vertex(p);
+  for (const Point& p : from.positions()) MeshEditor(mesh).add_vertex(p);
   std::vector<TetMesh::Corners> corners;
   std::vector<TetMesh::Neighbours> neighbours;
   for (Tet t = 0; t < from.slot_count(); ++t) {
@@ -74,7 +91,6 @@ TEST(MeshEditor, LoadsAndRenumbersAWholeMesh) {
   }
   MeshEditor editor(mesh);
   editor.load(corners, neighbours);
-  editor.finish();
   EXPECT_EQ(find_fault(mesh), "");
 
   const std::vector<Tet> all = living(mesh);
@@ -86,7 +102,7 @@ TEST(MeshEditor, LoadsAndRenumbersAWholeMesh) {
 TEST(MeshEditor, ALostNeighbourIsCaught) {
   TetMesh mesh = delaunay_in_box(random_points(40, 4));
   expect_caught(mesh, [&] {
-    MeshEditor editor(mesh);
+    MeshAssembly editor(mesh);
     const Tet t = mesh.incident(0);
     editor.link(face_code(t, 0), mesh.neighbour(t, 1));
     editor.finish(std::array{t});

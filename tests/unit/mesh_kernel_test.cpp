@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+#include "mesh/editor.h"
 #include "mesh/inscribed_ball.h"
 #include "mesh/kernel.h"
 #include "mesh/measure.h"
@@ -32,7 +33,7 @@ struct Cavity {
 
   // The plane through three points, its positive side being that of `inside`.
   void face(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, const ExactPoint& inside) {
-    FaceKey f{mesh.add_vertex(a), mesh.add_vertex(b), mesh.add_vertex(c)};
+    FaceKey f{MeshEditor(mesh).add_vertex(a), MeshEditor(mesh).add_vertex(b), MeshEditor(mesh).add_vertex(c)};
     const Point approx{inside.c[0].to_double(), inside.c[1].to_double(), inside.c[2].to_double()};
     if (mesh.orient(f[0], f[1], f[2], {approx.data(), &inside}) < 0) std::swap(f[0], f[1]);
     faces.push_back(f);
@@ -163,9 +164,9 @@ TEST(Kernel, BetweenNeighbouringDoubles) {
     EXPECT_TRUE(holds(kernel, *found)) << ulps;
     EXPECT_EQ(std::holds_alternative<Point>(*found), ulps > 1) << ulps;
     TetMesh mesh;
-    EXPECT_EQ(mesh.is_explicit(add_vertex(mesh, *found)), ulps > 1);
-    mesh.add_vertex(Point{});
-    move_vertex(mesh, 1, *found);
+    EXPECT_EQ(mesh.is_explicit(MeshEditor(mesh).add_vertex(*found)), ulps > 1);
+    MeshEditor(mesh).add_vertex(Point{});
+    MeshEditor(mesh).move_vertex(1, *found);
     EXPECT_EQ(mesh.exact_position(1).c, exact_of(*found).c);
   }
 }

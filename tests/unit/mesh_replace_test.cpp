@@ -6,12 +6,11 @@
 #include <random>
 #include <stdexcept>
 
+#include "mesh/assembly.h"
 #include "mesh/edge_removal.h"
-#include "mesh/editor.h"
-#include "mesh/face_swap.h"
-#include "mesh/replace.h"
 #include "mesh/validate.h"
 #include "mesh_fixtures.h"
+#include "refine/point_cavity.h"
 
 namespace holdfast {
 namespace {
@@ -23,7 +22,7 @@ struct Plan {
   std::vector<Tet> old_tets;
   std::vector<TetMesh::Corners> new_tets;
   std::vector<FaceKey> facets = {};
-  std::vector<EdgeKey> segments = {};
+  std::vector<EdgeEnds> segments = {};
 
   [[nodiscard]] Replacement view() const { return {old_tets, new_tets, facets, segments}; }
 };
@@ -70,20 +69,21 @@ Plan split(TetMesh& mesh, Tet t, int corners) {
     for (std::size_t k = 0; k < 3; ++k) p[k] += mesh.position(mesh.corner(t, i))[k] / corners;
   Plan plan{{t}, {}};
   if (corners == 3) plan.old_tets.push_back(tet_of(mesh.neighbour(t, 3)));
-  plan.new_tets = cone(outer_faces(mesh, plan.old_tets), mesh.add_vertex(p));
+  plan.new_tets = cone(outer_faces(mesh, plan.old_tets), MeshEditor(mesh).add_vertex(p));
   return plan;
 }
 
 // The constraints that lie inside a cavity, that is, that its replacement takes away.
 bool holds_constraints(const TetMesh& mesh, const Plan& plan) {
   std::set<FaceKey> new_faces;
-  std::set<EdgeKey> new_edges;
+  std::set<EdgeEnds> new_edges;
   for (const auto& c : plan.new_tets) {
     for (const auto& k : kFaceVertex)
       new_faces.insert(sorted(FaceKey{c[static_cast<std::size_t>(k[0])], c[static_cast<std::size_t>(k[1])],
                                       c[static_cast<std::size_t>(k[2])]}));
     for (const auto& e : kEdgeVertex)
-      new_edges.insert(sorted(EdgeKey{c[static_cast<std::size_t>(e[0])], c[static_cast<std::size_t>(e[1])]}));
+      new_edges.insert(
+          sorted(EdgeEnds{c[static_cast<std::size_t>(e[0])], c[static_cast<std::size_t>(e[1])]}));
   }
   for (const Tet t : plan.old_tets) {
     for (int i = 0; i < 4; ++i)
@@ -92,7 +92,7 @@ bool holds_constraints(const TetMesh& mesh, const Plan& plan) {
     for (int k = 0; k < 6; ++k) {
       const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
       if (mesh.is_segment(t, k) &&
-          !new_edges.contains(sorted(EdgeKey{mesh.corner(t, e[0]), mesh.corner(t, e[1])})))
+          !new_edges.contains(sorted(EdgeEnds{mesh.corner(t, e[0]), mesh.corner(t, e[1])})))
         return true;
     }
   }
@@ -105,7 +105,7 @@ void constrain_at_random(TetMesh& mesh, Random& random, int count) {
     MeshEditor(mesh).set_facet(face_code(t, static_cast<int>(random() % 4)));
     const auto& e = kEdgeVertex[random() % 6];
     const Tet s = random_tet(mesh, random);
-    set_segment(mesh, s, mesh.corner(s, e[0]), mesh.corner(s, e[1]));
+    MeshEditor(mesh).set_segment(s, mesh.corner(s, e[0]), mesh.corner(s, e[1]));
   }
 }
 
@@ -147,8 +147,8 @@ TEST(Replace, AShellAsAnyOtherCavity) {
     if (!all_positive(mesh, plan.new_tets) || holds_constraints(mesh, plan)) continue;
     TetMesh other = mesh;
     std::vector<Tet> created, created_there;
-    replace(other, {.old_tets = shell.tets, .new_tets = plan.new_tets}, &created_there);
-    replace_shell(mesh, shell, triangles, &created);
+    MeshEditor(other).replace({.old_tets = shell.tets, .new_tets = plan.new_tets}, &created_there);
+    MeshEditor(mesh).replace_shell(shell, triangles, &created);
     ASSERT_EQ(created, created_there);
     expect_same(mesh, other);
     ++flips;
@@ -170,8 +170,8 @@ TEST(Replace, ASwappedFaceAsAnyOtherCavity) {
     if (!plan || holds_constraints(mesh, *plan)) continue;
     TetMesh other = mesh;
     std::vector<Tet> created;
-    replace(other, {.old_tets = plan->old_tets, .new_tets = plan->new_tets}, &created);
-    const auto tets = swap_face(mesh, f);
+    MeshEditor(other).replace({.old_tets = plan->old_tets, .new_tets = plan->new_tets}, &created);
+    const auto tets = MeshEditor(mesh).swap_face(f);
     ASSERT_EQ(created, std::vector<Tet>(tets.begin(), tets.end()));
     expect_same(mesh, other);
     ++flips;
@@ -180,12 +180,41 @@ TEST(Replace, ASwappedFaceAsAnyOtherCavity) {
   EXPECT_GT(flips, 100);
 }
 
+// The centre of a star keeps another of its tetrahedra.
+TEST(Replace, AStarAsAnyOtherCavity) {
+  TetMesh mesh = delaunay_in_box(random_points(60, 9));
+  Random random(9);
+  constrain_at_random(mesh, random, 20);
+  int inserted = 0;
+  for (const Point& x : random_points(300, 10)) {
+    const Vertex p = MeshEditor(mesh).add_vertex(x);
+    TetMesh other = mesh;
+    PointCavity cavity(mesh);
+    if (!cavity.find(p, cavity.locate(p, mesh.incident(0)), Frame())) {
+      MeshEditor(mesh).remove_last_vertex();
+      continue;
+    }
+    std::vector<TetMesh::Corners> star;
+    for (const PointCavity::Rim& rim : cavity.rim()) star.push_back({rim.v[0], rim.v[1], rim.v[2], p});
+    std::vector<Tet> created;
+    MeshEditor(other).replace({.old_tets = cavity.tets(), .new_tets = star}, &created);
+    cavity.insert();
+    ASSERT_EQ(created, std::vector<Tet>(cavity.created().begin(), cavity.created().end()));
+    ASSERT_EQ(mesh.incident(p), created.front());
+    MeshAssembly(other).set_incident(p, created.front());
+    expect_same(mesh, other);
+    ++inserted;
+  }
+  EXPECT_EQ(find_fault(mesh), "");
+  EXPECT_GT(inserted, 200);
+}
+
 TEST(Replace, RandomFlipsKeepTheMeshAndItsConstraints) {
   Random random(3);
   TetMesh mesh = delaunay_in_box(random_points(80, 3));
   constrain_at_random(mesh, random, 25);
   const std::set<FaceKey> facets = facet_faces(mesh);
-  const std::set<EdgeKey> segments = segment_edges(mesh);
+  const std::set<EdgeEnds> segments = segment_edges(mesh);
   const exact::Dyadic volume = volume_of(mesh);
   int flips[3] = {0, 0, 0};
   for (int step = 0; step < 3000; ++step) {
@@ -196,7 +225,7 @@ TEST(Replace, RandomFlipsKeepTheMeshAndItsConstraints) {
     if (kind == 1) plan = edge_flip(mesh, t, static_cast<int>(random() % 6), random);
     if (kind == 2) plan = split(mesh, t, 4);
     if (!plan || !all_positive(mesh, plan->new_tets) || holds_constraints(mesh, *plan)) continue;
-    replace(mesh, plan->view());
+    MeshEditor(mesh).replace(plan->view());
     ++flips[kind];
     if (step % 50 == 0) {
       ASSERT_EQ(find_fault(mesh), "") << step;
@@ -217,10 +246,10 @@ TEST(Replace, AddsTheConstraintsNamed) {
   plan.facets = {{p, b, a}};
   plan.segments = {{c, p}, {p, a}};
   std::vector<Tet> created;
-  replace(mesh, plan.view(), &created);
+  MeshEditor(mesh).replace(plan.view(), &created);
   EXPECT_EQ(find_fault(mesh), "");
   EXPECT_EQ(facet_faces(mesh), (std::set<FaceKey>{sorted(FaceKey{a, b, p})}));
-  EXPECT_EQ(segment_edges(mesh), (std::set<EdgeKey>{sorted(EdgeKey{c, p}), sorted(EdgeKey{a, p})}));
+  EXPECT_EQ(segment_edges(mesh), (std::set<EdgeEnds>{sorted(EdgeEnds{c, p}), sorted(EdgeEnds{a, p})}));
   ASSERT_EQ(created.size(), plan.new_tets.size());
   for (std::size_t k = 0; k < created.size(); ++k) EXPECT_EQ(mesh.corners(created[k]), plan.new_tets[k]);
 }
@@ -235,7 +264,7 @@ TEST(Replace, DropsConstraintsThatNoLongerStand) {
     if (!plan) continue;
     MeshEditor(mesh).set_facet(f);
     EXPECT_EQ(facet_faces(mesh).size(), 1u);
-    replace(mesh, plan->view());
+    MeshEditor(mesh).replace(plan->view());
     EXPECT_EQ(facet_faces(mesh).size(), 0u);
     EXPECT_EQ(find_fault(mesh), "");
     return;
@@ -252,10 +281,10 @@ TEST(Replace, AVertexThatLosesItsBallIsInNoTetrahedron) {
   Plan plan = split(mesh, random_tet(mesh, random), 4);
   const Vertex p = plan.new_tets[0][3];
   const TetMesh::Corners before = mesh.corners(plan.old_tets[0]);
-  replace(mesh, plan.view());
+  MeshEditor(mesh).replace(plan.view());
   EXPECT_TRUE(mesh.in_mesh(p));
   EXPECT_EQ(mesh.tet_count(), finite + 3);
-  replace(mesh, Plan{ball_of(mesh, p), {before}}.view());
+  MeshEditor(mesh).replace(Plan{ball_of(mesh, p), {before}}.view());
   EXPECT_FALSE(mesh.in_mesh(p));
   EXPECT_EQ(mesh.tet_count(), finite);
   EXPECT_LE(mesh.slot_count(), slots + 4);
@@ -291,7 +320,7 @@ TEST(Replace, RefusesACavityThatIsNotFilledAndChangesNothing) {
   TetMesh mesh = delaunay_in_box(random_points(50, 8));
   constrain_at_random(mesh, random, 10);
   for (int k = 0; k < 20; ++k) {
-    replace(mesh, split(mesh, random_tet(mesh, random), 4).view());
+    MeshEditor(mesh).replace(split(mesh, random_tet(mesh, random), 4).view());
     const Vertex p = static_cast<Vertex>(mesh.vertex_count() - 1);
     // A free slot or two, and a vertex at an exact position.
     exact::ExactPoint elsewhere = mesh.exact_position(p);
@@ -309,10 +338,10 @@ TEST(Replace, RefusesACavityThatIsNotFilledAndChangesNothing) {
         spoiler.spoil(mesh, bad);
         const TetMesh before = mesh;
         std::vector<Tet> created;
-        EXPECT_THROW(replace(mesh, bad.view(), &created), std::logic_error) << spoiler.name;
+        EXPECT_THROW(MeshEditor(mesh).replace(bad.view(), &created), std::logic_error) << spoiler.name;
         ASSERT_EQ(difference(mesh, before), "") << spoiler.name;
       }
-    replace(mesh, plans[0].view());  // the plan without the fault still fits
+    MeshEditor(mesh).replace(plans[0].view());  // the plan without the fault still fits
     ASSERT_EQ(find_fault(mesh), "");
   }
 }

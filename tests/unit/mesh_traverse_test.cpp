@@ -8,9 +8,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "mesh/assembly.h"
 #include "mesh/edge_removal.h"
-#include "mesh/editor.h"
-#include "mesh/replace.h"
 #include "mesh/traverse.h"
 #include "mesh/validate.h"
 #include "mesh_fixtures.h"
@@ -46,7 +45,7 @@ TEST(Traverse, BallIsAppendedAndEmptyOutsideTheMesh) {
   ball(mesh, 3, tets);
   EXPECT_EQ(tets.size(), 2 + living_with(mesh, {3}).size());
   EXPECT_EQ(tets[0], 7u);
-  const Vertex v = mesh.add_vertex(Point{0, 0, 0.1});
+  const Vertex v = MeshEditor(mesh).add_vertex(Point{0, 0, 0.1});
   EXPECT_TRUE(ball_of(mesh, v).empty());
   EXPECT_EQ(find_edge(mesh, v, 0), kNone);
 }
@@ -87,7 +86,7 @@ TEST(TetMesh, BothOrientationsAreThoseOfEach) {
   };
   expect_equal();
   const exact::Dyadic near_one = exact::Dyadic(1) + exact::Dyadic(1).scaled(-60);
-  mesh.add_vertex(exact::ExactPoint{{near_one, near_one, near_one}});
+  MeshEditor(mesh).add_vertex(exact::ExactPoint{{near_one, near_one, near_one}});
   ASSERT_EQ(mesh.exact_vertex_count(), 1u);
   expect_equal();
 }
@@ -116,14 +115,14 @@ TEST(Traverse, Faces) {
 TEST(Traverse, SegmentBitsGoRoundTheShell) {
   TetMesh mesh = sample_mesh(5);
   Random random(5);
-  std::set<EdgeKey> expected;
+  std::set<EdgeEnds> expected;
   for (int k = 0; k < 40; ++k) {
     const auto t = static_cast<Tet>(random() % mesh.slot_count());
     const auto& e = kEdgeVertex[random() % 6];
     const Vertex a = mesh.corner(t, e[0]), b = mesh.corner(t, e[1]);
     if (a == kGhost || b == kGhost) continue;
-    set_segment(mesh, t, a, b);
-    expected.insert(sorted(EdgeKey{a, b}));
+    MeshEditor(mesh).set_segment(t, a, b);
+    expected.insert(sorted(EdgeEnds{a, b}));
   }
   EXPECT_EQ(segment_edges(mesh), expected);
   EXPECT_EQ(find_fault(mesh), "");
@@ -241,7 +240,7 @@ TEST(EdgeRemoval, RemovesEdgesFromTheMesh) {
     ASSERT_EQ(fresh.size(), 2 * shell.size() - 4);
     ASSERT_TRUE(all_positive(mesh, fresh));
     std::vector<Tet> created;
-    replace_shell(mesh, shell, triangles, &created);
+    MeshEditor(mesh).replace_shell(shell, triangles, &created);
     EXPECT_EQ(find_edge(mesh, a, b), kNone);
     for (std::size_t k = 0; k < fresh.size(); ++k) EXPECT_EQ(mesh.corners(created[k]), fresh[k]);
     ++removed;
@@ -261,36 +260,36 @@ struct PlantedFault {
 const PlantedFault kFaults[] = {
     {"neighbour",
      [](TetMesh& m, Tet t) {  // two faces of t at once claim the same neighbour
-       MeshEditor(m).link(face_code(t, 0), m.neighbour(t, 1));
+       MeshAssembly(m).link(face_code(t, 0), m.neighbour(t, 1));
      }},
     {"shares no face",
      [](TetMesh& m, Tet t) {
        const Face f = m.neighbour(t, 0), g = m.neighbour(t, 1);
-       MeshEditor(m).link(face_code(t, 0), g);
-       MeshEditor(m).link(face_code(t, 1), f);
+       MeshAssembly(m).link(face_code(t, 0), g);
+       MeshAssembly(m).link(face_code(t, 1), f);
      }},
     {"not positive",
      [](TetMesh& m, Tet t) {  // one corner goes through the opposite face
        const Vertex v = m.corner(t, 0);
        Point p{};
        for (std::size_t k = 0; k < 3; ++k) p[k] = 2 * m.position(m.corner(t, 1))[k] - m.position(v)[k];
-       MeshEditor(m).place_vertex(v, p);
+       MeshAssembly(m).place_vertex(v, p);
      }},
     {"not positive",
      [](TetMesh& m, Tet t) {  // flat: one corner on another's place
-       MeshEditor(m).place_vertex(m.corner(t, 0), m.position(m.corner(t, 1)));
+       MeshAssembly(m).place_vertex(m.corner(t, 0), m.position(m.corner(t, 1)));
      }},
-    {"facet bit on one side", [](TetMesh& m, Tet t) { MeshEditor(m).set_flags(t, facet_bit(2)); }},
+    {"facet bit on one side", [](TetMesh& m, Tet t) { MeshAssembly(m).set_flags(t, facet_bit(2)); }},
     {"facet bit on one side",
      [](TetMesh& m, Tet t) {
        MeshEditor(m).set_facet(face_code(t, 1));
-       MeshEditor(m).clear_flags(tet_of(m.neighbour(t, 1)), kFacetBits);
+       MeshAssembly(m).clear_flags(tet_of(m.neighbour(t, 1)), kFacetBits);
      }},
-    {"shell lacks", [](TetMesh& m, Tet t) { MeshEditor(m).set_flags(t, segment_bit(4)); }},
+    {"shell lacks", [](TetMesh& m, Tet t) { MeshAssembly(m).set_flags(t, segment_bit(4)); }},
     {"shell lacks",
      [](TetMesh& m, Tet t) {
-       set_segment(m, t, m.corner(t, 0), m.corner(t, 1));
-       MeshEditor(m).clear_flags(t, kSegmentBits);
+       MeshEditor(m).set_segment(t, m.corner(t, 0), m.corner(t, 1));
+       MeshAssembly(m).clear_flags(t, kSegmentBits);
      }},
     {"left visited", [](TetMesh& m, Tet t) { m.mark_visited(t); }},
     {"lacks a neighbour",
@@ -299,35 +298,35 @@ const PlantedFault kFaults[] = {
        for (const Tet s : living(m))
          if (s != lost)
            for (const Vertex v : m.corners(s))
-             if (v != kGhost) MeshEditor(m).set_incident(v, s);
-       MeshEditor(m).remove_tet(lost);
+             if (v != kGhost) MeshAssembly(m).set_incident(v, s);
+       MeshAssembly(m).remove_tet(lost);
      }},
-    {"without an incident", [](TetMesh& m, Tet t) { MeshEditor(m).set_incident(m.corner(t, 3), kNone); }},
+    {"without an incident", [](TetMesh& m, Tet t) { MeshAssembly(m).set_incident(m.corner(t, 3), kNone); }},
     {"without an incident",
      [](TetMesh& m, Tet t) {
        const Vertex v = m.corner(t, 3);
        for (const Tet s : living(m))
-         if (m.index_of(s, v) < 0) MeshEditor(m).set_incident(v, s);
+         if (m.index_of(s, v) < 0) MeshAssembly(m).set_incident(v, s);
      }},
     {"names a vertex twice",
      [](TetMesh& m, Tet t) {
-       MeshEditor(m).add_tet({m.corner(t, 0), m.corner(t, 1), m.corner(t, 2), m.corner(t, 1)});
+       MeshAssembly(m).add_tet({m.corner(t, 0), m.corner(t, 1), m.corner(t, 2), m.corner(t, 1)});
      }},
     {"names no vertex",
      [](TetMesh& m, Tet t) {
-       MeshEditor(m).add_tet(
+       MeshAssembly(m).add_tet(
            {m.corner(t, 0), static_cast<Vertex>(m.vertex_count()), m.corner(t, 2), m.corner(t, 3)});
      }},
     {"names no vertex",
      [](TetMesh& m, Tet t) {
-       MeshEditor(m).add_tet(
+       MeshAssembly(m).add_tet(
            {m.corner(t, 0), m.corner(t, 1), m.corner(t, 2), static_cast<Vertex>(m.vertex_count())});
      }},
     {"names no vertex",
      [](TetMesh& m, Tet t) {
-       MeshEditor(m).add_tet({m.corner(t, 0), kGhost, m.corner(t, 2), m.corner(t, 3)});
+       MeshAssembly(m).add_tet({m.corner(t, 0), kGhost, m.corner(t, 2), m.corner(t, 3)});
      }},
-    {"lacks a neighbour", [](TetMesh& m, Tet t) { MeshEditor(m).add_tet(m.corners(t)); }},
+    {"lacks a neighbour", [](TetMesh& m, Tet t) { MeshAssembly(m).add_tet(m.corners(t)); }},
 };
 
 TEST(Validate, FindsPlantedFaults) {
@@ -357,7 +356,7 @@ TEST(Validate, ThrowsForTheTetrahedraNamed) {
   throw_on_fault(mesh, std::span(all).first(5));
   EXPECT_THROW(throw_on_fault(mesh, all), std::logic_error);
   mesh.clear_visited(all[5]);
-  MeshEditor(mesh).remove_tet(all[9]);
+  MeshAssembly(mesh).remove_tet(all[9]);
   EXPECT_NE(find_fault(mesh, all[9]), "");
 }
 

@@ -7,9 +7,8 @@
 #include <functional>
 #include <random>
 
-#include "mesh/editor.h"
+#include "mesh/assembly.h"
 #include "mesh/quality.h"
-#include "mesh/replace.h"
 #include "mesh/validate.h"
 #include "mesh_fixtures.h"
 #include "optimise/badness.h"
@@ -54,7 +53,7 @@ void constrain(TetMesh& mesh, std::mt19937_64& random) {
     MeshEditor(mesh).set_facet(f);
     const auto v = mesh.face_vertices(f);
     for (std::size_t k = 0; k < 3; ++k)
-      set_segment(mesh, find_edge(mesh, v[k], v[(k + 1) % 3]), v[k], v[(k + 1) % 3]);
+      MeshEditor(mesh).set_segment(find_edge(mesh, v[k], v[(k + 1) % 3]), v[k], v[(k + 1) % 3]);
   }
 }
 
@@ -117,12 +116,12 @@ TEST(Badness, NullOnesCountFirstAndGoForFlatOnes) {
 TEST(Badness, WideEdgesOfASliverAndOfACap) {
   TetMesh mesh;
   for (const Point& p : {Point{0, 0, 0}, Point{1, 0, 1e-9}, Point{1, 1, 0}, Point{0, 1, 1e-9}})
-    mesh.add_vertex(p);
-  const Tet sliver = MeshEditor(mesh).add_tet({0, 1, 2, 3});
+    MeshEditor(mesh).add_vertex(p);
+  const Tet sliver = MeshAssembly(mesh).add_tet({0, 1, 2, 3});
   EXPECT_EQ(wide_edges(mesh, sliver), (std::vector<int>{1, 4}));  // the diagonals 02 and 13
   for (const Point& p : {Point{0, 0, 0}, Point{1, 0, 0}, Point{0, 1, 0}, Point{0.3, 0.3, 1e-9}})
-    mesh.add_vertex(p);
-  const Tet cap = MeshEditor(mesh).add_tet({4, 5, 6, 7});
+    MeshEditor(mesh).add_vertex(p);
+  const Tet cap = MeshAssembly(mesh).add_tet({4, 5, 6, 7});
   EXPECT_EQ(wide_edges(mesh, cap), (std::vector<int>{2, 4, 5}));  // those at vertex 7
 }
 
@@ -268,13 +267,13 @@ TEST(InsertPoint, WhereThreeFacetsMakeACap) {
   ASSERT_NE(base, kNone);
   const Tet above = mesh.apex(base) == 4 ? tet_of(base) : tet_of(mesh.neighbour(base));
   ASSERT_GE(mesh.index_of(above, 4), 0);
-  const Vertex top = mesh.add_vertex(Point{0.3, 0.3, 1e-12});
+  const Vertex top = MeshEditor(mesh).add_vertex(Point{0.3, 0.3, 1e-12});
   const std::vector<Tet> old_tets{above};
-  replace(mesh, {.old_tets = old_tets, .new_tets = cone(outer_faces(mesh, old_tets), top)});
+  MeshEditor(mesh).replace({.old_tets = old_tets, .new_tets = cone(outer_faces(mesh, old_tets), top)});
   for (const FaceKey& f : {FaceKey{0, 1, top}, FaceKey{1, 2, top}, FaceKey{2, 0, top}}) {
     MeshEditor(mesh).set_facet(find_face(mesh, f[0], f[1], f[2]));
     for (std::size_t k = 0; k < 3; ++k)
-      set_segment(mesh, find_edge(mesh, f[k], f[(k + 1) % 3]), f[k], f[(k + 1) % 3]);
+      MeshEditor(mesh).set_segment(find_edge(mesh, f[k], f[(k + 1) % 3]), f[k], f[(k + 1) % 3]);
   }
   const Tet cap = worst_tet(mesh);
   ASSERT_GT(quality_of(mesh, mesh.corners(cap)), 1e10);

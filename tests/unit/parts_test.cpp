@@ -46,8 +46,8 @@ struct Cube {
   explicit Cube(int points, bool with_wall) {
     std::mt19937_64 random(7);
     for (int k = 0; k < 8; ++k)
-      mesh.add_vertex(Point{k & 1 ? 1.0 : 0.0, k & 2 ? 1.0 : 0.0, k & 4 ? 1.0 : 0.0});
-    for (int k = 0; k < points; ++k) mesh.add_vertex(random_point(random));
+      MeshEditor(mesh).add_vertex(Point{k & 1 ? 1.0 : 0.0, k & 2 ? 1.0 : 0.0, k & 4 ? 1.0 : 0.0});
+    for (int k = 0; k < points; ++k) MeshEditor(mesh).add_vertex(random_point(random));
     EXPECT_TRUE(build_delaunay(mesh, {1}, nullptr));
     sizes.assign(mesh.vertex_count(), 0.1);
     region_of.assign(mesh.slot_count(), 0);
@@ -65,7 +65,7 @@ struct Cube {
         if (mesh.is_ghost(t) || mesh.is_ghost(n) || region_of[t] >= region_of[n]) continue;
         MeshEditor(mesh).set_facet(f);
         const auto v = mesh.face_vertices(f);
-        for (std::size_t k = 0; k < 3; ++k) set_segment(mesh, t, v[k], v[(k + 1) % 3]);
+        for (std::size_t k = 0; k < 3; ++k) MeshEditor(mesh).set_segment(t, v[k], v[(k + 1) % 3]);
       }
     EXPECT_EQ(find_fault(mesh), "");
   }
@@ -243,9 +243,9 @@ TEST(Parts, JoinToAValidMeshAfterTheyWereChanged) {
     for (int k = 0; k < 300; ++k) {
       const auto base = static_cast<Tet>(random() % part.mesh.slot_count());
       if (!part.mesh.alive(base) || part.mesh.is_ghost(base)) continue;
-      const Vertex p = part.mesh.add_vertex(centroid(part.mesh, base));
+      const Vertex p = MeshEditor(part.mesh).add_vertex(centroid(part.mesh, base));
       if (cavity.locate(p, base) != base || !cavity.find(p, base, {})) {
-        part.mesh.remove_last_vertex();
+        MeshEditor(part.mesh).remove_last_vertex();
         continue;
       }
       const RegionId region = part.region_of[base];
@@ -278,11 +278,11 @@ TEST(Parts, JoinToAValidMeshAfterTheyWereChanged) {
 TEST(Parts, WhatIsLeftAtCutsComesToAnEnd) {
   std::mt19937_64 random(7);
   TetMesh mesh;
-  mesh.add_vertex(Point{0.5, 0.5, 1});
-  mesh.add_vertex(Point{0.5, 0.5, -1});
+  MeshEditor(mesh).add_vertex(Point{0.5, 0.5, 1});
+  MeshEditor(mesh).add_vertex(Point{0.5, 0.5, -1});
   for (int k = 0; k < 15000; ++k) {
     const Point p = random_point(random);
-    mesh.add_vertex(Point{p[0], p[1], 0.01 * p[2]});
+    MeshEditor(mesh).add_vertex(Point{p[0], p[1], 0.01 * p[2]});
   }
   ASSERT_TRUE(build_delaunay(mesh, {1}, nullptr));
   std::vector<RegionId> region_of(mesh.slot_count(), 0);

@@ -12,7 +12,7 @@
 
 #include "delaunay/delaunay.h"
 #include "mesh/edge_removal.h"
-#include "mesh/replace.h"
+#include "mesh/editor.h"
 #include "mesh/traverse.h"
 #include "mesh/validate.h"
 #include "recover/facet_cavities.h"
@@ -27,9 +27,9 @@ namespace {
 
 TetMesh delaunay_of(const std::vector<Point>& points) {
   TetMesh mesh;
-  for (const Point& p : points) mesh.add_vertex(p);
+  for (const Point& p : points) MeshEditor(mesh).add_vertex(p);
   for (int k = 0; k < 8; ++k)
-    mesh.add_vertex(Point{k & 1 ? 10. : -10., k & 2 ? 10. : -10., k & 4 ? 10. : -10.});
+    MeshEditor(mesh).add_vertex(Point{k & 1 ? 10. : -10., k & 2 ? 10. : -10., k & 4 ? 10. : -10.});
   EXPECT_TRUE(build_delaunay(mesh, {}, nullptr));
   return mesh;
 }
@@ -311,7 +311,7 @@ TEST(FacetCavities, NameVerticesInTheFacet) {
 Vertex add_beside(TetMesh& mesh, const Point& p) {
   exact::ExactPoint e = exact::lift(p.data());
   for (exact::Dyadic& x : e.c) x += exact::Dyadic(1).scaled(-120);
-  return mesh.add_vertex(e);
+  return MeshEditor(mesh).add_vertex(e);
 }
 
 TEST(InsertVertex, InsideATetrahedronAFaceAnEdgeAndBesideAVertex) {
@@ -323,7 +323,8 @@ TEST(InsertVertex, InsideATetrahedronAFaceAnEdgeAndBesideAVertex) {
     ASSERT_TRUE(insert_vertex(mesh, v, random));
     EXPECT_EQ(find_fault(mesh), "");
     EXPECT_TRUE(mesh.in_mesh(v));
-    const Vertex w = mesh.add_vertex(Point{1.125, 1.125, 1});  // with doubles, in a face or on an edge
+    const Vertex w =
+        MeshEditor(mesh).add_vertex(Point{1.125, 1.125, 1});  // with doubles, in a face or on an edge
     ASSERT_TRUE(insert_vertex(mesh, w, random));
     EXPECT_EQ(find_fault(mesh), "");
   }
@@ -334,7 +335,7 @@ TEST(InsertVertex, NotOutsideNorOnTheHull) {
   TetMesh mesh = delaunay_of({{0, 0, 0}});
   const std::size_t tets = mesh.tet_count();
   for (const Point& p : {Point{0, 0, 20}, Point{1, 2, 10}, Point{10, 10, 0}}) {
-    EXPECT_FALSE(insert_vertex(mesh, mesh.add_vertex(p), random));
+    EXPECT_FALSE(insert_vertex(mesh, MeshEditor(mesh).add_vertex(p), random));
     EXPECT_EQ(mesh.tet_count(), tets);
   }
 }

@@ -10,8 +10,7 @@
 
 #include "enforce/enforce.h"
 #include "hard_surfaces.h"
-#include "mesh/editor.h"
-#include "mesh/replace.h"
+#include "mesh/assembly.h"
 #include "mesh/validate.h"
 #include "mesh_fixtures.h"
 #include "recover/recover.h"
@@ -43,7 +42,7 @@ Polyhedron twisted_prism(double twist, double height) {
   Polyhedron prism;
   for (int k = 0; k < 6; ++k) {
     const double angle = 2 * kMostTwist * (k % 3) + (k < 3 ? 0 : twist);
-    prism.mesh.add_vertex(Point{std::cos(angle), std::sin(angle), k < 3 ? 0 : height});
+    MeshEditor(prism.mesh).add_vertex(Point{std::cos(angle), std::sin(angle), k < 3 ? 0 : height});
   }
   prism.faces = {{0, 1, 2}, {3, 5, 4}};
   for (Vertex k = 0; k < 3; ++k) {
@@ -68,7 +67,7 @@ Polyhedron star(int n, double least_radius, Random& random) {
     out = {{}, outer_faces(mesh, ball_of(mesh, static_cast<Vertex>(n)))};
     std::uniform_real_distribution<double> radius(least_radius, 1.0);
     for (int k = 0; k < n; ++k)
-      out.mesh.add_vertex(
+      MeshEditor(out.mesh).add_vertex(
           hard::scaled(points[static_cast<std::size_t>(k)], least_radius < 1 ? radius(random) : 1));
   }
   return out;
@@ -157,7 +156,7 @@ TEST(SmallPolyhedron, AgreesWithAnExhaustiveSearch) {
     for (Vertex v = 0; v < p.mesh.vertex_count(); ++v) {
       Point at = p.mesh.position(v);
       for (double& x : at) x += 0.05 * u(random);
-      MeshEditor(p.mesh).place_vertex(v, at);
+      MeshAssembly(p.mesh).place_vertex(v, at);
     }
     const auto filling = fill_polyhedron(p.mesh, p.faces, kExhaustive);
     ASSERT_EQ(filling.has_value(), can_be_filled(p, as_set(p.faces), volume_of(p).to_double())) << trial;
@@ -183,7 +182,7 @@ struct Scene {
   TetMesh mesh;
   Vertex first_free = 0;
   std::set<FaceKey> facets;
-  std::set<EdgeKey> segments;
+  std::set<EdgeEnds> segments;
   exact::Dyadic volume;
 
   [[nodiscard]] std::vector<Vertex> steiner() const {
@@ -211,16 +210,17 @@ struct Scene {
 void constrain(TetMesh& mesh, Tet t, int face) {
   const auto [a, b, c] = mesh.face_vertices(face_code(t, face));
   MeshEditor(mesh).set_facet(face_code(t, face));
-  for (const auto& e : {EdgeKey{a, b}, EdgeKey{b, c}, EdgeKey{c, a}}) set_segment(mesh, t, e[0], e[1]);
+  for (const auto& e : {EdgeEnds{a, b}, EdgeEnds{b, c}, EdgeEnds{c, a}})
+    MeshEditor(mesh).set_segment(t, e[0], e[1]);
 }
 
 Scene scene(std::size_t input, std::size_t steiner, double share_of_facets, std::uint64_t seed) {
   Scene s;
   std::vector<Point> points = random_points(input, seed);
   for (int k = 0; k < 8; ++k) points.push_back({k & 1 ? 3. : -3., k & 2 ? 3. : -3., k & 4 ? 3. : -3.});
-  for (const Point& p : points) s.mesh.add_vertex(p);
+  for (const Point& p : points) MeshEditor(s.mesh).add_vertex(p);
   s.first_free = static_cast<Vertex>(points.size());
-  for (const Point& p : random_points(steiner, seed + 1000)) s.mesh.add_vertex(p);
+  for (const Point& p : random_points(steiner, seed + 1000)) MeshEditor(s.mesh).add_vertex(p);
   EXPECT_TRUE(build_delaunay(s.mesh, {}, nullptr));
   Random random(seed);
   std::bernoulli_distribution chosen(share_of_facets), dangling(0.02);
@@ -229,7 +229,7 @@ Scene scene(std::size_t input, std::size_t steiner, double share_of_facets, std:
     for (int i = 0; i < 4; ++i) {
       const auto [a, b, c] = s.mesh.face_vertices(face_code(t, i));
       if (std::max({a, b, c}) < s.first_free && chosen(random)) constrain(s.mesh, t, i);
-      if (std::max(a, b) < s.first_free && dangling(random)) set_segment(s.mesh, t, a, b);
+      if (std::max(a, b) < s.first_free && dangling(random)) MeshEditor(s.mesh).set_segment(t, a, b);
     }
   }
   s.remember();
@@ -501,10 +501,10 @@ Scene sliver(bool closed_off) {
   EXPECT_EQ(thin.size(), 1u);
   if (closed_off)
     for (int i = 0; i < 4; ++i) constrain(s.mesh, thin[0], i);
-  const Vertex p =
-      s.mesh.add_vertex(exact::ExactPoint{{0.0, 0.0, exact::Dyadic(1.0) + exact::Dyadic(1, -53)}});
+  const Vertex p = MeshEditor(s.mesh).add_vertex(
+      exact::ExactPoint{{0.0, 0.0, exact::Dyadic(1.0) + exact::Dyadic(1, -53)}});
   const std::vector<TetMesh::Corners> fresh = cone(outer_faces(s.mesh, thin), p);
-  replace(s.mesh, {.old_tets = thin, .new_tets = fresh});
+  MeshEditor(s.mesh).replace({.old_tets = thin, .new_tets = fresh});
   s.remember();
   return s;
 }
@@ -604,9 +604,9 @@ Vertex add_centre(Scene& prism) {
     const auto& c = prism.mesh.corners(t);
     return std::any_of(c.begin(), c.end(), [](Vertex v) { return v >= 6; });
   });
-  const Vertex p = prism.mesh.add_vertex(Point{0, 0, 0.5});
+  const Vertex p = MeshEditor(prism.mesh).add_vertex(Point{0, 0, 0.5});
   const auto fresh = cone(outer_faces(prism.mesh, inside), p);
-  replace(prism.mesh, {.old_tets = inside, .new_tets = fresh});
+  MeshEditor(prism.mesh).replace({.old_tets = inside, .new_tets = fresh});
   return p;
 }
 
@@ -631,7 +631,7 @@ TEST(IsNeeded, IsNotSaidWhereAConstraintStandsInside) {
   const Tet t = s.mesh.incident(p);
   const int i = s.mesh.index_of(t, p);
   const Vertex q = s.mesh.corner(t, (i + 1) % 4);
-  set_segment(s.mesh, t, p, q);
+  MeshEditor(s.mesh).set_segment(t, p, q);
   EXPECT_FALSE(is_needed(s.mesh, p, s.first_free));
 }
 

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "mesh/editor.h"
+#include "mesh/assembly.h"
 #include "mesh/kernel.h"
 #include "mesh/traverse.h"
 #include "mesh/validate.h"
@@ -45,7 +45,7 @@ void expect_same(TetMesh x, TetMesh y) {
     EXPECT_EQ(x.incident(v), y.incident(v));
   }
   for (std::size_t k = x.slot_count() - x.tet_count() + 1; k > 0; --k)
-    EXPECT_EQ(MeshEditor(x).add_tet({0, 1, 2, 3}), MeshEditor(y).add_tet({0, 1, 2, 3}));
+    EXPECT_EQ(MeshAssembly(x).add_tet({0, 1, 2, 3}), MeshAssembly(y).add_tet({0, 1, 2, 3}));
 }
 
 Vertex some_vertex(const TetMesh& mesh, std::mt19937_64& random) {
@@ -64,7 +64,7 @@ void change(TetMesh& mesh, std::mt19937_64& random, int times) {
     if (random() % 2 == 0) {
       round_with_neighbours(mesh, w, 0, 3);
     } else if (refill_without(mesh, w, 0, {}, random)) {
-      mesh.add_vertex(Point{0.5, 0.5, 0.5});
+      MeshEditor(mesh).add_vertex(Point{0.5, 0.5, 0.5});
     }
   }
 }

@@ -1,4 +1,4 @@
-// The 2-3 flip: a face gives way to the edge through it.
+// The plan of a 2-3 flip: a face gives way to the edge through it.
 //
 //          d                 The face (f0 f1 f2) between the apexes d and e gives way to edge de, and its two
 //        / | \               tetrahedra to (f0 f1 e d), (f1 f2 e d) and (f2 f0 e d). These are positive
@@ -9,12 +9,20 @@
 
 #include <array>
 
-#include "mesh/tet_mesh.h"
+#include "mesh/change.h"
 
 namespace holdfast {
 
-/// Makes the flip, whose new tetrahedra must be positive, and returns these: what `replace` would do
-/// (replace.h), with all neighbours known. (f0 f1 f2) is `f` as seen from its apex d. The face is no facet.
-std::array<Tet, 3> swap_face(TetMesh& mesh, Face f);
+class FacePlan {
+ public:
+  /// The face is no facet, and (f0 f1 f2) as seen from its apex d.
+  FacePlan(const TetMesh& mesh, Face f);
+
+  [[nodiscard]] Change change() const { return {old_tets_, new_tets_}; }
+
+ private:
+  std::array<Tet, 2> old_tets_;
+  std::array<NewTet, 3> new_tets_;
+};
 
 }  // namespace holdfast

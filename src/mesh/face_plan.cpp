@@ -1,6 +1,4 @@
-#include "mesh/face_swap.h"
-
-#include "mesh/editor.h"
+#include "mesh/face_plan.h"
 
 namespace holdfast {
 namespace {
@@ -45,26 +43,15 @@ Flags bits_of(const Side& of_d, const Side& of_e, std::size_t k) {
 
 }  // namespace
 
-std::array<Tet, 3> swap_face(TetMesh& mesh, Face f) {
+FacePlan::FacePlan(const TetMesh& mesh, Face f) : old_tets_{tet_of(f), tet_of(mesh.neighbour(f))} {
   const Face g = mesh.neighbour(f);
   const auto corners = mesh.face_vertices(f);
   const Vertex d = mesh.apex(f), e = mesh.apex(g);
   const Side of_d = side_of_face(mesh, f, corners), of_e = side_of_face(mesh, g, corners);
-  MeshEditor editor(mesh);
-  editor.remove_tet(tet_of(f));
-  editor.remove_tet(tet_of(g));
-  std::array<Tet, 3> tets{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const TetMesh::Corners fresh{corners[k], corners[(k + 1) % 3], e, d};
-    const Tet t = tets[k] = editor.add_tet(fresh);
-    editor.set_flags(t, bits_of(of_d, of_e, k));
-    editor.link(face_code(t, 3), of_e.across[k]);
-    editor.link(face_code(t, 2), of_d.across[k]);
-    for (const Vertex v : fresh) editor.set_incident(v, t);
-  }
-  for (std::size_t k = 0; k < 3; ++k) editor.link(face_code(tets[k], 0), face_code(tets[(k + 1) % 3], 1));
-  editor.finish(tets);
-  return tets;
+  for (std::size_t k = 0; k < 3; ++k)
+    new_tets_[k] = {{corners[k], corners[(k + 1) % 3], e, d},
+                    {new_face((k + 1) % 3, 1), new_face((k + 2) % 3, 0), of_d.across[k], of_e.across[k]},
+                    bits_of(of_d, of_e, k)};
 }
 
 }  // namespace holdfast
