@@ -24,13 +24,6 @@ struct CheckArguments {
   bool quiet = false;
 };
 
-Json report_of(const CheckResult& result) {
-  Json rules = Json::array();
-  for (const Rule& rule : result.rules)
-    rules.push_back({{"name", rule.name}, {"holds", rule.holds}, {"detail", rule.detail}});
-  return {{"holds", result.holds()}, {"rules", rules}, {"version", version()}};
-}
-
 std::string listing_of(const CheckResult& result) {
   std::string text;
   for (const Rule& rule : result.rules)
@@ -58,7 +51,7 @@ int run(const CheckArguments& arguments) {
   const CheckResult result = check(surface.view(), volume, options);
   if (!arguments.quiet) files.list(listing_of(result));
   cancel_by_flag();  // from here on files are open
-  write_json(arguments.report, report_of(result));
+  write_json(arguments.report, to_json(result));
   if (result.holds()) return exit_done;
   say("holdfast: {} does not keep the surface; the rules marked BROKEN say where\n", volume_path.string());
   return exit_check_failed;

@@ -49,23 +49,4 @@ std::string list_text(const DefectSummary& summary, const std::vector<Defect>& d
   return text;
 }
 
-Json to_json(const DefectSummary& summary) {
-  Json causes = Json::array(), gaps = Json::array();
-  for (const DefectGroup& group : summary.groups)
-    causes.push_back({{"cause", name(group.cause)},
-                      {"count", group.count},
-                      {"defects", group.defects},
-                      {"worst", group.worst},
-                      {"message", group.message}});
-  for (const Gap& gap : summary.gaps)
-    gaps.push_back({{"vertex", gap.vertex},
-                    {"other", gap.other},
-                    {"distance", gap.distance},
-                    {"open", gap.open},
-                    {"message", gap.message}});
-  Json json = {{"parts", summary.parts}, {"causes", causes}, {"gaps", gaps}, {"open_sides", summary.border}};
-  json["encloses"] = summary.enclosed ? Json(*summary.enclosed) : Json();
-  return json;
-}
-
 }  // namespace holdfast::cli

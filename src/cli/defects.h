@@ -27,6 +27,4 @@ inline constexpr std::size_t shown_in_passing = 20;
 [[nodiscard]] std::string list_text(const DefectSummary& summary, const std::vector<Defect>& defects,
                                     std::size_t most, const char* rest);
 
-[[nodiscard]] Json to_json(const DefectSummary& summary);
-
 }  // namespace holdfast::cli

@@ -1,22 +1,16 @@
-// The report of a run as JSON, with stable keys.
+// The report of a run as a file, and what is said of it.
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "holdfast/holdfast.h"
 #include "holdfast/names.h"
+#include "reports.h"
 
 namespace holdfast::cli {
 
-using Json = nlohmann::ordered_json;
-
-[[nodiscard]] Json to_json(const Defect& defect);
-[[nodiscard]] Json to_json(const std::vector<Defect>& defects);
-[[nodiscard]] Json to_json(const std::vector<Remark>& remarks);
-
-/// The whole report of `mesh`; `options` is what the user asked for.
-[[nodiscard]] Json to_json(const Result& result, Json options);
+using reports::Json;
+using reports::to_json;
 
 /// How many vertices of a surface share a place with others or are left out, as `Report::Input` counts them.
 [[nodiscard]] Report::Input count_vertices(const Surface& surface);

@@ -37,36 +37,12 @@ UntangleOptions to_options(const UntangleArguments& arguments) {
 }
 
 Json report_of(const UntangleArguments& arguments, const UntangleResult& result) {
-  const UntangleReport& report = result.report;
-  return {{"input",
-           {{"vertices", report.vertices},
-            {"free_vertices", report.free_vertices},
-            {"tetrahedra", report.tetrahedra},
-            {"turned", report.turned},
-            {"negative", report.negative},
-            {"null", report.null}}},
-          {"left", {{"negative", report.negative_after}, {"null", report.null_after}}},
-          {"moved", report.moved},
-          {"swapped", report.swapped},
-          {"cavities", report.cavities},
-          {"added", report.added},
-          {"removed", report.removed},
-          {"rounds", report.rounds},
-          {"mesh",
-           {{"vertices", result.volume.vertices.size()}, {"tetrahedra", result.volume.tetrahedra.size()}}},
-          {"seconds", report.seconds},
-          {"peak_memory_bytes", report.peak_memory_bytes},
-          {"version", version()},
-          {"options",
-           {{"input", arguments.input.string()},
-            {"output", arguments.output.string()},
-            {"refill", !arguments.no_refill},
-            {"seed", arguments.seed},
-            {"time_limit", arguments.time_limit.value_or(0)},
-            {"memory_limit", arguments.memory_limit.value_or(0)}}},
-          {"outcome", name(result.outcome)},
-          {"message", result.message},
-          {"defects", to_json(result.defects)}};
+  return to_json(result, {{"input", arguments.input.string()},
+                          {"output", arguments.output.string()},
+                          {"refill", !arguments.no_refill},
+                          {"seed", arguments.seed},
+                          {"time_limit", arguments.time_limit.value_or(0)},
+                          {"memory_limit", arguments.memory_limit.value_or(0)}});
 }
 
 /// Says how the run ended and what the user can do; returns the exit code.

@@ -1,0 +1,61 @@
+"""Holdfast fills any triangulated surface with tetrahedra and keeps every triangle of it exactly.
+
+>>> import holdfast
+>>> mesh = holdfast.mesh("part.stl", size=2.0)  # doctest: +SKIP
+>>> mesh.save("part.vtu")  # doctest: +SKIP
+"""
+
+from ._api import (
+    CheckResult,
+    Diagnosis,
+    Rule,
+    check,
+    delaunay,
+    diagnose,
+    mesh,
+    read_volume,
+    untangle,
+)
+from ._core import CancelToken, __version__
+from ._surface import Surface, read_surface
+from ._tetmesh import Quality, TetMesh
+from ._batch import batch
+from .errors import (
+    Cancelled,
+    Defect,
+    FileError,
+    HoldfastError,
+    InternalError,
+    InvalidSurface,
+    MemoryLimit,
+    NotRepresentable,
+    TimeLimit,
+)
+
+__all__ = [
+    "CancelToken",
+    "Cancelled",
+    "CheckResult",
+    "Defect",
+    "Diagnosis",
+    "FileError",
+    "HoldfastError",
+    "InternalError",
+    "InvalidSurface",
+    "MemoryLimit",
+    "NotRepresentable",
+    "Quality",
+    "Rule",
+    "Surface",
+    "TetMesh",
+    "TimeLimit",
+    "__version__",
+    "batch",
+    "check",
+    "delaunay",
+    "diagnose",
+    "mesh",
+    "read_surface",
+    "read_volume",
+    "untangle",
+]

@@ -1,0 +1,429 @@
+"""Many parts: one child process each, so that one failure costs one part."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import contextlib
+import fcntl
+import json
+import os
+import shutil
+import signal
+import subprocess
+import threading
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Callable, Iterable, Iterator, Optional, Sequence, Union
+
+from ._program import program
+
+PathLike = Union[str, "os.PathLike[str]"]
+Row = dict[str, Any]
+
+STATUSES = ("done", "skipped", "invalid", "limit", "failed")
+_BY_EXIT = {0: "done", 4: "invalid", 5: "limit"}
+_FILES_OF_FORMAT = {".node": (".node", ".ele", ".face", ".edge")}
+
+
+class BatchError(ValueError):
+    """A batch that cannot be begun: two files of one stem, a shard that there is not."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """One part, as a worker gets it; plain data, so that it travels to other processes and machines."""
+
+    file: str
+    output: str
+    arguments: tuple[str, ...]
+    time_limit: Optional[float]
+    format: str
+
+
+@dataclass
+class Batch:
+    """What is to be done, and what is known of it already."""
+
+    tasks: list[Task]
+    results: Path
+    shard: Optional[tuple[int, int]]
+    earlier: dict[str, Row] = field(default_factory=dict)
+
+    @property
+    def results_of_shard(self) -> Path:
+        return self.results if self.shard is None else _shard_file(self.results, *self.shard)
+
+
+def stem_of(file: PathLike) -> str:
+    """The name without its ending, be it packed or not: "part" of "a/part.stl.gz"."""
+    name = Path(file).name
+    if name.lower().endswith(".gz"):
+        name = name[:-3]
+    return Path(name).stem
+
+
+def shard_of_slurm(environment: Optional[dict[str, str]] = None) -> Optional[tuple[int, int]]:
+    """(I, N) of a Slurm array's task, I from 0; None outside one."""
+    env = dict(os.environ) if environment is None else environment
+    if "SLURM_ARRAY_TASK_ID" not in env:
+        return None
+    task = int(env["SLURM_ARRAY_TASK_ID"])
+    first = int(env.get("SLURM_ARRAY_TASK_MIN", 0))
+    step = int(env.get("SLURM_ARRAY_TASK_STEP", 1)) or 1
+    last = int(env.get("SLURM_ARRAY_TASK_MAX", task))
+    count = int(env.get("SLURM_ARRAY_TASK_COUNT", (last - first) // step + 1))
+    return _sensible_shard((task - first) // step, count)
+
+
+def _sensible_shard(index: int, count: int) -> tuple[int, int]:
+    if not 0 <= index < count:
+        raise BatchError(f"shard {index}/{count}: I of I/N counts from 0 to N - 1")
+    return index, count
+
+
+def _shard_file(results: Path, index: int, count: int) -> Path:
+    return results.with_name(f"{results.stem}.{index}-of-{count}{results.suffix}")
+
+
+def plan(
+    files: Iterable[PathLike],
+    output: PathLike,
+    *,
+    format: str = ".vtu",
+    arguments: Sequence[str] = (),
+    time_limit: Optional[float] = None,
+    memory_limit: Optional[float] = None,
+    resume: bool = False,
+    results: Optional[PathLike] = None,
+    shard: Optional[tuple[int, int]] = None,
+) -> Batch:
+    """Tasks of a batch, or of its shard. Raises BatchError."""
+    names = [os.fspath(f) for f in files]
+    if not names:
+        raise BatchError("there are no files")
+    by_stem: dict[str, str] = {}
+    for name in names:
+        other = by_stem.setdefault(stem_of(name), name)
+        if other is not name:
+            raise BatchError(f"{other} and {name} would both be written as {stem_of(name)}; rename one, or use two folders")
+    ending = "." + format.lstrip(".")
+    limits = [] if time_limit is None else ["--time-limit", repr(float(time_limit))]
+    limits += [] if memory_limit is None else ["--memory-limit", repr(float(memory_limit))]
+    to_format = ["--format", "msh2"] if ending == ".msh2" else []
+    suffix = ".msh" if ending == ".msh2" else ending
+    folder = Path(output)
+    tasks = [
+        Task(name, str(folder / (stem_of(name) + suffix)), (*arguments, *limits, *to_format), time_limit, suffix)
+        for name in names
+    ]
+    if shard is not None:
+        index, count = _sensible_shard(*shard)
+        tasks = tasks[index::count]
+    batch = Batch(tasks, Path(results) if results is not None else folder / "results.jsonl", shard)
+    if resume:
+        for path in _all_results(batch.results):
+            for row in _rows(path):
+                _keep_better(batch.earlier, row)
+    return batch
+
+
+def _all_results(results: Path) -> list[Path]:
+    return [results, *sorted(results.parent.glob(f"{results.stem}.*-of-*{results.suffix}"))]
+
+
+def _rows(path: Path) -> Iterator[Row]:
+    """Lines that are whole; a run that was killed may have left a part of one."""
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except FileNotFoundError:
+        return
+    for line in lines:
+        with contextlib.suppress(json.JSONDecodeError):
+            row = json.loads(line)
+            if isinstance(row, dict) and "output" in row and "status" in row:
+                yield row
+
+
+def _keep_better(rows: dict[str, Row], row: Row) -> None:
+    """The latest row of a part, but that to have skipped it says less than what was skipped."""
+    known = rows.get(row["output"])
+    if known is None or row["status"] != "skipped":
+        rows[row["output"]] = row
+
+
+def is_complete(task: Task, earlier: dict[str, Row]) -> bool:
+    """Files appear complete or not at all; of those that go together the first may stand alone."""
+    endings = _FILES_OF_FORMAT.get(task.format)
+    if endings is None:
+        return os.path.exists(task.output)
+    stem = task.output[: -len(task.format)]
+    known = earlier.get(task.output, {}).get("status") in ("done", "skipped")
+    return known and all(os.path.exists(stem + e) for e in endings[:2])
+
+
+def run_part(task: Task) -> Row:
+    """Meshes one part in a child process, which dies with its parent, and tells how it went."""
+    started = time.monotonic()
+    Path(task.output).parent.mkdir(parents=True, exist_ok=True)
+    command = [program(), "mesh", task.file, "-o", task.output, "--report", "-", *task.arguments]
+    if setpriv := shutil.which("setpriv"):
+        command = [setpriv, "--pdeathsig", "KILL", "--", *command]
+    row: Row = {"file": task.file, "output": task.output}
+    # A child that does not heed its limit is stuck in the system, where no limit of its own helps.
+    patience = None if task.time_limit is None else 2 * task.time_limit + 60
+    child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    _children.add(child)
+    try:
+        out, err = child.communicate(timeout=patience)
+        exit_code = child.returncode
+    except subprocess.TimeoutExpired:
+        child.kill()
+        out, err = child.communicate()
+        exit_code = 5
+    except BaseException:
+        child.kill()
+        child.wait()
+        raise
+    finally:
+        _children.discard(child)
+    message = err.decode("utf-8", "replace").strip()
+    report = _report_of(out)
+    row["status"] = _BY_EXIT.get(exit_code, "failed")
+    row["exit"] = exit_code
+    row["seconds"] = round(time.monotonic() - started, 3)
+    row["message"] = _told(exit_code, message)
+    if report and row["status"] == "done":
+        row["points"] = report["mesh"]["vertices"]
+        row["tetrahedra"] = report["mesh"]["tetrahedra"]
+        row["regions"] = report["mesh"]["regions"]
+        row["steiner_points"] = report["steiner"]["count"]
+        row["min_dihedral_deg"] = report["quality"]["min_dihedral_deg"]
+        row["below_10_deg"] = report["quality"]["below_10_deg"]
+    return row
+
+
+_children: set["subprocess.Popen[bytes]"] = set()
+
+
+def kill_children() -> None:
+    """Those of this process that still run."""
+    for child in list(_children):
+        with contextlib.suppress(OSError):
+            child.kill()
+
+
+def _report_of(out: bytes) -> Optional[dict[str, Any]]:
+    try:
+        report = json.loads(out)
+    except ValueError:
+        return None
+    return report if isinstance(report, dict) else None
+
+
+def _told(exit_code: int, message: str) -> str:
+    if exit_code < 0:
+        with contextlib.suppress(ValueError):
+            name = signal.Signals(-exit_code).name
+            return f"killed by {name}" + (": " + message.splitlines()[-1] if message else "")
+    lines = message.splitlines()
+    if not lines:
+        return ""
+    # What went wrong begins with the program's name; what went well is the last line.
+    if exit_code != 0:
+        return next((line for line in lines if line.startswith("holdfast: ")), lines[0])
+    return lines[-1]
+
+
+@contextlib.contextmanager
+def _locked(folder: Path) -> Iterator[None]:
+    """Shards of one machine, or of a file system with locks, merge one after the other."""
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        with contextlib.suppress(OSError):
+            fcntl.flock(handle, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(handle)
+
+
+def merge(batch: Batch) -> None:
+    """One results file of what is known: of all shards, and of earlier runs where this one resumes them."""
+    if batch.shard is None and not batch.earlier:
+        return
+    with _locked(batch.results.parent):
+        rows = dict(batch.earlier)
+        sources = [batch.results_of_shard]
+        if batch.shard is not None:
+            sources = [_shard_file(batch.results, i, batch.shard[1]) for i in range(batch.shard[1])]
+        for source in sources:
+            for row in _rows(source):
+                _keep_better(rows, row)
+        partial = batch.results.with_name(f".{batch.results.name}.{os.getpid()}")
+        partial.write_text("".join(json.dumps(r) + "\n" for r in rows.values()), encoding="utf-8")
+        os.replace(partial, batch.results)
+
+
+def execute(
+    batch: Batch,
+    *,
+    executor: Any = None,
+    jobs: Optional[int] = None,
+    resume: bool = False,
+    tell: Optional[Callable[[Row, int, int], None]] = None,
+) -> list[Row]:
+    """Runs the tasks and gives a row each, in their order; a results file holds them as they come."""
+    batch.results.parent.mkdir(parents=True, exist_ok=True)
+    rows: dict[str, Row] = {}
+    lock = threading.Lock()
+    with open(batch.results_of_shard, "a" if resume else "w", encoding="utf-8") as lines:
+
+        def finish(row: Row) -> None:
+            with lock:
+                rows[row["output"]] = row
+                lines.write(json.dumps(row) + "\n")
+                lines.flush()
+                if tell is not None:
+                    tell(row, len(rows), len(batch.tasks))
+
+        to_do: list[Task] = []
+        for task in batch.tasks:
+            if resume and is_complete(task, batch.earlier):
+                finish(_skipped(task, batch.earlier))
+            else:
+                to_do.append(task)
+        if executor is None:
+            with concurrent.futures.ThreadPoolExecutor(jobs or os.cpu_count() or 1) as own:
+                _run_on(own, to_do, finish)
+        else:
+            _run_on(executor, to_do, finish)
+    merge(batch)
+    return [rows[task.output] for task in batch.tasks]
+
+
+def _skipped(task: Task, earlier: dict[str, Row]) -> Row:
+    known = {k: v for k, v in earlier.get(task.output, {}).items() if k not in ("status", "message", "seconds", "exit")}
+    return {"file": task.file, "output": task.output, **known, "status": "skipped", "exit": 0, "seconds": 0.0,
+            "message": "complete already"}
+
+
+def _run_on(executor: Any, tasks: Sequence[Task], finish: Callable[[Row], None]) -> None:
+    is_dask = hasattr(executor, "scheduler_info")
+    # The program counts as the worker's own: results of the same task are not to be taken from a cache.
+    options = {"pure": False} if is_dask else {}
+    futures = {executor.submit(run_part, task, **options): task for task in tasks}
+    try:
+        for future in _as_completed(futures, is_dask):
+            try:
+                finish(future.result())
+            except Exception as error:  # of the worker, not of the part
+                finish(_lost(futures[future], error))
+    except BaseException:
+        for future in futures:
+            future.cancel()
+        kill_children()
+        raise
+
+
+def _as_completed(futures: Iterable[Any], is_dask: bool) -> Iterator[Any]:
+    if not is_dask:
+        return concurrent.futures.as_completed(list(futures))
+    from distributed import as_completed
+
+    return iter(as_completed(list(futures)))
+
+
+def _lost(task: Task, error: Exception) -> Row:
+    return {"file": task.file, "output": task.output, "status": "failed", "exit": 1, "seconds": 0.0,
+            "message": f"the worker was lost: {type(error).__name__}: {error}"}
+
+
+_FLAGS = {"fill": "--fill", "drop_outside": "--drop-outside", "surface_of": "--surface-of"}
+_VALUES = {"size": "--size", "gradation": "--gradation", "quality": "--quality", "seed": "--seed", "threads": "--threads",
+           "size_field": "--size-field"}
+
+
+def arguments_of(options: dict[str, Any]) -> list[str]:
+    """Options of `mesh` as the program takes them. Raises TypeError for those that files cannot have."""
+    found: list[str] = []
+    left = dict(options)
+    for name, flag in _FLAGS.items():
+        if left.pop(name, False):
+            found.append(flag)
+    if not left.pop("growth", True):
+        found.append("--no-growth")
+    for name, option in _VALUES.items():
+        if (value := left.pop(name, None)) is not None:
+            if callable(value) or (hasattr(value, "__len__") and not isinstance(value, str)):
+                raise TypeError(f"batch: {name} must be a number or a path, as it holds for every file")
+            found += [option, str(value)]
+    if (keep := left.pop("keep", None)) is not None:
+        margin = left.pop("box_margin", None)
+        found += ["--keep", f"{keep}={margin}" if keep == "box" and margin is not None else str(keep)]
+    for name, option in (("holes", "--hole"), ("regions", "--region")):
+        for values in left.pop(name, ()):
+            found += [option, ",".join(repr(v) for v in values)]
+    for step in left.pop("without", ()):
+        found += ["--without", step]
+    if left:
+        raise TypeError(f"batch: there is no option {', '.join(sorted(left))}")
+    return found
+
+
+def batch(
+    files: Iterable[PathLike],
+    output: PathLike,
+    *,
+    executor: Any = None,
+    jobs: Optional[int] = None,
+    format: str = ".vtu",
+    time_limit: Optional[float] = None,
+    memory_limit: Optional[float] = None,
+    resume: bool = False,
+    results: Optional[PathLike] = None,
+    shard: Optional[tuple[int, int]] = None,
+    progress: Optional[Callable[[Row, int, int], None]] = None,
+    **options: Any,
+) -> list[Row]:
+    """Meshes many files, each in a process of its own, into `output`/STEM.vtu.
+
+    Parameters
+    ----------
+    files
+        Surface files with distinct stems.
+    executor
+        A `concurrent.futures` executor or a Dask client, whose workers see the same files; None: `jobs` threads here.
+    jobs
+        Parts at a time without an executor; None: as many as there are processors.
+    time_limit, memory_limit
+        Seconds and gigabytes of each part.
+    resume
+        Leaves out parts whose output is complete, and merges the results of earlier runs and shards.
+    results
+        File of a JSON line a part (default `output`/results.jsonl; shard I of N writes results.I-of-N.jsonl and merges
+        those that there are).
+    shard
+        (I, N): only every N-th file from the I-th on, from 0.
+    progress
+        Called with (row, how many are finished, how many there are).
+    options
+        Of `mesh`: fill, size (a number), quality, keep, seed, threads and so on.
+
+    Returns
+    -------
+    A dict a file: "file", "output", "status" ("done", "skipped", "invalid", "limit" or "failed"), "exit", "seconds",
+    "message", and for done parts "points", "tetrahedra", "regions", "steiner_points", "min_dihedral_deg", "below_10_deg".
+
+    Raises
+    ------
+    ValueError
+        For equal stems, and a shard that there is not.
+
+    Example
+    -------
+    >>> import holdfast
+    >>> rows = holdfast.batch(["a.stl", "b.stl"], "meshes", time_limit=60)  # doctest: +SKIP
+    """
+    planned = plan(files, output, format=format, arguments=arguments_of(options), time_limit=time_limit,
+                   memory_limit=memory_limit, resume=resume, results=results, shard=shard)
+    return execute(planned, executor=executor, jobs=jobs, resume=resume, tell=progress)

@@ -1,0 +1,91 @@
+"""Limits and progress of calls."""
+
+from __future__ import annotations
+
+import re
+import sys
+from typing import Any, Callable, Optional, Union
+
+from ._core import CancelToken
+
+ProgressCallback = Callable[[str, float], Any]
+MemoryAmount = Union[float, str]
+
+_UNITS = {"": 1e9, "B": 1.0, "KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12, "KIB": 2.0**10, "MIB": 2.0**20, "GIB": 2.0**30,
+          "TIB": 2.0**40}
+
+
+def bytes_of(amount: Optional[MemoryAmount]) -> Optional[int]:
+    """Gigabytes as a number, or text with a unit ("500 MB", "2 GiB"), in bytes."""
+    if amount is None:
+        return None
+    found = re.fullmatch(r"\s*([0-9.eE+]+)\s*([A-Za-z]*)\s*", str(amount))
+    factor = _UNITS.get(found.group(2).upper()) if found else None
+    if found is None or factor is None:
+        raise ValueError(f"memory_limit={amount!r}: gigabytes as a number, or text such as '500 MB', is expected")
+    size = float(found.group(1)) * factor
+    if not 0 < size < 2.0**63:
+        raise ValueError(f"memory_limit={amount!r}: a positive amount that a machine can have is expected, in gigabytes")
+    return int(size)
+
+
+def limits(
+    time_limit: Optional[float], memory_limit: Optional[MemoryAmount], cancel: Optional[CancelToken]
+) -> dict[str, Any]:
+    if time_limit is not None and not 0 < time_limit < float("inf"):
+        raise ValueError(f"time_limit={time_limit!r}: a positive number of seconds is expected; None is no limit")
+    return {"time_limit": time_limit, "memory_limit": bytes_of(memory_limit), "cancel": cancel}
+
+
+class _Bar:
+    """A bar on standard error: tqdm's where there is one, else a line of its own."""
+
+    def __init__(self, what: str) -> None:
+        self.done = 0.0
+        self.bar: Any = None
+        self.what = what
+        try:
+            from tqdm.auto import tqdm
+
+            self.bar = tqdm(total=100, desc=what, unit="%", leave=False,
+                            bar_format="{desc}: {percentage:3.0f}%|{bar}| {elapsed}<{remaining}")
+        except ImportError:
+            pass
+
+    def __call__(self, stage: str, fraction: float) -> None:
+        percent = 100 * fraction
+        if self.bar is not None:
+            self.bar.set_description(f"{self.what} {stage}", refresh=False)
+            self.bar.update(max(0.0, percent - self.done))
+        elif int(percent) > int(self.done):
+            sys.stderr.write(f"\r{self.what}: {int(percent):3d} % {stage:<12}")
+            sys.stderr.flush()
+        self.done = max(self.done, percent)
+
+    def close(self) -> None:
+        if self.bar is not None:
+            self.bar.close()
+        elif self.done > 0:
+            sys.stderr.write("\r" + 60 * " " + "\r")
+            sys.stderr.flush()
+
+
+class Shown:
+    """A context that gives the callback for the extension: None, the user's, or a bar for True."""
+
+    def __init__(self, progress: Union[None, bool, ProgressCallback], what: str) -> None:
+        if progress is not None and not isinstance(progress, bool) and not callable(progress):
+            raise TypeError("progress must be True, or a function that takes (stage, fraction)")
+        self.progress = progress
+        self.what = what
+        self.bar: Optional[_Bar] = None
+
+    def __enter__(self) -> Optional[ProgressCallback]:
+        if self.progress is True:
+            self.bar = _Bar(self.what)
+            return self.bar
+        return self.progress if callable(self.progress) else None
+
+    def __exit__(self, *_: object) -> None:
+        if self.bar is not None:
+            self.bar.close()

@@ -1,0 +1,397 @@
+"""Surfaces out of whatever holds one: files, arrays, and the objects of other packages, told by their shape."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Iterable, NamedTuple, Optional, Sequence, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._limits import CancelToken, MemoryAmount, ProgressCallback, Shown, limits
+
+Array = npt.NDArray[Any]
+PathLike = Union[str, "os.PathLike[str]"]
+Region = tuple[float, float, float, int, float]
+Hole = tuple[float, float, float]
+
+_INTEGERS = {np.dtype(t) for t in (np.int32, np.int64, np.uint32, np.uint64)}
+_FLOATS = {np.dtype(t) for t in (np.float32, np.float64)}
+
+
+class Surface:
+    """A triangulated surface: arrays that are read-only where a file gave them.
+
+    Every function that takes a surface takes this. Optional arrays are None where there is nothing.
+
+    >>> import numpy as np
+    >>> s = Surface(np.eye(4, 3), [(0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)])
+    >>> s
+    Surface(4 points, 4 triangles)
+    """
+
+    def __init__(
+        self,
+        points: npt.ArrayLike,
+        triangles: npt.ArrayLike,
+        *,
+        segments: Optional[npt.ArrayLike] = None,
+        triangle_markers: Optional[npt.ArrayLike] = None,
+        segment_markers: Optional[npt.ArrayLike] = None,
+        point_markers: Optional[npt.ArrayLike] = None,
+        holes: Sequence[Hole] = (),
+        regions: Sequence[Region] = (),
+        remarks: Sequence[str] = (),
+    ) -> None:
+        self.points: Array = points_of(points)
+        """(n, 3) coordinates."""
+        self.triangles: Array = indices_of(triangles, 3, "triangles")
+        """(m, 3) indices of points, from 0."""
+        self.segments: Optional[Array] = None if segments is None else indices_of(segments, 2, "segments")
+        """(k, 2) indices of the ends of segments that belong to no triangle, or that have markers."""
+        self.triangle_markers: Optional[Array] = markers_of(triangle_markers, "triangle_markers")
+        self.segment_markers: Optional[Array] = markers_of(segment_markers, "segment_markers")
+        self.point_markers: Optional[Array] = markers_of(point_markers, "point_markers")
+        self.holes: list[Hole] = list(holes)
+        """Points in regions to leave empty, as the file names them."""
+        self.regions: list[Region] = list(regions)
+        """(x, y, z, id, size) of regions, as the file names them; a size of 0 is none."""
+        self.remarks: list[str] = list(remarks)
+        """What the file holds that a surface does not, or holds in another way."""
+
+    def __repr__(self) -> str:
+        extra = "" if self.segments is None else f", {len(self.segments)} segments"
+        return f"Surface({len(self.points)} points, {len(self.triangles)} triangles{extra})"
+
+    def _arrays(self) -> tuple[Any, ...]:
+        return (self.points, self.triangles, self.segments, self.point_markers, self.triangle_markers,
+                self.segment_markers)
+
+
+def points_of(values: npt.ArrayLike, what: str = "points") -> Array:
+    """(n, 3) coordinates of a type that the extension takes as it lies there."""
+    array = np.asarray(values)
+    if array.dtype == object or array.dtype.kind not in "fiu":
+        raise TypeError(f"{what} must be real numbers, not {array.dtype}")
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"{what} must have the shape (n, 3), not {array.shape}")
+    if array.dtype.isnative and array.dtype in _FLOATS:
+        return array
+    if array.dtype.kind == "f" and array.dtype.itemsize > 8:
+        raise TypeError(f"{what} are {array.dtype}, which doubles do not hold")
+    if array.dtype.kind in "iu":
+        return array.astype(np.uint64 if array.dtype.kind == "u" else np.int64, copy=False)
+    return array.astype(np.float64)
+
+
+def indices_of(values: npt.ArrayLike, columns: int, what: str) -> Array:
+    """(m, columns) indices of a type that the extension takes as it lies there."""
+    array = np.asarray(values)
+    if array.size == 0 and array.ndim < 2:
+        array = np.empty((0, columns), np.int32)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"{what} must be integers, not {array.dtype}")
+    if array.ndim != 2 or array.shape[1] != columns:
+        raise ValueError(f"{what} must have the shape (m, {columns}), not {array.shape}")
+    return array if array.dtype in _INTEGERS and array.dtype.isnative else array.astype(np.int64)
+
+
+def markers_of(values: Optional[npt.ArrayLike], what: str) -> Optional[Array]:
+    """(m,) integers, or None."""
+    if values is None:
+        return None
+    array = np.asarray(values)
+    if array.ndim != 1:
+        raise ValueError(f"{what} must have the shape (m,), not {array.shape}")
+    if array.dtype.kind == "f" and np.all(array == np.floor(array)):
+        array = array.astype(np.int64)
+    if array.dtype.kind not in "iu" and array.size > 0:
+        raise TypeError(f"{what} must be integers, not {array.dtype}")
+    return array if array.dtype in _INTEGERS and array.dtype.isnative else array.astype(np.int64)
+
+
+def surface_of(
+    surface: Any,
+    triangles: Optional[npt.ArrayLike] = None,
+    *,
+    segments: Optional[npt.ArrayLike] = None,
+    triangle_markers: Optional[npt.ArrayLike] = None,
+    segment_markers: Optional[npt.ArrayLike] = None,
+) -> Surface:
+    """The surface that an argument means; what else is given replaces what the surface has of it."""
+    if triangles is not None:
+        found = Surface(surface, triangles)
+    else:
+        found = _told_by_shape(surface)
+    if segments is None and triangle_markers is None and segment_markers is None:
+        return found
+    return Surface(
+        found.points,
+        found.triangles,
+        segments=found.segments if segments is None else segments,
+        triangle_markers=found.triangle_markers if triangle_markers is None else triangle_markers,
+        segment_markers=(found.segment_markers if segments is None else None)
+        if segment_markers is None
+        else segment_markers,
+        point_markers=found.point_markers,
+        holes=found.holes,
+        regions=found.regions,
+        remarks=found.remarks,
+    )
+
+
+def _told_by_shape(surface: Any) -> Surface:
+    if isinstance(surface, Surface):
+        return surface
+    if isinstance(surface, (str, os.PathLike)):
+        return read_surface(surface)
+    if hasattr(surface, "GetPolys") and hasattr(surface, "GetPoints"):
+        return _of_vtk(surface)
+    if hasattr(surface, "points") and hasattr(surface, "cells") and not hasattr(surface, "faces"):
+        return _of_meshio(surface)
+    if hasattr(surface, "points") and hasattr(surface, "faces"):
+        return _of_pyvista(surface)
+    if hasattr(surface, "vertices") and hasattr(surface, "faces"):
+        return Surface(surface.vertices, surface.faces)
+    if isinstance(surface, (tuple, list)) and len(surface) == 2 and np.ndim(surface[0]) == 2:
+        return Surface(surface[0], surface[1])
+    raise TypeError(
+        f"a surface is expected: a path, an (n, 3) array with `triangles`, or an object like a PyVista or VTK "
+        f"PolyData, a meshio.Mesh or a trimesh.Trimesh; not {type(surface).__name__}"
+    )
+
+
+class _Polygons(NamedTuple):
+    triangles: Array
+    origin: Array
+    """Of each triangle, the polygon that it is from."""
+
+
+def _triangles_of(points: Array, offsets: Array, corners: Array) -> _Polygons:
+    """Polygons as triangles; those of more than three corners must be convex."""
+    counts = np.diff(offsets)
+    if np.all(counts == 3):
+        return _Polygons(corners.reshape(-1, 3), np.arange(len(counts)))
+    if np.any(counts < 3):
+        first = int(np.argmax(counts < 3))
+        raise ValueError(f"polygon {first} has {int(counts[first])} corners")
+    triangles: list[tuple[int, int, int]] = []
+    origin: list[int] = []
+    for i, (begin, end) in enumerate(zip(offsets[:-1], offsets[1:])):
+        polygon = corners[begin:end]
+        if end - begin > 3:
+            _require_convex(points[polygon], i)
+        for k in range(1, len(polygon) - 1):
+            triangles.append((int(polygon[0]), int(polygon[k]), int(polygon[k + 1])))
+            origin.append(i)
+    return _Polygons(np.array(triangles, np.int64), np.array(origin, np.int64))
+
+
+def _require_convex(corners: Array, number: int) -> None:
+    here = corners.astype(np.float64)
+    ahead, behind = np.roll(here, -1, axis=0), np.roll(here, 1, axis=0)
+    turns = np.cross(here - behind, ahead - here)
+    normal = np.cross(here, ahead).sum(axis=0)
+    if np.any(turns @ normal < 0):
+        raise ValueError(f"polygon {number} is not convex; triangulate the surface first")
+
+
+def _offsets_of(counted: Array) -> tuple[Array, Array]:
+    """Cells as VTK's old lists have them, [3, a, b, c, 4, ...], as offsets and corners."""
+    flat = np.asarray(counted).ravel()
+    if flat.size % 4 == 0 and np.all(flat[::4] == 3):
+        corners = flat.reshape(-1, 4)[:, 1:].ravel()
+        return np.arange(0, corners.size + 1, 3), corners
+    starts: list[int] = []
+    at = 0
+    while at < flat.size:
+        starts.append(at)
+        at += int(flat[at]) + 1
+    if at != flat.size:
+        raise ValueError("the list of polygons ends inside one")
+    counts = flat[starts]
+    keep = np.ones(flat.size, bool)
+    keep[starts] = False
+    return np.concatenate([[0], np.cumsum(counts)]), flat[keep]
+
+
+def _lines_of(offsets: Array, corners: Array) -> Array:
+    """Polylines as segments."""
+    pieces = [corners[b:e] for b, e in zip(offsets[:-1], offsets[1:])]
+    found = [np.stack([p[:-1], p[1:]], axis=1) for p in pieces if len(p) > 1]
+    return np.concatenate(found) if found else np.empty((0, 2), np.int64)
+
+
+def _named(data: Any, *names: str) -> Optional[Array]:
+    for name in names:
+        try:
+            found = data[name]
+        except (KeyError, TypeError, IndexError, AttributeError):
+            continue
+        if found is not None:
+            return np.asarray(found)
+    return None
+
+
+def _of_pyvista(mesh: Any) -> Surface:
+    points = np.asarray(mesh.points)
+    if getattr(mesh, "n_strips", 0):
+        raise ValueError("the surface has triangle strips; call .triangulate() first")
+    cells = _triangles_of(points, *_offsets_of(mesh.faces))
+    lines = np.asarray(getattr(mesh, "lines", np.empty(0, np.int64)))
+    segments = _lines_of(*_offsets_of(lines)) if lines.size else None
+    markers = _named(getattr(mesh, "cell_data", None), "marker")
+    if markers is not None:  # VTK counts lines before polygons
+        polygons = int(cells.origin.max()) + 1 if len(cells.origin) else 0
+        markers = markers[len(markers) - polygons :][cells.origin]
+    return Surface(points, cells.triangles, segments=segments, triangle_markers=markers)
+
+
+def _of_vtk(mesh: Any) -> Surface:
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    if mesh.GetPoints() is None:
+        return Surface(np.empty((0, 3)), np.empty((0, 3), np.int64))
+    if mesh.GetNumberOfStrips():
+        raise ValueError("the surface has triangle strips; use vtkTriangleFilter first")
+
+    def cells_of(cells: Any) -> tuple[Array, Array]:
+        return vtk_to_numpy(cells.GetOffsetsArray()), vtk_to_numpy(cells.GetConnectivityArray())
+
+    points = vtk_to_numpy(mesh.GetPoints().GetData())
+    cells = _triangles_of(points, *cells_of(mesh.GetPolys()))
+    segments = _lines_of(*cells_of(mesh.GetLines())) if mesh.GetNumberOfLines() else None
+    array = mesh.GetCellData().GetArray("marker")
+    before = mesh.GetNumberOfVerts() + mesh.GetNumberOfLines()
+    markers = None if array is None else vtk_to_numpy(array)[before:][cells.origin]
+    return Surface(points, cells.triangles, segments=segments, triangle_markers=markers)
+
+
+_MARKER_NAMES = ("marker", "gmsh:physical", "medit:ref", "cell_tags")
+
+
+def _of_meshio(mesh: Any) -> Surface:
+    points = np.asarray(mesh.points)
+    if points.ndim == 2 and points.shape[1] == 2:
+        raise ValueError("the mesh is plane: its points have two coordinates")
+    triangles: list[Array] = []
+    markers: list[Array] = []
+    segments: list[Array] = []
+    segment_markers: list[Array] = []
+    data = getattr(mesh, "cell_data", None) or {}
+    name = next((n for n in _MARKER_NAMES if n in data), None)
+    for i, block in enumerate(mesh.cells):
+        kind, cells = (block.type, block.data) if hasattr(block, "type") else block
+        cells = np.asarray(cells)
+        marks = np.zeros(len(cells), np.int64) if name is None else np.asarray(data[name][i])
+        if kind in ("triangle", "triangle6", "triangle7"):
+            triangles.append(cells[:, :3])
+            markers.append(marks)
+        elif kind in ("quad", "quad8", "quad9", "polygon"):
+            corners = cells[:, :4] if kind != "polygon" else cells
+            width = corners.shape[1]
+            found = _triangles_of(points, np.arange(0, corners.size + 1, width), corners.ravel())
+            triangles.append(found.triangles)
+            markers.append(marks[found.origin])
+        elif kind in ("line", "line3"):
+            segments.append(cells[:, :2])
+            segment_markers.append(marks)
+    if not triangles and any(getattr(b, "type", b[0] if isinstance(b, tuple) else "").startswith("tet")
+                             for b in mesh.cells):
+        raise TypeError("the mesh holds tetrahedra and no triangles; a surface is expected")
+    return Surface(
+        points,
+        np.concatenate(triangles) if triangles else np.empty((0, 3), np.int64),
+        segments=np.concatenate(segments) if segments else None,
+        triangle_markers=np.concatenate(markers) if name is not None and markers else None,
+        segment_markers=np.concatenate(segment_markers) if name is not None and segments else None,
+    )
+
+
+def _or_none(array: Array) -> Optional[Array]:
+    return array if len(array) else None
+
+
+def _of_data(data: _core.SurfaceData) -> Surface:
+    return Surface(
+        data.points,
+        data.triangles,
+        segments=_or_none(data.segments),
+        triangle_markers=_or_none(data.triangle_markers),
+        segment_markers=_or_none(data.segment_markers),
+        point_markers=_or_none(data.point_markers),
+        holes=data.holes,
+        regions=data.regions,
+        remarks=data.remarks,
+    )
+
+
+def read_surface(
+    path: Union[PathLike, Iterable[PathLike]],
+    format: Optional[str] = None,
+    *,
+    time_limit: Optional[float] = None,
+    memory_limit: Optional[MemoryAmount] = None,
+    cancel: Optional[CancelToken] = None,
+    progress: Union[None, bool, ProgressCallback] = None,
+) -> Surface:
+    """Reads a surface from .stl, .off, .obj, .ply, .mesh, .meshb, .poly, .smesh, .node, .msh, .vtu, .vtp or .vtk.
+
+    Parameters
+    ----------
+    path
+        The file, each also packed by gzip; or several files, which count on from one another.
+    format
+        The ending to go by (".stl"), where the file's own does not tell.
+    time_limit, memory_limit, cancel, progress
+        As `mesh` takes them.
+
+    Raises
+    ------
+    FileError
+        If there is no such file, or it does not hold what its ending says.
+
+    Example
+    -------
+    >>> read_surface("part.stl")  # doctest: +SKIP
+    Surface(1042 points, 2080 triangles)
+    """
+    options = limits(time_limit, memory_limit, cancel)
+    paths = [path] if isinstance(path, (str, os.PathLike)) else list(path)
+    with Shown(progress, "read") as callback:
+        parts = [_of_data(_core.read_surface(os.fspath(p), format or "", options, callback)) for p in paths]
+    return parts[0] if len(parts) == 1 else joined(parts)
+
+
+def joined(parts: Sequence[Surface]) -> Surface:
+    """Surfaces behind one another: points of the second follow those of the first."""
+    if not parts:
+        raise ValueError("there is no surface")
+
+    def all_of(name: str, counts: list[int], width: Optional[int]) -> Optional[Array]:
+        arrays = [getattr(part, name) for part in parts]
+        if all(a is None for a in arrays):
+            return None
+        empty = (0,) if width is None else (0, width)
+        return np.concatenate(
+            [
+                (np.zeros(n, np.int64) if width is None else np.empty(empty, np.int64)) if a is None else a
+                for a, n in zip(arrays, counts)
+            ]
+        )
+
+    starts = np.cumsum([0] + [len(part.points) for part in parts[:-1]])
+    segment_counts = [0 if p.segments is None else len(p.segments) for p in parts]
+    segments = [p.segments + s for p, s in zip(parts, starts) if p.segments is not None]
+    return Surface(
+        np.concatenate([part.points for part in parts]),
+        np.concatenate([part.triangles.astype(np.int64) + s for part, s in zip(parts, starts)]),
+        segments=np.concatenate(segments) if segments else None,
+        triangle_markers=all_of("triangle_markers", [len(p.triangles) for p in parts], None),
+        segment_markers=all_of("segment_markers", segment_counts, None),
+        point_markers=all_of("point_markers", [len(p.points) for p in parts], None),
+        holes=[h for p in parts for h in p.holes],
+        regions=[r for p in parts for r in p.regions],
+        remarks=[r for p in parts for r in p.remarks],
+    )

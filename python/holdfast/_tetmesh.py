@@ -1,0 +1,396 @@
+"""The result of meshing: arrays, the report, and the forms that other packages take."""
+
+from __future__ import annotations
+
+import html
+import json
+import os
+from typing import Any, NamedTuple, Optional, Union
+
+import numpy as np
+import numpy.ma as ma
+import numpy.typing as npt
+
+from . import _core
+from ._limits import CancelToken, MemoryAmount, ProgressCallback, Shown, limits
+from ._surface import Array, PathLike, Surface, _or_none, indices_of, markers_of, points_of
+
+_VTK_LINE, _VTK_TRIANGLE, _VTK_TETRA = 3, 5, 10
+
+
+class Quality(NamedTuple):
+    """Shape of each tetrahedron, arrays of length m."""
+
+    volume: Array
+    """In the surface's unit cubed, positive."""
+    min_dihedral: Array
+    """Least angle between two faces, degrees; 70.5 is regular."""
+    max_dihedral: Array
+    """Largest angle between two faces, degrees."""
+    q: Array
+    """The paper's Q = sqrt(6)/12 h_max / inradius; 1 is regular, larger is worse."""
+
+
+class TetMesh:
+    """Tetrahedra that keep a surface. All arrays are read-only and may outlive the mesh.
+
+    The first `n_input_points` points are the surface's, bit for bit and in its order (each place once); then come the
+    points that were added. Indices are from 0.
+
+    >>> import holdfast
+    >>> mesh = holdfast.mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
+    ...                      [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)], fill=True)
+    >>> mesh
+    TetMesh(4 points, 1 tetrahedron, 1 region)
+    >>> mesh.tetrahedra.shape, mesh.regions
+    ((1, 4), array([1], dtype=int32))
+    """
+
+    points: Array
+    """(n, 3) float64."""
+    tetrahedra: Array
+    """(m, 4) int32, in VTK's order: the fourth corner is on the side to which the first three turn counterclockwise."""
+    regions: Array
+    """(m,) int32: the region of each tetrahedron, from 1 unless seeds name them."""
+    triangles: Array
+    """(k, 3) int32: every triangle of the surface that is kept, turned as there."""
+    segments: Array
+    """(s, 2) int32."""
+    n_input_points: Optional[int]
+    """How many of the points are the surface's; None where a file does not tell."""
+
+    def __init__(
+        self,
+        points: npt.ArrayLike,
+        tetrahedra: npt.ArrayLike,
+        *,
+        regions: Optional[npt.ArrayLike] = None,
+        triangles: Optional[npt.ArrayLike] = None,
+        triangle_markers: Optional[npt.ArrayLike] = None,
+        segments: Optional[npt.ArrayLike] = None,
+        segment_markers: Optional[npt.ArrayLike] = None,
+        point_markers: Optional[npt.ArrayLike] = None,
+    ) -> None:
+        volume = _core.Volume(
+            points_of(points),
+            indices_of(tetrahedra, 4, "tetrahedra"),
+            markers_of(regions, "regions"),
+            None if triangles is None else indices_of(triangles, 3, "triangles"),
+            markers_of(triangle_markers, "triangle_markers"),
+            None if segments is None else indices_of(segments, 2, "segments"),
+            markers_of(segment_markers, "segment_markers"),
+            markers_of(point_markers, "point_markers"),
+        )
+        for name, array, count in (
+            ("regions", volume.regions, len(volume.tetrahedra)),
+            ("triangle_markers", volume.triangle_markers, len(volume.triangles)),
+            ("segment_markers", volume.segment_markers, len(volume.segments)),
+            ("point_markers", volume.point_markers, len(volume.points)),
+        ):
+            if len(array) not in (0, count):
+                raise ValueError(f"{name}: {len(array)} for {count}")
+        for name, array in (("tetrahedra", volume.tetrahedra), ("triangles", volume.triangles),
+                            ("segments", volume.segments)):
+            bad = (array < 0) | (array >= len(volume.points))
+            if bad.any():
+                raise ValueError(f"{name}[{int(np.argmax(bad.any(axis=1)))}] names a point that there is not")
+        self._set(volume, None)
+
+    def _set(self, volume: _core.Volume, n_input_points: Optional[int], result: Any = None) -> None:
+        self._volume = volume
+        self._result = result
+        self._report: Optional[dict[str, Any]] = None
+        self._triangle_regions: Optional[ma.MaskedArray[Any, Any]] = None
+        self.points = volume.points
+        self.tetrahedra = volume.tetrahedra
+        self.regions = volume.regions
+        self.triangles = volume.triangles
+        self.segments = volume.segments
+        self.n_input_points = n_input_points
+
+    @classmethod
+    def _of(cls, volume: _core.Volume, n_input_points: Optional[int], result: Any = None) -> "TetMesh":
+        mesh = cls.__new__(cls)
+        mesh._set(volume, n_input_points, result)
+        return mesh
+
+    @property
+    def triangle_markers(self) -> Array:
+        """(k,) int32; zeros where the surface has none."""
+        return self._markers(self._volume.triangle_markers, len(self.triangles))
+
+    @property
+    def segment_markers(self) -> Array:
+        """(s,) int32; zeros where the surface has none."""
+        return self._markers(self._volume.segment_markers, len(self.segments))
+
+    @property
+    def point_markers(self) -> Array:
+        """(n,) int32; zeros where the surface has none, and for added points."""
+        return self._markers(self._volume.point_markers, len(self.points))
+
+    @staticmethod
+    def _markers(array: Array, count: int) -> Array:
+        if len(array) == count:
+            return array
+        zeros: Array = np.zeros(count, np.int32)
+        zeros.setflags(write=False)
+        return zeros
+
+    @property
+    def input_points(self) -> Array:
+        """(n,) int64: for each point the first of the input's points at its place, -1 for an added one; empty where
+        that is not known."""
+        if len(self._volume.input_points) or self.n_input_points is None:
+            return self._volume.input_points
+        found = np.arange(len(self.points), dtype=np.int64)
+        found[self.n_input_points :] = -1
+        found.setflags(write=False)
+        return found
+
+    @property
+    def triangle_regions(self) -> "ma.MaskedArray[Any, Any]":
+        """(k, 2) int32: regions in front of each triangle (where its corners turn counterclockwise) and behind it;
+        masked where there is none."""
+        if self._triangle_regions is None:
+            self._triangle_regions = self._find_triangle_regions()
+        return self._triangle_regions
+
+    def _find_triangle_regions(self) -> "ma.MaskedArray[Any, Any]":
+        if self._result is not None and hasattr(self._result, "triangle_regions"):
+            ids, none = self._result.triangle_regions()
+            if len(ids) == len(self.triangles):
+                return _frozen(ids, none)
+        return _regions_beside(self.tetrahedra, self.regions, self.triangles)
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """What the run did and decided, with the keys of the program's `--report`; {} where there was no run."""
+        if self._report is None:
+            self._report = {} if self._result is None else json.loads(self._result.report())
+        return self._report
+
+    @property
+    def warnings(self) -> list[str]:
+        """What was decided, or may not be as it was meant."""
+        return [str(w["message"]) for w in self.report.get("warnings", [])]
+
+    def quality(self) -> Quality:
+        """Shape of every tetrahedron.
+
+        >>> import holdfast
+        >>> mesh = holdfast.mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
+        ...                      [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)], fill=True)
+        >>> float(mesh.quality().volume.sum())
+        0.16666666666666666
+        """
+        return _quality(self.points, self.tetrahedra)
+
+    def neighbours(self) -> Array:
+        """(m, 4) int32: the tetrahedron behind the face opposite to each corner, -1 where there is none."""
+        return _core.neighbours(self._volume)
+
+    def surface(self) -> Surface:
+        """Its facets and segments, and the faces on its boundary and between regions, as a surface."""
+        data = _core.surface_of(self._volume)
+        return Surface(
+            data.points,
+            data.triangles,
+            segments=_or_none(data.segments),
+            triangle_markers=_or_none(data.triangle_markers),
+            segment_markers=_or_none(data.segment_markers),
+            point_markers=_or_none(data.point_markers),
+        )
+
+    def save(
+        self,
+        path: PathLike,
+        format: Optional[str] = None,
+        *,
+        compress: bool = True,
+        threads: int = 1,
+        time_limit: Optional[float] = None,
+        memory_limit: Optional[MemoryAmount] = None,
+        cancel: Optional[CancelToken] = None,
+        progress: Union[None, bool, ProgressCallback] = None,
+    ) -> list[str]:
+        """Writes .vtu, .vtk, .mesh, .meshb, .msh ("msh2" for version 2.2) or .node; the file appears complete or not
+        at all. Gives what the format does not hold, a sentence each. Raises FileError."""
+        legacy = format in ("msh2", ".msh2")
+        ending = ".msh" if legacy else format or ""
+        options = limits(time_limit, memory_limit, cancel)
+        with Shown(progress, "write") as callback:
+            return _core.write_volume(os.fspath(path), self._volume, ending, compress, legacy, threads, options,
+                                      callback)
+
+    def to_meshio(self) -> Any:
+        """A `meshio.Mesh` with cell data "region" and "marker". Raises ImportError without meshio."""
+        meshio = _wanted("meshio", "to_meshio")
+        counts = (len(self.tetrahedra), len(self.triangles), len(self.segments))
+        cells = [("tetra", self.tetrahedra), ("triangle", self.triangles), ("line", self.segments)]
+        region = [self._regions(), np.zeros(counts[1], np.int32), np.zeros(counts[2], np.int32)]
+        marker = [np.zeros(counts[0], np.int32), self.triangle_markers, self.segment_markers]
+        there = [i for i in range(3) if counts[i] > 0]
+        return meshio.Mesh(
+            np.array(self.points),
+            [(cells[i][0], np.array(cells[i][1])) for i in there],
+            cell_data={"region": [np.array(region[i]) for i in there], "marker": [np.array(marker[i]) for i in there]},
+        )
+
+    def to_vtk(self) -> Any:
+        """A `vtkUnstructuredGrid` with cell arrays "region" and "marker". Raises ImportError without VTK."""
+        _wanted("vtkmodules", "to_vtk", "vtk")
+        from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+        from vtkmodules.vtkCommonCore import vtkPoints
+        from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
+
+        cells, types, region, marker = self._vtk_cells()
+        points = vtkPoints()
+        points.SetData(numpy_to_vtk(np.array(self.points), deep=True))
+        counts = np.where(types == _VTK_TETRA, 4, np.where(types == _VTK_TRIANGLE, 3, 2))
+        offsets = np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
+        array = vtkCellArray()
+        array.SetData(numpy_to_vtkIdTypeArray(offsets, deep=True), numpy_to_vtkIdTypeArray(cells, deep=True))
+        grid = vtkUnstructuredGrid()
+        grid.SetPoints(points)
+        grid.SetCells(numpy_to_vtk(types, deep=True), array)
+        for name, values in (("region", region), ("marker", marker)):
+            data = numpy_to_vtk(values, deep=True)
+            data.SetName(name)
+            grid.GetCellData().AddArray(data)
+        return grid
+
+    def to_pyvista(self) -> Any:
+        """A `pyvista.UnstructuredGrid` with cell data "region" and "marker". Raises ImportError without PyVista."""
+        pyvista = _wanted("pyvista", "to_pyvista")
+        cells, types, region, marker = self._vtk_cells()
+        counts = np.where(types == _VTK_TETRA, 4, np.where(types == _VTK_TRIANGLE, 3, 2))
+        starts = np.concatenate([[0], np.cumsum(counts)[:-1]]).astype(np.int64) if len(counts) else np.empty(0, np.int64)
+        grid = pyvista.UnstructuredGrid(np.insert(cells, starts, counts), types, np.array(self.points))
+        grid.cell_data["region"] = region
+        grid.cell_data["marker"] = marker
+        return grid
+
+    def _regions(self) -> Array:
+        return self._markers(self.regions, len(self.tetrahedra))
+
+    def _vtk_cells(self) -> tuple[Array, Array, Array, Array]:
+        """Corners of all cells, their types, regions and markers."""
+        blocks = ((self.tetrahedra, _VTK_TETRA), (self.triangles, _VTK_TRIANGLE), (self.segments, _VTK_LINE))
+        cells = np.concatenate([b.astype(np.int64).ravel() for b, _ in blocks])
+        types = np.concatenate([np.full(len(b), t, np.uint8) for b, t in blocks])
+        lower = len(self.triangles) + len(self.segments)
+        region = np.concatenate([self._regions(), np.zeros(lower, np.int32)])
+        marker = np.concatenate([np.zeros(len(self.tetrahedra), np.int32), self.triangle_markers, self.segment_markers])
+        return cells, types, region, marker
+
+    def __len__(self) -> int:
+        return len(self.tetrahedra)
+
+    def _counts(self) -> list[tuple[int, str]]:
+        regions = len(np.unique(self.regions)) if len(self.regions) else 1 if len(self.tetrahedra) else 0
+        return [
+            (len(self.points), "point"),
+            (len(self.tetrahedra), "tetrahedron"),
+            (regions, "region"),
+        ]
+
+    def __repr__(self) -> str:
+        def told(count: int, one: str) -> str:
+            many = "tetrahedra" if one == "tetrahedron" else one + "s"
+            return f"{count} {one if count == 1 else many}"
+
+        return f"TetMesh({', '.join(told(*c) for c in self._counts())})"
+
+    def _repr_html_(self) -> str:
+        rows = [(f"{count:,}", what if count == 1 else "tetrahedra" if what == "tetrahedron" else what + "s")
+                for count, what in self._counts()]
+        if self.n_input_points is not None:
+            rows.append((f"{len(self.points) - self.n_input_points:,}", "added points"))
+        rows.append((f"{len(self.triangles):,}", "triangles kept"))
+        if len(self.tetrahedra):
+            least = self.quality().min_dihedral
+            rows.append((f"{least.min():.3g}°", "least dihedral angle"))
+            rows.append((f"{100 * np.mean(least < 10):.3g} %", "of tetrahedra below 10°"))
+        cells = "".join(f"<tr><td style='text-align:right'>{html.escape(a)}</td><td>{html.escape(b)}</td></tr>"
+                        for a, b in rows)
+        return f"<table><thead><tr><th colspan='2'>TetMesh</th></tr></thead><tbody>{cells}</tbody></table>"
+
+    def __getstate__(self) -> dict[str, Any]:
+        volume = self._volume
+        regions = self.triangle_regions if self._result is not None else None
+        return {
+            "arrays": [np.array(a) for a in (volume.points, volume.tetrahedra, volume.regions, volume.triangles,
+                                             volume.triangle_markers, volume.segments, volume.segment_markers,
+                                             volume.point_markers, volume.input_points)],
+            "n_input_points": self.n_input_points,
+            "report": self.report,
+            "triangle_regions": regions,
+        }
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self._set(_core.Volume(*state["arrays"]), state["n_input_points"])
+        self._report = state["report"]
+        regions = state["triangle_regions"]
+        self._triangle_regions = None if regions is None else _frozen(regions.data, ma.getmaskarray(regions))
+
+
+def _frozen(ids: Array, none: Array) -> "ma.MaskedArray[Any, Any]":
+    ids.setflags(write=False)
+    return ma.MaskedArray(ids, none)
+
+
+def _regions_beside(tetrahedra: Array, regions: Array, triangles: Array) -> "ma.MaskedArray[Any, Any]":
+    """In front of and behind each triangle, by the tetrahedra that have it as a face."""
+    faces = np.array([(1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)])  # opposite to each corner, seen from outside
+    corners = tetrahedra[:, faces].reshape(-1, 3).astype(np.int64)
+    owners = np.repeat(regions if len(regions) else np.zeros(len(tetrahedra), np.int32), 4)
+
+    def keys(rows: Array) -> tuple[Array, Array]:
+        """Sorted corners as bytes, and whether they turn evenly from there."""
+        order = np.argsort(rows, axis=1)
+        even = (order[:, 1] - order[:, 0]) % 3 == 1
+        found = np.ascontiguousarray(np.take_along_axis(rows, order, axis=1))
+        return found.view([("", found.dtype)] * 3).ravel(), even
+
+    key, even = keys(corners)
+    sides: dict[Any, list[tuple[bool, int]]] = {}
+    wanted, turned = keys(triangles.astype(np.int64))
+    is_wanted = np.isin(key, wanted)
+    for k, e, r in zip(key[is_wanted].tolist(), even[is_wanted].tolist(), owners[is_wanted].tolist()):
+        sides.setdefault(k, []).append((e, r))
+    ids = np.zeros((len(triangles), 2), np.int32)
+    none = np.ones((len(triangles), 2), bool)
+    for i, (k, e) in enumerate(zip(wanted.tolist(), turned.tolist())):
+        for side, region in sides.get(k, []):
+            behind = side == e  # seen from outside its tetrahedron as the triangle turns: that one is behind
+            ids[i, int(behind)], none[i, int(behind)] = region, False
+    return _frozen(ids, none)
+
+
+def _quality(points: Array, tetrahedra: Array) -> Quality:
+    p = np.asarray(points)[tetrahedra]
+    edges = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
+    longest = np.sqrt(np.max([((p[:, a] - p[:, b]) ** 2).sum(axis=1) for a, b in edges], axis=0)) if len(p) else np.empty(0)
+    faces = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))
+    normals = np.stack([np.cross(p[:, b] - p[:, a], p[:, c] - p[:, a]) for a, b, c in faces], axis=1)
+    lengths = np.linalg.norm(normals, axis=2)
+    volume = np.einsum("ij,ij->i", np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), p[:, 3] - p[:, 0]) / 6
+    with np.errstate(divide="ignore", invalid="ignore"):
+        unit = normals / lengths[..., None]
+        cosines = np.stack([-(unit[:, a] * unit[:, b]).sum(axis=1) for a, b in edges], axis=1)
+        angles = np.degrees(np.arccos(np.clip(cosines, -1, 1)))
+        inradius = 3 * volume / (lengths.sum(axis=1) / 2)
+        q = np.sqrt(6) / 12 * longest / inradius
+    if not len(p):
+        return Quality(volume, np.empty(0), np.empty(0), q)
+    return Quality(volume, angles.min(axis=1), angles.max(axis=1), q)
+
+
+def _wanted(module: str, what: str, package: Optional[str] = None) -> Any:
+    import importlib
+
+    try:
+        return importlib.import_module(module)
+    except ImportError as error:
+        raise ImportError(f"{what}() needs the package {package or module}, which is not installed") from error

@@ -1,0 +1,62 @@
+// numpy arrays in and out: taken as they lie in memory where that is possible, and given without a copy.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "holdfast/arrays.h"
+#include "holdfast/types.h"
+
+namespace holdfast::python {
+
+namespace py = pybind11;
+
+/// An array of one or two dimensions, of a type that `Scalar` has and native byte order. `columns` is 0 for
+/// one dimension. Throws TypeError and ValueError that name `what`.
+[[nodiscard]] ArrayView view_of(const py::array& array, std::size_t columns, const char* what);
+
+/// The arrays of a surface; each may be None but the vertices.
+struct SurfaceArrays {
+  py::array vertices;
+  py::object facets, segments, vertex_markers, facet_markers, segment_markers;
+};
+/// Fills `arrays`, which refers to memory of `from`. Needs the interpreter lock.
+void set(Arrays& arrays, const SurfaceArrays& from);
+
+/// Numbers of an array as rows of the library. `what` names them.
+template <class Row>
+[[nodiscard]] std::vector<Row> rows_from(const py::object& object, const char* what);
+[[nodiscard]] std::vector<int> markers_from(const py::object& object, const char* what);
+
+/// A read-only array of `rows` rows of `columns` numbers, one dimension where `columns` is 0, in memory that
+/// `owner` keeps.
+template <class Number>
+[[nodiscard]] py::array view_on(const Number* data, std::size_t rows, std::size_t columns, py::handle owner) {
+  std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(rows)};
+  if (columns != 0) shape.push_back(static_cast<py::ssize_t>(columns));
+  py::array_t<Number> array(shape, data, owner);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+/// Rows of indices are at most 2^28, so that they are the same as signed numbers.
+template <class Row>
+[[nodiscard]] py::array indices_on(const std::vector<Row>& rows, py::handle owner) {
+  return view_on(reinterpret_cast<const std::int32_t*>(rows.data()), rows.size(), std::tuple_size_v<Row>,
+                 owner);
+}
+
+/// A read-only array that owns the rows.
+template <class Row>
+[[nodiscard]] py::array array_of(std::vector<Row> rows) {
+  auto held = std::make_unique<std::vector<Row>>(std::move(rows));
+  const std::vector<Row>& there = *held;
+  const py::capsule owner(held.release(), [](void* p) { delete static_cast<std::vector<Row>*>(p); });
+  return indices_on(there, owner);
+}
+
+}  // namespace holdfast::python

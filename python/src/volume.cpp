@@ -1,0 +1,74 @@
+// Volume: a tetrahedral mesh that the library owns, its arrays seen without a copy.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <memory>
+
+#include "arrays.h"
+#include "holdfast/types.h"
+#include "register.h"
+
+namespace holdfast::python {
+namespace {
+
+std::shared_ptr<Volume> volume_of(const py::array& points, const py::object& tetrahedra,
+                                  const py::object& regions, const py::object& triangles,
+                                  const py::object& triangle_markers, const py::object& segments,
+                                  const py::object& segment_markers, const py::object& point_markers,
+                                  const py::object& input_points) {
+  auto volume = std::make_shared<Volume>();
+  volume->vertices = rows_from<Point>(points, "points");
+  volume->tetrahedra = rows_from<Tetrahedron>(tetrahedra, "tetrahedra");
+  volume->regions = markers_from(regions, "regions");
+  volume->facets = rows_from<Triangle>(triangles, "triangles");
+  volume->facet_markers = markers_from(triangle_markers, "triangle markers");
+  volume->segments = rows_from<Segment>(segments, "segments");
+  volume->segment_markers = markers_from(segment_markers, "segment markers");
+  volume->vertex_markers = markers_from(point_markers, "point markers");
+  if (!input_points.is_none())
+    for (const int i : markers_from(input_points, "input points")) volume->input_vertices.push_back(i);
+  return volume;
+}
+
+// A property whose array keeps the volume alive.
+template <class See>
+auto seen(See see) {
+  return [see](py::object self) { return see(self.cast<const Volume&>(), self); };
+}
+
+}  // namespace
+
+void register_volume(py::module_& module) {
+  py::class_<Volume, std::shared_ptr<Volume>>(module, "Volume")
+      .def(py::init(&volume_of), py::arg("points"), py::arg("tetrahedra"), py::arg("regions") = py::none(),
+           py::arg("triangles") = py::none(), py::arg("triangle_markers") = py::none(),
+           py::arg("segments") = py::none(), py::arg("segment_markers") = py::none(),
+           py::arg("point_markers") = py::none(), py::arg("input_points") = py::none())
+      .def_property_readonly("points", seen([](const Volume& v, py::handle self) {
+                               return view_on(reinterpret_cast<const double*>(v.vertices.data()),
+                                              v.vertices.size(), 3, self);
+                             }))
+      .def_property_readonly(
+          "tetrahedra", seen([](const Volume& v, py::handle self) { return indices_on(v.tetrahedra, self); }))
+      .def_property_readonly("regions", seen([](const Volume& v, py::handle self) {
+                               return view_on(v.regions.data(), v.regions.size(), 0, self);
+                             }))
+      .def_property_readonly(
+          "triangles", seen([](const Volume& v, py::handle self) { return indices_on(v.facets, self); }))
+      .def_property_readonly("triangle_markers", seen([](const Volume& v, py::handle self) {
+                               return view_on(v.facet_markers.data(), v.facet_markers.size(), 0, self);
+                             }))
+      .def_property_readonly(
+          "segments", seen([](const Volume& v, py::handle self) { return indices_on(v.segments, self); }))
+      .def_property_readonly("segment_markers", seen([](const Volume& v, py::handle self) {
+                               return view_on(v.segment_markers.data(), v.segment_markers.size(), 0, self);
+                             }))
+      .def_property_readonly("point_markers", seen([](const Volume& v, py::handle self) {
+                               return view_on(v.vertex_markers.data(), v.vertex_markers.size(), 0, self);
+                             }))
+      .def_property_readonly("input_points", seen([](const Volume& v, py::handle self) {
+                               return view_on(v.input_vertices.data(), v.input_vertices.size(), 0, self);
+                             }));
+}
+
+}  // namespace holdfast::python

@@ -1,0 +1,28 @@
+// Reports: the results of the library as JSON with stable keys, for the program and the Python module.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "holdfast/check.h"
+#include "holdfast/holdfast.h"
+#include "holdfast/summary.h"
+#include "holdfast/untangle.h"
+
+namespace holdfast::reports {
+
+using Json = nlohmann::ordered_json;
+
+[[nodiscard]] Json to_json(const std::vector<Defect>& defects);
+[[nodiscard]] Json to_json(const std::vector<Remark>& remarks);
+[[nodiscard]] Json to_json(const DefectSummary& summary);
+
+/// The whole report of `mesh`; `options` is what the user asked for.
+[[nodiscard]] Json to_json(const Result& result, Json options);
+[[nodiscard]] Json to_json(const UntangleResult& result, Json options);
+[[nodiscard]] Json to_json(const CheckResult& result);
+
+/// As text of one line, or indented. Bytes that are no UTF-8, as paths may hold, are replaced.
+[[nodiscard]] std::string text_of(const Json& json, int indent = -1);
+
+}  // namespace holdfast::reports
