@@ -11,13 +11,6 @@
 namespace holdfast {
 namespace {
 
-// The slots of our tetrahedra that were replaced, or are new.
-std::vector<Tet> changed_since(const Search& search, const UndoLog::Before& before) {
-  std::vector<Tet> changed = before.changed();
-  std::erase_if(changed, [&](Tet t) { return !search.is_ours(t); });
-  return changed;
-}
-
 double quality_before(const UndoLog::Before& before, Tet t) {
   const TetMesh::Corners& c = before.corners(t);
   return quality(before.position(c[0]), before.position(c[1]), before.position(c[2]), before.position(c[3]));
@@ -27,7 +20,8 @@ double quality_before(const UndoLog::Before& before, Tet t) {
 bool is_better(Search& search, const UndoLog::Before& before) {
   const TetMesh& mesh = search.mesh();
   Badness was, is;
-  for (const Tet t : changed_since(search, before)) {
+  // All that has changed is of our regions, whichever slots of them the search began with.
+  for (const Tet t : before.changed()) {
     if (before.existed(t) && before.alive(t)) was.add(quality_before(before, t), search.bad_from());
     if (mesh.alive(t)) is.add(quality_of(mesh, mesh.corners(t)), search.bad_from());
   }
@@ -40,7 +34,7 @@ void shake_and_improve(Search& search, const Element& worst, const Search::Trial
   shake(
       search.mesh(), flipper, worst.corners, tuning::kShakenEdges, [&](Tet t) { return search.is_ours(t); },
       search.random());
-  const std::vector<Tet> changed = changed_since(search, trial.before());
+  const std::vector<Tet> changed = trial.before().changed();
   search.forget(changed);
   search.push(changed);
   search.budget().fix(tuning::kShakeWork);
