@@ -202,7 +202,7 @@ class Untangling {
   [[nodiscard]] const Volume& scaled_volume() const { return scale_ == 0 ? volume_ : scaled_; }
 
   // The mesher is given what comes out, and finds a scale of its own.
-  Result fill(Complex complex) {
+  Filled fill(Complex complex) {
     const std::vector<Point> points = scaled(complex.vertices, -scale_);
     complex.vertices = points;
     Options options;
@@ -217,10 +217,17 @@ class Untangling {
     if (result.outcome == Outcome::time_limit || result.outcome == Outcome::memory_limit ||
         result.outcome == Outcome::cancelled)
       throw Interrupted(result.outcome);
+    if (result.outcome == Outcome::invalid_input) {
+      Filled refused{.outcome = Filled::Outcome::invalid};
+      for (const Defect& defect : result.defects)
+        refused.faulty.insert(refused.faulty.end(), defect.vertices.begin(), defect.vertices.end());
+      return refused;
+    }
     std::vector<Point> found = scaled(result.volume.vertices, scale_);
-    if (scaled(found, -scale_) != result.volume.vertices) result.outcome = Outcome::not_representable;
+    if (result.outcome != Outcome::done || scaled(found, -scale_) != result.volume.vertices)
+      return {.outcome = Filled::Outcome::not_representable};
     result.volume.vertices = std::move(found);
-    return result;
+    return {.volume = std::move(result.volume)};
   }
 
   void refuse(std::string why) {

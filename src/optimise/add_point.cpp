@@ -11,10 +11,8 @@ bool PointAdder::add(Tet t, bool patient) {
   const TetMesh& mesh = volume_.mesh();
   work_ = 0;
   for (int edge = 0; edge < 6; ++edge) {
-    const auto& ends = kEdgeVertex[static_cast<std::size_t>(edge)];
-    if (mesh.is_segment(t, edge) ||
-        !gather_shell(mesh, t, mesh.corner(t, ends[0]), mesh.corner(t, ends[1]), shell_))
-      continue;
+    const auto [a, b] = ends_of_edge(mesh.corners(t), edge);
+    if (mesh.is_segment(t, edge) || !gather_shell(mesh, t, a, b, shell_)) continue;
     const Point middle = middle_of_shell();
     if (add_at(middle, t, shell_.tets) || (patient && add_at(middle, t, {}))) return true;
   }

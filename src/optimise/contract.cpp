@@ -4,6 +4,7 @@
 
 #include "mesh/editor.h"
 #include "mesh/traverse.h"
+#include "numbers/sorted.h"
 #include "optimise/tuning.h"
 
 namespace holdfast {
@@ -18,8 +19,7 @@ std::span<const Tet> VertexContractor::contract(Vertex v, double longest) {
   for (const Tet t : tets_)
     for (const Vertex w : mesh.corners(t))
       if (w != v) link_.push_back(w);
-  std::sort(link_.begin(), link_.end());
-  link_.erase(std::unique(link_.begin(), link_.end()), link_.end());
+  sort_unique(link_);
   work_ *= static_cast<double>(link_.size());
   const double before = volume_.energy(tets_);
   double best = before;

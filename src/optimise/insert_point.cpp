@@ -50,9 +50,9 @@ Vertex insert_into(TetMesh& mesh, Cavity cavity, double most, std::vector<Tet>& 
 
 Vertex insert_point(TetMesh& mesh, Tet t, Vertex first_free, double most, std::vector<Tet>& created) {
   for (const int edge : wide_edges(mesh, t)) {
-    const auto& ends = kEdgeVertex[static_cast<std::size_t>(edge)];
+    const auto [a, b] = ends_of_edge(mesh.corners(t), edge);
     EdgeShell shell;
-    if (!gather_shell(mesh, t, mesh.corner(t, ends[0]), mesh.corner(t, ends[1]), shell)) continue;
+    if (!gather_shell(mesh, t, a, b, shell)) continue;
     const Vertex p = insert_into(mesh, Cavity(mesh, shell.tets, first_free), most, created);
     if (p != kNone) return p;
   }

@@ -54,11 +54,9 @@ bool reconnect(TetMesh& mesh, Tet t, Vertex first_free, const BadFrom& bad_from,
   const tuning::Reconnecting& effort = patient ? tuning::kPatient : tuning::kForFlat;
   // Some edge of a flat tetrahedron has to go.
   for (const int edge : wide_edges(mesh, t)) {
-    const auto& ends = kEdgeVertex[static_cast<std::size_t>(edge)];
+    const auto [a, b] = ends_of_edge(mesh.corners(t), edge);
     EdgeShell shell;
-    if (gather_shell(mesh, t, mesh.corner(t, ends[0]), mesh.corner(t, ends[1]), shell) &&
-        reconnection.from(shell.tets, effort))
-      return true;
+    if (gather_shell(mesh, t, a, b, shell) && reconnection.from(shell.tets, effort)) return true;
   }
   return reconnection.from(alone, effort);
 }

@@ -50,9 +50,7 @@ bool FlatRemover::remove(Tet t, double bad_from, std::vector<Tet>& created) {
   work_ = 0;
   const TetMesh::Corners corners = mesh_.corners(t);
   for (const int edge : wide_edges(mesh_, t)) {
-    const auto& ends = kEdgeVertex[static_cast<std::size_t>(edge)];
-    const Vertex a = corners[static_cast<std::size_t>(ends[0])],
-                 b = corners[static_cast<std::size_t>(ends[1])];
+    const auto [a, b] = ends_of_edge(corners, edge);
     if (remove_edge(t, a, b, tuning::kFlatDepth, kNone)) return true;
     if (!mesh_.alive(t) || mesh_.corners(t) != corners) return true;
   }

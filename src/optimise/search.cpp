@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesh/traverse.h"
+#include "numbers/sorted.h"
 #include "optimise/tuning.h"
 
 namespace holdfast {
@@ -19,8 +20,7 @@ std::vector<Vertex> free_vertices(const TetMesh& mesh, const std::vector<Tet>& t
   for (const Tet t : tets)
     for (const Vertex v : mesh.corners(t))
       if (v >= first_free) points.push_back(v);
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
+  sort_unique(points);
   return points;
 }
 

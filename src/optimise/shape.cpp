@@ -60,8 +60,8 @@ std::array<std::size_t, 24> edge_lengths_of(const VolumeData& volume, const Thre
   for_each_inside<Histogram>(
       volume, threads,
       [&](const TetMesh::Corners& c, Histogram& own) {
-        for (const auto& [i, j] : kEdgeVertex) {
-          const Vertex v = c[static_cast<std::size_t>(i)], w = c[static_cast<std::size_t>(j)];
+        for (int edge = 0; edge < 6; ++edge) {
+          const auto [v, w] = ends_of_edge(c, edge);
           const double bin = volume.length_over_size(v, w) * kBinsAUnit;
           ++own[bin < static_cast<double>(own.size()) ? static_cast<std::size_t>(bin) : own.size() - 1];
         }

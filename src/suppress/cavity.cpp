@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "numbers/random.h"
+#include "numbers/sorted.h"
 
 namespace holdfast {
 
@@ -75,8 +76,8 @@ bool Cavity::encloses_a_constraint(Tet t) const {
   if (std::any_of(v.begin(), v.end(), [&](Vertex x) { return x < first_free_ && !on_boundary(x); }))
     return true;
   for (int k = 0; k < 6; ++k) {
-    const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
-    if (mesh_.is_segment(t, k) && !on_boundary(mesh_.corner(t, e[0]), mesh_.corner(t, e[1]))) return true;
+    const auto [a, b] = ends_of_edge(v, k);
+    if (mesh_.is_segment(t, k) && !on_boundary(a, b)) return true;
   }
   return false;
 }
@@ -84,8 +85,8 @@ bool Cavity::encloses_a_constraint(Tet t) const {
 std::size_t Cavity::vertex_count() const {
   std::vector<Vertex> vertices;
   for (const auto& f : faces_) vertices.insert(vertices.end(), f.begin(), f.end());
-  std::sort(vertices.begin(), vertices.end());
-  return static_cast<std::size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
+  sort_unique(vertices);
+  return vertices.size();
 }
 
 std::vector<Vertex> Cavity::inner() const {
@@ -93,8 +94,7 @@ std::vector<Vertex> Cavity::inner() const {
   for (const Tet t : tets_)
     for (const Vertex v : mesh_.corners(t))
       if (v >= first_free_ && !on_boundary(v)) out.push_back(v);
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
+  sort_unique(out);
   return out;
 }
 
@@ -109,8 +109,7 @@ bool Cavity::may_add(Tet t) const {
 // Across the faces, each once, in random order but those without a new vertex first.
 std::vector<Tet> Cavity::neighbours(std::mt19937_64& random) const {
   std::vector<Tet> out = across_;
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
+  sort_unique(out);
   numbers::shuffle(out.begin(), out.end(), random);
   std::stable_partition(out.begin(), out.end(), [&](Tet t) {
     const auto& v = mesh_.corners(t);

@@ -42,9 +42,8 @@ bool holds_only(const TetMesh& mesh, const std::vector<Tet>& tets, const Faces& 
       if (mesh.is_facet(f) && is_inside(tet_of(mesh.neighbour(f)))) return false;
     }
     for (int k = 0; k < 6; ++k) {
-      const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
-      if (mesh.is_segment(t, k) && !any_holds(boundary, mesh.corner(t, e[0]), mesh.corner(t, e[1])))
-        return false;
+      const auto [a, b] = ends_of_edge(mesh.corners(t), k);
+      if (mesh.is_segment(t, k) && !any_holds(boundary, a, b)) return false;
     }
     return true;
   });

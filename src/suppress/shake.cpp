@@ -23,9 +23,8 @@ bool remove_an_edge(TetMesh& mesh, Flipper& flipper, const std::vector<Tet>& of,
   if (of.empty()) return false;
   const std::size_t before = flipper.counts().all();
   const Tet t = wander(mesh, of[random() % of.size()], random);
-  const auto& ends = kEdgeVertex[random() % 6];
-  flipper.remove(t, mesh.corner(t, ends[0]), mesh.corner(t, ends[1]), tuning::kShakeDepth,
-                 tuning::kShakeBudget);
+  const auto [a, b] = ends_of_edge(mesh.corners(t), static_cast<int>(random() % 6));
+  flipper.remove(t, a, b, tuning::kShakeDepth, tuning::kShakeBudget);
   return flipper.counts().all() > before;
 }
 

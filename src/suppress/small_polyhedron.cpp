@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mesh/measure.h"
+#include "numbers/sorted.h"
 
 namespace holdfast {
 namespace {
@@ -336,8 +337,7 @@ class Search {
 std::vector<Vertex> vertices_of(std::span<const std::array<Vertex, 3>> faces) {
   std::vector<Vertex> vertices;
   for (const auto& f : faces) vertices.insert(vertices.end(), f.begin(), f.end());
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sort_unique(vertices);
   return vertices;
 }
 

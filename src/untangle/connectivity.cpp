@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "exact/volume.h"
+#include "numbers/sorted.h"
 
 namespace holdfast {
 namespace {
@@ -74,10 +75,7 @@ class Reader {
     halves_.reserve(4 * out_.tets.size());
     for (Tet t = 0; t < out_.tets.size(); ++t)
       for (int i = 0; i < 4; ++i) {
-        const auto& k = kFaceVertex[static_cast<std::size_t>(i)];
-        const Tetrahedron& c = out_.tets[t];
-        const Key f{c[static_cast<std::size_t>(k[0])], c[static_cast<std::size_t>(k[1])],
-                    c[static_cast<std::size_t>(k[2])]};
+        const Key f = corners_of_face(out_.tets[t], i);
         halves_.push_back({ascending(f), face_code(t, i), odd_permutation(f)});
       }
     std::sort(halves_.begin(), halves_.end(), [](const HalfFace& a, const HalfFace& b) {
@@ -131,8 +129,7 @@ class Reader {
     for (const Key& key : faces)
       if (!std::binary_search(facets.begin(), facets.end(), key)) out_.outer_faces.push_back(key);
     faces.insert(faces.end(), facets.begin(), facets.end());
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    sort_unique(faces);
     return true;
   }
 
@@ -140,13 +137,12 @@ class Reader {
     using Edge = std::array<Vertex, 2>;
     std::vector<Edge>& segments = out_.constraints.segments;
     for (const Segment& s : volume_.segments) segments.push_back(ascending(s));
-    std::sort(segments.begin(), segments.end());
-    segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
+    sort_unique(segments);
     std::vector<bool> found(segments.size(), false);
     if (!segments.empty())
       for (const Tetrahedron& c : out_.tets)
-        for (const auto& [i, k] : kEdgeVertex) {
-          const Edge edge = ascending(Edge{c[static_cast<std::size_t>(i)], c[static_cast<std::size_t>(k)]});
+        for (int k = 0; k < 6; ++k) {
+          const Edge edge = ascending(ends_of_edge(c, k));
           const auto at = std::lower_bound(segments.begin(), segments.end(), edge);
           if (at != segments.end() && *at == edge)
             found[static_cast<std::size_t>(at - segments.begin())] = true;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "numbers/elementary.h"
+#include "untangle/tuning.h"
 
 namespace holdfast {
 namespace {
@@ -13,8 +14,6 @@ namespace {
 // tetrahedron, which is upper triangular.
 const double kInverse01 = -1 / std::sqrt(3.0), kInverse11 = 2 / std::sqrt(3.0);
 const double kInverse02 = -1 / std::sqrt(6.0), kInverse22 = 3 / std::sqrt(6.0);
-
-constexpr double kLambda = 0.05;  // size counts little: boundaries force sizes on a mesh
 
 using Column = std::array<double, 3>;
 
@@ -81,10 +80,10 @@ double FoldoverEnergy::operator()(std::span<const double> x, std::span<double> g
     const double trace = (dot(j[0], j[0]) + dot(j[1], j[1]) + dot(j[2], j[2])) / 3;
     const double root3 = numbers::cbrt(chi), power = root3 * root3;
     const double f = trace / power, g = (d * d + 1) / (2 * chi);
-    energy += f + kLambda * g;
+    energy += f + tuning::kLambda * g;
 
     const double by_j = 2.0 / 3.0 / power;
-    const double by_d = -2.0 / 3.0 * f / chi * slope + kLambda * (d - g * slope) / chi;
+    const double by_d = -2.0 / 3.0 * f / chi * slope + tuning::kLambda * (d - g * slope) / chi;
     Matrix dj{};
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t c = 0; c < 3; ++c) dj[k][c] = by_j * j[k][c] + by_d * cofactor[k][c];

@@ -5,6 +5,8 @@
 #include <deque>
 #include <limits>
 
+#include "untangle/tuning.h"
+
 namespace holdfast {
 namespace {
 
@@ -26,7 +28,7 @@ class History {
   void remember(Vector step, Vector change) {
     const double curvature = dot(step, change);
     if (!(curvature > 0)) return;
-    if (pairs_.size() == kLength) pairs_.pop_front();
+    if (pairs_.size() == tuning::kHistory) pairs_.pop_front();
     pairs_.push_back({std::move(step), std::move(change), 1 / curvature});
   }
   void forget() { pairs_.clear(); }
@@ -54,7 +56,6 @@ class History {
   }
 
  private:
-  static constexpr std::size_t kLength = 7;
   struct Pair {
     Vector step, change;
     double rho;
@@ -71,20 +72,18 @@ struct State {
 // where none was found.
 bool search(const State& from, const Vector& direction, double first, const ValueAndGradient& function,
             State& to) {
-  constexpr double kDecrease = 1e-4, kCurvature = 0.9;
-  constexpr int kMostTrials = 30;
   const double slope = dot(from.gradient, direction);
   if (!(slope < 0)) return false;
   double low = 0, high = std::numeric_limits<double>::infinity(), t = first;
   bool decreased = false;
-  for (int trial = 0; trial < kMostTrials; ++trial) {
+  for (int trial = 0; trial < tuning::kMostStepTrials; ++trial) {
     to.x = from.x;
     add(to.x, t, direction);
     to.value = function(to.x, to.gradient);
-    decreased = to.value <= from.value + kDecrease * t * slope;
+    decreased = to.value <= from.value + tuning::kSufficientDecrease * t * slope;
     if (!decreased) {
       high = t;
-    } else if (dot(to.gradient, direction) < kCurvature * slope) {
+    } else if (dot(to.gradient, direction) < tuning::kCurvature * slope) {
       low = t;
     } else {
       return true;
@@ -104,7 +103,7 @@ double minimise(std::vector<double>& x, const ValueAndGradient& function, const 
   for (int k = 0; k < limits.iterations; ++k) {
     const double length = std::sqrt(dot(now.gradient, now.gradient));
     if (!(length > 0) || !std::isfinite(length)) break;
-    const double first = history.empty() ? std::min(1.0, 0.1 / length) : 1;
+    const double first = history.empty() ? std::min(1.0, tuning::kFirstMove / length) : 1;
     if (!search(now, history.direction(now.gradient), first, function, next)) {
       if (history.empty()) break;
       history.forget();

@@ -1,4 +1,4 @@
-// The steps of untangling in their order, until every tetrahedron is positive (design §2.7, paper §6.4).
+// Untangling (paper §6.4): the steps in their order, until every tetrahedron is positive.
 #pragma once
 
 #include "untangle/refill.h"

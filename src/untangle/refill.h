@@ -1,8 +1,8 @@
 // The last resort: a cavity round non-positive tetrahedra is emptied and filled again by the mesher itself.
 //
-// A cavity whose boundary is a valid surface can always be filled (design §1), whatever its inside looks
-// like, and a cavity that grows ends as everything that hangs together, whose boundary is the volume's:
-// valid, or the volume would not be here.
+// A cavity whose boundary is a valid surface can always be filled (paper §5), whatever its inside looks like,
+// and a cavity that grows ends as everything that hangs together, whose boundary is the volume's: valid, or
+// the volume would not be here.
 #pragma once
 
 #include <functional>
@@ -12,9 +12,18 @@
 
 namespace holdfast {
 
-/// Fills every bounded region of a complex, each with its own id, and drops what lies outside: `mesh` of the
-/// API.
-using Filler = std::function<Result(const Complex&)>;
+/// What a filler makes of a complex.
+struct Filled {
+  enum class Outcome {
+    done,
+    invalid,            ///< the complex is no valid surface
+    not_representable,  ///< there is no mesh in doubles
+  };
+  Outcome outcome = Outcome::done;
+  Volume volume{};              ///< every bounded region with its own id, without what lies outside
+  std::vector<Index> faulty{};  ///< vertices of what is invalid
+};
+using Filler = std::function<Filled(const Complex&)>;
 
 struct RefillStats {
   std::size_t cavities = 0;

@@ -1,21 +1,17 @@
-// One cavity to be filled again: its boundary as a complex, and what the filler made of it.
+// One cavity to be filled again, and whether what the filler made of it may take its place.
 #pragma once
 
 #include <optional>
-#include <span>
-#include <unordered_map>
 #include <vector>
 
-#include "untangle/refill.h"
-#include "untangle/tangle.h"
+#include "untangle/cavity_complex.h"
 
 namespace holdfast {
 
-/// The tetrahedra of a cavity as a complex: the faces to the rest of the mesh and every constraint inside,
-/// and as isolated points the vertices inside that must stay or may.
 class RefillCavity {
  public:
-  RefillCavity(const Tangle& tangle, std::vector<Tet> tets);
+  RefillCavity(const Tangle& tangle, std::vector<Tet> tets)
+      : tangle_(tangle), cavity_(tangle, std::move(tets)) {}
 
   enum class Outcome {
     filled,
@@ -29,40 +25,17 @@ class RefillCavity {
   void apply(Tangle& tangle) const;
 
  private:
-  static constexpr Index kOutside = ~Index{0};
+  static constexpr Index kOutside = CavityComplex::kOutside;
+  using Owners = std::vector<std::optional<Index>>;  // the part of the cavity that each region fills
 
-  struct Facet {
-    Index above, below;  ///< components of the cavity on the two sides, or kOutside
-  };
-
-  [[nodiscard]] Index component_of(Tet t) const {
-    const auto at = component_.find(t);
-    return at == component_.end() ? kOutside : at->second;
-  }
-  void find_components();
-  void take_facets();
-  void take_segments();
-  void take_points();
-  Index local(Vertex v);
-  bool drop_points(const Result& result);
-  Outcome judge(const Volume& volume);
-  bool claim(const Volume& volume, std::size_t tet, std::vector<std::optional<Index>>& owners,
-             std::vector<std::array<bool, 2>>& seen) const;
-  [[nodiscard]] bool splits(std::span<const std::optional<Index>> owners) const;
-  bool joins_outside(const Volume& volume) const;
+  Outcome judge(Volume volume);
+  [[nodiscard]] std::optional<Owners> owners_in(const Volume& volume) const;
+  [[nodiscard]] bool splits(const Owners& owners) const;
+  [[nodiscard]] bool joins_outside() const;
 
   const Tangle& tangle_;
-  std::vector<Tet> tets_;
-  std::unordered_map<Tet, Index> component_;  // of the cavity's tetrahedra
-  std::vector<int> region_;                   // by component
-  std::vector<Vertex> vertex_;                // by local number
-  std::unordered_map<Vertex, Index> number_;
-  std::size_t first_point_ = 0;  // local vertices from here on may go
-  Surface surface_;
-  std::vector<Facet> sides_;
-  std::vector<std::array<Index, 4>> face_index_;  // corners ascending, facet; sorted
+  CavityComplex cavity_;
   Volume volume_;
-  bool whole_ = true;         // no tetrahedra beside it
   std::vector<Index> owner_;  // of each tetrahedron of volume_
 };
 

@@ -6,6 +6,7 @@
 #include <queue>
 
 #include "mesh/kernel.h"
+#include "untangle/tuning.h"
 
 namespace holdfast {
 namespace {
@@ -41,9 +42,6 @@ class Relocation {
   }
 
  private:
-  static constexpr int kMostVisits = 12;          // of one vertex: the gain of moves may shrink forever
-  static constexpr std::size_t kMostFaces = 400;  // of a ball for the linear programme
-
   struct Entry {
     double volume;
     Vertex vertex;
@@ -55,7 +53,7 @@ class Relocation {
 
   void push_corners(Tet t) {
     for (const Vertex v : tangle_.corners(t)) {
-      if (tangle_.is_fixed(v) || visits_[v] == kMostVisits) continue;
+      if (tangle_.is_fixed(v) || visits_[v] == tuning::kMostVisits) continue;
       versions_.resize(tangle_.vertex_count(), 0);
       queue_.push({tangle_.deficit(tangle_.star(v)).volume.value, v, ++versions_[v]});
     }
@@ -87,7 +85,7 @@ class Relocation {
     candidates_.clear();
     const Point& p = tangle_.position(v);
     const auto star = tangle_.star(v);
-    if (star.size() <= kMostFaces &&
+    if (star.size() <= tuning::kMostFacesOfKernel &&
         std::all_of(star.begin(), star.end(), [&](Tet t) { return has_area(t, v); })) {
       Kernel kernel(tangle_.points());
       for (const Tet t : star) {
@@ -105,7 +103,7 @@ class Relocation {
     }
     candidates_.push_back(mean_of_neighbours(v));
     const Point star_point = papers_place(v);
-    for (const double omega : {0.0, 0.5, 0.75}) candidates_.push_back(towards(p, star_point, 1 - omega));
+    for (const double omega : tuning::kOmegas) candidates_.push_back(towards(p, star_point, 1 - omega));
   }
 
   // Whether the face opposite v has; nothing sees one without, and a kernel must not be asked.

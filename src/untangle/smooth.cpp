@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "numbers/elementary.h"
+#include "numbers/sorted.h"
 #include "untangle/foldover_energy.h"
 #include "untangle/lbfgs.h"
+#include "untangle/tuning.h"
 
 namespace holdfast {
 namespace {
@@ -36,9 +38,6 @@ class Smoothing {
   }
 
  private:
-  static constexpr int kMostRounds = 100, kMostIdle = 20, kIterations = 10, kSweeps = 60;
-  static constexpr double kLeastDecrease = 1e-4;
-
   struct Best {
     std::vector<Point> positions;
     Deficit deficit;
@@ -51,17 +50,16 @@ class Smoothing {
 
   // Each vertex to the mean of its neighbours, over and over (successive over-relaxation).
   void relax() {
-    constexpr double kOver = 1.6;
     std::vector<std::vector<Vertex>> neighbours;
     for (const Vertex v : vertices_) neighbours.push_back(neighbours_of(v));
     std::vector<Point> p(tangle_.points().positions().begin(), tangle_.points().positions().end());
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (int sweep = 0; sweep < tuning::kRelaxSweeps; ++sweep) {
       watch_.poll_slow_loop();
       for (std::size_t i = 0; i < vertices_.size(); ++i)
         for (std::size_t c = 0; c < 3; ++c) {
           double mean = 0;
           for (const Vertex w : neighbours[i]) mean += p[w][c] / static_cast<double>(neighbours[i].size());
-          p[vertices_[i]][c] += kOver * (mean - p[vertices_[i]][c]);
+          p[vertices_[i]][c] += tuning::kOverRelaxation * (mean - p[vertices_[i]][c]);
         }
     }
     for (const Vertex v : vertices_)
@@ -74,8 +72,7 @@ class Smoothing {
     for (const Tet t : tangle_.star(v))
       for (const Vertex w : tangle_.corners(t))
         if (w != v) out.push_back(w);
-    std::sort(out.begin(), out.end());
-    out.erase(std::unique(out.begin(), out.end()), out.end());
+    sort_unique(out);
     return out;
   }
 
@@ -83,12 +80,15 @@ class Smoothing {
   void descend(FoldoverEnergy energy) {
     std::vector<double> x = coordinates();
     energy.take_sizes(x);
-    double epsilon = 1;
+    double epsilon = tuning::kFirstEpsilon;
     Deficit least = tangle_.deficit(tets_);
-    for (int k = 0, idle = 0; k < kMostRounds && idle < kMostIdle && best_.deficit.count > 0; ++k, ++idle) {
+    for (int k = 0, idle = 0;
+         k < tuning::kMostEpsilons && idle < tuning::kMostIdleEpsilons && best_.deficit.count > 0;
+         ++k, ++idle) {
       energy.set_epsilon(epsilon);
       const double value = energy.value(x);
-      const double reached = minimise(x, function(energy), {kIterations, kLeastDecrease});
+      const double reached =
+          minimise(x, function(energy), {tuning::kIterationsAnEpsilon, tuning::kLeastDescentOfEpsilon});
       epsilon = next_epsilon(epsilon, energy.least_determinant(x), reached / value);
       place(x);
       keep_if_better();
@@ -139,9 +139,9 @@ class Smoothing {
   void set_frame() {
     double sum = 0;
     for (const Tet t : tets_)
-      for (const auto& [i, k] : kEdgeVertex) {
-        const Point& a = tangle_.position(tangle_.corners(t)[static_cast<std::size_t>(i)]);
-        const Point& b = tangle_.position(tangle_.corners(t)[static_cast<std::size_t>(k)]);
+      for (int edge = 0; edge < 6; ++edge) {
+        const auto [v, w] = ends_of_edge(tangle_.corners(t), edge);
+        const Point &a = tangle_.position(v), &b = tangle_.position(w);
         sum += numbers::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
       }
     unit_ = sum / (6 * static_cast<double>(tets_.size()));
@@ -194,12 +194,11 @@ class Smoothing {
   // Such that chi of the worst tetrahedron shrinks by a tenth at least, and by more where the energy fell by
   // more: then a finite number of rounds untangles what can be (§3.2 of the paper).
   [[nodiscard]] static double next_epsilon(double epsilon, double least_determinant, double ratio) {
-    constexpr double kLeast = 1e-9;
     const double d = least_determinant;
     const double root = numbers::hypot(epsilon, d);
     const double chi = d > 0 ? (d + root) / 2 : epsilon * epsilon / (2 * (root - d));
-    const double mu = std::min(ratio, 0.9) * chi;
-    return d < mu ? std::max(kLeast, 2 * std::sqrt(mu * (mu - d))) : kLeast;
+    const double mu = std::min(ratio, tuning::kMostOfChi) * chi;
+    return d < mu ? std::max(tuning::kLeastEpsilon, 2 * std::sqrt(mu * (mu - d))) : tuning::kLeastEpsilon;
   }
 
   void place(const std::vector<double>& x) {

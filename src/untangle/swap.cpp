@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "mesh/exchange.h"
+#include "untangle/tuning.h"
 
 namespace holdfast {
 namespace {
@@ -67,11 +68,8 @@ class LeastDeficit {
   explicit LeastDeficit(const Tangle& tangle) : tangle_(tangle) {}
 
   bool gather_edge(Tet t, int edge, EdgeShell& out) const {
-    const auto& ends = kEdgeVertex[static_cast<std::size_t>(edge)];
-    const Tangle::Corners& c = tangle_.corners(t);
-    return gather_ring(tangle_, t, c[static_cast<std::size_t>(ends[0])], c[static_cast<std::size_t>(ends[1])],
-                       out) &&
-           out.size() >= 3;
+    const auto [a, b] = ends_of_edge(tangle_.corners(t), edge);
+    return gather_ring(tangle_, t, a, b, out) && out.size() >= 3;
   }
   bool gather_face(Tet t, int side, SharedFace& out) const {
     const auto f = tangle_.face(t, side);
@@ -116,7 +114,7 @@ class Swaps {
 
   std::size_t run() {
     for (const Tet t : tangle_.nonpositive()) push(t);
-    const std::size_t most = 20 * queue_.size() + 1000;
+    const std::size_t most = tuning::kSwapTriesATet * queue_.size() + tuning::kLeastSwapTries;
     for (std::size_t k = 0; k < most && !queue_.empty(); ++k) {
       const Tet t = queue_.front();
       queue_.pop_front();

@@ -48,12 +48,7 @@ int Tangle::index_of(Tet t, Vertex v) const {
   return c[0] == v ? 0 : c[1] == v ? 1 : c[2] == v ? 2 : c[3] == v ? 3 : -1;
 }
 
-std::array<Vertex, 3> Tangle::face(Tet t, int i) const {
-  const Corners& c = corners_[t];
-  const auto& k = kFaceVertex[static_cast<std::size_t>(i)];
-  return {c[static_cast<std::size_t>(k[0])], c[static_cast<std::size_t>(k[1])],
-          c[static_cast<std::size_t>(k[2])]};
-}
+std::array<Vertex, 3> Tangle::face(Tet t, int i) const { return corners_of_face(corners_[t], i); }
 
 Tet Tangle::across(Tet t, int i) const {
   const std::array<Vertex, 3> f = face(t, i);

@@ -354,7 +354,9 @@ TEST(Untangle, ACavityDoesNotFallApart) {
     Options options;
     options.keep = Keep::bounded;
     options.drop_outside = true;
-    return mesh(complex, options);
+    Result result = mesh(complex, options);
+    EXPECT_EQ(result.outcome, Outcome::done);
+    return Filled{.volume = std::move(result.volume)};
   };
   EXPECT_EQ(RefillCavity(tangle, cavity).fill(filler), RefillCavity::Outcome::invalid);
   EXPECT_EQ(RefillCavity(tangle, all).fill(filler), RefillCavity::Outcome::filled);
