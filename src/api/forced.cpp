@@ -7,8 +7,10 @@
 #include <span>
 
 #include "mesh/anatomy.h"
+#include "mesh/keys.h"
 #include "mesh/quality.h"
 #include "numbers/elementary.h"
+#include "numbers/sorted.h"
 
 namespace holdfast {
 namespace {
@@ -16,14 +18,12 @@ namespace {
 constexpr double kSmall = 10;  // degrees
 constexpr std::size_t kMostListed = 100;
 
-std::uint64_t key_of(Triangle t) {
-  std::sort(t.begin(), t.end());
+std::uint64_t key_of(const Triangle& corners) {
+  const Triangle t = ascending(corners);
   std::uint64_t h = t[0] * 0x9E3779B97F4A7C15ull;
   h = (h ^ (h >> 29) ^ t[1]) * 0xBF58476D1CE4E5B9ull;
   return (h ^ (h >> 31) ^ t[2]) * 0x94D049BB133111EBull;
 }
-
-std::uint64_t key_of_edge(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
 
 double angle_at(const Point& p, const Point& q, const Point& r) {
   double uu = 0, vv = 0, uv = 0;
@@ -103,7 +103,7 @@ class ForcedElements {
   // Two facets at an edge with a small angle between them: whatever lies there has no larger one.
   std::vector<Index> wedge_at(Index a, Index b) {
     if (by_edge_.empty()) list_edges();
-    const auto wings = with_key(by_edge_, key_of_edge(a, b));
+    const auto wings = with_key(by_edge_, edge_key(a, b));
     for (auto i = wings.begin(); i != wings.end(); ++i)
       for (auto j = wings.begin(); j != i; ++j)
         if (angle_between(a, b, i->apex, j->apex) < kSmall) return {j->facet, i->facet};
@@ -115,7 +115,7 @@ class ForcedElements {
       tell_();
       const Triangle& c = volume_.facets[f];
       for (std::size_t k = 0; k < 3; ++k)
-        by_edge_.push_back({key_of_edge(c[(k + 1) % 3], c[(k + 2) % 3]), f, c[k]});
+        by_edge_.push_back({edge_key(c[(k + 1) % 3], c[(k + 2) % 3]), f, c[k]});
     }
     std::sort(by_edge_.begin(), by_edge_.end());
   }

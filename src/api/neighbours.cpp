@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "holdfast/holdfast.h"
+#include "numbers/sorted.h"
 
 namespace holdfast {
 namespace {
@@ -50,8 +51,7 @@ class Sides {
     std::vector<Index> corners;
     corners.reserve(4 * tetrahedra.size());
     for (const Tetrahedron& t : tetrahedra) corners.insert(corners.end(), t.begin(), t.end());
-    std::sort(corners.begin(), corners.end());
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    sort_unique(corners);
     return corners;
   }
 
@@ -67,7 +67,7 @@ class Sides {
       for (std::uint8_t i = 0; i < 4; ++i) {
         Triangle face{};
         for (std::size_t k = 0; k < 3; ++k) face[k] = tetrahedra[t][(i + k + 1) % 4];
-        std::sort(face.begin(), face.end());
+        face = ascending(face);
         visit(place(face[0]), Side{{face[1], face[2]}, static_cast<Index>(t), i});
       }
   }

@@ -10,24 +10,15 @@
 #include "mesh/anatomy.h"
 #include "mesh/disjoint_sets.h"
 #include "mesh/quality.h"
+#include "numbers/sorted.h"
 
 namespace holdfast {
 namespace {
 
 constexpr int kReach = 300;  // 2^-300 .. 2^300: squares and cubes of lengths neither over- nor underflow
 
-template <std::size_t size>
-std::array<Index, size> sorted(std::array<Index, size> corners) {
-  std::sort(corners.begin(), corners.end());
-  return corners;
-}
-
 // As the tetrahedron sees it: (f0 f1 f2 x) is positive for x inside.
-Triangle face_of(const Tetrahedron& t, std::size_t i) {
-  const auto& k = kFaceVertex[i];
-  return {t[static_cast<std::size_t>(k[0])], t[static_cast<std::size_t>(k[1])],
-          t[static_cast<std::size_t>(k[2])]};
-}
+Triangle face_of(const Tetrahedron& t, std::size_t i) { return corners_of_face(t, static_cast<int>(i)); }
 
 class RemoteComponents {
  public:
@@ -72,12 +63,12 @@ class RemoteComponents {
 
   void find_components() {
     std::set<Triangle> walls;
-    for (const Triangle& f : volume_.facets) walls.insert(sorted(f));
+    for (const Triangle& f : volume_.facets) walls.insert(ascending(f));
     std::map<Triangle, Index> first;
     DisjointSets sets(volume_.tetrahedra.size());
     for (Index t = 0; t < volume_.tetrahedra.size(); ++t)
       for (std::size_t i = 0; i < 4; ++i) {
-        const Triangle f = sorted(face_of(volume_.tetrahedra[t], i));
+        const Triangle f = ascending(face_of(volume_.tetrahedra[t], i));
         if (walls.contains(f)) continue;
         const auto [at, is_new] = first.try_emplace(f, t);
         if (!is_new) sets.unite(t, at->second);
@@ -97,20 +88,21 @@ class RemoteComponents {
       for (const Index v : c)
         if (v < complex_.vertices.size() && local.try_emplace(v, static_cast<Index>(local.size())).second)
           vertices.push_back(v);
-      for (std::size_t i = 0; i < 4; ++i) faces[sorted(face_of(c, i))].push_back(face_of(c, i));
+      for (std::size_t i = 0; i < 4; ++i) faces[ascending(face_of(c, i))].push_back(face_of(c, i));
       for (const auto& e : kEdgeVertex)
-        edges.insert(sorted(Segment{c[static_cast<std::size_t>(e[0])], c[static_cast<std::size_t>(e[1])]}));
+        edges.insert(
+            ascending(Segment{c[static_cast<std::size_t>(e[0])], c[static_cast<std::size_t>(e[1])]}));
     }
     Surface out;
     for (const Index v : vertices) out.vertices.push_back(complex_.vertices[v]);
     for (const Triangle& f : volume_.facets) {
-      const auto at = faces.find(sorted(f));
+      const auto at = faces.find(ascending(f));
       if (at == faces.end()) continue;
       const Triangle& inwards = at->second[0];
       out.facets.push_back({local.at(inwards[0]), local.at(inwards[2]), local.at(inwards[1])});
     }
     for (const Segment& s : volume_.segments)
-      if (edges.contains(sorted(s))) out.segments.push_back({local.at(s[0]), local.at(s[1])});
+      if (edges.contains(ascending(s))) out.segments.push_back({local.at(s[0]), local.at(s[1])});
     return out;
   }
 

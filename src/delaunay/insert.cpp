@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "exact/predicates.h"
+#include "mesh/keys.h"
 
 namespace holdfast {
 namespace {
@@ -343,7 +344,7 @@ void Inserter::link_by_hash() {
   ++epoch_;
   Cell* const cells = triangulation_.cells().data();
   const auto meet = [&](std::uint32_t a, std::uint32_t b, Face face) {
-    const std::uint64_t key = std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+    const EdgeKey key = edge_key(a, b);
     std::size_t h = (key * 0x9E3779B97F4A7C15ull) >> shift;
     while (hash_[h].epoch == epoch_ && hash_[h].key != key) h = (h + 1) & (size - 1);
     if (hash_[h].epoch != epoch_) {

@@ -6,6 +6,7 @@
 #include "mesh/kernel.h"
 #include "mesh/measure.h"
 #include "mesh/traverse.h"
+#include "numbers/sorted.h"
 
 namespace holdfast {
 namespace {
@@ -37,8 +38,7 @@ std::vector<Vertex> facet_neighbours(TetMesh& mesh, Vertex p) {
       for (const Vertex v : mesh.face_vertices(face_code(t, i)))
         if (v != p) out.push_back(v);
     }
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
+  sort_unique(out);
   return out;
 }
 

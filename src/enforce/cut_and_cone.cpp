@@ -11,6 +11,7 @@
 #include "mesh/kernel.h"
 #include "mesh/measure.h"
 #include "mesh/traverse.h"
+#include "numbers/sorted.h"
 
 namespace holdfast {
 namespace {
@@ -47,7 +48,7 @@ class BallCutter {
     for (const CutPath& path : fictitious) {
       cuts_.push_back({path, false, {}});
       for (std::size_t k = 0; k + 1 < path.size(); ++k)
-        fictitious_edges_.push_back(sorted({path[k], path[k + 1]}));
+        fictitious_edges_.push_back(ascending(Edge{path[k], path[k + 1]}));
     }
     flood_sectors();
     for (std::size_t c = 0; c < cuts_.size(); ++c)
@@ -70,8 +71,7 @@ class BallCutter {
         next_[e[0]].push_back(e[1]);  // the tetrahedron on the other side adds the reverse
       }
     for (auto& [v, to] : next_) {
-      std::sort(to.begin(), to.end());
-      to.erase(std::unique(to.begin(), to.end()), to.end());
+      sort_unique(to);
     }
   }
 
@@ -168,14 +168,9 @@ class BallCutter {
     check_sectors();
   }
 
-  static Edge sorted(Edge e) {
-    if (e[0] > e[1]) std::swap(e[0], e[1]);
-    return e;
-  }
-
   [[nodiscard]] bool is_cut(Tet t, int face, const Edge& link_edge) const {
     return mesh_.is_facet(face_code(t, face)) || std::find(fictitious_edges_.begin(), fictitious_edges_.end(),
-                                                           sorted(link_edge)) != fictitious_edges_.end();
+                                                           ascending(link_edge)) != fictitious_edges_.end();
   }
 
   static void add_side(Sector& sector, Sector::Side side) {

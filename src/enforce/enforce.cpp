@@ -12,6 +12,7 @@
 #include "mesh/kernel.h"
 #include "mesh/traverse.h"
 #include "numbers/random.h"
+#include "numbers/sorted.h"
 #include "recover/facet_cavities.h"
 #include "recover/recover.h"
 #include "suppress/collapse.h"
@@ -209,8 +210,7 @@ class Enforcer {
     for (int round = 0; round < kRounds && !restless_.empty(); ++round) {
       std::vector<Vertex> now;
       now.swap(restless_);
-      std::sort(now.begin(), now.end());
-      now.erase(std::unique(now.begin(), now.end()), now.end());
+      sort_unique(now);
       for (const Vertex p : now) {
         if (!mesh_.in_mesh(p)) continue;
         const std::vector<Vertex> around = steiner_neighbours(p);

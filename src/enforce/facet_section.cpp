@@ -5,14 +5,12 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "mesh/keys.h"
 #include "mesh/traverse.h"
+#include "numbers/sorted.h"
 
 namespace holdfast {
 namespace {
-
-std::uint64_t edge_key(Vertex a, Vertex b) {
-  return a < b ? (std::uint64_t{a} << 32 | b) : (std::uint64_t{b} << 32 | a);
-}
 
 class Flood {
  public:
@@ -40,8 +38,7 @@ class Flood {
     }
     for (const Vertex v : inner_)
       if (!on_border_.contains(v)) section_.inner.push_back(v);
-    std::sort(section_.inner.begin(), section_.inner.end());
-    section_.inner.erase(std::unique(section_.inner.begin(), section_.inner.end()), section_.inner.end());
+    sort_unique(section_.inner);
     return std::move(section_);
   }
 
@@ -155,7 +152,7 @@ class Flood {
   std::unordered_set<Vertex> on_border_;
   std::unordered_set<Tet> seen_tets_;
   std::unordered_set<Face> seen_faces_;
-  std::unordered_set<std::uint64_t> seen_edges_;
+  std::unordered_set<EdgeKey> seen_edges_;
   std::vector<Tet> tets_;
   std::vector<InnerEdge> edges_;
   std::vector<Vertex> inner_;

@@ -12,16 +12,15 @@
 #include "mesh/editor.h"
 #include "mesh/kernel.h"
 #include "mesh/traverse.h"
+#include "numbers/sorted.h"
+#include "numbers/vector.h"
 
 namespace holdfast {
 namespace {
 
 using exact::Dyadic;
 using exact::ExactPoint;
-using Vector = std::array<double, 3>;
 using Edge = std::array<Vertex, 2>;
-
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 Vector scaled_to_one(Vector a) {
   const double length = std::sqrt(dot(a, a));
@@ -51,7 +50,8 @@ class CutMaker {
     while (facet_fans_ + cuts.size() < 2) {
       std::optional<CutPath> cut = way_one();
       if (!cut) cut = way_three();
-      for (std::size_t k = 0; k + 1 < cut->size(); ++k) taken_.push_back(sorted({(*cut)[k], (*cut)[k + 1]}));
+      for (std::size_t k = 0; k + 1 < cut->size(); ++k)
+        taken_.push_back(ascending(Edge{(*cut)[k], (*cut)[k + 1]}));
       directions_.push_back(across((*cut)[1]));
       cuts.push_back(std::move(*cut));
     }
@@ -59,13 +59,8 @@ class CutMaker {
   }
 
  private:
-  static Edge sorted(Edge e) {
-    if (e[0] > e[1]) std::swap(e[0], e[1]);
-    return e;
-  }
-
   [[nodiscard]] bool is_taken(const Edge& e) const {
-    return std::find(taken_.begin(), taken_.end(), sorted(e)) != taken_.end();
+    return std::find(taken_.begin(), taken_.end(), ascending(e)) != taken_.end();
   }
 
   // From the segment towards a point, at right angles to it.
@@ -95,7 +90,7 @@ class CutMaker {
         for (const Vertex v : mesh_.corners(t))
           if (v != p_ && v != w) e[n++] = v;
         if (is_taken(e)) continue;
-        taken_.push_back(sorted(e));
+        taken_.push_back(ascending(e));
         if (e[0] != a_ && e[1] != a_) continue;
         ++facet_fans_;
         directions_.push_back(across(e[0] == a_ ? e[1] : e[0]));
@@ -110,8 +105,7 @@ class CutMaker {
     for (const Tet t : ring)
       for (const Vertex v : mesh_.corners(t))
         if (v != p_ && v != end) link.push_back(v);
-    std::sort(link.begin(), link.end());
-    link.erase(std::unique(link.begin(), link.end()), link.end());
+    sort_unique(link);
     return link;
   }
 
@@ -205,8 +199,7 @@ class CutMaker {
     for (const Tet t : tets)
       for (const Vertex v : mesh_.corners(t))
         if (v != p_ && v != a_ && v != b_) link.push_back(v);
-    std::sort(link.begin(), link.end());
-    link.erase(std::unique(link.begin(), link.end()), link.end());
+    sort_unique(link);
 
     // From 0 to 180 degrees ahead of the first, or from 180 to 360.
     const auto turn = [&](Vertex v, Vertex w) { return mesh_.orient(a_, b_, v, w); };

@@ -4,12 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "numbers/vector.h"
+
 namespace holdfast {
 namespace {
-
-using Vector = std::array<double, 3>;
-
-double squared(const Vector& a) { return a[0] * a[0] + a[1] * a[1] + a[2] * a[2]; }
 
 // Twice the area over the longest side's square: a guide, never a decision.
 double shape(const TetMesh& mesh, Vertex a, Vertex b, Vertex c) {
@@ -19,9 +17,8 @@ double shape(const TetMesh& mesh, Vertex a, Vertex b, Vertex c) {
   exact::difference(mesh.point(b), mesh.point(a), u.data());
   exact::difference(mesh.point(c), mesh.point(a), v.data());
   exact::difference(mesh.point(c), mesh.point(b), w.data());
-  const Vector n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-  const double longest = std::max({squared(u), squared(v), squared(w)});
-  return longest > 0 ? std::sqrt(squared(n)) / longest : 0;
+  const double longest = std::max({dot(u, u), dot(v, v), dot(w, w)});
+  return longest > 0 ? length(cross(u, v)) / longest : 0;
 }
 
 class EarClipper {

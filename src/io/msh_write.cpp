@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "io/formats.h"
+#include "numbers/sorted.h"
 
 namespace holdfast::io {
 namespace {
@@ -55,8 +56,7 @@ class Entities {
   Entities(const std::vector<int>& tags, std::size_t elements) {
     if (elements == 0) return;
     tags_ = tags.empty() ? std::vector<int>{0} : tags;
-    std::sort(tags_.begin(), tags_.end());
-    tags_.erase(std::unique(tags_.begin(), tags_.end()), tags_.end());
+    sort_unique(tags_);
     // Counting sort, so that each entity's elements keep their order.
     starts_.assign(tags_.size() + 1, 0);
     for (std::size_t i = 0; i < elements; ++i) ++starts_[entity_of(tag_of(tags, i)) + 1];

@@ -4,23 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/vector.h"
+
 namespace holdfast::io {
 namespace {
-
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// The corners relative to the first, scaled to size 1 so that products neither over- nor underflow.
 std::vector<Point> local_corners(std::span<const Point> vertices, std::span<const Index> corners) {
   std::vector<Point> local;
   double size = 0;
   for (const Index corner : corners) {
-    local.push_back(minus(vertices[corner], vertices[corners[0]]));
+    local.push_back(vertices[corner] - vertices[corners[0]]);
     for (const double x : local.back()) size = std::max(size, std::abs(x));
   }
   if (size > 0)
@@ -48,7 +42,7 @@ std::vector<Triangle> fan(std::span<const Point> vertices, std::span<const Index
     for (std::size_t axis = 0; axis < 3; ++axis) normal[axis] += area[axis];
   }
   const auto area = [&](std::size_t a, std::size_t b, std::size_t c) {
-    return dot(normal, cross(minus(local[b], local[a]), minus(local[c], local[a])));
+    return dot(normal, cross(local[b] - local[a], local[c] - local[a]));
   };
   std::vector<bool> strict(n);
   for (std::size_t i = 0; i < n; ++i) {

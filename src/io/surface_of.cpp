@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "holdfast/io.h"
+#include "numbers/sorted.h"
 
 namespace holdfast {
 namespace {
@@ -16,11 +17,6 @@ struct FaceOfTet {
   Index tet = 0;
   std::uint8_t side = 0;
 };
-
-Triangle sorted(Triangle t) {
-  std::sort(t.begin(), t.end());
-  return t;
-}
 
 Triangle corners(const Volume& volume, const FaceOfTet& face) {
   const Tetrahedron& t = volume.tetrahedra[face.tet];
@@ -35,7 +31,7 @@ std::vector<FaceOfTet> bounding_faces(const Volume& volume) {
   for (Index t = 0; t < volume.tetrahedra.size(); ++t)
     for (std::uint8_t i = 0; i < 4; ++i) {
       all.push_back({{}, t, i});
-      all.back().key = sorted(corners(volume, all.back()));
+      all.back().key = ascending(corners(volume, all.back()));
     }
   std::sort(all.begin(), all.end(), [](const FaceOfTet& a, const FaceOfTet& b) {
     return a.key != b.key ? a.key < b.key : a.tet < b.tet;
@@ -83,7 +79,7 @@ Surface surface_of(const Volume& volume) {
   surface.segments = volume.segments;
   surface.segment_markers = volume.segment_markers;
   std::vector<Triangle> listed;
-  for (const Triangle& t : volume.facets) listed.push_back(sorted(t));
+  for (const Triangle& t : volume.facets) listed.push_back(ascending(t));
   std::sort(listed.begin(), listed.end());
   std::vector<FaceOfTet> bounding = bounding_faces(volume);
   std::sort(bounding.begin(), bounding.end(), [](const FaceOfTet& a, const FaceOfTet& b) {

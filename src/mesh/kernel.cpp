@@ -5,6 +5,7 @@
 
 #include "exact/rounding.h"
 #include "exact/volume.h"
+#include "numbers/vector.h"
 
 namespace holdfast {
 namespace {
@@ -34,11 +35,6 @@ ExactVector scaled(const ExactVector& a, std::int64_t exponent) {
 // By a power of two, so that the largest coordinate is near one.
 ExactVector normalised(const ExactVector& a) { return scaled(a, -top_exponent(a)); }
 
-using Vector = std::array<double, 3>;
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 double largest(const Vector& a) { return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])}); }
 
 // A direction that leaves both planes on their positive sides. For normals at an obtuse angle, with

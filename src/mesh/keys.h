@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <utility>
 
 #include "mesh/anatomy.h"
+#include "numbers/sorted.h"
 
 namespace holdfast {
 
@@ -23,12 +23,7 @@ using EdgeKey = std::uint64_t;
 
 /// Corners in ascending order.
 using FaceKey = std::array<Vertex, 3>;
-[[nodiscard]] inline FaceKey face_key(FaceKey k) {
-  if (k[0] > k[1]) std::swap(k[0], k[1]);
-  if (k[1] > k[2]) std::swap(k[1], k[2]);
-  if (k[0] > k[1]) std::swap(k[0], k[1]);
-  return k;
-}
+[[nodiscard]] inline FaceKey face_key(const std::array<Vertex, 3>& corners) { return ascending(corners); }
 /// Of face i of a tetrahedron.
 [[nodiscard]] inline FaceKey face_key(const std::array<Vertex, 4>& corners, int i) {
   return face_key(corners_of_face(corners, i));

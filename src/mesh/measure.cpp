@@ -4,20 +4,17 @@
 #include <cmath>
 #include <limits>
 
+#include "numbers/sorted.h"
+#include "numbers/vector.h"
+
 namespace holdfast {
 namespace {
-
-using Vector = std::array<double, 3>;
 
 Vector from_to(const TetMesh& mesh, Vertex a, exact::PointRef b) {
   Vector d{};
   exact::difference(b, mesh.point(a), d.data());
   return d;
 }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 }  // namespace
 
@@ -30,8 +27,8 @@ Point centroid(const TetMesh& mesh, Tet t) {
 
 double height_over(const TetMesh& mesh, Vertex a, Vertex b, Vertex c, Vertex d) {
   const Vector n = cross(from_to(mesh, a, mesh.point(b)), from_to(mesh, a, mesh.point(c)));
-  const double length = std::sqrt(dot(n, n));
-  return length > 0 ? std::abs(dot(n, from_to(mesh, a, mesh.point(d)))) / length : 0;
+  const double area = length(n);  // twice that of abc
+  return area > 0 ? std::abs(dot(n, from_to(mesh, a, mesh.point(d)))) / area : 0;
 }
 
 double fatness(const TetMesh& mesh, Vertex a, Vertex b, Vertex c, exact::PointRef d) {
@@ -49,8 +46,7 @@ double fatness(const TetMesh& mesh, Vertex a, Vertex b, Vertex c, exact::PointRe
 Vertex best_apex(const TetMesh& mesh, const Kernel& kernel) {
   std::vector<Vertex> candidates;
   for (const auto& f : kernel.faces()) candidates.insert(candidates.end(), f.begin(), f.end());
-  std::sort(candidates.begin(), candidates.end());
-  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  sort_unique(candidates);
   return best_apex(mesh, kernel, candidates);
 }
 

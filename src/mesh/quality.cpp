@@ -13,24 +13,16 @@
 #include "exact/point.h"
 #include "mesh/parallel.h"
 #include "numbers/elementary.h"
+#include "numbers/vector.h"
 
 namespace holdfast {
 namespace {
-
-using Vector = std::array<double, 3>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kScale = 0.20412414523193150;  // sqrt(6) / 12
 // Part of the sum of its terms below which a sum is computed exactly: some six digits are left above it.
 constexpr double kCancelled = 1e-9;
-
-Vector minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double length(const Vector& a) { return std::sqrt(dot(a, a)); }
 
 // Differences as expansions, whose products of three neither over- nor underflow (magnitudes are checked
 // first), or as dyadic numbers, which hold any.
@@ -76,8 +68,8 @@ double exact_six_volumes(const Point& a, const Point& b, const Point& c, const P
 
 // (b - a) x (c - a), of length twice the area.
 Vector normal(const Point& a, const Point& b, const Point& c) {
-  const Vector u = minus(b, a);
-  const Vector v = minus(c, a);
+  const Vector u = b - a;
+  const Vector v = c - a;
   Vector n{};
   double terms = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -93,11 +85,11 @@ Vector normal(const Point& a, const Point& b, const Point& c) {
 
 // det(b - a, c - a, d - a); `n` is the normal of abc.
 double six_volumes(const Point& a, const Point& b, const Point& c, const Point& d, const Vector& n) {
-  const Vector w = minus(d, a);
+  const Vector w = d - a;
   double volume = 0;
   double terms = 0;
-  const Vector u = minus(b, a);
-  const Vector v = minus(c, a);
+  const Vector u = b - a;
+  const Vector v = c - a;
   for (std::size_t i = 0; i < 3; ++i) {
     volume += n[i] * w[i];
     terms += (std::abs(u[(i + 1) % 3] * v[(i + 2) % 3]) + std::abs(u[(i + 2) % 3] * v[(i + 1) % 3])) *
@@ -150,8 +142,7 @@ struct Measures {
       : normals{normal(p[1], p[3], p[2]), normal(p[0], p[2], p[3]), normal(p[0], p[3], p[1]),
                 normal(p[0], p[1], p[2])},
         six_volumes(holdfast::six_volumes(p[0], p[1], p[2], p[3], normals[3])),
-        edges{minus(p[1], p[0]), minus(p[2], p[0]), minus(p[3], p[0]),
-              minus(p[2], p[1]), minus(p[3], p[1]), minus(p[3], p[2])} {}
+        edges{p[1] - p[0], p[2] - p[0], p[3] - p[0], p[2] - p[1], p[3] - p[1], p[3] - p[2]} {}
 
   // The inradius is three volumes over the area.
   [[nodiscard]] double quality() const {
@@ -192,8 +183,8 @@ struct Measures {
 // not be.
 std::optional<double> plain_quality(const Point& a, const Point& b, const Point& c, const Point& d) {
   constexpr double kThin = 1e-5, kSmall = 1e-50, kLarge = 1e50;
-  const Vector u = minus(b, a), v = minus(c, a), w = minus(d, a);
-  const Vector x = minus(c, b), y = minus(d, b), z = minus(d, c);
+  const Vector u = b - a, v = c - a, w = d - a;
+  const Vector x = c - b, y = d - b, z = d - c;
   const double longest =
       std::sqrt(std::max({dot(u, u), dot(v, v), dot(w, w), dot(x, x), dot(y, y), dot(z, z)}));
   if (!(longest > kSmall && longest < kLarge)) return std::nullopt;
@@ -216,7 +207,7 @@ std::optional<double> plain_quality(const Point& a, const Point& b, const Point&
 class BestTetrahedron {
  public:
   BestTetrahedron(const Point& a, const Point& b, const Point& c) {
-    std::array<double, 3> side{length(minus(c, b)), length(minus(a, c)), length(minus(b, a))};
+    std::array<double, 3> side{length(c - b), length(a - c), length(b - a)};
     std::sort(side.begin(), side.end());
     longest_ = side[2];
     twice_area_ = length(normal(a, b, c));
@@ -283,8 +274,8 @@ std::array<double, 6> dihedral_angles(const Point& a, const Point& b, const Poin
 
 std::optional<PlainShape> plain_shape(const Point& a, const Point& b, const Point& c, const Point& d) {
   constexpr double kThin = 1e-3, kSmall = 1e-50, kLarge = 1e50;
-  const Vector u = minus(b, a), v = minus(c, a), w = minus(d, a);
-  const Vector x = minus(c, b), y = minus(d, b), z = minus(d, c);
+  const Vector u = b - a, v = c - a, w = d - a;
+  const Vector x = c - b, y = d - b, z = d - c;
   const double longest2 = std::max({dot(u, u), dot(v, v), dot(w, w), dot(x, x), dot(y, y), dot(z, z)});
   const double longest = std::sqrt(longest2);
   if (!(longest > kSmall && longest < kLarge)) return std::nullopt;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "numbers/sorted.h"
+
 namespace holdfast {
 namespace {
 
@@ -42,8 +44,7 @@ std::vector<Vertex> link_vertices(TetMesh& mesh, Vertex v) {
   for (const Tet t : tets)
     for (const Vertex w : mesh.corners(t))
       if (w != v && w != kGhost) out.push_back(w);
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
+  sort_unique(out);
   return out;
 }
 
@@ -63,8 +64,11 @@ Tet find_edge(TetMesh& mesh, Vertex a, Vertex b) {
 }
 
 Face find_face(TetMesh& mesh, Vertex a, Vertex b, Vertex c) {
-  const Tet start = find_edge(mesh, a, b);
-  if (start == kNone) return kNone;
+  const Tet t = find_edge(mesh, a, b);
+  return t == kNone ? kNone : find_face_round(mesh, t, a, b, c);
+}
+
+Face find_face_round(const TetMesh& mesh, Tet start, Vertex a, Vertex b, Vertex c) {
   Tet t = start;
   do {
     const int k = mesh.index_of(t, c);

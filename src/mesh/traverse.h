@@ -23,6 +23,8 @@ void shell(const TetMesh& mesh, Tet t, Vertex a, Vertex b, std::vector<Tet>& out
 
 /// The face abc (one of its two codes), or kNone.
 [[nodiscard]] Face find_face(TetMesh& mesh, Vertex a, Vertex b, Vertex c);
+/// The same, looked for in the shell of edge ab, which tetrahedron t holds.
+[[nodiscard]] Face find_face_round(const TetMesh& mesh, Tet t, Vertex a, Vertex b, Vertex c);
 
 /// The tetrahedron that holds v, inside or on its boundary, or the ghost beyond which v lies, found by a walk
 /// from `start`; kNone where the walk takes too long. Any mesh will do: the random order of the faces makes

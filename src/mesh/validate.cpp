@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "mesh/keys.h"
 #include "mesh/traverse.h"
 
 namespace holdfast {
@@ -11,11 +12,7 @@ namespace {
 std::string say(Tet t, const char* what) { return "tetrahedron " + std::to_string(t) + ": " + what; }
 
 bool same_face(const TetMesh& mesh, Face f, Face g) {
-  auto a = mesh.face_vertices(f);
-  auto b = mesh.face_vertices(g);
-  std::sort(a.begin(), a.end());
-  std::sort(b.begin(), b.end());
-  return a == b;
+  return face_key(mesh.face_vertices(f)) == face_key(mesh.face_vertices(g));
 }
 
 bool has_repeated_corner(const TetMesh::Corners& c) {

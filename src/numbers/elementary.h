@@ -8,6 +8,8 @@
 // them with wider numbers.
 #pragma once
 
+#include <array>
+
 namespace holdfast::numbers {
 
 [[nodiscard]] double exp(double x);
@@ -18,6 +20,10 @@ namespace holdfast::numbers {
 /// power of two.
 [[nodiscard]] double hypot(double x, double y);
 [[nodiscard]] double hypot(double x, double y, double z);
+/// Of two points anywhere in the range of doubles.
+[[nodiscard]] inline double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
 
 /// Of angles in radians, up to some thousands.
 [[nodiscard]] double sin(double x);

@@ -10,7 +10,10 @@
 #include "delaunay/box.h"
 #include "delaunay/delaunay.h"
 #include "mesh/editor.h"
+#include "mesh/keys.h"
 #include "mesh/traverse.h"
+#include "numbers/sorted.h"
+#include "numbers/vector.h"
 #include "recover/insert_vertex.h"
 #include "recover/recover.h"
 #include "recover/standing.h"
@@ -19,18 +22,8 @@
 namespace holdfast {
 namespace {
 
-using FaceCorners = std::array<Vertex, 3>;
+using FaceCorners = FaceKey;
 using Tell = std::function<void()>;
-
-FaceCorners sorted(FaceCorners f) {
-  std::sort(f.begin(), f.end());
-  return f;
-}
-
-void tidy(std::vector<Vertex>& v) {
-  std::sort(v.begin(), v.end());
-  v.erase(std::unique(v.begin(), v.end()), v.end());
-}
 
 // Tetrahedra that fill a cavity, and the points that were added for them: vertex kAdded + k is the k-th.
 struct Filling {
@@ -56,7 +49,7 @@ class Cavity {
 
   void add_vertex(Vertex v) { vertices_.push_back(v); }
   void add_face(Face f) {
-    faces_.emplace(sorted(mesh_.face_vertices(f)), Outer{mesh_.face_vertices(f), mesh_.neighbour(f)});
+    faces_.emplace(face_key(mesh_.face_vertices(f)), Outer{mesh_.face_vertices(f), mesh_.neighbour(f)});
   }
   // What the cavity may hold inside: facets and segments that do not meet the one to be recovered.
   void add_inner_facet(const FaceCorners& f) { inner_facets_.push_back(f); }
@@ -67,7 +60,7 @@ class Cavity {
   bool grow(std::unordered_set<Tet>& taken) {
     bool grown = false;
     for (const FaceCorners& f : missing_) {
-      const auto it = faces_.find(sorted(f));
+      const auto it = faces_.find(face_key(f));
       if (it != faces_.end()) grown |= take(tet_of(it->second.across), taken);
     }
     return grown;
@@ -77,7 +70,7 @@ class Cavity {
   // Positive tetrahedra that fill the cavity, or nothing; `missing_` then are faces that could not be had.
   std::optional<Filling> fill(std::uint64_t seed, const FacetCavities::Finish& finish, const Tell& tell) {
     missing_.clear();
-    tidy(vertices_);
+    sort_unique(vertices_);
     const Local local(*this);
     const Complex complex{local.points, local.facets, local.segments, {}, {}};
     const SegmentTable table = segment_table(complex);
@@ -124,7 +117,7 @@ class Cavity {
       for (const auto& [key, face] : cavity.faces_) facets.push_back(cavity.local(face.corners));
       std::sort(facets.begin() + 1, facets.end());
       for (const FaceCorners& f : cavity.inner_facets_)
-        if (!cavity.faces_.contains(sorted(f))) facets.push_back(cavity.local(f));
+        if (!cavity.faces_.contains(face_key(f))) facets.push_back(cavity.local(f));
       for (const Segment& s : cavity.inner_segments_)
         segments.push_back({cavity.local(s[0]), cavity.local(s[1])});
     }
@@ -156,23 +149,20 @@ class Cavity {
     std::vector<Point> out;
     for (const Point& corner : corners)
       if (exact::orient3d(p[0].data(), p[1].data(), p[2].data(), corner.data()) > 0) out.push_back(corner);
-    const Point u = minus(p[1], p[0]), v = minus(p[2], p[0]);
-    const Point n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-    const double length = std::sqrt(dot(n, n)),
-                 extent = std::sqrt(dot(minus(corners[7], corners[0]), minus(corners[7], corners[0])));
+    const Point u = p[1] - p[0], v = p[2] - p[0];
+    const Vector n = cross(u, v);
+    const double area = length(n), extent = distance(corners[7], corners[0]);
     double lowest = extent;
     for (const Point& q : local.points) {
-      const double height = dot(minus(q, p[0]), n) / length;
+      const double height = dot(q - p[0], n) / area;
       if (height > 0) lowest = std::min(lowest, height);
     }
     const double depth = std::clamp(extent * extent / lowest, extent, kDeepest * extent);
     Point below{};
-    for (std::size_t k = 0; k < 3; ++k) below[k] = (p[0][k] + p[1][k] + p[2][k]) / 3 - depth / length * n[k];
+    for (std::size_t k = 0; k < 3; ++k) below[k] = (p[0][k] + p[1][k] + p[2][k]) / 3 - depth / area * n[k];
     out.push_back(below);
     return out;
   }
-  static Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-  static double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
   [[nodiscard]] Vertex local(Vertex v) const {
     return static_cast<Vertex>(std::lower_bound(vertices_.begin(), vertices_.end(), v) - vertices_.begin());
@@ -188,7 +178,7 @@ class Cavity {
     if (mesh_.is_ghost(t) || taken.contains(t)) return false;
     for (int i = 0; i < 4; ++i) {
       const Face f = face_code(t, i);
-      if (mesh_.is_facet(f) && faces_.contains(sorted(mesh_.face_vertices(f)))) return false;
+      if (mesh_.is_facet(f) && faces_.contains(face_key(mesh_.face_vertices(f)))) return false;
     }
     taken.insert(t);
     grown_.push_back(t);
@@ -199,7 +189,7 @@ class Cavity {
     }
     for (int i = 0; i < 4; ++i) {
       const Face f = face_code(t, i);
-      if (faces_.erase(sorted(mesh_.face_vertices(f))) == 0) add_face(f);
+      if (faces_.erase(face_key(mesh_.face_vertices(f))) == 0) add_face(f);
     }
     return true;
   }
@@ -208,8 +198,8 @@ class Cavity {
   [[nodiscard]] std::optional<Filling> inside_of(TetMesh& mesh, Vertex first_free, std::uint64_t seed) const {
     const auto is_boundary = [&](Face f) {
       if (!mesh.is_facet(f)) return false;
-      const FaceCorners key = sorted(global(mesh.face_vertices(f)));
-      return key == sorted(facet_) || faces_.contains(key);
+      const FaceCorners key = face_key(global(mesh.face_vertices(f)));
+      return key == face_key(facet_) || faces_.contains(key);
     };
     const FaceCorners start = local(facet_);
     Random random(seed);
@@ -285,7 +275,7 @@ class Pair {
       for (int i = 0; i < 4; ++i) split_face(face_code(t, i), signs);
       for (int k = 0; k < 6; ++k) split_segment(t, k, signs);
     }
-    tidy(in_the_way);
+    sort_unique(in_the_way);
     return in_the_way;
   }
 
@@ -356,7 +346,7 @@ bool FacetCavities::list_coplanar(const FaceCorners& facet) {
   for (const Tet t : tets_)
     for (const Vertex v : mesh_.corners(t))
       if (v != kGhost && v != a && v != b && mesh_.orient(a, b, inside, v) == 0) in_the_way_.push_back(v);
-  tidy(in_the_way_);
+  sort_unique(in_the_way_);
   return false;
 }
 

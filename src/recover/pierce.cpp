@@ -133,17 +133,8 @@ Tet Piercing::find_edge(Vertex a, Vertex b) {
 }
 
 Face Piercing::find_face(Vertex a, Vertex b, Vertex c) {
-  const Tet start = find_edge(a, b);
-  if (start == kNone) return kNone;
-  Tet t = start;
-  do {
-    const int k = mesh_.index_of(t, c);
-    const auto& xy = kOpposite[static_cast<std::size_t>(mesh_.index_of(t, a))]
-                              [static_cast<std::size_t>(mesh_.index_of(t, b))];
-    if (k >= 0) return face_code(t, xy[0] == k ? xy[1] : xy[0]);
-    t = tet_of(mesh_.neighbour(t, xy[0]));
-  } while (t != start);
-  return kNone;
+  const Tet t = find_edge(a, b);
+  return t == kNone ? kNone : find_face_round(mesh_, t, a, b, c);
 }
 
 std::optional<Face> Piercing::of_facet(const std::array<Vertex, 3>& facet, std::vector<PiercingEdge>& out,

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
+#include "mesh/keys.h"
 #include "mesh/tet_mesh.h"
 
 namespace holdfast {
@@ -22,7 +22,7 @@ class TriedEdges {
   /// Notes a trial. Returns false where one with as many levels is noted.
   bool add(Vertex a, Vertex b, int depth) {
     if (2 * count_ >= slots_.size()) grow();
-    const Key key = std::minmax(a, b);
+    const EdgeKey key = edge_key(a, b);
     Slot& slot = slots_[place_of(key)];
     if (slot.generation != generation_) {
       slot = {key, generation_, depth};
@@ -35,17 +35,16 @@ class TriedEdges {
   }
 
  private:
-  using Key = std::pair<Vertex, Vertex>;
   struct Slot {
-    Key key;
+    EdgeKey key;
     std::uint64_t generation = 0;
     int depth = 0;
   };
 
   // That of the key, or the free one where it belongs (linear probing).
-  [[nodiscard]] std::size_t place_of(const Key& key) const {
+  [[nodiscard]] std::size_t place_of(EdgeKey key) const {
     constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15;  // Fibonacci hashing (Knuth, TAOCP 3, 6.4)
-    const std::uint64_t mixed = ((std::uint64_t{key.first} << 32) | key.second) * kMix;
+    const std::uint64_t mixed = key * kMix;
     std::size_t i = static_cast<std::size_t>(mixed >> 32) & (slots_.size() - 1);
     while (slots_[i].generation == generation_ && slots_[i].key != key) i = (i + 1) & (slots_.size() - 1);
     return i;

@@ -5,6 +5,7 @@
 
 #include "mesh/assembly.h"
 #include "mesh/parallel.h"
+#include "numbers/sorted.h"
 #include "refine/order.h"
 
 namespace holdfast {
@@ -424,8 +425,7 @@ std::vector<Vertex> Parts::vertices_between() const {
       if (part.bounds_[k].is_interface && part.bounds_[k].is_next_a_part)
         for (const Vertex v : part.mesh.face_vertices(face_code(part.first_ghost_ + k, 3)))
           vertices.push_back(part.vertices_[v]);
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sort_unique(vertices);
   return vertices;
 }
 

@@ -1,24 +1,10 @@
-// Vectors in floating point, for where points are to be placed: these only propose.
+// Centres of circles and spheres in floating point, for where points are to be placed: these only propose.
 #pragma once
 
-#include <array>
-#include <cmath>
-
-#include "mesh/tet_mesh.h"
+#include "holdfast/types.h"
+#include "numbers/vector.h"
 
 namespace holdfast {
-
-using Vector = std::array<double, 3>;
-
-inline Vector operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-inline Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-inline double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-inline double distance(const Point& a, const Point& b) {
-  const Vector d = a - b;
-  return std::sqrt(dot(d, d));
-}
 
 /// The centre of the circle through 0, u and w.
 inline Vector circle_centre(const Vector& u, const Vector& w) {

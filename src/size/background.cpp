@@ -9,19 +9,13 @@
 #include "metric/metric.h"
 #include "numbers/elementary.h"
 #include "numbers/float_environment.h"
+#include "numbers/vector.h"
 
 namespace holdfast {
 namespace {
 
 double six_volumes(const Point& a, const Point& b, const Point& c, const Point& d) {
-  std::array<double, 3> u{}, v{}, w{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    u[k] = b[k] - a[k];
-    v[k] = c[k] - a[k];
-    w[k] = d[k] - a[k];
-  }
-  return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
-         u[2] * (v[0] * w[1] - v[1] * w[0]);
+  return dot(b - a, cross(c - a, d - a));
 }
 
 /// The powers of two by which the largest coordinate along each axis is about 1.

@@ -10,10 +10,6 @@ namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-double distance(const Point& a, const Point& b) {
-  return numbers::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
 Point times_power(const Point& p, int k) {
   return {std::ldexp(p[0], k), std::ldexp(p[1], k), std::ldexp(p[2], k)};
 }
@@ -24,8 +20,8 @@ std::vector<double> edge_lengths(const Complex& complex, const SegmentTable& tab
   std::vector<unsigned> count(complex.vertices.size(), 0);
   for (const Segment& s : table.segments) {
     const Point &a = complex.vertices[s[0]], &b = complex.vertices[s[1]];
-    const double length =
-        scale == 0 ? distance(a, b) : distance(times_power(a, scale), times_power(b, scale));
+    const double length = scale == 0 ? numbers::distance(a, b)
+                                     : numbers::distance(times_power(a, scale), times_power(b, scale));
     for (const Index v : s) {
       sum[v] += length;
       ++count[v];

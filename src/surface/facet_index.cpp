@@ -2,19 +2,10 @@
 
 #include <algorithm>
 #include <tuple>
-#include <utility>
+
+#include "numbers/sorted.h"
 
 namespace holdfast {
-namespace {
-
-Triangle sorted(Triangle t) {
-  if (t[0] > t[1]) std::swap(t[0], t[1]);
-  if (t[1] > t[2]) std::swap(t[1], t[2]);
-  if (t[0] > t[1]) std::swap(t[0], t[1]);
-  return t;
-}
-
-}  // namespace
 
 FacetIndex::FacetIndex(std::size_t vertices, std::span<const Triangle> facets)
     : first_(vertices + 1, 0), entries_(facets.size()) {
@@ -23,7 +14,7 @@ FacetIndex::FacetIndex(std::size_t vertices, std::span<const Triangle> facets)
   for (std::size_t v = 0; v < vertices; ++v) first_[v + 1] += first_[v];
   std::vector<Index> next(first_.begin(), first_.end() - 1);
   for (Index f = 0; f < facets.size(); ++f) {
-    const Triangle t = sorted(facets[f]);
+    const Triangle t = ascending(facets[f]);
     entries_[next[t[0]]++] = {t[1], t[2], f};
   }
   const auto before = [](const Entry& x, const Entry& y) {
@@ -35,7 +26,7 @@ FacetIndex::FacetIndex(std::size_t vertices, std::span<const Triangle> facets)
 }
 
 Index FacetIndex::find(const Triangle& corners) const {
-  const Triangle t = sorted(corners);
+  const Triangle t = ascending(corners);
   const auto begin = entries_.begin() + first_[t[0]], end = entries_.begin() + first_[t[0] + 1];
   const auto it = std::lower_bound(begin, end, t, [](const Entry& e, const Triangle& wanted) {
     return std::pair(e.middle, e.most) < std::pair(wanted[1], wanted[2]);

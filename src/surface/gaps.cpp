@@ -7,6 +7,7 @@
 #include <map>
 
 #include "numbers/elementary.h"
+#include "numbers/sorted.h"
 #include "surface/aabb_tree.h"
 
 namespace holdfast {
@@ -16,10 +17,6 @@ namespace {
 /// that people overlook, too narrow for what was modelled.
 constexpr double kReach = 0.02;
 
-double distance(const Point& a, const Point& b) {
-  return numbers::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
 bool is_finite(const Point& p) {
   return std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
 }
@@ -27,7 +24,7 @@ bool is_finite(const Point& p) {
 /// How far p is from the middle of ab, and where: 0 at a, 1 at b.
 std::pair<double, double> from_side(const Point& p, const Point& a, const Point& b) {
   double along = 0, square = 0;
-  const double length = distance(a, b);
+  const double length = numbers::distance(a, b);
   for (unsigned k = 0; k < 3; ++k) {
     const double direction = (b[k] - a[k]) / length;
     along += (p[k] - a[k]) * direction;
@@ -35,7 +32,7 @@ std::pair<double, double> from_side(const Point& p, const Point& a, const Point&
   }
   const double t = std::clamp(along / (square * length), 0.0, 1.0);
   const Point foot{a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
-  return {distance(p, foot), t};
+  return {numbers::distance(p, foot), t};
 }
 
 }  // namespace
@@ -43,7 +40,7 @@ std::pair<double, double> from_side(const Point& p, const Point& a, const Point&
 GapFinder::GapFinder(const Complex& complex, const SegmentTable& table)
     : complex_(complex), table_(table), reach_(complex.vertices.size(), 0) {
   for (const auto& [a, b] : table.segments) {
-    const double length = distance(complex.vertices[a], complex.vertices[b]);
+    const double length = numbers::distance(complex.vertices[a], complex.vertices[b]);
     if (!(length > 0) || !std::isfinite(length)) continue;
     for (const Index v : {a, b}) {
       const double reach = kReach * length;
@@ -60,7 +57,7 @@ std::optional<Nearness> GapFinder::between(Index v, Index side) const {
   const auto [off, at] = from_side(p, complex_.vertices[a], complex_.vertices[b]);
   if (!(off <= reach(v))) return std::nullopt;
   for (const Index end : {a, b}) {
-    const double apart = distance(p, complex_.vertices[end]);
+    const double apart = numbers::distance(p, complex_.vertices[end]);
     if (apart <= std::min(reach(v), reach(end))) return Nearness{v, {end, end}, apart};
   }
   if (at == 0 || at == 1) return std::nullopt;
@@ -77,8 +74,7 @@ std::vector<Nearness> GapFinder::between_borders() const {
     sides.push_back(s);
     vertices.insert(vertices.end(), {a, b});
   }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sort_unique(vertices);
 
   std::vector<Box> boxes;
   for (const Index s : sides) {
@@ -127,7 +123,7 @@ std::optional<Nearness> GapFinder::among(std::span<const Index> vertices) const 
   for (std::size_t i = 0; i < vertices.size(); ++i)
     for (std::size_t j = i + 1; j < vertices.size(); ++j) {
       const auto [a, b] = std::minmax(vertices[i], vertices[j]);
-      const double apart = distance(complex_.vertices[a], complex_.vertices[b]);
+      const double apart = numbers::distance(complex_.vertices[a], complex_.vertices[b]);
       // Ends of one edge are farther apart than this.
       if (apart > 0 && apart <= std::min(reach(a), reach(b)) && (!nearest || apart < nearest->distance))
         nearest = Nearness{a, {b, b}, apart};

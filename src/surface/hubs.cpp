@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/vector.h"
 #include "surface/complex.h"
 
 namespace holdfast {
@@ -20,8 +21,8 @@ bool direction(const Point& a, const Point& b, Point& unit) {
   }
   if (!(largest > 0) || !std::isfinite(largest)) return false;
   for (double& x : unit) x /= largest;
-  const double length = std::sqrt(unit[0] * unit[0] + unit[1] * unit[1] + unit[2] * unit[2]);
-  for (double& x : unit) x /= length;
+  const double size = length(unit);
+  for (double& x : unit) x /= size;
   return true;
 }
 

@@ -5,23 +5,15 @@
 #include <cmath>
 #include <limits>
 
+#include "numbers/vector.h"
+
 namespace holdfast {
 namespace {
 
 // Unit coordinates err by about 2^-52, axes and sums of a few products by little more.
 constexpr double kMargin = 1e-13;
 
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
 Point times(double s, const Point& a) { return {s * a[0], s * a[1], s * a[2]}; }
-
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double length(const Point& a) { return std::sqrt(dot(a, a)); }
 
 // The part of `v` that is orthogonal to the unit vector `u`, normalised; any orthogonal direction where that
 // is too short to be accurate.
@@ -29,16 +21,16 @@ Point orthogonal(const Point& v, const Point& u) {
   const double size = length(v);
   if (size > 0) {
     const Point w = times(1 / size, v);
-    const Point rest = minus(w, times(dot(w, u), u));
+    const Point rest = w - times(dot(w, u), u);
     if (length(rest) > 0.5) {
-      const Point again = minus(rest, times(dot(rest, u), u));
+      const Point again = rest - times(dot(rest, u), u);
       return times(1 / length(again), again);
     }
   }
   Point least{0, 0, 0};
   const auto smaller = [](double a, double b) { return std::fabs(a) < std::fabs(b); };
   least[static_cast<std::size_t>(std::min_element(u.begin(), u.end(), smaller) - u.begin())] = 1;
-  const Point rest = minus(least, times(dot(least, u), u));
+  const Point rest = least - times(dot(least, u), u);
   return times(1 / length(rest), rest);
 }
 
@@ -47,12 +39,12 @@ std::array<Point, 3> axes_of(const std::vector<std::array<Point, 3>>& corners) {
   double best = 0;
   for (const auto& t : corners) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const Point side = minus(t[(i + 1) % 3], t[i]);
+      const Point side = t[(i + 1) % 3] - t[i];
       const double size = dot(side, side);
       if (!(size > best)) continue;
       best = size;
       longest = side;
-      normal = cross(side, minus(t[(i + 2) % 3], t[i]));
+      normal = cross(side, t[(i + 2) % 3] - t[i]);
     }
   }
   const double size = length(longest);
@@ -95,7 +87,7 @@ OrientedBox oriented_box(const std::vector<std::array<Point, 3>>& corners) {
 }
 
 bool surely_apart(const OrientedBox& a, const OrientedBox& b) {
-  const Point between = minus(b.centre, a.centre);
+  const Point between = b.centre - a.centre;
   double cosine[3][3], size[3][3];
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {

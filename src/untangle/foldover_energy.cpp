@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "numbers/elementary.h"
+#include "numbers/vector.h"
 #include "untangle/tuning.h"
 
 namespace holdfast {
@@ -15,12 +16,7 @@ namespace {
 const double kInverse01 = -1 / std::sqrt(3.0), kInverse11 = 2 / std::sqrt(3.0);
 const double kInverse02 = -1 / std::sqrt(6.0), kInverse22 = 3 / std::sqrt(6.0);
 
-using Column = std::array<double, 3>;
-
-Column cross(const Column& a, const Column& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Column& a, const Column& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+using Column = Vector;
 
 }  // namespace
 

@@ -6,18 +6,11 @@
 #include <queue>
 
 #include "mesh/kernel.h"
+#include "numbers/vector.h"
 #include "untangle/tuning.h"
 
 namespace holdfast {
 namespace {
-
-using Vector = std::array<double, 3>;
-
-Vector minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 class Relocation {
  public:
@@ -156,8 +149,8 @@ class Relocation {
 
   [[nodiscard]] Point mirror(const Point& p, const std::array<Vertex, 3>& f) const {
     const Point& a = tangle_.position(f[0]);
-    const Vector n = cross(minus(tangle_.position(f[1]), a), minus(tangle_.position(f[2]), a));
-    const double twice = 2 * dot(minus(p, a), n) / dot(n, n);
+    const Vector n = cross(tangle_.position(f[1]) - a, tangle_.position(f[2]) - a);
+    const double twice = 2 * dot(p - a, n) / dot(n, n);
     return {p[0] - twice * n[0], p[1] - twice * n[1], p[2] - twice * n[2]};
   }
 

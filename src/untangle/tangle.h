@@ -12,6 +12,7 @@
 
 #include "exact/volume.h"
 #include "mesh/tet_mesh.h"
+#include "numbers/sorted.h"
 
 namespace holdfast {
 
@@ -113,13 +114,5 @@ class Tangle {
   Constraints constraints_;
   std::size_t nonpositive_ = 0;
 };
-
-/// The corners in ascending order.
-template <std::size_t N>
-[[nodiscard]] std::array<Vertex, N> ascending(std::array<Vertex, N> corners) {
-  for (std::size_t i = 1; i < N; ++i)
-    for (std::size_t k = i; k > 0 && corners[k] < corners[k - 1]; --k) std::swap(corners[k], corners[k - 1]);
-  return corners;
-}
 
 }  // namespace holdfast
