@@ -4,7 +4,6 @@
 #include <array>
 
 #include "mesh/editor.h"
-#include "mesh/traverse.h"
 #include "optimise/badness.h"
 
 namespace holdfast {
@@ -51,56 +50,39 @@ bool FlatRemover::remove(Tet t, double bad_from, std::vector<Tet>& created) {
   const TetMesh::Corners corners = mesh_.corners(t);
   for (const int edge : wide_edges(mesh_, t)) {
     const auto [a, b] = ends_of_edge(corners, edge);
-    if (remove_edge(t, a, b, tuning::kFlatDepth, kNone)) return true;
+    if (EdgeClearing(mesh_, *this).remove(t, a, b, tuning::kFlatDepth, kNone)) return true;
     if (!mesh_.alive(t) || mesh_.corners(t) != corners) return true;
   }
   return false;
 }
 
-// At once, or after flips that thin out its shell; `avoided` gets no new edge.
-bool FlatRemover::remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex avoided) {
-  EdgeShell& shell = shells_[static_cast<std::size_t>(depth)];
-  while (t != kNone) {
-    if (++work_ > tuning::kFlatShells || mesh_.is_segment(t, mesh_.edge_of(t, a, b)) ||
-        !gather_shell(mesh_, t, a, b, shell, tuning::kMostShellForFlat))
-      return false;
-    if (remove_now(shell, avoided)) return true;
-    if (depth == 0 || !thin_out(shell, depth)) return false;
-    t = survivor(shell);
-  }
-  return true;
+bool FlatRemover::gather(Tet t, Vertex a, Vertex b, Vertex, Level& level) {
+  return ++work_ <= tuning::kFlatShells && !mesh_.is_segment(t, mesh_.edge_of(t, a, b)) &&
+         gather_shell(mesh_, t, a, b, level.shell, tuning::kMostShellForFlat);
 }
 
-// A tetrahedron of an edge's shell after flips beside it.
-Tet FlatRemover::survivor(const EdgeShell& shell) {
-  for (const Tet t : shell.tets)
-    if (mesh_.alive(t) && mesh_.index_of(t, shell.a) >= 0 && mesh_.index_of(t, shell.b) >= 0) return t;
-  return find_edge(mesh_, shell.a, shell.b);
-}
-
-bool FlatRemover::remove_now(const EdgeShell& shell, Vertex avoided) {
+bool FlatRemover::remove_now(const Level& level, Vertex avoided) {
+  const EdgeShell& shell = level.shell;
   NothingBad objective(mesh_, shell, bad_from_, avoided);
   if (!triangulation_.find(shell.size(), objective)) return false;
   triangles_.clear();
   triangulation_.triangles(shell.size(), triangles_);
   MeshEditor(mesh_).replace_shell(shell, triangles_, created_);
+  ++edge_removals_;
   return true;
 }
 
-// A spoke, from an end of the edge to a corner of its link, is in the way where the ear at that corner would
-// be bad or negative: without it the shell has one tetrahedron fewer. Returns whether the flips for one of
-// the spokes have changed the mesh.
-bool FlatRemover::thin_out(const EdgeShell& shell, int depth) {
+// A spoke is in the way where the ear at its corner would be bad or negative.
+std::optional<Spoke> FlatRemover::next_blocked(Level& level) const {
+  const EdgeShell& shell = level.shell;
   const std::size_t n = shell.size();
-  const std::size_t before = created_->size();
-  for (std::size_t i = 0; i < n; ++i) {
+  while (level.next < 2 * n) {
+    const std::uint32_t i = level.next / 2;
+    const bool at_b = level.next++ % 2 == 0;
     const Vertex p = shell.link[(i + n - 1) % n], q = shell.link[i], r = shell.link[(i + 1) % n];
-    if (!is_good(p, q, r, shell.b)) remove_edge(shell.tets[i], shell.b, q, depth - 1, shell.a);
-    if (created_->size() != before) return true;
-    if (!is_good(r, q, p, shell.a)) remove_edge(shell.tets[i], shell.a, q, depth - 1, shell.b);
-    if (created_->size() != before) return true;
+    if (at_b ? !is_good(p, q, r, shell.b) : !is_good(r, q, p, shell.a)) return Spoke{i, at_b};
   }
-  return false;
+  return std::nullopt;
 }
 
 bool FlatRemover::is_good(Vertex a, Vertex b, Vertex c, Vertex d) const {

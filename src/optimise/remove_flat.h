@@ -6,8 +6,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "mesh/edge_removal.h"
+#include "mesh/clear_edge.h"
 #include "mesh/tet_mesh.h"
+#include "mesh/traverse.h"
 #include "optimise/tuning.h"
 
 namespace holdfast {
@@ -25,19 +26,31 @@ class FlatRemover {
   [[nodiscard]] std::size_t work() const { return work_; }
 
  private:
-  bool remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex avoided);
-  bool remove_now(const EdgeShell& shell, Vertex avoided);
-  bool thin_out(const EdgeShell& shell, int depth);
-  [[nodiscard]] Tet survivor(const EdgeShell& shell);
+  // An edge that is to go; kept, like what follows, to allocate nothing.
+  struct Level {
+    EdgeShell shell;
+    std::uint32_t next = 0;  // of its spokes, two a corner of the link
+  };
+  friend EdgeClearing<FlatRemover>;
+
+  // What EdgeClearing asks for.
+  static bool may_try(Tet, Vertex, Vertex, int) { return true; }
+  Level& level(int depth) { return levels_[static_cast<std::size_t>(depth)]; }
+  bool gather(Tet t, Vertex a, Vertex b, Vertex avoided, Level& level);
+  bool remove_now(const Level& level, Vertex avoided);
+  static void begin_spokes(Level& level) { level.next = 0; }
+  std::optional<Spoke> next_blocked(Level& level) const;
+  [[nodiscard]] std::size_t edge_removals() const { return edge_removals_; }
+  [[nodiscard]] Tet find_edge(Vertex a, Vertex b) { return holdfast::find_edge(mesh_, a, b); }
+
   [[nodiscard]] bool is_good(Vertex a, Vertex b, Vertex c, Vertex d) const;
 
   TetMesh& mesh_;
   double bad_from_ = 0;
-  std::array<EdgeShell, tuning::kFlatDepth + 1>
-      shells_;  // by depth; kept, like what follows, to allocate nothing
+  std::array<Level, tuning::kFlatDepth + 1> levels_;  // by depth
   std::vector<LinkTriangle> triangles_;
   LinkTriangulation<double> triangulation_;
-  std::size_t work_ = 0;
+  std::size_t work_ = 0, edge_removals_ = 0;
   std::vector<Tet>* created_ = nullptr;
 };
 

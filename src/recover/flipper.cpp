@@ -7,16 +7,16 @@
 
 namespace holdfast {
 
-// Counts what a triangulated link puts in the target's way; among equals, the fewest edges at one of the
-// link's vertices, whose other edge is to lose degree.
+// Counts what a triangulated link puts in the target's way; among equals, the fewest edges at the vertex to
+// be avoided.
 class Flipper::ForTarget {
  public:
   using Cost = int;
   static constexpr int kWeight = 64;
 
   ForTarget(const TetMesh& mesh, const EdgeShell& shell, const std::vector<Ear>& ears, const Target& target,
-            Vertex favoured)
-      : mesh_(mesh), shell_(shell), ears_(ears), target_(target), favoured_(favoured) {}
+            Vertex avoided)
+      : mesh_(mesh), shell_(shell), ears_(ears), target_(target), avoided_(avoided) {}
 
   [[nodiscard]] Cost none() const { return 0; }
   [[nodiscard]] Cost join(Cost x, Cost y) const { return x + y; }
@@ -31,7 +31,7 @@ class Flipper::ForTarget {
     const Vertex u = shell_.link[i], v = shell_.link[j];
     const int crossings =
         target_.edge(mesh_, u, v) + target_.face(mesh_, shell_.a, u, v) + target_.face(mesh_, shell_.b, u, v);
-    return kWeight * crossings + (u == favoured_ || v == favoured_ ? 1 : 0);
+    return kWeight * crossings + (u == avoided_ || v == avoided_ ? 1 : 0);
   }
   [[nodiscard]] int cost_now() const {
     int cost = target_.edge(mesh_, shell_.a, shell_.b);
@@ -55,7 +55,7 @@ class Flipper::ForTarget {
   const EdgeShell& shell_;
   const std::vector<Ear>& ears_;
   const Target& target_;
-  Vertex favoured_;
+  Vertex avoided_;
 };
 
 bool Flipper::holds(Tet t, Vertex a, Vertex b) const {
@@ -80,21 +80,21 @@ void Flipper::begin(int depth, std::size_t budget, int most_change) {
 bool Flipper::clear(const Crossing& crossing, int depth, std::size_t budget) {
   begin(depth, budget, -1);
   if (crossing.count == 2) {
-    remove_edge(crossing.tet, crossing.corners[0], crossing.corners[1], depth, kNone);
+    remove_edge(crossing.tet, crossing.corners[0], crossing.corners[1], depth);
     return change_ < 0;
   }
   if (flip_face(crossing)) return true;
   const std::size_t first = random_() % 3;
   for (std::size_t k = first; k < first + 3 && change_ == 0 && !exhausted(); ++k) {
     const Vertex a = crossing.corners[k % 3], b = crossing.corners[(k + 1) % 3];
-    if (holds(crossing.tet, a, b)) remove_edge(crossing.tet, a, b, depth, kNone);
+    if (holds(crossing.tet, a, b)) remove_edge(crossing.tet, a, b, depth);
   }
   return change_ < 0;
 }
 
 bool Flipper::remove(Tet t, Vertex a, Vertex b, int depth, std::size_t budget) {
   begin(depth, budget, 0);
-  return remove_edge(t, a, b, depth, kNone);
+  return remove_edge(t, a, b, depth);
 }
 
 bool Flipper::flip_face(const Crossing& face) {
@@ -118,24 +118,17 @@ bool Flipper::flip_face(const Crossing& face) {
   return true;
 }
 
-// Removes edge ab: at once, or after flips that thin out its shell. Those stay even if ab does. `favoured`
-// is none for an edge that the target crosses, which is to lessen the crossings; else it is a vertex that
-// the new edges avoid, so that the edge from a or b to it loses a tetrahedron of its shell.
-bool Flipper::remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex favoured) {
-  if (mesh_.is_segment(t, mesh_.edge_of(t, a, b))) return false;
-  if (!tried_.add(a, b, depth)) return false;
-  Level& level = levels_[static_cast<std::size_t>(depth)];
+bool Flipper::may_try(Tet t, Vertex a, Vertex b, int depth) {
+  return !mesh_.is_segment(t, mesh_.edge_of(t, a, b)) && tried_.add(a, b, depth);
+}
+
+bool Flipper::gather(Tet t, Vertex a, Vertex b, Vertex avoided, Level& level) {
   EdgeShell& shell = level.shell;
-  while (gather_shell(mesh_, t, a, b, shell, favoured == kNone ? kMostClipped : kMostLink)) {
-    if (lies_in_facet(shell)) return false;
-    if (shell.size() > kMostLink && !clip_ears(shell)) return false;
-    list_ears(level);
-    if (remove_edge_now(level, favoured)) return true;
-    if (depth == 0 || !thin_out(depth)) return false;
-    t = survivor(shell);
-    if (t == kNone) return true;
-  }
-  return false;
+  if (!gather_shell(mesh_, t, a, b, shell, avoided == kNone ? kMostClipped : kMostLink)) return false;
+  if (lies_in_facet(shell)) return false;
+  if (shell.size() > kMostLink && !clip_ears(shell)) return false;
+  list_ears(level);
+  return true;
 }
 
 // Edges inside a facet that is cut into pieces are no segments.
@@ -160,7 +153,8 @@ void Flipper::list_ears(Level& level) {
   }
 }
 
-bool Flipper::remove_edge_now(const Level& level, Vertex favoured) {
+// An edge that the target crosses (nothing is avoided) is to lessen the crossings.
+bool Flipper::remove_now(const Level& level, Vertex avoided) {
   const EdgeShell& shell = level.shell;
   all_work_ += shell.size();
   // Every triangulation of a polygon has two ears (Meisters 1975).
@@ -168,12 +162,12 @@ bool Flipper::remove_edge_now(const Level& level, Vertex favoured) {
     all_work_ += 2 * shell.size();
     return false;
   }
-  ForTarget objective(mesh_, shell, level.ears, target_, favoured);
+  ForTarget objective(mesh_, shell, level.ears, target_, avoided);
   const auto cost = triangulation_.find(shell.size(), objective);
   all_work_ += 2 * objective.tests;
   if (!cost || *cost % ForTarget::kWeight != 0) return false;
   const int change = *cost / ForTarget::kWeight - objective.cost_now();
-  if (change_ + change > (favoured == kNone ? most_change_ : 0)) return false;
+  if (change_ + change > (avoided == kNone ? most_change_ : 0)) return false;
   triangles_.clear();
   triangulation_.triangles(shell.size(), triangles_);
   MeshEditor(mesh_).replace_shell(shell, triangles_);
@@ -214,40 +208,25 @@ bool Flipper::clip_ear(EdgeShell& shell, std::size_t i) {
   return true;
 }
 
-// An ear (p_i-1 p_i p_i+1) of the link is blocked at an end where it sees that end wrongly: then the spoke
-// from that end to p_i is reflex, and without it the shell has one tetrahedron fewer. Returns whether the
-// flips for one of the spokes have changed the mesh.
-bool Flipper::thin_out(int depth) {
-  auto& [shell, ears, spokes] = levels_[static_cast<std::size_t>(depth)];
-  list_blocked_spokes(ears, spokes);
-  all_work_ += 2 * ears.size();
-  for (const Spoke& spoke : spokes) {
-    if (exhausted()) return false;
-    const Vertex end = spoke.at_b ? shell.b : shell.a, other = spoke.at_b ? shell.a : shell.b;
-    const std::size_t before = counts_.edge_removals;
-    remove_edge(shell.tets[spoke.corner], end, shell.link[spoke.corner], depth - 1, other);
-    if (counts_.edge_removals > before) return true;
-  }
-  return false;
-}
-
-// In random order, but those first that are blocked at one end only.
-void Flipper::list_blocked_spokes(const std::vector<Ear>& ears, std::vector<Spoke>& spokes) {
+// An ear is blocked at an end where it sees that end wrongly: then the spoke there is reflex. In random
+// order, but those first that are blocked at one end only.
+void Flipper::begin_spokes(Level& level) {
+  auto& spokes = level.spokes;
   spokes.clear();
-  for (std::uint32_t i = 0; i < ears.size(); ++i) {
-    const auto [sees_a, sees_b] = ears[i];
-    if (!sees_b) spokes.push_back({i, true, !sees_a});
-    if (!sees_a) spokes.push_back({i, false, !sees_b});
+  level.next = 0;
+  for (std::uint32_t i = 0; i < level.ears.size(); ++i) {
+    const auto [sees_a, sees_b] = level.ears[i];
+    if (!sees_b) spokes.push_back({{i, true}, !sees_a});
+    if (!sees_a) spokes.push_back({{i, false}, !sees_b});
   }
   numbers::shuffle(spokes.begin(), spokes.end(), random_);
-  std::stable_partition(spokes.begin(), spokes.end(), [](const Spoke& s) { return !s.blocked_twice; });
+  std::stable_partition(spokes.begin(), spokes.end(), [](const BlockedSpoke& s) { return !s.blocked_twice; });
+  all_work_ += 2 * level.ears.size();
 }
 
-// A tetrahedron of an edge's shell after flips beside it.
-Tet Flipper::survivor(const EdgeShell& shell) {
-  for (const Tet t : shell.tets)
-    if (holds(t, shell.a, shell.b)) return t;
-  return piercing_.find_edge(shell.a, shell.b);
+std::optional<Spoke> Flipper::next_blocked(Level& level) {
+  if (level.next == level.spokes.size() || exhausted()) return std::nullopt;
+  return level.spokes[level.next++].spoke;
 }
 
 void Flipper::apply(std::span<const Tet> old_tets, int change) {

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesh/edge_removal.h"
+#include "mesh/clear_edge.h"
 #include "mesh/tet_mesh.h"
 #include "recover/pierce.h"
 #include "recover/target.h"
@@ -59,31 +59,40 @@ class Flipper {
     bool sees_a, sees_b;
     [[nodiscard]] bool sees_both() const { return sees_a && sees_b; }
   };
-  // An edge from an end of a shell's edge to its link.
-  struct Spoke {
-    std::uint32_t corner;
-    bool at_b, blocked_twice;
+  struct BlockedSpoke {
+    Spoke spoke;
+    bool blocked_twice;
   };
   // An edge that is to go while `depth` more levels may clear its way; kept to allocate nothing.
   struct Level {
     EdgeShell shell;
     std::vector<Ear> ears;  // of its link
-    std::vector<Spoke> spokes;
+    std::vector<BlockedSpoke> spokes;
+    std::size_t next = 0;
   };
   class ForTarget;
+  friend EdgeClearing<Flipper>;
   static constexpr std::size_t kMostClipped = 1000;  // of a shell whose ears are clipped
 
   void begin(int depth, std::size_t budget, int most_change);
   bool flip_face(const Crossing& face);
-  bool remove_edge(Tet t, Vertex a, Vertex b, int depth, Vertex favoured);
+  bool remove_edge(Tet t, Vertex a, Vertex b, int depth) {
+    return EdgeClearing(mesh_, *this).remove(t, a, b, depth, kNone);
+  }
+  // What EdgeClearing asks for.
+  bool may_try(Tet t, Vertex a, Vertex b, int depth);
+  Level& level(int depth) { return levels_[static_cast<std::size_t>(depth)]; }
+  bool gather(Tet t, Vertex a, Vertex b, Vertex avoided, Level& level);
+  bool remove_now(const Level& level, Vertex avoided);
+  void begin_spokes(Level& level);
+  std::optional<Spoke> next_blocked(Level& level);
+  [[nodiscard]] std::size_t edge_removals() const { return counts_.edge_removals; }
+  [[nodiscard]] Tet find_edge(Vertex a, Vertex b) { return piercing_.find_edge(a, b); }
+
   [[nodiscard]] bool lies_in_facet(const EdgeShell& shell) const;
   void list_ears(Level& level);
-  bool remove_edge_now(const Level& level, Vertex favoured);
   bool clip_ears(EdgeShell& shell);
   bool clip_ear(EdgeShell& shell, std::size_t i);
-  bool thin_out(int depth);
-  void list_blocked_spokes(const std::vector<Ear>& ears, std::vector<Spoke>& spokes);
-  [[nodiscard]] Tet survivor(const EdgeShell& shell);
   void apply(std::span<const Tet> old_tets, int change);
   void note_flip(std::size_t old_tets, int change);
 
