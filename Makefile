@@ -7,8 +7,9 @@ LIBCXX := build/libcxx
 N ?= 100000
 SEED ?= 1
 MINUTES ?= 5
+PYTHON ?= /usr/bin/python3
 
-.PHONY: help setup build demo test corpus random fuzz bench field tables format tidy debug asan tsan libcxx install clean
+.PHONY: help setup build demo test python wheel corpus random fuzz bench field tables format tidy debug asan tsan libcxx install clean
 .DEFAULT_GOAL := help
 
 help:  ## this list
@@ -26,10 +27,19 @@ build: setup $(RELEASE)/build.ninja  ## the program, build/release/holdfast
 demo: build  ## makes a mechanical part, meshes it and checks the mesh
 	@python3 scripts/demo.py $(RELEASE)/holdfast build/demo
 
-test: build  ## every test, with a subset of the corpus where there is one
-	@scripts/setup.sh test
+test: build python  ## every test, with a subset of the corpus where there is one
+	@scripts/setup.sh test python-test
 	@cmake --build $(RELEASE) -j $(JOBS)
 	@HOLDFAST_CORPUS="$(CORPUS)" ctest --preset release -j $(JOBS)
+
+python: setup $(RELEASE)/build.ninja  ## the Python package, in build/release/python (PYTHONPATH), with the program
+	@scripts/setup.sh python
+	@cmake --preset release -DHOLDFAST_BUILD_PYTHON=ON >/dev/null
+	@cmake --build $(RELEASE) -j $(JOBS) --target holdfast_python_program
+
+wheel:  ## a wheel and an sdist of a clean clone in build/dist, tried in a fresh environment
+	@scripts/setup.sh build python python-test
+	@python/tests/wheel.sh . $(PYTHON) build/dist
 
 corpus: build  ## meshes and verifies every surface of CORPUS=dir (options: ARGS="--only 'gen_*'")
 	@python3 scripts/corpus.py --holdfast $(RELEASE)/holdfast --corpus "$(or $(CORPUS),../shared/corpus)" \

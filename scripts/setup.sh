@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that a job needs and that are missing; says nothing when none is.
-# Usage: scripts/setup.sh [build|test|bench|field|fuzz|lint|libcxx]...
+# Usage: scripts/setup.sh [build|test|python|python-test|bench|field|fuzz|lint|libcxx]...
 set -euo pipefail
 
 declare -A packages=(
@@ -8,6 +8,8 @@ declare -A packages=(
   [build]="cmake ninja-build g++ ccache python3 xz-utils zlib1g-dev libboost-dev libcli11-dev libfmt-dev
            nlohmann-json3-dev libgtest-dev libgmp-dev locales pkg-config dpkg-dev"
   [test]="python3-dolfinx"
+  [python]="python3-dev pybind11-dev python3-numpy python3-setuptools python3-wheel python3-pip python3-venv"
+  [python-test]="python3-pytest mypy python3-build python3-meshio python3-vtk9 python3-distributed python3-tqdm"
   [bench]="tetgen libtet1.5-dev gmsh libcgal-dev libgmp-dev libmpfr-dev libtbb-dev libbenchmark-dev"
   [field]="gmsh tetgen python3-netgen"
   [fuzz]="clang-14 clang libclang-rt-14-dev"

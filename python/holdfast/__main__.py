@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import sys
-from typing import Optional, Sequence
+import typing
+from typing import Optional
 
 
-def main(arguments: Optional[Sequence[str]] = None) -> int:
+def main(arguments: Optional[typing.Sequence[str]] = None) -> int:
     given = list(sys.argv[1:] if arguments is None else arguments)
     if given[:1] == ["batch"]:
         from ._batch_cli import main as batch_main

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import os
+import typing
 from dataclasses import dataclass
-from typing import Any, Callable, Iterable, Optional, Sequence, Union
+from typing import Any, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -17,7 +18,7 @@ from ._tetmesh import TetMesh
 from .errors import Defect, _defects, _raise_unless_done
 
 Progress = Union[None, bool, ProgressCallback]
-Size = Union[None, float, npt.ArrayLike, Callable[[Array], npt.ArrayLike], Any]
+Size = Any  # a number, an array, a background mesh, a path or a function
 
 
 def mesh(
@@ -35,10 +36,10 @@ def mesh(
     quality: str = "good",
     keep: str = "auto",
     box_margin: float = 0.1,
-    holes: Iterable[Sequence[float]] = (),
-    regions: Iterable[Sequence[float]] = (),
+    holes: typing.Iterable[typing.Sequence[float]] = (),
+    regions: typing.Iterable[typing.Sequence[float]] = (),
     drop_outside: bool = False,
-    without: Iterable[str] = (),
+    without: typing.Iterable[str] = (),
     seed: int = 1,
     threads: int = 1,
     time_limit: Optional[float] = None,
@@ -152,14 +153,14 @@ def mesh(
     return TetMesh._of(result.volume, result.n_input_points, result)
 
 
-def _numbers(values: Sequence[float], count: int, what: str) -> list[float]:
+def _numbers(values: typing.Sequence[float], count: int, what: str) -> list[float]:
     found = [float(v) for v in values]
     if len(found) != count:
         raise ValueError(f"{what} is given by {count} numbers, not {len(found)}")
     return found
 
 
-def _region(values: Sequence[float]) -> tuple[float, float, float, int, float]:
+def _region(values: typing.Sequence[float]) -> tuple[float, float, float, int, float]:
     if len(values) not in (4, 5):
         raise ValueError(f"a region is given as (x, y, z, id) or (x, y, z, id, size), not by {len(values)} numbers")
     if int(values[3]) != values[3] or not -(2**31) <= int(values[3]) < 2**31:
@@ -172,7 +173,7 @@ def _is_background(value: Any) -> bool:
     return isinstance(value, tuple) and len(value) == 3 and np.ndim(value[0]) == 2 and np.ndim(value[1]) == 2
 
 
-def _set_size(size: Size, options: dict[str, Any], points: int) -> Optional[Callable[[Array], Any]]:
+def _set_size(size: Size, options: dict[str, Any], points: int) -> Optional[typing.Callable[[Array], Any]]:
     """Puts what `size` means into the options, or gives the function that it is."""
     if size is None:
         return None
@@ -189,7 +190,8 @@ def _set_size(size: Size, options: dict[str, Any], points: int) -> Optional[Call
     elif hasattr(size, "points") and hasattr(size, "point_data"):
         options["size_field"] = _background(size, "size")
     elif callable(size):
-        return size
+        asked: typing.Callable[[Array], Any] = size
+        return asked
     elif np.ndim(size) == 0:
         number = float(size)
         if not 0 < number < float("inf"):
@@ -230,7 +232,7 @@ def _background(mesh: Any, name: str) -> _core.SizeField:
     return _core.SizeField(points_of(mesh.points), indices_of(tetrahedra, 4, "tetrahedra"), [], _as_six(values).tolist())
 
 
-def _set_metric(metric: Any, options: dict[str, Any]) -> Optional[Callable[[Array], Array]]:
+def _set_metric(metric: Any, options: dict[str, Any]) -> Optional[typing.Callable[[Array], Array]]:
     if metric is None:
         return None
     if "size_field" in options:
@@ -259,7 +261,7 @@ class Diagnosis(list[Defect]):
     "gaps", "open_sides", "parts" and "encloses" (how many regions the surface bounds; None where it is not valid).
     """
 
-    def __init__(self, defects: Iterable[Defect], summary: dict[str, Any]) -> None:
+    def __init__(self, defects: typing.Iterable[Defect], summary: dict[str, Any]) -> None:
         super().__init__(defects)
         self.summary = summary
 
@@ -400,7 +402,7 @@ def delaunay(
 def untangle(
     mesh: Any,
     *,
-    fixed: Iterable[int] = (),
+    fixed: typing.Iterable[int] = (),
     refill: bool = True,
     seed: int = 1,
     time_limit: Optional[float] = None,
@@ -475,7 +477,7 @@ _MARKER_NAMES = ("marker", "gmsh:physical", "medit:ref")
 def _of_meshio(mesh: Any) -> TetMesh:
     data = getattr(mesh, "cell_data", None) or {}
 
-    def blocks(kind: str, names: Sequence[str]) -> tuple[Optional[Array], Optional[Array]]:
+    def blocks(kind: str, names: typing.Sequence[str]) -> tuple[Optional[Array], Optional[Array]]:
         here = [i for i, b in enumerate(mesh.cells) if b.type == kind]
         if not here:
             return None, None

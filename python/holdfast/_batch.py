@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import concurrent.futures
 import contextlib
+import dataclasses
 import fcntl
+import importlib
 import json
 import os
 import shutil
@@ -12,9 +14,10 @@ import signal
 import subprocess
 import threading
 import time
-from dataclasses import dataclass, field
+import typing
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Callable, Iterable, Iterator, Optional, Sequence, Union
+from typing import Any, Optional, Union
 
 from ._program import program
 
@@ -48,7 +51,7 @@ class Batch:
     tasks: list[Task]
     results: Path
     shard: Optional[tuple[int, int]]
-    earlier: dict[str, Row] = field(default_factory=dict)
+    earlier: dict[str, Row] = dataclasses.field(default_factory=dict)
 
     @property
     def results_of_shard(self) -> Path:
@@ -87,11 +90,11 @@ def _shard_file(results: Path, index: int, count: int) -> Path:
 
 
 def plan(
-    files: Iterable[PathLike],
+    files: typing.Iterable[PathLike],
     output: PathLike,
     *,
     format: str = ".vtu",
-    arguments: Sequence[str] = (),
+    arguments: typing.Sequence[str] = (),
     time_limit: Optional[float] = None,
     memory_limit: Optional[float] = None,
     resume: bool = False,
@@ -132,7 +135,7 @@ def _all_results(results: Path) -> list[Path]:
     return [results, *sorted(results.parent.glob(f"{results.stem}.*-of-*{results.suffix}"))]
 
 
-def _rows(path: Path) -> Iterator[Row]:
+def _rows(path: Path) -> typing.Iterator[Row]:
     """Lines that are whole; a run that was killed may have left a part of one."""
     try:
         lines = path.read_text(encoding="utf-8").splitlines()
@@ -236,7 +239,7 @@ def _told(exit_code: int, message: str) -> str:
 
 
 @contextlib.contextmanager
-def _locked(folder: Path) -> Iterator[None]:
+def _locked(folder: Path) -> typing.Iterator[None]:
     """Shards of one machine, or of a file system with locks, merge one after the other."""
     handle = os.open(folder, os.O_RDONLY)
     try:
@@ -270,7 +273,7 @@ def execute(
     executor: Any = None,
     jobs: Optional[int] = None,
     resume: bool = False,
-    tell: Optional[Callable[[Row, int, int], None]] = None,
+    tell: Optional[typing.Callable[[Row, int, int], None]] = None,
 ) -> list[Row]:
     """Runs the tasks and gives a row each, in their order; a results file holds them as they come."""
     batch.results.parent.mkdir(parents=True, exist_ok=True)
@@ -307,7 +310,7 @@ def _skipped(task: Task, earlier: dict[str, Row]) -> Row:
             "message": "complete already"}
 
 
-def _run_on(executor: Any, tasks: Sequence[Task], finish: Callable[[Row], None]) -> None:
+def _run_on(executor: Any, tasks: typing.Sequence[Task], finish: typing.Callable[[Row], None]) -> None:
     is_dask = hasattr(executor, "scheduler_info")
     # The program counts as the worker's own: results of the same task are not to be taken from a cache.
     options = {"pure": False} if is_dask else {}
@@ -325,12 +328,10 @@ def _run_on(executor: Any, tasks: Sequence[Task], finish: Callable[[Row], None])
         raise
 
 
-def _as_completed(futures: Iterable[Any], is_dask: bool) -> Iterator[Any]:
+def _as_completed(futures: typing.Iterable[Any], is_dask: bool) -> typing.Iterator[Any]:
     if not is_dask:
         return concurrent.futures.as_completed(list(futures))
-    from distributed import as_completed
-
-    return iter(as_completed(list(futures)))
+    return iter(importlib.import_module("distributed").as_completed(list(futures)))
 
 
 def _lost(task: Task, error: Exception) -> Row:
@@ -371,7 +372,7 @@ def arguments_of(options: dict[str, Any]) -> list[str]:
 
 
 def batch(
-    files: Iterable[PathLike],
+    files: typing.Iterable[PathLike],
     output: PathLike,
     *,
     executor: Any = None,
@@ -382,7 +383,7 @@ def batch(
     resume: bool = False,
     results: Optional[PathLike] = None,
     shard: Optional[tuple[int, int]] = None,
-    progress: Optional[Callable[[Row, int, int], None]] = None,
+    progress: Optional[typing.Callable[[Row, int, int], None]] = None,
     **options: Any,
 ) -> list[Row]:
     """Meshes many files, each in a process of its own, into `output`/STEM.vtu.

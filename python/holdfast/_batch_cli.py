@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 import signal
 import sys
-from typing import Any, Optional, Sequence
+import typing
+from typing import Any, Optional
 
 from ._batch import STATUSES, BatchError, Row, execute, kill_children, plan, shard_of_slurm
 
@@ -56,7 +57,7 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _split(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
+def _split(arguments: typing.Sequence[str]) -> tuple[list[str], list[str]]:
     given = list(arguments)
     if "--" not in given:
         return given, []
@@ -70,7 +71,7 @@ def _tell(row: Row, finished: int, count: int) -> None:
     print(f"[{finished:{width}}/{count}] {row['status']:<7} {row['file']}: {what}", file=sys.stderr, flush=True)
 
 
-def _table(rows: Sequence[Row]) -> str:
+def _table(rows: typing.Sequence[Row]) -> str:
     """Parts, then how many of each status."""
     cells = [("file", "status", "seconds", "tetrahedra", "least angle", "message")]
     for row in rows:
@@ -98,7 +99,7 @@ def _on_terminate(*_: Any) -> None:
     raise _Terminated
 
 
-def main(arguments: Optional[Sequence[str]] = None) -> int:
+def main(arguments: Optional[typing.Sequence[str]] = None) -> int:
     own, for_mesh = _split(sys.argv[1:] if arguments is None else arguments)
     given = _parser().parse_args(own)
     signal.signal(signal.SIGTERM, _on_terminate)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import importlib
 import re
 import sys
-from typing import Any, Callable, Optional, Union
+import typing
+from typing import Any, Optional, Union
 
-from ._core import CancelToken
+from ._core import CancelToken as CancelToken
 
-ProgressCallback = Callable[[str, float], Any]
+ProgressCallback = typing.Callable[[str, float], Any]
 MemoryAmount = Union[float, str]
 
 _UNITS = {"": 1e9, "B": 1.0, "KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12, "KIB": 2.0**10, "MIB": 2.0**20, "GIB": 2.0**30,
@@ -45,9 +47,7 @@ class _Bar:
         self.bar: Any = None
         self.what = what
         try:
-            from tqdm.auto import tqdm
-
-            self.bar = tqdm(total=100, desc=what, unit="%", leave=False,
+            self.bar = importlib.import_module("tqdm.auto").tqdm(total=100, desc=what, unit="%", leave=False,
                             bar_format="{desc}: {percentage:3.0f}%|{bar}| {elapsed}<{remaining}")
         except ImportError:
             pass

@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 import shutil
 import sys
+import typing
 from pathlib import Path
-from typing import NoReturn, Sequence
+from typing import NoReturn
 
 
 def program() -> str:
@@ -22,7 +23,7 @@ def program() -> str:
     return found
 
 
-def run(arguments: Sequence[str]) -> NoReturn:
+def run(arguments: typing.Sequence[str]) -> NoReturn:
     """Becomes the program."""
     sys.stdout.flush()
     sys.stderr.flush()

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import importlib
 import os
-from typing import Any, Iterable, NamedTuple, Optional, Sequence, Union
+import typing
+from typing import Any, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -40,9 +42,9 @@ class Surface:
         triangle_markers: Optional[npt.ArrayLike] = None,
         segment_markers: Optional[npt.ArrayLike] = None,
         point_markers: Optional[npt.ArrayLike] = None,
-        holes: Sequence[Hole] = (),
-        regions: Sequence[Region] = (),
-        remarks: Sequence[str] = (),
+        holes: typing.Sequence[Hole] = (),
+        regions: typing.Sequence[Region] = (),
+        remarks: typing.Sequence[str] = (),
     ) -> None:
         self.points: Array = points_of(points)
         """(n, 3) coordinates."""
@@ -162,7 +164,7 @@ def _told_by_shape(surface: Any) -> Surface:
     )
 
 
-class _Polygons(NamedTuple):
+class _Polygons(typing.NamedTuple):
     triangles: Array
     origin: Array
     """Of each triangle, the polygon that it is from."""
@@ -230,7 +232,8 @@ def _named(data: Any, *names: str) -> Optional[Array]:
         except (KeyError, TypeError, IndexError, AttributeError):
             continue
         if found is not None:
-            return np.asarray(found)
+            array: Array = np.asarray(found)
+            return array
     return None
 
 
@@ -249,8 +252,7 @@ def _of_pyvista(mesh: Any) -> Surface:
 
 
 def _of_vtk(mesh: Any) -> Surface:
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-
+    vtk_to_numpy = importlib.import_module("vtkmodules.util.numpy_support").vtk_to_numpy
     if mesh.GetPoints() is None:
         return Surface(np.empty((0, 3)), np.empty((0, 3), np.int64))
     if mesh.GetNumberOfStrips():
@@ -297,8 +299,8 @@ def _of_meshio(mesh: Any) -> Surface:
         elif kind in ("line", "line3"):
             segments.append(cells[:, :2])
             segment_markers.append(marks)
-    if not triangles and any(getattr(b, "type", b[0] if isinstance(b, tuple) else "").startswith("tet")
-                             for b in mesh.cells):
+    kinds = [str(b.type if hasattr(b, "type") else b[0]) for b in mesh.cells]
+    if not triangles and any(kind.startswith("tet") for kind in kinds):
         raise TypeError("the mesh holds tetrahedra and no triangles; a surface is expected")
     return Surface(
         points,
@@ -328,7 +330,7 @@ def _of_data(data: _core.SurfaceData) -> Surface:
 
 
 def read_surface(
-    path: Union[PathLike, Iterable[PathLike]],
+    path: Union[PathLike, typing.Iterable[PathLike]],
     format: Optional[str] = None,
     *,
     time_limit: Optional[float] = None,
@@ -364,7 +366,7 @@ def read_surface(
     return parts[0] if len(parts) == 1 else joined(parts)
 
 
-def joined(parts: Sequence[Surface]) -> Surface:
+def joined(parts: typing.Sequence[Surface]) -> Surface:
     """Surfaces behind one another: points of the second follow those of the first."""
     if not parts:
         raise ValueError("there is no surface")
@@ -374,12 +376,13 @@ def joined(parts: Sequence[Surface]) -> Surface:
         if all(a is None for a in arrays):
             return None
         empty = (0,) if width is None else (0, width)
-        return np.concatenate(
+        together: Array = np.concatenate(
             [
                 (np.zeros(n, np.int64) if width is None else np.empty(empty, np.int64)) if a is None else a
                 for a, n in zip(arrays, counts)
             ]
         )
+        return together
 
     starts = np.cumsum([0] + [len(part.points) for part in parts[:-1]])
     segment_counts = [0 if p.segments is None else len(p.segments) for p in parts]

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import html
+import importlib
 import json
 import os
-from typing import Any, NamedTuple, Optional, Union
+import typing
+from typing import Any, Optional, Union
 
 import numpy as np
 import numpy.ma as ma
@@ -18,7 +20,7 @@ from ._surface import Array, PathLike, Surface, _or_none, indices_of, markers_of
 _VTK_LINE, _VTK_TRIANGLE, _VTK_TETRA = 3, 5, 10
 
 
-class Quality(NamedTuple):
+class Quality(typing.NamedTuple):
     """Shape of each tetrahedron, arrays of length m."""
 
     volume: Array
@@ -239,19 +241,18 @@ class TetMesh:
 
     def to_vtk(self) -> Any:
         """A `vtkUnstructuredGrid` with cell arrays "region" and "marker". Raises ImportError without VTK."""
-        _wanted("vtkmodules", "to_vtk", "vtk")
-        from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-        from vtkmodules.vtkCommonCore import vtkPoints
-        from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
-
+        support = _wanted("vtkmodules.util.numpy_support", "to_vtk", "vtk")
+        core = _wanted("vtkmodules.vtkCommonCore", "to_vtk", "vtk")
+        model = _wanted("vtkmodules.vtkCommonDataModel", "to_vtk", "vtk")
+        numpy_to_vtk, to_ids = support.numpy_to_vtk, support.numpy_to_vtkIdTypeArray
         cells, types, region, marker = self._vtk_cells()
-        points = vtkPoints()
+        points = core.vtkPoints()
         points.SetData(numpy_to_vtk(np.array(self.points), deep=True))
         counts = np.where(types == _VTK_TETRA, 4, np.where(types == _VTK_TRIANGLE, 3, 2))
         offsets = np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
-        array = vtkCellArray()
-        array.SetData(numpy_to_vtkIdTypeArray(offsets, deep=True), numpy_to_vtkIdTypeArray(cells, deep=True))
-        grid = vtkUnstructuredGrid()
+        array = model.vtkCellArray()
+        array.SetData(to_ids(offsets, deep=True), to_ids(cells, deep=True))
+        grid = model.vtkUnstructuredGrid()
         grid.SetPoints(points)
         grid.SetCells(numpy_to_vtk(types, deep=True), array)
         for name, values in (("region", region), ("marker", marker)):
@@ -332,12 +333,13 @@ class TetMesh:
         self._set(_core.Volume(*state["arrays"]), state["n_input_points"])
         self._report = state["report"]
         regions = state["triangle_regions"]
-        self._triangle_regions = None if regions is None else _frozen(regions.data, ma.getmaskarray(regions))
+        self._triangle_regions = None if regions is None else _frozen(regions.data, np.asarray(regions.mask))
 
 
 def _frozen(ids: Array, none: Array) -> "ma.MaskedArray[Any, Any]":
     ids.setflags(write=False)
-    return ma.MaskedArray(ids, none)
+    masked: "ma.MaskedArray[Any, Any]" = ma.MaskedArray(ids, none)  # type: ignore[no-untyped-call]
+    return masked
 
 
 def _regions_beside(tetrahedra: Array, regions: Array, triangles: Array) -> "ma.MaskedArray[Any, Any]":
@@ -388,8 +390,6 @@ def _quality(points: Array, tetrahedra: Array) -> Quality:
 
 
 def _wanted(module: str, what: str, package: Optional[str] = None) -> Any:
-    import importlib
-
     try:
         return importlib.import_module(module)
     except ImportError as error:

@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <stdexcept>
@@ -41,12 +42,13 @@ Enum named(const py::dict& options, const char* key) {
 py::array_t<double> asked_at(const py::object& function, const Point& p, std::size_t numbers,
                              const char* what) {
   const py::array_t<double> points({py::ssize_t{1}, py::ssize_t{3}}, p.data());
-  const auto answer =
-      py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(function(points));
-  if (!answer) throw py::error_already_set();
+  const py::array_t<double, py::array::c_style | py::array::forcecast> answer(function(points));
   if (static_cast<std::size_t>(answer.size()) != numbers)
     throw std::invalid_argument(std::string(what) + " gave an array of shape " +
                                 std::string(py::str(answer.attr("shape"))) + " for points of shape (1, 3)");
+  if (std::any_of(answer.data(), answer.data() + numbers, [](double x) { return std::isnan(x); }))
+    throw std::invalid_argument(std::string(what) + " gave NaN at (" + std::to_string(p[0]) + ", " +
+                                std::to_string(p[1]) + ", " + std::to_string(p[2]) + ")");
   return answer;
 }
 

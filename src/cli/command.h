@@ -50,5 +50,6 @@ void add_check(CLI::App& app, Command& chosen);
 void add_diagnose(CLI::App& app, Command& chosen);
 void add_delaunay(CLI::App& app, Command& chosen);
 void add_untangle(CLI::App& app, Command& chosen);
+void add_batch(CLI::App& app, Command& chosen);
 
 }  // namespace holdfast::cli

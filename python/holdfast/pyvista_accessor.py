@@ -1,0 +1,42 @@
+"""`surface.holdfast.mesh(...)` on PyVista's PolyData, where PyVista has accessors; loaded by its entry point."""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+from ._api import Diagnosis, diagnose, mesh
+
+
+class HoldfastAccessor:
+    """What PyVista hands out as `surface.holdfast`."""
+
+    def __init__(self, surface: Any) -> None:
+        self._surface = surface
+
+    def mesh(self, **options: Any) -> Any:
+        """A `pyvista.UnstructuredGrid`; `options` are those of `holdfast.mesh`."""
+        return mesh(self._surface, **options).to_pyvista()
+
+    def diagnose(self, **options: Any) -> Diagnosis:
+        """The defects of the surface, as `holdfast.diagnose` gives them."""
+        return diagnose(self._surface, **options)
+
+
+def register() -> bool:
+    """Adds the accessor to PyVista; False where PyVista is missing or has no accessors."""
+    try:
+        pyvista = importlib.import_module("pyvista")
+    except ImportError:
+        return False
+    add = getattr(pyvista, "register_dataset_accessor", None)
+    if add is not None:
+        add("holdfast", pyvista.PolyData)(HoldfastAccessor)
+        return True
+    if hasattr(pyvista, "PolyData") and not hasattr(pyvista.PolyData, "holdfast"):
+        pyvista.PolyData.holdfast = property(HoldfastAccessor)
+        return True
+    return hasattr(pyvista, "PolyData")
+
+
+register()

@@ -1,0 +1,191 @@
+"""Objects of other packages, by their shape; round trips where the package is there; what takes TetGen's place."""
+
+from __future__ import annotations
+
+import warnings
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import holdfast
+from conftest import QUADS, box, sphere, two_boxes
+from holdfast import compat
+
+
+def poly(points, triangles, **more):
+    """Shaped like PyVista's PolyData."""
+    faces = np.insert(np.asarray(triangles, np.int64), 0, 3, axis=1).ravel()
+    return SimpleNamespace(points=points, faces=faces, n_strips=0, lines=np.empty(0, np.int64), cell_data={}, **more)
+
+
+def test_shapes_of_other_packages(cube):
+    points, triangles = cube
+    expected = holdfast.mesh(points, triangles).tetrahedra
+    shapes = {
+        "pyvista": poly(points, triangles),
+        "trimesh": SimpleNamespace(vertices=points, faces=triangles),
+        "meshio": SimpleNamespace(points=points, cells=[SimpleNamespace(type="triangle", data=triangles)], cell_data={}),
+        "pair": (points, triangles),
+        "lists": (points.tolist(), triangles.tolist()),
+        "surface": holdfast.Surface(points, triangles),
+    }
+    for name, shape in shapes.items():
+        assert np.array_equal(holdfast.mesh(shape).tetrahedra, expected), name
+    for kind in (np.int64, np.uint32, np.uint64, np.int16, np.dtype(">i4")):
+        assert np.array_equal(holdfast.mesh(points, triangles.astype(kind)).tetrahedra, expected), kind
+    assert np.array_equal(holdfast.mesh(np.asfortranarray(points), triangles[:, ::1]).tetrahedra, expected)
+    assert np.array_equal(holdfast.mesh(points.astype(np.float32), triangles).tetrahedra, expected)
+    assert np.array_equal(holdfast.mesh(points.astype(int), triangles).tetrahedra, expected)
+
+
+def test_polygons_lines_and_markers():
+    points, _ = box()
+    faces = np.concatenate([[4, *q] for q in QUADS])
+    mesh = SimpleNamespace(points=points, faces=faces, lines=np.array([2, 0, 7]), cell_data={"marker": np.arange(7)})
+    result = holdfast.mesh(mesh)
+    assert sorted(set(result.triangle_markers)) == [1, 2, 3, 4, 5, 6] and [0, 7] in result.segments.tolist()
+    bent = SimpleNamespace(points=np.array([(0, 0, 0), (2, 0, 0), (0.5, 0.5, 0), (0, 2, 0), (0, 0, 1)], float),
+                           faces=np.array([4, 0, 1, 2, 3]), cell_data={})
+    with pytest.raises(ValueError, match="polygon 0 is not convex"):
+        holdfast.diagnose(bent)
+
+
+def test_meshio_round_trip(tmp_path):
+    meshio = pytest.importorskip("meshio")
+    points, triangles, markers = two_boxes()
+    mesh = holdfast.mesh(points, triangles, triangle_markers=markers, segments=[(0, 8)], segment_markers=[4],
+                         holes=[(1.5, 1.5, 1.5)])
+    out = mesh.to_meshio()
+    assert np.array_equal(out.points, mesh.points)
+    assert holdfast.check((points, triangles), out).rules[4].holds
+    out.write(tmp_path / "a.vtu")
+    again = holdfast.read_volume(tmp_path / "a.vtu")
+    assert len(again) == len(mesh) and np.array_equal(again.regions, mesh.regions)
+    assert sorted(again.triangle_markers) == sorted(markers)
+    read = meshio.read(tmp_path / "a.vtu")
+    surface = meshio.Mesh(points, [("triangle", triangles)], cell_data={"marker": [markers]})
+    assert np.array_equal(holdfast.mesh(surface).triangle_markers, markers)
+    assert np.array_equal(read.cells_dict["tetra"], mesh.tetrahedra)
+    with pytest.raises(TypeError, match="tetrahedra"):
+        holdfast.mesh(meshio.Mesh(mesh.points, [("tetra", mesh.tetrahedra)]))
+    field = meshio.Mesh(mesh.points, [("tetra", mesh.tetrahedra)], point_data={"size": np.full(len(mesh.points), 0.8)})
+    assert len(holdfast.mesh(*box((1, 1, 1), (3, 3, 3)), size=field)) > 0
+
+
+def test_vtk_round_trip():
+    pytest.importorskip("vtkmodules")
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkSphereSource
+
+    source = vtkSphereSource()
+    source.Update()
+    mesh = holdfast.mesh(source.GetOutput())
+    grid = mesh.to_vtk()
+    assert grid.GetNumberOfCells() == len(mesh) + len(mesh.triangles) + len(mesh.segments)
+    assert np.array_equal(vtk_to_numpy(grid.GetPoints().GetData()), mesh.points)
+    assert np.array_equal(vtk_to_numpy(grid.GetCellData().GetArray("region"))[: len(mesh)], mesh.regions)
+    cube = vtkCubeSource()  # quads, corners three times
+    cube.Update()
+    boxed = holdfast.mesh(cube.GetOutput())
+    assert boxed.n_input_points == 8 and boxed.quality().volume.sum() == pytest.approx(1)
+
+
+def test_missing_packages_are_named(cube, monkeypatch):
+    import builtins
+
+    real = builtins.__import__
+
+    def without(name, *rest):
+        if name.split(".")[0] in ("pyvista", "meshio", "vtkmodules"):
+            raise ImportError(name)
+        return real(name, *rest)
+
+    monkeypatch.setattr(builtins, "__import__", without)
+    mesh = holdfast.mesh(*cube, fill=True)
+    monkeypatch.setattr("importlib.import_module", without)
+    for call, package in ((mesh.to_pyvista, "pyvista"), (mesh.to_meshio, "meshio"), (mesh.to_vtk, "vtk")):
+        with pytest.raises(ImportError, match=package):
+            call()
+
+
+def fake_pyvista():
+    """As much of PyVista as the package uses."""
+
+    class UnstructuredGrid:
+        def __init__(self, cells, types, points):
+            self.cells, self.celltypes, self.points, self.cell_data = cells, types, points, {}
+
+    class PolyData:
+        def __init__(self, points, faces):
+            self.points, self.faces, self.cell_data = points, faces, {}
+
+    return SimpleNamespace(UnstructuredGrid=UnstructuredGrid, PolyData=PolyData)
+
+
+def test_pyvista_grid_and_accessor(cube, monkeypatch):
+    import sys
+
+    fake = fake_pyvista()
+    monkeypatch.setitem(sys.modules, "pyvista", fake)
+    mesh = holdfast.mesh(*cube)
+    grid = mesh.to_pyvista()
+    assert grid.cells[0] == 4 and (grid.celltypes == 10).sum() == len(mesh)
+    assert len(grid.cell_data["region"]) == len(grid.celltypes)
+    from holdfast import pyvista_accessor
+
+    assert pyvista_accessor.register()
+    surface = fake.PolyData(cube[0], np.insert(cube[1], 0, 3, axis=1).ravel())
+    assert (surface.holdfast.mesh(fill=True).celltypes == 10).sum() == len(holdfast.mesh(*cube, fill=True))
+    assert surface.holdfast.diagnose().valid
+    tet = compat.TetGen(surface)
+    tet.tetrahedralize()
+    assert (tet.grid.celltypes == 10).all() and tet.mesh.points.shape == (8, 3)
+
+
+def test_tetgen_calls(cube):
+    tet = compat.TetGen(*cube)
+    with pytest.warns(UserWarning, match="the volume is an aim"):
+        nodes, elements = tet.tetrahedralize(switches="pq1.4a0.001YQ")
+    assert np.array_equal(nodes[:8], cube[0]) and elements is tet.elem and len(elements) > 200
+    filled, few = compat.tetrahedralize(*cube, "pY")
+    assert len(few) < len(elements) and len(filled) == 8
+    points, triangles, _ = two_boxes()
+    two = compat.TetGen(points, triangles)
+    two.add_region(5, (0.5, 0.5, 0.5))
+    two.add_hole((1.5, 1.5, 1.5))
+    two.tetrahedralize(order=1, quality=False, regionattrib=True)
+    assert set(two.attributes) == {5}
+
+
+def test_tetgen_calls_that_cannot_be_had(cube):
+    tet = compat.TetGen(*cube)
+    with pytest.raises(RuntimeError):
+        tet.node
+    for switches in ("pr", "pw", "pc", "po2", "pR"):
+        with pytest.raises(NotImplementedError):
+            tet.tetrahedralize(switches=switches)
+    with pytest.raises(ValueError):
+        tet.tetrahedralize(switches="p?")
+    with pytest.raises(NotImplementedError):
+        tet.tetrahedralize(order=2)
+    with pytest.warns(UserWarning, match="mindihedral"):
+        tet.tetrahedralize(mindihedral=20)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        tet.tetrahedralize(switches="pY")
+
+
+def test_switches():
+    assert compat.Switches("-pq1.414a0.1AY").max_volume == 0.1
+    glued = compat.Switches("pq1.4/15a.5e1")
+    assert glued.quality and glued.max_volume == 5.0
+    assert compat.Switches("pa").by_region
+    assert compat.size_of_volume(np.sqrt(2) / 12) == pytest.approx(1)
+
+
+def test_float32_surface_keeps_its_values():
+    points, triangles = sphere(16)
+    single = points.astype(np.float32)
+    mesh = holdfast.mesh(single, triangles)
+    assert np.array_equal(mesh.points[: len(single)], single.astype(np.float64))
