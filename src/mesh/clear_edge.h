@@ -22,7 +22,7 @@
 namespace holdfast {
 
 /// An edge from an end of a shell's edge to a corner of its link.
-struct Spoke {
+struct ShellSpoke {
   std::uint32_t corner;
   bool at_b;
 };
@@ -35,7 +35,7 @@ struct Spoke {
 ///   Level& level(int depth)                      what it remembers of an edge, with a `shell`; one a level
 ///   bool gather(Tet, a, b, avoided, Level&)      the shell; false where the edge has to stay
 ///   bool remove_now(Level&, avoided)             the flip of the edge itself, if its link can be
-///   triangulated void begin_spokes(Level&) std::optional<Spoke> next_blocked(Level&)    the next spoke in
+///   triangulated void begin_spokes(Level&) std::optional<ShellSpoke> next_blocked(Level&)    the next spoke in
 ///   the way; nothing after the last std::size_t edge_removals() const            how many flips there were
 ///   Tet find_edge(a, b)                          a tetrahedron of an edge, or kNone
 template <typename Policy>
@@ -62,7 +62,7 @@ class EdgeClearing {
     const EdgeShell& shell = level.shell;
     const std::size_t before = policy_.edge_removals();
     policy_.begin_spokes(level);
-    while (const std::optional<Spoke> spoke = policy_.next_blocked(level)) {
+    while (const std::optional<ShellSpoke> spoke = policy_.next_blocked(level)) {
       const Vertex end = spoke->at_b ? shell.b : shell.a, other = spoke->at_b ? shell.a : shell.b;
       remove(shell.tets[spoke->corner], end, shell.link[spoke->corner], depth - 1, other);
       if (policy_.edge_removals() > before) return true;

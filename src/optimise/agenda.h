@@ -13,18 +13,18 @@
 namespace holdfast {
 
 /// An element as it was put down: its slot may have been given to another since.
-struct Element {
+struct WaitingElement {
   double quality;
   Tet tet;
   TetMesh::Corners corners;
-  friend bool operator<(const Element& x, const Element& y) {
+  friend bool operator<(const WaitingElement& x, const WaitingElement& y) {
     return std::tie(x.quality, y.corners, y.tet) < std::tie(y.quality, x.corners, x.tet);
   }
 };
 
 class Agenda {
  public:
-  void push(const Element& e) {
+  void push(const WaitingElement& e) {
     if (takes_all_ || e.quality >= tuning::kBad)
       queue_.push(e);
     else
@@ -35,19 +35,19 @@ class Agenda {
   [[nodiscard]] bool has_next() {
     if (!queue_.empty()) return true;
     if (rest_.empty() || has_failed_often()) return false;
-    queue_ = std::priority_queue<Element>({}, std::exchange(rest_, {}));
+    queue_ = std::priority_queue<WaitingElement>({}, std::exchange(rest_, {}));
     takes_all_ = true;
     return true;
   }
-  [[nodiscard]] const Element& next() const { return queue_.top(); }
-  Element take() {
-    const Element worst = queue_.top();
+  [[nodiscard]] const WaitingElement& next() const { return queue_.top(); }
+  WaitingElement take() {
+    const WaitingElement worst = queue_.top();
     queue_.pop();
     return worst;
   }
 
   /// An element stays as it is. What is no bad element matters only as the worst of all, until that stays.
-  void give_up(const Element& e) {
+  void give_up(const WaitingElement& e) {
     worst_stuck_ = std::max(worst_stuck_, e.quality);
     if (e.quality < tuning::kBad) ++failures_;
     stuck_.push_back(e);
@@ -56,7 +56,7 @@ class Agenda {
   /// The worst Q given up in this round.
   [[nodiscard]] double worst_stuck() const { return worst_stuck_; }
   /// The elements given up, but for those that were taken up again.
-  [[nodiscard]] std::vector<Element>& stuck() { return stuck_; }
+  [[nodiscard]] std::vector<WaitingElement>& stuck() { return stuck_; }
 
   /// Flat elements that stayed are tried again once no other waits: changes next to them may have made a way.
   template <typename IsCurrent>
@@ -64,7 +64,7 @@ class Agenda {
     if ((!queue_.empty() && queue_.top().quality >= flat) || round_ >= tuning::kRounds) return;
     ++round_;
     worst_stuck_ = 0;
-    std::erase_if(stuck_, [&](const Element& e) {
+    std::erase_if(stuck_, [&](const WaitingElement& e) {
       if (e.quality < flat) return false;
       if (is_current(e)) queue_.push(e);
       return true;
@@ -73,7 +73,7 @@ class Agenda {
   /// All that were given up are tried again.
   template <typename IsCurrent>
   void try_all_again(IsCurrent&& is_current) {
-    for (const Element& e : std::exchange(stuck_, {}))
+    for (const WaitingElement& e : std::exchange(stuck_, {}))
       if (is_current(e)) queue_.push(e);
     worst_stuck_ = 0;
     round_ = failures_ = 0;
@@ -91,10 +91,10 @@ class Agenda {
   }
 
  private:
-  std::priority_queue<Element> queue_;
-  std::vector<Element> rest_;
+  std::priority_queue<WaitingElement> queue_;
+  std::vector<WaitingElement> rest_;
   bool takes_all_ = false;
-  std::vector<Element> stuck_;
+  std::vector<WaitingElement> stuck_;
   double worst_stuck_ = 0;
   int round_ = 0, failures_ = 0;
 };

@@ -73,14 +73,14 @@ bool FlatRemover::remove_now(const Level& level, Vertex avoided) {
 }
 
 // A spoke is in the way where the ear at its corner would be bad or negative.
-std::optional<Spoke> FlatRemover::next_blocked(Level& level) const {
+std::optional<ShellSpoke> FlatRemover::next_blocked(Level& level) const {
   const EdgeShell& shell = level.shell;
   const std::size_t n = shell.size();
   while (level.next < 2 * n) {
     const std::uint32_t i = level.next / 2;
     const bool at_b = level.next++ % 2 == 0;
     const Vertex p = shell.link[(i + n - 1) % n], q = shell.link[i], r = shell.link[(i + 1) % n];
-    if (at_b ? !is_good(p, q, r, shell.b) : !is_good(r, q, p, shell.a)) return Spoke{i, at_b};
+    if (at_b ? !is_good(p, q, r, shell.b) : !is_good(r, q, p, shell.a)) return ShellSpoke{i, at_b};
   }
   return std::nullopt;
 }

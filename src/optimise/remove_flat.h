@@ -39,7 +39,7 @@ class FlatRemover {
   bool gather(Tet t, Vertex a, Vertex b, Vertex avoided, Level& level);
   bool remove_now(const Level& level, Vertex avoided);
   static void begin_spokes(Level& level) { level.next = 0; }
-  std::optional<Spoke> next_blocked(Level& level) const;
+  std::optional<ShellSpoke> next_blocked(Level& level) const;
   [[nodiscard]] std::size_t edge_removals() const { return edge_removals_; }
   [[nodiscard]] Tet find_edge(Vertex a, Vertex b) { return holdfast::find_edge(mesh_, a, b); }
 

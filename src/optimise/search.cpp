@@ -64,23 +64,23 @@ void Search::push(Tet t) {
   if (q > good_) agenda_.push({q, t, mesh_.corners(t)});
 }
 
-bool Search::is_current(const Element& e) {
+bool Search::is_current(const WaitingElement& e) {
   return mesh_.alive(e.tet) && mesh_.corners(e.tet) == e.corners && qualities_.of(e.tet) == e.quality;
 }
 
 void Search::work_off(Ways::Points points) {
-  const auto is_spent = [&](const Element& e) {
+  const auto is_spent = [&](const WaitingElement& e) {
     if (e.quality < tuning::kBad && agenda_.has_failed_often()) return true;
     return budget_.is_spent(e.quality >= bad_from_.hopeless, e.quality >= agenda_.worst_stuck());
   };
   while (agenda_.has_next() && !is_spent(agenda_.next())) {
-    const Element worst = agenda_.take();
+    const WaitingElement worst = agenda_.take();
     if (is_current(worst)) improve(worst, points);
-    agenda_.try_flat_again(bad_from_.flat, [this](const Element& e) { return is_current(e); });
+    agenda_.try_flat_again(bad_from_.flat, [this](const WaitingElement& e) { return is_current(e); });
   }
 }
 
-void Search::improve(const Element& e, Ways::Points points) {
+void Search::improve(const WaitingElement& e, Ways::Points points) {
   monitor_.poll(Stage::optimise, budget_.fraction());
   changed_.clear();
   Ways::Attempt attempt{e, agenda_.worst_stuck(), points, budget_, changed_};

@@ -60,13 +60,13 @@ class Search {
   [[nodiscard]] std::size_t points_in_mesh() const;
   /// Whether a slot holds a tetrahedron of the regions, or a dead one.
   [[nodiscard]] bool is_ours(Tet t) const { return t >= is_others_.size() || !is_others_[t]; }
-  [[nodiscard]] bool is_current(const Element& e);
+  [[nodiscard]] bool is_current(const WaitingElement& e);
   [[nodiscard]] Badness badness() const;
   void forget(std::span<const Tet> tets) { qualities_.forget(tets); }
 
  private:
   void push(Tet t);
-  void improve(const Element& e, Ways::Points points);
+  void improve(const WaitingElement& e, Ways::Points points);
 
   TetMesh& mesh_;
   const double good_;

@@ -29,7 +29,7 @@ bool is_better(Search& search, const UndoLog::Before& before) {
          std::tuple(was.null, was.hopeless, tuning::kLeastGain * was.worst);
 }
 
-void shake_and_improve(Search& search, const Element& worst, const Search::Trial& trial) {
+void shake_and_improve(Search& search, const WaitingElement& worst, const Search::Trial& trial) {
   Flipper flipper(search.mesh(), search.random());
   shake(
       search.mesh(), flipper, worst.corners, tuning::kShakenEdges, [&](Tet t) { return search.is_ours(t); },
@@ -64,10 +64,10 @@ void shake_the_worst(Search& search) {
   const std::size_t most = std::min(tuning::kMostShakes, tuning::kMostShakenSlots / slots);
   int vain = 0;
   for (std::size_t k = 0; k < most; ++k) {
-    std::vector<Element>& stuck = search.agenda().stuck();
-    std::erase_if(stuck, [&](const Element& e) { return !search.is_current(e); });
+    std::vector<WaitingElement>& stuck = search.agenda().stuck();
+    std::erase_if(stuck, [&](const WaitingElement& e) { return !search.is_current(e); });
     if (stuck.empty()) return;
-    const Element worst = *std::max_element(stuck.begin(), stuck.end());
+    const WaitingElement worst = *std::max_element(stuck.begin(), stuck.end());
     const bool is_flat = worst.quality >= search.bad_from().flat;
     if (worst.quality < tuning::kBad ||
         vain >= (is_flat ? tuning::kShakesInVainForFlat : tuning::kShakesInVain))
@@ -88,7 +88,7 @@ bool try_with_points(Search& search) {
   const Badness without = search.badness();
   if (without.hopeless == 0 || !may_points_be_worth_it(search, without)) return false;
   Search::Trial trial(search, Search::Trial::Agenda::kept);
-  search.agenda().try_all_again([&](const Element& e) { return search.is_current(e); });
+  search.agenda().try_all_again([&](const WaitingElement& e) { return search.is_current(e); });
   search.budget().begin_again();
   search.work_off(Ways::Points::now);
   shake_the_worst(search);

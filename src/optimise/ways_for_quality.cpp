@@ -51,7 +51,7 @@ bool Ways::move(Vertex p, Budget& budget, std::vector<Tet>& changed) {
 
 // What is not flat matters here only as the worst of all.
 bool Ways::remove_flat(Attempt& attempt) {
-  const Element& e = attempt.element;
+  const WaitingElement& e = attempt.element;
   if (e.quality < std::min(bad_from_.flat, attempt.worst_stuck)) return false;
   const bool removed = flat_remover_.remove(e.tet, bad_from_.limit_for(e.quality), attempt.changed);
   attempt.budget.spend(flat_remover_.work());
@@ -70,7 +70,7 @@ bool Ways::reconnect_round(Attempt& attempt) {
 // A search is long and seldom finds anything: as long as it does so now and then, but always for what would
 // better the worst of all, or else gets a point now.
 bool Ways::is_worth_reconnecting(const Attempt& attempt) const {
-  const Element& e = attempt.element;
+  const WaitingElement& e = attempt.element;
   if (attempt.points != Points::later && (e.quality >= attempt.worst_stuck || is_worth_a_point(attempt)))
     return true;
   return reconnections_in_vain_ < (e.quality >= tuning::kWorthReconnecting

@@ -30,7 +30,7 @@ class Ways {
   enum class Points { none, later, now };  ///< whether an element may get a point
   /// What the ways depend on beside the element, and what they leave.
   struct Attempt {
-    const Element& element;
+    const WaitingElement& element;
     double worst_stuck;  ///< the worst Q that stays: what is better does not better the mesh's worst
     Points points;
     Budget& budget;

@@ -224,7 +224,7 @@ void Flipper::begin_spokes(Level& level) {
   all_work_ += 2 * level.ears.size();
 }
 
-std::optional<Spoke> Flipper::next_blocked(Level& level) {
+std::optional<ShellSpoke> Flipper::next_blocked(Level& level) {
   if (level.next == level.spokes.size() || exhausted()) return std::nullopt;
   return level.spokes[level.next++].spoke;
 }

@@ -60,7 +60,7 @@ class Flipper {
     [[nodiscard]] bool sees_both() const { return sees_a && sees_b; }
   };
   struct BlockedSpoke {
-    Spoke spoke;
+    ShellSpoke spoke;
     bool blocked_twice;
   };
   // An edge that is to go while `depth` more levels may clear its way; kept to allocate nothing.
@@ -85,7 +85,7 @@ class Flipper {
   bool gather(Tet t, Vertex a, Vertex b, Vertex avoided, Level& level);
   bool remove_now(const Level& level, Vertex avoided);
   void begin_spokes(Level& level);
-  std::optional<Spoke> next_blocked(Level& level);
+  std::optional<ShellSpoke> next_blocked(Level& level);
   [[nodiscard]] std::size_t edge_removals() const { return counts_.edge_removals; }
   [[nodiscard]] Tet find_edge(Vertex a, Vertex b) { return piercing_.find_edge(a, b); }
 
