@@ -18,7 +18,8 @@
 #include "delaunay/delaunay.h"
 #include "enforce/enforce.h"
 #include "mesh/editor.h"
-#include "mesh/quality.h"
+#include "mesh/shape_counts.h"
+#include "mesh/target_quality.h"
 #include "mesh/tet_mesh.h"
 #include "optimise/improve_parts.h"
 #include "optimise/optimise.h"
@@ -216,7 +217,7 @@ class Attempt {
 
   void improve_volume() {
     Report::Field& report = result_.report.field;
-    report.before = parts_ ? shape_of(*parts_, threads_) : shape_of(volume(), threads_);
+    report.before = describe_shape(parts_ ? shape_of(*parts_, threads_) : shape_of(volume(), threads_));
     std::optional<FilledParts> filled;
     if (parts_) filled.emplace(FilledParts{std::move(parts_), *size_function_});
     const ImproveStats stats =
@@ -303,15 +304,13 @@ class Attempt {
     if (last >= Stage::classify)
       report.regions = static_cast<std::size_t>(std::count(kept_.region.begin(), kept_.region.end(), true));
     const bool has_all = volume.facets.size() == complex().facets.size();
-    Report::Shape shape;
-    report.elements =
-        measure(volume, has_all ? input_.target() : target_quality(volume.vertices, volume.facets, threads_),
-                &shape, threads_);
-    const auto& angles = shape.least_dihedral;  // in bins of five degrees
-    report.elements.below_10_deg = angles[0] + angles[1];
+    const VolumeShape shape = measure(volume, threads_);
+    report.elements = describe_elements(
+        shape, has_all ? input_.target() : target_quality(volume.vertices, volume.facets, threads_));
     if (sizes_.empty()) return;
-    if (!metrics_.empty()) shape = shape_of(this->volume(), threads_);
-    if (options_.optimise && last == Stage::optimise) report.field.after = shape;
+    if (options_.optimise && last == Stage::optimise)
+      report.field.after =
+          describe_shape(metrics_.empty() ? shape.elements : shape_of(this->volume(), threads_));
     if (metrics_.empty() && report.elements.below_10_deg > 0)
       find_forced(volume, complex().vertices.size(), report.field, [&] { monitor_.poll_again(); });
   }

@@ -7,7 +7,7 @@
 #include "api/report.h"
 #include "api/scale.h"
 #include "classify/outside.h"
-#include "mesh/quality.h"
+#include "mesh/target_quality.h"
 #include "recover/other_diagonals.h"
 #include "surface/diagnose.h"
 #include "surface/search.h"

@@ -6,10 +6,11 @@
 #include <optional>
 #include <set>
 
+#include "api/report.h"
 #include "api/scale.h"
 #include "mesh/anatomy.h"
 #include "mesh/disjoint_sets.h"
-#include "mesh/quality.h"
+#include "mesh/shape_counts.h"
 #include "numbers/sorted.h"
 
 namespace holdfast {
@@ -170,7 +171,9 @@ class RemoteComponents {
     report.steiner_points -= report.vertices;
     report.vertices = volume_.vertices.size();
     report.tetrahedra = volume_.tetrahedra.size();
-    report.elements = measure(volume_, report.elements.target, &report.field.after);
+    const VolumeShape shape = measure(volume_);
+    report.elements = describe_elements(shape, report.elements.target);
+    report.field.after = describe_shape(shape.elements);
   }
 
   struct Fresh {

@@ -21,6 +21,17 @@ Report::Input describe_input(const Complex& complex, const SegmentTable* table) 
   return input;
 }
 
+Report::Elements describe_elements(const VolumeShape& shape, double target) {
+  const auto& angles = shape.elements.least_dihedral;  // in bins of five degrees
+  return {target,         shape.worst, shape.min_dihedral_deg, shape.max_dihedral_deg, angles[0] + angles[1],
+          shape.dihedrals};
+}
+
+Report::Shape describe_shape(const ShapeCounts& counts) {
+  static_assert(kQualityBins == Report::quality_bins);
+  return {counts.min_dihedral_deg, counts.max_dihedral_deg, counts.least_dihedral, counts.quality};
+}
+
 Stopwatch::~Stopwatch() {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   // Memory may be what ended the stage. Then there may be none for a new entry, and no one to catch it.

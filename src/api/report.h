@@ -5,12 +5,17 @@
 #include <string>
 
 #include "holdfast/holdfast.h"
+#include "mesh/shape_counts.h"
 #include "surface/complex.h"
 
 namespace holdfast {
 
 /// Counts of the input. `table` is null while nobody knows whether the indices are in range.
 [[nodiscard]] Report::Input describe_input(const Complex& complex, const SegmentTable* table);
+
+/// The shape of the elements of a volume, and the target that was found for its facets.
+[[nodiscard]] Report::Elements describe_elements(const VolumeShape& shape, double target);
+[[nodiscard]] Report::Shape describe_shape(const ShapeCounts& counts);
 
 /// Adds the time from its construction to its end to seconds[key], also when an exception ends it.
 class Stopwatch {

@@ -1,20 +1,18 @@
-// Quality of tetrahedra as the paper's §8 measures it. For reports: it decides nothing.
+// Quality of tetrahedra as the paper's §8 measures it.
 //
-// Thin elements are what a report is about, so lengths, areas and volumes are right to a few digits however
-// much their terms cancel: where floating point cannot tell, exact differences and products do.
+// Thin elements are what matters, so lengths, areas and volumes are right to a few digits however much their
+// terms cancel (careful.h).
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cstdint>
 #include <optional>
-#include <span>
 
-#include "holdfast/holdfast.h"
-#include "mesh/parallel.h"
+#include "holdfast/types.h"
 
 namespace holdfast {
 
+/// sqrt(6)/12: the inradius of a regular tetrahedron over its edge.
+inline constexpr double kQualityOfRegular = 0.20412414523193150;
 /// Q = sqrt(6)/12 * longest edge / inradius: 1 for a regular tetrahedron, infinite for a flat one, such as
 /// one whose distinct exact corners share a double.
 [[nodiscard]] double quality(const Point& a, const Point& b, const Point& c, const Point& d);
@@ -33,51 +31,26 @@ struct PlainShape {
 [[nodiscard]] std::optional<PlainShape> plain_shape(const Point& a, const Point& b, const Point& c,
                                                     const Point& d);
 
-/// In which bin of so many degrees an angle lies, by its cosine; the last bin has all larger angles, too.
-template <std::size_t kBins>
-class CosineBins {
- public:
-  explicit CosineBins(double degrees);
-  /// The bin of an angle from 0 to 180 degrees.
-  [[nodiscard]] std::size_t operator()(double cosine) const {
-    const double cell = std::clamp((1 - cosine) * (kCells / 2.0), 0.0, kCells - 1.0);
-    std::size_t bin = first_[static_cast<std::size_t>(cell)];
-    while (bin + 1 < kBins && cosine <= end_[bin]) ++bin;
-    return bin;
+/// An angle from 0 to 180 degrees by its sine and cosine, both divided by their sum; unknown where both are
+/// 0. To compare and count angles takes no arctangent.
+struct Angle {
+  double sine = 0, cosine = 0;
+
+  [[nodiscard]] bool is_known() const { return sine != 0 || cosine != 0; }
+  [[nodiscard]] double degrees() const;
+  friend bool operator<(const Angle& x, const Angle& y) {
+    if (x.sine == 0 && y.sine == 0) return x.cosine > 0 && y.cosine < 0;
+    return x.sine * y.cosine < x.cosine * y.sine;
   }
-
- private:
-  static constexpr std::size_t kCells = 512;
-  std::array<double, kBins - 1> end_{};       // of each bin, its cosine
-  std::array<std::uint8_t, kCells> first_{};  // bin that may hold cosines of a cell
 };
 
-/// Gathers the shapes of elements.
-class ShapeHistogram {
- public:
-  void add(const PlainShape& element);
-  void add(const Point& a, const Point& b, const Point& c, const Point& d);
-  void add(const ShapeHistogram& other);
-  [[nodiscard]] const Report::Shape& shape() const { return shape_; }
+/// The same of any tetrahedron.
+struct CarefulShape {
+  double quality = 0;
+  std::array<Angle, 6> angles{};
 
- private:
-  Report::Shape shape_;
-  CosineBins<std::tuple_size_v<decltype(Report::Shape::least_dihedral)>> bins_{5};
-  double of_least_ = -1, of_most_ = 1;  // cosines
+  [[nodiscard]] PlainShape plain() const;
 };
-
-/// The least Q of all tetrahedra that have abc as a face: the best that a mesh can have there. Infinite for
-/// a triangle without area. (The paper's Target is the largest of them: the worst triangle's.)
-[[nodiscard]] double best_quality_on(const Point& a, const Point& b, const Point& c);
-
-/// The Target of the paper: the best Q of the triangle where that is worst. Zero for none.
-[[nodiscard]] double target_quality(std::span<const Point> vertices, std::span<const Triangle> facets,
-                                    const Threads& threads = 1);
-
-/// Worst quality and dihedral angles of a volume, and the target that was found for its facets. An angle that
-/// is not a number counts as 0 degrees. All zero for a volume without tetrahedra, but for the target.
-/// `shape`, where given, receives the shapes of the elements.
-[[nodiscard]] Report::Elements measure(const Volume& volume, double target, Report::Shape* shape = nullptr,
-                                       const Threads& threads = 1);
+[[nodiscard]] CarefulShape careful_shape(const Point& a, const Point& b, const Point& c, const Point& d);
 
 }  // namespace holdfast

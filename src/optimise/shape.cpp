@@ -40,17 +40,17 @@ bool is_flat(const Point& a, const Point& b, const Point& c, const Point& d) {
   return energy(a, b, c, d) > kEnergyOfFlat && quality(a, b, c, d) > tuning::kBad;
 }
 
-Report::Shape shape_of(const VolumeData& volume, const Threads& threads) {
-  return shapes_of(volume, threads).shape();
+ShapeCounts shape_of(const VolumeData& volume, const Threads& threads) {
+  return shapes_of(volume, threads).counts();
 }
 
-Report::Shape shape_of(Parts& parts, const Threads& threads) {
+ShapeCounts shape_of(Parts& parts, const Threads& threads) {
   std::vector<ShapeHistogram> own(parts.parts().size());
   parallel(threads, own.size(),
            [&](std::size_t k) { own[k] = shapes_of(parts.parts()[k].data(parts.whole().kept), 1); });
   ShapeHistogram shapes;
   for (const ShapeHistogram& of_part : own) shapes.add(of_part);
-  return shapes.shape();
+  return shapes.counts();
 }
 
 std::array<std::size_t, 24> edge_lengths_of(const VolumeData& volume, const Threads& threads) {

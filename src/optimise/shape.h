@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "holdfast/holdfast.h"
 #include "mesh/parallel.h"
+#include "mesh/shape_counts.h"
 #include "optimise/energy.h"
 #include "refine/parts.h"
 
@@ -15,13 +15,13 @@ inline constexpr double kEnergyOfFlat = energy_of_sine(tuning::kSineOfFlat);
 [[nodiscard]] bool is_flat(const Point& a, const Point& b, const Point& c, const Point& d);
 
 /// Of the tetrahedra of the kept regions, as the metric sees them if there is one.
-[[nodiscard]] Report::Shape shape_of(const VolumeData& volume, const Threads& threads = 1);
+[[nodiscard]] ShapeCounts shape_of(const VolumeData& volume, const Threads& threads = 1);
 
 /// The same for a mesh in parts.
-[[nodiscard]] Report::Shape shape_of(Parts& parts, const Threads& threads = 1);
+[[nodiscard]] ShapeCounts shape_of(Parts& parts, const Threads& threads = 1);
 
-/// Lengths of their edges, in the metric if there is one, over the mean of the sizes at the ends, as
-/// Report::Field has them.
+/// Lengths of their edges, in the metric if there is one, over the mean of the sizes at the ends: in bins of
+/// an eighth, the last without an end.
 [[nodiscard]] std::array<std::size_t, 24> edge_lengths_of(const VolumeData& volume,
                                                           const Threads& threads = 1);
 

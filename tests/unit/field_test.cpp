@@ -362,7 +362,7 @@ TEST(Improve, LeavesAValidMeshWithBetterElements) {
   order_along_curve(volume);
   ASSERT_EQ(find_fault(mesh), "");
   const auto below_10 = [&] {
-    const Report::Shape shape = shape_of(volume);
+    const ShapeCounts shape = shape_of(volume);
     return shape.least_dihedral[0] + shape.least_dihedral[1];
   };
   const std::size_t before = below_10();

@@ -8,6 +8,9 @@
 #include <numeric>
 #include <random>
 
+#include "mesh/shape_counts.h"
+#include "mesh/target_quality.h"
+
 namespace holdfast {
 namespace {
 
@@ -60,10 +63,10 @@ TEST(Quality, CornersThatShareADouble) {
   Volume volume;
   volume.vertices = {kA, kB, kC, kC};
   volume.tetrahedra = {{0, 1, 2, 3}};
-  const Report::Elements q = measure(volume, 0);
+  const VolumeShape q = measure(volume);
   EXPECT_EQ(q.worst, kInfinity);
   EXPECT_EQ(q.min_dihedral_deg, 0);
-  EXPECT_EQ(std::accumulate(q.histogram.begin(), q.histogram.end(), std::size_t{0}), 6u);
+  EXPECT_EQ(std::accumulate(q.dihedrals.begin(), q.dihedrals.end(), std::size_t{0}), 6u);
 }
 
 // A sliver far from the origin, of height h over a plane that no axis helps with: its terms cancel, and plain
@@ -148,12 +151,12 @@ TEST(Measure, CountsEveryAngleOnce) {
   volume.vertices[4] = {kTop[0], kTop[1], -kTop[2]};
   volume.tetrahedra = {{0, 1, 2, 3}, {0, 2, 1, 4}};
   const std::vector<Triangle> facets{{0, 1, 3}, {1, 2, 3}};
-  const Report::Elements q = measure(volume, target_quality(volume.vertices, facets));
+  const VolumeShape q = measure(volume);
   EXPECT_NEAR(q.worst, 1, 1e-14);
-  EXPECT_NEAR(q.target, 1, 1e-12);
+  EXPECT_NEAR(target_quality(volume.vertices, facets), 1, 1e-12);
   EXPECT_NEAR(q.min_dihedral_deg, 70.5287793655, 1e-9);
   EXPECT_NEAR(q.max_dihedral_deg, 70.5287793655, 1e-9);
-  EXPECT_EQ(q.histogram[7], 12u);
+  EXPECT_EQ(q.dihedrals[7], 12u);
 }
 
 TEST(Measure, TargetIsTheWorstTriangles) {
@@ -161,14 +164,14 @@ TEST(Measure, TargetIsTheWorstTriangles) {
   volume.vertices = {kA, kB, kC, {0.5, 0.01, 0}, {0.5, 0.1, 0}};
   const std::vector<Triangle> facets{{0, 1, 2}, {0, 1, 3}, {0, 1, 4}};
   const double worst = best_quality_on(kA, kB, volume.vertices[3]);
-  EXPECT_NEAR(measure(volume, target_quality(volume.vertices, facets)).target, worst, 1e-9 * worst);
+  EXPECT_NEAR(target_quality(volume.vertices, facets), worst, 1e-9 * worst);
   EXPECT_GT(worst, 40);
 }
 
 TEST(Measure, NothingIsZero) {
-  const Report::Elements q = measure({}, 0);
+  const VolumeShape q = measure({});
   EXPECT_EQ(q.worst, 0);
-  EXPECT_EQ(q.target, 0);
+  EXPECT_EQ(target_quality({}, {}), 0);
   EXPECT_EQ(q.min_dihedral_deg, 0);
   EXPECT_EQ(q.max_dihedral_deg, 0);
 }
