@@ -9,11 +9,11 @@ SEED ?= 1
 MINUTES ?= 5
 PYTHON ?= /usr/bin/python3
 
-.PHONY: help setup build demo test python wheel corpus random fuzz bench field tables format tidy debug asan tsan libcxx install clean
+.PHONY: help setup build demo test python wheel slurm python-corpus corpus random fuzz bench field tables format tidy debug asan tsan libcxx install clean
 .DEFAULT_GOAL := help
 
 help:  ## this list
-	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 16
+	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 16
 
 setup:  ## installs what is missing of the Debian packages that building and testing need
 	@scripts/setup.sh build
@@ -40,6 +40,13 @@ python: setup $(RELEASE)/build.ninja  ## the Python package, in build/release/py
 wheel:  ## a wheel and an sdist of a clean clone in build/dist, tried in a fresh environment
 	@scripts/setup.sh build python python-test
 	@python/tests/wheel.sh . $(PYTHON) build/dist
+
+slurm: python  ## an array of four on a Slurm cluster of this machine alone (as root)
+	@scripts/setup.sh slurm
+	@python/tests/slurm.sh $(RELEASE)/holdfast
+
+python-corpus: python  ## N=500 surfaces of CORPUS=dir through batch and through the module: the same bytes
+	@PYTHONPATH=$(RELEASE)/python $(PYTHON) python/tests/corpus.py "$(or $(CORPUS),../shared/corpus)" --jobs $(JOBS) $(ARGS)
 
 corpus: build  ## meshes and verifies every surface of CORPUS=dir (options: ARGS="--only 'gen_*'")
 	@python3 scripts/corpus.py --holdfast $(RELEASE)/holdfast --corpus "$(or $(CORPUS),../shared/corpus)" \

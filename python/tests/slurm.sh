@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# An array of four on a Slurm cluster of this machine alone, which it starts and stops: everything is meshed, nothing twice.
+# Usage (as root): slurm.sh HOLDFAST
+set -euo pipefail
+holdfast=$(realpath "$1")
+here=$(cd "$(dirname "$0")/../.." && pwd)
+work=$(mktemp -d /tmp/holdfast-slurm.XXXXXX)
+host=$(hostname -s)
+stop() {
+  pkill -F "$work/slurmctld.pid" 2>/dev/null || true
+  pkill -F "$work/slurmd.pid" 2>/dev/null || true
+  [ -z "${munged:-}" ] || pkill -F "$work/munged.pid" 2>/dev/null || true
+  rm -rf "$work"
+}
+trap stop EXIT
+
+# A key and a socket of our own.
+mkdir -p "$work/munge" "$work/state" "$work/spool"
+chmod 755 "$work" "$work/munge"
+dd if=/dev/urandom of="$work/munge.key" bs=1 count=1024 status=none
+chmod 400 "$work/munge.key"
+munged --force --key-file="$work/munge.key" --socket="$work/munge/socket" --pid-file="$work/munged.pid" \
+  --log-file="$work/munged.log" --seed-file="$work/munged.seed"
+munged=yes
+cat >"$work/slurm.conf" <<EOF
+ClusterName=holdfast
+SlurmctldHost=$host(127.0.0.1)
+SlurmUser=root
+SlurmdUser=root
+AuthType=auth/munge
+AuthInfo=socket=$work/munge/socket
+CryptoType=crypto/munge
+SlurmctldPort=16817
+SlurmdPort=16818
+StateSaveLocation=$work/state
+SlurmdSpoolDir=$work/spool
+SlurmctldPidFile=$work/slurmctld.pid
+SlurmdPidFile=$work/slurmd.pid
+SlurmctldLogFile=$work/slurmctld.log
+SlurmdLogFile=$work/slurmd.log
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+SelectType=select/cons_tres
+MpiDefault=none
+ReturnToService=2
+NodeName=$host NodeAddr=127.0.0.1 CPUs=$(nproc) State=UNKNOWN
+PartitionName=all Nodes=$host Default=YES MaxTime=INFINITE State=UP
+EOF
+export SLURM_CONF=$work/slurm.conf
+slurmctld -f "$SLURM_CONF"
+slurmd -f "$SLURM_CONF"
+for _ in $(seq 60); do
+  sinfo -h -o %t 2>/dev/null | grep -qx idle && break
+  sleep 0.5
+done
+sinfo -h -o %t | grep -qx idle || { tail -n 20 "$work"/slurm*.log; exit 1; }
+
+mkdir "$work/parts"
+for i in $(seq 10); do python3 "$here/examples/make_part.py" "$work/parts/part$i.stl" >/dev/null; done
+export HOLDFAST=$holdfast
+sbatch --wait --array=0-3 --cpus-per-task=1 --output="$work/%a.log" "$here/examples/batch/slurm.sh" "$work/meshes" \
+  "$work"/parts/*.stl || { cat "$work"/*.log; exit 1; }
+done_parts=$(cat "$work"/meshes/results.?-of-4.jsonl | grep -c '"status": "done"')
+merged=$(grep -c '"status": "done"' "$work/meshes/results.jsonl")
+volumes=$(ls "$work"/meshes/*.vtu | wc -l)
+cat "$work"/?.log
+echo "$done_parts parts done by the tasks, $merged in the merged results, $volumes volumes"
+[ "$done_parts" -eq 10 ] && [ "$merged" -eq 10 ] && [ "$volumes" -eq 10 ]
