@@ -1,14 +1,10 @@
 // Removing an edge by flips, others first where they clear its way: one recursion for every objective
 // (George, Hecht, Saltel 1991; Si 2015, flipnm).
 //
-//        b               The edge ab goes where its link can be triangulated. An ear (p q r) of the link is
-//        in
-//      / | \             the way where the objective takes it at one end of ab for none of the new
-//      tetrahedra:
-//     p--|--r            without the spoke from that end to q, the shell has one tetrahedron fewer. So the
-//     spoke
-//      \ q /             goes first, in the same way, one level deeper, and gets no new edge at the other
-//      end.
+//        b         The edge ab goes where its link can be triangulated. An ear (p q r) of the link is in the
+//      / | \       way where the objective takes it at one end of ab for none of the new tetrahedra. Without
+//     p--|--r      the spoke from that end to q, the shell has one tetrahedron fewer. So the spoke goes
+//      \ q /       first, in the same way, one level deeper, and gets no new edge at the other end.
 //        a
 #pragma once
 
@@ -31,13 +27,14 @@ struct ShellSpoke {
 /// no new edge. Returns whether the edge is gone; flips on the way stay even if it is not.
 ///
 /// A Policy has
-///   bool may_try(Tet, a, b, int depth)           whether the edge is worth a look
-///   Level& level(int depth)                      what it remembers of an edge, with a `shell`; one a level
-///   bool gather(Tet, a, b, avoided, Level&)      the shell; false where the edge has to stay
-///   bool remove_now(Level&, avoided)             the flip of the edge itself, if its link can be
-///   triangulated void begin_spokes(Level&) std::optional<ShellSpoke> next_blocked(Level&)    the next spoke in
-///   the way; nothing after the last std::size_t edge_removals() const            how many flips there were
-///   Tet find_edge(a, b)                          a tetrahedron of an edge, or kNone
+///   bool may_try(Tet, a, b, int depth)               whether the edge is worth a look
+///   Level& level(int depth)                          what it remembers of an edge there, with a `shell`
+///   bool gather(Tet, a, b, avoided, Level&)          the shell; false where the edge has to stay
+///   bool remove_now(Level&, avoided)                 the flip of the edge itself, if its link allows it
+///   void begin_spokes(Level&)                        before the first of them
+///   std::optional<ShellSpoke> next_blocked(Level&)   the next spoke in the way; nothing after the last
+///   std::size_t edge_removals() const                how many flips there were
+///   Tet find_edge(a, b)                              a tetrahedron of an edge, or kNone
 template <typename Policy>
 class EdgeClearing {
  public:

@@ -41,8 +41,8 @@ class ExchangesInMesh {
   bool gather_edge(Tet t, int edge, EdgeShell& out) const {
     // A facet round the edge would have it for a side, so only segments are in the way.
     if (mesh_.is_segment(t, edge)) return false;
-    const auto& ends = kEdgeVertex[static_cast<std::size_t>(edge)];
-    return gather_shell(mesh_, t, mesh_.corner(t, ends[0]), mesh_.corner(t, ends[1]), out, most_shell_);
+    const auto [a, b] = ends_of_edge(mesh_.corners(t), edge);
+    return gather_shell(mesh_, t, a, b, out, most_shell_);
   }
   bool gather_face(Tet t, int side, SharedFace& out) const {
     const Face f = face_code(t, side), g = mesh_.neighbour(f);

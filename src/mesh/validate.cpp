@@ -52,9 +52,7 @@ std::string find_fault(const TetMesh& mesh) {
     if (std::string fault = find_fault(mesh, t); !fault.empty()) return fault;
     for (int k = 0; k < 6; ++k) {
       if (!mesh.is_segment(t, k)) continue;
-      const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
-      const Vertex a = mesh.corner(t, e[0]);
-      const Vertex b = mesh.corner(t, e[1]);
+      const auto [a, b] = ends_of_edge(mesh.corners(t), k);
       ring.clear();
       shell(mesh, t, a, b, ring);
       for (const Tet s : ring)

@@ -1,6 +1,9 @@
-// The elementary functions against wider numbers, and against bits that are known; the random orders.
+// The elementary functions against wider numbers, and against bits that are known; the random orders;
+// vectors, and lists and keys in ascending order.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -9,8 +12,11 @@
 #include <numeric>
 #include <vector>
 
+#include "mesh/keys.h"
 #include "numbers/elementary.h"
 #include "numbers/random.h"
+#include "numbers/sorted.h"
+#include "numbers/vector.h"
 
 namespace holdfast {
 namespace {
@@ -189,6 +195,47 @@ TEST(RandomNumbers, OfABellHaveMeanZeroAndVarianceOne) {
   }
   EXPECT_NEAR(sum / kTimes, 0, 0.02);
   EXPECT_NEAR(squares / kTimes, 1, 0.02);
+}
+
+TEST(Vectors, CrossIsNormalToBothAndTurnsAsTheAxesDo) {
+  EXPECT_EQ(cross({1, 0, 0}, {0, 1, 0}), (Vector{0, 0, 1}));
+  const Vector u{1, 2, 3}, v{-2, 5, 7};
+  EXPECT_EQ(dot(cross(u, v), u), 0);
+  EXPECT_EQ(dot(cross(u, v), v), 0);
+  EXPECT_EQ(dot(cross(u, v), cross(u, v)), dot(u, u) * dot(v, v) - dot(u, v) * dot(u, v));
+  EXPECT_EQ(distance({1, 2, 3}, {4, 6, 15}), 13);
+}
+
+TEST(Vectors, DistancesInTheWholeRangeOfDoubles) {
+  const Vector far{3e200, 4e200, 0}, near{3e-200, 4e-200, 0};
+  EXPECT_EQ(distance({}, far), kInfinity);
+  EXPECT_DOUBLE_EQ(numbers::distance({}, far), 5e200);
+  EXPECT_EQ(distance({}, near), 0);
+  EXPECT_DOUBLE_EQ(numbers::distance({}, near), 5e-200);
+}
+
+TEST(Sorted, ListsHoldEachEntryOnce) {
+  std::vector<int> list{3, 1, 2, 3, 3, 1};
+  sort_unique(list);
+  EXPECT_EQ(list, (std::vector<int>{1, 2, 3}));
+  list.clear();
+  sort_unique(list);
+  EXPECT_TRUE(list.empty());
+}
+
+TEST(Sorted, KeysAreTheSameForAnyOrderOfTheVertices) {
+  FaceKey face{3, kGhost, 70'000};
+  std::sort(face.begin(), face.end());
+  const FaceKey expected = face;
+  do EXPECT_EQ(face_key(face), expected);
+  while (std::next_permutation(face.begin(), face.end()));
+  EXPECT_EQ(edge_key(5, kGhost), edge_key(kGhost, 5));
+  EXPECT_LT(edge_key(4, kGhost), edge_key(5, 6));
+  EXPECT_NE(edge_key(1, 2), edge_key(2, 1 << 16));
+
+  const std::array<Vertex, 4> corners{40, 30, 20, 10};
+  EXPECT_EQ(edge_key(corners, 5), edge_key(10, 20));
+  EXPECT_EQ(face_key(corners, 0), (FaceKey{10, 20, 30}));
 }
 
 }  // namespace
