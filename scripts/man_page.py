@@ -10,6 +10,9 @@ from pathlib import Path
 
 FILE = Path(__file__).resolve().parent.parent / "docs/holdfast.1.in"
 
+# Handed over to the Python package, whose help is not laid out as that of the others.
+EXTERNAL = {"batch": "FILE... -o DIR [OPTIONS] [-- OPTIONS OF mesh]"}
+
 EXAMPLES = """.SH EXAMPLES
 .nf
 holdfast mesh part.stl \\-o part.vtu
@@ -55,11 +58,11 @@ def page(program):
              "holdfast \\- fills triangulated surfaces with tetrahedra and keeps every triangle", ".SH SYNOPSIS"]
     commands = section(whole, "Subcommands")
     for command, _ in commands:
-        usage = re.search(r"^Usage: holdfast \S+ (.*)$", help_of(program, command), flags=re.M).group(1)
+        usage = EXTERNAL.get(command) or re.search(r"^Usage: holdfast \S+ (.*)$", help_of(program, command), flags=re.M).group(1)
         lines += [f".B holdfast {command}", escaped(usage), ".br"]
     lines += [".SH DESCRIPTION", escaped(tagline), ".SH COMMANDS"]
     for command, words in commands:
-        text = help_of(program, command)
+        text = "" if command in EXTERNAL else help_of(program, command)
         lines += [f".SS holdfast {command}", escaped(words) + "."]
         for title in ("Positionals", "Options"):
             for what, description in section(text, title):
