@@ -92,7 +92,7 @@ def mesh(
     time_limit
         Seconds.
     memory_limit
-        Gigabytes of the process, or text with a unit ("500 MB").
+        Of the process: gigabytes, or bytes from a million on, or text with a unit ("500 MB").
     cancel
         A `CancelToken` that another thread may use.
     progress
@@ -264,6 +264,11 @@ class Diagnosis(list[Defect]):
     def __init__(self, defects: typing.Iterable[Defect], summary: dict[str, Any]) -> None:
         super().__init__(defects)
         self.summary = summary
+
+    @property
+    def defects(self) -> list[Defect]:
+        """The same, as a plain list."""
+        return list(self)
 
     @property
     def valid(self) -> bool:

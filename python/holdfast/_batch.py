@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Optional, Union
 
+from ._limits import MemoryAmount, bytes_of
 from ._program import program
 
 PathLike = Union[str, "os.PathLike[str]"]
@@ -96,7 +97,7 @@ def plan(
     format: str = ".vtu",
     arguments: typing.Sequence[str] = (),
     time_limit: Optional[float] = None,
-    memory_limit: Optional[float] = None,
+    memory_limit: Optional[MemoryAmount] = None,
     resume: bool = False,
     results: Optional[PathLike] = None,
     shard: Optional[tuple[int, int]] = None,
@@ -112,7 +113,8 @@ def plan(
             raise BatchError(f"{other} and {name} would both be written as {stem_of(name)}; rename one, or use two folders")
     ending = "." + format.lstrip(".")
     limits = [] if time_limit is None else ["--time-limit", repr(float(time_limit))]
-    limits += [] if memory_limit is None else ["--memory-limit", repr(float(memory_limit))]
+    memory = bytes_of(memory_limit)
+    limits += [] if memory is None else ["--memory-limit", repr(memory / 1e9)]
     to_format = ["--format", "msh2"] if ending == ".msh2" else []
     suffix = ".msh" if ending == ".msh2" else ending
     folder = Path(output)
@@ -379,7 +381,7 @@ def batch(
     jobs: Optional[int] = None,
     format: str = ".vtu",
     time_limit: Optional[float] = None,
-    memory_limit: Optional[float] = None,
+    memory_limit: Optional[MemoryAmount] = None,
     resume: bool = False,
     results: Optional[PathLike] = None,
     shard: Optional[tuple[int, int]] = None,
@@ -397,7 +399,7 @@ def batch(
     jobs
         Parts at a time without an executor; None: as many as there are processors.
     time_limit, memory_limit
-        Seconds and gigabytes of each part.
+        Of each part, as `mesh` takes them.
     resume
         Leaves out parts whose output is complete, and merges the results of earlier runs and shards.
     results

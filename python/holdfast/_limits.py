@@ -18,14 +18,16 @@ _UNITS = {"": 1e9, "B": 1.0, "KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12, "KIB":
 
 
 def bytes_of(amount: Optional[MemoryAmount]) -> Optional[int]:
-    """Gigabytes as a number, or text with a unit ("500 MB", "2 GiB"), in bytes."""
+    """In bytes: a number of gigabytes, or from a million on of bytes (no machine has the one, no process fits into less
+    of the other); or text with a unit ("500 MB", "2 GiB")."""
     if amount is None:
         return None
     found = re.fullmatch(r"\s*([0-9.eE+]+)\s*([A-Za-z]*)\s*", str(amount))
     factor = _UNITS.get(found.group(2).upper()) if found else None
     if found is None or factor is None:
-        raise ValueError(f"memory_limit={amount!r}: gigabytes as a number, or text such as '500 MB', is expected")
-    size = float(found.group(1)) * factor
+        raise ValueError(f"memory_limit={amount!r}: gigabytes, bytes, or text such as '500 MB', is expected")
+    number = float(found.group(1))
+    size = number if not found.group(2) and number >= 1e6 else number * factor
     if not 0 < size < 2.0**63:
         raise ValueError(f"memory_limit={amount!r}: a positive amount that a machine can have is expected, in gigabytes")
     return int(size)

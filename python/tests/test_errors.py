@@ -114,6 +114,13 @@ def test_time_limit():
         holdfast.delaunay(np.random.default_rng(1).random((400_000, 3)), time_limit=0.05)
 
 
+def test_amounts_of_memory():
+    from holdfast._limits import bytes_of
+
+    amounts = {None: None, 2: 2_000_000_000, 0.5: 500_000_000, 3e8: 300_000_000, "500 MB": 500_000_000, "2 GiB": 2**31}
+    assert {a: bytes_of(a) for a in amounts} == amounts
+
+
 def test_memory_limit():
     with pytest.raises(holdfast.MemoryLimit) as caught:
         holdfast.mesh(*sphere(80), size=0.01, memory_limit="1 MB")
