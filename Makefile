@@ -9,7 +9,7 @@ SEED ?= 1
 MINUTES ?= 5
 PYTHON ?= /usr/bin/python3
 
-.PHONY: help setup build demo test python wheel slurm python-corpus corpus random fuzz bench field tables format tidy debug asan tsan libcxx install clean
+.PHONY: help setup build demo test python wheel slurm python-corpus corpus random fuzz bench field tables figures format tidy debug asan tsan libcxx install clean
 .DEFAULT_GOAL := help
 
 help:  ## this list
@@ -80,6 +80,9 @@ field:  ## meshes to compute with, beside Gmsh, TetGen and Netgen, to docs/field
 tables: build  ## the paper's tables beside TetGen, for the corpus and the paper's cases, to docs/results.md
 	@scripts/setup.sh bench
 	@python3 bench/tables.py --build $(RELEASE) --corpus "$(or $(CORPUS),../shared/corpus)" --jobs $(JOBS) $(ARGS)
+
+figures: build  ## the figures of the documents, from runs of the program, to docs/figures
+	@python3 scripts/figures.py $(RELEASE)/holdfast
 
 format:  ## clang-format on every source
 	@scripts/setup.sh lint

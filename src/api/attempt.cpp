@@ -47,7 +47,7 @@ class Attempt {
         seed_(seed) {}
 
   void run() {
-    // Elimination is part of the partition's loop (design §2.5).
+    // Elimination is part of the partition's loop (docs/concepts.md).
     static constexpr std::array<Step, 8> kSteps{
         {{Stage::delaunay, CallStep::delaunay, &Attempt::build_box_mesh},
          {Stage::validate, CallStep::validate_missing, &Attempt::validate_missing},

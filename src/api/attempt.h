@@ -1,4 +1,4 @@
-// One attempt at a mesh: all that comes after the input was looked at (design §2).
+// One attempt at a mesh: all that comes after the input was looked at (docs/architecture.md).
 #pragma once
 
 #include <cstdint>

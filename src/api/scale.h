@@ -1,5 +1,5 @@
 // Powers of two that bring a complex near the ends of the exponent range to where floating-point guesses
-// work (design §2.6). The predicates answer rightly anywhere; this is for speed and for good guesses.
+// work. The predicates answer rightly anywhere; this is for speed and for good guesses.
 #pragma once
 
 #include <span>

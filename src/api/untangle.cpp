@@ -1,4 +1,4 @@
-// Untangling (design §2.7): validate, relocate, swap, smooth, refill by the mesher itself, check.
+// Untangling (paper §6.4): validate, relocate, swap, smooth, refill by the mesher itself, check.
 #include "holdfast/untangle.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Which regions stay in the volume, and their ids (design §2.6).
+// Which regions stay in the volume, and their ids (docs/concepts.md, Regions).
 #pragma once
 
 #include <optional>

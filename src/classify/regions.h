@@ -1,5 +1,5 @@
-// Regions: the sets of tetrahedra that facets separate, their winding numbers, where a point lies (design
-// §2.6).
+// Regions: the sets of tetrahedra that facets separate, their winding numbers, where a point lies
+// (docs/concepts.md, Regions).
 #pragma once
 
 #include <array>

@@ -12,7 +12,7 @@
 
 namespace holdfast::cli {
 
-/// Exit codes (design §3.1). They are part of the interface: scripts depend on them.
+/// Exit codes (docs/command-line.md). They are part of the interface: scripts depend on them.
 enum ExitCode : int {
   exit_done = 0,
   exit_internal_error = 1,

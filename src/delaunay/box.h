@@ -1,4 +1,5 @@
-// The enlarged box round a complex, so that every constraint lies strictly inside the hull (design §2.2).
+// The enlarged box round a complex, so that every constraint lies strictly inside the hull
+// (docs/concepts.md).
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Elimination of a point from a constraint by cut and cone (paper §5.3, §6.3; design §2.5).
+// Elimination of a point from a constraint by cut and cone (paper §5.3, §6.3; docs/concepts.md).
 //
 //   The link of P is cut along the polygons of the constraints through P, which leaves sectors; each
 //   polygon is triangulated again without P; each sector is coned to an apex of its own, an existing

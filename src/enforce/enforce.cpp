@@ -161,7 +161,7 @@ class Enforcer {
     return frame;
   }
 
-  // In random order: in sequence the kernels decay geometrically (design §2.5).
+  // In random order: in sequence the kernels decay geometrically (docs/concepts.md).
   void eliminate_chain(Index s) {
     std::vector<Vertex>& chain = chains_[s];
     std::vector<Vertex> points(chain.begin() + 1, chain.end() - 1);

@@ -1,4 +1,4 @@
-// Enforcing what flips left missing: partition and elimination (paper §5, §6; design §2.4, §2.5).
+// Enforcing what flips left missing: partition and elimination (paper §5, §6; docs/concepts.md).
 #pragma once
 
 #include <cstdint>

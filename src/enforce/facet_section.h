@@ -1,4 +1,4 @@
-// How the mesh meets a facet: the section cells of its inside (paper §6.1, Fig. 9; design §2.4).
+// How the mesh meets a facet: the section cells of its inside (paper §6.1, Fig. 9; docs/concepts.md).
 #pragma once
 
 #include <span>

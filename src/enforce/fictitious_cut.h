@@ -1,5 +1,5 @@
 // Fictitious cuts: what stands in for the second facet at a segment with fewer than two (paper §6.3.2;
-// design §2.5, ways 1 and 3).
+// docs/concepts.md, Fictitious cuts).
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ using CutPath = std::vector<Vertex>;
 /// As many fictitious cuts at P, inside a segment with chain neighbours `ends`, as two facets are missing.
 ///
 /// Way 1: a vertex v for which (A',P,v) and (P,B',v) are mesh faces; the one that splits the angle most
-/// evenly. Way 3, always possible: in a half-plane through AB that avoids the facet and all link vertices,
+/// evenly. Way 2, always possible: in a half-plane through AB that avoids the facet and all link vertices,
 /// a vertex is put close to P and joined to A' and B' by chains. Vertices made so are appended to `created`.
 [[nodiscard]] std::vector<CutPath> fictitious_cuts(TetMesh& mesh, Vertex p, const std::array<Vertex, 2>& ends,
                                                    std::vector<Vertex>& created);

@@ -1,4 +1,4 @@
-// Partition of a missing facet (paper §5.2; design §2.4).
+// Partition of a missing facet (paper §5.2; docs/concepts.md has the proof).
 #pragma once
 
 #include "enforce/facet_section.h"
@@ -10,7 +10,7 @@ namespace holdfast {
 /// with short dyadic u, v, near the piercing edge: somewhere in the kernel of its shell.
 ///
 /// Returns the vertices strictly inside the facet: new ones, and Steiner points that an earlier relocation
-/// happened to put there. Every new edge has an end in the plane, so one pass is enough (design §2.4).
+/// happened to put there. Every new edge has an end in the plane, so one pass is enough (docs/concepts.md).
 /// `added` is increased by the number of new points.
 std::vector<Vertex> partition_facet(TetMesh& mesh, const FacetFrame& frame, std::size_t& added);
 

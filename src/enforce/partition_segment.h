@@ -1,4 +1,4 @@
-// Partition of a missing segment (paper §5.2, §6.1; design §2.4).
+// Partition of a missing segment (paper §5.2, §6.1; docs/concepts.md has the proof).
 #pragma once
 
 #include <vector>

@@ -39,7 +39,7 @@ double largest(const Vector& a) { return std::max({std::abs(a[0]), std::abs(a[1]
 
 // A direction that leaves both planes on their positive sides. For normals at an obtuse angle, with
 // c = n1.n2 < 0, alpha n1 + n2 does so exactly for -c/|n1|^2 < alpha < |n2|^2/(-c), an interval that is
-// open by Cauchy-Schwarz; sums of unit normals in floating point do fail (design §2.5).
+// open by Cauchy-Schwarz; sums of unit normals in floating point do fail.
 ExactVector direction_above(const ExactVector& n1, const ExactVector& n2) {
   const Dyadic c = dot(n1, n2);
   if (c.sign() >= 0) return {n1[0] + n2[0], n1[1] + n2[1], n1[2] + n2[2]};

@@ -1,4 +1,5 @@
-// The kernel of a star-shaped cavity: the open set of points that see all of its faces (design §2.5).
+// The kernel of a star-shaped cavity: the open set of points that see all of its faces (docs/concepts.md,
+// Elimination).
 //
 // Asked by enforce (where may an apex go), suppress (which neighbour can take a point's place, where is
 // its best place) and optimise alike. Floating point proposes, the exact predicate decides.
@@ -28,8 +29,8 @@ class Kernel {
 
   /// A point of the kernel: the centre of its largest inscribed ball where doubles hold one, else a point
   /// of the coarsest dyadic grid that reaches inside. `origin` must lie in the kernel's closure; at most
-  /// two of the faces may lie in planes through it (then the kernel is not empty: design §2.5, and the
-  /// result never is), or none.
+  /// two of the faces may lie in planes through it (then the kernel is not empty: docs/concepts.md,
+  /// Elimination, and the result never is), or none.
   [[nodiscard]] std::optional<Position> find(exact::PointRef origin) const;
 
   /// The centre of the largest inscribed ball, approximately. Without a kernel, the point that lies least

@@ -1,5 +1,5 @@
 // Better elements without field points: exchanges, relocation and reconnection on the worst of them first
-// (paper §8; design §2.8).
+// (paper §8).
 #pragma once
 
 #include <vector>

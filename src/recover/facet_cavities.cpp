@@ -257,8 +257,9 @@ class Pair {
         halves_{Cavity(mesh, facet), Cavity(mesh, {facet[0], facet[2], facet[1]})},
         taken_(crossing.begin(), crossing.end()) {}
 
-  // Returns the vertices that lie in the facet: a tetrahedron's section is inside the facet (design §2.4), so
-  // that all of its vertices in the plane are. With any, the cavities cannot be filled.
+  // Returns the vertices that lie in the facet: a tetrahedron's section is inside the facet
+  // (docs/concepts.md), so that all of its vertices in the plane are. With any, the cavities cannot be
+  // filled.
   std::vector<Vertex> split(const std::vector<Tet>& crossing) {
     std::vector<Vertex> in_the_way;
     for (const Tet t : crossing) {

@@ -185,8 +185,8 @@ std::optional<Piercing::Start> Piercing::start_of(const std::array<Vertex, 3>& f
 }
 
 // Across faces with vertices strictly on both sides of the plane. The sides being edges, a section cell
-// never leaves the facet (design §2.4), and no mesh face or edge lies in the facet's inside, since none of
-// the mesh's vertices does.
+// never leaves the facet (docs/concepts.md), and no mesh face or edge lies in the facet's inside, since none
+// of the mesh's vertices does.
 template <typename Visit>
 std::optional<Face> Piercing::flood(const std::array<Vertex, 3>& facet, Visit visit) {
   const std::optional<Start> start = start_of(facet);

@@ -1,5 +1,5 @@
 // What stands in the way of a missing constraint: the faces and edges that a segment pierces, the edges
-// that pierce a facet (paper §4; design §2.3).
+// that pierce a facet (paper §4).
 //
 // Both are for a mesh whose vertices are the constraints' own: of valid input no vertex lies inside a
 // segment or facet, so that a segment that is no edge pierces something in each tetrahedron it meets.

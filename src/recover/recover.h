@@ -1,4 +1,4 @@
-// Recovery by flips: missing segments, then missing facets, without new points (paper §4; design §2.3).
+// Recovery by flips: missing segments, then missing facets, without new points (paper §4).
 #pragma once
 
 #include <cstddef>

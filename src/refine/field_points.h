@@ -1,5 +1,5 @@
 // Field points: points inside the regions so that edges get the length that a size function asks for
-// (design §2.8; paper §8).
+// (docs/sizes.md; paper §8).
 #pragma once
 
 #include <memory>

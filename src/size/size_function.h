@@ -1,4 +1,5 @@
-// The size that edges should have: from the surface, and from what the user asks for (paper §8; design §2.8).
+// The size that edges should have: from the surface, and from what the user asks for (paper §8;
+// docs/sizes.md).
 //
 // A vertex of the surface has the mean length of the edges of its facets, or what the user gave for it. A
 // size spreads inward: from a vertex of size h, at distance d, it is at most h + gradation * d. A point gets

@@ -1,4 +1,4 @@
-// What can happen to one Steiner point: suppressed, or recentred if it has to stay (design §2.5, §2.7).
+// What can happen to one Steiner point: suppressed, or recentred if it has to stay (docs/concepts.md).
 #pragma once
 
 #include "mesh/tet_mesh.h"

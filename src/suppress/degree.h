@@ -1,4 +1,4 @@
-// Flipping a Steiner point down to fewer neighbours (design §2.7): four are one tetrahedron without it.
+// Flipping a Steiner point down to fewer neighbours (paper §6.4): four are one tetrahedron without it.
 #pragma once
 
 #include "mesh/tet_mesh.h"

@@ -1,4 +1,4 @@
-// Filling a grown cavity again without a Steiner point, or with it at a better place (design §2.7).
+// Filling a grown cavity again without a Steiner point, or with it at a better place.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// Suppressing Steiner points and giving the rest positions in doubles (paper §6.4; design §2.7).
+// Suppressing Steiner points and giving the rest positions in doubles (paper §6.4; docs/concepts.md).
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Surface layer: the test of a valid input (design §1) and its diagnosis.
+// Surface layer: the test of a valid input (docs/concepts.md) and its diagnosis.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The promise of design §1 with field points: random complexes, judged by the independent check.
+// The promise of docs/concepts.md with field points: random complexes, judged by the independent check.
 #include <gtest/gtest.h>
 
 #include <functional>

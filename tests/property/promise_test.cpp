@@ -1,4 +1,5 @@
-// The promise of design §1 on random complexes: through the public API, judged by the independent check.
+// The promise of docs/concepts.md on random complexes: through the public API, judged by the independent
+// check.
 //
 // HOLDFAST_SEEDS=k takes k times as many complexes of each family.
 #include <gtest/gtest.h>

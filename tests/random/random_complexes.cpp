@@ -1,5 +1,5 @@
-// Meshes random complexes with and without flips, some also with field points, and checks the promise (design
-// §1) on every mesh.
+// Meshes random complexes with and without flips, some also with field points, and checks the promise
+// (docs/concepts.md) on every mesh.
 //
 //   random_complexes [--seed S] [--first N] [--count N] [--json] [--write DIR]
 //

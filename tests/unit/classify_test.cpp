@@ -1,4 +1,4 @@
-// Regions, winding numbers, keep rules, holes and seeds (design §2.6).
+// Regions, winding numbers, keep rules, holes and seeds (docs/concepts.md).
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -541,7 +541,7 @@ TEST(Enforce, TheSeedAloneDecides) {
   EXPECT_NE(difference(one.mesh, other.mesh), "");
 }
 
-// Design §2.4: points that were moved off one constraint and by accident onto others that are missing.
+// Points that were moved off one constraint and by accident onto others that are missing.
 TEST(Enforce, TakesSteinerPointsOffMissingConstraints) {
   Surface surface = facet_task(3, false).surface;
   for (Index above = 3; surface.segments.empty(); ++above)

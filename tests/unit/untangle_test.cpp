@@ -529,8 +529,8 @@ TEST(Untangle, TheSameResultTwice) {
 }
 
 TEST(Untangle, NoDoublesInside) {
-  // The polyhedron of design §4 with a vertex inside at first, far from the origin: no integer point is
-  // inside.
+  // The polyhedron of docs/concepts.md, What cannot be had, with a vertex inside at first, far from the
+  // origin: no integer point is inside.
   const Surface near = small::without_integer_points(0);
   const Result filled = mesh(near.view());
   ASSERT_EQ(filled.outcome, Outcome::done);
