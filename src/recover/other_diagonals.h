@@ -11,7 +11,7 @@ namespace holdfast {
 /// `standing`, with such facets and their common side added: two facets abc and abd of a plane, of which only
 /// ab is missing, where the mesh has the faces cda and cdb, cd is no segment, and no other such pair has the
 /// same cd. All elements with a flag in the result, those of `standing` included, meet in common faces or not
-/// at all (ARCHITECTURE.md, "Delaunay").
+/// at all (docs/decisions/validation-other-diagonals-fit-too.md).
 ///
 /// `standing` must be as mark_present says; no two vertices of `complex` may be the same.
 [[nodiscard]] Standing with_other_diagonals(TetMesh& mesh, const Complex& complex, const SegmentTable& table,
