@@ -1,11 +1,12 @@
 #include "api/course.h"
 
+#include <array>
 #include <numeric>
 
 namespace holdfast {
 namespace {
 
-using Costs = std::array<double, 10>;  // by step
+using Costs = std::array<double, 10>;  // by step, in parts of what a call without field points takes
 
 // Medians of some mechanical parts, smooth surfaces and layered ones; a few times more or less is common.
 Costs costs(const Options& options) {
@@ -20,13 +21,54 @@ Costs costs(const Options& options) {
   return cost;
 }
 
-}  // namespace
+// Elimination is part of the partition's loop: the points of one constraint go before those of the next come.
+CallStep last_step(const Options& options) {
+  switch (options.stop_after.value_or(Stage::optimise)) {
+    case Stage::validate:
+      return CallStep::validate;
+    case Stage::delaunay:
+      return CallStep::validate_missing;
+    case Stage::flips:
+      return CallStep::flips;
+    case Stage::partition:
+    case Stage::eliminate:
+      return CallStep::partition;
+    case Stage::classify:
+      return CallStep::classify;
+    case Stage::suppress:
+      return CallStep::suppress;
+    case Stage::field_points:
+      return CallStep::field_points;
+    case Stage::optimise:
+      break;
+  }
+  return CallStep::deliver;
+}
 
+// The part of the whole call that a step is, where so much was done when it began: of what is left, as much
+// as it usually takes beside the steps after it. So another attempt goes on from where the last one ended,
+// and progress never goes back.
 std::array<double, 2> part_of_call(CallStep step, double done, const Options& options) {
   const Costs cost = costs(options);
   const auto at = cost.begin() + static_cast<std::ptrdiff_t>(step);
   const double left = std::accumulate(at, cost.end(), 0.0);
   return {done, done + (1 - done) * *at / left};
+}
+
+}  // namespace
+
+Course::Course(const Options& options, Monitor& monitor, Report& report)
+    : options_(options), monitor_(monitor), report_(report), last_(last_step(options)) {}
+
+void Course::begin(CallStep step) const {
+  monitor_.begin_part(part_of_call(step, monitor_.overall(), options_));
+}
+
+Stage Course::stage_of(CallStep step) {
+  static constexpr std::array<Stage, 9> kStages{Stage::validate, Stage::delaunay,     Stage::validate,
+                                                Stage::flips,    Stage::partition,    Stage::classify,
+                                                Stage::suppress, Stage::field_points, Stage::optimise};
+  return kStages.at(static_cast<std::size_t>(step));
 }
 
 }  // namespace holdfast

@@ -1,10 +1,12 @@
-// How far a call has come: what its steps usually cost, beside each other.
+// The steps of a call in their order, and how far the call has come: what its steps usually cost.
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <type_traits>
 
+#include "api/report.h"
 #include "holdfast/holdfast.h"
+#include "mesh/monitor.h"
 
 namespace holdfast {
 
@@ -23,9 +25,41 @@ enum class CallStep : std::size_t {
   deliver
 };
 
-/// The part of the whole call that a step is, where so much was done when it began: of what is left, as much
-/// as it usually takes beside the steps after it. So another attempt goes on from where the last one ended,
-/// and progress never goes back.
-[[nodiscard]] std::array<double, 2> part_of_call(CallStep step, double done, const Options& options);
+/// Runs the steps of a call: measures their time, tells the monitor, and leaves out those after the stage at
+/// which the call stops.
+class Course {
+ public:
+  /// All three must outlive the course.
+  Course(const Options& options, Monitor& monitor, Report& report);
+
+  /// What `make` returns; an empty value of its type, without a call, if the call stops before the step.
+  template <typename Make>
+  auto run(CallStep step, Make&& make) const {
+    using Made = decltype(make());
+    if (!reaches(step)) return Made();
+    const Stopwatch watch(report_, name(stage_of(step)));
+    begin(step);
+    monitor_.enter(stage_of(step));
+    if constexpr (std::is_void_v<Made>) {
+      make();
+      monitor_.end_part();
+    } else {
+      Made made = make();
+      monitor_.end_part();
+      return made;
+    }
+  }
+  /// Tells the monitor which part of the whole call the step is.
+  void begin(CallStep step) const;
+  [[nodiscard]] bool reaches(CallStep step) const { return step <= last_; }
+
+ private:
+  [[nodiscard]] static Stage stage_of(CallStep step);
+
+  const Options& options_;
+  Monitor& monitor_;
+  Report& report_;
+  CallStep last_;
+};
 
 }  // namespace holdfast

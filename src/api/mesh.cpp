@@ -79,13 +79,11 @@ class Call {
   }
 
   void validate() {
-    const Stopwatch watch(result_.report, name(Stage::validate));
-    monitor_.begin_part(part_of_call(CallStep::validate, 0, options_));
-    monitor_.enter(Stage::validate);
-    if (std::vector<Defect> defects = input_.validate(result_.report.input); !defects.empty())
-      return refuse(result_, std::move(defects));
-    judge_places();
-    monitor_.end_part();
+    Course(options_, monitor_, result_.report).run(CallStep::validate, [&] {
+      std::vector<Defect> defects = input_.validate(result_.report.input);
+      if (!defects.empty()) return refuse(result_, std::move(defects));
+      judge_places();
+    });
   }
 
   // Regions of a surface that is not valid are none, so that is told first.

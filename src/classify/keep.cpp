@@ -29,48 +29,47 @@ Defect not_oriented(const Complex& complex, const std::array<Index, 2>& facets) 
 class Chooser {
  public:
   Chooser(const TetMesh& mesh, const Regions& regions, const Complex& complex, const SegmentTable& table,
-          const Options& options, int scale, const VertexNames& names)
+          const Wanted& wanted, int scale, const VertexNames& names)
       : mesh_(mesh),
         regions_(regions),
         complex_(complex),
         table_(table),
-        options_(options),
+        wanted_(wanted),
         scale_(scale),
         names_(names) {}
 
   Kept run() {
-    if (regions_.count == 1 && options_.keep != Keep::box) {
+    if (regions_.count == 1 && wanted_.keep != Keep::box) {
       kept_.defects.push_back(encloses_nothing(complex_, table_, names_));
       return std::move(kept_);
     }
     apply_rule();
     if (!kept_.defects.empty()) return std::move(kept_);
-    for (const Point& hole : options_.holes) kept_.region[region_at(hole, "hole")] = false;
+    for (const Point& hole : wanted_.holes) kept_.region[region_at(hole, "hole")] = false;
     if (std::find(kept_.region.begin(), kept_.region.end(), true) == kept_.region.end()) {
       kept_.defects.push_back({DefectKind::encloses_nothing,
                                {},
                                {},
                                {},
-                               options_.holes.empty() ? std::vector<Point>{} : std::vector{options_.holes[0]},
+                               wanted_.holes.empty() ? std::vector<Point>{} : std::vector{wanted_.holes[0]},
                                "nothing is left to fill: every region is a hole; leave out a hole"});
       return std::move(kept_);
     }
     number();
     find_kept_segments();
-    if (!options_.drop_outside)
-      kept_.defects = find_outside(mesh_, regions_, kept_, complex_, table_, names_);
+    if (!wanted_.drop_outside) kept_.defects = find_outside(mesh_, regions_, kept_, complex_, table_, names_);
     return std::move(kept_);
   }
 
  private:
   void apply_rule() {
     kept_.region.assign(regions_.count, true);
-    kept_.rule = options_.keep;
-    if (options_.keep == Keep::box) return;
+    kept_.rule = wanted_.keep;
+    if (wanted_.keep == Keep::box) return;
     kept_.region[0] = false;
-    if (options_.keep == Keep::bounded) return;
+    if (wanted_.keep == Keep::bounded) return;
     const Winding winding = winding_numbers(regions_);
-    if (winding.conflict && options_.keep == Keep::winding) {
+    if (winding.conflict && wanted_.keep == Keep::winding) {
       kept_.defects.push_back(not_oriented(complex_, *winding.conflict));
       return;
     }
@@ -90,7 +89,7 @@ class Chooser {
     const Point approx{moved.c[0].to_double(), moved.c[1].to_double(), moved.c[2].to_double()};
     const Located located = locate(mesh_, regions_, {approx.data(), &moved});
     if (located.on_facet) throw on_the_surface(what, p);
-    if (!located.in_mesh || (located.region == 0 && options_.keep != Keep::box)) throw in_no_region(what, p);
+    if (!located.in_mesh || (located.region == 0 && wanted_.keep != Keep::box)) throw in_no_region(what, p);
     return located.region;
   }
 
@@ -108,7 +107,7 @@ class Chooser {
     kept_.id.assign(regions_.count, 0);
     std::vector<bool> seeded(regions_.count, false);
     std::set<int> taken;
-    for (const RegionSeed& seed : options_.regions) {
+    for (const RegionSeed& seed : wanted_.seeds) {
       const RegionId r = region_at(seed.where, "region seed");
       if (!kept_.region[r]) throw in_region_not_kept(seed.where);
       if (seeded[r] && kept_.id[r] != seed.id)
@@ -151,7 +150,7 @@ class Chooser {
   const Regions& regions_;
   const Complex& complex_;
   const SegmentTable& table_;
-  const Options& options_;
+  const Wanted& wanted_;
   const int scale_;
   const VertexNames& names_;
   Kept kept_;
@@ -160,8 +159,8 @@ class Chooser {
 }  // namespace
 
 Kept choose_regions(const TetMesh& mesh, const Regions& regions, const Complex& complex,
-                    const SegmentTable& table, const Options& options, int scale, const VertexNames& names) {
-  return Chooser(mesh, regions, complex, table, options, scale, names).run();
+                    const SegmentTable& table, const Wanted& wanted, int scale, const VertexNames& names) {
+  return Chooser(mesh, regions, complex, table, wanted, scale, names).run();
 }
 
 std::invalid_argument on_the_surface(const std::string& what, const Point& p) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -30,16 +31,24 @@ struct Kept {
   }
 };
 
-/// Applies keep rule, holes and region seeds of the options, then looks for what borders on no kept region.
+/// Which regions the user asks for. Holes and seeds are in the complex's units.
+struct Wanted {
+  Keep keep = Keep::automatic;
+  std::span<const Point> holes;
+  std::span<const RegionSeed> seeds;
+  bool drop_outside = false;  ///< leave out what borders on no kept region, in place of a defect
+};
+
+/// Applies the keep rule, holes and region seeds, then looks for what borders on no kept region.
 ///
 /// A region with a seed has the seed's id. The others that are kept have the least positive ids that no
-/// seed takes, in the order of their numbers. The mesh is the complex times 2^scale; holes and seeds are in
-/// the complex's units. `names` are those of the complex's vertices.
+/// seed takes, in the order of their numbers. The mesh is the complex times 2^scale. `names` are those of the
+/// complex's vertices.
 ///
 /// Throws std::invalid_argument for a hole or region seed that lies on a facet or in no region that it
 /// could mean, and for seeds that give one region two ids.
 [[nodiscard]] Kept choose_regions(const TetMesh& mesh, const Regions& regions, const Complex& complex,
-                                  const SegmentTable& table, const Options& options, int scale = 0,
+                                  const SegmentTable& table, const Wanted& wanted, int scale = 0,
                                   const VertexNames& names = {});
 
 /// What is said of a hole or region seed, as `what` calls it, that cannot be meant where it is.

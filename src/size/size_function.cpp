@@ -33,8 +33,8 @@ std::vector<double> edge_lengths(const Complex& complex, const SegmentTable& tab
 
 }  // namespace
 
-SizeFunction::SizeFunction(const Sizes& sizes, const Complex& complex, const SegmentTable& table,
-                           const Options& options, const Kept& kept, int scale)
+SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds, const Complex& complex,
+                           const SegmentTable& table, const Kept& kept, int scale)
     : gradation_(sizes.gradation),
       grows_(sizes.grow),
       most_(sizes.size > 0 ? std::ldexp(sizes.size, scale) : kNoLimit),
@@ -45,9 +45,9 @@ SizeFunction::SizeFunction(const Sizes& sizes, const Complex& complex, const Seg
   for (std::size_t v = 0; v < std::min(of_vertex_.size(), sizes.vertex_sizes.size()); ++v)
     if (sizes.vertex_sizes[v] > 0) of_vertex_[v] = std::ldexp(sizes.vertex_sizes[v], scale);
   const auto has_size = [](const RegionSeed& seed) { return seed.size > 0; };
-  if (std::any_of(options.regions.begin(), options.regions.end(), has_size)) {
+  if (std::any_of(seeds.begin(), seeds.end(), has_size)) {
     of_region_.assign(kept.id.size(), most_);
-    for (const RegionSeed& seed : options.regions)
+    for (const RegionSeed& seed : seeds)
       for (std::size_t r = 0; r < kept.id.size(); ++r)
         if (has_size(seed) && kept.region[r] && kept.id[r] == seed.id)
           of_region_[r] = std::min(of_region_[r], std::ldexp(seed.size, scale));

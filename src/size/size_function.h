@@ -12,6 +12,7 @@
 #pragma once
 
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "classify/keep.h"
@@ -24,9 +25,9 @@ namespace holdfast {
 
 class SizeFunction {
  public:
-  /// The mesh is the complex times 2^scale.
-  SizeFunction(const Sizes& sizes, const Complex& complex, const SegmentTable& table, const Options& options,
-               const Kept& kept, int scale);
+  /// `seeds` may give the regions that are kept sizes of their own. The mesh is the complex times 2^scale.
+  SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds, const Complex& complex,
+               const SegmentTable& table, const Kept& kept, int scale);
 
   /// Of a vertex of the complex; infinite for one without edges.
   [[nodiscard]] std::size_t vertex_count() const { return of_vertex_.size(); }

@@ -43,7 +43,8 @@ struct Scene {
   }
 
   [[nodiscard]] Kept choose(const Options& options, int scale = 0) const {
-    return choose_regions(mesh, regions, surface.view(), table, options, scale);
+    const Wanted wanted{options.keep, options.holes, options.regions, options.drop_outside};
+    return choose_regions(mesh, regions, surface.view(), table, wanted, scale);
   }
   [[nodiscard]] Kept choose(Keep keep) const {
     Options options;

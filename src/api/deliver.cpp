@@ -1,0 +1,87 @@
+#include "api/deliver.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "api/extract.h"
+#include "api/forced.h"
+#include "api/report.h"
+#include "api/scale.h"
+#include "mesh/shape_counts.h"
+#include "mesh/target_quality.h"
+#include "optimise/shape.h"
+
+namespace holdfast {
+namespace {
+
+Warning warn_of_field_points() {
+  return {
+      WarningKind::field_points,
+      {},
+      {},
+      {},
+      "field points stopped early: too many were tried in vain, so that edges may be longer than was asked "
+      "for; the sizes differ too much from those of the surface's triangles"};
+}
+
+// Which vertices of the result are which of the input, both ways.
+void number_vertices(const Input& input, Result& result) {
+  result.vertex_map = input.vertex_map();
+  std::vector<std::int64_t>& of_volume = result.volume.input_vertices;
+  of_volume.assign(result.volume.vertices.size(), -1);
+  for (Index v = 0; v < input.complex().vertices.size(); ++v) of_volume[v] = input.names()(v);
+}
+
+// `volume` is at the mesh's scale: measures over- and underflow elsewhere.
+void measure_volume(const Attempt& attempt, const Volume& volume, Field* field, Report& report) {
+  report.vertices = volume.vertices.size();
+  report.tetrahedra = volume.tetrahedra.size();
+  const bool has_all = volume.facets.size() == attempt.complex().facets.size();
+  const VolumeShape shape = measure(volume, attempt.threads);
+  report.elements =
+      describe_elements(shape, has_all ? attempt.input.target()
+                                       : target_quality(volume.vertices, volume.facets, attempt.threads));
+  if (field == nullptr) return;
+  if (attempt.options.optimise && attempt.last_stage() == Stage::optimise)
+    report.field.after =
+        describe_shape(field->has_metric() ? shape_of(field->volume(), attempt.threads) : shape.elements);
+  if (!field->has_metric() && report.elements.below_10_deg > 0)
+    find_forced(volume, attempt.complex().vertices.size(), report.field,
+                [&] { attempt.monitor.poll_again(); });
+}
+
+}  // namespace
+
+void deliver(const Attempt& attempt, const BoxMesh& box, const Division& division, Field* field,
+             Result& result) {
+  const Stage last = attempt.last_stage();
+  const Source source{box.mesh, attempt.complex(), attempt.input.table(), box.scale, box.first_free};
+  Extract extract = last >= Stage::classify
+                        ? extract_kept(source, division.regions, division.kept, attempt.threads)
+                        : extract_all(source, box.standing);
+  result.volume = std::move(extract.volume);
+  number_vertices(attempt.input, result);
+  result.facet_regions = std::move(extract.facet_regions);
+  result.exact_vertices = std::move(extract.exact_vertices);
+
+  Report& report = result.report;
+  report.steiner_points = extract.steiner_points;
+  report.unrounded_points = result.exact_vertices.size();
+  const std::vector<bool>& kept = division.kept.region;
+  if (last >= Stage::classify)
+    report.regions = static_cast<std::size_t>(std::count(kept.begin(), kept.end(), true));
+  if (box.scale == 0) {
+    measure_volume(attempt, result.volume, field, report);
+  } else {
+    Volume volume = result.volume;
+    volume.vertices = scaled(result.volume.vertices, box.scale);
+    measure_volume(attempt, volume, field, report);
+  }
+  if (report.field.stopped_early) result.warnings.push_back(warn_of_field_points());
+  if (last >= Stage::suppress && !result.exact_vertices.empty()) {
+    result.outcome = Outcome::not_representable;
+    result.message = "no positive mesh in double precision was found";
+  }
+}
+
+}  // namespace holdfast

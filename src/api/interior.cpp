@@ -1,0 +1,126 @@
+#include "api/interior.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "api/report.h"
+#include "mesh/shape_counts.h"
+#include "optimise/improve_parts.h"
+#include "optimise/optimise.h"
+#include "optimise/shape.h"
+#include "refine/field_points.h"
+
+namespace holdfast {
+namespace {
+
+bool is_explicit(const TetMesh& mesh, const std::vector<Tet>& tets) {
+  return mesh.exact_vertex_count() == 0 || std::all_of(tets.begin(), tets.end(), [&](Tet t) {
+           const TetMesh::Corners& v = mesh.corners(t);
+           return std::all_of(v.begin(), v.end(), [&](Vertex x) { return mesh.is_explicit(x); });
+         });
+}
+
+// Functions of the caller may be slow, and are called from the calling thread alone.
+Sizes polling(Sizes sizes, Monitor& monitor) {
+  if (sizes.field)
+    sizes.field = [&monitor, field = std::move(sizes.field)](const Point& p) {
+      monitor.poll_again();
+      return field(p);
+    };
+  if (sizes.metric)
+    sizes.metric = [&monitor, metric = std::move(sizes.metric)](const Point& p) {
+      monitor.poll_again();
+      return metric(p);
+    };
+  return sizes;
+}
+
+void optimise_worst_of(const Attempt& attempt, BoxMesh& box, Division& division, const std::vector<Tet>& tets,
+                       PointsToRemove remove, Report& report) {
+  const OptimiseStats stats =
+      optimise(box.mesh, tets, box.first_free, attempt.input.target(), attempt.monitor,
+               {.add_points = attempt.options.add_points, .remove = remove, .seed = attempt.seed});
+  report.optimised = {stats.exchanged + stats.unflattened + stats.reconnected, stats.relocated,
+                      stats.inserted};
+  if (stats.changed > 0) find_regions_again(box.mesh, attempt.complex().facets, division.regions);
+}
+
+// Returns the worst energy that is left.
+double improve_field(const Attempt& attempt, Field& field, Report::Field& report) {
+  const Threads& threads = attempt.threads;
+  report.before =
+      describe_shape(field.parts ? shape_of(*field.parts, threads) : shape_of(field.volume(), threads));
+  std::optional<FilledParts> filled;
+  if (field.parts) filled.emplace(FilledParts{std::move(field.parts), field.size_function()});
+  const ImproveStats stats =
+      improve_in_parts(field.volume(), std::move(filled), attempt.options.effort, threads, attempt.monitor);
+  report.edge_lengths = edge_lengths_of(field.volume(), threads);
+  report.moves = stats.moved;
+  report.swaps = stats.swapped;
+  report.contractions = stats.contracted;
+  report.insertions = stats.inserted;
+  report.points += stats.filled_in;
+  report.stopped_early |= stats.filling_stopped_early;
+  return stats.worst;
+}
+
+}  // namespace
+
+Field::Field(const Attempt& attempt, BoxMesh& box, Division& division)
+    : box_(box),
+      division_(division),
+      seed_(attempt.seed),
+      asks_for_metric_(attempt.options.sizes && attempt.options.sizes->metric),
+      size_function_(polling(attempt.input.sizes(), attempt.monitor), attempt.options.regions,
+                     attempt.complex(), attempt.input.table(), division.kept, box.scale) {}
+
+VolumeData Field::volume() {
+  return {box_.mesh,
+          division_.regions.of_tet,
+          sizes_,
+          division_.kept.region,
+          box_.first_free,
+          nullptr,
+          asks_for_metric_ ? &metrics_ : nullptr,
+          seed_};
+}
+
+std::unique_ptr<Field> add_field_points(const Attempt& attempt, BoxMesh& box, Division& division,
+                                        Report::Field& report) {
+  if (box.mesh.exact_vertex_count() > 0 && !is_explicit(box.mesh, division.tets(box.mesh))) return nullptr;
+  auto field = std::make_unique<Field>(attempt, box, division);
+  const SizeFunction& sizes = field->size_function();
+  const std::size_t before = box.mesh.vertex_count();
+  FieldPoints added = add_field_points(field->volume(), sizes, attempt.threads, attempt.monitor);
+  field->parts = std::move(added.parts);
+  report.stopped_early = added.stopped_early;
+  const bool improves = attempt.options.optimise && attempt.last_stage() == Stage::optimise;
+  if (!improves)
+    report.stopped_early |= join_filled(std::move(field->parts), sizes, attempt.threads, attempt.monitor);
+  report.points = box.mesh.vertex_count() - before + (field->parts ? field->parts->new_vertices() : 0);
+  return field;
+}
+
+void improve_elements(const Attempt& attempt, BoxMesh& box, Division& division, Field* field,
+                      Report& report) {
+  if (!attempt.options.optimise) return;
+  if (field == nullptr) {
+    const std::vector<Tet> tets = division.tets(box.mesh);
+    if (is_explicit(box.mesh, tets))
+      optimise_worst_of(attempt, box, division, tets, PointsToRemove::all, report);
+    return;
+  }
+  const double worst = improve_field(attempt, *field, report.field);
+  // Flat ones are told from others in space; in a metric they may be as they should be.
+  if (worst <= kEnergyOfFlat || field->has_metric()) return;
+  // Long thin facets may leave flat elements: what the other optimisation is made for.
+  std::vector<Tet> flat = division.tets(box.mesh);
+  std::erase_if(flat, [&](Tet t) {
+    const TetMesh& mesh = box.mesh;
+    const auto& v = mesh.corners(t);
+    return !is_flat(mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2]), mesh.position(v[3]));
+  });
+  if (!flat.empty()) optimise_worst_of(attempt, box, division, flat, PointsToRemove::added_here, report);
+}
+
+}  // namespace holdfast

@@ -1,0 +1,46 @@
+// The steps of a call inside the kept regions: field points and better elements (paper §7, §8).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "api/boundary.h"
+#include "refine/parts.h"
+#include "refine/volume_data.h"
+#include "size/size_function.h"
+
+namespace holdfast {
+
+/// Kept regions with field points. The mesh and its division are those of the call, and must outlive it.
+class Field {
+ public:
+  Field(const Attempt& attempt, BoxMesh& box, Division& division);
+  Field(const Field&) = delete;  // its parts refer to its sizes
+  Field& operator=(const Field&) = delete;
+
+  [[nodiscard]] VolumeData volume();
+  /// As long as a large mesh is in parts, for its improvement to go on with; else null.
+  std::unique_ptr<Parts> parts;
+  [[nodiscard]] const SizeFunction& size_function() const { return size_function_; }
+  [[nodiscard]] bool has_metric() const { return !metrics_.empty(); }
+
+ private:
+  BoxMesh& box_;
+  Division& division_;
+  const std::uint64_t seed_;
+  const bool asks_for_metric_;
+  SizeFunction size_function_;
+  std::vector<double> sizes_;    // by vertex
+  std::vector<Metric> metrics_;  // by vertex; empty without a metric of the user
+};
+
+/// Adds points until edges have the sizes asked for. Null if some vertex inside has no doubles: then the
+/// attempt has failed already.
+[[nodiscard]] std::unique_ptr<Field> add_field_points(const Attempt& attempt, BoxMesh& box,
+                                                      Division& division, Report::Field& report);
+
+/// Improves the elements of the kept regions; `field` is null without field points.
+void improve_elements(const Attempt& attempt, BoxMesh& box, Division& division, Field* field, Report& report);
+
+}  // namespace holdfast
