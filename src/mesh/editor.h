@@ -1,23 +1,25 @@
 // The one way to change the mesh: TetMesh gives its mutators to nobody else.
 //
-// Every operation is planned, checked and applied. The plan is pure: it works out each new tetrahedron with
-// its neighbours and constraint bits while the mesh is whole. The check is the planner's, and exact: where it
-// throws, the mesh is unchanged. apply() cannot fail; in builds with HOLDFAST_VALIDATE it ends with the
-// validator.
+// Every operation is planned, checked and applied.
+//   plan     is pure: while the mesh is whole it works out each new tetrahedron, with its neighbours and its
+//            constraint bits (change.h).
+//   check    The caller knows from exact signs that the new tetrahedra are positive. The plan of any
+//            cavity also matches all faces, and throws with the mesh unchanged where they do not fit.
+//   apply    cannot fail. In builds with HOLDFAST_VALIDATE it ends with the validator.
 //
-// The general plan is that of any cavity. Three kinds of cavity are so frequent that they have shorter plans,
-// which match no faces since all neighbours are known beforehand:
+// Three kinds of cavity are so frequent that they have shorter plans, which match no faces since all
+// neighbours are known beforehand. They leave the mesh that `replace` would leave, slot by slot:
 //   replace          any cavity                                             cavity_plan.h
 //   replace_shell    shell: the tetrahedra round an edge, without it        shell_plan.h
 //   swap_face        face: two tetrahedra become three, round a new edge    face_plan.h
 //   apply            star: a point and the faces that it sees               refine/point_cavity.h
-// All four leave the same mesh, slot by slot, as the tests check.
 #pragma once
 
 #include <array>
 #include <cassert>
 #include <span>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "mesh/cavity_plan.h"
@@ -53,9 +55,9 @@ class MeshEditor {
   void remove_last_vertex() { mesh_.remove_last_vertex(); }
 
   // --- tetrahedra
-  /// Throws std::logic_error, with the mesh unchanged, if the outer faces do not match. `created`, where
-  /// given, receives the new tetrahedra in order. Vertices that lose their last tetrahedron have
-  /// incident() == kNone afterwards.
+  /// Replaces a cavity. Throws std::logic_error, with the mesh unchanged, if the outer faces do not match.
+  /// `created`, where given, receives the new tetrahedra in order. Vertices that lose their last tetrahedron
+  /// have incident() == kNone afterwards.
   void replace(const Replacement& replacement, std::vector<Tet>* created = nullptr);
   /// Replaces the shell of an edge by the tetrahedra of its triangulated link, all positive. `created`, where
   /// given, receives the new ones in the order of tetrahedra_of. No segment and no facet may be lost: the
@@ -74,8 +76,8 @@ class MeshEditor {
   void move_vertex(Vertex v, const Position& place) {
     std::visit([&](const auto& p) { move(v, p); }, place);
   }
-  /// Moves a vertex and asks `is_right()` about the mesh as it is then; puts it back where that is false.
-  /// `ball` is that of the vertex.
+  /// Moves an explicit vertex and asks `is_right()` about the mesh as it is then; puts it back where that is
+  /// false. `ball` is that of the vertex.
   template <typename Check>
   bool move_if(Vertex v, const Point& p, std::span<const Tet> ball, Check&& is_right) {
     const Point before = mesh_.position(v);
