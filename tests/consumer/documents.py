@@ -1,4 +1,4 @@
-"""Compiles and runs the programs in docs/library.md, against a shared library.
+"""Compiles and runs the programs in the documents, against a shared library.
 
     documents.py SOURCE CXX CC LIBRARY FOLDER
 
@@ -42,11 +42,14 @@ def main(source, cxx, cc, library, folder):
     surface = folder / "cube.off"
     surface.write_text(CUBE)
     libraries = Path(library).parent
-    text = (Path(source) / "docs/library.md").read_text()
-    programs = [(kind, code) for kind, code in re.findall(r"^```(cpp|c)\n(.*?)^```", text, flags=re.S | re.M) if "main(" in code]
-    kinds = [kind for kind, _ in programs]
-    if kinds.count("cpp") < 1 or kinds.count("c") < 1:
-        sys.exit("docs/library.md has no program in C++ or none in C")
+    programs = []
+    for document in ("README.md", "docs/library.md", "docs/tutorial.md"):
+        text = (Path(source) / document).read_text()
+        found = [(kind, code) for kind, code in re.findall(r"^```(cpp|c)\n(.*?)^```", text, flags=re.S | re.M)
+                 if "main(" in code]
+        if {kind for kind, _ in found} != {"cpp", "c"}:
+            sys.exit(f"{document} has no program in C++ or none in C")
+        programs += found
     for number, (kind, code) in enumerate(programs):
         file = folder / f"program{number}.{kind}"
         file.write_text(code)
