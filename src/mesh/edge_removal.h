@@ -33,6 +33,29 @@ struct EdgeShell {
   [[nodiscard]] std::size_t size() const { return link.size(); }
 };
 
+/// Gathers the tetrahedra round edge ab, of any mesh that has `corners` and `index_of`, from t on. Beyond the
+/// face opposite corner i of one comes `across(t, i)`; where that is kNone, or there are more than `most`, it
+/// returns false, with `out` unspecified.
+template <typename Mesh, typename Across>
+bool gather_round(const Mesh& mesh, Tet t, Vertex a, Vertex b, EdgeShell& out, std::size_t most,
+                  Across&& across) {
+  out.a = a;
+  out.b = b;
+  out.tets.clear();
+  out.link.clear();
+  const Tet start = t;
+  do {
+    if (out.tets.size() == most) return false;
+    const int c = kOpposite[static_cast<std::size_t>(mesh.index_of(t, a))]
+                           [static_cast<std::size_t>(mesh.index_of(t, b))][0];
+    out.tets.push_back(t);
+    out.link.push_back(mesh.corners(t)[static_cast<std::size_t>(c)]);
+    t = across(t, c);
+    if (t == kNone) return false;
+  } while (t != start);
+  return true;
+}
+
 /// Gathers the shell of edge ab of tetrahedron t. Returns false, with `out` unspecified, where the edge
 /// is on the hull or has more than `most` tetrahedra.
 bool gather_shell(const TetMesh& mesh, Tet t, Vertex a, Vertex b, EdgeShell& out,

@@ -29,10 +29,10 @@ struct OptimiseOptions {
   std::uint64_t seed = 1;  ///< of the random orders
 };
 
-/// Improves the worst of `tets`, which are all of some regions and whose vertices are explicit. Facets and
-/// segments stand, and so do the vertices below `first_free`; the Steiner points, the vertices from there on,
-/// lie on no constraint: they may move, and go where they are in the way. `target` is the worst Q that the
-/// facets ask for (mesh/quality.h).
+/// Improves the worst of `tets`; others of their regions may go for them, and all vertices of these are
+/// explicit. Facets and segments stand, and so do the vertices below `first_free`; the Steiner points, the
+/// vertices from there on, lie on no constraint: they may move, and go where they are in the way. `target` is
+/// the worst Q that the facets ask for (mesh/quality.h).
 OptimiseStats optimise(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, double target,
                        Monitor& monitor, const OptimiseOptions& options = {});
 

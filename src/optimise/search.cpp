@@ -24,7 +24,7 @@ std::vector<Vertex> free_vertices(const TetMesh& mesh, const std::vector<Tet>& t
   return points;
 }
 
-// Tetrahedra give way to others of the same region, so that a slot that was not another region's never is.
+// The slots that hold other tetrahedra than those that are to be better.
 std::vector<bool> slots_of_others(const TetMesh& mesh, const std::vector<Tet>& tets) {
   std::vector<bool> others(mesh.slot_count());
   for (Tet t = 0; t < mesh.slot_count(); ++t) others[t] = mesh.alive(t);
@@ -48,10 +48,10 @@ Search::Search(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, d
       points_(free_vertices(mesh, tets, first_free)) {}
 
 void Search::move_points() {
-  changed_.clear();
+  std::vector<Tet> changed;
   for (const Vertex p : points_)
-    if (!budget_.is_half_spent() && ways_.move(p, budget_, changed_)) ++stats_.relocated;
-  stats_.changed += changed_.size();
+    if (!budget_.is_half_spent() && ways_.move(p, budget_, changed)) ++stats_.relocated;
+  stats_.changed += changed.size();
 }
 
 void Search::push(std::span<const Tet> tets) {
@@ -82,8 +82,8 @@ void Search::work_off(Ways::Points points) {
 
 void Search::improve(const WaitingElement& e, Ways::Points points) {
   monitor_.poll(Stage::optimise, budget_.fraction());
-  changed_.clear();
-  Ways::Attempt attempt{e, agenda_.worst_stuck(), points, budget_, changed_};
+  std::vector<Tet> changed;
+  Ways::Attempt attempt{e, agenda_.worst_stuck(), points, budget_, changed};
   if (std::size_t OptimiseStats::*const way = ways_.try_all(attempt)) {
     ++(stats_.*way);
     budget_.note_gain();
@@ -92,9 +92,9 @@ void Search::improve(const WaitingElement& e, Ways::Points points) {
   }
   if (attempt.added != kNone) points_.push_back(attempt.added);
   // What did not help may have changed something, too.
-  stats_.changed += changed_.size();
-  qualities_.forget(changed_);
-  push(changed_);
+  stats_.changed += changed.size();
+  qualities_.forget(changed);
+  push(changed);
 }
 
 std::size_t Search::points_in_mesh() const {

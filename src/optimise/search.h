@@ -16,7 +16,8 @@ namespace holdfast {
 /// Every element of the regions whose Q is to be better waits in the agenda, has been given up, or is gone.
 class Search {
  public:
-  /// The tetrahedra are all of some regions; their vertices from `first_free` on may move and go.
+  /// The tetrahedra are to be better; others of their regions may go for them. Vertices from `first_free` on
+  /// may move and go.
   Search(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, double target, std::uint64_t seed,
          Monitor& monitor);
 
@@ -58,7 +59,7 @@ class Search {
   /// All points that may move, and some that are gone.
   [[nodiscard]] const std::vector<Vertex>& points() const { return points_; }
   [[nodiscard]] std::size_t points_in_mesh() const;
-  /// Whether a slot holds a tetrahedron of the regions, or a dead one.
+  /// Whether a slot was, to begin with, one of those that are to be better, or dead.
   [[nodiscard]] bool is_ours(Tet t) const { return t >= is_others_.size() || !is_others_[t]; }
   [[nodiscard]] bool is_current(const WaitingElement& e);
   [[nodiscard]] Badness badness() const;
@@ -80,7 +81,6 @@ class Search {
   Budget budget_;
   std::vector<Vertex> points_;
   OptimiseStats stats_;
-  std::vector<Tet> changed_;
 };
 
 }  // namespace holdfast

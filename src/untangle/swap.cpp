@@ -12,21 +12,11 @@ namespace {
 // The shell of edge ab where it is a closed ring within a region, without constraints; else nothing.
 bool gather_ring(const Tangle& tangle, Tet first, Vertex a, Vertex b, EdgeShell& out) {
   if (tangle.is_segment(a, b)) return false;
-  out.a = a;
-  out.b = b;
-  out.tets.clear();
-  out.link.clear();
-  Tet t = first;
-  do {
-    if (t == kNone || out.tets.size() == kMostLink || tangle.region(t) != tangle.region(first)) return false;
-    const auto& cd = kOpposite[static_cast<std::size_t>(tangle.index_of(t, a))]
-                              [static_cast<std::size_t>(tangle.index_of(t, b))];
-    out.tets.push_back(t);
-    out.link.push_back(tangle.corners(t)[static_cast<std::size_t>(cd[0])]);
-    if (tangle.is_constraint(tangle.face(t, cd[0]))) return false;
-    t = tangle.across(t, cd[0]);
-  } while (t != first);
-  return true;
+  return gather_round(tangle, first, a, b, out, kMostLink, [&](Tet t, int i) {
+    if (tangle.is_constraint(tangle.face(t, i))) return kNone;
+    const Tet next = tangle.across(t, i);
+    return next != kNone && tangle.region(next) == tangle.region(first) ? next : kNone;
+  });
 }
 
 // The best triangulation of a ring's link by the deficit of the tetrahedra.
