@@ -62,8 +62,8 @@ struct Sizes {
 /// How long to improve the elements with field points: each is some times slower than the one before.
 enum class Effort { fast, good, best };
 
-/// What a running call tells, and may be told. Stages come in order, but that validation goes on after
-/// Delaunay, and that another attempt, where one is needed, begins with Delaunay.
+/// Progress of a running call. Stages come in order, with two exceptions: validation goes on after Delaunay,
+/// and another attempt, if one is needed, begins with Delaunay again.
 struct Progress {
   Stage stage;
   double fraction;  ///< of this stage, 0 to 1
@@ -75,9 +75,8 @@ struct Progress {
 struct Options : Limits {
   bool flips = true;     ///< recover by flips before partition; without, partition does all the work
   bool optimise = true;  ///< better elements by exchanges and moves of Steiner points, after all else
-  /// And by a few points, where an element stays flat without. If not, elements may be as flat as the
-  /// surface's vertices and the points that it forces make them. Field points, for `sizes`, do not depend on
-  /// this.
+  /// Also add a few points for elements that are flat otherwise. If false, elements may be as flat as the
+  /// surface's vertices and the forced points make them. Field points, for `sizes`, do not depend on this.
   bool add_points = true;
   /// With sizes, field points are added, and the whole volume is made fit to compute with. Without, only the
   /// points that the surface forces are added.
@@ -130,8 +129,8 @@ struct Report {
     std::array<std::size_t, 10> quality{};         ///< by Q, in bins that end where quality_bins says
   };
   static constexpr std::array<double, 9> quality_bins{1.25, 1.5, 2, 3, 5, 10, 30, 100, 1000};
-  /// An element with an angle below 10 degrees that facets ask for: two of its faces, or one with a small
-  /// angle, or two that meet so at the edge where the angle is.
+  /// An element with an angle below 10 degrees that facets force: two facets that meet at that angle, or
+  /// faces of the element that have such an angle themselves.
   struct Forced {
     Index tetrahedron;
     double min_dihedral_deg;
@@ -145,17 +144,18 @@ struct Report {
     /// 1/8, the last without end; an edge counts once for each element.
     std::array<std::size_t, 24> edge_lengths{};
     std::size_t moves = 0, swaps = 0, contractions = 0, insertions = 0;  ///< of the optimisation
-    /// Elements with such an angle; those that facets ask for; and of the others, those whose corners are all
-    /// the surface's: its triangles are larger than it is thick there. Not looked for with a metric.
+    /// Elements with an angle below 10 degrees; those of them that facets force; and of the others, those
+    /// whose corners all belong to the surface, which is thinner there than its triangles are long. Not
+    /// looked for with a metric.
     std::size_t below_10_deg = 0, forced = 0, across = 0;
-    bool stopped_early = false;        ///< too much was tried in vain: edges may be longer than was asked for
+    bool stopped_early = false;        ///< too much was tried in vain: edges may be longer than wanted
     std::vector<Forced> worst_forced;  ///< the worst of these, at most 100
   } field;
   std::size_t vertices = 0, tetrahedra = 0, regions = 0;
   /// The rule by which regions were kept: never Keep::automatic once they were chosen.
   Keep keep = Keep::automatic;
   /// If Keep::automatic found no winding numbers and kept every bounded region: facets that are turned
-  /// against those round them, or, where there are none, two (an interface's, say) that leave no such
+  /// against those round them. If there are none, two facets (of an interface, say) that rule out winding
   /// numbers.
   std::vector<Index> turned_facets;
   std::size_t attempts = 0;  ///< with other random orders; all but the last found no doubles for some point
@@ -209,7 +209,7 @@ struct Result {
   std::vector<Warning> warnings;  ///< where the outcome is done or not_representable
   /// What `vertex_map` gives for the complex; with a volume only.
   std::vector<std::int64_t> vertex_map;
-  /// If `Options::neighbours` asks for them: what `neighbours` gives for the volume's tetrahedra.
+  /// If `Options::neighbours` is set: what `neighbours` gives for the volume's tetrahedra.
   std::vector<Neighbours> neighbours;
   std::vector<ExactVertex> exact_vertices;  ///< for not_representable
   std::string message;                      ///< one sentence when the outcome is not done

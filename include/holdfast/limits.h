@@ -36,7 +36,7 @@ class CancelToken {
   std::shared_ptr<std::atomic<bool>> state_ = std::make_shared<std::atomic<bool>>(false);
 };
 
-/// When a call ends before it is done. What it asks for is looked at every 50 ms at most.
+/// Limits that end a call early. They are checked every 50 ms, or more often.
 struct Limits {
   double time_limit = 0;  ///< seconds; 0: none
   /// When the time limit began to run, if not with the call.

@@ -48,7 +48,7 @@ enum class RemarkKind : int {
   not_held = 4,      ///< something that a format has no place for, when a file is written
 };
 
-/// Something that is not in a file, or not in what was read from it, as it stood on the other side.
+/// Something that a reader or a writer did not carry over as it was.
 struct Remark {
   RemarkKind kind;
   std::size_t count;    ///< of the entities or values concerned

@@ -1,4 +1,4 @@
-// Elements with a small angle that facets ask for.
+// Elements with a small angle that facets force.
 #pragma once
 
 #include "holdfast/holdfast.h"

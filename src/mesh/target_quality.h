@@ -1,4 +1,4 @@
-// The best Q (quality.h) that a mesh can have on given triangles: what facets ask for, whatever the mesh.
+// The best Q (quality.h) that a mesh can have on given triangles: what facets force, whatever the mesh.
 #pragma once
 
 #include <span>

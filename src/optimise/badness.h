@@ -16,7 +16,7 @@ namespace holdfast {
 /// The paper's Q of the doubles nearest to four vertices (mesh/quality.h): 1 is regular, more is worse.
 [[nodiscard]] double quality_of(const TetMesh& mesh, const TetMesh::Corners& corners);
 
-/// Where Q begins to count otherwise: of flat tetrahedra, those of a Q that no facet asks for, of hopeless
+/// Where Q begins to count otherwise: of flat tetrahedra, those of a Q that no facet forces, of hopeless
 /// ones, which are worth a point, and of null ones, whose vertices are of one plane but for rounding.
 struct BadFrom {
   double flat, hopeless = std::numeric_limits<double>::infinity(),

@@ -24,7 +24,7 @@ struct OptimiseStats {
 enum class PointsToRemove { all, added_here };
 
 struct OptimiseOptions {
-  bool add_points = true;  ///< a few, where a tetrahedron stays flat without
+  bool add_points = true;  ///< a few, for tetrahedra that are flat otherwise
   PointsToRemove remove = PointsToRemove::all;
   std::uint64_t seed = 1;  ///< of the random orders
 };

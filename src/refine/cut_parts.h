@@ -11,7 +11,7 @@
 namespace holdfast {
 
 /// These tetrahedra in the parts that the cuts make of them. None where more than the share `most_at_cuts` of
-/// them would be at interfaces, as if there are vertices at which half of the mesh is.
+/// them would be at interfaces, as with a vertex that half of the tetrahedra have.
 [[nodiscard]] std::unique_ptr<Parts> cut_into_parts(const VolumeData& volume, const std::vector<Tet>& tets,
                                                     const Cuts& cuts, double most_at_cuts,
                                                     const Threads& threads);
