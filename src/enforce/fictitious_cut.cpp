@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "enforce/partition_segment.h"
+#include "enforce/tuning.h"
 #include "exact/rounding.h"
 #include "exact/volume.h"
 #include "mesh/editor.h"
@@ -153,8 +154,7 @@ class CutMaker {
   // the cuts there are lie in the directions of their vertices: so any gap will do. Of the widest the one
   // whose half-planes cross the fewest link edges, the more even angle on a tie.
   HalfPlane choose_half_plane() {
-    constexpr std::size_t kWanted = 12;
-    const std::vector<Edge> gaps = widest_gaps(kWanted);
+    const std::vector<Edge> gaps = widest_gaps(tuning::kMostGaps);
     std::optional<HalfPlane> best;
     double best_closeness = 0;
     for (const Edge& gap : gaps) {

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "enforce/tuning.h"
 #include "exact/rounding.h"
 #include "exact/volume.h"
 #include "mesh/editor.h"
@@ -60,8 +61,7 @@ void split_edge(TetMesh& mesh, const Plane& plane, Vertex above, Vertex below) {
       kernel.add(f[0], f[1], f[2]);
     }
   const Plane::Crossing crossing = plane.crossing(mesh.exact_position(above), mesh.exact_position(below));
-  constexpr int kFirstBits = 26;  // well inside an ordinary kernel, and still short
-  for (int bits = kFirstBits;; bits *= 2) {
+  for (int bits = tuning::kFirstBits;; bits *= 2) {
     const Vertex p = MeshEditor(mesh).add_vertex(plane.near(crossing, bits));
     if (!kernel.holds(mesh.point(p))) {
       MeshEditor(mesh).remove_last_vertex();

@@ -1,0 +1,53 @@
+// The way that always leads to a missing constraint: its partition (paper §5), and the elimination of its
+// points (paper §6).
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "enforce/facet_section.h"
+#include "enforce/steiner_points.h"
+#include "mesh/tet_mesh.h"
+#include "numbers/random.h"
+#include "surface/complex.h"
+
+namespace holdfast {
+
+/// The constraints that are laid are unions of mesh edges and faces, with their bits set: single ones if
+/// points are eliminated. All segments must come before the first facet.
+class Partition {
+ public:
+  /// All that is referred to must outlive the partition. `tell` is called now and then, and may throw.
+  Partition(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets, Vertex first_free,
+            Random& random, const std::function<void()>& tell)
+      : mesh_(mesh),
+        table_(table),
+        facets_(facets),
+        first_free_(first_free),
+        random_(random),
+        tell_(tell),
+        chains_(table.segments.size()) {}
+
+  /// Puts points where the mesh crosses a segment. Returns how many.
+  std::size_t cut_segment(Index s);
+  /// The same for a facet, whose inner points are then in `inner`.
+  std::size_t cut_facet(Index f, std::vector<Vertex>& inner);
+  /// Takes the points of a segment's partition off it. It is one edge then.
+  void eliminate_from_segment(Index s, SteinerPoints& steiner);
+  /// The same for those inside a facet. It is one face then.
+  void eliminate_from_facet(std::vector<Vertex> inner, SteinerPoints& steiner);
+
+ private:
+  [[nodiscard]] FacetFrame frame_of(Index f) const;
+
+  TetMesh& mesh_;
+  const SegmentTable& table_;
+  std::span<const Triangle> facets_;
+  const Vertex first_free_;
+  Random& random_;
+  const std::function<void()>& tell_;
+  std::vector<std::vector<Vertex>> chains_;  // by segment; empty where it is one edge
+};
+
+}  // namespace holdfast
