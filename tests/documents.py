@@ -75,6 +75,9 @@ def outside_texts(root):
             if path.suffix not in {".h", ".cpp", ".c", ".py", ".md", ".txt", ".cmake", ".sh", ".in"}:
                 continue
             text = path.read_text(errors="replace")
+            for cited in sorted(set(re.findall(r"(?<![\w/.])docs/[\w/-]+\.md", text))):
+                if path.suffix != ".md" and path.name != "documents.py" and not (root / cited).exists():
+                    yield f"{path.relative_to(root)}: no document {cited}"
             for pattern in OUTSIDE:
                 if pattern.search(text):
                     yield f"{path.relative_to(root)}: cites a text outside of the repository: {pattern.search(text).group()}"
@@ -150,6 +153,9 @@ def selftest():
             if len(told()) != 1 or fault not in told()[0]:
                 sys.exit(f"{text}: not told as '{fault}' but {told()}")
         readme.write_text(right)
+        (root / "src/a.h").write_text("// docs/none.md\n")
+        if len(told()) != 1:
+            sys.exit("a document that is not there is not found")
         (root / "src/a.h").write_text("// (design" + " §2)\n")
         if len(told()) != 1:
             sys.exit("a text outside is not found")
