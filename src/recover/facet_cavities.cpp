@@ -17,6 +17,7 @@
 #include "recover/insert_vertex.h"
 #include "recover/recover.h"
 #include "recover/standing.h"
+#include "recover/tuning.h"
 #include "surface/complex.h"
 
 namespace holdfast {
@@ -79,7 +80,8 @@ class Cavity {
     const auto first_free = static_cast<Vertex>(mesh.vertex_count());
     tell();
     Standing standing = mark_present(mesh, table);
-    FlipRecovery(mesh, table, local.facets, standing, seed).run([&](double) { tell(); }, kPasses);
+    FlipRecovery(mesh, table, local.facets, standing, seed)
+        .run([&](double) { tell(); }, tuning::kCavityPasses);
     const auto all_stands = [&] { return standing.missing_facets() + standing.missing_segments() == 0; };
     if (!all_stands() && finish) finish(mesh, table, local.facets, standing, first_free);
     if (all_stands()) return inside_of(mesh, first_free, seed);
@@ -89,9 +91,6 @@ class Cavity {
   }
 
  private:
-  static constexpr int kPasses = 8;
-  static constexpr double kMargin = 0.5, kDeepest = 1e6;
-
   struct Outer {
     FaceCorners corners;
     Face across;
@@ -145,7 +144,7 @@ class Cavity {
   [[nodiscard]] std::vector<Point> far_points(const Local& local) const {
     const Triangle& f = local.facets.front();
     const std::array<Point, 3> p{local.points[f[0]], local.points[f[1]], local.points[f[2]]};
-    const std::array<Point, 8> corners = box_corners(local.points, kMargin);
+    const std::array<Point, 8> corners = box_corners(local.points, tuning::kCavityMargin);
     std::vector<Point> out;
     for (const Point& corner : corners)
       if (exact::orient3d(p[0].data(), p[1].data(), p[2].data(), corner.data()) > 0) out.push_back(corner);
@@ -157,7 +156,7 @@ class Cavity {
       const double height = dot(q - p[0], n) / area;
       if (height > 0) lowest = std::min(lowest, height);
     }
-    const double depth = std::clamp(extent * extent / lowest, extent, kDeepest * extent);
+    const double depth = std::clamp(extent * extent / lowest, extent, tuning::kDeepest * extent);
     Point below{};
     for (std::size_t k = 0; k < 3; ++k) below[k] = (p[0][k] + p[1][k] + p[2][k]) / 3 - depth / area * n[k];
     out.push_back(below);
@@ -284,9 +283,9 @@ class Pair {
     Filling all;
     for (Cavity& half : halves_) {
       std::optional<Filling> filling;
-      for (int round = 0; round <= kMostGrowth; ++round) {
+      for (int round = 0; round <= tuning::kMostGrowth; ++round) {
         filling = half.fill(seed, finish, tell);
-        if (filling || round == kMostGrowth || !half.grow(taken_)) break;
+        if (filling || round == tuning::kMostGrowth || !half.grow(taken_)) break;
       }
       if (!filling) return std::nullopt;
       all.append(*filling);
@@ -301,8 +300,6 @@ class Pair {
   }
 
  private:
-  static constexpr int kMostGrowth = 2;
-
   // A face with vertices on both sides lies inside the cavity, since it crosses the facet.
   void split_face(Face f, const std::array<int, 4>& signs) {
     bool above = false, below = false;

@@ -4,6 +4,7 @@
 
 #include "mesh/editor.h"
 #include "numbers/random.h"
+#include "recover/tuning.h"
 
 namespace holdfast {
 
@@ -124,7 +125,7 @@ bool Flipper::may_try(Tet t, Vertex a, Vertex b, int depth) {
 
 bool Flipper::gather(Tet t, Vertex a, Vertex b, Vertex avoided, Level& level) {
   EdgeShell& shell = level.shell;
-  if (!gather_shell(mesh_, t, a, b, shell, avoided == kNone ? kMostClipped : kMostLink)) return false;
+  if (!gather_shell(mesh_, t, a, b, shell, avoided == kNone ? tuning::kMostClipped : kMostLink)) return false;
   if (lies_in_facet(shell)) return false;
   if (shell.size() > kMostLink && !clip_ears(shell)) return false;
   list_ears(level);

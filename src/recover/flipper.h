@@ -72,7 +72,6 @@ class Flipper {
   };
   class ForTarget;
   friend EdgeClearing<Flipper>;
-  static constexpr std::size_t kMostClipped = 1000;  // of a shell whose ears are clipped
 
   void begin(int depth, std::size_t budget, int most_change);
   bool flip_face(const Crossing& face);

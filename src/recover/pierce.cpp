@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesh/traverse.h"
+#include "recover/tuning.h"
 
 namespace holdfast {
 namespace {
@@ -48,10 +49,9 @@ Piercing::Exit Piercing::leave_by_face(Tet t, Vertex a, const std::array<int, 3>
 // A visibility walk in the star of a, at random among the sides that it may cross (Devillers, Pion,
 // Teillaud 2002); the ball as a whole where the walk meets the hull or takes too long.
 Piercing::Exit Piercing::leave_vertex(Vertex a, Vertex b) {
-  constexpr int kMostSteps = 400;
   Tet t = mesh_.incident(a);
   if (t == kNone) return {};
-  for (int step = 0; step < kMostSteps && !mesh_.is_ghost(t); ++step) {
+  for (int step = 0; step < tuning::kMostWalk && !mesh_.is_ghost(t); ++step) {
     const int i = mesh_.index_of(t, a);
     const auto f = mesh_.face_vertices(face_code(t, i));
     const auto signs = cone_signs(f, a, b);

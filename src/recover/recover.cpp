@@ -7,22 +7,9 @@
 #include "mesh/editor.h"
 #include "mesh/traverse.h"
 #include "numbers/random.h"
+#include "recover/tuning.h"
 
 namespace holdfast {
-namespace {
-
-// Pass after pass goes twice as deep, with little work for each entity: what one attempt does not reach, the
-// next may, from the mesh that the attempts for others have left meanwhile.
-constexpr int kMostIdlePasses = 3;
-constexpr std::size_t kIdle = 20;           // a pass that recovers less than one in so many
-constexpr std::size_t kBudget = 500;        // of an attempt at a crossing in a pass
-constexpr std::size_t kMostFailures = 100;  // at the crossings of one facet
-constexpr std::size_t kMostCrossings = 2000;
-constexpr std::size_t kMostEdges =
-    200;  // that pierce a facet: with more, its cavities cost less (facet_cavities.h)
-
-}  // namespace
-
 FlipRecovery::FlipRecovery(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets,
                            Standing& standing, std::uint64_t seed)
     : mesh_(mesh),
@@ -49,6 +36,7 @@ FlipStats FlipRecovery::run(const Tell& tell, int most_passes) {
   return stats;
 }
 
+// Pass after pass goes twice as deep, with little work for each entity.
 template <typename Attempt>
 void FlipRecovery::pass_over(std::vector<std::uint8_t>& stands, int most_passes, Attempt attempt,
                              const Tell& tell) {
@@ -56,15 +44,15 @@ void FlipRecovery::pass_over(std::vector<std::uint8_t>& stands, int most_passes,
   for (Index k = 0; k < stands.size(); ++k)
     if (stands[k] == 0) missing.push_back(k);
   int depth = 1, idle = 0;
-  for (int pass = 1; pass <= most_passes && idle < kMostIdlePasses && !missing.empty(); ++pass) {
+  for (int pass = 1; pass <= most_passes && idle < tuning::kMostIdlePasses && !missing.empty(); ++pass) {
     const std::size_t before = missing.size(), work_before = flipper_.all_work();
     shuffle_in_blocks(missing);
     std::erase_if(missing, [&](Index k) {
       tell(static_cast<double>(pass) / most_passes);
-      return attempt(k, {depth, kBudget, false});
+      return attempt(k, {depth, tuning::kPassBudget, false});
     });
     if (flipper_.all_work() == work_before) return;  // nothing is left that flips are tried for
-    idle = kIdle * (before - missing.size()) > before ? 0 : idle + 1;
+    idle = tuning::kIdlePass * (before - missing.size()) > before ? 0 : idle + 1;
     depth = std::min(2 * depth, Flipper::kDeep);
   }
 }
@@ -72,7 +60,7 @@ void FlipRecovery::pass_over(std::vector<std::uint8_t>& stands, int most_passes,
 // In random order, since an attempt stands a better chance where others have changed the mesh meanwhile; in
 // blocks, since numbers that are close are mostly close in space, so that the mesh there is in the caches.
 void FlipRecovery::shuffle_in_blocks(std::vector<Index>& missing) {
-  constexpr std::ptrdiff_t kBlock = 1000;
+  constexpr std::ptrdiff_t kBlock = tuning::kShuffledBlock;
   std::sort(missing.begin(), missing.end());
   for (auto first = missing.begin(); first != missing.end();) {
     const auto last = first + std::min(kBlock, missing.end() - first);
@@ -112,7 +100,7 @@ bool FlipRecovery::segment(Index s, const Effort& effort) {
 // Whether one of the crossings could be cleared, in random order.
 bool FlipRecovery::clear_between(Vertex a, Vertex b, const Effort& effort) {
   crossings_.clear();
-  piercing_.by_segment(a, b, crossings_, kMostCrossings);
+  piercing_.by_segment(a, b, crossings_, tuning::kMostCrossings);
   numbers::shuffle(crossings_.begin(), crossings_.end(), random_);
   return std::any_of(crossings_.begin(), crossings_.end(), [&](const Crossing& c) {
     return flipper_.stands(c) && flipper_.clear(c, effort.depth, effort.budget);
@@ -127,8 +115,8 @@ bool FlipRecovery::facet(Index f, const Effort& effort) {
   for (bool gained = true; gained;) {
     gained = false;
     edges_.clear();
-    const std::optional<Face> face = piercing_.of_facet(facets_[f], edges_, kMostCrossings);
-    if (!face || edges_.size() > kMostEdges) return false;
+    const std::optional<Face> face = piercing_.of_facet(facets_[f], edges_, tuning::kMostCrossings);
+    if (!face || edges_.size() > tuning::kMostPiercing) return false;
     if (edges_.empty()) {
       if (*face == kNone) return false;
       MeshEditor(mesh_).set_facet(*face);
@@ -141,7 +129,7 @@ bool FlipRecovery::facet(Index f, const Effort& effort) {
       if (!flipper_.stands(crossing)) continue;
       const bool cleared = flipper_.clear(crossing, effort.depth, effort.budget);
       gained |= cleared;
-      if (!cleared && ++failures == kMostFailures) return false;
+      if (!cleared && ++failures == tuning::kMostFlipFailures) return false;
     }
   }
   return false;

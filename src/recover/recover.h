@@ -11,6 +11,7 @@
 #include "recover/flipper.h"
 #include "recover/pierce.h"
 #include "recover/standing.h"
+#include "recover/tuning.h"
 #include "surface/complex.h"
 
 namespace holdfast {
@@ -32,11 +33,9 @@ class FlipRecovery {
   /// What a long run calls now and then, with the part that is done; it may throw.
   using Tell = std::function<void(double)>;
 
-  static constexpr int kMostPasses = 25;
-
   /// Passes over all that is missing until the flips find no more. Where `tell` throws, the mesh and
   /// `standing` are as far as the work had come.
-  FlipStats run(const Tell& tell, int most_passes = kMostPasses);
+  FlipStats run(const Tell& tell, int most_passes = tuning::kMostFlipPasses);
 
   struct Effort {
     int depth;           ///< levels of flips

@@ -5,16 +5,14 @@
 #include "mesh/measure.h"
 #include "mesh/parallel.h"
 #include "refine/tets_inside.h"
+#include "refine/tuning.h"
 
 namespace holdfast {
 namespace {
 
-constexpr double kMostAtCuts = 0.25;
-
 Cuts cuts_of(const TetMesh& mesh, const std::vector<Tet>& tets, double least_share = 0.5) {
-  constexpr std::size_t kSamples = 1u << 13;
   std::vector<Cuts::Sample> samples;
-  for (std::size_t k = 0; k < tets.size(); k += 1 + tets.size() / kSamples)
+  for (std::size_t k = 0; k < tets.size(); k += 1 + tets.size() / tuning::kCutSamples)
     samples.push_back({centroid(mesh, tets[k]), 1});
   return {std::move(samples), levels_for(static_cast<double>(tets.size())), least_share};
 }
@@ -23,11 +21,10 @@ Cuts cuts_of(const TetMesh& mesh, const std::vector<Tet>& tets, double least_sha
 // less time than gathering balls.
 std::vector<Tet> rings_round(const VolumeData& volume, const std::vector<Vertex>& vertices,
                              const Threads& threads) {
-  constexpr int kRings = 2;
   std::vector<std::uint8_t> reached(volume.mesh.vertex_count(), 0);
   for (const Vertex v : vertices) reached[v] = 1;
   std::vector<Tet> tets;
-  for (int ring = 0; ring < kRings; ++ring) {
+  for (int ring = 0; ring < tuning::kRings; ++ring) {
     for (const Tet t : tets)
       for (const Vertex v : volume.mesh.corners(t)) reached[v] = 1;
     tets = tets_inside(volume, threads, [&](Tet t) {
@@ -56,24 +53,22 @@ std::unique_ptr<Parts> cut_evenly(const VolumeData& volume, const Threads& threa
   const std::vector<Tet> tets = tets_inside(volume, threads);
   const Cuts cuts = cuts_of(volume.mesh, tets);
   if (cuts.part_count() == 1) return {};
-  return cut_into_parts(volume, tets, cuts, kMostAtCuts, threads);
+  return cut_into_parts(volume, tets, cuts, tuning::kMostAtCuts, threads);
 }
 
 std::unique_ptr<Parts> join_and_cut_again(Parts& parts, const Threads& threads) {
-  constexpr double kMostLeft = 0.5;  // of what was cut before: so there is an end
-  // What is left lies along the planes that cut it before: where they halve it, so do these planes again, and
-  // all that lies along one would be left once more.
-  constexpr double kLeastShare = 0.25;
   const auto before = static_cast<double>(parts.tet_count());
   parts.join(threads);
   const VolumeData& volume = parts.whole();
   const std::vector<Vertex> between = parts.vertices_between();
   const std::vector<Tet> tets = rings_round(volume, between, threads);
   if (tets.empty()) return {};
+  // What is left lies along the planes that cut it before: where they halve it, so do these planes again, and
+  // all that lies along one would be left once more.
   std::unique_ptr<Parts> again;
-  if (static_cast<double>(tets.size()) < kMostLeft * before)
-    if (const Cuts cuts = cuts_of(volume.mesh, tets, kLeastShare); cuts.part_count() > 1)
-      again = cut_into_parts(volume, tets, cuts, kMostAtCuts, threads);
+  if (static_cast<double>(tets.size()) < tuning::kMostLeft * before)
+    if (const Cuts cuts = cuts_of(volume.mesh, tets, tuning::kLeastShare); cuts.part_count() > 1)
+      again = cut_into_parts(volume, tets, cuts, tuning::kMostAtCuts, threads);
   if (!again) again = cut_into_parts(volume, tets, Cuts({}, 0), 1, threads);
   again->set_cut_before(between, threads);
   return again;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "refine/tuning.h"
+
 namespace holdfast {
 namespace {
 
@@ -62,15 +64,13 @@ Cuts::Cuts(std::vector<Sample> samples, int levels, double least_share)
     : planes_((std::size_t{1} << levels) - 1) {
   if (planes_.empty()) return;
   std::vector<double> shares{0.5};
-  constexpr double kStep = 0.05;
-  for (int k = 1; 0.5 - k * kStep > least_share - kStep / 2; ++k)
-    shares.insert(shares.end(), {0.5 - k * kStep, 0.5 + k * kStep});
+  for (int k = 1; 0.5 - k * tuning::kShareStep > least_share - tuning::kShareStep / 2; ++k)
+    shares.insert(shares.end(), {0.5 - k * tuning::kShareStep, 0.5 + k * tuning::kShareStep});
   cut(samples, 0, shares);
 }
 
 void Cuts::cut(std::span<Sample> samples, std::size_t node, std::span<const double> shares) {
-  constexpr double kClose = 0.02;  // of the longest extent
-  const double margin = kClose * longest_extent(samples);
+  const double margin = tuning::kCloseToPlane * longest_extent(samples);
   Split best = split_across(0, samples, shares, margin);
   for (std::size_t axis = 1; axis < 3; ++axis)
     if (Split split = split_across(axis, samples, shares, margin); split.close < best.close)
@@ -89,10 +89,9 @@ std::uint32_t Cuts::part_of(const Point& p) const {
 }
 
 int levels_for(double tets) {
-  constexpr double kWorthCutting = 60'000;
-  constexpr int kMostLevels = 4;
   int levels = 0;
-  for (double least = kWorthCutting; tets > least && levels < kMostLevels; least *= 4) ++levels;
+  for (double least = tuning::kWorthCutting; tets > least && levels < tuning::kMostLevels; least *= 4)
+    ++levels;
   return levels;
 }
 

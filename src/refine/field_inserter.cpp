@@ -4,16 +4,10 @@
 
 #include "mesh/editor.h"
 #include "refine/parts.h"
+#include "refine/tuning.h"
 #include "refine/vector.h"
 
 namespace holdfast {
-namespace {
-
-// In sizes: the least distance of a new point from others, and its least height over a facet.
-constexpr double kNearest = 0.7, kLeastHeight = 0.4;
-
-}  // namespace
-
 std::span<const Tet> FieldInserter::insert(const Point& x, Tet start) {
   const RegionId region = volume_.region_of[start];
   const Vertex p = MeshEditor(mesh_).add_vertex(x);
@@ -87,7 +81,7 @@ bool FieldInserter::is_far_from(Vertex p, std::span<const Vertex> vertices, Regi
   if (!sizes_.grows() && weights > 0) size_ = std::min(size_, mean / weights);
   wanted_ = size_;
   if (volume_.metrics != nullptr) nearest = want_metric(p, vertices);
-  return nearest >= kNearest * wanted_;
+  return nearest >= tuning::kNearest * wanted_;
 }
 
 // Makes a metric of the size and the user's metric. Returns the distance of the nearest vertex in it.
@@ -104,7 +98,7 @@ double FieldInserter::want_metric(Vertex p, std::span<const Vertex> vertices) {
 
 // Where constraints cut the cavity, or the mesh is not Delaunay, a near vertex may stand just beyond it.
 bool FieldInserter::is_near_beyond(Vertex p) const {
-  const double least = kNearest * wanted_;
+  const double least = tuning::kNearest * wanted_;
   for (const PointCavity::Rim& rim : cavity_.rim()) {
     const Vertex v = mesh_.apex(rim.outer);
     if ((rim.flags & facet_bit(3)) == 0 && v != kGhost &&
@@ -120,7 +114,8 @@ bool FieldInserter::is_near_a_facet(Vertex p) const {
     const Point a = frame_.to(mesh_.position(rim.v[0]));
     const Vector n = cross(frame_.to(mesh_.position(rim.v[1])) - a, frame_.to(mesh_.position(rim.v[2])) - a);
     const double height = dot(n, frame_.to(mesh_.position(p)) - a);
-    if (height * height < kLeastHeight * kLeastHeight * wanted_ * wanted_ * dot(n, n)) return true;
+    if (height * height < tuning::kLeastHeight * tuning::kLeastHeight * wanted_ * wanted_ * dot(n, n))
+      return true;
   }
   return false;
 }

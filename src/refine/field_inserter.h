@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "refine/point_cavity.h"
+#include "refine/tuning.h"
 #include "refine/volume_data.h"
 #include "size/size_function.h"
 
@@ -27,8 +28,7 @@ class FieldInserter {
   /// Between vertices with thousands of neighbours each attempt looks at thousands of tetrahedra, and nearly
   /// all come to nothing. Elsewhere some ten tetrahedra are looked at in vain for each that is made.
   [[nodiscard]] bool has_wasted_enough() const {
-    constexpr std::size_t kPatience = 60, kLeast = 1'000'000;
-    return wasted_ > kPatience * mesh_.tet_count() + kLeast;
+    return wasted_ > tuning::kPatience * mesh_.tet_count() + tuning::kLeastPatience;
   }
 
  private:

@@ -13,12 +13,11 @@
 #include "refine/order.h"
 #include "refine/section_points.h"
 #include "refine/tets_inside.h"
+#include "refine/tuning.h"
 #include "refine/vector.h"
 
 namespace holdfast {
 namespace {
-
-constexpr double kOnCuts = 0.1;  // of the work
 
 // Tetrahedra of the size that is allowed at its centroid that fill t.
 double tets_in(const VolumeData& volume, const SizeFunction& sizes, Tet t, const Point& middle) {
@@ -37,9 +36,8 @@ double tets_in(const VolumeData& volume, const SizeFunction& sizes, Tet t, const
 // points inside, of the sizes of the whole surface; so there are no cuts then. With a metric neither: the
 // points on cuts are for spheres.
 Cuts find_cuts(const VolumeData& volume, const SizeFunction& sizes, const std::vector<Tet>& tets) {
-  constexpr std::size_t kSamples = 1u << 13;
   if (!sizes.grows() || sizes.has_metric()) return {{}, 0};
-  const std::size_t step = 1 + tets.size() / kSamples;
+  const std::size_t step = 1 + tets.size() / tuning::kCutSamples;
   std::vector<Cuts::Sample> samples;
   double expected = 0;
   for (std::size_t k = 0; k < tets.size(); k += step) {
@@ -54,13 +52,13 @@ FieldPoints filled_parts(const VolumeData& volume, const SizeFunction& sizes, co
                          Monitor& monitor) {
   // More than for the improvement: the first points inside are on the cuts, so that the surface is joined to
   // them from afar (half of the tetrahedra of a torus of a million triangles).
-  constexpr double kMostAtCuts = 0.8;
   const Cuts cuts = find_cuts(volume, sizes, tets_inside(volume, threads));
   if (cuts.part_count() == 1) return {};
   add_section_points(volume, cuts, sizes, threads, monitor);
-  auto parts = cut_into_parts(volume, tets_inside(volume, threads), cuts, kMostAtCuts, threads);
+  auto parts = cut_into_parts(volume, tets_inside(volume, threads), cuts, tuning::kMostAtFirstCuts, threads);
   if (!parts) return {};
-  const FilledIn filled = fill_parts(*parts, sizes, Stage::field_points, {kOnCuts, 1}, threads, monitor);
+  const FilledIn filled =
+      fill_parts(*parts, sizes, Stage::field_points, {tuning::kWorkOnCuts, 1}, threads, monitor);
   return {std::move(parts), filled.stopped_early};
 }
 

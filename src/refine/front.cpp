@@ -7,16 +7,13 @@
 #include "mesh/measure.h"
 #include "refine/field_inserter.h"
 #include "refine/tets_inside.h"
+#include "refine/tuning.h"
 #include "refine/vector.h"
 
 namespace holdfast {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// In sizes: the circumradius from which a tetrahedron is refined (0.61 is regular).
-constexpr double kLarge = 0.85;
-constexpr double kLevel = 1.3;         // of the mean of the sizes round, where sizes do not grow
-constexpr double kLongestPart = 0.65;  // of an edge: the size, where the edge is to be split
 
 class Front {
  public:
@@ -67,10 +64,9 @@ class Front {
   // The first ones come in random order: along the curve, a tenth more of the elements would be slivers. But
   // random within blocks, so that points find the mesh in the caches, and so on layer after layer.
   void shuffle_front() {
-    constexpr std::size_t kBlock = 10'000;
     std::uint64_t random = volume_.seed;
-    for (std::size_t first = 0; first < front_.size(); first += kBlock) {
-      const std::size_t last = std::min(first + kBlock, front_.size());
+    for (std::size_t first = 0; first < front_.size(); first += tuning::kFrontBlock) {
+      const std::size_t last = std::min(first + tuning::kFrontBlock, front_.size());
       for (std::size_t k = last - first; k > 1; --k) {
         random = random * 6364136223846793005u + 1442695040888963407u;
         std::swap(front_[first + k - 1], front_[first + (random >> 33) % k]);
@@ -80,9 +76,8 @@ class Front {
 
   // The front runs through the whole mesh, layer by layer: what comes next is seldom in the cache.
   void prefetch_ahead() const {
-    constexpr std::size_t kFar = 8, kNear = 4;
-    if (front_.size() > kFar) mesh_.prefetch(front_[kFar]);
-    if (front_.size() > kNear) mesh_.prefetch_neighbours(front_[kNear]);
+    if (front_.size() > tuning::kPrefetchFar) mesh_.prefetch(front_[tuning::kPrefetchFar]);
+    if (front_.size() > tuning::kPrefetchNear) mesh_.prefetch_neighbours(front_[tuning::kPrefetchNear]);
   }
 
   // How much is left is known when little is: the front is large first and shrinks.
@@ -110,7 +105,7 @@ class Front {
 
   // The same, for its corners, or in the middle, of which these may not know.
   [[nodiscard]] bool is_large_in_metric(Tet t) const {
-    if (is_larger(volume_.see(mesh_.corners(t), sphere_centre), kLarge)) return true;
+    if (is_larger(volume_.see(mesh_.corners(t), sphere_centre), tuning::kLargeRadius)) return true;
     const Point middle = centroid(mesh_, t);
     double most = sizes_.limit(middle, volume_.region_of[t]);
     for (const Vertex v : mesh_.corners(t))
@@ -118,19 +113,19 @@ class Front {
     const Frame frame(sizes_.metric(middle, most), middle);
     std::array<Point, 4> q;
     for (std::size_t i = 0; i < 4; ++i) q[i] = frame.to(mesh_.position(mesh_.corners(t)[i]));
-    return is_larger(sphere_centre(q[0], q[1], q[2], q[3]), kLarge);
+    return is_larger(sphere_centre(q[0], q[1], q[2], q[3]), tuning::kLargeRadius);
   }
 
-  // Sizes grow with the distance: r = kLarge (h + gradation r).
+  // Sizes grow with the distance: r = tuning::kLargeRadius (h + gradation r).
   [[nodiscard]] double largest_radius(Tet t) const {
     const TetMesh::Corners& c = mesh_.corners(t);
     const std::vector<double>& size = volume_.sizes;
     const std::array<double, 4> h{size[c[0]], size[c[1]], size[c[2]], size[c[3]]};
-    double allowed = *std::min_element(h.begin(), h.end()) / (1 - kLarge * sizes_.gradation());
-    if (!sizes_.grows()) allowed = std::min(allowed, kLevel * 0.25 * (h[0] + h[1] + h[2] + h[3]));
+    double allowed = *std::min_element(h.begin(), h.end()) / (1 - tuning::kLargeRadius * sizes_.gradation());
+    if (!sizes_.grows()) allowed = std::min(allowed, tuning::kLevel * 0.25 * (h[0] + h[1] + h[2] + h[3]));
     if (sizes_.has_limit())
       allowed = std::min(allowed, sizes_.limit(centroid(mesh_, t), volume_.region_of[t]));
-    return kLarge * allowed;
+    return tuning::kLargeRadius * allowed;
   }
 
   // Tries a point over each face of t that is on the front.
@@ -165,7 +160,7 @@ class Front {
       const Vertex v = mesh_.corner(t, ends[i]);
       const Point &a = mesh_.position(v), &b = mesh_.position(mesh_.corner(t, ends[1 - i]));
       const double part = volume_.size_in_frame(v) / length;
-      if (part > kLongestPart) continue;
+      if (part > tuning::kLongestPart) continue;
       Point p;
       for (std::size_t j = 0; j < 3; ++j) p[j] = a[j] + part * (b[j] - a[j]);
       if (try_insert(p, t)) return true;

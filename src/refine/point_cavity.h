@@ -20,6 +20,7 @@
 #include "mesh/tet_mesh.h"
 #include "mesh/traverse.h"
 #include "metric/frame.h"
+#include "refine/tuning.h"
 
 namespace holdfast {
 
@@ -80,8 +81,7 @@ class PointCavity {
   void link_by_table();
   void link_by_sorting();
 
-  static constexpr std::size_t kMostInTable = 512;  // vertices of the ring
-  [[nodiscard]] bool fits_table() const { return ring_.size() <= kMostInTable; }
+  [[nodiscard]] bool fits_table() const { return ring_.size() <= tuning::kMostInTable; }
 
   TetMesh& mesh_;
   Vertex p_ = kNone;

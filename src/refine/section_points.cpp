@@ -11,6 +11,7 @@
 
 #include "refine/field_inserter.h"
 #include "refine/tets_inside.h"
+#include "refine/tuning.h"
 #include "refine/vector.h"
 
 namespace holdfast {
@@ -96,8 +97,8 @@ class SectionRefiner {
       const double radius2 = to_corner * to_corner - height * height;
       circle.towards[plane.axis] = plane.at + std::copysign(size, height);
       circle.is_of_a_cap = std::abs(height) > size;
-      circle.is_huge = radius2 > kHuge * kHuge * size * size;
-      if (radius2 > kLargest * kLargest * size * size) found = circle;
+      circle.is_huge = radius2 > tuning::kHugeOnCut * tuning::kHugeOnCut * size * size;
+      if (radius2 > tuning::kLargestOnCut * tuning::kLargestOnCut * size * size) found = circle;
       return found.has_value();
     });
     return found;
@@ -109,9 +110,6 @@ class SectionRefiner {
       size = std::min(size, volume_.sizes[v] + sizes_.gradation() * distance(p, mesh_.position(v)));
     return size;
   }
-
-  // Radii in sizes; 0.58 in a plane of regular triangles.
-  static constexpr double kLargest = 0.9, kHuge = 2;
 
   const VolumeData volume_;
   const TetMesh& mesh_;

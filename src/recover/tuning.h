@@ -1,0 +1,31 @@
+// Constants of this stage that were found by experiment. docs/tuning.md tells what is known of each.
+#pragma once
+
+#include <cstddef>
+
+namespace holdfast::tuning {
+
+// Passes of flips over all that is missing. The next one may reach what one attempt does not, from the mesh
+// that the attempts for others have left meanwhile.
+inline constexpr int kMostFlipPasses = 25;
+inline constexpr int kMostIdlePasses = 3;        ///< in a row
+inline constexpr std::size_t kIdlePass = 20;     ///< an idle pass recovers less than one in so many
+inline constexpr std::size_t kPassBudget = 500;  ///< sign tests, roughly, of an attempt at a crossing
+inline constexpr std::size_t kShuffledBlock =
+    1000;  ///< constraints: what is close in number is close in memory
+
+// Where flips give a constraint up.
+inline constexpr std::size_t kMostCrossings = 2000;  ///< of a segment or facet
+inline constexpr std::size_t kMostPiercing =
+    200;  ///< edges through a facet: with more, its cavities cost less
+inline constexpr std::size_t kMostFlipFailures = 100;  ///< crossings of one facet that could not be cleared
+inline constexpr std::size_t kMostClipped = 1000;  ///< tetrahedra of a shell whose ears are clipped
+inline constexpr int kMostWalk = 400;              ///< steps round a vertex; then its whole ball is looked at
+
+// The two cavities of a facet.
+inline constexpr int kCavityPasses = 8;  ///< of flips, in a cavity's own mesh
+inline constexpr int kMostGrowth = 2;    ///< times that a cavity takes in what is behind its missing faces
+inline constexpr double kCavityMargin = 0.5;  ///< of the box round a cavity, in extents
+inline constexpr double kDeepest = 1e6;  ///< extents below the facet, of the point that makes it Delaunay
+
+}  // namespace holdfast::tuning

@@ -1,0 +1,39 @@
+// Constants of this stage that were found by experiment. docs/tuning.md tells what is known of each.
+#pragma once
+
+#include <cstddef>
+
+namespace holdfast::tuning {
+
+// The front. Lengths are in the sizes that are wanted there.
+inline constexpr double kLargeRadius =
+    0.85;                              ///< circumradius of a tetrahedron to be refined; 0.61 is regular
+inline constexpr double kLevel = 1.3;  ///< a size over the mean of those round it, if sizes do not grow
+inline constexpr double kLongestPart = 0.65;  ///< of an edge that is to be split: the size over its length
+inline constexpr double kNearest = 0.7;       ///< least distance of a new point from others
+inline constexpr double kLeastHeight = 0.4;   ///< least height of a new point over a facet
+inline constexpr std::size_t kFrontBlock = 10'000;                 ///< tetrahedra that are shuffled together
+inline constexpr std::size_t kPrefetchFar = 8, kPrefetchNear = 4;  ///< tetrahedra ahead in the front
+inline constexpr std::size_t kPatience = 60,
+                             kLeastPatience = 1'000'000;  ///< tetrahedra looked at in vain: so
+                                                          ///< many for each there is, and these
+inline constexpr std::size_t kMostInTable = 512;  ///< vertices of a cavity's ring that are linked by a table
+
+// Cuts into parts.
+inline constexpr double kWorthCutting = 60'000;       ///< tetrahedra; four times as many for each level more
+inline constexpr int kMostLevels = 4;                 ///< of cuts: 16 parts
+inline constexpr std::size_t kCutSamples = 1u << 13;  ///< tetrahedra that tell where cuts are
+inline constexpr double kShareStep = 0.05;            ///< between the shares below a plane that are compared
+inline constexpr double kCloseToPlane = 0.02;         ///< of the longest extent: what counts as near a plane
+inline constexpr double kMostAtCuts = 0.25;  ///< share of tetrahedra with a vertex on a cut: more is not cut
+inline constexpr double kMostAtFirstCuts = 0.8;               ///< the same before there are points inside
+inline constexpr double kLargestOnCut = 0.9, kHugeOnCut = 2;  ///< radii in sizes of triangles of a plane that
+                                                              ///< are refined; 0.58 is regular
+inline constexpr double kWorkOnCuts = 0.1;                    ///< share of the stage's work, for its progress
+
+// Cuts again, of what lies near those before.
+inline constexpr int kRings = 2;             ///< rings of tetrahedra round a cut: cavities need room
+inline constexpr double kMostLeft = 0.5;     ///< share of what was cut before: so there is an end
+inline constexpr double kLeastShare = 0.25;  ///< below a plane: one in the middle would be the plane before
+
+}  // namespace holdfast::tuning
