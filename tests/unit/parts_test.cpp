@@ -345,7 +345,7 @@ TEST(SectionPoints, MakeTheCirclesSmallInWhichSpheresMeetTheCuts) {
   const Cuts cuts(samples, 2);
   const Options options;
   const Sizes sizes{.size = 0.1};
-  const SizeFunction size_function(sizes, {}, {}, options, {}, 0);
+  const SizeFunction size_function(sizes, {}, {}, SegmentTable{}, {}, 0);
   Monitor monitor(options);
   add_section_points(cube.data(), cuts, size_function, 2, monitor);
   EXPECT_EQ(find_fault(cube.mesh), "");
