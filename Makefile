@@ -9,7 +9,7 @@ SEED ?= 1
 MINUTES ?= 5
 PYTHON ?= /usr/bin/python3
 
-.PHONY: help setup build demo test python wheel slurm python-corpus corpus random fuzz bench field tables figures format tidy debug asan tsan libcxx install clean
+.PHONY: help setup build demo test python wheel slurm python-corpus corpus random planes fuzz bench field tables figures format tidy debug asan tsan libcxx install clean
 .DEFAULT_GOAL := help
 
 help:  ## this list
@@ -56,6 +56,10 @@ random: setup $(RELEASE)/build.ninja  ## meshes N random complexes of SEED and c
 	@cmake --build $(RELEASE) -j $(JOBS) --target random_complexes
 	@python3 scripts/random_complexes.py --program $(RELEASE)/tests/random/random_complexes --count $(N) --seed $(SEED) \
 	  --jobs $(JOBS) $(ARGS)
+
+planes: setup $(RELEASE)/build.ninja  ## triangulates N random planes from SEED by every method and checks the triangles
+	@cmake --build $(RELEASE) -j $(JOBS) --target random_planes
+	@$(RELEASE)/tests/random/random_planes --count $(N) --seed $(SEED) $(ARGS)
 
 fuzz:  ## every reader, mesh, untangle and check on arbitrary bytes, each for MINUTES, under the sanitizers
 	@scripts/setup.sh build fuzz

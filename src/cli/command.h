@@ -51,5 +51,6 @@ void add_diagnose(CLI::App& app, Command& chosen);
 void add_delaunay(CLI::App& app, Command& chosen);
 void add_untangle(CLI::App& app, Command& chosen);
 void add_batch(CLI::App& app, Command& chosen);
+void add_plane(CLI::App& app, Command& chosen);
 
 }  // namespace holdfast::cli

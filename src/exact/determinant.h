@@ -39,6 +39,14 @@ template <class T>
   return u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
 }
 
+/// Sign of the determinant that decides incircle: rows of the differences a - d, b - d, c - d.
+template <class T>
+[[nodiscard]] int sign_incircle(const std::array<std::array<T, 2>, 3>& p) {
+  const auto minor = [&](std::size_t i, std::size_t j) { return p[i][0] * p[j][1] - p[j][0] * p[i][1]; };
+  const auto square = [&](std::size_t i) { return p[i][0] * p[i][0] + p[i][1] * p[i][1]; };
+  return (minor(1, 2) * square(0) + minor(2, 0) * square(1) + minor(0, 1) * square(2)).sign();
+}
+
 /// Sign of the determinant that decides insphere: rows p of the differences a - e, b - e, c - e, d - e.
 template <class T>
 [[nodiscard]] int sign_insphere(const std::array<Row<T>, 4>& p) {

@@ -124,6 +124,13 @@ std::optional<int> integer_insphere(const double* a, const double* b, const doub
   return sign_insphere(rows);
 }
 
+template <std::size_t N>
+std::optional<int> integer_incircle(const double* a, const double* b, const double* c, const double* d) {
+  std::array<std::array<FixedInt<N>, 2>, 3> rows;
+  if (!load_rows<N, 2, 4>({d, a, b, c}, rows)) return std::nullopt;
+  return sign_incircle(rows);
+}
+
 template std::optional<int> integer_orient3d<1>(const double*, const double*, const double*, const double*);
 template std::optional<int> integer_orient3d<2>(const double*, const double*, const double*, const double*);
 template std::optional<int> integer_orient2d<1>(const double*, const double*, const double*);
@@ -132,5 +139,7 @@ template std::optional<int> integer_insphere<1>(const double*, const double*, co
                                                 const double*);
 template std::optional<int> integer_insphere<2>(const double*, const double*, const double*, const double*,
                                                 const double*);
+template std::optional<int> integer_incircle<1>(const double*, const double*, const double*, const double*);
+template std::optional<int> integer_incircle<2>(const double*, const double*, const double*, const double*);
 
 }  // namespace holdfast::exact::detail

@@ -194,6 +194,15 @@ int big_insphere(const double* a, const double* b, const double* c, const double
   return sign_insphere(points.big_rows());
 }
 
+int big_incircle(const double* a, const double* b, const double* c, const double* d) {
+  const auto flat = [](const double* p) {
+    const double lifted[3] = {p[0], p[1], 0};  // a third coordinate serves the interface only
+    return projected({lifted}, 2);
+  };
+  const Coordinates<2, 4> points({flat(d), flat(a), flat(b), flat(c)});
+  return sign_incircle(points.big_rows());
+}
+
 template std::optional<int> integer_orient3d<1>(PointRef, PointRef, PointRef, PointRef);
 template std::optional<int> integer_orient3d<2>(PointRef, PointRef, PointRef, PointRef);
 template std::optional<int> integer_orient3d<3>(PointRef, PointRef, PointRef, PointRef);

@@ -1,6 +1,7 @@
 // The predicates beyond their inline filters: filter for exact points, order of the tiers.
 #include "exact/predicates.h"
 
+#include "exact/incircle.h"
 #include "exact/tiers.h"
 #include "numbers/float_environment.h"
 
@@ -80,6 +81,12 @@ Decision decide_insphere(const double* a, const double* b, const double* c, cons
   return {big_insphere(a, b, c, d, e), Tier::big_integer};
 }
 
+Decision decide_incircle(const double* a, const double* b, const double* c, const double* d) {
+  if (const auto sign = integer_incircle<1>(a, b, c, d)) return {*sign, Tier::integer64};
+  if (const auto sign = integer_incircle<2>(a, b, c, d)) return {*sign, Tier::integer128};
+  return {big_incircle(a, b, c, d), Tier::big_integer};
+}
+
 int orient3d_slow(const double* a, const double* b, const double* c, const double* d) {
   return decide_orient3d(a, b, c, d).sign;
 }
@@ -93,6 +100,10 @@ int orient2d_slow(const double* a, const double* b, const double* c) { return de
 
 int insphere_slow(const double* a, const double* b, const double* c, const double* d, const double* e) {
   return decide_insphere(a, b, c, d, e).sign;
+}
+
+int incircle_slow(const double* a, const double* b, const double* c, const double* d) {
+  return decide_incircle(a, b, c, d).sign;
 }
 
 }  // namespace detail

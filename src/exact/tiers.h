@@ -28,6 +28,7 @@ struct Decision {
 [[nodiscard]] Decision decide_orient2d(PointRef a, PointRef b, PointRef c, int axis);
 [[nodiscard]] Decision decide_insphere(const double* a, const double* b, const double* c, const double* d,
                                        const double* e);
+[[nodiscard]] Decision decide_incircle(const double* a, const double* b, const double* c, const double* d);
 
 /// Bits of a coordinate in N limbs. The headroom of three bits lets all sums in the determinants fit:
 /// differences stay below 2^(64 N - 2), a sum of three squares below 3 * 2^(128 N - 4), and so on.
@@ -48,6 +49,9 @@ template <std::size_t N>
 template <std::size_t N>
 [[nodiscard]] std::optional<int> integer_insphere(const double* a, const double* b, const double* c,
                                                   const double* d, const double* e);
+template <std::size_t N>
+[[nodiscard]] std::optional<int> integer_incircle(const double* a, const double* b, const double* c,
+                                                  const double* d);
 
 // Expansion arithmetic; none where it could over- or underflow. insphere: none, too, where a difference
 // of coordinates is no double, since its expansions would be thousands of components long.
@@ -62,5 +66,6 @@ template <std::size_t N>
 [[nodiscard]] int big_orient2d(PointRef a, PointRef b, PointRef c, int axis);
 [[nodiscard]] int big_insphere(const double* a, const double* b, const double* c, const double* d,
                                const double* e);
+[[nodiscard]] int big_incircle(const double* a, const double* b, const double* c, const double* d);
 
 }  // namespace holdfast::exact::detail

@@ -1,0 +1,80 @@
+// The public functions of holdfast/plane.h: limits and outcomes round the work of src/plane.
+#include "holdfast/plane.h"
+
+#include <new>
+
+#include "mesh/plain_monitor.h"
+#include "numbers/float_environment.h"
+#include "plane/defects.h"
+#include "plane/triangulate.h"
+
+namespace holdfast {
+namespace {
+
+PlaneResult ended(Outcome outcome) {
+  PlaneResult result;
+  result.outcome = outcome;
+  result.message = outcome == Outcome::time_limit     ? "the time limit ran out"
+                   : outcome == Outcome::memory_limit ? "the memory limit was reached"
+                                                      : "cancelled";
+  return result;
+}
+
+}  // namespace
+
+PlaneResult triangulate(const Plane& plane, const PlaneOptions& options) {
+  const FloatEnvironment environment;
+  try {
+    PlainMonitor monitor(options, options.progress);
+    monitor.tell(0);
+    PlaneResult result = plane::triangulate(plane, options, [&](double fraction) { monitor.poll(fraction); });
+    monitor.tell(1);
+    return result;
+  } catch (const Interrupted& interrupted) {
+    return ended(interrupted.outcome());
+  } catch (const std::bad_alloc&) {
+    if (options.memory_limit == 0) throw;
+    return ended(Outcome::memory_limit);
+  }
+}
+
+std::vector<Defect> diagnose(const Plane& plane, std::size_t most) {
+  const FloatEnvironment environment;
+  return plane::find_defects(plane, most, {});
+}
+
+const char* name(PlaneMethod method) {
+  switch (method) {
+    case PlaneMethod::ears:
+      return "ears";
+    case PlaneMethod::swaps:
+      return "swaps";
+    case PlaneMethod::partition:
+      return "partition";
+  }
+  return "unknown";
+}
+
+const char* name(PlaneEars ears) {
+  switch (ears) {
+    case PlaneEars::first:
+      return "first";
+    case PlaneEars::best:
+      return "best";
+    case PlaneEars::join:
+      return "join";
+  }
+  return "unknown";
+}
+
+const char* name(PlaneStage stage) {
+  switch (stage) {
+    case PlaneStage::delaunay:
+      return "delaunay";
+    case PlaneStage::partition:
+      return "partition";
+  }
+  return "unknown";
+}
+
+}  // namespace holdfast

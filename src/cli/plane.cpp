@@ -1,0 +1,196 @@
+// `holdfast plane`: points and segments in the plane, triangles out.
+#include "holdfast/plane.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "command.h"
+#include "files.h"
+#include "files_of_run.h"
+#include "limits.h"
+#include "report.h"
+#include "signals.h"
+
+namespace holdfast::cli {
+namespace {
+
+constexpr std::size_t defects_shown = 20;
+
+struct PlaneArguments {
+  std::filesystem::path input, output, report;
+  std::string input_format, format, method = "swaps", ears, stop_after;
+  LimitArguments limits;
+  std::uint64_t seed = 1;
+  bool partition_first = false, delaunay = false, hull = false, quiet = false;
+};
+
+template <typename Enum, std::size_t N>
+Enum named(const char* option, const std::string& text, const std::array<Enum, N>& values) {
+  std::string known;
+  for (const Enum value : values) {
+    if (text == name(value)) return value;
+    known += (known.empty() ? "" : ", ") + std::string(name(value));
+  }
+  throw UsageError(fmt::format("{}: there is no '{}'; the values are {}", option, text, known));
+}
+
+PlaneOptions to_options(const PlaneArguments& arguments) {
+  PlaneOptions options;
+  static_cast<Limits&>(options) = limits_of(arguments.limits);
+  options.method = named("--method", arguments.method, plane_methods);
+  if (!arguments.stop_after.empty()) {
+    options.stop_after = named("--stop-after", arguments.stop_after, plane_stages);
+    if (options.method == PlaneMethod::ears ||
+        (options.stop_after == PlaneStage::partition && options.method != PlaneMethod::partition))
+      throw UsageError(fmt::format("--stop-after {}: the method {} has no such stage", arguments.stop_after,
+                                   arguments.method));
+  }
+  if (!arguments.ears.empty()) {
+    if (options.method != PlaneMethod::ears)
+      throw UsageError(fmt::format("--ears {}: give --method ears, too", arguments.ears));
+    options.ears = named("--ears", arguments.ears, plane_ears);
+  }
+  if (arguments.partition_first && options.method != PlaneMethod::partition)
+    throw UsageError("--partition-first: give --method partition, too");
+  options.partition_first = arguments.partition_first;
+  options.delaunay = arguments.delaunay;
+  options.hull = arguments.hull;
+  options.seed = arguments.seed;
+  options.progress = goes_on;
+  return options;
+}
+
+Json report_of(const PlaneArguments& arguments, const PlaneResult& result) {
+  const PlaneReport& report = result.report;
+  return {
+      {"input", {{"points", report.points}, {"segments", report.segments}, {"holes", report.holes}}},
+      {"missing_segments", report.missing_segments},
+      {"swaps", report.swaps},
+      {"delaunay_swaps", report.delaunay_swaps},
+      {"partition_points", report.partition_points},
+      {"most_partition_points", report.most_partition_points},
+      {"ears", report.ears},
+      {"joined", report.joined},
+      {"links", report.links},
+      {"mesh",
+       {{"points", result.mesh.points.size()}, {"triangles", report.triangles}, {"regions", report.regions}}},
+      {"seconds", report.seconds},
+      {"version", version()},
+      {"options",
+       {{"input", arguments.input.string()},
+        {"output", arguments.output.string()},
+        {"method", arguments.method},
+        {"ears", arguments.ears},
+        {"partition_first", arguments.partition_first},
+        {"delaunay", arguments.delaunay},
+        {"hull", arguments.hull},
+        {"stop_after", arguments.stop_after},
+        {"seed", arguments.seed},
+        {"time_limit", arguments.limits.time_limit.value_or(0)},
+        {"memory_limit", arguments.limits.memory_limit.value_or(0)}}},
+      {"outcome", name(result.outcome)},
+      {"message", result.message},
+      {"defects", to_json(result.defects)}};
+}
+
+/// Says how the run ended and what the user can do; returns the exit code.
+int conclude(const PlaneArguments& arguments, const PlaneResult& result) {
+  if (result.outcome == Outcome::done) {
+    if (!arguments.quiet)
+      say("{}: {} points, {} triangles in {} region{}, {:.2f} s\n", arguments.output.string(),
+          result.mesh.points.size(), result.report.triangles, result.report.regions,
+          result.report.regions == 1 ? "" : "s", result.report.seconds.at("total"));
+    return exit_done;
+  }
+  say("holdfast: {}: {}; nothing was written\n", arguments.input.string(), result.message);
+  if (result.outcome != Outcome::invalid_input) return exit_limit;
+  print_defects(result.defects, defects_shown);
+  if (result.defects.size() > defects_shown)
+    say("... and {} more; --report FILE.json lists them\n", result.defects.size() - defects_shown);
+  return exit_invalid_surface;
+}
+
+/// Names the files of a run, so that none is lost.
+WriteOptions target_of(FilesOfRun& files, const PlaneArguments& arguments) {
+  files.read_points(arguments.input, arguments.input_format);
+  WriteOptions writing;
+  writing.format = arguments.format;
+  const std::vector<std::filesystem::path> written = files_of_plane(arguments.output, arguments.format);
+  const std::vector<std::string> known = plane_formats();
+  std::string extension = arguments.format.empty() ? arguments.output.extension().string() : arguments.format;
+  if (!extension.empty() && extension.front() != '.') extension.insert(extension.begin(), '.');
+  if (std::find(known.begin(), known.end(), extension) == known.end())
+    throw UsageError(
+        fmt::format("{}: '{}' is no format of triangles; use {} as the file's ending or by --format",
+                    arguments.output.string(), extension, fmt::join(known, " ")));
+  for (const std::filesystem::path& path : written) files.write("-o", path);
+  files.write("--report", arguments.report);
+  return writing;
+}
+
+int run(const PlaneArguments& arguments) {
+  const PlaneOptions options = to_options(arguments);
+  FilesOfRun files;
+  WriteOptions writing = target_of(files, arguments);
+  cancel_at_once();
+  const Plane plane = read_plane(arguments.input, reading(options, arguments.input_format));
+  if (!arguments.quiet) tell(plane.remarks, arguments.input);
+
+  cancel_by_flag();  // from here on files are open
+  watch_writing(writing, options);
+  const PlaneResult result = triangulate(plane, options);
+  if (result.outcome == Outcome::done) write_plane(arguments.output, result.mesh, writing);
+  write_json(arguments.report, report_of(arguments, result));
+  return conclude(arguments, result);
+}
+
+void add_method(CLI::App& command, PlaneArguments& arguments) {
+  command
+      .add_option("--method", arguments.method,
+                  "How segments come into the mesh: ears, swaps (default) or partition")
+      ->option_text("METHOD");
+  command
+      .add_option("--ears", arguments.ears,
+                  "Which corner ears takes: first (default), best (of triangles), or join (those inside)")
+      ->option_text("CHOICE");
+  command.add_flag("--partition-first", arguments.partition_first,
+                   "Partition: remove points only when all segments stand (paper 2.3), not one by one");
+  command.add_flag("--delaunay", arguments.delaunay, "Then swap edges until it is constrained Delaunay");
+  command.add_flag("--hull", arguments.hull,
+                   "Keep all within the convex hull, not what segments enclose alone");
+  command
+      .add_option("--stop-after", arguments.stop_after,
+                  "Write what stands after delaunay (swaps, partition) or partition")
+      ->option_text("STAGE");
+  command.add_option("--seed", arguments.seed, "Seed of the random orders (default 1)")->option_text("N");
+}
+
+}  // namespace
+
+void add_plane(CLI::App& app, Command& chosen) {
+  const auto arguments = std::make_shared<PlaneArguments>();
+  CLI::App* command =
+      app.add_subcommand("plane", "Triangles in the plane that keep every segment, without added points");
+  command->add_option("FILE", arguments->input, "Points and segments: .poly or .node (Triangle)")
+      ->transform(or_standard_input)
+      ->required();
+  command
+      ->add_option("-o,--output", arguments->output, "Triangles (.off .node .ele .vtu), -: standard output")
+      ->transform(or_standard_output)
+      ->required()
+      ->option_text("FILE");
+  add_method(*command, *arguments);
+  command->add_option("--report", arguments->report, "Write counts and times as JSON")
+      ->transform(or_standard_output)
+      ->option_text("FILE.json");
+  command->add_option("--format", arguments->format, "Format of the triangles, instead of by ending")
+      ->option_text("FORMAT");
+  command->add_option("--input-format", arguments->input_format, "Format of the input, instead of by ending")
+      ->option_text("FORMAT");
+  add_limits(*command, arguments->limits);
+  command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace holdfast::cli

@@ -1,0 +1,157 @@
+// Points and segments in the plane: .poly and .node of two dimensions (Shewchuk, Triangle,
+// https://www.cs.cmu.edu/~quake/triangle.poly.html).
+#include "holdfast/plane.h"
+#include "io/file_bytes.h"
+#include "io/tetgen.h"
+#include "io/text_reader.h"
+#include "numbers/float_environment.h"
+
+namespace holdfast {
+namespace io {
+namespace {
+
+std::string extension_of(const std::filesystem::path& path, std::string_view format) {
+  std::string extension = lower(format.empty() ? without_gz(path).extension().string() : std::string(format));
+  if (!extension.empty() && extension[0] != '.') extension.insert(0, 1, '.');
+  return extension;
+}
+
+class PlaneReader {
+ public:
+  explicit PlaneReader(const Source& source) : text_(source) {}
+
+  Plane read_points() {
+    read_nodes(text_);
+    return finished();
+  }
+
+  Plane read_poly() {
+    read_nodes(text_);
+    if (plane_.points.empty()) {
+      const std::filesystem::path beside = sibling(text_.source().path, ".node");
+      const FileBytes bytes(beside, text_.source().watch);
+      TextReader nodes({beside, bytes.view(), false, text_.source().watch});
+      read_nodes(nodes);
+    }
+    read_segments();
+    read_holes();
+    read_regions();
+    if (!text_.at_end()) {
+      text_.seek(text_.position());
+      text_.fail("text after the last section; the counts are wrong");
+    }
+    return finished();
+  }
+
+ private:
+  [[nodiscard]] Plane finished() {
+    plane_.point_markers = point_markers_.take(plane_.points.size());
+    plane_.segment_markers = segment_markers_.take(plane_.segments.size());
+    if (attributes_ > 0)
+      plane_.remarks.push_back({RemarkKind::left_out, attributes_,
+                                std::to_string(attributes_) + " attributes of points are left out"});
+    if (plane_.points.empty()) text_.fail("the file holds no points");
+    return std::move(plane_);
+  }
+
+  static PlanePoint point(TextReader& text) {
+    const double x = text.real("a coordinate");
+    return {x, text.real("a coordinate")};
+  }
+
+  void read_nodes(TextReader& text) {
+    const std::size_t count = text.count("the number of points", 6);
+    const std::size_t start = text.last();
+    const std::int64_t dimension = text.at_line_end() ? 2 : text.integer("the dimension");
+    if (dimension != 2) text.fail_at(start, "the dimension is not 2");
+    const std::size_t attributes = text.at_line_end() ? 0 : text.count("the number of attributes", 1);
+    const bool marked = !text.at_line_end() && text.integer("whether there are markers") != 0;
+    text.skip_line();
+    plane_.points.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::int64_t number = text.integer("the point's number");
+      if (i == 0 && number != 0 && number != 1) text.fail("the first point must have the number 0 or 1");
+      if (i == 0) plane_.base = static_cast<int>(number);
+      const std::int64_t expected = plane_.base + static_cast<std::int64_t>(i);
+      if (number != expected)
+        text.fail("expected point " + std::to_string(expected) + ", found the number " +
+                  std::to_string(number));
+      plane_.points.push_back(point(text));
+      for (std::size_t k = 0; k < attributes && !text.at_line_end(); ++k)
+        static_cast<void>(text.real("an attribute"));
+      point_markers_.add(i, marked && !text.at_line_end() ? text.tag_from_real("a boundary marker") : 0);
+      text.skip_line();
+    }
+    attributes_ += attributes * count;
+  }
+
+  void read_segments() {
+    if (text_.at_end()) text_.fail_truncated("the number of segments");
+    const std::size_t count = text_.count("the number of segments", 6);
+    text_.skip_line();
+    plane_.segments.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::int64_t expected = plane_.base + static_cast<std::int64_t>(i);
+      const std::int64_t number = text_.integer("the segment's number");
+      if (number != expected)
+        text_.fail("expected segment " + std::to_string(expected) + ", found the number " +
+                   std::to_string(number));
+      Segment segment{};
+      for (Index& end : segment) end = text_.index("a point's number", plane_.base, plane_.points.size());
+      segment_markers_.add(i, text_.at_line_end() ? 0 : text_.tag_from_real("a boundary marker"));
+      plane_.segments.push_back(segment);
+      text_.skip_line();
+    }
+  }
+
+  void read_holes() {
+    if (text_.at_end()) return;  // the section may be missing
+    const std::size_t count = text_.count("the number of holes", 6);
+    text_.skip_line();
+    for (std::size_t i = 0; i < count; ++i) {
+      static_cast<void>(text_.integer("the hole's number"));
+      plane_.holes.push_back(point(text_));
+      text_.skip_line();
+    }
+  }
+
+  void read_regions() {
+    if (text_.at_end()) return;
+    const std::size_t count = text_.count("the number of regions", 8);
+    text_.skip_line();
+    for (std::size_t i = 0; i < count; ++i) {
+      static_cast<void>(text_.integer("the region's number"));
+      Plane::Seed seed{point(text_), 0};
+      seed.id = text_.tag_from_real("a region's attribute");
+      if (!text_.at_line_end()) seed.area = std::max(0.0, text_.real("a region's largest area"));
+      plane_.regions.push_back(seed);
+      text_.skip_line();
+    }
+  }
+
+  TextReader text_;
+  Plane plane_;
+  Tags point_markers_, segment_markers_;
+  std::size_t attributes_ = 0;
+};
+
+}  // namespace
+}  // namespace io
+
+Plane read_plane(const std::filesystem::path& path, const ReadOptions& options) {
+  const FloatEnvironment environment;
+  const std::string extension = io::extension_of(path, options.format);
+  if (extension != ".poly" && extension != ".node")
+    throw FileError(
+        path, "",
+        (extension.empty() ? "a name without extension" : "the format " + io::in_quotes(extension)) +
+            " cannot be read as points and segments; the formats are .poly, .node");
+  io::Watch watch(options, options.progress);
+  const io::FileBytes bytes(path, &watch);
+  io::PlaneReader reader({path, bytes.view(), false, &watch});
+  Plane plane = extension == ".poly" ? reader.read_poly() : reader.read_points();
+  watch.finish();
+  return plane;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,20 @@
+// The bounded faces of a connected graph in the plane, each as one closed walk.
+#pragma once
+
+#include <vector>
+
+#include "plane/sweep.h"
+
+namespace holdfast::plane {
+
+/// Walks one after another, each with its face on the left. A vertex comes as often as the walk passes it.
+struct Walks {
+  std::vector<Vertex> vertices;
+  std::vector<std::size_t> first;  ///< of each walk, and the end of the last
+  [[nodiscard]] std::size_t count() const { return first.size() - 1; }
+};
+
+/// The bounded faces between edges that meet in common ends alone; within each all hangs together.
+[[nodiscard]] Walks find_faces(const Points& points, const std::vector<Ends>& edges);
+
+}  // namespace holdfast::plane

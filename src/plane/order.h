@@ -1,0 +1,16 @@
+// The order in which points are inserted.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "plane/points.h"
+
+namespace holdfast::plane {
+
+/// Indices of points in a biased randomised insertion order (Amenta, Choi, Rote 2003): rounds that double,
+/// each along a Hilbert curve. Points that follow each other lie near each other, and no input makes the
+/// Delaunay triangulation quadratic in expectation that is not so in the end.
+[[nodiscard]] std::vector<Vertex> insertion_order(std::span<const Position> points);
+
+}  // namespace holdfast::plane

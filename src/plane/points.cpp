@@ -1,0 +1,98 @@
+// Predicates on points some of which are exact: a filter on their nearest doubles, then integers.
+#include "plane/points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "exact/tiers.h"
+#include "numbers/float_environment.h"
+
+namespace holdfast::plane {
+namespace {
+
+/// Decides incircle from doubles that err by half an ulp each, or 0.
+///
+/// Let M be the largest coordinate and D the largest difference. Coordinates err by eps M, so differences by
+/// 2 eps M and by eps D for their rounding: x D with x = eps (2 M / D + 1). The determinant has twelve terms
+/// of four differences, so this part is 12 D^4 ((1 + x)^4 - 1) at most, which is below 12 D^4 * 6 x while
+/// x <= 0.2; eight more roundings of each term add 100 eps D^4.
+int rough_incircle(const Position& a, const Position& b, const Position& c, const Position& d) {
+  double largest = 0, extent = 0;
+  for (const Position* p : {&a, &b, &c, &d})
+    for (std::size_t k = 0; k < 2; ++k) {
+      largest = std::max(largest, std::fabs((*p)[k]));
+      extent = std::max(extent, std::fabs((*p)[k] - d[k]));
+    }
+  if (!(extent > 0x1p-200) || !(largest < extent * 0x1p45)) return 0;
+  const double ax = a[0] - d[0], ay = a[1] - d[1], bx = b[0] - d[0], by = b[1] - d[1];
+  const double cx = c[0] - d[0], cy = c[1] - d[1];
+  const double det = (ax * ax + ay * ay) * (bx * cy - cx * by) + (bx * bx + by * by) * (cx * ay - ax * cy) +
+                     (cx * cx + cy * cy) * (ax * by - bx * ay);
+  const double x = exact::detail::kEpsilon * (2 * largest / extent + 1);
+  const double fourth = extent * extent * extent * extent;
+  return exact::detail::filtered_sign(det, (73 * x + 110 * exact::detail::kEpsilon) * fourth);
+}
+
+}  // namespace
+
+Vertex Points::add(const Position& p) {
+  positions_.push_back(p);
+  return static_cast<Vertex>(positions_.size() - 1);
+}
+
+Vertex Points::add(exact::RationalPoint p) {
+  const Vertex v = add(exact::nearest(p));
+  store_.push_back(std::move(p));
+  exact_.resize(v);
+  exact_.push_back(&store_.back());
+  return v;
+}
+
+void Points::shrink(std::size_t count) {
+  positions_.resize(count);
+  while (exact_.size() > count) {
+    if (exact_.back() != nullptr) store_.pop_back();
+    exact_.pop_back();
+  }
+  if (store_.empty()) exact_.clear();
+}
+
+exact::RationalPoint Points::rational(Vertex v) const {
+  return is_exact(v) ? *exact_[v] : exact::rational_point(at(v));
+}
+
+int Points::mixed_orient(Vertex a, Vertex b, Vertex c) const {
+  if (!is_exact(a) && !is_exact(b) && !is_exact(c)) return exact::orient2d(at(a), at(b), at(c));
+  const int sign = exact::detail::orient2d_mixed_filter(at(a), at(b), at(c), 0, 1);
+  return sign != 0 ? sign : exact::orient2d(rational(a), rational(b), rational(c));
+}
+
+int Points::mixed_incircle(Vertex a, Vertex b, Vertex c, Vertex d) const {
+  if (!is_exact(a) && !is_exact(b) && !is_exact(c) && !is_exact(d))
+    return exact::incircle(at(a), at(b), at(c), at(d));
+  const int sign = rough_incircle(positions_[a], positions_[b], positions_[c], positions_[d]);
+  return sign != 0 ? sign : exact::incircle(rational(a), rational(b), rational(c), rational(d));
+}
+
+int Points::mixed_compare(Vertex a, Vertex b) const {
+  if (!is_exact(a) && !is_exact(b)) return compare_positions(a, b);
+  // Rounding to nearest is monotonic: what differs afterwards differed before, and in the same sense.
+  if (positions_[a][0] != positions_[b][0]) return positions_[a][0] < positions_[b][0] ? -1 : 1;
+  return exact::compare(rational(a), rational(b));
+}
+
+int Points::compare_heights(Vertex a, Vertex b, Vertex c, Vertex d) const {
+  if (!is_exact(a) && !is_exact(b) && !is_exact(c) && !is_exact(d)) {
+    const Position &pa = positions_[a], &pb = positions_[b], &pc = positions_[c], &pd = positions_[d];
+    // The filter of orient2d, whose two differences have an origin in common; that plays no part in its
+    // bound.
+    const double left = (pb[0] - pa[0]) * (pd[1] - pc[1]), right = (pb[1] - pa[1]) * (pd[0] - pc[0]);
+    const double bound =
+        (3 + 16 * exact::detail::kEpsilon) * exact::detail::kEpsilon * (std::fabs(left) + std::fabs(right)) +
+        0x1p-900;
+    if (const int sign = exact::detail::filtered_sign(left - right, bound); sign != 0) return sign;
+  }
+  return exact::compare_heights(rational(a), rational(b), rational(c), rational(d));
+}
+
+}  // namespace holdfast::plane

@@ -1,0 +1,81 @@
+// The points of a triangulation in the plane: explicit (two doubles) or exact (rational), behind the same
+// predicates.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "exact/incircle.h"
+#include "exact/rational_point.h"
+
+namespace holdfast::plane {
+
+using Vertex = std::uint32_t;
+inline constexpr Vertex kNoVertex = ~Vertex{0};
+/// The doubles of a point, or those nearest to an exact one.
+using Position = std::array<double, 2>;
+
+class Points {
+ public:
+  Points() = default;
+  explicit Points(std::vector<Position> positions) : positions_(std::move(positions)) {}
+
+  [[nodiscard]] std::size_t size() const { return positions_.size(); }
+  [[nodiscard]] const Position& operator[](Vertex v) const { return positions_[v]; }
+  [[nodiscard]] const std::vector<Position>& positions() const { return positions_; }
+
+  Vertex add(const Position& p);
+  Vertex add(exact::RationalPoint p);
+  /// Takes back the points from number `count` on.
+  void shrink(std::size_t count);
+  [[nodiscard]] exact::RationalPoint rational(Vertex v) const;
+
+  /// As exact::orient2d: +1 where abc turns left.
+  [[nodiscard]] int orient(Vertex a, Vertex b, Vertex c) const {
+    if (exact_.empty()) [[likely]]
+      return exact::orient2d(at(a), at(b), at(c));
+    return mixed_orient(a, b, c);
+  }
+  /// As exact::incircle: +1 where d lies inside the circle through the positive triangle abc.
+  [[nodiscard]] int incircle(Vertex a, Vertex b, Vertex c, Vertex d) const {
+    if (exact_.empty()) [[likely]]
+      return exact::incircle(at(a), at(b), at(c), at(d));
+    return mixed_incircle(a, b, c, d);
+  }
+  /// Sign of a - b in lexicographic order; 0 for points at one place.
+  [[nodiscard]] int compare(Vertex a, Vertex b) const {
+    if (exact_.empty()) [[likely]]
+      return compare_positions(a, b);
+    return mixed_compare(a, b);
+  }
+  /// +1 where d lies further to the left of the line ab than c.
+  [[nodiscard]] int compare_heights(Vertex a, Vertex b, Vertex c, Vertex d) const;
+  /// Whether p, which lies on the line ab, lies strictly between a and b.
+  [[nodiscard]] bool between(Vertex a, Vertex b, Vertex p) const {
+    const int before = compare(a, p);
+    return before != 0 && before == compare(p, b);
+  }
+
+ private:
+  [[nodiscard]] const double* at(Vertex v) const { return positions_[v].data(); }
+  [[nodiscard]] int compare_positions(Vertex a, Vertex b) const {
+    const Position &p = positions_[a], &q = positions_[b];
+    if (p[0] != q[0]) return p[0] < q[0] ? -1 : 1;
+    if (p[1] != q[1]) return p[1] < q[1] ? -1 : 1;
+    return 0;
+  }
+  [[nodiscard]] bool is_exact(Vertex v) const { return v < exact_.size() && exact_[v] != nullptr; }
+  [[nodiscard]] int mixed_orient(Vertex a, Vertex b, Vertex c) const;
+  [[nodiscard]] int mixed_incircle(Vertex a, Vertex b, Vertex c, Vertex d) const;
+  [[nodiscard]] int mixed_compare(Vertex a, Vertex b) const;
+
+  std::vector<Position> positions_;
+  // Of exact points, by vertex; null for explicit ones, and too short where none follows.
+  std::vector<const exact::RationalPoint*> exact_;
+  std::deque<exact::RationalPoint> store_;  // which keeps its addresses
+};
+
+}  // namespace holdfast::plane

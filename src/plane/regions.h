@@ -1,0 +1,29 @@
+// The regions that constraints separate from each other and from the outside.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "plane/triangles.h"
+
+namespace holdfast::plane {
+
+inline constexpr std::uint32_t kOutside = 0;
+
+/// The region of each triangle: kOutside for what no constraints separate from the outside (ghosts, or
+/// borders that are none), then numbers from 1 as their first triangles come.
+struct Regions {
+  std::vector<std::uint32_t> of_triangle;
+  std::uint32_t count = 0;
+};
+[[nodiscard]] Regions find_regions(const Triangles& mesh);
+
+/// For each place a triangle that holds it, kNoVertex for one that none holds.
+struct Found {
+  std::uint32_t triangle = kNoVertex;
+  bool on_constraint = false;  ///< it lies on a constrained edge, or at a vertex of one
+};
+[[nodiscard]] std::vector<Found> find_triangles(const Triangles& mesh, Points& points,
+                                                std::span<const Position> places);
+
+}  // namespace holdfast::plane

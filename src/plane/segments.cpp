@@ -1,0 +1,39 @@
+// Where a segment passes through a closed triangulation.
+#include "plane/segments.h"
+
+namespace holdfast::plane {
+
+std::optional<Passage> passage(const Triangles& mesh, const Points& points, Vertex a, Vertex b) {
+  Passage found;
+  const EdgeCode first = mesh.edge_from(a);
+  if (first == kNoEdge) return std::nullopt;
+  EdgeCode e = first, leave = kNoEdge;
+  do {
+    const Vertex right = mesh.to(e), left = mesh.apex(e);
+    if (right == b) {
+      found.edge = e;
+      return found;
+    }
+    if (right != kNoVertex) {
+      const int side = points.orient(a, b, right);
+      if (side == 0 && points.between(a, b, right)) return std::nullopt;
+      if (side < 0 && left != kNoVertex && left != b && points.orient(a, b, left) > 0) leave = next_edge(e);
+    }
+    e = mesh.turn_right(e);
+  } while (e != first);
+
+  // The corner across the edge lies on one side of ab, and so tells the edge by which ab leaves.
+  while (leave != kNoEdge) {
+    if (mesh.constrained(leave)) return std::nullopt;
+    found.crossed.push_back(leave);
+    const EdgeCode entered = mesh.across(leave);
+    const Vertex corner = mesh.apex(entered);
+    if (corner == b) return found;
+    const int side = points.orient(a, b, corner);
+    if (side == 0) return std::nullopt;
+    leave = side > 0 ? next_edge(entered) : previous_edge(entered);
+  }
+  return std::nullopt;
+}
+
+}  // namespace holdfast::plane

@@ -1,0 +1,332 @@
+// From points and segments to triangles: the course of a run.
+#include "plane/triangulate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "plane/defects.h"
+#include "plane/delaunay.h"
+#include "plane/ears.h"
+#include "plane/faces.h"
+#include "plane/hull.h"
+#include "plane/order.h"
+#include "plane/partition.h"
+#include "plane/regions.h"
+#include "plane/swaps.h"
+
+namespace holdfast::plane {
+namespace {
+
+constexpr std::size_t kMostPoints = std::size_t{1} << 28;
+constexpr std::size_t kMostDefects = 100;  // of a kind
+
+void require_sensible(const Plane& plane, const PlaneOptions& options) {
+  const auto fits = [](const auto& markers, const auto& entities) {
+    return markers.empty() || markers.size() == entities.size();
+  };
+  if (!fits(plane.point_markers, plane.points))
+    throw std::invalid_argument("as many point markers as points are needed, or none");
+  if (!fits(plane.segment_markers, plane.segments))
+    throw std::invalid_argument("as many segment markers as segments are needed, or none");
+  if (plane.points.size() > kMostPoints) throw std::length_error("more than 2^28 points are too many");
+  const auto finite = [](const PlanePoint& p) { return std::isfinite(p[0]) && std::isfinite(p[1]); };
+  for (std::size_t i = 0; i < plane.holes.size(); ++i)
+    if (!finite(plane.holes[i]))
+      throw std::invalid_argument("hole " + std::to_string(i + 1) + " is not finite");
+  for (std::size_t i = 0; i < plane.regions.size(); ++i)
+    if (!finite(plane.regions[i].where))
+      throw std::invalid_argument("region " + std::to_string(i + 1) + " is not finite");
+  if (options.stop_after == PlaneStage::partition && options.method != PlaneMethod::partition)
+    throw std::invalid_argument("only the method partition has the stage partition");
+}
+
+class Run {
+ public:
+  Run(const Plane& plane, const PlaneOptions& options, const Poll& poll)
+      : plane_(plane), options_(options), poll_(poll), random_(options.seed) {}
+
+  PlaneResult go() {
+    PlaneReport& report = result_.report;
+    report.points = plane_.points.size();
+    report.segments = plane_.segments.size();
+    report.holes = plane_.holes.size();
+    if (!is_sound() || !make()) refuse();
+    report.seconds["total"] = seconds_since(start_);
+    return std::move(result_);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  }
+
+  /// Runs a stage, which takes the share of the work from `done_` to `until`.
+  template <typename Work>
+  auto stage(const char* name, double until, Work&& work) {
+    const Clock::time_point start = Clock::now();
+    const double from = done_;
+    const Poll share = [&](double fraction) { poll_(from + fraction * (until - from)); };
+    struct Note {
+      PlaneReport& report;
+      const char* name;
+      Clock::time_point start;
+      ~Note() { report.seconds[name] += seconds_since(start); }
+    } note{result_.report, name, start};
+    done_ = until;
+    return work(share);
+  }
+
+  // What single entities need so that the stages can begin.
+  [[nodiscard]] bool is_sound() const {
+    const auto finite = [](const PlanePoint& p) { return std::isfinite(p[0]) && std::isfinite(p[1]); };
+    return std::all_of(plane_.points.begin(), plane_.points.end(), finite) &&
+           std::all_of(plane_.segments.begin(), plane_.segments.end(), [&](const Segment& s) {
+             return s[0] < plane_.points.size() && s[1] < plane_.points.size() && s[0] != s[1];
+           });
+  }
+
+  /// False where the input turns out to be invalid.
+  bool make() { return options_.method == PlaneMethod::ears ? make_by_ears() : make_by_delaunay(); }
+
+  bool make_by_ears() {
+    points_ = Points(plane_.points);
+    segments_ = plane_.segments;
+    if (options_.hull || segments_.empty()) add_hull(points_, segments_);
+    std::optional<std::vector<Ends>> links =
+        stage("sweep", 0.4, [&](const Poll& poll) { return sweep(points_, segments_, poll); });
+    if (!links) return false;
+    result_.report.links = links->size();
+    std::vector<std::array<Vertex, 3>> triangles;
+    stage("ears", 0.7, [&](const Poll& poll) {
+      links->insert(links->end(), segments_.begin(), segments_.end());
+      const Walks walks = find_faces(points_, *links);
+      EarCounts counts;
+      for (std::size_t i = 0; i < walks.count(); ++i) {
+        poll(static_cast<double>(i) / static_cast<double>(walks.count()));
+        cut_ears(points_,
+                 std::span(walks.vertices).subspan(walks.first[i], walks.first[i + 1] - walks.first[i]),
+                 options_.ears, triangles, counts);
+      }
+      result_.report.ears = counts.ears;
+      result_.report.joined = counts.joined;
+    });
+    stage("join", 0.75, [&](const Poll&) { mesh_ = Triangles::joined(triangles, segments_); });
+    if (options_.delaunay)
+      stage("lawson", 0.9, [&](const Poll& poll) {
+        result_.report.delaunay_swaps = swap_to_delaunay(mesh_, points_, poll);
+      });
+    stage("regions", 1, [&](const Poll&) { keep_regions(); });
+    return true;
+  }
+
+  bool make_by_delaunay() {
+    order_points();
+    std::optional<Triangles> mesh =
+        stage("delaunay", 0.5, [&](const Poll& poll) { return delaunay(points_, poll); });
+    if (!mesh) return false;
+    // Points on one line: there is nothing to make a triangle of, but they may be invalid all the same.
+    if (mesh->size() == 0) return conclude_empty();
+    mesh_ = std::move(*mesh);
+    if (options_.stop_after == PlaneStage::delaunay) {
+      keep([](std::uint32_t) { return true; });
+      return true;
+    }
+    if (!stage("segments", 0.8, [&](const Poll& poll) { return insert_segments(poll); })) return false;
+    if (options_.stop_after == PlaneStage::partition) {
+      keep([](std::uint32_t) { return true; });
+      return true;
+    }
+    if (options_.delaunay)
+      stage("lawson", 0.9, [&](const Poll& poll) {
+        result_.report.delaunay_swaps = options_.method == PlaneMethod::swaps
+                                            ? swap_to_delaunay(mesh_, points_, edges_of_swapped(), poll)
+                                            : swap_to_delaunay(mesh_, points_, poll);
+      });
+    stage("regions", 1, [&](const Poll&) { keep_regions(); });
+    return true;
+  }
+
+  // Points are numbered as they are inserted, so that those near each other are so in memory, too.
+  void order_points() {
+    stage("order", 0.1, [&](const Poll&) {
+      order_ = insertion_order(plane_.points);
+      std::vector<Position> positions(order_.size());
+      std::vector<Vertex> number(order_.size());
+      for (Vertex i = 0; i < order_.size(); ++i) {
+        positions[i] = plane_.points[order_[i]];
+        number[order_[i]] = i;
+      }
+      points_ = Points(std::move(positions));
+      for (const Segment& s : plane_.segments) segments_.push_back({number[s[0]], number[s[1]]});
+    });
+  }
+
+  bool insert_segments(const Poll& poll) {
+    mesh_.find_stars(points_.size());
+    for (std::size_t s = 0; s < segments_.size(); ++s) {
+      if (s % 256 == 0) poll(static_cast<double>(s) / static_cast<double>(segments_.size()));
+      const auto [a, b] = segments_[s];
+      const std::optional<Passage> found = passage(mesh_, points_, a, b);
+      if (!found) return false;
+      EdgeCode edge = found->edge;
+      if (edge == kNoEdge) {
+        ++result_.report.missing_segments;
+        if (options_.method == PlaneMethod::partition) {
+          take_apart(a, b, found->crossed);
+          continue;
+        }
+        result_.report.swaps += swap_in(mesh_, points_, a, b, found->crossed, random_, swapped_);
+        edge = mesh_.find_edge(a, b);
+      }
+      if (mesh_.constrained(edge)) return false;  // by the same segment
+      mesh_.constrain(edge);
+    }
+    if (options_.stop_after != PlaneStage::partition) put_together();
+    if (options_.hull || segments_.empty())
+      for (std::size_t t = 0; t < mesh_.size(); ++t)
+        for (std::uint32_t i = 0; i < 3; ++i)
+          if (mesh_[t].v[i] == kNoVertex) mesh_.constrain(code(t, i));
+    return true;
+  }
+
+  // Its points go at once, or, as §2.3 tells it, when all segments stand.
+  void take_apart(Vertex a, Vertex b, const std::vector<EdgeCode>& crossed) {
+    pieces_.push_back(partition_.insert(a, b, crossed));
+    result_.report.partition_points += crossed.size();
+    result_.report.most_partition_points =
+        std::max(result_.report.most_partition_points, points_.size() - plane_.points.size());
+    if (!options_.partition_first && options_.stop_after != PlaneStage::partition) put_together();
+  }
+
+  void put_together() {
+    for (const Pieces& pieces : pieces_) result_.report.swaps += partition_.remove(pieces);
+    pieces_.clear();
+    points_.shrink(plane_.points.size());
+    mesh_.drop_stars(points_.size());
+  }
+
+  // All triangles that swaps have changed, edge by edge.
+  [[nodiscard]] std::vector<EdgeCode> edges_of_swapped() const {
+    std::vector<EdgeCode> edges;
+    edges.reserve(3 * swapped_.size());
+    for (const EdgeCode e : swapped_)
+      for (const EdgeCode edge : {e, next_edge(e), previous_edge(e)}) edges.push_back(edge);
+    return edges;
+  }
+
+  void keep_regions() {
+    const Regions regions = find_regions(mesh_);
+    std::vector<int> ids(regions.count + std::size_t{1}, 0);
+    std::vector<bool> kept(ids.size(), true);
+    kept[kOutside] = false;
+    const auto locate = [&](const std::vector<Position>& places, const char* what, auto&& use) {
+      const std::vector<Found> found = find_triangles(mesh_, points_, places);
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        if (found[i].on_constraint)
+          throw std::invalid_argument(std::string(what) + " " + std::to_string(i + 1) +
+                                      " lies on a segment, so that it is in no region; move it");
+        if (found[i].triangle != kNoVertex) use(i, regions.of_triangle[found[i].triangle]);
+      }
+    };
+    locate(plane_.holes, "hole", [&](std::size_t, std::uint32_t region) { kept[region] = false; });
+    std::vector<Position> seeds;
+    for (const Plane::Seed& seed : plane_.regions) seeds.push_back(seed.where);
+    locate(seeds, "region", [&](std::size_t i, std::uint32_t region) { ids[region] = plane_.regions[i].id; });
+    number_regions(kept, ids);
+    keep([&](std::uint32_t t) { return kept[regions.of_triangle[t]]; },
+         [&](std::uint32_t t) { return ids[regions.of_triangle[t]]; });
+    if (result_.mesh.triangles.empty()) encloses_nothing();
+  }
+
+  // Kept regions without a seed get the numbers from 1 on that no seed has.
+  void number_regions(const std::vector<bool>& kept, std::vector<int>& ids) {
+    std::vector<int> taken;
+    for (const Plane::Seed& seed : plane_.regions) taken.push_back(seed.id);
+    std::sort(taken.begin(), taken.end());
+    int next = 1;
+    for (std::size_t region = 1; region < ids.size(); ++region) {
+      if (!kept[region]) continue;
+      ++result_.report.regions;
+      if (ids[region] != 0) continue;
+      while (std::binary_search(taken.begin(), taken.end(), next)) ++next;
+      ids[region] = next++;
+    }
+  }
+
+  // The number of a point in the input; of one that is added, behind these.
+  [[nodiscard]] Index number(Vertex v) const { return v < order_.size() ? order_[v] : v; }
+
+  template <typename Kept, typename Id>
+  void keep(Kept&& kept, Id&& id) {
+    PlaneMesh& mesh = result_.mesh;
+    for (std::uint32_t t = 0; t < mesh_.size(); ++t) {
+      if (mesh_.is_ghost(t) || !kept(t)) continue;
+      const std::array<Vertex, 3>& v = mesh_[t].v;
+      mesh.triangles.push_back({number(v[0]), number(v[1]), number(v[2])});
+      mesh.regions.push_back(id(t));
+    }
+    mesh.points = plane_.points;
+    mesh.point_markers = plane_.point_markers;
+    mesh.segments = plane_.segments;
+    mesh.segment_markers = plane_.segment_markers;
+    // After partition alone: points that are added, to the nearest doubles.
+    for (std::size_t v = plane_.points.size(); v < points_.size(); ++v)
+      mesh.points.push_back(points_[static_cast<Vertex>(v)]);
+    if (!mesh.point_markers.empty()) mesh.point_markers.resize(mesh.points.size(), 0);
+    result_.report.triangles = mesh.triangles.size();
+  }
+  template <typename Kept>
+  void keep(Kept&& kept) {
+    keep(kept, [](std::uint32_t) { return 1; });
+  }
+
+  bool conclude_empty() {
+    result_.defects = find_defects(plane_, kMostDefects, poll_);
+    if (!result_.defects.empty()) return false;
+    encloses_nothing();
+    return true;
+  }
+
+  void encloses_nothing() {
+    result_.mesh = {};
+    result_.outcome = Outcome::invalid_input;
+    result_.message = plane_.segments.empty() ? "all points lie on one line, so that there is no triangle"
+                                              : "the segments enclose nothing, or nothing but holes";
+    result_.defects.push_back({DefectKind::encloses_nothing, {}, {}, {}, {}, result_.message});
+  }
+
+  void refuse() {
+    if (result_.defects.empty()) result_.defects = find_defects(plane_, kMostDefects, poll_);
+    if (result_.defects.empty()) throw std::logic_error("holdfast: a plane input fails without a defect");
+    result_.mesh = {};
+    result_.outcome = Outcome::invalid_input;
+    result_.message = "the points and segments are not valid";
+  }
+
+  const Plane& plane_;
+  const PlaneOptions& options_;
+  const Poll& poll_;
+  const Clock::time_point start_ = Clock::now();
+  double done_ = 0;
+  numbers::Random random_;
+  std::vector<Vertex> order_;  // of each point here, its number in the input
+  Points points_;
+  std::vector<std::array<Vertex, 2>> segments_;
+  Triangles mesh_;
+  std::vector<EdgeCode> swapped_;
+  Partition partition_{mesh_, points_};
+  std::vector<Pieces> pieces_;  // of segments whose points are still there
+  PlaneResult result_;
+};
+
+}  // namespace
+
+PlaneResult triangulate(const Plane& plane, const PlaneOptions& options, const Poll& poll) {
+  require_sensible(plane, options);
+  return Run(plane, options, poll).go();
+}
+
+}  // namespace holdfast::plane

@@ -1,0 +1,167 @@
+"""`holdfast plane` from outside: formats, methods, defects, exit codes, files.
+
+    plane_test.py PROGRAM [unittest options]
+"""
+import json
+
+from cli_case import CliTest, main
+
+
+def poly(points, segments, holes=(), regions=(), base=1):
+    lines = [f"{len(points)} 2 0 0"]
+    lines += ["%d %r %r" % (base + i, *p) for i, p in enumerate(points)]
+    lines += [f"{len(segments)} 0"] + [f"{base + i} {a} {b}" for i, (a, b) in enumerate(segments)]
+    lines += [f"{len(holes)}"] + ["%d %r %r" % (i + 1, *p) for i, p in enumerate(holes)]
+    lines += [f"{len(regions)}"] + ["%d %r %r %d" % (i + 1, *p) for i, p in enumerate(regions)]
+    return "\n".join(lines) + "\n"
+
+
+SQUARE = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)]
+INNER = [(1.0, 1.0), (3.0, 1.0), (3.0, 3.0), (1.0, 3.0)]
+RING = [(1, 2), (2, 3), (3, 4), (4, 1), (5, 6), (6, 7), (7, 8), (8, 5)]
+METHODS = (["--method", "ears"], ["--method", "ears", "--ears", "best"], ["--method", "ears", "--ears", "join"],
+           ["--method", "swaps"], ["--method", "partition"], ["--method", "partition", "--partition-first"])
+
+
+def read_off(path):
+    lines = path.read_text().split("\n")
+    n, m, _ = map(int, lines[1].split())
+    points = [tuple(map(float, line.split())) for line in lines[2:2 + n]]
+    triangles = [tuple(map(int, line.split()))[1:] for line in lines[2 + n:2 + n + m]]
+    return points, triangles
+
+
+def area(points, triangle):
+    (ax, ay, _), (bx, by, _), (cx, cy, _) = (points[v] for v in triangle)
+    return ((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / 2
+
+
+class Triangles(CliTest):
+    def areas(self, *options):
+        self.run_program("plane", "in.poly", "-o", "out.off", "--report", "r.json", *options)
+        points, triangles = read_off(self.folder / "out.off")
+        self.assertTrue(all(area(points, t) > 0 for t in triangles))
+        self.report = json.loads((self.folder / "r.json").read_text())
+        self.assertEqual(self.report["mesh"]["triangles"], len(triangles))
+        return sum(area(points, t) for t in triangles), points
+
+    def test_every_method_keeps_a_ring_and_its_inside_but_for_holes(self):
+        for method in METHODS:
+            self.write("in.poly", poly(SQUARE + INNER, RING))
+            self.assertEqual(self.areas(*method)[0], 16)
+            self.assertEqual(self.report["mesh"]["regions"], 2)
+            self.write("in.poly", poly(SQUARE + INNER, RING, holes=[(2.0, 2.0)]))
+            self.assertEqual(self.areas(*method, "--delaunay")[0], 12)
+            self.assertEqual(self.report["mesh"]["regions"], 1)
+
+    def test_points_come_out_bit_for_bit_and_in_order(self):
+        tiny, huge = 5e-324, 1e301
+        corners = [(-0.0, -tiny), (huge, 0.0), (0.1, huge), (0.30000000000000004, 0.2)]
+        self.write("in.poly", poly(corners, [(1, 2), (2, 3), (3, 1)]))
+        for method in METHODS:
+            _, points = self.areas(*method)
+            self.assertEqual([tuple(map(float.hex, p[:2])) for p in points],
+                             [tuple(map(float.hex, p)) for p in corners])
+
+    def test_dangling_segments_and_isolated_points_are_in_the_mesh(self):
+        self.write("in.poly", poly(SQUARE + [(1.0, 1.0), (2.0, 3.0), (3.0, 1.0)],
+                                   [(1, 2), (2, 3), (3, 4), (4, 1), (5, 6)]))
+        for method in METHODS:
+            self.run_program("plane", "in.poly", "-o", "out.off", *method)
+            _, triangles = read_off(self.folder / "out.off")
+            self.assertEqual(len(triangles), 2 * 7 - 2 - 4)
+            sides = {frozenset((t[i], t[i - 1])) for t in triangles for i in range(3)}
+            self.assertIn(frozenset((4, 5)), sides)
+            self.assertEqual({v for t in triangles for v in t}, set(range(7)))
+
+    def test_the_method_named_does_the_work(self):
+        # Two rows of points whose Delaunay edges go up and down; the segment goes along them.
+        points = [(-10.0, 0.5), (21.0, 0.5)] + [(float(i), 0.0) for i in range(12)] + [(i + 0.5, 1.0) for i in range(12)]
+        outline = [1] + list(range(3, 15)) + [2] + list(range(26, 14, -1))
+        segments = [(outline[i], outline[(i + 1) % 26]) for i in range(26)] + [(1, 2)]
+        self.write("in.poly", poly(points, segments))
+        self.areas("--method", "swaps")
+        self.assertEqual(self.report["missing_segments"], 1)
+        self.assertGreater(self.report["swaps"], 20)
+        self.areas("--method", "partition")
+        self.assertEqual(self.report["partition_points"], 23)
+        self.assertGreater(self.report["swaps"], 20)
+        self.areas("--method", "ears")
+        self.assertEqual(self.report["ears"], 26 - 2)
+        self.assertEqual(self.report["partition_points"], 0)
+        _, stood = self.areas("--method", "partition", "--stop-after", "partition")
+        self.assertEqual(len(stood), 26 + 23)
+        self.assertTrue(all(y == 0.5 for _, y, _ in stood[26:]))
+        self.areas("--method", "swaps", "--stop-after", "delaunay")
+        self.assertEqual(self.report["swaps"], 0)
+
+    def test_formats(self):
+        self.write("in.poly", poly(SQUARE, RING[:4], regions=[(1.0, 2.0, 7)]))
+        self.run_program("plane", "in.poly", "-o", "out.node")
+        self.assertEqual(self.files(), ["cube.off", "in.poly", "out.ele", "out.node"])
+        self.assertEqual((self.folder / "out.node").read_text(), "4 2 0 0\n0 0 0\n1 4 0\n2 4 4\n3 0 4\n")
+        elements = (self.folder / "out.ele").read_text().split("\n")
+        self.assertEqual(elements[0], "2 3 1")
+        self.assertTrue(elements[1].endswith(" 7"))
+        self.run_program("plane", "in.poly", "-o", "out.vtu")
+        self.assertIn(b'NumberOfCells="6"', (self.folder / "out.vtu").read_bytes())
+        self.run_program("plane", "out.node", "-o", "hull.off")
+        self.assertEqual(len(read_off(self.folder / "hull.off")[1]), 2)
+        self.run_program("plane", "in.poly", "-o", "out.stl", expect=2)
+
+
+class Refused(CliTest):
+    def refused(self, points, segments, message, **more):
+        self.write("in.poly", poly(points, segments, **more))
+        for method in METHODS:
+            said = self.run_program("plane", "in.poly", "-o", "out.off", *method, expect=4).stderr
+            self.assertIn(message, said)
+        self.assertNotIn("out.off", self.files())
+
+    def test_defects_are_named_by_their_numbers_in_the_file(self):
+        self.refused(SQUARE + [(4.0, 4.0)], RING[:4], "points 3 and 5 are both at (4, 4)")
+        self.refused(SQUARE + [(2.0, 0.0)], RING[:4], "point 5 (2, 0) lies inside segment 1 (1-2)")
+        self.refused(SQUARE, RING[:4] + [(1, 3), (2, 4)], "segment 5 (1-3) and segment 6 (2-4) cross at (2, 2)")
+        self.refused(SQUARE, RING[:4] + [(2, 1)], "segment 5 (2-1) is segment 1 (1-2) again")
+        self.refused(SQUARE, RING[:4] + [(3, 3)], "segment 5 (3-3) has no length")
+        self.refused(SQUARE + [(6.0, 0.0)], RING[:4] + [(1, 5)], "segment 1 (1-2) and segment 5 (1-5) overlap")
+        self.refused(SQUARE, RING[:3], "enclose nothing")
+        self.refused([(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)], [], "on one line")
+        self.refused(SQUARE[:3] + [(float("nan"), 1.0)], RING[:3], "point 4 (nan, 1) is not finite")
+
+    def test_numbers_may_begin_with_0(self):
+        segments = [(0, 1), (1, 2), (2, 3), (3, 0), (0, 2), (1, 3)]
+        self.refused(SQUARE, segments, "segment 4 (0-2) and segment 5 (1-3) cross", base=0)
+
+    def test_files_that_are_wrong(self):
+        whole = poly(SQUARE, RING[:4])
+        for text, message in [
+            (whole.replace("4 4 1", "4 4 9"), "out of range: 9"),
+            (whole.replace("4 2 0 0", "4 3 0 0", 1), "the dimension is not 2"),
+            (whole.replace("4 2 0 0", "400000000 2 0 0", 1), "truncated or damaged"),
+            (whole[:40], "truncated"),
+            (whole + "1 2 3\n", "text after the last section"),
+        ]:
+            self.write("in.poly", text)
+            said = self.run_program("plane", "in.poly", "-o", "out.off", expect=3).stderr
+            self.assertIn(message, said)
+            self.assertRegex(said, "line [0-9]+")
+        self.run_program("plane", "none.poly", "-o", "out.off", expect=3)
+        self.assertEqual(self.files(), ["cube.off", "in.poly"])
+
+    def test_usage(self):
+        self.write("in.poly", poly(SQUARE, RING[:4], holes=[(2.0, 0.0)]))
+        self.assertIn("hole 1 lies on a segment",
+                      self.run_program("plane", "in.poly", "-o", "out.off", expect=2).stderr)
+        self.write("in.poly", poly(SQUARE, RING[:4]))
+        for options in (["--method", "ear"], ["--method", "ears", "--stop-after", "delaunay"],
+                        ["--stop-after", "partition"], ["--ears", "best"], ["--partition-first"],
+                        ["--time-limit", "-1"]):
+            self.run_program("plane", "in.poly", "-o", "out.off", *options, expect=2)
+        self.run_program("plane", "in.poly", "-o", "in.poly", expect=2)
+        self.assertEqual(self.files(), ["cube.off", "in.poly"])
+        self.run_program("plane", "in.poly", "-o", "out.off", "--time-limit", "1e-9", expect=5)
+
+
+if __name__ == "__main__":
+    main()

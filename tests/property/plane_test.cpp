@@ -1,0 +1,110 @@
+// The plane on random valid inputs: every method gives positive triangles of the same area that keep every
+// segment.
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "plane_inputs.h"
+
+namespace holdfast {
+namespace {
+
+using testing::double_area;
+using testing::fault_of;
+using testing::random_plane;
+
+class PlaneMethods : public ::testing::TestWithParam<int> {};
+
+TEST_P(PlaneMethods, SolveRandomInputsAlike) {
+  constexpr int kEach = 60;
+  std::size_t solved = 0;
+  for (int k = 0; k < kEach; ++k) {
+    const auto seed = static_cast<std::uint64_t>(GetParam() * kEach + k + 1);
+    SCOPED_TRACE(::testing::Message() << "seed " << seed);
+    const Plane plane = random_plane(seed);
+    std::optional<exact::Dyadic> area;
+    for (const PlaneMethod method : plane_methods)
+      for (const bool delaunay : {false, true}) {
+        PlaneOptions options;
+        options.method = method;
+        options.delaunay = delaunay;
+        const PlaneResult result = triangulate(plane, options);
+        SCOPED_TRACE(::testing::Message() << name(method) << (delaunay ? ", Delaunay" : ""));
+        if (result.outcome != Outcome::done) {
+          ASSERT_EQ(result.outcome, Outcome::invalid_input);
+          ASSERT_EQ(result.defects.size(), 1u) << result.defects[1].message;
+          ASSERT_EQ(result.defects[0].kind, DefectKind::encloses_nothing);
+        }
+        ASSERT_EQ(fault_of(plane, result.mesh, delaunay), "");
+        const exact::Dyadic now = double_area(result.mesh);
+        if (!area) area = now;
+        ASSERT_EQ(*area, now);
+        solved += result.outcome == Outcome::done;
+      }
+  }
+  EXPECT_GT(solved, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, PlaneMethods, ::testing::Range(0, 5));
+
+// One flaw in a valid input: it is named, with the entities that it was made of.
+TEST(PlaneDefects, AreNamed) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(::testing::Message() << "seed " << seed);
+    Plane plane = random_plane(seed);
+    if (plane.segments.size() < 2) continue;
+    ASSERT_TRUE(diagnose(plane).empty());
+    numbers::Random random(seed);
+    const auto pick = [&](std::size_t n) { return static_cast<Index>(numbers::below(n, random)); };
+    const Index s = pick(plane.segments.size());
+    const auto [a, b] = plane.segments[s];
+    const auto expect = [&](DefectKind kind, const std::vector<Index>& points,
+                            const std::vector<Index>& segments) {
+      for (const PlaneMethod method : plane_methods) {
+        PlaneOptions options;
+        options.method = method;
+        const PlaneResult result = triangulate(plane, options);
+        ASSERT_EQ(result.outcome, Outcome::invalid_input);
+        const bool named = std::any_of(result.defects.begin(), result.defects.end(), [&](const Defect& d) {
+          return d.kind == kind && d.vertices == points && d.segments == segments;
+        });
+        EXPECT_TRUE(named) << name(method) << ": " << result.defects.size()
+                           << " defects, the first: " << result.defects[0].message;
+      }
+    };
+    const auto last_point = static_cast<Index>(plane.points.size());
+    const auto last_segment = static_cast<Index>(plane.segments.size());
+    switch (seed % 4) {
+      case 0:
+        plane.points.push_back(plane.points[a]);
+        expect(DefectKind::repeated_vertex, {a, last_point}, {});
+        break;
+      case 1:
+        plane.segments.push_back({b, a});
+        expect(DefectKind::segments_overlap, {}, {s, last_segment});
+        break;
+      case 2: {
+        const PlanePoint &p = plane.points[a], &q = plane.points[b];
+        const PlanePoint middle{p[0] / 2 + q[0] / 2, p[1] / 2 + q[1] / 2};
+        if (!testing::lies_between(p, q, middle)) break;
+        plane.points.push_back(middle);
+        expect(DefectKind::vertex_in_segment, {last_point}, {s});
+        break;
+      }
+      default: {
+        const auto at = [&](Index v) { return plane.points[v].data(); };
+        const auto side = [&](Index p, Index q, Index v) { return exact::orient2d(at(p), at(q), at(v)); };
+        bool found = false;
+        for (Index p = 0; p < last_point && !found; ++p)
+          for (Index q = p + 1; q < last_point && !found; ++q) {
+            found = side(a, b, p) * side(a, b, q) < 0 && side(p, q, a) * side(p, q, b) < 0;
+            if (found) plane.segments.push_back({p, q});
+          }
+        if (found) expect(DefectKind::segments_cross, {}, {s, last_segment});
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace holdfast
