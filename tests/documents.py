@@ -13,7 +13,6 @@ from pathlib import Path
 
 # Made by hand for what is not here, or measured by a program: nothing of these is a path of ours.
 GENERATED = {"docs/benchmarks.md", "docs/results.md", "docs/field.md"}
-COMMANDS = ("mesh", "check", "diagnose", "delaunay", "untangle", "batch")
 OUTSIDE = [re.compile(text, re.I) for text in ("design" + " §", r"\.\." + "/shared", "/work" + "/shared")]
 FOLDERS = ("src", "include", "tests", "docs", "examples", "bench", "scripts", "python", "cmake", ".ci")
 PATH = re.compile(r"(?<![\w/.~-])((?:%s)/[\w./-]*\w)" % "|".join(re.escape(f) for f in FOLDERS))
@@ -97,11 +96,12 @@ def options_of_scripts(root):
 
 
 def options_of_program(program):
-    found = set()
-    for command in ((), *((c,) for c in COMMANDS)):
-        said = subprocess.run([program, *command, "--help"], capture_output=True, text=True, check=False)
-        found |= set(OPTION.findall(said.stdout))
-    return found
+    def help_of(*command):
+        return subprocess.run([program, *command, "--help"], capture_output=True, text=True, check=False).stdout
+
+    whole = help_of()
+    commands = re.findall(r"^  ([a-z]+) ", whole.partition("Subcommands:")[2], flags=re.M)
+    return set(OPTION.findall(whole)).union(*(OPTION.findall(help_of(c)) for c in commands))
 
 
 def faults(root, program=None):
