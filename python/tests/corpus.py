@@ -46,7 +46,7 @@ def main() -> int:
     differing = 0
     with tempfile.TemporaryDirectory() as folder:
         rows = holdfast.batch(files, Path(folder) / "batch", jobs=given.jobs, time_limit=TIME_LIMIT, fill=given.fill)
-        with concurrent.futures.ProcessPoolExecutor(given.jobs, max_tasks_per_child=50) as pool:
+        with concurrent.futures.ProcessPoolExecutor(given.jobs) as pool:
             here = [Path(folder) / f"{Path(r['file']).stem}.vtu" for r in rows]
             ends = list(pool.map(mesh_here, [r["file"] for r in rows], map(str, here), [given.fill] * len(rows)))
         for row, path, end in zip(rows, here, ends):
