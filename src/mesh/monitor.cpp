@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
 
@@ -95,7 +97,10 @@ void Monitor::look_as_task(Stage stage, double fraction) {
 void parallel_monitored(const Threads& threads, std::size_t count, Monitor& monitor,
                         std::array<double, 2> part, const std::function<void(std::size_t, Monitor&)>& task) {
   MonitoredTasks tasks{.count = count, .part = part};
+  std::once_flag first;
+  std::exception_ptr cause;  // those of other tasks may be what came of it
   const auto end_all = [&](Outcome why) {
+    std::call_once(first, [&] { cause = std::current_exception(); });
     tasks.why = why;
     tasks.stop = true;
   };
@@ -103,20 +108,29 @@ void parallel_monitored(const Threads& threads, std::size_t count, Monitor& moni
     try {
       monitor.poll_again();
     } catch (...) {
-      end_all(Outcome::cancelled);  // what was thrown is thrown on
+      end_all(Outcome::cancelled);
       throw;
     }
   });
-  parallel(polling, count, [&](std::size_t k) {
+  const auto run = [&](std::size_t k) {
     Monitor own(monitor, tasks);
     try {
       task(k, own);
     } catch (const Interrupted& interrupted) {
       end_all(interrupted.outcome());
       throw;
+    } catch (...) {
+      end_all(Outcome::cancelled);
+      throw;
     }
     ++tasks.done;
-  });
+  };
+  try {
+    parallel(polling, count, run);
+  } catch (...) {
+    if (cause) std::rethrow_exception(cause);
+    throw;
+  }
 }
 
 }  // namespace holdfast

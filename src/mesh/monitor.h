@@ -76,8 +76,9 @@ class Monitor {
   MonitoredTasks* tasks_ = nullptr;
 };
 
-/// mesh/parallel.h's `parallel` with a monitor for each task. Where one is interrupted, all end. To the
-/// caller they are the part of the stage's work between two fractions.
+/// mesh/parallel.h's `parallel` with a monitor for each task. Where one throws, the others end at their next
+/// poll, and what it threw is thrown on. To the caller they are the part of the stage's work between two
+/// fractions.
 void parallel_monitored(const Threads& threads, std::size_t count, Monitor& monitor,
                         std::array<double, 2> part, const std::function<void(std::size_t, Monitor&)>& task);
 

@@ -392,6 +392,15 @@ TEST(TasksInParts, AnErrorInOneIsThrownOnAndOthersHearThatOneIsInterrupted) {
     ADD_FAILURE() << "nobody told";
   };
   EXPECT_THROW(parallel_monitored(3, 6, monitor, {0, 1}, poll_for_long), Interrupted);
+  // As Ctrl-C in Python: thrown once by the caller's function. On one thread the others have yet to begin.
+  for (const unsigned threads : {1u, 3u}) {
+    bool thrown = false;
+    options.progress = [&](const Progress&) {
+      if (!std::exchange(thrown, true)) throw std::runtime_error("of the caller");
+      return true;
+    };
+    EXPECT_THROW(parallel_monitored(threads, 6, monitor, {0, 1}, poll_for_long), std::runtime_error);
+  }
 }
 
 TEST(ImproveInParts, IsTheSameOnAnyNumberOfThreadsAndMissesNothing) {
