@@ -101,7 +101,7 @@ std::size_t suppress_points(const Attempt& attempt, BoxMesh& box, Division& divi
   std::vector<Vertex> points = points_inside(box, division);
   if (points.empty()) return 0;
   suppress(box.mesh, std::move(points), box.first_free, attempt.monitor, attempt.seed);
-  find_regions_again(box.mesh, attempt.complex().facets, division.regions);
+  find_regions_again(box.mesh, attempt.complex().facets, division.regions, attempt.threads);
   return points_inside(box, division).size();
 }
 

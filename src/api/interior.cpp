@@ -42,7 +42,8 @@ void optimise_worst_of(const Attempt& attempt, BoxMesh& box, Division& division,
                {.add_points = attempt.options.add_points, .remove = remove, .seed = attempt.seed});
   report.optimised = {stats.exchanged + stats.unflattened + stats.reconnected, stats.relocated,
                       stats.inserted};
-  if (stats.changed > 0) find_regions_again(box.mesh, attempt.complex().facets, division.regions);
+  if (stats.changed > 0)
+    find_regions_again(box.mesh, attempt.complex().facets, division.regions, attempt.threads);
 }
 
 // Returns the worst energy that is left.

@@ -165,8 +165,9 @@ Regions find_regions(const TetMesh& mesh, std::span<const Triangle> facets, cons
   return regions;
 }
 
-void find_regions_again(TetMesh& mesh, std::span<const Triangle> facets, Regions& regions) {
-  std::vector<RegionId> region_of(number_regions(mesh, regions.of_tet, 1), kNone);
+void find_regions_again(TetMesh& mesh, std::span<const Triangle> facets, Regions& regions,
+                        const Threads& threads) {
+  std::vector<RegionId> region_of(number_regions(mesh, regions.of_tet, threads), kNone);
   region_of[0] = 0;
   std::vector<bool> done(regions.count, false);
   done[0] = true;

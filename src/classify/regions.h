@@ -32,7 +32,8 @@ struct Regions {
                                    const Threads& threads = 1);
 
 /// Finds the tetrahedra of every region again after changes of the mesh, which left the facets as they were.
-void find_regions_again(TetMesh& mesh, std::span<const Triangle> facets, Regions& regions);
+void find_regions_again(TetMesh& mesh, std::span<const Triangle> facets, Regions& regions,
+                        const Threads& threads = 1);
 
 /// Winding numbers with respect to the facets that have different regions on their sides.
 struct Winding {

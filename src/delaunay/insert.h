@@ -45,6 +45,8 @@ class Inserter {
   /// Looks for a cell next to the slab from which to walk in it, near vertex k of the slab; no other inserter
   /// runs. False if there is none, and then nothing can be inserted.
   bool enter(const Slab& slab, Vertex k, Tet from);
+  /// Of the cavity of the last point.
+  [[nodiscard]] std::size_t faces() const { return face_count_; }
   /// A cell that stands, from which to walk.
   [[nodiscard]] Tet last() const { return last_; }
   void set_last(Tet t) { last_ = t; }

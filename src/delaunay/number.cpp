@@ -89,7 +89,12 @@ class Numbering {
     parallel(threads_, parts, [&](std::size_t part) {
       // What stands beyond its part, another thread is sorting.
       const std::size_t last = starts[part + 1];
+      std::size_t poll_at = starts[part] + kPollCells;
       for (std::size_t place = starts[part]; place < last;) {
+        if (part == 0 && place >= poll_at) {
+          threads_.poll();
+          poll_at = place + kPollCells;
+        }
         const std::size_t end = end_of_run(place, last);
         sort_cells(&cells_[place], &cells_[end]);
         for (; place < end; ++place) put(place, cells_[place]);
@@ -98,6 +103,8 @@ class Numbering {
   }
 
  private:
+  static constexpr std::size_t kPollCells = std::size_t{1} << 15;  // some milliseconds' work
+
   // Into which so many cells are cut, one a thread.
   [[nodiscard]] std::size_t parts_of(std::size_t cells) const {
     constexpr std::size_t kLeastPart = 8192;  // cells that are worth a thread
@@ -150,7 +157,9 @@ class Numbering {
         set(ghosts.emplace_back(), cell, slot, 0);
       else
         set(cells_[next_place(cell.v[0])], cell, slot, turn_of(cell.v));
-      if ((t + 1 - first) % kBlock == 0) give_back(&cells[t + 1 - kBlock], kBlock * sizeof(Cell));
+      if ((t + 1 - first) % kBlock != 0) continue;
+      give_back(&cells[t + 1 - kBlock], kBlock * sizeof(Cell));
+      if (first == 0) threads_.poll();  // on the calling thread
     }
   }
 

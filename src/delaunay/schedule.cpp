@@ -17,7 +17,7 @@
 namespace holdfast {
 namespace {
 
-constexpr std::size_t kPollInterval = 64;
+constexpr std::size_t kPollInterval = 2048;  // faces of cavities; most have some thirty
 constexpr std::size_t kFewPoints = 1000;     // a thread, that are not worth a phase
 constexpr std::size_t kSamplePerSlab = 512;  // points to find the slabs by
 constexpr double kMostShare = 1.7;           // of points in a slab, over the mean
@@ -150,7 +150,10 @@ class Schedule {
 
   void tell(std::size_t points = 1) {
     done_ += points;
-    if (++untold_ % kPollInterval == 0 && progress_)
+    untold_ += kPollInterval / 64 + inserters_[0]->faces();
+    if (untold_ < kPollInterval) return;
+    untold_ = 0;
+    if (progress_)
       progress_(std::min(1.0, static_cast<double>(done_) / static_cast<double>(triangulation_.size())));
   }
 

@@ -20,6 +20,10 @@ class Threads {
   /// The same, but that the thread that calls `parallel` calls `between`, too: between tasks, and while it
   /// waits for those of others. What it throws ends the work as soon as may be and is thrown on.
   [[nodiscard]] Threads polling(std::function<void()> between) const;
+  /// Calls that function, if there is one; for long loops of task 0 and between calls of `parallel`.
+  void poll() const {
+    if (between_) (*between_)();
+  }
 
  private:
   friend void parallel(const Threads& threads, std::size_t count,

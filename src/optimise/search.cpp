@@ -55,8 +55,10 @@ void Search::move_points() {
 }
 
 void Search::push(std::span<const Tet> tets) {
-  for (const Tet t : tets)
+  for (const Tet t : tets) {
     if (mesh_.alive(t)) push(t);
+    monitor_.poll(Stage::optimise, budget_.fraction());
+  }
 }
 
 void Search::push(Tet t) {
@@ -104,8 +106,10 @@ std::size_t Search::points_in_mesh() const {
 
 Badness Search::badness() const {
   Badness badness;
-  for (Tet t = 0; t < mesh_.slot_count(); ++t)
+  for (Tet t = 0; t < mesh_.slot_count(); ++t) {
     if (mesh_.alive(t) && is_ours(t)) badness.add(quality_of(mesh_, mesh_.corners(t)), bad_from_);
+    monitor_.poll(Stage::optimise, budget_.fraction());
+  }
   return badness;
 }
 

@@ -45,11 +45,8 @@ ShapeCounts shape_of(const VolumeData& volume, const Threads& threads) {
 }
 
 ShapeCounts shape_of(Parts& parts, const Threads& threads) {
-  std::vector<ShapeHistogram> own(parts.parts().size());
-  parallel(threads, own.size(),
-           [&](std::size_t k) { own[k] = shapes_of(parts.parts()[k].data(parts.whole().kept), 1); });
   ShapeHistogram shapes;
-  for (const ShapeHistogram& of_part : own) shapes.add(of_part);
+  for (Part& part : parts.parts()) shapes.add(shapes_of(part.data(parts.whole().kept), threads));
   return shapes.counts();
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/monitor.h"
 #include "refine/point_cavity.h"
 #include "refine/tuning.h"
 #include "refine/volume_data.h"
@@ -17,8 +18,11 @@ namespace holdfast {
 class FieldInserter {
  public:
   /// In a part, points keep away from interfaces that spheres beyond may reach across.
-  FieldInserter(const VolumeData& volume, const SizeFunction& sizes)
-      : volume_(volume), mesh_(volume.mesh), sizes_(sizes), cavity_(volume.mesh, volume.seed) {}
+  FieldInserter(const VolumeData& volume, const SizeFunction& sizes, Monitor& monitor)
+      : volume_(volume),
+        mesh_(volume.mesh),
+        sizes_(sizes),
+        cavity_(volume.mesh, volume.seed, [&monitor] { monitor.poll_again(); }) {}
 
   /// Inserts a point at x, in the region of `start` and not far from it, unless it would be too near to a
   /// vertex or a facet. Returns the tetrahedra round it, none if it was not inserted.

@@ -23,7 +23,7 @@ class Front {
         sizes_(sizes),
         stage_(stage),
         monitor_(monitor),
-        inserter_(volume, sizes) {}
+        inserter_(volume, sizes, monitor) {}
 
   bool run() {
     state_.assign(mesh_.slot_count(), 0);

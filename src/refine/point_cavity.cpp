@@ -38,8 +38,11 @@ bool PointCavity::settle(Tet base) {
       abandon();
       return false;
     }
+    poll_if_large();
     list_rim();
+    poll_if_large();
     list_edges();
+    poll_if_large();
     const Tet t = holder_of_lost_entity(base);
     if (t == kNone) break;
     if (!release(t, base)) {
@@ -231,6 +234,7 @@ void PointCavity::insert() {
     link_by_table();
   else
     link_by_sorting();
+  poll_if_large();
   created_.clear();
   MeshEditor(mesh_).apply({tets_, new_tets_, p_}, created_);
 }

@@ -11,8 +11,10 @@
 // Where a metric is given, spheres are those of its frame at p.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "mesh/change.h"
@@ -29,9 +31,9 @@ class PointCavity {
   static constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
 
   /// All vertices of the tetrahedra that points are put in are explicit.
-  /// `seed` is that of walks.
-  explicit PointCavity(TetMesh& mesh, std::uint64_t seed = 1)
-      : mesh_(mesh), random_(static_cast<std::uint32_t>(seed)) {}
+  /// `seed` is that of walks. `poll` is called each time that a large cavity has been gone through.
+  explicit PointCavity(TetMesh& mesh, std::uint64_t seed = 1, std::function<void()> poll = {})
+      : mesh_(mesh), poll_(std::move(poll)), random_(static_cast<std::uint32_t>(seed)) {}
 
   /// The tetrahedron that holds vertex p, which is in no tetrahedron yet, by a walk from `start`.
   [[nodiscard]] Tet locate(Vertex p, Tet start) { return walk_to(mesh_, p, start, random_); }
@@ -67,6 +69,9 @@ class PointCavity {
 
  private:
   bool settle(Tet base);
+  void poll_if_large() const {
+    if (poll_ && tets_.size() > tuning::kLargeCavity) poll_();
+  }
   void spread(Tet base, const Frame& frame, std::size_t most);
   [[nodiscard]] bool is_in_sphere(Tet t, const Point& x) const;
   [[nodiscard]] bool is_in_sphere_of(const Frame& frame, Tet t) const;
@@ -84,6 +89,7 @@ class PointCavity {
   [[nodiscard]] bool fits_table() const { return ring_.size() <= tuning::kMostInTable; }
 
   TetMesh& mesh_;
+  std::function<void()> poll_;
   Vertex p_ = kNone;
   std::vector<Tet> tets_;
   std::vector<Face> faces_;  // of the boundary, from inside

@@ -41,7 +41,7 @@ class SectionRefiner {
         cuts_(cuts),
         sizes_(sizes),
         monitor_(monitor),
-        inserter_(volume, sizes) {}
+        inserter_(volume, sizes, monitor) {}
 
   void run(const Threads& threads) {
     const std::vector<Tet> large =

@@ -18,6 +18,8 @@ inline constexpr std::size_t kPatience = 60,
                              kLeastPatience = 1'000'000;  ///< tetrahedra looked at in vain: so
                                                           ///< many for each there is, and these
 inline constexpr std::size_t kMostInTable = 512;  ///< vertices of a cavity's ring that are linked by a table
+inline constexpr std::size_t kLargeCavity =
+    10'000;  ///< tetrahedra that take milliseconds to go through: limits are looked at in between
 
 // Cuts into parts.
 inline constexpr double kWorthCutting = 60'000;       ///< tetrahedra; four times as many for each level more
