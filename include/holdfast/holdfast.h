@@ -52,6 +52,9 @@ struct Sizes {
   std::vector<double> vertex_sizes = {};
   /// The most at a point; what is not positive is no limit. Called often, from the calling thread.
   std::function<double(const Point&)> field = {};
+  /// The same for many points at a time, into as many sizes: fewer calls. One of the two is enough; where
+  /// there are both, they must agree.
+  std::function<void(std::span<const Point>, std::span<double>)> fields = {};
   /// The metric in which edges should have length 1 at most, at a point: sizes that depend on the direction.
   /// A tensor that is not positive definite is no limit. Called as `field` is. The other sizes limit those of
   /// the metric in all directions; what `gradation` limits is the largest size at a point. Elements are

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -38,31 +39,41 @@ Enum named(const py::dict& options, const char* key) {
   throw std::invalid_argument(std::string(key) + "='" + text + "': there is " + known);
 }
 
-// A function of the user takes an array of points (m, 3) and gives m sizes, or m metrics of six numbers.
-py::array_t<double> asked_at(const py::object& function, const Point& p, std::size_t numbers,
+// A function of the user takes an array of points (m, 3) and gives m sizes, or m metrics of six numbers, or
+// one for all.
+py::array_t<double> asked_at(const py::object& function, std::span<const Point> at, std::size_t numbers,
                              const char* what) {
-  const py::array_t<double> points({py::ssize_t{1}, py::ssize_t{3}}, p.data());
+  const py::array_t<double> points({static_cast<py::ssize_t>(at.size()), py::ssize_t{3}}, at.front().data());
   const py::array_t<double, py::array::c_style | py::array::forcecast> answer(function(points));
-  if (static_cast<std::size_t>(answer.size()) != numbers)
+  const auto size = static_cast<std::size_t>(answer.size());
+  if (size != numbers && size != numbers * at.size())
     throw std::invalid_argument(std::string(what) + " gave an array of shape " +
-                                std::string(py::str(answer.attr("shape"))) + " for points of shape (1, 3)");
-  if (std::any_of(answer.data(), answer.data() + numbers, [](double x) { return std::isnan(x); }))
-    throw std::invalid_argument(std::string(what) + " gave NaN at (" + std::to_string(p[0]) + ", " +
-                                std::to_string(p[1]) + ", " + std::to_string(p[2]) + ")");
-  return answer;
+                                std::string(py::str(answer.attr("shape"))) + " for points of shape (" +
+                                std::to_string(at.size()) + ", 3)");
+  const double* const nan =
+      std::find_if(answer.data(), answer.data() + size, [](double x) { return std::isnan(x); });
+  if (nan == answer.data() + size) return answer;
+  const Point& p = at[static_cast<std::size_t>(nan - answer.data()) / numbers];
+  throw std::invalid_argument(std::string(what) + " gave NaN at (" + std::to_string(p[0]) + ", " +
+                              std::to_string(p[1]) + ", " + std::to_string(p[2]) + ")");
 }
 
-std::function<double(const Point&)> size_asked_of(const py::object& function) {
-  return [&function](const Point& p) {
+std::function<void(std::span<const Point>, std::span<double>)> sizes_asked_of(const py::object& function) {
+  return [&function](std::span<const Point> points, std::span<double> sizes) {
+    if (points.empty()) return;
     const py::gil_scoped_acquire lock;
-    return *asked_at(function, p, 1, "size").data();
+    const py::array_t<double> answer = asked_at(function, points, 1, "size");
+    if (answer.size() == 1)
+      std::fill(sizes.begin(), sizes.end(), *answer.data());
+    else
+      std::copy_n(answer.data(), sizes.size(), sizes.begin());
   };
 }
 
 std::function<Metric(const Point&)> metric_asked_of(const py::object& function) {
   return [&function](const Point& p) {
     const py::gil_scoped_acquire lock;
-    const py::array_t<double> answer = asked_at(function, p, 6, "metric");
+    const py::array_t<double> answer = asked_at(function, {&p, 1}, 6, "metric");
     Metric metric;
     std::copy_n(answer.data(), 6, metric.begin());
     return metric;
@@ -80,7 +91,7 @@ Sizes sizes_from(const py::dict& options, const Fields& fields) {
   take(options, "gradation", sizes.gradation);
   take(options, "growth", sizes.grow);
   take(options, "point_sizes", sizes.vertex_sizes);
-  if (!fields.size.is_none()) sizes.field = size_asked_of(fields.size);
+  if (!fields.size.is_none()) sizes.fields = sizes_asked_of(fields.size);
   if (!fields.metric.is_none()) sizes.metric = metric_asked_of(fields.metric);
   if (options.contains("size_field") && !options["size_field"].is_none()) {
     const auto field = py::cast<std::shared_ptr<SizeField>>(options["size_field"]);

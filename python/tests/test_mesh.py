@@ -55,14 +55,23 @@ def test_metric_stretches(cube):
 
 
 def test_function_of_sizes_is_asked_with_arrays(cube):
-    shapes = set()
+    shapes = []
 
     def size(points):
-        shapes.add(points.shape[1:])
-        return 0.3 + 0 * points[:, 0]
+        shapes.append(points.shape)
+        return 0.1 + 0.2 * points[:, 0]
 
-    holdfast.mesh(*cube, size=size)
-    assert shapes == {(3,)}
+    mesh = holdfast.mesh(*cube, size=size)
+    assert {shape[1:] for shape in shapes} == {(3,)}
+    assert sum(shape[0] for shape in shapes) > 1.25 * len(shapes)
+    assert np.array_equal(mesh.points, holdfast.mesh(*cube, size=lambda p: list(size(p))).points)
+
+
+def test_function_of_sizes_may_give_one_number_for_all(cube):
+    assert np.array_equal(holdfast.mesh(*cube, size=lambda p: 0.2).points,
+                          holdfast.mesh(*cube, size=lambda p: np.full(len(p), 0.2)).points)
+    with pytest.raises(ValueError, match="NaN"):
+        holdfast.mesh(*cube, size=lambda p: np.nan)
 
 
 @pytest.mark.parametrize("bad", [lambda p: "x", lambda p: np.zeros((len(p), 2)), lambda p: None])

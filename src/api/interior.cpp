@@ -27,6 +27,12 @@ Sizes polling(Sizes sizes, Monitor& monitor) {
       monitor.poll_again();
       return field(p);
     };
+  if (sizes.fields)
+    sizes.fields = [&monitor, fields = std::move(sizes.fields)](std::span<const Point> points,
+                                                                std::span<double> found) {
+      monitor.poll_again();
+      fields(points, found);
+    };
   if (sizes.metric)
     sizes.metric = [&monitor, metric = std::move(sizes.metric)](const Point& p) {
       monitor.poll_again();

@@ -31,10 +31,9 @@ Sizes to_sizes(const holdfast_mesh_options& given, std::size_t vertices) {
   if (given.vertex_sizes != nullptr)
     sizes.vertex_sizes.assign(given.vertex_sizes, given.vertex_sizes + vertices);
   if (given.size_field != nullptr)
-    sizes.field = [field = given.size_field, context = given.size_field_context](const Point& p) {
-      double size = 0;
-      field(context, 1, p.data(), &size);
-      return size;
+    sizes.fields = [field = given.size_field, context = given.size_field_context](
+                       std::span<const Point> points, std::span<double> found) {
+      if (!points.empty()) field(context, points.size(), points.front().data(), found.data());
     };
   return sizes;
 }

@@ -27,10 +27,7 @@ class Front {
 
   bool run() {
     state_.assign(mesh_.slot_count(), 0);
-    for (Tet t = 0; t < mesh_.slot_count(); ++t) {
-      monitor_.poll(stage_, 0);
-      if (volume_.is_inside(t) && is_large(t)) queue(t, kIsLarge);
-    }
+    queue_all_large();
     shuffle_front();
     while ((!front_.empty() || !rest_.empty()) && !inserter_.has_wasted_enough()) {
       monitor_.poll(stage_, progress());
@@ -90,12 +87,54 @@ class Front {
     state_[t] = state | kQueued;
   }
 
+  void queue_all_large() {
+    std::vector<Tet> block;
+    for (Tet t = 0; t < mesh_.slot_count(); ++t) {
+      monitor_.poll(stage_, 0);
+      if (volume_.is_inside(t)) block.push_back(t);
+      if (block.size() < tuning::kFieldBlock && t + 1 < mesh_.slot_count()) continue;
+      queue_large(block);
+      block.clear();
+    }
+  }
+
+  // A function of the user is asked for limits at many points at a time, and only where it matters.
+  void queue_large(std::span<const Tet> tets) {
+    if (volume_.metrics != nullptr || !sizes_.has_field()) {
+      for (const Tet t : tets)
+        if (is_large(t)) queue(t, kIsLarge);
+      return;
+    }
+    middles_.clear();
+    regions_.clear();
+    for (const Tet t : tets) {
+      if (is_larger(sphere_of(t), tuning::kLargeRadius * radius_of_corners(t))) continue;
+      middles_.push_back(centroid(mesh_, t));
+      regions_.push_back(volume_.region_of[t]);
+    }
+    limits_.resize(middles_.size());
+    if (!middles_.empty()) sizes_.limits(middles_, regions_, limits_);
+    auto limit = limits_.begin();
+    for (const Tet t : tets) {
+      const ScaledCentre sphere = sphere_of(t);
+      if (is_larger(sphere, tuning::kLargeRadius * radius_of_corners(t)) ||
+          is_larger(sphere, tuning::kLargeRadius * *limit++))
+        queue(t, kIsLarge);
+    }
+  }
+
   // Whether the radius of its sphere is. Per tetrahedron made, so without roots and divisions.
   [[nodiscard]] bool is_large(Tet t) const {
     if (volume_.metrics != nullptr) return is_large_in_metric(t);
-    return is_larger(sphere_centre(mesh_.position(mesh_.corner(t, 0)), mesh_.position(mesh_.corner(t, 1)),
-                                   mesh_.position(mesh_.corner(t, 2)), mesh_.position(mesh_.corner(t, 3))),
-                     largest_radius(t));
+    double allowed = radius_of_corners(t);
+    if (sizes_.has_limit())
+      allowed = std::min(allowed, sizes_.limit(centroid(mesh_, t), volume_.region_of[t]));
+    return is_larger(sphere_of(t), tuning::kLargeRadius * allowed);
+  }
+
+  [[nodiscard]] ScaledCentre sphere_of(Tet t) const {
+    return sphere_centre(mesh_.position(mesh_.corner(t, 0)), mesh_.position(mesh_.corner(t, 1)),
+                         mesh_.position(mesh_.corner(t, 2)), mesh_.position(mesh_.corner(t, 3)));
   }
 
   static bool is_larger(const ScaledCentre& centre, double radius) {
@@ -116,16 +155,15 @@ class Front {
     return is_larger(sphere_centre(q[0], q[1], q[2], q[3]), tuning::kLargeRadius);
   }
 
-  // Sizes grow with the distance: r = tuning::kLargeRadius (h + gradation r).
-  [[nodiscard]] double largest_radius(Tet t) const {
+  // What the sizes at the corners allow, over tuning::kLargeRadius. Sizes grow with the distance:
+  // r = tuning::kLargeRadius (h + gradation r).
+  [[nodiscard]] double radius_of_corners(Tet t) const {
     const TetMesh::Corners& c = mesh_.corners(t);
     const std::vector<double>& size = volume_.sizes;
     const std::array<double, 4> h{size[c[0]], size[c[1]], size[c[2]], size[c[3]]};
     double allowed = *std::min_element(h.begin(), h.end()) / (1 - tuning::kLargeRadius * sizes_.gradation());
     if (!sizes_.grows()) allowed = std::min(allowed, tuning::kLevel * 0.25 * (h[0] + h[1] + h[2] + h[3]));
-    if (sizes_.has_limit())
-      allowed = std::min(allowed, sizes_.limit(centroid(mesh_, t), volume_.region_of[t]));
-    return tuning::kLargeRadius * allowed;
+    return allowed;
   }
 
   // Tries a point over each face of t that is on the front.
@@ -218,10 +256,8 @@ class Front {
     const auto created = inserter_.insert(x, start);
     if (created.empty()) return false;
     state_.resize(mesh_.slot_count(), 0);
-    for (const Tet t : created) {
-      state_[t] = 0;
-      if (is_large(t)) queue(t, kIsLarge);
-    }
+    for (const Tet t : created) state_[t] = 0;
+    queue_large(created);
     // A neighbour may have come to be on the front.
     for (const PointCavity::Rim& rim : inserter_.rim()) {
       const Tet n = tet_of(rim.outer);
@@ -238,9 +274,35 @@ class Front {
   Monitor& monitor_;
   FieldInserter inserter_;
   std::vector<std::uint8_t> state_;  // by slot
+  std::vector<Point> middles_;       // where limits are asked for
+  std::vector<RegionId> regions_;
+  std::vector<double> limits_;
   std::deque<Tet> front_;
   std::deque<Tet> rest_;  // large ones that the front did not get on with
 };
+
+void limit_at_corners(const VolumeData& volume, const SizeFunction& sizes, const std::vector<Tet>& tets,
+                      Monitor& monitor) {
+  std::vector<Point> points;
+  std::vector<RegionId> regions;
+  std::vector<double> limits;
+  for (std::size_t first = 0; first < tets.size(); first += tuning::kFieldBlock) {
+    monitor.poll(Stage::field_points, 0);
+    const auto block = std::span(tets).subspan(first, std::min(tuning::kFieldBlock, tets.size() - first));
+    points.clear();
+    regions.clear();
+    for (const Tet t : block)
+      for (const Vertex v : volume.mesh.corners(t)) {
+        points.push_back(volume.mesh.position(v));
+        regions.push_back(volume.region_of[t]);
+      }
+    limits.resize(points.size());
+    sizes.limits(points, regions, limits);
+    auto limit = limits.begin();
+    for (const Tet t : block)
+      for (const Vertex v : volume.mesh.corners(t)) volume.sizes[v] = std::min(volume.sizes[v], *limit++);
+  }
+}
 
 // The user's metric with no size above those that are set.
 void set_metrics_at_vertices(const VolumeData& volume, const SizeFunction& sizes, Monitor& monitor) {
@@ -284,12 +346,7 @@ void set_sizes_at_vertices(const VolumeData& volume, const SizeFunction& sizes, 
       }
     }
   }
-  if (sizes.has_limit())
-    for (const Tet t : tets_inside(volume, threads)) {
-      monitor.poll(Stage::field_points, 0);
-      for (const Vertex v : mesh.corners(t))
-        size[v] = std::min(size[v], sizes.limit(mesh.position(v), volume.region_of[t]));
-    }
+  if (sizes.has_limit()) limit_at_corners(volume, sizes, tets_inside(volume, threads), monitor);
   if (sizes.has_metric()) set_metrics_at_vertices(volume, sizes, monitor);
 }
 

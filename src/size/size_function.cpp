@@ -40,10 +40,17 @@ SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds
       most_(sizes.size > 0 ? std::ldexp(sizes.size, scale) : kNoLimit),
       scale_(scale),
       field_(sizes.field),
+      fields_(sizes.fields),
       metric_(sizes.metric),
       of_vertex_(edge_lengths(complex, table, scale)) {
   for (std::size_t v = 0; v < std::min(of_vertex_.size(), sizes.vertex_sizes.size()); ++v)
     if (sizes.vertex_sizes[v] > 0) of_vertex_[v] = std::ldexp(sizes.vertex_sizes[v], scale);
+  if (fields_ && !field_)
+    field_ = [fields = fields_](const Point& p) {
+      double h = 0;
+      fields({&p, 1}, {&h, 1});
+      return h;
+    };
   const auto has_size = [](const RegionSeed& seed) { return seed.size > 0; };
   if (std::any_of(seeds.begin(), seeds.end(), has_size)) {
     of_region_.assign(kept.id.size(), most_);
@@ -56,9 +63,22 @@ SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds
 
 Point SizeFunction::unscaled(const Point& p) const { return times_power(p, -scale_); }
 
-double SizeFunction::field_at(const Point& p) const {
-  const double h = field_(unscaled(p));
-  return h > 0 ? std::ldexp(h, scale_) : kNoLimit;
+double SizeFunction::scaled(double h) const { return h > 0 ? std::ldexp(h, scale_) : kNoLimit; }
+
+double SizeFunction::field_at(const Point& p) const { return scaled(field_(unscaled(p))); }
+
+void SizeFunction::limits(std::span<const Point> points, std::span<const RegionId> regions,
+                          std::span<double> limits) const {
+  if (!fields_) {
+    for (std::size_t k = 0; k < points.size(); ++k) limits[k] = limit(points[k], regions[k]);
+    return;
+  }
+  std::vector<Point> unscaled_points(points.size());
+  std::transform(points.begin(), points.end(), unscaled_points.begin(),
+                 [this](const Point& p) { return unscaled(p); });
+  fields_(unscaled_points, limits);
+  for (std::size_t k = 0; k < points.size(); ++k)
+    limits[k] = std::min(limit_of_region(regions[k]), scaled(limits[k]));
 }
 
 Metric SizeFunction::metric(const Point& p, double most) const {

@@ -34,9 +34,15 @@ class SizeFunction {
   [[nodiscard]] double of_vertex(Vertex v) const { return of_vertex_[v]; }
   /// What the user allows at a point of the mesh in a region; infinite without a limit there.
   [[nodiscard]] double limit(const Point& p, RegionId region) const {
-    const double least = of_region_.empty() ? most_ : of_region_[region];
+    const double least = limit_of_region(region);
     return field_ ? std::min(least, field_at(p)) : least;
   }
+  /// The same at several points, each in a region of its own.
+  void limits(std::span<const Point> points, std::span<const RegionId> regions,
+              std::span<double> limits) const;
+  /// Whether a function of the user is to be asked for limits: at many points at a time, it is asked less
+  /// often.
+  [[nodiscard]] bool has_field() const { return static_cast<bool>(field_); }
   [[nodiscard]] bool has_metric() const { return static_cast<bool>(metric_); }
   /// The metric of the user at a point of the mesh, with no size above `most`; zero without either.
   [[nodiscard]] Metric metric(const Point& p, double most) const;
@@ -53,7 +59,11 @@ class SizeFunction {
   [[nodiscard]] bool grows() const { return grows_; }
 
  private:
+  [[nodiscard]] double limit_of_region(RegionId region) const {
+    return of_region_.empty() ? most_ : of_region_[region];
+  }
   [[nodiscard]] Point unscaled(const Point& p) const;
+  [[nodiscard]] double scaled(double h) const;
   [[nodiscard]] double field_at(const Point& p) const;
 
   double gradation_;
@@ -62,6 +72,7 @@ class SizeFunction {
   int scale_;
   std::vector<double> of_region_;  // empty where no region has a size of its own
   std::function<double(const Point&)> field_;
+  std::function<void(std::span<const Point>, std::span<double>)> fields_;
   std::function<Metric(const Point&)> metric_;
   std::vector<double> of_vertex_;
 };

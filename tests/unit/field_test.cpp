@@ -141,6 +141,26 @@ TEST(FieldPoints, AFunctionOfTheUserIsAsked) {
   EXPECT_GT(right, 2 * left);
 }
 
+TEST(FieldPoints, AFunctionOfManyPointsGivesTheSameMeshWithFewerCalls) {
+  const Surface box = small::box();
+  const auto size = [](const Point& p) { return p[0] < 0.5 ? 0.1 : 0.2; };
+  std::size_t single = 0, calls = 0, points = 0;
+  const Result one_by_one = mesh_with(box, {.field = [&](const Point& p) {
+                                        ++single;
+                                        return size(p);
+                                      }});
+  const auto sizes = [&](std::span<const Point> at, std::span<double> found) {
+    ++calls;
+    points += at.size();
+    std::transform(at.begin(), at.end(), found.begin(), size);
+  };
+  const Result many = mesh_with(box, {.fields = sizes});
+  EXPECT_EQ(one_by_one.volume.vertices, many.volume.vertices);
+  EXPECT_EQ(one_by_one.volume.tetrahedra, many.volume.tetrahedra);
+  EXPECT_EQ(points, single);
+  EXPECT_LT(4 * calls, 3 * single);
+}
+
 TEST(FieldPoints, ARegionHasASizeOfItsOwn) {
   Surface surface = small::nested(true);
   Options options;
