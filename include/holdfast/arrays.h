@@ -61,6 +61,7 @@ class HOLDFAST_API Arrays {
   void set_vertex_markers(const ArrayView& markers);
   void set_facet_markers(const ArrayView& markers);
   void set_segment_markers(const ArrayView& markers);
+  void set_names(Names names);
 
   /// As long as this stands, and is not changed.
   [[nodiscard]] const Complex& view() const& { return complex_; }
@@ -76,6 +77,7 @@ class HOLDFAST_API Arrays {
   std::vector<Triangle> facets_;
   std::vector<Segment> segments_;
   std::vector<int> vertex_markers_, facet_markers_, segment_markers_;
+  Names names_;
 };
 
 }  // namespace holdfast

@@ -84,10 +84,16 @@ struct ReadOptions : Limits {
 [[nodiscard]] HOLDFAST_API std::vector<Point> read_points(const std::filesystem::path& path,
                                                           std::string_view format);
 
-/// The surface of a volume, to be meshed again: its facets and segments with their markers, then the faces on
-/// its boundary and between regions that are not among them, seen from outside. Only vertices that these use,
-/// in the order that they have. Throws std::invalid_argument for regions that are neither none nor one a
-/// tetrahedron.
+/// Surfaces behind one another as one: indices count on. Facets of a surface without facet markers get the
+/// next free number, from 1, and the name `names[i]` if there is one. A marker that an earlier surface has
+/// under another name gets the next free number, too, which `remarks` say. Of region names the first counts.
+[[nodiscard]] HOLDFAST_API Surface join(std::span<const Surface> parts,
+                                        std::span<const std::string> names = {});
+
+/// The surface of a volume, to be meshed again: its facets and segments with their markers and names, then
+/// the faces on its boundary and between regions that are not among them, seen from outside. Only vertices
+/// that these use, in the order that they have. Throws std::invalid_argument for regions that are neither
+/// none nor one a tetrahedron.
 [[nodiscard]] HOLDFAST_API Surface surface_of(const Volume& volume);
 
 struct WriteOptions : Limits {

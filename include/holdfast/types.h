@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,6 +26,20 @@ using Triangle = std::array<Index, 3>;
 /// Vertex indices of a tetrahedron with det(b-a, c-a, d-a) > 0.
 using Tetrahedron = std::array<Index, 4>;
 
+/// Names of ids, in UTF-8. Several ids may share a name; formats that hold each name once write them as one
+/// set or tell them apart by a number (docs/formats.md). An id without an entry has no name.
+struct Names {
+  std::map<int, std::string> facets;    ///< of facet markers
+  std::map<int, std::string> regions;   ///< of region ids
+  std::map<int, std::string> segments;  ///< of segment markers
+  std::map<int, std::string> vertices;  ///< of vertex markers
+
+  [[nodiscard]] bool empty() const {
+    return facets.empty() && regions.empty() && segments.empty() && vertices.empty();
+  }
+  friend bool operator==(const Names&, const Names&) = default;
+};
+
 /// A piecewise linear complex as non-owning views: what the mesher takes.
 ///
 /// Vertices with identical coordinates (+0 and -0 are one) are one vertex, whatever their indices: a place.
@@ -38,6 +53,7 @@ struct Complex {
   std::span<const int> facet_markers;
   std::span<const int> segment_markers;
   std::span<const int> vertex_markers = {};
+  const Names* names = nullptr;  ///< what the volume's `names` become; null: none
 };
 
 /// What a remark is about. The numbers are stable.
@@ -46,6 +62,7 @@ enum class RemarkKind : int {
   polygons_cut = 2,  ///< polygons of more than three corners, cut into triangles
   size_limits = 3,   ///< limits on volumes, taken as sizes
   not_held = 4,      ///< something that a format has no place for, when a file is written
+  renumbered = 5,    ///< ids that a file has as other numbers, since its format takes theirs for none
 };
 
 /// Something that a reader or a writer did not carry over as it was.
@@ -72,10 +89,11 @@ struct Surface {
   std::vector<RegionSeed> regions;
   std::vector<Point> holes;
   std::vector<Remark> remarks;  ///< what the file holds besides, or in another way
+  Names names = {};
 
   /// Of a surface that outlives it.
   [[nodiscard]] Complex view() const& {
-    return {vertices, facets, segments, facet_markers, segment_markers, vertex_markers};
+    return {vertices, facets, segments, facet_markers, segment_markers, vertex_markers, &names};
   }
   Complex view() const&& = delete;
 };
@@ -94,6 +112,7 @@ struct Volume {
   std::vector<int> vertex_markers;   ///< empty, or one a vertex: 0 for Steiner points
   /// Empty, or one a vertex: the first of the input's vertices at its place, -1 for an added one.
   std::vector<std::int64_t> input_vertices;
+  Names names = {};
 };
 
 /// Which rule of a valid input is broken. The numbers are stable.

@@ -17,6 +17,7 @@ from ._api import (
     untangle,
 )
 from ._core import CancelToken, __version__
+from ._names import Names
 from ._surface import Surface, read_surface
 from ._tetmesh import Quality, TetMesh
 from ._batch import batch
@@ -43,6 +44,7 @@ __all__ = [
     "InternalError",
     "InvalidSurface",
     "MemoryLimit",
+    "Names",
     "NotRepresentable",
     "Quality",
     "Rule",

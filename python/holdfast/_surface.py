@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._limits import CancelToken, MemoryAmount, ProgressCallback, Shown, limits
+from ._names import Names, names_of
 
 Array = npt.NDArray[Any]
 PathLike = Union[str, "os.PathLike[str]"]
@@ -45,6 +46,7 @@ class Surface:
         holes: typing.Sequence[Hole] = (),
         regions: typing.Sequence[Region] = (),
         remarks: typing.Sequence[str] = (),
+        names: Union[None, Names, typing.Mapping[str, typing.Mapping[int, str]]] = None,
     ) -> None:
         self.points: Array = points_of(points)
         """(n, 3) coordinates."""
@@ -61,6 +63,8 @@ class Surface:
         """(x, y, z, id, size) of regions, as the file names them; a size of 0 is none."""
         self.remarks: list[str] = list(remarks)
         """What the file holds that a surface does not, or holds in another way."""
+        self.names: Names = names_of(names)
+        """Names of markers, and of regions that `regions` number; meshes get them."""
 
     def __repr__(self) -> str:
         extra = "" if self.segments is None else f", {len(self.segments)} segments"
@@ -68,7 +72,7 @@ class Surface:
 
     def _arrays(self) -> tuple[Any, ...]:
         return (self.points, self.triangles, self.segments, self.point_markers, self.triangle_markers,
-                self.segment_markers)
+                self.segment_markers, tuple(self.names))
 
 
 def points_of(values: npt.ArrayLike, what: str = "points") -> Array:
@@ -140,6 +144,7 @@ def surface_of(
         holes=found.holes,
         regions=found.regions,
         remarks=found.remarks,
+        names=found.names,
     )
 
 
@@ -326,6 +331,7 @@ def _of_data(data: _core.SurfaceData) -> Surface:
         holes=data.holes,
         regions=data.regions,
         remarks=data.remarks,
+        names=Names(*data.names),
     )
 
 
@@ -343,7 +349,8 @@ def read_surface(
     Parameters
     ----------
     path
-        The file, each also packed by gzip; or several files, which count on from one another.
+        The file, each also packed by gzip; or several files, which count on from one another. The triangles of a file
+        without markers get the next free one, from 1, and the file's name.
     format
         The ending to go by (".stl"), where the file's own does not tell.
     time_limit, memory_limit, cancel, progress
@@ -362,39 +369,12 @@ def read_surface(
     options = limits(time_limit, memory_limit, cancel)
     paths = [path] if isinstance(path, (str, os.PathLike)) else list(path)
     with Shown(progress, "read") as callback:
-        parts = [_of_data(_core.read_surface(os.fspath(p), format or "", options, callback)) for p in paths]
-    return parts[0] if len(parts) == 1 else joined(parts)
-
-
-def joined(parts: typing.Sequence[Surface]) -> Surface:
-    """Surfaces behind one another: points of the second follow those of the first."""
+        parts = [_core.read_surface(os.fspath(p), format or "", options, callback) for p in paths]
     if not parts:
         raise ValueError("there is no surface")
+    return _of_data(parts[0] if len(parts) == 1 else _core.join(parts, [_stem(p) for p in paths]))
 
-    def all_of(name: str, counts: list[int], width: Optional[int]) -> Optional[Array]:
-        arrays = [getattr(part, name) for part in parts]
-        if all(a is None for a in arrays):
-            return None
-        empty = (0,) if width is None else (0, width)
-        together: Array = np.concatenate(
-            [
-                (np.zeros(n, np.int64) if width is None else np.empty(empty, np.int64)) if a is None else a
-                for a, n in zip(arrays, counts)
-            ]
-        )
-        return together
 
-    starts = np.cumsum([0] + [len(part.points) for part in parts[:-1]])
-    segment_counts = [0 if p.segments is None else len(p.segments) for p in parts]
-    segments = [p.segments + s for p, s in zip(parts, starts) if p.segments is not None]
-    return Surface(
-        np.concatenate([part.points for part in parts]),
-        np.concatenate([part.triangles.astype(np.int64) + s for part, s in zip(parts, starts)]),
-        segments=np.concatenate(segments) if segments else None,
-        triangle_markers=all_of("triangle_markers", [len(p.triangles) for p in parts], None),
-        segment_markers=all_of("segment_markers", segment_counts, None),
-        point_markers=all_of("point_markers", [len(p.points) for p in parts], None),
-        holes=[h for p in parts for h in p.holes],
-        regions=[r for p in parts for r in p.regions],
-        remarks=[r for p in parts for r in p.remarks],
-    )
+def _stem(path: PathLike) -> str:
+    name = os.path.basename(os.fspath(path))
+    return os.path.splitext(name[:-3] if name.endswith(".gz") else name)[0]

@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._limits import CancelToken, MemoryAmount, ProgressCallback, Shown, limits
+from ._names import Names, names_of
 from ._surface import Array, PathLike, Surface, _or_none, indices_of, markers_of, points_of
 
 _VTK_LINE, _VTK_TRIANGLE, _VTK_TETRA = 3, 5, 10
@@ -72,6 +73,7 @@ class TetMesh:
         segments: Optional[npt.ArrayLike] = None,
         segment_markers: Optional[npt.ArrayLike] = None,
         point_markers: Optional[npt.ArrayLike] = None,
+        names: Union[None, Names, typing.Mapping[str, typing.Mapping[int, str]]] = None,
     ) -> None:
         volume = _core.Volume(
             points_of(points),
@@ -82,6 +84,7 @@ class TetMesh:
             None if segments is None else indices_of(segments, 2, "segments"),
             markers_of(segment_markers, "segment_markers"),
             markers_of(point_markers, "point_markers"),
+            names=tuple(names_of(names)),
         )
         for name, array, count in (
             ("regions", volume.regions, len(volume.tetrahedra)),
@@ -115,6 +118,12 @@ class TetMesh:
         mesh = cls.__new__(cls)
         mesh._set(volume, n_input_points, result)
         return mesh
+
+    @property
+    def names(self) -> Names:
+        """Names of triangle, segment and point markers and of regions, a dictionary each; files that can hold them get
+        them."""
+        return Names(*self._volume.names)
 
     @property
     def triangle_markers(self) -> Array:
@@ -202,6 +211,7 @@ class TetMesh:
             triangle_markers=_or_none(data.triangle_markers),
             segment_markers=_or_none(data.segment_markers),
             point_markers=_or_none(data.point_markers),
+            names=Names(*data.names),
         )
 
     def save(
@@ -323,7 +333,8 @@ class TetMesh:
         return {
             "arrays": [np.array(a) for a in (volume.points, volume.tetrahedra, volume.regions, volume.triangles,
                                              volume.triangle_markers, volume.segments, volume.segment_markers,
-                                             volume.point_markers, volume.input_points)],
+                                             volume.point_markers, volume.input_points)]
+                      + [tuple(volume.names)],
             "n_input_points": self.n_input_points,
             "report": self.report,
             "triangle_regions": regions,

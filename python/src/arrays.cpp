@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "names.h"
+
 namespace holdfast::python {
 namespace {
 
@@ -56,6 +58,7 @@ void set(Arrays& arrays, const SurfaceArrays& from) {
                [&](const ArrayView& a) { arrays.set_facet_markers(a); });
   set_if_given(from.segment_markers, 0, "segment markers",
                [&](const ArrayView& a) { arrays.set_segment_markers(a); });
+  if (!from.names.is_none()) arrays.set_names(names_from(from.names));
 }
 
 template <>

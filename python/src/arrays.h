@@ -22,7 +22,7 @@ namespace py = pybind11;
 /// The arrays of a surface; each may be None but the vertices.
 struct SurfaceArrays {
   py::array vertices;
-  py::object facets, segments, vertex_markers, facet_markers, segment_markers;
+  py::object facets, segments, vertex_markers, facet_markers, segment_markers, names;
 };
 /// Fills `arrays`, which refers to memory of `from`. Needs the interpreter lock.
 void set(Arrays& arrays, const SurfaceArrays& from);

@@ -126,7 +126,7 @@ Options mesh_options(const py::dict& from, const Fields& fields) {
 }
 
 SurfaceArrays surface_from(const py::tuple& arrays) {
-  return {py::cast<py::array>(arrays[0]), arrays[1], arrays[2], arrays[3], arrays[4], arrays[5]};
+  return {py::cast<py::array>(arrays[0]), arrays[1], arrays[2], arrays[3], arrays[4], arrays[5], arrays[6]};
 }
 
 py::list defects_of(const std::vector<Defect>& defects) {

@@ -10,6 +10,7 @@
 #include "arrays.h"
 #include "holdfast/io.h"
 #include "limits.h"
+#include "names.h"
 #include "register.h"
 #include "reports.h"
 #include "watch.h"
@@ -68,6 +69,7 @@ void register_surface(py::module_& module) {
                              }))
       .def_property_readonly("regions", &regions_of)
       .def_property_readonly("holes", &holes_of)
+      .def_property_readonly("names", [](const Surface& s) { return tuple_of(s.names); })
       .def_property_readonly("remarks", [](const Surface& s) { return messages_of(s.remarks); });
 }
 
@@ -130,6 +132,12 @@ void register_files(py::module_& module) {
                  remarks = not_held(path, volume, how);
                }
                return messages_of(remarks);
+             });
+  module.def("join",
+             [](const std::vector<std::shared_ptr<Surface>>& parts, const std::vector<std::string>& names) {
+               std::vector<Surface> all;
+               for (const auto& part : parts) all.push_back(*part);
+               return std::make_shared<Surface>(join(all, names));
              });
   module.def("surface_of", [](const Volume& volume) {
     const py::gil_scoped_release unlocked;

@@ -6,6 +6,7 @@
 
 #include "arrays.h"
 #include "holdfast/types.h"
+#include "names.h"
 #include "register.h"
 
 namespace holdfast::python {
@@ -15,7 +16,7 @@ std::shared_ptr<Volume> volume_of(const py::array& points, const py::object& tet
                                   const py::object& regions, const py::object& triangles,
                                   const py::object& triangle_markers, const py::object& segments,
                                   const py::object& segment_markers, const py::object& point_markers,
-                                  const py::object& input_points) {
+                                  const py::object& input_points, const py::object& names) {
   auto volume = std::make_shared<Volume>();
   volume->vertices = rows_from<Point>(points, "points");
   volume->tetrahedra = rows_from<Tetrahedron>(tetrahedra, "tetrahedra");
@@ -27,6 +28,7 @@ std::shared_ptr<Volume> volume_of(const py::array& points, const py::object& tet
   volume->vertex_markers = markers_from(point_markers, "point markers");
   if (!input_points.is_none())
     for (const int i : markers_from(input_points, "input points")) volume->input_vertices.push_back(i);
+  volume->names = names_from(names);
   return volume;
 }
 
@@ -43,7 +45,9 @@ void register_volume(py::module_& module) {
       .def(py::init(&volume_of), py::arg("points"), py::arg("tetrahedra"), py::arg("regions") = py::none(),
            py::arg("triangles") = py::none(), py::arg("triangle_markers") = py::none(),
            py::arg("segments") = py::none(), py::arg("segment_markers") = py::none(),
-           py::arg("point_markers") = py::none(), py::arg("input_points") = py::none())
+           py::arg("point_markers") = py::none(), py::arg("input_points") = py::none(),
+           py::arg("names") = py::none())
+      .def_property_readonly("names", [](const Volume& v) { return tuple_of(v.names); })
       .def_property_readonly("points", seen([](const Volume& v, py::handle self) {
                                return view_on(reinterpret_cast<const double*>(v.vertices.data()),
                                               v.vertices.size(), 3, self);

@@ -133,4 +133,9 @@ void Arrays::set_segment_markers(const ArrayView& markers) {
   complex_.segment_markers = taken_markers(markers, segment_markers_);
 }
 
+void Arrays::set_names(Names names) {
+  names_ = std::move(names);
+  complex_.names = &names_;
+}
+
 }  // namespace holdfast

@@ -196,6 +196,8 @@ Result mesh(const Complex& complex, const Options& options) {
   const FloatEnvironment environment;
   require_sensible(complex, options);
   Result result = Call(complex, options, SamePlace::one_vertex).run();
+  const bool has_volume = result.outcome == Outcome::done || result.outcome == Outcome::not_representable;
+  if (has_volume && complex.names != nullptr) result.volume.names = *complex.names;
   if (options.neighbours) result.neighbours = neighbours(result.volume.tetrahedra);
   return result;
 }

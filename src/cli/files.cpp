@@ -3,31 +3,19 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
+#include <string>
 
 namespace holdfast::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Appends `part` to `whole`. Vertices at one place are one vertex wherever they come from, so nothing is to
-/// be joined here.
-void append(Surface& whole, const Surface& part) {
-  const std::size_t before = whole.vertices.size();
-  const auto shifted = [&](Index vertex) { return static_cast<Index>(before + vertex); };
-  whole.vertices.insert(whole.vertices.end(), part.vertices.begin(), part.vertices.end());
-  for (const Triangle& f : part.facets) whole.facets.push_back({shifted(f[0]), shifted(f[1]), shifted(f[2])});
-  for (const Segment& s : part.segments) whole.segments.push_back({shifted(s[0]), shifted(s[1])});
-  whole.regions.insert(whole.regions.end(), part.regions.begin(), part.regions.end());
-  whole.holes.insert(whole.holes.end(), part.holes.begin(), part.holes.end());
-  whole.remarks.insert(whole.remarks.end(), part.remarks.begin(), part.remarks.end());
-}
-
-/// Appends the markers of `part`, or `otherwise` for each of its `count` entities when it has none.
-void append_markers(std::vector<int>& whole, const std::vector<int>& part, std::size_t count, int otherwise) {
-  if (part.empty())
-    whole.insert(whole.end(), count, otherwise);
-  else
-    whole.insert(whole.end(), part.begin(), part.end());
+/// A file's name without its folder and endings.
+std::string stem(const fs::path& path) {
+  fs::path name = path.filename();
+  if (name.extension() == ".gz") name = name.stem();
+  return name.stem().string();
 }
 
 }  // namespace
@@ -49,24 +37,9 @@ Surface read_surfaces(const std::vector<fs::path>& paths, const ReadOptions& opt
     for (Remark& remark : parts.back().remarks) remark.message = path.string() + ": " + remark.message;
   }
   if (parts.size() == 1) return std::move(parts.front());
-  const bool vertices_marked =
-      std::any_of(parts.begin(), parts.end(), [](const Surface& s) { return !s.vertex_markers.empty(); });
-  const bool facets_marked =
-      std::any_of(parts.begin(), parts.end(), [](const Surface& s) { return !s.facet_markers.empty(); });
-  const bool segments_marked =
-      std::any_of(parts.begin(), parts.end(), [](const Surface& s) { return !s.segment_markers.empty(); });
-
-  Surface whole;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    append(whole, parts[i]);
-    if (vertices_marked)
-      append_markers(whole.vertex_markers, parts[i].vertex_markers, parts[i].vertices.size(), 0);
-    append_markers(whole.facet_markers, parts[i].facet_markers, parts[i].facets.size(),
-                   facets_marked ? 0 : static_cast<int>(i) + 1);
-    if (segments_marked)
-      append_markers(whole.segment_markers, parts[i].segment_markers, parts[i].segments.size(), 0);
-  }
-  return whole;
+  std::vector<std::string> names;
+  std::transform(paths.begin(), paths.end(), std::back_inserter(names), stem);
+  return join(parts, names);
 }
 
 }  // namespace holdfast::cli

@@ -8,10 +8,9 @@
 
 namespace holdfast::cli {
 
-/// Reads surfaces and puts them together: indices count through the files in turn. Where no file carries
-/// markers, facets are marked with the number of their file, from 1. With `of_volumes`, files are volumes, of
-/// which the surface is taken. Remarks begin with their file. Throws FileError, and Interrupted for the
-/// limits.
+/// Reads surfaces and puts them together (`join`): a file without markers gives its facets one with its name.
+/// With `of_volumes`, files are volumes, of which the surface is taken. Remarks begin with their file. Throws
+/// FileError, and Interrupted for the limits.
 [[nodiscard]] Surface read_surfaces(const std::vector<std::filesystem::path>& paths,
                                     const ReadOptions& options, bool of_volumes = false);
 

@@ -14,6 +14,7 @@
 #include "idle_options.h"
 #include "limits.h"
 #include "mesh_options.h"
+#include "name_options.h"
 #include "progress.h"
 #include "report.h"
 #include "signals.h"
@@ -155,6 +156,7 @@ Result mesh_or_refuse(const Surface& surface, const Options& options) {
 int run(const MeshArguments& arguments) {
   const Stopwatch whole;
   Options options = to_options(arguments);
+  const Names names = names_of(arguments.names);
   options.started = whole.start();  // the limit is on the whole command
   FilesOfRun files;
   if (arguments.surface_of)
@@ -172,8 +174,9 @@ int run(const MeshArguments& arguments) {
   ProgressView progress(how_to_show(arguments.quiet, arguments.verbose));
   progress.reading();
   read_size_field(arguments, options);
-  const Surface surface =
+  Surface surface =
       read_surfaces(arguments.surfaces, reading(options, arguments.input_format), arguments.surface_of);
+  merge(surface.names, names);
   if (!arguments.quiet) tell_of_lone_vertices(arguments, surface, progress);
   options.holes.insert(options.holes.end(), surface.holes.begin(), surface.holes.end());
   options.regions.insert(options.regions.end(), surface.regions.begin(), surface.regions.end());
@@ -259,6 +262,7 @@ void add_mesh(CLI::App& app, Command& chosen) {
                    "Number the region that holds this point, and limit its size (repeatable)")
       ->allow_extra_args(false)
       ->option_text("x,y,z,ID[,H]");
+  add_name_option(*command, arguments->names);
   command->add_flag("--drop-outside", arguments->drop_outside,
                     "Drop facets outside every kept region instead of refusing them");
   command

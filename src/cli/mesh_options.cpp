@@ -162,6 +162,7 @@ Json to_json(const MeshArguments& arguments) {
           {"keep", arguments.keep.value_or("auto")},
           {"holes", arguments.holes},
           {"regions", arguments.regions},
+          {"names", arguments.names},
           {"drop_outside", arguments.drop_outside},
           {"without", arguments.without},
           {"stop_after", arguments.stop_after},

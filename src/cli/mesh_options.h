@@ -18,7 +18,7 @@ struct MeshArguments {
   std::string input_format, format;
   bool surface_of = false, fill = false, drop_outside = false, quiet = false, verbose = false;
   std::optional<std::string> keep, quality;
-  std::vector<std::string> holes, regions, without;
+  std::vector<std::string> holes, regions, without, names;
   std::string stop_after;
   std::optional<double> size, gradation;
   bool no_growth = false;

@@ -54,9 +54,4 @@ void write_vtu(AtomicWriter& out, const Volume& volume, const WriteOptions& opti
 [[nodiscard]] MeshData parse_surface(const Source& source, std::string_view format = {});
 [[nodiscard]] MeshData parse_volume(const Source& source, std::string_view format = {});
 
-/// The tag of entity `i`, 0 where there are none.
-[[nodiscard]] inline int tag_of(const std::vector<int>& tags, std::size_t i) {
-  return tags.empty() ? 0 : tags[i];
-}
-
 }  // namespace holdfast::io

@@ -148,6 +148,8 @@ Surface read_surface(const std::filesystem::path& path, const ReadOptions& optio
   surface.regions = std::move(mesh.region_seeds);
   surface.holes = std::move(mesh.holes);
   surface.remarks = std::move(mesh.remarks);
+  surface.names = std::move(mesh.names);
+  if (!mesh.tetrahedra.empty()) surface.names.regions.clear();  // those of tetrahedra that are left out
   watch.finish();
   return surface;
 }
@@ -170,6 +172,7 @@ Volume read_volume(const std::filesystem::path& path, const ReadOptions& options
   volume.tetrahedra = std::move(mesh.tetrahedra);
   volume.facets = std::move(mesh.facets);
   volume.segments = std::move(mesh.segments);
+  volume.names = std::move(mesh.names);
   if (remarks != nullptr) *remarks = std::move(mesh.remarks);
   watch.finish();
   return volume;

@@ -41,6 +41,11 @@ class Tags {
   std::vector<int> values_;
 };
 
+/// The tag of entity `i`, 0 where there are none.
+[[nodiscard]] inline int tag_of(const std::vector<int>& tags, std::size_t i) {
+  return tags.empty() ? 0 : tags[i];
+}
+
 struct MeshData {
   std::vector<Point> vertices;
   std::vector<Triangle> facets;
@@ -50,6 +55,7 @@ struct MeshData {
   std::vector<Surface::RegionSeed> region_seeds;
   std::vector<Point> holes;
   std::vector<Remark> remarks;
+  Names names;
   std::size_t polygons_cut = 0;  ///< polygons of more than three corners, which became fans
 
   /// Says that `count` of `what` (a plural, which `one` is the singular of) are in the file and left out.

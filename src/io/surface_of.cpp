@@ -58,9 +58,12 @@ void drop_unused_vertices(Surface& surface) {
   Index next = 0;
   for (Index v = 0; v < used.size(); ++v) {
     number[v] = next;
-    if (used[v]) surface.vertices[next++] = surface.vertices[v];
+    if (!used[v]) continue;
+    if (!surface.vertex_markers.empty()) surface.vertex_markers[next] = surface.vertex_markers[v];
+    surface.vertices[next++] = surface.vertices[v];
   }
   surface.vertices.resize(next);
+  if (!surface.vertex_markers.empty()) surface.vertex_markers.resize(next);
   for (Triangle& t : surface.facets)
     for (Index& v : t) v = number[v];
   for (Segment& s : surface.segments)
@@ -78,6 +81,9 @@ Surface surface_of(const Volume& volume) {
   surface.facet_markers = volume.facet_markers;
   surface.segments = volume.segments;
   surface.segment_markers = volume.segment_markers;
+  surface.vertex_markers = volume.vertex_markers;
+  surface.names = volume.names;
+  surface.names.regions.clear();  // `mesh` numbers them anew
   std::vector<Triangle> listed;
   for (const Triangle& t : volume.facets) listed.push_back(ascending(t));
   std::sort(listed.begin(), listed.end());

@@ -91,6 +91,18 @@ Json to_json(const DefectSummary& summary) {
   return json;
 }
 
+Json to_json(const Names& names) {
+  const auto by_id = [](const std::map<int, std::string>& of) {
+    Json json = Json::object();
+    for (const auto& [id, name] : of) json[std::to_string(id)] = name;
+    return json;
+  };
+  return {{"facets", by_id(names.facets)},
+          {"regions", by_id(names.regions)},
+          {"segments", by_id(names.segments)},
+          {"vertices", by_id(names.vertices)}};
+}
+
 Json to_json(const Result& result, Json options) {
   const Report& report = result.report;
   const auto missing = [](const Report::Missing& m) {
@@ -122,6 +134,7 @@ Json to_json(const Result& result, Json options) {
         {"points", report.optimised.points}}},
       {"mesh",
        {{"vertices", report.vertices}, {"tetrahedra", report.tetrahedra}, {"regions", report.regions}}},
+      {"names", to_json(result.volume.names)},
       {"quality",
        {{"target", report.elements.target},
         {"worst", report.elements.worst},

@@ -17,6 +17,9 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json to_json(const std::vector<Remark>& remarks);
 [[nodiscard]] Json to_json(const DefectSummary& summary);
 
+/// Keys "facets", "regions", "segments" and "vertices", each an object of names by id.
+[[nodiscard]] Json to_json(const Names& names);
+
 /// The whole report of `mesh`; `options` is what the user asked for.
 [[nodiscard]] Json to_json(const Result& result, Json options);
 [[nodiscard]] Json to_json(const UntangleResult& result, Json options);
