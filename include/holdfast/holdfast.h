@@ -60,6 +60,13 @@ struct Sizes {
   /// the metric in all directions; what `gradation` limits is the largest size at a point. Elements are
   /// judged as the metric sees them.
   std::function<Metric(const Point&)> metric = {};
+  /// The most that a tetrahedron may measure; 0: no limit. The bound is true, exactly, of every tetrahedron
+  /// of the volume, even at the price of flat ones: those next to triangles that are large beside it. Regions
+  /// may have bounds of their own. A mesh of more than 2^30 tetrahedra is refused by std::length_error.
+  double max_volume = 0;
+  /// The most that the radius of the sphere round a tetrahedron should be, over its shortest edge; 0: no
+  /// limit. Regular ones have 0.612. This is an aim: what the surface forces stays, and is counted.
+  double max_ratio = 0;
 };
 
 /// How long to improve the elements with field points: each is some times slower than the one before.
@@ -154,6 +161,15 @@ struct Report {
     bool stopped_early = false;        ///< too much was tried in vain: edges may be longer than wanted
     std::vector<Forced> worst_forced;  ///< the worst of these, at most 100
   } field;
+  /// What was done for `Sizes::max_volume` and `max_ratio`; all zero without.
+  struct Bounds {
+    std::size_t points = 0;        ///< added for the volume alone, when all else was done
+    double fullest = 0;            ///< the largest volume of a tetrahedron over its bound: at most 1
+    std::size_t flat = 0;          ///< tetrahedra at these points with a dihedral angle below 10 degrees
+    std::size_t ratio_points = 0;  ///< added for the ratio alone
+    double worst_ratio = 0;
+    std::size_t above_ratio = 0;  ///< tetrahedra with a larger ratio than was asked for
+  } bounds;
   std::size_t vertices = 0, tetrahedra = 0, regions = 0;
   /// The rule by which regions were kept: never Keep::automatic once they were chosen.
   Keep keep = Keep::automatic;

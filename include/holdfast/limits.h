@@ -20,7 +20,8 @@ enum class Outcome {
   time_limit,         ///< `Limits::time_limit` ran out
   memory_limit,       ///< `Limits::memory_limit` was reached
   cancelled,          ///< the progress callback returned false, or the token was cancelled
-  not_representable,  ///< valid, but some Steiner point has no position in doubles
+  not_representable,  ///< valid, but some Steiner point has no position in doubles, or a largest volume no
+                      ///< mesh
 };
 
 /// Stops calls from another thread. Copies are one token: keep one and give another to `Limits::cancel`.

@@ -84,7 +84,8 @@ struct Surface {
   struct RegionSeed {
     Point where;
     int id;
-    double size = 0;  ///< most that edges of the region may measure, for field points; 0: no limit
+    double size = 0;        ///< most that edges of the region may measure, for field points; 0: no limit
+    double max_volume = 0;  ///< most that a tetrahedron of the region may measure; 0: no limit
   };
   std::vector<RegionSeed> regions;
   std::vector<Point> holes;
@@ -96,6 +97,20 @@ struct Surface {
     return {vertices, facets, segments, facet_markers, segment_markers, vertex_markers, &names};
   }
   Complex view() const&& = delete;
+};
+
+/// Mid-edge nodes: what makes elements of second order out of straight ones, whose corners stay as they are.
+///
+/// Nodes are numbered behind the vertices of the volume: node k is `points[k - vertices.size()]`, and
+/// elements that share an edge share its node. Either all edges of the volume have one, or none.
+struct MidNodes {
+  std::vector<Point> points;
+  std::vector<std::array<Index, 6>>
+      tetrahedra;                            ///< of edges 01 12 02 03 13 23, one a tetrahedron (VTK's order)
+  std::vector<std::array<Index, 3>> facets;  ///< of edges 01 12 02, one a facet
+  std::vector<Index> segments;               ///< one a segment
+
+  [[nodiscard]] bool empty() const { return points.empty() && tetrahedra.empty(); }
 };
 
 /// A tetrahedral mesh that conforms to a complex.
@@ -113,6 +128,7 @@ struct Volume {
   /// Empty, or one a vertex: the first of the input's vertices at its place, -1 for an added one.
   std::vector<std::int64_t> input_vertices;
   Names names = {};
+  MidNodes mid_nodes = {};  ///< of a mesh of second order; empty for one of first order
 };
 
 /// Which rule of a valid input is broken. The numbers are stable.

@@ -41,8 +41,8 @@ void attempt(Input& input, const Options& options, std::uint64_t seed, const Thr
 
   std::unique_ptr<Field> field;
   if (options.sizes)
-    field = course.run(CallStep::field_points,
-                       [&] { return add_field_points(attempt, box, division, report.field); });
+    field =
+        course.run(CallStep::field_points, [&] { return add_field_points(attempt, box, division, report); });
   course.run(CallStep::optimise, [&] { improve_elements(attempt, box, division, field.get(), report); });
 
   course.begin(CallStep::deliver);

@@ -8,6 +8,7 @@
 #include "optimise/improve_parts.h"
 #include "optimise/optimise.h"
 #include "optimise/shape.h"
+#include "refine/bound_volumes.h"
 #include "refine/field_points.h"
 
 namespace holdfast {
@@ -71,6 +72,36 @@ double improve_field(const Attempt& attempt, Field& field, Report::Field& report
   return stats.worst;
 }
 
+void improve_with_field(const Attempt& attempt, BoxMesh& box, Division& division, Field& field,
+                        Report& report) {
+  const double worst = improve_field(attempt, field, report.field);
+  // Flat ones are told from others in space; in a metric they may be as they should be.
+  if (worst <= kEnergyOfFlat || field.has_metric()) return;
+  // Long thin facets may leave flat elements: what the other optimisation is made for.
+  std::vector<Tet> flat = division.tets(box.mesh);
+  std::erase_if(flat, [&](Tet t) {
+    const TetMesh& mesh = box.mesh;
+    const auto& v = mesh.corners(t);
+    return !is_flat(mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2]), mesh.position(v[3]));
+  });
+  if (!flat.empty()) optimise_worst_of(attempt, box, division, flat, PointsToRemove::added_here, report);
+}
+
+// The improvement heeds bounds, so that it leaves next to nothing to do for a second pass; what a pass
+// without it leaves is exact.
+void keep_bounds(const Attempt& attempt, Field& field, bool improves, Report& report) {
+  const VolumeData volume = field.volume();
+  volume.sizes.resize(volume.mesh.vertex_count(), 0);  // points for flat elements have none
+  const double most_ratio = attempt.options.sizes->max_ratio;
+  if (most_ratio > 0) report.bounds.ratio_points += lower_ratios(volume, most_ratio, attempt.monitor).points;
+  if (volume.most_volumes == nullptr) return;
+  const std::vector<std::uint8_t> fresh(volume.mesh.vertex_count(), 0);
+  report.bounds.points += bound_volumes(volume, attempt.monitor).points;
+  if (!improves || volume.mesh.vertex_count() == fresh.size()) return;
+  improve(volume, attempt.options.effort, attempt.monitor, {}, fresh);
+  report.bounds.points += bound_volumes(volume, attempt.monitor).points;
+}
+
 }  // namespace
 
 Field::Field(const Attempt& attempt, BoxMesh& box, Division& division)
@@ -89,14 +120,17 @@ VolumeData Field::volume() {
           box_.first_free,
           nullptr,
           asks_for_metric_ ? &metrics_ : nullptr,
-          seed_};
+          seed_,
+          size_function_.most_volumes().empty() ? nullptr : &size_function_.most_volumes()};
 }
 
 std::unique_ptr<Field> add_field_points(const Attempt& attempt, BoxMesh& box, Division& division,
-                                        Report::Field& report) {
+                                        Report& all) {
+  Report::Field& report = all.field;
   if (box.mesh.exact_vertex_count() > 0 && !is_explicit(box.mesh, division.tets(box.mesh))) return nullptr;
   auto field = std::make_unique<Field>(attempt, box, division);
   const SizeFunction& sizes = field->size_function();
+  require_few_enough(field->volume());
   const std::size_t before = box.mesh.vertex_count();
   FieldPoints added = add_field_points(field->volume(), sizes, attempt.threads, attempt.monitor);
   field->parts = std::move(added.parts);
@@ -105,6 +139,7 @@ std::unique_ptr<Field> add_field_points(const Attempt& attempt, BoxMesh& box, Di
   if (!improves)
     report.stopped_early |= join_filled(std::move(field->parts), sizes, attempt.threads, attempt.monitor);
   report.points = box.mesh.vertex_count() - before + (field->parts ? field->parts->new_vertices() : 0);
+  if (!improves) keep_bounds(attempt, *field, false, all);
   return field;
 }
 
@@ -117,17 +152,8 @@ void improve_elements(const Attempt& attempt, BoxMesh& box, Division& division, 
       optimise_worst_of(attempt, box, division, tets, PointsToRemove::all, report);
     return;
   }
-  const double worst = improve_field(attempt, *field, report.field);
-  // Flat ones are told from others in space; in a metric they may be as they should be.
-  if (worst <= kEnergyOfFlat || field->has_metric()) return;
-  // Long thin facets may leave flat elements: what the other optimisation is made for.
-  std::vector<Tet> flat = division.tets(box.mesh);
-  std::erase_if(flat, [&](Tet t) {
-    const TetMesh& mesh = box.mesh;
-    const auto& v = mesh.corners(t);
-    return !is_flat(mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2]), mesh.position(v[3]));
-  });
-  if (!flat.empty()) optimise_worst_of(attempt, box, division, flat, PointsToRemove::added_here, report);
+  improve_with_field(attempt, box, division, *field, report);
+  keep_bounds(attempt, *field, true, report);
 }
 
 }  // namespace holdfast

@@ -38,7 +38,7 @@ class Field {
 /// Adds points until edges have the sizes asked for. Null if some vertex inside has no doubles: then the
 /// attempt has failed already.
 [[nodiscard]] std::unique_ptr<Field> add_field_points(const Attempt& attempt, BoxMesh& box,
-                                                      Division& division, Report::Field& report);
+                                                      Division& division, Report& report);
 
 /// Improves the elements of the kept regions; `field` is null without field points.
 void improve_elements(const Attempt& attempt, BoxMesh& box, Division& division, Field* field, Report& report);

@@ -18,14 +18,21 @@ void require(bool sensible, const char* otherwise) {
   if (!sensible) throw std::invalid_argument(otherwise);
 }
 
+constexpr double kLeastRatio = 0.61237243569579452;  // sqrt(6) / 4
+
 bool is_finite(const Point& p) {
   return std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
 }
 
+// Also of a volume.
 bool is_length_or_none(double x) { return x >= 0 && std::isfinite(x); }
 
 void require_sensible_sizes(const Complex& complex, const Sizes& sizes) {
   require(is_length_or_none(sizes.size), "a size must be finite and not negative");
+  require(is_length_or_none(sizes.max_volume), "a largest volume must be finite and not negative");
+  require(
+      sizes.max_ratio == 0 || (sizes.max_ratio > kLeastRatio && std::isfinite(sizes.max_ratio)),
+      "the largest ratio of radii to edges must be finite and above that of a regular tetrahedron, 0.6124");
   require(sizes.gradation >= 0 && sizes.gradation <= 1, "the gradation must lie between 0 and 1");
   require(sizes.vertex_sizes.empty() || sizes.vertex_sizes.size() == complex.vertices.size(),
           "as many sizes as vertices are needed, or none");
@@ -101,6 +108,8 @@ void require_sensible(const Complex& complex, const Options& options) {
   for (const RegionSeed& seed : options.regions) {
     require(is_finite(seed.where), "a region seed has a coordinate that is not finite");
     require(is_length_or_none(seed.size), "the size of a region must be finite and not negative");
+    require(is_length_or_none(seed.max_volume),
+            "the largest volume of a region must be finite and not negative");
   }
   if (options.sizes) require_sensible_sizes(complex, *options.sizes);
   require(options.keep != Keep::box || (options.box_margin > 0 && options.box_margin < 1e6),

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "api/attempt.h"
+#include "api/bounds.h"
 #include "api/course.h"
 #include "api/input.h"
 #include "api/judge.h"
@@ -64,6 +65,9 @@ class Call {
     const bool has_all = options_.stop_after.value_or(Stage::optimise) == Stage::optimise;
     if (result_.outcome == Outcome::done && options_.sizes && has_all && options_.keep != Keep::box)
       mesh_remote_components(input_.complex(), with_sizes(input_.sizes()), mesh_complex, result_);
+    if (result_.outcome == Outcome::done && options_.sizes &&
+        options_.stop_after.value_or(Stage::optimise) >= Stage::field_points)
+      judge_bounds(options_, threads_, result_);
   }
 
   [[nodiscard]] Options with_sizes(Sizes sizes) const {

@@ -119,9 +119,14 @@ class RemoteComponents {
     sizes.vertex_sizes.clear();
     if (!options_.sizes->vertex_sizes.empty())
       for (const Index v : vertices) sizes.vertex_sizes.push_back(options_.sizes->vertex_sizes[v]);
-    for (const RegionSeed& seed : options_.regions)
-      if (seed.id == id && seed.size > 0)
-        sizes.size = sizes.size > 0 ? std::min(sizes.size, seed.size) : seed.size;
+    const auto limit = [](double& most, double by) {
+      if (by > 0) most = most > 0 ? std::min(most, by) : by;
+    };
+    for (const RegionSeed& seed : options_.regions) {
+      if (seed.id != id) continue;
+      limit(sizes.size, seed.size);
+      limit(sizes.max_volume, seed.max_volume);
+    }
     Result found = mesh(boundary.view(), options);
     if (found.outcome != Outcome::done) return;
     gone_.insert(tets.begin(), tets.end());

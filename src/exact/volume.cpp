@@ -41,6 +41,17 @@ Bounded bounded_determinant(const std::array<double, 3>& a, const std::array<dou
   return out;
 }
 
+// Coordinates far from one under- or overflow; then the bounds decide nothing.
+bool is_volume_above(const std::array<double, 3>& a, const std::array<double, 3>& b,
+                     const std::array<double, 3>& c, const std::array<double, 3>& d, double most) {
+  const Bounded six = bounded_determinant(a, b, c, d);
+  const Bounded limit{6 * most, 6 * most * kHalfUlp * kRoundedUp + kUnderflow};
+  if (six.surely_below(limit)) return false;
+  if (limit.surely_below(six)) return true;
+  const auto exact = [](const std::array<double, 3>& p) { return ExactPoint{{p[0], p[1], p[2]}}; };
+  return determinant(exact(a), exact(b), exact(c), exact(d)) > Dyadic(6.0) * Dyadic(most);
+}
+
 Dyadic determinant(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, const ExactPoint& d) {
   std::array<std::array<Dyadic, 3>, 3> m;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -25,6 +25,11 @@ struct Bounded {
 [[nodiscard]] Bounded bounded_determinant(const std::array<double, 3>& a, const std::array<double, 3>& b,
                                           const std::array<double, 3>& c, const std::array<double, 3>& d);
 
+/// Whether the signed volume of a tetrahedron is more than that, exactly. All numbers are finite.
+[[nodiscard]] bool is_volume_above(const std::array<double, 3>& a, const std::array<double, 3>& b,
+                                   const std::array<double, 3>& c, const std::array<double, 3>& d,
+                                   double most);
+
 /// det(b-a, c-a, d-a), exactly: six times the signed volume.
 [[nodiscard]] Dyadic determinant(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c,
                                  const ExactPoint& d);

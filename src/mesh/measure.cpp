@@ -25,6 +25,11 @@ Point centroid(const TetMesh& mesh, Tet t) {
   return middle;
 }
 
+double six_volumes(const TetMesh& mesh, const TetMesh::Corners& c) {
+  const auto edge = [&](std::size_t i) { return from_to(mesh, c[0], mesh.point(c[i])); };
+  return dot(edge(1), cross(edge(2), edge(3)));
+}
+
 double height_over(const TetMesh& mesh, Vertex a, Vertex b, Vertex c, Vertex d) {
   const Vector n = cross(from_to(mesh, a, mesh.point(b)), from_to(mesh, a, mesh.point(c)));
   const double area = length(n);  // twice that of abc

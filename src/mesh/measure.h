@@ -8,6 +8,9 @@ namespace holdfast {
 
 [[nodiscard]] Point centroid(const TetMesh& mesh, Tet t);
 
+/// Six times the volume, approximately.
+[[nodiscard]] double six_volumes(const TetMesh& mesh, const TetMesh::Corners& corners);
+
 /// Distance of d from the plane abc, approximately.
 [[nodiscard]] double height_over(const TetMesh& mesh, Vertex a, Vertex b, Vertex c, Vertex d);
 

@@ -61,6 +61,7 @@ bool PointAdder::find_cavity(Vertex p, Tet t, std::span<const Tet> tets) {
 bool PointAdder::improves(Vertex p) {
   TetMesh& mesh = volume_.mesh();
   star_.clear();
+  star_.bound(frame_.is_plain() ? volume_.most() : kNoEnergy);
   for (const PointCavity::Rim& rim : cavity_.rim())
     star_.add(frame_.to(mesh.position(rim.v[0])), frame_.to(mesh.position(rim.v[1])),
               frame_.to(mesh.position(rim.v[2])), 1);

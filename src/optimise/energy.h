@@ -6,6 +6,7 @@
 // |e| D / (m n), where D is six volumes (Freitag, Ollivier-Gooch 1997; Klingner, Shewchuk 2007). The power
 // makes a sum of energies follow the worst elements, and yet see how many there are of each kind. Where a
 // metric is given, elements are seen in the frame of the mean of the metrics at their corners.
+// What is larger than a bound on volumes allows is as bad as what is not positive.
 #pragma once
 
 #include <array>
@@ -26,10 +27,12 @@ inline constexpr double kNoEnergy = std::numeric_limits<double>::infinity();
 template <typename Number>
 using PointOf = std::array<Number, 3>;
 
-/// Infinite for a tetrahedron that is not positive, in floating point.
+/// Infinite for a tetrahedron that is not positive, or of more than `most` sixths of a unit of volume, in
+/// floating point.
 template <typename Number>
 [[nodiscard]] inline Number energy(const PointOf<Number>& a, const PointOf<Number>& b,
-                                   const PointOf<Number>& c, const PointOf<Number>& d) {
+                                   const PointOf<Number>& c, const PointOf<Number>& d,
+                                   double most = kNoEnergy) {
   const Number ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
   const Number vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
   const Number wx = d[0] - a[0], wy = d[1] - a[1], wz = d[2] - a[2];
@@ -62,7 +65,8 @@ template <typename Number>
   const Number least = less(less(less(ab, ac), less(ad, bc)), less(bd, cd));
   const Number q2 = volume * volume * least, infinite = Number{} + kNoEnergy;
   const Number e = 1 / (q2 * q2), of_positive = e < infinite ? e : infinite;
-  return volume > 0 ? of_positive : infinite;
+  const Number of_small = volume > most ? infinite : of_positive;
+  return volume > 0 ? of_small : infinite;
 }
 [[nodiscard]] inline double energy(const Point& a, const Point& b, const Point& c, const Point& d) {
   return energy<double>(a, b, c, d);

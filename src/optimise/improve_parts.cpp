@@ -12,7 +12,7 @@ ImproveStats improve_each(Parts& parts, Effort effort, std::array<double, 2> wor
   std::vector<ImproveStats> stats(parts.parts().size());
   parallel_monitored(threads, stats.size(), monitor, work, [&](std::size_t k, Monitor& own) {
     Part& part = parts.parts()[k];
-    stats[k] = improve(part.data(parts.whole().kept), effort, own, part.on_cut(), part.was_on_cut());
+    stats[k] = improve(part.data(parts.whole()), effort, own, part.on_cut(), part.was_on_cut());
   });
   ImproveStats sum;
   for (const ImproveStats& own : stats) sum += own;

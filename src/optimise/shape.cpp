@@ -46,7 +46,7 @@ ShapeCounts shape_of(const VolumeData& volume, const Threads& threads) {
 
 ShapeCounts shape_of(Parts& parts, const Threads& threads) {
   ShapeHistogram shapes;
-  for (Part& part : parts.parts()) shapes.add(shapes_of(part.data(parts.whole().kept), threads));
+  for (Part& part : parts.parts()) shapes.add(shapes_of(part.data(parts.whole()), threads));
   return shapes.counts();
 }
 

@@ -13,6 +13,7 @@ bool VertexSmoother::smooth(Vertex v, bool patient) {
   tets_.clear();
   holdfast::ball(volume_.mesh(), v, tets_);
   if (tets_.size() > tuning::kMostMovedBall) return false;
+  volume_.turn_to(tets_.front());
   gather_star(v);
   const double before = volume_.energy(tets_);
   if (frame_.is_plain())
@@ -32,6 +33,7 @@ void VertexSmoother::gather_star(Vertex v) {
   const TetMesh& mesh = volume_.mesh();
   star_.clear();
   frame_ = volume_.frame_of({&v, 1});
+  star_.bound(frame_.is_plain() ? volume_.most() : kNoEnergy);
   for (const Tet t : tets_) {
     const auto f = mesh.face_vertices(face_code(t, mesh.index_of(t, v)));
     star_.add(frame_.to(mesh.position(f[0])), frame_.to(mesh.position(f[1])), frame_.to(mesh.position(f[2])),

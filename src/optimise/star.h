@@ -14,6 +14,8 @@ class Star {
   /// A face that a point x of the star sees with orient(a, b, c, x) > 0. The heavier it weighs the more it
   /// says about where x should be.
   void add(const Point& a, const Point& b, const Point& c, double weight);
+  /// No tetrahedron may have more than a sixth of this volume; infinite without a bound.
+  void bound(double most) { most_ = most; }
   [[nodiscard]] std::size_t face_count() const { return face_count_; }
 
   /// Starts the search for a place at x, where the energy is known or computed.
@@ -48,8 +50,8 @@ class Star {
     std::size_t count;
   };
 
-  static Pair energies_at(const TwoFaces& two, const Point& x) {
-    return holdfast::energy<Pair>(two.a, two.b, two.c, {Pair{} + x[0], Pair{} + x[1], Pair{} + x[2]});
+  [[nodiscard]] Pair energies_at(const TwoFaces& two, const Point& x) const {
+    return holdfast::energy<Pair>(two.a, two.b, two.c, {Pair{} + x[0], Pair{} + x[1], Pair{} + x[2]}, most_);
   }
   [[nodiscard]] double energy_at(const Point& x, double limit);
   [[nodiscard]] Point ideal_place() const;
@@ -61,6 +63,7 @@ class Star {
   std::size_t face_count_ = 0;
   Point at_{};
   double energy_ = kNoEnergy;
+  double most_ = kNoEnergy;
 };
 
 }  // namespace holdfast

@@ -1,5 +1,7 @@
 #include "optimise/volume.h"
 
+#include "mesh/measure.h"
+
 namespace holdfast {
 
 ImprovedVolume::ImprovedVolume(const VolumeData& data, std::span<const std::uint8_t> fresh)
@@ -8,6 +10,11 @@ ImprovedVolume::ImprovedVolume(const VolumeData& data, std::span<const std::uint
   Tet first = kNone;  // of two
   for (Tet t = 0; t < mesh_.slot_count(); ++t) {
     if (!is_inside(t)) continue;
+    if (data.most_volumes != nullptr) {
+      turn_to(t);
+      energy_[t] = energy_of(mesh_.corners(t));
+      continue;
+    }
     if (first == kNone) {
       first = t;
       continue;
@@ -28,7 +35,9 @@ ImprovedVolume::ImprovedVolume(const VolumeData& data, std::span<const std::uint
   }
 }
 
+// A frame does not keep volumes.
 double ImprovedVolume::energy_in_frame(const TetMesh::Corners& c) const {
+  if (most_ < kNoEnergy && six_volumes(mesh_, c) > most_) return kNoEnergy;
   return data_.see(c, [](const Point& p, const Point& q, const Point& r, const Point& s) {
     return holdfast::energy(p, q, r, s);
   });

@@ -26,6 +26,11 @@ class ImprovedVolume {
   [[nodiscard]] bool is_inside(Tet t) const { return data_.is_inside(t); }
   [[nodiscard]] bool may_move(Vertex v) const { return v >= data_.first_free; }
 
+  /// From now on, elements are judged as those of the region of t: by the most that these may measure.
+  void turn_to(Tet t) { turn_to_region(region_of_[t]); }
+  /// Six times that, a little less where floating point could not tell; infinite without a bound.
+  [[nodiscard]] double most() const { return most_; }
+
   /// Of a living tetrahedron inside.
   [[nodiscard]] double energy(Tet t) const { return energy_[t]; }
   [[nodiscard]] double energy(std::span<const Tet> tets) const {
@@ -36,8 +41,8 @@ class ImprovedVolume {
   [[nodiscard]] double energy_of(const TetMesh::Corners& c) const {
     if (data_.metrics != nullptr) [[unlikely]]
       return energy_in_frame(c);
-    return holdfast::energy(mesh_.position(c[0]), mesh_.position(c[1]), mesh_.position(c[2]),
-                            mesh_.position(c[3]));
+    return holdfast::energy<double>(mesh_.position(c[0]), mesh_.position(c[1]), mesh_.position(c[2]),
+                                    mesh_.position(c[3]), most_);
   }
   /// Of two, in little more time than of one.
   [[nodiscard]] Pair energies_of(const TetMesh::Corners& x, const TetMesh::Corners& y) const {
@@ -48,7 +53,7 @@ class ImprovedVolume {
       const Point &of_x = mesh_.position(x[i]), &of_y = mesh_.position(y[i]);
       for (std::size_t k = 0; k < 3; ++k) p[i][k] = Pair{of_x[k], of_y[k]};
     }
-    return holdfast::energy<Pair>(p[0], p[1], p[2], p[3]);
+    return holdfast::energy<Pair>(p[0], p[1], p[2], p[3], most_);
   }
   [[nodiscard]] bool is_positive(const TetMesh::Corners& c) const {
     return mesh_.orient(c[0], c[1], c[2], c[3]) > 0;
@@ -106,6 +111,7 @@ class ImprovedVolume {
       region_of_.resize(mesh_.slot_count(), kNone);
     }
     if (touched_.size() < mesh_.vertex_count()) touched_.resize(mesh_.vertex_count(), 1);
+    turn_to_region(region);
     for (const Tet t : tets) {
       region_of_[t] = region;
       note(t, energy_of(mesh_.corners(t)));
@@ -120,6 +126,11 @@ class ImprovedVolume {
   [[nodiscard]] RegionId region_of(Tet t) const { return region_of_[t]; }
 
  private:
+  void turn_to_region(RegionId region) {
+    constexpr double kSurely = 1 - 1e-9;
+    if (data_.most_volumes != nullptr) [[unlikely]]
+      most_ = 6 * kSurely * (*data_.most_volumes)[region];
+  }
   [[nodiscard]] double energy_in_frame(const TetMesh::Corners& c) const;
   [[nodiscard]] Pair energies_in_frames(const TetMesh::Corners& x, const TetMesh::Corners& y) const;
 
@@ -127,6 +138,7 @@ class ImprovedVolume {
   TetMesh& mesh_;
   std::vector<RegionId>& region_of_;
   std::vector<double> energy_;  // by slot
+  double most_ = kNoEnergy;
   std::vector<std::uint8_t> changed_, touched_;
   std::vector<Tet> created_;
 };

@@ -28,6 +28,7 @@ EnergyWays::Outcome EnergyWays::try_all(Tet t, bool with_refill, double& work) {
                                              {&EnergyWays::refill, &ImproveStats::swapped}}};
   Outcome out;
   work += 1;
+  volume_.turn_to(t);
   for (const Way& way : std::span(kWays).first(with_refill ? kWays.size() : kWays.size() - 1)) {
     out.count = way.count;
     (this->*way.attempt)(t, out, work);

@@ -29,7 +29,10 @@ class EnergyWays {
   Outcome try_all(Tet t, bool with_refill, double& work);
 
   /// One way alone, for passes over the volume: whether it helped.
-  bool swap_as_worst(Tet t) { return !swapper_.improve(t, true).empty(); }
+  bool swap_as_worst(Tet t) {
+    volume_.turn_to(t);
+    return !swapper_.improve(t, true).empty();
+  }
   bool smooth(Vertex v) { return smoother_.smooth(v, false); }
 
  private:

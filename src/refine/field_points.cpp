@@ -70,7 +70,7 @@ FilledIn fill_parts(Parts& parts, const SizeFunction& sizes, Stage stage, std::a
   parallel_monitored(sizes.threads_of(threads), parts.parts().size(), monitor, work,
                      [&](std::size_t k, Monitor& own) {
                        Part& part = parts.parts()[k];
-                       stopped[k] = advance_front(part.data(parts.whole().kept), sizes, stage, own);
+                       stopped[k] = advance_front(part.data(parts.whole()), sizes, stage, own);
                        part.order_along_curve();
                      });
   return {parts.new_vertices(), std::find(stopped.begin(), stopped.end(), 1) != stopped.end()};

@@ -24,8 +24,9 @@ class Part {
   Vertex first_free = 0;            ///< lower ones stand: they are the whole's, or on an interface
   std::uint64_t seed = 1;           ///< the whole's
 
-  [[nodiscard]] VolumeData data(const std::vector<bool>& kept) {
-    return {mesh, region_of, sizes, kept, first_free, this, metrics_if_any(), seed};
+  /// Regions are those of the whole.
+  [[nodiscard]] VolumeData data(const VolumeData& whole) {
+    return {mesh, region_of, sizes, whole.kept, first_free, this, metrics_if_any(), seed, whole.most_volumes};
   }
   /// Whether a tetrahedron is the ghost on a face of an interface.
   [[nodiscard]] bool is_beyond_interface(Tet t) const {

@@ -1,6 +1,7 @@
 // A mesh with what is known of its tetrahedra and vertices while a volume is filled and improved.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -22,9 +23,15 @@ struct VolumeData {
   const Part* part = nullptr;     ///< that this is, unless the mesh is whole
   std::vector<Metric>* metrics = nullptr;  ///< by vertex: the wanted metric, if there is one
   std::uint64_t seed = 1;                  ///< of the random orders
+  /// By region: the most that a tetrahedron may measure, infinite without a bound; none where no region has
+  /// one.
+  const std::vector<double>* most_volumes = nullptr;
 
   [[nodiscard]] bool is_inside(Tet t) const {
     return mesh.alive(t) && !mesh.is_ghost(t) && kept[region_of[t]];
+  }
+  [[nodiscard]] double most_volume(RegionId region) const {
+    return most_volumes == nullptr ? std::numeric_limits<double>::infinity() : (*most_volumes)[region];
   }
   /// The mean of the metrics at some vertices.
   [[nodiscard]] Metric mean_metric(std::span<const Vertex> vertices) const {

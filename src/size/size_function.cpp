@@ -10,6 +10,13 @@ namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
+// The edge of the regular tetrahedron of a volume. Elements of a field mesh vary in volume, and most are
+// below that of a regular one with edges of the size.
+double size_of_volume(double volume) {
+  constexpr double kEdgeOfVolumeOne = 2.0396489026555056;  // (6 sqrt(2))^(1/3)
+  return volume < kNoLimit ? kEdgeOfVolumeOne * numbers::cbrt(volume) : kNoLimit;
+}
+
 Point times_power(const Point& p, int k) {
   return {std::ldexp(p[0], k), std::ldexp(p[1], k), std::ldexp(p[2], k)};
 }
@@ -51,13 +58,25 @@ SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds
       fields({&p, 1}, {&h, 1});
       return h;
     };
-  const auto has_size = [](const RegionSeed& seed) { return seed.size > 0; };
-  if (std::any_of(seeds.begin(), seeds.end(), has_size)) {
-    of_region_.assign(kept.id.size(), most_);
-    for (const RegionSeed& seed : seeds)
-      for (std::size_t r = 0; r < kept.id.size(); ++r)
-        if (has_size(seed) && kept.region[r] && kept.id[r] == seed.id)
-          of_region_[r] = std::min(of_region_[r], std::ldexp(seed.size, scale));
+  limit_regions(sizes, seeds, kept);
+}
+
+void SizeFunction::limit_regions(const Sizes& sizes, std::span<const RegionSeed> seeds, const Kept& kept) {
+  const auto limits = [](const RegionSeed& seed) { return seed.size > 0 || seed.max_volume > 0; };
+  const auto bounds = [](const RegionSeed& seed) { return seed.max_volume > 0; };
+  const auto volume = [&](double v) { return v > 0 ? std::ldexp(v, 3 * scale_) : kNoLimit; };
+  const bool has_bound = sizes.max_volume > 0 || std::any_of(seeds.begin(), seeds.end(), bounds);
+  if (!has_bound && std::none_of(seeds.begin(), seeds.end(), limits)) return;
+  of_region_.assign(kept.id.size(), most_);
+  if (has_bound) most_volumes_.assign(kept.id.size(), volume(sizes.max_volume));
+  for (std::size_t r = 0; r < kept.id.size(); ++r) {
+    if (!kept.region[r]) continue;
+    for (const RegionSeed& seed : seeds) {
+      if (kept.id[r] != seed.id) continue;
+      if (seed.size > 0) of_region_[r] = std::min(of_region_[r], std::ldexp(seed.size, scale_));
+      if (seed.max_volume > 0) most_volumes_[r] = std::min(most_volumes_[r], volume(seed.max_volume));
+    }
+    if (has_bound) of_region_[r] = std::min(of_region_[r], size_of_volume(most_volumes_[r]));
   }
 }
 

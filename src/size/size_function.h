@@ -5,6 +5,7 @@
 // size spreads inward: from a vertex of size h, at distance d, it is at most h + gradation * d. A point gets
 // the least that the vertices round it allow, so that sizes are handed from point to point as the mesh grows,
 // and no other structure is needed. On top of this come the user's limits: one number, one a region, a field.
+// A largest volume limits sizes, too, so that few tetrahedra are larger when all else is done.
 //
 // With a metric of the user, sizes depend on the direction. What is handed from point to point is the largest
 // of them, so that the metric is kept to but where it asks for more than all this allows in any direction:
@@ -54,6 +55,9 @@ class SizeFunction {
   [[nodiscard]] Threads threads_of(const Threads& all) const {
     return field_ || metric_ ? all.at_most(1) : all;
   }
+  /// By region, the most that a tetrahedron of the mesh may measure, infinite without a bound; none where no
+  /// region has one.
+  [[nodiscard]] const std::vector<double>& most_volumes() const { return most_volumes_; }
   [[nodiscard]] double gradation() const { return gradation_; }
   /// Inside, sizes do not grow beyond those of the surface round it.
   [[nodiscard]] bool grows() const { return grows_; }
@@ -62,6 +66,7 @@ class SizeFunction {
   [[nodiscard]] double limit_of_region(RegionId region) const {
     return of_region_.empty() ? most_ : of_region_[region];
   }
+  void limit_regions(const Sizes& sizes, std::span<const RegionSeed> seeds, const Kept& kept);
   [[nodiscard]] Point unscaled(const Point& p) const;
   [[nodiscard]] double scaled(double h) const;
   [[nodiscard]] double field_at(const Point& p) const;
@@ -71,6 +76,7 @@ class SizeFunction {
   double most_;
   int scale_;
   std::vector<double> of_region_;  // empty where no region has a size of its own
+  std::vector<double> most_volumes_;
   std::function<double(const Point&)> field_;
   std::function<void(std::span<const Point>, std::span<double>)> fields_;
   std::function<Metric(const Point&)> metric_;
