@@ -52,5 +52,6 @@ void add_delaunay(CLI::App& app, Command& chosen);
 void add_untangle(CLI::App& app, Command& chosen);
 void add_batch(CLI::App& app, Command& chosen);
 void add_plane(CLI::App& app, Command& chosen);
+void add_repair(CLI::App& app, Command& chosen);
 
 }  // namespace holdfast::cli

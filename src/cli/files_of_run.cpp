@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "command.h"
+#include "holdfast/surface_io.h"
 
 namespace holdfast::cli {
 namespace {
@@ -181,6 +182,22 @@ VolumeTarget FilesOfRun::write_volume(std::string_view option, const fs::path& p
                                  called(path), kind, files.size()));
   for (const fs::path& file : files) write(option, file);
   return target;
+}
+
+WriteOptions FilesOfRun::write_surface(std::string_view option, const fs::path& path, std::string format) {
+  if (!format.empty() && format.front() != '.') format.insert(format.begin(), '.');
+  WriteOptions options;
+  options.format = lower(format);
+  const std::string kind = options.format.empty() ? lower(path.extension().string()) : options.format;
+  const std::vector<std::string> known = surface_formats();
+  if (std::find(known.begin(), known.end(), kind) == known.end())
+    throw UsageError(fmt::format("{}: {}; use {} {}by --format", called(path),
+                                 kind.empty() ? "there is no ending that tells the format"
+                                              : "'" + kind + "' is no format of surfaces to write",
+                                 fmt::join(known, " "),
+                                 path == standard_output ? "" : "as the file's ending or "));
+  write(option, path);
+  return options;
 }
 
 void FilesOfRun::list(std::string_view text) const {

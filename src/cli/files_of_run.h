@@ -42,6 +42,10 @@ class FilesOfRun {
   [[nodiscard]] VolumeTarget write_volume(std::string_view option, const std::filesystem::path& path,
                                           std::string format);
 
+  /// A surface, of a format that is known likewise.
+  [[nodiscard]] WriteOptions write_surface(std::string_view option, const std::filesystem::path& path,
+                                           std::string format);
+
   /// Prints what a command has found: to stderr if a file goes to stdout. Throws FileError.
   void list(std::string_view text) const;
   [[nodiscard]] bool list_is_on_terminal() const;

@@ -26,7 +26,9 @@ std::int64_t bits(const BigInt& m) {
   return m.is_zero() ? 0 : static_cast<std::int64_t>(boost::multiprecision::msb(abs(m))) + 1;
 }
 
-/// n / d with d > 0. The quotient has 66 bits or more; a last bit that stands for the rest makes its rounding
+}  // namespace
+
+/// The quotient has 66 bits or more; a last bit that stands for the rest makes its rounding
 /// that of the exact value.
 double nearest_quotient(const BigInt& n, const BigInt& d) {
   if (n.is_zero()) return 0;
@@ -37,8 +39,6 @@ double nearest_quotient(const BigInt& n, const BigInt& d) {
   if (!rest.is_zero()) quotient += 1;
   return Dyadic(n.sign() < 0 ? BigInt(-quotient) : quotient, -shift - 1).to_double();
 }
-
-}  // namespace
 
 RationalPoint rational_point(const double* p) {
   const Dyadic x(p[0]), y(p[1]);

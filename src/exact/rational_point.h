@@ -23,6 +23,9 @@ struct RationalPoint {
 /// The doubles nearest to the coordinates, ties to even; infinity beyond the range.
 [[nodiscard]] std::array<double, 2> nearest(const RationalPoint& p);
 
+/// The double nearest to n / d, ties to even, with d > 0; infinity beyond the range.
+[[nodiscard]] double nearest_quotient(const BigInt& n, const BigInt& d);
+
 /// As the predicates on doubles.
 [[nodiscard]] int orient2d(const RationalPoint& a, const RationalPoint& b, const RationalPoint& c);
 [[nodiscard]] int incircle(const RationalPoint& a, const RationalPoint& b, const RationalPoint& c,

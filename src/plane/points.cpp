@@ -41,7 +41,12 @@ Vertex Points::add(const Position& p) {
 }
 
 Vertex Points::add(exact::RationalPoint p) {
-  const Vertex v = add(exact::nearest(p));
+  const Position nearest = exact::nearest(p);
+  return add(std::move(p), nearest);
+}
+
+Vertex Points::add(exact::RationalPoint p, const Position& nearest) {
+  const Vertex v = add(nearest);
   store_.push_back(std::move(p));
   exact_.resize(v);
   exact_.push_back(&store_.back());
@@ -72,6 +77,10 @@ int Points::mixed_incircle(Vertex a, Vertex b, Vertex c, Vertex d) const {
     return exact::incircle(at(a), at(b), at(c), at(d));
   const int sign = rough_incircle(positions_[a], positions_[b], positions_[c], positions_[d]);
   return sign != 0 ? sign : exact::incircle(rational(a), rational(b), rational(c), rational(d));
+}
+
+bool Points::surely_in_circle(Vertex a, Vertex b, Vertex c, Vertex d) const {
+  return rough_incircle(positions_[a], positions_[b], positions_[c], positions_[d]) > 0;
 }
 
 int Points::mixed_compare(Vertex a, Vertex b) const {

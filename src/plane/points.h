@@ -29,6 +29,8 @@ class Points {
 
   Vertex add(const Position& p);
   Vertex add(exact::RationalPoint p);
+  /// The same for callers that know the doubles nearest to it.
+  Vertex add(exact::RationalPoint p, const Position& nearest);
   /// Takes back the points from number `count` on.
   void shrink(std::size_t count);
   [[nodiscard]] exact::RationalPoint rational(Vertex v) const;
@@ -45,6 +47,8 @@ class Points {
       return exact::incircle(at(a), at(b), at(c), at(d));
     return mixed_incircle(a, b, c, d);
   }
+  /// True only if d lies inside the circle through the positive triangle abc; false says nothing. Cheap.
+  [[nodiscard]] bool surely_in_circle(Vertex a, Vertex b, Vertex c, Vertex d) const;
   /// Sign of a - b in lexicographic order; 0 for points at one place.
   [[nodiscard]] int compare(Vertex a, Vertex b) const {
     if (exact_.empty()) [[likely]]

@@ -6,6 +6,7 @@
 
 #include "holdfast/check.h"
 #include "holdfast/holdfast.h"
+#include "holdfast/repair.h"
 #include "holdfast/summary.h"
 #include "holdfast/untangle.h"
 
@@ -23,6 +24,7 @@ using Json = nlohmann::ordered_json;
 /// The whole report of `mesh`; `options` is what the user asked for.
 [[nodiscard]] Json to_json(const Result& result, Json options);
 [[nodiscard]] Json to_json(const UntangleResult& result, Json options);
+[[nodiscard]] Json to_json(const RepairResult& result, Json options);
 [[nodiscard]] Json to_json(const CheckResult& result);
 
 /// As text of one line, or indented. Bytes that are no UTF-8, as paths may hold, are replaced.

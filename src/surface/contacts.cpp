@@ -322,6 +322,18 @@ Contacts contacts(const Simplex& a, const Simplex& b) {
   return found;
 }
 
+Common common_part(const Simplex& a, const Simplex& b) {
+  Common found;
+  for_each_contact(a, b, [&found](unsigned mask_a, unsigned mask_b, bool, Meet meet) {
+    found.is_area = found.is_area || meet == Meet::area;
+    if (meet != Meet::point) return;
+    if (found.count < found.touches.size()) found.touches[found.count] = {mask_a, mask_b};
+    ++found.count;
+  });
+  if (found.is_area) found.count = 0;
+  return found;
+}
+
 std::vector<Point> common_corners(const Simplex& a, const Simplex& b) {
   std::vector<Point> corners;
   for_each_contact(a, b, [&](unsigned mask_a, unsigned mask_b, bool, Meet meet) {

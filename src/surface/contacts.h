@@ -6,6 +6,7 @@
 // is the one that decides.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -29,6 +30,20 @@ struct Contacts {
 
 /// All pairs of faces that meet. A and B fit if and only if `distinct` is zero.
 [[nodiscard]] Contacts contacts(const Simplex& a, const Simplex& b);
+
+/// What two simplices have in common, a convex set.
+struct Common {
+  /// A corner of it: faces of A and B, as masks, whose interiors meet in this point alone. No two touches are
+  /// the same point.
+  struct Touch {
+    unsigned a, b;
+  };
+  std::array<Touch, 2> touches{};
+  unsigned count = 0;    ///< 0: disjoint; 1: a point; 2: a segment
+  bool is_area = false;  ///< it is a polygon, and touches are not told
+};
+
+[[nodiscard]] Common common_part(const Simplex& a, const Simplex& b);
 
 /// Corners of the convex set that A and B have in common, rounded (error at most two units in the last
 /// place). None: they are disjoint; one: a point; two: a segment; more: a polygon, in no particular order.

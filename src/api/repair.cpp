@@ -1,0 +1,118 @@
+// The public function of holdfast/repair.h: limits and outcomes round the work of src/repair.
+#include "holdfast/repair.h"
+
+#include <chrono>
+#include <cmath>
+#include <new>
+#include <stdexcept>
+
+#include "mesh/memory.h"
+#include "mesh/plain_monitor.h"
+#include "numbers/float_environment.h"
+#include "repair/deliver.h"
+#include "repair/rounding.h"
+
+namespace holdfast {
+namespace {
+
+void require_sensible(const Complex& complex, const RepairOptions& options) {
+  const auto fits = [](const auto& marks, const auto& entities) {
+    return marks.empty() || marks.size() == entities.size();
+  };
+  if (!fits(complex.facet_markers, complex.facets))
+    throw std::invalid_argument("as many facet markers as facets are needed, or none");
+  if (!fits(complex.segment_markers, complex.segments))
+    throw std::invalid_argument("as many segment markers as segments are needed, or none");
+  if (!fits(complex.vertex_markers, complex.vertices))
+    throw std::invalid_argument("as many vertex markers as vertices are needed, or none");
+  if (!(options.weld >= 0) || !std::isfinite(options.weld))
+    throw std::invalid_argument("the tolerance for welding must be finite and not negative");
+  constexpr std::size_t kMostVertices = std::size_t{1} << 28;
+  if (complex.vertices.size() > kMostVertices)
+    throw std::length_error("more than 2^28 vertices are too many");
+}
+
+void end(RepairResult& result, Outcome outcome, std::string message) {
+  result.outcome = outcome;
+  result.message = std::move(message);
+}
+
+const char* message_of(Outcome outcome) {
+  return outcome == Outcome::time_limit     ? "the time limit ran out"
+         : outcome == Outcome::memory_limit ? "the memory limit was reached"
+                                            : "cancelled";
+}
+
+void run(const Complex& complex, const RepairOptions& options, PlainMonitor& monitor, RepairResult& result) {
+  const Threads threads = Threads(options.threads).polling([&] { monitor.poll_again(); });
+  const Step step = [&](double fraction) { monitor.poll(fraction); };
+  repairing::Rounded rounded = repairing::round_arranged(repairing::state_of(complex), options, result.report,
+                                                         result.exact, step, threads);
+  if (!rounded.is_valid)
+    return end(result, Outcome::not_representable,
+               "no doubles were found for the new points with which the surface is valid");
+  repairing::deliver(complex, std::move(rounded), result);
+}
+
+}  // namespace
+
+RepairResult repair(const Complex& complex, const RepairOptions& options) {
+  const FloatEnvironment environment;
+  require_sensible(complex, options);
+  const auto begin = std::chrono::steady_clock::now();
+  RepairResult result;
+  result.report.vertices = complex.vertices.size();
+  result.report.facets = complex.facets.size();
+  result.report.segments = complex.segments.size();
+  try {
+    PlainMonitor monitor(options, options.progress);
+    monitor.tell(0);
+    run(complex, options, monitor, result);
+    monitor.tell(1);
+  } catch (const Interrupted& interrupted) {
+    end(result, interrupted.outcome(), message_of(interrupted.outcome()));
+  } catch (const arrange::TooManyPoints& many) {
+    end(result, Outcome::memory_limit,
+        "the arrangement has more than " + std::to_string(options.most_points) + " new points (" +
+            std::to_string(many.count()) + " so far)");
+  } catch (const std::bad_alloc&) {
+    if (options.memory_limit == 0) throw;
+    end(result, Outcome::memory_limit, message_of(Outcome::memory_limit));
+  }
+  result.report.seconds["total"] =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  result.report.peak_memory_bytes = peak_memory_bytes();
+  return result;
+}
+
+const char* name(Rung rung) {
+  switch (rung) {
+    case Rung::none:
+      return "none";
+    case Rung::nearest:
+      return "nearest";
+    case Rung::again:
+      return "again";
+    case Rung::coarser:
+      return "coarser";
+    case Rung::snapped:
+      return "snapped";
+  }
+  return "unknown";
+}
+
+const char* name(DropReason reason) {
+  switch (reason) {
+    case DropReason::not_finite:
+      return "not finite";
+    case DropReason::no_area:
+      return "no area";
+    case DropReason::vanished:
+      return "vanished";
+    case DropReason::inner:
+      return "inner";
+  }
+  return "unknown";
+}
+
+}  // namespace holdfast

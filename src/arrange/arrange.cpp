@@ -1,0 +1,299 @@
+// The exact arrangement of a complex.
+#include "arrange/arrange.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <thread>
+
+#include "arrange/meetings.h"
+#include "arrange/point_pool.h"
+#include "arrange/sheet.h"
+#include "mesh/disjoint_sets.h"
+#include "numbers/sorted.h"
+
+namespace holdfast::arrange {
+namespace {
+
+/// A sheet to be: what SheetInput shows.
+struct Gathered {
+  std::vector<Index> facets, points;
+  std::vector<Trace> traces;
+};
+
+class Arranging {
+ public:
+  Arranging(const Complex& complex, const Elements& elements, const Step& step, const ArrangeOptions& options)
+      : complex_(complex),
+        elements_(elements),
+        step_(step),
+        options_(options),
+        pool_(complex.vertices, elements.places.first) {}
+
+  Arrangement run(std::vector<std::array<Index, 2>> pairs) {
+    result_.pairs = pairs.size();
+    const Meetings meetings =
+        find_meetings(complex_, elements_, std::move(pairs), pool_, step_, options_.threads);
+    check_size();
+    gather(meetings);
+    triangulate_sheets();
+    number_points();
+    deliver_facets();
+    deliver_segments(meetings);
+    result_.points = pool_.take_exact();
+    result_.nearest = pool_.take_nearest();
+    result_.sheets = sheets_.size();
+    for (const Flaw& flaw : elements_.flaws)
+      if (flaw.corners > 1) result_.left_out.push_back(flaw);
+    return std::move(result_);
+  }
+
+ private:
+  void check_size() const {
+    const std::size_t added = pool_.size() - pool_.vertices();
+    if (added > options_.most_points) throw TooManyPoints(added);
+  }
+
+  // --- Sheets -----------------------------------------------------------------------------------------
+
+  /// The sheet of a facet, a new one if it has none.
+  Gathered& sheet_at(Index element) {
+    const Index root = roots_->root(element);
+    const auto [at, is_new] = sheet_of_root_.try_emplace(root, static_cast<Index>(sheets_.size()));
+    if (is_new) sheets_.emplace_back();
+    return sheets_[at->second];
+  }
+
+  void gather(const Meetings& meetings) {
+    roots_.emplace(elements_.all.size());
+    for (const auto& [i, j] : meetings.overlapping) roots_->unite(i, j);
+    for (const Meeting& meeting : meetings.all) {
+      for (std::size_t e = 0; e < 2; ++e)
+        if (elements_.all[meeting.elements[e]].corners == 3) gather(meeting, e);
+    }
+    for (const auto& [i, j] : meetings.overlapping) sheet_at(i);
+    sheet_of_.assign(elements_.all.size(), no_index);
+    for (Index i = 0; i < elements_.all.size() && elements_.all[i].corners == 3; ++i) {
+      const auto at = sheet_of_root_.find(roots_->root(i));
+      if (at == sheet_of_root_.end()) continue;
+      sheet_of_[i] = at->second;
+      sheets_[at->second].facets.push_back(i);
+    }
+  }
+
+  /// What a meeting leaves on the facet that is its element e.
+  void gather(const Meeting& meeting, std::size_t e) {
+    const unsigned mask = meeting.mask(e);
+    if (std::popcount(mask) == 1) return;  // a corner
+    Gathered& sheet = sheet_at(meeting.elements[e]);
+    if (meeting.is_point() || std::popcount(mask) == 2) {
+      for (std::size_t k = 0; k < 2 && meeting.points[k] != no_index; ++k)
+        sheet.points.push_back(meeting.points[k]);
+    } else {
+      sheet.traces.push_back({meeting.points, line_of(meeting, e, elements_)});
+    }
+  }
+
+  void triangulate_sheets() {
+    cut_.resize(sheets_.size());
+    const std::thread::id caller = std::this_thread::get_id();
+    std::size_t done = 0;
+    parallel_ranges(options_.threads, sheets_.size(), [&](std::size_t first, std::size_t last) {
+      const bool tells = std::this_thread::get_id() == caller;
+      std::size_t polls = 0;
+      const plane::Poll poll = [&](double) {
+        if (!tells || (++polls & 63) != 0) return;
+        step_(0.5 + 0.4 * static_cast<double>(done) / static_cast<double>(sheets_.size()));
+      };
+      for (std::size_t k = first; k < last; ++k) {
+        const Gathered& sheet = sheets_[k];
+        cut_[k] = triangulate({sheet.facets, sheet.points, sheet.traces}, complex_, elements_, pool_, poll);
+        if (tells) done = k;
+      }
+    });
+  }
+
+  /// Crossings of traces get their numbers in the sheets' order.
+  void number_points() {
+    const Index before = pool_.size();
+    for (SheetTriangles& cut : cut_) {
+      std::vector<Index> number;
+      for (std::size_t k = 0; k < cut.points.size(); ++k)
+        number.push_back(pool_.add(std::move(cut.points[k]), cut.nearest[k]));
+      for (Triangle& t : cut.triangles)
+        for (Index& v : t)
+          if (v >= before) v = number[v - before];
+      step_(0.9);
+      check_size();
+    }
+  }
+
+  // --- Results ----------------------------------------------------------------------------------------
+
+  void deliver_facets() {
+    // Triangles by their first parents, which are elements.
+    std::vector<std::vector<std::array<Index, 2>>> of_sheet(sheets_.size());  // {first parent, triangle}
+    for (std::size_t s = 0; s < sheets_.size(); ++s) {
+      const SheetTriangles& cut = cut_[s];
+      for (Index t = 0; t < cut.triangles.size(); ++t)
+        of_sheet[s].push_back({cut.parents[cut.first_parent[t]], t});
+      std::sort(of_sheet[s].begin(), of_sheet[s].end());
+    }
+    std::vector<std::size_t> next(sheets_.size(), 0);
+    std::vector<Index> parents;
+    for (Index i = 0; i < elements_.all.size() && elements_.all[i].corners == 3; ++i) {
+      const Index s = sheet_of_[i];
+      if (s == no_index) {
+        deliver(elements_.all[i].vertex, no_index, std::array{elements_.all[i].id});
+        continue;
+      }
+      const SheetTriangles& cut = cut_[s];
+      for (auto& k = next[s]; k < of_sheet[s].size() && of_sheet[s][k][0] == i; ++k) {
+        const Index t = of_sheet[s][k][1];
+        parents.clear();
+        for (Index p = cut.first_parent[t]; p < cut.first_parent[t + 1]; ++p)
+          parents.push_back(elements_.all[cut.parents[p]].id);
+        deliver(cut.triangles[t], s, parents);
+      }
+    }
+  }
+
+  void deliver(const Triangle& corners, Index sheet, std::span<const Index> parents) {
+    result_.facets.push_back(corners);
+    result_.sheet.push_back(sheet);
+    result_.facet_parents.add(parents);
+  }
+
+  /// Cuts segments at the points that meetings leave on them or on the sides that they are.
+  void deliver_segments(const Meetings& meetings) {
+    if (complex_.segments.empty()) return;
+    std::map<std::array<Index, 2>, std::vector<Index>> points_on;  // by the segment's ends
+    const auto first = [&](Index v) { return elements_.places.first[v]; };
+    std::vector<std::array<Index, 2>> ends(complex_.segments.size(), {no_index, no_index});
+    for (std::size_t s = 0; s < ends.size(); ++s) {
+      const auto [a, b] = complex_.segments[s];
+      if (a >= complex_.vertices.size() || b >= complex_.vertices.size()) continue;
+      if (!is_element_vertex(a) || !is_element_vertex(b) || first(a) == first(b)) continue;
+      ends[s] = ascending(std::array<Index, 2>{first(a), first(b)});
+      points_on[ends[s]];
+    }
+    const auto note = [&](const Meeting& meeting, std::size_t e) {
+      const Element& element = elements_.all[meeting.elements[e]];
+      for (std::size_t k = 0; k < 2 && meeting.points[k] != no_index; ++k) {
+        const unsigned mask = meeting.faces[k][e];
+        if (std::popcount(mask) != 2) continue;
+        std::array<Index, 2> side{};
+        std::size_t count = 0;
+        for (unsigned i = 0; i < element.corners; ++i)
+          if ((mask >> i & 1u) != 0) side[count++] = element.vertex[i];
+        if (const auto at = points_on.find(ascending(side)); at != points_on.end())
+          at->second.push_back(meeting.points[k]);
+      }
+    };
+    for (const Meeting& meeting : meetings.all) {
+      note(meeting, 0);
+      note(meeting, 1);
+    }
+    note_sides_in_sheets(points_on);
+    std::map<std::array<Index, 2>, Index> piece_of;
+    std::vector<std::vector<Index>> parents;
+    for (Index s = 0; s < ends.size(); ++s) {
+      if (ends[s][0] == no_index) continue;
+      std::vector<Index> chain = points_on[ends[s]];
+      chain.insert(chain.end(), ends[s].begin(), ends[s].end());
+      std::sort(chain.begin(), chain.end(), [&](Index p, Index q) {
+        const int sign = pool_.compare(p, q);
+        return sign != 0 ? sign < 0 : p < q;
+      });
+      chain.erase(std::unique(chain.begin(), chain.end()), chain.end());
+      if (chain.front() != first(complex_.segments[s][0])) std::reverse(chain.begin(), chain.end());
+      for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
+        const std::array<Index, 2> piece{chain[k], chain[k + 1]};
+        const auto [at, is_new] = piece_of.try_emplace(ascending(piece), static_cast<Index>(parents.size()));
+        if (is_new) {
+          result_.segments.push_back(piece);
+          parents.emplace_back();
+        }
+        parents[at->second].push_back(s);
+      }
+    }
+    for (const std::vector<Index>& p : parents) result_.segment_parents.add(p);
+  }
+
+  /// Sides of facets that share area with others cross these in the sheet, without a meeting.
+  void note_sides_in_sheets(std::map<std::array<Index, 2>, std::vector<Index>>& points_on) const {
+    for (std::size_t s = 0; s < sheets_.size(); ++s) {
+      if (sheets_[s].facets.size() < 2) continue;
+      std::vector<Index> used;
+      for (const Triangle& t : cut_[s].triangles) used.insert(used.end(), t.begin(), t.end());
+      sort_unique(used);
+      for (const Index f : sheets_[s].facets)
+        for (std::size_t i = 0; i < 3; ++i) {
+          const std::array<Index, 3>& v = elements_.all[f].vertex;
+          const auto at = points_on.find(ascending(std::array<Index, 2>{v[i], v[(i + 1) % 3]}));
+          if (at == points_on.end()) continue;
+          for (const Index p : used)
+            if (lies_between(v[i], v[(i + 1) % 3], p)) at->second.push_back(p);
+        }
+    }
+  }
+
+  [[nodiscard]] bool lies_between(Index a, Index b, Index p) const {
+    if (p == a || p == b || pool_.compare(a, p) * pool_.compare(p, b) <= 0) return false;
+    const exact::SpacePoint at =
+        pool_.is_vertex(p) ? exact::space_point(complex_.vertices[p].data()) : pool_.exact(p);
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const exact::SpacePlane plane =
+          exact::upright_plane(complex_.vertices[a].data(), complex_.vertices[b].data(), axis);
+      if (exact::BigInt(plane.a * at.x + plane.b * at.y + plane.c * at.z + plane.d * at.w).sign() != 0)
+        return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool is_element_vertex(Index v) const {
+    const Point& p = complex_.vertices[v];
+    return elements_.places.first[v] != no_index && std::isfinite(p[0]) && std::isfinite(p[1]) &&
+           std::isfinite(p[2]);
+  }
+
+  const Complex& complex_;
+  const Elements& elements_;
+  const Step& step_;
+  const ArrangeOptions& options_;
+  PointPool pool_;
+  std::optional<DisjointSets> roots_;
+  std::map<Index, Index> sheet_of_root_;
+  std::vector<Gathered> sheets_;
+  std::vector<Index> sheet_of_;  // by element
+  std::vector<SheetTriangles> cut_;
+  Arrangement result_;
+};
+
+}  // namespace
+
+Arrangement arrange(const Complex& complex, const Elements& elements, const Step& step,
+                    const ArrangeOptions& options) {
+  std::vector<std::array<Index, 2>> pairs;
+  SearchTuning tuning;
+  tuning.threads = options.threads;
+  const VisitPair visit = [&](Index i, Index j, const Contacts&) {
+    pairs.push_back({std::min(i, j), std::max(i, j)});
+    return true;
+  };
+  for_each_offending_pair(
+      complex, elements, visit, [&](double fraction) { step(0.3 * fraction); }, tuning, options.known);
+  const bool whole = std::all_of(elements.flaws.begin(), elements.flaws.end(),
+                                 [](const Flaw& flaw) { return flaw.corners == 1; });
+  if (pairs.empty() && whole && elements.places.merged == 0) {
+    Arrangement same;
+    same.is_same = true;
+    return same;
+  }
+  return Arranging(complex, elements, step, options).run(std::move(pairs));
+}
+
+}  // namespace holdfast::arrange

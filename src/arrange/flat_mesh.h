@@ -1,0 +1,70 @@
+// A triangulation in the plane that grows by points and segments; segments that cross are cut where they do.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "numbers/random.h"
+#include "plane/triangles.h"
+
+namespace holdfast::arrange {
+
+using plane::EdgeCode;
+using plane::Vertex;
+
+/// Begins with one positive triangle, within which all else lies. After each step it is as good as Delaunay,
+/// but for edges that are pieces of segments and where that would need more than a floating-point filter to
+/// tell.
+class FlatMesh {
+ public:
+  /// The points are the caller's; a, b, c turn left.
+  FlatMesh(plane::Points& points, Vertex a, Vertex b, Vertex c);
+
+  /// Puts in a vertex that no other is at the place of, the last of the points.
+  void insert(Vertex p);
+
+  /// The point where the lines of two segments cross, by the segments' numbers; added to the points.
+  using Crossing = std::function<Vertex(std::uint32_t line, std::uint32_t other)>;
+  /// Makes edges of the segment ab: it is cut where it passes through vertices, and together with the pieces
+  /// of other segments that it crosses.
+  void insert_segment(Vertex a, Vertex b, std::uint32_t line, const Crossing& crossing);
+
+  [[nodiscard]] const plane::Triangles& triangles() const { return mesh_; }
+  /// The vertices of the edges that lie on the segment ab, in order, a and b included.
+  [[nodiscard]] std::vector<Vertex> chain(Vertex a, Vertex b) const;
+  /// The edge ab, seen from its left, or kNoEdge.
+  [[nodiscard]] EdgeCode edge_between(Vertex a, Vertex b) const;
+
+ private:
+  // How a segment leaves a vertex: along an edge to the next vertex on it, or across the edge opposite.
+  struct Departure {
+    Vertex along = plane::kNoVertex;
+    EdgeCode across = plane::kNoEdge;
+  };
+  [[nodiscard]] EdgeCode locate(Vertex p, unsigned& zeros) const;
+  void split_triangle(std::uint32_t t, Vertex p);
+  void split_edge(EdgeCode e, Vertex p);
+  void put(std::uint32_t t, std::array<Vertex, 3> v);
+  std::uint32_t add_triangle();
+  void legalise();
+  [[nodiscard]] Departure depart(Vertex from, Vertex to) const;
+  void lay(Vertex from, Vertex to, const std::vector<EdgeCode>& crossed, std::uint32_t line);
+  void constrain(Vertex from, Vertex to, std::uint32_t line);
+  template <class Visit>
+  void for_each_corner(Vertex v, Visit&& visit) const;
+  static std::uint64_t key(Vertex a, Vertex b) {
+    return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
+  }
+
+  plane::Points& points_;
+  plane::Triangles mesh_;
+  std::unordered_map<std::uint64_t, std::uint32_t> line_of_;  // of edges that are pieces of segments
+  mutable std::uint32_t last_ = 0;                            // where the search for a point begins
+  std::vector<EdgeCode> pending_;                             // edges that may have to be exchanged
+  std::optional<numbers::Random> random_;                     // once it is needed
+};
+
+}  // namespace holdfast::arrange

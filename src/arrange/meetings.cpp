@@ -1,0 +1,164 @@
+// What pairs of elements have in common.
+#include "arrange/meetings.h"
+
+#include <algorithm>
+#include <bit>
+#include <tuple>
+
+#include "numbers/sorted.h"
+#include "surface/contacts.h"
+
+namespace holdfast::arrange {
+namespace {
+
+/// A point by what it is the crossing of: a side with a facet, or two sides. The same for all pairs of
+/// elements that have it.
+struct Crossing {
+  std::array<Index, 2> side;
+  std::array<Index, 2> other{no_index, no_index};  // a side, or none
+  Index facet = no_index;                          // in Elements::all, or none
+
+  friend bool operator==(const Crossing&, const Crossing&) = default;
+  [[nodiscard]] auto tied() const { return std::tie(side, other, facet); }
+};
+
+/// One end of a meeting before it has a number.
+struct End {
+  Index meeting;
+  std::uint8_t which;
+  Crossing crossing;
+};
+
+std::array<Index, 2> side_of_mask(const Element& element, unsigned mask) {
+  std::array<Index, 2> ends{};
+  std::size_t count = 0;
+  for (unsigned i = 0; i < element.corners; ++i)
+    if ((mask >> i & 1u) != 0) ends[count++] = element.vertex[i];
+  return ascending(ends);
+}
+
+Index corner_of_mask(const Element& element, unsigned mask) {
+  return element.vertex[static_cast<std::size_t>(std::countr_zero(mask))];
+}
+
+Crossing crossing_of(const Elements& elements, Index i, unsigned mask_i, Index j, unsigned mask_j) {
+  const Element &a = elements.all[i], &b = elements.all[j];
+  if (std::popcount(mask_i) == 3) return {side_of_mask(b, mask_j), {no_index, no_index}, i};
+  if (std::popcount(mask_j) == 3) return {side_of_mask(a, mask_i), {no_index, no_index}, j};
+  Crossing crossing{side_of_mask(a, mask_i), side_of_mask(b, mask_j)};
+  if (crossing.other < crossing.side) std::swap(crossing.side, crossing.other);
+  return crossing;
+}
+
+/// A projection in which two sides that cross are not parallel.
+unsigned axis_of(const Complex& complex, const Crossing& crossing) {
+  const auto at = [&](Index v) { return complex.vertices[v].data(); };
+  for (unsigned axis = 0; axis < 2; ++axis) {
+    const exact::SpacePlane plane = exact::upright_plane(at(crossing.other[0]), at(crossing.other[1]), axis);
+    const auto side = [&](Index v) {
+      const exact::SpacePoint p = exact::space_point(at(v));
+      return exact::BigInt(plane.a * p.x + plane.b * p.y + plane.c * p.z + plane.d * p.w).sign();
+    };
+    if (side(crossing.side[0]) != side(crossing.side[1])) return axis;
+  }
+  return 2;
+}
+
+exact::SpacePoint point_of(const Complex& complex, const Elements& elements, const Crossing& crossing) {
+  const auto at = [&](Index v) { return complex.vertices[v].data(); };
+  if (crossing.facet != no_index) {
+    const std::array<Index, 3>& v = elements.all[crossing.facet].vertex;
+    return exact::crossing(at(crossing.side[0]), at(crossing.side[1]),
+                           exact::plane_through(at(v[0]), at(v[1]), at(v[2])));
+  }
+  return exact::crossing(
+      at(crossing.side[0]), at(crossing.side[1]),
+      exact::upright_plane(at(crossing.other[0]), at(crossing.other[1]), axis_of(complex, crossing)));
+}
+
+struct Found {
+  bool is_area = false;
+  Meeting meeting;
+};
+
+Found meeting_of(const Complex& complex, const Elements& elements, std::array<Index, 2> pair) {
+  const Common common = common_part(Elements::simplex(elements.all[pair[0]], complex),
+                                    Elements::simplex(elements.all[pair[1]], complex));
+  Found found{common.is_area, {pair}};
+  for (std::size_t k = 0; k < common.count; ++k)
+    found.meeting.faces[k] = {static_cast<std::uint8_t>(common.touches[k].a),
+                              static_cast<std::uint8_t>(common.touches[k].b)};
+  if (common.count < 2) found.meeting.faces[1] = {0, 0};
+  return found;
+}
+
+/// Gives numbers to the ends that are no vertices: computed on all threads, numbered in the crossings' order.
+void number(std::vector<End>& ends, std::vector<Meeting>& meetings, const Complex& complex,
+            const Elements& elements, PointPool& pool, const Step& step, const Threads& threads) {
+  std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) {
+    return std::tuple(a.crossing.tied(), a.meeting, a.which) <
+           std::tuple(b.crossing.tied(), b.meeting, b.which);
+  });
+  std::vector<std::size_t> firsts;
+  for (std::size_t k = 0; k < ends.size(); ++k)
+    if (k == 0 || !(ends[k].crossing == ends[k - 1].crossing)) firsts.push_back(k);
+  std::vector<exact::SpacePoint> points(firsts.size());
+  std::vector<Point> nearest(firsts.size());
+  parallel_ranges(threads, firsts.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      points[k] = point_of(complex, elements, ends[firsts[k]].crossing);
+      nearest[k] = exact::nearest(points[k]);
+    }
+  });
+  for (std::size_t k = 0; k < firsts.size(); ++k) {
+    if (k % 4096 == 0) step(0.4);
+    const Index p = pool.add(std::move(points[k]), nearest[k]);
+    const std::size_t last = k + 1 < firsts.size() ? firsts[k + 1] : ends.size();
+    for (std::size_t e = firsts[k]; e < last; ++e) meetings[ends[e].meeting].points[ends[e].which] = p;
+  }
+}
+
+}  // namespace
+
+Meetings find_meetings(const Complex& complex, const Elements& elements,
+                       std::vector<std::array<Index, 2>> pairs, PointPool& pool, const Step& step,
+                       const Threads& threads) {
+  std::sort(pairs.begin(), pairs.end());
+  std::vector<Found> found(pairs.size());
+  parallel_ranges(threads, pairs.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) found[k] = meeting_of(complex, elements, pairs[k]);
+  });
+  Meetings meetings;
+  std::vector<End> ends;
+  for (Found& f : found) {
+    const auto [i, j] = f.meeting.elements;
+    if (f.is_area) {
+      meetings.overlapping.push_back({i, j});
+      continue;
+    }
+    const auto number = static_cast<Index>(meetings.all.size());
+    for (std::size_t k = 0; k < 2 && f.meeting.faces[k][0] != 0; ++k) {
+      const unsigned mask_i = f.meeting.faces[k][0], mask_j = f.meeting.faces[k][1];
+      if (std::popcount(mask_i) == 1)
+        f.meeting.points[k] = corner_of_mask(elements.all[i], mask_i);
+      else if (std::popcount(mask_j) == 1)
+        f.meeting.points[k] = corner_of_mask(elements.all[j], mask_j);
+      else
+        ends.push_back({number, static_cast<std::uint8_t>(k), crossing_of(elements, i, mask_i, j, mask_j)});
+    }
+    meetings.all.push_back(f.meeting);
+  }
+  number(ends, meetings.all, complex, elements, pool, step, threads);
+  return meetings;
+}
+
+Line line_of(const Meeting& meeting, std::size_t element, const Elements& elements) {
+  const std::size_t other = 1 - element;
+  const Element& cutting = elements.all[meeting.elements[other]];
+  const unsigned mask = meeting.mask(other);
+  if (cutting.corners == 3 && std::popcount(mask) == 3)
+    return {{no_index, no_index}, meeting.elements[other]};
+  return {side_of_mask(cutting, mask), no_index};
+}
+
+}  // namespace holdfast::arrange

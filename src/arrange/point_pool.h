@@ -1,0 +1,49 @@
+// The points of an arrangement: the vertices of the complex and those where its elements cross, each place
+// once, however it was found.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "exact/space_point.h"
+#include "holdfast/types.h"
+#include "surface/weld.h"
+
+namespace holdfast::arrange {
+
+/// Numbers 0 to n - 1 are the complex's vertices; then follow the others, in the order in which they came.
+class PointPool {
+ public:
+  /// `first`: for each vertex the first at its place (surface/places.h). The vertices must outlive the pool.
+  PointPool(std::span<const Point> vertices, std::span<const Index> first);
+
+  /// The number of the point at this place; `nearest` are the doubles nearest to it.
+  Index add(exact::SpacePoint point, const Point& nearest);
+
+  [[nodiscard]] Index size() const { return static_cast<Index>(vertices_.size() + exact_.size()); }
+  [[nodiscard]] Index vertices() const { return static_cast<Index>(vertices_.size()); }
+  [[nodiscard]] bool is_vertex(Index p) const { return p < vertices_.size(); }
+  [[nodiscard]] std::span<const Point> coordinates() const { return vertices_; }
+  /// Of a point that is no vertex.
+  [[nodiscard]] const exact::SpacePoint& exact(Index p) const { return exact_[p - vertices_.size()]; }
+  /// Of any point.
+  [[nodiscard]] const Point& nearest(Index p) const {
+    return is_vertex(p) ? vertices_[p] : nearest_[p - vertices_.size()];
+  }
+  /// Sign of p - q in lexicographic order.
+  [[nodiscard]] int compare(Index p, Index q) const;
+
+  std::vector<exact::SpacePoint> take_exact() { return std::move(exact_); }
+  std::vector<Point> take_nearest() { return std::move(nearest_); }
+
+ private:
+  [[nodiscard]] bool is_at(Index p, const exact::SpacePoint& point) const;
+
+  std::span<const Point> vertices_;
+  std::vector<exact::SpacePoint> exact_;
+  std::vector<Point> nearest_;
+  PlaceTable table_;         // by the nearest doubles, the first point that has them
+  std::vector<Index> next_;  // the next with the same nearest doubles, by point
+};
+
+}  // namespace holdfast::arrange

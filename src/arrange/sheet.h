@@ -1,0 +1,51 @@
+// A sheet: facets of one plane that overlap, or a single facet, with all that other elements leave in it,
+// triangulated once.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "arrange/point_pool.h"
+#include "holdfast/types.h"
+#include "numbers/random.h"
+#include "plane/triangles.h"
+#include "surface/complex.h"
+#include "surface/elements.h"
+
+namespace holdfast::arrange {
+
+/// A straight line in the plane of a sheet: through two vertices of the complex, or where the plane of a
+/// facet cuts it.
+struct Line {
+  std::array<Index, 2> vertices{no_index, no_index};
+  Index facet = no_index;  ///< in Elements::all, where there are no vertices
+};
+
+/// A piece of a line, with its two ends, that must become edges.
+struct Trace {
+  std::array<Index, 2> ends;  ///< points of the pool
+  Line line;
+};
+
+/// What a sheet is made of; indices of facets are those of Elements::all.
+struct SheetInput {
+  std::span<const Index> facets;
+  std::span<const Index> points;
+  std::span<const Trace> traces;
+};
+
+struct SheetTriangles {
+  std::vector<Triangle> triangles;  ///< points of the pool, then those below; turned as the first parent
+  std::vector<Index> first_parent, parents;  ///< of each, in ascending order, as indices of Elements::all
+  std::vector<exact::SpacePoint> points;     ///< where traces cross: numbers from the pool's size on
+  std::vector<Point> nearest;
+};
+
+/// Triangulates a sheet. Points on the sides of its facets must be among `points`; where traces cross, it
+/// finds out itself.
+[[nodiscard]] SheetTriangles triangulate(const SheetInput& input, const Complex& complex,
+                                         const Elements& elements, const PointPool& pool,
+                                         const plane::Poll& poll);
+
+}  // namespace holdfast::arrange

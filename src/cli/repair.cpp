@@ -1,0 +1,177 @@
+// `holdfast repair`: any surface in, a valid one out.
+#include "holdfast/repair.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+
+#include "command.h"
+#include "files.h"
+#include "files_of_run.h"
+#include "holdfast/surface_io.h"
+#include "limits.h"
+#include "repair_result.h"
+#include "report.h"
+#include "signals.h"
+
+namespace holdfast::cli {
+namespace {
+
+struct RepairArguments {
+  std::vector<std::filesystem::path> surfaces;
+  std::filesystem::path output, parents, report, exact;
+  std::string input_format, format;
+  LimitArguments limits;
+  double weld = 0;
+  std::optional<std::size_t> fill_holes;
+  bool fill_all = false;
+  unsigned threads = 1;
+  bool unite = false, quiet = false;
+};
+
+RepairOptions to_options(const RepairArguments& arguments) {
+  RepairOptions options;
+  static_cast<Limits&>(options) = limits_of(arguments.limits);
+  options.weld = arguments.weld;
+  options.fill_holes = arguments.fill_holes;
+  options.unite = arguments.unite;
+  options.exact = !arguments.exact.empty();
+  options.threads = arguments.threads;
+  options.progress = goes_on;
+  return options;
+}
+
+Json options_of(const RepairArguments& arguments) {
+  Json inputs = Json::array();
+  for (const auto& path : arguments.surfaces) inputs.push_back(path.string());
+  return {{"surfaces", inputs},
+          {"output", arguments.output.string()},
+          {"weld", arguments.weld},
+          {"fill_holes", arguments.fill_holes ? Json(*arguments.fill_holes) : Json(nullptr)},
+          {"union", arguments.unite},
+          {"threads", arguments.threads},
+          {"time_limit", arguments.limits.time_limit.value_or(0)},
+          {"memory_limit", arguments.limits.memory_limit.value_or(0)}};
+}
+
+/// Says how the run ended and what the user can do; returns the exit code.
+int conclude(const RepairArguments& arguments, const RepairResult& result) {
+  switch (result.outcome) {
+    case Outcome::done:
+      if (!arguments.quiet) say("{}: {}\n", arguments.output.string(), summary_of(result));
+      return exit_done;
+    case Outcome::time_limit:
+      say("holdfast: {}; nothing was written; give a longer --time-limit\n", result.message);
+      return exit_limit;
+    case Outcome::memory_limit:
+      say("holdfast: {}; nothing was written; give a larger --memory-limit\n", result.message);
+      return exit_limit;
+    case Outcome::cancelled:
+      say("holdfast: cancelled; nothing was written\n");
+      return exit_limit;
+    case Outcome::not_representable:
+      say("holdfast: {}; {} was not written\n", result.message, arguments.output.string());
+      if (arguments.exact.empty())
+        say("--exact FILE writes the exact arrangement; a larger --weld may help\n");
+      else
+        say("the exact arrangement is in {}\n", arguments.exact.string());
+      return exit_not_representable;
+    case Outcome::invalid_input:
+      break;
+  }
+  return exit_internal_error;
+}
+
+int run(const RepairArguments& arguments) {
+  const RepairOptions options = to_options(arguments);
+  FilesOfRun files;
+  files.read_surfaces(arguments.surfaces, arguments.input_format);
+  WriteOptions writing = files.write_surface("-o", arguments.output, arguments.format);
+  files.write("--parents", arguments.parents);
+  files.write("--report", arguments.report);
+  files.write("--exact", arguments.exact);
+  cancel_at_once();
+  const Surface surface = read_surfaces(arguments.surfaces, reading(options, arguments.input_format));
+  if (!arguments.quiet) tell(surface.remarks);
+
+  cancel_by_flag();  // from here on files are open
+  watch_writing(writing, options);
+  RepairResult result = repair(surface.view(), options);
+  result.surface.regions = surface.regions;
+  result.surface.holes = surface.holes;
+  if (result.outcome == Outcome::done) {
+    write_surface(arguments.output, result.surface, writing);
+    if (!arguments.quiet) tell(not_held(arguments.output, result.surface, writing), arguments.output);
+    write_parents(arguments.parents, result);
+  }
+  write_exact(arguments.exact, surface, result);
+  write_json(arguments.report, to_json(result, options_of(arguments)));
+  return conclude(arguments, result);
+}
+
+}  // namespace
+
+void add_repair(CLI::App& app, Command& chosen) {
+  const auto arguments = std::make_shared<RepairArguments>();
+  CLI::App* command = app.add_subcommand(
+      "repair", "Make a valid surface: what crosses, touches or overlaps is cut, and nothing else changes");
+  command
+      ->add_option("SURFACE", arguments->surfaces,
+                   "Surface files, as for `mesh`; indices count through several in turn")
+      ->transform(or_standard_input)
+      ->required();
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Surface to write (.off .obj .stl .ply .poly .mesh .meshb .msh .vtk .vtu), -: standard "
+                   "output")
+      ->transform(or_standard_output)
+      ->required()
+      ->option_text("FILE");
+  command
+      ->add_option("--weld", arguments->weld,
+                   "First make one of vertices that are this near to each other, and put vertices that are "
+                   "this near to a side or facet on it (default 0)")
+      ->option_text("T");
+  command
+      ->add_option_function<std::string>(
+          "--fill-holes",
+          [arguments](const std::string& text) {
+            if (text.empty()) {
+              arguments->fill_holes = SIZE_MAX;
+              return;
+            }
+            std::size_t most = 0;
+            if (!CLI::detail::lexical_cast(text, most) || most < 3)
+              throw CLI::ValidationError("--fill-holes", "'" + text + "' is no number of sides from 3 on");
+            arguments->fill_holes = most;
+          },
+          "Close holes whose border has at most N sides (default: any number)")
+      ->expected(0, 1)
+      ->option_text("[N]");
+  command->add_flag("--union", arguments->unite, "Drop facets that have material on both sides, or on none");
+  command
+      ->add_option("--parents", arguments->parents,
+                   "Write a line for each triangle with the indices of those it is a part of")
+      ->transform(or_standard_output)
+      ->option_text("FILE");
+  command->add_option("--report", arguments->report, "Write all that changed as JSON")
+      ->transform(or_standard_output)
+      ->option_text("FILE.json");
+  command
+      ->add_option("--exact", arguments->exact,
+                   "Write the exact arrangement, its points as quotients, as JSON lines")
+      ->transform(or_standard_output)
+      ->option_text("FILE");
+  command->add_option("--format", arguments->format, "Format of the surface to write, instead of by ending")
+      ->option_text("FORMAT");
+  command->add_option("--input-format", arguments->input_format, "Format of the input, instead of by ending")
+      ->option_text("FORMAT");
+  command->add_option("--threads", arguments->threads, threads_help)
+      ->check(CLI::Range(0u, 4096u))
+      ->option_text("N");
+  add_limits(*command, arguments->limits);
+  command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace holdfast::cli

@@ -1,0 +1,62 @@
+#include "repair_result.h"
+
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include "holdfast/io.h"
+#include "summary.h"
+
+namespace holdfast::cli {
+
+std::string summary_of(const RepairResult& result) {
+  const RepairReport& report = result.report;
+  if (report.rung == Rung::none && report.rounds == 0 && result.filled.empty() && result.dropped.empty())
+    return "the surface is valid as it is";
+  std::string text =
+      fmt::format("{}, {} ({} cut or joined)", counted(result.surface.vertices.size(), "vertex", "vertices"),
+                  counted(result.surface.facets.size(), "triangle"), report.changed_facets);
+  const auto tell = [&](std::size_t count, const char* what) {
+    if (count > 0) text += fmt::format(", {} {}", count, what);
+  };
+  tell(result.moved.size(), "moved");
+  tell(result.dropped.size(), "dropped");
+  tell(result.merged.size(), "merged");
+  tell(result.filled.size(), "filled");
+  return text + fmt::format("; at most {:.3g} from the input, {:.2f} s", result.max_displacement,
+                            report.seconds.at("total"));
+}
+
+void write_parents(const std::filesystem::path& path, const RepairResult& result) {
+  if (path.empty()) return;
+  std::string text = fmt::format("# max_displacement {:.17g}\n", result.max_displacement);
+  for (const auto& [vertex, distance] : result.moved)
+    text += fmt::format("# moved {} {:.17g}\n", vertex, distance);
+  for (const auto& [facet, reason] : result.dropped)
+    text += fmt::format("# dropped {} {}\n", facet, name(reason));
+  for (const auto& [marker, set] : result.marker_sets)
+    text += fmt::format("# marker_set {} {}\n", marker, fmt::join(set, " "));
+  for (std::size_t f = 0; f < result.parents.size(); ++f) {
+    const auto parents = result.parents[f];
+    text += parents.empty() ? "-\n" : fmt::format("{}\n", fmt::join(parents.begin(), parents.end(), " "));
+  }
+  write_bytes(path, text);
+}
+
+void write_exact(const std::filesystem::path& path, const Surface& input, const RepairResult& result) {
+  if (path.empty()) return;
+  std::string text;
+  const auto vertex = [&](std::size_t i, const Json& coordinates) {
+    text += Json{{"vertex", i}, {"coordinates", coordinates}}.dump() + "\n";
+  };
+  const std::size_t before = input.vertices.size();
+  for (std::size_t i = 0; i < before; ++i) vertex(i, input.vertices[i]);
+  for (std::size_t i = 0; i < result.exact.points.size(); ++i) vertex(before + i, result.exact.points[i]);
+  for (std::size_t f = 0; f < result.exact.facets.size(); ++f) {
+    Json parents = Json::array();
+    for (const Index p : result.exact.parents[f]) parents.push_back(p);
+    text += Json{{"facet", result.exact.facets[f]}, {"parents", parents}}.dump() + "\n";
+  }
+  write_bytes(path, text);
+}
+
+}  // namespace holdfast::cli

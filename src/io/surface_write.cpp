@@ -1,0 +1,197 @@
+// Writes surfaces: text formats that hold nothing else, and those of volumes without tetrahedra.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "holdfast/surface_io.h"
+#include "io/formats.h"
+#include "io/text_reader.h"
+#include "numbers/float_environment.h"
+
+namespace holdfast {
+namespace io {
+namespace {
+
+std::string extension_of(const std::filesystem::path& path, std::string_view format) {
+  std::string extension = lower(format.empty() ? path.extension().string() : std::string(format));
+  if (!extension.empty() && extension[0] != '.') extension.insert(0, 1, '.');
+  return extension;
+}
+
+AtomicWriter& operator<<(AtomicWriter& out, const Point& p) {
+  return out << p[0] << ' ' << p[1] << ' ' << p[2];
+}
+
+void write_off(AtomicWriter& out, const Surface& surface) {
+  out << "OFF\n"
+      << std::uint64_t{surface.vertices.size()} << ' '
+      << std::uint64_t{surface.facets.size() + surface.segments.size()} << " 0\n";
+  for (const Point& p : surface.vertices) out << p << '\n';
+  for (const Triangle& t : surface.facets) out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+  for (const Segment& s : surface.segments) out << "2 " << s[0] << ' ' << s[1] << '\n';
+}
+
+void write_obj(AtomicWriter& out, const Surface& surface) {
+  for (const Point& p : surface.vertices) out << "v " << p << '\n';
+  for (const Triangle& t : surface.facets)
+    out << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+  for (const Segment& s : surface.segments) out << "l " << s[0] + 1 << ' ' << s[1] + 1 << '\n';
+}
+
+void write_ply(AtomicWriter& out, const Surface& surface) {
+  out << "ply\nformat ascii 1.0\nelement vertex " << std::uint64_t{surface.vertices.size()}
+      << "\nproperty double x\nproperty double y\nproperty double z\nelement face "
+      << std::uint64_t{surface.facets.size()} << "\nproperty list uchar uint vertex_indices\nend_header\n";
+  for (const Point& p : surface.vertices) out << p << '\n';
+  for (const Triangle& t : surface.facets) out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+}
+
+/// A unit normal, or zero where doubles tell none; readers take no notice of it.
+Point normal_of(const Surface& surface, const Triangle& t) {
+  const Point &a = surface.vertices[t[0]], &b = surface.vertices[t[1]], &c = surface.vertices[t[2]];
+  std::array<double, 3> u{}, v{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    u[k] = b[k] - a[k];
+    v[k] = c[k] - a[k];
+  }
+  const Point n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+  const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  if (!(length > 0) || !std::isfinite(length)) return {0, 0, 0};
+  return {n[0] / length, n[1] / length, n[2] / length};
+}
+
+void write_stl(AtomicWriter& out, const Surface& surface) {
+  std::vector<int> solids = surface.facet_markers;
+  if (solids.empty()) solids.push_back(0);
+  std::sort(solids.begin(), solids.end());
+  solids.erase(std::unique(solids.begin(), solids.end()), solids.end());
+  for (const int solid : solids) {
+    out << "solid " << solid << '\n';
+    for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+      if (tag_of(surface.facet_markers, f) != solid) continue;
+      out << "facet normal " << normal_of(surface, surface.facets[f]) << "\nouter loop\n";
+      for (const Index v : surface.facets[f]) out << "vertex " << surface.vertices[v] << '\n';
+      out << "endloop\nendfacet\n";
+    }
+    out << "endsolid " << solid << '\n';
+  }
+}
+
+void write_poly(AtomicWriter& out, const Surface& surface) {
+  const bool marked = !surface.vertex_markers.empty();
+  out << std::uint64_t{surface.vertices.size()} << (marked ? " 3 0 1\n" : " 3 0 0\n");
+  for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
+    out << std::uint64_t{v} << ' ' << surface.vertices[v];
+    if (marked) out << ' ' << surface.vertex_markers[v];
+    out << '\n';
+  }
+  out << std::uint64_t{surface.facets.size() + surface.segments.size()} << " 1\n";
+  for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+    const Triangle& t = surface.facets[f];
+    out << "1 0 " << tag_of(surface.facet_markers, f) << "\n3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+  }
+  for (std::size_t s = 0; s < surface.segments.size(); ++s)
+    out << "1 0 " << tag_of(surface.segment_markers, s) << "\n2 " << surface.segments[s][0] << ' '
+        << surface.segments[s][1] << '\n';
+  out << std::uint64_t{surface.holes.size()} << '\n';
+  for (std::size_t h = 0; h < surface.holes.size(); ++h)
+    out << std::uint64_t{h} << ' ' << surface.holes[h] << '\n';
+  out << std::uint64_t{surface.regions.size()} << '\n';
+  for (std::size_t r = 0; r < surface.regions.size(); ++r) {
+    const RegionSeed& seed = surface.regions[r];
+    // An edge of a regular tetrahedron, as its volume.
+    const double volume = seed.size > 0 ? seed.size * seed.size * seed.size / (6 * std::sqrt(2.0)) : -1;
+    out << std::uint64_t{r} << ' ' << seed.where << ' ' << seed.id << ' ' << volume << '\n';
+  }
+}
+
+struct Format {
+  std::string_view extension;
+  void (*write)(AtomicWriter&, const Surface&);  ///< null: as a volume without tetrahedra
+  bool markers, segments, seeds;                 ///< what it holds
+};
+
+constexpr std::array kFormats{
+    Format{".off", write_off, false, true, false}, Format{".obj", write_obj, false, true, false},
+    Format{".stl", write_stl, true, false, false}, Format{".ply", write_ply, false, false, false},
+    Format{".poly", write_poly, true, true, true}, Format{".mesh", nullptr, true, true, false},
+    Format{".meshb", nullptr, true, true, false},  Format{".msh", nullptr, true, true, false},
+    Format{".vtk", nullptr, true, true, false},    Format{".vtu", nullptr, true, true, false}};
+
+const Format& format_of(const std::filesystem::path& path, std::string_view name) {
+  const std::string extension = extension_of(path, name);
+  std::string known;
+  for (const Format& format : kFormats) {
+    if (format.extension == extension) return format;
+    known += (known.empty() ? "" : ", ") + std::string(format.extension);
+  }
+  const std::string named =
+      extension.empty() ? "a name without extension" : "the format " + in_quotes(extension);
+  throw FileError(path, "", "surfaces are not written in " + named + "; the formats are " + known);
+}
+
+void require_consistent(const Surface& surface) {
+  const auto matches = [](const auto& tags, const auto& entities) {
+    return tags.empty() || tags.size() == entities.size();
+  };
+  if (!matches(surface.vertex_markers, surface.vertices) || !matches(surface.facet_markers, surface.facets) ||
+      !matches(surface.segment_markers, surface.segments))
+    throw std::invalid_argument("a surface with markers of another number than their entities");
+}
+
+Volume as_volume(const Surface& surface) {
+  Volume volume;
+  volume.vertices = surface.vertices;
+  volume.facets = surface.facets;
+  volume.facet_markers = surface.facet_markers;
+  volume.segments = surface.segments;
+  volume.segment_markers = surface.segment_markers;
+  volume.vertex_markers = surface.vertex_markers;
+  return volume;
+}
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+}  // namespace
+}  // namespace io
+
+void write_surface(const std::filesystem::path& path, const Surface& surface, const WriteOptions& options) {
+  const FloatEnvironment environment;
+  const io::Format& format = io::format_of(path, options.format);
+  io::require_consistent(surface);
+  if (format.write == nullptr) return write_volume(path, io::as_volume(surface), options);
+  io::Watch watch(options, options.progress);
+  io::AtomicWriter out(path, &watch);
+  format.write(out, surface);
+  out.commit();
+}
+
+std::vector<Remark> not_held(const std::filesystem::path& path, const Surface& surface,
+                             const WriteOptions& options) {
+  const io::Format& format = io::format_of(path, options.format);
+  std::vector<Remark> remarks;
+  const auto say = [&](std::size_t count, const char* one, const char* many) {
+    if (count == 0) return;
+    remarks.push_back({RemarkKind::not_held, count,
+                       io::counted(count, one, many) + (count == 1 ? " has" : " have") + " no place in " +
+                           std::string(format.extension)});
+  };
+  if (!format.markers) say(surface.facet_markers.size(), "marker", "markers");
+  if (!format.segments) say(surface.segments.size(), "segment", "segments");
+  if (!format.seeds) say(surface.regions.size() + surface.holes.size(), "seed", "seeds");
+  if (format.write == nullptr)
+    for (Remark& remark : not_held(path, io::as_volume(surface), options))
+      remarks.push_back(std::move(remark));
+  return remarks;
+}
+
+std::vector<std::string> surface_formats() {
+  std::vector<std::string> extensions;
+  for (const io::Format& format : io::kFormats) extensions.emplace_back(format.extension);
+  return extensions;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,151 @@
+// What a repaired surface is told as.
+#include "repair/deliver.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "exact/space_point.h"
+#include "numbers/sorted.h"
+#include "surface/complex.h"
+#include "surface/places.h"
+
+namespace holdfast::repairing {
+namespace {
+
+IndexLists lists_of(const Parents& parents) {
+  IndexLists lists;
+  lists.first.assign(parents.first.begin(), parents.first.end());
+  lists.all = parents.all;
+  return lists;
+}
+
+/// One marker for each set of parents' markers: itself if there is one, else the next free number.
+class MarkerSets {
+ public:
+  explicit MarkerSets(std::span<const int> markers) {
+    for (const int m : markers) next_ = std::max(next_, std::int64_t{m} + 1);
+  }
+
+  int marker_of(std::vector<int> set) {
+    sort_unique(set);
+    if (set.size() == 1) return set[0];
+    const auto [at, is_new] = number_.try_emplace(std::move(set), 0);
+    if (is_new) at->second = static_cast<int>(next_++);
+    return at->second;
+  }
+
+  [[nodiscard]] std::map<int, std::vector<int>> sets() const {
+    std::map<int, std::vector<int>> sets;
+    for (const auto& [set, number] : number_) sets[number] = set;
+    return sets;
+  }
+
+ private:
+  std::int64_t next_ = 1;
+  std::map<std::vector<int>, int> number_;
+};
+
+void mark_facets(std::span<const int> markers, RepairResult& result) {
+  if (markers.empty()) return;
+  MarkerSets sets(markers);
+  std::vector<int> set;
+  for (std::size_t f = 0; f < result.surface.facets.size(); ++f) {
+    set.clear();
+    for (const Index p : result.parents[f]) set.push_back(markers[p]);
+    if (set.empty()) set.push_back(0);  // fills a hole
+    result.surface.facet_markers.push_back(sets.marker_of(set));
+  }
+  result.marker_sets = sets.sets();
+}
+
+/// Segments carry the marker of their first parent.
+void mark_segments(std::span<const int> markers, RepairResult& result) {
+  if (markers.empty()) return;
+  for (std::size_t s = 0; s < result.surface.segments.size(); ++s)
+    result.surface.segment_markers.push_back(markers[result.segment_parents[s][0]]);
+}
+
+void mark_vertices(std::span<const int> markers, RepairResult& result) {
+  if (markers.empty()) return;
+  result.surface.vertex_markers.assign(markers.begin(), markers.end());
+  result.surface.vertex_markers.resize(result.surface.vertices.size(), 0);
+}
+
+bool finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
+
+void list_moved(const Complex& input, RepairResult& result) {
+  for (Index v = 0; v < input.vertices.size(); ++v) {
+    const Point &before = input.vertices[v], &after = result.surface.vertices[v];
+    if (before == after || !finite(before)) continue;
+    const double distance = exact::distance_bound(exact::space_point(before.data()), after.data());
+    result.moved.push_back({v, distance});
+    result.max_displacement = std::max(result.max_displacement, distance);
+  }
+}
+
+void list_dropped(const Complex& input, const std::vector<Flaw>& left_out, RepairResult& result) {
+  std::vector<std::uint8_t> has_child(input.facets.size(), 0);
+  for (const Index p : result.parents.all) has_child[p] = 1;
+  std::map<Index, DropReason> reason;
+  for (const Flaw& flaw : left_out)
+    if (flaw.corners == 3)
+      reason[flaw.id] =
+          flaw.kind == DefectKind::degenerate_facet ? DropReason::no_area : DropReason::not_finite;
+  const auto is_finite = [&](Index f) {
+    return std::all_of(input.facets[f].begin(), input.facets[f].end(),
+                       [&](Index v) { return v < input.vertices.size() && finite(input.vertices[v]); });
+  };
+  for (Index f = 0; f < input.facets.size(); ++f) {
+    if (has_child[f] != 0) continue;
+    const auto at = reason.find(f);
+    result.dropped.push_back({f, !is_finite(f)        ? DropReason::not_finite
+                                 : at != reason.end() ? at->second
+                                                      : DropReason::vanished});
+  }
+}
+
+void list_merged(const Complex& input, RepairResult& result) {
+  const std::vector<Index> first = first_at_places(input.vertices);
+  std::map<Triangle, Index> first_with;
+  std::vector<std::uint8_t> seen(input.facets.size(), 0);
+  std::vector<Index> candidates;
+  for (std::size_t f = 0; f < result.parents.size(); ++f) {
+    if (result.parents[f].size() < 2) continue;
+    for (const Index p : result.parents[f])
+      if (std::exchange(seen[p], std::uint8_t{1}) == 0) candidates.push_back(p);
+  }
+  std::sort(candidates.begin(), candidates.end());
+  for (const Index p : candidates) {
+    const Triangle& t = input.facets[p];
+    const auto [at, is_new] =
+        first_with.try_emplace(ascending(Triangle{first[t[0]], first[t[1]], first[t[2]]}), p);
+    if (!is_new) result.merged.push_back({p, at->second});
+  }
+}
+
+}  // namespace
+
+void deliver(const Complex& input, Rounded rounded, RepairResult& result) {
+  result.surface.vertices = std::move(rounded.state.vertices);
+  result.surface.facets = std::move(rounded.state.facets);
+  result.surface.segments = std::move(rounded.state.segments);
+  result.parents = lists_of(rounded.state.facet_parents);
+  result.segment_parents = lists_of(rounded.state.segment_parents);
+  result.max_displacement = rounded.displacement;
+  mark_facets(input.facet_markers, result);
+  mark_segments(input.segment_markers, result);
+  mark_vertices(input.vertex_markers, result);
+  list_moved(input, result);
+  list_dropped(input, rounded.left_out, result);
+  list_merged(input, result);
+  for (std::size_t f = 0; f < result.surface.facets.size(); ++f) {
+    const auto parents = result.parents[f];
+    const bool whole = parents.size() == 1 && input.facets[parents[0]] == result.surface.facets[f];
+    if (!whole) ++result.report.changed_facets;
+  }
+}
+
+}  // namespace holdfast::repairing

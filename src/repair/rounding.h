@@ -1,0 +1,21 @@
+// The exact arrangement rounded to doubles so that it stays valid (docs/repairing.md).
+#pragma once
+
+#include "arrange/arrange.h"
+#include "holdfast/repair.h"
+#include "repair/state.h"
+
+namespace holdfast::repairing {
+
+struct Rounded {
+  bool is_valid = false;
+  State state;
+  double displacement = 0;     ///< of points by rounding, all rounds together; rounded up
+  std::vector<Flaw> left_out;  ///< of the input
+};
+
+/// Arranges and rounds until nothing is left to arrange. What stands in `report` and `exact` is filled in.
+[[nodiscard]] Rounded round_arranged(State state, const RepairOptions& options, RepairReport& report,
+                                     ExactSurface& exact, const Step& step, const Threads& threads);
+
+}  // namespace holdfast::repairing

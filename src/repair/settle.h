@@ -1,0 +1,29 @@
+// Elements that come too near to each other for rounding to leave them apart: what lies within a distance of
+// each other is joined, by bending facets rather than by moving vertices.
+#pragma once
+
+#include "mesh/parallel.h"
+#include "repair/state.h"
+#include "surface/search.h"
+
+namespace holdfast::repairing {
+
+/// What the elements of a state that do not fit together are made of.
+struct Trouble {
+  std::vector<Index> facets, segments;  ///< ascending
+  [[nodiscard]] std::size_t size() const { return facets.size() + segments.size(); }
+  [[nodiscard]] bool none() const { return size() == 0; }
+};
+
+[[nodiscard]] Trouble trouble_of(const State& state, const Step& step, const Threads& threads);
+
+/// Round the facets and segments in trouble,
+///   1. vertices that are new, or all if `moves_input`, become one with another that is at most `gap` away;
+///   2. where two sides pass each other at most `gap` away, a new vertex is put between them;
+///   3. sides that pass a vertex at most `gap` away are led through it, in all facets that have them;
+///   4. facets that pass a vertex so are led through it.
+/// Afterwards facets may still cross, or be of no area. Returns the largest distance by which anything was
+/// moved or bent, rounded up.
+double settle(State& state, const Trouble& trouble, double gap, bool moves_input, const Step& step);
+
+}  // namespace holdfast::repairing

@@ -1,0 +1,97 @@
+// A surface under repair.
+#include "repair/state.h"
+
+#include <numeric>
+
+#include "numbers/sorted.h"
+#include "surface/complex.h"
+
+namespace holdfast::repairing {
+namespace {
+
+Parents identity(std::size_t count) {
+  Parents parents;
+  parents.all.resize(count);
+  std::iota(parents.all.begin(), parents.all.end(), Index{0});
+  parents.first.resize(count + 1);
+  std::iota(parents.first.begin(), parents.first.end(), Index{0});
+  return parents;
+}
+
+/// Parents of parents.
+Parents composed(const Parents& before, const Parents& now) {
+  Parents parents;
+  std::vector<Index> list;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    list.clear();
+    for (const Index p : now.of(i)) list.insert(list.end(), before.of(p).begin(), before.of(p).end());
+    sort_unique(list);
+    parents.add(list);
+  }
+  return parents;
+}
+
+}  // namespace
+
+void drop_unused(State& state) {
+  std::vector<Index> number(state.vertices.size(), no_index);
+  for (Index v = 0; v < state.input_vertices; ++v) number[v] = v;
+  const auto use = [&](const auto& entities) {
+    for (const auto& corners : entities)
+      for (const Index v : corners)
+        if (number[v] == no_index) number[v] = 0;
+  };
+  use(state.facets);
+  use(state.segments);
+  auto next = static_cast<Index>(state.input_vertices);
+  for (std::size_t v = state.input_vertices; v < number.size(); ++v) {
+    if (number[v] == no_index) continue;
+    state.vertices[next] = state.vertices[v];
+    number[v] = next++;
+  }
+  state.vertices.resize(next);
+  const auto renumber = [&](auto& entities) {
+    for (auto& corners : entities)
+      for (Index& v : corners) v = number[v];
+  };
+  renumber(state.facets);
+  renumber(state.segments);
+}
+
+std::vector<std::uint8_t> known_elements(const State& state, const Elements& elements) {
+  std::vector<std::uint8_t> known;
+  if (state.known.empty()) return known;
+  known.reserve(elements.all.size());
+  for (const Element& e : elements.all)
+    known.push_back(e.corners == 3 ? state.known[e.id] : e.corners == 1 ? 1 : 0);
+  return known;
+}
+
+State state_of(const Complex& complex) {
+  State state;
+  state.input_vertices = complex.vertices.size();
+  state.vertices.assign(complex.vertices.begin(), complex.vertices.end());
+  state.facets.assign(complex.facets.begin(), complex.facets.end());
+  state.segments.assign(complex.segments.begin(), complex.segments.end());
+  state.facet_parents = identity(state.facets.size());
+  state.segment_parents = identity(state.segments.size());
+  return state;
+}
+
+State arranged(const State& before, const arrange::Arrangement& arrangement,
+               const std::vector<Point>& positions) {
+  State state;
+  state.input_vertices = before.input_vertices;
+  state.vertices = before.vertices;
+  state.vertices.insert(state.vertices.end(), positions.begin(), positions.end());
+  state.facets = arrangement.facets;
+  state.segments = arrangement.segments;
+  state.facet_parents = composed(before.facet_parents, arrangement.facet_parents);
+  state.segment_parents = composed(before.segment_parents, arrangement.segment_parents);
+  state.known.reserve(state.facets.size());
+  for (const Index sheet : arrangement.sheet) state.known.push_back(sheet == no_index ? 1 : 0);
+  drop_unused(state);
+  return state;
+}
+
+}  // namespace holdfast::repairing

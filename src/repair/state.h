@@ -1,0 +1,41 @@
+// A surface under repair: what it is by now, and where all of it came from.
+#pragma once
+
+#include <vector>
+
+#include "arrange/arrange.h"
+#include "holdfast/types.h"
+#include "surface/elements.h"
+
+namespace holdfast::repairing {
+
+using arrange::Parents;
+
+struct State {
+  std::size_t input_vertices = 0;  ///< the first vertices are the input's
+  std::vector<Point> vertices;
+  std::vector<Triangle> facets;
+  Parents facet_parents;  ///< facets of the input
+  std::vector<Segment> segments;
+  Parents segment_parents;
+  /// For each facet whether it is known to fit together with all others of which that is known.
+  std::vector<std::uint8_t> known;
+
+  [[nodiscard]] Complex complex() const { return {vertices, facets, segments, {}, {}}; }
+};
+
+/// `State::known` for the elements of its complex, as the search takes it; empty where nothing is known.
+[[nodiscard]] std::vector<std::uint8_t> known_elements(const State& state, const Elements& elements);
+
+/// Takes out vertices that are not the input's and that nothing uses.
+void drop_unused(State& state);
+
+/// The input as it came.
+[[nodiscard]] State state_of(const Complex& complex);
+
+/// What an arrangement makes of a state; vertices that nothing uses go, but for the input's. New points stand
+/// at `positions`, one each.
+[[nodiscard]] State arranged(const State& before, const arrange::Arrangement& arrangement,
+                             const std::vector<Point>& positions);
+
+}  // namespace holdfast::repairing
