@@ -6,11 +6,14 @@
 #include <new>
 #include <stdexcept>
 
+#include "api/unite.h"
 #include "mesh/memory.h"
 #include "mesh/plain_monitor.h"
 #include "numbers/float_environment.h"
 #include "repair/deliver.h"
+#include "repair/holes.h"
 #include "repair/rounding.h"
+#include "repair/weld.h"
 
 namespace holdfast {
 namespace {
@@ -46,11 +49,22 @@ const char* message_of(Outcome outcome) {
 void run(const Complex& complex, const RepairOptions& options, PlainMonitor& monitor, RepairResult& result) {
   const Threads threads = Threads(options.threads).polling([&] { monitor.poll_again(); });
   const Step step = [&](double fraction) { monitor.poll(fraction); };
-  repairing::Rounded rounded = repairing::round_arranged(repairing::state_of(complex), options, result.report,
-                                                         result.exact, step, threads);
+  repairing::State state = repairing::state_of(complex);
+  const double welded = options.weld > 0 ? repairing::weld(state, options.weld, step) : 0;
+  repairing::Rounded rounded =
+      repairing::round_arranged(std::move(state), options, result.report, result.exact, step, threads);
+  rounded.displacement += welded;
   if (!rounded.is_valid)
     return end(result, Outcome::not_representable,
                "no doubles were found for the new points with which the surface is valid");
+  if (options.fill_holes)
+    result.filled = repairing::fill_holes(rounded.state, *options.fill_holes, step, threads);
+  if (options.unite) {
+    const std::size_t before = rounded.state.facets.size();
+    if (const Outcome outcome = unite(complex, rounded.state, options, step); outcome != Outcome::done)
+      return end(result, outcome, message_of(outcome));
+    rounded.has_united = rounded.state.facets.size() < before;
+  }
   repairing::deliver(complex, std::move(rounded), result);
 }
 

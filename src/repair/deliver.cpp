@@ -10,6 +10,7 @@
 #include "exact/space_point.h"
 #include "numbers/sorted.h"
 #include "surface/complex.h"
+#include "surface/intersect.h"
 #include "surface/places.h"
 
 namespace holdfast::repairing {
@@ -86,25 +87,22 @@ void list_moved(const Complex& input, RepairResult& result) {
   }
 }
 
-void list_dropped(const Complex& input, const std::vector<Flaw>& left_out, RepairResult& result) {
+DropReason reason_of(const Complex& input, Index f, bool has_united) {
+  const Triangle& t = input.facets[f];
+  Simplex facet;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (t[i] >= input.vertices.size() || !finite(input.vertices[t[i]])) return DropReason::not_finite;
+    facet.point[i] = input.vertices[t[i]].data();
+  }
+  if (!set_projection(facet)) return DropReason::no_area;
+  return has_united ? DropReason::inner : DropReason::vanished;
+}
+
+void list_dropped(const Complex& input, bool has_united, RepairResult& result) {
   std::vector<std::uint8_t> has_child(input.facets.size(), 0);
   for (const Index p : result.parents.all) has_child[p] = 1;
-  std::map<Index, DropReason> reason;
-  for (const Flaw& flaw : left_out)
-    if (flaw.corners == 3)
-      reason[flaw.id] =
-          flaw.kind == DefectKind::degenerate_facet ? DropReason::no_area : DropReason::not_finite;
-  const auto is_finite = [&](Index f) {
-    return std::all_of(input.facets[f].begin(), input.facets[f].end(),
-                       [&](Index v) { return v < input.vertices.size() && finite(input.vertices[v]); });
-  };
-  for (Index f = 0; f < input.facets.size(); ++f) {
-    if (has_child[f] != 0) continue;
-    const auto at = reason.find(f);
-    result.dropped.push_back({f, !is_finite(f)        ? DropReason::not_finite
-                                 : at != reason.end() ? at->second
-                                                      : DropReason::vanished});
-  }
+  for (Index f = 0; f < input.facets.size(); ++f)
+    if (has_child[f] == 0) result.dropped.push_back({f, reason_of(input, f, has_united)});
 }
 
 void list_merged(const Complex& input, RepairResult& result) {
@@ -138,8 +136,9 @@ void deliver(const Complex& input, Rounded rounded, RepairResult& result) {
   mark_facets(input.facet_markers, result);
   mark_segments(input.segment_markers, result);
   mark_vertices(input.vertex_markers, result);
+  if (input.names != nullptr) result.surface.names = *input.names;
   list_moved(input, result);
-  list_dropped(input, rounded.left_out, result);
+  list_dropped(input, rounded.has_united, result);
   list_merged(input, result);
   for (std::size_t f = 0; f < result.surface.facets.size(); ++f) {
     const auto parents = result.parents[f];

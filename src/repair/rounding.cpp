@@ -39,25 +39,16 @@ double last_bit(const State& state) {
   return std::nextafter(most, std::numeric_limits<double>::infinity()) - most;
 }
 
-/// What is joined before the arrangement of a round: nothing in the first two, then what is nearer to each
-/// other than some last bits of the largest coordinate.
+/// What is joined where a surface is still not valid after it was cut and rounded twice: what is nearer to
+/// each other than some last bits of the largest coordinate.
 struct Plan {
   double last_bits = 0;
   bool moves_input = false;
 };
-constexpr std::array<Plan, 13> kRounds{{{},
-                                        {},
-                                        {0x1p2, false},
-                                        {0x1p4, false},
-                                        {0x1p6, false},
-                                        {0x1p8, false},
-                                        {0x1p10, false},
-                                        {0x1p11, false},
-                                        {0x1p11, true},
-                                        {0x1p14, true},
-                                        {0x1p17, true},
-                                        {0x1p20, true},
-                                        {0x1p24, true}}};
+constexpr std::array kPlans{Plan{0x1p2, false},  Plan{0x1p3, false}, Plan{0x1p4, false}, Plan{0x1p5, false},
+                            Plan{0x1p6, false},  Plan{0x1p7, false}, Plan{0x1p8, false}, Plan{0x1p9, false},
+                            Plan{0x1p10, false}, Plan{0x1p8, true},  Plan{0x1p10, true}, Plan{0x1p12, true},
+                            Plan{0x1p14, true},  Plan{0x1p17, true}, Plan{0x1p20, true}, Plan{0x1p24, true}};
 
 class Rounding {
  public:
@@ -68,51 +59,80 @@ class Rounding {
   }
 
   Rounded run() {
-    for (round_ = 0; round_ < kRounds.size() && !rounded_.is_valid; ++round_) {
-      if (kRounds[round_].last_bits > 0 && !join(kRounds[round_])) break;
-      cut();
+    cut(options_.most_points);
+    if (!rounded_.is_valid) cut(std::min(options_.most_points, 1000 + 4 * report_.points));
+    if (rounded_.is_valid) return std::move(rounded_);
+    trouble_ = trouble_of(rounded_.state, here(), threads_);
+    for (const Plan& plan : kPlans) {
+      if (trouble_.none()) break;
+      join(plan);
+      if (!trouble_.none()) cut_if_better();
     }
-    // What the last round made is judged, too.
-    rounded_.is_valid = rounded_.is_valid || trouble_of(rounded_.state, here(), threads_).none();
+    rounded_.is_valid = trouble_.none();
     return std::move(rounded_);
   }
 
  private:
   [[nodiscard]] Step here() const {
-    return [this](double fraction) { step_(1 - 1 / (1 + static_cast<double>(round_) + fraction)); };
+    return [this](double fraction) { step_(1 - 1 / (1 + static_cast<double>(report_.rounds) + fraction)); };
   }
 
-  /// False if nothing is in trouble. Bending makes new sides, which are looked at again.
-  bool join(const Plan& plan) {
-    constexpr int kPasses = 4;
-    const double gap = plan.last_bits * last_bit(rounded_.state);
-    for (int pass = 0; pass < kPasses; ++pass) {
-      const Trouble trouble = trouble_of(rounded_.state, here(), threads_);
-      if (trouble.none()) return pass > 0;
-      report_.rung = plan.moves_input ? Rung::snapped : Rung::coarser;
-      if (pass > 0 && trouble.size() >= in_trouble_) break;
-      in_trouble_ = trouble.size();
-      const double moved = settle(rounded_.state, trouble, gap, plan.moves_input, here());
-      if (moved == 0) break;
-      rounded_.displacement = sum_above(rounded_.displacement, moved);
+  /// A state that stands, or may come to stand.
+  struct Attempt {
+    State state;
+    Trouble trouble;
+    double displacement;
+  };
+
+  /// Joins again and again, since bending makes new sides; the pass that leaves the least in trouble counts.
+  /// Where joining does not help by itself, vertices are put where sides pass each other. That may take some
+  /// passes: sheets that lie in each other agree only when the diagonals of what they share do, too.
+  void join(const Plan& plan) {
+    Settle how{plan.last_bits * last_bit(rounded_.state), 0, plan.moves_input, false};
+    report_.rung = plan.moves_input ? Rung::snapped : Rung::coarser;
+    constexpr int kPasses = 8, kPassesInVain = 4;
+    constexpr std::size_t kTooMuch = 4;
+    Attempt now{rounded_.state, trouble_, rounded_.displacement};
+    int in_vain = 0;
+    for (int pass = 0; pass < kPasses && in_vain < kPassesInVain && !trouble_.none(); ++pass) {
+      const double moved = settle(now.state, now.trouble, how, here());
+      now.trouble = trouble_of(now.state, here(), threads_);
+      now.displacement = sum_above(now.displacement, moved);
+      if (now.trouble.size() < trouble_.size()) {
+        stand(now);
+        in_vain = 0;
+        continue;
+      }
+      ++in_vain;
+      if (now.trouble.size() > kTooMuch * (trouble_.size() + 16) || (how.passings && moved == 0)) break;
+      how.passings = true;
     }
-    return true;
   }
 
-  void cut() {
+  void stand(Attempt attempt) {
+    rounded_.state = std::move(attempt.state);
+    rounded_.displacement = attempt.displacement;
+    trouble_ = std::move(attempt.trouble);
+  }
+
+  arrange::Arrangement arrangement_of(std::size_t most_points) const {
     const Complex complex = rounded_.state.complex();
     const Elements elements = elements_of(complex, threads_);
     const std::vector<std::uint8_t> known = known_elements(rounded_.state, elements);
     arrange::ArrangeOptions arranging;
     arranging.threads = threads_;
     arranging.known = known;
-    arranging.most_points = most_points();
+    arranging.most_points = most_points;
+    return arrange::arrange(complex, elements, here(), arranging);
+  }
+
+  void cut(std::size_t most_points) {
     arrange::Arrangement arrangement;
     try {
-      arrangement = arrange::arrange(complex, elements, here(), arranging);
+      arrangement = arrangement_of(most_points);
     } catch (const arrange::TooManyPoints&) {
-      if (round_ == 0) throw;
-      return;  // the next round joins more
+      if (report_.rounds == 0) throw;
+      return;
     }
     if (arrangement.is_same) {
       rounded_.is_valid = true;
@@ -124,18 +144,27 @@ class Rounding {
     rounded_.state = arranged(rounded_.state, arrangement, arrangement.nearest);
   }
 
-  /// Where little was in trouble, many new points are a sign of facets that lie in each other: rather than
-  /// cut all that, the next round joins more.
-  [[nodiscard]] std::size_t most_points() const {
-    if (round_ == 0) return options_.most_points;
-    if (round_ == 1) return std::min(options_.most_points, 1000 + 4 * report_.points);
-    return std::min(options_.most_points, 200 + 4 * in_trouble_);
+  /// Where little is in trouble, many new points are a sign of facets that lie in each other: rather than cut
+  /// all that, the next plan joins more.
+  void cut_if_better() {
+    arrange::Arrangement arrangement;
+    try {
+      arrangement = arrangement_of(std::min(options_.most_points, 200 + 4 * trouble_.size()));
+    } catch (const arrange::TooManyPoints&) {
+      return;
+    }
+    constexpr std::size_t kMore = 24;
+    Attempt cut{arranged(rounded_.state, arrangement, arrangement.nearest), {}, 0};
+    cut.trouble = trouble_of(cut.state, here(), threads_);
+    if (cut.trouble.size() > 2 * trouble_.size() + kMore) return;
+    cut.displacement =
+        sum_above(rounded_.displacement, displacement_of(arrangement, arrangement.nearest, threads_));
+    stand(std::move(cut));
+    tell(arrangement);
   }
 
   void tell(const arrange::Arrangement& arrangement) {
-    report_.rounds = round_ + 1;
-    if (round_ == 0) {
-      rounded_.left_out = arrangement.left_out;
+    if (++report_.rounds == 1) {
       report_.pairs = arrangement.pairs;
       report_.sheets = arrangement.sheets;
       report_.points = arrangement.points.size();
@@ -150,7 +179,7 @@ class Rounding {
   const Step& step_;
   const Threads& threads_;
   Rounded rounded_;
-  std::size_t round_ = 0, in_trouble_ = 0;
+  Trouble trouble_;
 };
 
 }  // namespace

@@ -10,8 +10,8 @@ namespace holdfast::repairing {
 struct Rounded {
   bool is_valid = false;
   State state;
-  double displacement = 0;     ///< of points by rounding, all rounds together; rounded up
-  std::vector<Flaw> left_out;  ///< of the input
+  double displacement = 0;  ///< of points by rounding, all rounds together; rounded up
+  bool has_united = false;  ///< facets went since: see RepairOptions::unite
 };
 
 /// Arranges and rounds until nothing is left to arrange. What stands in `report` and `exact` is filled in.

@@ -11,6 +11,7 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "numbers/sorted.h"
 #include "surface/aabb_tree.h"
@@ -108,13 +109,14 @@ double bound(const Nearness& near) { return near.distance + near.size * 0x1p-49;
 
 class Settling {
  public:
-  Settling(State& state, const Trouble& trouble, double gap, bool moves_input, const Step& step)
-      : state_(state), trouble_(trouble), gap_(gap), moves_input_(moves_input), step_(step) {}
+  Settling(State& state, const Trouble& trouble, const Settle& how, const Step& step)
+      : state_(state), trouble_(trouble), how_(how), gap_(how.gap), step_(step) {}
 
   double run() {
     list_vertices();
     const double merged = merge_vertices();
-    add_passings();
+    if (how_.passings) add_passings();
+    if (how_.most > 0) room_ = how_.most - merged;
     list_near();
     list_local();
     bend();
@@ -126,15 +128,27 @@ class Settling {
  private:
   [[nodiscard]] const Point& at(Index v) const { return state_.vertices[v]; }
 
+  /// Those of what is in trouble, and all others near it.
   void list_vertices() {
-    for (const Index f : trouble_.facets)
-      vertices_.insert(vertices_.end(), state_.facets[f].begin(), state_.facets[f].end());
-    for (const Index s : trouble_.segments)
-      vertices_.insert(vertices_.end(), state_.segments[s].begin(), state_.segments[s].end());
-    sort_unique(vertices_);
-    std::erase_if(vertices_, [&](Index v) {
-      return !std::isfinite(at(v)[0]) || !std::isfinite(at(v)[1]) || !std::isfinite(at(v)[2]);
-    });
+    std::vector<std::uint8_t> used(state_.vertices.size(), 0);
+    std::vector<Box> boxes;
+    for (const Index f : trouble_.facets) boxes.push_back(box_of(state_.facets[f], gap_));
+    for (const Index s : trouble_.segments) boxes.push_back(box_of(state_.segments[s], gap_));
+    const AabbTree tree(boxes);
+    const auto use = [&](const auto& entities) {
+      for (const auto& corners : entities)
+        for (const Index v : corners) {
+          if (std::exchange(used[v], std::uint8_t{1}) != 0 || !is_finite(v)) continue;
+          if (tree.overlaps_any(box_of(std::array{v}, 0))) vertices_.push_back(v);
+        }
+    };
+    use(state_.facets);
+    use(state_.segments);
+    std::sort(vertices_.begin(), vertices_.end());
+  }
+
+  [[nodiscard]] bool is_finite(Index v) const {
+    return std::isfinite(at(v)[0]) && std::isfinite(at(v)[1]) && std::isfinite(at(v)[2]);
   }
 
   [[nodiscard]] Box box_of(std::span<const Index> corners, double margin) const {
@@ -152,24 +166,22 @@ class Settling {
   double merge_vertices() {
     std::vector<Box> boxes;
     for (const Index v : vertices_) boxes.push_back(box_of(std::array{v}, gap_ / 2));
-    std::vector<std::tuple<double, Index, Index>> pairs;
+    std::vector<std::tuple<Index, Index, double>> pairs;
     AabbTree(boxes).for_each_overlap(
         [&](Index i, Index j) {
           const auto [v, w] = std::minmax(vertices_[i], vertices_[j]);
           const double distance = length(minus(at(v), at(w)));
-          const bool may_move = w >= state_.input_vertices || moves_input_;
-          if (may_move && distance <= gap_) pairs.emplace_back(distance, v, w);
+          const bool may_move = w >= state_.input_vertices || how_.moves_input;
+          if (may_move && distance <= gap_) pairs.emplace_back(v, w, distance);
           return true;
         },
         [](Index, Index) { return false; }, step_);
     std::sort(pairs.begin(), pairs.end());
     std::map<Index, Index> into;
-    std::set<Index> kept;
     double most = 0;
-    for (const auto& [distance, v, w] : pairs) {
-      if (into.count(v) != 0 || into.count(w) != 0 || kept.count(w) != 0) continue;
+    for (const auto& [v, w, distance] : pairs) {
+      if (into.count(v) != 0 || into.count(w) != 0) continue;
       into[w] = v;
-      kept.insert(v);
       most = std::max(most, distance * (1 + 0x1p-48));
     }
     if (into.empty()) return 0;
@@ -402,6 +414,7 @@ class Settling {
           if (v == side[0] || v == side[1] || v == best) continue;
           const Nearness near = beside_side(at(v), at(side[0]), at(side[1]));
           if (!(near.distance <= gap_) || !(near.distance < nearest.distance)) continue;
+          if (!has_room(here, bound(near))) continue;
           nearest = near;
           best = v;
         }
@@ -435,6 +448,11 @@ class Settling {
     }
   }
 
+  [[nodiscard]] bool has_room(const AtSide& here, double more) const {
+    return std::all_of(here.facets.begin(), here.facets.end(),
+                       [&](Index f) { return !facets_[f].lives || facets_[f].bent + more <= room_; });
+  }
+
   void bend_facet(Index f) {
     if (!facets_[f].lives) return;
     const LocalFacet facet = facets_[f];
@@ -443,7 +461,7 @@ class Settling {
       for (const Index v : near_[list]) {
         if (v == a || v == b || v == c) continue;
         const Nearness near = beside_facet(at(v), at(a), at(b), at(c));
-        if (!(near.distance <= gap_)) continue;
+        if (!(near.distance <= gap_) || !(facet.bent + bound(near) <= room_)) continue;
         facets_[f].lives = false;
         for (std::size_t i = 0; i < 3; ++i) {
           LocalFacet part = facet;
@@ -517,8 +535,9 @@ class Settling {
 
   State& state_;
   const Trouble& trouble_;
+  const Settle& how_;
   const double gap_;
-  const bool moves_input_;
+  double room_ = std::numeric_limits<double>::infinity();  // for bending
   const Step& step_;
   std::vector<Index> vertices_;
   std::vector<std::vector<Index>> near_;  // vertices, by facets and then segments in trouble
@@ -554,8 +573,8 @@ Trouble trouble_of(const State& state, const Step& step, const Threads& threads)
   return trouble;
 }
 
-double settle(State& state, const Trouble& trouble, double gap, bool moves_input, const Step& step) {
-  return Settling(state, trouble, gap, moves_input, step).run();
+double settle(State& state, const Trouble& trouble, const Settle& how, const Step& step) {
+  return Settling(state, trouble, how, step).run();
 }
 
 }  // namespace holdfast::repairing

@@ -17,13 +17,20 @@ struct Trouble {
 
 [[nodiscard]] Trouble trouble_of(const State& state, const Step& step, const Threads& threads);
 
+struct Settle {
+  double gap = 0;
+  double most = 0;           ///< nothing is moved or bent further in all; 0: no limit but what `gap` brings
+  bool moves_input = false;  ///< vertices of the input may move, too
+  bool passings = true;      ///< see 2
+};
+
 /// Round the facets and segments in trouble,
-///   1. vertices that are new, or all if `moves_input`, become one with another that is at most `gap` away;
+///   1. vertices that are new, or all, become one with another of lower number that is at most `gap` away;
 ///   2. where two sides pass each other at most `gap` away, a new vertex is put between them;
 ///   3. sides that pass a vertex at most `gap` away are led through it, in all facets that have them;
 ///   4. facets that pass a vertex so are led through it.
 /// Afterwards facets may still cross, or be of no area. Returns the largest distance by which anything was
 /// moved or bent, rounded up.
-double settle(State& state, const Trouble& trouble, double gap, bool moves_input, const Step& step);
+double settle(State& state, const Trouble& trouble, const Settle& how, const Step& step);
 
 }  // namespace holdfast::repairing

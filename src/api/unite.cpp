@@ -1,0 +1,213 @@
+// The union of the parts of a surface.
+//
+// The mesher tells into which regions the arrangement cuts space, and which lie on either side of each facet.
+// For one component of the input, all other facets are air: regions that they alone divide are one. What its
+// own facets divide then has a winding number if they are turned consistently, and else is inside or outside.
+#include "api/unite.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "mesh/disjoint_sets.h"
+#include "numbers/sorted.h"
+#include "surface/places.h"
+
+namespace holdfast {
+namespace {
+
+/// The connected components of the input's facets, by the places of their corners.
+std::vector<Index> components_of(const Complex& input) {
+  const std::vector<Index> first = first_at_places(input.vertices);
+  DisjointSets sets(input.vertices.size());
+  for (const Triangle& t : input.facets) {
+    if (std::any_of(t.begin(), t.end(), [&](Index v) { return v >= input.vertices.size(); })) continue;
+    sets.unite(first[t[0]], first[t[1]]);
+    sets.unite(first[t[1]], first[t[2]]);
+  }
+  std::vector<Index> component(input.facets.size(), 0);
+  for (std::size_t f = 0; f < component.size(); ++f)
+    if (const Index v = input.facets[f][0]; v < input.vertices.size()) component[f] = sets.root(first[v]);
+  return component;
+}
+
+/// Regions in front of and behind facets, numbered from 0, which is the outside.
+struct Division {
+  std::vector<std::array<Index, 2>> sides;
+  std::size_t regions = 1;
+};
+
+/// The box is larger than all else: the vertex furthest to the left is a corner of it.
+int outside_of(const Volume& volume) {
+  std::size_t best = 0;
+  for (std::size_t t = 0; t < volume.tetrahedra.size(); ++t) {
+    const auto least = [&](std::size_t i) {
+      double x = volume.vertices[volume.tetrahedra[i][0]][0];
+      for (const Index v : volume.tetrahedra[i]) x = std::min(x, volume.vertices[v][0]);
+      return x;
+    };
+    if (least(t) < least(best)) best = t;
+  }
+  return volume.regions[best];
+}
+
+Division division_of(const Result& result) {
+  Division division;
+  std::map<int, Index> number;
+  const auto outside = std::optional<int>(outside_of(result.volume));
+  const auto number_of = [&](std::optional<int> region) -> Index {
+    if (!region || region == outside) return 0;
+    const auto [at, is_new] = number.try_emplace(*region, static_cast<Index>(division.regions));
+    if (is_new) ++division.regions;
+    return at->second;
+  };
+  for (const FacetRegions& sides : result.facet_regions)
+    division.sides.push_back({number_of(sides[0]), number_of(sides[1])});
+  return division;
+}
+
+/// A facet of the arrangement as part of a component's facet.
+struct Wall {
+  Index front, back;
+  bool operator<(const Wall& other) const {
+    return std::pair(front, back) < std::pair(other.front, other.back);
+  }
+  bool operator==(const Wall&) const = default;
+};
+
+/// Which regions a component keeps. `airs` are pairs of regions with a facet between them that is not its
+/// own.
+std::vector<std::uint8_t> material_of(std::size_t regions, const std::vector<Wall>& walls,
+                                      const std::vector<Wall>& airs) {
+  DisjointSets sets(regions);
+  for (const Wall& air : airs) sets.unite(air.front, air.back);
+  std::vector<std::optional<int>> winding(regions);
+  std::map<Index, std::vector<std::pair<Index, int>>> steps;
+  for (const Wall& wall : walls) {
+    const Index front = sets.root(wall.front), back = sets.root(wall.back);
+    if (front == back) continue;
+    steps[front].emplace_back(back, 1);  // behind a facet that looks outward is the inside
+    steps[back].emplace_back(front, -1);
+  }
+  bool consistent = true;
+  std::vector<Index> open{sets.root(0)};
+  winding[open[0]] = 0;
+  while (!open.empty()) {
+    const Index region = open.back();
+    open.pop_back();
+    for (const auto& [next, step] : steps[region]) {
+      const int expected = *winding[region] + step;
+      if (!winding[next]) {
+        winding[next] = expected;
+        open.push_back(next);
+      } else if (*winding[next] != expected) {
+        consistent = false;
+      }
+    }
+  }
+  std::vector<std::uint8_t> material(regions, 0);
+  for (Index r = 0; r < regions; ++r) {
+    const Index root = sets.root(r);
+    material[r] = consistent ? winding[root].value_or(0) != 0 : root != sets.root(0);
+  }
+  return material;
+}
+
+/// Whether a part of a facet is turned as the facet is, by their normals.
+bool turned_alike(std::span<const Point> points, const Triangle& part, std::span<const Point> before,
+                  const Triangle& facet) {
+  const auto normal = [](std::span<const Point> of, const Triangle& t) {
+    std::array<long double, 3> u{}, v{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      u[k] = static_cast<long double>(of[t[1]][k]) - static_cast<long double>(of[t[0]][k]);
+      v[k] = static_cast<long double>(of[t[2]][k]) - static_cast<long double>(of[t[0]][k]);
+    }
+    return std::array<long double, 3>{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                                      u[0] * v[1] - u[1] * v[0]};
+  };
+  const auto a = normal(points, part), b = normal(before, facet);
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] >= 0;
+}
+
+void keep_only(repairing::State& state, const std::vector<std::uint8_t>& keep) {
+  std::vector<Triangle> facets;
+  repairing::Parents parents;
+  for (std::size_t f = 0; f < keep.size(); ++f) {
+    if (keep[f] == 0) continue;
+    facets.push_back(state.facets[f]);
+    parents.add(state.facet_parents.of(f));
+  }
+  state.facets = std::move(facets);
+  state.facet_parents = std::move(parents);
+  state.known.clear();
+  repairing::drop_unused(state);
+}
+
+}  // namespace
+
+Outcome unite(const Complex& input, repairing::State& state, const RepairOptions& options, const Step& step) {
+  if (state.facets.empty()) return Outcome::done;
+  Options meshing;
+  static_cast<Limits&>(meshing) = options;
+  meshing.keep = Keep::box;
+  meshing.stop_after = Stage::classify;
+  meshing.threads = options.threads;
+  meshing.progress = [&](const Progress& progress) {
+    step(progress.overall);
+    return true;
+  };
+  const Complex facets{state.vertices, state.facets, {}, {}, {}};
+  const Result result = mesh(facets, meshing);
+  if (result.outcome != Outcome::done && result.outcome != Outcome::not_representable) return result.outcome;
+  if (result.facet_regions.size() != state.facets.size()) return Outcome::invalid_input;
+  const Division division = division_of(result);
+
+  const std::vector<Index> component = components_of(input);
+  std::map<Index, std::vector<Wall>> walls;       // by component
+  std::map<Wall, std::vector<Index>> components;  // of the facets between two regions, intersected
+  std::vector<Index> component_at(state.vertices.size(), 0);
+  for (std::size_t f = 0; f < state.facets.size(); ++f)
+    for (const Index p : state.facet_parents.of(f))
+      for (const Index v : state.facets[f]) component_at[v] = component[p];
+  std::vector<Index> own;
+  for (std::size_t f = 0; f < state.facets.size(); ++f) {
+    const auto [front, back] = division.sides[f];
+    own.clear();
+    for (const Index p : state.facet_parents.of(f)) {
+      own.push_back(component[p]);
+      const bool alike = turned_alike(state.vertices, state.facets[f], input.vertices, input.facets[p]);
+      walls[component[p]].push_back(alike ? Wall{front, back} : Wall{back, front});
+    }
+    sort_unique(own);
+    if (own.empty()) {  // fills a hole of the component that has its corners
+      const Index c = component_at[state.facets[f][0]];
+      own.push_back(c);
+      walls[c].push_back({front, back});
+    }
+    if (front == back) continue;
+    const Wall pair{std::min(front, back), std::max(front, back)};
+    const auto [at, is_new] = components.try_emplace(pair, own);
+    if (is_new) continue;
+    std::vector<Index> common;
+    std::set_intersection(at->second.begin(), at->second.end(), own.begin(), own.end(),
+                          std::back_inserter(common));
+    at->second = std::move(common);
+  }
+  std::vector<std::uint8_t> material(division.regions, 0);
+  for (auto& [c, list] : walls) {
+    step(0.9);
+    sort_unique(list);
+    std::vector<Wall> airs;
+    for (const auto& [pair, of] : components)
+      if (!std::binary_search(of.begin(), of.end(), c)) airs.push_back(pair);
+    const std::vector<std::uint8_t> mine = material_of(division.regions, list, airs);
+    for (std::size_t r = 0; r < material.size(); ++r) material[r] = material[r] | mine[r];
+  }
+  std::vector<std::uint8_t> keep(state.facets.size());
+  for (std::size_t f = 0; f < keep.size(); ++f)
+    keep[f] = material[division.sides[f][0]] != material[division.sides[f][1]];
+  keep_only(state, keep);
+  return Outcome::done;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,257 @@
+// Holes closed.
+#include "repair/holes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "exact/predicates.h"
+#include "numbers/sorted.h"
+#include "plane/triangulate.h"
+#include "surface/complex.h"
+#include "surface/intersect.h"
+
+namespace holdfast::repairing {
+namespace {
+
+using Loop = std::vector<Index>;
+
+/// Triangles of the least area take the cube of the sides as time; longer loops that are not plane stay open.
+constexpr std::size_t kMostSides = 600;
+
+/// Border sides, each turned against its facet, as it runs round the hole.
+class Borders {
+ public:
+  explicit Borders(const State& state) {
+    const SegmentTable table = segment_table(state.complex());
+    for (Index s = 0; s < table.segments.size(); ++s) {
+      if (table.facets_of(s).size() != 1) continue;
+      const Triangle& t = state.facets[table.facets_of(s)[0]];
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Segment side{t[(i + 1) % 3], t[i]};
+        if (ascending(side) != ascending(Segment(table.segments[s]))) continue;
+        at_[side[0]].push_back(static_cast<Index>(sides_.size()));
+        at_[side[1]].push_back(static_cast<Index>(sides_.size()));
+        sides_.push_back(side);
+      }
+    }
+    used_.assign(sides_.size(), 0);
+  }
+
+  /// Every side is in one loop at most, and no loop has a vertex twice.
+  [[nodiscard]] std::vector<Loop> loops() {
+    std::vector<Loop> found;
+    for (Index s = 0; s < sides_.size(); ++s) {
+      if (used_[s] != 0) continue;
+      used_[s] = 1;
+      Loop path{sides_[s][0]};
+      Index at = sides_[s][1];
+      for (;;) {
+        if (const auto before = std::find(path.begin(), path.end(), at); before != path.end()) {
+          found.emplace_back(before, path.end());
+          path.erase(before, path.end());
+        }
+        path.push_back(at);
+        const Index next = next_from(at);
+        if (next == no_index) break;
+        used_[next] = 1;
+        at = sides_[next][0] == at ? sides_[next][1] : sides_[next][0];
+      }
+    }
+    std::erase_if(found, [](const Loop& loop) { return loop.size() < 3; });
+    return found;
+  }
+
+ private:
+  /// An unused side, one that leaves the vertex if there is any.
+  [[nodiscard]] Index next_from(Index v) const {
+    Index next = no_index;
+    for (const Index s : at_.at(v)) {
+      if (used_[s] != 0) continue;
+      if (sides_[s][0] == v) return s;
+      if (next == no_index) next = s;
+    }
+    return next;
+  }
+
+  std::vector<Segment> sides_;
+  std::map<Index, std::vector<Index>> at_;
+  std::vector<std::uint8_t> used_;
+};
+
+/// A coordinate axis that the loop's plane does not hold, if it has one plane.
+std::optional<unsigned> plane_axis(const State& state, const Loop& loop) {
+  const auto at = [&](Index v) { return state.vertices[v].data(); };
+  Simplex t;
+  t.corners = 3;
+  for (std::size_t i = 2; i < loop.size(); ++i) {
+    t.point = {at(loop[0]), at(loop[1]), at(loop[i])};
+    if (!set_projection(t)) continue;
+    const bool plane = std::all_of(loop.begin(), loop.end(), [&](Index v) {
+      return exact::orient3d(t.point[0], t.point[1], t.point[2], at(v)) == 0;
+    });
+    if (plane) return t.axis;
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+/// Turned so that the loop's sides run as the loop does.
+void turn_alike(std::vector<Triangle>& facets, const Loop& loop) {
+  std::set<Segment> sides;
+  for (std::size_t i = 0; i < loop.size(); ++i) sides.insert({loop[i], loop[(i + 1) % loop.size()]});
+  for (const Triangle& t : facets)
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (sides.count({t[i], t[(i + 1) % 3]}) != 0) return;
+      if (sides.count({t[(i + 1) % 3], t[i]}) == 0) continue;
+      for (Triangle& turned : facets) std::swap(turned[1], turned[2]);
+      return;
+    }
+}
+
+std::vector<Triangle> fill_plane(const State& state, const Loop& loop, unsigned axis, const Step& step) {
+  std::vector<PlanePoint> points;
+  std::vector<Segment> segments;
+  for (Index i = 0; i < loop.size(); ++i) {
+    const Point& p = state.vertices[loop[i]];
+    points.push_back({p[(axis + 1) % 3], p[(axis + 2) % 3]});
+    segments.push_back({i, static_cast<Index>((i + 1) % loop.size())});
+  }
+  Plane plane;
+  plane.points = points;
+  plane.segments = segments;
+  PlaneOptions options;
+  options.delaunay = true;
+  const PlaneResult result = plane::triangulate(plane, options, step);
+  if (result.outcome != Outcome::done) return {};
+  std::vector<Triangle> facets = result.mesh.triangles;
+  for (Triangle& t : facets) t = {loop[t[0]], loop[t[1]], loop[t[2]]};
+  turn_alike(facets, loop);
+  return facets;
+}
+
+double area_of(const Point& a, const Point& b, const Point& c) {
+  std::array<double, 3> u{}, v{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    u[k] = b[k] - a[k];
+    v[k] = c[k] - a[k];
+  }
+  const double x = u[1] * v[2] - u[2] * v[1], y = u[2] * v[0] - u[0] * v[2], z = u[0] * v[1] - u[1] * v[0];
+  return std::sqrt(x * x + y * y + z * z);
+}
+
+/// Of all triangulations of the loop one whose triangles have the least area together.
+std::vector<Triangle> fill_least(const State& state, const Loop& loop, const Step& step) {
+  const std::size_t n = loop.size();
+  const auto at = [&](std::size_t i) -> const Point& { return state.vertices[loop[i]]; };
+  std::vector<double> least(n * n, 0);
+  std::vector<Index> apex(n * n, 0);
+  for (std::size_t width = 2; width < n; ++width) {
+    step(static_cast<double>(width) / static_cast<double>(n));
+    for (std::size_t i = 0; i + width < n; ++i) {
+      const std::size_t j = i + width;
+      double& best = least[i * n + j];
+      best = std::numeric_limits<double>::infinity();
+      for (std::size_t k = i + 1; k < j; ++k) {
+        const double area = least[i * n + k] + least[k * n + j] + area_of(at(i), at(k), at(j));
+        if (!(area < best)) continue;
+        best = area;
+        apex[i * n + j] = static_cast<Index>(k);
+      }
+    }
+  }
+  std::vector<Triangle> facets;
+  std::vector<std::pair<std::size_t, std::size_t>> open{{0, n - 1}};
+  while (!open.empty()) {
+    const auto [i, j] = open.back();
+    open.pop_back();
+    if (j - i < 2) continue;
+    const std::size_t k = apex[i * n + j];
+    if (k == 0) return {};
+    facets.push_back({loop[i], loop[k], loop[j]});
+    open.emplace_back(i, k);
+    open.emplace_back(k, j);
+  }
+  return facets;
+}
+
+/// Fillings that do not fit together with the surface, or with one before them.
+std::set<std::size_t> unfit(const State& state, std::size_t before,
+                            const std::vector<std::size_t>& filling_of, const Step& step,
+                            const Threads& threads) {
+  const Complex complex = state.complex();
+  const Elements elements = elements_of(complex, threads);
+  std::vector<std::uint8_t> known;
+  for (const Element& e : elements.all) known.push_back(e.corners == 3 && e.id >= before ? 0 : 1);
+  std::set<std::size_t> found;
+  for (const Flaw& flaw : elements.flaws)
+    if (flaw.corners == 3 && flaw.id >= before) found.insert(filling_of[flaw.id - before]);
+  const VisitPair visit = [&](Index i, Index j, const Contacts&) {
+    std::size_t last = 0;
+    bool any = false;
+    for (const Index k : {i, j}) {
+      const Element& e = elements.all[k];
+      if (e.corners != 3 || e.id < before) continue;
+      last = std::max(last, filling_of[e.id - before]);
+      any = true;
+    }
+    if (any) found.insert(last);
+    return true;
+  };
+  for_each_offending_pair(complex, elements, visit, step, {}, known);
+  return found;
+}
+
+}  // namespace
+
+std::vector<RepairResult::Filled> fill_holes(State& state, std::size_t most_sides, const Step& step,
+                                             const Threads& threads) {
+  struct Filling {
+    Loop loop;
+    std::vector<Triangle> facets;
+    bool is_plane;
+  };
+  std::vector<Filling> fillings;
+  for (Loop& loop : Borders(state).loops()) {
+    step(0.9);
+    if (loop.size() > most_sides) continue;
+    const std::optional<unsigned> axis = plane_axis(state, loop);
+    std::vector<Triangle> facets;
+    if (axis)
+      facets = fill_plane(state, loop, *axis, step);
+    else if (loop.size() <= kMostSides)
+      facets = fill_least(state, loop, step);
+    if (!facets.empty()) fillings.push_back({std::move(loop), std::move(facets), axis.has_value()});
+  }
+  const std::size_t before = state.facets.size();
+  for (;;) {
+    std::vector<std::size_t> filling_of;
+    state.facets.resize(before);
+    for (std::size_t k = 0; k < fillings.size(); ++k)
+      for (const Triangle& t : fillings[k].facets) {
+        state.facets.push_back(t);
+        filling_of.push_back(k);
+      }
+    const std::set<std::size_t> bad = unfit(state, before, filling_of, step, threads);
+    if (bad.empty()) break;
+    for (auto k = bad.rbegin(); k != bad.rend(); ++k)
+      fillings.erase(fillings.begin() + static_cast<std::ptrdiff_t>(*k));
+  }
+  std::vector<RepairResult::Filled> filled;
+  auto next = static_cast<Index>(before);
+  for (const Filling& filling : fillings) {
+    RepairResult::Filled& entry = filled.emplace_back();
+    entry.border = filling.loop;
+    entry.is_plane = filling.is_plane;
+    for (std::size_t k = 0; k < filling.facets.size(); ++k) {
+      entry.facets.push_back(next++);
+      state.facet_parents.add({});
+    }
+  }
+  return filled;
+}
+
+}  // namespace holdfast::repairing
