@@ -129,9 +129,16 @@ def describe(path, row):
     return 0, "closed"
 
 
+def surfaces_in(folder):
+    """All below `folder`, or below its `valid` and `invalid` where it has these: what stands beside them, such as
+    surfaces to repair, promises nothing."""
+    parts = [part for part in (folder / "valid", folder / "invalid") if part.is_dir()] or [folder]
+    return [path for part in parts for path in part.rglob("*") if path.suffix in SUFFIXES]
+
+
 def find_cases(folder, options):
     manifest = manifest_of(folder)
-    paths = sorted((p for p in folder.rglob("*") if p.suffix in SUFFIXES), key=lambda p: (p.stat().st_size, p.name))
+    paths = sorted(surfaces_in(folder), key=lambda p: (p.stat().st_size, p.name))
     cases = []
     for path in paths:
         row = manifest.get(path.stem)
