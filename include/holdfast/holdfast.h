@@ -6,6 +6,7 @@
 #include <map>
 
 #include "holdfast/export.h"
+#include "holdfast/intermediate.h"
 #include "holdfast/limits.h"
 #include "holdfast/types.h"
 #include "holdfast/version.h"
@@ -100,9 +101,10 @@ struct Options : Limits {
   /// Ends after this stage with what stands then, exact vertices rounded. Before `classify` that is every
   /// tetrahedron of the enclosing box, as region 0, and the facets and segments that stand.
   std::optional<Stage> stop_after;
-  std::uint64_t seed = 1;   ///< of the random orders
-  unsigned threads = 1;     ///< 0: all there are; the result is the same
-  bool neighbours = false;  ///< fills `Result::neighbours`
+  LayingOrder order = LayingOrder::random;  ///< of constraints that partition and elimination lay
+  std::uint64_t seed = 1;                   ///< of the random orders
+  unsigned threads = 1;                     ///< 0: all there are; the result is the same
+  bool neighbours = false;                  ///< fills `Result::neighbours`
   /// Called every 20 ms or so from the calling thread; returns false to cancel. What it throws ends the call.
   std::function<bool(const Progress&)> progress;
 };
@@ -232,6 +234,7 @@ struct Result {
   std::vector<Neighbours> neighbours;
   std::vector<ExactVertex> exact_vertices;  ///< for not_representable
   std::string message;                      ///< one sentence when the outcome is not done
+  Intermediate intermediate;                ///< if `Options::stop_after` is before `classify`
 };
 
 /// Fills a complex with tetrahedra, keeping every facet and segment (the promise).

@@ -12,7 +12,8 @@
 
 namespace holdfast {
 
-// `name(Stage)`, `name(UntangleStep)` and `name(Cause)` are declared beside their enumerations.
+// `name(Stage)`, `name(LayingOrder)`, `name(UntangleStep)` and `name(Cause)` are declared beside their
+// enumerations.
 
 /// "unknown" for a value that is none of the enumeration's.
 [[nodiscard]] HOLDFAST_API const char* name(Outcome outcome);
@@ -38,6 +39,7 @@ template <class Enum>
   HOLDFAST_API std::span<const Enum> values_of<Enum>();
 HOLDFAST_NAMED(Outcome)
 HOLDFAST_NAMED(Stage)
+HOLDFAST_NAMED(LayingOrder)
 HOLDFAST_NAMED(Keep)
 HOLDFAST_NAMED(Effort)
 HOLDFAST_NAMED(WarningKind)

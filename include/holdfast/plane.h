@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 
+#include "holdfast/intermediate.h"
 #include "holdfast/io.h"
 #include "holdfast/types.h"
 
@@ -74,7 +75,8 @@ struct PlaneOptions : Limits {
   /// Everything within the convex hull is kept, but holes; so it is where there are no segments.
   bool hull = false;
   std::optional<PlaneStage> stop_after;
-  std::uint64_t seed = 1;  ///< of the random orders
+  LayingOrder order = LayingOrder::given;  ///< of missing segments, for swaps and partition
+  std::uint64_t seed = 1;                  ///< of the random orders
   ProgressFunction progress = {};
 };
 
@@ -108,7 +110,8 @@ struct PlaneResult {
   PlaneReport report;
   /// What makes the input invalid; numbers count from 0, in messages from `Plane::base`. `where` has z = 0.
   std::vector<Defect> defects;
-  std::string message;  ///< one sentence when the outcome is not done
+  std::string message;        ///< one sentence when the outcome is not done
+  Intermediate intermediate;  ///< if `PlaneOptions::stop_after` is set; of segments alone
 };
 
 /// Triangulates every region that segments separate from the outside, but for those of holes, keeping each

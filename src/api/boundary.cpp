@@ -66,10 +66,17 @@ void recover_by_flips(const Attempt& attempt, BoxMesh& box) {
 EnforceStats enforce_missing(const Attempt& attempt, BoxMesh& box) {
   const bool eliminate = attempt.options.stop_after != Stage::partition;
   Standing standing = box.standing;
-  const EnforceStats stats = enforce(
-      box.mesh, attempt.input.table(), attempt.complex().facets, standing, box.first_free,
-      {.seed = attempt.seed, .flips = attempt.options.flips, .eliminate = eliminate}, attempt.monitor);
-  if (eliminate) box.standing = std::move(standing);
+  EnforceStats stats =
+      enforce(box.mesh, attempt.input.table(), attempt.complex().facets, standing, box.first_free,
+              {.seed = attempt.seed,
+               .flips = attempt.options.flips,
+               .eliminate = eliminate,
+               .order = attempt.options.order},
+              attempt.monitor);
+  if (eliminate)
+    box.standing = std::move(standing);
+  else
+    box.pieces = std::move(stats.pieces);
   return stats;
 }
 

@@ -33,7 +33,8 @@ struct BoxMesh {
   TetMesh mesh;
   Standing standing;  ///< which facets and segments the mesh has
   int scale = 0;
-  Vertex first_free = 0;  ///< after the vertices of the complex and of the box
+  Vertex first_free = 0;    ///< after the vertices of the complex and of the box
+  ConstraintPieces pieces;  ///< if the run ends after partition
 
   [[nodiscard]] Report::Missing missing() const {
     return {standing.missing_segments(), standing.missing_facets()};

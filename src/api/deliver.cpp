@@ -5,6 +5,7 @@
 
 #include "api/extract.h"
 #include "api/forced.h"
+#include "api/intermediate.h"
 #include "api/report.h"
 #include "api/scale.h"
 #include "mesh/shape_counts.h"
@@ -63,6 +64,7 @@ void deliver(const Attempt& attempt, const BoxMesh& box, const Division& divisio
   number_vertices(attempt.input, result);
   result.facet_regions = std::move(extract.facet_regions);
   result.exact_vertices = std::move(extract.exact_vertices);
+  if (last < Stage::classify) result.intermediate = intermediate_of(attempt, box, extract.number);
 
   Report& report = result.report;
   report.steiner_points = extract.steiner_points;

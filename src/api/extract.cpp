@@ -83,6 +83,8 @@ class Extractor {
         extract_.facet_regions.push_back({id(regions.of_facet[f][0]), id(regions.of_facet[f][1])});
   }
 
+  void take_numbers() { extract_.number = new_index_; }
+
   Extract finish() { return std::move(extract_); }
 
  private:
@@ -133,6 +135,7 @@ Extract extract_all(const Source& source, const Standing& standing) {
   };
   extractor.take_facets(stands(standing.facets));
   extractor.take_segments(stands(standing.segments));
+  extractor.take_numbers();
   return extractor.finish();
 }
 

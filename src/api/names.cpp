@@ -27,6 +27,9 @@ constexpr std::array kStages{Named{Stage::validate, "validate"},   Named{Stage::
                              Named{Stage::suppress, "suppress"},   Named{Stage::field_points, "field_points"},
                              Named{Stage::optimise, "optimise"}};
 
+constexpr std::array kLayingOrders{Named{LayingOrder::given, "given"}, Named{LayingOrder::random, "random"},
+                                   Named{LayingOrder::halving, "halving"}};
+
 constexpr std::array kKeeps{Named{Keep::automatic, "auto"}, Named{Keep::bounded, "bounded"},
                             Named{Keep::winding, "winding"}, Named{Keep::box, "box"}};
 
@@ -129,6 +132,7 @@ constexpr auto kValues = [] {
   }
 HOLDFAST_NAMED(Outcome, kOutcomes)
 HOLDFAST_NAMED(Stage, kStages)
+HOLDFAST_NAMED(LayingOrder, kLayingOrders)
 HOLDFAST_NAMED(Keep, kKeeps)
 HOLDFAST_NAMED(Effort, kEfforts)
 HOLDFAST_NAMED(WarningKind, kWarningKinds)

@@ -56,6 +56,7 @@ void refuse_after_end(const MeshArguments& a) {
   const std::string beside = "--stop-after " + a.stop_after;
   const char* const reason = "it is for a later stage";
   if (last < Stage::flips) refuse({{"--without flips", leaves_out(a, "flips")}}, beside, reason);
+  if (last < Stage::partition) refuse({{"--order", !a.order.empty()}}, beside, reason);
   if (last < Stage::classify)
     refuse({{"--keep " + a.keep.value_or(""), a.keep && !a.keep->starts_with("box")},
             {"--hole", !a.holes.empty()},

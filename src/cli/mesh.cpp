@@ -201,6 +201,8 @@ int run(const MeshArguments& arguments) {
     Json report = to_json(result, to_json(arguments));
     if (!result.defects.empty()) report["summary"] = to_json(summarise(surface.view(), result.defects));
     report["remarks"] = to_json(surface.remarks);
+    if (options.stop_after && *options.stop_after < Stage::classify)
+      report["intermediate"] = to_json(result.intermediate);
     write_json(arguments.report, report);
   }
   if (!arguments.quiet) tell_the_end(arguments, options, result, whole.seconds());
@@ -271,6 +273,11 @@ void add_mesh(CLI::App& app, Command& chosen) {
                    "or 'points' (then none is added for flat elements) (repeatable)")
       ->allow_extra_args(false)
       ->option_text("STEP");
+  command
+      ->add_option("--order", arguments->order,
+                   "Which missing constraint is cut in next: random (default), given, or halving: the middle "
+                   "one, then those in the middle of both halves")
+      ->option_text("ORDER");
   command->add_option("--seed", arguments->seed, "Seed of the random orders (default 1)")->option_text("N");
   command->add_option("--threads", arguments->threads, threads_help)
       ->check(CLI::Range(0u, 4096u))

@@ -72,6 +72,11 @@ Effort effort_named(const std::string& text) {
   throw UsageError("--quality " + text + ": fast, good or best is expected");
 }
 
+LayingOrder order_named(const std::string& text) {
+  if (const std::optional<LayingOrder> order = from_name<LayingOrder>(text)) return *order;
+  throw UsageError("--order " + text + ": given, random or halving is expected");
+}
+
 }  // namespace
 
 Stage stage_named(const std::string& text) {
@@ -138,6 +143,7 @@ Options to_options(const MeshArguments& arguments) {
   if (!arguments.fill) options.sizes = to_sizes(arguments);
   options.effort = effort_named(arguments.quality.value_or("good"));
   if (!arguments.stop_after.empty()) options.stop_after = stage_named(arguments.stop_after);
+  if (!arguments.order.empty()) options.order = order_named(arguments.order);
   options.drop_outside = arguments.drop_outside;
   options.seed = arguments.seed;
   options.threads = arguments.threads;
@@ -166,6 +172,7 @@ Json to_json(const MeshArguments& arguments) {
           {"drop_outside", arguments.drop_outside},
           {"without", arguments.without},
           {"stop_after", arguments.stop_after},
+          {"order", arguments.order.empty() ? name(LayingOrder::random) : arguments.order},
           {"seed", arguments.seed},
           {"threads", arguments.threads},
           {"time_limit", arguments.time_limit.value_or(0)},

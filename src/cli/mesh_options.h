@@ -19,7 +19,7 @@ struct MeshArguments {
   bool surface_of = false, fill = false, drop_outside = false, quiet = false, verbose = false;
   std::optional<std::string> keep, quality;
   std::vector<std::string> holes, regions, without, names;
-  std::string stop_after;
+  std::string stop_after, order;
   std::optional<double> size, gradation;
   bool no_growth = false;
   std::filesystem::path size_field;

@@ -19,7 +19,7 @@ constexpr std::size_t defects_shown = 20;
 
 struct PlaneArguments {
   std::filesystem::path input, output, report;
-  std::string input_format, format, method = "swaps", ears, stop_after;
+  std::string input_format, format, method = "swaps", ears, stop_after, order;
   LimitArguments limits;
   std::uint64_t seed = 1;
   bool partition_first = false, delaunay = false, hull = false, quiet = false;
@@ -53,6 +53,11 @@ PlaneOptions to_options(const PlaneArguments& arguments) {
   }
   if (arguments.partition_first && options.method != PlaneMethod::partition)
     throw UsageError("--partition-first: give --method partition, too");
+  if (!arguments.order.empty()) {
+    if (options.method == PlaneMethod::ears)
+      throw UsageError("--order: the method ears lays no segments one by one");
+    options.order = named("--order", arguments.order, laying_orders);
+  }
   options.partition_first = arguments.partition_first;
   options.delaunay = arguments.delaunay;
   options.hull = arguments.hull;
@@ -63,7 +68,7 @@ PlaneOptions to_options(const PlaneArguments& arguments) {
 
 Json report_of(const PlaneArguments& arguments, const PlaneResult& result) {
   const PlaneReport& report = result.report;
-  return {
+  Json json = {
       {"input", {{"points", report.points}, {"segments", report.segments}, {"holes", report.holes}}},
       {"missing_segments", report.missing_segments},
       {"swaps", report.swaps},
@@ -86,12 +91,15 @@ Json report_of(const PlaneArguments& arguments, const PlaneResult& result) {
         {"delaunay", arguments.delaunay},
         {"hull", arguments.hull},
         {"stop_after", arguments.stop_after},
+        {"order", arguments.order.empty() ? name(LayingOrder::given) : arguments.order},
         {"seed", arguments.seed},
         {"time_limit", arguments.limits.time_limit.value_or(0)},
         {"memory_limit", arguments.limits.memory_limit.value_or(0)}}},
       {"outcome", name(result.outcome)},
       {"message", result.message},
       {"defects", to_json(result.defects)}};
+  if (!arguments.stop_after.empty()) json["intermediate"] = to_json(result.intermediate);
+  return json;
 }
 
 /// Says how the run ended and what the user can do; returns the exit code.
@@ -163,6 +171,12 @@ void add_method(CLI::App& command, PlaneArguments& arguments) {
       .add_option("--stop-after", arguments.stop_after,
                   "Write what stands after delaunay (swaps, partition) or partition")
       ->option_text("STAGE");
+  command
+      .add_option(
+          "--order", arguments.order,
+          "Which missing segment is laid next: given (default), random, or halving: the middle one, then "
+          "those in the middle of both halves")
+      ->option_text("ORDER");
   command.add_option("--seed", arguments.seed, "Seed of the random orders (default 1)")->option_text("N");
 }
 

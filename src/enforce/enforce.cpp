@@ -1,7 +1,7 @@
-// All segments, then all facets, each group in random order, and the points of one are eliminated before the
-// next is laid: else points beget points (paper §2.4). A missing segment has no facet yet, so that its points
-// are eliminated as those of a dangling one, whatever its degree in the end; then every missing facet has
-// three single edges for sides.
+// All segments, then all facets, each group in random order unless another is asked for, and the points of
+// one are eliminated before the next is laid: else points beget points (paper §2.4). A missing segment has no
+// facet yet, so that its points are eliminated as those of a dangling one, whatever its degree in the end;
+// then every missing facet has three single edges for sides.
 #include "enforce/enforce.h"
 
 #include <functional>
@@ -11,6 +11,7 @@
 #include "enforce/partition.h"
 #include "enforce/steiner_points.h"
 #include "enforce/tuning.h"
+#include "numbers/halving.h"
 #include "numbers/random.h"
 #include "recover/facet_cavities.h"
 #include "recover/recover.h"
@@ -27,12 +28,13 @@ void lay_by_first_way(const std::vector<Way>& ways, Index constraint) {
     if (way(constraint)) return;
 }
 
-std::vector<Index> missing_in_random_order(const std::vector<std::uint8_t>& stands, Random& random) {
+std::vector<Index> missing_in_order(LayingOrder order, const std::vector<std::uint8_t>& stands,
+                                    Random& random) {
   std::vector<Index> missing;
   for (Index k = 0; k < stands.size(); ++k)
     if (stands[k] == 0) missing.push_back(k);
-  numbers::shuffle(missing.begin(), missing.end(), random);
-  return missing;
+  if (order == LayingOrder::random) numbers::shuffle(missing.begin(), missing.end(), random);
+  return order == LayingOrder::halving ? numbers::halved(missing) : missing;
 }
 
 }  // namespace
@@ -41,8 +43,8 @@ EnforceStats enforce(TetMesh& mesh, const SegmentTable& table, std::span<const T
                      Standing& standing, Vertex first_free, const EnforceOptions& options, Monitor& monitor) {
   EnforceStats stats;
   Random random(options.seed);
-  const std::vector<Index> missing_segments = missing_in_random_order(standing.segments, random);
-  const std::vector<Index> missing_facets = missing_in_random_order(standing.facets, random);
+  const std::vector<Index> missing_segments = missing_in_order(options.order, standing.segments, random);
+  const std::vector<Index> missing_facets = missing_in_order(options.order, standing.facets, random);
   const auto all = static_cast<double>(missing_segments.size() + missing_facets.size());
   std::size_t laid = 0;
   const std::function<void()> tell = [&] {
@@ -81,9 +83,8 @@ EnforceStats enforce(TetMesh& mesh, const SegmentTable& table, std::span<const T
     return true;
   };
   const Way facet_by_partition = [&](Index f) {
-    std::vector<Vertex> inner;
-    stats.facet_points += partition.cut_facet(f, inner);
-    if (options.eliminate) partition.eliminate_from_facet(std::move(inner), steiner);
+    stats.facet_points += partition.cut_facet(f);
+    if (options.eliminate) partition.eliminate_from_facet(steiner);
     standing.facets[f] = 1;
     return true;
   };
@@ -106,6 +107,7 @@ EnforceStats enforce(TetMesh& mesh, const SegmentTable& table, std::span<const T
   };
   lay_all(missing_segments, for_segments);
   lay_all(missing_facets, for_facets);
+  stats.pieces = partition.take_pieces();
   return stats;
 }
 

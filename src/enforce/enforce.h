@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "enforce/partition.h"
+#include "holdfast/intermediate.h"
 #include "mesh/monitor.h"
 #include "mesh/tet_mesh.h"
 #include "recover/standing.h"
@@ -17,11 +19,13 @@ struct EnforceOptions {
   bool flips = true;      ///< try flips again before a constraint is cut: points nearby make room for them
   bool cavities = true;   ///< with flips: fill the cavities of a facet again before it is cut
   bool eliminate = true;  ///< false: partition points stay on their constraints (`--stop-after partition`)
+  LayingOrder order = LayingOrder::random;
 };
 
 struct EnforceStats {
   std::size_t segment_points = 0;  ///< partition points put on segments, of the cavities of facets too
   std::size_t facet_points = 0;    ///< partition points put inside facets, of these cavities' faces too
+  ConstraintPieces pieces;         ///< if they are not eliminated
 };
 
 /// Makes every facet one face and every segment one edge of the mesh, by partition and elimination,

@@ -28,10 +28,17 @@ std::size_t Partition::cut_segment(Index s) {
   return chains_[s].size() - 2;
 }
 
-std::size_t Partition::cut_facet(Index f, std::vector<Vertex>& inner) {
-  std::size_t added = 0;
-  inner = partition_facet(mesh_, frame_of(f), added);
-  return added;
+std::size_t Partition::cut_facet(Index f) {
+  FacetPieces pieces = partition_facet(mesh_, frame_of(f));
+  sub_facets_.push_back({f, std::move(pieces.faces), std::move(pieces.inner)});
+  return pieces.added;
+}
+
+ConstraintPieces Partition::take_pieces() {
+  ConstraintPieces pieces{{}, std::move(sub_facets_)};
+  for (Index s = 0; s < chains_.size(); ++s)
+    if (!chains_[s].empty()) pieces.chains.push_back({s, std::move(chains_[s])});
+  return pieces;
 }
 
 // In random order: in sequence the kernels decay geometrically.
@@ -53,7 +60,9 @@ void Partition::eliminate_from_segment(Index s, SteinerPoints& steiner) {
   steiner.settle_all_now_and_then();
 }
 
-void Partition::eliminate_from_facet(std::vector<Vertex> inner, SteinerPoints& steiner) {
+void Partition::eliminate_from_facet(SteinerPoints& steiner) {
+  std::vector<Vertex> inner = std::move(sub_facets_.back().inner);
+  sub_facets_.pop_back();
   numbers::shuffle(inner.begin(), inner.end(), random_);
   for (const Vertex p : inner) {
     tell_();

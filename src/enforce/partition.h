@@ -14,6 +14,21 @@
 
 namespace holdfast {
 
+/// Constraints that are several edges or faces of the mesh, by their numbers.
+struct ConstraintPieces {
+  struct Chain {
+    Index segment;
+    std::vector<Vertex> vertices;
+  };
+  struct SubFacets {
+    Index facet;
+    std::vector<std::array<Vertex, 3>> faces;
+    std::vector<Vertex> inner;
+  };
+  std::vector<Chain> chains;
+  std::vector<SubFacets> sub_facets;
+};
+
 /// The constraints that are laid are unions of mesh edges and faces, with their bits set: single ones if
 /// points are eliminated. All segments must come before the first facet.
 class Partition {
@@ -31,12 +46,14 @@ class Partition {
 
   /// Puts points where the mesh crosses a segment. Returns how many.
   std::size_t cut_segment(Index s);
-  /// The same for a facet, whose inner points are then in `inner`.
-  std::size_t cut_facet(Index f, std::vector<Vertex>& inner);
+  /// The same for a facet. What it consists of is remembered until its points are eliminated.
+  std::size_t cut_facet(Index f);
   /// Takes the points of a segment's partition off it. It is one edge then.
   void eliminate_from_segment(Index s, SteinerPoints& steiner);
-  /// The same for those inside a facet. It is one face then.
-  void eliminate_from_facet(std::vector<Vertex> inner, SteinerPoints& steiner);
+  /// The same for those inside the facet that was cut last. It is one face then.
+  void eliminate_from_facet(SteinerPoints& steiner);
+  /// All that has been cut and not eliminated.
+  [[nodiscard]] ConstraintPieces take_pieces();
 
  private:
   [[nodiscard]] FacetFrame frame_of(Index f) const;
@@ -48,6 +65,7 @@ class Partition {
   Random& random_;
   const std::function<void()>& tell_;
   std::vector<std::vector<Vertex>> chains_;  // by segment; empty where it is one edge
+  std::vector<ConstraintPieces::SubFacets> sub_facets_;
 };
 
 }  // namespace holdfast

@@ -76,17 +76,22 @@ void split_edge(TetMesh& mesh, const Plane& plane, Vertex above, Vertex below) {
 
 }  // namespace
 
-std::vector<Vertex> partition_facet(TetMesh& mesh, const FacetFrame& frame, std::size_t& added) {
+FacetPieces partition_facet(TetMesh& mesh, const FacetFrame& frame) {
+  FacetPieces pieces;
   FacetSection section = facet_section(mesh, frame);
   if (!section.stands()) {
     const Plane plane(mesh, frame.corners);
     for (const auto& e : section.piercing) split_edge(mesh, plane, e.above, e.below);
-    added += section.piercing.size();
+    pieces.added = section.piercing.size();
     section = facet_section(mesh, frame);
     if (!section.stands()) throw std::logic_error("holdfast: a facet is pierced after its partition");
   }
-  for (const Face f : section.faces) MeshEditor(mesh).set_facet(f);
-  return section.inner;
+  for (const Face f : section.faces) {
+    MeshEditor(mesh).set_facet(f);
+    pieces.faces.push_back(mesh.face_vertices(f));
+  }
+  pieces.inner = std::move(section.inner);
+  return pieces;
 }
 
 }  // namespace holdfast

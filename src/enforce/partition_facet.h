@@ -5,13 +5,18 @@
 
 namespace holdfast {
 
+struct FacetPieces {
+  std::vector<std::array<Vertex, 3>> faces;
+  /// Vertices strictly inside the facet: new ones, and Steiner points that an earlier relocation happened to
+  /// put there.
+  std::vector<Vertex> inner;
+  std::size_t added = 0;  ///< new points
+};
+
 /// Makes the facet a union of mesh faces by splitting every edge that pierces its inside, and sets the
 /// facet bits of those faces. The new points lie exactly in the facet's plane, at A + u (B - A) + v (C - A)
 /// with short dyadic u, v, near the piercing edge: somewhere in the kernel of its shell.
-///
-/// Returns the vertices strictly inside the facet: new ones, and Steiner points that an earlier relocation
-/// happened to put there. Every new edge has an end in the plane, so one pass is enough (docs/concepts.md).
-/// `added` is increased by the number of new points.
-std::vector<Vertex> partition_facet(TetMesh& mesh, const FacetFrame& frame, std::size_t& added);
+/// Every new edge has an end in the plane, so one pass is enough (docs/concepts.md).
+FacetPieces partition_facet(TetMesh& mesh, const FacetFrame& frame);
 
 }  // namespace holdfast

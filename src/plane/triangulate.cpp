@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
+#include "numbers/halving.h"
+#include "numbers/random.h"
 #include "plane/defects.h"
 #include "plane/delaunay.h"
 #include "plane/ears.h"
@@ -40,6 +43,8 @@ void require_sensible(const Plane& plane, const PlaneOptions& options) {
       throw std::invalid_argument("region " + std::to_string(i + 1) + " is not finite");
   if (options.stop_after == PlaneStage::partition && options.method != PlaneMethod::partition)
     throw std::invalid_argument("only the method partition has the stage partition");
+  if (options.order != LayingOrder::given && options.method == PlaneMethod::ears)
+    throw std::invalid_argument("the method ears lays no segments one by one");
 }
 
 class Run {
@@ -131,6 +136,7 @@ class Run {
     if (mesh->size() == 0) return conclude_empty();
     mesh_ = std::move(*mesh);
     if (options_.stop_after == PlaneStage::delaunay) {
+      tell_missing();
       keep([](std::uint32_t) { return true; });
       return true;
     }
@@ -166,8 +172,9 @@ class Run {
 
   bool insert_segments(const Poll& poll) {
     mesh_.find_stars(points_.size());
-    for (std::size_t s = 0; s < segments_.size(); ++s) {
-      if (s % 256 == 0) poll(static_cast<double>(s) / static_cast<double>(segments_.size()));
+    std::size_t laid = 0;
+    for (const Index s : laying_order()) {
+      if (laid++ % 256 == 0) poll(static_cast<double>(laid) / static_cast<double>(segments_.size()));
       const auto [a, b] = segments_[s];
       const std::optional<Passage> found = passage(mesh_, points_, a, b);
       if (!found) return false;
@@ -175,7 +182,7 @@ class Run {
       if (edge == kNoEdge) {
         ++result_.report.missing_segments;
         if (options_.method == PlaneMethod::partition) {
-          take_apart(a, b, found->crossed);
+          take_apart(s, found->crossed);
           continue;
         }
         result_.report.swaps += swap_in(mesh_, points_, a, b, found->crossed, random_, swapped_);
@@ -192,13 +199,43 @@ class Run {
     return true;
   }
 
+  [[nodiscard]] std::vector<Index> laying_order() {
+    std::vector<Index> order(segments_.size());
+    std::iota(order.begin(), order.end(), Index{0});
+    if (options_.order == LayingOrder::random) numbers::shuffle(order.begin(), order.end(), random_);
+    return options_.order == LayingOrder::halving ? numbers::halved(order) : order;
+  }
+
   // Its points go at once, or, as §2.3 tells it, when all segments stand.
-  void take_apart(Vertex a, Vertex b, const std::vector<EdgeCode>& crossed) {
+  void take_apart(Index s, const std::vector<EdgeCode>& crossed) {
+    const auto [a, b] = segments_[s];
     pieces_.push_back(partition_.insert(a, b, crossed));
+    if (options_.stop_after) tell_chain(s, pieces_.back());
     result_.report.partition_points += crossed.size();
     result_.report.most_partition_points =
         std::max(result_.report.most_partition_points, points_.size() - plane_.points.size());
     if (!options_.partition_first && options_.stop_after != PlaneStage::partition) put_together();
+  }
+
+  // After Delaunay: segments that are no edges.
+  void tell_missing() {
+    mesh_.find_stars(points_.size());
+    for (Index s = 0; s < segments_.size(); ++s)
+      if (mesh_.find_edge(segments_[s][0], segments_[s][1]) == kNoEdge)
+        result_.intermediate.missing_segments.push_back(plane_.segments[s]);
+    result_.report.missing_segments = result_.intermediate.missing_segments.size();
+  }
+
+  // After partition: a segment in pieces.
+  void tell_chain(Index s, const Pieces& pieces) {
+    Intermediate& told = result_.intermediate;
+    const Segment& segment = plane_.segments[s];
+    told.missing_segments.push_back(segment);
+    Intermediate::Chain chain{segment, {}};
+    for (const Vertex v : pieces) chain.vertices.push_back(number(v));
+    for (std::size_t i = 1; i + 1 < pieces.size(); ++i)
+      told.added.push_back({chain.vertices[i], segment, std::nullopt});
+    told.chains.push_back(std::move(chain));
   }
 
   void put_together() {
@@ -302,6 +339,7 @@ class Run {
     if (result_.defects.empty()) result_.defects = find_defects(plane_, kMostDefects, poll_);
     if (result_.defects.empty()) throw std::logic_error("holdfast: a plane input fails without a defect");
     result_.mesh = {};
+    result_.intermediate = {};
     result_.outcome = Outcome::invalid_input;
     result_.message = "the points and segments are not valid";
   }

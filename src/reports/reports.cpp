@@ -103,6 +103,25 @@ Json to_json(const Names& names) {
           {"vertices", by_id(names.vertices)}};
 }
 
+Json to_json(const Intermediate& intermediate) {
+  Json chains = Json::array(), sub_facets = Json::array(), added = Json::array();
+  for (const Intermediate::Chain& chain : intermediate.chains)
+    chains.push_back({{"segment", chain.segment}, {"vertices", chain.vertices}});
+  for (const Intermediate::SubFacets& pieces : intermediate.sub_facets)
+    sub_facets.push_back({{"facet", pieces.facet}, {"faces", pieces.faces}});
+  for (const Intermediate::Added& point : intermediate.added) {
+    Json json = {{"vertex", point.vertex}};
+    if (point.segment) json["segment"] = *point.segment;
+    if (point.facet) json["facet"] = *point.facet;
+    added.push_back(std::move(json));
+  }
+  return {{"missing_segments", intermediate.missing_segments},
+          {"missing_facets", intermediate.missing_facets},
+          {"chains", chains},
+          {"sub_facets", sub_facets},
+          {"added", added}};
+}
+
 Json to_json(const Result& result, Json options) {
   const Report& report = result.report;
   const auto missing = [](const Report::Missing& m) {

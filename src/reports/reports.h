@@ -21,6 +21,9 @@ using Json = nlohmann::ordered_json;
 /// Keys "facets", "regions", "segments" and "vertices", each an object of names by id.
 [[nodiscard]] Json to_json(const Names& names);
 
+/// What stands where a run was stopped, for `stop_after`.
+[[nodiscard]] Json to_json(const Intermediate& intermediate);
+
 /// The whole report of `mesh`; `options` is what the user asked for.
 [[nodiscard]] Json to_json(const Result& result, Json options);
 [[nodiscard]] Json to_json(const UntangleResult& result, Json options);

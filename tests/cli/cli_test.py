@@ -2,6 +2,7 @@
 
     cli_test.py PROGRAM [unittest options]
 """
+import itertools
 import json
 import os
 import pty
@@ -258,6 +259,42 @@ class Mesh(CliTest):
             with self.subTest(stage):
                 fill = [] if stage == "field_points" else ["--fill"]
                 self.run_program("mesh", "prism.off", "-o", "a.vtu", *fill, "--stop-after", stage)
+
+    def test_what_stands_after_partition_is_told(self):
+        self.make("chazelle", "notches.off", "-n", "2")
+        facets = [tuple(map(int, row.split()[1:4])) for row in (self.folder / "notches.off").read_text().split("\n")
+                  if row.startswith("3 ")]
+        told = {}
+        for order in ("given", "random", "halving"):
+            self.run_program("mesh", "notches.off", "-o", "a.node", "--fill", "--without", "flips", "--stop-after", "partition",
+                             "--order", order, "--report", "r.json")
+            report = json.loads((self.folder / "r.json").read_text())
+            told[order] = state = report["intermediate"]
+            tets = [set(map(int, row.split()[1:5])) for row in (self.folder / "a.ele").read_text().split("\n")[1:]
+                    if row and not row.startswith("#")]
+            self.assertEqual(len(state["missing_facets"]), report["flips"]["missing_facets"])
+            self.assertEqual(len(state["missing_segments"]), report["flips"]["missing_segments"])
+            self.assertEqual(len(state["added"]), sum(report["partition"].values()))
+            self.assertEqual(sorted(s["facet"] for s in state["sub_facets"]), sorted(state["missing_facets"]))
+            self.assertEqual(sorted(c["segment"] for c in state["chains"]), sorted(state["missing_segments"]))
+            edges = {frozenset(pair) for tet in tets for pair in itertools.combinations(tet, 2)}
+            faces = {frozenset(triple) for tet in tets for triple in itertools.combinations(tet, 3)}
+            on_segments = {point["vertex"] for point in state["added"] if "segment" in point}
+            for chain in state["chains"]:
+                self.assertEqual([chain["vertices"][0], chain["vertices"][-1]], chain["segment"])
+                self.assertTrue(on_segments.issuperset(chain["vertices"][1:-1]))
+                self.assertTrue(all(frozenset(pair) in edges for pair in itertools.pairwise(chain["vertices"])))
+            for pieces in state["sub_facets"]:
+                self.assertTrue(all(frozenset(face) in faces for face in pieces["faces"]))
+                corners = {v for face in pieces["faces"] for v in face}
+                self.assertTrue(corners.issuperset(facets[pieces["facet"]]))
+        self.assertNotEqual(told["given"], told["halving"])
+        self.run_program("mesh", "notches.off", "-o", "a.node", "--fill", "--stop-after", "delaunay", "--report", "r.json")
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertEqual(len(report["intermediate"]["missing_facets"]), report["delaunay"]["missing_facets"])
+        self.run_program("mesh", "notches.off", "-o", "a.node", "--fill", "--report", "r.json", "--order", "given")
+        self.assertNotIn("intermediate", json.loads((self.folder / "r.json").read_text()))
+        self.run_program("check", "notches.off", "a.node")
 
     def test_surfaces_are_joined_where_coordinates_are_identical(self):
         self.write("right.off", off(cube((1, 0, 0)), [f for f in CUBE_FACETS if f not in ((0, 4, 6), (0, 6, 2))]))

@@ -16,6 +16,7 @@ IDLE = [
     ("--quality", ["--without", "optimise", "--quality", "fast"]),
     ("--without points", ["--fill", "--without", "optimise", "--without", "points"]),
     ("--without flips", ["--stop-after", "delaunay", "--without", "flips"]),
+    ("--order", ["--stop-after", "flips", "--order", "given"]),
     ("--keep bounded", ["--stop-after", "eliminate", "--keep", "bounded"]),
     ("--hole", ["--stop-after", "flips", "--hole", "0.4,0.5,0.6"]),
     ("--region", ["--stop-after", "flips", "--region", "0.4,0.5,0.6,1"]),
@@ -32,14 +33,14 @@ SENSELESS = [
     ("--time-limit", ["--time-limit", "0"]), ("--time-limit", ["--time-limit", "nan"]),
     ("--time-limit", ["--time-limit", "inf"]),
     ("--memory-limit", ["--memory-limit", "0"]), ("--memory-limit", ["--memory-limit", "-1"]),
-    ("--region", ["--region", "0,0,0,1,0"]),
+    ("--region", ["--region", "0,0,0,1,0"]), ("--order", ["--order", "reverse"]),
 ]
 SENSIBLE = [
     ["--fill", "--without", "points"], ["--without", "points"], ["--without", "optimise", "--size", "0.5"],
     ["--fill", "--without", "optimise"], ["--no-growth", "--gradation", "0.2"],
     ["--stop-after", "flips", "--keep", "box=0.2"], ["--stop-after", "field_points", "--size", "0.5"],
     ["--stop-after", "flips", "--without", "flips"], ["--keep", "box", "--drop-outside", "--hole", "0.4,0.5,0.6"],
-    ["--fill", "--region", "0.4,0.5,0.6,1"], ["--time-limit", "60", "--memory-limit", "4"],
+    ["--fill", "--region", "0.4,0.5,0.6,1"], ["--fill", "--order", "halving"], ["--stop-after", "partition", "--order", "given"], ["--time-limit", "60", "--memory-limit", "4"],
 ]
 
 

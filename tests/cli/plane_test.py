@@ -92,8 +92,28 @@ class Triangles(CliTest):
         _, stood = self.areas("--method", "partition", "--stop-after", "partition")
         self.assertEqual(len(stood), 26 + 23)
         self.assertTrue(all(y == 0.5 for _, y, _ in stood[26:]))
+        told = self.report["intermediate"]
+        self.assertEqual(told["missing_segments"], [[0, 1]])
+        self.assertEqual(told["chains"][0]["vertices"][::24], [0, 1])
+        self.assertEqual({point["vertex"] for point in told["added"]}, set(range(26, 49)))
         self.areas("--method", "swaps", "--stop-after", "delaunay")
         self.assertEqual(self.report["swaps"], 0)
+        self.assertEqual(self.report["intermediate"]["missing_segments"], [[0, 1]])
+
+    def test_order(self):
+        # Seven segments side by side through a pencil: from the top, points beget points; from the middle, fewer.
+        low, high, most = [(float(i), 0.0) for i in range(-8, 9)], [(0.0, 2.0)], 7
+        sides = [(x, 2.0 - 0.25 * (k + 1)) for k in range(most) for x in (-40.0, 40.0)]
+        points = low + high + sides
+        segments = [(19 + 2 * k, 20 + 2 * k) for k in range(most)]
+        self.write("in.poly", poly(points, segments))
+        counts = {}
+        for order in ("given", "random", "halving"):
+            self.areas("--hull", "--method", "partition", "--stop-after", "partition", "--order", order)
+            counts[order] = self.report["partition_points"]
+            self.areas("--hull", "--method", "partition", "--order", order)
+            self.areas("--hull", "--method", "swaps", "--order", order)
+        self.assertLess(counts["halving"], counts["given"])
 
     def test_formats(self):
         self.write("in.poly", poly(SQUARE, RING[:4], regions=[(1.0, 2.0, 7)]))
@@ -156,6 +176,7 @@ class Refused(CliTest):
         self.write("in.poly", poly(SQUARE, RING[:4]))
         for options in (["--method", "ear"], ["--method", "ears", "--stop-after", "delaunay"],
                         ["--stop-after", "partition"], ["--ears", "best"], ["--partition-first"],
+                        ["--order", "last"], ["--method", "ears", "--order", "random"],
                         ["--time-limit", "-1"]):
             self.run_program("plane", "in.poly", "-o", "out.off", *options, expect=2)
         self.run_program("plane", "in.poly", "-o", "in.poly", expect=2)

@@ -266,10 +266,10 @@ TEST(PartitionFacet, CoversTheFacetAndFindsAllThatIsInside) {
     EXPECT_EQ(found, piercing(t, frame));
     EXPECT_GT(found.size(), 0u);
     EXPECT_EQ(found.size(), section.piercing.size());
-    std::size_t added = 7;
-    const std::vector<Vertex> inner = partition_facet(t.mesh, frame, added);
-    EXPECT_EQ(added, 7 + found.size());
-    EXPECT_EQ(inner, inside(t, frame));
+    const FacetPieces pieces = partition_facet(t.mesh, frame);
+    EXPECT_EQ(pieces.added, found.size());
+    EXPECT_EQ(pieces.inner, inside(t, frame));
+    EXPECT_EQ(pieces.faces.size(), facet_section(t.mesh, frame).faces.size());
     expect_laid(t);
     EXPECT_TRUE(facet_section(t.mesh, frame).stands());
   }

@@ -1,0 +1,48 @@
+// Holdfast: the order in which missing constraints come into a mesh, and what stands where a run is stopped.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "holdfast/export.h"
+#include "holdfast/types.h"
+
+namespace holdfast {
+
+/// Which of the missing segments is laid first, and then which of the missing facets (paper §2.4).
+enum class LayingOrder {
+  given,    ///< as the input numbers facets and segments; sides of facets by their vertices
+  random,   ///< any order, each as likely
+  halving,  ///< the middle one of the given order, those in the middle of both halves, and so on
+};
+inline constexpr std::array laying_orders{LayingOrder::given, LayingOrder::random, LayingOrder::halving};
+[[nodiscard]] HOLDFAST_API const char* name(LayingOrder order);
+
+/// What stands where `stop_after` ended a run before regions were found. Vertices are numbered as in the
+/// mesh, facets as in the input.
+struct Intermediate {
+  std::vector<Segment> missing_segments;  ///< no single edge of the mesh; sides of facets, too
+  std::vector<Index> missing_facets;      ///< no single face of it
+  /// A missing segment in pieces, from its first end to the second.
+  struct Chain {
+    Segment segment;
+    std::vector<Index> vertices;
+  };
+  std::vector<Chain> chains;
+  /// A missing facet in pieces: the faces of the mesh that cover it.
+  struct SubFacets {
+    Index facet;
+    std::vector<Triangle> faces;
+  };
+  std::vector<SubFacets> sub_facets;
+  /// A vertex that was added on a constraint: inside a segment or else inside a facet.
+  struct Added {
+    Index vertex;
+    std::optional<Segment> segment;
+    std::optional<Index> facet;
+  };
+  std::vector<Added> added;
+};
+
+}  // namespace holdfast
