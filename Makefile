@@ -9,7 +9,7 @@ SEED ?= 1
 MINUTES ?= 5
 PYTHON ?= /usr/bin/python3
 
-.PHONY: help setup build demo test python wheel slurm python-corpus corpus random planes fuzz bench field tables figures format tidy debug asan tsan libcxx install clean
+.PHONY: help setup build demo test python wheel slurm python-corpus corpus random planes fuzz bench field tables figures format viewer web-test pictures docs web tidy debug asan tsan libcxx install clean
 .DEFAULT_GOAL := help
 
 help:  ## this list
@@ -28,7 +28,7 @@ demo: build  ## makes a mechanical part, meshes it and checks the mesh
 	@python3 scripts/demo.py $(RELEASE)/holdfast build/demo
 
 test: build python  ## every test, with a subset of the corpus where there is one
-	@scripts/setup.sh test python-test
+	@scripts/setup.sh test python-test browser
 	@cmake --build $(RELEASE) -j $(JOBS)
 	@HOLDFAST_CORPUS="$(CORPUS)" ctest --preset release -j $(JOBS)
 
@@ -87,6 +87,27 @@ tables: build  ## the paper's tables beside TetGen, for the corpus and the paper
 
 figures: build  ## the figures of the documents, from runs of the program, to docs/figures
 	@python3 scripts/figures.py $(RELEASE)/holdfast
+
+VIEWER_TOOLS := viewer/node_modules/.package-lock.json
+$(VIEWER_TOOLS): viewer/package-lock.json
+	@command -v npm >/dev/null || scripts/setup.sh node
+	@npm ci --prefix viewer --no-audit --no-fund --ignore-scripts
+	@touch $@
+
+viewer: $(VIEWER_TOOLS)  ## viewer/dist: the page that the program fills, out of viewer/src
+	@cd viewer && npx tsc --noEmit && node build.mjs
+
+web-test: build $(VIEWER_TOOLS)  ## pages in headless Chromium: each control, no request, foreign names
+	@scripts/setup.sh browser
+	@HOLDFAST=$(RELEASE)/holdfast node --test viewer/test/*.test.mjs
+
+pictures: build $(VIEWER_TOOLS)  ## docs/pictures, from runs of the program seen by headless Chromium
+	@scripts/setup.sh browser
+	@node viewer/pictures.mjs $(RELEASE)/holdfast docs/pictures
+
+docs: build  ## the documents as a site with search and meshes to look at, build/site/index.html
+	@scripts/setup.sh docs
+	@python3 scripts/site.py $(RELEASE)/holdfast build
 
 format:  ## clang-format on every source
 	@scripts/setup.sh lint

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that a job needs and that are missing; says nothing when none is.
-# Usage: scripts/setup.sh [build|test|python|python-test|slurm|bench|field|fuzz|lint|libcxx]...
+# Usage: scripts/setup.sh [build|test|python|python-test|slurm|bench|field|fuzz|browser|docs|emscripten|node|lint|libcxx]...
 set -euo pipefail
 
 declare -A packages=(
@@ -14,6 +14,10 @@ declare -A packages=(
   [bench]="tetgen libtet1.5-dev gmsh libcgal-dev libgmp-dev libmpfr-dev libtbb-dev libbenchmark-dev"
   [field]="gmsh tetgen python3-netgen"
   [fuzz]="clang-14 clang libclang-rt-14-dev"
+  [browser]="chromium fonts-dejavu-core"
+  [docs]="mkdocs"
+  [emscripten]="emscripten node-acorn libboost-dev nlohmann-json3-dev dpkg-dev ninja-build cmake"
+  [node]="nodejs npm"
   [lint]="clang-format clang-tidy"
   [libcxx]="clang libc++-dev libc++abi-dev"
 )

@@ -9,6 +9,7 @@
 #include "files.h"
 #include "files_of_run.h"
 #include "limits.h"
+#include "page.h"
 #include "report.h"
 #include "signals.h"
 
@@ -17,7 +18,7 @@ namespace {
 
 struct CheckArguments {
   std::vector<std::filesystem::path> files;  // surfaces, then the volume
-  std::filesystem::path report;
+  std::filesystem::path report, html;
   std::string input_format, format;
   CheckOptions options;
   LimitArguments limits;
@@ -32,6 +33,21 @@ std::string listing_of(const CheckResult& result) {
   return text;
 }
 
+void write_html(const CheckArguments& arguments, const Limits& limits, const Surface& surface,
+                const Volume& volume, const CheckResult& result) {
+  PageOfRun page(arguments.html, limits);
+  const std::string name = arguments.files.back().filename().string();
+  page.set_title(name);
+  page.add(name, volume);
+  page.add(arguments.files.front().filename().string(), surface);
+  page.set_verdict(
+      name + (result.holds() ? " keeps the surface: every rule holds" : " does not keep the surface"),
+      result.holds());
+  page.set_rules(result.rules);
+  page.set_report(to_json(result));
+  page.write();
+}
+
 int run(const CheckArguments& arguments) {
   if (arguments.files.size() < 2)
     throw UsageError("check: a surface and a volume are expected, as in `holdfast check part.stl part.vtu`");
@@ -43,6 +59,7 @@ int run(const CheckArguments& arguments) {
   files.read_surfaces(surfaces, arguments.input_format);
   files.read_volume(volume_path, arguments.format);
   files.write("--report", arguments.report);
+  files.write("--html", arguments.html);
   cancel_at_once();
   const Surface surface = read_surfaces(surfaces, reading(options, arguments.input_format));
   if (!arguments.quiet) tell(surface.remarks);
@@ -52,6 +69,7 @@ int run(const CheckArguments& arguments) {
   if (!arguments.quiet) files.list(listing_of(result));
   cancel_by_flag();  // from here on files are open
   write_json(arguments.report, to_json(result));
+  write_html(arguments, options, surface, volume, result);
   if (result.holds()) return exit_done;
   say("holdfast: {} does not keep the surface; the rules marked BROKEN say where\n", volume_path.string());
   return exit_check_failed;
@@ -78,6 +96,7 @@ void add_check(CLI::App& app, Command& chosen) {
   command->add_option("--report", arguments->report, "Write the rules as JSON")
       ->transform(or_standard_output)
       ->option_text("FILE.json");
+  add_html_option(*command, arguments->html);
   add_limits(*command, arguments->limits);
   command->add_flag("-q,--quiet", arguments->quiet, "Only the exit code and failures");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });

@@ -53,5 +53,6 @@ void add_untangle(CLI::App& app, Command& chosen);
 void add_batch(CLI::App& app, Command& chosen);
 void add_plane(CLI::App& app, Command& chosen);
 void add_repair(CLI::App& app, Command& chosen);
+void add_view(CLI::App& app, Command& chosen);
 
 }  // namespace holdfast::cli

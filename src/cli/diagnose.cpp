@@ -8,6 +8,7 @@
 #include "files.h"
 #include "files_of_run.h"
 #include "limits.h"
+#include "page.h"
 #include "report.h"
 #include "signals.h"
 
@@ -16,7 +17,7 @@ namespace {
 
 struct DiagnoseArguments {
   std::vector<std::filesystem::path> surfaces;
-  std::filesystem::path marks, report;
+  std::filesystem::path marks, report, html;
   std::string input_format;
   LimitArguments limits;
   unsigned threads = 1;
@@ -59,6 +60,20 @@ std::string listing_of(const Report::Input& counts, const std::vector<Defect>& d
   return list.empty() ? text : text + "\n" + list;
 }
 
+void write_html(const DiagnoseArguments& arguments, const Limits& limits, const Surface& surface,
+                const std::vector<Defect>& defects, const Json& report) {
+  PageOfRun page(arguments.html, limits);
+  const std::string name = arguments.surfaces.front().filename().string();
+  page.set_title(name);
+  page.add(name, surface, defects);
+  page.set_verdict(defects.empty()
+                       ? "The surface is valid"
+                       : fmt::format("The surface is not valid: {}", counted(defects.size(), "defect")),
+                   defects.empty());
+  page.set_report(report);
+  page.write();
+}
+
 int run(const DiagnoseArguments& arguments) {
   DiagnoseOptions options;
   static_cast<Limits&>(options) = limits_of(arguments.limits);
@@ -67,6 +82,7 @@ int run(const DiagnoseArguments& arguments) {
   files.read_surfaces(arguments.surfaces, arguments.input_format);
   files.write("--marks", arguments.marks);
   files.write("--report", arguments.report);
+  files.write("--html", arguments.html);
   const std::filesystem::path json = arguments.json ? or_standard_output("-") : "";
   files.write("--json", json);
   cancel_at_once();
@@ -82,6 +98,7 @@ int run(const DiagnoseArguments& arguments) {
   const Json report = report_of(surface, input, defects, summary);
   write_json(arguments.report, report);
   write_json(json, report);
+  write_html(arguments, options, surface, defects, report);
   if (!arguments.quiet && !arguments.json) {
     const bool cut = !arguments.all && files.list_is_on_terminal();
     files.list(listing_of(input, defects, summary, cut ? shown_on_terminal : SIZE_MAX));
@@ -113,6 +130,7 @@ void add_diagnose(CLI::App& app, Command& chosen) {
   command->add_option("--report", arguments->report, "Write the defects as JSON")
       ->transform(or_standard_output)
       ->option_text("FILE.json");
+  add_html_option(*command, arguments->html);
   command->add_flag("--all", arguments->all, "List every defect on a terminal, too, not 100 of a kind");
   command->add_flag("--json", arguments->json, "Print the defects as JSON");
   command->add_option("--input-format", arguments->input_format, "Surface format, instead of by ending")

@@ -15,6 +15,7 @@
 #include "limits.h"
 #include "mesh_options.h"
 #include "name_options.h"
+#include "page.h"
 #include "progress.h"
 #include "report.h"
 #include "signals.h"
@@ -104,6 +105,27 @@ void tell_the_end(const MeshArguments& arguments, const Options& options, const 
   print_summary(arguments, options, result, seconds);
 }
 
+/// A page where there is something to look at: a mesh, or a surface that has none.
+void write_html(const MeshArguments& arguments, const Limits& limits, const Surface& surface,
+                const Result& result, Json report) {
+  const bool done = result.outcome == Outcome::done;
+  if (!done && result.outcome != Outcome::invalid_input && result.outcome != Outcome::not_representable)
+    return;
+  PageOfRun page(arguments.html, limits);
+  const std::string input = arguments.surfaces.front().filename().string();
+  page.set_title(input);
+  if (done) page.add(arguments.output.filename().string(), result.volume);
+  if (!done || !result.defects.empty()) page.add(input, surface, result.defects);
+  page.set_verdict(done ? fmt::format("{} in {}, {}; `holdfast check` verifies that they keep the surface",
+                                      counted(result.report.tetrahedra, "tetrahedron", "tetrahedra"),
+                                      counted(result.report.regions, "region"),
+                                      counted(result.report.steiner_points, "added point"))
+                        : result.message,
+                   done);
+  page.set_report(std::move(report));
+  page.write();
+}
+
 /// Vertices on no facet and no segment become vertices of the mesh, which is seldom meant for those inside a
 /// volume that is meshed again.
 void tell_of_lone_vertices(const MeshArguments& arguments, const Surface& surface, ProgressView& progress) {
@@ -169,6 +191,7 @@ int run(const MeshArguments& arguments) {
   watch_writing(target.options, options);
   files.write("--report", arguments.report);
   files.write("--exact", arguments.exact);
+  files.write("--html", arguments.html);
   cancel_at_once();
 
   ProgressView progress(how_to_show(arguments.quiet, arguments.verbose));
@@ -197,13 +220,14 @@ int run(const MeshArguments& arguments) {
   result.report.seconds["read"] = reading;
   result.report.seconds["write"] = writing.seconds();
   result.report.seconds["total"] = whole.seconds();
-  if (!arguments.report.empty()) {
+  if (!arguments.report.empty() || !arguments.html.empty()) {
     Json report = to_json(result, to_json(arguments));
     if (!result.defects.empty()) report["summary"] = to_json(summarise(surface.view(), result.defects));
     report["remarks"] = to_json(surface.remarks);
     if (options.stop_after && *options.stop_after < Stage::classify)
       report["intermediate"] = to_json(result.intermediate);
     write_json(arguments.report, report);
+    write_html(arguments, options, surface, result, std::move(report));
   }
   if (!arguments.quiet) tell_the_end(arguments, options, result, whole.seconds());
   return conclude(arguments, surface, result);
@@ -299,6 +323,7 @@ void add_mesh(CLI::App& app, Command& chosen) {
                    "Write what stands after validate, delaunay, flips, partition, eliminate, classify, "
                    "suppress or field_points")
       ->option_text("STAGE");
+  add_html_option(*command, arguments->html);
   command->add_option("--format", arguments->format, "Volume format, instead of by ending; msh2 is .msh 2.2")
       ->option_text("FORMAT");
   command->add_option("--input-format", arguments->input_format, "Surface format, instead of by ending")

@@ -14,7 +14,7 @@ namespace holdfast::cli {
 /// What the user typed.
 struct MeshArguments {
   std::vector<std::filesystem::path> surfaces;
-  std::filesystem::path output, report, exact;
+  std::filesystem::path output, report, exact, html;
   std::string input_format, format;
   bool surface_of = false, fill = false, drop_outside = false, quiet = false, verbose = false;
   std::optional<std::string> keep, quality;

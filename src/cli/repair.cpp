@@ -10,6 +10,7 @@
 #include "files_of_run.h"
 #include "holdfast/surface_io.h"
 #include "limits.h"
+#include "page.h"
 #include "repair_result.h"
 #include "report.h"
 #include "signals.h"
@@ -19,7 +20,7 @@ namespace {
 
 struct RepairArguments {
   std::vector<std::filesystem::path> surfaces;
-  std::filesystem::path output, parents, report, exact;
+  std::filesystem::path output, parents, report, exact, html;
   std::string input_format, format;
   LimitArguments limits;
   double weld = 0;
@@ -82,6 +83,25 @@ int conclude(const RepairArguments& arguments, const RepairResult& result) {
   return exit_internal_error;
 }
 
+/// The surface as it came, with its defects, and as it is now.
+void write_html(const RepairArguments& arguments, const Limits& limits, const Surface& before,
+                const RepairResult& result, const Json& report) {
+  if (arguments.html.empty()) return;
+  const bool done = result.outcome == Outcome::done;
+  if (!done && result.outcome != Outcome::not_representable) return;
+  DiagnoseOptions options;
+  static_cast<Limits&>(options) = limits;
+  options.progress = goes_on;
+  PageOfRun page(arguments.html, limits);
+  const std::string name = arguments.surfaces.front().filename().string();
+  page.set_title(name);
+  page.add(name + ", before", before, diagnose(before.view(), options));
+  if (done) page.add(arguments.output.filename().string() + ", after", result.surface);
+  page.set_verdict(done ? summary_of(result) : result.message, done);
+  page.set_report(report);
+  page.write();
+}
+
 int run(const RepairArguments& arguments) {
   const RepairOptions options = to_options(arguments);
   FilesOfRun files;
@@ -90,6 +110,7 @@ int run(const RepairArguments& arguments) {
   files.write("--parents", arguments.parents);
   files.write("--report", arguments.report);
   files.write("--exact", arguments.exact);
+  files.write("--html", arguments.html);
   cancel_at_once();
   const Surface surface = read_surfaces(arguments.surfaces, reading(options, arguments.input_format));
   if (!arguments.quiet) tell(surface.remarks);
@@ -105,7 +126,9 @@ int run(const RepairArguments& arguments) {
     write_parents(arguments.parents, result);
   }
   write_exact(arguments.exact, surface, result);
-  write_json(arguments.report, to_json(result, options_of(arguments)));
+  const Json report = to_json(result, options_of(arguments));
+  write_json(arguments.report, report);
+  write_html(arguments, options, surface, result, report);
   return conclude(arguments, result);
 }
 
@@ -162,6 +185,7 @@ void add_repair(CLI::App& app, Command& chosen) {
                    "Write the exact arrangement, its points as quotients, as JSON lines")
       ->transform(or_standard_output)
       ->option_text("FILE");
+  add_html_option(*command, arguments->html);
   command->add_option("--format", arguments->format, "Format of the surface to write, instead of by ending")
       ->option_text("FORMAT");
   command->add_option("--input-format", arguments->input_format, "Format of the input, instead of by ending")

@@ -10,6 +10,7 @@
 #include "files_of_run.h"
 #include "limits.h"
 #include "mesh_options.h"
+#include "page.h"
 #include "progress.h"
 #include "report.h"
 #include "signals.h"
@@ -20,7 +21,7 @@ namespace {
 constexpr std::size_t defects_shown = 20;
 
 struct UntangleArguments {
-  std::filesystem::path input, output, report;
+  std::filesystem::path input, output, report, html;
   std::string input_format, format;
   bool no_refill = false, quiet = false, verbose = false;
   std::uint64_t seed = 1;
@@ -85,6 +86,25 @@ void print_summary(const UntangleArguments& arguments, const UntangleResult& res
       report.swapped, report.cavities, report.added, report.removed, report.seconds.at("total"));
 }
 
+/// The volume untangled, and as it came.
+void write_html(const UntangleArguments& arguments, const Limits& limits, const Volume& before,
+                const UntangleResult& result, const Json& report) {
+  const bool done = result.outcome == Outcome::done;
+  if (!done && result.outcome != Outcome::not_representable && result.outcome != Outcome::invalid_input)
+    return;
+  PageOfRun page(arguments.html, limits);
+  const std::string name = arguments.input.filename().string();
+  page.set_title(name);
+  if (done) page.add(arguments.output.filename().string() + ", after", result.volume);
+  page.add(name + ", before", before);
+  page.set_verdict(done ? fmt::format("{} negative and {} null of {} tetrahedra untangled",
+                                      result.report.negative, result.report.null, result.report.tetrahedra)
+                        : result.message,
+                   done);
+  page.set_report(report);
+  page.write();
+}
+
 int run(const UntangleArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   UntangleOptions options = to_options(arguments);
@@ -94,6 +114,7 @@ int run(const UntangleArguments& arguments) {
   VolumeTarget target = files.write_volume("-o", arguments.output, arguments.format);
   watch_writing(target.options, options);
   files.write("--report", arguments.report);
+  files.write("--html", arguments.html);
   cancel_at_once();
 
   std::vector<Remark> remarks;
@@ -113,7 +134,9 @@ int run(const UntangleArguments& arguments) {
   const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start;
   result.report.seconds["read"] = reading.count();
   result.report.seconds["total"] = total.count();
-  write_json(arguments.report, report_of(arguments, result));
+  const Json report = report_of(arguments, result);
+  write_json(arguments.report, report);
+  write_html(arguments, options, volume, result, report);
   if (!arguments.quiet) print_summary(arguments, result);
   return conclude(arguments, result);
 }
@@ -143,6 +166,7 @@ void add_untangle(CLI::App& app, Command& chosen) {
   command->add_option("--report", arguments->report, "Write counts and times as JSON")
       ->transform(or_standard_output)
       ->option_text("FILE.json");
+  add_html_option(*command, arguments->html);
   command->add_option("--format", arguments->format, "Volume format, instead of by ending; msh2 is .msh 2.2")
       ->option_text("FORMAT");
   command

@@ -1,0 +1,46 @@
+// The page of --html: what a command has read and made, to look at in a browser.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <deque>
+#include <filesystem>
+#include <string>
+
+#include "holdfast/summary.h"
+#include "holdfast/view.h"
+#include "report.h"
+
+namespace holdfast::cli {
+
+/// Adds --html.
+void add_html_option(CLI::App& command, std::filesystem::path& page);
+
+/// Collects the parts of a page and writes it. What it is given must outlive it.
+class PageOfRun {
+ public:
+  PageOfRun(std::filesystem::path path, const Limits& limits);
+
+  /// Whether a page is wanted; the other functions do nothing unless one is.
+  [[nodiscard]] explicit operator bool() const { return !path_.empty(); }
+  void add(const std::string& name, const Volume& volume);
+  void add(const std::string& name, const Surface& surface, const std::vector<Defect>& defects = {});
+  void set_verdict(std::string verdict, bool good);
+  void set_rules(std::span<const Rule> rules);
+  /// `report` without long lists of indices.
+  void set_report(Json report);
+  void set_title(std::string title);
+  /// Throws FileError and Interrupted.
+  void write();
+
+ private:
+  struct Told {
+    std::vector<Defect> defects;
+    DefectSummary summary;
+  };
+  std::filesystem::path path_;
+  Page page_;
+  PageOptions options_;
+  std::deque<Told> told_;  // which parts point to
+};
+
+}  // namespace holdfast::cli
