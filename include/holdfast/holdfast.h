@@ -203,6 +203,7 @@ enum class WarningKind : int {
   open_interface = 2,  ///< facets with an opening between what would be two regions without it
   field_points = 3,    ///< field points stopped early
   attempt_failed = 4,  ///< an attempt ended by an error; what an earlier one had is delivered
+  parts_apart = 5,     ///< a part that touches no other (holdfast/paste.h)
 };
 
 /// What was decided, or may not be as it was meant, in a mesh that keeps the promise.
@@ -230,6 +231,9 @@ struct Result {
   std::vector<Warning> warnings;  ///< where the outcome is done or not_representable
   /// What `vertex_map` gives for the complex; with a volume only.
   std::vector<std::int64_t> vertex_map;
+  /// Of parts pasted together (holdfast/paste.h): markers of the volume's facets that stand for several of
+  /// the parts'.
+  std::map<int, std::vector<int>> marker_sets;
   /// If `Options::neighbours` is set: what `neighbours` gives for the volume's tetrahedra.
   std::vector<Neighbours> neighbours;
   std::vector<ExactVertex> exact_vertices;  ///< for not_representable

@@ -18,6 +18,7 @@ from ._api import (
 )
 from ._core import CancelToken, __version__
 from ._names import Names
+from ._paste import Pasted, paste
 from ._surface import Surface, read_surface
 from ._tetmesh import Quality, TetMesh
 from ._batch import batch
@@ -46,6 +47,7 @@ __all__ = [
     "MemoryLimit",
     "Names",
     "NotRepresentable",
+    "Pasted",
     "Quality",
     "Rule",
     "Surface",
@@ -57,6 +59,7 @@ __all__ = [
     "delaunay",
     "diagnose",
     "mesh",
+    "paste",
     "read_surface",
     "read_volume",
     "untangle",

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._limits import CancelToken, MemoryAmount, ProgressCallback, Shown, limits
+from ._paste import Pasted
 from ._surface import Array, PathLike, Surface, indices_of, markers_of, points_of, surface_of
 from ._tetmesh import TetMesh
 from .errors import Defect, _defects, _raise_unless_done
@@ -52,7 +53,7 @@ def mesh(
     Parameters
     ----------
     surface
-        A path, a `Surface`, an (n, 3) array of points together with `triangles`, or anything shaped like a PyVista or
+        A path, a `Surface`, parts that `paste` put together, an (n, 3) array of points together with `triangles`, or anything shaped like a PyVista or
         VTK PolyData, a `meshio.Mesh` or a `trimesh.Trimesh`. Arrays of float64 points and int32 or uint32 triangles that
         lie together in memory are not copied.
     triangles
@@ -126,9 +127,16 @@ def mesh(
         raise ValueError(f"without={sorted(unknown)}: only 'flips', 'optimise' and 'points' can be left out")
     if fill and (size is not None or metric is not None):
         raise ValueError("fill=True adds no field points, so that size and metric have no meaning; leave out one of them")
+    pasted = surface if isinstance(surface, Pasted) else None
     what = surface_of(
-        surface, triangles, segments=segments, triangle_markers=triangle_markers, segment_markers=segment_markers
+        surface if pasted is None else pasted.surface,
+        triangles,
+        segments=segments,
+        triangle_markers=triangle_markers,
+        segment_markers=segment_markers,
     )
+    if pasted is not None and what is not pasted.surface:
+        raise ValueError("a pasted surface is meshed as it is: leave out triangles, segments and markers")
     options.update(
         fill=fill,
         gradation=float(gradation),
@@ -148,7 +156,10 @@ def mesh(
     asked_size = _set_size(size, options, len(what.points))
     asked_metric = _set_metric(metric, options)
     with Shown(progress, "mesh") as callback:
-        result = _core.mesh(what._arrays(), options, asked_size, asked_metric, callback)
+        if pasted is not None:
+            result = _core.mesh_pasted(pasted._result, options, asked_size, asked_metric, callback)
+        else:
+            result = _core.mesh(what._arrays(), options, asked_size, asked_metric, callback)
     _raise_unless_done(result)
     return TetMesh._of(result.volume, result.n_input_points, result)
 

@@ -182,6 +182,11 @@ class TetMesh:
         return self._report
 
     @property
+    def marker_sets(self) -> dict[int, list[int]]:
+        """Markers of `triangles` that stand for several of the parts pasted together: {marker: theirs}."""
+        return {int(marker): list(of) for marker, of in self.report.get("marker_sets", {}).items()}
+
+    @property
     def warnings(self) -> list[str]:
         """What was decided, or may not be as it was meant."""
         return [str(w["message"]) for w in self.report.get("warnings", [])]

@@ -20,6 +20,7 @@
 #include "holdfast/holdfast.h"
 #include "holdfast/io.h"
 #include "holdfast/names.h"
+#include "holdfast/paste.h"
 #include "holdfast/summary.h"
 #include "holdfast/untangle.h"
 #include "limits.h"
@@ -169,6 +170,17 @@ std::shared_ptr<Result> mesh_arrays(const py::tuple& surface, const py::dict& op
   return std::make_shared<Result>(mesh(arrays.view(), how));
 }
 
+std::shared_ptr<Result> mesh_pasted(const std::shared_ptr<PasteResult>& pasted, const py::dict& options,
+                                    const py::object& size, const py::object& metric,
+                                    const py::object& progress) {
+  const Fields fields{size, metric};
+  Options how = mesh_options(options, fields);
+  const Watch watch(progress);
+  how.progress = [&watch](const Progress& at) { return watch.go_on(name(at.stage), at.overall); };
+  const py::gil_scoped_release unlocked;
+  return std::make_shared<Result>(mesh(*pasted, how));
+}
+
 py::tuple diagnose_arrays(const py::tuple& surface, const py::dict& options, const py::object& progress) {
   Arrays arrays;
   const SurfaceArrays held = surface_from(surface);
@@ -265,6 +277,7 @@ void register_calls(py::module_& module) {
       });
 
   module.def("mesh", &mesh_arrays);
+  module.def("mesh_pasted", &mesh_pasted);
   module.def("diagnose", &diagnose_arrays);
   module.def("check", &check_arrays);
   module.def("delaunay", &delaunay_points);

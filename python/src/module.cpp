@@ -48,4 +48,5 @@ PYBIND11_MODULE(_core, module) {
   register_volume(module);
   register_files(module);
   register_calls(module);
+  register_paste(module);
 }

@@ -32,9 +32,17 @@ void attempt(Input& input, const Options& options, std::uint64_t seed, const Thr
 
   Division division = course.run(CallStep::classify, [&] {
     Division found = divide(attempt, box);
-    if (found.kept.defects.empty()) report_choice(attempt, box, found, result);
+    PartsOfComplex* const parts = input.parts();
+    if (parts != nullptr) parts->overlaps = found.kept.overlaps;
+    const bool is_chosen = found.kept.defects.empty() && !(parts != nullptr && parts->refuses());
+    if (is_chosen) report_choice(attempt, box, found, result);
     return found;
   });
+  if (input.parts() != nullptr && input.parts()->refuses()) {
+    result.outcome = Outcome::invalid_input;
+    result.message = overlap_message(*input.parts());
+    return;
+  }
   if (!division.kept.defects.empty()) return refuse(result, std::move(division.kept.defects));
   report.forced_points =
       course.run(CallStep::suppress, [&] { return suppress_points(attempt, box, division); });

@@ -84,7 +84,10 @@ Division divide(const Attempt& attempt, BoxMesh& box) {
   Division division;
   division.regions = find_regions(box.mesh, attempt.complex().facets, attempt.threads);
   const Options& options = attempt.options;
-  const Wanted wanted{options.keep, options.holes, options.regions, options.drop_outside};
+  const PartsOfComplex* const parts = attempt.input.parts();
+  const std::span<const RegionSeed> seeds = options.regions;
+  const Wanted wanted{options.keep, options.holes, parts == nullptr ? seeds : seeds.first(parts->seeds),
+                      options.drop_outside, parts};
   division.kept = choose_regions(box.mesh, division.regions, attempt.complex(), attempt.input.table(), wanted,
                                  box.scale, attempt.input.names());
   return division;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "classify/parts.h"
 #include "holdfast/holdfast.h"
 #include "mesh/monitor.h"
 #include "mesh/parallel.h"
@@ -19,14 +20,16 @@ namespace holdfast {
 
 class Input {
  public:
+  /// `parts` are those of a complex that was pasted together, else null.
   Input(const Complex& complex, SamePlace same_place, const Options& options, const Threads& threads,
-        Monitor& monitor)
+        Monitor& monitor, PartsOfComplex* parts = nullptr)
       : given_(complex),
         complex_(complex),
         same_place_(same_place),
         options_(options),
         threads_(threads),
-        monitor_(monitor) {}
+        monitor_(monitor),
+        parts_(parts) {}
 
   /// Defects that can be told before Delaunay, and the counts of the input; none where all is well so far.
   [[nodiscard]] std::vector<Defect> validate(Report::Input& counts);
@@ -48,6 +51,8 @@ class Input {
   /// The paper's Target, of all facets; computed once.
   [[nodiscard]] double target();
 
+  [[nodiscard]] PartsOfComplex* parts() const { return parts_; }
+
   /// `diagnose` gives them all.
   static constexpr std::size_t kMostDefects = 100;
 
@@ -65,6 +70,7 @@ class Input {
   const Options& options_;
   const Threads threads_;
   Monitor& monitor_;
+  PartsOfComplex* const parts_;
   Elements elements_;  // of what was given, until they are known to fit together
   bool elements_fit_ = false;
   SegmentTable table_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <exception>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -32,11 +33,11 @@ Result mesh_complex(const Complex& complex, const Options& options) { return mes
 
 class Call {
  public:
-  Call(const Complex& complex, const Options& options, SamePlace same_place)
+  Call(const Complex& complex, const Options& options, SamePlace same_place, PartsOfComplex* parts = nullptr)
       : options_(options),
         monitor_(options),
         threads_(Threads(options.threads).polling([this] { poll(); })),
-        input_(complex, same_place, options, threads_, monitor_) {}
+        input_(complex, same_place, options, threads_, monitor_, parts) {}
 
   Result run() {
     {
@@ -92,9 +93,14 @@ class Call {
 
   // Regions of a surface that is not valid are none, so that is told first.
   void judge_places() {
+    std::optional<Options> without_parts;
+    if (input_.parts() != nullptr) {
+      without_parts = options_;
+      without_parts->regions.resize(input_.parts()->seeds);
+    }
     try {
-      require_well_placed(input_.complex(), input_.table(), options_, input_.names(),
-                          [&] { monitor_.poll(Stage::validate, 0.5); });
+      require_well_placed(input_.complex(), input_.table(), without_parts ? *without_parts : options_,
+                          input_.names(), [&] { monitor_.poll(Stage::validate, 0.5); });
     } catch (const std::invalid_argument&) {
       std::vector<Defect> defects = input_.defects();
       if (defects.empty()) throw;
@@ -196,14 +202,24 @@ class Call {
 
 }  // namespace
 
-Result mesh(const Complex& complex, const Options& options) {
+namespace {
+
+Result mesh_called(const Complex& complex, const Options& options, PartsOfComplex* parts) {
   const FloatEnvironment environment;
   require_sensible(complex, options);
-  Result result = Call(complex, options, SamePlace::one_vertex).run();
+  Result result = Call(complex, options, SamePlace::one_vertex, parts).run();
   const bool has_volume = result.outcome == Outcome::done || result.outcome == Outcome::not_representable;
   if (has_volume && complex.names != nullptr) result.volume.names = *complex.names;
   if (options.neighbours) result.neighbours = neighbours(result.volume.tetrahedra);
   return result;
+}
+
+}  // namespace
+
+Result mesh(const Complex& complex, const Options& options) { return mesh_called(complex, options, nullptr); }
+
+Result mesh_parts(const Complex& complex, const Options& options, PartsOfComplex& parts) {
+  return mesh_called(complex, options, &parts);
 }
 
 Result mesh_as_given(const Complex& complex, const Options& options) {

@@ -1,5 +1,6 @@
 // Check: rules on region ids and markers.
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <string>
 
@@ -49,6 +50,28 @@ struct Listing {
   const std::vector<Fate>& fates;  ///< of the input's; empty where they are not known
 };
 
+/// Markers of facets that the input has several times, with different ones: such a facet may carry one that
+/// no facet of the input has, always the same for the same set.
+class MarkersOfSets {
+ public:
+  explicit MarkersOfSets(std::span<const int> given) : given_(given.begin(), given.end()) {
+    std::sort(given_.begin(), given_.end());
+  }
+  bool may_stand_for(int marker, std::vector<int> set) {
+    std::sort(set.begin(), set.end());
+    set.erase(std::unique(set.begin(), set.end()), set.end());
+    if (set.size() < 2 || std::binary_search(given_.begin(), given_.end(), marker)) return false;
+    const auto [of_set, set_is_new] = marker_of_.try_emplace(set, marker);
+    const auto [of_marker, marker_is_new] = set_of_.try_emplace(marker, set);
+    return of_set->second == marker && of_marker->second == set;
+  }
+
+ private:
+  std::vector<int> given_;
+  std::map<std::vector<int>, int> marker_of_;
+  std::map<int, std::vector<int>> set_of_;
+};
+
 template <class Entity>
 void find_wrong_markers(const Listing<Entity>& on, const Examination& whole, Findings& findings) {
   const auto bad_length = [&](std::string_view whose, std::size_t markers, std::size_t entities) {
@@ -69,6 +92,7 @@ void find_wrong_markers(const Listing<Entity>& on, const Examination& whole, Fin
   const auto in_mesh = [&](std::size_t i) { return on.fates.empty() || on.fates[i] == Fate::kept; };
   const Lookup<Entity> lookup(on.input);
   std::vector<bool> seen(on.input.size(), false);
+  MarkersOfSets sets(on.input_markers);
   for (std::size_t i = 0; i < on.listed.size(); ++i) {
     const auto say = [&](const std::string& what) {
       findings.add([&] {
@@ -86,7 +110,10 @@ void find_wrong_markers(const Listing<Entity>& on, const Examination& whole, Fin
     for (const std::size_t j : same) seen[j] = true;
     if (!marked || on.listed_markers.empty()) continue;
     const int marker = on.listed_markers[i];
-    if (std::none_of(same.begin(), same.end(), [&](std::size_t j) { return on.input_markers[j] == marker; }))
+    std::vector<int> wanted;
+    for (const std::size_t j : same) wanted.push_back(on.input_markers[j]);
+    const bool is_one = std::find(wanted.begin(), wanted.end(), marker) != wanted.end();
+    if (!is_one && !sets.may_stand_for(marker, wanted))
       say(" has marker " + std::to_string(marker) + " instead of " +
           std::to_string(on.input_markers[same[0]]));
   }

@@ -43,8 +43,11 @@ class Chooser {
       kept_.defects.push_back(encloses_nothing(complex_, table_, names_));
       return std::move(kept_);
     }
-    apply_rule();
-    if (!kept_.defects.empty()) return std::move(kept_);
+    if (wanted_.parts != nullptr)
+      apply_parts();
+    else
+      apply_rule();
+    if (!kept_.defects.empty() || is_refused()) return std::move(kept_);
     for (const Point& hole : wanted_.holes) kept_.region[region_at(hole, "hole")] = false;
     if (std::find(kept_.region.begin(), kept_.region.end(), true) == kept_.region.end()) {
       kept_.defects.push_back({DefectKind::encloses_nothing,
@@ -52,7 +55,9 @@ class Chooser {
                                {},
                                {},
                                wanted_.holes.empty() ? std::vector<Point>{} : std::vector{wanted_.holes[0]},
-                               "nothing is left to fill: every region is a hole; leave out a hole"});
+                               wanted_.parts != nullptr && wanted_.holes.empty()
+                                   ? "no part encloses anything: close its borders"
+                                   : "nothing is left to fill: every region is a hole; leave out a hole"});
       return std::move(kept_);
     }
     number();
@@ -80,6 +85,29 @@ class Chooser {
       return;
     }
     for (RegionId r = 1; r < regions_.count; ++r) kept_.region[r] = winding.number[r] != 0;
+  }
+
+  void apply_parts() {
+    const PartsOfComplex& parts = *wanted_.parts;
+    const bool box = wanted_.keep == Keep::box;
+    const Holders holders =
+        find_holders(regions_, parts, box ? Keep::automatic : wanted_.keep,
+                     [&](const Point& p, const char* what) { return region_at(p, what); });
+    if (holders.conflict && wanted_.keep == Keep::winding) {
+      kept_.defects.push_back(not_oriented(complex_, *holders.conflict));
+      return;
+    }
+    kept_.rule = box ? Keep::box : holders.conflict ? Keep::bounded : Keep::winding;
+    kept_.conflict = holders.conflict;
+    kept_.turned = holders.turned;
+    kept_.overlaps = find_overlaps(regions_, holders, complex_);
+    of_parts_ = ids_of_held(holders, parts);
+    kept_.region.assign(regions_.count, box);
+    for (RegionId r = 0; r < regions_.count; ++r) kept_.region[r] = box || of_parts_[r].has_value();
+  }
+
+  [[nodiscard]] bool is_refused() const {
+    return wanted_.parts != nullptr && wanted_.parts->overlap == Overlap::refuse && !kept_.overlaps.empty();
   }
 
   // Holes and seeds in the complex's units: a scale that suits the complex may not suit them, so exactly.
@@ -115,6 +143,12 @@ class Chooser {
       kept_.id[r] = seed.id;
       seeded[r] = true;
       taken.insert(seed.id);
+    }
+    for (RegionId r = 0; r < of_parts_.size(); ++r) {
+      if (seeded[r] || !of_parts_[r]) continue;
+      kept_.id[r] = *of_parts_[r];
+      taken.insert(*of_parts_[r]);
+      seeded[r] = true;
     }
     int next = 1;
     for (RegionId r = 1; r < regions_.count; ++r) {
@@ -153,6 +187,7 @@ class Chooser {
   const Wanted& wanted_;
   const int scale_;
   const VertexNames& names_;
+  std::vector<std::optional<int>> of_parts_;  // ids, by region, where there are parts
   Kept kept_;
 };
 

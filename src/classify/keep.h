@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "classify/parts.h"
 #include "classify/regions.h"
 #include "holdfast/holdfast.h"
 #include "surface/complex.h"
@@ -23,7 +24,8 @@ struct Kept {
   /// against others, if that is why.
   std::optional<std::array<Index, 2>> conflict;
   std::vector<Index> turned;
-  std::vector<Defect> defects;  ///< of kinds 14 to 16; empty when all is well
+  std::vector<Defect> defects;        ///< of kinds 14 to 16; empty when all is well
+  std::vector<PartOverlap> overlaps;  ///< of parts, whether or not they are refused
 
   /// Whether a facet borders on a kept region.
   [[nodiscard]] bool facet(const Regions& regions, Index f) const {
@@ -37,13 +39,16 @@ struct Wanted {
   std::span<const Point> holes;
   std::span<const RegionSeed> seeds;
   bool drop_outside = false;  ///< leave out what borders on no kept region, in place of a defect
+  /// Of a surface that was pasted together: what the parts hold is kept and has their ids, but for holes and
+  /// where `seeds` give others.
+  const PartsOfComplex* parts = nullptr;
 };
 
 /// Applies the keep rule, holes and region seeds, then looks for what borders on no kept region.
 ///
 /// A region with a seed has the seed's id. The others that are kept have the least positive ids that no
-/// seed takes, in the order of their numbers. The mesh is the complex times 2^scale. `names` are those of the
-/// complex's vertices.
+/// seed takes, in the order of their numbers. Where parts overlap that must not, nothing is chosen. The mesh
+/// is the complex times 2^scale. `names` are those of the complex's vertices.
 ///
 /// Throws std::invalid_argument for a hole or region seed that lies on a facet or in no region that it
 /// could mean, and for seeds that give one region two ids.

@@ -54,5 +54,6 @@ void add_batch(CLI::App& app, Command& chosen);
 void add_plane(CLI::App& app, Command& chosen);
 void add_repair(CLI::App& app, Command& chosen);
 void add_view(CLI::App& app, Command& chosen);
+void add_paste(CLI::App& app, Command& chosen);
 
 }  // namespace holdfast::cli

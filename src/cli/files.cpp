@@ -25,7 +25,8 @@ void tell(const std::vector<Remark>& remarks, const fs::path& file) {
   for (const Remark& remark : remarks) fmt::print(stderr, "holdfast: {}{}\n", name, remark.message);
 }
 
-Surface read_surfaces(const std::vector<fs::path>& paths, const ReadOptions& options, bool of_volumes) {
+std::vector<Surface> read_parts(const std::vector<fs::path>& paths, const ReadOptions& options,
+                                bool of_volumes) {
   const auto read = [&](const fs::path& path) {
     return of_volumes ? surface_of(read_volume(path, options)) : read_surface(path, options);
   };
@@ -36,10 +37,19 @@ Surface read_surfaces(const std::vector<fs::path>& paths, const ReadOptions& opt
     parts.push_back(read(path));
     for (Remark& remark : parts.back().remarks) remark.message = path.string() + ": " + remark.message;
   }
-  if (parts.size() == 1) return std::move(parts.front());
+  return parts;
+}
+
+std::vector<std::string> stems(const std::vector<fs::path>& paths) {
   std::vector<std::string> names;
   std::transform(paths.begin(), paths.end(), std::back_inserter(names), stem);
-  return join(parts, names);
+  return names;
+}
+
+Surface read_surfaces(const std::vector<fs::path>& paths, const ReadOptions& options, bool of_volumes) {
+  std::vector<Surface> parts = read_parts(paths, options, of_volumes);
+  if (parts.size() == 1) return std::move(parts.front());
+  return join(parts, stems(paths));
 }
 
 }  // namespace holdfast::cli

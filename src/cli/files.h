@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "holdfast/io.h"
@@ -13,6 +14,13 @@ namespace holdfast::cli {
 /// FileError, and Interrupted for the limits.
 [[nodiscard]] Surface read_surfaces(const std::vector<std::filesystem::path>& paths,
                                     const ReadOptions& options, bool of_volumes = false);
+
+/// The surfaces by themselves, in the same way.
+[[nodiscard]] std::vector<Surface> read_parts(const std::vector<std::filesystem::path>& paths,
+                                              const ReadOptions& options, bool of_volumes = false);
+
+/// The names of files without their folders and endings.
+[[nodiscard]] std::vector<std::string> stems(const std::vector<std::filesystem::path>& paths);
 
 /// Prints what readers and writers left out or changed, one line each, on stderr; behind the name of a file
 /// unless it is empty.

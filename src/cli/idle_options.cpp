@@ -61,7 +61,8 @@ void refuse_after_end(const MeshArguments& a) {
     refuse({{"--keep " + a.keep.value_or(""), a.keep && !a.keep->starts_with("box")},
             {"--hole", !a.holes.empty()},
             {"--region", !a.regions.empty()},
-            {"--drop-outside", a.drop_outside}},
+            {"--drop-outside", a.drop_outside},
+            {"--overlap", a.overlap.has_value()}},
            beside, reason);
   if (last < Stage::suppress) refuse({{"--exact", !a.exact.empty()}}, beside, reason);
   if (last < Stage::field_points) refuse(for_field_points(a), beside, reason);
@@ -77,15 +78,18 @@ void refuse_after_end(const MeshArguments& a) {
 }  // namespace
 
 void refuse_idle_options(const MeshArguments& arguments) {
+  if (arguments.surfaces.size() < 2 && !arguments.paste)
+    refuse({{"--overlap", arguments.overlap.has_value()}}, "a single file",
+           "--paste makes parts of its components");
   if (arguments.fill) refuse_beside_fill(arguments);
   refuse_beside_without(arguments);
   refuse_after_end(arguments);
 }
 
-void refuse_idle_options(const MeshArguments& arguments, const Options& options) {
+void refuse_idle_options(const MeshArguments& arguments, const Options& options, const Surface& surface) {
   if (options.sizes && options.sizes->metric)
     refuse({{"--no-growth", arguments.no_growth}}, "metric tensors", "these say all of the sizes inside");
-  if (options.keep == Keep::box && options.holes.empty())
+  if (options.keep == Keep::box && options.holes.empty() && surface.holes.empty())
     refuse({{"--drop-outside", arguments.drop_outside}}, "--keep box", "without a hole, nothing is outside");
 }
 

@@ -10,6 +10,6 @@ namespace holdfast::cli {
 void refuse_idle_options(const MeshArguments& arguments);
 
 /// The same, once files are read: a size field may be a metric, and surfaces may bring holes.
-void refuse_idle_options(const MeshArguments& arguments, const Options& options);
+void refuse_idle_options(const MeshArguments& arguments, const Options& options, const Surface& surface);
 
 }  // namespace holdfast::cli

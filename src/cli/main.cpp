@@ -28,15 +28,16 @@ constexpr const char* footer =
 // take longer than the mesh.
 void add_commands(CLI::App& app, Command& chosen, std::string_view asked) {
   using Add = void (*)(CLI::App&, Command&);
-  static constexpr std::array<std::pair<std::string_view, Add>, 9> kCommands{{{"mesh", add_mesh},
-                                                                              {"check", add_check},
-                                                                              {"diagnose", add_diagnose},
-                                                                              {"delaunay", add_delaunay},
-                                                                              {"untangle", add_untangle},
-                                                                              {"batch", add_batch},
-                                                                              {"plane", add_plane},
-                                                                              {"repair", add_repair},
-                                                                              {"view", add_view}}};
+  static constexpr std::array<std::pair<std::string_view, Add>, 10> kCommands{{{"mesh", add_mesh},
+                                                                               {"check", add_check},
+                                                                               {"diagnose", add_diagnose},
+                                                                               {"delaunay", add_delaunay},
+                                                                               {"untangle", add_untangle},
+                                                                               {"batch", add_batch},
+                                                                               {"plane", add_plane},
+                                                                               {"repair", add_repair},
+                                                                               {"view", add_view},
+                                                                               {"paste", add_paste}}};
   const auto is_asked = [&](const auto& command) { return command.first == asked; };
   const bool one = std::any_of(kCommands.begin(), kCommands.end(), is_asked);
   for (const auto& command : kCommands)

@@ -16,6 +16,8 @@
 #include "mesh_options.h"
 #include "name_options.h"
 #include "page.h"
+#include "paste_options.h"
+#include "paste_result.h"
 #include "progress.h"
 #include "report.h"
 #include "signals.h"
@@ -38,7 +40,12 @@ class Stopwatch {
 };
 
 /// The surface is not valid, or valid and nothing to fill.
-void print_refusal(const Surface& surface, const Result& result) {
+void print_refusal(const MeshArguments& arguments, const Surface& surface, const Result& result) {
+  if (result.defects.empty()) {
+    say("holdfast: {}; nothing was written\n{}{}\n", result.message, overlap_advice,
+        arguments.paste ? "" : "; --paste=T brings together what is nearer than T");
+    return;
+  }
   const DefectSummary summary = summarise(surface.view(), result.defects);
   if (is_valid(result.defects)) {
     // The defects say what and where themselves; what may be the reason is that the borders do not meet.
@@ -49,6 +56,8 @@ void print_refusal(const Surface& surface, const Result& result) {
   say("holdfast: the surface is not valid: {}\n{}\n{}", result.message, summary_text(summary),
       list_text(summary, result.defects, shown_in_passing, "`holdfast diagnose` lists them"));
   say("`holdfast diagnose` lists every defect; --marks FILE.vtu shows them in a viewer\n");
+  if (arguments.surfaces.size() > 1 && !arguments.paste)
+    say("--paste makes one surface of files that touch each other\n");
 }
 
 /// Says how the run ended and what the user can do; returns the exit code.
@@ -58,7 +67,7 @@ int conclude(const MeshArguments& arguments, const Surface& surface, const Resul
     case Outcome::done:
       return exit_done;
     case Outcome::invalid_input:
-      print_refusal(surface, result);
+      print_refusal(arguments, surface, result);
       return exit_invalid_surface;
     case Outcome::time_limit:
       say("holdfast: {}; nothing was written; give a longer --time-limit\n", message);
@@ -166,13 +175,78 @@ void require_a_size_a_vertex(const MeshArguments& arguments, const Options& opti
             surface.vertices.size() == 1 ? "1 vertex" : fmt::format("{} vertices", surface.vertices.size())));
 }
 
+/// What is meshed: one surface, or the parts of several files.
+struct MeshInput {
+  Surface surface;
+  std::vector<Surface> parts;  ///< empty where the surface is meshed as it is
+  std::optional<PasteResult> pasted;
+};
+
+MeshInput read_input(const MeshArguments& arguments, const Options& options) {
+  MeshInput input;
+  input.parts =
+      read_parts(arguments.surfaces, reading(options, arguments.input_format), arguments.surface_of);
+  if (input.parts.size() > 1) {
+    input.surface = join(input.parts, stems(arguments.surfaces));
+    return input;
+  }
+  input.surface = std::move(input.parts.front());
+  input.parts.clear();
+  return input;
+}
+
+/// Several files are parts where they have triangles in common, or where that was asked for; then components
+/// of a single file are, too.
+void paste_parts(const MeshArguments& arguments, const Options& options, MeshInput& input) {
+  if (input.parts.empty() && !arguments.paste) return;
+  PasteOptions pasting;
+  static_cast<Limits&>(pasting) = options;
+  pasting.cut = arguments.paste.has_value();
+  if (pasting.cut && !arguments.paste->empty()) pasting.tolerance = tolerance_of(*arguments.paste, "--paste");
+  pasting.overlap = overlap_named(arguments.overlap);
+  pasting.judge = false;
+  pasting.labels = labels_of(arguments.surfaces);
+  pasting.threads = options.threads;
+  pasting.progress = goes_on;
+  PasteResult pasted = input.parts.empty() ? paste_components(input.surface, pasting)
+                                           : paste(input.parts, pasting, stems(arguments.surfaces));
+  if (!pasting.cut && !arguments.overlap && pasted.shared_facets == 0) return;
+  merge(pasted.surface.names, names_of(arguments.names));
+  input.pasted = std::move(pasted);
+}
+
 /// Options that do not suit the surface (a hole on a facet, say) are wrong usage.
-Result mesh_or_refuse(const Surface& surface, const Options& options) {
+Result mesh_or_refuse(const MeshInput& input, Options options) {
   try {
+    if (input.pasted) {
+      const Surface& pasted = input.pasted->surface;  // seeds of a single file are its own
+      options.holes.insert(options.holes.end(), pasted.holes.begin(), pasted.holes.end());
+      options.regions.insert(options.regions.end(), pasted.regions.begin(), pasted.regions.end());
+      if (input.pasted->outcome == Outcome::done) return holdfast::mesh(*input.pasted, options);
+      Result result;
+      result.outcome = input.pasted->outcome;
+      result.message = input.pasted->message;
+      return result;
+    }
+    const Surface& surface = input.surface;
+    options.holes.insert(options.holes.end(), surface.holes.begin(), surface.holes.end());
+    options.regions.insert(options.regions.end(), surface.regions.begin(), surface.regions.end());
     return holdfast::mesh(surface.view(), options);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
+}
+
+/// Facets that files have in common are no defect; what is one is told by the indices of the files in turn.
+void tell_defects_of_files(const MeshArguments& arguments, const MeshInput& input, Result& result) {
+  if (!input.pasted || result.outcome != Outcome::invalid_input || is_valid(result.defects)) return;
+  if (arguments.paste) return;
+  const std::vector<Index>& part = input.pasted->part_of_facet;
+  result.defects = diagnose(input.surface.view());
+  std::erase_if(result.defects, [&](const Defect& defect) {
+    return defect.kind == DefectKind::repeated_facet && defect.facets.size() == 2 &&
+           part[defect.facets[0]] != part[defect.facets[1]];
+  });
 }
 
 int run(const MeshArguments& arguments) {
@@ -197,22 +271,23 @@ int run(const MeshArguments& arguments) {
   ProgressView progress(how_to_show(arguments.quiet, arguments.verbose));
   progress.reading();
   read_size_field(arguments, options);
-  Surface surface =
-      read_surfaces(arguments.surfaces, reading(options, arguments.input_format), arguments.surface_of);
+  MeshInput input = read_input(arguments, options);
+  Surface& surface = input.surface;
   merge(surface.names, names);
   if (!arguments.quiet) tell_of_lone_vertices(arguments, surface, progress);
-  options.holes.insert(options.holes.end(), surface.holes.begin(), surface.holes.end());
-  options.regions.insert(options.regions.end(), surface.regions.begin(), surface.regions.end());
   if (!surface.remarks.empty()) progress.finish();
   if (!arguments.quiet) tell(surface.remarks);
   tell_unused_sizes(arguments, surface);
   require_a_size_a_vertex(arguments, options, surface);
-  refuse_idle_options(arguments, options);
+  refuse_idle_options(arguments, options, surface);
   const double reading = whole.seconds();
 
   cancel_by_flag();  // from here on the mesher asks, and files are open
   options.progress = std::ref(progress);
-  Result result = mesh_or_refuse(surface, options);
+  paste_parts(arguments, options, input);
+  Result result = mesh_or_refuse(input, options);
+  tell_defects_of_files(arguments, input, result);
+  const Surface& meshed = input.pasted && arguments.paste ? input.pasted->surface : surface;
   const Stopwatch writing;
   progress.writing();
   write_result(arguments, target, result);
@@ -222,15 +297,19 @@ int run(const MeshArguments& arguments) {
   result.report.seconds["total"] = whole.seconds();
   if (!arguments.report.empty() || !arguments.html.empty()) {
     Json report = to_json(result, to_json(arguments));
-    if (!result.defects.empty()) report["summary"] = to_json(summarise(surface.view(), result.defects));
+    if (!result.defects.empty()) report["summary"] = to_json(summarise(meshed.view(), result.defects));
     report["remarks"] = to_json(surface.remarks);
     if (options.stop_after && *options.stop_after < Stage::classify)
       report["intermediate"] = to_json(result.intermediate);
+    if (input.pasted) {
+      report["parts"] = parts_of(*input.pasted);
+      report["shared_facets"] = input.pasted->shared_facets;
+    }
     write_json(arguments.report, report);
-    write_html(arguments, options, surface, result, std::move(report));
+    write_html(arguments, options, meshed, result, std::move(report));
   }
   if (!arguments.quiet) tell_the_end(arguments, options, result, whole.seconds());
-  return conclude(arguments, surface, result);
+  return conclude(arguments, meshed, result);
 }
 
 }  // namespace
@@ -289,6 +368,8 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->allow_extra_args(false)
       ->option_text("x,y,z,ID[,H]");
   add_name_option(*command, arguments->names);
+  add_paste_option(*command, arguments->paste);
+  add_overlap_option(*command, arguments->overlap);
   command->add_flag("--drop-outside", arguments->drop_outside,
                     "Drop facets outside every kept region instead of refusing them");
   command

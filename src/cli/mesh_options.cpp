@@ -11,6 +11,7 @@
 #include "idle_options.h"
 #include "limits.h"
 #include "number.h"
+#include "paste_options.h"
 
 namespace holdfast::cli {
 namespace {
@@ -149,6 +150,9 @@ Options to_options(const MeshArguments& arguments) {
   options.threads = arguments.threads;
   options.time_limit = time_limit_of(arguments.time_limit);
   options.memory_limit = memory_limit_of(arguments.memory_limit);
+  if (arguments.paste && !arguments.paste->empty())
+    static_cast<void>(tolerance_of(*arguments.paste, "--paste"));
+  static_cast<void>(overlap_named(arguments.overlap));
   refuse_idle_options(arguments);
   return options;
 }
@@ -169,6 +173,8 @@ Json to_json(const MeshArguments& arguments) {
           {"holes", arguments.holes},
           {"regions", arguments.regions},
           {"names", arguments.names},
+          {"paste", arguments.paste ? Json(*arguments.paste) : Json(nullptr)},
+          {"overlap", arguments.overlap ? Json(*arguments.overlap) : Json(nullptr)},
           {"drop_outside", arguments.drop_outside},
           {"without", arguments.without},
           {"stop_after", arguments.stop_after},

@@ -17,7 +17,8 @@ struct MeshArguments {
   std::filesystem::path output, report, exact, html;
   std::string input_format, format;
   bool surface_of = false, fill = false, drop_outside = false, quiet = false, verbose = false;
-  std::optional<std::string> keep, quality;
+  std::optional<std::string> keep, quality, overlap;
+  std::optional<std::string> paste;  ///< the tolerance, or empty for none
   std::vector<std::string> holes, regions, without, names;
   std::string stop_after, order;
   std::optional<double> size, gradation;

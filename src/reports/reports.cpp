@@ -124,6 +124,8 @@ Json to_json(const Intermediate& intermediate) {
 
 Json to_json(const Result& result, Json options) {
   const Report& report = result.report;
+  Json sets = Json::object();
+  for (const auto& [marker, set] : result.marker_sets) sets[std::to_string(marker)] = set;
   const auto missing = [](const Report::Missing& m) {
     return Json{{"missing_segments", m.segments}, {"missing_facets", m.facets}};
   };
@@ -154,6 +156,7 @@ Json to_json(const Result& result, Json options) {
       {"mesh",
        {{"vertices", report.vertices}, {"tetrahedra", report.tetrahedra}, {"regions", report.regions}}},
       {"names", to_json(result.volume.names)},
+      {"marker_sets", std::move(sets)},
       {"quality",
        {{"target", report.elements.target},
         {"worst", report.elements.worst},

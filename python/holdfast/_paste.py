@@ -1,0 +1,107 @@
+"""Parts that touch, pasted together."""
+
+from __future__ import annotations
+
+import json
+import os
+import typing
+from typing import Any, Optional, Union
+
+from . import _core
+from ._limits import CancelToken, MemoryAmount, ProgressCallback, Shown, limits
+from ._surface import Surface, _of_data, _stem, surface_of
+from .errors import _raise_unless_done
+
+
+class Pasted:
+    """Parts as one conformal surface, which `mesh` takes: every region of the mesh is of one part.
+
+    Indices of points and triangles count through the parts in turn.
+    """
+
+    def __init__(self, result: _core.PasteResult) -> None:
+        self._result = result
+        self.surface: Surface = _of_data(result.surface)
+        """The points of all parts, then new ones; triangles that parts have in common are there once."""
+        self.marker_sets: dict[int, list[int]] = dict(result.marker_sets)
+        """Markers of triangles that several parts have under different markers: what they stand for."""
+        self.moved: dict[int, float] = dict(result.moved)
+        """Points that moved, with their distances."""
+        self.regions: list[int] = list(result.regions)
+        """The region of each part that no seed numbers."""
+        self.apart: list[tuple[int, int, float]] = list(result.apart)
+        """(part, nearest, distance) of parts that touch no other."""
+        self.max_displacement: float = result.max_displacement
+        """How far the surface is from the parts at most, rounded up."""
+
+    @property
+    def parents(self) -> list[tuple[int, ...]]:
+        """For each triangle those of the parts that it is a part of: several where parts touch."""
+        return self._result.parents
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """All that changed, with the keys of the program's `--report`."""
+        found: dict[str, Any] = json.loads(self._result.report())
+        return found
+
+    def __repr__(self) -> str:
+        return f"Pasted({len(self.regions)} parts, {len(self.surface.points)} points, {len(self.surface.triangles)} triangles)"
+
+
+def paste(
+    *parts: Any,
+    tolerance: float = 0.0,
+    overlap: str = "refuse",
+    names: Optional[typing.Sequence[str]] = None,
+    threads: int = 1,
+    time_limit: Optional[float] = None,
+    memory_limit: Optional[MemoryAmount] = None,
+    cancel: Optional[CancelToken] = None,
+    progress: Union[None, bool, ProgressCallback] = None,
+) -> Pasted:
+    """Pastes parts that touch: common faces are there once, cut alike.
+
+    Parameters
+    ----------
+    parts
+        Two surfaces or more, each whatever `mesh` takes.
+    tolerance
+        Points of later parts that are nearer to an earlier one than this are put on it, in the surfaces' unit. The first
+        part stays as it is; with 0 all do.
+    overlap
+        Who gets what several parts hold: "first", "last", "new" (a region of its own), or "refuse".
+    names
+        Of the parts; the names of their files otherwise.
+    threads, time_limit, memory_limit, cancel, progress
+        As `mesh` takes them.
+
+    Raises
+    ------
+    InvalidSurface
+        If parts overlap, and `overlap` is "refuse". The message names both, and how deep.
+    ValueError, TypeError
+        For fewer than two parts, and what makes no sense.
+
+    Example
+    -------
+    >>> import holdfast
+    >>> quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    >>> triangles = [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+    >>> def box(x0, x1):
+    ...     return [(x, y, z) for x in (x0, x1) for y in (0, 1) for z in (0, 1)], triangles
+    >>> pasted = holdfast.paste(box(0, 1), box(1, 3))
+    >>> mesh = holdfast.mesh(pasted, fill=True)
+    >>> sorted(set(mesh.regions.tolist())), len(pasted.surface.triangles)
+    ([1, 2], 24)
+    """
+    options = limits(time_limit, memory_limit, cancel)
+    options.update(tolerance=float(tolerance), overlap=overlap, threads=int(threads))
+    surfaces = [surface_of(part) for part in parts]
+    if names is None:
+        names = [_stem(p) if isinstance(p, (str, os.PathLike)) else f"part {k}" for k, p in enumerate(parts, 1)]
+    given = [(s._arrays(), [tuple(r) for r in s.regions], [list(map(float, h)) for h in s.holes]) for s in surfaces]
+    with Shown(progress, "paste") as callback:
+        result = _core.paste(given, list(names), options, callback)
+    _raise_unless_done(result)
+    return Pasted(result)

@@ -1,0 +1,38 @@
+// The boundaries of volumes that are pasted together.
+#pragma once
+
+#include <map>
+#include <span>
+#include <vector>
+
+#include "holdfast/paste.h"
+#include "mesh/anatomy.h"
+
+namespace holdfast {
+
+/// The faces of a volume that have one tetrahedron.
+struct Boundary {
+  std::vector<Index> vertices;        ///< of the volume, ascending: those on the boundary
+  std::vector<Triangle> facets;       ///< of the volume's vertices, seen from outside
+  std::vector<Index> face;            ///< of each facet: 4 * tetrahedron + the corner opposite
+  std::size_t first_tetrahedron = 0;  ///< of all volumes' in turn
+  std::map<int, int> id_of;           ///< region ids of the volume, in the whole
+};
+
+/// A face as it is seen from outside the tetrahedron.
+[[nodiscard]] inline Triangle face_of(const Tetrahedron& t, Index corner) {
+  const Triangle f = corners_of_face(t, static_cast<int>(corner));
+  return {f[0], f[2], f[1]};
+}
+
+/// Throws std::invalid_argument for indices out of range, faces with more than two tetrahedra, and region ids
+/// of a wrong number.
+[[nodiscard]] std::vector<Boundary> boundaries_of(std::span<const Volume> volumes);
+
+/// With the markers that the volume's own facets give.
+[[nodiscard]] Surface surface_of(const Volume& volume, const Boundary& boundary);
+
+/// Fills `id_of`, and the names of the regions in the surface: a volume whose tetrahedra have ids keeps them.
+void number_regions(std::span<const Volume> volumes, std::span<Boundary> boundaries, PasteResult& pasted);
+
+}  // namespace holdfast

@@ -1,0 +1,307 @@
+// The public functions of holdfast/paste.h: parts joined, made to fit, and looked at side by side.
+#include "holdfast/paste.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include "api/mesh.h"
+#include "api/part_components.h"
+#include "api/parts_apart.h"
+#include "api/repairing.h"
+#include "api/turned.h"
+#include "holdfast/io.h"
+#include "numbers/float_environment.h"
+#include "repair/deliver.h"
+#include "repair/fuse.h"
+#include "repair/glue.h"
+#include "repair/rounding.h"
+#include "repair/snap.h"
+
+namespace holdfast {
+namespace {
+
+void require_sensible(std::span<const Surface> parts, const PasteOptions& options) {
+  if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
+    throw std::invalid_argument("the tolerance for pasting must be finite and not negative");
+  if (options.keep == Keep::box)
+    throw std::invalid_argument("a part holds what it encloses: Keep::box is no rule for one");
+  const auto fits = [](const auto& marks, const auto& entities) {
+    return marks.empty() || marks.size() == entities.size();
+  };
+  for (const Surface& part : parts)
+    if (!fits(part.facet_markers, part.facets) || !fits(part.segment_markers, part.segments) ||
+        !fits(part.vertex_markers, part.vertices))
+      throw std::invalid_argument("as many markers as entities are needed, or none");
+}
+
+/// Ids of regions that mean the same in all parts.
+class RegionIds {
+ public:
+  explicit RegionIds(std::span<const Surface> parts) {
+    for (const Surface& part : parts) {
+      for (const RegionSeed& seed : part.regions) used_.insert(seed.id);
+      if (names_one(part)) used_.insert(part.names.regions.begin()->first);
+    }
+  }
+
+  static bool names_one(const Surface& part) {
+    return part.regions.empty() && part.names.regions.size() == 1;
+  }
+
+  /// The number of a region that a part calls `id`: its own, unless an earlier part has another name there.
+  int number(int id, const std::string& name) {
+    const auto [there, is_new] = meaning_.try_emplace(id, name);
+    if (is_new || there->second == name) return id;
+    const int number = next_free(1);
+    meaning_[number] = name;
+    return number;
+  }
+
+  /// For a region without an id of its own.
+  int number_of_part(std::size_t part, const std::string& name) {
+    const int id = next_free(static_cast<int>(part) + 1);
+    meaning_[id] = name;
+    return id;
+  }
+
+  [[nodiscard]] std::map<int, std::string> names() const {
+    std::map<int, std::string> names = meaning_;
+    std::erase_if(names, [](const auto& entry) { return entry.second.empty(); });
+    return names;
+  }
+
+ private:
+  /// `wanted`, or the next that nothing has.
+  int next_free(int wanted) {
+    while (!used_.insert(wanted).second) ++wanted;
+    return wanted;
+  }
+
+  std::set<int> used_;
+  std::map<int, std::string> meaning_;
+};
+
+std::vector<PastedPart> describe(std::span<const Surface> parts, std::span<const std::string> names,
+                                 std::span<const std::string> labels,
+                                 std::map<int, std::string>& region_names) {
+  RegionIds ids(parts);
+  const auto name_of = [](const std::map<int, std::string>& of, int id) {
+    const auto found = of.find(id);
+    return found == of.end() ? std::string() : found->second;
+  };
+  std::vector<PastedPart> described;
+  std::size_t vertices = 0, facets = 0;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const Surface& part = parts[k];
+    PastedPart pasted;
+    pasted.name = k < labels.size()  ? labels[k]
+                  : k < names.size() ? names[k]
+                                     : "part " + std::to_string(k + 1);
+    pasted.first_vertex = vertices;
+    pasted.first_facet = facets;
+    pasted.holes = part.holes;
+    std::map<int, int> number;
+    for (RegionSeed seed : part.regions) {
+      const auto [at, is_new] = number.try_emplace(seed.id, 0);
+      if (is_new) at->second = ids.number(seed.id, name_of(part.names.regions, seed.id));
+      seed.id = at->second;
+      pasted.seeds.push_back(seed);
+    }
+    if (!pasted.seeds.empty())
+      pasted.id = pasted.seeds[0].id;
+    else if (RegionIds::names_one(part))
+      pasted.id = ids.number(part.names.regions.begin()->first, part.names.regions.begin()->second);
+    described.push_back(std::move(pasted));
+    vertices += part.vertices.size();
+    facets += part.facets.size();
+  }
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (parts[k].regions.empty() && !RegionIds::names_one(parts[k]))
+      described[k].id = ids.number_of_part(k, k < names.size() ? names[k] : "");
+  region_names = ids.names();
+  return described;
+}
+
+/// How near to each other parts may be that are meant to touch: what is left when coordinates are rounded, to
+/// floats if all of them are floats.
+double rounding_of(const Complex& complex) {
+  double most = 0;
+  bool are_floats = true;
+  for (const Point& p : complex.vertices)
+    for (const double x : p) {
+      if (!std::isfinite(x)) continue;
+      most = std::max(most, std::fabs(x));
+      are_floats = are_floats && std::fabs(x) <= std::numeric_limits<float>::max() &&
+                   static_cast<double>(static_cast<float>(x)) == x;
+    }
+  constexpr double kDoubles = 0x1p-50, kFloats = 0x1p-21;
+  return most * (are_floats ? kFloats : kDoubles);
+}
+
+/// By facet of all parts in turn.
+std::vector<Index> parts_of_facets(std::span<const Surface> parts) {
+  std::vector<Index> part;
+  for (Index k = 0; k < parts.size(); ++k) part.insert(part.end(), parts[k].facets.size(), k);
+  return part;
+}
+
+void compare_with_parents(const Complex& joined, std::span<const Index> part, PasteResult& result) {
+  std::set<Index> of;
+  for (std::size_t f = 0; f < result.parents.size(); ++f) {
+    of.clear();
+    for (const Index p : result.parents[f]) {
+      of.insert(part[p]);
+      result.turned.push_back(
+          turned_alike(result.surface.vertices, result.surface.facets[f], joined.vertices, joined.facets[p])
+              ? 0
+              : 1);
+    }
+    if (of.size() > 1) ++result.shared_facets;
+  }
+}
+
+PartsOfComplex parts_of(const PasteResult& pasted) {
+  PartsOfComplex parts;
+  parts.parts = pasted.parts;
+  parts.overlap = pasted.overlap;
+  parts.first = pasted.parents.first;
+  for (std::size_t k = 0; k < pasted.parents.all.size(); ++k)
+    parts.walls.push_back({pasted.part_of_facet[pasted.parents.all[k]], pasted.turned[k] != 0});
+  return parts;
+}
+
+/// Finds out whether parts overlap, by the regions of a mesh.
+void judge(const PasteOptions& options, const Step& step, PasteResult& result) {
+  Options meshing;
+  static_cast<Limits&>(meshing) = options;
+  meshing.keep = options.keep;
+  meshing.drop_outside = true;
+  meshing.stop_after = Stage::classify;
+  meshing.threads = options.threads;
+  meshing.progress = [&](const Progress& progress) {
+    step(progress.overall);
+    return true;
+  };
+  PartsOfComplex parts = parts_of(result);
+  const Result found = mesh_parts(result.surface.view(), meshing, parts);
+  result.overlaps = std::move(parts.overlaps);
+  if (found.outcome == Outcome::not_representable) return;
+  result.outcome = found.outcome;
+  result.message = found.message;
+}
+
+void run(const Surface& joined, const PasteOptions& options, PlainMonitor& monitor, PasteResult& result) {
+  const Threads threads = Threads(options.threads).polling([&] { monitor.poll_again(); });
+  const Step step = [&](double fraction) { monitor.poll(fraction); };
+  const Complex complex = joined.view();
+  const std::vector<Index>& part = result.part_of_facet;
+  repairing::State state = repairing::state_of(complex);
+  repairing::Rounded rounded;
+  if (options.cut) {
+    const bool has_tolerance = options.tolerance > 0;
+    const double gap = std::max(options.tolerance, rounding_of(complex));
+    const auto to = has_tolerance ? repairing::SnapTo::all : repairing::SnapTo::vertices;
+    double moved = repairing::snap(state, part, to, gap, step, threads);
+    repairing::glue(state, part);
+    moved += repairing::fuse(state, part, gap, step);
+    repairing::glue(state, part);
+    ExactSurface exact;
+    RepairOptions arranging;
+    static_cast<Limits&>(arranging) = options;
+    rounded = repairing::round_arranged(std::move(state), arranging, result.report, exact, step, threads);
+    rounded.displacement += moved;
+    if (!rounded.is_valid) {
+      result.outcome = Outcome::not_representable;
+      result.message = "no doubles were found for the new points with which the surface is valid";
+      return;
+    }
+  } else {
+    repairing::glue(state, part);
+    rounded.state = std::move(state);
+  }
+  repairing::deliver(complex, std::move(rounded), result);
+  compare_with_parents(complex, part, result);
+  if (!options.judge) return;
+  result.apart = find_apart(result, [&] { monitor.poll_again(); });
+  judge(options, step, result);
+}
+
+bool overlap(std::span<const PartOverlap> overlaps, const PartApart& apart) {
+  return std::any_of(overlaps.begin(), overlaps.end(), [&](const PartOverlap& o) {
+    return std::minmax(o.first, o.second) == std::minmax(apart.part, apart.nearest);
+  });
+}
+
+void paste_joined(const Surface& joined, const PasteOptions& options, PasteResult& result) {
+  const FloatEnvironment environment;
+  result.overlap = options.overlap;
+  result.report.vertices = joined.vertices.size();
+  result.report.facets = joined.facets.size();
+  result.report.segments = joined.segments.size();
+  run_within(options, options.progress, result,
+             [&](PlainMonitor& monitor) { run(joined, options, monitor, result); });
+  if (result.outcome != Outcome::done) {
+    result.surface = {};
+    result.parents = result.segment_parents = {};
+    result.turned.clear();
+    return;
+  }
+  result.surface.remarks = joined.remarks;
+  std::erase_if(result.apart, [&](const PartApart& apart) { return overlap(result.overlaps, apart); });
+}
+
+}  // namespace
+
+PasteResult paste(std::span<const Surface> parts, const PasteOptions& options,
+                  std::span<const std::string> names) {
+  require_sensible(parts, options);
+  if (parts.size() < 2) throw std::invalid_argument("at least two parts are needed to paste");
+  const Surface joined = join(parts, names);
+  PasteResult result;
+  std::map<int, std::string> region_names;
+  result.parts = describe(parts, names, options.labels, region_names);
+  result.part_of_facet = parts_of_facets(parts);
+  paste_joined(joined, options, result);
+  result.surface.names.regions = std::move(region_names);
+  return result;
+}
+
+PasteResult paste_components(const Surface& surface, const PasteOptions& options) {
+  require_sensible({&surface, 1}, options);
+  PasteResult result;
+  result.part_of_facet = parts_by_components(surface);
+  Index parts = 0;
+  for (const Index p : result.part_of_facet) parts = std::max(parts, p + 1);
+  if (parts < 2) throw std::invalid_argument("the surface is one part, so that there is nothing to paste");
+  for (Index p = 0; p < parts; ++p) {
+    PastedPart part;
+    part.name = (options.labels.empty() ? "part " : options.labels[0] + " part ") + std::to_string(p + 1);
+    part.id = static_cast<int>(p) + 1;
+    result.parts.push_back(std::move(part));
+  }
+  paste_joined(surface, options, result);
+  result.surface.regions = surface.regions;
+  result.surface.holes = surface.holes;
+  return result;
+}
+
+Result mesh(const PasteResult& pasted, const Options& options) {
+  if (pasted.outcome != Outcome::done)
+    throw std::invalid_argument("there is no pasted surface: " + pasted.message);
+  PartsOfComplex parts = parts_of(pasted);
+  parts.seeds = options.regions.size();
+  Options with_sizes = options;
+  for (const PastedPart& part : pasted.parts)
+    with_sizes.regions.insert(with_sizes.regions.end(), part.seeds.begin(), part.seeds.end());
+  Result result = mesh_parts(pasted.surface.view(), with_sizes, parts);
+  result.marker_sets = pasted.marker_sets;
+  if (result.outcome != Outcome::done) return result;
+  for (const PartApart& apart : find_apart(pasted, [] {}))
+    if (!overlap(parts.overlaps, apart)) result.warnings.push_back(warn_of_apart(pasted, apart));
+  return result;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,73 @@
+// Regions of parts that were pasted together: which parts hold each region, and whose it is
+// (docs/pasting.md).
+//
+// What a part holds is told as if it were alone: facets of the others are air, and regions that they alone
+// divide are one. Its own facets then have a winding number, or, where they are not turned consistently, its
+// bounded regions are what it holds.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "classify/regions.h"
+#include "holdfast/paste.h"
+#include "surface/complex.h"
+
+namespace holdfast {
+
+/// That a facet bounds a part.
+struct PartWall {
+  Index part;
+  bool is_turned;  ///< the part's facet is turned against the complex's
+};
+
+/// What a complex is made of.
+struct PartsOfComplex {
+  std::vector<std::size_t> first{0};  ///< by facet: where its walls begin, and where the last one's end
+  std::vector<PartWall> walls;
+  std::span<const PastedPart> parts;
+  Overlap overlap = Overlap::refuse;
+  /// How many of the seeds in the options are the caller's; those after them are the parts', for their sizes.
+  std::size_t seeds = 0;
+  std::vector<PartOverlap> overlaps;  ///< that were found
+
+  [[nodiscard]] bool refuses() const { return overlap == Overlap::refuse && !overlaps.empty(); }
+  [[nodiscard]] std::span<const PartWall> of_facet(std::size_t f) const {
+    return std::span(walls).subspan(first[f], first[f + 1] - first[f]);
+  }
+};
+
+/// By whom regions are held, if each part is alone.
+struct Holders {
+  struct Claim {
+    Index part;
+    std::optional<int> id;  ///< that a seed of the part gives
+  };
+  std::vector<std::vector<Claim>> of_region;  ///< in ascending order of parts
+  /// Two facets that leave a part without winding numbers, and those that are turned against others.
+  std::optional<std::array<Index, 2>> conflict;
+  std::vector<Index> turned;
+};
+
+/// Finds the region of a seed or hole; throws std::invalid_argument for places that cannot be meant.
+using FindRegion = std::function<RegionId(const Point& where, const char* what)>;
+
+/// `keep` is the rule for each part: automatic, bounded or winding.
+[[nodiscard]] Holders find_holders(const Regions& regions, const PartsOfComplex& parts, Keep keep,
+                                   const FindRegion& find);
+
+/// The pairs of parts that hold regions in common, and how deep these are.
+[[nodiscard]] std::vector<PartOverlap> find_overlaps(const Regions& regions, const Holders& holders,
+                                                     const Complex& complex);
+
+/// One sentence on the deepest of some overlaps.
+[[nodiscard]] std::string overlap_message(const PartsOfComplex& parts);
+
+/// The id of each region that some part holds, or nothing. What several hold goes where `parts.overlap` says.
+[[nodiscard]] std::vector<std::optional<int>> ids_of_held(const Holders& holders,
+                                                          const PartsOfComplex& parts);
+
+}  // namespace holdfast

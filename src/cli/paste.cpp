@@ -1,0 +1,203 @@
+// `holdfast paste`: parts that touch in, one conformal surface out.
+#include "holdfast/paste.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+
+#include "command.h"
+#include "files.h"
+#include "files_of_run.h"
+#include "holdfast/surface_io.h"
+#include "limits.h"
+#include "name_options.h"
+#include "paste_options.h"
+#include "paste_result.h"
+#include "repair_result.h"
+#include "report.h"
+#include "signals.h"
+#include "summary.h"
+
+namespace holdfast::cli {
+namespace {
+
+struct PasteArguments {
+  std::vector<std::filesystem::path> surfaces;
+  std::filesystem::path output, parents, report;
+  std::string input_format, format;
+  std::optional<std::string> tolerance, overlap;
+  std::vector<std::string> names;
+  LimitArguments limits;
+  unsigned threads = 1;
+  bool quiet = false;
+};
+
+PasteOptions to_options(const PasteArguments& arguments) {
+  PasteOptions options;
+  static_cast<Limits&>(options) = limits_of(arguments.limits);
+  if (arguments.tolerance) options.tolerance = tolerance_of(*arguments.tolerance, "--tolerance");
+  options.overlap = overlap_named(arguments.overlap);
+  options.labels = labels_of(arguments.surfaces);
+  options.threads = arguments.threads;
+  options.progress = goes_on;
+  return options;
+}
+
+Json options_of(const PasteArguments& arguments) {
+  return {{"surfaces", labels_of(arguments.surfaces)},
+          {"output", arguments.output.string()},
+          {"tolerance", arguments.tolerance ? Json(*arguments.tolerance) : Json(nullptr)},
+          {"overlap", arguments.overlap ? Json(*arguments.overlap) : Json(nullptr)},
+          {"threads", arguments.threads},
+          {"time_limit", arguments.limits.time_limit.value_or(0)},
+          {"memory_limit", arguments.limits.memory_limit.value_or(0)}};
+}
+
+/// Says how the run ended and what the user can do; returns the exit code.
+int conclude(const PasteArguments& arguments, const PasteResult& result) {
+  switch (result.outcome) {
+    case Outcome::done:
+      if (!arguments.quiet) tell(result, arguments.output);
+      return exit_done;
+    case Outcome::invalid_input:
+      say("holdfast: {}; nothing was written\n", result.message);
+      if (!result.overlaps.empty()) say("{}\n", overlap_advice);
+      return exit_invalid_surface;
+    case Outcome::time_limit:
+      say("holdfast: {}; nothing was written; give a longer --time-limit\n", result.message);
+      return exit_limit;
+    case Outcome::memory_limit:
+      say("holdfast: {}; nothing was written; give a larger --memory-limit\n", result.message);
+      return exit_limit;
+    case Outcome::cancelled:
+      say("holdfast: cancelled; nothing was written\n");
+      return exit_limit;
+    case Outcome::not_representable:
+      say("holdfast: {}; {} was not written; a larger --tolerance may help\n", result.message,
+          arguments.output.string());
+      return exit_not_representable;
+  }
+  return exit_internal_error;
+}
+
+/// The volumes, if every file is one; none where all hold surfaces alone.
+std::vector<Volume> read_volumes(const PasteArguments& arguments, const PasteOptions& options) {
+  const std::vector<std::string> formats = volume_formats();
+  std::vector<Volume> volumes;
+  for (const auto& path : arguments.surfaces) {
+    const std::string format = arguments.input_format.empty() ? path.extension().string() : "";
+    if (std::find(formats.begin(), formats.end(), format) == formats.end()) return {};
+    Volume volume = read_volume(path, reading(options, arguments.input_format));
+    if (volume.tetrahedra.empty()) return {};
+    volumes.push_back(std::move(volume));
+  }
+  return volumes;
+}
+
+int run_volumes(const PasteArguments& arguments, const PasteOptions& options, std::vector<Volume> volumes) {
+  if (volumes.size() < 2) throw UsageError("paste: two volumes at least are expected");
+  FilesOfRun files;
+  for (const auto& path : arguments.surfaces) files.read_volume(path, arguments.input_format);
+  VolumeTarget target = files.write_volume("-o", arguments.output, arguments.format);
+  files.write("--parents", arguments.parents);
+  files.write("--report", arguments.report);
+  cancel_by_flag();
+  target.options.threads = arguments.threads;
+  watch_writing(target.options, options);
+  PastedVolumes result = paste(volumes, options, stems(arguments.surfaces));
+  merge(result.volume.names, names_of(arguments.names));
+  if (result.outcome == Outcome::done) {
+    write_volume(target.path, result.volume, target.options);
+    if (!arguments.quiet) tell(not_held(target.path, result.volume, target.options), target.path);
+    write_parents(arguments.parents, result.boundary);
+  }
+  result.boundary.outcome = result.outcome;
+  result.boundary.message = result.message;
+  Json report = report_of(result.boundary, options_of(arguments));
+  report["tetrahedra"] = {{"count", result.volume.tetrahedra.size()}, {"replaced", result.replaced}};
+  write_json(arguments.report, report);
+  const int code = conclude(arguments, result.boundary);
+  if (code == exit_done && !arguments.quiet)
+    say("{}: {}, in place of {} of the files'\n", arguments.output.string(),
+        counted(static_cast<std::size_t>(std::count(result.origin.begin(), result.origin.end(), -1)),
+                "new tetrahedron", "new tetrahedra"),
+        result.replaced);
+  return code;
+}
+
+int run(const PasteArguments& arguments) {
+  const PasteOptions options = to_options(arguments);
+  const Names names = names_of(arguments.names);
+  if (std::vector<Volume> volumes = read_volumes(arguments, options); !volumes.empty())
+    return run_volumes(arguments, options, std::move(volumes));
+  FilesOfRun files;
+  files.read_surfaces(arguments.surfaces, arguments.input_format);
+  WriteOptions writing = files.write_surface("-o", arguments.output, arguments.format);
+  files.write("--parents", arguments.parents);
+  files.write("--report", arguments.report);
+  cancel_at_once();
+  const std::vector<Surface> parts = read_parts(arguments.surfaces, reading(options, arguments.input_format));
+  if (!arguments.quiet)
+    for (const Surface& part : parts) tell(part.remarks);
+
+  cancel_by_flag();  // from here on files are open
+  watch_writing(writing, options);
+  PasteResult result = parts.size() == 1 ? paste_components(parts[0], options)
+                                         : paste(parts, options, stems(arguments.surfaces));
+  merge(result.surface.names, names);
+  if (result.outcome == Outcome::done) {
+    write_surface(arguments.output, result.surface, writing);
+    if (!arguments.quiet) tell(not_held(arguments.output, result.surface, writing), arguments.output);
+    write_parents(arguments.parents, result);
+  }
+  write_json(arguments.report, report_of(result, options_of(arguments)));
+  return conclude(arguments, result);
+}
+
+}  // namespace
+
+void add_paste(CLI::App& app, Command& chosen) {
+  const auto arguments = std::make_shared<PasteArguments>();
+  CLI::App* command = app.add_subcommand(
+      "paste", "Make one conformal surface of parts that touch: common faces are there once, cut alike");
+  command
+      ->add_option(
+          "SURFACE", arguments->surfaces,
+          "Surface files, one a part, as for `mesh`, or one whose components are the parts; indices count "
+          "through them in turn")
+      ->transform(or_standard_input)
+      ->required();
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Surface to write (.off .obj .stl .ply .poly .mesh .meshb .msh .vtk .vtu), -: standard "
+                   "output")
+      ->transform(or_standard_output)
+      ->required()
+      ->option_text("FILE");
+  command
+      ->add_option("--tolerance", arguments->tolerance,
+                   "Put what is nearer to an earlier file than this on it; the first file stays as it is")
+      ->option_text("T");
+  add_overlap_option(*command, arguments->overlap);
+  command
+      ->add_option("--parents", arguments->parents,
+                   "Write a line for each triangle with the indices of those it is a part of")
+      ->transform(or_standard_output)
+      ->option_text("FILE");
+  command->add_option("--report", arguments->report, "Write all that changed as JSON")
+      ->transform(or_standard_output)
+      ->option_text("FILE.json");
+  add_name_option(*command, arguments->names);
+  command->add_option("--format", arguments->format, "Format of the surface to write, instead of by ending")
+      ->option_text("FORMAT");
+  command->add_option("--input-format", arguments->input_format, "Format of the input, instead of by ending")
+      ->option_text("FORMAT");
+  command->add_option("--threads", arguments->threads, threads_help)
+      ->check(CLI::Range(0u, 4096u))
+      ->option_text("N");
+  add_limits(*command, arguments->limits);
+  command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace holdfast::cli

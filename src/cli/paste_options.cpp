@@ -1,0 +1,52 @@
+#include "paste_options.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <memory>
+
+#include "command.h"
+
+namespace holdfast::cli {
+
+void add_paste_option(CLI::App& command, std::optional<std::string>& tolerance) {
+  const auto text = std::make_shared<std::string>();
+  command
+      .add_flag("--paste", *text,
+                "Several files: make those that touch fit together, what is nearer to another than T, too")
+      ->option_text("[=T]");
+  command.parse_complete_callback([text, &tolerance, &command] {
+    if (command.count("--paste") > 0) tolerance = *text == "true" ? "" : *text;
+  });
+}
+
+void add_overlap_option(CLI::App& command, std::optional<std::string>& overlap) {
+  command
+      .add_option("--overlap", overlap,
+                  "What several files hold goes to the first of them, the last, or a new region; else files "
+                  "that overlap are refused (exit 4)")
+      ->option_text("first|last|new");
+}
+
+Overlap overlap_named(const std::optional<std::string>& text) {
+  if (!text) return Overlap::refuse;
+  if (*text == "first") return Overlap::first;
+  if (*text == "last") return Overlap::last;
+  if (*text == "new") return Overlap::fresh;
+  throw UsageError(fmt::format("--overlap {}: there is first, last and new", *text));
+}
+
+double tolerance_of(const std::string& text, const std::string& option) {
+  double tolerance = 0;
+  if (!CLI::detail::lexical_cast(text, tolerance) || !std::isfinite(tolerance) || !(tolerance > 0))
+    throw UsageError(fmt::format("{}={}: the tolerance must be a positive length", option, text));
+  return tolerance;
+}
+
+std::vector<std::string> labels_of(const std::vector<std::filesystem::path>& paths) {
+  std::vector<std::string> labels;
+  for (const auto& path : paths) labels.push_back(path.string());
+  return labels;
+}
+
+}  // namespace holdfast::cli

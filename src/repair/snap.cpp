@@ -1,0 +1,178 @@
+#include "repair/snap.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "numbers/sorted.h"
+#include "repair/near.h"
+#include "surface/aabb_tree.h"
+#include "surface/elements.h"
+#include "surface/places.h"
+
+namespace holdfast::repairing {
+namespace {
+
+class Snapping {
+ public:
+  Snapping(State& state, std::span<const Index> part, SnapTo to, double tolerance, const Step& step,
+           const Threads& threads)
+      : state_(state), to_(to), tolerance_(tolerance), step_(step), threads_(threads) {
+    Index parts = 0;
+    for (const Index p : part) parts = std::max(parts, p + 1);
+    facets_.resize(parts);
+    for (Index f = 0; f < state.facets.size(); ++f)
+      if (std::all_of(state.facets[f].begin(), state.facets[f].end(),
+                      [&](Index v) { return v < state.vertices.size() && is_finite(state.vertices[v]); }))
+        facets_[part[f]].push_back(f);
+  }
+
+  double run() {
+    for (Index p = 1; p < facets_.size(); ++p) {
+      std::map<Index, Point> moves = moves_of(p);
+      withdraw_invalid(p, moves);
+      for (const auto& [v, to] : moves) {
+        most_ = std::max(most_, length(minus(at(v), to)) * (1 + 0x1p-48));
+        state_.vertices[v] = to;
+      }
+    }
+    return most_;
+  }
+
+ private:
+  [[nodiscard]] const Point& at(Index v) const { return state_.vertices[v]; }
+
+  [[nodiscard]] Box box_of(std::span<const Index> corners, double margin) const {
+    Box box{at(corners[0]), at(corners[0])};
+    for (const Index v : corners) box.extend({at(v), at(v)});
+    for (std::size_t k = 0; k < 3; ++k) {
+      box.low[k] -= margin;
+      box.high[k] += margin;
+    }
+    return box;
+  }
+
+  [[nodiscard]] std::vector<Index> vertices_of(Index part) const {
+    std::vector<Index> vertices;
+    for (const Index f : facets_[part])
+      vertices.insert(vertices.end(), state_.facets[f].begin(), state_.facets[f].end());
+    sort_unique(vertices);
+    return vertices;
+  }
+
+  /// Where a vertex may go: lesser kinds first, then lesser distances.
+  struct Target {
+    int kind;
+    double distance;
+    Point to;
+    bool operator<(const Target& other) const {
+      return std::tuple(kind, distance, to) < std::tuple(other.kind, other.distance, other.to);
+    }
+  };
+
+  [[nodiscard]] std::map<Index, Point> moves_of(Index part) const {
+    const std::vector<Index> own = vertices_of(part);
+    std::vector<Index> before;
+    for (Index p = 0; p < part; ++p) before.insert(before.end(), facets_[p].begin(), facets_[p].end());
+    std::vector<Box> boxes;
+    for (const Index v : own) boxes.push_back(box_of(std::array{v}, tolerance_));
+    for (const Index f : before) boxes.push_back(box_of(state_.facets[f], 0));
+    std::map<Index, Target> best;
+    const auto first = static_cast<Index>(own.size());
+    AabbTree(boxes).for_each_overlap(
+        [&](Index i, Index j) {
+          if (i > j) std::swap(i, j);
+          if (i >= first || j < first) return true;
+          const std::optional<Target> target = target_on(at(own[i]), state_.facets[before[j - first]]);
+          if (!target) return true;
+          const auto [there, is_new] = best.try_emplace(own[i], *target);
+          if (!is_new && *target < there->second) there->second = *target;
+          return true;
+        },
+        [](Index, Index) { return false; }, step_);
+    std::map<Index, Point> moves;
+    for (const auto& [v, target] : best)
+      if (target.to != at(v)) moves.emplace(v, target.to);
+    return moves;
+  }
+
+  [[nodiscard]] std::optional<Target> target_on(const Point& p, const Triangle& t) const {
+    std::optional<Target> best;
+    const auto take = [&](int kind, double distance, const Point& to) {
+      const Target target{kind, distance, to};
+      if (distance <= tolerance_ && (!best || target < *best)) best = target;
+    };
+    for (const Index v : t) take(0, length(minus(p, at(v))), at(v));
+    if (to_ == SnapTo::vertices) return best;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Nearness near = beside_side(p, at(t[i]), at(t[(i + 1) % 3]));
+      take(1, near.distance, near.foot);
+    }
+    const Nearness near = beside_facet(p, at(t[0]), at(t[1]), at(t[2]));
+    take(2, near.distance, near.foot);
+    return best;
+  }
+
+  /// Takes back moves until the part is as valid as it was.
+  void withdraw_invalid(Index part, std::map<Index, Point>& moves) const {
+    if (moves.empty()) return;
+    const std::set<std::array<Index, 2>> before = broken(part, {});
+    constexpr int kMostRounds = 20;
+    for (int round = 0; round < kMostRounds && !moves.empty(); ++round) {
+      std::set<Index> back;
+      for (const auto& pair : broken(part, moves)) {
+        if (before.count(pair) != 0) continue;
+        for (const Index f : pair)
+          if (f != no_index)
+            for (const Index v : state_.facets[f])
+              if (moves.count(v) != 0) back.insert(v);
+      }
+      if (back.empty()) return;
+      for (const Index v : back) moves.erase(v);
+    }
+    moves.clear();
+  }
+
+  /// Pairs of facets of a part that do not fit together once its vertices have moved, and single ones of no
+  /// area.
+  [[nodiscard]] std::set<std::array<Index, 2>> broken(Index part, const std::map<Index, Point>& moves) const {
+    std::vector<Point> vertices = state_.vertices;
+    for (const auto& [v, to] : moves) vertices[v] = to;
+    std::vector<Triangle> facets;
+    for (const Index f : facets_[part]) facets.push_back(state_.facets[f]);
+    const Complex complex{vertices, facets, {}, {}, {}};
+    const Elements elements = elements_of(complex, threads_);
+    std::set<std::array<Index, 2>> pairs;
+    const auto facet = [&](Index element) {
+      return elements.all[element].corners == 3 ? facets_[part][elements.all[element].id] : no_index;
+    };
+    for_each_offending_pair(
+        complex, elements,
+        [&](Index i, Index j, const Contacts&) {
+          pairs.insert({facet(i), facet(j)});
+          return true;
+        },
+        step_);
+    for (const Flaw& flaw : elements.flaws)
+      if (flaw.kind == DefectKind::degenerate_facet) pairs.insert({facets_[part][flaw.id], no_index});
+    return pairs;
+  }
+
+  State& state_;
+  const SnapTo to_;
+  const double tolerance_;
+  const Step& step_;
+  const Threads& threads_;
+  std::vector<std::vector<Index>> facets_;  // by part
+  double most_ = 0;
+};
+
+}  // namespace
+
+double snap(State& state, std::span<const Index> part, SnapTo to, double tolerance, const Step& step,
+            const Threads& threads) {
+  return Snapping(state, part, to, tolerance, step, threads).run();
+}
+
+}  // namespace holdfast::repairing

@@ -1,0 +1,361 @@
+"""Several files as parts: `holdfast mesh a b`, `--paste`, `--overlap`, and `holdfast paste`."""
+import json
+import math
+import struct
+from collections import Counter
+
+from assemblies import as_float32, box, cylinder, ring, rotated, volume, wedge, write_off, write_stl
+from cli_case import CliTest, main
+
+
+def read_mesh(path):
+    """Vertices, triangles with markers, tetrahedra with regions of a .mesh file."""
+    words = path.read_text().split()
+    at, sections = 0, {}
+    width = {"Vertices": 4, "Triangles": 4, "Tetrahedra": 5, "Edges": 3}
+    while at < len(words):
+        if words[at] in width:
+            kind, n = words[at], int(words[at + 1])
+            k, at = width[kind], at + 2
+            sections[kind] = [words[at + k * i: at + k * i + k] for i in range(n)]
+            at += n * k
+        else:
+            at += 1
+    points = [tuple(float(x) for x in row[:3]) for row in sections["Vertices"]]
+    entities = {kind: [tuple(int(x) for x in row) for row in sections.get(kind, [])]
+                for kind in ("Triangles", "Tetrahedra")}
+    triangles = [(tuple(v - 1 for v in row[:3]), row[3]) for row in entities["Triangles"]]
+    tets = [(tuple(v - 1 for v in row[:4]), row[4]) for row in entities["Tetrahedra"]]
+    return points, triangles, tets
+
+
+def minus(p, q):
+    return tuple(a - b for a, b in zip(p, q))
+
+
+def cross(u, v):
+    return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
+
+
+def dot(u, v):
+    return sum(a * b for a, b in zip(u, v))
+
+
+def volumes(points, tets):
+    """By region."""
+    total = Counter()
+    for (a, b, c, d), region in tets:
+        p = points[a]
+        total[region] += dot(minus(points[b], p), cross(minus(points[c], p), minus(points[d], p))) / 6
+    return total
+
+
+def interface_areas(points, tets):
+    """By pair of regions (seen from the first), the area of the faces between them."""
+    sides = {}
+    for tet, region in tets:
+        for i in range(4):
+            sides.setdefault(tuple(sorted(tet[:i] + tet[i + 1:])), []).append(region)
+    total = Counter()
+    for (a, b, c), regions in sides.items():
+        if len(regions) == 2 and regions[0] != regions[1]:
+            n = cross(minus(points[b], points[a]), minus(points[c], points[a]))
+            total[tuple(sorted(regions))] += math.sqrt(dot(n, n)) / 2
+    return total
+
+
+class PasteTest(CliTest):
+    def parts(self, *parts, write=write_off, ending=".off"):
+        names = []
+        for name, part in zip("abcdefgh", parts):
+            write(self.folder / (name + ending), part)
+            names.append(name + ending)
+        return names
+
+    def mesh(self, names, *options, expect=0):
+        ended = self.run_program("mesh", *names, "-o", "out.mesh", "--fill", "--report", "r.json", *options,
+                                 expect=expect)
+        if expect != 0:
+            return ended
+        report = json.loads((self.folder / "r.json").read_text())
+        return *read_mesh(self.folder / "out.mesh"), report, ended
+
+    def require_vertices(self, points, *parts):
+        there = {struct.pack("<3d", *p) for p in points}
+        for part in parts:
+            for p in part[0]:
+                self.assertIn(struct.pack("<3d", *p), there)
+
+    # --- identical interfaces, no option ------------------------------------------------------------
+
+    def test_identical_interface_needs_no_option(self):
+        a, b = box((0, 0, 0), (1, 1, 1), 3), box((1, 0, 0), (2, 1, 1), 3)
+        names = self.parts(a, b)
+        points, triangles, tets, report, _ = self.mesh(names)
+        self.run_program("check", *names, "out.mesh")
+        found = volumes(points, tets)
+        self.assertEqual(set(found), {1, 2})
+        for region in (1, 2):
+            self.assertAlmostEqual(found[region], 1, places=12)
+        self.assertAlmostEqual(interface_areas(points, tets)[1, 2], 1, places=12)
+        self.require_vertices(points, a, b)
+        markers = Counter(marker for _, marker in triangles)
+        self.assertEqual(report["marker_sets"], {"3": [1, 2]})
+        self.assertEqual(markers, {1: 5 * 18, 2: 5 * 18, 3: 18})
+        self.assertEqual(report["names"]["regions"], {"1": "a", "2": "b"})
+        self.assertEqual(report["shared_facets"], 18)
+
+    def test_vtu_and_stl(self):
+        a, b = as_float32(box((0, 0, 0), (1, 1, 1), 3)), as_float32(box((1, 0, 0), (2, 1, 1), 3))
+        names = self.parts(a, b, write=write_stl, ending=".stl")
+        self.run_program("mesh", *names, "-o", "ab.vtu")
+        self.run_program("check", *names, "ab.vtu")
+
+    def test_same_marker_stays(self):
+        parts = [box((0, 0, 0), (1, 1, 1), 2), box((1, 0, 0), (2, 1, 1), 2)]
+        for name, (points, triangles) in zip("ab", parts):
+            rows = "".join(f"{x!r} {y!r} {z!r} 0\n" for x, y, z in points)
+            faces = "".join(f"{a + 1} {b + 1} {c + 1} 7\n" for a, b, c in triangles)
+            self.write(name + ".mesh", f"MeshVersionFormatted 2\nDimension 3\nVertices\n{len(points)}\n{rows}"
+                                       f"Triangles\n{len(triangles)}\n{faces}End\n")
+        _, triangles, _, report, _ = self.mesh(["a.mesh", "b.mesh"])
+        self.assertEqual({marker for _, marker in triangles}, {7})
+        self.assertEqual(report["marker_sets"], {})
+        self.run_program("check", "a.mesh", "b.mesh", "out.mesh")
+
+    def test_repeated_triangle_within_one_file_stays_a_defect(self):
+        points, triangles = box((0, 0, 0), (1, 1, 1), 2)
+        names = self.parts((points, triangles + triangles[:1]), box((1, 0, 0), (2, 1, 1), 2))
+        ended = self.mesh(names, expect=4)
+        self.assertIn("repeated", ended.stderr)
+        self.assertIn(f"triangles 0 and {len(triangles)}", ended.stderr)
+        self.assertFalse((self.folder / "out.mesh").exists())
+
+    def test_three_parts_round_an_edge(self):
+        parts = [wedge(0, 120, 1, 4), wedge(120, 240, 1, 4), wedge(240, 360, 1, 4)]
+        # The last angle closes the circle with the bits of the first.
+        parts[2] = [tuple(q) if q != p else p for p, q in zip(parts[2][0], parts[2][0])], parts[2][1]
+        first = wedge(0, 120, 1, 4)[0]
+        fixed = [(first[3 * (i // 3) + 1] if i % 3 == 2 else p) for i, p in enumerate(parts[2][0])]
+        parts[2] = fixed, parts[2][1]
+        names = self.parts(*parts)
+        points, _, tets, report, _ = self.mesh(names)
+        self.run_program("check", *names, "out.mesh")
+        found = volumes(points, tets)
+        for k, part in enumerate(parts):
+            self.assertAlmostEqual(found[k + 1], volume(part), places=12)
+        areas = interface_areas(points, tets)
+        for pair in ((1, 2), (2, 3), (1, 3)):
+            self.assertAlmostEqual(areas[pair], 1, places=12)
+        self.assertEqual(len(report["marker_sets"]), 3)
+
+    def test_regions_keep_ids_and_names(self):
+        poly = self.folder / "b.poly"
+        points, triangles = box((1, 0, 0), (2, 1, 1), 2)
+        write_off(self.folder / "a.off", box((0, 0, 0), (1, 1, 1), 2))
+        poly.write_text(f"{len(points)} 3 0 0\n" + "".join(f"{i} {x!r} {y!r} {z!r}\n" for i, (x, y, z) in enumerate(points))
+                        + f"{len(triangles)} 0\n" + "".join(f"1\n3 {a} {b} {c}\n" for a, b, c in triangles)
+                        + "0\n1\n0 1.5 0.5 0.5 1 -1\n")
+        _, _, tets, report, _ = self.mesh(["a.off", "b.poly"])
+        self.assertEqual({r for _, r in tets}, {1, 2})
+        self.assertEqual(report["parts"][1]["region"], 1)  # its own; the first file gets the next free number
+        self.assertEqual(report["parts"][0]["region"], 2)
+        self.run_program("check", "a.off", "b.poly", "out.mesh")
+
+    def test_void_between_parts_stays_empty(self):
+        # A box with a box-shaped hole, and a smaller box in one end of the hole.
+        outer, hole = box((0, 0, 0), (3, 3, 3), 3), box((1, 1, 1), (2, 2, 2), (1, 1, 2))
+        plug = box((1, 1, 1), (2, 2, 1.5), 1)
+        names = self.parts(ring(hole, outer), plug)
+        points, _, tets, _, _ = self.mesh(names)
+        found = volumes(points, tets)
+        self.assertAlmostEqual(found[1], 26, places=12)
+        self.assertAlmostEqual(found[2], 0.5, places=12)
+        self.run_program("check", *names, "out.mesh")
+
+    # --- overlap and distance ------------------------------------------------------------------------
+
+    def overlapping(self):
+        """The second box holds the right third of the first one, and shares its lower face there."""
+        a = box((0, 0, 0), (3, 1, 1), (3, 1, 1))
+        b = box((2, 0, 0), (4, 1, 2), (2, 1, 2))
+        return a, b
+
+    def test_overlap_is_refused(self):
+        names = self.parts(*self.overlapping())
+        ended = self.mesh(names, expect=4)
+        self.assertRegex(ended.stderr, r"a\.off and b\.off overlap by 1\b")
+        self.assertFalse((self.folder / "out.mesh").exists())
+
+    def test_overlap_goes_where_it_is_sent(self):
+        names = self.parts(*self.overlapping())
+        for option, expected in (("first", {1: 3, 2: 3}), ("last", {1: 2, 2: 4}), ("new", {1: 2, 2: 3, 3: 1})):
+            points, _, tets, _, _ = self.mesh(names, "--overlap", option)
+            found = volumes(points, tets)
+            self.assertEqual({r: round(v, 9) for r, v in found.items()}, expected)
+        self.assertIn("there is first, last and new",
+                      self.run_program("mesh", *names, "-o", "x.mesh", "--overlap", "both", expect=2).stderr)
+
+    def test_options_of_parts_need_parts(self):
+        ended = self.run_program("mesh", "cube.off", "-o", "x.mesh", "--overlap=first", expect=2)
+        self.assertIn("a single file", ended.stderr)
+        ended = self.run_program("mesh", "cube.off", "-o", "x.mesh", "--paste", expect=2)
+        self.assertIn("one part", ended.stderr)
+        self.run_program("mesh", "cube.off", "cube.off", "-o", "x.mesh", "--paste=-1", expect=2)
+        self.run_program("paste", "cube.off", "-o", "x.off", expect=2)
+        self.assertEqual(self.files(), ["cube.off"])
+
+    def test_distance_of_parts_that_do_not_touch(self):
+        names = self.parts(rotated(box((0, 0, 0), (1, 1, 1), 2)), rotated(box((1.5, 0.3, 0.2), (2, 1, 1), 3)))
+        *_, report, ended = self.mesh(names, "--paste")
+        self.assertRegex(ended.stderr, r"a\.off and b\.off do not touch: they are 0\.5 apart")
+        self.assertEqual([w["message"][:5] for w in report["warnings"]], ["a.off"])
+
+    # --- parts that are cut differently --------------------------------------------------------------
+
+    def require_pasted(self, parts, *options, interfaces, exact=True, places=12):
+        """Meshes the parts, checks the mesh against the pasted surface, and compares volumes and areas."""
+        names = self.parts(*parts)
+        points, _, tets, report, _ = self.mesh(names, *options)
+        self.run_program("paste", *names, "-o", "pasted.mesh", "--parents", "p.txt", "--report", "p.json",
+                         *[o.replace("--paste=", "--tolerance=") for o in options if o.startswith("--paste=")])
+        self.run_program("check", "pasted.mesh", "out.mesh")
+        self.assertEqual(self.run_program("diagnose", "pasted.mesh").returncode, 0)
+        if exact:
+            self.require_vertices(points, *parts)
+        self.require_vertices(points, parts[0])
+        found = volumes(points, tets)
+        for k, part in enumerate(parts):
+            self.assertAlmostEqual(found[k + 1], volume(part), places=places)
+        self.assertEqual(set(found), set(range(1, len(parts) + 1)))
+        areas = interface_areas(points, tets)
+        self.assertEqual(set(areas), set(interfaces))
+        for pair, area in interfaces.items():
+            self.assertAlmostEqual(areas[pair], area, places=min(places, 6))
+        return report
+
+    def test_different_grids(self):
+        a, b = box((0, 0, 0), (1, 1, 1), 4), box((1, 0, 0), (2, 1, 1), 7)
+        self.require_pasted([a, b], "--paste", interfaces={(1, 2): 1})
+
+    def test_different_grids_rotated(self):
+        a, b = rotated(box((0, 0, 0), (1, 1, 1), 4)), rotated(box((1, 0, 0), (2, 1, 1), 7))
+        self.require_pasted([a, b], "--paste", interfaces={(1, 2): 1})
+
+    def test_different_grids_float32(self):
+        parts = [as_float32(rotated(p)) for p in (box((0, 0, 0), (1, 1, 1), 4), box((1, 0, 0), (2, 1, 1), 7))]
+        self.require_pasted(parts, "--paste", interfaces={(1, 2): 1}, places=6)
+
+    def test_interfaces_that_cover_each_other_in_part(self):
+        a, b = rotated(box((0, 0, 0), (1, 1, 1), 5)), rotated(box((1, 0.23, 0.17), (2, 0.81, 1.3), 4))
+        self.require_pasted([a, b], "--paste", interfaces={(1, 2): 0.58 * 0.83})
+
+    def test_cylinder_in_box(self):
+        hole, plug = cylinder(0.4, -0.7, 0.7, 24, layers=4), cylinder(0.4, -0.7, 0.7, 24, layers=7)
+        area = 2 * 24 * (0.4 * math.sin(math.pi / 24) * 1.4 + 0.08 * math.sin(2 * math.pi / 24))
+        self.require_pasted([rotated(ring(hole, box((-1, -1, -1), (1, 1, 1), 3))), rotated(plug)], "--paste",
+                            interfaces={(1, 2): area})
+
+    def test_three_parts_round_an_edge_cut_differently(self):
+        parts = [as_float32(rotated(wedge(*w))) for w in ((0, 120, 1, 3), (120, 240, 1, 5), (240, 360, 1, 4))]
+        self.require_pasted(parts, "--paste", interfaces={(1, 2): 1, (2, 3): 1, (1, 3): 1}, places=6)
+
+    def test_slab_on_two_boxes(self):
+        parts = [rotated(p) for p in (box((0, 0, 0), (1, 1, 1), 3), box((1, 0, 0), (2, 1, 1), 4),
+                                      box((0, 0, 1), (2, 1, 1.7), 5))]
+        self.require_pasted(parts, "--paste", interfaces={(1, 2): 1, (1, 3): 1, (2, 3): 1})
+
+    def test_tolerance_closes_a_gap_and_an_overlap(self):
+        for x in (1.01, 0.99):
+            a, b = rotated(box((0, 0, 0), (1, 1, 1), 4)), rotated(box((x, 0, 0), (2, 1, 1), 7))
+            names = self.parts(a, b)
+            points, _, tets, _, _ = self.mesh(names, "--paste=0.02")
+            self.require_vertices(points, a)
+            found = volumes(points, tets)
+            self.assertAlmostEqual(found[1], 1, places=9)
+            self.assertAlmostEqual(found[2], 1, places=9)
+            self.assertAlmostEqual(interface_areas(points, tets)[1, 2], 1, places=9)
+            self.run_program("paste", *names, "-o", "pasted.off", "--tolerance", "0.02", "--report", "p.json")
+            report = json.loads((self.folder / "p.json").read_text())
+            self.assertEqual(len(report["moved"]), 64)
+            self.assertTrue(all(0.0099 < m["distance"] < 0.0101 for m in report["moved"]))
+            self.assertTrue(all(m["vertex"] >= len(a[0]) for m in report["moved"]))
+
+    def test_components_of_one_file(self):
+        a, b = box((0, 0, 0), (1, 1, 1), 2), box((1, 0, 0), (2, 1, 1), 3)
+        n = len(a[0])
+        write_off(self.folder / "ab.off", (a[0] + b[0], a[1] + [tuple(n + v for v in t) for t in b[1]]))
+        points, _, tets, _, _ = self.mesh(["ab.off"], "--paste")
+        found = volumes(points, tets)
+        self.assertAlmostEqual(found[1], 1, places=12)
+        self.assertAlmostEqual(found[2], 1, places=12)
+        self.assertAlmostEqual(interface_areas(points, tets)[1, 2], 1, places=12)
+
+    def test_overlap_of_pasted_parts_names_both(self):
+        names = self.parts(box((0, 0, 0), (1, 1, 1), 2), box((0.7, 0.2, 0.2), (2, 0.6, 0.9), 3))
+        for ended in (self.run_program("mesh", *names, "-o", "x.mesh", "--paste", expect=4),
+                      self.run_program("paste", *names, "-o", "x.mesh", expect=4)):
+            self.assertIn("a.off and b.off overlap by 0.3 at", ended.stderr)
+        self.assertFalse((self.folder / "x.mesh").exists())
+        points, _, tets, _, _ = self.mesh(names, "--paste", "--overlap", "new")
+        found = volumes(points, tets)
+        self.assertAlmostEqual(found[3], 0.3 * 0.4 * 0.7, places=9)
+
+    def test_parents_and_report(self):
+        a, b = box((0, 0, 0), (1, 1, 1), 4), box((1, 0, 0), (2, 1, 1), 7)
+        names = self.parts(a, b)
+        self.run_program("paste", *names, "-o", "pasted.off", "--parents", "p.txt", "--report", "p.json")
+        report = json.loads((self.folder / "p.json").read_text())
+        rows = [r for r in (self.folder / "p.txt").read_text().splitlines() if not r.startswith("#")]
+        self.assertEqual(len(rows), report["output"]["facets"])
+        shared = [r for r in rows if len(r.split()) == 2]
+        self.assertEqual(len(shared), report["shared_facets"])
+        n = len(a[1])
+        self.assertTrue(all(int(r.split()[0]) < n <= int(r.split()[1]) for r in shared))
+        self.assertEqual(report["marker_sets"], {"3": [1, 2]})
+        self.assertEqual([p["region"] for p in report["parts"]], [1, 2])
+
+    # --- volumes -----------------------------------------------------------------------------------
+
+    def test_volumes(self):
+        parts = [rotated(box((0, 0, 0), (1, 1, 1), 4)), rotated(box((1, 0, 0), (2, 1, 1), 7))]
+        names = self.parts(*parts)
+        given = []
+        for k, name in enumerate(names, 1):
+            self.run_program("mesh", name, "-o", f"{name[0]}.mesh", "--region",
+                             ",".join(map(repr, (*rotated(([(k - 0.5, 0.5, 0.5)], []))[0][0], k))))
+            given.append(read_mesh(self.folder / f"{name[0]}.mesh"))
+        self.run_program("paste", "a.mesh", "b.mesh", "-o", "ab.mesh", "--report", "r.json", "--parents", "p.txt")
+        points, triangles, tets = read_mesh(self.folder / "ab.mesh")
+        report = json.loads((self.folder / "r.json").read_text())
+        found = volumes(points, tets)
+        self.assertEqual(set(found), {1, 2})
+        for region in (1, 2):
+            self.assertAlmostEqual(found[region], 1, places=12)
+        self.assertAlmostEqual(interface_areas(points, tets)[1, 2], 1, places=12)
+        self.require_vertices(points, *((g[0], None) for g in given))
+
+        def corners(mesh):
+            return {frozenset(struct.pack("<3d", *mesh[0][v]) for v in t) for t, _ in mesh[2]}
+
+        def at_interface(mesh):
+            """Tetrahedra with a corner on the common face."""
+            back = {v for t, _ in mesh[2] for v in t if self.is_on_interface(mesh[0][v])}
+            return {frozenset(struct.pack("<3d", *mesh[0][v]) for v in t) for t, _ in mesh[2] if back & set(t)}
+
+        after = corners((points, triangles, tets))
+        gone = [corners(mesh) - after for mesh in given]
+        self.assertEqual(sum(map(len, gone)), report["tetrahedra"]["replaced"])
+        for mesh, lost in zip(given, gone):
+            self.assertTrue(lost)
+            self.assertLessEqual(lost, at_interface(mesh))
+
+    @staticmethod
+    def is_on_interface(p):
+        face = rotated(([(1, 0, 0), (1, 1, 0), (1, 0, 1)], []))[0]
+        n = cross(minus(face[1], face[0]), minus(face[2], face[0]))
+        return abs(dot(minus(p, face[0]), n)) < 1e-12
+
+
+if __name__ == "__main__":
+    main()
