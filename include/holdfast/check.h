@@ -22,6 +22,9 @@ enum class RuleKind : int {
   regions_numbered = 11,
   markers_kept = 12,
   nothing_dropped = 13,
+  // Of volumes of second order alone:
+  mid_nodes_placed = 14,
+  jacobians_positive = 15,
 };
 
 /// "facets kept" and so on; stable.
@@ -57,9 +60,9 @@ struct CheckOptions : Limits {
 /// distinct ones, in the order that `vertex_map` (holdfast.h) tells. Findings name the surface's own indices.
 /// Vertices of the volume are never taken together.
 ///
-/// The result has all rules, in the order of `RuleKind`. A rule that cannot be decided because another is
-/// broken does not hold, and its detail begins with "not examined". Any arrays are accepted, however wrong.
-/// Throws Interrupted for its limits, and std::bad_alloc.
+/// The result has all rules, in the order of `RuleKind`; those on mid-edge nodes where the volume has some. A
+/// rule that cannot be decided because another is broken does not hold, and its detail begins with "not
+/// examined". Any arrays are accepted, however wrong. Throws Interrupted for its limits, and std::bad_alloc.
 [[nodiscard]] HOLDFAST_API CheckResult check(const Complex& surface, const Volume& volume,
                                              const CheckOptions& options = {});
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import numbers
 import os
 import typing
 from dataclasses import dataclass
@@ -33,6 +34,8 @@ def mesh(
     metric: Any = None,
     gradation: float = 0.3,
     growth: bool = True,
+    max_volume: Union[None, float, typing.Mapping[Optional[int], float]] = None,
+    max_ratio: Optional[float] = None,
     fill: bool = False,
     quality: str = "good",
     keep: str = "auto",
@@ -73,8 +76,15 @@ def mesh(
         How much sizes grow a unit of length, away from the surface; 0 to 1.
     growth
         Whether sizes may grow inside beyond those of the surface round.
+    max_volume
+        The most that a tetrahedron may measure: a number, or a dict of numbers by the ids of `regions` (None: anywhere). It holds
+        for every tetrahedron, even at the price of flat ones; `TetMesh.report["bounds"]` counts them.
+    max_ratio
+        The most that the radius of the sphere round a tetrahedron should be over its shortest edge: an aim. Exceptions
+        are counted in `TetMesh.report["bounds"]`.
     fill
-        Add no field points: only what the surface forces. `size`, `metric`, `gradation` and `growth` have no meaning then.
+        Add no field points: only what the surface forces. `size`, `metric`, `gradation`, `growth`, `max_volume` and
+        `max_ratio` have no meaning then.
     quality
         Effort for the elements with field points: "fast", "good" or "best".
     keep
@@ -125,8 +135,9 @@ def mesh(
     steps = {without} if isinstance(without, str) else set(without)
     if unknown := steps - {"flips", "optimise", "points"}:
         raise ValueError(f"without={sorted(unknown)}: only 'flips', 'optimise' and 'points' can be left out")
-    if fill and (size is not None or metric is not None):
-        raise ValueError("fill=True adds no field points, so that size and metric have no meaning; leave out one of them")
+    if fill and any(x is not None for x in (size, metric, max_volume, max_ratio)):
+        raise ValueError("fill=True adds no field points, so that size, metric, max_volume and max_ratio have no meaning; "
+                         "leave out one of them")
     pasted = surface if isinstance(surface, Pasted) else None
     what = surface_of(
         surface if pasted is None else pasted.surface,
@@ -145,7 +156,9 @@ def mesh(
         keep=keep,
         box_margin=float(box_margin),
         holes=[_numbers(h, 3, "a hole") for h in holes] + [list(map(float, h)) for h in what.holes],
-        regions=[_region(r) for r in regions] + [tuple(r) for r in what.regions],
+        regions=_bounded([_region(r) for r in regions] + [tuple(r) for r in what.regions], max_volume),
+        max_volume=_most_volume(max_volume),
+        max_ratio=0.0 if max_ratio is None else _positive(max_ratio, "max_ratio"),
         drop_outside=bool(drop_outside),
         flips="flips" not in steps,
         optimise="optimise" not in steps,
@@ -178,6 +191,32 @@ def _region(values: typing.Sequence[float]) -> tuple[float, float, float, int, f
         raise ValueError(f"the id of a region must be an integer of 32 bits, not {values[3]!r}")
     size = float(values[4]) if len(values) == 5 and values[4] is not None else 0.0
     return (float(values[0]), float(values[1]), float(values[2]), int(values[3]), size)
+
+
+def _positive(value: Any, what: str) -> float:
+    number = float(value)
+    if not 0 < number < float("inf"):
+        raise ValueError(f"{what}={number}: a positive number is expected")
+    return number
+
+
+def _most_volume(most: Union[None, float, typing.Mapping[Optional[int], float]]) -> float:
+    """The bound that holds anywhere, 0 for none."""
+    anywhere = most.get(None) if isinstance(most, typing.Mapping) else most
+    return 0.0 if anywhere is None else _positive(anywhere, "max_volume")
+
+
+def _bounded(
+    regions: list[tuple[float, float, float, int, float]],
+    most: Union[None, float, typing.Mapping[Optional[int], float]],
+) -> list[tuple[float, float, float, int, float, float]]:
+    """The regions with the volume that their tetrahedra may measure, 0 for any."""
+    if not isinstance(most, (numbers.Real, typing.Mapping, type(None))):
+        raise TypeError("max_volume is a number, or a dict of numbers by the ids of regions")
+    by_id = {id: v for id, v in most.items() if id is not None} if isinstance(most, typing.Mapping) else {}
+    if unknown := sorted(set(by_id) - {r[3] for r in regions}):
+        raise ValueError(f"max_volume: no region has the id {unknown[0]}; `regions` numbers them")
+    return [(*r, _positive(by_id[r[3]], "max_volume") if r[3] in by_id else 0.0) for r in regions]
 
 
 def _is_background(value: Any) -> bool:
@@ -466,6 +505,30 @@ def read_volume(
         volume, _ = _core.read_volume(os.fspath(path), format or "", options, callback)
     known = volume.input_points
     return TetMesh._of(volume, int(np.count_nonzero(known >= 0)) if len(known) else None)
+
+
+def info(path: PathLike, format: Optional[str] = None) -> dict[str, Any]:
+    """What a surface or volume file holds: counts, sizes, regions and markers with their names and measures, shapes of the
+    tetrahedra, with the keys of `holdfast info --json` (docs/command-line.md). Raises FileError.
+
+    >>> holdfast.info("part.vtu")["volume"]  # doctest: +SKIP
+    12.5
+    """
+    name = os.fspath(path)
+    ending = "." + format.lstrip(".") if format else os.path.splitext(name.removesuffix(".gz"))[1]
+    ending = ending.lower()
+    remarks: list[str] = []
+    told: dict[str, Any] = {}
+    stem = os.path.splitext(name)[0]
+    if ending in _core.volume_formats() and (ending != ".node" or os.path.exists(stem + ".ele")):
+        volume, remarks = _core.read_volume(name, format or "", {}, None)
+        if len(volume.tetrahedra):
+            told = {"file": name, "kind": "volume", **json.loads(_core.volume_info(volume))}
+    if not told:
+        surface = _core.read_surface(name, format or "", {}, None)
+        remarks = surface.remarks
+        told = {"file": name, "kind": "surface", **json.loads(_core.surface_info(surface))}
+    return {**told, "remarks": remarks}
 
 
 def volume_of(mesh: Any) -> TetMesh:

@@ -16,7 +16,7 @@ import numpy.typing as npt
 from . import _core
 from ._limits import CancelToken, MemoryAmount, ProgressCallback, Shown, limits
 from ._names import Names, names_of
-from ._surface import Array, PathLike, Surface, _or_none, indices_of, markers_of, points_of
+from ._surface import Array, PathLike, Surface, _or_none, indices_of, markers_of, points_of, surface_of
 
 _VTK_LINE, _VTK_TRIANGLE, _VTK_TETRA = 3, 5, 10
 
@@ -106,6 +106,7 @@ class TetMesh:
         self._result = result
         self._report: Optional[dict[str, Any]] = None
         self._triangle_regions: Optional[ma.MaskedArray[Any, Any]] = None
+        self.curve_report: dict[str, Any] = {}
         self.points = volume.points
         self.tetrahedra = volume.tetrahedra
         self.regions = volume.regions
@@ -202,6 +203,73 @@ class TetMesh:
         """
         return _quality(self.points, self.tetrahedra)
 
+    def info(self) -> dict[str, Any]:
+        """Counts, sizes, regions and markers with their names and measures, shapes of the tetrahedra: the keys of
+        `holdfast info --json`, of which docs/command-line.md has the list."""
+        return dict(json.loads(_core.volume_info(self._volume)))
+
+    @property
+    def order(self) -> int:
+        """2 if edges have nodes in their middle, else 1."""
+        return 2 if len(self._volume.mid_points) else 1
+
+    def second_order(self, curved: Any = None, tolerance: Optional[float] = None) -> "TetMesh":
+        """The same mesh with a node in the middle of each edge, which `nodes`, `tetrahedra10` and so on have, and `save`
+        writes.
+
+        Parameters
+        ----------
+        curved
+            A smooth surface, given by finer triangles (whatever `mesh` takes): nodes on edges of triangles are put on it,
+            unless an element would not be positive everywhere. `curve_report` counts them.
+        tolerance
+            How far a node may move; a tenth of its edge unless given.
+
+        >>> import holdfast
+        >>> mesh = holdfast.mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
+        ...                      [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)], fill=True).second_order()
+        >>> mesh.order, mesh.nodes.shape, mesh.tetrahedra10.shape
+        (2, (10, 3), (1, 10))
+        """
+        smooth = None if curved is None else surface_of(curved)
+        if tolerance is not None and (smooth is None or not 0 < tolerance < float("inf")):
+            raise ValueError("tolerance: a positive length beside `curved` is expected")
+        volume, told = _core.second_order(
+            self._volume,
+            None if smooth is None else smooth.points,
+            None if smooth is None else smooth.triangles,
+            0.0 if tolerance is None else float(tolerance),
+        )
+        mesh = TetMesh._of(volume, self.n_input_points, self._result)
+        mesh.curve_report = {} if smooth is None else dict(told)
+        return mesh
+
+    @property
+    def nodes(self) -> Array:
+        """(n, 3): the points, then the nodes in the middle of edges."""
+        return np.concatenate([self.points, self._volume.mid_points])
+
+    @property
+    def tetrahedra10(self) -> Array:
+        """(m, 10) indices into `nodes`: the corners, then the nodes on their edges 01 12 02 03 13 23, as VTK, meshio and
+        Abaqus have them (Gmsh swaps the last two). Of a mesh of second order alone."""
+        return self._with_nodes(self.tetrahedra, self._volume.mid_tetrahedra)
+
+    @property
+    def triangles6(self) -> Array:
+        """(k, 6) indices into `nodes`: the corners, then the nodes on their edges 01 12 02."""
+        return self._with_nodes(self.triangles, self._volume.mid_triangles)
+
+    @property
+    def segments3(self) -> Array:
+        """(s, 3) indices into `nodes`: the ends, then the node between them."""
+        return self._with_nodes(self.segments, self._volume.mid_segments.reshape(-1, 1))
+
+    def _with_nodes(self, corners: Array, nodes: Array) -> Array:
+        if self.order == 1:
+            raise ValueError("the mesh is of first order; second_order() gives it nodes on its edges")
+        return np.concatenate([corners, nodes], axis=1)
+
     def neighbours(self) -> Array:
         """(m, 4) int32: the tetrahedron behind the face opposite to each corner, -1 where there is none."""
         return _core.neighbours(self._volume)
@@ -245,11 +313,13 @@ class TetMesh:
         meshio = _wanted("meshio", "to_meshio")
         counts = (len(self.tetrahedra), len(self.triangles), len(self.segments))
         cells = [("tetra", self.tetrahedra), ("triangle", self.triangles), ("line", self.segments)]
+        if self.order == 2:
+            cells = [("tetra10", self.tetrahedra10), ("triangle6", self.triangles6), ("line3", self.segments3)]
         region = [self._regions(), np.zeros(counts[1], np.int32), np.zeros(counts[2], np.int32)]
         marker = [np.zeros(counts[0], np.int32), self.triangle_markers, self.segment_markers]
         there = [i for i in range(3) if counts[i] > 0]
         return meshio.Mesh(
-            np.array(self.points),
+            np.array(self.nodes),
             [(cells[i][0], np.array(cells[i][1])) for i in there],
             cell_data={"region": [np.array(region[i]) for i in there], "marker": [np.array(marker[i]) for i in there]},
         )
@@ -262,8 +332,8 @@ class TetMesh:
         numpy_to_vtk, to_ids = support.numpy_to_vtk, support.numpy_to_vtkIdTypeArray
         cells, types, region, marker = self._vtk_cells()
         points = core.vtkPoints()
-        points.SetData(numpy_to_vtk(np.array(self.points), deep=True))
-        counts = np.where(types == _VTK_TETRA, 4, np.where(types == _VTK_TRIANGLE, 3, 2))
+        points.SetData(numpy_to_vtk(np.array(self.nodes), deep=True))
+        counts = _vtk_counts(types)
         offsets = np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
         array = model.vtkCellArray()
         array.SetData(to_ids(offsets, deep=True), to_ids(cells, deep=True))
@@ -280,9 +350,9 @@ class TetMesh:
         """A `pyvista.UnstructuredGrid` with cell data "region" and "marker". Raises ImportError without PyVista."""
         pyvista = _wanted("pyvista", "to_pyvista")
         cells, types, region, marker = self._vtk_cells()
-        counts = np.where(types == _VTK_TETRA, 4, np.where(types == _VTK_TRIANGLE, 3, 2))
+        counts = _vtk_counts(types)
         starts = np.concatenate([[0], np.cumsum(counts)[:-1]]).astype(np.int64) if len(counts) else np.empty(0, np.int64)
-        grid = pyvista.UnstructuredGrid(np.insert(cells, starts, counts), types, np.array(self.points))
+        grid = pyvista.UnstructuredGrid(np.insert(cells, starts, counts), types, np.array(self.nodes))
         grid.cell_data["region"] = region
         grid.cell_data["marker"] = marker
         return grid
@@ -292,7 +362,10 @@ class TetMesh:
 
     def _vtk_cells(self) -> tuple[Array, Array, Array, Array]:
         """Corners of all cells, their types, regions and markers."""
-        blocks = ((self.tetrahedra, _VTK_TETRA), (self.triangles, _VTK_TRIANGLE), (self.segments, _VTK_LINE))
+        if self.order == 2:
+            blocks = ((self.tetrahedra10, 24), (self.triangles6, 22), (self.segments3, 21))
+        else:
+            blocks = ((self.tetrahedra, _VTK_TETRA), (self.triangles, _VTK_TRIANGLE), (self.segments, _VTK_LINE))
         cells = np.concatenate([b.astype(np.int64).ravel() for b, _ in blocks])
         types = np.concatenate([np.full(len(b), t, np.uint8) for b, t in blocks])
         lower = len(self.triangles) + len(self.segments)
@@ -340,16 +413,31 @@ class TetMesh:
                                              volume.triangle_markers, volume.segments, volume.segment_markers,
                                              volume.point_markers, volume.input_points)]
                       + [tuple(volume.names)],
+            "mid_nodes": None if self.order == 1 else [
+                np.array(a) for a in (volume.mid_points, volume.mid_tetrahedra, volume.mid_triangles, volume.mid_segments)],
+            "curve_report": self.curve_report,
             "n_input_points": self.n_input_points,
             "report": self.report,
             "triangle_regions": regions,
         }
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        self._set(_core.Volume(*state["arrays"]), state["n_input_points"])
+        volume = _core.Volume(*state["arrays"])
+        if state["mid_nodes"] is not None:
+            volume = _core.with_mid_nodes(volume, *state["mid_nodes"])
+        self._set(volume, state["n_input_points"])
+        self.curve_report = state["curve_report"]
         self._report = state["report"]
         regions = state["triangle_regions"]
         self._triangle_regions = None if regions is None else _frozen(regions.data, np.asarray(regions.mask))
+
+
+def _vtk_counts(types: Array) -> Array:
+    """Nodes of cells: quadratic tetrahedra, triangles and edges are types 24, 22, 21."""
+    counts = np.zeros(25, np.int64)
+    for kind, nodes in ((_VTK_TETRA, 4), (_VTK_TRIANGLE, 3), (_VTK_LINE, 2), (24, 10), (22, 6), (21, 3)):
+        counts[kind] = nodes
+    return counts[types]
 
 
 def _frozen(ids: Array, none: Array) -> "ma.MaskedArray[Any, Any]":

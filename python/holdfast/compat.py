@@ -52,11 +52,14 @@ class Switches:
     >>> s = Switches("pq1.4a0.1Y")
     >>> s.quality, s.max_volume
     (True, 0.1)
+    >>> s.max_ratio
+    1.4
     """
 
     def __init__(self, text: str) -> None:
         self.quality = False
         self.max_volume: Optional[float] = None
+        self.max_ratio: Optional[float] = None
         self.by_region = False
         self.attributes = False
         self.order = 1
@@ -78,6 +81,9 @@ class Switches:
             raise _bad(letter, _REFUSED[letter])
         if letter == "q":
             self.quality = True
+            ratio = number.split("/")[0]
+            if ratio and float(ratio) > 0:
+                self.max_ratio = float(ratio)
         elif letter == "a":
             if number:
                 self.max_volume = float(number)
@@ -89,8 +95,7 @@ class Switches:
         elif letter == "Y":
             self.keeps_surface = True
         elif letter == "o":
-            if number == "2":
-                raise _bad("o2", "elements are of first order; other packages add mid-edge nodes")
+            self.order = 2 if number == "2" else 1
         elif letter in _WITHOUT_COUNTERPART:
             warnings.warn(f"TetGen's switch {letter} has no counterpart in Holdfast", stacklevel=4)
         elif letter not in _MEANINGLESS:
@@ -137,7 +142,7 @@ class TetGen:
         return pyvista.PolyData(np.array(self.v, np.float64), faces)
 
     def add_region(self, id: int, point_in_region: Any, max_vol: float = 0.0) -> None:
-        """Numbers the region that holds a point, and bounds its elements by the size of a regular one of that volume."""
+        """Numbers the region that holds a point, and bounds the volume of its elements."""
         x, y, z = (float(c) for c in point_in_region)
         self._regions.append((int(id), (x, y, z), float(max_vol)))
 
@@ -168,8 +173,8 @@ class TetGen:
         **others: Any,
     ) -> tuple[Array, Array]:
         """Points and tetrahedra. `switches`, if given, counts alone, as in the tetgen package."""
-        if order != 1:
-            raise NotImplementedError(f"order={order}: elements are of first order; other packages add mid-edge nodes")
+        if order not in (1, 2):
+            raise NotImplementedError(f"order={order}: elements are of first or second order")
         if not plc:
             raise NotImplementedError("plc=False: use holdfast.delaunay for points alone")
         for name, value in others.items():
@@ -180,37 +185,32 @@ class TetGen:
         else:
             asked = Switches("pY")
             asked.quality = quality
+            asked.order = order
             asked.max_volume = maxvolume if maxvolume and maxvolume > 0 else None
             asked.by_region = varvolume
             asked.attributes = regionattrib
             if not nobisect:
                 warnings.warn("nobisect=False: Holdfast keeps the surface as it is all the same", stacklevel=2)
-            for name, aim in (("mindihedral", mindihedral), ("minratio", minratio)):
-                if aim is not None:
-                    warnings.warn(f"{name}={aim}: Holdfast makes angles as good as it finds and bounds no ratio; "
-                                  "TetMesh.quality() tells what they are", stacklevel=2)
+            asked.max_ratio = minratio
+            if mindihedral is not None:
+                warnings.warn(f"mindihedral={mindihedral}: Holdfast makes angles as good as it finds; TetMesh.quality() "
+                              "tells what they are", stacklevel=2)
         self._result = self._run(asked)
+        if asked.order == 2:
+            self._result = self._result.second_order()
         return self.node, self.elem
 
     def _run(self, asked: Switches) -> TetMesh:
-        regions = []
-        for id, (x, y, z), volume in self._regions:
-            regions.append((x, y, z, id, size_of_volume(volume)) if volume > 0 else (x, y, z, id))
-        fine = asked.quality or any(len(r) == 5 for r in regions)
-        size = None if asked.max_volume is None else size_of_volume(asked.max_volume)
-        if not fine:
-            return _mesh(self._surface, fill=True, holes=self._holes, regions=[r[:4] for r in regions])
-        mesh = _mesh(self._surface, size=size, holes=self._holes, regions=regions)
+        regions = [(x, y, z, id) for id, (x, y, z), _ in self._regions]
+        bounds: dict[Optional[int], float] = {}
+        for id, _, volume in self._regions:
+            if volume > 0:
+                bounds[id] = min(volume, bounds.get(id, volume))
+        if not asked.quality and not bounds:
+            return _mesh(self._surface, fill=True, holes=self._holes, regions=regions)
         if asked.max_volume is not None:
-            self._tell_of_large(mesh, asked.max_volume)
-        return mesh
-
-    @staticmethod
-    def _tell_of_large(mesh: TetMesh, most: float) -> None:
-        large = int(np.count_nonzero(mesh.quality().volume > most))
-        if large:
-            warnings.warn(f"{large} of {len(mesh)} tetrahedra are larger than {most}: the volume is an aim, since the "
-                          "surface's triangles are kept", stacklevel=4)
+            bounds[None] = asked.max_volume
+        return _mesh(self._surface, max_volume=bounds, max_ratio=asked.max_ratio, holes=self._holes, regions=regions)
 
     def _done(self) -> TetMesh:
         if self._result is None:
@@ -224,13 +224,14 @@ class TetGen:
 
     @property
     def node(self) -> Array:
-        """(n, 3) points."""
-        return self._done().points
+        """(n, 3) points, and with order 2 the nodes on edges behind them."""
+        return self._done().nodes
 
     @property
     def elem(self) -> Array:
-        """(m, 4) tetrahedra."""
-        return self._done().tetrahedra
+        """(m, 4) tetrahedra; with order 2 (m, 10), in TetGen's order."""
+        mesh = self._done()
+        return mesh.tetrahedra if mesh.order == 1 else mesh.tetrahedra10[:, [0, 1, 2, 3, 9, 7, 4, 5, 8, 6]]
 
     @property
     def attributes(self) -> Array:

@@ -91,6 +91,8 @@ Sizes sizes_from(const py::dict& options, const Fields& fields) {
   take(options, "size", sizes.size);
   take(options, "gradation", sizes.gradation);
   take(options, "growth", sizes.grow);
+  take(options, "max_volume", sizes.max_volume);
+  take(options, "max_ratio", sizes.max_ratio);
   take(options, "point_sizes", sizes.vertex_sizes);
   if (!fields.size.is_none()) sizes.fields = sizes_asked_of(fields.size);
   if (!fields.metric.is_none()) sizes.metric = metric_asked_of(fields.metric);
@@ -114,9 +116,9 @@ Options mesh_options(const py::dict& from, const Fields& fields) {
   options.keep = named<Keep>(from, "keep");
   take(from, "box_margin", options.box_margin);
   take(from, "holes", options.holes);
-  for (const auto& [x, y, z, id, size] :
-       py::cast<std::vector<std::tuple<double, double, double, int, double>>>(from["regions"]))
-    options.regions.push_back({{x, y, z}, id, size});
+  for (const auto& [x, y, z, id, size, volume] :
+       py::cast<std::vector<std::tuple<double, double, double, int, double, double>>>(from["regions"]))
+    options.regions.push_back({{x, y, z}, id, size, volume});
   take(from, "drop_outside", options.drop_outside);
   take(from, "flips", options.flips);
   take(from, "optimise", options.optimise);

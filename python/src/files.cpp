@@ -9,6 +9,7 @@
 
 #include "arrays.h"
 #include "holdfast/io.h"
+#include "holdfast/statistics.h"
 #include "limits.h"
 #include "names.h"
 #include "register.h"
@@ -144,6 +145,14 @@ void register_files(py::module_& module) {
     return std::make_shared<Surface>(surface_of(volume));
   });
   module.def("volume_formats", &volume_formats);
+  module.def("volume_info", [](const Volume& volume) {
+    const py::gil_scoped_release unlocked;
+    return reports::text_of(reports::to_json(statistics(volume)));
+  });
+  module.def("surface_info", [](const Surface& surface) {
+    const py::gil_scoped_release unlocked;
+    return reports::text_of(reports::to_json(statistics(surface)));
+  });
 }
 
 }  // namespace holdfast::python

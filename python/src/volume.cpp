@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "arrays.h"
+#include "holdfast/second_order.h"
 #include "holdfast/types.h"
 #include "names.h"
 #include "register.h"
@@ -72,7 +73,57 @@ void register_volume(py::module_& module) {
                              }))
       .def_property_readonly("input_points", seen([](const Volume& v, py::handle self) {
                                return view_on(v.input_vertices.data(), v.input_vertices.size(), 0, self);
+                             }))
+      .def_property_readonly("mid_points", seen([](const Volume& v, py::handle self) {
+                               return view_on(reinterpret_cast<const double*>(v.mid_nodes.points.data()),
+                                              v.mid_nodes.points.size(), 3, self);
+                             }))
+      .def_property_readonly("mid_tetrahedra", seen([](const Volume& v, py::handle self) {
+                               return indices_on(v.mid_nodes.tetrahedra, self);
+                             }))
+      .def_property_readonly("mid_triangles", seen([](const Volume& v, py::handle self) {
+                               return indices_on(v.mid_nodes.facets, self);
+                             }))
+      .def_property_readonly("mid_segments", seen([](const Volume& v, py::handle self) {
+                               return view_on(reinterpret_cast<const int*>(v.mid_nodes.segments.data()),
+                                              v.mid_nodes.segments.size(), 0, self);
                              }));
+  module.def("with_mid_nodes", [](const Volume& volume, const py::array& points, const py::array& tetrahedra,
+                                  const py::array& triangles, const py::object& segments) {
+    auto copy = std::make_shared<Volume>(volume);
+    MidNodes& mid = copy->mid_nodes;
+    mid.points = rows_from<Point>(points, "points");
+    mid.tetrahedra = rows_from<std::array<Index, 6>>(tetrahedra, "tetrahedra");
+    mid.facets = rows_from<Triangle>(triangles, "triangles");
+    for (const int node : markers_from(segments, "segments")) mid.segments.push_back(static_cast<Index>(node));
+    return copy;
+  });
+  module.def("second_order", [](const Volume& volume, const py::object& points, const py::object& triangles,
+                                double tolerance) {
+    auto copy = std::make_shared<Volume>(volume);
+    Surface smooth;
+    const bool curved = !points.is_none();
+    if (curved) {
+      smooth.vertices = rows_from<Point>(py::cast<py::array>(points), "points");
+      smooth.facets = rows_from<Triangle>(triangles, "triangles");
+    }
+    CurveReport report;
+    {
+      const py::gil_scoped_release unlocked;
+      add_mid_nodes(*copy);
+      CurveOptions options;
+      options.tolerance = tolerance;
+      if (curved) report = curve_mid_nodes(*copy, smooth.view(), options);
+    }
+    py::dict told;
+    told["on_triangles"] = report.on_facets;
+    told["moved"] = report.moved;
+    told["beyond_tolerance"] = report.beyond;
+    told["straightened"] = report.straightened;
+    told["not_positive"] = report.not_positive;
+    told["farthest"] = report.farthest;
+    return py::make_tuple(copy, told);
+  });
 }
 
 }  // namespace holdfast::python

@@ -162,13 +162,13 @@ def test_tetgen_calls_that_cannot_be_had(cube):
     tet = compat.TetGen(*cube)
     with pytest.raises(RuntimeError):
         tet.node
-    for switches in ("pr", "pw", "pc", "po2", "pR"):
+    for switches in ("pr", "pw", "pc", "pR"):
         with pytest.raises(NotImplementedError):
             tet.tetrahedralize(switches=switches)
     with pytest.raises(ValueError):
         tet.tetrahedralize(switches="p?")
     with pytest.raises(NotImplementedError):
-        tet.tetrahedralize(order=2)
+        tet.tetrahedralize(order=3)
     with pytest.warns(UserWarning, match="mindihedral"):
         tet.tetrahedralize(mindihedral=20)
     with warnings.catch_warnings():

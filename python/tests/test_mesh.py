@@ -284,3 +284,49 @@ def test_warnings_are_in_the_result(cube):
         warnings.simplefilter("error")
         mesh = holdfast.mesh(points, turned)
     assert any("turned" in w for w in mesh.warnings)
+
+
+def test_max_volume_bounds_every_tetrahedron():
+    points, triangles = box((0, 0, 0), (1, 1, 1))
+    mesh = holdfast.mesh(points, triangles, max_volume=0.01, max_ratio=2)
+    assert mesh.quality().volume.max() <= 0.01
+    assert 0 < mesh.report["bounds"]["fullest"] <= 1
+    points, triangles, _ = two_boxes()
+    seeds = [(0.5, 0.5, 0.5, 10), (1.5, 1.5, 1.5, 20)]
+    mesh = holdfast.mesh(points, triangles, keep="bounded", regions=seeds, max_volume={None: 1.0, 20: 0.02})
+    volumes = mesh.quality().volume
+    assert volumes[mesh.regions == 20].max() <= 0.02 < volumes[mesh.regions == 10].max() <= 1.0
+    for wrong in ({7: 1.0}, 0, -1.0, {20: 0}):
+        with pytest.raises(ValueError):
+            holdfast.mesh(points, triangles, keep="bounded", regions=seeds, max_volume=wrong)
+    with pytest.raises(TypeError):
+        holdfast.mesh(points, triangles, max_volume="small")
+    with pytest.raises(ValueError):
+        holdfast.mesh(points, triangles, fill=True, max_volume=1)
+
+
+def test_second_order(tmp_path):
+    points, triangles = sphere(8)
+    mesh = holdfast.mesh(points, triangles).second_order()
+    assert mesh.order == 2 and mesh.tetrahedra10.shape == (len(mesh), 10)
+    for column, (a, b) in enumerate(((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))):
+        middle = (mesh.points[mesh.tetrahedra[:, a]] + mesh.points[mesh.tetrahedra[:, b]]) / 2
+        assert np.allclose(mesh.nodes[mesh.tetrahedra10[:, 4 + column]], middle, rtol=0, atol=1e-15)
+    again = pickle.loads(pickle.dumps(mesh))
+    assert np.array_equal(again.nodes, mesh.nodes) and np.array_equal(again.triangles6, mesh.triangles6)
+    fine, finer = sphere(64)
+    curved = mesh.second_order(curved=holdfast.Surface(fine, finer))
+    told = curved.curve_report
+    assert told["moved"] > 0.8 * told["on_triangles"] > 0
+    assert holdfast.check(holdfast.Surface(points, triangles), curved)
+    with pytest.raises(ValueError):
+        holdfast.mesh(points, triangles).tetrahedra10
+
+
+def test_info(tmp_path, cube):
+    mesh = holdfast.mesh(*cube, fill=True)
+    mesh.save(tmp_path / "cube.vtu")
+    told = holdfast.info(tmp_path / "cube.vtu")
+    assert told["kind"] == "volume" and told["tetrahedra"] == len(mesh)
+    assert told["volume"] == pytest.approx(1)
+    assert mesh.info()["tetrahedra"] == len(mesh)

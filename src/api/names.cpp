@@ -74,7 +74,9 @@ constexpr std::array kRuleKinds{Named{RuleKind::input_vertices_kept, "input vert
                                 Named{RuleKind::steiner_points_inside, "Steiner points inside regions"},
                                 Named{RuleKind::regions_numbered, "regions numbered"},
                                 Named{RuleKind::markers_kept, "markers kept"},
-                                Named{RuleKind::nothing_dropped, "nothing dropped"}};
+                                Named{RuleKind::nothing_dropped, "nothing dropped"},
+                                Named{RuleKind::mid_nodes_placed, "mid-edge nodes placed"},
+                                Named{RuleKind::jacobians_positive, "Jacobians positive"}};
 
 constexpr std::array kUntangleSteps{
     Named{UntangleStep::validate, "validate"}, Named{UntangleStep::relocate, "relocate"},

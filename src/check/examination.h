@@ -2,6 +2,7 @@
 // before it established, and says "not examined" where that is missing.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,5 +66,7 @@ void find_fates(Examination& on);
 // rules_labels.cpp
 [[nodiscard]] Rule regions_numbered(const Examination& on);
 [[nodiscard]] Rule markers_kept(const Examination& on);
+// rules_second_order.cpp: mid-edge nodes, then Jacobians
+[[nodiscard]] std::array<Rule, 2> second_order(const Examination& on);
 
 }  // namespace holdfast::checking

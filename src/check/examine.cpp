@@ -31,9 +31,13 @@ CheckResult examine(const Complex& surface, const Volume& volume, const CheckOpt
   pulse.reach(0.9);
   Rule regions = regions_numbered(on);
   Rule markers = markers_kept(on);
-  return {{std::move(vertices), std::move(form), std::move(unused), std::move(positive), std::move(facets),
-           std::move(segments), std::move(matched), std::move(boundary), std::move(overlap),
-           std::move(inside), std::move(regions), std::move(markers), nothing_dropped(on)}};
+  CheckResult result{{std::move(vertices), std::move(form), std::move(unused), std::move(positive),
+                      std::move(facets), std::move(segments), std::move(matched), std::move(boundary),
+                      std::move(overlap), std::move(inside), std::move(regions), std::move(markers),
+                      nothing_dropped(on)}};
+  if (!volume.mid_nodes.empty())
+    for (Rule& rule : second_order(on)) result.rules.push_back(std::move(rule));
+  return result;
 }
 
 }  // namespace holdfast::checking

@@ -48,6 +48,8 @@ struct Listing {
   std::span<const Entity> listed;
   std::span<const int> listed_markers;
   const std::vector<Fate>& fates;  ///< of the input's; empty where they are not known
+  /// Sorted, with sorted corners: what may be listed, too, though it is not in the input.
+  std::span<const Entity> tolerated = {};
 };
 
 /// Markers of facets that the input has several times, with different ones: such a facet may carry one that
@@ -102,7 +104,9 @@ void find_wrong_markers(const Listing<Entity>& on, const Examination& whole, Fin
     whole.pulse();
     const std::span<const std::size_t> same = lookup.find(on.listed[i]);
     if (same.empty()) {
-      say(" is not in the input");
+      Entity sorted = on.listed[i];
+      std::sort(sorted.begin(), sorted.end());
+      if (!std::binary_search(on.tolerated.begin(), on.tolerated.end(), sorted)) say(" is not in the input");
       continue;
     }
     if (!in_mesh(same[0])) say(" is not in the mesh");
@@ -195,8 +199,15 @@ Rule markers_kept(const Examination& on) {
   find_wrong_markers<Triangle>({"facet", on.input.facets, surface.facets, surface.facet_markers,
                                 volume.facets, volume.facet_markers, on.facets},
                                on, findings);
+  // Sides of facets are kept with them, and TetGen's .edge lists them.
+  std::vector<Segment> sides;
+  if (!volume.segments.empty())
+    for (const auto& [a, b, c] : on.input.facets)
+      for (const auto& [p, q] : {Segment{a, b}, Segment{b, c}, Segment{c, a}})
+        sides.push_back({std::min(p, q), std::max(p, q)});
+  std::sort(sides.begin(), sides.end());
   find_wrong_markers<Segment>({"segment", on.input.segments, surface.segments, surface.segment_markers,
-                               volume.segments, volume.segment_markers, on.segments},
+                               volume.segments, volume.segment_markers, on.segments, sides},
                               on, findings);
   return judge(RuleKind::markers_kept, findings, "wrong facets, segments or markers",
                std::to_string(volume.facets.size()) + " facets and " +

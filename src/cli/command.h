@@ -55,5 +55,8 @@ void add_plane(CLI::App& app, Command& chosen);
 void add_repair(CLI::App& app, Command& chosen);
 void add_view(CLI::App& app, Command& chosen);
 void add_paste(CLI::App& app, Command& chosen);
+void add_tetgen(CLI::App& app, Command& chosen);
+void add_convert(CLI::App& app, Command& chosen);
+void add_info(CLI::App& app, Command& chosen);
 
 }  // namespace holdfast::cli

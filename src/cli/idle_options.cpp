@@ -29,6 +29,8 @@ std::vector<Given> for_field_points(const MeshArguments& a) {
           {"--gradation", a.gradation.has_value()},
           {"--size-field", !a.size_field.empty()},
           {"--no-growth", a.no_growth},
+          {"--max-volume", !a.bounds.max_volumes.empty()},
+          {"--max-ratio", a.bounds.max_ratio.has_value()},
           {"the size H of --region", limits_a_region(a)}};
 }
 

@@ -28,7 +28,7 @@ constexpr const char* footer =
 // take longer than the mesh.
 void add_commands(CLI::App& app, Command& chosen, std::string_view asked) {
   using Add = void (*)(CLI::App&, Command&);
-  static constexpr std::array<std::pair<std::string_view, Add>, 10> kCommands{{{"mesh", add_mesh},
+  static constexpr std::array<std::pair<std::string_view, Add>, 13> kCommands{{{"mesh", add_mesh},
                                                                                {"check", add_check},
                                                                                {"diagnose", add_diagnose},
                                                                                {"delaunay", add_delaunay},
@@ -36,6 +36,9 @@ void add_commands(CLI::App& app, Command& chosen, std::string_view asked) {
                                                                                {"batch", add_batch},
                                                                                {"plane", add_plane},
                                                                                {"repair", add_repair},
+                                                                               {"tetgen", add_tetgen},
+                                                                               {"convert", add_convert},
+                                                                               {"info", add_info},
                                                                                {"view", add_view},
                                                                                {"paste", add_paste}}};
   const auto is_asked = [&](const auto& command) { return command.first == asked; };

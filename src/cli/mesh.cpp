@@ -215,13 +215,15 @@ void paste_parts(const MeshArguments& arguments, const Options& options, MeshInp
   input.pasted = std::move(pasted);
 }
 
-/// Options that do not suit the surface (a hole on a facet, say) are wrong usage.
-Result mesh_or_refuse(const MeshInput& input, Options options) {
+/// Options that do not suit the surface (a hole on a facet, say) are wrong usage. The files' seeds join those
+/// of the options.
+Result mesh_or_refuse(const MeshArguments& arguments, const MeshInput& input, Options& options) {
   try {
     if (input.pasted) {
       const Surface& pasted = input.pasted->surface;  // seeds of a single file are its own
       options.holes.insert(options.holes.end(), pasted.holes.begin(), pasted.holes.end());
       options.regions.insert(options.regions.end(), pasted.regions.begin(), pasted.regions.end());
+      set_bounds(arguments.bounds, pasted.names, options);
       if (input.pasted->outcome == Outcome::done) return holdfast::mesh(*input.pasted, options);
       Result result;
       result.outcome = input.pasted->outcome;
@@ -231,6 +233,7 @@ Result mesh_or_refuse(const MeshInput& input, Options options) {
     const Surface& surface = input.surface;
     options.holes.insert(options.holes.end(), surface.holes.begin(), surface.holes.end());
     options.regions.insert(options.regions.end(), surface.regions.begin(), surface.regions.end());
+    set_bounds(arguments.bounds, surface.names, options);
     return holdfast::mesh(surface.view(), options);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
@@ -260,6 +263,7 @@ int run(const MeshArguments& arguments) {
   else
     files.read_surfaces(arguments.surfaces, arguments.input_format);
   files.read_size_field("--size-field", arguments.size_field);
+  take_order(arguments.elements, files);
   VolumeTarget target = files.write_volume("-o", arguments.output, arguments.format);
   target.options.threads = arguments.threads;
   watch_writing(target.options, options);
@@ -274,6 +278,7 @@ int run(const MeshArguments& arguments) {
   MeshInput input = read_input(arguments, options);
   Surface& surface = input.surface;
   merge(surface.names, names);
+  const std::optional<Surface> smooth = read_curved(arguments.elements, options);
   if (!arguments.quiet) tell_of_lone_vertices(arguments, surface, progress);
   if (!surface.remarks.empty()) progress.finish();
   if (!arguments.quiet) tell(surface.remarks);
@@ -285,9 +290,12 @@ int run(const MeshArguments& arguments) {
   cancel_by_flag();  // from here on the mesher asks, and files are open
   options.progress = std::ref(progress);
   paste_parts(arguments, options, input);
-  Result result = mesh_or_refuse(input, options);
+  Result result = mesh_or_refuse(arguments, input, options);
   tell_defects_of_files(arguments, input, result);
   const Surface& meshed = input.pasted && arguments.paste ? input.pasted->surface : surface;
+  const Json order = result.outcome == Outcome::done
+                         ? set_order(result.volume, arguments.elements, smooth, options, arguments.quiet)
+                         : Json();
   const Stopwatch writing;
   progress.writing();
   write_result(arguments, target, result);
@@ -305,6 +313,7 @@ int run(const MeshArguments& arguments) {
       report["parts"] = parts_of(*input.pasted);
       report["shared_facets"] = input.pasted->shared_facets;
     }
+    report["second_order"] = order;
     write_json(arguments.report, report);
     write_html(arguments, options, meshed, result, std::move(report));
   }
@@ -348,6 +357,7 @@ void add_mesh(CLI::App& app, Command& chosen) {
           "Field points: sizes, or metric tensors, at the vertices of a background mesh "
           "(.mesh or .meshb with .sol or .solb, .vtu with a point array \"size\" or \"metric\", .mtr, .pos)")
       ->option_text("FILE");
+  add_bounds(*command, arguments->bounds);
   command->add_flag("--no-growth", arguments->no_growth,
                     "Field points: inside, sizes stay between those of the surface round");
   command
@@ -368,6 +378,7 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->allow_extra_args(false)
       ->option_text("x,y,z,ID[,H]");
   add_name_option(*command, arguments->names);
+  add_curved(*command, arguments->elements);
   add_paste_option(*command, arguments->paste);
   add_overlap_option(*command, arguments->overlap);
   command->add_flag("--drop-outside", arguments->drop_outside,
@@ -379,9 +390,20 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->allow_extra_args(false)
       ->option_text("STEP");
   command
-      ->add_option("--order", arguments->order,
-                   "Which missing constraint is cut in next: random (default), given, or halving: the middle "
-                   "one, then those in the middle of both halves")
+      ->add_option_function<std::vector<std::string>>(
+          "--order",
+          [arguments](const std::vector<std::string>& words) {
+            for (const std::string& word : words)
+              if (word == "1" || word == "2")
+                arguments->elements.order = word == "2" ? 2 : 1;
+              else
+                arguments->order = word;
+          },
+          "Order of the elements: 1 (default), or 2 with mid-edge nodes. Or which missing constraint is cut "
+          "in "
+          "next: random (default), given, or halving: the middle one, then those in the middle of both "
+          "halves")
+      ->allow_extra_args(false)
       ->option_text("ORDER");
   command->add_option("--seed", arguments->seed, "Seed of the random orders (default 1)")->option_text("N");
   command->add_option("--threads", arguments->threads, threads_help)

@@ -75,7 +75,9 @@ Effort effort_named(const std::string& text) {
 
 LayingOrder order_named(const std::string& text) {
   if (const std::optional<LayingOrder> order = from_name<LayingOrder>(text)) return *order;
-  throw UsageError("--order " + text + ": given, random or halving is expected");
+  throw UsageError(
+      "--order " + text +
+      ": 1 or 2 (order of the elements), or given, random or halving (of the constraints) is expected");
 }
 
 }  // namespace
@@ -142,6 +144,7 @@ Options to_options(const MeshArguments& arguments) {
       throw UsageError("--without " + step + ": only 'flips', 'optimise' and 'points' can be left out");
   }
   if (!arguments.fill) options.sizes = to_sizes(arguments);
+  require_bounds(arguments.bounds);
   options.effort = effort_named(arguments.quality.value_or("good"));
   if (!arguments.stop_after.empty()) options.stop_after = stage_named(arguments.stop_after);
   if (!arguments.order.empty()) options.order = order_named(arguments.order);
@@ -168,6 +171,11 @@ Json to_json(const MeshArguments& arguments) {
           {"gradation", arguments.gradation.value_or(Sizes{}.gradation)},
           {"no_growth", arguments.no_growth},
           {"size_field", arguments.size_field.string()},
+          {"max_volume", arguments.bounds.max_volumes},
+          {"max_ratio", arguments.bounds.max_ratio.value_or(0)},
+          {"element_order", arguments.elements.order.value_or(1)},
+          {"curved", arguments.elements.curved.string()},
+          {"curved_tolerance", arguments.elements.tolerance.value_or(0)},
           {"quality", arguments.quality.value_or("good")},
           {"keep", arguments.keep.value_or("auto")},
           {"holes", arguments.holes},

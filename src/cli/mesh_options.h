@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "bound_options.h"
 #include "holdfast/holdfast.h"
+#include "order_options.h"
 #include "report.h"
 
 namespace holdfast::cli {
@@ -24,6 +26,8 @@ struct MeshArguments {
   std::optional<double> size, gradation;
   bool no_growth = false;
   std::filesystem::path size_field;
+  BoundArguments bounds;
+  OrderArguments elements;
   std::uint64_t seed = 1;
   unsigned threads = 1;
   std::optional<double> time_limit, memory_limit;

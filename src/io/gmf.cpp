@@ -20,6 +20,9 @@ enum Keyword : std::int32_t {
   kEdges = 5,
   kTriangles = 6,
   kQuadrilaterals = 7,
+  kTrianglesP2 = 24,
+  kEdgesP2 = 25,
+  kTetrahedraP2 = 30,
   kTetrahedra = 8,
   kPrisms = 9,
   kHexahedra = 10,
@@ -198,15 +201,23 @@ class GmfWriter {
     put<std::int32_t>(3);
     start(kDimension, 4);
     put<std::int32_t>(3);
-    start(kVertices, 4 + 28 * volume.vertices.size());
-    put(static_cast<std::int32_t>(volume.vertices.size()));
+    const MidNodes& mid = volume.mid_nodes;
+    start(kVertices, 4 + 28 * (volume.vertices.size() + mid.points.size()));
+    put(static_cast<std::int32_t>(volume.vertices.size() + mid.points.size()));
     for (std::size_t i = 0; i < volume.vertices.size(); ++i) {
       for (const double x : volume.vertices[i]) put(x);
       put<std::int32_t>(tag_of(volume.vertex_markers, i));
     }
-    write_entities(kEdges, volume.segments, volume.segment_markers);
-    write_entities(kTriangles, volume.facets, volume.facet_markers);
-    write_entities(kTetrahedra, volume.tetrahedra, volume.regions);
+    for (const Point& p : mid.points) {
+      for (const double x : p) put(x);
+      put<std::int32_t>(0);
+    }
+    const bool second = !mid.empty();
+    std::vector<std::array<Index, 1>> of_segments(mid.segments.size());
+    for (std::size_t i = 0; i < of_segments.size(); ++i) of_segments[i] = {mid.segments[i]};
+    write_entities(second ? kEdgesP2 : kEdges, volume.segments, of_segments, volume.segment_markers);
+    write_entities(second ? kTrianglesP2 : kTriangles, volume.facets, mid.facets, volume.facet_markers);
+    write_entities(second ? kTetrahedraP2 : kTetrahedra, volume.tetrahedra, mid.tetrahedra, volume.regions);
     put<std::int32_t>(kEnd);
     put<std::int64_t>(0);
   }
@@ -226,14 +237,17 @@ class GmfWriter {
     put(static_cast<std::int64_t>(position_ + 8 + size));
   }
 
-  template <std::size_t N>
+  /// With their nodes on edges, in our order, behind the corners, if there are any.
+  template <std::size_t N, std::size_t M>
   void write_entities(Keyword keyword, const std::vector<std::array<Index, N>>& entities,
-                      const std::vector<int>& tags) {
+                      const std::vector<std::array<Index, M>>& nodes, const std::vector<int>& tags) {
     if (entities.empty()) return;
-    start(keyword, 4 + 4 * (N + 1) * entities.size());
+    start(keyword, 4 + 4 * (N + (nodes.empty() ? 0 : M) + 1) * entities.size());
     put(static_cast<std::int32_t>(entities.size()));
     for (std::size_t i = 0; i < entities.size(); ++i) {
       for (const Index corner : entities[i]) put(static_cast<std::int32_t>(corner + 1));
+      if (!nodes.empty())
+        for (const Index node : nodes[i]) put(static_cast<std::int32_t>(node + 1));
       put<std::int32_t>(tag_of(tags, i));
     }
   }
@@ -250,7 +264,8 @@ GmfSolution read_gmf_solution(const Source& source) { return GmfReader(source).r
 void write_gmf(AtomicWriter& out, const Volume& volume) {
   // Version 3 counts with 32 signed bits; version 4 would be read by few programs.
   constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
-  if (volume.vertices.size() >= kMost || volume.tetrahedra.size() >= kMost || volume.facets.size() >= kMost)
+  if (volume.vertices.size() + volume.mid_nodes.points.size() >= kMost || volume.tetrahedra.size() >= kMost ||
+      volume.facets.size() >= kMost)
     throw std::invalid_argument("a mesh of more than 2^31 entities does not fit .meshb");
   GmfWriter(out).write(volume);
 }

@@ -100,13 +100,18 @@ MeshData read_medit(const Source& source) {
 
 namespace {
 
-template <std::size_t N>
-void write_entities(AtomicWriter& out, std::string_view keyword,
-                    const std::vector<std::array<Index, N>>& entities, const std::vector<int>& tags) {
+/// With `nodes_of(i)` behind the corners, in a section of second order, if `second_order`. The order of nodes
+/// on edges is ours, 01 12 02 03 13 23.
+template <std::size_t N, typename NodesOf>
+void write_entities(AtomicWriter& out, const std::string& keyword, bool second_order,
+                    const std::vector<std::array<Index, N>>& entities, const std::vector<int>& tags,
+                    NodesOf&& nodes_of) {
   if (entities.empty()) return;
-  out << '\n' << keyword << '\n' << std::uint64_t{entities.size()} << '\n';
+  out << '\n' << keyword << (second_order ? "P2\n" : "\n") << std::uint64_t{entities.size()} << '\n';
   for (std::size_t i = 0; i < entities.size(); ++i) {
     for (const Index corner : entities[i]) out << std::uint64_t{corner} + 1 << ' ';
+    if (second_order)
+      for (const Index node : nodes_of(i)) out << std::uint64_t{node} + 1 << ' ';
     out << tag_of(tags, i) << '\n';
   }
 }
@@ -115,14 +120,20 @@ void write_entities(AtomicWriter& out, std::string_view keyword,
 
 void write_medit(AtomicWriter& out, const Volume& volume) {
   out << "MeshVersionFormatted 2\n\nDimension 3\n\nVertices\n"
-      << std::uint64_t{volume.vertices.size()} << '\n';
+      << std::uint64_t{volume.vertices.size() + volume.mid_nodes.points.size()} << '\n';
   for (std::size_t i = 0; i < volume.vertices.size(); ++i) {
     const Point& p = volume.vertices[i];
     out << p[0] << ' ' << p[1] << ' ' << p[2] << ' ' << tag_of(volume.vertex_markers, i) << '\n';
   }
-  write_entities(out, "Edges", volume.segments, volume.segment_markers);
-  write_entities(out, "Triangles", volume.facets, volume.facet_markers);
-  write_entities(out, "Tetrahedra", volume.tetrahedra, volume.regions);
+  const MidNodes& mid = volume.mid_nodes;
+  for (const Point& p : mid.points) out << p[0] << ' ' << p[1] << ' ' << p[2] << " 0\n";
+  const bool second = !mid.empty();
+  write_entities(out, "Edges", second, volume.segments, volume.segment_markers,
+                 [&](std::size_t i) { return std::array<Index, 1>{mid.segments[i]}; });
+  write_entities(out, "Triangles", second, volume.facets, volume.facet_markers,
+                 [&](std::size_t i) { return mid.facets[i]; });
+  write_entities(out, "Tetrahedra", second, volume.tetrahedra, volume.regions,
+                 [&](std::size_t i) { return mid.tetrahedra[i]; });
   out << "\nEnd\n";
 }
 

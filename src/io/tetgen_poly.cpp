@@ -2,12 +2,14 @@
 // tetrahedral mesh generator, ACM TOMS 41(2), 2015; manual, section 5.2).
 //
 // A polygon of two corners is a segment, one of a single corner a vertex, one of more than three is
-// fanned where it is convex. A facet with holes is refused: it is no set of polygons.
+// fanned where it is convex. Facets of other outlines, with holes, or with segments and points inside are
+// triangulated.
 #include <algorithm>
 #include <cmath>
 
 #include "io/file_bytes.h"
 #include "io/formats.h"
+#include "io/planar_facet.h"
 #include "io/polygon.h"
 #include "io/tetgen.h"
 
@@ -58,7 +60,11 @@ class PolyReader {
   void read_smesh_facet() {
     read_corners();
     const std::size_t start = text_.last();
-    add(optional_tag(), start);
+    const PlanarFacet facet{{corners_}, {}, optional_tag()};
+    if (needs_triangulation(mesh_.vertices, facet))
+      add_planar_facet(mesh_, facet, {}, [&](const std::string& reason) { text_.fail_at(start, reason); });
+    else
+      add(facet.marker, start);
     text_.skip_line();
   }
 
@@ -66,13 +72,29 @@ class PolyReader {
     const std::size_t polygons = text_.count("the number of polygons", 2);
     const std::size_t start = text_.last();
     const std::int64_t holes = text_.at_line_end() ? 0 : text_.integer("the number of holes");
-    if (holes != 0) text_.fail_at(start, "a facet with holes is not read; split it into triangles");
-    const int marker = optional_tag();
+    if (holes < 0) text_.fail_at(start, "a negative number of holes");
+    PlanarFacet facet;
+    facet.marker = optional_tag();
     text_.skip_line();
+    std::vector<std::size_t> lines;
     for (std::size_t i = 0; i < polygons; ++i) {
       read_corners();
-      add(marker, text_.last());
+      lines.push_back(text_.last());
+      facet.polygons.push_back(corners_);
       text_.skip_line();
+    }
+    for (std::int64_t i = 0; i < holes; ++i) {
+      static_cast<void>(text_.integer("the hole's number"));
+      facet.holes.push_back(text_.point());
+      text_.skip_line();
+    }
+    if (needs_triangulation(mesh_.vertices, facet))
+      return add_planar_facet(mesh_, facet, {}, [&](const std::string& reason) {
+        text_.fail_at(polygons == 1 ? lines[0] : start, reason);
+      });
+    for (std::size_t i = 0; i < polygons; ++i) {
+      corners_ = facet.polygons[i];
+      add(facet.marker, lines[i]);
     }
   }
 

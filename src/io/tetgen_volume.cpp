@@ -53,13 +53,17 @@ void read_optional(const std::filesystem::path& path, Watch* watch, const char* 
   static_cast<void>(read_lines<N>(text, what, nodes, add));
 }
 
-template <std::size_t N>
+/// With nodes on edges behind the corners, if there are any.
+template <std::size_t N, std::size_t M>
 void write_lines(AtomicWriter& out, std::string_view columns,
-                 const std::vector<std::array<Index, N>>& entities, const std::vector<int>& tags) {
+                 const std::vector<std::array<Index, N>>& entities,
+                 const std::vector<std::array<Index, M>>& nodes, const std::vector<int>& tags) {
   out << std::uint64_t{entities.size()} << columns << '\n';
   for (std::size_t i = 0; i < entities.size(); ++i) {
     out << std::uint64_t{i};
     for (const Index corner : entities[i]) out << ' ' << corner;
+    if (!nodes.empty())
+      for (const Index node : nodes[i]) out << ' ' << node;
     out << ' ' << tag_of(tags, i) << '\n';
   }
 }
@@ -85,20 +89,32 @@ MeshData read_tetgen_volume(const Source& source) {
   return mesh;
 }
 
+// Nodes on edges as TetGen has them: behind the corners, those of a tetrahedron on its edges 23 03 01 12 13
+// 02.
 void write_tetgen(const std::filesystem::path& path, const Volume& volume, Watch* watch) {
   AtomicWriter node(with_extension(path, ".node"), watch), ele(with_extension(path, ".ele"), watch),
       face(with_extension(path, ".face"), watch), edge(with_extension(path, ".edge"), watch);
   const bool marked = !volume.vertex_markers.empty();
-  node << std::uint64_t{volume.vertices.size()} << (marked ? " 3 0 1\n" : " 3 0 0\n");
+  const MidNodes& mid = volume.mid_nodes;
+  node << std::uint64_t{volume.vertices.size() + mid.points.size()} << (marked ? " 3 0 1\n" : " 3 0 0\n");
   for (std::size_t i = 0; i < volume.vertices.size(); ++i) {
     const Point& p = volume.vertices[i];
     node << std::uint64_t{i} << ' ' << p[0] << ' ' << p[1] << ' ' << p[2];
     if (marked) node << ' ' << volume.vertex_markers[i];
     node << '\n';
   }
-  write_lines(ele, " 4 1", volume.tetrahedra, volume.regions);
-  write_lines(face, " 1", volume.facets, volume.facet_markers);
-  write_lines(edge, " 1", volume.segments, volume.segment_markers);
+  for (std::size_t i = 0; i < mid.points.size(); ++i) {
+    const Point& p = mid.points[i];
+    node << std::uint64_t{volume.vertices.size() + i} << ' ' << p[0] << ' ' << p[1] << ' ' << p[2]
+         << (marked ? " 0\n" : "\n");
+  }
+  std::vector<std::array<Index, 6>> of_tets;
+  for (const auto& [ab, bc, ac, ad, bd, cd] : mid.tetrahedra) of_tets.push_back({cd, ad, ab, bc, bd, ac});
+  std::vector<std::array<Index, 1>> of_segments;
+  for (const Index n : mid.segments) of_segments.push_back({n});
+  write_lines(ele, mid.empty() ? " 4 1" : " 10 1", volume.tetrahedra, of_tets, volume.regions);
+  write_lines(face, " 1", volume.facets, mid.facets, volume.facet_markers);
+  write_lines(edge, " 1", volume.segments, of_segments, volume.segment_markers);
   // All are complete before any gets its name, so that old and new files do not mix on a full disk.
   for (AtomicWriter* file : {&node, &ele, &face, &edge}) file->finish();
   for (AtomicWriter* file : {&node, &ele, &face, &edge}) file->commit();

@@ -7,6 +7,7 @@
 #include "holdfast/check.h"
 #include "holdfast/holdfast.h"
 #include "holdfast/repair.h"
+#include "holdfast/statistics.h"
 #include "holdfast/summary.h"
 #include "holdfast/untangle.h"
 
@@ -29,6 +30,7 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json to_json(const UntangleResult& result, Json options);
 [[nodiscard]] Json to_json(const RepairResult& result, Json options);
 [[nodiscard]] Json to_json(const CheckResult& result);
+[[nodiscard]] Json to_json(const Statistics& statistics);
 
 /// As text of one line, or indented. Bytes that are no UTF-8, as paths may hold, are replaced.
 [[nodiscard]] std::string text_of(const Json& json, int indent = -1);

@@ -11,6 +11,8 @@ IDLE = [
     ("--gradation", ["--fill", "--gradation", "0.3"]),
     ("--size-field", ["--fill", "--size-field", "missing.pos"]),
     ("--no-growth", ["--fill", "--no-growth"]),
+    ("--max-volume", ["--fill", "--max-volume", "0.5"]),
+    ("--max-ratio", ["--fill", "--max-ratio", "2"]),
     ("--quality", ["--fill", "--quality", "good"]),
     ("--region", ["--fill", "--region", "0.4,0.5,0.6,1,0.2"]),
     ("--quality", ["--without", "optimise", "--quality", "fast"]),
@@ -34,6 +36,9 @@ SENSELESS = [
     ("--time-limit", ["--time-limit", "inf"]),
     ("--memory-limit", ["--memory-limit", "0"]), ("--memory-limit", ["--memory-limit", "-1"]),
     ("--region", ["--region", "0,0,0,1,0"]), ("--order", ["--order", "reverse"]),
+    ("--max-volume", ["--max-volume", "0"]), ("--max-volume", ["--max-volume", "core="]),
+    ("--max-volume", ["--max-volume", "=1"]), ("--max-volume", ["--max-volume", "2=inf"]),
+    ("--max-ratio", ["--max-ratio", "0.5"]), ("--max-ratio", ["--max-ratio", "nan"]),
 ]
 SENSIBLE = [
     ["--fill", "--without", "points"], ["--without", "points"], ["--without", "optimise", "--size", "0.5"],

@@ -290,9 +290,39 @@ TEST(Poly, SmeshAndNodesBeside) {
   EXPECT_EQ(read_surface(folder / "b.node").vertices.size(), 3u);
 }
 
+// A square of 4 x 4 with a square hole, a segment and a point inside, in the plane x = 1; then an L.
+TEST(Poly, FacetsOfAnyOutlineAreTriangulated) {
+  const TemporaryFolder folder;
+  put(folder / "a.poly",
+      "17 3 0 0\n1 1 0 0\n2 1 4 0\n3 1 4 4\n4 1 0 4\n5 1 1 1\n6 1 2 1\n7 1 2 2\n8 1 1 2\n9 1 3 1\n10 1 3 3\n"
+      "11 1 1 3\n12 0 0 0\n13 0 2 0\n14 0 2 1\n15 0 1 1\n16 0 1 2\n17 0 0 2\n"
+      "2 1\n4 1 7\n4 1 2 3 4\n4 5 6 7 8\n2 9 10\n1 11\n1 1 1.5 1.5\n1 0 8\n6 12 13 14 15 16 17\n0\n0\n");
+  const Surface surface = read_surface(folder / "a.poly");
+  const auto area = [&](int marker) {
+    double sum = 0;
+    for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+      const Point &a = surface.vertices[surface.facets[f][0]], &b = surface.vertices[surface.facets[f][1]],
+                  &c = surface.vertices[surface.facets[f][2]];
+      const double twice = (b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]);
+      EXPECT_GT(twice, 0) << "turned as the outline";
+      if (surface.facet_markers[f] == marker) sum += twice / 2;
+    }
+    return sum;
+  };
+  EXPECT_EQ(area(7), 15);
+  EXPECT_EQ(area(8), 3);
+  EXPECT_EQ(surface.segments, (std::vector<Segment>{{8, 9}}));
+  std::size_t at_point = 0;
+  for (const Triangle& t : surface.facets) at_point += std::count(t.begin(), t.end(), 10u) > 0 ? 1 : 0;
+  EXPECT_GE(at_point, 3u) << "the point is a corner";
+}
+
+TEST(Poly, OutlinesThatCrossAreRefused) {
+  EXPECT_EQ(error(replaced(kPoly, "4 1 2 3 4", "4 1 3 2 4"), "a.poly").substr(0, 9), "line 11: ");
+}
+
 TEST(Poly, Errors) {
-  EXPECT_EQ(error(replaced(kPoly, "1 0 7", "1 1 7"), "a.poly"),
-            "line 10: a facet with holes is not read; split it into triangles");
+  EXPECT_EQ(error(replaced(kPoly, "1 0 7", "1 -1 7"), "a.poly"), "line 10: a negative number of holes");
   EXPECT_EQ(error(replaced(kPoly, "4 1 2 3 4", "4 1 3 2 4"), "a.poly").substr(0, 9), "line 11: ");
   EXPECT_EQ(error(replaced(kPoly, "3 1 2 5", "3 1 2 6"), "a.poly"),
             "line 13: a vertex index is out of range: 6 (they run from 1 to 5)");

@@ -1,0 +1,48 @@
+// Holdfast: files as TetGen writes them.
+#pragma once
+
+#include "holdfast/holdfast.h"
+#include "holdfast/io.h"
+
+namespace holdfast {
+
+/// Which of TetGen's files to write, and what is in them.
+struct TetgenFiles : Limits {
+  int first = 0;            ///< number of the first vertex, tetrahedron, face and edge: 0 or 1
+  bool nodes = true;        ///< .node
+  bool elements = true;     ///< .ele
+  bool faces = true;        ///< .face: the facets
+  bool edges = true;        ///< .edge: segments, and the sides of facets
+  bool markers = true;      ///< boundary markers in .node and .face
+  bool attributes = false;  ///< region ids in .ele
+  bool all_faces = false;   ///< in .face also those that are no facets, with marker 0
+  bool all_edges = false;   ///< in .edge also those that are no segments or sides of facets, with marker 0
+  bool neighbours = false;  ///< .neigh
+  bool adjacent = false;    ///< in .face the tetrahedra on both sides, in .edge one at the edge
+  bool surface = false;     ///< .smesh: the facets
+  std::string comment;      ///< a last line of each file, after "# "; without line breaks
+  ProgressFunction progress = {};
+};
+
+/// The files that `write_tetgen` writes for NAME: NAME.node and so on.
+[[nodiscard]] HOLDFAST_API std::vector<std::filesystem::path> files_of_tetgen(
+    const std::filesystem::path& name, const TetgenFiles& files);
+
+/// Writes NAME.node, NAME.ele, NAME.face, NAME.edge, NAME.neigh and NAME.smesh, all of them or none; with
+/// mid-edge nodes, if there are any, in TetGen's order (edges 23 03 01 12 13 02). Facets and edges without
+/// markers get 1. Numbers read back bit for bit. Throws FileError, std::invalid_argument for arrays that do
+/// not fit, and Interrupted.
+HOLDFAST_API void write_tetgen(const std::filesystem::path& name, const Volume& volume,
+                               const TetgenFiles& files = {});
+
+/// Adds the triangles of the convex hull of all vertices that the facets do not have, so that they fit: sides
+/// of facets and segments on the hull are kept. Their markers are 0. Returns how many were added; the hull of
+/// what breaks the rules of a surface may not fit it. Throws std::invalid_argument for coordinates that are
+/// not finite, and Interrupted.
+HOLDFAST_API std::size_t add_convex_hull(Surface& surface, const Limits& limits = {});
+
+/// The number that the first vertex of a .node, .poly or .smesh has, or 1 for .mesh and .meshb, 0 for the
+/// other formats, which count so. 0 too for what cannot be read.
+[[nodiscard]] HOLDFAST_API int tetgen_first_number(const std::filesystem::path& path);
+
+}  // namespace holdfast

@@ -1,0 +1,36 @@
+// A file that holds a volume or a surface: which of the two, the file tells.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "files_of_run.h"
+#include "holdfast/io.h"
+
+namespace holdfast::cli {
+
+struct AnyMesh {
+  bool is_volume = false;  ///< with tetrahedra; then `volume` counts, else `surface`
+  Volume volume;
+  Surface surface;
+  std::vector<Remark> remarks;  ///< of the reader
+
+  [[nodiscard]] Names& names() { return is_volume ? volume.names : surface.names; }
+};
+
+/// The files that `read_any` reads, for `files`. Throws UsageError.
+void read_any(FilesOfRun& files, const std::filesystem::path& path, const std::string& format);
+
+/// Reads a volume where there are tetrahedra, else a surface. Pipes are read once. Throws FileError.
+[[nodiscard]] AnyMesh read_any(const std::filesystem::path& path, const ReadOptions& options);
+
+/// Where to write, and whether the format holds volumes or else surfaces alone. Throws UsageError.
+struct AnyTarget {
+  WriteOptions options;
+  bool holds_volumes = false, holds_surfaces = false;
+};
+[[nodiscard]] AnyTarget write_any(FilesOfRun& files, const char* option, const std::filesystem::path& path,
+                                  const std::string& format);
+
+}  // namespace holdfast::cli

@@ -1,0 +1,107 @@
+#include "bound_options.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "command.h"
+#include "number.h"
+#include "parts_of_mesh.h"
+
+namespace holdfast::cli {
+namespace {
+
+/// V, or REGION=V.
+struct Bound {
+  std::string region;  ///< empty: everywhere
+  double volume;
+};
+
+Bound bound_of(const std::string& text) {
+  const std::size_t equals = text.rfind('=');
+  Bound bound{equals == std::string::npos ? "" : text.substr(0, equals), 0};
+  const std::string number = equals == std::string::npos ? text : text.substr(equals + 1);
+  const char* const end = number.data() + number.size();
+  const auto [stop, error] = parse_double(number.data(), end, bound.volume);
+  if (error != std::errc() || stop != end || !(bound.volume > 0 && std::isfinite(bound.volume)) ||
+      equals == 0)
+    throw UsageError("--max-volume " + text +
+                     ": a positive volume, or REGION=V with a region's id or name, is expected");
+  return bound;
+}
+
+std::vector<int> ids_of(const std::string& text, const Names& names) {
+  std::vector<int> ids = region_ids(text, names);
+  if (ids.empty())
+    throw UsageError(
+        fmt::format("--max-volume: no region has the name '{}'; --name region:ID={} gives it", text, text));
+  return ids;
+}
+
+}  // namespace
+
+void add_bounds(CLI::App& command, BoundArguments& arguments) {
+  command
+      .add_option("--max-volume", arguments.max_volumes,
+                  "Field points: no tetrahedron is larger, anywhere or in a region with a seed (10=0.5, "
+                  "core=0.5), even at the price of flat ones, which are counted (repeatable)")
+      ->allow_extra_args(false)
+      ->option_text("[REGION=]V");
+  command
+      .add_option(
+          "--max-ratio", arguments.max_ratio,
+          "Field points: aim at no larger ratio of the radius of the sphere round a tetrahedron to its "
+          "shortest edge; exceptions are counted")
+      ->option_text("R");
+}
+
+void require_bounds(const BoundArguments& arguments) {
+  constexpr double regular = 0.61237243569579452;  // sqrt(6) / 4
+  for (const std::string& text : arguments.max_volumes) static_cast<void>(bound_of(text));
+  if (arguments.max_ratio && !(*arguments.max_ratio > regular && std::isfinite(*arguments.max_ratio)))
+    throw UsageError("--max-ratio: a number above 0.613 is expected; a regular tetrahedron has 0.6124");
+}
+
+void set_bounds(const BoundArguments& arguments, const Names& names, Options& options) {
+  if (!options.sizes) return;
+  for (const std::string& text : arguments.max_volumes) {
+    const Bound bound = bound_of(text);
+    const auto limit = [&](double& most) { most = most > 0 ? std::min(most, bound.volume) : bound.volume; };
+    if (bound.region.empty()) {
+      limit(options.sizes->max_volume);
+      continue;
+    }
+    for (const int id : ids_of(bound.region, names)) {
+      bool found = false;
+      for (RegionSeed& seed : options.regions) {
+        if (seed.id != id) continue;
+        limit(seed.max_volume);
+        found = true;
+      }
+      if (!found)
+        throw UsageError(fmt::format(
+            "--max-volume {}: no region seed has the id {}; --region x,y,z,{} gives one", text, id, id));
+    }
+  }
+  if (arguments.max_ratio) options.sizes->max_ratio = *arguments.max_ratio;
+}
+
+std::string bounds_text(const Options& options, const Report::Bounds& bounds) {
+  std::string text;
+  const bool has_volume =
+      options.sizes && (options.sizes->max_volume > 0 ||
+                        std::any_of(options.regions.begin(), options.regions.end(),
+                                    [](const RegionSeed& seed) { return seed.max_volume > 0; }));
+  if (has_volume)
+    text += fmt::format(
+        "the largest tetrahedron has {:.6g} of the volume it may have, {} points for it, {} "
+        "bounded tetrahedra with an angle below 10 degrees",
+        bounds.fullest, bounds.points, bounds.flat);
+  if (options.sizes && options.sizes->max_ratio > 0)
+    text += fmt::format("{}largest ratio {:.4g}, {} above {:g}", text.empty() ? "" : "; ", bounds.worst_ratio,
+                        bounds.above_ratio, options.sizes->max_ratio);
+  return text;
+}
+
+}  // namespace holdfast::cli

@@ -1,0 +1,33 @@
+// --max-volume and --max-ratio.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "holdfast/holdfast.h"
+
+namespace holdfast::cli {
+
+/// What the user typed.
+struct BoundArguments {
+  std::vector<std::string> max_volumes;
+  std::optional<double> max_ratio;
+
+  [[nodiscard]] bool any() const { return !max_volumes.empty() || max_ratio.has_value(); }
+};
+
+void add_bounds(CLI::App& command, BoundArguments& arguments);
+
+/// Puts the bounds into the sizes and, those by region, into the seeds of these regions: call it when all
+/// seeds are there, those of the files too. A region is named by its id or its name. Throws UsageError.
+void set_bounds(const BoundArguments& arguments, const Names& names, Options& options);
+
+/// Throws UsageError for what is no bound; reads no file.
+void require_bounds(const BoundArguments& arguments);
+
+/// How far the bounds are met, for the summary of a run; empty without bounds.
+[[nodiscard]] std::string bounds_text(const Options& options, const Report::Bounds& bounds);
+
+}  // namespace holdfast::cli

@@ -1,0 +1,154 @@
+// `holdfast convert`: a surface or a volume in another format.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include "any_mesh.h"
+#include "command.h"
+#include "files.h"
+#include "files_of_run.h"
+#include "holdfast/surface_io.h"
+#include "limits.h"
+#include "name_options.h"
+#include "order_options.h"
+#include "parts_of_mesh.h"
+#include "signals.h"
+#include "summary.h"
+
+namespace holdfast::cli {
+namespace {
+
+struct ConvertArguments {
+  std::filesystem::path input, output;
+  std::string input_format, format;
+  std::vector<std::string> only, names;
+  std::optional<double> scale;
+  OrderArguments order;
+  LimitArguments limits;
+  unsigned threads = 1;
+  bool quiet = false;
+};
+
+/// A format of surfaces alone takes the surface of a volume; one of volumes alone a volume without
+/// tetrahedra. Says what goes.
+void suit(AnyMesh& mesh, const ConvertArguments& arguments, const AnyTarget& target) {
+  if (mesh.is_volume && !target.holds_volumes) {
+    if (part_of(arguments.only).kind == Part::Kind::volume)
+      throw UsageError(fmt::format("{}: the format holds surfaces alone, and --only volume leaves none",
+                                   arguments.output.string()));
+    const std::set<int> regions(mesh.volume.regions.begin(), mesh.volume.regions.end());
+    if (!arguments.quiet)
+      say("holdfast: {}: the format holds surfaces alone: {} and the ids of {} are left out\n",
+          arguments.output.string(), counted(mesh.volume.tetrahedra.size(), "tetrahedron", "tetrahedra"),
+          counted(regions.size(), "region"));
+    mesh.surface = surface_of(mesh.volume);
+    mesh.is_volume = false;
+  } else if (!mesh.is_volume && !target.holds_surfaces) {
+    Surface& surface = mesh.surface;
+    const std::size_t seeds = surface.regions.size() + surface.holes.size();
+    if (!arguments.quiet && seeds > 0)
+      say("holdfast: {}: {} left out\n", arguments.output.string(),
+          counted(seeds, "seed of a region or hole is", "seeds of regions and holes are"));
+    Volume& volume = mesh.volume;
+    volume = {};
+    volume.vertices = std::move(surface.vertices);
+    volume.facets = std::move(surface.facets);
+    volume.segments = std::move(surface.segments);
+    volume.facet_markers = std::move(surface.facet_markers);
+    volume.segment_markers = std::move(surface.segment_markers);
+    volume.vertex_markers = std::move(surface.vertex_markers);
+    volume.names = std::move(surface.names);
+    mesh.is_volume = true;
+  }
+}
+
+void write(const AnyMesh& mesh, const ConvertArguments& arguments, const WriteOptions& options) {
+  const std::filesystem::path& path = arguments.output;
+  if (mesh.is_volume) {
+    write_volume(path, mesh.volume, options);
+    if (!arguments.quiet) tell(not_held(path, mesh.volume, options), path);
+  } else {
+    write_surface(path, mesh.surface, options);
+    if (!arguments.quiet) tell(not_held(path, mesh.surface, options), path);
+  }
+}
+
+int run(const ConvertArguments& arguments) {
+  if (arguments.scale && !(*arguments.scale > 0 && std::isfinite(*arguments.scale)))
+    throw UsageError("--scale: a positive number is expected");
+  const Part part = part_of(arguments.only);
+  const Names names = names_of(arguments.names);
+  const Limits limits = limits_of(arguments.limits);
+  FilesOfRun files;
+  read_any(files, arguments.input, arguments.input_format);
+  take_order(arguments.order, files);
+  AnyTarget target = write_any(files, "the output", arguments.output, arguments.format);
+  target.options.threads = arguments.threads;
+  watch_writing(target.options, limits);
+  cancel_at_once();
+  AnyMesh mesh = read_any(arguments.input, reading(limits, arguments.input_format));
+  if (!arguments.quiet) tell(mesh.remarks, arguments.input);
+  merge(mesh.names(), names);
+  take_part(mesh, part);
+  if (arguments.scale)
+    if (const std::size_t turned = scale(mesh, *arguments.scale); turned > 0)
+      say("holdfast: --scale: rounding turns or flattens {}; a power of two rounds nothing\n",
+          counted(turned, "tetrahedron", "tetrahedra"));
+  suit(mesh, arguments, target);
+  if (const std::size_t nodes = mesh.volume.mid_nodes.points.size();
+      nodes > 0 && !mesh.is_volume && !arguments.quiet)
+    say("holdfast: {}: surfaces are of first order: {} left out\n", arguments.output.string(),
+        counted(nodes, "mid-edge node is", "mid-edge nodes are"));
+  if (arguments.order.order) {
+    if (!mesh.is_volume || mesh.volume.tetrahedra.empty())
+      throw UsageError("--order: only volumes have an order, and this is a surface");
+    set_order(mesh.volume, arguments.order, read_curved(arguments.order, limits), limits, arguments.quiet);
+  }
+  cancel_by_flag();  // from here on files are open
+  write(mesh, arguments, target.options);
+  if (arguments.quiet) return exit_done;
+  const bool has_tetrahedra = mesh.is_volume && !mesh.volume.tetrahedra.empty();
+  say("{}: {} vertices, {}{} triangles, {} segments\n", arguments.output.string(),
+      mesh.is_volume ? mesh.volume.vertices.size() : mesh.surface.vertices.size(),
+      has_tetrahedra ? fmt::format("{} tetrahedra, ", mesh.volume.tetrahedra.size()) : "",
+      mesh.is_volume ? mesh.volume.facets.size() : mesh.surface.facets.size(),
+      mesh.is_volume ? mesh.volume.segments.size() : mesh.surface.segments.size());
+  return exit_done;
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app, Command& chosen) {
+  const auto arguments = std::make_shared<ConvertArguments>();
+  CLI::App* command =
+      app.add_subcommand("convert", "Write a surface or a volume in another format, and tell what is lost");
+  command->add_option("IN", arguments->input, "Surface or volume file, as for `mesh` and `check`")
+      ->transform(or_standard_input)
+      ->required();
+  command->add_option("OUT,-o,--output", arguments->output, "File to write, -: standard output")
+      ->transform(or_standard_output)
+      ->required();
+  command
+      ->add_option("--only", arguments->only,
+                   "volume (without triangles and segments), surface, or region=ID (or its name; repeatable)")
+      ->allow_extra_args(false)
+      ->option_text("PART");
+  command->add_option("--scale", arguments->scale, "Multiply all lengths")->option_text("F");
+  add_name_option(*command, arguments->names);
+  add_order(*command, arguments->order);
+  command
+      ->add_option("--format", arguments->format, "Format to write, instead of by ending; msh2 is .msh 2.2")
+      ->option_text("FORMAT");
+  command->add_option("--input-format", arguments->input_format, "Format to read, instead of by ending")
+      ->option_text("FORMAT");
+  command->add_option("--threads", arguments->threads, threads_help)
+      ->check(CLI::Range(0u, 4096u))
+      ->option_text("N");
+  add_limits(*command, arguments->limits);
+  command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace holdfast::cli

@@ -1,0 +1,88 @@
+#include "order_options.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "command.h"
+#include "holdfast/second_order.h"
+#include "limits.h"
+
+namespace holdfast::cli {
+
+void add_curved(CLI::App& command, OrderArguments& arguments) {
+  command
+      .add_option(
+          "--curved", arguments.curved,
+          "With --order 2: put the nodes on edges of triangles on this smooth surface, given by finer "
+          "triangles, where every element stays positive")
+      ->option_text("SURFACE");
+  command
+      .add_option("--curved-tolerance", arguments.tolerance,
+                  "How far --curved moves a node at most (default: a tenth of its edge)")
+      ->option_text("D");
+}
+
+void add_order(CLI::App& command, OrderArguments& arguments) {
+  command
+      .add_option("--order", arguments.order,
+                  "Order of the elements: 1, without mid-edge nodes, or 2 (default: as it is)")
+      ->option_text("1|2");
+  add_curved(command, arguments);
+}
+
+void take_order(const OrderArguments& arguments, FilesOfRun& files) {
+  if (arguments.order && arguments.order != 1 && arguments.order != 2)
+    throw UsageError("--order: 1 or 2 is expected");
+  if (!arguments.curved.empty() && arguments.order != 2)
+    throw UsageError("--curved does nothing without --order 2: it is for mid-edge nodes");
+  if (arguments.tolerance && arguments.curved.empty())
+    throw UsageError("--curved-tolerance does nothing without --curved");
+  if (arguments.tolerance && !(*arguments.tolerance > 0 && std::isfinite(*arguments.tolerance)))
+    throw UsageError("--curved-tolerance: a positive length is expected");
+  if (!arguments.curved.empty()) files.read_surfaces({arguments.curved}, {});
+}
+
+std::optional<Surface> read_curved(const OrderArguments& arguments, const Limits& limits) {
+  if (arguments.curved.empty()) return {};
+  return read_surface(arguments.curved, reading(limits, {}));
+}
+
+Json set_order(Volume& volume, const OrderArguments& arguments, const std::optional<Surface>& smooth,
+               const Limits& limits, bool quiet) {
+  if (arguments.order != 2) {
+    if (arguments.order == 1) volume.mid_nodes = {};
+    return {{"order", volume.mid_nodes.empty() ? 1 : 2}};
+  }
+  if (!smooth) {
+    // Nodes that a file has stay as they are.
+    if (volume.mid_nodes.empty()) add_mid_nodes(volume, limits);
+    return {{"order", 2}, {"nodes", volume.mid_nodes.points.size()}};
+  }
+  CurveOptions options;
+  static_cast<Limits&>(options) = limits;
+  options.tolerance = arguments.tolerance.value_or(0);
+  add_mid_nodes(volume, limits);
+  const CurveReport report = curve_mid_nodes(volume, smooth->view(), options);
+  if (!quiet) {
+    say("holdfast: {} of {} nodes on triangles are on {}, moved by {:.4g} at most\n", report.moved,
+        report.on_facets, arguments.curved.string(), report.farthest);
+    if (report.beyond > 0)
+      say("holdfast: {} are farther from it than allowed, and straight\n", report.beyond);
+    if (report.straightened > 0)
+      say("holdfast: {} stay straight, or an element would not be positive everywhere\n",
+          report.straightened);
+    if (report.not_positive > 0)
+      say("holdfast: {} elements are so flat that rounded mid-edge nodes turn them\n", report.not_positive);
+  }
+  return {{"order", 2},
+          {"nodes", volume.mid_nodes.points.size()},
+          {"on_triangles", report.on_facets},
+          {"moved", report.moved},
+          {"beyond_tolerance", report.beyond},
+          {"straightened", report.straightened},
+          {"not_positive", report.not_positive},
+          {"farthest", report.farthest}};
+}
+
+}  // namespace holdfast::cli

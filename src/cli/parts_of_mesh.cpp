@@ -1,0 +1,209 @@
+#include "parts_of_mesh.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+#include "command.h"
+#include "holdfast/statistics.h"
+
+namespace holdfast::cli {
+namespace {
+
+Triangle ascending(Triangle t) {
+  std::sort(t.begin(), t.end());
+  return t;
+}
+
+template <typename T>
+void keep(std::vector<T>& values, const std::vector<bool>& stays) {
+  if (values.empty()) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < stays.size(); ++i)
+    if (stays[i]) values[kept++] = values[i];
+  values.resize(kept);
+}
+
+/// Of some entities, with their tags and mid-edge nodes, those of which `stays` says so.
+template <typename Entity, typename Nodes, typename Stays>
+void keep(std::vector<Entity>& entities, std::vector<int>& tags, std::vector<Nodes>& nodes, Stays&& says) {
+  std::vector<bool> stays(entities.size());
+  for (std::size_t i = 0; i < stays.size(); ++i) stays[i] = says(i);
+  keep(entities, stays);
+  keep(tags, stays);
+  keep(nodes, stays);
+}
+
+/// Drops the mid-edge nodes that nothing names; the others follow `vertices` vertices, of which there were
+/// `before`.
+void renumber_mid_nodes(MidNodes& mid, std::size_t before, std::size_t vertices) {
+  std::vector<Index> now(mid.points.size(), no_entity);
+  const auto for_each = [&](auto&& visit) {
+    for (auto& nodes : mid.tetrahedra)
+      for (Index& node : nodes) visit(node);
+    for (auto& nodes : mid.facets)
+      for (Index& node : nodes) visit(node);
+    for (Index& node : mid.segments) visit(node);
+  };
+  for_each([&](Index& node) { now[node - before] = 0; });
+  std::size_t kept = 0;
+  for (std::size_t n = 0; n < now.size(); ++n) {
+    if (now[n] == no_entity) continue;
+    mid.points[kept] = mid.points[n];
+    now[n] = static_cast<Index>(vertices + kept++);
+  }
+  mid.points.resize(kept);
+  for_each([&](Index& node) { node = now[node - before]; });
+}
+
+void drop_unused_vertices(Volume& volume) {
+  std::vector<Index> now(volume.vertices.size(), no_entity);
+  const auto use = [&](const auto& entities) {
+    for (const auto& entity : entities)
+      for (const Index v : entity) now[v] = 0;
+  };
+  use(volume.tetrahedra);
+  use(volume.facets);
+  use(volume.segments);
+  Index kept = 0;
+  for (std::size_t v = 0; v < now.size(); ++v) {
+    if (now[v] == no_entity) continue;
+    volume.vertices[kept] = volume.vertices[v];
+    if (!volume.vertex_markers.empty()) volume.vertex_markers[kept] = volume.vertex_markers[v];
+    now[v] = kept++;
+  }
+  renumber_mid_nodes(volume.mid_nodes, now.size(), kept);
+  volume.vertices.resize(kept);
+  if (!volume.vertex_markers.empty()) volume.vertex_markers.resize(kept);
+  volume.input_vertices.clear();
+  const auto renumber = [&](auto& entities) {
+    for (auto& entity : entities)
+      for (Index& v : entity) v = now[v];
+  };
+  renumber(volume.tetrahedra);
+  renumber(volume.facets);
+  renumber(volume.segments);
+}
+
+void take_regions(Volume& volume, const std::vector<std::string>& regions) {
+  std::set<int> ids;
+  const std::set<int> present(volume.regions.begin(), volume.regions.end());
+  for (const std::string& region : regions) {
+    const std::vector<int> named = region_ids(region, volume.names);
+    const bool found = std::any_of(named.begin(), named.end(), [&](int id) { return present.count(id) > 0; });
+    if (!found) throw UsageError(fmt::format("--only region={}: there is no such region", region));
+    ids.insert(named.begin(), named.end());
+  }
+  const std::vector<int> region_of = volume.regions;
+  keep(volume.tetrahedra, volume.regions, volume.mid_nodes.tetrahedra,
+       [&](std::size_t t) { return ids.count(region_of[t]) > 0; });
+  std::vector<Triangle> faces;
+  std::vector<Segment> edges;
+  for (const Tetrahedron& t : volume.tetrahedra)
+    for (std::size_t i = 0; i < 4; ++i) {
+      faces.push_back(ascending({t[i], t[(i + 1) % 4], t[(i + 2) % 4]}));
+      for (std::size_t j = i + 1; j < 4; ++j) edges.push_back({std::min(t[i], t[j]), std::max(t[i], t[j])});
+    }
+  std::sort(faces.begin(), faces.end());
+  std::sort(edges.begin(), edges.end());
+  keep(volume.facets, volume.facet_markers, volume.mid_nodes.facets, [&](std::size_t f) {
+    return std::binary_search(faces.begin(), faces.end(), ascending(volume.facets[f]));
+  });
+  keep(volume.segments, volume.segment_markers, volume.mid_nodes.segments, [&](std::size_t s) {
+    const auto [a, b] = volume.segments[s];
+    return std::binary_search(edges.begin(), edges.end(), Segment{std::min(a, b), std::max(a, b)});
+  });
+  std::erase_if(volume.names.regions, [&](const auto& name) { return ids.count(name.first) == 0; });
+}
+
+}  // namespace
+
+Part part_of(const std::vector<std::string>& only) {
+  constexpr std::string_view region = "region=";
+  Part part;
+  for (const std::string& text : only) {
+    const Part::Kind kind = text == "volume"                                          ? Part::Kind::volume
+                            : text == "surface"                                       ? Part::Kind::surface
+                            : text.starts_with(region) && text.size() > region.size() ? Part::Kind::regions
+                                                                                      : Part::Kind::all;
+    if (kind == Part::Kind::all)
+      throw UsageError("--only " + text + ": volume, surface, region=ID or region=NAME is expected");
+    if (part.kind != Part::Kind::all && (part.kind != kind || kind != Part::Kind::regions))
+      throw UsageError("--only " + text + ": only regions can be named together");
+    part.kind = kind;
+    if (kind == Part::Kind::regions) part.regions.push_back(text.substr(region.size()));
+  }
+  return part;
+}
+
+std::vector<int> region_ids(std::string text, const Names& names) {
+  constexpr std::string_view prefix = "region:";
+  if (text.starts_with(prefix)) text.erase(0, prefix.size());
+  int id = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), id);
+  if (error == std::errc() && stop == text.data() + text.size()) return {id};
+  std::vector<int> ids;
+  for (const auto& [named, name] : names.regions)
+    if (name == text) ids.push_back(named);
+  return ids;
+}
+
+void take_part(AnyMesh& mesh, const Part& part) {
+  if (part.kind == Part::Kind::all) return;
+  if (!mesh.is_volume) {
+    if (part.kind == Part::Kind::surface) return;
+    throw UsageError("--only: the file holds no tetrahedra, but a surface");
+  }
+  if (part.kind == Part::Kind::surface) {
+    mesh.surface = surface_of(mesh.volume);
+    mesh.is_volume = false;
+    return;
+  }
+  Volume& volume = mesh.volume;
+  if (part.kind == Part::Kind::regions) {
+    take_regions(volume, part.regions);
+  } else {
+    volume.facets.clear();
+    volume.facet_markers.clear();
+    volume.segments.clear();
+    volume.segment_markers.clear();
+    volume.mid_nodes.facets.clear();
+    volume.mid_nodes.segments.clear();
+    volume.names.facets.clear();
+    volume.names.segments.clear();
+  }
+  drop_unused_vertices(volume);
+}
+
+std::size_t scale(AnyMesh& mesh, double factor) {
+  const auto multiply = [&](std::vector<Point>& points) {
+    for (Point& p : points)
+      for (double& x : p) x *= factor;
+  };
+  if (!mesh.is_volume) {
+    multiply(mesh.surface.vertices);
+    multiply(mesh.surface.holes);
+    for (Surface::RegionSeed& seed : mesh.surface.regions) {
+      for (double& x : seed.where) x *= factor;
+      seed.size *= factor;
+      seed.max_volume *= factor * factor * factor;
+    }
+    return 0;
+  }
+  const auto bad = [&] {
+    const Statistics counts = statistics(mesh.volume);
+    return counts.negative + counts.null;
+  };
+  int exponent = 0;
+  const bool rounds = std::frexp(factor, &exponent) != 0.5;
+  const std::size_t before = rounds ? bad() : 0;
+  multiply(mesh.volume.vertices);
+  multiply(mesh.volume.mid_nodes.points);
+  const std::size_t after = rounds ? bad() : 0;
+  return after > before ? after - before : 0;
+}
+
+}  // namespace holdfast::cli

@@ -1,0 +1,77 @@
+"""--max-volume and --max-ratio: a true bound on every tetrahedron, by region too, and an aim with its exceptions.
+
+    bounds_test.py PROGRAM [unittest options]
+"""
+import json
+from fractions import Fraction
+
+from cli_case import CUBE_FACETS, CliTest, cube, main, off, shifted
+
+
+def read_mesh(path):
+    """Points, tetrahedra and their references of a .mesh file."""
+    words = path.read_text().split()
+    def block(name, width):
+        at = words.index(name) + 1
+        count = int(words[at])
+        rows = words[at + 1:at + 1 + count * width]
+        return [rows[i:i + width] for i in range(0, len(rows), width)]
+    points = [tuple(Fraction(float(x)) for x in row[:3]) for row in block("Vertices", 4)]
+    tets = [(tuple(int(v) - 1 for v in row[:4]), int(row[4])) for row in block("Tetrahedra", 5)]
+    return points, tets
+
+
+def volume(points, tet):
+    a, b, c, d = (points[v] for v in tet)
+    u, v, w = ([x - y for x, y in zip(p, a)] for p in (b, c, d))
+    return (u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0])
+            + u[2] * (v[0] * w[1] - v[1] * w[0])) / 6
+
+
+class Bounds(CliTest):
+    def box_in_box(self):
+        points = cube(size=4) + cube((1, 1, 1))
+        self.write("boxes.off", off(points, CUBE_FACETS + shifted(CUBE_FACETS, 8)))
+        return ["--region", "0.5,0.5,0.5,10", "--region", "1.5,1.5,1.5,20", "--name", "region:20=core",
+                "--keep", "bounded"]
+
+    def largest(self, region=None):
+        points, tets = read_mesh(self.folder / "out.mesh")
+        return max(volume(points, t) for t, r in tets if region in (None, r))
+
+    def test_no_tetrahedron_is_larger(self):
+        for bound in ("0.01", "0.3"):
+            said = self.run_program("mesh", "cube.off", "-o", "out.mesh", "--max-volume", bound, "--report", "r.json").stderr
+            self.assertLessEqual(self.largest(), Fraction(float(bound)))
+            self.assertIn("bounds: ", said)
+            bounds = json.loads((self.folder / "r.json").read_text())["bounds"]
+            self.assertTrue(0 < bounds["fullest"] <= 1)
+            self.run_program("check", "cube.off", "out.mesh")
+
+    def test_by_region_named_by_id_or_name(self):
+        regions = self.box_in_box()
+        for inner in ("20=0.01", "region:20=0.01", "core=0.01"):
+            self.run_program("mesh", "boxes.off", "-o", "out.mesh", *regions, "--max-volume", inner)
+            self.assertLessEqual(self.largest(20), Fraction(0.01))
+            self.assertGreater(self.largest(10), Fraction(0.01))
+        self.run_program("mesh", "boxes.off", "-o", "out.mesh", *regions, "--max-volume", "0.5", "--max-volume", "20=0.02")
+        self.assertLessEqual(self.largest(20), Fraction(0.02))
+        self.assertTrue(Fraction(0.02) < self.largest(10) <= Fraction(0.5))
+
+    def test_a_region_that_is_not_there_is_2(self):
+        regions = self.box_in_box()
+        for region in ("7", "shell"):
+            said = self.run_program("mesh", "boxes.off", "-o", "out.mesh", *regions, "--max-volume", region + "=1",
+                                    expect=2).stderr
+            self.assertIn(region, said)
+            self.assertNotIn("out.mesh", self.files())
+
+    def test_ratio_is_an_aim_and_exceptions_are_counted(self):
+        self.run_program("mesh", "cube.off", "-o", "out.mesh", "--size", "0.4", "--max-ratio", "1.2", "--report", "r.json")
+        bounds = json.loads((self.folder / "r.json").read_text())["bounds"]
+        self.assertGreater(bounds["worst_ratio"], 0.612)
+        self.assertEqual(bounds["above_ratio"] > 0, bounds["worst_ratio"] > 1.2)
+
+
+if __name__ == "__main__":
+    main()
