@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "check_folder.h"
 #include "command.h"
 #include "files.h"
 #include "files_of_run.h"
@@ -48,11 +49,22 @@ void write_html(const CheckArguments& arguments, const Limits& limits, const Sur
   page.write();
 }
 
+int run_on_folder(const CheckArguments& arguments, const CheckOptions& options) {
+  if (options.outside_dropped || options.box || !arguments.input_format.empty() ||
+      !arguments.format.empty() || !arguments.html.empty())
+    throw UsageError(
+        "check: --outside-dropped, --box, --format, --input-format and --html do nothing for a folder, whose "
+        "manifest tells all that");
+  return check_folder({arguments.files[0], arguments.report, options, arguments.quiet});
+}
+
 int run(const CheckArguments& arguments) {
-  if (arguments.files.size() < 2)
-    throw UsageError("check: a surface and a volume are expected, as in `holdfast check part.stl part.vtu`");
   CheckOptions options = arguments.options;
   static_cast<Limits&>(options) = limits_of(arguments.limits);
+  if (arguments.files.size() == 1 && std::filesystem::is_directory(arguments.files[0]))
+    return run_on_folder(arguments, options);
+  if (arguments.files.size() < 2)
+    throw UsageError("check: a surface and a volume are expected, as in `holdfast check part.stl part.vtu`");
   const std::vector<std::filesystem::path> surfaces(arguments.files.begin(), arguments.files.end() - 1);
   const std::filesystem::path& volume_path = arguments.files.back();
   FilesOfRun files;
@@ -81,8 +93,10 @@ void add_check(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<CheckArguments>();
   CLI::App* command = app.add_subcommand("check", "Verify exactly that a volume keeps a surface");
   command
-      ->add_option("SURFACE VOLUME", arguments->files,
-                   "The surfaces that were meshed, then the volume (.vtu .vtk .mesh .meshb .msh .node)")
+      ->add_option(
+          "SURFACE VOLUME", arguments->files,
+          "The surfaces that were meshed, then the volume (.vtu .vtk .mesh .meshb .msh .node); or the "
+          "folder of a split surface")
       ->transform(or_standard_input)
       ->required();
   command->add_flag("--outside-dropped", arguments->options.outside_dropped,

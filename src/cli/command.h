@@ -58,5 +58,7 @@ void add_paste(CLI::App& app, Command& chosen);
 void add_tetgen(CLI::App& app, Command& chosen);
 void add_convert(CLI::App& app, Command& chosen);
 void add_info(CLI::App& app, Command& chosen);
+void add_split(CLI::App& app, Command& chosen);
+void add_join(CLI::App& app, Command& chosen);
 
 }  // namespace holdfast::cli

@@ -3,8 +3,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
+#include <iterator>
 #include <new>
 #include <stdexcept>
 #include <string_view>
@@ -27,22 +27,27 @@ constexpr const char* footer =
 // The command that is asked for, or all of them for help: on a small surface the options of the others would
 // take longer than the mesh.
 void add_commands(CLI::App& app, Command& chosen, std::string_view asked) {
-  using Add = void (*)(CLI::App&, Command&);
-  static constexpr std::array<std::pair<std::string_view, Add>, 13> kCommands{{{"mesh", add_mesh},
-                                                                               {"check", add_check},
-                                                                               {"diagnose", add_diagnose},
-                                                                               {"delaunay", add_delaunay},
-                                                                               {"untangle", add_untangle},
-                                                                               {"batch", add_batch},
-                                                                               {"plane", add_plane},
-                                                                               {"repair", add_repair},
-                                                                               {"tetgen", add_tetgen},
-                                                                               {"convert", add_convert},
-                                                                               {"info", add_info},
-                                                                               {"view", add_view},
-                                                                               {"paste", add_paste}}};
+  // clang-format off
+  static constexpr std::pair<std::string_view, void (*)(CLI::App&, Command&)> kCommands[] = {
+      {"mesh", add_mesh},
+      {"check", add_check},
+      {"diagnose", add_diagnose},
+      {"repair", add_repair},
+      {"paste", add_paste},
+      {"delaunay", add_delaunay},
+      {"untangle", add_untangle},
+      {"plane", add_plane},
+      {"tetgen", add_tetgen},
+      {"convert", add_convert},
+      {"info", add_info},
+      {"view", add_view},
+      {"batch", add_batch},
+      {"split", add_split},
+      {"join", add_join},
+  };
+  // clang-format on
   const auto is_asked = [&](const auto& command) { return command.first == asked; };
-  const bool one = std::any_of(kCommands.begin(), kCommands.end(), is_asked);
+  const bool one = std::any_of(std::begin(kCommands), std::end(kCommands), is_asked);
   for (const auto& command : kCommands)
     if (!one || is_asked(command)) command.second(app, chosen);
 }

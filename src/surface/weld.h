@@ -43,6 +43,17 @@ class PlaceTable {
     return fresh;
   }
 
+  /// The entry at the place of `point`, or `no_entity`.
+  template <class PointOf>
+  [[nodiscard]] Index find(const Point& point, const PointOf& point_of) const {
+    const std::uint64_t hash = hash_of(point);
+    const auto tag = static_cast<std::uint32_t>(hash >> 32);
+    for (std::size_t i = hash & (slots_.size() - 1); slots_[i].entry != kNone;
+         i = (i + 1) & (slots_.size() - 1))
+      if (slots_[i].tag == tag && same(point_of(slots_[i].entry), point)) return slots_[i].entry;
+    return no_entity;
+  }
+
   [[nodiscard]] static std::uint64_t hash_of(const Point& point) {
     std::uint64_t hash = 0;
     for (const double x : point) {
@@ -91,6 +102,11 @@ class Welder {
 
   /// The index of `point`, which is appended if it is new.
   Index add(const Point& point) { return add(point, PlaceTable::hash_of(point)); }
+
+  /// The index of what is at the place of `point`, or `no_entity`.
+  [[nodiscard]] Index find(const Point& point) const {
+    return table_.find(point, [&](Index i) { return points_[i]; });
+  }
 
   [[nodiscard]] std::uint64_t announce(const Point& point) const { return table_.announce(point); }
 

@@ -1,0 +1,352 @@
+"""One surface on many machines: `holdfast split`, a task a part on an executor or a Dask client, and `holdfast join`.
+
+>>> import holdfast.distributed
+>>> holdfast.distributed.mesh("part.stl", "part.vtu", parts=8, size=0.5)  # doctest: +SKIP
+"""
+
+from __future__ import annotations
+
+import concurrent.futures
+import contextlib
+import json
+import os
+import statistics
+import subprocess
+import time
+import typing
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Optional
+
+from ._batch import PathLike, Row, Task, arguments_of, kill_children, run_part
+from ._limits import MemoryAmount, bytes_of
+from ._program import program
+from .errors import (
+    Cancelled,
+    FileError,
+    HoldfastError,
+    InternalError,
+    InvalidSurface,
+    MemoryLimit,
+    NotRepresentable,
+    TimeLimit,
+)
+
+# A part that takes so many times the median of the others, and at least so long, is run a second time elsewhere.
+STRAGGLES_BEYOND = 3.0
+STRAGGLES_AFTER_SECONDS = 10.0
+_POLL_SECONDS = 0.2
+
+Progress = typing.Callable[[Row, int, int], None]
+
+
+@dataclass(frozen=True)
+class Division:
+    """A surface in parts, in a folder that all workers see."""
+
+    folder: Path
+    manifest: dict[str, Any]
+
+    @property
+    def parts(self) -> list[dict[str, Any]]:
+        return list(self.manifest["parts"])
+
+    def surface(self, part: dict[str, Any]) -> Path:
+        return self.folder / part["surface"]
+
+    def volume(self, part: dict[str, Any]) -> Path:
+        return self.folder / part["volume"]
+
+
+def read(folder: PathLike) -> Division:
+    """The division in a folder. Raises FileNotFoundError where there is none, ValueError for another manifest."""
+    manifest = json.loads((Path(folder) / "manifest.json").read_text(encoding="utf-8"))
+    if manifest.get("format") != "holdfast division":
+        raise ValueError(f"{folder}/manifest.json is not one of `holdfast split`")
+    return Division(Path(folder), manifest)
+
+
+def split(
+    surface: typing.Union[PathLike, typing.Sequence[PathLike]],
+    folder: PathLike,
+    *,
+    parts: int,
+    **options: Any,
+) -> Division:
+    """Cuts a surface into closed parts of about equal work (`holdfast split`).
+
+    Parameters
+    ----------
+    surface
+        A path, or several.
+    folder
+        Gets the parts and manifest.json. Volumes of an earlier division there are removed.
+    parts
+        How many.
+    options
+        Of `mesh`, those that `holdfast split` has: size, keep, holes, regions, drop_outside, seed, threads, time_limit,
+        memory_limit.
+
+    Raises
+    ------
+    InvalidSurface, HoldfastError
+        As `holdfast.mesh`.
+    """
+    files = [surface] if isinstance(surface, (str, os.PathLike)) else list(surface)
+    with contextlib.suppress(FileNotFoundError, ValueError):
+        earlier = read(folder)
+        for part in earlier.parts:
+            earlier.volume(part).unlink(missing_ok=True)
+    _run("split", *map(os.fspath, files), "--parts", str(parts), "-o", os.fspath(folder), "-q", *_with_limits(options))
+    return read(folder)
+
+
+def mesh_parts(
+    division: Division,
+    *,
+    client: Any = None,
+    jobs: Optional[int] = None,
+    threads: int = 1,
+    time_limit: Optional[float] = None,
+    memory_limit: Optional[MemoryAmount] = None,
+    progress: Optional[Progress] = None,
+) -> list[Row]:
+    """Meshes the parts whose volume is not there yet, each in a process of its own.
+
+    A part whose worker is lost runs again on another. One that takes much longer than the others runs a second time where
+    there is room, and the first result counts: both are the same, bit for bit, and appear complete or not at all.
+
+    Parameters
+    ----------
+    client
+        A Dask client or a `concurrent.futures` executor, whose workers see the folder; None: `jobs` threads here.
+    threads, time_limit, memory_limit
+        Of each part.
+    progress
+        Called with (row, how many are finished, how many there are).
+
+    Returns
+    -------
+    A dict a part, in their order, as `holdfast.batch` gives them.
+    """
+    limits = [] if time_limit is None else ["--time-limit", repr(float(time_limit))]
+    memory = bytes_of(memory_limit)
+    limits += [] if memory is None else ["--memory-limit", repr(memory / 1e9)]
+    arguments = ("--threads", str(threads), *limits)
+    tasks = [Task(str(division.surface(p)), str(division.volume(p)), arguments, time_limit, division.volume(p).suffix)
+             for p in division.parts]
+    rows: dict[str, Row] = {}
+
+    def finish(row: Row) -> None:
+        if row["output"] in rows and rows[row["output"]]["status"] in ("done", "skipped"):
+            return
+        rows[row["output"]] = row
+        if progress is not None:
+            progress(row, len(rows), len(tasks))
+
+    to_do = []
+    for task in tasks:
+        if os.path.exists(task.output):
+            finish({"file": task.file, "output": task.output, "status": "skipped", "exit": 0, "seconds": 0.0,
+                    "message": "complete already"})
+        else:
+            to_do.append(task)
+    if client is None:
+        with concurrent.futures.ThreadPoolExecutor(jobs or os.cpu_count() or 1) as own:
+            _Race(own, finish).run(to_do)
+    else:
+        _Race(client, finish).run(to_do)
+    return [rows[task.output] for task in tasks]
+
+
+class _Race:
+    """Tasks on an executor, a second time where the first straggles."""
+
+    def __init__(self, executor: Any, finish: typing.Callable[[Row], None]) -> None:
+        self._executor = executor
+        self._finish = finish
+        self._is_dask = hasattr(executor, "scheduler_info")
+        self._started: dict[Any, float] = {}
+        self._task_of: dict[Any, Task] = {}
+        self._took: list[float] = []
+
+    def run(self, tasks: typing.Sequence[Task]) -> None:
+        for task in tasks:
+            self._submit(task)
+        left = {task.output: task for task in tasks}
+        doubled: set[str] = set()
+        try:
+            while left:
+                for future in [f for f in self._task_of if f.done()]:
+                    self._end(future, left)
+                for task in self._stragglers(left, doubled):
+                    doubled.add(task.output)
+                    self._submit(task)
+                if left:
+                    time.sleep(_POLL_SECONDS)
+        except BaseException:
+            self._cancel()
+            raise
+        self._cancel()
+
+    def _submit(self, task: Task) -> None:
+        # The same task a second time must not count as the first.
+        options = {"pure": False} if self._is_dask else {}
+        future = self._executor.submit(run_part, task, **options)
+        self._task_of[future] = task
+        self._started[future] = time.monotonic()
+
+    def _end(self, future: Any, left: dict[str, Task]) -> None:
+        task = self._task_of.pop(future)
+        if task.output not in left:
+            return
+        try:
+            row = future.result()
+        except Exception as error:  # of the worker, not of the part
+            row = {"file": task.file, "output": task.output, "status": "failed", "exit": 1, "seconds": 0.0,
+                   "message": f"the worker was lost: {type(error).__name__}: {error}"}
+        others = any(t.output == task.output for t in self._task_of.values())
+        if row["status"] != "done" and others:
+            return
+        del left[task.output]
+        self._took.append(row["seconds"])
+        self._finish(row)
+
+    def _stragglers(self, left: dict[str, Task], doubled: set[str]) -> list[Task]:
+        """Only when nothing waits any more: a second run must not be in the way of a first."""
+        if not self._took or len(left) > self._room():
+            return []
+        late = max(STRAGGLES_AFTER_SECONDS, STRAGGLES_BEYOND * statistics.median(self._took))
+        now = time.monotonic()
+        return [task for future, task in list(self._task_of.items())
+                if task.output in left and task.output not in doubled and now - self._started[future] > late]
+
+    def _room(self) -> int:
+        """Half of the workers: the other half is idle."""
+        if self._is_dask:
+            return sum(w["nthreads"] for w in self._executor.scheduler_info()["workers"].values()) // 2
+        return getattr(self._executor, "_max_workers", 0) // 2
+
+    def _cancel(self) -> None:
+        for future in self._task_of:
+            future.cancel()
+        if self._task_of and not self._is_dask:
+            kill_children()
+        self._task_of.clear()
+
+
+def join(folder: PathLike, output: PathLike) -> Path:
+    """Puts the volumes of a division together (`holdfast join`). Raises HoldfastError."""
+    _run("join", os.fspath(folder), "-o", os.fspath(output), "-q")
+    return Path(output)
+
+
+def check(folder: PathLike) -> bool:
+    """Whether the volumes are a mesh of the surface that was split (`holdfast check DIR`)."""
+    ended = subprocess.run([program(), "check", os.fspath(folder), "-q"], stdin=subprocess.DEVNULL, capture_output=True)
+    if ended.returncode not in (0, 6):
+        raise _error_of(ended.returncode, ended.stderr)
+    return ended.returncode == 0
+
+
+def mesh(
+    surface: typing.Union[PathLike, typing.Sequence[PathLike]],
+    output: Optional[PathLike] = None,
+    *,
+    parts: int,
+    folder: Optional[PathLike] = None,
+    client: Any = None,
+    jobs: Optional[int] = None,
+    threads: int = 1,
+    time_limit: Optional[float] = None,
+    memory_limit: Optional[MemoryAmount] = None,
+    progress: Optional[Progress] = None,
+    **options: Any,
+) -> Division:
+    """Meshes a surface in parts, on the workers of `client`.
+
+    Parameters
+    ----------
+    surface
+        A path, or several.
+    output
+        Gets the joined volume; None: the parts stay as they are.
+    parts
+        How many; more than workers, so that a lost worker costs little.
+    folder
+        For the parts (default: `output` without its ending, with ".parts"). What is done there of the same call goes on.
+    client
+        A Dask client or a `concurrent.futures` executor, whose workers see `folder`; None: `jobs` threads here.
+    threads, time_limit, memory_limit
+        Of each part.
+    options
+        Of `split`.
+
+    Raises
+    ------
+    HoldfastError
+        If a part was not done; the others stay, and the same call goes on with it.
+    """
+    if folder is None:
+        if output is None:
+            raise ValueError("distributed.mesh: an output or a folder is needed")
+        folder = Path(output).with_suffix(".parts")
+    division = _division_of(surface, folder, parts, options)
+    rows = mesh_parts(division, client=client, jobs=jobs, threads=threads, time_limit=time_limit,
+                      memory_limit=memory_limit, progress=progress)
+    failed = [row for row in rows if row["status"] not in ("done", "skipped")]
+    if failed:
+        raise HoldfastError(f"{len(failed)} of {len(rows)} parts were not done; the first: {failed[0]['file']}: "
+                            f"{failed[0]['message']}")
+    if output is not None:
+        join(folder, output)
+    return division
+
+
+def _division_of(surface: Any, folder: PathLike, parts: int, options: dict[str, Any]) -> Division:
+    """The one that is there, if it is of the same call and no input is younger."""
+    files = [surface] if isinstance(surface, (str, os.PathLike)) else list(surface)
+    call = {"inputs": [os.path.abspath(f) for f in files], "parts": parts, "options": _with_limits(options)}
+    record = Path(folder) / "call.json"
+    with contextlib.suppress(OSError, ValueError):
+        division = read(folder)
+        written = record.stat().st_mtime
+        if json.loads(record.read_text(encoding="utf-8")) == call and all(os.stat(f).st_mtime <= written for f in files):
+            return division
+    division = split(files, folder, parts=parts, **options)
+    record.write_text(json.dumps(call), encoding="utf-8")
+    return division
+
+
+_SPLIT_OPTIONS = ("size", "keep", "holes", "regions", "drop_outside", "seed", "threads")
+
+
+def _with_limits(options: dict[str, Any]) -> list[str]:
+    left = dict(options)
+    limits = []
+    if (seconds := left.pop("time_limit", None)) is not None:
+        limits += ["--time-limit", repr(float(seconds))]
+    if (memory := bytes_of(left.pop("memory_limit", None))) is not None:
+        limits += ["--memory-limit", repr(memory / 1e9)]
+    if unknown := sorted(set(left) - set(_SPLIT_OPTIONS)):
+        raise TypeError(f"split: there is no option {', '.join(unknown)}")
+    return arguments_of(left) + limits
+
+
+_ERRORS: dict[int, type[HoldfastError]] = {1: InternalError, 3: FileError, 4: InvalidSurface, 7: NotRepresentable}
+
+
+def _error_of(code: int, stderr: bytes) -> Exception:
+    message = stderr.decode("utf-8", "replace").strip() or f"the program ended with {code}"
+    if code == 2:
+        return ValueError(message)
+    if code == 5:
+        kinds: dict[str, type[HoldfastError]] = {"time": TimeLimit, "memory": MemoryLimit}
+        return next((kind for word, kind in kinds.items() if word in message), Cancelled)(message)
+    return _ERRORS.get(code, HoldfastError)(message)
+
+
+def _run(*arguments: str) -> None:
+    ended = subprocess.run([program(), *arguments], stdin=subprocess.DEVNULL, capture_output=True)
+    if ended.returncode != 0:
+        raise _error_of(ended.returncode, ended.stderr)

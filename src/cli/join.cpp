@@ -1,0 +1,77 @@
+// `holdfast join`: the volumes of a divided surface as one file.
+#include <memory>
+
+#include "command.h"
+#include "files.h"
+#include "files_of_run.h"
+#include "limits.h"
+#include "manifest.h"
+#include "signals.h"
+
+namespace holdfast::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct JoinArguments {
+  fs::path folder, output;
+  std::string format;
+  LimitArguments limits;
+  bool quiet = false;
+};
+
+bool is_vtu(const JoinArguments& arguments) {
+  const std::string format =
+      arguments.format.empty() ? arguments.output.extension().string() : arguments.format;
+  return format == ".vtu" || format == "vtu";
+}
+
+int run(const JoinArguments& arguments) {
+  const Limits limits = limits_of(arguments.limits);
+  FilesOfRun files;
+  const Manifest manifest = read_manifest(arguments.folder);
+  for (const ManifestPart& part : manifest.parts) files.read_volume(manifest.path_of(part.volume), {});
+  VolumeTarget target = files.write_volume("-o", arguments.output, arguments.format);
+  watch_writing(target.options, limits);
+  cancel_by_flag();
+  try {
+    const Surface whole = whole_of(manifest, limits);
+    const auto load = [&](std::size_t k) { return volume_of(manifest, k, limits); };
+    if (is_vtu(arguments)) {
+      write_joined(target.path, whole.view(), manifest.parts.size(), load, manifest.interface_marker,
+                   target.options);
+      return exit_done;
+    }
+    std::vector<Volume> parts;
+    for (std::size_t k = 0; k < manifest.parts.size(); ++k) parts.push_back(load(k));
+    const Volume joined = join_parts(whole.view(), parts, manifest.interface_marker);
+    write_volume(target.path, joined, target.options);
+    if (!arguments.quiet) tell(not_held(target.path, joined, target.options), target.path);
+  } catch (const Stale& stale) {
+    say("holdfast: {}; nothing was written\n", stale.what());
+    return exit_check_failed;
+  }
+  return exit_done;
+}
+
+}  // namespace
+
+void add_join(CLI::App& app, Command& chosen) {
+  const auto arguments = std::make_shared<JoinArguments>();
+  CLI::App* command = app.add_subcommand("join", "Put the volumes of a split surface together");
+  command->add_option("DIR", arguments->folder, "What `holdfast split` wrote, with a volume for each part")
+      ->required();
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Volume file (.vtu, with one part in memory at a time; or another that `mesh` writes)")
+      ->transform(or_standard_output)
+      ->required()
+      ->option_text("VOLUME");
+  command->add_option("--format", arguments->format, "Volume format, instead of by ending")
+      ->option_text("FORMAT");
+  add_limits(*command, arguments->limits);
+  command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace holdfast::cli

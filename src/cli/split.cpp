@@ -1,0 +1,214 @@
+// `holdfast split`: a surface into parts that are meshed apart.
+#include <fmt/core.h>
+
+#include <memory>
+#include <set>
+
+#include "command.h"
+#include "files.h"
+#include "files_of_run.h"
+#include "holdfast/surface_io.h"
+#include "limits.h"
+#include "manifest.h"
+#include "mesh_options.h"
+#include "name_options.h"
+#include "signals.h"
+
+namespace holdfast::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SplitArguments {
+  MeshArguments mesh;  ///< of these: surfaces, sizes, regions and holes
+  std::size_t parts = 0;
+  fs::path folder;
+  LimitArguments limits;
+};
+
+DivideOptions to_options(const SplitArguments& arguments, const Surface& surface) {
+  const Options mesh = cli::to_options(arguments.mesh);
+  if (mesh.keep == Keep::box) throw UsageError("--keep box: a surface in a box cannot be split");
+  DivideOptions options;
+  options.parts = arguments.parts;
+  options.size = mesh.sizes->size;
+  options.keep = mesh.keep;
+  options.holes = mesh.holes;
+  options.holes.insert(options.holes.end(), surface.holes.begin(), surface.holes.end());
+  options.regions = mesh.regions;
+  options.regions.insert(options.regions.end(), surface.regions.begin(), surface.regions.end());
+  options.drop_outside = mesh.drop_outside;
+  options.seed = mesh.seed;
+  options.threads = mesh.threads;
+  options.progress = goes_on;
+  return options;
+}
+
+std::string numbered(std::size_t k, std::size_t count, const char* ending) {
+  return fmt::format("part_{:0{}}{}", k + 1, std::to_string(count).size(), ending);
+}
+
+Json json_of_part(const SurfacePart& part, const fs::path& folder, std::size_t k, std::size_t count) {
+  Json sizes = Json::array();
+  std::set<int> regions;
+  for (const RegionSeed& seed : part.surface.regions) {
+    regions.insert(seed.id);
+    if (seed.size > 0) sizes.push_back({{"region", seed.id}, {"size", seed.size}});
+  }
+  const std::string surface = numbered(k, count, ".poly");
+  return {{"surface", surface},
+          {"volume", numbered(k, count, ".vtu")},
+          {"crc32", checksum_of(folder / surface)},
+          {"triangles", part.surface.facets.size()},
+          {"interface_triangles", part.interface_facets},
+          {"tetrahedra_expected", std::llround(part.tetrahedra)},
+          {"regions", regions},
+          {"sizes", sizes}};
+}
+
+// The manifest last: until then the folder is none of a division.
+void write_division(const SplitArguments& arguments, const Surface& surface, const SurfaceDivision& division,
+                    const Limits& limits) {
+  const fs::path& folder = arguments.folder;
+  WriteOptions writing;
+  watch_writing(writing, limits);
+  const fs::path whole = "surface.vtu";
+  write_surface(folder / whole, surface, writing);
+  Json parts = Json::array();
+  const std::size_t count = division.parts.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    write_surface(folder / numbered(k, count, ".poly"), division.parts[k].surface, writing);
+    parts.push_back(json_of_part(division.parts[k], folder, k, count));
+  }
+  Json inputs = Json::array();
+  for (const auto& path : arguments.mesh.surfaces) inputs.push_back(path.string());
+  write_json(folder / manifest_name,
+             {{"format", "holdfast division"},
+              {"version", 1},
+              {"holdfast", version()},
+              {"inputs", inputs},
+              {"options",
+               {{"parts", arguments.parts},
+                {"size", arguments.mesh.size ? Json(*arguments.mesh.size) : Json(nullptr)},
+                {"keep", arguments.mesh.keep.value_or("auto")},
+                {"drop_outside", arguments.mesh.drop_outside},
+                {"seed", arguments.mesh.seed}}},
+              {"surface",
+               {{"file", whole.string()},
+                {"crc32", checksum_of(folder / whole)},
+                {"vertices", surface.vertices.size()},
+                {"triangles", surface.facets.size()},
+                {"segments", surface.segments.size()}}},
+              {"interface_marker", division.interface_marker},
+              {"names", to_json(surface.names)},
+              {"parts", parts}});
+}
+
+int conclude(const SplitArguments& arguments, const SurfaceDivision& division) {
+  switch (division.outcome) {
+    case Outcome::done: {
+      if (arguments.mesh.quiet) return exit_done;
+      std::size_t triangles = 0;
+      double least = HUGE_VAL, most = 0;
+      for (const SurfacePart& part : division.parts) {
+        triangles += part.interface_facets;
+        least = std::min(least, part.tetrahedra);
+        most = std::max(most, part.tetrahedra);
+      }
+      say("{}: {} with {} triangles between them; {:.3g} to {:.3g} tetrahedra each, estimated\n",
+          (arguments.folder / manifest_name).string(),
+          division.parts.size() == 1 ? "1 part" : fmt::format("{} parts", division.parts.size()),
+          triangles / 2, least, most);
+      if (division.parts.size() < arguments.parts)
+        say("holdfast: the mesh is too coarse for {} parts\n", arguments.parts);
+      return exit_done;
+    }
+    case Outcome::invalid_input:
+      say("holdfast: the surface is not valid: {}\n", division.message);
+      print_defects(division.defects, 20);
+      return exit_invalid_surface;
+    case Outcome::time_limit:
+    case Outcome::memory_limit:
+    case Outcome::cancelled:
+      say("holdfast: {}; nothing was written\n",
+          division.message.empty() ? name(division.outcome) : division.message);
+      return exit_limit;
+    case Outcome::not_representable:
+      say("holdfast: {}; nothing was written\n", division.message);
+      return exit_not_representable;
+  }
+  return exit_internal_error;
+}
+
+int run(const SplitArguments& arguments) {
+  if (arguments.parts == 0) throw UsageError("--parts: one or more are expected");
+  const Limits limits = limits_of(arguments.limits);
+  const Names names = names_of(arguments.mesh.names);
+  FilesOfRun files;
+  files.read_surfaces(arguments.mesh.surfaces, arguments.mesh.input_format);
+  std::error_code error;
+  fs::create_directories(arguments.folder, error);
+  if (error) throw FileError(arguments.folder, "", "the folder cannot be made: " + error.message());
+  files.write("-o", arguments.folder / manifest_name);
+  cancel_at_once();
+  Surface surface = read_surfaces(arguments.mesh.surfaces, reading(limits, arguments.mesh.input_format));
+  if (!arguments.mesh.quiet) tell(surface.remarks);
+  for (const auto& [id, name] : names.facets) surface.names.facets[id] = name;
+  for (const auto& [id, name] : names.regions) surface.names.regions[id] = name;
+  DivideOptions options = to_options(arguments, surface);
+  static_cast<Limits&>(options) = limits;
+
+  cancel_by_flag();  // from here on files are open
+  SurfaceDivision division;
+  try {
+    division = divide(surface.view(), options);
+  } catch (const std::invalid_argument& error_of_options) {
+    throw UsageError(error_of_options.what());
+  }
+  if (division.outcome == Outcome::done) write_division(arguments, surface, division, limits);
+  return conclude(arguments, division);
+}
+
+}  // namespace
+
+void add_split(CLI::App& app, Command& chosen) {
+  const auto arguments = std::make_shared<SplitArguments>();
+  MeshArguments& mesh = arguments->mesh;
+  CLI::App* command =
+      app.add_subcommand("split", "Cut a surface into closed parts that are meshed apart, and fit");
+  command->add_option("SURFACE", mesh.surfaces, "Surface files, as for `mesh`")
+      ->transform(or_standard_input)
+      ->required();
+  command->add_option("-o,--output", arguments->folder, "Folder for the parts and manifest.json")
+      ->required()
+      ->option_text("DIR");
+  command->add_option("--parts", arguments->parts, "How many parts, of about equal work")
+      ->required()
+      ->option_text("N");
+  command->add_option("--size", mesh.size, "No edge inside much longer than this, in all parts")
+      ->option_text("H");
+  command->add_option("--keep", mesh.keep, "Regions to keep: auto (default), bounded or winding")
+      ->option_text("RULE");
+  command->add_option("--hole", mesh.holes, "Leave the region that holds this point empty (repeatable)")
+      ->allow_extra_args(false)
+      ->option_text("x,y,z");
+  command
+      ->add_option("--region", mesh.regions,
+                   "Number the region that holds this point, and limit its size (repeatable)")
+      ->allow_extra_args(false)
+      ->option_text("x,y,z,ID[,H]");
+  add_name_option(*command, mesh.names);
+  command->add_flag("--drop-outside", mesh.drop_outside,
+                    "Drop facets outside every kept region instead of refusing them");
+  command->add_option("--seed", mesh.seed, "Seed of the random orders (default 1)")->option_text("N");
+  command->add_option("--threads", mesh.threads, threads_help)
+      ->check(CLI::Range(0u, 4096u))
+      ->option_text("N");
+  command->add_option("--input-format", mesh.input_format, "Surface format, instead of by ending")
+      ->option_text("FORMAT");
+  add_limits(*command, arguments->limits);
+  command->add_flag("-q,--quiet", mesh.quiet, "Say nothing unless something is wrong");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace holdfast::cli

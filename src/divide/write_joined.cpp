@@ -1,0 +1,191 @@
+// The joined volume as .vtu (see io/vtu_write.cpp), with one part in memory at a time: each array takes a
+// pass over the parts.
+#include <bit>
+#include <cstring>
+#include <string>
+
+#include "holdfast/divide.h"
+#include "io/atomic_writer.h"
+#include "io/vtk_cells.h"
+#include "numbers/float_environment.h"
+
+namespace holdfast {
+namespace {
+
+template <class T>
+void put(io::AtomicWriter& out, T value) {
+  char raw[sizeof value];
+  std::memcpy(raw, &value, sizeof value);
+  out.write({raw, sizeof raw});
+}
+
+class JoinedWriter {
+ public:
+  JoinedWriter(io::AtomicWriter& out, const Complex& surface, std::size_t parts, const PartLoader& load,
+               int interface_marker)
+      : out_(out), surface_(surface), parts_(parts), load_(load), marker_(interface_marker) {}
+
+  void run() {
+    count();
+    write_header();
+    write_points();
+    if (vertices_ > UINT32_MAX)
+      write_corners<std::uint64_t>();
+    else
+      write_corners<std::uint32_t>();
+    write_offsets();
+    write_per_cell<std::uint8_t>(static_cast<std::uint8_t>(io::VtkCell::tetrahedron),
+                                 static_cast<std::uint8_t>(io::VtkCell::triangle),
+                                 static_cast<std::uint8_t>(io::VtkCell::line));
+    write_regions();
+    write_markers();
+    write_per_cell<std::int32_t>(3, 2, 1);
+    write_input_vertices();
+    if (!common_.vertex_markers.empty()) write_vertex_markers();
+    out_ << "\n</AppendedData>\n</VTKFile>\n";
+  }
+
+ private:
+  template <class Visit>
+  void for_each_part(Visit&& visit) {
+    Joiner joiner(surface_, marker_);
+    for (std::size_t k = 0; k < parts_; ++k) {
+      const Volume part = load_(k);
+      visit(part, joiner.add(part));
+    }
+    common_ = joiner.surface();
+    vertices_ = joiner.vertices();
+  }
+
+  void count() {
+    for_each_part(
+        [&](const Volume& part, const Joiner::Numbered&) { tetrahedra_ += part.tetrahedra.size(); });
+    cells_ = tetrahedra_ + common_.facets.size() + common_.segments.size();
+    corners_ = 4 * tetrahedra_ + 3 * std::uint64_t{common_.facets.size()} +
+               2 * std::uint64_t{common_.segments.size()};
+  }
+
+  void array(const char* type, const char* name, std::uint64_t components, std::uint64_t bytes) {
+    out_ << "<DataArray type=\"" << type << "\" Name=\"" << name << '"';
+    if (components != 1) out_ << " NumberOfComponents=\"" << components << '"';
+    out_ << " format=\"appended\" offset=\"" << offset_ << "\"/>\n";
+    offset_ += sizeof(std::uint64_t) + bytes;
+    sizes_.push_back(bytes);
+  }
+
+  void write_header() {
+    const bool wide = vertices_ > UINT32_MAX;
+    out_ << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
+         << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
+         << "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << vertices_
+         << "\" NumberOfCells=\"" << cells_ << "\">\n<Points>\n";
+    array("Float64", "Points", 3, 3 * sizeof(double) * vertices_);
+    out_ << "</Points>\n<Cells>\n";
+    array(wide ? "UInt64" : "UInt32", "connectivity", 1, corners_ * (wide ? 8 : 4));
+    array("Int64", "offsets", 1, 8 * cells_);
+    array("UInt8", "types", 1, cells_);
+    out_ << "</Cells>\n<CellData>\n";
+    for (const char* name : {"region", "marker", "kind"}) array("Int32", name, 1, 4 * cells_);
+    out_ << "</CellData>\n<PointData>\n";
+    array("Int64", "input_vertex", 1, 8 * vertices_);
+    if (!common_.vertex_markers.empty()) array("Int32", "marker", 1, 4 * vertices_);
+    out_ << "</PointData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+  }
+
+  void begin_array() { put(out_, sizes_[next_array_++]); }
+
+  void write_points() {
+    begin_array();
+    const auto write = [&](const Point& p) {
+      for (const double x : p) put(out_, x);
+    };
+    for (const Point& p : common_.vertices) write(p);
+    for_each_part([&](const Volume& part, const Joiner::Numbered& numbered) {
+      for (const Index v : numbered.fresh) write(part.vertices[v]);
+    });
+  }
+
+  template <class Number>
+  void write_corners() {
+    begin_array();
+    for_each_part([&](const Volume& part, const Joiner::Numbered& numbered) {
+      for (const Tetrahedron& t : part.tetrahedra)
+        for (const Index v : t) put(out_, static_cast<Number>(numbered.vertices[v]));
+    });
+    for (const Triangle& t : common_.facets)
+      for (const Index v : t) put(out_, static_cast<Number>(v));
+    for (const Segment& s : common_.segments)
+      for (const Index v : s) put(out_, static_cast<Number>(v));
+  }
+
+  void write_offsets() {
+    begin_array();
+    std::int64_t end = 0;
+    for (std::uint64_t i = 0; i < tetrahedra_; ++i) put(out_, end += 4);
+    for (std::size_t i = 0; i < common_.facets.size(); ++i) put(out_, end += 3);
+    for (std::size_t i = 0; i < common_.segments.size(); ++i) put(out_, end += 2);
+  }
+
+  template <class T>
+  void write_per_cell(T of_tetrahedron, T of_facet, T of_segment) {
+    begin_array();
+    for (std::uint64_t i = 0; i < tetrahedra_; ++i) put(out_, of_tetrahedron);
+    for (std::size_t i = 0; i < common_.facets.size(); ++i) put(out_, of_facet);
+    for (std::size_t i = 0; i < common_.segments.size(); ++i) put(out_, of_segment);
+  }
+
+  void write_regions() {
+    begin_array();
+    for (std::size_t k = 0; k < parts_; ++k) {
+      const Volume part = load_(k);
+      for (std::size_t t = 0; t < part.tetrahedra.size(); ++t)
+        put(out_, std::int32_t{part.regions.empty() ? 0 : part.regions[t]});
+    }
+    for (std::size_t i = 0; i < common_.facets.size() + common_.segments.size(); ++i)
+      put(out_, std::int32_t{0});
+  }
+
+  void write_markers() {
+    begin_array();
+    for (std::uint64_t i = 0; i < tetrahedra_; ++i) put(out_, std::int32_t{0});
+    for (std::size_t i = 0; i < common_.facets.size(); ++i)
+      put(out_, std::int32_t{common_.facet_markers.empty() ? 0 : common_.facet_markers[i]});
+    for (std::size_t i = 0; i < common_.segments.size(); ++i)
+      put(out_, std::int32_t{common_.segment_markers.empty() ? 0 : common_.segment_markers[i]});
+  }
+
+  void write_input_vertices() {
+    begin_array();
+    for (const std::int64_t v : common_.input_vertices) put(out_, v);
+    for (std::uint64_t v = common_.input_vertices.size(); v < vertices_; ++v) put(out_, std::int64_t{-1});
+  }
+
+  void write_vertex_markers() {
+    begin_array();
+    for (const int marker : common_.vertex_markers) put(out_, std::int32_t{marker});
+    for (std::uint64_t v = common_.vertex_markers.size(); v < vertices_; ++v) put(out_, std::int32_t{0});
+  }
+
+  io::AtomicWriter& out_;
+  const Complex& surface_;
+  std::size_t parts_;
+  const PartLoader& load_;
+  int marker_;
+  Volume common_;
+  std::uint64_t vertices_ = 0, tetrahedra_ = 0, cells_ = 0, corners_ = 0, offset_ = 0;
+  std::vector<std::uint64_t> sizes_;  // of the arrays, in bytes
+  std::size_t next_array_ = 0;
+};
+
+}  // namespace
+
+void write_joined(const std::filesystem::path& path, const Complex& surface, std::size_t parts,
+                  const PartLoader& load, int interface_marker, const WriteOptions& options) {
+  const FloatEnvironment environment;
+  io::Watch watch(options, options.progress);
+  io::AtomicWriter out(path, &watch);
+  JoinedWriter(out, surface, parts, load, interface_marker).run();
+  out.commit();
+}
+
+}  // namespace holdfast

@@ -1,0 +1,105 @@
+"""`holdfast split`, `join` and `check DIR` from outside.
+
+    divide_test.py PROGRAM [unittest options]
+"""
+import json
+import shutil
+
+from cli_case import CUBE_FACETS, CUBE_POINTS, CliTest, cube, main, off, shifted
+
+
+class Divided(CliTest):
+    def split(self, *options, parts=3, surface="cube.off"):
+        self.run_program("split", surface, "--parts", parts, "-o", "d", *options)
+        self.manifest = json.loads((self.folder / "d" / "manifest.json").read_text())
+        return self.manifest["parts"]
+
+    def mesh(self, *which):
+        parts = self.manifest["parts"]
+        for part in [parts[k] for k in which] or parts:
+            self.run_program("mesh", f"d/{part['surface']}", "-o", f"d/{part['volume']}", "-q")
+
+    def test_parts_are_meshed_without_options_checked_and_joined(self):
+        self.split("--size", 0.15)
+        self.assertEqual(len(self.manifest["parts"]), 3)
+        for part in self.manifest["parts"]:
+            self.run_program("diagnose", f"d/{part['surface']}")
+            self.assertGreater(part["interface_triangles"], 0)
+        self.mesh()
+        self.assertIn("holds", self.run_program("check", "d").stdout)
+        for ending in ("vtu", "mesh", "msh"):
+            self.run_program("join", "d", "-o", f"whole.{ending}")
+            self.run_program("check", "cube.off", f"whole.{ending}")
+
+    def test_sizes_of_regions_go_into_the_parts(self):
+        self.split("--region", "0.5,0.5,0.5,8,0.1")
+        self.mesh()
+        self.run_program("join", "d", "-o", "whole.vtu")
+        self.run_program("mesh", "cube.off", "--region", "0.5,0.5,0.5,8,0.1", "-o", "one.vtu", "--report", "r.json")
+        one = json.loads((self.folder / "r.json").read_text())["mesh"]["tetrahedra"]
+        text = (self.folder / "whole.vtu").read_bytes()[:2000].decode("latin-1")
+        cells = int(text.split('NumberOfCells="')[1].split('"')[0]) - 12
+        self.assertLess(cells, 1.25 * one)
+        self.assertGreater(cells, 0.8 * one)
+
+    def test_markers_and_names_survive(self):
+        self.write("cube.obj", "".join("v %r %r %r\n" % p for p in CUBE_POINTS)
+                   + "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in CUBE_FACETS))
+        self.split("--size", 0.3, "--name", "region:1=core", surface="cube.obj")
+        self.assertEqual(self.manifest["names"]["regions"]["1"], "core")
+        self.mesh()
+        self.run_program("check", "d")
+
+    def test_what_is_missing_exchanged_or_stale_is_found(self):
+        parts = self.split("--size", 0.25)
+        self.mesh(0, 1)
+        d = self.folder / "d"
+        self.assertIn(parts[2]["volume"], self.run_program("check", "d", expect=6).stdout)
+        self.run_program("join", "d", "-o", "whole.vtu", expect=3)
+        self.assertFalse((self.folder / "whole.vtu").exists())
+        self.mesh(2)
+        self.run_program("check", "d")
+        shutil.copy(d / parts[0]["volume"], self.folder / "kept.vtu")
+        shutil.copy(d / parts[1]["volume"], d / parts[0]["volume"])
+        self.run_program("check", "d", expect=6)
+        self.run_program("join", "d", "-o", "whole.vtu", expect=6)
+        shutil.copy(self.folder / "kept.vtu", d / parts[0]["volume"])
+        self.run_program("check", "d")
+        self.split("--size", 0.2)
+        self.run_program("check", "d", expect=6)
+        self.mesh()
+        (d / parts[1]["surface"]).write_text((d / parts[1]["surface"]).read_text() + "\n")
+        self.assertIn("checksum", self.run_program("check", "d", expect=6).stdout)
+
+    def test_report_of_a_check(self):
+        self.split("--size", 0.3, parts=2)
+        self.mesh()
+        self.run_program("check", "d", "--report", "r.json")
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertTrue(report["holds"])
+        self.assertEqual(len(report["parts"]), 2)
+
+    def test_invalid_surfaces_and_wrong_usage(self):
+        self.write("open.off", off(CUBE_POINTS, CUBE_FACETS[:-1]))
+        self.run_program("split", "open.off", "--parts", 2, "-o", "d", expect=4)
+        self.assertFalse((self.folder / "d" / "manifest.json").exists())
+        self.write("two.off", off(CUBE_POINTS + cube((0.5, 0.5, 0.5)), CUBE_FACETS + shifted(CUBE_FACETS, 8)))
+        self.run_program("split", "two.off", "--parts", 2, "-o", "d", expect=4)
+        self.run_program("split", "cube.off", "--parts", 0, "-o", "d", expect=2)
+        self.run_program("split", "cube.off", "-o", "d", expect=2)
+        self.run_program("split", "cube.off", "--parts", 2, "-o", "cube.off", expect=3)
+        self.run_program("join", "nowhere", "-o", "x.vtu", expect=3)
+        self.write("d/manifest.json", '{"format": "other"}')
+        self.run_program("check", "d", expect=3)
+        self.write("d/manifest.json", "{")
+        self.run_program("check", "d", expect=3)
+
+    def test_a_manifest_leads_nowhere_else(self):
+        self.split("--size", 0.4, parts=2)
+        self.manifest["parts"][0]["surface"] = "../cube.off"
+        self.write("d/manifest.json", json.dumps(self.manifest))
+        self.run_program("check", "d", expect=3)
+
+
+if __name__ == "__main__":
+    main()
