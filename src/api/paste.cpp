@@ -187,8 +187,10 @@ void judge(const PasteOptions& options, const Step& step, PasteResult& result) {
   };
   PartsOfComplex parts = parts_of(result);
   const Result found = mesh_parts(result.surface.view(), meshing, parts);
-  result.overlaps = std::move(parts.overlaps);
-  if (found.outcome == Outcome::not_representable) return;
+  result.overlaps = parts.overlaps;
+  const bool is_limit = found.outcome == Outcome::time_limit || found.outcome == Outcome::memory_limit ||
+                        found.outcome == Outcome::cancelled;
+  if (!is_limit && !parts.refuses()) return;  // what encloses nothing is pasted, too
   result.outcome = found.outcome;
   result.message = found.message;
 }

@@ -52,7 +52,8 @@ class Fusing {
     list_sides();
     put_vertices_on_sides();
     cross_sides();
-    for (auto& [side, on] : sides_) order(side, on);
+    for (auto& [side, on] : sides_) std::sort(on.points.begin(), on.points.end());
+    for (auto& [side, on] : sides_) part_from_itself(side, on);
     triangulate_patches();
     deliver();
     return most_ == 0 ? 0
@@ -222,6 +223,7 @@ class Fusing {
   struct OnSide {
     std::vector<Index> parts;
     std::vector<std::pair<double, Index>> points;
+    enum { fresh, open, done } state = fresh;  // of part_from_itself
   };
 
   void list_sides() {
@@ -357,7 +359,26 @@ class Fusing {
     return static_cast<Index>(state_.vertices.size() - 1);
   }
 
-  static void order(const Side&, OnSide& on) { std::sort(on.points.begin(), on.points.end()); }
+  /// A piece of a side may be a side, which is led through vertices in its turn. Where that would lead back
+  /// to the first one, a vertex is left out.
+  void part_from_itself(const Side& side, OnSide& on) {
+    if (on.state == OnSide::done || on.points.empty()) return;
+    on.state = OnSide::open;
+    for (std::size_t k = 0; k <= on.points.size();) {
+      const Index a = k == 0 ? side[0] : on.points[k - 1].second;
+      const Index b = k == on.points.size() ? side[1] : on.points[k].second;
+      const auto piece = sides_.find(ascending(Side{a, b}));
+      if (piece != sides_.end() && piece->second.state == OnSide::open) {
+        on.points.erase(on.points.begin() + static_cast<std::ptrdiff_t>(k == 0 ? 0 : k - 1));
+        if (on.points.empty()) break;
+        k = k == 0 ? 0 : k - 1;
+        continue;
+      }
+      if (piece != sides_.end()) part_from_itself(piece->first, piece->second);
+      ++k;
+    }
+    on.state = OnSide::done;
+  }
 
   /// The vertices of a side from one end to the other.
   [[nodiscard]] std::vector<Index> chain(Index from, Index to) const {
@@ -504,18 +525,22 @@ class Fusing {
 
   // --- The result -------------------------------------------------------------------------------------
 
-  /// A facet that is in no patch, cut with its sides.
-  void split(const Triangle& t, std::vector<Triangle>& pieces) const {
+  /// A facet that is in no patch, cut with its sides. Returns false where that leads back to itself, as it
+  /// may in facets that are thinner than the gap.
+  [[nodiscard]] bool split(const Triangle& t, std::vector<Triangle>& pieces, int depth = 0) const {
+    constexpr int kDeepest = 24;  // each level is done with a side
+    if (depth > kDeepest) return false;
     for (std::size_t i = 0; i < 3; ++i) {
       const Index a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];
       const std::vector<Index> along = chain(a, b);
       if (along.size() == 2) continue;
-      // Towards c the pieces have no sides of their own, so that only those at its other two sides go on.
       for (std::size_t k = 0; k + 1 < along.size(); ++k)
-        if (along[k] != c && along[k + 1] != c) split({along[k], along[k + 1], c}, pieces);
-      return;
+        if (along[k] != c && along[k + 1] != c && !split({along[k], along[k + 1], c}, pieces, depth + 1))
+          return false;
+      return true;
     }
     pieces.push_back(t);
+    return true;
   }
 
   void deliver() {
@@ -541,10 +566,7 @@ class Fusing {
         continue;
       }
       pieces.clear();
-      if (planes_[f])
-        split(state_.facets[f], pieces);
-      else
-        pieces.push_back(state_.facets[f]);
+      if (!planes_[f] || !split(state_.facets[f], pieces)) pieces.assign(1, state_.facets[f]);
       for (const Triangle& t : pieces) take(t, std::array{f});
     }
     state_.facets = std::move(facets);
