@@ -8,6 +8,7 @@
 #include <numeric>
 #include <queue>
 
+#include "numbers/elementary.h"
 #include "surface/aabb_tree.h"
 
 namespace holdfast {
@@ -20,7 +21,7 @@ double dot(const Vector& u, const Vector& v) { return u[0] * v[0] + u[1] * v[1] 
 Point along(const Point& a, const Vector& u, double t) {
   return {a[0] + t * u[0], a[1] + t * u[1], a[2] + t * u[2]};
 }
-double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+double distance(const Point& a, const Point& b) { return numbers::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
 /// The nearest points of two segments (Ericson, Real-Time Collision Detection, 5.1.9).
 std::array<Point, 2> between_sides(const Point& a, const Point& b, const Point& c, const Point& d) {
@@ -121,7 +122,7 @@ class Search {
   static double bound(const Box& a, const Box& b) {
     Vector gap{};
     for (std::size_t k = 0; k < 3; ++k) gap[k] = std::max({0.0, a.low[k] - b.high[k], b.low[k] - a.high[k]});
-    return std::hypot(gap[0], gap[1], gap[2]);
+    return numbers::hypot(gap[0], gap[1], gap[2]);
   }
 
   void compare(const Node& m, const Node& n) {

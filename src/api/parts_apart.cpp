@@ -7,6 +7,7 @@
 
 #include "api/part_distance.h"
 #include "mesh/disjoint_sets.h"
+#include "numbers/elementary.h"
 #include "surface/aabb_tree.h"
 #include "surface/describe.h"
 #include "surface/places.h"
@@ -84,7 +85,7 @@ class Finder {
     for (std::size_t k = 0; k < 3; ++k)
       gap[k] = std::max(
           {0.0, boxes_[part].low[k] - boxes_[other].high[k], boxes_[other].low[k] - boxes_[part].high[k]});
-    return std::hypot(gap[0], gap[1], gap[2]);
+    return numbers::hypot(gap[0], gap[1], gap[2]);
   }
 
   /// Pairs of parts in the order of the distances of their boxes, which theirs are not below.

@@ -16,6 +16,7 @@
 #include <unordered_map>
 
 #include "mesh/disjoint_sets.h"
+#include "numbers/elementary.h"
 #include "numbers/sorted.h"
 #include "plane/triangulate.h"
 #include "repair/near.h"
@@ -192,7 +193,7 @@ class Fusing {
     for (const Triangle& t : {f, g})
       for (std::size_t i = 0; i < 3; ++i) {
         const PlanePoint p = flat(t[i], axis), q = flat(t[(i + 1) % 3], axis);
-        const double long_pq = std::hypot(q[0] - p[0], q[1] - p[1]);
+        const double long_pq = numbers::hypot(q[0] - p[0], q[1] - p[1]);
         if (!(long_pq > 0)) return false;
         const PlanePoint n{(p[1] - q[1]) / long_pq, (q[0] - p[0]) / long_pq};
         const auto a = extent(f, n), b = extent(g, n);
