@@ -86,7 +86,7 @@ TetgenInput find_input(const fs::path& file, const TetgenSwitches& switches) {
     }
   const std::string ending = ending_of(input.path);
   input.is_complex = ending != ".node";
-  input.is_tetgen_surface = ending == ".poly" || ending == ".smesh";
+  input.is_own_format = ending == ".poly" || ending == ".smesh" || ending == ".mesh";
   const fs::path stem = without_gz(input.path).replace_extension();
   input.output = switches.same_name ? stem : next_name(stem);
   return input;

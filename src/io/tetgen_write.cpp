@@ -265,7 +265,7 @@ void write_tetgen(const Path& name, const Volume& volume, const TetgenFiles& fil
 
 int tetgen_first_number(const Path& path) {
   const std::string extension = io::lower(io::without_gz(path).extension().string());
-  if (extension == ".mesh" || extension == ".meshb") return 1;
+  if (extension == ".mesh" || extension == ".meshb" || extension == ".stl") return 1;
   if (extension != ".node" && extension != ".poly" && extension != ".smesh") return 0;
   try {
     const io::FileBytes bytes(path);

@@ -73,6 +73,25 @@ class Tetgen(CliTest):
         self.run_program("check", "cube.off", "cube.1.node")
         self.run_program("diagnose", "cube.1.smesh")
 
+    def test_first_numbers_are_those_of_tetgen(self):
+        for ending, first, smesh in (("stl", 1, True), ("ply", 0, True), ("mesh", 1, False), ("vtk", 0, True)):
+            self.run_program("convert", "cube.off", "c." + ending, "-q")
+            self.run_program("tetgen", "-p", "c." + ending)
+            self.assertEqual(int(self.rows("c.1.node")[1][0][0]), first, ending)
+            self.assertEqual((self.folder / "c.1.smesh").exists(), smesh, ending)
+            for file in self.folder.glob("c.*"):
+                file.unlink()
+
+    def test_debians_tetgen_finds_the_files_consistent(self):
+        if shutil.which("tetgen") is None:
+            self.skipTest("there is no tetgen")
+        self.write("box.poly", poly())
+        self.run_program("tetgen", "-pq1.4aA", "box.poly")
+        said = subprocess.run(["tetgen", "-rC", "box.1"], cwd=self.folder, stdout=subprocess.PIPE, text=True, timeout=60,
+                              check=True).stdout
+        self.assertIn("the mesh appears to be consistent", said)
+        self.assertIn("Mesh tetrahedra: %d" % len(self.rows("box.1.ele")[1]), said)
+
     def test_bounds_are_true_and_by_region(self):
         self.write("box.poly", poly())
         self.run_program("tetgen", "-pq1.4aA", "box.poly")
