@@ -33,8 +33,9 @@ nav:
 """
 
 
-def relinked(text, here):
-    """The document with links that are right in the site, where README.md is index.md and docs/ is the top."""
+def relinked(text, here, source):
+    """The document with links that are right in the site, where README.md is index.md and docs/ is the top. Files that
+    they lead to elsewhere are copied to the top."""
     def new(match):
         label, link = match.groups()
         if re.match(r"[a-z]+:|#", link):
@@ -50,6 +51,8 @@ def relinked(text, here):
             path = target.relative_to(ROOT / "docs").as_posix()
         else:
             path = target.name
+            if target.is_file() and target.suffix != ".md":
+                shutil.copy(target, source / path)
         depth = len(here.relative_to(ROOT / "docs").parts) if here.is_relative_to(ROOT / "docs") else 0
         return f"[{label}]({'../' * depth}{path}{'#' + anchor if anchor else ''})"
     return re.sub(r"\[([^\]]*)\]\(([^)\s]+)\)", new, text)
@@ -60,14 +63,14 @@ def copy_documents(source):
         target = source / path.relative_to(ROOT / "docs")
         if path.suffix == ".md":
             target.parent.mkdir(parents=True, exist_ok=True)
-            target.write_text(relinked(path.read_text(), path.parent))
+            target.write_text(relinked(path.read_text(), path.parent, source))
         elif path.suffix in (".svg", ".png", ".webp"):
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(path, target)
-    (source / "index.md").write_text(relinked((ROOT / "README.md").read_text(), ROOT))
+    (source / "index.md").write_text(relinked((ROOT / "README.md").read_text(), ROOT, source))
     for name in ("CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "LICENSE-MIT", "LICENSE-APACHE"):
         text = (ROOT / name).read_text()
-        (source / name).write_text(relinked(text, ROOT) if name.endswith(".md") else text)
+        (source / name).write_text(relinked(text, ROOT, source) if name.endswith(".md") else text)
 
 
 def make_examples(holdfast, source):

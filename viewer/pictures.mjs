@@ -58,10 +58,10 @@ run("mesh", "chazelle.off", "-o", "chazelle.vtu", "--fill", "--html", "chazelle.
 
 const pictures = [
   ["part", "part.html", "cut=true&axis=y&colour=angle"],
-  ["before-repair", "crossing.html", "entry=0&tab=defects&view=0.1728,0.531824,0.788462,0.256187,0,0,0,4.6"],
+  ["before-repair", "crossing.html", "entry=0&ghost=false&view=0.1728,0.531824,0.788462,0.256187,0,0,0,4.9"],
   ["after-repair", "repaired.html", "cut=true&axis=z&position=0.55&colour=angle"],
   ["materials", "materials.html", "cut=true&axis=y&cap=flat&colour=region"],
-  ["schonhardt", "schonhardt.html", "surface=false&elements=true&added=true&cut=true&axis=z&position=0.75&colour=q"],
+  ["schonhardt", "schonhardt.html", "cut=true&axis=x&position=0.3&colour=angle&added=true"],
   ["chazelle", "chazelle.html", "cut=true&axis=x&position=0.6&colour=angle&added=true"],
 ];
 mkdirSync(out, { recursive: true });
