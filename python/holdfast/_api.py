@@ -156,7 +156,7 @@ def mesh(
         keep=keep,
         box_margin=float(box_margin),
         holes=[_numbers(h, 3, "a hole") for h in holes] + [list(map(float, h)) for h in what.holes],
-        regions=_bounded([_region(r) for r in regions] + [tuple(r) for r in what.regions], max_volume),
+        regions=_bounded([_region(r) for r in [*regions, *what.regions]], max_volume),
         max_volume=_most_volume(max_volume),
         max_ratio=0.0 if max_ratio is None else _positive(max_ratio, "max_ratio"),
         drop_outside=bool(drop_outside),

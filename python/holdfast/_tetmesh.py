@@ -414,7 +414,8 @@ class TetMesh:
                                              volume.point_markers, volume.input_points)]
                       + [tuple(volume.names)],
             "mid_nodes": None if self.order == 1 else [
-                np.array(a) for a in (volume.mid_points, volume.mid_tetrahedra, volume.mid_triangles, volume.mid_segments)],
+                np.array(a) for a in (volume.mid_points, volume.mid_tetrahedra.reshape(-1, 2), volume.mid_triangles,
+                                      volume.mid_segments)],
             "curve_report": self.curve_report,
             "n_input_points": self.n_input_points,
             "report": self.report,

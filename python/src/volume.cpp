@@ -93,7 +93,10 @@ void register_volume(py::module_& module) {
     auto copy = std::make_shared<Volume>(volume);
     MidNodes& mid = copy->mid_nodes;
     mid.points = rows_from<Point>(points, "points");
-    mid.tetrahedra = rows_from<std::array<Index, 6>>(tetrahedra, "tetrahedra");
+    const std::vector<Segment> pairs = rows_from<Segment>(tetrahedra, "tetrahedra");  // three a tetrahedron
+    for (std::size_t i = 0; i + 2 < pairs.size(); i += 3)
+      mid.tetrahedra.push_back({pairs[i][0], pairs[i][1], pairs[i + 1][0], pairs[i + 1][1], pairs[i + 2][0],
+                                pairs[i + 2][1]});
     mid.facets = rows_from<Triangle>(triangles, "triangles");
     for (const int node : markers_from(segments, "segments")) mid.segments.push_back(static_cast<Index>(node));
     return copy;

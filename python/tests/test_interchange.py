@@ -145,8 +145,8 @@ def test_pyvista_grid_and_accessor(cube, monkeypatch):
 
 def test_tetgen_calls(cube):
     tet = compat.TetGen(*cube)
-    with pytest.warns(UserWarning, match="the volume is an aim"):
-        nodes, elements = tet.tetrahedralize(switches="pq1.4a0.001YQ")
+    nodes, elements = tet.tetrahedralize(switches="pq1.4a0.001YQ")
+    assert tet.result.quality().volume.max() <= 0.001 * (1 + 1e-12)
     assert np.array_equal(nodes[:8], cube[0]) and elements is tet.elem and len(elements) > 200
     filled, few = compat.tetrahedralize(*cube, "pY")
     assert len(few) < len(elements) and len(filled) == 8
@@ -174,6 +174,13 @@ def test_tetgen_calls_that_cannot_be_had(cube):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         tet.tetrahedralize(switches="pY")
+
+
+def test_tetgen_order_2_has_tetgens_order(cube):
+    nodes, elements = compat.TetGen(*cube).tetrahedralize(order=2, quality=False)
+    assert elements.shape[1] == 10
+    for column, (a, b) in enumerate(((2, 3), (0, 3), (0, 1), (1, 2), (1, 3), (0, 2))):
+        assert np.allclose(nodes[elements[:, 4 + column]], (nodes[elements[:, a]] + nodes[elements[:, b]]) / 2)
 
 
 def test_switches():
