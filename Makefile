@@ -9,7 +9,7 @@ SEED ?= 1
 MINUTES ?= 5
 PYTHON ?= /usr/bin/python3
 
-.PHONY: help setup build demo test python wheel slurm python-corpus corpus random planes fuzz bench field tables figures format viewer web-test pictures docs web tidy debug asan tsan libcxx install clean
+.PHONY: help setup build demo test python wheel slurm python-corpus corpus random planes fuzz bench field tables paper figures format viewer web-test pictures docs web tidy debug asan tsan libcxx install clean
 .DEFAULT_GOAL := help
 
 help:  ## this list
@@ -84,6 +84,11 @@ field:  ## meshes to compute with, beside Gmsh, TetGen and Netgen, to docs/field
 tables: build  ## the paper's tables beside TetGen, for the corpus and the paper's cases, to docs/results.md
 	@scripts/setup.sh bench
 	@python3 bench/tables.py --build $(RELEASE) --corpus "$(or $(CORPUS),../shared/corpus)" --jobs $(JOBS) $(ARGS)
+
+paper: build  ## every figure, table and bound of the paper, measured, to docs/paper.md; goes on where it stopped (ARGS="--again pictures")
+	@scripts/setup.sh paper
+	@cmake --build $(RELEASE) -j $(JOBS) --target literal
+	@$(PYTHON) bench/paper/run.py --build $(RELEASE) $(ARGS)
 
 figures: build  ## the figures of the documents, from runs of the program, to docs/figures
 	@python3 scripts/figures.py $(RELEASE)/holdfast

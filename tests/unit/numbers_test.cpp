@@ -14,6 +14,7 @@
 
 #include "mesh/keys.h"
 #include "numbers/elementary.h"
+#include "numbers/halving.h"
 #include "numbers/random.h"
 #include "numbers/sorted.h"
 #include "numbers/vector.h"
@@ -221,6 +222,13 @@ TEST(Sorted, ListsHoldEachEntryOnce) {
   list.clear();
   sort_unique(list);
   EXPECT_TRUE(list.empty());
+}
+
+TEST(Halving, BeginsInTheMiddleOfEveryPart) {
+  using numbers::halved;
+  EXPECT_EQ(halved(std::vector<int>{1, 2, 3, 4, 5, 6, 7}), (std::vector<int>{4, 2, 6, 1, 3, 5, 7}));
+  EXPECT_EQ(halved(std::vector<int>{1, 2}), (std::vector<int>{2, 1}));
+  EXPECT_TRUE(halved(std::vector<int>{}).empty());
 }
 
 TEST(Sorted, KeysAreTheSameForAnyOrderOfTheVertices) {
