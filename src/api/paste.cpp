@@ -204,11 +204,11 @@ void run(const Surface& joined, const PasteOptions& options, PlainMonitor& monit
   repairing::Rounded rounded;
   if (options.cut) {
     const bool has_tolerance = options.tolerance > 0;
-    const double gap = std::max(options.tolerance, rounding_of(complex));
+    const double rounding = rounding_of(complex), gap = std::max(options.tolerance, rounding);
     const auto to = has_tolerance ? repairing::SnapTo::all : repairing::SnapTo::vertices;
     double moved = repairing::snap(state, part, to, gap, step, threads);
     repairing::glue(state, part);
-    moved += repairing::fuse(state, part, gap, step);
+    moved += repairing::fuse(state, part, gap, rounding, step);
     repairing::glue(state, part);
     ExactSurface exact;
     RepairOptions arranging;

@@ -13,6 +13,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <unordered_map>
 
 #include "mesh/disjoint_sets.h"
@@ -31,7 +32,8 @@ using plane::Poll;
 using Side = std::array<Index, 2>;
 
 constexpr double kParallel = 0.9;  // cosine of an angle between facets of one patch
-constexpr double kFlat = 8;        // gaps that a patch may be thick
+constexpr double kAlike = 0.5;     // the same where they are known to belong together
+constexpr double kFlat = 8;        // of what rounding makes: how thick a plane patch may be
 
 /// A facet's plane.
 struct PlaneOf {
@@ -42,8 +44,8 @@ struct PlaneOf {
 
 class Fusing {
  public:
-  Fusing(State& state, std::span<const Index> part, double gap, const Step& step)
-      : state_(state), part_(part), gap_(gap), step_(step) {}
+  Fusing(State& state, std::span<const Index> part, double gap, double rounding, const Step& step)
+      : state_(state), part_(part), gap_(gap), rounding_(rounding), step_(step) {}
 
   double run() {
     name_places();
@@ -150,7 +152,7 @@ class Fusing {
     }
     patch_of_.assign(state_.facets.size(), no_index);
     for (auto& [root, facets] : patches) {
-      if (facets.size() < 2 || !is_flat(facets)) continue;
+      if (facets.size() < 2) continue;
       for (const Index f : facets) patch_of_[f] = static_cast<Index>(patches_.size());
       patches_.push_back(std::move(facets));
     }
@@ -160,7 +162,7 @@ class Fusing {
     return std::fabs(dot(minus(at(v), origin), normal));
   }
 
-  /// Whether two facets nearly lie in one plane, and share more of it than a strip as wide as the gap.
+  /// Whether two facets nearly lie in one plane, and share more of it than rounding makes.
   [[nodiscard]] bool overlap(Index f, Index g) const {
     if (std::fabs(dot(planes_[f]->normal, planes_[g]->normal)) < kParallel) return false;
     const auto lies_in = [&](Index inner, Index outer) {
@@ -169,9 +171,24 @@ class Fusing {
       return std::all_of(t.begin(), t.end(),
                          [&](Index v) { return above(v, origin, planes_[outer]->normal) <= gap_; });
     };
-    if (!lies_in(f, g) && !lies_in(g, f)) return false;
+    const bool is_near = gap_ > rounding_ && touch(state_.facets[f], state_.facets[g]);
+    if (!lies_in(f, g) && !lies_in(g, f) && !is_near) return false;
     const Index wide = planes_[f]->height >= planes_[g]->height ? f : g;
     return share_area(state_.facets[f], state_.facets[g], planes_[wide]->axis);
+  }
+
+  /// Whether a corner of one comes within the gap of the other, or a side of one passes a side of the other
+  /// so.
+  [[nodiscard]] bool touch(const Triangle& f, const Triangle& g) const {
+    const auto near = [&](const Triangle& corners, const Triangle& t) {
+      return std::any_of(corners.begin(), corners.end(),
+                         [&](Index v) { return distance_to(at(v), at(t[0]), at(t[1]), at(t[2])) <= gap_; });
+    };
+    if (near(f, g) || near(g, f)) return true;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j)
+        if (pass(at(f[i]), at(f[(i + 1) % 3]), at(g[j]), at(g[(j + 1) % 3])).distance <= gap_) return true;
+    return false;
   }
 
   [[nodiscard]] PlanePoint flat(Index v, std::size_t axis) const {
@@ -197,7 +214,7 @@ class Fusing {
         if (!(long_pq > 0)) return false;
         const PlanePoint n{(p[1] - q[1]) / long_pq, (q[0] - p[0]) / long_pq};
         const auto a = extent(f, n), b = extent(g, n);
-        if (!(std::min(a[1], b[1]) - std::max(a[0], b[0]) > gap_)) return false;
+        if (!(std::min(a[1], b[1]) - std::max(a[0], b[0]) > rounding_)) return false;
       }
     return true;
   }
@@ -208,7 +225,7 @@ class Fusing {
     return std::all_of(facets.begin(), facets.end(), [&](Index f) {
       const auto& t = state_.facets[f];
       return std::all_of(t.begin(), t.end(),
-                         [&](Index v) { return above(v, origin, plane.normal) <= kFlat * gap_; });
+                         [&](Index v) { return above(v, origin, plane.normal) <= kFlat * rounding_; });
     });
   }
 
@@ -280,6 +297,7 @@ class Fusing {
         },
         [](Index, Index) { return false; }, step_);
     for (const auto& [key, found] : best) {
+      on_side_.insert(key);
       auto& points = found.side->second.points;
       const std::pair<double, Index> point{found.t, key.first};
       if (std::find(points.begin(), points.end(), point) == points.end()) points.push_back(point);
@@ -398,7 +416,7 @@ class Fusing {
   void triangulate_patches() {
     for (Index p = 0; p < patches_.size(); ++p) {
       step_(0.6);
-      if (!triangulate(p))
+      if (is_flat(patches_[p]) ? !triangulate(p) : !triangulate_curved(patches_[p]))
         for (const Index f : patches_[p]) patch_of_[f] = no_index;
     }
   }
@@ -455,6 +473,147 @@ class Fusing {
     if (std::count(children.begin(), children.end(), 0u) != 0) return false;
     pasted_.insert(pasted_.end(), pasted.begin(), pasted.end());
     return true;
+  }
+
+  // A patch that is not plane: what several parts have in common is cut in the planes of the facets of the
+  // first of them, and the rest of the others' facets in their own.
+
+  bool triangulate_curved(const std::vector<Index>& facets) {
+    std::vector<Index> in_order = facets;
+    std::stable_sort(in_order.begin(), in_order.end(),
+                     [&](Index f, Index g) { return part_of(f) < part_of(g); });
+    const std::map<Index, std::vector<Index>> inside = vertices_inside(facets);
+    std::vector<Box> boxes;
+    for (const Index f : in_order) boxes.push_back(box_of(state_.facets[f], gap_));
+    std::vector<Pasted> pasted;
+    for (const Index f : in_order) {
+      step_(0.7);
+      const auto found = inside.find(f);
+      if (!cut_one(f, found == inside.end() ? std::vector<Index>{} : found->second, in_order, boxes, pasted))
+        return false;
+    }
+    for (const Pasted& p : pasted)
+      for (const Index f : p.facets) note_distance(p.corners, state_.facets[f]);
+    pasted_.insert(pasted_.end(), pasted.begin(), pasted.end());
+    return true;
+  }
+
+  /// By facet the vertices of other parts that lie on it, and on no side of its part.
+  [[nodiscard]] std::map<Index, std::vector<Index>> vertices_inside(const std::vector<Index>& facets) const {
+    std::vector<Index> vertices;
+    for (const Index f : facets)
+      vertices.insert(vertices.end(), state_.facets[f].begin(), state_.facets[f].end());
+    sort_unique(vertices);
+    std::vector<Box> boxes;
+    for (const Index v : vertices) boxes.push_back(box_of(std::array{v}, gap_));
+    for (const Index f : facets) boxes.push_back(box_of(state_.facets[f], 0));
+    std::map<std::pair<Index, Index>, std::pair<double, Index>> best;  // by vertex and part
+    const auto first = static_cast<Index>(vertices.size());
+    AabbTree(boxes).for_each_overlap(
+        [&](Index i, Index j) {
+          if (i > j) std::swap(i, j);
+          if (i >= first || j < first) return true;
+          const Index v = vertices[i], f = facets[j - first], part = part_of(f);
+          if (std::binary_search(parts_at_[v].begin(), parts_at_[v].end(), part)) return true;
+          if (on_side_.count({v, part}) != 0) return true;
+          const auto& [a, b, c] = state_.facets[f];
+          const std::pair near{beside_facet(at(v), at(a), at(b), at(c)).distance, f};
+          if (!(near.first <= gap_)) return true;
+          const auto [there, is_new] = best.try_emplace({v, part}, near);
+          if (!is_new) there->second = std::min(there->second, near);
+          return true;
+        },
+        [](Index, Index) { return false; }, step_);
+    std::map<Index, std::vector<Index>> inside;
+    for (const auto& [key, near] : best) inside[near.second].push_back(key.first);
+    return inside;
+  }
+
+  /// A facet with the vertices inside it, and all pieces of other parts' sides between its vertices.
+  bool cut_one(Index f, const std::vector<Index>& inside, const std::vector<Index>& patch,
+               const std::vector<Box>& boxes, std::vector<Pasted>& pasted) {
+    const std::size_t axis = planes_[f]->axis;
+    Plane plane;
+    std::map<Index, Index> number;
+    std::map<Index, unsigned> sides;  // by vertex, a mask of the facet's sides that it is on
+    std::vector<Index> vertices;
+    const auto add = [&](Index v, unsigned mask) {
+      sides[v] |= mask;
+      if (!number.try_emplace(v, static_cast<Index>(vertices.size())).second) return;
+      vertices.push_back(v);
+      plane.points.push_back(flat(v, axis));
+    };
+    std::vector<Side> pieces;
+    for (unsigned i = 0; i < 3; ++i) {
+      const std::vector<Index> along = chain(state_.facets[f][i], state_.facets[f][(i + 1) % 3]);
+      for (const Index v : along) add(v, 1u << i);
+      for (std::size_t k = 0; k + 1 < along.size(); ++k)
+        pieces.push_back(ascending(Side{along[k], along[k + 1]}));
+    }
+    for (const Index v : inside) add(v, 0);
+    const auto is_within = [&](Index v, Index w) {
+      const auto a = sides.find(v), b = sides.find(w);
+      return a != sides.end() && b != sides.end() && (a->second & b->second) == 0;
+    };
+    const Box box = box_of(state_.facets[f], gap_);
+    for (std::size_t k = 0; k < patch.size(); ++k) {
+      if (part_of(patch[k]) == part_of(f) || !boxes[k].overlaps(box)) continue;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::vector<Index> along =
+            chain(state_.facets[patch[k]][i], state_.facets[patch[k]][(i + 1) % 3]);
+        for (std::size_t n = 0; n + 1 < along.size(); ++n)
+          if (is_within(along[n], along[n + 1])) pieces.push_back(ascending(Side{along[n], along[n + 1]}));
+      }
+    }
+    sort_unique(pieces);
+    for (const Side& piece : pieces) plane.segments.push_back({number[piece[0]], number[piece[1]]});
+    PlaneOptions options;
+    options.delaunay = true;
+    const PlaneResult result = plane::triangulate(plane, options, [&](double) { step_(0.7); });
+    if (result.outcome != Outcome::done || result.mesh.points.size() != plane.points.size()) return false;
+    std::map<int, std::pair<double, std::vector<Index>>> cells;  // largest triangle, and the facets there
+    for (std::size_t t = 0; t < result.mesh.triangles.size(); ++t) {
+      Triangle corners = result.mesh.triangles[t];
+      for (Index& v : corners) v = vertices[v];
+      const double size = area(corners, axis);
+      const auto [there, is_new] = cells.try_emplace(result.mesh.regions[t]);
+      if (is_new || size > there->second.first) there->second = {size, facets_at(corners, f, patch, boxes)};
+    }
+    for (std::size_t t = 0; t < result.mesh.triangles.size(); ++t) {
+      const std::vector<Index>& of = cells.at(result.mesh.regions[t]).second;
+      if (of.empty() || part_of(of[0]) != part_of(f)) continue;  // an earlier part's facet has it
+      Triangle corners = result.mesh.triangles[t];
+      for (Index& v : corners) v = vertices[v];
+      if (area(state_.facets[f], axis) < 0) std::swap(corners[1], corners[2]);
+      std::vector<Index> parents = of;
+      std::sort(parents.begin(), parents.end());
+      pasted.push_back({corners, std::move(parents)});
+    }
+    return true;
+  }
+
+  /// The facet itself and, of each other part, the one that is nearest to the middle of a piece of it; in the
+  /// order of parts.
+  [[nodiscard]] std::vector<Index> facets_at(const Triangle& piece, Index f, const std::vector<Index>& patch,
+                                             const std::vector<Box>& boxes) const {
+    Point middle{};
+    for (const Index v : piece)
+      for (std::size_t k = 0; k < 3; ++k) middle[k] += at(v)[k] / 3;
+    std::map<Index, std::pair<double, Index>> nearest;  // by part
+    for (std::size_t k = 0; k < patch.size(); ++k) {
+      const Index g = patch[k];
+      if (part_of(g) == part_of(f) || !boxes[k].overlaps({middle, middle})) continue;
+      if (std::fabs(dot(planes_[f]->normal, planes_[g]->normal)) < kAlike) continue;
+      const auto& [a, b, c] = state_.facets[g];
+      const std::pair near{distance_to(middle, at(a), at(b), at(c)), g};
+      if (!(near.first <= gap_)) continue;
+      const auto [there, is_new] = nearest.try_emplace(part_of(g), near);
+      if (!is_new) there->second = std::min(there->second, near);
+    }
+    nearest[part_of(f)] = {0, f};
+    std::vector<Index> facets;
+    for (const auto& [part, near] : nearest) facets.push_back(near.second);
+    return facets;
   }
 
   [[nodiscard]] double area(const Triangle& t, std::size_t axis) const {
@@ -578,12 +737,14 @@ class Fusing {
 
   State& state_;
   const std::span<const Index> part_;
-  const double gap_;
+  const double gap_, rounding_;
   const Step& step_;
   std::vector<std::optional<PlaneOf>> planes_;  // by facet; nothing for those that are none
   std::vector<std::vector<Index>> parts_at_;    // by vertex, ascending
   std::vector<Index> close_;                    // facets near to another part
   std::vector<Index> close_vertices_;
+  std::set<std::pair<Index, Index>>
+      on_side_;                              // vertices, with the parts that have a side that is led through
   std::vector<std::vector<Index>> patches_;  // facets, ascending
   std::vector<Index> patch_of_;              // by facet, or no_index
   std::map<Side, OnSide> sides_;             // of close facets
@@ -593,8 +754,8 @@ class Fusing {
 
 }  // namespace
 
-double fuse(State& state, std::span<const Index> part, double gap, const Step& step) {
-  return Fusing(state, part, gap, step).run();
+double fuse(State& state, std::span<const Index> part, double gap, double rounding, const Step& step) {
+  return Fusing(state, part, gap, rounding, step).run();
 }
 
 }  // namespace holdfast::repairing

@@ -12,11 +12,13 @@ namespace holdfast::repairing {
 /// Where two parts lie within `gap` of each other,
 ///   1. sides of one are led through the vertices of the other that they pass;
 ///   2. where a side of each passes the other, both are led through a new vertex;
-///   3. facets that nearly lie in one plane and overlap are triangulated anew, once for both, with all of
-///      these sides; the others that have a side that was cut are cut with it.
+///   3. facets that lie on each other are triangulated anew, once for both, with all of these sides; the
+///   others
+///      that have a side that was cut are cut with it.
+/// `rounding` is how far from its plane a facet may be for rounding alone.
 /// `part` tells the part of each facet of the input. Facets that several parts have already, facets that are
 /// none, and what does not lie in a plane together, stay as they are. Returns the largest distance by which
 /// anything was bent, rounded up.
-double fuse(State& state, std::span<const Index> part, double gap, const Step& step);
+double fuse(State& state, std::span<const Index> part, double gap, double rounding, const Step& step);
 
 }  // namespace holdfast::repairing

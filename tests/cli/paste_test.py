@@ -256,6 +256,20 @@ class PasteTest(CliTest):
         self.require_pasted([rotated(ring(hole, box((-1, -1, -1), (1, 1, 1), 3))), rotated(plug)], "--paste",
                             interfaces={(1, 2): area})
 
+    def test_curved_interface_with_other_facets(self):
+        hole, plug = cylinder(0.4, -0.7, 0.7, 24, layers=4), cylinder(0.4, -0.7, 0.7, 31, layers=7, turn=0.1)
+        parts = [rotated(ring(hole, box((-1, -1, -1), (1, 1, 1), 3))), rotated(plug)]
+        names = self.parts(*parts)
+        self.mesh(names, "--paste", expect=4)  # facets cut each other's corners off
+        for tolerance in ("0.006", "0.02"):
+            points, _, tets, _, _ = self.mesh(names, f"--paste={tolerance}")
+            self.run_program("paste", *names, "-o", "pasted.mesh", "--tolerance", tolerance)
+            self.run_program("check", "pasted.mesh", "out.mesh")
+            self.require_vertices(points, parts[0])
+            found = volumes(points, tets)
+            self.assertAlmostEqual(found[1] + found[2], 8, places=9)
+            self.assertAlmostEqual(found[1], volume(parts[0]), delta=0.001)
+
     def test_three_parts_round_an_edge_cut_differently(self):
         parts = [as_float32(rotated(wedge(*w))) for w in ((0, 120, 1, 3), (120, 240, 1, 5), (240, 360, 1, 4))]
         self.require_pasted(parts, "--paste", interfaces={(1, 2): 1, (2, 3): 1, (1, 3): 1}, places=6)
