@@ -61,7 +61,7 @@ planes: setup $(RELEASE)/build.ninja  ## triangulates N random planes from SEED 
 	@cmake --build $(RELEASE) -j $(JOBS) --target random_planes
 	@$(RELEASE)/tests/random/random_planes --count $(N) --seed $(SEED) $(ARGS)
 
-fuzz:  ## every reader, mesh, untangle and check on arbitrary bytes, each for MINUTES, under the sanitizers
+fuzz:  ## every reader, mesh, untangle, check and plane on arbitrary bytes, each for MINUTES, under the sanitizers
 	@scripts/setup.sh build fuzz
 	@cmake --preset fuzz
 	@cmake --build build/fuzz -j $(JOBS) --target fuzz_targets

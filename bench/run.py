@@ -2,7 +2,7 @@
 
     run.py --build build/release [--native build/native] [--corpus DIR] [--runs 5] [--part PART]... [--again PART]...
 
-Parts, each told in its module: delaunay, surfaces, fig15, growth, recovery, mesh, flips, native. What is measured is kept
+Parts, each told in its module: delaunay, surfaces, fig15, growth, recovery, mesh, flips, native, plane. What is measured is kept
 in <build>/bench/<part>.json (kept.py), and a part that is known for these programs and options is not measured again, unless
 --again asks for it. --part restricts what is measured; docs/benchmarks.md is written from all that is known.
 """
@@ -22,6 +22,7 @@ import flips
 import growth
 import mesh
 import native
+import plane
 import recovery
 import surfaces
 import targets
@@ -50,6 +51,7 @@ PARTS = {
     "mesh": Part("`holdfast mesh --fill` against `tetgen -pY`", mesh.bench, ("tetgen",)),
     "flips": Part("Without flips", flips.bench, ()),
     "native": Part("Built for this machine", native.bench, ()),
+    "plane": Part("The plane", plane.bench, ("libcgal-dev", "nodejs")),
 }
 
 

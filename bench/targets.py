@@ -4,6 +4,7 @@ from mesh import LARGE, PROMISED, VAST
 from target import Target, missing
 
 CGAL, TETGEN = 1.9, 2.3  # times faster at Delaunay
+PLANE = 2  # times CGAL's speed
 READING, VALIDATION = 0.3, 0.15  # shares of the Delaunay time, and of the whole
 THREADS = 1.6
 FIG15 = 1.0  # seconds
@@ -128,9 +129,21 @@ def of_native(figures):
     return [Target(text, ", ".join(f"{f['ratio']:.2f} ({f['task']})" for f in figures) + f"; {same}", None)]
 
 
+def of_plane(f):
+    texts = (f"Plane: constrained Delaunay of 10^6 points with 10^5 segments at least {PLANE:.0f} times as fast as CGAL",
+             "Plane: ears at least as fast as earcut", "Plane: ears without a failure on hard polygons")
+    if not f:
+        return missing(*texts)
+    ears = ", ".join(f"{e['ratio']:.2f} ({e['what']})" for e in f["ears"])
+    failed = ", ".join(f"{name} {count}" for name, count in f["failed"].items())
+    return [Target(texts[0], f"{f['cgal']:.2f}", f["cgal"] >= PLANE),
+            Target(texts[1], ears, min(e["ratio"] for e in f["ears"]) >= 1 if f["ears"] else None),
+            Target(texts[2], f"failures: {failed}", f["failed"]["holdfast"] == 0)]
+
+
 def targets(figures):
     """Of all parts; `figures` maps the names of those that are measured to theirs."""
     get = figures.get
     return [*of_delaunay(get("delaunay")), *of_surfaces(get("surfaces")), *of_corpus(get("mesh")), *of_fig15(get("fig15")),
             *of_flips(get("flips")), *of_growth(get("growth")), *of_recovery(get("recovery")), *of_profile(figures),
-            *of_native(get("native"))]
+            *of_native(get("native")), *of_plane(get("plane"))]

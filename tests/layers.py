@@ -13,8 +13,9 @@ from pathlib import Path
 
 # Layers that may use less than everything below them.
 ONLY = {"check": {"text", "numbers", "exact"}, "io": {"text", "numbers", "metric"}}
-# Threads and limits are no part of the mesh that they lie beside, and the table of places asks for nothing but points.
-BESIDES = {"io": {"mesh/parallel.h", "mesh/plain_monitor.h", "surface/weld.h",
+# Threads and limits are no part of the mesh that they lie beside, the table of places asks for nothing but points, and polygons
+# become triangles by one header.
+BESIDES = {"io": {"mesh/parallel.h", "mesh/plain_monitor.h", "surface/weld.h", "plane/facets.h",
                  "second_order/edge_numbers.h", "second_order/edges_of.h"}}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]', re.M)

@@ -37,6 +37,9 @@ class HOLDFAST_API FileError : public std::runtime_error {
 struct ReadOptions : Limits {
   std::string format;  ///< overrides the extension: ".stl", ...
   ProgressFunction progress = {};
+  /// How far, in the file's unit, corners of a polygon that is not convex may lie from its mean plane; 0: as
+  /// far as the rounding of its coordinates explains.
+  double tolerance = 0;
 };
 
 /// Reads a surface; the format follows the extension unless `format` (".stl", ...) is given.
@@ -48,8 +51,10 @@ struct ReadOptions : Limits {
 /// - Vertices keep their indices, those with identical coordinates too (`mesh` and all else take them as one,
 ///   see Complex); but .stl has no indices, and numbers its distinct vertices as they come.
 /// - A polygon of two corners is a segment (.off, .poly, .smesh, .ply), one of a single corner nothing
-///   but its vertex. A polygon of more than three is fanned if it is convex, and refused otherwise; corners
-///   that repeat the place of the one before do not count.
+///   but its vertex. A polygon of more than three is fanned if it is convex; others become constrained
+///   Delaunay triangles, the same ones whatever corner comes first. These must lie in a plane (see
+///   ReadOptions::tolerance), and their sides must not cross. Corners that repeat the place of the one before
+///   do not count. A facet of several polygons or with holes (.poly) becomes triangles of what they enclose.
 /// - Markers: references (.mesh, .meshb), boundary markers (.poly, .smesh), physical or else elementary
 ///   tags (.msh), the cell array "marker" (.vtu, .vtp, .vtk), numbers of the solids (.stl with several).
 ///   Of vertices: references, boundary markers, physical tags of point elements, the point array "marker".

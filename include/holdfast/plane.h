@@ -74,6 +74,17 @@ struct PlaneOptions : Limits {
   bool delaunay = false;
   /// Everything within the convex hull is kept, but holes; so it is where there are no segments.
   bool hull = false;
+  /// Refinement (Ruppert): points are added until no edge is longer than `size` (0: no limit), no triangle
+  /// larger than its region's Seed::area, and none has an angle below `angle` degrees, but where segments
+  /// meet at small angles, and across from there. Given one of the two, the triangles are constrained
+  /// Delaunay. It ends for every input up to 26.45 degrees (Miller, Pav, Walkington 2003), in practice up to
+  /// about 33. Given a size alone, the angle is 20.
+  double size = 0;
+  std::optional<double> angle;
+  /// Refinement adds points inside alone, none on segments.
+  bool keep_boundary = false;
+  /// Most points that refinement adds; it stops there and says so in the report.
+  std::size_t max_points = 10'000'000;
   std::optional<PlaneStage> stop_after;
   LayingOrder order = LayingOrder::given;  ///< of missing segments, for swaps and partition
   std::uint64_t seed = 1;                  ///< of the random orders
@@ -92,6 +103,13 @@ struct PlaneReport {
   std::size_t joined = 0;  ///< of these, made with the reflex vertex nearest to a side
   std::size_t links = 0;   ///< between parts of an outline
   std::size_t triangles = 0, regions = 0;
+  std::size_t field_points = 0;    ///< added by refinement, on no segment
+  std::size_t segment_points = 0;  ///< added by refinement, on segments
+  std::size_t small_angles = 0;  ///< triangles below the bound at, or across from, small angles of the input
+  std::size_t small_angles_left = 0;      ///< others: at segments that are kept, or after `max_points`
+  std::size_t large_left = 0;             ///< triangles above the limits of size, for the same reasons
+  bool capped = false;                    ///< refinement stopped at `max_points`
+  double least_angle = 0;                 ///< of all triangles, degrees, as doubles measure it
   std::map<std::string, double> seconds;  ///< by stage, and "total"
 };
 
@@ -102,6 +120,8 @@ struct PlaneMesh {
   std::vector<int> regions;         ///< one a triangle: that of a seed, or the next free number from 1
   std::vector<Segment> segments;
   std::vector<int> point_markers, segment_markers;  ///< empty, or one each
+  /// Of planes in space, where the points lie, those of the input bit for bit; `points` is empty then.
+  std::vector<Point> in_space = {};
 };
 
 struct PlaneResult {
@@ -115,10 +135,33 @@ struct PlaneResult {
 };
 
 /// Triangulates every region that segments separate from the outside, but for those of holes, keeping each
-/// segment in them and adding no point. Throws std::invalid_argument for markers of a wrong number, for
-/// holes and seeds that are not finite or on a segment, and for a stage that the method does not have;
-/// std::length_error beyond 2^28 points.
+/// segment in them. Points are added by refinement alone: those on a segment cut it into pieces, which have
+/// its marker, and are rounded to doubles. Throws std::invalid_argument for markers of a wrong number, for
+/// holes and seeds that are not finite or on a segment, for a stage that the method does not have, and for a
+/// size or angle (0 to 34 degrees) out of range, or refinement after a stage; std::length_error beyond 2^28
+/// points.
 [[nodiscard]] HOLDFAST_API PlaneResult triangulate(const Plane& plane, const PlaneOptions& options = {});
+
+/// Outlines in planes in space: polygons, or facets of polygons and holes, of a surface's file.
+struct PlanesInSpace {
+  std::vector<Point> points;  ///< of the file; empty for a file of two dimensions, which is its one plane
+  struct Part {
+    Plane plane;                 ///< as seen along an axis, onto which no two of its points fall together
+    std::vector<Index> numbers;  ///< of the plane's points in the file
+    std::size_t axis = 2;
+    Point normal{};       ///< of the mean plane, of any length
+    bool turned = false;  ///< seen so, its first polygon turns right, and so shall its triangles
+  };
+  std::vector<Part> parts;      ///< one if all lies in one plane, else one a polygon or facet
+  std::vector<Remark> remarks;  ///< what the file holds besides
+};
+
+/// The same for each plane, and the triangles of all together, turned as their polygons are. Points that
+/// refinement adds lie in the plane within rounding. Defects are numbered as in the file, `where` is in
+/// space. Throws what the other one does, and std::invalid_argument where refinement would put points on the
+/// segments of several planes.
+[[nodiscard]] HOLDFAST_API PlaneResult triangulate(const PlanesInSpace& planes,
+                                                   const PlaneOptions& options = {});
 
 /// Everything that makes an input invalid, at most `most` of each kind.
 [[nodiscard]] HOLDFAST_API std::vector<Defect> diagnose(const Plane& plane, std::size_t most = SIZE_MAX);
@@ -127,6 +170,13 @@ struct PlaneResult {
 /// or .node (points alone). Throws FileError.
 [[nodiscard]] HOLDFAST_API Plane read_plane(const std::filesystem::path& path,
                                             const ReadOptions& options = {});
+
+/// Reads the same, and besides polygons in space of any format that read_surface knows (.off, .obj, .ply,
+/// .poly of three dimensions, ...). If all corners lie in one plane, exactly, up to rounding or within
+/// ReadOptions::tolerance, the sides of all polygons are segments in it; else each polygon, or facet of a
+/// .poly, has a plane of its own. Throws FileError, also for polygons that lie in no plane.
+[[nodiscard]] HOLDFAST_API PlanesInSpace read_planes(const std::filesystem::path& path,
+                                                     const ReadOptions& options = {});
 
 /// Writes triangles: .off (z = 0), .node and .ele beside it, .vtu. Throws FileError.
 HOLDFAST_API void write_plane(const std::filesystem::path& path, const PlaneMesh& mesh,

@@ -6,6 +6,7 @@
 #include "mesh/plain_monitor.h"
 #include "numbers/float_environment.h"
 #include "plane/defects.h"
+#include "plane/in_space.h"
 #include "plane/triangulate.h"
 
 namespace holdfast {
@@ -20,14 +21,13 @@ PlaneResult ended(Outcome outcome) {
   return result;
 }
 
-}  // namespace
-
-PlaneResult triangulate(const Plane& plane, const PlaneOptions& options) {
+template <typename Input>
+PlaneResult within_limits(const Input& input, const PlaneOptions& options) {
   const FloatEnvironment environment;
   try {
     PlainMonitor monitor(options, options.progress);
     monitor.tell(0);
-    PlaneResult result = plane::triangulate(plane, options, [&](double fraction) { monitor.poll(fraction); });
+    PlaneResult result = plane::triangulate(input, options, [&](double fraction) { monitor.poll(fraction); });
     monitor.tell(1);
     return result;
   } catch (const Interrupted& interrupted) {
@@ -36,6 +36,16 @@ PlaneResult triangulate(const Plane& plane, const PlaneOptions& options) {
     if (options.memory_limit == 0) throw;
     return ended(Outcome::memory_limit);
   }
+}
+
+}  // namespace
+
+PlaneResult triangulate(const Plane& plane, const PlaneOptions& options) {
+  return within_limits(plane, options);
+}
+
+PlaneResult triangulate(const PlanesInSpace& planes, const PlaneOptions& options) {
+  return within_limits(planes, options);
 }
 
 std::vector<Defect> diagnose(const Plane& plane, std::size_t most) {

@@ -21,6 +21,7 @@ struct CheckArguments {
   std::vector<std::filesystem::path> files;  // surfaces, then the volume
   std::filesystem::path report, html;
   std::string input_format, format;
+  double tolerance = 0;
   CheckOptions options;
   LimitArguments limits;
   bool quiet = false;
@@ -73,7 +74,8 @@ int run(const CheckArguments& arguments) {
   files.write("--report", arguments.report);
   files.write("--html", arguments.html);
   cancel_at_once();
-  const Surface surface = read_surfaces(surfaces, reading(options, arguments.input_format));
+  const Surface surface =
+      read_surfaces(surfaces, reading(options, arguments.input_format, arguments.tolerance));
   if (!arguments.quiet) tell(surface.remarks);
   const Volume volume = read_volume(volume_path, reading(options, arguments.format));
 
@@ -105,6 +107,7 @@ void add_check(CLI::App& app, Command& chosen) {
                     "The mesh goes out to an enclosing box (mesh --keep box)");
   command->add_option("--format", arguments->format, "Volume format, instead of by ending")
       ->option_text("FORMAT");
+  add_tolerance(*command, arguments->tolerance);
   command->add_option("--input-format", arguments->input_format, "Surface format, instead of by ending")
       ->option_text("FORMAT");
   command->add_option("--report", arguments->report, "Write the rules as JSON")

@@ -19,6 +19,7 @@ struct DiagnoseArguments {
   std::vector<std::filesystem::path> surfaces;
   std::filesystem::path marks, report, html;
   std::string input_format;
+  double tolerance = 0;
   LimitArguments limits;
   unsigned threads = 1;
   bool all = false, json = false, quiet = false;
@@ -86,7 +87,8 @@ int run(const DiagnoseArguments& arguments) {
   const std::filesystem::path json = arguments.json ? or_standard_output("-") : "";
   files.write("--json", json);
   cancel_at_once();
-  const Surface surface = read_surfaces(arguments.surfaces, reading(options, arguments.input_format));
+  const Surface surface =
+      read_surfaces(arguments.surfaces, reading(options, arguments.input_format, arguments.tolerance));
   if (!arguments.quiet) tell(surface.remarks);
   const std::vector<Defect> defects = diagnose(surface.view(), options);
 
@@ -133,6 +135,7 @@ void add_diagnose(CLI::App& app, Command& chosen) {
   add_html_option(*command, arguments->html);
   command->add_flag("--all", arguments->all, "List every defect on a terminal, too, not 100 of a kind");
   command->add_flag("--json", arguments->json, "Print the defects as JSON");
+  add_tolerance(*command, arguments->tolerance);
   command->add_option("--input-format", arguments->input_format, "Surface format, instead of by ending")
       ->option_text("FORMAT");
   command->add_option("--threads", arguments->threads, threads_help)

@@ -1,5 +1,8 @@
 #include "limits.h"
 
+#include <cmath>
+#include <cstdlib>
+
 #include "command.h"
 #include "mesh_options.h"
 #include "signals.h"
@@ -21,8 +24,22 @@ Limits limits_of(const LimitArguments& arguments) {
   return limits;
 }
 
-ReadOptions reading(const Limits& limits, const std::string& format) {
+void add_tolerance(CLI::App& command, double& tolerance) {
+  command
+      .add_option(
+          "--tolerance", tolerance,
+          "How far corners of a polygon that is not convex may lie from its plane (default 0: rounding)")
+      ->check([](const std::string& text) {
+        const double value = std::strtod(text.c_str(), nullptr);
+        return std::isfinite(value) && value >= 0 ? std::string()
+                                                  : std::string("a finite number, not negative, is expected");
+      })
+      ->option_text("T");
+}
+
+ReadOptions reading(const Limits& limits, const std::string& format, double tolerance) {
   ReadOptions options;
+  options.tolerance = tolerance;
   static_cast<Limits&>(options) = limits;
   options.format = format;
   return options;

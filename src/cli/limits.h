@@ -21,7 +21,10 @@ void add_limits(CLI::App& command, LimitArguments& arguments);
 [[nodiscard]] Limits limits_of(const LimitArguments& arguments);
 
 /// For reading. A signal ends the program at once then, as reading may wait for a pipe.
-[[nodiscard]] ReadOptions reading(const Limits& limits, const std::string& format);
+[[nodiscard]] ReadOptions reading(const Limits& limits, const std::string& format, double tolerance = 0);
+
+/// --tolerance, for polygons.
+void add_tolerance(CLI::App& command, double& tolerance);
 
 /// Lets limits and signals end the writing of a file.
 void watch_writing(WriteOptions& options, const Limits& limits);

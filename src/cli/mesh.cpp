@@ -184,8 +184,8 @@ struct MeshInput {
 
 MeshInput read_input(const MeshArguments& arguments, const Options& options) {
   MeshInput input;
-  input.parts =
-      read_parts(arguments.surfaces, reading(options, arguments.input_format), arguments.surface_of);
+  input.parts = read_parts(arguments.surfaces, reading(options, arguments.input_format, arguments.tolerance),
+                           arguments.surface_of);
   if (input.parts.size() > 1) {
     input.surface = join(input.parts, stems(arguments.surfaces));
     return input;
@@ -429,6 +429,7 @@ void add_mesh(CLI::App& app, Command& chosen) {
   add_html_option(*command, arguments->html);
   command->add_option("--format", arguments->format, "Volume format, instead of by ending; msh2 is .msh 2.2")
       ->option_text("FORMAT");
+  add_tolerance(*command, arguments->tolerance);
   command->add_option("--input-format", arguments->input_format, "Surface format, instead of by ending")
       ->option_text("FORMAT");
   CLI::Option* quiet =

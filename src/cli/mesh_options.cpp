@@ -187,6 +187,7 @@ Json to_json(const MeshArguments& arguments) {
           {"without", arguments.without},
           {"stop_after", arguments.stop_after},
           {"order", arguments.order.empty() ? name(LayingOrder::random) : arguments.order},
+          {"tolerance", arguments.tolerance},
           {"seed", arguments.seed},
           {"threads", arguments.threads},
           {"time_limit", arguments.time_limit.value_or(0)},

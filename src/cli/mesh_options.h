@@ -18,6 +18,7 @@ struct MeshArguments {
   std::vector<std::filesystem::path> surfaces;
   std::filesystem::path output, report, exact, html;
   std::string input_format, format;
+  double tolerance = 0;
   bool surface_of = false, fill = false, drop_outside = false, quiet = false, verbose = false;
   std::optional<std::string> keep, quality, overlap;
   std::optional<std::string> paste;  ///< the tolerance, or empty for none

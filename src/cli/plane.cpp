@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
+#include <optional>
 
 #include "command.h"
 #include "files.h"
@@ -22,7 +24,10 @@ struct PlaneArguments {
   std::string input_format, format, method = "swaps", ears, stop_after, order;
   LimitArguments limits;
   std::uint64_t seed = 1;
-  bool partition_first = false, delaunay = false, hull = false, quiet = false;
+  double tolerance = 0;
+  std::optional<double> size, angle;
+  std::size_t max_points = PlaneOptions{}.max_points;
+  bool partition_first = false, delaunay = false, hull = false, keep_boundary = false, quiet = false;
 };
 
 template <typename Enum, std::size_t N>
@@ -33,6 +38,26 @@ Enum named(const char* option, const std::string& text, const std::array<Enum, N
     known += (known.empty() ? "" : ", ") + std::string(name(value));
   }
   throw UsageError(fmt::format("{}: there is no '{}'; the values are {}", option, text, known));
+}
+
+void set_refinement(const PlaneArguments& arguments, PlaneOptions& options) {
+  if (arguments.size && !(*arguments.size > 0 && std::isfinite(*arguments.size)))
+    throw UsageError(
+        "--size: a positive number is expected; without the option edges are as long as they are");
+  constexpr double most_angle = 34;
+  if (arguments.angle && !(*arguments.angle >= 0 && *arguments.angle <= most_angle))
+    throw UsageError("--angle: a number of degrees from 0 to 34 is expected; up to 26.45 every input ends");
+  options.size = arguments.size.value_or(0);
+  options.angle = arguments.angle;
+  options.keep_boundary = arguments.keep_boundary;
+  options.max_points = arguments.max_points;
+  const bool refines = arguments.size || arguments.angle;
+  if (!refines && arguments.keep_boundary)
+    throw UsageError("--keep-boundary does nothing without --size or --angle: no point is added");
+  if (!refines && arguments.max_points != PlaneOptions{}.max_points)
+    throw UsageError("--max-points does nothing without --size or --angle: no point is added");
+  if (refines && options.stop_after)
+    throw UsageError(fmt::format("--stop-after {}: --size and --angle come after it", arguments.stop_after));
 }
 
 PlaneOptions to_options(const PlaneArguments& arguments) {
@@ -61,45 +86,79 @@ PlaneOptions to_options(const PlaneArguments& arguments) {
   options.partition_first = arguments.partition_first;
   options.delaunay = arguments.delaunay;
   options.hull = arguments.hull;
+  set_refinement(arguments, options);
   options.seed = arguments.seed;
   options.progress = goes_on;
   return options;
 }
 
+std::size_t points_of(const PlaneMesh& mesh) {
+  return mesh.in_space.empty() ? mesh.points.size() : mesh.in_space.size();
+}
+
 Json report_of(const PlaneArguments& arguments, const PlaneResult& result) {
   const PlaneReport& report = result.report;
-  Json json = {
-      {"input", {{"points", report.points}, {"segments", report.segments}, {"holes", report.holes}}},
-      {"missing_segments", report.missing_segments},
-      {"swaps", report.swaps},
-      {"delaunay_swaps", report.delaunay_swaps},
-      {"partition_points", report.partition_points},
-      {"most_partition_points", report.most_partition_points},
-      {"ears", report.ears},
-      {"joined", report.joined},
-      {"links", report.links},
-      {"mesh",
-       {{"points", result.mesh.points.size()}, {"triangles", report.triangles}, {"regions", report.regions}}},
-      {"seconds", report.seconds},
-      {"version", version()},
-      {"options",
-       {{"input", arguments.input.string()},
-        {"output", arguments.output.string()},
-        {"method", arguments.method},
-        {"ears", arguments.ears},
-        {"partition_first", arguments.partition_first},
-        {"delaunay", arguments.delaunay},
-        {"hull", arguments.hull},
-        {"stop_after", arguments.stop_after},
-        {"order", arguments.order.empty() ? name(LayingOrder::given) : arguments.order},
-        {"seed", arguments.seed},
-        {"time_limit", arguments.limits.time_limit.value_or(0)},
-        {"memory_limit", arguments.limits.memory_limit.value_or(0)}}},
-      {"outcome", name(result.outcome)},
-      {"message", result.message},
-      {"defects", to_json(result.defects)}};
+  Json json = {{"input", {{"points", report.points}, {"segments", report.segments}, {"holes", report.holes}}},
+               {"missing_segments", report.missing_segments},
+               {"swaps", report.swaps},
+               {"delaunay_swaps", report.delaunay_swaps},
+               {"partition_points", report.partition_points},
+               {"most_partition_points", report.most_partition_points},
+               {"ears", report.ears},
+               {"joined", report.joined},
+               {"links", report.links},
+               {"field_points", report.field_points},
+               {"segment_points", report.segment_points},
+               {"small_angles", report.small_angles},
+               {"small_angles_left", report.small_angles_left},
+               {"large_left", report.large_left},
+               {"capped", report.capped},
+               {"mesh",
+                {{"points", points_of(result.mesh)},
+                 {"triangles", report.triangles},
+                 {"regions", report.regions},
+                 {"least_angle", report.least_angle}}},
+               {"seconds", report.seconds},
+               {"version", version()},
+               {"options",
+                {{"input", arguments.input.string()},
+                 {"output", arguments.output.string()},
+                 {"method", arguments.method},
+                 {"ears", arguments.ears},
+                 {"partition_first", arguments.partition_first},
+                 {"delaunay", arguments.delaunay},
+                 {"hull", arguments.hull},
+                 {"size", arguments.size.value_or(0)},
+                 {"angle", arguments.angle ? Json(*arguments.angle) : Json()},
+                 {"tolerance", arguments.tolerance},
+                 {"keep_boundary", arguments.keep_boundary},
+                 {"max_points", arguments.max_points},
+                 {"stop_after", arguments.stop_after},
+                 {"order", arguments.order.empty() ? name(LayingOrder::given) : arguments.order},
+                 {"seed", arguments.seed},
+                 {"time_limit", arguments.limits.time_limit.value_or(0)},
+                 {"memory_limit", arguments.limits.memory_limit.value_or(0)}}},
+               {"outcome", name(result.outcome)},
+               {"message", result.message},
+               {"defects", to_json(result.defects)}};
   if (!arguments.stop_after.empty()) json["intermediate"] = to_json(result.intermediate);
   return json;
+}
+
+/// What refinement did and what it left.
+void tell_of_refinement(const PlaneArguments& arguments, const PlaneReport& report) {
+  if (!arguments.size && !arguments.angle) return;
+  say("{} points inside and {} on segments were added; the least angle is {:.2f} degrees\n",
+      report.field_points, report.segment_points, report.least_angle);
+  if (report.small_angles > 0)
+    say("{} triangles have a smaller angle than asked for at, or across from, a small angle of the input\n",
+        report.small_angles);
+  if (report.small_angles_left > 0)
+    say("{} other triangles have a smaller angle than asked for\n", report.small_angles_left);
+  if (report.large_left > 0) say("{} triangles are larger than asked for\n", report.large_left);
+  if (report.capped)
+    say("no more than {} points are added: allow more by --max-points, or ask for less\n",
+        arguments.max_points);
 }
 
 /// Says how the run ended and what the user can do; returns the exit code.
@@ -107,8 +166,9 @@ int conclude(const PlaneArguments& arguments, const PlaneResult& result) {
   if (result.outcome == Outcome::done) {
     if (!arguments.quiet)
       say("{}: {} points, {} triangles in {} region{}, {:.2f} s\n", arguments.output.string(),
-          result.mesh.points.size(), result.report.triangles, result.report.regions,
+          points_of(result.mesh), result.report.triangles, result.report.regions,
           result.report.regions == 1 ? "" : "s", result.report.seconds.at("total"));
+    if (!arguments.quiet) tell_of_refinement(arguments, result.report);
     return exit_done;
   }
   say("holdfast: {}: {}; nothing was written\n", arguments.input.string(), result.message);
@@ -137,17 +197,26 @@ WriteOptions target_of(FilesOfRun& files, const PlaneArguments& arguments) {
   return writing;
 }
 
+PlaneResult solve(const PlanesInSpace& planes, const PlaneOptions& options) {
+  try {
+    return triangulate(planes, options);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+}
+
 int run(const PlaneArguments& arguments) {
   const PlaneOptions options = to_options(arguments);
   FilesOfRun files;
   WriteOptions writing = target_of(files, arguments);
   cancel_at_once();
-  const Plane plane = read_plane(arguments.input, reading(options, arguments.input_format));
-  if (!arguments.quiet) tell(plane.remarks, arguments.input);
+  const PlanesInSpace planes =
+      read_planes(arguments.input, reading(options, arguments.input_format, arguments.tolerance));
+  if (!arguments.quiet) tell(planes.remarks, arguments.input);
 
   cancel_by_flag();  // from here on files are open
   watch_writing(writing, options);
-  const PlaneResult result = triangulate(plane, options);
+  const PlaneResult result = solve(planes, options);
   if (result.outcome == Outcome::done) write_plane(arguments.output, result.mesh, writing);
   write_json(arguments.report, report_of(arguments, result));
   return conclude(arguments, result);
@@ -165,6 +234,15 @@ void add_method(CLI::App& command, PlaneArguments& arguments) {
   command.add_flag("--partition-first", arguments.partition_first,
                    "Partition: remove points only when all segments stand (paper 2.3), not one by one");
   command.add_flag("--delaunay", arguments.delaunay, "Then swap edges until it is constrained Delaunay");
+  command.add_option("--size", arguments.size, "Add points until no edge is longer (with --angle 20)")
+      ->option_text("H");
+  command
+      .add_option("--angle", arguments.angle,
+                  "Add points until no angle is smaller, in degrees (up to 34; proven to end up to 26.45)")
+      ->option_text("A");
+  command.add_flag("--keep-boundary", arguments.keep_boundary, "Add points inside alone, none on segments");
+  command.add_option("--max-points", arguments.max_points, "Most points to add (default 10000000)")
+      ->option_text("N");
   command.add_flag("--hull", arguments.hull,
                    "Keep all within the convex hull, not what segments enclose alone");
   command
@@ -184,9 +262,12 @@ void add_method(CLI::App& command, PlaneArguments& arguments) {
 
 void add_plane(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<PlaneArguments>();
-  CLI::App* command =
-      app.add_subcommand("plane", "Triangles in the plane that keep every segment, without added points");
-  command->add_option("FILE", arguments->input, "Points and segments: .poly or .node (Triangle)")
+  CLI::App* command = app.add_subcommand(
+      "plane", "Triangles in the plane that keep every segment; without added points, or refined");
+  command
+      ->add_option(
+          "FILE", arguments->input,
+          "Points and segments: .poly or .node (Triangle), or polygons in space (.off .obj .ply .poly ...)")
       ->transform(or_standard_input)
       ->required();
   command
@@ -202,6 +283,7 @@ void add_plane(CLI::App& app, Command& chosen) {
       ->option_text("FORMAT");
   command->add_option("--input-format", arguments->input_format, "Format of the input, instead of by ending")
       ->option_text("FORMAT");
+  add_tolerance(*command, arguments->tolerance);
   add_limits(*command, arguments->limits);
   command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });

@@ -22,6 +22,7 @@ struct RepairArguments {
   std::vector<std::filesystem::path> surfaces;
   std::filesystem::path output, parents, report, exact, html;
   std::string input_format, format;
+  double tolerance = 0;
   LimitArguments limits;
   double weld = 0;
   std::optional<std::size_t> fill_holes;
@@ -50,6 +51,7 @@ Json options_of(const RepairArguments& arguments) {
           {"weld", arguments.weld},
           {"fill_holes", arguments.fill_holes ? Json(*arguments.fill_holes) : Json(nullptr)},
           {"union", arguments.unite},
+          {"tolerance", arguments.tolerance},
           {"threads", arguments.threads},
           {"time_limit", arguments.limits.time_limit.value_or(0)},
           {"memory_limit", arguments.limits.memory_limit.value_or(0)}};
@@ -112,7 +114,8 @@ int run(const RepairArguments& arguments) {
   files.write("--exact", arguments.exact);
   files.write("--html", arguments.html);
   cancel_at_once();
-  const Surface surface = read_surfaces(arguments.surfaces, reading(options, arguments.input_format));
+  const Surface surface =
+      read_surfaces(arguments.surfaces, reading(options, arguments.input_format, arguments.tolerance));
   if (!arguments.quiet) tell(surface.remarks);
 
   cancel_by_flag();  // from here on files are open
@@ -188,6 +191,7 @@ void add_repair(CLI::App& app, Command& chosen) {
   add_html_option(*command, arguments->html);
   command->add_option("--format", arguments->format, "Format of the surface to write, instead of by ending")
       ->option_text("FORMAT");
+  add_tolerance(*command, arguments->tolerance);
   command->add_option("--input-format", arguments->input_format, "Format of the input, instead of by ending")
       ->option_text("FORMAT");
   command->add_option("--threads", arguments->threads, threads_help)

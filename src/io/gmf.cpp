@@ -41,7 +41,8 @@ std::endian order_of(const Source& source) {
 
 class GmfReader {
  public:
-  explicit GmfReader(const Source& source) : bytes_(source, order_of(source), 4), finite_(source.finite) {}
+  explicit GmfReader(const Source& source)
+      : bytes_(source, order_of(source), 4), finite_(source.finite), mesh_(source) {}
 
   MeshData read() {
     read_sections();

@@ -2,12 +2,14 @@
 #include "holdfast/io.h"
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 #include "io/file_bytes.h"
 #include "io/formats.h"
 #include "io/text_reader.h"
 #include "numbers/float_environment.h"
+#include "text/decimal.h"
 
 namespace holdfast {
 namespace io {
@@ -107,10 +109,20 @@ void require_consistent(const Volume& volume) {
 
 void tell_polygons(MeshData& mesh) {
   if (mesh.polygons_cut > 0)
-    mesh.remarks.push_back({RemarkKind::polygons_cut, mesh.polygons_cut,
-                            std::to_string(mesh.polygons_cut) + " polygon" +
-                                (mesh.polygons_cut == 1 ? "" : "s") + " of more than three corners " +
-                                (mesh.polygons_cut == 1 ? "is" : "are") + " cut into triangles"});
+    mesh.remarks.push_back(
+        {RemarkKind::polygons_cut, mesh.polygons_cut,
+         std::to_string(mesh.polygons_cut) + " polygon" + (mesh.polygons_cut == 1 ? "" : "s") +
+             " of more than three corners " + (mesh.polygons_cut == 1 ? "is" : "are") +
+             " cut into triangles" +
+             (mesh.deviation > 0 ? "; their corners lie up to " + decimal(mesh.deviation, 3) +
+                                       " from the mean plane of their polygon"
+                                 : "")});
+}
+
+double tolerance_of(const ReadOptions& options) {
+  if (!(options.tolerance >= 0) || std::isinf(options.tolerance))
+    throw std::invalid_argument("the tolerance for polygons must be finite and not negative");
+  return options.tolerance;
 }
 
 }  // namespace
@@ -137,7 +149,8 @@ Surface read_surface(const std::filesystem::path& path, const ReadOptions& optio
   io::Watch watch(options, options.progress);
   const io::FileBytes bytes(path, &watch);
   watch.step(io::kRead);
-  io::MeshData mesh = io::parse_surface({path, bytes.view(), false, &watch}, options.format);
+  io::MeshData mesh =
+      io::parse_surface({path, bytes.view(), false, &watch, io::tolerance_of(options)}, options.format);
   Surface surface;
   surface.vertex_markers = mesh.vertex_markers.take(mesh.vertices.size());
   surface.facet_markers = mesh.facet_markers.take(mesh.facets.size());
@@ -161,7 +174,8 @@ Volume read_volume(const std::filesystem::path& path, const ReadOptions& options
   io::Watch watch(options, options.progress);
   const io::FileBytes bytes(path, &watch);
   watch.step(io::kRead);
-  io::MeshData mesh = io::parse_volume({path, bytes.view(), false, &watch}, options.format);
+  io::MeshData mesh =
+      io::parse_volume({path, bytes.view(), false, &watch, io::tolerance_of(options)}, options.format);
   Volume volume;
   volume.regions = mesh.regions.take(mesh.tetrahedra.size());
   volume.regions.resize(mesh.tetrahedra.size(), 0);

@@ -89,7 +89,7 @@ MeshData read_medit(const Source& source) {
   if (lower(text.word("MeshVersionFormatted")) != "meshversionformatted")
     text.fail("not a Medit mesh: it does not start with MeshVersionFormatted");
   static_cast<void>(text.integer("the version"));
-  MeshData mesh;
+  MeshData mesh(source);
   for (;;) {
     const std::string keyword = lower(text.word("a keyword or End"));
     if (keyword.empty() || keyword[0] < 'a' || keyword[0] > 'z')

@@ -2,6 +2,7 @@
 // the two it holds, so one reader serves `read_surface` and `read_volume`.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 
 #include "holdfast/io.h"
 #include "io/watch.h"
+#include "plane/facets.h"
 
 namespace holdfast::io {
 
@@ -18,6 +20,8 @@ struct Source {
   std::string_view bytes;
   bool finite = false;  ///< numbers that are not finite are refused, as where nothing judges them later
   Watch* watch = nullptr;
+  double tolerance = 0;  ///< how far corners of a polygon may lie from its plane; see ReadOptions
+  bool keeps_polygons = false;
 };
 
 /// Tags of entities of one kind that stay empty as long as every tag is 0.
@@ -47,6 +51,10 @@ class Tags {
 }
 
 struct MeshData {
+  MeshData() = default;
+  explicit MeshData(const Source& source)
+      : tolerance(source.tolerance), keeps_polygons(source.keeps_polygons), watch(source.watch) {}
+
   std::vector<Point> vertices;
   std::vector<Triangle> facets;
   std::vector<Segment> segments;
@@ -56,7 +64,12 @@ struct MeshData {
   std::vector<Point> holes;
   std::vector<Remark> remarks;
   Names names;
-  std::size_t polygons_cut = 0;  ///< polygons of more than three corners, which became fans
+  std::size_t polygons_cut = 0;  ///< polygons of more than three corners, which became triangles
+  double deviation = 0;          ///< of these, the largest distance of a corner from the polygon's mean plane
+  double tolerance = 0;          ///< on that distance, for polygons that are not convex
+  bool keeps_polygons = false;   ///< polygons are kept as they are
+  std::vector<plane::PolygonFacet> polygons = {};
+  Watch* watch = nullptr;
 
   /// Says that `count` of `what` (a plural, which `one` is the singular of) are in the file and left out.
   void leave_out(std::size_t count, std::string_view what, std::string_view one = {}) {
@@ -73,6 +86,12 @@ struct MeshData {
   void add_facet(const Triangle& facet, int marker = 0) {
     facet_markers.add(facets.size(), marker);
     facets.push_back(facet);
+  }
+  /// The triangles of a polygon.
+  void add_cut(const std::vector<Triangle>& triangles, double off, int marker) {
+    for (const Triangle& triangle : triangles) add_facet(triangle, marker);
+    ++polygons_cut;
+    deviation = std::max(deviation, off);
   }
   void add_segment(const Segment& segment, int marker = 0) {
     segment_markers.add(segments.size(), marker);

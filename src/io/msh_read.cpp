@@ -63,7 +63,7 @@ class MshNodes {
 
 class MshReader {
  public:
-  explicit MshReader(const Source& source) : in_(source), text_(in_.text()) {}
+  explicit MshReader(const Source& source) : in_(source), text_(in_.text()), mesh_(source) {}
 
   MeshData read() {
     if (text_.word("$MeshFormat") != "$MeshFormat")

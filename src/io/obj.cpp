@@ -20,7 +20,7 @@ constexpr std::string_view kLooks[] = {
 
 class ObjReader {
  public:
-  explicit ObjReader(const Source& source) : source_(source) {}
+  explicit ObjReader(const Source& source) : source_(source), mesh_(source) {}
 
   MeshData read() {
     // Two passes, because an element may name a vertex that follows it.

@@ -46,7 +46,7 @@ Header read_header(TextReader& text) {
 
 class OffReader {
  public:
-  explicit OffReader(const Source& source) : source_(source), text_(source) {}
+  explicit OffReader(const Source& source) : source_(source), text_(source), mesh_(source) {}
 
   MeshData read() {
     const Header header = read_header(text_);

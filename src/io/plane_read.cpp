@@ -2,6 +2,7 @@
 // https://www.cs.cmu.edu/~quake/triangle.poly.html).
 #include "holdfast/plane.h"
 #include "io/file_bytes.h"
+#include "io/plane_files.h"
 #include "io/tetgen.h"
 #include "io/text_reader.h"
 #include "numbers/float_environment.h"
@@ -9,12 +10,6 @@
 namespace holdfast {
 namespace io {
 namespace {
-
-std::string extension_of(const std::filesystem::path& path, std::string_view format) {
-  std::string extension = lower(format.empty() ? without_gz(path).extension().string() : std::string(format));
-  if (!extension.empty() && extension[0] != '.') extension.insert(0, 1, '.');
-  return extension;
-}
 
 class PlaneReader {
  public:
@@ -136,11 +131,23 @@ class PlaneReader {
 };
 
 }  // namespace
+
+std::string plane_extension_of(const std::filesystem::path& path, std::string_view format) {
+  std::string extension = lower(format.empty() ? without_gz(path).extension().string() : std::string(format));
+  if (!extension.empty() && extension[0] != '.') extension.insert(0, 1, '.');
+  return extension;
+}
+
+Plane parse_plane(const Source& source, std::string_view extension) {
+  PlaneReader reader(source);
+  return extension == ".poly" ? reader.read_poly() : reader.read_points();
+}
+
 }  // namespace io
 
 Plane read_plane(const std::filesystem::path& path, const ReadOptions& options) {
   const FloatEnvironment environment;
-  const std::string extension = io::extension_of(path, options.format);
+  const std::string extension = io::plane_extension_of(path, options.format);
   if (extension != ".poly" && extension != ".node")
     throw FileError(
         path, "",
@@ -148,8 +155,7 @@ Plane read_plane(const std::filesystem::path& path, const ReadOptions& options) 
             " cannot be read as points and segments; the formats are .poly, .node");
   io::Watch watch(options, options.progress);
   const io::FileBytes bytes(path, &watch);
-  io::PlaneReader reader({path, bytes.view(), false, &watch});
-  Plane plane = extension == ".poly" ? reader.read_poly() : reader.read_points();
+  Plane plane = io::parse_plane({path, bytes.view(), false, &watch}, extension);
   watch.finish();
   return plane;
 }

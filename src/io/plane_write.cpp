@@ -19,9 +19,11 @@ std::string written_extension(const std::filesystem::path& path, std::string_vie
 }
 
 void write_off(AtomicWriter& out, const PlaneMesh& mesh) {
-  out << "OFF\n"
-      << std::uint64_t{mesh.points.size()} << ' ' << std::uint64_t{mesh.triangles.size()} << " 0\n";
-  for (const PlanePoint& p : mesh.points) out << p[0] << ' ' << p[1] << " 0\n";
+  const std::size_t count = mesh.in_space.empty() ? mesh.points.size() : mesh.in_space.size();
+  out << "OFF\n" << std::uint64_t{count} << ' ' << std::uint64_t{mesh.triangles.size()} << " 0\n";
+  for (const Point& p : mesh.in_space) out << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+  if (mesh.in_space.empty())
+    for (const PlanePoint& p : mesh.points) out << p[0] << ' ' << p[1] << " 0\n";
   for (const Triangle& t : mesh.triangles) out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
 }
 
@@ -31,9 +33,13 @@ void write_triangle(const std::filesystem::path& path, const PlaneMesh& mesh, Wa
   };
   AtomicWriter node(with(".node"), watch), ele(with(".ele"), watch);
   const bool marked = !mesh.point_markers.empty();
-  node << std::uint64_t{mesh.points.size()} << (marked ? " 2 0 1\n" : " 2 0 0\n");
-  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-    node << std::uint64_t{i} << ' ' << mesh.points[i][0] << ' ' << mesh.points[i][1];
+  const bool in_space = !mesh.in_space.empty();
+  const std::size_t count = in_space ? mesh.in_space.size() : mesh.points.size();
+  node << std::uint64_t{count} << (in_space ? " 3" : " 2") << (marked ? " 0 1\n" : " 0 0\n");
+  for (std::size_t i = 0; i < count; ++i) {
+    const double* const p = in_space ? mesh.in_space[i].data() : mesh.points[i].data();
+    node << std::uint64_t{i} << ' ' << p[0] << ' ' << p[1];
+    if (in_space) node << ' ' << p[2];
     if (marked) node << ' ' << mesh.point_markers[i];
     node << '\n';
   }
@@ -47,9 +53,9 @@ void write_triangle(const std::filesystem::path& path, const PlaneMesh& mesh, Wa
 }
 
 void write_grid(AtomicWriter& out, const PlaneMesh& mesh, const WriteOptions& options) {
-  std::vector<Point> points;
-  points.reserve(mesh.points.size());
-  for (const PlanePoint& p : mesh.points) points.push_back({p[0], p[1], 0});
+  std::vector<Point> points = mesh.in_space;
+  if (points.empty())
+    for (const PlanePoint& p : mesh.points) points.push_back({p[0], p[1], 0});
   VtuCells cells;
   std::vector<std::int32_t> regions, markers;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {

@@ -181,7 +181,7 @@ template <typename Values>
 class PlyReader {
  public:
   PlyReader(const TextReader& text, const Header& header, Values values)
-      : text_(text), header_(header), values_(values) {}
+      : text_(text), header_(header), values_(values), mesh_(text.source()) {}
 
   MeshData read() {
     for (const Element& element : header_.elements) {

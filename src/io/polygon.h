@@ -1,4 +1,4 @@
-// Polygons of more than three corners, which some formats carry.
+// Polygons of more than three corners, and facets of several polygons, which some formats carry.
 #pragma once
 
 #include <span>
@@ -9,23 +9,25 @@
 
 namespace holdfast::io {
 
-/// The fan of triangles that covers a convex polygon, in its orientation; empty if the polygon is
-/// not convex, seen along its mean normal, or no corner sees every other without a flat triangle.
-///
-/// This is decided in floating point, which is harmless: it only chooses between a fan and an error,
-/// and `diagnose` then judges the triangles exactly.
-[[nodiscard]] std::vector<Triangle> fan(std::span<const Point> vertices, std::span<const Index> corners);
+/// What long work on polygons calls now and then.
+[[nodiscard]] inline plane::Poll poll_of(Watch* watch) {
+  return [watch](double) { step(watch); };
+}
 
 /// The corners without those at the place of the one before them, which the first follows.
 [[nodiscard]] std::vector<Index> without_repeats(std::span<const Point> vertices,
                                                  std::span<const Index> corners);
 
 /// Adds a "face" of any number of corners to `mesh`: a triangle as it is, two corners as a segment,
-/// one as nothing more than the vertex that it names, more as a fan. A corner that repeats the place of the
-/// one before it does not count. `fail` is called with the reason, and must throw, if the polygon cannot be
-/// fanned.
+/// one as nothing more than the vertex that it names, more as plane::cut_polygon has it. A corner that
+/// repeats the place of the one before it does not count. `fail` is called with the reason, and must throw,
+/// if there are no triangles.
 template <typename Fail>
 void add_polygon(MeshData& mesh, std::span<const Index> corners, int marker, Fail&& fail) {
+  if (mesh.keeps_polygons && !corners.empty()) {
+    mesh.polygons.push_back({{{corners.begin(), corners.end()}}, {}});
+    return;
+  }
   switch (corners.size()) {
     case 0:
       fail("a face without corners");
@@ -46,12 +48,10 @@ void add_polygon(MeshData& mesh, std::span<const Index> corners, int marker, Fai
     const std::span<const Index> triangle = distinct.size() == 3 ? std::span<const Index>(distinct) : corners;
     return mesh.add_facet({triangle[0], triangle[1], triangle[2]}, marker);
   }
-  const std::vector<Triangle> triangles = fan(mesh.vertices, distinct);
-  if (triangles.empty())
-    fail("a polygon of " + std::to_string(corners.size()) +
-         " corners that is not convex; split it into triangles");
-  for (const Triangle& triangle : triangles) mesh.add_facet(triangle, marker);
-  ++mesh.polygons_cut;
+  const plane::CutPolygon cut =
+      plane::cut_polygon(mesh.vertices, distinct, mesh.tolerance, poll_of(mesh.watch));
+  if (!cut.reason.empty()) fail("a polygon of " + std::to_string(corners.size()) + " corners " + cut.reason);
+  mesh.add_cut(cut.triangles, cut.deviation, marker);
 }
 
 /// Adds the triangles of a strip: corners i, i + 1, i + 2, with every other one turned round. Those that name

@@ -1,15 +1,13 @@
 // TetGen's surfaces, .poly and .smesh, and bare points, .node (Si, TetGen, a Delaunay-based quality
 // tetrahedral mesh generator, ACM TOMS 41(2), 2015; manual, section 5.2).
 //
-// A polygon of two corners is a segment, one of a single corner a vertex, one of more than three is
-// fanned where it is convex. Facets of other outlines, with holes, or with segments and points inside are
-// triangulated.
+// A polygon of two corners is a segment, one of a single corner a vertex, one of more than three is cut into
+// triangles. A facet of several polygons, or with holes, is what these enclose together.
 #include <algorithm>
 #include <cmath>
 
 #include "io/file_bytes.h"
 #include "io/formats.h"
-#include "io/planar_facet.h"
 #include "io/polygon.h"
 #include "io/tetgen.h"
 
@@ -29,7 +27,7 @@ double cube_root(double x) {
 
 class PolyReader {
  public:
-  PolyReader(const Source& source, bool smesh) : text_(source), smesh_(smesh) {}
+  PolyReader(const Source& source, bool smesh) : text_(source), smesh_(smesh), mesh_(source) {}
 
   MeshData read() {
     TetgenNodes nodes = read_tetgen_nodes(text_);
@@ -60,11 +58,7 @@ class PolyReader {
   void read_smesh_facet() {
     read_corners();
     const std::size_t start = text_.last();
-    const PlanarFacet facet{{corners_}, {}, optional_tag()};
-    if (needs_triangulation(mesh_.vertices, facet))
-      add_planar_facet(mesh_, facet, {}, [&](const std::string& reason) { text_.fail_at(start, reason); });
-    else
-      add(facet.marker, start);
+    add(optional_tag(), start);
     text_.skip_line();
   }
 
@@ -73,13 +67,13 @@ class PolyReader {
     const std::size_t start = text_.last();
     const std::int64_t holes = text_.at_line_end() ? 0 : text_.integer("the number of holes");
     if (holes < 0) text_.fail_at(start, "a negative number of holes");
-    PlanarFacet facet;
-    facet.marker = optional_tag();
+    const int marker = optional_tag();
     text_.skip_line();
-    std::vector<std::size_t> lines;
+    plane::PolygonFacet facet;
+    std::vector<std::size_t> positions;
     for (std::size_t i = 0; i < polygons; ++i) {
       read_corners();
-      lines.push_back(text_.last());
+      positions.push_back(text_.last());
       facet.polygons.push_back(corners_);
       text_.skip_line();
     }
@@ -88,13 +82,36 @@ class PolyReader {
       facet.holes.push_back(text_.point());
       text_.skip_line();
     }
-    if (needs_triangulation(mesh_.vertices, facet))
-      return add_planar_facet(mesh_, facet, {}, [&](const std::string& reason) {
-        text_.fail_at(polygons == 1 ? lines[0] : start, reason);
-      });
-    for (std::size_t i = 0; i < polygons; ++i) {
+    if (mesh_.keeps_polygons)
+      mesh_.polygons.push_back(std::move(facet));
+    else if (!add_together(facet, marker, start))
+      add_apart(facet, marker, positions);
+  }
+
+  /// What the polygons of a facet enclose together, and its segments. False for polygons that are to be taken
+  /// each by itself: a single one, or those that lie in no plane or cross each other, of which `diagnose`
+  /// then tells.
+  bool add_together(const plane::PolygonFacet& facet, int marker, std::size_t start) {
+    const auto is_area = [](const std::vector<Index>& polygon) { return polygon.size() >= 3; };
+    const bool area = std::any_of(facet.polygons.begin(), facet.polygons.end(), is_area);
+    if (facet.holes.empty() && (facet.polygons.size() < 2 || !area)) return false;
+    if (!area) text_.fail_at(start, "a facet with holes and without a polygon of three corners or more");
+    const plane::CutPolygon cut =
+        plane::cut_facet(mesh_.vertices, facet, mesh_.tolerance, poll_of(mesh_.watch));
+    if (!cut.reason.empty()) {
+      if (facet.holes.empty()) return false;
+      text_.fail_at(start, "a facet with holes " + cut.reason);
+    }
+    mesh_.add_cut(cut.triangles, cut.deviation, marker);
+    for (const std::vector<Index>& polygon : facet.polygons)
+      if (polygon.size() == 2) mesh_.add_segment({polygon[0], polygon[1]}, marker);
+    return true;
+  }
+
+  void add_apart(const plane::PolygonFacet& facet, int marker, const std::vector<std::size_t>& positions) {
+    for (std::size_t i = 0; i < facet.polygons.size(); ++i) {
       corners_ = facet.polygons[i];
-      add(facet.marker, lines[i]);
+      add(marker, positions[i]);
     }
   }
 

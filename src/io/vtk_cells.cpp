@@ -12,7 +12,7 @@ namespace {
 class CellReader {
  public:
   CellReader(const Source& source, VtkGrid&& grid)
-      : path_(source.path), watch_(source.watch), grid_(std::move(grid)) {
+      : path_(source.path), watch_(source.watch), grid_(std::move(grid)), mesh_(source) {
     mesh_.vertices = std::move(grid_.points);
   }
 

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "numbers/elementary.h"
 #include "numbers/halving.h"
 #include "numbers/random.h"
 #include "plane/defects.h"
@@ -14,38 +15,20 @@
 #include "plane/ears.h"
 #include "plane/faces.h"
 #include "plane/hull.h"
+#include "plane/kept.h"
 #include "plane/order.h"
 #include "plane/partition.h"
+#include "plane/refine.h"
 #include "plane/regions.h"
+#include "plane/sensible.h"
+#include "plane/shape.h"
 #include "plane/swaps.h"
 
 namespace holdfast::plane {
 namespace {
 
-constexpr std::size_t kMostPoints = std::size_t{1} << 28;
+constexpr double kAngleOfSizes = 20;
 constexpr std::size_t kMostDefects = 100;  // of a kind
-
-void require_sensible(const Plane& plane, const PlaneOptions& options) {
-  const auto fits = [](const auto& markers, const auto& entities) {
-    return markers.empty() || markers.size() == entities.size();
-  };
-  if (!fits(plane.point_markers, plane.points))
-    throw std::invalid_argument("as many point markers as points are needed, or none");
-  if (!fits(plane.segment_markers, plane.segments))
-    throw std::invalid_argument("as many segment markers as segments are needed, or none");
-  if (plane.points.size() > kMostPoints) throw std::length_error("more than 2^28 points are too many");
-  const auto finite = [](const PlanePoint& p) { return std::isfinite(p[0]) && std::isfinite(p[1]); };
-  for (std::size_t i = 0; i < plane.holes.size(); ++i)
-    if (!finite(plane.holes[i]))
-      throw std::invalid_argument("hole " + std::to_string(i + 1) + " is not finite");
-  for (std::size_t i = 0; i < plane.regions.size(); ++i)
-    if (!finite(plane.regions[i].where))
-      throw std::invalid_argument("region " + std::to_string(i + 1) + " is not finite");
-  if (options.stop_after == PlaneStage::partition && options.method != PlaneMethod::partition)
-    throw std::invalid_argument("only the method partition has the stage partition");
-  if (options.order != LayingOrder::given && options.method == PlaneMethod::ears)
-    throw std::invalid_argument("the method ears lays no segments one by one");
-}
 
 class Run {
  public:
@@ -119,11 +102,11 @@ class Run {
       result_.report.joined = counts.joined;
     });
     stage("join", 0.75, [&](const Poll&) { mesh_ = Triangles::joined(triangles, segments_); });
-    if (options_.delaunay)
-      stage("lawson", 0.9, [&](const Poll& poll) {
+    if (is_delaunay())
+      stage("lawson", kLawson, [&](const Poll& poll) {
         result_.report.delaunay_swaps = swap_to_delaunay(mesh_, points_, poll);
       });
-    stage("regions", 1, [&](const Poll&) { keep_regions(); });
+    keep_regions();
     return true;
   }
 
@@ -145,13 +128,13 @@ class Run {
       keep([](std::uint32_t) { return true; });
       return true;
     }
-    if (options_.delaunay)
-      stage("lawson", 0.9, [&](const Poll& poll) {
+    if (is_delaunay())
+      stage("lawson", kLawson, [&](const Poll& poll) {
         result_.report.delaunay_swaps = options_.method == PlaneMethod::swaps
                                             ? swap_to_delaunay(mesh_, points_, edges_of_swapped(), poll)
                                             : swap_to_delaunay(mesh_, points_, poll);
       });
-    stage("regions", 1, [&](const Poll&) { keep_regions(); });
+    keep_regions();
     return true;
   }
 
@@ -254,10 +237,32 @@ class Run {
     return edges;
   }
 
+  [[nodiscard]] bool is_delaunay() const { return options_.delaunay || refines(options_); }
+
   void keep_regions() {
-    const Regions regions = find_regions(mesh_);
-    std::vector<int> ids(regions.count + std::size_t{1}, 0);
-    std::vector<bool> kept(ids.size(), true);
+    Regions regions;
+    std::vector<int> ids;
+    std::vector<bool> kept;
+    RefineOptions wanted;
+    stage("regions", kRegions, [&](const Poll&) { choose_regions(regions, ids, kept, wanted.areas); });
+    if (refines(options_)) {
+      mesh_ = kept_part(mesh_, regions, kept);
+      stage("refine", 1, [&](const Poll& poll) { refine_kept(wanted, poll); });
+      keep([](std::uint32_t) { return true; }, [&](std::uint32_t t) { return ids[mesh_[t].mark]; });
+      cut_segments(plane_, refined_, result_.mesh);
+    } else {
+      keep([&](std::uint32_t t) { return kept[regions.of_triangle[t]]; },
+           [&](std::uint32_t t) { return ids[regions.of_triangle[t]]; });
+    }
+    if (result_.mesh.triangles.empty()) encloses_nothing();
+  }
+
+  void choose_regions(Regions& regions, std::vector<int>& ids, std::vector<bool>& kept,
+                      std::vector<double>& areas) {
+    regions = find_regions(mesh_);
+    ids.assign(regions.count + std::size_t{1}, 0);
+    kept.assign(ids.size(), true);
+    areas.assign(ids.size(), 0);
     kept[kOutside] = false;
     const auto locate = [&](const std::vector<Position>& places, const char* what, auto&& use) {
       const std::vector<Found> found = find_triangles(mesh_, points_, places);
@@ -271,11 +276,26 @@ class Run {
     locate(plane_.holes, "hole", [&](std::size_t, std::uint32_t region) { kept[region] = false; });
     std::vector<Position> seeds;
     for (const Plane::Seed& seed : plane_.regions) seeds.push_back(seed.where);
-    locate(seeds, "region", [&](std::size_t i, std::uint32_t region) { ids[region] = plane_.regions[i].id; });
+    locate(seeds, "region", [&](std::size_t i, std::uint32_t region) {
+      ids[region] = plane_.regions[i].id;
+      areas[region] = plane_.regions[i].area;
+    });
     number_regions(kept, ids);
-    keep([&](std::uint32_t t) { return kept[regions.of_triangle[t]]; },
-         [&](std::uint32_t t) { return ids[regions.of_triangle[t]]; });
-    if (result_.mesh.triangles.empty()) encloses_nothing();
+  }
+
+  void refine_kept(RefineOptions& wanted, const Poll& poll) {
+    wanted.size = options_.size;
+    wanted.angle = options_.angle.value_or(kAngleOfSizes);
+    wanted.keep_boundary = options_.keep_boundary;
+    wanted.most_points = std::min(options_.max_points, kMostPoints - points_.size());
+    refined_ = refine(mesh_, points_, segments_, wanted, poll);
+    PlaneReport& report = result_.report;
+    report.field_points = refined_.inside;
+    report.segment_points = refined_.on_segments.size() + refined_.on_others;
+    report.small_angles = refined_.small_input;
+    report.small_angles_left = refined_.small_left;
+    report.large_left = refined_.large_left;
+    report.capped = refined_.capped;
   }
 
   // Kept regions without a seed get the numbers from 1 on that no seed has.
@@ -309,11 +329,27 @@ class Run {
     mesh.point_markers = plane_.point_markers;
     mesh.segments = plane_.segments;
     mesh.segment_markers = plane_.segment_markers;
-    // After partition alone: points that are added, to the nearest doubles.
+    // Points that are added, those of the partition to the nearest doubles.
     for (std::size_t v = plane_.points.size(); v < points_.size(); ++v)
       mesh.points.push_back(points_[static_cast<Vertex>(v)]);
     if (!mesh.point_markers.empty()) mesh.point_markers.resize(mesh.points.size(), 0);
     result_.report.triangles = mesh.triangles.size();
+    measure();
+  }
+
+  void measure() {
+    const PlaneMesh& mesh = result_.mesh;
+    const Scale scale(mesh.points);
+    double cosine = -1;
+    for (const Triangle& t : mesh.triangles) {
+      const double of_triangle =
+          Shape(scale.down(mesh.points[t[0]]), scale.down(mesh.points[t[1]]), scale.down(mesh.points[t[2]]))
+              .cosine;
+      cosine = std::max(cosine, std::isnan(of_triangle) ? 1 : of_triangle);
+    }
+    constexpr double kDegrees = 180 / 3.14159265358979323846;
+    result_.report.least_angle =
+        mesh.triangles.empty() ? 0 : numbers::acos(std::clamp(cosine, -1.0, 1.0)) * kDegrees;
   }
   template <typename Kept>
   void keep(Kept&& kept) {
@@ -344,6 +380,8 @@ class Run {
     result_.message = "the points and segments are not valid";
   }
 
+  static constexpr double kLawson = 0.85, kRegions = 0.9;  // shares of the work when a stage ends
+
   const Plane& plane_;
   const PlaneOptions& options_;
   const Poll& poll_;
@@ -357,6 +395,7 @@ class Run {
   std::vector<EdgeCode> swapped_;
   Partition partition_{mesh_, points_};
   std::vector<Pieces> pieces_;  // of segments whose points are still there
+  Refined refined_;
   PlaneResult result_;
 };
 

@@ -3,6 +3,7 @@
     plane_test.py PROGRAM [unittest options]
 """
 import json
+import math
 
 from cli_case import CliTest, main
 
@@ -130,6 +131,112 @@ class Triangles(CliTest):
         self.run_program("plane", "in.poly", "-o", "out.stl", expect=2)
 
 
+class Refined(CliTest):
+    def refined(self, *options):
+        self.run_program("plane", "in.poly", "-o", "out.off", "--report", "r.json", *options)
+        self.report = json.loads((self.folder / "r.json").read_text())
+        return read_off(self.folder / "out.off")
+
+    def test_angles_and_edges_keep_their_bounds(self):
+        self.write("in.poly", poly(SQUARE + INNER, RING, holes=[(2.0, 2.0)]))
+        points, triangles = self.refined("--angle", "26", "--size", "0.5")
+        self.assertAlmostEqual(sum(area(points, t) for t in triangles), 12)
+        self.assertEqual(points[:8], [(x, y, 0.0) for x, y in SQUARE + INNER])
+        self.assertLessEqual(max(math.dist(points[t[i]], points[t[i - 1]]) for t in triangles for i in range(3)), 0.5)
+        self.assertGreaterEqual(self.report["mesh"]["least_angle"], 26)
+        self.assertEqual(self.report["small_angles"] + self.report["small_angles_left"] + self.report["large_left"], 0)
+        self.assertEqual(len(points), 8 + self.report["field_points"] + self.report["segment_points"])
+
+    def test_a_boundary_that_is_kept_gets_no_points(self):
+        self.write("in.poly", poly(SQUARE + INNER, RING, holes=[(2.0, 2.0)]))
+        points, _ = self.refined("--size", "0.5", "--keep-boundary")
+        self.assertEqual(self.report["segment_points"], 0)
+        self.assertGreater(self.report["field_points"], 0)
+        for x, y, _ in points[8:]:
+            self.assertTrue(0 < x < 4 and 0 < y < 4 and not (1 <= x <= 3 and 1 <= y <= 3))
+
+    def test_a_cap_is_told(self):
+        self.write("in.poly", poly(SQUARE, RING[:4]))
+        said = self.run_program("plane", "in.poly", "-o", "out.off", "--size", "0.001", "--max-points", "50").stderr
+        self.assertIn("no more than 50 points are added", said)
+
+    def test_options_that_do_nothing_are_refused(self):
+        self.write("in.poly", poly(SQUARE, RING[:4]))
+        for options in (["--keep-boundary"], ["--max-points", "5"], ["--size", "0"], ["--size", "nan"], ["--angle", "40"],
+                        ["--angle", "-1"], ["--angle", "20", "--stop-after", "delaunay"], ["--tolerance", "-1"]):
+            self.run_program("plane", "in.poly", "-o", "out.off", *options, expect=2)
+        self.assertNotIn("out.off", self.files())
+
+
+class InSpace(CliTest):
+    """Polygons in planes in space: the points come out bit for bit."""
+
+    CORNERS = [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (2.0, 1.0), (0.0, 3.0)]
+
+    def off(self, points, polygons):
+        lines = ["OFF", f"{len(points)} {len(polygons)} 0"] + ["%r %r %r" % tuple(p) for p in points]
+        self.write("in.off", "\n".join(lines + [" ".join(map(str, [len(f), *f])) for f in polygons]) + "\n")
+
+    def test_a_concave_polygon_of_a_leaning_plane(self):
+        points = [(u, v, u + 2 * v + 0.125) for u, v in self.CORNERS]
+        self.off(points, [[0, 1, 2, 3, 4]])
+        for method in METHODS:
+            self.run_program("plane", "in.off", "-o", "out.off", *method)
+            back, triangles = read_off(self.folder / "out.off")
+            self.assertEqual(back, points)
+            self.assertEqual(len(triangles), 3)
+            self.assertTrue(all(area(points, t) > 0 for t in triangles))
+        self.off(points, [[4, 3, 2, 1, 0]])
+        self.run_program("plane", "in.off", "-o", "out.off")
+        self.assertTrue(all(area(points, t) < 0 for t in read_off(self.folder / "out.off")[1]))
+
+    def test_polygons_of_one_plane_are_outlines_together(self):
+        inner = [(1.0, 0.5), (2.0, 0.5), (1.5, 0.75)]
+        points = [(7.0, u, v) for u, v in self.CORNERS + inner]
+        self.off(points, [[0, 1, 2, 3, 4], [5, 6, 7]])
+        self.run_program("plane", "in.off", "-o", "out.off", "--report", "r.json")
+        self.assertEqual(json.loads((self.folder / "r.json").read_text())["mesh"]["regions"], 2)
+        self.assertEqual(len(read_off(self.folder / "out.off")[1]), 5 - 2 + 2 * 3)
+
+    def test_faces_of_a_solid_are_planes_of_their_own(self):
+        bottom = [(u, v, 0.0) for u, v in self.CORNERS]
+        top = [(u, v, 1.0) for u, v in self.CORNERS]
+        sides = [[i, (i + 1) % 5, 5 + (i + 1) % 5, 5 + i] for i in range(5)]
+        self.off(bottom + top, [[4, 3, 2, 1, 0], [5, 6, 7, 8, 9]] + sides)
+        self.run_program("plane", "in.off", "-o", "out.off")
+        self.assertEqual(len(read_off(self.folder / "out.off")[1]), 3 + 3 + 10)
+        self.assertIn("encloses 1 region", self.run_program("diagnose", "out.off").stdout)
+        self.run_program("plane", "in.off", "-o", "out.off", "--size", "1", expect=2)
+        self.run_program("plane", "in.off", "-o", "out.off", "--size", "1", "--keep-boundary")
+        self.assertIn("encloses 1 region", self.run_program("diagnose", "out.off").stdout)
+        self.assertIn("encloses 1 region", self.run_program("diagnose", "in.off").stdout)
+
+    def test_a_tolerance_takes_what_is_not_plane(self):
+        points = [(u, v, 0.01 if u == 2 else 0.0) for u, v in self.CORNERS]
+        self.off(points, [[0, 1, 2, 3, 4]])
+        for command in (["plane", "in.off", "-o", "out.off"], ["diagnose", "in.off"]):
+            said = self.run_program(*command, expect=3).stderr
+            self.assertIn("lies in no plane", said)
+            said = self.run_program(*command, "--tolerance", "0.02").stderr
+            self.assertIn("from the mean plane", said)
+        self.assertEqual(read_off(self.folder / "out.off")[0], points)
+
+    def test_holes_of_facets(self):
+        square = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)]
+        nodes = "".join("%d %r 3.0 %r\n" % (i, u, v) for i, (u, v) in enumerate(square + INNER))
+        self.write("in.poly", f"8 3 0 0\n{nodes}1 0\n2 1\n4 0 1 2 3\n4 4 5 6 7\n1 2 3 2\n0\n")
+        self.run_program("plane", "in.poly", "-o", "out.node")
+        self.assertTrue((self.folder / "out.node").read_text().startswith("8 3 0 0\n0 0 3 0\n"))
+        self.assertTrue((self.folder / "out.ele").read_text().startswith("8 3 1\n"))
+
+    def test_crossing_sides_are_named(self):
+        self.off([(0.0, 0.0, 1.0), (4.0, 4.0, 1.0), (4.0, 0.0, 1.0), (0.0, 4.0, 1.0)], [[0, 1, 2, 3]])
+        said = self.run_program("plane", "in.off", "-o", "out.off", expect=4).stderr
+        self.assertIn("cross at (2, 2, 1)", said)
+        said = self.run_program("diagnose", "in.off", expect=3).stderr
+        self.assertIn("line 7", said)
+
+
 class Refused(CliTest):
     def refused(self, points, segments, message, **more):
         self.write("in.poly", poly(points, segments, **more))
@@ -157,7 +264,7 @@ class Refused(CliTest):
         whole = poly(SQUARE, RING[:4])
         for text, message in [
             (whole.replace("4 4 1", "4 4 9"), "out of range: 9"),
-            (whole.replace("4 2 0 0", "4 3 0 0", 1), "the dimension is not 2"),
+            (whole.replace("4 2 0 0", "4 4 0 0", 1), "the dimension is not 2"),
             (whole.replace("4 2 0 0", "400000000 2 0 0", 1), "truncated or damaged"),
             (whole[:40], "truncated"),
             (whole + "1 2 3\n", "text after the last section"),

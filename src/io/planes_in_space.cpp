@@ -1,0 +1,74 @@
+// Polygons in space as points and segments in planes.
+#include <cmath>
+
+#include "holdfast/plane.h"
+#include "io/file_bytes.h"
+#include "io/formats.h"
+#include "io/plane_files.h"
+#include "io/polygon.h"
+#include "io/text_reader.h"
+#include "numbers/float_environment.h"
+#include "text/decimal.h"
+
+namespace holdfast {
+namespace io {
+namespace {
+
+/// All that a file holds as facets: where there are none, its points are one.
+std::vector<plane::PolygonFacet> facets_of(MeshData& mesh) {
+  std::vector<plane::PolygonFacet> facets = std::move(mesh.polygons);
+  for (const Triangle& t : mesh.facets) facets.push_back({{{t.begin(), t.end()}}, {}});
+  for (const Segment& s : mesh.segments) facets.push_back({{{s.begin(), s.end()}}, {}});
+  if (facets.empty()) {
+    facets.emplace_back();
+    for (Index v = 0; v < mesh.vertices.size(); ++v) facets[0].polygons.push_back({v});
+  }
+  return facets;
+}
+
+PlanesInSpace planes_of(const Source& source, MeshData&& mesh) {
+  plane::FoundPlanes found =
+      plane::planes_of(mesh.vertices, facets_of(mesh), source.tolerance, poll_of(source.watch));
+  if (!found.reason.empty())
+    throw FileError(source.path, "polygon " + std::to_string(found.facet + 1), found.reason);
+  PlanesInSpace planes = std::move(found.planes);
+  planes.points = std::move(mesh.vertices);
+  planes.remarks = std::move(mesh.remarks);
+  if (found.deviation > 0)
+    planes.remarks.push_back({RemarkKind::polygons_cut, 1,
+                              "corners lie up to " + decimal(found.deviation, 3) +
+                                  " from the mean plane in which they are taken"});
+  return planes;
+}
+
+/// Whether a .poly or .node begins with "n 3", so that it is one of space.
+bool has_three_dimensions(const Source& source) {
+  TextReader text(source);
+  static_cast<void>(text.count("the number of points", 6));
+  return !text.at_line_end() && text.integer("the dimension") == 3;
+}
+
+}  // namespace
+}  // namespace io
+
+PlanesInSpace read_planes(const std::filesystem::path& path, const ReadOptions& options) {
+  const FloatEnvironment environment;
+  if (!(options.tolerance >= 0) || std::isinf(options.tolerance))
+    throw std::invalid_argument("the tolerance for polygons must be finite and not negative");
+  io::Watch watch(options, options.progress);
+  const io::FileBytes bytes(path, &watch);
+  io::Source source{path, bytes.view(), false, &watch, options.tolerance, true};
+  const std::string extension = io::plane_extension_of(path, options.format);
+  PlanesInSpace planes;
+  if ((extension == ".poly" || extension == ".node") && !io::has_three_dimensions(source)) {
+    planes.parts.resize(1);
+    planes.parts[0].plane = io::parse_plane(source, extension);
+    planes.remarks = std::move(planes.parts[0].plane.remarks);
+  } else {
+    planes = io::planes_of(source, io::parse_surface(source, options.format));
+  }
+  watch.finish();
+  return planes;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,179 @@
+// Polygons of more than three corners, and facets of several polygons.
+//
+// What floating point says here chooses among ways to cut, or between them and an error: whether a polygon
+// that lies in no plane is convex, its mean plane, the coordinate plane that it leans from least. That a
+// polygon lies in a plane, that its projection takes no two places to one, and its triangles there, exact
+// signs decide. `diagnose` then judges the triangles in space.
+#include "plane/facets.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "exact/predicates.h"
+#include "numbers/vector.h"
+#include "plane/defects.h"
+#include "plane/level.h"
+#include "plane/polygon.h"
+#include "text/decimal.h"
+
+namespace holdfast::plane {
+namespace {
+
+/// The corners relative to the first, scaled to size 1 so that products neither over- nor underflow.
+std::vector<Point> local_corners(std::span<const Point> vertices, std::span<const Index> corners) {
+  std::vector<Point> local;
+  double size = 0;
+  for (const Index corner : corners) {
+    local.push_back(vertices[corner] - vertices[corners[0]]);
+    for (const double x : local.back()) size = std::max(size, std::abs(x));
+  }
+  if (size > 0)
+    for (Point& point : local)
+      for (double& x : point) x /= size;
+  return local;
+}
+
+/// The fan of triangles that covers a convex polygon, in its orientation; empty if the polygon is not convex,
+/// seen along its mean normal, or no corner sees every other without a flat triangle.
+std::vector<Triangle> fan(std::span<const Point> vertices, std::span<const Index> corners) {
+  const std::size_t n = corners.size();
+  const std::vector<Point> local = local_corners(vertices, corners);
+  Point normal{};  // Newell: the sum of the fan's vector areas, whatever the shape
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const Point area = cross(local[i], local[i + 1]);
+    for (std::size_t axis = 0; axis < 3; ++axis) normal[axis] += area[axis];
+  }
+  const auto area = [&](std::size_t a, std::size_t b, std::size_t c) {
+    return dot(normal, cross(local[b] - local[a], local[c] - local[a]));
+  };
+  std::vector<bool> strict(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double turn = area((i + n - 1) % n, i, (i + 1) % n);
+    if (!(turn >= 0)) return {};
+    strict[i] = turn > 0;
+  }
+  // A straight corner next to the apex would make a flat triangle with it.
+  std::size_t apex = 0;
+  while (apex < n && !(strict[(apex + n - 1) % n] && strict[(apex + 1) % n])) ++apex;
+  if (apex == n) return {};
+  std::vector<Triangle> triangles;
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const std::size_t b = (apex + i) % n, c = (apex + i + 1) % n;
+    // Turning left everywhere is not enough: a pentagram does too.
+    if (!(area(apex, b, c) > 0)) return {};
+    triangles.push_back({corners[apex], corners[b], corners[c]});
+  }
+  return triangles;
+}
+
+/// Whether triangles that are convex by floating point turn one way, exactly, seen along the axis.
+bool turn_alike(std::span<const Point> vertices, const std::vector<Triangle>& triangles, std::size_t axis) {
+  const auto sign = [&](const Triangle& t) {
+    return turn(vertices[t[0]], vertices[t[1]], vertices[t[2]], axis);
+  };
+  const int first = sign(triangles[0]);
+  return first != 0 &&
+         std::all_of(triangles.begin(), triangles.end(), [&](const Triangle& t) { return sign(t) == first; });
+}
+
+std::string not_plane(const Level& level, const char* what) {
+  return std::string(what) + " lies in no plane: its corners are up to " + decimal(level.deviation(), 3) +
+         " away from the mean one; give a larger tolerance, or split it into triangles";
+}
+
+std::vector<Position> projected(const Places& places, const Level& level) {
+  std::vector<Position> positions;
+  positions.reserve(places.size());
+  for (Vertex v = 0; v < places.size(); ++v) positions.push_back(level.project(places.at(v)));
+  return positions;
+}
+
+std::vector<Triangle> in_space(const Places& places, const std::vector<Corners3>& flat) {
+  std::vector<Triangle> triangles;
+  triangles.reserve(flat.size());
+  for (const Corners3& t : flat)
+    triangles.push_back({places.index(t[0]), places.index(t[1]), places.index(t[2])});
+  return triangles;
+}
+
+/// The first sides that cross, or the corner on a side, by corners from 1; nothing where a polygon only winds
+/// round itself, or has so many sides that it would take long to find out.
+std::string crossing_of(std::vector<Position> positions, const std::vector<Vertex>& walk) {
+  constexpr std::size_t kMostSides = 1000;
+  if (walk.size() > kMostSides) return {};
+  Plane sides;
+  sides.points = std::move(positions);
+  for (std::size_t i = 0; i < walk.size(); ++i)
+    sides.segments.push_back({walk[i], walk[i + 1 < walk.size() ? i + 1 : 0]});
+  const auto side = [&](Index s) {
+    return std::to_string(s + 1) + "-" + std::to_string((s + 1) % walk.size() + 1);
+  };
+  const std::vector<Defect> defects = find_defects(sides, 1, {});
+  for (const Defect& defect : defects)
+    if (defect.kind == DefectKind::segments_cross)
+      return ": its sides " + side(defect.segments[0]) + " and " + side(defect.segments[1]) +
+             " (by corner) cross";
+  for (const Defect& defect : defects)
+    if (defect.kind == DefectKind::vertex_in_segment) {
+      const auto corner = std::find(walk.begin(), walk.end(), defect.vertices[0]) - walk.begin();
+      return ": its corner " + std::to_string(corner + 1) + " lies on its side " + side(defect.segments[0]) +
+             " (by corner)";
+    }
+  return {};
+}
+
+}  // namespace
+
+CutPolygon cut_polygon(std::span<const Point> vertices, std::span<const Index> corners, double tolerance,
+                       const Poll& poll) {
+  const Places places(vertices, corners);
+  if (!places.finite()) return {{}, "of which one is not finite", 0};
+  if (places.size() < 3) return {{}, "that lie at two places", 0};
+  std::vector<Vertex> walk;
+  walk.reserve(corners.size());
+  for (const Index corner : corners) walk.push_back(places.place_of(corner));
+  const Level level(places, sides_of(walk), tolerance);
+  if (level.straight()) return {{}, "that lie on one line", 0};
+  std::vector<Triangle> triangles = fan(vertices, corners);
+  if (!triangles.empty() && (!level.flat() || turn_alike(vertices, triangles, level.axis())))
+    return {std::move(triangles), {}, level.deviation()};
+  if (!level.near()) return {{}, not_plane(level, "that is not convex and"), 0};
+  const auto flat = triangles_of_walk(projected(places, level), walk, poll);
+  if (!flat) return {{}, "that crosses or overlaps itself" + crossing_of(projected(places, level), walk), 0};
+  return {in_space(places, *flat), {}, level.deviation()};
+}
+
+CutPolygon cut_facet(std::span<const Point> vertices, const PolygonFacet& facet, double tolerance,
+                     const Poll& poll) {
+  std::vector<Index> corners;
+  for (const std::vector<Index>& polygon : facet.polygons)
+    corners.insert(corners.end(), polygon.begin(), polygon.end());
+  const Places places(vertices, corners);
+  if (!places.finite()) return {{}, "of which a corner is not finite", 0};
+  if (places.size() < 3) return {{}, "of fewer than three places", 0};
+  Sides edges, outline;
+  std::vector<Vertex> first;
+  for (const std::vector<Index>& polygon : facet.polygons) {
+    std::vector<Vertex> walk;
+    for (const Index corner : polygon) walk.push_back(places.place_of(corner));
+    if (polygon.size() >= 3 && first.empty()) first = walk;
+    for (const auto& [a, b] : sides_of(walk))
+      if (a != b) edges.push_back({std::min(a, b), std::max(a, b)});
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  const Level level(places, sides_of(first), tolerance);
+  if (level.straight()) return {{}, "whose corners lie on one line", 0};
+  if (!level.near()) return {{}, not_plane(level, "that"), 0};
+  std::vector<Position> holes;
+  for (const Point& hole : facet.holes) holes.push_back(level.project(hole));
+  const std::vector<Position> positions = projected(places, level);
+  auto flat = triangles_of_outlines(positions, edges, holes, poll);
+  if (!flat) return {{}, "whose sides cross or overlap, or have a hole on them", 0};
+  if (flat->empty()) return {{}, "that encloses nothing, or nothing but holes", 0};
+  if (turns_right(positions, first))
+    for (Corners3& t : *flat) std::swap(t[1], t[2]);
+  return {in_space(places, *flat), {}, level.deviation()};
+}
+
+}  // namespace holdfast::plane

@@ -1,0 +1,182 @@
+// Triangles of planes in space.
+#include "plane/in_space.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "plane/triangulate.h"
+#include "text/decimal.h"
+
+namespace holdfast::plane {
+namespace {
+
+using Part = PlanesInSpace::Part;
+
+/// Puts points of a plane back into space.
+class Lift {
+ public:
+  Lift(const PlanesInSpace& planes, const Part& part) : planes_(planes), part_(part) {
+    const auto count = static_cast<double>(part.numbers.size());
+    for (const Index number : part.numbers)
+      for (std::size_t k = 0; k < 3; ++k) middle_[k] += planes.points[number][k] / count;
+  }
+
+  /// Onto the mean plane.
+  [[nodiscard]] Point operator()(const PlanePoint& p) const {
+    const std::size_t u = (part_.axis + 1) % 3, v = (part_.axis + 2) % 3;
+    const Point& n = part_.normal;
+    return place(p, middle_[part_.axis] - (n[u] / n[part_.axis] * (p[0] - middle_[u]) +
+                                           n[v] / n[part_.axis] * (p[1] - middle_[v])));
+  }
+  /// Onto the segment from a to b, by their numbers in the plane.
+  [[nodiscard]] Point on_segment(const PlanePoint& p, Index a, Index b) const {
+    const PlanePoint &q = part_.plane.points[a], &r = part_.plane.points[b];
+    const double whole = std::abs(r[0] / 2 - q[0] / 2) + std::abs(r[1] / 2 - q[1] / 2);
+    const double share = (std::abs(p[0] / 2 - q[0] / 2) + std::abs(p[1] / 2 - q[1] / 2)) / whole;
+    const double from = in_space(a)[part_.axis], to = in_space(b)[part_.axis];
+    return place(p, (1 - share) * from + share * to);
+  }
+  [[nodiscard]] const Point& in_space(Index v) const { return planes_.points[part_.numbers[v]]; }
+
+ private:
+  [[nodiscard]] Point place(const PlanePoint& p, double height) const {
+    Point lifted{};
+    lifted[(part_.axis + 1) % 3] = p[0];
+    lifted[(part_.axis + 2) % 3] = p[1];
+    lifted[part_.axis] = height;
+    return lifted;
+  }
+
+  const PlanesInSpace& planes_;
+  const Part& part_;
+  Point middle_{};
+};
+
+void add(PlaneReport& sum, const PlaneReport& part) {
+  for (const auto member :
+       {&PlaneReport::points, &PlaneReport::segments, &PlaneReport::holes, &PlaneReport::missing_segments,
+        &PlaneReport::swaps, &PlaneReport::delaunay_swaps, &PlaneReport::partition_points, &PlaneReport::ears,
+        &PlaneReport::joined, &PlaneReport::links, &PlaneReport::triangles, &PlaneReport::regions,
+        &PlaneReport::field_points, &PlaneReport::segment_points, &PlaneReport::small_angles,
+        &PlaneReport::small_angles_left, &PlaneReport::large_left})
+    sum.*member += part.*member;
+  sum.most_partition_points = std::max(sum.most_partition_points, part.most_partition_points);
+  sum.least_angle = sum.least_angle == 0 ? part.least_angle : std::min(sum.least_angle, part.least_angle);
+  sum.capped = sum.capped || part.capped;
+  for (const auto& [stage, seconds] : part.seconds) sum.seconds[stage] += seconds;
+}
+
+class Together {
+ public:
+  explicit Together(const PlanesInSpace& planes) : planes_(planes) { sum_.mesh.in_space = planes.points; }
+
+  /// Adds the triangles of a plane.
+  void add_part(const Part& part, const PlaneResult& result) {
+    const Lift lift(planes_, part);
+    std::vector<Index> number = part.numbers;
+    const PlaneMesh& mesh = result.mesh;
+    for (std::size_t v = number.size(); v < mesh.points.size(); ++v) {
+      number.push_back(static_cast<Index>(sum_.mesh.in_space.size()));
+      sum_.mesh.in_space.push_back(lift(mesh.points[v]));
+    }
+    put_on_segments(part, mesh, lift, number);
+    for (Triangle t : mesh.triangles) {
+      if (part.turned) std::swap(t[1], t[2]);
+      sum_.mesh.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+    }
+    const auto regions = static_cast<int>(sum_.report.regions);
+    for (const int region : mesh.regions) sum_.mesh.regions.push_back(regions + region);
+    for (const Segment& s : mesh.segments) sum_.mesh.segments.push_back({number[s[0]], number[s[1]]});
+    add(sum_.report, result.report);
+  }
+
+  /// What is wrong in a plane, with the numbers that its points have in the file.
+  PlaneResult refuse(const Part& part, PlaneResult&& result) const {
+    const Lift lift(planes_, part);
+    for (Defect& defect : result.defects) {
+      std::string sides;
+      std::vector<Index> vertices;
+      for (const Index v : defect.vertices) vertices.push_back(part.numbers[v]);
+      for (const Index s : defect.segments) {
+        const auto [a, b] = part.plane.segments[s];
+        sides += (sides.empty() ? "" : " and ") + std::to_string(part.numbers[a]) + "-" +
+                 std::to_string(part.numbers[b]);
+        vertices.insert(vertices.end(), {part.numbers[a], part.numbers[b]});
+      }
+      for (Point& where : defect.where) where = lift({where[0], where[1]});
+      if (defect.kind == DefectKind::encloses_nothing) continue;
+      defect.message = message_of(defect, vertices, sides);
+      defect.vertices = std::move(vertices);
+      defect.segments.clear();
+    }
+    return std::move(result);
+  }
+
+  PlaneResult take() { return std::move(sum_); }
+
+ private:
+  // Pieces of segments come in order; their inner points lie on them, and not on the mean plane.
+  void put_on_segments(const Part& part, const PlaneMesh& mesh, const Lift& lift,
+                       const std::vector<Index>& number) {
+    std::size_t s = 0;
+    for (const Segment& piece : mesh.segments) {
+      if (s >= part.plane.segments.size()) return;
+      const auto [a, b] = part.plane.segments[s];
+      if (piece[1] == b)
+        ++s;
+      else if (piece[1] >= part.numbers.size())
+        sum_.mesh.in_space[number[piece[1]]] = lift.on_segment(mesh.points[piece[1]], a, b);
+    }
+  }
+
+  static std::string message_of(const Defect& defect, const std::vector<Index>& vertices,
+                                const std::string& sides) {
+    std::string place;
+    if (!defect.where.empty()) {
+      const Point& p = defect.where[0];
+      place = " at (" + decimal(p[0], 6) + ", " + decimal(p[1], 6) + ", " + decimal(p[2], 6) + ")";
+    }
+    const std::string counted = " (points counted from 0)";
+    switch (defect.kind) {
+      case DefectKind::segments_cross:
+        return "the sides " + sides + " cross" + place + counted + ": split both at a new point there";
+      case DefectKind::segments_overlap:
+        return "the sides " + sides + " overlap" + place + counted + ": split the longer one, or remove one";
+      case DefectKind::vertex_in_segment:
+        return "point " + std::to_string(vertices[0]) + place + " lies inside the side " + sides + counted +
+               ": split the side at this point";
+      case DefectKind::repeated_vertex:
+        return "points " + std::to_string(vertices[0]) + " and " + std::to_string(vertices[1]) +
+               " fall together in their plane" + counted;
+      default:
+        return defect.message;
+    }
+  }
+
+  const PlanesInSpace& planes_;
+  PlaneResult sum_;
+};
+
+}  // namespace
+
+PlaneResult triangulate(const PlanesInSpace& planes, const PlaneOptions& options, const Poll& poll) {
+  if (planes.points.empty() && planes.parts.size() == 1)
+    return triangulate(planes.parts[0].plane, options, poll);
+  if (planes.parts.size() > 1 && (options.size > 0 || options.angle) && !options.keep_boundary)
+    throw std::invalid_argument(
+        "polygons of several planes are refined with their boundary kept alone, since they would not fit");
+  Together together(planes);
+  const auto count = static_cast<double>(planes.parts.size());
+  for (std::size_t i = 0; i < planes.parts.size(); ++i) {
+    const Part& part = planes.parts[i];
+    PlaneResult result = triangulate(part.plane, options, [&](double share) {
+      if (poll) poll((static_cast<double>(i) + share) / count);
+    });
+    if (result.outcome != Outcome::done) return together.refuse(part, std::move(result));
+    together.add_part(part, result);
+  }
+  return together.take();
+}
+
+}  // namespace holdfast::plane

@@ -1,0 +1,62 @@
+// Points put into constrained Delaunay triangles that are not closed: the mesh ends at its constraints.
+#pragma once
+
+#include "plane/triangles.h"
+
+namespace holdfast::plane {
+
+class Insertion {
+ public:
+  /// `mesh` has its stars.
+  Insertion(Triangles& mesh, const Points& points) : mesh_(mesh), points_(points) {}
+
+  /// Calls `visit` for the triangles at a vertex that was put in: those at another one may fall into parts,
+  /// between which nothing is.
+  template <typename Visit>
+  void each_at(Vertex v, Visit&& visit) const;
+
+  /// Where a point lies, seen along a straight line from within a triangle.
+  struct Place {
+    enum class Kind { inside, on_edge, behind_constraint, nowhere };
+    Kind kind = Kind::nowhere;
+    std::uint32_t triangle = kNoVertex;  ///< inside
+    EdgeCode edge = kNoEdge;             ///< that it lies on, or first constraint that hides it
+  };
+  /// Of p, from `start`, which lies strictly inside triangle t.
+  [[nodiscard]] Place locate(Vertex p, Vertex start, std::uint32_t t) const;
+
+  /// Puts p into a triangle, which must hold it strictly, and makes the mesh constrained Delaunay again.
+  void insert_inside(std::uint32_t t, Vertex p);
+  /// The same on an edge. False, and nothing done, where p makes no positive triangles with the edge's ends.
+  bool insert_on(EdgeCode e, Vertex p);
+
+ private:
+  std::uint32_t add(std::array<Vertex, 3> corners, std::uint32_t mark);
+  void set(std::uint32_t t, std::array<Vertex, 3> corners);
+  void take(EdgeCode e, std::pair<EdgeCode, bool> outside);
+  [[nodiscard]] std::pair<EdgeCode, bool> outside(EdgeCode e) const {
+    return {mesh_.across(e), mesh_.constrained(e)};
+  }
+  void swap_round();
+
+  Triangles& mesh_;
+  const Points& points_;
+  std::vector<EdgeCode> pending_;  // edges opposite to the new point that may not be Delaunay
+};
+
+template <typename Visit>
+void Insertion::each_at(Vertex v, Visit&& visit) const {
+  const EdgeCode first = mesh_.edge_from(v);
+  if (first == kNoEdge) return;
+  EdgeCode e = first;
+  do {
+    visit(triangle_of(e));
+    e = mesh_.turn_right(e);
+  } while (e != kNoEdge && e != first);
+  if (e == first) return;
+  // Beyond a border: the others are to the left of the first.
+  for (e = mesh_.across(previous_edge(first)); e != kNoEdge; e = mesh_.across(previous_edge(e)))
+    visit(triangle_of(e));
+}
+
+}  // namespace holdfast::plane

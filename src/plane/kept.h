@@ -1,0 +1,18 @@
+// The triangles of the regions that are kept, as refinement takes and leaves them.
+#pragma once
+
+#include "holdfast/plane.h"
+#include "plane/refine.h"
+#include "plane/regions.h"
+
+namespace holdfast::plane {
+
+/// Nothing but kept triangles, which have their regions as marks and end at constraints.
+[[nodiscard]] Triangles kept_part(const Triangles& mesh, const Regions& regions,
+                                  const std::vector<bool>& kept);
+
+/// Gives a refined mesh the pieces of segments, in their direction and with their markers, which points on
+/// them have, too.
+void cut_segments(const Plane& plane, const Refined& refined, PlaneMesh& mesh);
+
+}  // namespace holdfast::plane

@@ -1,0 +1,103 @@
+// Polygons and facets in space as points and segments in planes.
+#include <algorithm>
+
+#include "plane/facets.h"
+#include "plane/level.h"
+#include "text/decimal.h"
+
+namespace holdfast::plane {
+namespace {
+
+class Planes {
+ public:
+  Planes(std::span<const Point> vertices, const std::vector<PolygonFacet>& facets, double tolerance)
+      : vertices_(vertices), facets_(facets), tolerance_(tolerance) {}
+
+  FoundPlanes run(const Poll& poll) {
+    PolygonFacet all;
+    for (const PolygonFacet& facet : facets_) {
+      all.polygons.insert(all.polygons.end(), facet.polygons.begin(), facet.polygons.end());
+      all.holes.insert(all.holes.end(), facet.holes.begin(), facet.holes.end());
+    }
+    if (add(all) || facets_.size() == 1) return std::move(found_);
+    found_.reason.clear();
+    for (found_.facet = 0; found_.facet < facets_.size(); ++found_.facet) {
+      if (poll && found_.facet % 256 == 0)
+        poll(static_cast<double>(found_.facet) / static_cast<double>(facets_.size()));
+      if (!add(facets_[found_.facet])) break;
+    }
+    return std::move(found_);
+  }
+
+ private:
+  /// The plane of a facet; false, with the reason, if it has none.
+  bool add(const PolygonFacet& facet) {
+    std::vector<Index> corners;
+    for (const std::vector<Index>& polygon : facet.polygons)
+      corners.insert(corners.end(), polygon.begin(), polygon.end());
+    const Places places(vertices_, corners);
+    const auto fail = [&](std::string reason) {
+      found_.reason = std::move(reason);
+      return false;
+    };
+    if (!places.finite()) return fail("a corner is not finite");
+    if (places.size() < 3) return fail("it has fewer than three places");
+    const Sides edges = edges_of(facet, places);
+    const std::vector<Vertex> first = first_walk(facet, places);
+    const Level level(places, sides_of(first), tolerance_);
+    if (level.straight()) return fail("all corners lie on one line");
+    if (!level.near())
+      return fail("it lies in no plane: its corners are up to " + decimal(level.deviation(), 3) +
+                  " away from the mean one; give a larger tolerance");
+    found_.deviation = std::max(found_.deviation, level.deviation());
+    PlanesInSpace::Part part;
+    part.axis = level.axis();
+    part.normal = level.normal();
+    for (Vertex v = 0; v < places.size(); ++v) {
+      part.plane.points.push_back(level.project(places.at(v)));
+      part.numbers.push_back(places.index(v));
+    }
+    part.turned = turns_right(part.plane.points, first);
+    part.plane.segments.assign(edges.begin(), edges.end());
+    for (const Point& hole : facet.holes) part.plane.holes.push_back(level.project(hole));
+    found_.planes.parts.push_back(std::move(part));
+    return true;
+  }
+
+  /// Each side once.
+  static Sides edges_of(const PolygonFacet& facet, const Places& places) {
+    Sides edges;
+    for (const std::vector<Index>& polygon : facet.polygons)
+      for (const auto& [a, b] : sides_of(walk_of(polygon, places)))
+        if (a != b) edges.push_back({std::min(a, b), std::max(a, b)});
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+  }
+  /// Of the first polygon with an area, which tells the mean plane, and how the triangles turn.
+  static std::vector<Vertex> first_walk(const PolygonFacet& facet, const Places& places) {
+    for (const std::vector<Index>& polygon : facet.polygons)
+      if (polygon.size() >= 3) return walk_of(polygon, places);
+    return {};
+  }
+  static std::vector<Vertex> walk_of(const std::vector<Index>& polygon, const Places& places) {
+    std::vector<Vertex> walk;
+    walk.reserve(polygon.size());
+    for (const Index corner : polygon) walk.push_back(places.place_of(corner));
+    return walk;
+  }
+
+  std::span<const Point> vertices_;
+  const std::vector<PolygonFacet>& facets_;
+  double tolerance_;
+  FoundPlanes found_;
+};
+
+}  // namespace
+
+FoundPlanes planes_of(std::span<const Point> vertices, const std::vector<PolygonFacet>& facets,
+                      double tolerance, const Poll& poll) {
+  return Planes(vertices, facets, tolerance).run(poll);
+}
+
+}  // namespace holdfast::plane

@@ -1,0 +1,43 @@
+// Points that make triangles well shaped and small enough: Delaunay refinement.
+//
+// After J. Ruppert, "A Delaunay refinement algorithm for quality 2-dimensional mesh generation" (J.
+// Algorithms 1995); G.L. Miller, S.E. Pav, N.J. Walkington, "When and why Ruppert's algorithm works" (12th
+// International Meshing Roundtable, 2003), whose variant ends for every input and every bound up to 26.45
+// degrees; and A. Ungor, "Off-centers" (LATIN 2004), which takes fewer points.
+#pragma once
+
+#include "plane/sweep.h"
+
+namespace holdfast::plane {
+
+struct RefineOptions {
+  double angle = 0;                ///< least angle of a triangle, degrees
+  double size = 0;                 ///< most that an edge may measure; 0: no limit
+  std::vector<double> areas = {};  ///< most that a triangle may measure, by its mark; 0: no limit
+  bool keep_boundary = false;      ///< no point on constraints
+  std::size_t most_points = 0;     ///< that may be added
+};
+
+struct Refined {
+  struct OnSegment {
+    std::uint32_t segment;
+    double where;  ///< grows from the segment's first end to the second
+    Vertex point;
+  };
+  std::vector<OnSegment> on_segments;  ///< in the order of the segments, and along them
+  std::size_t inside = 0;              ///< points added on no constraint
+  std::size_t on_others = 0;           ///< on constraints that are no segments: the convex hull
+  std::size_t small_input =
+      0;  ///< triangles below the bound in, or across from, a small angle between segments
+  std::size_t small_left = 0;  ///< others below the bound
+  std::size_t large_left = 0;  ///< triangles above the limits of size
+  bool capped = false;         ///< stopped at `most_points`
+};
+
+/// Adds points to constrained Delaunay triangles that are not closed, but bounded by constraints, and keeps
+/// them constrained Delaunay. `mark` of a triangle is its region, which new ones inherit. Points on a segment
+/// are rounded to doubles, so that its pieces are no exact line; all triangles stay positive, exactly.
+[[nodiscard]] Refined refine(Triangles& mesh, Points& points, const std::vector<Ends>& segments,
+                             const RefineOptions& options, const Poll& poll);
+
+}  // namespace holdfast::plane

@@ -1,0 +1,15 @@
+// Options that make sense, alone and together.
+#pragma once
+
+#include "holdfast/plane.h"
+
+namespace holdfast::plane {
+
+inline constexpr std::size_t kMostPoints = std::size_t{1} << 28;
+
+[[nodiscard]] inline bool refines(const PlaneOptions& options) { return options.size > 0 || options.angle; }
+
+/// Throws what holdfast::triangulate says.
+void require_sensible(const Plane& plane, const PlaneOptions& options);
+
+}  // namespace holdfast::plane

@@ -1,0 +1,72 @@
+// Shapes of triangles, measured in floating point, at a scale at which nothing over- or underflows.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "plane/points.h"
+
+namespace holdfast::plane {
+
+/// Coordinates times a power of two, so that the largest is about 1.
+class Scale {
+ public:
+  explicit Scale(const std::vector<Position>& points) {
+    double most = 0;
+    for (const Position& p : points) most = std::max({most, std::abs(p[0]), std::abs(p[1])});
+    exponent_ = most > 0 ? std::ilogb(most) : 0;
+  }
+  [[nodiscard]] Position down(const Position& p) const {
+    return {std::scalbn(p[0], -exponent_), std::scalbn(p[1], -exponent_)};
+  }
+  [[nodiscard]] Position up(const Position& p) const {
+    return {std::scalbn(p[0], exponent_), std::scalbn(p[1], exponent_)};
+  }
+  /// A length of some subnormal steps, below which doubles are too coarse to cut an edge.
+  [[nodiscard]] double finest() const { return std::scalbn(0x1p-1068, -exponent_); }
+  [[nodiscard]] double length_down(double length) const { return std::scalbn(length, -exponent_); }
+  [[nodiscard]] double area_down(double area) const {
+    return std::scalbn(std::scalbn(area, -exponent_), -exponent_);
+  }
+
+ private:
+  int exponent_ = 0;
+};
+
+[[nodiscard]] inline double squared(const Position& a, const Position& b) {
+  const double x = a[0] - b[0], y = a[1] - b[1];
+  return x * x + y * y;
+}
+/// Of the vectors from p to a and to b.
+[[nodiscard]] inline double dot_from(const Position& p, const Position& a, const Position& b) {
+  return (a[0] - p[0]) * (b[0] - p[0]) + (a[1] - p[1]) * (b[1] - p[1]);
+}
+[[nodiscard]] inline double cross_from(const Position& p, const Position& a, const Position& b) {
+  return (a[0] - p[0]) * (b[1] - p[1]) - (a[1] - p[1]) * (b[0] - p[0]);
+}
+[[nodiscard]] inline Position middle(const Position& a, const Position& b) {
+  return {a[0] + (b[0] - a[0]) / 2, a[1] + (b[1] - a[1]) / 2};
+}
+
+/// Edge i lies opposite to corner i.
+struct Shape {
+  Shape(const Position& a, const Position& b, const Position& c)
+      : edges{squared(b, c), squared(c, a), squared(a, b)} {
+    const auto least = std::min_element(edges.begin(), edges.end());
+    shortest = static_cast<std::uint32_t>(least - edges.begin());
+    const double p = edges[(shortest + 1) % 3], q = edges[(shortest + 2) % 3];
+    cosine = (p + q - edges[shortest]) / (2 * std::sqrt(p) * std::sqrt(q));
+  }
+  std::array<double, 3> edges;  ///< squares of lengths
+  std::uint32_t shortest;
+  double cosine;  ///< of the least angle, which lies opposite to the shortest edge
+};
+
+/// The centre of the circle through a, b and c; not finite where they lie on a line as far as doubles tell.
+[[nodiscard]] inline Position circumcentre(const Position& a, const Position& b, const Position& c) {
+  const double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
+  const double twice = 2 * (bx * cy - by * cx), b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
+  return {a[0] + (cy * b2 - by * c2) / twice, a[1] + (bx * c2 - cx * b2) / twice};
+}
+
+}  // namespace holdfast::plane
