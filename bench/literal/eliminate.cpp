@@ -141,8 +141,9 @@ class Eliminator {
   }
 
   // "Among the element facets, we guess those which can emulate a polygon on the other side" (§6.3.2): the
-  // shortest way on P's link from one neighbour to the other, off the polygons that there are. Where its
-  // triangles would repeat an edge that stands, another way; the last resort is one more copy of P inside.
+  // shortest way on P's link from one neighbour to the other, off the polygons that there are. A way over one
+  // vertex is a triangle; a longer one gets one more copy of P inside, since edges between its vertices may
+  // stand already, now or when a facet's polygon needs them.
   std::optional<Fan> emulated(Vertex p, Vertex a, Vertex b, const std::vector<Fan>& fans) {
     std::set<Vertex> closed;
     for (const Fan& fan : fans) closed.insert(fan.rim.begin() + 1, fan.rim.end() - 1);
@@ -152,14 +153,10 @@ class Eliminator {
         link[x].insert(y);
         link[y].insert(x);
       });
-    const std::vector<Vertex> first = shortest_way(link, a, b, closed);
-    for (std::vector<Vertex> way = first; !way.empty(); way = shortest_way(link, a, b, closed)) {
-      for (const bool from_a : {true, false})
-        if (std::optional<Fan> fan = filled(way, from_a)) return fan;
-      closed.insert(way[way.size() / 2]);
-    }
-    if (first.empty() || soup_.has_edge(a, b)) return std::nullopt;
-    return filled_round(soup_.copy(p), first);
+    const std::vector<Vertex> way = shortest_way(link, a, b, closed);
+    if (way.empty() || soup_.has_edge(a, b)) return std::nullopt;
+    if (way.size() == 3) return Fan{way, false, std::nullopt, {{way[0], way[1], way[2]}}};
+    return filled_round(soup_.copy(p), way);
   }
 
   static std::vector<Vertex> shortest_way(const std::map<Vertex, std::set<Vertex>>& link, Vertex a, Vertex b,
@@ -173,19 +170,6 @@ class Eliminator {
     while (way.back() != a) way.push_back(from[way.back()]);
     std::reverse(way.begin(), way.end());
     return way;
-  }
-
-  // A fan of triangles from one end over the way; new edges must not stand already.
-  std::optional<Fan> filled(const std::vector<Vertex>& way, bool from_a) const {
-    Fan fan{way, false, std::nullopt};
-    const Vertex apex = from_a ? way.front() : way.back();
-    const std::size_t first = from_a ? 1 : 0;
-    for (std::size_t j = first; j + 1 < way.size() - (from_a ? 0 : 1); ++j) {
-      fan.triangles.push_back({apex, way[j], way[j + 1]});
-      const Vertex far = from_a ? way[j + 1] : way[j];
-      if (soup_.has_edge(apex, far)) return std::nullopt;
-    }
-    return fan;
   }
 
   // The polygon of the way and of the edge between its ends, with a vertex of its own inside.

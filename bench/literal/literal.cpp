@@ -142,8 +142,8 @@ void take_constraints(const Surface& surface, Volume& volume) {
     volume.facets.push_back(surface.facets[f]);
     if (!surface.facet_markers.empty()) volume.facet_markers.push_back(surface.facet_markers[f]);
   }
-  for (std::size_t s = 0; s < surface.segments.size(); ++s) {
-    if (!edges.contains(edge_key(surface.segments[s][0], surface.segments[s][1]))) continue;
+  for (std::size_t s = 0; s < surface.segments.size(); ++s) {  // one that is given twice is one
+    if (edges.erase(edge_key(surface.segments[s][0], surface.segments[s][1])) == 0) continue;
     volume.segments.push_back(surface.segments[s]);
     if (!surface.segment_markers.empty()) volume.segment_markers.push_back(surface.segment_markers[s]);
   }

@@ -19,7 +19,7 @@ struct How {
   bool flips = false;      ///< recover by flips first (§4); else partition does all
   bool grow = true;        ///< points of segments by generalized cavities (Fig. 10); else by local splits
   bool untangle = true;    ///< to the end; else the mesh is left as elimination leaves it
-  double time_limit = 60;  ///< seconds, of untangling
+  double time_limit = 60;  ///< seconds, of untangling; 0: none
   std::size_t most_points = SIZE_MAX;  ///< of the partition; beyond, the run is given up
 };
 

@@ -115,7 +115,7 @@ def space(options, folder, rows):
     for number in range(8, 13):
         lines += figure(options, folder, rows, number)
     lines += ["### The method, literally", "",
-              "`bench/literal` does what §5 and §6 say in the order in which they say it, without flips: all segments are partitioned, then all facets; the points "
+              "`bench/literal` does what §5 and §6 say in the order in which they say it, without flips but where it says so: all segments are partitioned, then all facets; the points "
               "of facets are taken off, then those of segments with 1, 2, 3 or more facets standing; each point becomes as many as its ball has parts, all left in "
               "its place; null and negative tetrahedra are counted; `untangle` makes them positive, and `check` looks at the result. Nothing takes the copies out "
               "again, so that the meshes have more points than those of `holdfast mesh`.", "",

@@ -12,7 +12,7 @@ from raster import CUT, LARGE, SKIN, View
 
 RANDOM = 200
 CASES = (("Schönhardt's prism", ("make_hard.py", "schonhardt", "{}")), ("Chazelle, n = 2", ("make_hard.py", "chazelle", "{}", "-n", "2")),
-         ("Fig. 13, n = m = 6", ("make_paper.py", "worst", "{}", "-n", "6", "-m", "6")),
+         ("Fig. 13, n = m = 3", ("make_paper.py", "worst", "{}", "-n", "3", "-m", "3")),
          ("Fig. 14, after flips", next(m for m in models.MODELS if m.figure == 14).make, "--flips"))
 CORNERS = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
 
@@ -71,6 +71,7 @@ def figure_12(_options, _folder, path):
         panel = svg.Panel(f"{name}: {len(repeated)} triangle would stand twice", 1.0)
         panel.triangles(points, [(1, 3, 2)], "#f3e3dc").triangles(points, before[:2], "none")
         panel.lines([(points[3], points[4])], svg.MISSING, True, 2)
+        panel.dots([(4.25, 0.0)], "white", 0.1)  # room for a number
         for number in (1, 2, 3, 4):
             panel.text(points[number], str(number))
         panels.append(panel)
@@ -91,7 +92,7 @@ def torture(options, rows):
 
 def lines(options, folder, rows):
     text = ["| surface | missing: segments, facets | points: on segments, in facets | taken off segments of 0, 1, 2, 3 ... facets | copies | "
-            "null or negative then | in the end | seconds |", "|---|---:|---:|---:|---:|---:|---|---:|"]
+            "null or negative then | in the end | seconds of the clock |", "|---|---:|---:|---:|---:|---:|---|---:|"]
     for name, row in cases(options, folder, rows).items():
         if row is None:
             text.append(f"| {name} | over the time limit |" + " |" * 6)
