@@ -9,7 +9,7 @@ SEED ?= 1
 MINUTES ?= 5
 PYTHON ?= /usr/bin/python3
 
-.PHONY: help setup build demo test python wheel slurm python-corpus corpus random planes fuzz bench field tables paper figures format viewer web-test pictures docs web tidy debug asan tsan libcxx install clean
+.PHONY: help setup build demo test python wheel slurm python-corpus corpus random planes solvers fuzz bench field tables paper figures format viewer web-test pictures docs web tidy debug asan tsan libcxx install clean
 .DEFAULT_GOAL := help
 
 help:  ## this list
@@ -47,6 +47,10 @@ slurm: python  ## an array of four on a Slurm cluster of this machine alone (as 
 
 python-corpus: python  ## N=500 surfaces of CORPUS=dir through batch and through the module: the same bytes
 	@PYTHONPATH=$(RELEASE)/python $(PYTHON) python/tests/corpus.py "$(or $(CORPUS),../shared/corpus)" --jobs $(JOBS) $(ARGS)
+
+solvers: build  ## every format into Debian's solvers, and problems solved by them, to docs/solvers.md (ARGS="--only gmsh")
+	@scripts/setup.sh solvers
+	@$(PYTHON) tests/solvers/run.py $(RELEASE)/holdfast $(if $(ARGS),,--write docs/solvers.md) $(ARGS)
 
 corpus: build  ## meshes and verifies every surface of CORPUS=dir (options: ARGS="--only 'gen_*'")
 	@python3 scripts/corpus.py --holdfast $(RELEASE)/holdfast --corpus "$(or $(CORPUS),../shared/corpus)" \

@@ -6,7 +6,7 @@
 set -uo pipefail
 cd "$(dirname "$0")/.."
 build=$1 seconds=$2 jobs=$3
-targets=(read_surface read_volume read_size_field mesh untangle check plane)
+targets=(read_surface read_volume read_solver read_size_field mesh untangle check plane)
 
 run() {
   local target=$1 build=$2 seconds=$3 corpus=tests/fuzz/corpus/$1

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that a job needs and that are missing; says nothing when none is.
-# Usage: scripts/setup.sh [build|test|python|python-test|paper|slurm|bench|field|fuzz|browser|docs|emscripten|node|lint|libcxx]...
+# Usage: scripts/setup.sh [build|test|python|python-test|paper|solvers|slurm|bench|field|fuzz|browser|docs|emscripten|node|lint|libcxx]...
 set -euo pipefail
 
 declare -A packages=(
@@ -11,6 +11,8 @@ declare -A packages=(
   [python]="python3-dev pybind11-dev python3-numpy python3-setuptools python3-wheel python3-pip python3-venv"
   [python-test]="python3-pytest mypy python3-build python3-meshio python3-vtk9 python3-distributed python3-tqdm"
   [paper]="python3-numpy"
+  [solvers]="calculix-ccx openfoam freefem++ libfreefem++ python3-dolfinx python3-getfem python3-netgen python3-sfepy python3-meshio
+             python3-vtk9 python3-gmsh gmsh netgen"
   [slurm]="slurmctld slurmd slurm-client munge"
   [bench]="tetgen libtet1.5-dev gmsh libcgal-dev libgmp-dev libmpfr-dev libtbb-dev libbenchmark-dev"
   [field]="gmsh tetgen python3-netgen"

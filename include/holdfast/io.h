@@ -104,6 +104,10 @@ struct ReadOptions : Limits {
 struct WriteOptions : Limits {
   bool compress = true;     ///< .vtu: zlib blocks
   bool legacy_msh = false;  ///< .msh: version 2.2 instead of 4.1
+  bool binary = false;      ///< .msh: numbers as bytes
+  bool one_file = false;    ///< .vtu, .xdmf: facets and segments in the same file, not in one beside it
+  bool gzip = false;        ///< OpenFOAM: its files packed, with names that end with .gz
+  bool shells = false;      ///< .inp: facets as shell elements, too
   unsigned threads = 1;     ///< for compression, 0: all there are; the file is the same
   std::string format;       ///< overrides the extension
   ProgressFunction progress = {};
@@ -173,8 +177,14 @@ HOLDFAST_API void write_bytes(const std::filesystem::path& path, std::string_vie
 [[nodiscard]] HOLDFAST_API std::vector<std::filesystem::path> files_of_size_field(
     const std::filesystem::path& path);
 
-/// Extensions that `write_volume` knows, with the dot, in lower case.
+/// Extensions that `write_volume` knows, with the dot, in lower case. ".openfoam" is that of a folder
+/// polyMesh, or of a case, which has one in its folder constant.
 [[nodiscard]] HOLDFAST_API std::vector<std::string> volume_formats();
+/// Extensions that `read_volume` knows.
+[[nodiscard]] HOLDFAST_API std::vector<std::string> readable_volume_formats();
+/// The extension, one of these or not, by which a volume of this name is written.
+[[nodiscard]] HOLDFAST_API std::string volume_format_of(const std::filesystem::path& path,
+                                                        std::string_view format = {});
 
 /// Writes the places of defects as points and lines for a viewer, a .vtu file whatever its name.
 ///

@@ -112,6 +112,10 @@ def plan(
         if other is not name:
             raise BatchError(f"{other} and {name} would both be written as {stem_of(name)}; rename one, or use two folders")
     ending = "." + format.lstrip(".")
+    for stem, name in by_stem.items():
+        if ending == ".vtu" and stem + "_surface" in by_stem:
+            raise BatchError(f"the triangles of {name} would be written over {by_stem[stem + '_surface']}'s volume; "
+                             "rename one, or use two folders")
     limits = [] if time_limit is None else ["--time-limit", repr(float(time_limit))]
     memory = bytes_of(memory_limit)
     limits += [] if memory is None else ["--memory-limit", repr(memory / 1e9)]

@@ -50,7 +50,7 @@ def test_statuses_and_table(parts, tmp_path):
     assert rows["part0"]["tetrahedra"] > 0 and rows["part0"]["min_dihedral_deg"] > 0 and rows["part0"]["seconds"] > 0
     assert "line 2" in rows["bad"]["message"]
     assert run.stdout.splitlines()[-1] == "7 parts: 4 done, 1 invalid, 2 failed"
-    assert sorted(p.name for p in out.iterdir()) == [f"part{i}.vtu" for i in range(4)]
+    assert sorted(p.name for p in out.iterdir()) == sorted(f"part{i}{end}.vtu" for i in range(4) for end in ("", "_surface"))
     assert holdfast.check(parts[0], out / "part0.vtu").holds
 
 

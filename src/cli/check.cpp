@@ -97,8 +97,8 @@ void add_check(CLI::App& app, Command& chosen) {
   command
       ->add_option(
           "SURFACE VOLUME", arguments->files,
-          "The surfaces that were meshed, then the volume (.vtu .vtk .mesh .meshb .msh .node); or the "
-          "folder of a split surface")
+          "The surfaces that were meshed, then the volume (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf "
+          ".su2 .mfem .vol .node); or the folder of a split surface")
       ->transform(or_standard_input)
       ->required();
   command->add_flag("--outside-dropped", arguments->options.outside_dropped,

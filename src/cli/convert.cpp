@@ -16,6 +16,7 @@
 #include "parts_of_mesh.h"
 #include "signals.h"
 #include "summary.h"
+#include "write_options.h"
 
 namespace holdfast::cli {
 namespace {
@@ -26,6 +27,7 @@ struct ConvertArguments {
   std::vector<std::string> only, names;
   std::optional<double> scale;
   OrderArguments order;
+  WriteArguments writing;
   LimitArguments limits;
   unsigned threads = 1;
   bool quiet = false;
@@ -85,6 +87,9 @@ int run(const ConvertArguments& arguments) {
   read_any(files, arguments.input, arguments.input_format);
   take_order(arguments.order, files);
   AnyTarget target = write_any(files, "the output", arguments.output, arguments.format);
+  VolumeTarget written{arguments.output, target.options};
+  apply(arguments.writing, written);
+  target.options = written.options;
   target.options.threads = arguments.threads;
   watch_writing(target.options, limits);
   cancel_at_once();
@@ -138,6 +143,7 @@ void add_convert(CLI::App& app, Command& chosen) {
   command->add_option("--scale", arguments->scale, "Multiply all lengths")->option_text("F");
   add_name_option(*command, arguments->names);
   add_order(*command, arguments->order);
+  add_write_options(*command, arguments->writing);
   command
       ->add_option("--format", arguments->format, "Format to write, instead of by ending; msh2 is .msh 2.2")
       ->option_text("FORMAT");

@@ -103,8 +103,10 @@ void add_delaunay(CLI::App& app, Command& chosen) {
       ->transform(or_standard_input)
       ->required();
   command
-      ->add_option("-o,--output", arguments->output,
-                   "Volume file (.vtu .vtk .mesh .meshb .msh .node), -: standard output")
+      ->add_option(
+          "-o,--output", arguments->output,
+          "Volume file (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol .xdmf .node, "
+          "or OpenFOAM's constant/polyMesh), -: standard output")
       ->transform(or_standard_output)
       ->required()
       ->option_text("VOLUME");
@@ -115,7 +117,9 @@ void add_delaunay(CLI::App& app, Command& chosen) {
   command->add_option("--report", arguments->report, "Write counts and times as JSON")
       ->transform(or_standard_output)
       ->option_text("FILE.json");
-  command->add_option("--format", arguments->format, "Volume format, instead of by ending; msh2 is .msh 2.2")
+  command
+      ->add_option("--format", arguments->format,
+                   "Volume format, instead of by ending; msh2 is .msh 2.2, openfoam a case")
       ->option_text("FORMAT");
   command->add_option("--input-format", arguments->input_format, "Format of the points, instead of by ending")
       ->option_text("FORMAT");

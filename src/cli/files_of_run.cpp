@@ -102,6 +102,16 @@ void require_writable(const fs::path& path) {
                                 folder.string(), std::strerror(errno)));
 }
 
+/// The same for a file in folders that are made when it is written.
+void require_writable_with_folders(const fs::path& path) {
+  std::error_code ignored;
+  fs::path folder = folder_of(path);
+  if (fs::is_directory(folder, ignored)) return require_writable(path);
+  while (!fs::exists(folder, ignored) && folder.has_parent_path()) folder = folder.parent_path();
+  if (!fs::exists(folder, ignored)) folder = ".";
+  require_writable(folder / "polyMesh-would-be-here");
+}
+
 /// Without an ending the format must be told; a pipe has none, and what is in it can be read only once.
 void require_format(const fs::path& path, std::string_view format) {
   std::error_code ignored;
@@ -115,6 +125,10 @@ void require_format(const fs::path& path, std::string_view format) {
 std::string or_standard_input(const std::string& path) { return path == "-" ? standard_input : path; }
 
 std::string or_standard_output(const std::string& path) { return path == "-" ? standard_output : path; }
+
+std::string format_of(const VolumeTarget& target) {
+  return volume_format_of(target.path, target.options.format);
+}
 
 void FilesOfRun::read_surfaces(const std::vector<fs::path>& paths, std::string_view format) {
   for (const fs::path& path : paths) {
@@ -145,7 +159,7 @@ void FilesOfRun::read(std::string_view option, const std::vector<fs::path>& path
   }
 }
 
-void FilesOfRun::write(std::string_view option, const fs::path& path) {
+void FilesOfRun::write(std::string_view option, const fs::path& path, bool with_folders) {
   if (path.empty()) return;
   File file{std::string(option), path, true, true, {}, {}};
   const fs::path target = linked(path);
@@ -154,7 +168,10 @@ void FilesOfRun::write(std::string_view option, const fs::path& path) {
     file.name = target.filename();
     static_cast<void>(stat(folder_of(target).c_str(), &file.status));
   }
-  require_writable(path);
+  if (with_folders)
+    require_writable_with_folders(path);
+  else
+    require_writable(path);
   if (descriptor_of(target) == STDOUT_FILENO) writes_stdout_ = true;
   add(std::move(file));
 }
@@ -167,8 +184,7 @@ VolumeTarget FilesOfRun::write_volume(std::string_view option, const fs::path& p
     target.options.format = ".msh";
     target.options.legacy_msh = true;
   }
-  const std::string kind =
-      target.options.format.empty() ? lower(path.extension().string()) : target.options.format;
+  const std::string kind = format_of(target);
   const std::vector<std::string> known = volume_formats();
   if (std::find(known.begin(), known.end(), kind) == known.end())
     throw UsageError(fmt::format(
@@ -177,10 +193,11 @@ VolumeTarget FilesOfRun::write_volume(std::string_view option, const fs::path& p
         fmt::join(known, " "), path == standard_output ? "" : "as the file's ending or "));
   const std::vector<fs::path> files = files_of_volume(path, target.options.format);
   struct stat status {};
-  if (files.size() > 1 && status_of(path, status) && !S_ISREG(status.st_mode))
+  if (files.size() > 1 && kind != ".openfoam" && status_of(path, status) && !S_ISREG(status.st_mode))
     throw UsageError(fmt::format("{}: the format {} is of {} files beside one another, which need a name",
                                  called(path), kind, files.size()));
-  for (const fs::path& file : files) write(option, file);
+  // A case of OpenFOAM need not have the folders of its mesh yet.
+  for (const fs::path& file : files) write(option, file, kind == ".openfoam");
   return target;
 }
 

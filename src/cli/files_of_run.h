@@ -22,6 +22,9 @@ struct VolumeTarget {
   WriteOptions options;
 };
 
+/// The format's ending, ".vtu" or so.
+[[nodiscard]] std::string format_of(const VolumeTarget& target);
+
 /// Every file of a run. A command names them all before it does any work; each is compared with those named
 /// before it. What is written must be none that is read or written otherwise, whatever it is called: files
 /// are compared by identity, so that links and other spellings count, and those that are not there yet by
@@ -35,8 +38,9 @@ class FilesOfRun {
   void read_volume(const std::filesystem::path& path, std::string_view format);
   void read_size_field(std::string_view option, const std::filesystem::path& path);
 
-  /// A file of the program's own making. Throws FileError, too, if it cannot be created.
-  void write(std::string_view option, const std::filesystem::path& path);
+  /// A file of the program's own making, in folders that need not be there yet if these are made with it.
+  /// Throws FileError, too, if it cannot be created.
+  void write(std::string_view option, const std::filesystem::path& path, bool with_folders = false);
   /// A volume of a format that is known (`format`, or the extension when it is empty), and what belongs to
   /// it.
   [[nodiscard]] VolumeTarget write_volume(std::string_view option, const std::filesystem::path& path,

@@ -11,6 +11,7 @@
 #include "exact_file.h"
 #include "files.h"
 #include "files_of_run.h"
+#include "holdfast/patches.h"
 #include "idle_options.h"
 #include "limits.h"
 #include "mesh_options.h"
@@ -252,6 +253,14 @@ void tell_defects_of_files(const MeshArguments& arguments, const MeshInput& inpu
   });
 }
 
+/// Gives the facets without a marker one for each smooth patch, and says how many there are.
+void split_by_angle(const MeshArguments& arguments, Surface& surface) {
+  const std::size_t patches = markers_by_angle(surface, *arguments.markers_by_angle);
+  if (patches == 0)
+    throw UsageError("--markers-by-angle does nothing: every triangle of the surface has a marker already");
+  if (!arguments.quiet) say("holdfast: {} by angle\n", counted(patches, "smooth patch", "smooth patches"));
+}
+
 int run(const MeshArguments& arguments) {
   const Stopwatch whole;
   Options options = to_options(arguments);
@@ -265,6 +274,7 @@ int run(const MeshArguments& arguments) {
   files.read_size_field("--size-field", arguments.size_field);
   take_order(arguments.elements, files);
   VolumeTarget target = files.write_volume("-o", arguments.output, arguments.format);
+  apply(arguments.writing, target);
   target.options.threads = arguments.threads;
   watch_writing(target.options, options);
   files.write("--report", arguments.report);
@@ -277,6 +287,10 @@ int run(const MeshArguments& arguments) {
   read_size_field(arguments, options);
   MeshInput input = read_input(arguments, options);
   Surface& surface = input.surface;
+  if (arguments.markers_by_angle) {
+    progress.finish();
+    split_by_angle(arguments, surface);
+  }
   merge(surface.names, names);
   const std::optional<Surface> smooth = read_curved(arguments.elements, options);
   if (!arguments.quiet) tell_of_lone_vertices(arguments, surface, progress);
@@ -335,8 +349,10 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->transform(or_standard_input)
       ->required();
   command
-      ->add_option("-o,--output", arguments->output,
-                   "Volume file (.vtu .vtk .mesh .meshb .msh .node), -: standard output")
+      ->add_option(
+          "-o,--output", arguments->output,
+          "Volume file (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol .xdmf .node, "
+          "or OpenFOAM's constant/polyMesh), -: standard output")
       ->transform(or_standard_output)
       ->required()
       ->option_text("VOLUME");
@@ -381,6 +397,12 @@ void add_mesh(CLI::App& app, Command& chosen) {
   add_curved(*command, arguments->elements);
   add_paste_option(*command, arguments->paste);
   add_overlap_option(*command, arguments->overlap);
+  command
+      ->add_option("--markers-by-angle", arguments->markers_by_angle,
+                   "Give triangles without a marker one for each smooth patch, which ends where triangles meet at "
+                   "DEG degrees or more")
+      ->check(CLI::Range(0.0, 180.0))
+      ->option_text("DEG");
   command->add_flag("--drop-outside", arguments->drop_outside,
                     "Drop facets outside every kept region instead of refusing them");
   command
@@ -427,9 +449,12 @@ void add_mesh(CLI::App& app, Command& chosen) {
                    "suppress or field_points")
       ->option_text("STAGE");
   add_html_option(*command, arguments->html);
-  command->add_option("--format", arguments->format, "Volume format, instead of by ending; msh2 is .msh 2.2")
+  command
+      ->add_option("--format", arguments->format,
+                   "Volume format, instead of by ending; msh2 is .msh 2.2, openfoam a case")
       ->option_text("FORMAT");
   add_tolerance(*command, arguments->tolerance);
+  add_write_options(*command, arguments->writing);
   command->add_option("--input-format", arguments->input_format, "Surface format, instead of by ending")
       ->option_text("FORMAT");
   CLI::Option* quiet =

@@ -183,6 +183,7 @@ Json to_json(const MeshArguments& arguments) {
           {"names", arguments.names},
           {"paste", arguments.paste ? Json(*arguments.paste) : Json(nullptr)},
           {"overlap", arguments.overlap ? Json(*arguments.overlap) : Json(nullptr)},
+          {"markers_by_angle", arguments.markers_by_angle ? Json(*arguments.markers_by_angle) : Json()},
           {"drop_outside", arguments.drop_outside},
           {"without", arguments.without},
           {"stop_after", arguments.stop_after},

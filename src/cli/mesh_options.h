@@ -10,6 +10,7 @@
 #include "holdfast/holdfast.h"
 #include "order_options.h"
 #include "report.h"
+#include "write_options.h"
 
 namespace holdfast::cli {
 
@@ -24,7 +25,7 @@ struct MeshArguments {
   std::optional<std::string> paste;  ///< the tolerance, or empty for none
   std::vector<std::string> holes, regions, without, names;
   std::string stop_after, order;
-  std::optional<double> size, gradation;
+  std::optional<double> size, gradation, markers_by_angle;
   bool no_growth = false;
   std::filesystem::path size_field;
   BoundArguments bounds;
@@ -32,6 +33,7 @@ struct MeshArguments {
   std::uint64_t seed = 1;
   unsigned threads = 1;
   std::optional<double> time_limit, memory_limit;
+  WriteArguments writing;
 };
 
 /// The library's options, but for the size field. Reads no file. Throws UsageError that says what is wrong

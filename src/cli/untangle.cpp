@@ -14,6 +14,7 @@
 #include "progress.h"
 #include "report.h"
 #include "signals.h"
+#include "write_options.h"
 
 namespace holdfast::cli {
 namespace {
@@ -26,6 +27,7 @@ struct UntangleArguments {
   bool no_refill = false, quiet = false, verbose = false;
   std::uint64_t seed = 1;
   std::optional<double> time_limit, memory_limit;
+  WriteArguments writing;
 };
 
 UntangleOptions to_options(const UntangleArguments& arguments) {
@@ -112,6 +114,7 @@ int run(const UntangleArguments& arguments) {
   FilesOfRun files;
   files.read_volume(arguments.input, arguments.input_format);
   VolumeTarget target = files.write_volume("-o", arguments.output, arguments.format);
+  apply(arguments.writing, target);
   watch_writing(target.options, options);
   files.write("--report", arguments.report);
   files.write("--html", arguments.html);
@@ -147,12 +150,17 @@ void add_untangle(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<UntangleArguments>();
   CLI::App* command = app.add_subcommand(
       "untangle", "Make every tetrahedron of a tangled volume positive, with its boundary as it is");
-  command->add_option("VOLUME", arguments->input, "Tangled volume file (.vtu .vtk .mesh .meshb .msh .node)")
+  command
+      ->add_option(
+          "VOLUME", arguments->input,
+          "Tangled volume file (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol .node)")
       ->transform(or_standard_input)
       ->required();
   command
-      ->add_option("-o,--output", arguments->output,
-                   "Volume file (.vtu .vtk .mesh .meshb .msh .node), -: standard output")
+      ->add_option(
+          "-o,--output", arguments->output,
+          "Volume file (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol .xdmf .node, "
+          "or OpenFOAM's constant/polyMesh), -: standard output")
       ->transform(or_standard_output)
       ->required()
       ->option_text("VOLUME");
@@ -167,8 +175,11 @@ void add_untangle(CLI::App& app, Command& chosen) {
       ->transform(or_standard_output)
       ->option_text("FILE.json");
   add_html_option(*command, arguments->html);
-  command->add_option("--format", arguments->format, "Volume format, instead of by ending; msh2 is .msh 2.2")
+  command
+      ->add_option("--format", arguments->format,
+                   "Volume format, instead of by ending; msh2 is .msh 2.2, openfoam a case")
       ->option_text("FORMAT");
+  add_write_options(*command, arguments->writing);
   command
       ->add_option("--input-format", arguments->input_format,
                    "Format of the tangled volume, instead of by ending")

@@ -6,6 +6,7 @@
 
 #include "holdfast/io.h"
 #include "io/file_bytes.h"
+#include "io/formats.h"
 #include "io/text_reader.h"
 
 namespace holdfast {
@@ -44,6 +45,7 @@ Paths tetgen_files(const std::filesystem::path& path) {
 
 Paths files_of_surface(const std::filesystem::path& path, std::string_view format) {
   const std::string extension = extension_of(path, format);
+  if (extension == ".vtu" || extension == ".vtm") return files_of_volume(path, format);
   if ((extension == ".poly" || extension == ".smesh") && has_nodes_beside(path))
     return {path, io::sibling(path, ".node")};
   return {path};
@@ -52,6 +54,17 @@ Paths files_of_surface(const std::filesystem::path& path, std::string_view forma
 Paths files_of_volume(const std::filesystem::path& path, std::string_view format) {
   const std::string extension = extension_of(path, format);
   if (extension == ".node" || extension == ".ele" || extension == ".face") return tetgen_files(path);
+  const std::filesystem::path plain = io::without_gz(path);
+  if (extension == ".vtu" && io::can_have_a_file_beside(path)) return {path, io::surface_beside(plain)};
+  if (extension == ".openfoam" || (extension.empty() && io::is_poly_mesh(path)))
+    return io::openfoam_files(path);
+  if (extension == ".xdmf")
+    return {path, io::with_ending(path, ".h5"), io::surface_beside(path),
+            io::surface_beside(io::with_ending(path, ".h5"))};
+  if (extension == ".vtm") {
+    const std::filesystem::path grid = io::with_ending(plain, ".vtu");
+    return {path, grid, io::surface_beside(grid)};
+  }
   return {path};
 }
 

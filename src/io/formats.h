@@ -32,6 +32,7 @@ struct GmfSolution {
 [[nodiscard]] GmfSolution read_gmf_solution(const Source& source);
 [[nodiscard]] MeshData read_msh(const Source& source);
 [[nodiscard]] MeshData read_vtk(const Source& source);
+/// Also reads NAME_surface.vtu where the file says that there is one.
 [[nodiscard]] MeshData read_vtu(const Source& source);
 /// Numbers at the points of a grid, the components of each one together.
 struct PointArray {
@@ -43,11 +44,60 @@ struct PointArray {
 
 void write_medit(AtomicWriter& out, const Volume& volume);
 void write_msh(AtomicWriter& out, const Volume& volume, const WriteOptions& options);
+[[nodiscard]] std::vector<Remark> not_in_msh(const Volume& volume, const WriteOptions& options);
+[[nodiscard]] MeshData read_inp(const Source& source);
+void write_inp(AtomicWriter& out, const Volume& volume, const WriteOptions& options);
+[[nodiscard]] std::vector<Remark> not_in_inp(const Volume& volume, const WriteOptions& options);
+[[nodiscard]] MeshData read_unv(const Source& source);
+void write_unv(AtomicWriter& out, const Volume& volume);
+[[nodiscard]] std::vector<Remark> not_in_unv(const Volume& volume, const WriteOptions& options);
+[[nodiscard]] MeshData read_su2(const Source& source);
+void write_su2(AtomicWriter& out, const Volume& volume);
+[[nodiscard]] std::vector<Remark> not_in_su2(const Volume& volume, const WriteOptions& options);
+[[nodiscard]] MeshData read_mfem(const Source& source);
+void write_mfem(AtomicWriter& out, const Volume& volume);
+[[nodiscard]] std::vector<Remark> not_in_mfem(const Volume& volume, const WriteOptions& options);
+[[nodiscard]] MeshData read_vol(const Source& source);
+void write_vol(AtomicWriter& out, const Volume& volume);
+[[nodiscard]] std::vector<Remark> not_in_vol(const Volume& volume, const WriteOptions& options);
+[[nodiscard]] MeshData read_bdf(const Source& source);
+/// Throws std::invalid_argument for more nodes or elements than eight digits count.
+void write_bdf(AtomicWriter& out, const Volume& volume);
+[[nodiscard]] std::vector<Remark> not_in_bdf(const Volume& volume, const WriteOptions& options);
+/// A number in at most 16 characters, as near as they allow.
+[[nodiscard]] std::string nastran_real(double value);
 /// Writes .node, .ele, .face and .edge beside `path`.
 void write_tetgen(const std::filesystem::path& path, const Volume& volume, Watch* watch = nullptr);
 void write_gmf(AtomicWriter& out, const Volume& volume);
 void write_vtk(AtomicWriter& out, const Volume& volume);
-void write_vtu(AtomicWriter& out, const Volume& volume, const WriteOptions& options);
+/// Writes NAME.vtu, and what bounds the tetrahedra to NAME_surface.vtu beside it where that can be.
+void write_vtu(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options,
+               Watch& watch);
+/// Writes both, and NAME.vtm, which names them as blocks.
+void write_vtm(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options,
+               Watch& watch);
+/// Writes NAME.xdmf and NAME_surface.xdmf, each with its arrays in a file .h5 of its name.
+void write_xdmf(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options,
+                Watch& watch);
+[[nodiscard]] std::vector<Remark> not_in_xdmf(const Volume& volume, const WriteOptions& options);
+/// Writes OpenFOAM's polyMesh into a folder, which is made where it is not there.
+void write_openfoam(const std::filesystem::path& folder, const Volume& volume, const WriteOptions& options,
+                    Watch& watch);
+[[nodiscard]] std::vector<Remark> not_in_openfoam(const Volume& volume, const WriteOptions& options);
+/// Whether a path names a folder polyMesh, which tells the format as an ending does.
+[[nodiscard]] inline bool is_poly_mesh(const std::filesystem::path& path) {
+  return (path.has_filename() ? path : path.parent_path()).filename() == "polyMesh";
+}
+/// The polyMesh folder that a path names: this itself, or constant/polyMesh in the case.
+[[nodiscard]] std::filesystem::path poly_mesh_of(const std::filesystem::path& path);
+/// The files in it, as they are written.
+[[nodiscard]] std::vector<std::filesystem::path> openfoam_files(const std::filesystem::path& path);
+[[nodiscard]] MeshData read_vtm(const Source& source);
+/// NAME_surface with the same ending.
+[[nodiscard]] std::filesystem::path surface_beside(const std::filesystem::path& path);
+[[nodiscard]] std::filesystem::path with_ending(const std::filesystem::path& path, const char* ending);
+/// Whether a path names a file, or none yet: what can have others beside it, as a pipe cannot.
+[[nodiscard]] bool can_have_a_file_beside(const std::filesystem::path& path);
 
 /// Parses bytes as the format of an extension such as ".off", or else of the path's own. Throws
 /// FileError.

@@ -192,14 +192,16 @@ class GmfReader {
   std::optional<GmfSolution> solution_;  // where it is asked for
 };
 
-/// Writes version 3, which meshes of any size fit, in the machine's byte order.
+/// Writes version 2, which every program reads, where its positions of 32 bits reach, and version 3 beyond,
+/// in the machine's byte order.
 class GmfWriter {
  public:
   explicit GmfWriter(AtomicWriter& out) : out_(out) {}
 
   void write(const Volume& volume) {
+    wide_ = size_in_version_2(volume) > std::uint64_t{std::numeric_limits<std::int32_t>::max()};
     put<std::int32_t>(1);
-    put<std::int32_t>(3);
+    put<std::int32_t>(wide_ ? 3 : 2);
     start(kDimension, 4);
     put<std::int32_t>(3);
     const MidNodes& mid = volume.mid_nodes;
@@ -220,10 +222,25 @@ class GmfWriter {
     write_entities(second ? kTrianglesP2 : kTriangles, volume.facets, mid.facets, volume.facet_markers);
     write_entities(second ? kTetrahedraP2 : kTetrahedra, volume.tetrahedra, mid.tetrahedra, volume.regions);
     put<std::int32_t>(kEnd);
-    put<std::int64_t>(0);
+    put_position(0);
   }
 
  private:
+  static std::uint64_t size_in_version_2(const Volume& volume) {
+    constexpr std::uint64_t kHeads = 64;  // of the sections, and the ends of the file
+    const MidNodes& mid = volume.mid_nodes;
+    return kHeads + 28 * (volume.vertices.size() + mid.points.size()) + 12 * volume.segments.size() +
+           16 * volume.facets.size() + 20 * volume.tetrahedra.size() + 4 * mid.segments.size() +
+           12 * mid.facets.size() + 24 * mid.tetrahedra.size();
+  }
+
+  void put_position(std::uint64_t position) {
+    if (wide_)
+      put(static_cast<std::int64_t>(position));
+    else
+      put(static_cast<std::int32_t>(position));
+  }
+
   template <typename T>
   void put(T value) {
     std::string bytes;  // short enough to need no allocation
@@ -235,7 +252,7 @@ class GmfWriter {
   /// Starts a section of `size` bytes behind its head.
   void start(Keyword keyword, std::uint64_t size) {
     put<std::int32_t>(keyword);
-    put(static_cast<std::int64_t>(position_ + 8 + size));
+    put_position(position_ + (wide_ ? 8 : 4) + size);
   }
 
   /// With their nodes on edges, in our order, behind the corners, if there are any.
@@ -254,6 +271,7 @@ class GmfWriter {
   }
 
   AtomicWriter& out_;
+  bool wide_ = false;
   std::uint64_t position_ = 0;
 };
 

@@ -7,6 +7,7 @@
 
 #include "io/file_bytes.h"
 #include "io/formats.h"
+#include "io/mid_nodes.h"
 #include "io/text_reader.h"
 #include "numbers/float_environment.h"
 #include "text/decimal.h"
@@ -35,12 +36,15 @@ void write_tetgen_files(const std::filesystem::path& path, const Volume& volume,
   write_tetgen(path, volume, &watch);
 }
 
+using Remarks = std::vector<Remark> (*)(const Volume&, const WriteOptions&);
+
 constexpr double kRead = 0.3;  // of the work, once the bytes of a file are in memory
 
 struct Format {
   std::string_view extension;
-  Reader surface, volume;  ///< null: not read as such
-  Writer write;            ///< null: volumes are not written in it
+  Reader surface, volume;      ///< null: not read as such
+  Writer write;                ///< null: volumes are not written in it
+  Remarks not_held = nullptr;  ///< what the writer does not hold as it is; null: everything is held
 };
 
 constexpr Format kFormats[] = {
@@ -52,10 +56,20 @@ constexpr Format kFormats[] = {
     {".meshb", read_gmf, read_gmf, write_file<write_gmf>},
     {".poly", read_poly, nullptr, nullptr},
     {".smesh", read_smesh, nullptr, nullptr},
-    {".vtu", read_vtu, read_vtu, write_file<write_vtu>},
+    {".vtu", read_vtu, read_vtu, write_vtu},
+    {".vtm", read_vtm, read_vtm, write_vtm},
     {".vtp", read_vtu, nullptr, nullptr},
     {".vtk", read_vtk, read_vtk, write_file<write_vtk>},
-    {".msh", read_msh, read_msh, write_file<write_msh>},
+    {".msh", read_msh, read_msh, write_file<write_msh>, not_in_msh},
+    {".inp", read_inp, read_inp, write_file<write_inp>, not_in_inp},
+    {".unv", read_unv, read_unv, write_file<write_unv>, not_in_unv},
+    {".bdf", read_bdf, read_bdf, write_file<write_bdf>, not_in_bdf},
+    {".nas", read_bdf, read_bdf, write_file<write_bdf>, not_in_bdf},
+    {".su2", read_su2, read_su2, write_file<write_su2>, not_in_su2},
+    {".mfem", read_mfem, read_mfem, write_file<write_mfem>, not_in_mfem},
+    {".vol", read_vol, read_vol, write_file<write_vol>, not_in_vol},
+    {".xdmf", nullptr, nullptr, write_xdmf, not_in_xdmf},
+    {".openfoam", nullptr, nullptr, write_openfoam, not_in_openfoam},
     {".node", read_node, read_tetgen_volume, write_tetgen_files},
     {".ele", nullptr, read_tetgen_volume, write_tetgen_files},
     {".face", nullptr, read_tetgen_volume, write_tetgen_files},
@@ -65,6 +79,7 @@ constexpr Format kFormats[] = {
 std::string extension_of(const std::filesystem::path& path, std::string_view format) {
   std::string extension = lower(format.empty() ? path.extension().string() : std::string(format));
   if (!extension.empty() && extension[0] != '.') extension.insert(0, 1, '.');
+  if (extension.empty() && is_poly_mesh(path)) extension = ".openfoam";
   return extension;
 }
 
@@ -91,6 +106,11 @@ const Format& surface_format(const std::filesystem::path& path, std::string_view
 const Format& volume_format(const std::filesystem::path& path, std::string_view format) {
   return find_format(path, extension_of(without_gz(path), format), "read as a volume",
                      [](const Format& f) { return f.volume != nullptr; });
+}
+
+const Format& writer_of(const std::filesystem::path& path, std::string_view format) {
+  return find_format(path, extension_of(path, format), "written",
+                     [](const Format& f) { return f.write != nullptr; });
 }
 
 /// A volume whose tags do not match its entities is the caller's mistake.
@@ -130,6 +150,7 @@ double tolerance_of(const ReadOptions& options) {
 MeshData parse_surface(const Source& source, std::string_view format) {
   MeshData mesh = surface_format(source.path, format).surface(source);
   if (mesh.vertices.empty()) throw FileError(source.path, "", "the file holds no vertices");
+  settle_mid_nodes(mesh, false);
   tell_polygons(mesh);
   mesh.leave_out(mesh.tetrahedra.size(), "tetrahedra", "tetrahedron");
   return mesh;
@@ -137,6 +158,7 @@ MeshData parse_surface(const Source& source, std::string_view format) {
 
 MeshData parse_volume(const Source& source, std::string_view format) {
   MeshData mesh = volume_format(source.path, format).volume(source);
+  settle_mid_nodes(mesh, true);
   tell_polygons(mesh);
   return mesh;
 }
@@ -187,6 +209,7 @@ Volume read_volume(const std::filesystem::path& path, const ReadOptions& options
   volume.facets = std::move(mesh.facets);
   volume.segments = std::move(mesh.segments);
   volume.names = std::move(mesh.names);
+  volume.mid_nodes = std::move(mesh.mid_nodes);
   if (remarks != nullptr) *remarks = std::move(mesh.remarks);
   watch.finish();
   return volume;
@@ -221,6 +244,17 @@ std::vector<Point> read_points(const std::filesystem::path& path, std::string_vi
   return read_points(path, options);
 }
 
+std::vector<std::string> readable_volume_formats() {
+  std::vector<std::string> extensions;
+  for (const io::Format& format : io::kFormats)
+    if (format.volume != nullptr) extensions.emplace_back(format.extension);
+  return extensions;
+}
+
+std::string volume_format_of(const std::filesystem::path& path, std::string_view format) {
+  return io::extension_of(path, format);
+}
+
 std::vector<std::string> volume_formats() {
   std::vector<std::string> extensions;
   for (const io::Format& format : io::kFormats)
@@ -230,33 +264,13 @@ std::vector<std::string> volume_formats() {
 
 std::vector<Remark> not_held(const std::filesystem::path& path, const Volume& volume,
                              const WriteOptions& options) {
-  const std::string extension = io::extension_of(path, options.format);
-  std::vector<Remark> remarks;
-  if (extension != ".msh") return remarks;
-  std::size_t negative = 0;
-  for (const auto* ids :
-       {&volume.regions, &volume.facet_markers, &volume.segment_markers, &volume.vertex_markers})
-    negative +=
-        static_cast<std::size_t>(std::count_if(ids->begin(), ids->end(), [](int id) { return id < 0; }));
-  if (negative > 0)
-    remarks.push_back({RemarkKind::not_held, negative,
-                       std::to_string(negative) +
-                           " negative region ids and markers are in the file, but Gmsh takes "
-                           "a negative physical tag for a reversed orientation; other formats hold them"});
-  const auto descends = [](const std::vector<int>& ids) { return !std::is_sorted(ids.begin(), ids.end()); };
-  if (!options.legacy_msh &&
-      (descends(volume.regions) || descends(volume.facet_markers) || descends(volume.segment_markers)))
-    remarks.push_back(
-        {RemarkKind::not_held, volume.tetrahedra.size() + volume.facets.size() + volume.segments.size(),
-         "version 4.1 of .msh groups tetrahedra, triangles and lines by their ids, so that they stand in "
-         "another order; version 2.2 and other formats keep it"});
-  return remarks;
+  const io::Format& writer = io::writer_of(path, options.format);
+  return writer.not_held == nullptr ? std::vector<Remark>() : writer.not_held(volume, options);
 }
 
 void write_volume(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options) {
   const FloatEnvironment environment;
-  const io::Format& writer = io::find_format(path, io::extension_of(path, options.format), "written",
-                                             [](const io::Format& f) { return f.write != nullptr; });
+  const io::Format& writer = io::writer_of(path, options.format);
   io::require_consistent(volume);
   io::Watch watch(options, options.progress);
   writer.write(path, volume, options, watch);

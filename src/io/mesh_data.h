@@ -70,6 +70,14 @@ struct MeshData {
   bool keeps_polygons = false;   ///< polygons are kept as they are
   std::vector<plane::PolygonFacet> polygons = {};
   Watch* watch = nullptr;
+  /// Nodes on edges, as vertices of the file: of elements of second order, empty where there are none. The
+  /// edges are those of MidNodes; `no_entity` stands for a node of an element of first order.
+  struct FileMids {
+    std::vector<std::array<Index, 6>> tetrahedra;
+    std::vector<std::array<Index, 3>> facets;
+    std::vector<Index> segments;
+  } mids;
+  MidNodes mid_nodes;  ///< what `settle_mid_nodes` (mid_nodes.h) makes of these
 
   /// Says that `count` of `what` (a plural, which `one` is the singular of) are in the file and left out.
   void leave_out(std::size_t count, std::string_view what, std::string_view one = {}) {

@@ -1,13 +1,15 @@
 // Reads Gmsh's .msh, versions 2.x and 4.1, ASCII and binary (Gmsh reference manual, "File formats").
 //
 // A marker or region is the first physical tag, or the elementary entity's tag where there is none; the
-// marker of a vertex is the physical tag of a point element. Vertices are ordered by node tag, which is the
-// order in which Holdfast numbers them.
+// marker of a vertex is the physical tag of a point element. Names are those of the physical groups. Vertices
+// are ordered by node tag, which is the order in which Holdfast numbers them.
 #include <algorithm>
 #include <map>
 #include <numeric>
 
 #include "io/formats.h"
+#include "io/labels.h"
+#include "io/mid_nodes.h"
 #include "io/msh_numbers.h"
 #include "io/polygon.h"
 
@@ -71,6 +73,7 @@ class MshReader {
     read_format();
     while (!text_.at_end()) read_section();
     for (std::size_t i = 0; i < point_markers_.size(); ++i) mesh_.vertex_markers.add(i, point_markers_[i]);
+    mesh_.names = {names_[2].take(), names_[3].take(), names_[1].take(), names_[0].take()};
     return std::move(mesh_);
   }
 
@@ -117,6 +120,9 @@ class MshReader {
     } else if (name == "$Elements") {
       modern_ ? read_elements_4() : read_elements_2();
       expect_end("$EndElements");
+    } else if (name == "$PhysicalNames") {
+      read_names();
+      expect_end("$EndPhysicalNames");
     } else if (name == "$Entities" && modern_) {
       read_entities();
       expect_end("$EndEntities");
@@ -124,6 +130,21 @@ class MshReader {
       skip_section("$End" + name.substr(1));
       if (name != "$Entities" && name != "$Comments")
         mesh_.remarks.push_back({RemarkKind::left_out, 1, "the section " + name + " is left out"});
+    }
+  }
+
+  /// Lines of a dimension, a tag and a name in quotes: text, also where numbers are bytes.
+  void read_names() {
+    const std::size_t count = text_.count("the number of names", 5);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::int64_t dimension = text_.integer("a dimension");
+      if (dimension < 0 || dimension > 3) text_.fail("a dimension that is none of 0 to 3");
+      const int tag = text_.tag("a physical tag");
+      const std::string_view rest = text_.rest_of_line();
+      const std::size_t start = rest.find('"'), end = rest.rfind('"');
+      if (start == end) text_.fail("expected a name in quotes, found " + in_quotes(rest));
+      names_[static_cast<std::size_t>(dimension)].set(tag,
+                                                      std::string(rest.substr(start + 1, end - start - 1)));
     }
   }
 
@@ -244,23 +265,43 @@ class MshReader {
     return result;
   }
 
+  /// A physical tag as an id of the volume.
+  [[nodiscard]] int id_of(std::size_t dimension, int physical, int elementary) const {
+    return physical != 0 ? names_[dimension].resolve(physical) : elementary;
+  }
+
   void read_element(std::int64_t type, int physical, int elementary) {
-    const int tag = physical != 0 ? physical : elementary;
+    const int segment = id_of(1, physical, elementary), facet = id_of(2, physical, elementary),
+              region = id_of(3, physical, elementary);
     switch (type) {
       case 1:
-        return mesh_.add_segment(corners<2>(), tag);
+        return mesh_.add_segment(corners<2>(), segment);
       case 2:
-        return mesh_.add_facet(corners<3>(), tag);
+        return mesh_.add_facet(corners<3>(), facet);
       case 3:
-        return add_polygon(mesh_, corners<4>(), tag, [&](const std::string& reason) { in_.fail(reason); });
+        return add_polygon(mesh_, corners<4>(), facet, [&](const std::string& reason) { in_.fail(reason); });
       case 4:
-        return mesh_.add_tetrahedron(corners<4>(), tag);
+        return mesh_.add_tetrahedron(corners<4>(), region);
+      case 8: {
+        const auto n = corners<3>();
+        return add_second_order(mesh_, Segment{n[0], n[1]}, n[2], segment);
+      }
+      case 9: {
+        const auto n = corners<6>();
+        return add_second_order(mesh_, Triangle{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, facet);
+      }
+      case 11: {  // Gmsh has the last two edges the other way round
+        const auto n = corners<10>();
+        return add_second_order(mesh_, Tetrahedron{n[0], n[1], n[2], n[3]},
+                                {n[4], n[5], n[6], n[7], n[9], n[8]}, region);
+      }
       case 15:
-        return mark_vertex(corners<1>()[0], physical);
+        return mark_vertex(corners<1>()[0], names_[0].resolve(physical));
       default:
         in_.fail(
             "elements of type " + std::to_string(type) +
-            " are not read; only points, lines, triangles, quadrangles and tetrahedra of first order are");
+            " are not read; only points, lines, triangles, quadrangles and tetrahedra are, these but for "
+            "quadrangles also of second order");
     }
   }
 
@@ -276,6 +317,8 @@ class MshReader {
   MshNodes nodes_;
   std::map<std::pair<std::size_t, std::int64_t>, int> physicals_;  ///< by dimension and entity tag
   std::vector<int> point_markers_;                                 ///< by vertex, where any is marked
+  std::array<NamedIds, 4> names_{NamedIds(kVertexStem), NamedIds(kSegmentStem), NamedIds(kFacetStem),
+                                 NamedIds(kRegionStem)};  ///< by dimension
   MeshData mesh_;
 };
 

@@ -1,91 +1,146 @@
-// Writes Gmsh's .msh, versions 4.1 and 2.2, ASCII (Gmsh reference manual, "File formats").
+// Writes Gmsh's .msh, versions 4.1 and 2.2, ASCII and binary (Gmsh reference manual, "File formats").
 //
-// Markers and region ids are physical tags. Gmsh takes a negative physical tag for a reversed
-// orientation, so a file with such tags changes when Gmsh itself saves it again.
+// Markers and region ids are physical tags, each group with a name. Gmsh takes 0 for no group and a negative
+// tag for a reversed orientation, so such ids get other numbers. Each group is an entity of its own; the
+// entities' tags differ between dimensions, too, since some readers tell groups by these.
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
+#include <map>
+#include <set>
 
+#include "io/byte_reader.h"
 #include "io/formats.h"
-#include "numbers/sorted.h"
+#include "io/labels.h"
+#include "io/mesh_sets.h"
 
 namespace holdfast::io {
 namespace {
 
-constexpr int kLine = 1, kTriangle = 2, kTetrahedron = 4, kPoint = 15;
+constexpr int kLine = 1, kTriangle = 2, kTetrahedron = 4, kLine3 = 8, kTriangle6 = 9, kTetrahedron10 = 11,
+              kPoint = 15;
 
-/// Marked vertices as elements: nodes have no tags of their own.
-struct MarkedVertices {
-  std::vector<std::array<Index, 1>> vertices;
-  std::vector<int> markers;
+/// Gmsh cuts names off behind 127 bytes, and a quote ends them.
+constexpr NameRule kNames{127, "!#$%&'()*+,-./:;<=>?@[]^_`{|}~", true, true, false, true};
 
-  explicit MarkedVertices(const Volume& volume) {
-    for (std::size_t i = 0; i < volume.vertex_markers.size(); ++i) {
-      if (volume.vertex_markers[i] == 0) continue;
-      vertices.push_back({static_cast<Index>(i)});
-      markers.push_back(volume.vertex_markers[i]);
+/// The entities of one dimension: their groups and how to get their nodes.
+struct Dimension {
+  int number;
+  int type;
+  Labels labels;
+  std::vector<Index> vertices;  ///< of dimension 0: those that are marked
+};
+
+struct MshData {
+  const Volume& volume;
+  std::array<Dimension, 4> dimensions;
+
+  explicit MshData(const Volume& of) : volume(of) {
+    const bool second = is_second_order(of);
+    std::vector<int> markers;
+    std::vector<Index> marked;
+    for (std::size_t i = 0; i < of.vertex_markers.size(); ++i) {
+      if (of.vertex_markers[i] == 0) continue;
+      marked.push_back(static_cast<Index>(i));
+      markers.push_back(of.vertex_markers[i]);
+    }
+    const Names& names = of.names;
+    dimensions = {
+        Dimension{0, kPoint, labels_of(kVertexStem, markers, markers.size(), names.vertices, kNames),
+                  std::move(marked)},
+        Dimension{1,
+                  second ? kLine3 : kLine,
+                  labels_of(kSegmentStem, of.segment_markers, of.segments.size(), names.segments, kNames),
+                  {}},
+        Dimension{2,
+                  second ? kTriangle6 : kTriangle,
+                  labels_of(kFacetStem, of.facet_markers, of.facets.size(), names.facets, kNames),
+                  {}},
+        Dimension{3,
+                  second ? kTetrahedron10 : kTetrahedron,
+                  labels_of(kRegionStem, of.regions, of.tetrahedra.size(), names.regions, kNames),
+                  {}}};
+  }
+
+  [[nodiscard]] Nodes nodes(const Dimension& dimension, std::size_t i) const {
+    switch (dimension.number) {
+      case 0:
+        return {{dimension.vertices[i]}, 1};
+      case 1:
+        return segment_nodes(volume, i);
+      case 2:
+        return facet_nodes(volume, i);
+      default:
+        return tetrahedron_nodes(volume, i, kGmshEdges);
     }
   }
+  [[nodiscard]] std::uint64_t elements() const {
+    std::uint64_t count = 0;
+    for (const Dimension& dimension : dimensions) count += dimension.labels.ids.size();
+    return count;
+  }
 };
 
-void write_point(AtomicWriter& out, const Point& p) { out << p[0] << ' ' << p[1] << ' ' << p[2] << '\n'; }
-
-template <std::size_t N>
-void write_corners(AtomicWriter& out, const std::array<Index, N>& corners) {
-  for (const Index corner : corners) out << ' ' << std::uint64_t{corner} + 1;
-  out << '\n';
-}
-
-/// The elements of one dimension in version 2.2. An elementary tag cannot be negative.
-template <std::size_t N>
-void write_elements_2(AtomicWriter& out, int type, const std::vector<std::array<Index, N>>& elements,
-                      const std::vector<int>& tags, std::uint64_t& number) {
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    const int tag = tag_of(tags, i);
-    const std::int64_t elementary =
-        std::min<std::int64_t>(std::abs(std::int64_t{tag}), std::numeric_limits<int>::max());
-    out << ++number << ' ' << type << " 2 " << tag << ' ' << elementary;
-    write_corners(out, elements[i]);
-  }
-}
-
-/// Elements of one dimension by entity: an entity, numbered from 1, for every tag that occurs.
-class Entities {
+/// Numbers as text or as bytes; words and the counts of version 2 are text in both.
+class MshOut {
  public:
-  Entities(const std::vector<int>& tags, std::size_t elements) {
-    if (elements == 0) return;
-    tags_ = tags.empty() ? std::vector<int>{0} : tags;
-    sort_unique(tags_);
-    // Counting sort, so that each entity's elements keep their order.
-    starts_.assign(tags_.size() + 1, 0);
-    for (std::size_t i = 0; i < elements; ++i) ++starts_[entity_of(tag_of(tags, i)) + 1];
-    for (std::size_t e = 0; e < tags_.size(); ++e) starts_[e + 1] += starts_[e];
-    order_.resize(elements);
-    std::vector<std::size_t> next = starts_;
-    for (std::size_t i = 0; i < elements; ++i) order_[next[entity_of(tag_of(tags, i))]++] = i;
+  MshOut(AtomicWriter& out, bool binary) : out_(out), binary_(binary) {}
+  MshOut& integer(std::int64_t value) {
+    return binary_ ? bytes(static_cast<std::int32_t>(value)) : text(value);
   }
-  /// One entity without elements, for nodes to lie on.
-  static Entities lone() {
-    Entities entities({}, 0);
-    entities.tags_ = {0};
-    entities.starts_ = {0, 0};
-    return entities;
+  MshOut& size(std::uint64_t value) { return binary_ ? bytes(value) : text(value); }
+  MshOut& point(const Point& p) {
+    for (const double x : p) binary_ ? bytes(x) : text(x);
+    return *this;
   }
-
-  [[nodiscard]] std::size_t size() const { return tags_.size(); }
-  [[nodiscard]] int tag(std::size_t entity) const { return tags_[entity]; }
-  [[nodiscard]] std::span<const std::size_t> elements(std::size_t entity) const {
-    return std::span(order_).subspan(starts_[entity], starts_[entity + 1] - starts_[entity]);
+  void end_line() {
+    if (!binary_) out_ << '\n';
+    first_ = true;
   }
+  /// Behind the numbers of a section.
+  void end_section(std::string_view end) {
+    if (binary_) out_ << '\n';
+    out_ << end << '\n';
+  }
+  [[nodiscard]] bool binary() const { return binary_; }
+  AtomicWriter& out() { return out_; }
 
  private:
-  [[nodiscard]] std::size_t entity_of(int tag) const {
-    return static_cast<std::size_t>(std::lower_bound(tags_.begin(), tags_.end(), tag) - tags_.begin());
+  template <typename T>
+  MshOut& bytes(T value) {
+    std::string raw;
+    store(raw, value, std::endian::native);
+    out_ << raw;
+    return *this;
   }
-  std::vector<int> tags_;
-  std::vector<std::size_t> starts_, order_;
+  template <typename T>
+  MshOut& text(T value) {
+    if (!first_) out_ << ' ';
+    first_ = false;
+    out_ << value;
+    return *this;
+  }
+  AtomicWriter& out_;
+  bool binary_, first_ = true;
 };
+
+void write_head(MshOut& to, std::string_view version, const MshData& data) {
+  to.out() << "$MeshFormat\n" << version << (to.binary() ? " 1 8\n" : " 0 8\n");
+  if (to.binary()) {
+    to.integer(1);
+    to.out() << '\n';
+  }
+  to.out() << "$EndMeshFormat\n";
+  std::uint64_t groups = 0;
+  for (const Dimension& dimension : data.dimensions) groups += dimension.labels.names.size();
+  if (groups == 0) return;
+  to.out() << "$PhysicalNames\n" << groups << '\n';
+  for (const Dimension& dimension : data.dimensions)
+    for (const auto& [id, name] : dimension.labels.names)
+      to.out() << dimension.number << ' ' << id << " \"" << name << "\"\n";
+  to.out() << "$EndPhysicalNames\n";
+}
 
 /// Least and largest finite coordinates, "0 0 0 0 0 0" if there are none.
 std::array<Point, 2> bounds(const std::vector<Point>& points) {
@@ -103,106 +158,171 @@ std::array<Point, 2> bounds(const std::vector<Point>& points) {
   return {low, high};
 }
 
-void write_entities(AtomicWriter& out, const Entities& entities, const std::array<Point, 2>& box) {
-  for (std::size_t e = 0; e < entities.size(); ++e) {
-    out << std::uint64_t{e + 1};
-    for (const Point& corner : box) out << ' ' << corner[0] << ' ' << corner[1] << ' ' << corner[2];
-    out << " 1 " << entities.tag(e) << " 0\n";
-  }
-}
+/// The entity of each group. No two have one tag, also of different dimensions, and a group's own where it is
+/// free, since GetFEM takes these for those of the groups.
+using EntityTags = std::array<std::map<int, int>, 4>;
 
-void write_point_entities(AtomicWriter& out, const Entities& entities, const MarkedVertices& marked,
-                          const std::vector<Point>& points) {
-  for (std::size_t e = 0; e < entities.size(); ++e) {
-    const Point& p = points[marked.vertices[entities.elements(e)[0]][0]];
-    out << std::uint64_t{e + 1} << ' ' << p[0] << ' ' << p[1] << ' ' << p[2] << " 1 " << entities.tag(e)
-        << '\n';
-  }
-}
-
-template <std::size_t N>
-void write_blocks(AtomicWriter& out, const Entities& entities, int dimension, int type,
-                  const std::vector<std::array<Index, N>>& elements, std::uint64_t& number) {
-  for (std::size_t e = 0; e < entities.size(); ++e) {
-    const std::span<const std::size_t> members = entities.elements(e);
-    if (members.empty()) continue;
-    out << dimension << ' ' << std::uint64_t{e + 1} << ' ' << type << ' ' << std::uint64_t{members.size()}
-        << '\n';
-    for (const std::size_t i : members) {
-      out << ++number;
-      write_corners(out, elements[i]);
+EntityTags entity_tags(const MshData& data) {
+  EntityTags tags;
+  std::set<int> used;
+  for (std::size_t d = 4; d-- > 0;)
+    for (const auto& [id, name] : data.dimensions[d].labels.names)
+      tags[d][id] = used.insert(id).second ? id : 0;
+  int next = 1;
+  for (auto& of : tags)
+    for (auto& [id, tag] : of) {
+      if (tag != 0) continue;
+      while (!used.insert(next).second) ++next;
+      tag = next;
     }
+  return tags;
+}
+
+/// The entity that all nodes lie on; a volume without elements where there is none.
+std::pair<int, int> home_of_nodes(const EntityTags& tags) {
+  for (const int d : {3, 2, 1})
+    if (const auto& of = tags[static_cast<std::size_t>(d)]; !of.empty()) return {d, of.begin()->second};
+  std::set<int> used;
+  for (const auto& [id, tag] : tags[0]) used.insert(tag);
+  int lone = 1;
+  while (used.contains(lone)) ++lone;
+  return {3, lone};
+}
+
+void write_entities(MshOut& to, const MshData& data, const EntityTags& tags, std::pair<int, int> home) {
+  const bool lone = home.first == 3 && tags[3].empty();
+  const std::array<Point, 2> box = bounds(data.volume.vertices);
+  to.out() << "$Entities\n";
+  for (std::size_t d = 0; d < 4; ++d) to.size(tags[d].size() + (d == 3 && lone ? 1 : 0));
+  to.end_line();
+  const Dimension& points = data.dimensions[0];
+  std::map<int, Index> first;
+  for (std::size_t i = 0; i < points.vertices.size(); ++i)
+    first.try_emplace(points.labels.ids[i], points.vertices[i]);
+  for (std::size_t d = 0; d < 4; ++d)
+    for (const auto& [id, tag] : tags[d]) {
+      to.integer(tag);
+      if (d == 0)
+        to.point(data.volume.vertices[first[id]]);
+      else
+        to.point(box[0]).point(box[1]);
+      to.size(1).integer(id);
+      if (d > 0) to.size(0);
+      to.end_line();
+    }
+  if (lone) {
+    to.integer(home.second).point(box[0]).point(box[1]).size(0).size(0);
+    to.end_line();
   }
+  to.end_section("$EndEntities");
 }
 
 /// All nodes in one block, so that they stand in the order of their indices.
-void write_nodes_4(AtomicWriter& out, const std::vector<Point>& vertices, int dimension) {
-  const std::uint64_t count = vertices.size();
-  out << "$Nodes\n"
-      << (count == 0 ? 0 : 1) << ' ' << count << ' ' << (count == 0 ? 0 : 1) << ' ' << count << '\n';
-  if (count > 0) out << dimension << " 1 0 " << count << '\n';
-  for (std::uint64_t i = 1; i <= count; ++i) out << i << '\n';
-  for (const Point& point : vertices) write_point(out, point);
-  out << "$EndNodes\n";
-}
-
-void write_msh_4(AtomicWriter& out, const Volume& volume) {
-  const MarkedVertices marked(volume);
-  const Entities points(marked.markers, marked.vertices.size());
-  const Entities curves(volume.segment_markers, volume.segments.size());
-  const Entities surfaces(volume.facet_markers, volume.facets.size());
-  Entities volumes(volume.regions, volume.tetrahedra.size());
-  if (curves.size() + surfaces.size() + volumes.size() == 0) volumes = Entities::lone();
-  const std::array<Point, 2> box = bounds(volume.vertices);
-  out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n"
-      << std::uint64_t{points.size()} << ' ' << std::uint64_t{curves.size()} << ' '
-      << std::uint64_t{surfaces.size()} << ' ' << std::uint64_t{volumes.size()} << '\n';
-  write_point_entities(out, points, marked, volume.vertices);
-  write_entities(out, curves, box);
-  write_entities(out, surfaces, box);
-  write_entities(out, volumes, box);
-  out << "$EndEntities\n";
-  write_nodes_4(out, volume.vertices, volumes.size() > 0 ? 3 : surfaces.size() > 0 ? 2 : 1);
-  const std::uint64_t elements =
-      marked.vertices.size() + volume.tetrahedra.size() + volume.facets.size() + volume.segments.size();
-  const std::uint64_t blocks =
-      (volume.tetrahedra.empty() ? 0 : volumes.size()) + points.size() + curves.size() + surfaces.size();
-  out << "$Elements\n"
-      << blocks << ' ' << elements << ' ' << (elements == 0 ? 0 : 1) << ' ' << elements << '\n';
-  std::uint64_t number = 0;
-  write_blocks(out, points, 0, kPoint, marked.vertices, number);
-  write_blocks(out, curves, 1, kLine, volume.segments, number);
-  write_blocks(out, surfaces, 2, kTriangle, volume.facets, number);
-  write_blocks(out, volumes, 3, kTetrahedron, volume.tetrahedra, number);
-  out << "$EndElements\n";
-}
-
-void write_msh_2(AtomicWriter& out, const Volume& volume) {
-  out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << std::uint64_t{volume.vertices.size()} << '\n';
-  for (std::size_t i = 0; i < volume.vertices.size(); ++i) {
-    out << std::uint64_t{i + 1} << ' ';
-    write_point(out, volume.vertices[i]);
+void write_nodes_4(MshOut& to, const Volume& volume, std::pair<int, int> home) {
+  const std::uint64_t count = node_count(volume);
+  to.out() << "$Nodes\n";
+  to.size(count == 0 ? 0 : 1).size(count).size(count == 0 ? 0 : 1).size(count);
+  to.end_line();
+  if (count > 0) {
+    to.integer(home.first).integer(home.second).integer(0).size(count);
+    to.end_line();
   }
-  const MarkedVertices marked(volume);
-  out << "$EndNodes\n$Elements\n"
-      << std::uint64_t{marked.vertices.size() + volume.tetrahedra.size() + volume.facets.size() +
-                       volume.segments.size()}
-      << '\n';
-  std::uint64_t number = 0;
-  write_elements_2(out, kPoint, marked.vertices, marked.markers, number);
-  write_elements_2(out, kLine, volume.segments, volume.segment_markers, number);
-  write_elements_2(out, kTriangle, volume.facets, volume.facet_markers, number);
-  write_elements_2(out, kTetrahedron, volume.tetrahedra, volume.regions, number);
-  out << "$EndElements\n";
+  for (std::uint64_t i = 1; i <= count; ++i) {
+    to.size(i);
+    to.end_line();
+  }
+  for (std::uint64_t i = 0; i < count; ++i) {
+    beat(to.out().watch());
+    to.point(node(volume, i));
+    to.end_line();
+  }
+  to.end_section("$EndNodes");
+}
+
+void write_elements_4(MshOut& to, const MshData& data, const EntityTags& tags) {
+  std::uint64_t blocks = 0, number = 0;
+  for (const auto& of : tags) blocks += of.size();
+  const std::uint64_t elements = data.elements();
+  to.out() << "$Elements\n";
+  to.size(blocks).size(elements).size(elements == 0 ? 0 : 1).size(elements);
+  to.end_line();
+  for (std::size_t d = 0; d < 4; ++d) {
+    const Dimension& dimension = data.dimensions[d];
+    for (const auto& [id, members] : dimension.labels.sets()) {
+      to.integer(dimension.number).integer(tags[d].at(id)).integer(dimension.type).size(members.size());
+      to.end_line();
+      for (const std::size_t i : members) {
+        beat(to.out().watch());
+        to.size(++number);
+        for (const Index v : data.nodes(dimension, i)) to.size(std::uint64_t{v} + 1);
+        to.end_line();
+      }
+    }
+  }
+  to.end_section("$EndElements");
+}
+
+void write_msh_4(MshOut& to, const MshData& data) {
+  write_head(to, "4.1", data);
+  const EntityTags tags = entity_tags(data);
+  const std::pair<int, int> home = home_of_nodes(tags);
+  write_entities(to, data, tags, home);
+  write_nodes_4(to, data.volume, home);
+  write_elements_4(to, data, tags);
+}
+
+void write_msh_2(MshOut& to, const MshData& data) {
+  write_head(to, "2.2", data);
+  const std::uint64_t count = node_count(data.volume);
+  to.out() << "$Nodes\n" << count << '\n';
+  for (std::uint64_t i = 0; i < count; ++i) {
+    beat(to.out().watch());
+    to.integer(static_cast<std::int64_t>(i) + 1).point(node(data.volume, i));
+    to.end_line();
+  }
+  to.end_section("$EndNodes");
+  to.out() << "$Elements\n" << data.elements() << '\n';
+  const EntityTags tags = entity_tags(data);
+  std::int64_t number = 0;
+  for (std::size_t d = 0; d < 4; ++d) {
+    const Dimension& dimension = data.dimensions[d];
+    const std::vector<int>& ids = dimension.labels.ids;
+    if (to.binary() && !ids.empty())
+      to.integer(dimension.type).integer(static_cast<std::int64_t>(ids.size())).integer(2);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      beat(to.out().watch());
+      to.integer(++number);
+      if (!to.binary()) to.integer(dimension.type).integer(2);
+      to.integer(ids[i]).integer(tags[d].at(ids[i]));
+      for (const Index v : data.nodes(dimension, i)) to.integer(std::int64_t{v} + 1);
+      to.end_line();
+    }
+  }
+  to.end_section("$EndElements");
 }
 
 }  // namespace
 
 void write_msh(AtomicWriter& out, const Volume& volume, const WriteOptions& options) {
+  MshOut to(out, options.binary);
+  const MshData data(volume);
   if (options.legacy_msh)
-    write_msh_2(out, volume);
+    write_msh_2(to, data);
   else
-    write_msh_4(out, volume);
+    write_msh_4(to, data);
+}
+
+std::vector<Remark> not_in_msh(const Volume& volume, const WriteOptions& options) {
+  std::vector<Remark> remarks;
+  for (const Dimension& dimension : MshData(volume).dimensions) tell(dimension.labels, ".msh", remarks);
+  const auto descends = [](const std::vector<int>& ids) { return !std::is_sorted(ids.begin(), ids.end()); };
+  if (!options.legacy_msh &&
+      (descends(volume.regions) || descends(volume.facet_markers) || descends(volume.segment_markers)))
+    remarks.push_back(
+        {RemarkKind::not_held, volume.tetrahedra.size() + volume.facets.size() + volume.segments.size(),
+         "version 4.1 of .msh groups tetrahedra, triangles and lines by their ids, so that they stand in "
+         "another order; version 2.2 and other formats keep it"});
+  return remarks;
 }
 
 }  // namespace holdfast::io

@@ -1,10 +1,13 @@
-// Wavefront OBJ: v, f, l and p; the rest describes looks (Wavefront Advanced Visualizer, appendix B1).
+// Wavefront OBJ: v, f, l and p; groups or materials are markers; the rest describes looks (Wavefront Advanced Visualizer, appendix B1).
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <functional>
 #include <iterator>
+#include <map>
 
 #include "io/formats.h"
+#include "io/labels.h"
 #include "io/polygon.h"
 #include "io/text_reader.h"
 
@@ -24,10 +27,12 @@ class ObjReader {
 
   MeshData read() {
     // Two passes, because an element may name a vertex that follows it.
+    read_id_comments();
     each_line([&](std::string_view keyword, TextReader& text) {
       if (keyword == "v") mesh_.vertices.push_back(text.point());
     });
     each_line([&](std::string_view keyword, TextReader& text) { read_element(keyword, text); });
+    mark_facets();
     tell_looks();
     return std::move(mesh_);
   }
@@ -42,6 +47,13 @@ class ObjReader {
     }
   }
 
+  /// Comments of ours stand at the file's start.
+  void read_id_comments() {
+    TextReader text(source_, '\0');
+    while (!text.remaining().empty() && text.remaining()[0] == '#')
+      read_id_comment(text.rest_of_line().substr(1), std::array{&ids_});
+  }
+
   /// A line that ends with a backslash goes on in the next one.
   static bool continues(TextReader& text) {
     if (text.at_line_end() || text.remaining()[0] != '\\') return false;
@@ -53,6 +65,12 @@ class ObjReader {
     }
   }
 
+  /// What of the line is left, which stays to be read.
+  static std::string_view rest_on_line(const TextReader& text) {
+    const std::string_view rest = text.remaining();
+    return rest.substr(0, rest.find_first_of("\r\n#"));
+  }
+
   void read_element(std::string_view keyword, TextReader& text) {
     if (keyword == "v") {
       ++seen_;
@@ -61,6 +79,8 @@ class ObjReader {
       read_corners(text);
       if (corners_.size() < 3) text.fail_at(start, "a face of fewer than 3 corners");
       add_polygon(mesh_, corners_, 0, [&](const std::string& reason) { text.fail_at(start, reason); });
+      groups_.resize(mesh_.facets.size(), group_);
+      materials_.resize(mesh_.facets.size(), material_);
     } else if (keyword == "l") {
       const std::size_t start = text.last();
       read_corners(text);
@@ -73,9 +93,38 @@ class ObjReader {
     } else if (const auto looks = std::find(std::begin(kLooks), std::end(kLooks), keyword);
                looks != std::end(kLooks)) {
       ++looks_[static_cast<std::size_t>(looks - std::begin(kLooks))];
+      if (keyword == "g" || keyword == "o") group_ = labels_.number(cleaned_name(rest_on_line(text)));
+      if (keyword == "usemtl") material_ = labels_.number(cleaned_name(rest_on_line(text)));
     } else {
       text.fail("unknown statement " + in_quotes(keyword));
     }
+  }
+
+  /// Groups are the markers if there are several of them, else materials.
+  void mark_facets() {
+    const auto several = [](const std::vector<std::size_t>& labels) {
+      return std::adjacent_find(labels.begin(), labels.end(), std::not_equal_to<>()) != labels.end();
+    };
+    const auto named = [&](const std::vector<std::size_t>& labels) {
+      return !labels.empty() && !labels_.name(labels[0]).empty();
+    };
+    const bool by_group = several(groups_) || (!several(materials_) && named(groups_));
+    const std::vector<std::size_t>& labels = by_group ? groups_ : materials_;
+    if (!several(labels) && !named(labels)) return;
+    const auto forget = [&](std::string_view keyword) {
+      looks_[static_cast<std::size_t>(std::find(std::begin(kLooks), std::end(kLooks), keyword) -
+                                      std::begin(kLooks))] = 0;
+    };
+    by_group ? (forget("g"), forget("o")) : forget("usemtl");
+    if (!several(labels)) {  // no markers, but a name for the facets without one
+      mesh_.names.facets[0] = labels_.name(labels[0]);
+      return;
+    }
+    for (std::size_t f = 0; f < labels.size(); ++f) {
+      const std::string& name = labels_.name(labels[f]);
+      mesh_.facet_markers.add(f, name.empty() ? 0 : ids_.id_of(name));
+    }
+    mesh_.names.facets = ids_.take();
   }
 
   void tell_looks() {
@@ -119,6 +168,24 @@ class ObjReader {
   std::size_t seen_ = 0;  ///< vertices above the current line
   std::vector<Index> corners_;
   std::array<std::size_t, std::size(kLooks)> looks_{};  ///< lines of each
+
+  /// Names by the number that each has here, 0 for none.
+  class NamesByNumber {
+   public:
+    std::size_t number(const std::string& name) {
+      const auto [there, fresh] = numbers_.try_emplace(name, names_.size());
+      if (fresh) names_.push_back(name);
+      return there->second;
+    }
+    [[nodiscard]] const std::string& name(std::size_t number) const { return names_[number]; }
+
+   private:
+    std::map<std::string, std::size_t> numbers_{{"", 0}};
+    std::vector<std::string> names_{""};
+  } labels_;
+  std::size_t group_ = 0, material_ = 0;         ///< of the lines that follow
+  std::vector<std::size_t> groups_, materials_;  ///< of the facets
+  NamedIds ids_{kFacetStem};
 };
 
 }  // namespace

@@ -1,13 +1,15 @@
 // PLY, ASCII and binary (Turk, The PLY polygon file format, 1994).
 //
-// Read are vertex {x, y, z}, face {vertex_indices or vertex_index} and edge {vertex1, vertex2};
-// other elements and properties are skipped.
+// Read are vertex {x, y, z}, face {vertex_indices or vertex_index} and edge {vertex1, vertex2}, of each also an
+// integer "marker", and names in comments; other elements and properties are skipped.
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include "io/byte_reader.h"
 #include "io/formats.h"
+#include "io/labels.h"
 #include "io/polygon.h"
 #include "io/text_reader.h"
 
@@ -30,6 +32,7 @@ struct Element {
 };
 
 struct Header {
+  NamedIds facets{kFacetStem}, vertices{kVertexStem}, segments{kSegmentStem};  ///< that comments name
   bool binary = false;
   std::endian order = std::endian::little;
   std::vector<Element> elements;
@@ -105,7 +108,11 @@ Header read_header(TextReader& text) {
     } else if (keyword == "property") {
       if (header.elements.empty()) text.fail("a property without an element");
       header.elements.back().properties.push_back(read_property(text));
-    } else if (keyword != "comment" && keyword != "obj_info") {
+    } else if (keyword == "comment") {
+      const std::string_view rest = text.remaining();
+      read_id_comment(rest.substr(0, rest.find_first_of("\r\n")),
+                      std::array{&header.facets, &header.vertices, &header.segments});
+    } else if (keyword != "obj_info") {
       text.fail("unknown keyword " + in_quotes(keyword) + " in the header");
     }
     text.skip_line();
@@ -199,6 +206,8 @@ class PlyReader {
         skip(element);
     }
     tell_skipped();
+    NamedIds facets = header_.facets, segments = header_.segments, vertices = header_.vertices;
+    mesh_.names = {facets.take(), {}, segments.take(), vertices.take()};
     return std::move(mesh_);
   }
 
@@ -206,7 +215,7 @@ class PlyReader {
   /// Says which properties of what is read, and which elements, have no place in a mesh.
   void tell_skipped() {
     constexpr std::string_view kRead[] = {"x",       "y",      "z", "vertex_indices", "vertex_index",
-                                          "vertex1", "vertex2"};
+                                          "vertex1", "vertex2", "marker"};
     for (const Element& element : header_.elements) {
       if (element.count == 0) continue;
       const bool is_read = element.name == "vertex" || element.name == "face" || element.name == "edge";
@@ -240,6 +249,21 @@ class PlyReader {
                   "the element " + in_quotes(element.name) + " has no property " + in_quotes(name));
   }
 
+  /// Where the property "marker" stands, if there is one of integers.
+  static std::size_t find_marker(const Element& element) {
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+      const Property& property = element.properties[i];
+      if (property.name == "marker" && !property.count_type && !is_real(property.type)) return i;
+    }
+    return element.properties.size();
+  }
+
+  int marker(PlyType type) {
+    const std::int64_t value = values_.integer(type);
+    if (!std::in_range<int>(value)) values_.fail("a marker beyond 32 bits: " + std::to_string(value));
+    return static_cast<int>(value);
+  }
+
   std::size_t list_length(const Property& property) {
     const std::int64_t length = values_.integer(*property.count_type);
     if (length < 0) values_.fail("a list of negative length");
@@ -269,19 +293,23 @@ class PlyReader {
     const std::array<std::size_t, 3> axes{find(element, "x"), find(element, "y"), find(element, "z")};
     for (const std::size_t axis : axes)
       if (element.properties[axis].count_type) text_.fail_at(element.position, "a coordinate that is a list");
+    const std::size_t mark = find_marker(element);
     mesh_.vertices.reserve(element.count);
     for (std::size_t i = 0; i < element.count; ++i) {
       values_.begin_entity();
       Point point{};
+      int id = 0;
       for (std::size_t p = 0; p < element.properties.size(); ++p) {
         const Property& property = element.properties[p];
         const auto axis = std::find(axes.begin(), axes.end(), p);
-        if (axis == axes.end())
+        if (p == mark)
+          id = marker(property.type);
+        else if (axis == axes.end())
           skip(property);
         else
           point[static_cast<std::size_t>(axis - axes.begin())] = values_.real(property.type);
       }
-      mesh_.vertices.push_back(point);
+      mesh_.add_vertex(point, id);
     }
   }
 
@@ -289,36 +317,43 @@ class PlyReader {
     const std::size_t list = find(element, "vertex_indices", "vertex_index");
     if (!element.properties[list].count_type)
       text_.fail_at(element.position, "vertex indices that are no list");
+    const std::size_t mark = find_marker(element);
     mesh_.facets.reserve(element.count);
     std::vector<Index> corners;
     for (std::size_t i = 0; i < element.count; ++i) {
       values_.begin_entity();
+      int id = 0;
       for (std::size_t p = 0; p < element.properties.size(); ++p) {
         const Property& property = element.properties[p];
-        if (p != list) {
+        if (p == mark)
+          id = marker(property.type);
+        else if (p != list)
           skip(property);
-          continue;
-        }
+        if (p != list) continue;
         corners.resize(list_length(property));
         for (Index& corner : corners) corner = index(property.type);
-        add_polygon(mesh_, corners, 0, [&](const std::string& reason) { values_.fail(reason); });
       }
+      add_polygon(mesh_, corners, id, [&](const std::string& reason) { values_.fail(reason); });
     }
   }
 
   void read_edges(const Element& element) {
     const std::array<std::size_t, 2> ends{find(element, "vertex1"), find(element, "vertex2")};
+    const std::size_t mark = find_marker(element);
     for (std::size_t i = 0; i < element.count; ++i) {
       values_.begin_entity();
       Segment segment{};
+      int id = 0;
       for (std::size_t p = 0; p < element.properties.size(); ++p) {
         const auto end = std::find(ends.begin(), ends.end(), p);
-        if (end == ends.end() || element.properties[p].count_type)
+        if (p == mark)
+          id = marker(element.properties[p].type);
+        else if (end == ends.end() || element.properties[p].count_type)
           skip(element.properties[p]);
         else
           segment[static_cast<std::size_t>(end - ends.begin())] = index(element.properties[p].type);
       }
-      mesh_.add_segment(segment);
+      mesh_.add_segment(segment, id);
     }
   }
 

@@ -1,12 +1,14 @@
 // STL, ASCII and binary (3D Systems, StereoLithography Interface Specification, 1989).
 //
 // Vertices with identical coordinates are welded: the format repeats them in every triangle. Where
-// an ASCII file holds several solids, facets carry the solid's number from 1 as their marker.
+// an ASCII file holds several solids, facets carry the solid's number from 1 as their marker, whose name is
+// the solid's.
 #include <algorithm>
 #include <array>
 
 #include "io/byte_reader.h"
 #include "io/formats.h"
+#include "io/labels.h"
 #include "io/text_reader.h"
 #include "surface/weld.h"
 
@@ -92,14 +94,28 @@ Triangle read_facet(TextReader& text, Welder& weld) {
   return facet;
 }
 
+/// Solids are numbered from 1, but for those whose name tells another number, as those that Holdfast writes
+/// for markers without one.
+std::vector<int> ids_of(const std::vector<std::string>& solids, std::map<int, std::string>& names) {
+  bool told = true;
+  for (const std::string& solid : solids) told = told && id_of_default_name(kFacetStem, solid).has_value();
+  std::vector<int> ids;
+  for (const std::string& solid : solids) {
+    ids.push_back(told ? *id_of_default_name(kFacetStem, solid) : static_cast<int>(ids.size()) + 1);
+    if (!told && !solid.empty()) names[ids.back()] = solid;
+  }
+  return ids;
+}
+
 MeshData read_ascii(const Source& source) {
   TextReader text(source, '\0');
   MeshData mesh;
   Welder weld(mesh.vertices);
   std::vector<std::size_t> solid_ends;
+  std::vector<std::string> names;
   do {
     expect(text, {"solid"});
-    text.skip_line();  // its name
+    names.push_back(cleaned_name(text.rest_of_line()));
     for (;;) {
       const std::string keyword = lower(text.word("'facet' or 'endsolid'"));
       if (keyword == "endsolid") break;
@@ -109,11 +125,15 @@ MeshData read_ascii(const Source& source) {
     text.skip_line();
     solid_ends.push_back(mesh.facets.size());
   } while (!text.at_end());
-  if (solid_ends.size() == 1) return mesh;
-  int solid = 1;
+  if (solid_ends.size() == 1) {  // no markers, but a name for the facets without one
+    if (!names[0].empty()) mesh.names.facets[0] = names[0];
+    return mesh;
+  }
+  const std::vector<int> ids = ids_of(names, mesh.names.facets);
+  std::size_t solid = 0;
   for (std::size_t i = 0; i < mesh.facets.size(); ++i) {
-    while (i == solid_ends[static_cast<std::size_t>(solid) - 1]) ++solid;
-    mesh.facet_markers.add(i, solid);
+    while (i == solid_ends[solid]) ++solid;
+    mesh.facet_markers.add(i, ids[solid]);
   }
   return mesh;
 }

@@ -6,6 +6,7 @@
 
 #include "holdfast/surface_io.h"
 #include "io/formats.h"
+#include "io/labels.h"
 #include "io/text_reader.h"
 #include "numbers/float_environment.h"
 
@@ -32,19 +33,53 @@ void write_off(AtomicWriter& out, const Surface& surface) {
   for (const Segment& s : surface.segments) out << "2 " << s[0] << ' ' << s[1] << '\n';
 }
 
+/// STL's solids and OBJ's groups take a name up to the line's end; groups are words.
+constexpr NameRule kSolids{1000, "!\"#$%&'()*+,-./:;<=>?@[]^_`{|}~", true, true, false, true};
+constexpr NameRule kGroups{1000, "!$%&'()*+,-./:;<=>?@[]^_`{|}~", false, true, false, true};
+constexpr NameRule kComments{1000, "!\"#$%&'()*+,-./:;<=>?@[]^_`{|}~", true, true, false, true};
+constexpr IdRule kAnyId{false};
+
+Labels facet_labels(const Surface& surface, const NameRule& rule) {
+  return labels_of(kFacetStem, surface.facet_markers, surface.facets.size(), surface.names.facets, rule, kAnyId);
+}
+
+bool has_sets(const Surface& surface) {
+  return !surface.facet_markers.empty() || !surface.names.facets.empty();
+}
+
 void write_obj(AtomicWriter& out, const Surface& surface) {
+  const Labels labels = facet_labels(surface, kGroups);
+  if (has_sets(surface)) write_id_comments(out, "#", labels);
   for (const Point& p : surface.vertices) out << "v " << p << '\n';
-  for (const Triangle& t : surface.facets)
+  for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+    const bool other = f == 0 || labels.ids[f] != labels.ids[f - 1];
+    if (other && has_sets(surface)) out << "g " << labels.names.at(labels.ids[f]) << '\n';
+    const Triangle& t = surface.facets[f];
     out << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+  }
   for (const Segment& s : surface.segments) out << "l " << s[0] + 1 << ' ' << s[1] + 1 << '\n';
 }
 
 void write_ply(AtomicWriter& out, const Surface& surface) {
-  out << "ply\nformat ascii 1.0\nelement vertex " << std::uint64_t{surface.vertices.size()}
-      << "\nproperty double x\nproperty double y\nproperty double z\nelement face "
-      << std::uint64_t{surface.facets.size()} << "\nproperty list uchar uint vertex_indices\nend_header\n";
-  for (const Point& p : surface.vertices) out << p << '\n';
-  for (const Triangle& t : surface.facets) out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+  const bool marked = !surface.facet_markers.empty(), vertices_marked = !surface.vertex_markers.empty();
+  out << "ply\nformat ascii 1.0\n";
+  if (has_sets(surface)) write_id_comments(out, "comment", facet_labels(surface, kComments));
+  out << "element vertex " << std::uint64_t{surface.vertices.size()}
+      << "\nproperty double x\nproperty double y\nproperty double z\n"
+      << (vertices_marked ? "property int marker\n" : "") << "element face "
+      << std::uint64_t{surface.facets.size()} << "\nproperty list uchar uint vertex_indices\n"
+      << (marked ? "property int marker\n" : "") << "end_header\n";
+  for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
+    out << surface.vertices[v];
+    if (vertices_marked) out << ' ' << surface.vertex_markers[v];
+    out << '\n';
+  }
+  for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+    const Triangle& t = surface.facets[f];
+    out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2];
+    if (marked) out << ' ' << surface.facet_markers[f];
+    out << '\n';
+  }
 }
 
 /// A unit normal, or zero where doubles tell none; readers take no notice of it.
@@ -62,19 +97,22 @@ Point normal_of(const Surface& surface, const Triangle& t) {
 }
 
 void write_stl(AtomicWriter& out, const Surface& surface) {
-  std::vector<int> solids = surface.facet_markers;
+  const Labels labels = facet_labels(surface, kSolids);
+  std::vector<int> solids(labels.ids);
   if (solids.empty()) solids.push_back(0);
   std::sort(solids.begin(), solids.end());
   solids.erase(std::unique(solids.begin(), solids.end()), solids.end());
   for (const int solid : solids) {
-    out << "solid " << solid << '\n';
+    // What is not marked at all needs no name.
+    const std::string name = has_sets(surface) && labels.names.contains(solid) ? labels.names.at(solid) : "";
+    out << "solid " << name << '\n';
     for (std::size_t f = 0; f < surface.facets.size(); ++f) {
       if (tag_of(surface.facet_markers, f) != solid) continue;
       out << "facet normal " << normal_of(surface, surface.facets[f]) << "\nouter loop\n";
       for (const Index v : surface.facets[f]) out << "vertex " << surface.vertices[v] << '\n';
       out << "endloop\nendfacet\n";
     }
-    out << "endsolid " << solid << '\n';
+    out << "endsolid " << name << '\n';
   }
 }
 
@@ -113,8 +151,8 @@ struct Format {
 };
 
 constexpr std::array kFormats{
-    Format{".off", write_off, false, true, false}, Format{".obj", write_obj, false, true, false},
-    Format{".stl", write_stl, true, false, false}, Format{".ply", write_ply, false, false, false},
+    Format{".off", write_off, false, true, false}, Format{".obj", write_obj, true, true, false},
+    Format{".stl", write_stl, true, false, false}, Format{".ply", write_ply, true, false, false},
     Format{".poly", write_poly, true, true, true}, Format{".mesh", nullptr, true, true, false},
     Format{".meshb", nullptr, true, true, false},  Format{".msh", nullptr, true, true, false},
     Format{".vtk", nullptr, true, true, false},    Format{".vtu", nullptr, true, true, false}};
@@ -148,6 +186,7 @@ Volume as_volume(const Surface& surface) {
   volume.segments = surface.segments;
   volume.segment_markers = surface.segment_markers;
   volume.vertex_markers = surface.vertex_markers;
+  volume.names = surface.names;
   return volume;
 }
 

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "io/mid_nodes.h"
 #include "io/polygon.h"
 #include "io/text_reader.h"
 
@@ -14,6 +15,7 @@ class CellReader {
   CellReader(const Source& source, VtkGrid&& grid)
       : path_(source.path), watch_(source.watch), grid_(std::move(grid)), mesh_(source) {
     mesh_.vertices = std::move(grid_.points);
+    mesh_.names = std::move(grid_.names);
   }
 
   MeshData read() {
@@ -112,6 +114,19 @@ class CellReader {
         require_corners(4);
         return mesh_.add_tetrahedron({corners_[0], corners_[1], corners_[2], corners_[3]},
                                      tag_of(grid_.regions, cell_));
+      case VtkCell::quadratic_edge:
+        require_corners(3);
+        return add_second_order(mesh_, Segment{corners_[0], corners_[1]}, corners_[2], marker);
+      case VtkCell::quadratic_triangle:
+        require_corners(6);
+        return add_second_order(mesh_, Triangle{corners_[0], corners_[1], corners_[2]},
+                                {corners_[3], corners_[4], corners_[5]}, marker);
+      case VtkCell::quadratic_tetrahedron:
+        require_corners(10);
+        return add_second_order(
+            mesh_, Tetrahedron{corners_[0], corners_[1], corners_[2], corners_[3]},
+            {corners_[4], corners_[5], corners_[6], corners_[7], corners_[8], corners_[9]},
+            tag_of(grid_.regions, cell_));
       default:
         fail("is of type " + std::to_string(grid_.types[cell_]) +
              ", which is not read; split it into triangles or tetrahedra");
@@ -127,6 +142,28 @@ class CellReader {
 };
 
 }  // namespace
+
+VtkFields vtk_fields(const Names& names) {
+  VtkFields fields;
+  const std::map<int, std::string>* const kinds[] = {&names.vertices, &names.segments, &names.facets,
+                                                     &names.regions};
+  for (int dimension = 3; dimension >= 0; --dimension)
+    for (const auto& [id, name] : *kinds[dimension]) fields[name].push_back({id, dimension});
+  return fields;
+}
+
+void VtkNames::add(const std::string& name, std::span<const std::int64_t> pairs) {
+  if (pairs.size() % 2 != 0) return;
+  for (std::size_t i = 0; i < pairs.size(); i += 2) {
+    const std::int64_t id = pairs[i], dimension = pairs[i + 1];
+    if (dimension < 0 || dimension > 3 || !std::in_range<int>(id)) return;
+    by_dimension_[static_cast<std::size_t>(dimension)].set(static_cast<int>(id), name);
+  }
+}
+
+Names VtkNames::take() {
+  return {by_dimension_[2].take(), by_dimension_[3].take(), by_dimension_[1].take(), by_dimension_[0].take()};
+}
 
 void append_cells(VtkGrid& grid, const VtkGrid& part) {
   const auto base = static_cast<std::int64_t>(grid.connectivity.size());

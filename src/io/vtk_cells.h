@@ -1,16 +1,25 @@
 // What the VTK formats have in common: cell types and the arrays that tell the cells apart.
 //
-// Holdfast writes tetrahedra first, then facets as triangles, then segments as lines, with three
-// integers a cell: "region" (of a tetrahedron, else 0), "marker" (of a facet or segment, else 0) and
-// "kind" (the cell's dimension: 3 tetrahedron, 2 facet, 1 segment); and where vertices are marked, an integer
-// "marker" a point.
+// Holdfast writes tetrahedra first, then facets as triangles, then segments as lines, with these integers a
+// cell: "region" (of a tetrahedron, else 0), "marker" (of a facet or segment, else 0) and "kind" (the cell's
+// dimension: 3 tetrahedron, 2 facet, 1 segment); and where vertices are marked, an integer "marker" a point.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <map>
+#include <span>
+#include <string>
 
 #include "io/formats.h"
+#include "io/labels.h"
 
 namespace holdfast::io {
+
+/// Says, in the fields of a file, that facets and segments are in another one beside it.
+inline constexpr const char* kSurfaceBeside = "holdfast:surface_beside";
+/// Of a surface in a file beside its volume: each point's index there.
+inline constexpr const char* kVolumeVertex = "volume_vertex";
 
 /// Cell types of vtkCellType.h.
 enum class VtkCell : std::uint8_t {
@@ -24,28 +33,39 @@ enum class VtkCell : std::uint8_t {
   pixel = 8,
   quad = 9,
   tetrahedron = 10,
+  quadratic_edge = 21,
+  quadratic_triangle = 22,
+  quadratic_tetrahedron = 24,
 };
 
-/// The cells of a volume in the order in which they are written.
-template <typename Visit>
-void visit_vtk_cells(const Volume& volume, Visit&& visit) {
-  for (std::size_t i = 0; i < volume.tetrahedra.size(); ++i)
-    visit(VtkCell::tetrahedron, std::span<const Index>(volume.tetrahedra[i]), 3, tag_of(volume.regions, i),
-          0);
-  for (std::size_t i = 0; i < volume.facets.size(); ++i)
-    visit(VtkCell::triangle, std::span<const Index>(volume.facets[i]), 2, 0, tag_of(volume.facet_markers, i));
-  for (std::size_t i = 0; i < volume.segments.size(); ++i)
-    visit(VtkCell::line, std::span<const Index>(volume.segments[i]), 1, 0, tag_of(volume.segment_markers, i));
-}
+/// Arrays of a whole file: of names, pairs of an id and a dimension by name, as meshio has them from Gmsh.
+using VtkFields = std::map<std::string, std::vector<std::array<int, 2>>>;
+[[nodiscard]] VtkFields vtk_fields(const Names& names);
 
-[[nodiscard]] inline std::size_t vtk_cell_count(const Volume& volume) {
-  return volume.tetrahedra.size() + volume.facets.size() + volume.segments.size();
-}
+/// Names out of such arrays, which may be of any kind.
+class VtkNames {
+ public:
+  void add(const std::string& name, std::span<const std::int64_t> pairs);
+  [[nodiscard]] Names take();
 
-/// Whether Holdfast reads an array of this name, or writes it for viewers alone.
+ private:
+  std::array<NamedIds, 4> by_dimension_{NamedIds(kVertexStem), NamedIds(kSegmentStem), NamedIds(kFacetStem),
+                                        NamedIds(kRegionStem)};
+};
+
+/// Whether Holdfast reads an array of this name, or writes it for viewers and solvers alone.
 [[nodiscard]] inline bool is_known_array(std::string_view name) {
-  return name == "region" || name == "marker" || name == "kind";
+  return name == "region" || name == "marker" || name == "kind" || name == "mat_id" ||
+         name == "input_vertex" || name == kVolumeVertex;
 }
+
+/// Arrays that other programs have the ids of cells in, of tetrahedra and of what else there is: read where
+/// there is no "region" or "marker".
+inline constexpr std::array<std::string_view, 7> kRegionArrays{
+    "mat_id", "gmsh:physical", "medit:ref", "cell_tags", "CellEntityIds", "material", "attribute"};
+inline constexpr std::array<std::string_view, 8> kMarkerArrays{
+    "gmsh:physical", "medit:ref",        "facet_tags", "CellEntityIds",
+    "BoundaryId",    "STLSolidLabeling", "PatchID",    "attribute"};
 
 /// Cells as they come from a file, not yet checked.
 struct VtkGrid {
@@ -56,6 +76,7 @@ struct VtkGrid {
   std::vector<int> regions, markers;       ///< empty, or one a cell
   std::vector<int> point_markers;          ///< empty, or one a point
   std::vector<std::string> other_arrays;   ///< names of arrays that have no place in a mesh
+  Names names = {};
 };
 
 /// Appends the cells of a part, which names the same points.

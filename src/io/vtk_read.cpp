@@ -1,7 +1,11 @@
 // Reads legacy VTK files, ASCII and binary, versions 1 to 5 (VTK User's Guide, "VTK File Formats";
 // version 5.1 lists offsets and connectivity apart). Unstructured grids and polygonal data.
+#include <algorithm>
 #include <array>
+#include <charconv>
 #include <limits>
+#include <map>
+#include <set>
 #include <utility>
 
 #include "io/formats.h"
@@ -43,6 +47,23 @@ VtkType type_of(const TextReader& text, std::string_view name) {
   text.fail("values of type " + in_quotes(name) + " are not read");
 }
 
+/// A word whose %XX are bytes again.
+std::string decoded(std::string_view word) {
+  std::string result;
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    unsigned byte = 0;
+    const char* const digits = word.data() + i + 1;
+    if (word[i] == '%' && word.size() - i > 2 &&
+        std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
+      result += static_cast<char>(byte);
+      i += 2;
+    } else {
+      result += word[i];
+    }
+  }
+  return result;
+}
+
 class VtkReader {
  public:
   explicit VtkReader(const Source& source) : text_(source, '\0') {}
@@ -52,6 +73,11 @@ class VtkReader {
     while (!text_.at_end()) read_section();
     if (!has_points_) throw FileError(text_.source().path, "", "the file has no POINTS");
     for (const VtkGrid& part : parts_) append_cells(grid_, part);
+    take_other_ids(grid_.regions, kRegionArrays);
+    take_other_ids(grid_.markers, kMarkerArrays);
+    for (const auto& [name, ids] : other_ids_)
+      if (!taken_.contains(name) && !is_known_array(name)) grid_.other_arrays.push_back(name);
+    grid_.names = names_.take();
     return mesh_of(text_.source(), std::move(grid_));
   }
 
@@ -206,7 +232,31 @@ class VtkReader {
       skip_array(name, type, count);
   }
 
+  /// Ids by another name, where there are none by ours.
+  void take_other_ids(std::vector<int>& ids, std::span<const std::string_view> names) {
+    for (const std::string_view name : names) {
+      if (!ids.empty()) return;
+      const auto found = other_ids_.find(std::string(name));
+      if (found == other_ids_.end() || found->second.size() != grid_.types.size()) continue;
+      ids = found->second;
+      taken_.insert(found->first);
+    }
+  }
+
+  static bool is_integer(VtkType type) { return type != VtkType::float32 && type != VtkType::float64; }
+
   void skip_array(const std::string& name, VtkType type, std::uint64_t count) {
+    const auto is_one_of = [&](const auto& names) {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    if (of_cells_ && is_integer(type) && (is_one_of(kRegionArrays) || is_one_of(kMarkerArrays))) {
+      other_ids_[name] = values<int>(type, count);
+      return;
+    }
+    if (!of_cells_ && !of_points_ && is_integer(type)) {
+      const std::vector<std::int64_t> pairs = values<std::int64_t>(type, count);
+      return names_.add(decoded(name), pairs);
+    }
     static_cast<void>(values<double>(type, count));
     if (!is_known_array(name)) grid_.other_arrays.push_back(name);
   }
@@ -279,6 +329,9 @@ class VtkReader {
   bool of_cells_ = false, of_points_ = false;  ///< what the current attributes belong to
   std::uint64_t tuples_ = 0;                   ///< of the current attributes
   VtkGrid grid_;
+  std::map<std::string, std::vector<int>> other_ids_;  ///< arrays that other programs have ids in
+  std::set<std::string> taken_;                        ///< of these, those that are in use
+  VtkNames names_;
   std::array<VtkGrid, 4> parts_;  ///< cells of polygonal data: vertices, lines, polygons, strips
 };
 

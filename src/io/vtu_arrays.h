@@ -39,6 +39,7 @@ struct VtuArrays {
   VtuArray coordinates, connectivity, offsets, types;
   std::vector<VtuArray> cell_data;
   std::vector<VtuArray> point_data = {};
+  VtkFields field_data = {};
 };
 
 /// Cells in VTK's flat form.

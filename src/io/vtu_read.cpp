@@ -1,10 +1,20 @@
 // Reads VTK's XML files, .vtu and .vtp: ASCII, base64 and raw, uncompressed and in zlib blocks
 // (https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html).
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <iterator>
 #include <map>
+#include <numeric>
+#include <set>
+#include <system_error>
+#include <utility>
 
+#include "io/file_bytes.h"
 #include "io/formats.h"
+#include "io/labels.h"
+#include "io/mid_nodes.h"
+#include "io/text_reader.h"
 #include "io/vtk_cells.h"
 #include "io/vtk_values.h"
 #include "io/vtu_decode.h"
@@ -13,10 +23,58 @@
 namespace holdfast::io {
 namespace {
 
+/// Appends the entities of a part, whose vertex i is `number[i]` of the mesh.
+void append(MeshData& mesh, MeshData&& part, const std::vector<Index>& number) {
+  const auto moved = [&](auto entities) {
+    for (auto& entity : entities)
+      for (Index& v : entity) v = v == no_entity ? v : number[v];
+    return entities;
+  };
+  const std::vector<int> regions = part.regions.take(part.tetrahedra.size()),
+                         facets = part.facet_markers.take(part.facets.size()),
+                         segments = part.segment_markers.take(part.segments.size());
+  const auto tetrahedra = moved(std::move(part.tetrahedra));
+  const auto triangles = moved(std::move(part.facets));
+  const auto lines = moved(std::move(part.segments));
+  const auto mids_of_tetrahedra = moved(std::move(part.mids.tetrahedra));
+  const auto mids_of_facets = moved(std::move(part.mids.facets));
+  for (std::size_t i = 0; i < tetrahedra.size(); ++i) {
+    if (i < mids_of_tetrahedra.size() && mids_of_tetrahedra[i][0] != no_entity)
+      add_second_order(mesh, tetrahedra[i], mids_of_tetrahedra[i], tag_of(regions, i));
+    else
+      mesh.add_tetrahedron(tetrahedra[i], tag_of(regions, i));
+  }
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (i < mids_of_facets.size() && mids_of_facets[i][0] != no_entity)
+      add_second_order(mesh, triangles[i], mids_of_facets[i], tag_of(facets, i));
+    else
+      mesh.add_facet(triangles[i], tag_of(facets, i));
+  }
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (i < part.mids.segments.size() && part.mids.segments[i] != no_entity)
+      add_second_order(mesh, lines[i], number[part.mids.segments[i]], tag_of(segments, i));
+    else
+      mesh.add_segment(lines[i], tag_of(segments, i));
+  }
+  mesh.polygons_cut += part.polygons_cut;
+  mesh.remarks.insert(mesh.remarks.end(), part.remarks.begin(), part.remarks.end());
+  mesh.names.facets.merge(part.names.facets);
+  mesh.names.regions.merge(part.names.regions);
+  mesh.names.segments.merge(part.names.segments);
+  mesh.names.vertices.merge(part.names.vertices);
+}
+
 /// A DataArray element, not yet decoded.
 struct DataArray {
   XmlTag tag;
   std::size_t content = 0;  ///< offset behind the tag
+};
+
+/// What a file says of a second one beside it.
+struct VtuBlock {
+  MeshData mesh = {};
+  bool surface_beside = false;          ///< there should be one with what bounds the tetrahedra
+  std::vector<std::int64_t> in_volume;  ///< of this second file: its points' indices in the first
 };
 
 class VtuReader {
@@ -42,6 +100,14 @@ class VtuReader {
     else
       read_cells();
     return mesh_of(source_, std::move(grid_));
+  }
+
+  /// What else the file tells, after `read`.
+  [[nodiscard]] VtuBlock block() {
+    VtuBlock block;
+    block.surface_beside = surface_beside_;
+    block.in_volume = std::move(in_volume_);
+    return block;
   }
 
   /// The first of these arrays of the points that is there, after `read`.
@@ -206,15 +272,51 @@ class VtuReader {
   }
 
   void read_tags() {
+    const std::string regions = array_of("region", kRegionArrays),
+                      markers = array_of("marker", kMarkerArrays);
     for (const auto& [path, array] : arrays_) {
       const bool of_points = path.starts_with("PointData/");
       const std::string name = array.tag.attribute("Name");
-      if ((of_points || path.starts_with("CellData/")) && !is_known_array(name))
+      if ((of_points || path.starts_with("CellData/")) && !is_known_array(name) && path != regions &&
+          path != markers)
         grid_.other_arrays.push_back(name);
     }
-    if (find("CellData/region")) grid_.regions = values<int>("CellData/region", cells_);
-    if (find("CellData/marker")) grid_.markers = values<int>("CellData/marker", cells_);
+    if (!regions.empty()) grid_.regions = values<int>(regions, cells_);
+    if (!markers.empty()) grid_.markers = values<int>(markers, cells_);
     if (find("PointData/marker")) grid_.point_markers = values<int>("PointData/marker", points_);
+    if (const std::string name = std::string("PointData/") + kVolumeVertex; find(name))
+      in_volume_ = values<std::int64_t>(name, points_);
+    read_names();
+  }
+
+  /// The cells' array of this name, or else the first with another one that holds integers; or "".
+  [[nodiscard]] std::string array_of(const std::string& own, std::span<const std::string_view> others) const {
+    if (find("CellData/" + own)) return "CellData/" + own;
+    for (const std::string_view other : others) {
+      const std::string name = "CellData/" + std::string(other);
+      if (const DataArray* array = find(name); array != nullptr && holds_integers(*array)) return name;
+    }
+    return {};
+  }
+
+  [[nodiscard]] static bool holds_integers(const DataArray& array) {
+    const std::string components = array.tag.attribute("NumberOfComponents");
+    return array.tag.attribute("type").find("Int") != std::string::npos &&
+           (components.empty() || components == "1");
+  }
+
+  void read_names() {
+    VtkNames names;
+    for (const auto& [path, array] : arrays_) {
+      if (!path.starts_with("FieldData/") || array.tag.attribute("type").find("Int") == std::string::npos)
+        continue;
+      const std::string name = array.tag.attribute("Name");
+      if (name == kSurfaceBeside)
+        surface_beside_ = true;
+      else
+        names.add(name, read_values<std::int64_t>(array, std::nullopt));
+    }
+    grid_.names = names.take();
   }
 
   void read_cells() {
@@ -266,11 +368,84 @@ class VtuReader {
   std::optional<std::size_t> appended_;          ///< offset of the appended data
   bool appended_base64_ = false;
   VtkGrid grid_;
+  bool surface_beside_ = false;
+  std::vector<std::int64_t> in_volume_;
 };
+
+VtuBlock read_block(const Source& source) {
+  VtuReader reader(source);
+  MeshData mesh = reader.read();
+  VtuBlock block = reader.block();
+  block.mesh = std::move(mesh);
+  return block;
+}
+
+/// Puts a surface in whose points know their indices in the volume.
+void attach(MeshData& mesh, VtuBlock&& part, const std::filesystem::path& path) {
+  std::vector<Index> number;
+  for (std::size_t i = 0; i < part.in_volume.size(); ++i) {
+    const std::int64_t v = part.in_volume[i];
+    if (v < 0 || static_cast<std::uint64_t>(v) >= mesh.vertices.size() ||
+        std::memcmp(&mesh.vertices[static_cast<std::size_t>(v)], &part.mesh.vertices[i], sizeof(Point)) != 0)
+      throw FileError(path, "point " + std::to_string(i),
+                      "is none of the volume's; the two files are not of one run");
+    number.push_back(static_cast<Index>(v));
+  }
+  append(mesh, std::move(part.mesh), number);
+}
 
 }  // namespace
 
-MeshData read_vtu(const Source& source) { return VtuReader(source).read(); }
+MeshData read_vtu(const Source& source) {
+  VtuBlock block = read_block(source);
+  if (!block.surface_beside) return std::move(block.mesh);
+  std::filesystem::path beside = surface_beside(without_gz(source.path));
+  std::error_code error;
+  if (!std::filesystem::exists(beside, error)) beside += ".gz";
+  if (!can_have_a_file_beside(source.path) || !std::filesystem::exists(beside, error)) {
+    block.mesh.remarks.push_back({RemarkKind::left_out, 1,
+                                  "the facets and segments, which are in " +
+                                      surface_beside(without_gz(source.path)).filename().string() +
+                                      ", are left out: this file is not there"});
+    return std::move(block.mesh);
+  }
+  const FileBytes bytes(beside, source.watch);
+  attach(block.mesh, read_block({beside, bytes.view(), source.finite, source.watch}), beside);
+  return std::move(block.mesh);
+}
+
+MeshData read_vtm(const Source& source) {
+  XmlReader xml(source);
+  MeshData mesh;
+  bool is_index = false;
+  std::set<std::filesystem::path> seen;
+  while (const std::optional<XmlTag> tag = xml.next()) {
+    if (tag->name == "VTKFile" && !tag->closing) is_index = tag->attribute("type") == "vtkMultiBlockDataSet";
+    if (tag->name != "DataSet" || tag->closing || tag->attribute("file").empty()) continue;
+    if (!is_index) break;
+    const std::filesystem::path part = source.path.parent_path() / tag->attribute("file");
+    if (!seen.insert(part).second) xml.fail(*tag, "the file is named twice");
+    if (const std::string ending = lower(part.extension().string()); ending != ".vtu" && ending != ".vtp")
+      xml.fail(*tag, "a block in the format " + in_quotes(ending) + " is not read; only .vtu and .vtp are");
+    const FileBytes bytes(part, source.watch);
+    VtuBlock block = read_block({part, bytes.view(), source.finite, source.watch});
+    if (!block.in_volume.empty() && !seen.empty() && !mesh.vertices.empty()) {
+      attach(mesh, std::move(block), part);
+      continue;
+    }
+    std::vector<Index> number(block.mesh.vertices.size());
+    if (number.size() > no_entity - mesh.vertices.size()) xml.fail(*tag, "more points than 32 bits count");
+    std::iota(number.begin(), number.end(), static_cast<Index>(mesh.vertices.size()));
+    const std::vector<int> markers = block.mesh.vertex_markers.take(number.size());
+    for (std::size_t i = 0; i < number.size(); ++i)
+      mesh.add_vertex(block.mesh.vertices[i], tag_of(markers, i));
+    append(mesh, std::move(block.mesh), number);
+  }
+  if (!is_index)
+    throw FileError(source.path, "", "not a VTK multi-block file: it has no VTKFile of this type");
+  if (seen.empty()) throw FileError(source.path, "", "the file names no blocks");
+  return mesh;
+}
 
 MeshData read_vtu(const Source& source, std::span<const char* const> names, PointArray& array) {
   VtuReader reader(source);

@@ -9,6 +9,7 @@
 
 #include "io/vtk_cells.h"
 #include "io/vtu_arrays.h"
+#include "io/xml_reader.h"
 #include "mesh/parallel.h"
 
 namespace holdfast::io {
@@ -66,8 +67,20 @@ void write_vtu_arrays(AtomicWriter& out, const VtuArrays& arrays, const WriteOpt
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
       << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
       << "\" header_type=\"UInt64\"" << (options.compress ? " compressor=\"vtkZLibDataCompressor\"" : "")
-      << ">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << std::uint64_t{arrays.points}
-      << "\" NumberOfCells=\"" << std::uint64_t{arrays.cells} << "\">\n<Points>\n";
+      << ">\n<UnstructuredGrid>\n";
+  if (!arrays.field_data.empty()) {
+    out << "<FieldData>\n";
+    for (const auto& [name, values] : arrays.field_data) {
+      out << "<DataArray type=\"Int32\" Name=\"" << escaped(name)
+          << "\" NumberOfComponents=\"2\" NumberOfTuples=\"" << std::uint64_t{values.size()}
+          << "\" format=\"ascii\">";
+      for (const auto& [id, dimension] : values) out << id << ' ' << dimension << ' ';
+      out << "</DataArray>\n";
+    }
+    out << "</FieldData>\n";
+  }
+  out << "<Piece NumberOfPoints=\"" << std::uint64_t{arrays.points} << "\" NumberOfCells=\""
+      << std::uint64_t{arrays.cells} << "\">\n<Points>\n";
   array(arrays.coordinates);
   out << "</Points>\n<Cells>\n";
   array(arrays.connectivity);
@@ -83,30 +96,6 @@ void write_vtu_arrays(AtomicWriter& out, const VtuArrays& arrays, const WriteOpt
   }
   out << "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" << data
       << "\n</AppendedData>\n</VTKFile>\n";
-}
-
-void write_vtu(AtomicWriter& out, const Volume& volume, const WriteOptions& options) {
-  VtuCells cells;
-  cells.reserve(vtk_cell_count(volume),
-                4 * volume.tetrahedra.size() + 3 * volume.facets.size() + 2 * volume.segments.size());
-  std::vector<std::int32_t> kinds, regions, markers;
-  for (auto* array : {&kinds, &regions, &markers}) array->reserve(vtk_cell_count(volume));
-  visit_vtk_cells(volume,
-                  [&](VtkCell type, std::span<const Index> corners, int kind, int region, int marker) {
-                    beat(out.watch());
-                    cells.add(type, corners);
-                    kinds.push_back(kind);
-                    regions.push_back(region);
-                    markers.push_back(marker);
-                  });
-  std::vector<VtuArray> point_data;
-  if (!volume.input_vertices.empty()) point_data.push_back(vtu_array("input_vertex", volume.input_vertices));
-  // The region first: it is what viewers colour by, and what meshio keeps where it keeps one array.
-  VtuArrays arrays = cells.arrays(volume.vertices, {vtu_array("region", regions),
-                                                    vtu_array("marker", markers), vtu_array("kind", kinds)});
-  if (!volume.vertex_markers.empty()) point_data.push_back(vtu_array("marker", volume.vertex_markers));
-  arrays.point_data = std::move(point_data);
-  write_vtu_arrays(out, arrays, options);
 }
 
 }  // namespace holdfast::io

@@ -3,10 +3,52 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 
 #include "io/text_reader.h"
 
 namespace holdfast::io {
+namespace {
+
+/// Text whose five named entities are characters again; others stay as they are.
+std::string unescaped(std::string_view text) {
+  constexpr std::pair<std::string_view, char> kEntities[] = {
+      {"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
+  std::string result;
+  while (!text.empty()) {
+    const auto found = std::find_if(std::begin(kEntities), std::end(kEntities),
+                                    [&](const auto& entity) { return text.starts_with(entity.first); });
+    const bool is_entity = found != std::end(kEntities);
+    result += is_entity ? found->second : text.front();
+    text.remove_prefix(is_entity ? found->first.size() : 1);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:  // XML has no control characters
+        result += c >= '\0' && c < ' ' ? ' ' : c;
+    }
+  }
+  return result;
+}
 
 std::string XmlTag::attribute(std::string_view key) const {
   for (const auto& [name, value] : attributes)
@@ -69,7 +111,7 @@ void XmlReader::read_attributes(XmlTag& tag) {
     if (quote != '"' && quote != '\'') fail(tag, "an attribute without quotes");
     const std::size_t end = source_.bytes.find(quote, position_ + 1);
     if (end == std::string_view::npos) fail(tag, "an attribute that does not end; the file is truncated");
-    tag.attributes.emplace_back(name, source_.bytes.substr(position_ + 1, end - position_ - 1));
+    tag.attributes.emplace_back(name, unescaped(source_.bytes.substr(position_ + 1, end - position_ - 1)));
     position_ = end + 1;
   }
 }

@@ -11,6 +11,9 @@
 
 namespace holdfast::io {
 
+/// Text as an attribute between double quotes holds it.
+[[nodiscard]] std::string escaped(std::string_view text);
+
 struct XmlTag {
   std::string name;
   bool closing = false;      ///< </name>

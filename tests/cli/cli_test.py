@@ -93,7 +93,7 @@ class Files(CliTest):
         self.assertNotIn("out.vtu", self.files())
 
     def test_every_volume_format_is_written_and_checked(self):
-        for name in ("a.vtu", "a.vtk", "a.mesh", "a.msh", "a.node"):
+        for name in ("a.vtu", "a.vtm", "a.vtk", "a.mesh", "a.msh", "a.inp", "a.unv", "a.vol", "a.mfem", "a.su2", "a.bdf", "a.node"):
             with self.subTest(name):
                 self.run_program("mesh", "cube.off", "-o", name, "--fill", "--quiet")
                 self.run_program("check", "cube.off", name)

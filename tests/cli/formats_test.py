@@ -27,7 +27,7 @@ class Formats(CliTest):
 
     def test_markers_of_points_go_through_meshing(self):
         self.write("a.poly", poly(-1))
-        for name in ("a.vtu", "a.vtk", "a.mesh", "a.meshb", "a.msh", "a.node"):
+        for name in ("a.vtu", "a.vtm", "a.vtk", "a.mesh", "a.meshb", "a.msh", "a.node"):
             self.run_program("mesh", "a.poly", "-o", name, "-q")
             self.run_program("check", "a.poly", name)
         lines = (self.folder / "a.node").read_text().splitlines()
@@ -49,9 +49,61 @@ class Formats(CliTest):
         self.write("a.poly", poly(-1).replace(" 7 -1", " -7 -1"))
         ended = self.run_program("mesh", "a.poly", "-o", "a.msh", "--fill")
         self.assertIn("a.msh: ", ended.stderr)
-        self.assertIn("negative", ended.stderr)
+        self.assertIn("region -7 is 1 in the file, since .msh takes positive numbers alone", ended.stderr)
+        self.assertIn("marker 0 is 1 in the file, since .msh takes 0 for none", ended.stderr)
         ended = self.run_program("mesh", "a.poly", "-o", "a.vtu", "--fill")
-        self.assertNotIn("negative", ended.stderr)
+        self.assertNotIn("in the file", ended.stderr)
+
+    def test_names_go_from_the_command_line_into_the_files_and_the_report(self):
+        self.run_program("mesh", "cube.off", "-o", "a.msh", "--markers-by-angle", "30", "--name", "1=inlet", "--name",
+                         "region:1=solid part", "--report", "r.json", "--fill")
+        text = (self.folder / "a.msh").read_text()
+        self.assertIn('2 1 "inlet"', text)
+        self.assertIn('2 6 "surface_6"', text)
+        self.assertIn('3 1 "solid part"', text)
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertEqual(report["names"]["facets"], {"1": "inlet"})
+        ended = self.run_program("mesh", "a.msh", "-o", "b.vtu", "--markers-by-angle", "30", "--fill", expect=2)
+        self.assertIn("every triangle of the surface has a marker", ended.stderr)
+        for name in ("b.inp", "b.unv", "b.vol", "b.mfem", "b.bdf", "b.vtu", "b.vtm"):
+            ended = self.run_program("mesh", "a.msh", "-o", name, "--fill", "--surface-of")
+            self.run_program("check", "a.msh", name)
+        ended = self.run_program("mesh", "a.msh", "-o", "b.inp", "--name", "2=o \xfcber", "--fill", "--surface-of")
+        self.assertIn("1 name of a marker is changed to what .inp allows", ended.stderr)
+        self.assertIn("ELSET=region_1", (self.folder / "b.inp").read_text())
+
+    def test_options_on_how_a_file_is_written(self):
+        self.run_program("mesh", "cube.off", "-o", "a.msh", "--fill", "--binary")
+        self.assertIn(b"4.1 1 8", (self.folder / "a.msh").read_bytes()[:40])
+        self.run_program("check", "cube.off", "a.msh")
+        self.run_program("mesh", "cube.off", "-o", "a.vtu", "--fill", "--one-file")
+        self.assertNotIn("a_surface.vtu", self.files())
+        self.run_program("check", "cube.off", "a.vtu")
+        self.run_program("mesh", "cube.off", "-o", "a.inp", "--fill", "--shells")
+        self.assertIn("TYPE=S3", (self.folder / "a.inp").read_text())
+        self.run_program("check", "cube.off", "a.inp")
+        for option in ("--binary", "--one-file", "--gzip", "--shells"):
+            ended = self.run_program("mesh", "cube.off", "-o", "a.vtk", "--fill", option, expect=2)
+            self.assertIn(f"{option} does nothing for .vtk", ended.stderr)
+
+    def test_openfoam(self):
+        for arguments in (["case/constant/polyMesh"], ["other", "--format", "openfoam", "--gzip"]):
+            self.run_program("mesh", "cube.off", "-o", *arguments, "--fill", "--name", "0=walls")
+        plain, packed = self.folder / "case/constant/polyMesh", self.folder / "other/constant/polyMesh"
+        names = ["boundary", "cellZones", "faceZones", "faces", "neighbour", "owner", "points"]
+        self.assertEqual(sorted(p.name for p in plain.iterdir()), names)
+        self.assertEqual(sorted(p.name for p in packed.iterdir()), [name + ".gz" for name in names])
+        for name in names:
+            self.assertEqual(gzip.decompress((packed / f"{name}.gz").read_bytes()), (plain / name).read_bytes())
+        self.assertIn("    walls\n    {\n        type            patch;\n        nFaces          12;", (plain / "boundary").read_text())
+        owner, neighbour = ([int(n) for n in (plain / name).read_text().split("(")[1].split(")")[0].split()]
+                            for name in ("owner", "neighbour"))
+        pairs = list(zip(owner, neighbour))
+        self.assertEqual(pairs, sorted(pairs))
+        self.assertTrue(all(a < b for a, b in pairs))
+        # Written without packing into a folder that has packed files.
+        self.run_program("mesh", "cube.off", "-o", "other", "--format", "openfoam", "--fill")
+        self.assertEqual(sorted(p.name for p in packed.iterdir()), names)
 
     def test_packed_files(self):
         (self.folder / "p.off.gz").write_bytes(gzip.compress(off(CUBE_POINTS, CUBE_FACETS).encode()))

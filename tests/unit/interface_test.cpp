@@ -130,6 +130,8 @@ TEST_F(Cancelled, WritingAndReadingEveryFormat) {
               kSoon)
         << extension;
     write_volume(path, volume);
+    const std::vector<std::string> readable = readable_volume_formats();
+    if (std::find(readable.begin(), readable.end(), extension) == readable.end()) continue;
     EXPECT_LT(delay(
                   [&](const CancelToken& token) {
                     ReadOptions options;

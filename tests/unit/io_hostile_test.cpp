@@ -50,6 +50,13 @@ std::vector<Sample> valid_files() {
   written(".vtu", {});
   written(".vtu", uncompressed());
   written(".msh", {});
+  WriteOptions binary;
+  binary.binary = true;
+  written(".msh", binary);
+  WriteOptions whole = uncompressed();
+  whole.one_file = true;
+  written(".vtu", whole);
+  for (const char* format : {".inp", ".unv", ".bdf", ".su2", ".mfem", ".vol"}) written(format, {});
   return files;
 }
 

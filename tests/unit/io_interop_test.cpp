@@ -54,9 +54,17 @@ Volume volume() {
 TEST(Interop, OtherProgramsReadTheSame) {
   const TemporaryFolder folder;
   const Volume original = volume();
-  for (const char* name : {"volume.vtu", "volume.vtk", "volume.mesh", "volume.msh"})
-    write_volume(folder / name, original);
-  write_volume(folder / "volume_raw.vtu", original, uncompressed());
+  for (const char* name : {"volume.vtk", "volume.mesh", "volume.msh"}) write_volume(folder / name, original);
+  WriteOptions whole;
+  whole.one_file = true;
+  write_volume(folder / "volume.vtu", original, whole);
+  whole.compress = false;
+  write_volume(folder / "volume_raw.vtu", original, whole);
+  WriteOptions binary;
+  binary.binary = true;
+  write_volume(folder / "volume_binary.msh", original, binary);
+  binary.legacy_msh = true;
+  write_volume(folder / "volume_binary_22.msh", original, binary);
   write_volume(folder / "volume_22.msh", original, legacy_msh());
   std::string points;
   for (const Point& point : original.vertices)

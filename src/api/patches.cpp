@@ -1,0 +1,130 @@
+// Smooth patches of a surface: facets joined across edges that are flat enough.
+#include "holdfast/patches.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <set>
+#include <stdexcept>
+
+#include "holdfast/holdfast.h"
+#include "mesh/disjoint_sets.h"
+#include "numbers/elementary.h"
+#include "numbers/sorted.h"
+
+namespace holdfast {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+struct SideOfFacet {
+  Segment edge;  // ascending places
+  Index facet = 0;
+  bool forward = false;  // the facet goes from the lower to the higher place
+  Segment ends{};        // the facet's own vertices
+};
+
+using Normal = std::array<double, 3>;
+
+Normal minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+double dot(const Normal& a, const Normal& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Of length 1, or nothing where doubles tell none.
+std::optional<Normal> normal_of(const Surface& surface, const Triangle& t) {
+  const Normal u = minus(surface.vertices[t[1]], surface.vertices[t[0]]),
+               v = minus(surface.vertices[t[2]], surface.vertices[t[0]]);
+  Normal n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+  const double length = numbers::hypot(n[0], n[1], n[2]);
+  if (!(length > 0) || length - length != 0) return std::nullopt;
+  for (double& x : n) x /= length;
+  return n;
+}
+
+/// The sides of the facets that take part, those of an edge together.
+std::vector<SideOfFacet> sides_of(const Surface& surface, const std::vector<Index>& facets) {
+  const std::vector<std::int64_t> place = vertex_map(surface.view());
+  const auto place_of = [&](Index v) {
+    if (v >= surface.vertices.size()) throw std::out_of_range("a facet names a vertex that does not exist");
+    return place.empty() || place[v] < 0 ? v : static_cast<Index>(place[v]);
+  };
+  std::vector<SideOfFacet> sides;
+  for (const Index f : facets)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Segment ends{surface.facets[f][k], surface.facets[f][(k + 1) % 3]};
+      const Index a = place_of(ends[0]), b = place_of(ends[1]);
+      sides.push_back({ascending(Segment{a, b}), f, a < b, ends});
+    }
+  std::sort(sides.begin(), sides.end(), [](const SideOfFacet& a, const SideOfFacet& b) {
+    return a.edge != b.edge ? a.edge < b.edge : a.facet < b.facet;
+  });
+  return sides;
+}
+
+class Patches {
+ public:
+  Patches(const Surface& surface, double degrees, const std::vector<Index>& facets)
+      : surface_(surface), least_(numbers::cos(degrees * kPi / 180)), sets_(surface.facets.size()) {
+    const std::vector<SideOfFacet> sides = sides_of(surface, facets);  // which also looks at the indices
+    normals_.resize(surface.facets.size());
+    for (const Index f : facets) normals_[f] = normal_of(surface, surface.facets[f]);
+    for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
+      for (j = i; j < sides.size() && sides[j].edge == sides[i].edge;) ++j;
+      if (j == i + 2) meet(sides[i], sides[i + 1]);
+    }
+    for (const Index f : facets)
+      if (!normals_[f] && neighbour_.contains(f)) sets_.unite(f, neighbour_.at(f).facet);
+  }
+  Index root(Index facet) { return sets_.root(facet); }
+
+ private:
+  struct Neighbour {
+    double length = -1;
+    Index facet = 0;
+  };
+
+  void meet(const SideOfFacet& a, const SideOfFacet& b) {
+    if (!normals_[a.facet] || !normals_[b.facet]) {
+      const double length = numbers::distance(surface_.vertices[a.ends[0]], surface_.vertices[a.ends[1]]);
+      for (const auto& [from, to] : {std::pair(a.facet, b.facet), std::pair(b.facet, a.facet)})
+        if (Neighbour& known = neighbour_[from]; length > known.length) known = {length, to};
+      return;
+    }
+    // Facets that are turned alike go along their edge in opposite directions.
+    const double turn = a.forward != b.forward ? 1 : -1;
+    if (turn * dot(*normals_[a.facet], *normals_[b.facet]) > least_) sets_.unite(a.facet, b.facet);
+  }
+
+  const Surface& surface_;
+  double least_;  // cosine of the largest angle
+  DisjointSets sets_;
+  std::vector<std::optional<Normal>> normals_;
+  std::map<Index, Neighbour> neighbour_;  // of facets without a normal, at the longest edge
+};
+
+}  // namespace
+
+std::size_t markers_by_angle(Surface& surface, double degrees) {
+  if (!(degrees >= 0 && degrees <= 180))
+    throw std::invalid_argument("the angle between patches must be from 0 to 180 degrees");
+  surface.facet_markers.resize(surface.facets.size(), 0);
+  std::vector<Index> facets;
+  for (Index f = 0; f < surface.facets.size(); ++f)
+    if (surface.facet_markers[f] == 0) facets.push_back(f);
+  if (facets.empty()) return 0;
+  Patches patches(surface, degrees, facets);
+  std::set<int> used(surface.facet_markers.begin(), surface.facet_markers.end());
+  std::map<Index, int> number;
+  for (const Index f : facets) {
+    const auto [there, fresh] = number.try_emplace(patches.root(f), 1);
+    if (fresh) {
+      while (used.contains(there->second)) ++there->second;
+      used.insert(there->second);
+    }
+    surface.facet_markers[f] = there->second;
+  }
+  surface.names.facets.erase(0);
+  return number.size();
+}
+
+}  // namespace holdfast

@@ -1,0 +1,257 @@
+// Reads Nastran's bulk data, .bdf, .nas and .fem: GRID, CTETRA, CTRIA3, CTRIA6, CTRIAR, CQUAD4 and rods, in
+// fields of 8 or 16 characters or between commas (MSC Nastran quick reference guide, "Bulk data entries").
+// Properties are regions and markers; names are those that HyperMesh and ANSA write into comments.
+#include <algorithm>
+#include <map>
+
+#include "io/fields.h"
+#include "io/formats.h"
+#include "io/labels.h"
+#include "io/mid_nodes.h"
+#include "io/numbered.h"
+#include "io/polygon.h"
+
+namespace holdfast::io {
+namespace {
+
+/// A card and the fields of its lines, without their first and last, which join them.
+struct Card {
+  std::string name;  ///< in lower case, without the * of wide fields
+  std::vector<std::string_view> fields;
+  std::size_t position = 0;
+};
+
+class BdfReader {
+ public:
+  explicit BdfReader(const Source& source) : text_(source, '\0') {}
+
+  MeshData read() {
+    skip_to_bulk();
+    while (read_card()) {
+      text_.seek(card_.position);
+      use_card();
+      text_.seek(behind_);
+    }
+    if (const auto twice = nodes_.finish())
+      throw FileError(text_.source().path, "",
+                      "the grid point " + std::to_string(*twice) + " is there twice");
+    for (const Element& element : elements_) add(element);
+    if (mesh_.vertices.empty()) throw FileError(text_.source().path, "", "the file has no GRID");
+    tell_skipped();
+    mesh_.names = {markers_.take(), regions_.take(), {}, {}};
+    return std::move(mesh_);
+  }
+
+ private:
+  struct Element {
+    std::string name;
+    int property;
+    std::vector<std::int64_t> nodes;
+    std::size_t position;
+  };
+
+  /// The bulk data begins behind BEGIN BULK, or with the file.
+  void skip_to_bulk() {
+    const std::size_t start = text_.position();
+    while (!text_.remaining().empty()) {
+      const std::string_view line = trimmed(text_.rest_of_line());
+      if (line.starts_with('$')) read_comment(line);
+      const std::string lowered = lower(line.substr(0, 16));
+      if (lowered.starts_with("begin") && lowered.find("bulk") != std::string::npos) return;
+    }
+    text_.seek(start);
+  }
+
+  /// $HMNAME PROP <id>"<name>" or $ANSA_NAME_COMMENT;<id>;<card>;<name>; or what we write of ids.
+  void read_comment(std::string_view line) {
+    if (read_id_comment(line.substr(1), std::array{&regions_, &markers_})) return;
+    const std::string lowered = lower(line.substr(0, 20));
+    std::string_view number, name;
+    if (lowered.starts_with("$hmname prop")) {
+      const std::size_t start = line.find('"'), end = line.rfind('"');
+      if (start == end) return;
+      number = trimmed(line.substr(12, start - 12));
+      name = line.substr(start + 1, end - start - 1);
+    } else if (lowered.starts_with("$ansa_name_comment;")) {
+      const std::vector<std::string_view> fields = split(line, ';');
+      if (fields.size() < 4) return;
+      number = fields[1];
+      name = fields[3];
+    }
+    int id = 0;
+    const auto result = std::from_chars(number.data(), number.data() + number.size(), id);
+    if (number.empty() || result.ec != std::errc() || result.ptr != number.data() + number.size()) return;
+    comments_[id] = std::string(name);
+  }
+
+  /// The next line that is no comment, without one at its end.
+  bool next_line(std::string_view& line) {
+    while (!text_.remaining().empty()) {
+      beat(text_.source().watch);
+      line = text_.rest_of_line();
+      if (line.starts_with('$')) read_comment(line);
+      line = line.substr(0, line.find('$'));
+      if (!trimmed(line).empty()) return true;
+    }
+    return false;
+  }
+
+  static bool continues(std::string_view line) {
+    return line[0] == '+' || line[0] == '*' || line[0] == ' ' || line[0] == ',' || line[0] == '\t';
+  }
+
+  bool read_card() {
+    std::string_view line;
+    if (!next_line(line)) return false;
+    card_ = {};
+    card_.position = text_.last();
+    add_fields(line, true);
+    for (;;) {
+      behind_ = text_.position();
+      if (!next_line(line)) break;
+      if (!continues(line)) break;
+      add_fields(line, false);
+    }
+    text_.seek(behind_);
+    return true;
+  }
+
+  void add_fields(std::string_view line, bool first) {
+    if (line.find(',') != std::string_view::npos) {
+      std::vector<std::string_view> fields = split(line, ',');
+      if (first) set_name(fields[0]);
+      for (std::size_t i = 1; i < fields.size() && i < 9; ++i) card_.fields.push_back(fields[i]);
+      pad(card_.fields.size() % 8 == 0 ? 0 : 8 - card_.fields.size() % 8);
+      return;
+    }
+    const std::string_view head = trimmed(line.substr(0, 8));
+    const bool wide = head.find('*') != std::string_view::npos;
+    if (first) set_name(head);
+    const std::size_t width = wide ? 16 : 8, count = wide ? 4 : 8;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t begin = 8 + i * width;
+      card_.fields.push_back(begin < line.size() ? trimmed(line.substr(begin, width)) : std::string_view());
+    }
+  }
+
+  void pad(std::size_t count) { card_.fields.insert(card_.fields.end(), count, std::string_view()); }
+
+  void set_name(std::string_view head) {
+    card_.name = lower(trimmed(head));
+    while (card_.name.ends_with('*') || card_.name.ends_with(' ')) card_.name.pop_back();
+  }
+
+  [[nodiscard]] std::string_view field(std::size_t i) const {
+    return i < card_.fields.size() ? card_.fields[i] : std::string_view();
+  }
+
+  void use_card() {
+    const std::string& name = card_.name;
+    static_cast<void>(text_.rest_of_line());  // errors are of the card's line
+    if (name == "grid") {
+      read_grid();
+    } else if (name == "ctetra") {
+      read_element(2, 4, 10);
+    } else if (name == "ctria3" || name == "ctriar") {
+      read_element(2, 3, 3);
+    } else if (name == "ctria6") {
+      read_element(2, 3, 6);
+    } else if (name == "cquad4" || name == "cquadr") {
+      read_element(2, 4, 4);
+    } else if (name == "crod" || name == "cbar" || name == "cbeam" || name == "ctube") {
+      read_element(2, 2, 2);
+    } else if (name == "chexa" || name == "cpenta" || name == "cpyram" || name == "cquad8") {
+      text_.fail("elements " + in_quotes(name) +
+                 " are not read; only tetrahedra, triangles and quadrangles are");
+    } else if (name.starts_with("include")) {
+      text_.fail("INCLUDE is not followed; read the file that it names");
+    } else if (name == "enddata") {
+      behind_ = text_.source().bytes.size();
+    } else {
+      ++skipped_[name.substr(0, 16)];
+    }
+  }
+
+  void read_grid() {
+    nodes_.add(integer_of(text_, field(0), "a grid point's number"));
+    if (!field(1).empty() && integer_of(text_, field(1), "a coordinate system") != 0)
+      text_.fail("a grid point in a coordinate system of its own is not read");
+    Point point{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (!field(2 + axis).empty()) point[axis] = real_of(text_, field(2 + axis), "a coordinate");
+    mesh_.vertices.push_back(point);
+  }
+
+  void read_element(std::size_t first, std::size_t corners, std::size_t most) {
+    Element element{
+        card_.name, field(1).empty() ? 0 : id_of(text_, field(1), "a property"), {}, card_.position};
+    if (field(1).empty()) element.property = id_of(text_, field(0), "an element's number");
+    for (std::size_t i = first; i < first + most; ++i) {
+      if (field(i).empty() && i >= first + corners) continue;
+      element.nodes.push_back(integer_of(text_, field(i), "a grid point's number"));
+    }
+    if (element.nodes.size() != corners && element.nodes.size() != most)
+      text_.fail("an element with only some of the nodes on its edges is not read");
+    elements_.push_back(std::move(element));
+  }
+
+  /// The id of a property, which its name may tell.
+  int id_of_property(NamedIds& names, std::map<int, int>& known, int property) {
+    const auto [there, fresh] = known.try_emplace(property, 0);
+    if (!fresh) return there->second;
+    if (const auto found = comments_.find(property); found != comments_.end())
+      names.set(property, found->second);
+    return there->second = names.resolve(property);
+  }
+
+  void add(const Element& element) {
+    std::array<Index, 10> n{};
+    for (std::size_t i = 0; i < element.nodes.size(); ++i) {
+      const std::optional<Index> found = nodes_.find(element.nodes[i]);
+      if (!found)
+        text_.fail_at(element.position,
+                      "the grid point " + std::to_string(element.nodes[i]) + " does not exist");
+      n[i] = *found;
+    }
+    if (element.name == "ctetra") {
+      const int id = id_of_property(regions_, ids_of_regions_, element.property);
+      if (element.nodes.size() == 10)
+        return add_second_order(mesh_, Tetrahedron{n[0], n[1], n[2], n[3]},
+                                {n[4], n[5], n[6], n[7], n[8], n[9]}, id);
+      return mesh_.add_tetrahedron({n[0], n[1], n[2], n[3]}, id);
+    }
+    if (element.nodes.size() == 2) return mesh_.add_segment({n[0], n[1]}, element.property);
+    const int id = id_of_property(markers_, ids_of_markers_, element.property);
+    if (element.nodes.size() == 6)
+      return add_second_order(mesh_, Triangle{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, id);
+    add_polygon(mesh_, std::span(n).first(element.nodes.size()), id,
+                [&](const std::string& reason) { text_.fail_at(element.position, reason); });
+  }
+
+  void tell_skipped() {
+    std::string names;
+    std::size_t count = 0;
+    for (const auto& [name, cards] : skipped_) {
+      names += (names.empty() ? "" : ", ") + in_quotes(name);
+      count += cards;
+    }
+    mesh_.leave_out(count, "cards (" + names + ")", "card (" + names + ")");
+  }
+
+  TextReader text_;
+  Card card_;
+  std::size_t behind_ = 0;
+  MeshData mesh_;
+  Numbered nodes_;
+  std::vector<Element> elements_;
+  std::map<int, std::string> comments_;
+  std::map<int, int> ids_of_regions_, ids_of_markers_;
+  NamedIds regions_{kRegionStem}, markers_{kFacetStem};
+  std::map<std::string, std::size_t> skipped_;
+};
+
+}  // namespace
+
+MeshData read_bdf(const Source& source) { return BdfReader(source).read(); }
+
+}  // namespace holdfast::io

@@ -1,0 +1,176 @@
+// MFEM's meshes (mfem.org, "Mesh formats"): version 1.0, and 1.3 where attributes have names.
+#include <algorithm>
+
+#include "io/fields.h"
+#include "io/polygon.h"
+#include "io/solver_text.h"
+
+namespace holdfast::io {
+namespace {
+
+constexpr NameRule kNames{255, "!#$%&'()*+,-./:;<=>?@[]^_`{|}~", true, true, false, true};
+constexpr IdRule kIds{};
+constexpr int kSegment = 1, kTriangle = 2, kSquare = 3, kTetrahedron = 4;
+
+class MfemReader {
+ public:
+  explicit MfemReader(const Source& source) : text_(source) {}
+
+  MeshData read() {
+    const std::string_view first = trimmed(text_.rest_of_line());
+    if (!first.starts_with("MFEM mesh v1."))
+      text_.fail("not an MFEM mesh of version 1: it does not start with 'MFEM mesh v1.'");
+    while (!text_.at_end()) read_section();
+    add_entities();
+    return std::move(mesh_);
+  }
+
+ private:
+  struct Entity {
+    int attribute;
+    std::int64_t type;
+    std::array<std::int64_t, 4> corners;
+    std::size_t position;
+  };
+
+  void read_section() {
+    const std::string name(text_.word("a section"));
+    if (name == "dimension") {
+      if (text_.integer("the dimension") != 3) text_.fail("the dimension is not 3");
+    } else if (name == "elements" || name == "boundary") {
+      read_entities();
+    } else if (name == "attribute_sets") {
+      read_sets(regions_);
+    } else if (name == "bdr_attribute_sets") {
+      read_sets(facets_);
+    } else if (name == "vertices") {
+      read_vertices();
+    } else if (name == "mfem_mesh_end") {
+      text_.seek(text_.source().bytes.size());
+    } else {
+      text_.fail("the section " + in_quotes(name) + " is not read; only straight meshes of simplices are");
+    }
+  }
+
+  void read_entities() {
+    const std::size_t count = text_.count("the number of elements", 8);
+    for (std::size_t i = 0; i < count; ++i) {
+      Entity entity{text_.tag("an attribute"), text_.integer("a geometry type"), {}, 0};
+      entity.position = text_.last();
+      if (entity.type < kSegment || entity.type > kTetrahedron)
+        text_.fail("elements of geometry " + std::to_string(entity.type) +
+                   " are not read; only segments, triangles, squares and tetrahedra are");
+      for (std::size_t k = 0; k < corners_of(entity.type); ++k)
+        entity.corners[k] = text_.integer("a vertex index");
+      entities_.push_back(entity);
+    }
+  }
+
+  static std::size_t corners_of(std::int64_t type) {
+    return type == kSegment ? 2 : type == kTriangle ? 3 : 4;
+  }
+
+  /// Lines of a name in quotes, a number of attributes and these. A set of one attribute names it.
+  void read_sets(NamedIds& names) {
+    const std::size_t count = text_.count("the number of sets", 4);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (text_.at_end()) text_.fail_truncated("a name in quotes");
+      const std::string_view rest = text_.remaining();
+      const std::size_t end = rest.find('"', 1);
+      if (rest[0] != '"' || end == std::string_view::npos) {
+        text_.seek(text_.position());
+        text_.fail("expected a name in quotes");
+      }
+      const std::string name(rest.substr(1, end - 1));
+      text_.seek(text_.position() + end + 1);
+      const std::size_t size = text_.count("the number of attributes", 2);
+      for (std::size_t k = 0; k < size; ++k) {
+        const int attribute = text_.tag("an attribute");
+        if (size == 1) names.set(attribute, name);
+      }
+      if (size != 1) mesh_.leave_out(1, "sets of several attributes", "set of several attributes");
+    }
+  }
+
+  void read_vertices() {
+    const std::size_t count = text_.count("the number of vertices", 2);
+    if (!text_.number_follows())
+      text_.fail("meshes whose nodes are a function are not read; save them straight");
+    if (text_.integer("the space's dimension") != 3) text_.fail("the space's dimension is not 3");
+    for (std::size_t i = 0; i < count; ++i) mesh_.vertices.push_back(text_.point());
+  }
+
+  void add_entities() {
+    for (const Entity& entity : entities_) {
+      std::array<Index, 4> n{};
+      const std::size_t corners = corners_of(entity.type);
+      for (std::size_t k = 0; k < corners; ++k) {
+        if (entity.corners[k] < 0 || static_cast<std::uint64_t>(entity.corners[k]) >= mesh_.vertices.size())
+          text_.fail_at(entity.position, "the vertex " + std::to_string(entity.corners[k]) +
+                                             " does not exist; there are " +
+                                             std::to_string(mesh_.vertices.size()));
+        n[k] = static_cast<Index>(entity.corners[k]);
+      }
+      if (entity.type == kTetrahedron)
+        mesh_.add_tetrahedron(n, regions_.resolve(entity.attribute));
+      else if (entity.type == kSegment)
+        mesh_.add_segment({n[0], n[1]}, entity.attribute);
+      else
+        add_polygon(mesh_, std::span(n).first(corners), facets_.resolve(entity.attribute),
+                    [&](const std::string& reason) { text_.fail_at(entity.position, reason); });
+    }
+    mesh_.names.regions = regions_.take();
+    mesh_.names.facets = facets_.take();
+  }
+
+  TextReader text_;
+  MeshData mesh_;
+  std::vector<Entity> entities_;
+  NamedIds regions_{kRegionStem}, facets_{kFacetStem};
+};
+
+template <std::size_t N>
+void write_entities(AtomicWriter& out, std::string_view section, int type, const Labels& labels,
+                    const std::vector<std::array<Index, N>>& entities) {
+  out << '\n' << section << '\n' << std::uint64_t{entities.size()} << '\n';
+  for (std::size_t i = 0; i < entities.size(); ++i) {
+    beat(out.watch());
+    out << labels.ids[i] << ' ' << type;
+    for (const Index v : entities[i]) out << ' ' << v;
+    out << '\n';
+  }
+}
+
+void write_sets(AtomicWriter& out, std::string_view section, const Labels& labels) {
+  out << '\n' << section << '\n' << std::uint64_t{labels.names.size()} << '\n';
+  for (const auto& [id, name] : labels.names) out << '"' << name << "\" 1 " << id << '\n';
+}
+
+}  // namespace
+
+MeshData read_mfem(const Source& source) { return MfemReader(source).read(); }
+
+void write_mfem(AtomicWriter& out, const Volume& volume) {
+  const SolverLabels labels(volume, kNames, kIds);
+  const bool named = !volume.names.regions.empty() || !volume.names.facets.empty() ||
+                     !labels.regions.renumbered.empty() || !labels.facets.renumbered.empty();
+  out << (named ? "MFEM mesh v1.3\n" : "MFEM mesh v1.0\n") << "\ndimension\n3\n";
+  write_entities(out, "elements", kTetrahedron, labels.regions, volume.tetrahedra);
+  if (named) write_sets(out, "attribute_sets", labels.regions);
+  write_entities(out, "boundary", kTriangle, labels.facets, volume.facets);
+  if (named) write_sets(out, "bdr_attribute_sets", labels.facets);
+  out << "\nvertices\n" << std::uint64_t{volume.vertices.size()} << "\n3\n";
+  for (const Point& p : volume.vertices) out << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+  if (named) out << "\nmfem_mesh_end\n";
+}
+
+std::vector<Remark> not_in_mfem(const Volume& volume, const WriteOptions&) {
+  std::vector<Remark> remarks;
+  const SolverLabels labels(volume, kNames, kIds);
+  tell(labels.regions, "MFEM", remarks);
+  tell(labels.facets, "MFEM", remarks);
+  tell_left_out(volume, "MFEM's meshes", false, false, remarks);
+  return remarks;
+}
+
+}  // namespace holdfast::io

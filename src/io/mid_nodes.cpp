@@ -1,0 +1,103 @@
+// Nodes on edges of a file's elements, as MidNodes or left out.
+#include "io/mid_nodes.h"
+
+#include <algorithm>
+
+namespace holdfast::io {
+namespace {
+
+constexpr std::array<Index, 6> kNoneOfTet{no_entity, no_entity, no_entity, no_entity, no_entity, no_entity};
+constexpr std::array<Index, 3> kNoneOfFacet{no_entity, no_entity, no_entity};
+
+template <std::size_t N>
+void mark(std::vector<bool>& marks, const std::vector<std::array<Index, N>>& entities, bool value) {
+  for (const auto& entity : entities)
+    for (const Index v : entity)
+      if (v != no_entity) marks[v] = value;
+}
+
+/// Which vertices are nodes on edges and nothing else.
+std::vector<bool> only_on_edges(const MeshData& mesh) {
+  std::vector<bool> marks(mesh.vertices.size());
+  mark(marks, mesh.mids.tetrahedra, true);
+  mark(marks, mesh.mids.facets, true);
+  for (const Index v : mesh.mids.segments)
+    if (v != no_entity) marks[v] = true;
+  mark(marks, mesh.tetrahedra, false);
+  mark(marks, mesh.facets, false);
+  mark(marks, mesh.segments, false);
+  return marks;
+}
+
+bool complete(const MeshData& mesh, const std::vector<bool>& on_edges) {
+  const auto is_node = [&](Index v) { return v != no_entity && on_edges[v]; };
+  const auto all = [&](const auto& nodes) { return std::all_of(nodes.begin(), nodes.end(), is_node); };
+  return mesh.mids.tetrahedra.size() == mesh.tetrahedra.size() &&
+         mesh.mids.facets.size() == mesh.facets.size() && mesh.mids.segments.size() == mesh.segments.size() &&
+         std::all_of(mesh.mids.tetrahedra.begin(), mesh.mids.tetrahedra.end(), all) &&
+         std::all_of(mesh.mids.facets.begin(), mesh.mids.facets.end(), all) && all(mesh.mids.segments);
+}
+
+template <std::size_t N>
+void renumber(std::vector<std::array<Index, N>>& entities, const std::vector<Index>& number) {
+  for (auto& entity : entities)
+    for (Index& v : entity) v = number[v];
+}
+
+}  // namespace
+
+void add_second_order(MeshData& mesh, const Tetrahedron& corners, const std::array<Index, 6>& mids,
+                      int region) {
+  mesh.mids.tetrahedra.resize(mesh.tetrahedra.size(), kNoneOfTet);
+  mesh.mids.tetrahedra.push_back(mids);
+  mesh.add_tetrahedron(corners, region);
+}
+
+void add_second_order(MeshData& mesh, const Triangle& corners, const std::array<Index, 3>& mids, int marker) {
+  mesh.mids.facets.resize(mesh.facets.size(), kNoneOfFacet);
+  mesh.mids.facets.push_back(mids);
+  mesh.add_facet(corners, marker);
+}
+
+void add_second_order(MeshData& mesh, const Segment& corners, Index mid, int marker) {
+  mesh.mids.segments.resize(mesh.segments.size(), no_entity);
+  mesh.mids.segments.push_back(mid);
+  mesh.add_segment(corners, marker);
+}
+
+void settle_mid_nodes(MeshData& mesh, bool keep) {
+  if (mesh.mids.tetrahedra.empty() && mesh.mids.facets.empty() && mesh.mids.segments.empty()) return;
+  const std::vector<bool> on_edges = only_on_edges(mesh);
+  keep = keep && complete(mesh, on_edges);
+  const std::vector<int> markers = mesh.vertex_markers.take(mesh.vertices.size());
+  mesh.vertex_markers = {};
+  std::vector<Index> number(mesh.vertices.size());
+  std::vector<Point> corners, mids;
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (on_edges[v]) {
+      mids.push_back(mesh.vertices[v]);
+      continue;
+    }
+    number[v] = static_cast<Index>(corners.size());
+    mesh.vertex_markers.add(corners.size(), tag_of(markers, v));
+    corners.push_back(mesh.vertices[v]);
+  }
+  for (std::size_t v = 0, next = corners.size(); v < number.size(); ++v)
+    if (on_edges[v]) number[v] = static_cast<Index>(next++);
+  renumber(mesh.tetrahedra, number);
+  renumber(mesh.facets, number);
+  renumber(mesh.segments, number);
+  mesh.vertices = std::move(corners);
+  if (!keep) {
+    mesh.leave_out(mids.size(), "nodes in the middle of edges", "node in the middle of an edge");
+  } else {
+    renumber(mesh.mids.tetrahedra, number);
+    renumber(mesh.mids.facets, number);
+    for (Index& v : mesh.mids.segments) v = number[v];
+    mesh.mid_nodes = {std::move(mids), std::move(mesh.mids.tetrahedra), std::move(mesh.mids.facets),
+                      std::move(mesh.mids.segments)};
+  }
+  mesh.mids = {};
+}
+
+}  // namespace holdfast::io

@@ -1,0 +1,37 @@
+// Text formats of solvers that are short enough to be written here: SU2, MFEM, Netgen's .vol, Nastran's .bdf.
+#pragma once
+
+#include "io/formats.h"
+#include "io/labels.h"
+#include "io/mesh_sets.h"
+
+namespace holdfast::io {
+
+/// The labels of the three kinds of entities that solvers' formats have.
+struct SolverLabels {
+  Labels regions, facets, segments;
+
+  SolverLabels(const Volume& volume, const NameRule& names, const IdRule& ids)
+      : regions(labels_of(kRegionStem, volume.regions, volume.tetrahedra.size(), volume.names.regions, names,
+                          ids)),
+        facets(labels_of(kFacetStem, volume.facet_markers, volume.facets.size(), volume.names.facets, names,
+                         ids)),
+        segments(labels_of(kSegmentStem, volume.segment_markers, volume.segments.size(),
+                           volume.names.segments, names, ids)) {}
+};
+
+/// Says what formats without segments, without vertex markers or without second order do not hold.
+inline void tell_left_out(const Volume& volume, std::string_view format, bool segments, bool second_order,
+                          std::vector<Remark>& remarks) {
+  const auto say = [&](std::size_t count, std::string_view what) {
+    if (count > 0)
+      remarks.push_back(
+          {RemarkKind::not_held, count,
+           std::to_string(count) + " " + std::string(what) + " have no place in " + std::string(format)});
+  };
+  if (!segments) say(volume.segments.size(), "segments");
+  if (!second_order) say(volume.mid_nodes.points.size(), "nodes in the middle of edges");
+  tell_marked_vertices(volume, format, remarks);
+}
+
+}  // namespace holdfast::io

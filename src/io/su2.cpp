@@ -1,0 +1,213 @@
+// SU2's native meshes (SU2 documentation, "Mesh file"): tetrahedra, and triangles of the boundary by markers.
+#include <algorithm>
+
+#include "io/fields.h"
+#include "io/polygon.h"
+#include "io/solver_text.h"
+
+namespace holdfast::io {
+namespace {
+
+constexpr NameRule kNames{128, "_-."};
+constexpr IdRule kAnyId{false};
+constexpr int kLine = 3, kTriangle = 5, kQuadrangle = 9, kTetrahedron = 10;
+
+class Su2Reader {
+ public:
+  explicit Su2Reader(const Source& source) : text_(source, '\0') {}
+
+  MeshData read() {
+    // Nodes may follow the elements that name them: their number is looked for first.
+    find_points();
+    while (next()) read_section();
+    if (!has_dimension_) text_.fail("there is no NDIME=, so this is no SU2 mesh");
+    if (mesh_.vertices.size() != points_) text_.fail("there are other than NPOIN= points");
+    mesh_.leave_out(skipped_, "sections of other kinds", "section of another kind");
+    mesh_.names.facets = names_.take();
+    return std::move(mesh_);
+  }
+
+ private:
+  bool next() {
+    while (!text_.remaining().empty()) {
+      beat(text_.source().watch);
+      const std::string_view line = text_.rest_of_line();
+      const std::size_t mark = line.find('%');
+      if (mark != std::string_view::npos) read_id_comment(line.substr(mark + 1), std::array{&names_});
+      line_ = trimmed(line.substr(0, mark));
+      if (!line_.empty()) return true;
+    }
+    line_ = {};
+    return false;
+  }
+
+  void find_points() {
+    while (next()) {
+      const auto [key, value] = pair();
+      if (key != "npoin") continue;
+      points_ = count(value, 4);
+      break;
+    }
+    text_.seek(0);
+  }
+
+  /// "KEY= value"; the key in lower case, empty where there is none.
+  [[nodiscard]] std::pair<std::string, std::string_view> pair() const {
+    const std::size_t equals = line_.find('=');
+    if (equals == std::string_view::npos) return {};
+    return {lower(trimmed(line_.substr(0, equals))), trimmed(line_.substr(equals + 1))};
+  }
+
+  /// The first word of a value, as a number of lines that the rest of the file can hold.
+  std::size_t count(std::string_view value, std::size_t bytes_each) {
+    const std::int64_t number =
+        integer_of(text_, value.substr(0, value.find_first_of(" \t")), "a number of lines");
+    if (number < 0 || static_cast<std::uint64_t>(number) > (text_.source().bytes.size() + 1) / bytes_each ||
+        number >= std::int64_t{no_entity})
+      text_.fail("the number " + std::to_string(number) + " is more than the file holds; it is damaged");
+    return static_cast<std::size_t>(number);
+  }
+
+  void read_section() {
+    const auto [key, value] = pair();
+    if (key.empty()) text_.fail("expected KEY= and a value, found " + in_quotes(line_));
+    if (key == "ndime") {
+      has_dimension_ = true;
+      if (integer_of(text_, value, "a dimension") != 3) text_.fail("the dimension is not 3");
+    } else if (key == "nelem") {
+      for (std::size_t i = count(value, 4); i > 0; --i) read_element(0);
+    } else if (key == "npoin") {
+      for (std::size_t i = count(value, 4); i > 0; --i) read_point();
+    } else if (key == "marker_tag") {
+      marker_ = names_.id_of(std::string(value));
+    } else if (key == "marker_elems") {
+      for (std::size_t i = count(value, 4); i > 0; --i) read_element(marker_);
+    } else if (key == "nzone") {
+      if (integer_of(text_, value, "a number of zones") != 1)
+        text_.fail("meshes of several zones are not read");
+    } else if (key != "nmark" && key != "izone") {
+      ++skipped_;
+    }
+  }
+
+  std::vector<std::string_view> fields() {
+    if (!next()) text_.fail_truncated("a line of numbers");
+    std::vector<std::string_view> result;
+    for (std::string_view rest = line_; !rest.empty();) {
+      const std::size_t end = std::min(rest.find_first_of(" \t"), rest.size());
+      result.push_back(rest.substr(0, end));
+      rest = trimmed(rest.substr(end));
+    }
+    return result;
+  }
+
+  void read_point() {
+    const std::vector<std::string_view> f = fields();
+    if (f.size() < 3) text_.fail("a point needs three coordinates");
+    mesh_.vertices.push_back({real_of(text_, f[0], "a coordinate"), real_of(text_, f[1], "a coordinate"),
+                              real_of(text_, f[2], "a coordinate")});
+  }
+
+  void read_element(int marker) {
+    const std::vector<std::string_view> f = fields();
+    const std::int64_t type = integer_of(text_, f[0], "an element's type");
+    const std::size_t corners = type == kLine ? 2 : type == kTriangle ? 3 : 4;
+    if (type != kLine && type != kTriangle && type != kQuadrangle && type != kTetrahedron)
+      text_.fail("elements of type " + std::to_string(type) +
+                 " are not read; only tetrahedra, triangles, quadrangles and lines are");
+    if (f.size() < corners + 1) text_.fail("an element of fewer corners than its type has");
+    std::array<Index, 4> n{};
+    for (std::size_t i = 0; i < corners; ++i) {
+      const std::int64_t v = integer_of(text_, f[i + 1], "a point's index");
+      if (v < 0 || static_cast<std::uint64_t>(v) >= points_)
+        text_.fail("the point " + std::to_string(v) + " does not exist; there are " +
+                   std::to_string(points_));
+      n[i] = static_cast<Index>(v);
+    }
+    if (type == kTetrahedron)
+      mesh_.add_tetrahedron(n);
+    else if (type == kLine)
+      mesh_.add_segment({n[0], n[1]}, marker);
+    else if (type == kTriangle)
+      mesh_.add_facet({n[0], n[1], n[2]}, marker);
+    else
+      add_quadrangle(n, marker);
+  }
+
+  /// Its points may not be read yet, which the cut of a quadrangle depends on; SU2 itself has any order.
+  void add_quadrangle(const std::array<Index, 4>& n, int marker) {
+    if (mesh_.vertices.size() != points_) text_.fail("quadrangles before the points are not read");
+    add_polygon(mesh_, n, marker, [&](const std::string& reason) { text_.fail(reason); });
+  }
+
+  TextReader text_;
+  std::string_view line_;
+  MeshData mesh_;
+  std::size_t points_ = 0, skipped_ = 0;
+  bool has_dimension_ = false;
+  int marker_ = 0;
+  NamedIds names_{kFacetStem};
+};
+
+/// Facets with a tetrahedron on one side alone: SU2 takes markers for the boundary.
+std::vector<bool> on_boundary(const Volume& volume) {
+  std::vector<bool> result;
+  result.reserve(volume.facets.size());
+  for (const SidesOfFacet& sides : sides_of_facets(volume))
+    result.push_back(volume.tetrahedra.empty() || sides.behind.has_value() != sides.front.has_value());
+  return result;
+}
+
+}  // namespace
+
+MeshData read_su2(const Source& source) { return Su2Reader(source).read(); }
+
+void write_su2(AtomicWriter& out, const Volume& volume) {
+  const SolverLabels labels(volume, kNames, kAnyId);
+  const std::vector<bool> boundary = on_boundary(volume);
+  std::map<int, std::vector<std::size_t>> markers;
+  for (std::size_t f = 0; f < boundary.size(); ++f)
+    if (boundary[f]) markers[labels.facets.ids[f]].push_back(f);
+  Labels written = labels.facets;
+  std::erase_if(written.names, [&](const auto& entry) { return !markers.contains(entry.first); });
+  out << "% mesh by Holdfast\n";
+  write_id_comments(out, "%", written);
+  out << "NDIME= 3\nNELEM= " << std::uint64_t{volume.tetrahedra.size()} << '\n';
+  for (std::size_t i = 0; i < volume.tetrahedra.size(); ++i) {
+    beat(out.watch());
+    out << kTetrahedron;
+    for (const Index v : volume.tetrahedra[i]) out << ' ' << v;
+    out << ' ' << std::uint64_t{i} << '\n';
+  }
+  out << "NPOIN= " << std::uint64_t{volume.vertices.size()} << '\n';
+  for (std::size_t i = 0; i < volume.vertices.size(); ++i) {
+    const Point& p = volume.vertices[i];
+    out << p[0] << ' ' << p[1] << ' ' << p[2] << ' ' << std::uint64_t{i} << '\n';
+  }
+  out << "NMARK= " << std::uint64_t{markers.size()} << '\n';
+  for (const auto& [id, members] : markers) {
+    out << "MARKER_TAG= " << labels.facets.names.at(id) << "\nMARKER_ELEMS= " << std::uint64_t{members.size()}
+        << '\n';
+    for (const std::size_t f : members)
+      out << kTriangle << ' ' << volume.facets[f][0] << ' ' << volume.facets[f][1] << ' '
+          << volume.facets[f][2] << '\n';
+  }
+}
+
+std::vector<Remark> not_in_su2(const Volume& volume, const WriteOptions&) {
+  std::vector<Remark> remarks;
+  const SolverLabels labels(volume, kNames, kAnyId);
+  tell(labels.facets, ".su2", remarks);
+  const auto say = [&](std::size_t count, const std::string& what) {
+    if (count > 0) remarks.push_back({RemarkKind::not_held, count, std::to_string(count) + what});
+  };
+  if (labels.regions.names.size() > 1)
+    say(labels.regions.names.size(), " regions are one zone in .su2, which has no place for them");
+  const std::vector<bool> boundary = on_boundary(volume);
+  say(static_cast<std::size_t>(std::count(boundary.begin(), boundary.end(), false)),
+      " facets inside are left out: markers of .su2 are for the boundary");
+  tell_left_out(volume, ".su2", false, false, remarks);
+  return remarks;
+}
+
+}  // namespace holdfast::io

@@ -1,0 +1,136 @@
+// Names and markers out of the formats of surfaces, and back into them; smooth patches as markers.
+#include <gtest/gtest.h>
+
+#include "holdfast/patches.h"
+#include "holdfast/surface_io.h"
+#include "io_samples.h"
+#include "small_surfaces.h"
+
+namespace holdfast {
+namespace {
+
+using namespace samples;
+using ByMarker = std::map<int, std::string>;
+
+class NamesOfFiles : public ::testing::Test {
+ protected:
+  Surface surface(const std::string& bytes, const std::string& name) {
+    put(folder_ / name, bytes);
+    return read_surface(folder_ / name);
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(NamesOfFiles, SolidsOfStl) {
+  const Surface two = surface(kStl, "a.stl");
+  EXPECT_EQ(two.facet_markers, (std::vector<int>{1, 2}));
+  EXPECT_EQ(two.names.facets, (ByMarker{{1, "first part"}}));
+  const std::string one = std::string(kStl).substr(0, std::string(kStl).find("solid\nfacet"));
+  EXPECT_TRUE(surface(one, "b.stl").facet_markers.empty());
+  EXPECT_EQ(surface(one, "b.stl").names.facets, (ByMarker{{0, "first part"}}));
+}
+
+TEST_F(NamesOfFiles, AreUtf8) {
+  std::string text = kStl;
+  text.replace(text.find("first part"), 10, "\xC3\x9C\xFF\x01");
+  EXPECT_EQ(surface(text, "a.stl").names.facets, (ByMarker{{1, "\xC3\x9C?"}}));
+}
+
+TEST_F(NamesOfFiles, GroupsAndMaterialsOfObj) {
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+  const Surface groups = surface(points + "g inlet\nusemtl red\nf 1 2 3\nf 1 2 4\ng wall side\nf 1 3 4\n", "a.obj");
+  EXPECT_EQ(groups.facet_markers, (std::vector<int>{1, 1, 2}));
+  EXPECT_EQ(groups.names.facets, (ByMarker{{1, "inlet"}, {2, "wall side"}}));
+  ASSERT_EQ(groups.remarks.size(), 1u);
+  EXPECT_EQ(groups.remarks[0].message, "1 line of looks, groups or names (usemtl) is left out");
+  const Surface materials = surface(points + "f 1 2 3\nusemtl red\nf 1 2 4\nusemtl blue\nf 1 3 4\n", "b.obj");
+  EXPECT_EQ(materials.facet_markers, (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(materials.names.facets, (ByMarker{{1, "red"}, {2, "blue"}}));
+  EXPECT_EQ(surface(points + "o part\nf 1 2 3\n", "c.obj").names.facets, (ByMarker{{0, "part"}}));
+}
+
+TEST_F(NamesOfFiles, MarkersOfPly) {
+  const std::string text =
+      "ply\nformat ascii 1.0\ncomment surface 7 inlet\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nproperty short marker\nelement face 2\nproperty int marker\n"
+      "property list uchar int vertex_indices\nend_header\n0 0 0 5\n1 0 0 0\n0 1 0 0\n7 3 0 1 2\n-3 3 0 2 1\n";
+  const Surface read = surface(text, "a.ply");
+  EXPECT_EQ(read.facet_markers, (std::vector<int>{7, -3}));
+  EXPECT_EQ(read.vertex_markers, (std::vector<int>{5, 0, 0}));
+  EXPECT_EQ(read.names.facets, (ByMarker{{7, "inlet"}}));
+  EXPECT_TRUE(read.remarks.empty());
+}
+
+TEST_F(NamesOfFiles, PhysicalGroupsOfGmsh) {
+  EXPECT_EQ(surface(kMsh2, "a.msh").names.facets, (ByMarker{{7, "wall"}}));
+  std::string text = kMsh2;
+  text.replace(text.find("1\n2 7"), 2, "2\n3 9 \"a \"solid\" one\"\n");
+  put(folder_ / "b.msh", text);
+  EXPECT_EQ(read_volume(folder_ / "b.msh").names.regions, (ByMarker{{9, "a \"solid\" one"}}));
+}
+
+TEST_F(NamesOfFiles, ArraysOfOtherPrograms) {
+  std::string text = kVtk;
+  ASSERT_NE(text.find("region"), std::string::npos);
+  const Volume ours = [&] {
+    put(folder_ / "a.vtk", text);
+    return read_volume(folder_ / "a.vtk");
+  }();
+  for (std::size_t at; (at = text.find("region")) != std::string::npos;) text.replace(at, 6, "mat_id");
+  put(folder_ / "b.vtk", text);
+  EXPECT_EQ(read_volume(folder_ / "b.vtk").regions, ours.regions);
+}
+
+TEST_F(NamesOfFiles, GoThroughSurfaceFiles) {
+  Surface original = small::box();
+  for (std::size_t f = 0; f < original.facets.size(); ++f)
+    original.facet_markers.push_back(f < 4 ? 3 : f < 8 ? 12 : 0);
+  original.names.facets = {{3, "in \"let\""}, {12, "\xC3\xBC" "bergang"}};
+  for (const char* name : {"a.stl", "a.obj", "a.ply", "a.msh", "a.vtu", "a.vtk"}) {
+    write_surface(folder_ / name, original);
+    const Surface copy = read_surface(folder_ / name);
+    ASSERT_EQ(copy.facet_markers.size(), original.facet_markers.size()) << name;
+    std::vector<std::string> of_facets, expected;
+    for (const int marker : copy.facet_markers)
+      of_facets.push_back(copy.names.facets.contains(marker) ? copy.names.facets.at(marker) : "");
+    std::sort(of_facets.begin(), of_facets.end());
+    for (const char c : std::string("aaaabbbbcccc"))
+      expected.push_back(c == 'a' ? "" : c == 'b' ? original.names.facets[3] : original.names.facets[12]);
+    if (std::string(name) == "a.obj") std::replace(expected.begin(), expected.end(), original.names.facets[3],
+                                                   std::string("in__let_"));
+    if (std::string(name) == "a.msh") std::replace(expected.begin(), expected.end(), original.names.facets[3],
+                                                   std::string("in _let_"));
+    if (std::string(name) == "a.stl")  // solids are numbered anew, and each has a name
+      std::replace(expected.begin(), expected.end(), std::string(), std::string("surface_0"));
+    std::sort(expected.begin(), expected.end());
+    EXPECT_EQ(of_facets, expected) << name;
+  }
+}
+
+TEST(Patches, OfABox) {
+  Surface box = small::box();
+  EXPECT_EQ(markers_by_angle(box, 30), 6u);
+  EXPECT_EQ(std::count(box.facet_markers.begin(), box.facet_markers.end(), 6), 2);
+  EXPECT_EQ(box.facet_markers[0], 1);
+  EXPECT_EQ(markers_by_angle(box, 30), 0u);
+  Surface smooth = small::box();
+  EXPECT_EQ(markers_by_angle(smooth, 91), 1u);
+  EXPECT_THROW(markers_by_angle(smooth, 181), std::invalid_argument);
+}
+
+TEST(Patches, GoRoundMarkersThatAreThere) {
+  Surface box = small::box();
+  box.facet_markers.assign(box.facets.size(), 0);
+  box.facet_markers[0] = 2;
+  // A facet that is turned round does not end a patch, nor do vertices that are there twice.
+  std::swap(box.facets[5][0], box.facets[5][1]);
+  const Index copy = box.facets[7][0];
+  box.vertices.push_back(box.vertices[copy]);
+  box.facets[7][0] = static_cast<Index>(box.vertices.size() - 1);
+  EXPECT_EQ(markers_by_angle(box, 30), 6u);
+  EXPECT_EQ(box.facet_markers[0], 2);
+  EXPECT_EQ(std::count(box.facet_markers.begin(), box.facet_markers.end(), 2), 1);
+}
+
+}  // namespace
+}  // namespace holdfast
