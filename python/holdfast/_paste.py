@@ -93,7 +93,7 @@ def paste(
     >>> pasted = holdfast.paste(box(0, 1), box(1, 3))
     >>> mesh = holdfast.mesh(pasted, fill=True)
     >>> sorted(set(mesh.regions.tolist())), len(pasted.surface.triangles)
-    ([1, 2], 24)
+    ([1, 2], 22)
     """
     options = limits(time_limit, memory_limit, cancel)
     options.update(tolerance=float(tolerance), overlap=overlap, threads=int(threads))
