@@ -9,6 +9,7 @@
 
 #include "io/byte_reader.h"
 #include "io/formats.h"
+#include "io/mid_nodes.h"
 #include "io/polygon.h"
 
 namespace holdfast::io {
@@ -122,6 +123,19 @@ class GmfReader {
       case kTetrahedra:
         return read_entities<4>("tetrahedra",
                                 [&](const Tetrahedron& c, int tag) { mesh_.add_tetrahedron(c, tag); });
+      case kEdgesP2:
+        return read_entities<3>("edges", [&](const std::array<Index, 3>& n, int tag) {
+          add_second_order(mesh_, Segment{n[0], n[1]}, n[2], tag);
+        });
+      case kTrianglesP2:
+        return read_entities<6>("triangles", [&](const std::array<Index, 6>& n, int tag) {
+          add_second_order(mesh_, Triangle{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, tag);
+        });
+      case kTetrahedraP2:
+        return read_entities<10>("tetrahedra", [&](const std::array<Index, 10>& n, int tag) {
+          add_second_order(mesh_, Tetrahedron{n[0], n[1], n[2], n[3]}, {n[4], n[5], n[6], n[7], n[8], n[9]},
+                           tag);
+        });
       case kQuadrilaterals:
         return read_entities<4>("quadrilaterals", [&](const std::array<Index, 4>& c, int tag) {
           add_polygon(mesh_, c, tag, [&](const std::string& reason) { bytes_.fail(reason); });

@@ -1,6 +1,7 @@
 // Medit's .mesh, the ASCII form of GMF (Frey, Medit: an interactive mesh visualization software,
 // INRIA RT-0253, 2001).
 #include "io/formats.h"
+#include "io/mid_nodes.h"
 #include "io/polygon.h"
 #include "io/text_reader.h"
 
@@ -68,6 +69,19 @@ bool read_section(TextReader& text, const std::string& keyword, MeshData& mesh) 
   } else if (keyword == "tetrahedra") {
     read_entities<4>(text, "the number of tetrahedra", vertices,
                      [&](const Tetrahedron& corners, int tag) { mesh.add_tetrahedron(corners, tag); });
+  } else if (keyword == "trianglesp2") {
+    read_entities<6>(text, "the number of triangles", vertices, [&](const std::array<Index, 6>& n, int tag) {
+      add_second_order(mesh, Triangle{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, tag);
+    });
+  } else if (keyword == "edgesp2") {
+    read_entities<3>(text, "the number of edges", vertices, [&](const std::array<Index, 3>& n, int tag) {
+      add_second_order(mesh, Segment{n[0], n[1]}, n[2], tag);
+    });
+  } else if (keyword == "tetrahedrap2") {
+    read_entities<
+        10>(text, "the number of tetrahedra", vertices, [&](const std::array<Index, 10>& n, int tag) {
+      add_second_order(mesh, Tetrahedron{n[0], n[1], n[2], n[3]}, {n[4], n[5], n[6], n[7], n[8], n[9]}, tag);
+    });
   } else if (keyword == "quadrilaterals") {
     read_entities<4>(text, "the number of quadrilaterals", vertices,
                      [&](const std::array<Index, 4>& corners, int tag) {

@@ -4,6 +4,7 @@
 
 #include "io/file_bytes.h"
 #include "io/formats.h"
+#include "io/mid_nodes.h"
 #include "io/tetgen.h"
 
 namespace holdfast::io {
@@ -13,17 +14,11 @@ std::filesystem::path with_extension(std::filesystem::path path, const char* ext
   return path.replace_extension(extension);
 }
 
-/// Reads the lines "number corner... tag..." of one of the files. `columns` of the header follow the
-/// count; the tag is the first number behind the corners, 0 where there is none. Returns how many lines have
-/// further attributes.
+/// Reads the lines "number node... tag..." of one of the files, behind its header; the tag is the first
+/// number behind the nodes, 0 where there is none. Returns how many lines have further attributes.
 template <std::size_t N, typename Add>
-std::size_t read_lines(TextReader& text, const char* what, const TetgenNodes& nodes, Add&& add) {
-  const std::size_t count = text.count("the number of elements", 2 * N + 2);
-  if (N == 4 && !text.at_line_end() && text.integer("the number of corners") != 4)
-    text.fail("tetrahedra of other than 4 corners are not read");
-  const std::int64_t attributes =
-      N == 4 && !text.at_line_end() ? text.integer("the number of attributes") : 1;
-  text.skip_line();
+std::size_t read_lines(TextReader& text, const char* what, const TetgenNodes& nodes, std::size_t count,
+                       std::int64_t attributes, Add&& add) {
   std::int64_t first = nodes.base;
   for (std::size_t i = 0; i < count; ++i) {
     if (i == 0) {
@@ -33,7 +28,7 @@ std::size_t read_lines(TextReader& text, const char* what, const TetgenNodes& no
     } else {
       read_tetgen_number(text, what, first + static_cast<std::int64_t>(i));
     }
-    std::array<Index, N> corners{};
+    std::array<Index, N> corners{};  // and nodes on edges
     for (Index& corner : corners) corner = text.index("a vertex index", nodes.base, nodes.vertices.size());
     // Regions are attributes, which TetGen writes as reals.
     add(corners, text.at_line_end() ? 0 : text.tag_from_real("a marker"));
@@ -50,7 +45,9 @@ void read_optional(const std::filesystem::path& path, Watch* watch, const char* 
   if (!std::filesystem::exists(path, error)) return;
   const FileBytes bytes(path, watch);
   TextReader text({path, bytes.view(), false, watch});
-  static_cast<void>(read_lines<N>(text, what, nodes, add));
+  const std::size_t count = text.count("the number of elements", 2 * N + 2);
+  text.skip_line();
+  static_cast<void>(read_lines<N>(text, what, nodes, count, 1, add));
 }
 
 /// With nodes on edges behind the corners, if there are any.
@@ -76,15 +73,38 @@ MeshData read_tetgen_volume(const Source& source) {
   const FileBytes bytes(elements, source.watch);
   TextReader text({elements, bytes.view(), false, source.watch});
   MeshData mesh;
-  const std::size_t more =
-      read_lines<4>(text, "the tetrahedron's number", nodes,
-                    [&](const Tetrahedron& corners, int region) { mesh.add_tetrahedron(corners, region); });
+  const std::size_t count = text.count("the number of elements", 10);
+  const std::int64_t corners = text.at_line_end() ? 4 : text.integer("the number of corners");
+  if (corners != 4 && corners != 10) text.fail("tetrahedra of other than 4 or 10 nodes are not read");
+  const std::int64_t attributes = text.at_line_end() ? 1 : text.integer("the number of attributes");
+  text.skip_line();
+  const char* const number = "the tetrahedron's number";
+  const bool second = corners == 10;
+  const auto add_tet = [&](const Tetrahedron& t, int region) { mesh.add_tetrahedron(t, region); };
+  // TetGen has the nodes of the edges 23 03 01 12 13 02.
+  const auto add_tet10 = [&](const std::array<Index, 10>& n, int region) {
+    add_second_order(mesh, Tetrahedron{n[0], n[1], n[2], n[3]}, {n[6], n[7], n[9], n[5], n[8], n[4]}, region);
+  };
+  const std::size_t more = second ? read_lines<10>(text, number, nodes, count, attributes, add_tet10)
+                                  : read_lines<4>(text, number, nodes, count, attributes, add_tet);
   mesh.leave_out(more, "attributes of tetrahedra behind the first",
                  "attribute of a tetrahedron behind the first");
-  read_optional<3>(sibling(source.path, ".face"), source.watch, "the face's number", nodes,
-                   [&](const Triangle& corners, int marker) { mesh.add_facet(corners, marker); });
-  read_optional<2>(sibling(source.path, ".edge"), source.watch, "the edge's number", nodes,
-                   [&](const Segment& corners, int marker) { mesh.add_segment(corners, marker); });
+  const auto face = sibling(source.path, ".face"), edge = sibling(source.path, ".edge");
+  const char* const face_number = "the face's number";
+  const char* const edge_number = "the edge's number";
+  if (second) {
+    read_optional<6>(face, source.watch, face_number, nodes, [&](const std::array<Index, 6>& n, int marker) {
+      add_second_order(mesh, Triangle{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, marker);
+    });
+    read_optional<3>(edge, source.watch, edge_number, nodes, [&](const std::array<Index, 3>& n, int marker) {
+      add_second_order(mesh, Segment{n[0], n[1]}, n[2], marker);
+    });
+  } else {
+    read_optional<3>(face, source.watch, face_number, nodes,
+                     [&](const Triangle& t, int marker) { mesh.add_facet(t, marker); });
+    read_optional<2>(edge, source.watch, edge_number, nodes,
+                     [&](const Segment& s, int marker) { mesh.add_segment(s, marker); });
+  }
   take_nodes(mesh, nodes);
   return mesh;
 }

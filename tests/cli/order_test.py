@@ -63,6 +63,45 @@ class Order(CliTest):
             self.assertGreater(len(tetrahedra), 10)
             self.check_middles(points, tetrahedra, edges)
 
+    def test_every_format_is_read_back_and_checked(self):
+        for ending in ("mesh", "meshb", "node", "vtu", "vtk", "msh"):
+            with self.subTest(ending):
+                self.run_program("mesh", "cube.off", "-o", "a." + ending, "--order", "2", "--size", "0.6", "-q")
+                said = self.run_program("check", "cube.off", "a." + ending).stdout
+                self.assertIn("holds   mid-edge nodes placed", said)
+                self.assertIn("holds   Jacobians positive", said)
+                found = json.loads(self.run_program("info", "a." + ending, "--json").stdout)
+                self.assertEqual((found["order"], found["mid_nodes"]), (2, found["edges"]))
+                self.run_program("convert", "a." + ending, "b.mesh", "--order", "1", "-q")
+                found = json.loads(self.run_program("info", "b.mesh", "--json").stdout)
+                self.assertEqual((found["order"], found["unused_vertices"]), (1, 0))
+        self.run_program("convert", "a.msh", "again.node", "-q")
+        self.run_program("check", "cube.off", "again.node", "-q")
+
+    def test_check_finds_a_node_that_was_moved(self):
+        self.run_program("mesh", "cube.off", "-o", "a.node", "--order", "2", "--size", "0.4", "-q")
+        points, tetrahedra = self.read("a.node")
+        inner = next(n for t in tetrahedra for n in t[4:] if all(0 < x < 1 for x in points[n]))
+        lines = (self.folder / "a.node").read_text().splitlines()
+        words = lines[1 + inner].split()
+        words[1] = repr(float(words[1]) + 1e-6)
+        lines[1 + inner] = " ".join(words)
+        (self.folder / "a.node").write_text("\n".join(lines) + "\n")
+        self.assertIn("BROKEN  mid-edge nodes placed", self.run_program("check", "cube.off", "a.node", expect=6).stdout)
+
+    def test_meshio_reads_it(self):
+        python = shutil.which("python3", path="/usr/bin") or "python3"
+        script = ("import meshio, sys\nm = meshio.read(sys.argv[1])\n"
+                  "for b in m.cells:\n  if b.type == 'tetra10':\n"
+                  "    for t in b.data:\n      for n, (i, j) in zip(t[4:], [(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)]):\n"
+                  "        assert abs(m.points[n] - (m.points[t[i]] + m.points[t[j]]) / 2).max() < 1e-12\n    print('read')\n")
+        if subprocess.run([python, "-c", "import meshio"], stderr=subprocess.DEVNULL, check=False).returncode:
+            self.skipTest("there is no meshio")
+        for name in ("a.vtu", "a.vtk", "a.msh"):
+            self.run_program("mesh", "cube.off", "-o", name, "--order", "2", "--size", "0.6", "-q")
+            said = subprocess.run([python, "-c", script, name], cwd=self.folder, stdout=subprocess.PIPE, text=True, check=True)
+            self.assertIn("read", said.stdout, name)
+
     def test_report_and_wrong_usage(self):
         self.run_program("mesh", "cube.off", "-o", "cube.mesh", "--order", "2", "--fill", "--report", "r.json")
         report = json.loads((self.folder / "r.json").read_text())["second_order"]
