@@ -137,10 +137,21 @@ class Snapping {
   /// Pairs of facets of a part that do not fit together once its vertices have moved, and single ones of no
   /// area.
   [[nodiscard]] std::set<std::array<Index, 2>> broken(Index part, const std::map<Index, Point>& moves) const {
-    std::vector<Point> vertices = state_.vertices;
-    for (const auto& [v, to] : moves) vertices[v] = to;
+    // Vertices of other parts are none of this one's.
+    const std::vector<Index> own = vertices_of(part);
+    const auto number = [&](Index v) {
+      return static_cast<Index>(std::lower_bound(own.begin(), own.end(), v) - own.begin());
+    };
+    std::vector<Point> vertices;
+    for (const Index v : own) {
+      const auto moved = moves.find(v);
+      vertices.push_back(moved == moves.end() ? at(v) : moved->second);
+    }
     std::vector<Triangle> facets;
-    for (const Index f : facets_[part]) facets.push_back(state_.facets[f]);
+    for (const Index f : facets_[part]) {
+      const Triangle& t = state_.facets[f];
+      facets.push_back({number(t[0]), number(t[1]), number(t[2])});
+    }
     const Complex complex{vertices, facets, {}, {}, {}};
     const Elements elements = elements_of(complex, threads_);
     std::set<std::array<Index, 2>> pairs;
