@@ -9,7 +9,7 @@ SEED ?= 1
 MINUTES ?= 5
 PYTHON ?= /usr/bin/python3
 
-.PHONY: help setup build demo test python wheel slurm python-corpus corpus random planes solvers fuzz bench field tables paper figures format viewer web-test pictures docs web tidy debug asan tsan libcxx install clean
+.PHONY: help setup build demo test python wheel slurm python-corpus corpus random planes solvers fuzz bench field repair tables paper figures format viewer web-test pictures docs web tidy debug asan tsan libcxx install clean
 .DEFAULT_GOAL := help
 
 help:  ## this list
@@ -84,6 +84,13 @@ field:  ## meshes to compute with, beside Gmsh, TetGen and Netgen, to docs/field
 	@cmake --preset release -DHOLDFAST_BUILD_BENCH=ON
 	@cmake --build $(RELEASE) -j $(JOBS) --target holdfast_cli mesh_shape
 	@python3 bench/field.py --build $(RELEASE) --corpus "$(or $(CORPUS),../shared/corpus)" $(ARGS)
+
+repair: build  ## broken surfaces repaired and verified, beside admesh and CGAL, to docs/repair.md; goes on where it stopped
+	@scripts/setup.sh build bench
+	@cmake --preset release -DHOLDFAST_BUILD_BENCH=ON
+	@cmake --build $(RELEASE) -j $(JOBS) --target holdfast_cli cgal_autorefine
+	@python3 bench/repair.py --holdfast $(RELEASE)/holdfast --rows $(RELEASE)/bench/repair.jsonl --out docs/repair.md \
+	  --autorefine $(RELEASE)/cgal_autorefine --jobs $(JOBS) $(ARGS)
 
 tables: build  ## the paper's tables beside TetGen, for the corpus and the paper's cases, to docs/results.md
 	@scripts/setup.sh bench

@@ -14,7 +14,7 @@ declare -A packages=(
   [solvers]="calculix-ccx openfoam freefem++ libfreefem++ python3-dolfinx python3-getfem python3-netgen python3-sfepy python3-meshio
              python3-vtk9 python3-gmsh gmsh netgen"
   [slurm]="slurmctld slurmd slurm-client munge"
-  [bench]="tetgen libtet1.5-dev gmsh libcgal-dev libgmp-dev libmpfr-dev libtbb-dev libbenchmark-dev"
+  [bench]="admesh tetgen libtet1.5-dev gmsh libcgal-dev libgmp-dev libmpfr-dev libtbb-dev libbenchmark-dev"
   [field]="gmsh tetgen python3-netgen"
   [fuzz]="clang-14 clang libclang-rt-14-dev"
   [browser]="chromium fonts-dejavu-core"

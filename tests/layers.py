@@ -12,7 +12,8 @@ import tempfile
 from pathlib import Path
 
 # Layers that may use less than everything below them.
-ONLY = {"check": {"text", "numbers", "exact"}, "io": {"text", "numbers", "metric"}}
+ONLY = {"check": {"text", "numbers", "exact"}, "check_repair": {"text", "numbers", "exact", "check"},
+        "io": {"text", "numbers", "metric"}}
 # Threads and limits are no part of the mesh that they lie beside, the table of places asks for nothing but points, and polygons
 # become triangles by one header.
 BESIDES = {"io": {"mesh/parallel.h", "mesh/plain_monitor.h", "surface/weld.h", "plane/facets.h",

@@ -20,6 +20,7 @@ from ._api import (
 from ._core import CancelToken, __version__
 from ._names import Names
 from ._paste import Pasted, paste
+from ._repair import Repair, repair
 from ._surface import Surface, read_surface
 from ._tetmesh import Quality, TetMesh
 from ._batch import batch
@@ -50,6 +51,7 @@ __all__ = [
     "NotRepresentable",
     "Pasted",
     "Quality",
+    "Repair",
     "Rule",
     "Surface",
     "TetMesh",
@@ -64,5 +66,6 @@ __all__ = [
     "paste",
     "read_surface",
     "read_volume",
+    "repair",
     "untangle",
 ]

@@ -15,6 +15,7 @@ import numpy.typing as npt
 from . import _core
 from ._limits import CancelToken, MemoryAmount, ProgressCallback, Shown, limits
 from ._paste import Pasted
+from ._repair import repair as repair_surface
 from ._surface import Array, PathLike, Surface, indices_of, markers_of, points_of, surface_of
 from ._tetmesh import TetMesh
 from .errors import Defect, _defects, _raise_unless_done
@@ -43,6 +44,7 @@ def mesh(
     holes: typing.Iterable[typing.Sequence[float]] = (),
     regions: typing.Iterable[typing.Sequence[float]] = (),
     drop_outside: bool = False,
+    repair: Union[bool, float] = False,
     without: typing.Iterable[str] = (),
     seed: int = 1,
     threads: int = 1,
@@ -96,6 +98,9 @@ def mesh(
         (x, y, z, id[, size]): the id, and the longest edge wanted, of the region that holds the point.
     drop_outside
         Drop triangles outside every kept region instead of refusing them.
+    repair
+        Make the surface valid first, as `holdfast.repair` does: True, or the distance within which vertices are joined.
+        The result's `repair` tells what changed.
     without
         Steps to leave out: "flips", "optimise", "points".
     seed, threads
@@ -148,6 +153,13 @@ def mesh(
     )
     if pasted is not None and what is not pasted.surface:
         raise ValueError("a pasted surface is meshed as it is: leave out triangles, segments and markers")
+    repaired = None
+    if pasted is not None and repair is not False:
+        raise ValueError("a pasted surface is valid: leave out repair")
+    if repair is not False:
+        repaired = repair_surface(what, weld=0.0 if repair is True else float(repair), threads=int(threads),
+                                  time_limit=time_limit, memory_limit=memory_limit, cancel=cancel, progress=progress)
+        what = repaired.surface
     options.update(
         fill=fill,
         gradation=float(gradation),
@@ -174,7 +186,9 @@ def mesh(
         else:
             result = _core.mesh(what._arrays(), options, asked_size, asked_metric, callback)
     _raise_unless_done(result)
-    return TetMesh._of(result.volume, result.n_input_points, result)
+    meshed = TetMesh._of(result.volume, result.n_input_points, result)
+    meshed.repair = repaired
+    return meshed
 
 
 def _numbers(values: typing.Sequence[float], count: int, what: str) -> list[float]:

@@ -16,6 +16,7 @@ import numpy.typing as npt
 from . import _core
 from ._limits import CancelToken, MemoryAmount, ProgressCallback, Shown, limits
 from ._names import Names, names_of
+from ._repair import Repair
 from ._surface import Array, PathLike, Surface, _or_none, indices_of, markers_of, points_of, surface_of
 
 _VTK_LINE, _VTK_TRIANGLE, _VTK_TETRA = 3, 5, 10
@@ -105,6 +106,8 @@ class TetMesh:
         self._volume = volume
         self._result = result
         self._report: Optional[dict[str, Any]] = None
+        self.repair: Optional[Repair] = None
+        """What `mesh(..., repair=True)` changed before; `repair.surface` is the surface that was meshed."""
         self._triangle_regions: Optional[ma.MaskedArray[Any, Any]] = None
         self.curve_report: dict[str, Any] = {}
         self.points = volume.points

@@ -49,4 +49,5 @@ PYBIND11_MODULE(_core, module) {
   register_files(module);
   register_calls(module);
   register_paste(module);
+  register_repair(module);
 }

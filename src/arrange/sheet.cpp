@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "arrange/flat_mesh.h"
+#include "exact/predicates.h"
 #include "numbers/sorted.h"
 #include "plane/order.h"
 
@@ -49,6 +50,15 @@ class Sheet {
   // --- Points -----------------------------------------------------------------------------------------
 
   [[nodiscard]] Position flat(const Point& p) const { return {p[(axis_ + 1) % 3], p[(axis_ + 2) % 3]}; }
+
+  /// The sign of a facet's area along the axis of the sheet: that of the facet itself may be another one,
+  /// where two components of the normal are equal but for rounding.
+  [[nodiscard]] int turn(const Element& facet) const {
+    if (facet.axis == axis_) return facet.turn;
+    std::array<Position, 3> p{};
+    for (std::size_t i = 0; i < 3; ++i) p[i] = flat(complex_.vertices[facet.vertex[i]]);
+    return exact::orient2d(p[0].data(), p[1].data(), p[2].data());
+  }
 
   /// The vertex here of a point of the pool, new or not.
   Vertex add(Index p) {
@@ -182,7 +192,7 @@ class Sheet {
 
   void take(const std::array<Vertex, 3>& v, std::span<const Index> parents) {
     Triangle t{point_of_[v[0]], point_of_[v[1]], point_of_[v[2]]};
-    if (elements_.all[parents[0]].turn < 0) std::swap(t[1], t[2]);
+    if (turn(elements_.all[parents[0]]) < 0) std::swap(t[1], t[2]);
     result_.triangles.push_back(t);
     result_.parents.insert(result_.parents.end(), parents.begin(), parents.end());
     result_.first_parent.push_back(static_cast<Index>(result_.parents.size()));
@@ -205,7 +215,7 @@ class Sheet {
       const Element& facet = elements_.all[f];
       std::array<Vertex, 3> corner{};
       for (std::size_t i = 0; i < 3; ++i) corner[i] = vertex_of_.at(facet.vertex[i]);
-      if (facet.turn < 0) std::swap(corner[1], corner[2]);
+      if (turn(facet) < 0) std::swap(corner[1], corner[2]);
       std::vector<plane::EdgeCode> sides;
       for (std::size_t i = 0; i < 3; ++i) {
         const std::vector<Vertex> chain = mesh.chain(corner[i], corner[(i + 1) % 3]);

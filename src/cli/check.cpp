@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "check_folder.h"
+#include "check_repaired.h"
 #include "command.h"
 #include "files.h"
 #include "files_of_run.h"
@@ -19,12 +20,12 @@ namespace {
 
 struct CheckArguments {
   std::vector<std::filesystem::path> files;  // surfaces, then the volume
-  std::filesystem::path report, html;
+  std::filesystem::path report, parents, verdict, html;
   std::string input_format, format;
   double tolerance = 0;
   CheckOptions options;
   LimitArguments limits;
-  bool quiet = false;
+  bool repaired = false, quiet = false;
 };
 
 std::string listing_of(const CheckResult& result) {
@@ -59,13 +60,33 @@ int run_on_folder(const CheckArguments& arguments, const CheckOptions& options) 
   return check_folder({arguments.files[0], arguments.report, options, arguments.quiet});
 }
 
+int run_repaired(const CheckArguments& arguments) {
+  if (arguments.options.outside_dropped || arguments.options.box || !arguments.html.empty())
+    throw UsageError(
+        "check: --outside-dropped, --box and --html are about volumes, and --repaired is about a surface");
+  RepairedFiles files;
+  files.inputs.assign(arguments.files.begin(), arguments.files.end() - 1);
+  files.output = arguments.files.back();
+  files.parents = arguments.parents;
+  files.report = arguments.report;
+  files.verdict = arguments.verdict;
+  files.input_format = arguments.input_format;
+  files.format = arguments.format;
+  return check_repaired_files(files, limits_of(arguments.limits), arguments.quiet);
+}
+
 int run(const CheckArguments& arguments) {
+  if (arguments.repaired && arguments.files.size() >= 2) return run_repaired(arguments);
+  if (!arguments.parents.empty() || !arguments.verdict.empty())
+    throw UsageError("check: --parents and --verdict go with --repaired");
   CheckOptions options = arguments.options;
   static_cast<Limits&>(options) = limits_of(arguments.limits);
   if (arguments.files.size() == 1 && std::filesystem::is_directory(arguments.files[0]))
     return run_on_folder(arguments, options);
   if (arguments.files.size() < 2)
-    throw UsageError("check: a surface and a volume are expected, as in `holdfast check part.stl part.vtu`");
+    throw UsageError(
+        "check: a surface and a volume are expected, as in `holdfast check part.stl part.vtu`, "
+        "or, with --repaired, surfaces and what `holdfast repair` made of them");
   const std::vector<std::filesystem::path> surfaces(arguments.files.begin(), arguments.files.end() - 1);
   const std::filesystem::path& volume_path = arguments.files.back();
   FilesOfRun files;
@@ -93,24 +114,37 @@ int run(const CheckArguments& arguments) {
 
 void add_check(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<CheckArguments>();
-  CLI::App* command = app.add_subcommand("check", "Verify exactly that a volume keeps a surface");
+  CLI::App* command = app.add_subcommand(
+      "check", "Verify exactly that a volume keeps a surface, or a repaired surface its input");
   command
       ->add_option(
           "SURFACE VOLUME", arguments->files,
           "The surfaces that were meshed, then the volume (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf "
-          ".su2 .mfem .vol .node); or the folder of a split surface")
+          ".su2 .mfem .vol .node); or the folder of a split surface; with --repaired the surfaces that were "
+          "repaired, then the result")
       ->transform(or_standard_input)
       ->required();
   command->add_flag("--outside-dropped", arguments->options.outside_dropped,
                     "Accept missing facets that lie outside every tetrahedron (mesh --drop-outside)");
   command->add_flag("--box", arguments->options.box,
                     "The mesh goes out to an enclosing box (mesh --keep box)");
-  command->add_option("--format", arguments->format, "Volume format, instead of by ending")
+  command->add_flag("--repaired", arguments->repaired,
+                    "The last file is what `repair` made of the others, as --parents and --report claim");
+  command
+      ->add_option("--parents", arguments->parents, "With --repaired: the file that `repair --parents` wrote")
+      ->transform(or_standard_input)
+      ->option_text("FILE");
+  command->add_option("--verdict", arguments->verdict, "With --repaired: write the rules as JSON")
+      ->transform(or_standard_output)
+      ->option_text("FILE.json");
+  command->add_option("--format", arguments->format, "Format of the last file, instead of by ending")
       ->option_text("FORMAT");
   add_tolerance(*command, arguments->tolerance);
   command->add_option("--input-format", arguments->input_format, "Surface format, instead of by ending")
       ->option_text("FORMAT");
-  command->add_option("--report", arguments->report, "Write the rules as JSON")
+  command
+      ->add_option("--report", arguments->report,
+                   "Write the rules as JSON; with --repaired: read the report that `repair --report` wrote")
       ->transform(or_standard_output)
       ->option_text("FILE.json");
   add_html_option(*command, arguments->html);

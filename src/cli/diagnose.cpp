@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "command.h"
+#include "cures.h"
 #include "defects.h"
 #include "files.h"
 #include "files_of_run.h"
@@ -26,7 +27,7 @@ struct DiagnoseArguments {
 };
 
 Json report_of(const Surface& surface, const Report::Input& input, const std::vector<Defect>& defects,
-               const DefectSummary& summary) {
+               const DefectSummary& summary, const Cures& cures) {
   return {{"valid", defects.empty()},
           {"input",
            {{"vertices", input.vertices},
@@ -36,6 +37,7 @@ Json report_of(const Surface& surface, const Report::Input& input, const std::ve
             {"facets", input.facets}}},
           {"version", version()},
           {"summary", to_json(summary)},
+          {"cures", to_json(cures)},
           {"remarks", to_json(surface.remarks)},
           {"defects", to_json(defects)}};
 }
@@ -46,7 +48,7 @@ std::string counted(std::size_t count, const char* what) {
 
 /// The summary, then the list.
 std::string listing_of(const Report::Input& counts, const std::vector<Defect>& defects,
-                       const DefectSummary& summary, std::size_t most) {
+                       const DefectSummary& summary, const Cures& cures, std::size_t most) {
   const std::string input = fmt::format("{} vertices, {} segments, {} facets in {}", counts.vertices,
                                         counts.segments, counts.facets, counted(summary.parts, "part"));
   std::string text;
@@ -56,7 +58,7 @@ std::string listing_of(const Report::Input& counts, const std::vector<Defect>& d
     text = fmt::format("valid, encloses nothing: needs `--keep box` to be filled; {}\n", input);
   else
     text = fmt::format("valid: {}; encloses {}\n", input, counted(summary.enclosed.value_or(0), "region"));
-  text += summary_text(summary);
+  text += summary_text(summary) + cures_text(cures);
   const std::string list = list_text(summary, defects, most, "--all lists them, --report FILE.json, too");
   return list.empty() ? text : text + "\n" + list;
 }
@@ -73,6 +75,14 @@ void write_html(const DiagnoseArguments& arguments, const Limits& limits, const 
                    defects.empty());
   page.set_report(report);
   page.write();
+}
+
+RepairOptions trials(const DiagnoseOptions& options) {
+  RepairOptions trial;
+  static_cast<Limits&>(trial) = options;
+  trial.threads = options.threads;
+  trial.progress = goes_on;
+  return trial;
 }
 
 int run(const DiagnoseArguments& arguments) {
@@ -97,13 +107,14 @@ int run(const DiagnoseArguments& arguments) {
   const Report::Input input = count_vertices(surface);
   if (!arguments.quiet) print_merged(input);
   const DefectSummary summary = summarise(surface.view(), defects);
-  const Json report = report_of(surface, input, defects, summary);
+  const Cures cures = propose_cures(surface.view(), defects, summary, trials(options));
+  const Json report = report_of(surface, input, defects, summary, cures);
   write_json(arguments.report, report);
   write_json(json, report);
   write_html(arguments, options, surface, defects, report);
   if (!arguments.quiet && !arguments.json) {
     const bool cut = !arguments.all && files.list_is_on_terminal();
-    files.list(listing_of(input, defects, summary, cut ? shown_on_terminal : SIZE_MAX));
+    files.list(listing_of(input, defects, summary, cures, cut ? shown_on_terminal : SIZE_MAX));
   }
   if (defects.empty()) return exit_done;
   say("holdfast: the surface is not valid: {} defect{}{}\n", defects.size(), defects.size() == 1 ? "" : "s",

@@ -144,6 +144,10 @@ void FilesOfRun::read_volume(const fs::path& path, std::string_view format) {
   read("the input", files_of_volume(path, format));
 }
 
+void FilesOfRun::read_file(std::string_view option, const fs::path& path) {
+  if (!path.empty()) read(option, {path});
+}
+
 void FilesOfRun::read_size_field(std::string_view option, const fs::path& path) {
   if (path.empty()) return;
   if (path == standard_input)

@@ -36,6 +36,8 @@ class FilesOfRun {
   void read_surfaces(const std::vector<std::filesystem::path>& paths, std::string_view format);
   void read_points(const std::filesystem::path& path, std::string_view format);
   void read_volume(const std::filesystem::path& path, std::string_view format);
+  /// Any other file.
+  void read_file(std::string_view option, const std::filesystem::path& path);
   void read_size_field(std::string_view option, const std::filesystem::path& path);
 
   /// A file of the program's own making, in folders that need not be there yet if these are made with it.

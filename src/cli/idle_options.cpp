@@ -85,6 +85,11 @@ void refuse_idle_options(const MeshArguments& arguments) {
            "--paste makes parts of its components");
   if (arguments.fill) refuse_beside_fill(arguments);
   refuse_beside_without(arguments);
+  if (!arguments.repaired.empty() && !arguments.repair)
+    throw UsageError("--repaired does nothing without --repair: the surface is meshed as it is");
+  if (arguments.repair && (arguments.paste || arguments.overlap))
+    throw UsageError(
+        "--paste and --overlap are for parts that are valid; with --repair all files are one surface");
   refuse_after_end(arguments);
 }
 

@@ -12,6 +12,7 @@
 #include "files.h"
 #include "files_of_run.h"
 #include "holdfast/patches.h"
+#include "holdfast/surface_io.h"
 #include "idle_options.h"
 #include "limits.h"
 #include "mesh_options.h"
@@ -20,6 +21,8 @@
 #include "paste_options.h"
 #include "paste_result.h"
 #include "progress.h"
+#include "repair_before.h"
+#include "repair_result.h"
 #include "report.h"
 #include "signals.h"
 #include "summary.h"
@@ -261,11 +264,16 @@ void split_by_angle(const MeshArguments& arguments, Surface& surface) {
   if (!arguments.quiet) say("holdfast: {} by angle\n", counted(patches, "smooth patch", "smooth patches"));
 }
 
+Json report_of(const RepairResult& result, const RepairOptions& options) {
+  return to_json(result, {{"weld", options.weld}, {"union", options.unite}});
+}
+
 int run(const MeshArguments& arguments) {
   const Stopwatch whole;
   Options options = to_options(arguments);
   const Names names = names_of(arguments.names);
   options.started = whole.start();  // the limit is on the whole command
+  const std::optional<RepairOptions> repairing = repair_options(arguments, options);
   FilesOfRun files;
   if (arguments.surface_of)
     for (const auto& volume : arguments.surfaces) files.read_volume(volume, arguments.input_format);
@@ -277,6 +285,10 @@ int run(const MeshArguments& arguments) {
   apply(arguments.writing, target);
   target.options.threads = arguments.threads;
   watch_writing(target.options, options);
+  WriteOptions surface_writing;
+  if (!arguments.repaired.empty())
+    surface_writing = files.write_surface("--repaired", arguments.repaired, {});
+  watch_writing(surface_writing, options);
   files.write("--report", arguments.report);
   files.write("--exact", arguments.exact);
   files.write("--html", arguments.html);
@@ -302,8 +314,22 @@ int run(const MeshArguments& arguments) {
   const double reading = whole.seconds();
 
   cancel_by_flag();  // from here on the mesher asks, and files are open
+  std::optional<RepairResult> repaired;
+  if (repairing) {
+    repaired = repair_before(surface, *repairing, progress);
+    if (repaired->outcome != Outcome::done) {
+      write_json(arguments.report, {{"outcome", name(repaired->outcome)},
+                                    {"message", repaired->message},
+                                    {"repair", report_of(*repaired, *repairing)}});
+      return conclude_repair(*repaired);
+    }
+    if (!arguments.quiet) say("repair: {}\n", summary_of(*repaired));
+    surface = repaired->surface;
+    input.parts.clear();
+    require_a_size_a_vertex(arguments, options, surface);
+  }
   options.progress = std::ref(progress);
-  paste_parts(arguments, options, input);
+  if (!repaired) paste_parts(arguments, options, input);
   Result result = mesh_or_refuse(arguments, input, options);
   tell_defects_of_files(arguments, input, result);
   const Surface& meshed = input.pasted && arguments.paste ? input.pasted->surface : surface;
@@ -312,6 +338,7 @@ int run(const MeshArguments& arguments) {
                          : Json();
   const Stopwatch writing;
   progress.writing();
+  if (repaired) write_repaired(arguments.repaired, surface, result.outcome, surface_writing, arguments.quiet);
   write_result(arguments, target, result);
   progress.finish();
   result.report.seconds["read"] = reading;
@@ -328,6 +355,7 @@ int run(const MeshArguments& arguments) {
       report["shared_facets"] = input.pasted->shared_facets;
     }
     report["second_order"] = order;
+    if (repaired) report["repair"] = report_of(*repaired, *repairing);
     write_json(arguments.report, report);
     write_html(arguments, options, meshed, result, std::move(report));
   }
@@ -361,6 +389,16 @@ void add_mesh(CLI::App& app, Command& chosen) {
   command->add_flag(
       "--fill", arguments->fill,
       "Add no field points: only what the surface forces, and a few where an element stays flat");
+  command
+      ->add_flag("--repair", arguments->repair,
+                 "First make the surface valid, as `repair` does; T joins vertices that are this near, as "
+                 "its --weld")
+      ->option_text("[=T]");
+  command
+      ->add_option("--repaired", arguments->repaired,
+                   "With --repair: write the surface that was meshed, for `check` (formats as for `repair`)")
+      ->transform(or_standard_output)
+      ->option_text("FILE");
   command->add_option("--size", arguments->size, "Field points: no edge inside much longer than this")
       ->option_text("H");
   command
@@ -398,9 +436,10 @@ void add_mesh(CLI::App& app, Command& chosen) {
   add_paste_option(*command, arguments->paste);
   add_overlap_option(*command, arguments->overlap);
   command
-      ->add_option("--markers-by-angle", arguments->markers_by_angle,
-                   "Give triangles without a marker one for each smooth patch, which ends where triangles meet at "
-                   "DEG degrees or more")
+      ->add_option(
+          "--markers-by-angle", arguments->markers_by_angle,
+          "Give triangles without a marker one for each smooth patch, which ends where triangles meet at "
+          "DEG degrees or more")
       ->check(CLI::Range(0.0, 180.0))
       ->option_text("DEG");
   command->add_flag("--drop-outside", arguments->drop_outside,

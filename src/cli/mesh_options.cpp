@@ -116,6 +116,20 @@ void read_size_field(const MeshArguments& arguments, Options& options) {
     sizes.field = size_function(std::move(field));
 }
 
+std::optional<RepairOptions> repair_options(const MeshArguments& arguments, const Options& options) {
+  if (!arguments.repair) return std::nullopt;
+  RepairOptions repair;
+  static_cast<Limits&>(repair) = options;
+  repair.threads = options.threads;
+  if (*arguments.repair != "true") {
+    repair.weld =
+        numbers("--repair=", *arguments.repair, 1, "a length, within which vertices are joined, is")[0];
+    if (repair.weld < 0)
+      throw UsageError("--repair=" + *arguments.repair + ": the length must not be negative");
+  }
+  return repair;
+}
+
 Options to_options(const MeshArguments& arguments) {
   Options options;
   set_keep(options, arguments.keep.value_or("auto"));
@@ -177,6 +191,8 @@ Json to_json(const MeshArguments& arguments) {
           {"curved", arguments.elements.curved.string()},
           {"curved_tolerance", arguments.elements.tolerance.value_or(0)},
           {"quality", arguments.quality.value_or("good")},
+          {"repair", arguments.repair.has_value()},
+          {"repaired", arguments.repaired.string()},
           {"keep", arguments.keep.value_or("auto")},
           {"holes", arguments.holes},
           {"regions", arguments.regions},

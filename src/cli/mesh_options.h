@@ -9,6 +9,7 @@
 #include "bound_options.h"
 #include "holdfast/holdfast.h"
 #include "order_options.h"
+#include "holdfast/repair.h"
 #include "report.h"
 #include "write_options.h"
 
@@ -17,12 +18,13 @@ namespace holdfast::cli {
 /// What the user typed.
 struct MeshArguments {
   std::vector<std::filesystem::path> surfaces;
-  std::filesystem::path output, report, exact, html;
+  std::filesystem::path output, report, exact, html, repaired;
   std::string input_format, format;
   double tolerance = 0;
   bool surface_of = false, fill = false, drop_outside = false, quiet = false, verbose = false;
   std::optional<std::string> keep, quality, overlap;
   std::optional<std::string> paste;  ///< the tolerance, or empty for none
+  std::optional<std::string> repair;  ///< the tolerance, or "true"
   std::vector<std::string> holes, regions, without, names;
   std::string stop_after, order;
   std::optional<double> size, gradation, markers_by_angle;
@@ -39,6 +41,10 @@ struct MeshArguments {
 /// The library's options, but for the size field. Reads no file. Throws UsageError that says what is wrong
 /// and what is right, also for options that do nothing beside others.
 [[nodiscard]] Options to_options(const MeshArguments& arguments);
+
+/// Those of the repair before the mesh, if it is asked for, with the limits and threads of the mesh.
+[[nodiscard]] std::optional<RepairOptions> repair_options(const MeshArguments& arguments,
+                                                          const Options& options);
 
 /// Reads the size field, if there is one, into the sizes. Throws FileError.
 void read_size_field(const MeshArguments& arguments, Options& options);

@@ -18,6 +18,12 @@ constexpr std::size_t most_bar_width = 40;
 constexpr std::chrono::milliseconds redraw_after{100};
 // Of the whole command: where the mesher begins and ends. Before and after it files are read and written.
 constexpr double mesher_begins = 0.02, mesher_ends = 0.96;
+// A repair before it; while the mesher has not come so far yet, the bar waits.
+constexpr double repair_ends = 0.2;
+
+double share_of_mesher(double fraction) {
+  return std::lerp(mesher_begins, mesher_ends, std::clamp(fraction, 0.0, 1.0));
+}
 
 std::size_t terminal_columns() {
   constexpr std::size_t usual = 80;
@@ -36,11 +42,17 @@ Show how_to_show(bool quiet, bool verbose) {
 ProgressView::ProgressView(Show show) : show_(show) {}
 
 bool ProgressView::operator()(const Progress& progress) {
-  return tell(static_cast<int>(progress.stage), name(progress.stage), progress.overall);
+  return tell(static_cast<int>(progress.stage), name(progress.stage), share_of_mesher(progress.overall));
 }
 
 bool ProgressView::operator()(const UntangleProgress& progress) {
-  return tell(static_cast<int>(progress.step), name(progress.step), progress.fraction);
+  return tell(static_cast<int>(progress.step), name(progress.step), share_of_mesher(progress.fraction));
+}
+
+bool ProgressView::repairing(double fraction) {
+  constexpr int before_all_stages = -1;
+  return tell(before_all_stages, "repair",
+              std::lerp(mesher_begins, repair_ends, std::clamp(fraction, 0.0, 1.0)));
 }
 
 bool ProgressView::tell(int order, const char* what, double share) {
@@ -48,7 +60,7 @@ bool ProgressView::tell(int order, const char* what, double share) {
   const bool first_time = !order_ || *order_ < order;
   if (first_time) order_ = order;
   if (show_ == Show::lines && first_time) say("[{:8.2f} s] {}\n", seconds(), what);
-  share_ = std::max(share_, std::lerp(mesher_begins, mesher_ends, std::clamp(share, 0.0, 1.0)));
+  share_ = std::max(share_, share);
   show_bar(what, false);
   return !cancel_requested();
 }

@@ -31,6 +31,8 @@ class ProgressView {
   /// False when the user asked to stop.
   bool operator()(const Progress& progress);
   bool operator()(const UntangleProgress& progress);
+  /// Of the repair before the mesh. False when the user asked to stop.
+  bool repairing(double fraction);
   /// Files are read or written, which takes long for large ones and tells nothing meanwhile.
   void reading();
   void writing();
@@ -38,7 +40,7 @@ class ProgressView {
   void finish();
 
  private:
-  bool tell(int order, const char* what, double share);
+  bool tell(int order, const char* what, double share);  ///< a share of the whole command
   void show_bar(const char* what, bool at_once);
   [[nodiscard]] double seconds() const;
   [[nodiscard]] std::string time_left() const;

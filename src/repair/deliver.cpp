@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include "exact/dyadic.h"
 #include "exact/space_point.h"
 #include "numbers/sorted.h"
 #include "surface/complex.h"
@@ -77,11 +78,26 @@ void mark_vertices(std::span<const int> markers, RepairResult& result) {
 
 bool finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
 
+/// The least double that is not below the distance of two points.
+double distance_above(const Point& p, const Point& q) {
+  exact::Dyadic square;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const exact::Dyadic difference = exact::Dyadic(p[k]) - exact::Dyadic(q[k]);
+    square += difference * difference;
+  }
+  double distance = exact::distance_bound(exact::space_point(p.data()), q.data());
+  for (;;) {
+    const double below = std::nextafter(distance, 0.0);
+    if (!std::isfinite(below) || exact::Dyadic(below) * exact::Dyadic(below) < square) return distance;
+    distance = below;
+  }
+}
+
 void list_moved(const Complex& input, RepairResult& result) {
   for (Index v = 0; v < input.vertices.size(); ++v) {
     const Point &before = input.vertices[v], &after = result.surface.vertices[v];
     if (before == after || !finite(before)) continue;
-    const double distance = exact::distance_bound(exact::space_point(before.data()), after.data());
+    const double distance = distance_above(before, after);
     result.moved.push_back({v, distance});
     result.max_displacement = std::max(result.max_displacement, distance);
   }

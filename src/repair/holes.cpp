@@ -4,83 +4,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <set>
 
 #include "exact/predicates.h"
 #include "numbers/sorted.h"
 #include "plane/triangulate.h"
+#include "repair/borders.h"
 #include "surface/complex.h"
 #include "surface/intersect.h"
 
 namespace holdfast::repairing {
 namespace {
 
-using Loop = std::vector<Index>;
-
 /// Triangles of the least area take the cube of the sides as time; longer loops that are not plane stay open.
 constexpr std::size_t kMostSides = 600;
-
-/// Border sides, each turned against its facet, as it runs round the hole.
-class Borders {
- public:
-  explicit Borders(const State& state) {
-    const SegmentTable table = segment_table(state.complex());
-    for (Index s = 0; s < table.segments.size(); ++s) {
-      if (table.facets_of(s).size() != 1) continue;
-      const Triangle& t = state.facets[table.facets_of(s)[0]];
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Segment side{t[(i + 1) % 3], t[i]};
-        if (ascending(side) != ascending(Segment(table.segments[s]))) continue;
-        at_[side[0]].push_back(static_cast<Index>(sides_.size()));
-        at_[side[1]].push_back(static_cast<Index>(sides_.size()));
-        sides_.push_back(side);
-      }
-    }
-    used_.assign(sides_.size(), 0);
-  }
-
-  /// Every side is in one loop at most, and no loop has a vertex twice.
-  [[nodiscard]] std::vector<Loop> loops() {
-    std::vector<Loop> found;
-    for (Index s = 0; s < sides_.size(); ++s) {
-      if (used_[s] != 0) continue;
-      used_[s] = 1;
-      Loop path{sides_[s][0]};
-      Index at = sides_[s][1];
-      for (;;) {
-        if (const auto before = std::find(path.begin(), path.end(), at); before != path.end()) {
-          found.emplace_back(before, path.end());
-          path.erase(before, path.end());
-        }
-        path.push_back(at);
-        const Index next = next_from(at);
-        if (next == no_index) break;
-        used_[next] = 1;
-        at = sides_[next][0] == at ? sides_[next][1] : sides_[next][0];
-      }
-    }
-    std::erase_if(found, [](const Loop& loop) { return loop.size() < 3; });
-    return found;
-  }
-
- private:
-  /// An unused side, one that leaves the vertex if there is any.
-  [[nodiscard]] Index next_from(Index v) const {
-    Index next = no_index;
-    for (const Index s : at_.at(v)) {
-      if (used_[s] != 0) continue;
-      if (sides_[s][0] == v) return s;
-      if (next == no_index) next = s;
-    }
-    return next;
-  }
-
-  std::vector<Segment> sides_;
-  std::map<Index, std::vector<Index>> at_;
-  std::vector<std::uint8_t> used_;
-};
 
 /// A coordinate axis that the loop's plane does not hold, if it has one plane.
 std::optional<unsigned> plane_axis(const State& state, const Loop& loop) {
@@ -215,7 +153,7 @@ std::vector<RepairResult::Filled> fill_holes(State& state, std::size_t most_side
     bool is_plane;
   };
   std::vector<Filling> fillings;
-  for (Loop& loop : Borders(state).loops()) {
+  for (Loop& loop : border_loops(state.complex())) {
     step(0.9);
     if (loop.size() > most_sides) continue;
     const std::optional<unsigned> axis = plane_axis(state, loop);

@@ -6,6 +6,7 @@ Nearness beside_side(const Point& p, const Point& a, const Point& b) {
   const Vector d = minus(b, a), w = minus(p, a);
   const double long_d = length(d);
   Nearness near;
+  near.size = std::max(long_d, length(w));
   if (!(long_d > 0)) return near;
   const Vector e = over(d, long_d);
   const double t = dot(w, e);
@@ -20,6 +21,7 @@ Nearness beside_facet(const Point& p, const Point& a, const Point& b, const Poin
   const Vector u = minus(b, a), v = minus(c, a), w = minus(p, a);
   const double size = std::max({length(u), length(v), length(w)});
   Nearness near;
+  near.size = size;
   if (!(size > 0)) return near;
   const Vector us = over(u, size), vs = over(v, size), ws = over(w, size), n = cross(us, vs);
   const double nn = dot(n, n);

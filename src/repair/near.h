@@ -30,8 +30,12 @@ inline bool is_finite(const Point& p) {
 /// Where a point stands beside the inside of a side or facet; an infinite distance elsewhere.
 struct Nearness {
   double distance = std::numeric_limits<double>::infinity();
-  double t = 0;  ///< along the side
-  Point foot{};  ///< the point below
+  double t = 0;     ///< along the side
+  Point foot{};     ///< the point below
+  double size = 0;  ///< of the numbers that the distance was computed from
+
+  /// Of the distance, whose error is some last bits of these.
+  [[nodiscard]] double bound() const { return distance + size * 0x1p-49; }
 };
 
 /// Beside the inside of the side ab.

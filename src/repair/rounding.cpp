@@ -6,7 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "numbers/sorted.h"
+#include "repair/flatten.h"
 #include "repair/settle.h"
+#include "repair/weld.h"
 #include "surface/elements.h"
 
 namespace holdfast::repairing {
@@ -50,29 +53,93 @@ constexpr std::array kPlans{Plan{0x1p2, false},  Plan{0x1p3, false}, Plan{0x1p4,
                             Plan{0x1p10, false}, Plan{0x1p8, true},  Plan{0x1p10, true}, Plan{0x1p12, true},
                             Plan{0x1p14, true},  Plan{0x1p17, true}, Plan{0x1p20, true}, Plan{0x1p24, true}};
 
+/// The quotient in lowest terms.
+std::string quotient_text(const exact::BigInt& numerator, const exact::BigInt& denominator) {
+  const exact::BigInt divisor = gcd(numerator, denominator);
+  const exact::BigInt n = numerator / divisor, d = denominator / divisor;
+  return n.str() + "/" + d.str();
+}
+
+/// The arrangement of a state whose vertices are still the input's.
+ExactSurface exact_surface(const State& before, const arrange::Arrangement& arrangement) {
+  ExactSurface surface;
+  for (const exact::SpacePoint& p : arrangement.points)
+    surface.points.push_back({quotient_text(p.x, p.w), quotient_text(p.y, p.w), quotient_text(p.z, p.w)});
+  surface.facets = arrangement.facets;
+  std::vector<Index> list;
+  for (std::size_t f = 0; f < arrangement.facet_parents.size(); ++f) {
+    list.clear();
+    for (const Index p : arrangement.facet_parents.of(f)) {
+      const auto of = before.facet_parents.of(p);
+      list.insert(list.end(), of.begin(), of.end());
+    }
+    sort_unique(list);
+    surface.parents.all.insert(surface.parents.all.end(), list.begin(), list.end());
+    surface.parents.first.push_back(surface.parents.all.size());
+  }
+  return surface;
+}
+
+ExactSurface exact_surface(const State& valid) {
+  ExactSurface surface;
+  surface.facets = valid.facets;
+  surface.parents.first.assign(valid.facet_parents.first.begin(), valid.facet_parents.first.end());
+  surface.parents.all = valid.facet_parents.all;
+  return surface;
+}
+
+/// Last bits by which sheets that are made one may be apart. In the latter plans vertices of the input that
+/// are as near to each other become one before.
+constexpr std::array kFlatPlans{Plan{0x1p2, false}, Plan{0x1p6, false}};
+constexpr std::array kWeldedPlans{Plan{0x1p3, true}, Plan{0x1p6, true}};
+
 class Rounding {
  public:
-  Rounding(State state, const RepairOptions& options, RepairReport& report, const Step& step,
-           const Threads& threads)
-      : options_(options), report_(report), step_(step), threads_(threads) {
+  /// A plane surface has no sheets that lie in each other but for rounding.
+  Rounding(State state, const RepairOptions& options, RepairReport& report, ExactSurface& exact,
+           const Step& step, const Threads& threads, bool is_plane = false)
+      : options_(options),
+        report_(report),
+        exact_(exact),
+        step_(step),
+        threads_(threads),
+        is_plane_(is_plane) {
     rounded_.state = std::move(state);
   }
 
   Rounded run() {
+    const State given = rounded_.state;
     cut(options_.most_points);
     if (!rounded_.is_valid) cut(std::min(options_.most_points, 1000 + 4 * report_.points));
     if (rounded_.is_valid) return std::move(rounded_);
     trouble_ = trouble_of(rounded_.state, here(), threads_);
+    begin_flat(given, kFlatPlans);
+    // Joining what is near costs less than to move the input, but takes long where sheets lie in each other.
+    constexpr std::size_t kFew = 100;
+    bool is_welded = false;
     for (const Plan& plan : kPlans) {
-      if (trouble_.none()) break;
+      if (!is_welded && (plan.moves_input || trouble_.size() > kFew)) {
+        begin_flat(given, kWeldedPlans);
+        is_welded = true;
+      }
+      if (is_done()) break;
       join(plan);
       if (!trouble_.none()) cut_if_better();
     }
-    rounded_.is_valid = trouble_.none();
+    rounded_.is_valid = is_done();
     return std::move(rounded_);
   }
 
  private:
+  /// Nothing is in trouble, and nothing that is said to be known is taken for granted.
+  bool is_done() {
+    if (!trouble_.none()) return false;
+    if (rounded_.state.known.empty()) return true;
+    rounded_.state.known.clear();
+    trouble_ = trouble_of(rounded_.state, here(), threads_);
+    return trouble_.none();
+  }
+
   [[nodiscard]] Step here() const {
     return [this](double fraction) { step_(1 - 1 / (1 + static_cast<double>(report_.rounds) + fraction)); };
   }
@@ -109,6 +176,46 @@ class Rounding {
     }
   }
 
+  void begin_flat(const State& given, std::span<const Plan> plans) {
+    if (is_plane_) return;
+    for (const Plan& plan : plans)
+      if (!is_done()) begin_flat(given, plan);
+  }
+
+  /// Begins again with sheets that lie in each other made one before anything is cut: their planes would
+  /// cross in lines all over them. Counts if it leaves less in trouble.
+  void begin_flat(const State& given, const Plan& plan) {
+    const RoundPlane round = [&](State plane) {
+      RepairOptions options = options_;
+      options.exact = false;
+      RepairReport report;
+      ExactSurface exact;
+      return Rounding(std::move(plane), options, report, exact, here(), threads_, true).run();
+    };
+    const double gap = plan.last_bits * last_bit(given);
+    Attempt flat{given, {}, 0};
+    if (plan.moves_input) flat.displacement = weld(flat.state, gap, here());
+    constexpr int kPasses = 4;
+    for (int pass = 0; pass < kPasses; ++pass) {
+      const double moved = flatten(flat.state, gap, round, here());
+      if (moved == 0) break;
+      flat.displacement = sum_above(flat.displacement, moved);
+    }
+    if (flat.displacement == 0) return;
+    Rounded before = std::move(rounded_);
+    rounded_ = {false, std::move(flat.state), flat.displacement, false};
+    cut(std::min(options_.most_points, 1000 + 4 * report_.points));
+    if (!rounded_.is_valid) cut(std::min(options_.most_points, 1000 + 4 * report_.points));
+    Trouble now;
+    if (!rounded_.is_valid) now = trouble_of(rounded_.state, here(), threads_);
+    if (now.size() < trouble_.size()) {
+      trouble_ = std::move(now);
+      report_.rung = plan.moves_input ? Rung::snapped : Rung::coarser;
+    } else {
+      rounded_ = std::move(before);
+    }
+  }
+
   void stand(Attempt attempt) {
     rounded_.state = std::move(attempt.state);
     rounded_.displacement = attempt.displacement;
@@ -136,8 +243,10 @@ class Rounding {
     }
     if (arrangement.is_same) {
       rounded_.is_valid = true;
+      if (report_.rounds == 0 && options_.exact) exact_ = exact_surface(rounded_.state);
       return;
     }
+    if (report_.rounds == 0 && options_.exact) exact_ = exact_surface(rounded_.state, arrangement);
     tell(arrangement);
     rounded_.displacement =
         sum_above(rounded_.displacement, displacement_of(arrangement, arrangement.nearest, threads_));
@@ -176,17 +285,19 @@ class Rounding {
 
   const RepairOptions& options_;
   RepairReport& report_;
+  ExactSurface& exact_;
   const Step& step_;
   const Threads& threads_;
+  const bool is_plane_;
   Rounded rounded_;
   Trouble trouble_;
 };
 
 }  // namespace
 
-Rounded round_arranged(State state, const RepairOptions& options, RepairReport& report, ExactSurface&,
+Rounded round_arranged(State state, const RepairOptions& options, RepairReport& report, ExactSurface& exact,
                        const Step& step, const Threads& threads) {
-  return Rounding(std::move(state), options, report, step, threads).run();
+  return Rounding(std::move(state), options, report, exact, step, threads).run();
 }
 
 }  // namespace holdfast::repairing

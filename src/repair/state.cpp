@@ -33,6 +33,16 @@ Parents composed(const Parents& before, const Parents& now) {
 
 }  // namespace
 
+Box box_round(const State& state, std::span<const Index> corners, double margin) {
+  Box box{state.vertices[corners[0]], state.vertices[corners[0]]};
+  for (const Index v : corners) box.extend({state.vertices[v], state.vertices[v]});
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.low[k] -= margin;
+    box.high[k] += margin;
+  }
+  return box;
+}
+
 void drop_unused(State& state) {
   std::vector<Index> number(state.vertices.size(), no_index);
   for (Index v = 0; v < state.input_vertices; ++v) number[v] = v;

@@ -5,6 +5,7 @@
 
 #include "arrange/arrange.h"
 #include "holdfast/types.h"
+#include "surface/aabb_tree.h"
 #include "surface/elements.h"
 
 namespace holdfast::repairing {
@@ -26,6 +27,9 @@ struct State {
 
 /// `State::known` for the elements of its complex, as the search takes it; empty where nothing is known.
 [[nodiscard]] std::vector<std::uint8_t> known_elements(const State& state, const Elements& elements);
+
+/// The box of some vertices, wider by a margin on all sides.
+[[nodiscard]] Box box_round(const State& state, std::span<const Index> corners, double margin);
 
 /// Takes out vertices that are not the input's and that nothing uses.
 void drop_unused(State& state);

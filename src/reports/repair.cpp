@@ -2,6 +2,7 @@
 #include "holdfast/repair.h"
 
 #include "holdfast/names.h"
+#include "repair_check.h"
 #include "reports.h"
 
 namespace holdfast::reports {
@@ -53,6 +54,17 @@ Json to_json(const RepairResult& result, Json options) {
       {"options", std::move(options)},
       {"outcome", name(result.outcome)},
       {"message", result.message}};
+}
+
+Json to_json(const RepairCheckResult& result) {
+  Json rules = Json::array();
+  for (const RepairRule& rule : result.rules)
+    rules.push_back({{"name", name(rule.kind)},
+                     {"holds", rule.holds()},
+                     {"violations", rule.violations},
+                     {"first", rule.first},
+                     {"detail", rule.detail}});
+  return {{"holds", result.holds()}, {"rules", rules}, {"version", version()}};
 }
 
 }  // namespace holdfast::reports

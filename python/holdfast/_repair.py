@@ -1,0 +1,129 @@
+"""repair: a valid surface out of any."""
+
+from __future__ import annotations
+
+import json
+from typing import Any, Optional, Union
+
+import numpy.typing as npt
+
+from . import _core
+from ._limits import CancelToken, MemoryAmount, ProgressCallback, Shown, limits
+from ._surface import Array, Surface, _of_data, surface_of
+from .errors import _raise_unless_done
+
+
+class Repair:
+    """A valid surface, and all that `repair` changed for it."""
+
+    def __init__(self, given: Surface, result: _core.RepairResult) -> None:
+        self._given = given
+        self._result = result
+        self._report: Optional[dict[str, Any]] = None
+        self.surface: Surface = _of_data(result.surface)
+        """The given points with their indices, then the new ones."""
+        self.surface.holes, self.surface.regions = list(given.holes), list(given.regions)
+        self.max_displacement: float = result.max_displacement
+        """No point of the surface is further than this from the given one, nor the other way round, but for triangles that
+        were dropped or fill holes."""
+
+    @property
+    def parents(self) -> tuple[Array, Array]:
+        """(first, all): triangle i is a part of the given triangles `all[first[i]:first[i + 1]]`; of none where it fills a
+        hole."""
+        return self._result.parents
+
+    @property
+    def moved(self) -> dict[int, float]:
+        """How far given points moved, by their indices; empty as a rule without a tolerance."""
+        return {int(m["vertex"]): float(m["distance"]) for m in self.report["moved"]}
+
+    @property
+    def dropped(self) -> dict[int, str]:
+        """Why given triangles are no more, by their indices."""
+        return {int(d["facet"]): str(d["reason"]) for d in self.report["dropped"]}
+
+    @property
+    def marker_sets(self) -> dict[int, list[int]]:
+        """Markers of the surface that stand for several of the given ones, where triangles with these overlapped."""
+        return {int(k): [int(m) for m in v] for k, v in self.report["marker_sets"].items()}
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """As `holdfast repair --report` writes it."""
+        if self._report is None:
+            self._report = json.loads(self._result.report())
+        return self._report
+
+    def check(self) -> dict[str, Any]:
+        """Verifies it exactly, and independently of how it was made: "holds", and the "rules" one by one."""
+        with Shown(None, "check") as callback:
+            found: dict[str, Any] = json.loads(
+                _core.check_repair(self._given._arrays(), self._result, {}, callback))
+        return found
+
+    def __repr__(self) -> str:
+        return (f"Repair({len(self.surface.points)} points, {len(self.surface.triangles)} triangles, "
+                f"at most {self.max_displacement:.3g} away)")
+
+
+def repair(
+    surface: Any,
+    triangles: Optional[npt.ArrayLike] = None,
+    *,
+    segments: Optional[npt.ArrayLike] = None,
+    triangle_markers: Optional[npt.ArrayLike] = None,
+    segment_markers: Optional[npt.ArrayLike] = None,
+    weld: float = 0.0,
+    fill_holes: Union[bool, int] = False,
+    union: bool = False,
+    threads: int = 1,
+    time_limit: Optional[float] = None,
+    memory_limit: Optional[MemoryAmount] = None,
+    cancel: Optional[CancelToken] = None,
+    progress: Union[None, bool, ProgressCallback] = None,
+) -> Repair:
+    """Makes a surface valid: what crosses, touches or overlaps is cut where it does, and nothing else changes.
+
+    Parameters
+    ----------
+    surface, triangles, segments, triangle_markers, segment_markers
+        As `mesh` takes them.
+    weld
+        First join points that are this near to each other, and put points that are this near to a side or triangle on it.
+    fill_holes
+        Close holes: True, or the most sides that the border of one may have.
+    union
+        Drop triangles that have material on both sides, or on none.
+    threads, time_limit, memory_limit, cancel, progress
+        As `mesh` takes them.
+
+    Raises
+    ------
+    NotRepresentable
+        If no doubles were found for the new points.
+    TimeLimit, MemoryLimit, Cancelled, FileError, ValueError, TypeError
+        As `mesh` does.
+
+    Example
+    -------
+    Two tetrahedra that pass through each other:
+
+    >>> import holdfast, numpy as np
+    >>> p = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], float)
+    >>> t = np.array([(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)])
+    >>> repaired = holdfast.repair(np.vstack([p, p + 0.2]), np.vstack([t, t + 4]))
+    >>> holdfast.diagnose(repaired.surface).valid, repaired.check()["holds"], repaired.moved
+    (True, True, {})
+    """
+    options = limits(time_limit, memory_limit, cancel)
+    sides = 2**62 if fill_holes is True else int(fill_holes)
+    if sides < 0 or 0 < sides < 3:
+        raise ValueError(f"fill_holes={fill_holes}: a hole has three sides at least")
+    options.update(weld=float(weld), fill_holes=sides, union=bool(union), threads=int(threads))
+    what = surface_of(surface, triangles, segments=segments, triangle_markers=triangle_markers,
+                      segment_markers=segment_markers)
+    with Shown(progress, "repair") as callback:
+        result = _core.repair(what._arrays(), options, callback)
+    _raise_unless_done(result)
+    return Repair(what, result)

@@ -1,0 +1,143 @@
+// What a repair would need to be asked for: options are tried from the least on.
+#include "holdfast/cures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "repair/borders.h"
+
+namespace holdfast {
+namespace {
+
+/// The smallest of 1, 2, ... 9 times a power of ten that is more than x, x > 0.
+double one_digit_above(double x) {
+  double power = 1;
+  while (power > x) power /= 10;
+  while (power * 10 <= x) power *= 10;
+  for (int digit = 1; digit <= 9; ++digit) {
+    // Read as the text that a user types is.
+    const double candidate = power < 1 ? digit / std::round(1 / power) : digit * power;
+    if (candidate > x) return candidate;
+  }
+  return 10 * power;
+}
+
+bool breaks_validity(const Defect& defect) { return defect.kind < DefectKind::encloses_nothing; }
+
+std::size_t count_of(const DefectSummary& summary, Cause cause) {
+  for (const DefectGroup& group : summary.groups)
+    if (group.cause == cause) return group.count;
+  return 0;
+}
+
+class Proposal {
+ public:
+  Proposal(const Complex& complex, std::span<const Defect> defects, const DefectSummary& summary,
+           const RepairOptions& options)
+      : complex_(complex), defects_(defects), summary_(summary), options_(options) {}
+
+  Cures run() {
+    const auto broken =
+        static_cast<std::size_t>(std::count_if(defects_.begin(), defects_.end(), breaks_validity));
+    cures_.tried = true;
+    RepairResult result;
+    if (!summary_.gaps.empty()) result = weld();
+    if (broken > 0) cures_.cures.push_back({CureKind::cut, broken, 0, 0, 0, 0});
+    const bool is_welded = result.outcome == Outcome::done && !result.surface.facets.empty();
+    if (broken > 0 && !is_welded) result = attempt(0);
+    if (!cures_.tried) return std::move(cures_);
+    fill(broken > 0 || is_welded ? result.surface.view() : complex_);
+    unite();
+    return std::move(cures_);
+  }
+
+ private:
+  /// A repair of the complex; `tried` becomes false where it takes too many points, or finds no doubles.
+  RepairResult attempt(double tolerance) {
+    RepairOptions options = options_;
+    options.weld = tolerance;
+    options.fill_holes = {};
+    options.unite = options.exact = false;
+    constexpr std::size_t kFewPoints = 20'000;
+    options.most_points = kFewPoints + complex_.facets.size() / 2;
+    RepairResult result = repair(complex_, options);
+    if (result.outcome == Outcome::time_limit || result.outcome == Outcome::cancelled)
+      throw Interrupted(result.outcome);
+    cures_.tried = result.outcome == Outcome::done;
+    return result;
+  }
+
+  /// A gap may need more than its width: where joining one brings two vertices into a new one.
+  RepairResult weld() {
+    double widest = 0;
+    for (const Gap& gap : summary_.gaps) widest = std::max(widest, gap.distance);
+    if (!(widest > 0) || !std::isfinite(widest)) return {};
+    constexpr int kAttempts = 4;
+    double tolerance = one_digit_above(widest * (1 + 0x1p-19));
+    for (int i = 0; i < kAttempts; ++i) {
+      RepairResult result = attempt(tolerance);
+      const bool cured = result.outcome == Outcome::done && !has_gaps(result.surface, widest);
+      if (cured || !cures_.tried) {
+        cures_.cures.push_back({CureKind::weld, summary_.gaps.size(), widest, tolerance, 0, 0});
+        return result;
+      }
+      tolerance = one_digit_above(tolerance);
+    }
+    return {};
+  }
+
+  static bool has_gaps(const Surface& surface, double widest) {
+    const DefectSummary after = summarise(surface.view(), {});
+    return std::any_of(after.gaps.begin(), after.gaps.end(),
+                       [&](const Gap& gap) { return gap.distance <= widest; });
+  }
+
+  void fill(const Complex& valid) {
+    const std::vector<repairing::Loop> loops = repairing::border_loops(valid);
+    if (loops.empty()) return;
+    std::size_t sides = 0;
+    for (const repairing::Loop& loop : loops) sides = std::max(sides, loop.size());
+    RepairOptions options = options_;
+    options.weld = 0;
+    options.fill_holes = sides;
+    options.unite = options.exact = false;
+    const RepairResult result = repair(valid, options);
+    if (result.outcome != Outcome::done || result.filled.empty()) return;
+    const std::size_t left = repairing::border_loops(result.surface.view()).size();
+    cures_.cures.push_back({CureKind::fill_holes, loops.size() - left, 0, 0, sides, left});
+  }
+
+  void unite() {
+    if (const std::size_t count = count_of(summary_, Cause::parts_cross); count > 0)
+      cures_.cures.push_back({CureKind::unite, count, 0, 0, 0, 0});
+  }
+
+  const Complex& complex_;
+  std::span<const Defect> defects_;
+  const DefectSummary& summary_;
+  const RepairOptions& options_;
+  Cures cures_;
+};
+
+}  // namespace
+
+Cures propose_cures(const Complex& complex, std::span<const Defect> defects, const DefectSummary& summary,
+                    const RepairOptions& options) {
+  return Proposal(complex, defects, summary, options).run();
+}
+
+const char* name(CureKind kind) {
+  switch (kind) {
+    case CureKind::weld:
+      return "weld";
+    case CureKind::cut:
+      return "cut";
+    case CureKind::fill_holes:
+      return "fill holes";
+    case CureKind::unite:
+      return "unite";
+  }
+  return "unknown";
+}
+
+}  // namespace holdfast

@@ -1,0 +1,283 @@
+#include "check_repair/cover.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "check/findings.h"
+#include "text/decimal.h"
+
+namespace holdfast::checking {
+namespace {
+
+Segment edge_of(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// Adds an edge to a sum modulo 2.
+void flip(std::set<Segment>& sum, const Segment& edge) {
+  if (const auto [at, is_new] = sum.insert(edge); !is_new) sum.erase(at);
+}
+
+void flip(std::set<Segment>& sum, const Triangle& t) {
+  for (std::size_t i = 0; i < 3; ++i) flip(sum, edge_of(t[i], t[(i + 1) % 3]));
+}
+
+using Neighbours = std::map<Index, std::vector<Index>>;
+
+template <class Edges>
+Neighbours neighbours_of(const Edges& edges) {
+  Neighbours of;
+  for (const auto& [a, b] : edges) {
+    of[a].push_back(b);
+    of[b].push_back(a);
+  }
+  return of;
+}
+
+/// The edges of a path from a to b with the fewest edges that are not in `cheap`; empty where there is none.
+std::vector<Segment> path(const Neighbours& neighbours, const std::set<Segment>& cheap, Index a, Index b) {
+  std::map<Index, std::pair<std::size_t, Index>> reached{{a, {0, a}}};  // by vertex the cost, and from where
+  std::deque<std::pair<Index, std::size_t>> open{{a, 0}};
+  while (!open.empty()) {
+    const auto [v, cost] = open.front();
+    open.pop_front();
+    if (v == b) break;
+    const auto at = neighbours.find(v);
+    if (at == neighbours.end() || reached[v].first < cost) continue;
+    for (const Index w : at->second) {
+      const bool is_cheap = cheap.contains(edge_of(v, w));
+      const std::size_t more = cost + (is_cheap ? 0 : 1);
+      const auto [known, is_new] = reached.try_emplace(w, more, v);
+      if (!is_new && known->second.first <= more) continue;
+      known->second = {more, v};
+      if (is_cheap)
+        open.emplace_front(w, more);
+      else
+        open.emplace_back(w, more);
+    }
+  }
+  std::vector<Segment> edges;
+  if (!reached.contains(b)) return edges;
+  for (Index v = b; v != a; v = reached[v].second) edges.push_back(edge_of(v, reached[v].second));
+  return edges;
+}
+
+double rough_area(const Point& a, const Point& b, const Point& c) {
+  const Point u{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+  const Point n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+  return rough_distance(n, Point{}) / 2;
+}
+
+}  // namespace
+
+/// The cover of one triangle.
+class Cover {
+ public:
+  Cover(CoverTest& test, const std::array<Point, 3>& triangle, const std::array<Index, 3>& places,
+        std::span<const Index> chain)
+      : test_(test), triangle_(triangle), places_(places), chain_(chain) {
+    for (const Index f : chain) flip(odd_, test_.facets_[f]);
+  }
+
+  std::optional<std::string> gap() {
+    for (std::size_t side = 0; side < 3; ++side)
+      if (!take_side(side))
+        return "no edges of the output lead along its side from vertex " + std::to_string(places_[side]) +
+               " to vertex " + std::to_string(places_[(side + 1) % 3]) + told_cover();
+    if (!is_rest_on_sides()) fill_rest();
+    if (is_rest_on_sides()) return std::nullopt;
+    return words("its children end at edge", *first_astray_, test_.vertices_) + ", away from its sides" +
+           told_cover();
+  }
+
+ private:
+  /// For each side of the triangle whether it is within reach of a vertex, as bits.
+  unsigned sides_of(Index v) {
+    const auto [at, is_new] = sides_.try_emplace(v, 0);
+    if (is_new)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (test_.reach_.of_segment(test_.vertices_[v], triangle_[i], triangle_[(i + 1) % 3]))
+          at->second |= 1U << i;
+    return at->second;
+  }
+  unsigned sides_of(const Segment& edge) { return sides_of(edge[0]) & sides_of(edge[1]); }
+
+  /// Takes a chain (b) for a side off what is odd.
+  bool take_side(std::size_t side) {
+    const Index a = places_[side], b = places_[(side + 1) % 3];
+    if (a == b) return true;
+    std::set<Segment> usable;
+    for (const Segment& edge : odd_)
+      if ((sides_of(edge) >> side & 1U) != 0) usable.insert(edge);
+    std::vector<Segment> found = path(neighbours_of(usable), usable, a, b);
+    if (found.empty()) {
+      std::set<Segment> wider = usable;
+      Box box(triangle_[side]);
+      box.extend(triangle_[(side + 1) % 3]);
+      test_.near(box, [&](Index f) {
+        const Triangle& t = test_.facets_[f];
+        for (std::size_t i = 0; i < 3; ++i)
+          if (const Segment edge = edge_of(t[i], t[(i + 1) % 3]); (sides_of(edge) >> side & 1U) != 0)
+            wider.insert(edge);
+      });
+      found = path(neighbours_of(wider), usable, a, b);
+    }
+    for (const Segment& edge : found) flip(odd_, edge);
+    return !found.empty();
+  }
+
+  /// What is odd still must fall into parts of which each belongs to the chain of one side.
+  bool is_rest_on_sides() {
+    const Neighbours neighbours = neighbours_of(odd_);
+    std::set<Index> seen;
+    astray_.clear();
+    for (const auto& [start, unused] : neighbours) {
+      if (!seen.insert(start).second) continue;
+      std::vector<Index> part{start};
+      unsigned sides = ~0U;
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        sides &= sides_of(part[i]);
+        for (const Index w : neighbours.at(part[i]))
+          if (seen.insert(w).second) part.push_back(w);
+      }
+      if (sides != 0) continue;
+      for (const Index v : part)
+        for (const Index w : neighbours.at(v)) astray_.insert(edge_of(v, w));
+    }
+    if (!astray_.empty()) {
+      const auto away =
+          std::find_if(astray_.begin(), astray_.end(), [&](const Segment& e) { return sides_of(e) == 0; });
+      first_astray_ = away != astray_.end() ? *away : *astray_.begin();
+    }
+    return astray_.empty();
+  }
+
+  /// Takes children off the chain, or adds thin facets near to the triangle, while that leaves less astray.
+  void fill_rest() {
+    std::map<Segment, std::vector<Index>> at_edge;
+    Box box(triangle_[0]);
+    box.extend(triangle_[1]);
+    box.extend(triangle_[2]);
+    const std::set<Index> children(chain_.begin(), chain_.end());
+    test_.near(box, [&](Index f) {
+      const Triangle& t = test_.facets_[f];
+      if (!children.contains(f) && !is_thin_and_near(t)) return;
+      for (std::size_t i = 0; i < 3; ++i) at_edge[edge_of(t[i], t[(i + 1) % 3])].push_back(f);
+    });
+    std::vector<Segment> open(astray_.begin(), astray_.end());
+    while (!open.empty()) {
+      const Segment edge = open.back();
+      open.pop_back();
+      const auto at = at_edge.find(edge);
+      if (at == at_edge.end() || !odd_.contains(edge)) continue;
+      for (const Index f : at->second) {
+        const Triangle& t = test_.facets_[f];
+        std::size_t odd = 0;
+        for (std::size_t i = 0; i < 3; ++i) odd += odd_.count(edge_of(t[i], t[(i + 1) % 3]));
+        if (odd < 2) continue;
+        flip(odd_, t);
+        for (std::size_t i = 0; i < 3; ++i) open.push_back(edge_of(t[i], t[(i + 1) % 3]));
+        break;
+      }
+    }
+  }
+
+  [[nodiscard]] bool is_thin_and_near(const Triangle& t) const {
+    return inscribed_at_most({test_.vertices_[t[0]], test_.vertices_[t[1]], test_.vertices_[t[2]]},
+                             test_.reach_.distance()) &&
+           std::all_of(t.begin(), t.end(),
+                       [&](Index v) { return test_.reach_.of_triangle(test_.vertices_[v], triangle_); });
+  }
+
+  [[nodiscard]] std::string told_cover() const {
+    double sum = 0;
+    for (const Index f : chain_) {
+      const Triangle& t = test_.facets_[f];
+      sum += rough_area(test_.vertices_[t[0]], test_.vertices_[t[1]], test_.vertices_[t[2]]);
+    }
+    return "; they have " + decimal(sum) + " of its area of " +
+           decimal(rough_area(triangle_[0], triangle_[1], triangle_[2]));
+  }
+
+  CoverTest& test_;
+  const std::array<Point, 3>& triangle_;
+  const std::array<Index, 3>& places_;
+  std::span<const Index> chain_;
+  std::set<Segment> odd_;
+  std::map<Index, unsigned> sides_;
+  std::set<Segment> astray_;
+  std::optional<Segment> first_astray_;
+};
+
+const BoxTree& CoverTest::tree() {
+  if (!tree_) {
+    std::vector<Box> boxes;
+    boxes.reserve(facets_.size());
+    for (const Triangle& t : facets_) boxes.push_back(box_of(t, vertices_));
+    tree_.emplace(std::move(boxes));
+  }
+  return *tree_;
+}
+
+template <class Visit>
+void CoverTest::near(Box box, Visit&& visit) {
+  // Rounded outwards: what is within reach is in it.
+  for (std::size_t k = 0; k < 3; ++k) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    box.low[k] = std::nextafter(box.low[k] - reach_.distance(), -kInfinity);
+    box.high[k] = std::nextafter(box.high[k] + reach_.distance(), kInfinity);
+  }
+  tree().query([&](const Box& other) { return other.meets(box); }, visit);
+}
+
+Index CoverTest::within_reach(const Point& p, Index vertex) {
+  if (vertex != no_entity && reach_.of_point(vertices_[vertex], p)) return vertex;
+  Index found = no_entity;
+  near(Box(p), [&](Index f) {
+    for (const Index v : facets_[f])
+      if (v < found && reach_.of_point(vertices_[v], p)) found = v;
+  });
+  return found;
+}
+
+std::optional<std::string> CoverTest::gap(const std::array<Point, 3>& triangle, std::array<Index, 3> places,
+                                          std::span<const Index> chain) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    places[i] = within_reach(triangle[i], places[i]);
+    if (places[i] == no_entity)
+      return "no vertex of the output is within " + decimal(reach_.distance()) + " of its corner at " +
+             words(triangle[i]);
+  }
+  if (chain.size() == 1) {
+    Triangle t = facets_[chain[0]];
+    std::array<Index, 3> corners = places;
+    std::sort(t.begin(), t.end());
+    std::sort(corners.begin(), corners.end());
+    if (t == corners) return std::nullopt;
+  }
+  return Cover(*this, triangle, places, chain).gap();
+}
+
+std::optional<std::string> CoverTest::gap(const std::array<Point, 2>& segment, std::array<Index, 2> places,
+                                          std::span<const Segment> chain) {
+  std::set<Index> odd;
+  const auto flip_end = [&](Index v) {
+    if (const auto [at, is_new] = odd.insert(v); !is_new) odd.erase(at);
+  };
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (places[i] == no_entity || !reach_.of_point(vertices_[places[i]], segment[i]))
+      return "its end at " + words(segment[i]) + " is no vertex of the output within " +
+             decimal(reach_.distance());
+    flip_end(places[i]);
+  }
+  for (const auto& [a, b] : chain) {
+    flip_end(a);
+    flip_end(b);
+  }
+  if (odd.empty()) return std::nullopt;
+  return "its children end at vertex " + std::to_string(*odd.begin()) + " " + words(vertices_[*odd.begin()]);
+}
+
+}  // namespace holdfast::checking

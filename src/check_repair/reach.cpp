@@ -1,0 +1,132 @@
+#include "check_repair/reach.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "numbers/elementary.h"
+
+namespace holdfast::checking {
+namespace {
+
+using exact::Dyadic;
+using Vector = std::array<Dyadic, 3>;
+
+Vector difference(const Point& a, const Point& b) {
+  return {Dyadic(a[0]) - Dyadic(b[0]), Dyadic(a[1]) - Dyadic(b[1]), Dyadic(a[2]) - Dyadic(b[2])};
+}
+
+Dyadic dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// Rounded vectors, for what decides nothing or has a bound on its error.
+Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double length(const Point& a) { return numbers::hypot(a[0], a[1], a[2]); }
+
+/// Where in the triangle a + s u + t v the point a + w has its nearest point, roughly: s, t >= 0, s + t <= 1.
+std::array<double, 2> nearest_weights(const Point& u, const Point& v, const Point& w) {
+  const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
+  const double det = uu * vv - uv * uv;
+  double s = (uw * vv - vw * uv) / det, t = (vw * uu - uw * uv) / det;
+  if (s >= 0 && t >= 0 && s + t <= 1) return {s, t};
+  // Else the best of the three sides.
+  const auto clamped = [](double x) { return x > 0 ? std::min(x, 1.0) : 0.0; };
+  const double on_uv = clamped((vv - uv - uw + vw) / (uu - 2 * uv + vv));
+  const std::array<std::array<double, 2>, 3> sides{
+      {{clamped(uw / uu), 0}, {0, clamped(vw / vv)}, {1 - on_uv, on_uv}}};
+  double best = std::numeric_limits<double>::infinity();
+  for (const auto& [x, y] : sides) {
+    const Point r{w[0] - x * u[0] - y * v[0], w[1] - x * u[1] - y * v[1], w[2] - x * u[2] - y * v[2]};
+    const double square = dot(r, r);
+    if (square < best) {
+      best = square;
+      s = x;
+      t = y;
+    }
+  }
+  return {s, t};
+}
+
+double residual(const Point& p, const std::array<Point, 3>& t, double& scale) {
+  const Point u = minus(t[1], t[0]), v = minus(t[2], t[0]), w = minus(p, t[0]);
+  const auto [x, y] = nearest_weights(u, v, w);
+  scale = length(u) + length(v) + length(w);
+  return length({w[0] - x * u[0] - y * v[0], w[1] - x * u[1] - y * v[1], w[2] - x * u[2] - y * v[2]});
+}
+
+}  // namespace
+
+Reach::Reach(double distance) : distance_(distance), square_(Dyadic(distance) * Dyadic(distance)) {}
+
+bool Reach::of_point(const Point& p, const Point& a) const {
+  return p == a || compare_distance(p, a, distance_) <= 0;
+}
+
+bool Reach::of_segment(const Point& p, const Point& a, const Point& b) const {
+  if (p == a || p == b) return true;
+  if (distance_ == 0) return on_segment(p.data(), a.data(), b.data());
+  if (surely_of_triangle(p, {a, b, a})) return true;
+  const Vector d = difference(b, a), w = difference(p, a);
+  const Dyadic along = dot(w, d), dd = dot(d, d);
+  if (along.sign() <= 0) return dot(w, w) <= square_;
+  if (along >= dd) return of_point(p, b);
+  return dot(w, w) * dd - along * along <= square_ * dd;
+}
+
+bool Reach::of_triangle(const Point& p, const std::array<Point, 3>& t) const {
+  if (p == t[0] || p == t[1] || p == t[2]) return true;
+  if (distance_ == 0) return on_triangle(p.data(), {t[0].data(), t[1].data(), t[2].data()});
+  if (surely_of_triangle(p, t)) return true;
+  const Vector n = cross(difference(t[1], t[0]), difference(t[2], t[0]));
+  bool above = dot(n, n).sign() > 0;
+  for (std::size_t i = 0; above && i < 3; ++i) {
+    const Point &a = t[i], &b = t[(i + 1) % 3];
+    above = dot(cross(difference(b, a), difference(p, a)), n).sign() >= 0;
+  }
+  if (above) {
+    const Dyadic height = dot(difference(p, t[0]), n);
+    return height * height <= square_ * dot(n, n);
+  }
+  return of_segment(p, t[0], t[1]) || of_segment(p, t[1], t[2]) || of_segment(p, t[2], t[0]);
+}
+
+/// A point of the triangle that is near enough, if rounding lets it be seen: differences have a relative
+/// error of half an ulp, and the residual is a sum of five terms none of which exceeds `scale`, each with at
+/// most three roundings. Weights that are not in the triangle, or no numbers, fail the comparison or go to
+/// the exact test.
+bool Reach::surely_of_triangle(const Point& p, const std::array<Point, 3>& t) const {
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  double scale = 0;
+  const double found = residual(p, t, scale);
+  return found * (1 + 8 * kEpsilon) + 8 * kEpsilon * scale + 0x1p-1000 <= distance_;
+}
+
+int compare_distance(const Point& p, const Point& q, double distance) {
+  const Vector d = difference(p, q);
+  const auto order = dot(d, d) <=> Dyadic(distance) * Dyadic(distance);
+  return order < 0 ? -1 : order > 0 ? 1 : 0;
+}
+
+/// With the area A and the sides a, b, c the radius is 2 A / (a + b + c). Lengths are rounded up, so what is
+/// near to the distance by a few units in the last place is taken as at most it.
+bool inscribed_at_most(const std::array<Point, 3>& t, double distance) {
+  const Vector n = cross(difference(t[1], t[0]), difference(t[2], t[0]));
+  const double sides =
+      (rough_distance(t[0], t[1]) + rough_distance(t[1], t[2]) + rough_distance(t[2], t[0])) * (1 + 0x1p-48);
+  if (!std::isfinite(sides)) return false;
+  const Dyadic bound = Dyadic(distance) * Dyadic(sides);
+  return dot(n, n) <= bound * bound;
+}
+
+double rough_distance(const Point& p, const Point& q) { return length(minus(p, q)); }
+
+double rough_distance(const Point& p, const std::array<Point, 3>& t) {
+  double scale = 0;
+  return residual(p, t, scale);
+}
+
+}  // namespace holdfast::checking

@@ -1,0 +1,18 @@
+// Check of repairs: whether a surface is a simplicial complex, from nothing but its arrays.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "check/pulse.h"
+#include "holdfast/types.h"
+
+namespace holdfast::checking {
+
+/// Calls `found` with a function that gives a sentence for everything in which a surface is no complex; it
+/// says whether to go on. Vertices at one place are one here if `merges`, else a violation where both are
+/// used.
+using FoundInvalid = std::function<bool(const std::function<std::string()>& sentence)>;
+void examine_complex(const Complex& surface, bool merges, const FoundInvalid& found, Pulse& pulse);
+
+}  // namespace holdfast::checking

@@ -1,0 +1,81 @@
+#include "cures.h"
+
+#include <fmt/core.h>
+
+#include "summary.h"
+
+namespace holdfast::cli {
+namespace {
+
+std::string option_of(const Cure& cure) {
+  switch (cure.kind) {
+    case CureKind::weld:
+      return fmt::format("--weld {}", cure.tolerance);
+    case CureKind::cut:
+      return "";
+    case CureKind::fill_holes:
+      return fmt::format("--fill-holes {}", cure.sides);
+    case CureKind::unite:
+      return "--union";
+  }
+  return "";
+}
+
+std::string message_of(const Cure& cure) {
+  switch (cure.kind) {
+    case CureKind::weld:
+      return fmt::format("{} within {:.3g} of another or of a side: {}",
+                         counted(cure.count, "vertex lies", "vertices lie"), cure.distance, option_of(cure));
+    case CureKind::cut:
+      return fmt::format("{}: `holdfast repair` cuts what meets", counted(cure.count, "defect"));
+    case CureKind::fill_holes:
+      return fmt::format("{} of at most {} sides: {}{}", counted(cure.count, "hole"), cure.sides,
+                         option_of(cure), cure.left > 0 ? fmt::format(" ({} stay open)", cure.left) : "");
+    case CureKind::unite:
+      return fmt::format("parts overlap ({}): {}, if they are one body", counted(cure.count, "crossing"),
+                         option_of(cure));
+  }
+  return "";
+}
+
+/// Those that change nothing that may be meant.
+std::string options_of(const Cures& cures) {
+  std::string options;
+  for (const Cure& cure : cures.cures)
+    if (const std::string option = option_of(cure); !option.empty() && cure.kind != CureKind::unite)
+      options += (options.empty() ? "" : " ") + option;
+  return options;
+}
+
+}  // namespace
+
+std::string cures_text(const Cures& cures) {
+  if (cures.cures.empty()) return {};
+  std::string text;
+  for (const Cure& cure : cures.cures) text += fmt::format("cure: {}\n", message_of(cure));
+  const std::string options = options_of(cures);
+  return text + fmt::format("cure: `holdfast repair IN -o OUT{}{}` {}\n", options.empty() ? "" : " ", options,
+                            cures.tried ? "makes it valid" : "may make it valid (not tried: too much meets)");
+}
+
+Json to_json(const Cures& cures) {
+  Json list = Json::array();
+  for (const Cure& cure : cures.cures) {
+    Json entry{{"kind", name(cure.kind)},
+               {"option", option_of(cure)},
+               {"count", cure.count},
+               {"message", message_of(cure)}};
+    if (cure.kind == CureKind::weld) {
+      entry["distance"] = cure.distance;
+      entry["tolerance"] = cure.tolerance;
+    }
+    if (cure.kind == CureKind::fill_holes) {
+      entry["sides"] = cure.sides;
+      entry["left"] = cure.left;
+    }
+    list.push_back(std::move(entry));
+  }
+  return {{"tried", cures.tried}, {"options", options_of(cures)}, {"proposals", list}};
+}
+
+}  // namespace holdfast::cli

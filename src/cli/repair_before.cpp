@@ -1,0 +1,48 @@
+#include "repair_before.h"
+
+#include "command.h"
+#include "files.h"
+#include "holdfast/surface_io.h"
+
+namespace holdfast::cli {
+
+RepairResult repair_before(const Surface& given, RepairOptions options, ProgressView& progress) {
+  options.progress = [&](double fraction) { return progress.repairing(fraction); };
+  RepairResult result = repair(given.view(), options);
+  result.surface.regions = given.regions;
+  result.surface.holes = given.holes;
+  result.surface.remarks = given.remarks;
+  progress.finish();
+  return result;
+}
+
+int conclude_repair(const RepairResult& result) {
+  switch (result.outcome) {
+    case Outcome::time_limit:
+      say("holdfast: {} in the repair; nothing was written; give a longer --time-limit\n", result.message);
+      return exit_limit;
+    case Outcome::memory_limit:
+      say("holdfast: {} in the repair; nothing was written; give a larger --memory-limit\n", result.message);
+      return exit_limit;
+    case Outcome::not_representable:
+      say("holdfast: {}; nothing was written; `holdfast repair --exact FILE` writes the exact arrangement, "
+          "and a "
+          "larger tolerance, --repair=T, may help\n",
+          result.message);
+      return exit_not_representable;
+    default:
+      say("holdfast: cancelled; nothing was written\n");
+      return exit_limit;
+  }
+}
+
+void write_repaired(const std::filesystem::path& path, const Surface& surface, Outcome outcome,
+                    const WriteOptions& options, bool quiet) {
+  const bool ended =
+      outcome == Outcome::time_limit || outcome == Outcome::memory_limit || outcome == Outcome::cancelled;
+  if (path.empty() || ended) return;
+  write_surface(path, surface, options);
+  if (!quiet) tell(not_held(path, surface, options), path);
+}
+
+}  // namespace holdfast::cli

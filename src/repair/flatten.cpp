@@ -1,0 +1,443 @@
+#include "repair/flatten.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "exact/predicates.h"
+#include "numbers/sorted.h"
+#include "repair/near.h"
+#include "surface/aabb_tree.h"
+#include "surface/complex.h"
+#include "surface/intersect.h"
+
+namespace holdfast::repairing {
+namespace {
+
+using Side = std::array<Index, 2>;
+
+/// Disjoint sets of facets.
+class Sets {
+ public:
+  explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
+  Index find(Index x) {
+    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
+    return x;
+  }
+  void join(Index x, Index y) { parent_[std::max(find(x), find(y))] = std::min(find(x), find(y)); }
+
+ private:
+  std::vector<Index> parent_;
+};
+
+Vector normal_of(const Point& a, const Point& b, const Point& c) {
+  const Vector u = minus(b, a), v = minus(c, a);
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+double height(const Point& p, const Point& a, const Vector& n) {
+  const Vector w = minus(p, a);
+  return std::fabs(w[0] * n[0] + w[1] * n[1] + w[2] * n[2]) / length(n);
+}
+
+/// Sets of facets that overlap, each with the axis along which its plane is projected.
+struct Cluster {
+  std::vector<Index> facets;
+  unsigned axis = 0;
+};
+
+class Flattening {
+ public:
+  Flattening(State& state, double gap, const RoundPlane& round, const Step& step)
+      : state_(state), gap_(gap), round_(round), step_(step) {}
+
+  double run() {
+    in_cluster_.assign(state_.facets.size(), 0);
+    bool any = false;
+    for (const Cluster& cluster : clusters()) any |= arrange_cluster(cluster);
+    if (!any) return 0;
+    deliver();
+    drop_unused(state_);
+    return most_;
+  }
+
+ private:
+  [[nodiscard]] const Point& at(Index v) const { return state_.vertices[v]; }
+  [[nodiscard]] Vector normal(Index f) const {
+    const auto& [a, b, c] = state_.facets[f];
+    return normal_of(at(a), at(b), at(c));
+  }
+
+  [[nodiscard]] std::vector<Cluster> clusters() const {
+    std::vector<Box> boxes;
+    std::vector<Index> facet;
+    for (Index f = 0; f < state_.facets.size(); ++f) {
+      const Triangle& t = state_.facets[f];
+      if (std::any_of(t.begin(), t.end(),
+                      [&](Index v) { return v >= state_.vertices.size() || !is_finite(at(v)); }))
+        continue;
+      facet.push_back(f);
+      boxes.push_back(box_round(state_, t, gap_));
+    }
+    Sets sets(state_.facets.size());
+    std::set<Index> together;
+    AabbTree(boxes).for_each_overlap(
+        [&](Index i, Index j) {
+          const Index f = facet[i], g = facet[j];
+          if ((lies_in(f, g) && overlap(f, g)) || (lies_in(g, f) && overlap(g, f))) {
+            sets.join(f, g);
+            together.insert(f);
+            together.insert(g);
+          }
+          return true;
+        },
+        [](Index, Index) { return false; }, step_);
+    std::map<Index, Cluster> by_first;
+    for (const Index f : together) by_first[sets.find(f)].facets.push_back(f);
+    std::vector<Cluster> found;
+    for (auto& [first, cluster] : by_first) {
+      keep_projected(cluster);
+      if (cluster.facets.size() > 1) found.push_back(std::move(cluster));
+    }
+    return found;
+  }
+
+  /// The coordinate axis that is steepest to the plane of a facet.
+  [[nodiscard]] unsigned axis_of(Index f) const {
+    const Vector n = normal(f);
+    unsigned axis = 0;
+    for (unsigned k = 1; k < 3; ++k)
+      if (std::fabs(n[k]) > std::fabs(n[axis])) axis = k;
+    return axis;
+  }
+
+  /// Whether two facets share area in the projection along the axis of the second.
+  [[nodiscard]] bool overlap(Index f, Index g) const {
+    const unsigned axis = axis_of(g);
+    std::array<std::array<Point, 3>, 2> corners{};
+    std::array<Simplex, 2> flat;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Triangle& t = state_.facets[k == 0 ? f : g];
+      flat[k].corners = 3;
+      for (std::size_t i = 0; i < 3; ++i) {
+        corners[k][i] = at(t[i]);
+        corners[k][i][axis] = 0;
+        flat[k].vertex[i] = t[i];
+        flat[k].point[i] = corners[k][i].data();
+      }
+      if (!set_projection(flat[k])) return false;
+    }
+    return facets_meet(flat[0], flat[1]) == Meet::area;
+  }
+
+  /// Whether all of the first facet is near to the plane of the second.
+  [[nodiscard]] bool lies_in(Index f, Index g) const {
+    const Vector n = normal(g);
+    if (!(length(n) > 0)) return false;
+    const Point& origin = at(state_.facets[g][0]);
+    return std::all_of(state_.facets[f].begin(), state_.facets[f].end(),
+                       [&](Index v) { return height(at(v), origin, n) <= gap_; });
+  }
+
+  /// Takes the axis that is steepest to the largest facet, and leaves out what has no area along it.
+  void keep_projected(Cluster& cluster) const {
+    const Index largest =
+        *std::max_element(cluster.facets.begin(), cluster.facets.end(),
+                          [&](Index f, Index g) { return length(normal(f)) < length(normal(g)); });
+    cluster.axis = axis_of(largest);
+    std::erase_if(cluster.facets, [&](Index f) {
+      std::array<std::array<double, 2>, 3> p{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Point& corner = at(state_.facets[f][i]);
+        p[i] = {corner[(cluster.axis + 1) % 3], corner[(cluster.axis + 2) % 3]};
+      }
+      return exact::orient2d(p[0].data(), p[1].data(), p[2].data()) == 0;
+    });
+  }
+
+  /// The facets of a cluster in the plane, with their sides as segments.
+  struct Flat {
+    State state;
+    std::vector<Index> vertices;  // of the state
+    std::vector<Side> sides;      // ascending
+  };
+
+  [[nodiscard]] Flat flat(const Cluster& cluster) const {
+    Flat flat;
+    for (const Index f : cluster.facets) {
+      const Triangle& t = state_.facets[f];
+      flat.vertices.insert(flat.vertices.end(), t.begin(), t.end());
+      for (std::size_t i = 0; i < 3; ++i) flat.sides.push_back(ascending(Side{t[i], t[(i + 1) % 3]}));
+    }
+    sort_unique(flat.vertices);
+    sort_unique(flat.sides);
+    const auto number = [&](Index v) {
+      return static_cast<Index>(std::lower_bound(flat.vertices.begin(), flat.vertices.end(), v) -
+                                flat.vertices.begin());
+    };
+    for (const Index v : flat.vertices) {
+      Point p = at(v);
+      p[cluster.axis] = 0;
+      flat.state.vertices.push_back(p);
+    }
+    flat.state.input_vertices = flat.vertices.size();
+    for (Index k = 0; k < cluster.facets.size(); ++k) {
+      const Triangle& t = state_.facets[cluster.facets[k]];
+      flat.state.facets.push_back({number(t[0]), number(t[1]), number(t[2])});
+      flat.state.facet_parents.add(std::array{k});
+    }
+    for (Index k = 0; k < flat.sides.size(); ++k) {
+      flat.state.segments.push_back({number(flat.sides[k][0]), number(flat.sides[k][1])});
+      flat.state.segment_parents.add(std::array{k});
+    }
+    return flat;
+  }
+
+  bool arrange_cluster(const Cluster& cluster) {
+    const Flat before = flat(cluster);
+    if (std::any_of(before.sides.begin(), before.sides.end(),
+                    [&](const Side& s) { return cut_.contains(s); }))
+      return false;  // another cluster has cut it: in the next pass
+    std::vector<Point> places(before.state.vertices);
+    std::sort(places.begin(), places.end());
+    if (std::adjacent_find(places.begin(), places.end()) != places.end()) return false;  // one above another
+    const Rounded rounded = round_(before.state);
+    const State& after = rounded.state;
+    if (!rounded.is_valid ||
+        !std::equal(before.state.vertices.begin(), before.state.vertices.end(), after.vertices.begin()))
+      return false;
+    // Every side must have become a chain from end to end.
+    std::vector<std::vector<Segment>> pieces(before.sides.size());
+    for (std::size_t s = 0; s < after.segments.size(); ++s)
+      for (const Index p : after.segment_parents.of(s)) pieces[p].push_back(after.segments[s]);
+    std::vector<std::vector<Index>> chains(before.sides.size());
+    for (std::size_t k = 0; k < chains.size(); ++k)
+      if (!chain_of(pieces[k], before.state.segments[k], chains[k]) ||
+          (!chains[k].empty() && taken_.contains(before.sides[k])))
+        return false;
+    taken_.insert(before.sides.begin(), before.sides.end());
+
+    std::vector<Index> name(after.vertices.size());
+    for (Index v = 0; v < name.size(); ++v) {
+      if (v < before.vertices.size()) {
+        name[v] = before.vertices[v];
+        continue;
+      }
+      name[v] = static_cast<Index>(state_.vertices.size());
+      state_.vertices.push_back(after.vertices[v]);
+      lifted_.insert(name[v]);
+    }
+    for (std::size_t f = 0; f < after.facets.size(); ++f) lift(cluster, after, f, name);
+    for (const auto& [v, largest] : below_) {
+      state_.vertices[v][cluster.axis] = above(largest.second, state_.vertices[v], cluster.axis);
+      lifted_.erase(v);
+    }
+    below_.clear();
+    for (std::size_t f = 0; f < after.facets.size(); ++f) take(cluster, after, f, name);
+    for (std::size_t k = 0; k < chains.size(); ++k)
+      if (!chains[k].empty()) cut_side(cluster, before.sides[k], chains[k], name);
+    for (const Index f : cluster.facets) in_cluster_[f] = 1;
+    most_ = std::max(most_, rounded.displacement);
+    return true;
+  }
+
+  /// A side becomes a chain. What was on the facet that the side bounds only gets its third coordinate here.
+  void cut_side(const Cluster& cluster, const Side& side, std::span<const Index> chain,
+                std::span<const Index> name) {
+    std::vector<Index>& cut = cut_[side];
+    const Point &a = at(side[0]), &b = at(side[1]);
+    for (const Index k : chain) {
+      const Index v = name[k];
+      cut.push_back(v);
+      Point flat_a = a, flat_b = b, flat_v = at(v);
+      flat_a[cluster.axis] = flat_b[cluster.axis] = flat_v[cluster.axis] = 0;
+      const double share =
+          std::clamp(length(minus(flat_v, flat_a)) / length(minus(flat_b, flat_a)), 0.0, 1.0);
+      if (lifted_.erase(v) != 0)
+        state_.vertices[v][cluster.axis] = a[cluster.axis] + share * (b[cluster.axis] - a[cluster.axis]);
+      const double to_ends = std::min(length(minus(at(v), a)), length(minus(at(v), b))) * (1 + 0x1p-48);
+      most_ = std::max(most_, std::min(beside_side(at(v), a, b).bound(), to_ends));
+    }
+  }
+
+  /// The vertices of a path between the ends of a side, without the ends; false where the pieces are none.
+  static bool chain_of(const std::vector<Segment>& pieces, const Segment& side, std::vector<Index>& chain) {
+    std::map<Index, std::vector<Index>> next;
+    for (const auto& [a, b] : pieces) {
+      next[a].push_back(b);
+      next[b].push_back(a);
+    }
+    Index before = no_index, at = side[0];
+    for (std::size_t steps = 0; at != side[1]; ++steps) {
+      const auto found = next.find(at);
+      if (found == next.end() || steps > pieces.size()) return false;
+      const auto onward =
+          std::find_if(found->second.begin(), found->second.end(), [&](Index v) { return v != before; });
+      if (onward == found->second.end()) return false;
+      before = at;
+      at = *onward;
+      if (at != side[1]) chain.push_back(at);
+    }
+    return true;
+  }
+
+  /// Puts new corners onto the plane of the largest facet that they are a corner of a part of.
+  void lift(const Cluster& cluster, const State& after, std::size_t f, std::span<const Index> name) {
+    for (const Index v : after.facets[f]) {
+      if (!lifted_.contains(name[v])) continue;
+      for (const Index k : after.facet_parents.of(f)) {
+        const Index parent = cluster.facets[k];
+        const double size = length(normal(parent));
+        const auto [largest, is_new] = below_.try_emplace(name[v], size, parent);
+        if (!is_new && largest->second.first < size) largest->second = {size, parent};
+      }
+    }
+  }
+
+  /// The coordinate along an axis at which the plane of a facet stands over a point, within its range.
+  [[nodiscard]] double above(Index f, const Point& p, unsigned axis) const {
+    const auto& [a, b, c] = state_.facets[f];
+    const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
+    const Vector u = minus(at(b), at(a)), v = minus(at(c), at(a)), w = minus(p, at(a));
+    const double area = u[x] * v[y] - u[y] * v[x];
+    const double s = (w[x] * v[y] - w[y] * v[x]) / area, t = (u[x] * w[y] - u[y] * w[x]) / area;
+    const double z = at(a)[axis] + s * u[axis] + t * v[axis];
+    const auto [low, high] = std::minmax({at(a)[axis], at(b)[axis], at(c)[axis]});
+    return std::isfinite(z) ? std::clamp(z, low, high) : low;
+  }
+
+  /// Of a vertex and a facet, rounded up.
+  [[nodiscard]] double distance(Index v, const Triangle& t) const {
+    if (v == t[0] || v == t[1] || v == t[2]) return 0;
+    double least = beside_facet(at(v), at(t[0]), at(t[1]), at(t[2])).bound();
+    for (std::size_t i = 0; i < 3; ++i) {
+      least = std::min(least, beside_side(at(v), at(t[i]), at(t[(i + 1) % 3])).bound());
+      least = std::min(least, length(minus(at(v), at(t[i]))) * (1 + 0x1p-48));
+    }
+    return least;
+  }
+
+  /// Takes a facet of the plane as one of the surface, with its parents there. How far its points are from a
+  /// parent is a convex function: corners decide.
+  void take(const Cluster& cluster, const State& after, std::size_t f, std::span<const Index> name) {
+    const auto& [a, b, c] = after.facets[f];
+    Piece piece{{name[a], name[b], name[c]}, {}};
+    Index first = no_index;
+    for (const Index k : after.facet_parents.of(f)) {
+      const Index parent = cluster.facets[k];
+      first = std::min(first, parent);
+      const auto of = state_.facet_parents.of(parent);
+      piece.parents.insert(piece.parents.end(), of.begin(), of.end());
+      for (const Index v : piece.corners) most_ = std::max(most_, distance(v, state_.facets[parent]));
+    }
+    sort_unique(piece.parents);
+    pieces_[first].push_back(std::move(piece));
+  }
+
+  /// All facets again: parts of clusters in the places of their first parents, others cut where their sides
+  /// are.
+  void deliver() {
+    std::vector<Triangle> facets;
+    Parents parents;
+    std::vector<std::uint8_t> known;
+    for (Index f = 0; f < in_cluster_.size(); ++f) {
+      if (const auto found = pieces_.find(f); found != pieces_.end())
+        for (const Piece& piece : found->second) {
+          facets.push_back(piece.corners);
+          parents.add(piece.parents);
+          known.push_back(0);
+        }
+      if (in_cluster_[f] != 0) continue;
+      const std::vector<Triangle> parts = cut(state_.facets[f]);
+      for (const Triangle& t : parts) {
+        facets.push_back(t);
+        parents.add(state_.facet_parents.of(f));
+        known.push_back(parts.size() > 1 || state_.known.empty() ? 0 : state_.known[f]);
+      }
+    }
+    state_.facets = std::move(facets);
+    state_.facet_parents = std::move(parents);
+    if (!state_.known.empty()) state_.known = std::move(known);
+    deliver_segments();
+  }
+
+  void deliver_segments() {
+    std::vector<Segment> segments;
+    Parents parents;
+    for (std::size_t s = 0; s < state_.segments.size(); ++s) {
+      Index before = state_.segments[s][0];
+      for (const Index v : chain_from(state_.segments[s][0], state_.segments[s][1])) {
+        segments.push_back({before, v});
+        parents.add(state_.segment_parents.of(s));
+        before = v;
+      }
+      segments.push_back({before, state_.segments[s][1]});
+      parents.add(state_.segment_parents.of(s));
+    }
+    state_.segments = std::move(segments);
+    state_.segment_parents = std::move(parents);
+  }
+
+  [[nodiscard]] std::vector<Index> chain_from(Index a, Index b) const {
+    const auto found = cut_.find(ascending(Side{a, b}));
+    if (found == cut_.end()) return {};
+    std::vector<Index> chain = found->second;
+    if (a > b) std::reverse(chain.begin(), chain.end());
+    return chain;
+  }
+
+  /// One side after the other: each fan leaves the other two sides whole.
+  [[nodiscard]] std::vector<Triangle> cut(const Triangle& facet) const {
+    std::vector<Triangle> parts{facet};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index a = facet[i], b = facet[(i + 1) % 3];
+      const std::vector<Index> chain = chain_from(a, b);
+      if (chain.empty()) continue;
+      std::vector<Triangle> now;
+      for (const Triangle& t : parts) {
+        const auto at_a = static_cast<std::size_t>(std::find(t.begin(), t.end(), a) - t.begin());
+        if (at_a == 3 || t[(at_a + 1) % 3] != b) {
+          now.push_back(t);
+          continue;
+        }
+        const Index apex = t[(at_a + 2) % 3];
+        Index before = a;
+        for (const Index v : chain) {
+          if (v != apex) now.push_back({before, v, apex});
+          before = v;
+        }
+        now.push_back({before, b, apex});
+      }
+      parts = std::move(now);
+    }
+    std::erase_if(parts, [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+    return parts;
+  }
+
+  struct Piece {
+    Triangle corners;
+    std::vector<Index> parents;
+  };
+
+  State& state_;
+  const double gap_;
+  const RoundPlane& round_;
+  const Step& step_;
+  std::vector<std::uint8_t> in_cluster_;             // by facet
+  std::map<Index, std::vector<Piece>> pieces_;       // by first facet
+  std::set<Side> taken_;                             // of clusters that were arranged
+  std::map<Side, std::vector<Index>> cut_;           // by side, ascending: what it is led through
+  std::set<Index> lifted_;                           // new vertices that have no third coordinate yet
+  std::map<Index, std::pair<double, Index>> below_;  // of these, the area and the index of the largest facet
+  double most_ = 0;
+};
+
+}  // namespace
+
+double flatten(State& state, double gap, const RoundPlane& round, const Step& step) {
+  return Flattening(state, gap, round, step).run();
+}
+
+}  // namespace holdfast::repairing

@@ -1,0 +1,26 @@
+// Sheets that lie in each other but for rounding, made one.
+#pragma once
+
+#include <functional>
+
+#include "repair/rounding.h"
+#include "repair/settle.h"
+#include "repair/state.h"
+#include "surface/search.h"
+
+namespace holdfast::repairing {
+
+/// Arranges a plane surface, and rounds it.
+using RoundPlane = std::function<Rounded(State)>;
+
+/// Facets that overlap at a distance of at most `gap` are arranged in a projection along an axis, where they
+/// overlap exactly: so sheets come to have the same triangles wherever both are, with the parents of both.
+/// Vertices stay; new ones, where sides cross in the projection, get their third coordinate from a facet
+/// below. Sides that are cut so are cut in all facets that have them.
+///
+/// The result is a graph over a triangulation of the plane and cannot cross itself; what is round it may.
+/// Returns the largest distance by which anything was moved or bent, rounded up; 0 where there was nothing to
+/// do.
+double flatten(State& state, double gap, const RoundPlane& round, const Step& step);
+
+}  // namespace holdfast::repairing

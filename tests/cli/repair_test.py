@@ -1,0 +1,384 @@
+"""`holdfast repair` and `holdfast check --repaired` from outside: what repair makes passes, what was tampered with does not.
+
+    repair_test.py PROGRAM [unittest options]
+"""
+import json
+import math
+import subprocess
+
+from cli_case import CUBE_FACETS, CliTest, cube, main, off, shifted
+
+
+def read_off(text):
+    lines = text.split("\n")
+    n, m, _ = map(int, lines[1].split())
+    points = [list(map(float, line.split())) for line in lines[2:2 + n]]
+    return points, [list(map(int, line.split()))[1:] for line in lines[2 + n:2 + n + m]]
+
+
+def two_cubes(by=(0.3, 0.41, 0.37)):
+    """Two cubes that cross in edges whose ends are no doubles."""
+    turned = [(0.9 * x - 0.2 * y + by[0], 0.15 * x + 0.95 * y + by[1], z + 0.1 * x + by[2]) for x, y, z in cube()]
+    return cube() + turned, CUBE_FACETS + shifted(CUBE_FACETS, 8)
+
+
+MEDIT = "MeshVersionFormatted 2\nDimension 3\nVertices\n{}\n{}Triangles\n{}\n{}End\n"
+
+
+def medit(points, facets, markers):
+    return MEDIT.format(len(points), "".join("%r %r %r 0\n" % tuple(p) for p in points), len(facets),
+                        "".join("%d %d %d %d\n" % (*(v + 1 for v in f), m) for f, m in zip(facets, markers)))
+
+
+class Repaired(CliTest):
+    def repair(self, *inputs, options=(), output="out.off", expect=0):
+        return self.run_program("repair", *inputs, "-o", output, "--parents", "p.txt", "--report", "r.json", "-q",
+                                *options, expect=expect)
+
+    def check(self, *inputs, output="out.off", expect=0, files=("--parents", "p.txt", "--report", "r.json")):
+        return self.run_program("check", "--repaired", *inputs, output, *files, expect=expect).stdout
+
+    def broken(self, *inputs, **kinds):
+        """The names of the rules that are broken."""
+        listing = self.check(*inputs, expect=6, **kinds)
+        return {line.split(":")[0].removeprefix("BROKEN").strip() for line in listing.splitlines()
+                if line.startswith("BROKEN")}
+
+    def report(self):
+        return json.loads((self.folder / "r.json").read_text())
+
+    def write_report(self, report):
+        self.write("r.json", json.dumps(report))
+
+    def both_files(self, report):
+        """The report, and a file of parents that says the same."""
+        self.write_report(report)
+        lines = [f"# max_displacement {report['max_displacement']!r}"]
+        lines += [f"# moved {m['vertex']} {m['distance']!r}" for m in report["moved"]]
+        lines += [f"# dropped {d['facet']} {d['reason']}" for d in report["dropped"]]
+        lines += ["# marker_set %s %s" % (k, " ".join(map(str, v))) for k, v in report["marker_sets"].items()]
+        lines += [" ".join(map(str, p)) or "-" for p in report["parents"]]
+        self.write("p.txt", "\n".join(lines) + "\n")
+
+    def crossing_cubes(self):
+        self.write("in.off", off(*two_cubes()))
+        self.repair("in.off")
+
+
+class WhatIsMade(Repaired):
+    def test_cubes_that_cross(self):
+        self.crossing_cubes()
+        self.assertIn("holds   parents covered: 24 input triangles", self.check("in.off"))
+        self.check("in.off", files=("--parents", "p.txt"))
+        self.check("in.off", files=("--report", "r.json"))
+        self.assertGreater(self.report()["max_displacement"], 0)
+
+    def test_a_valid_surface(self):
+        self.repair("cube.off")
+        self.assertIn("the triangles are as they were", self.check("cube.off"))
+        self.assertEqual((self.folder / "out.off").read_bytes().split(b"\n")[2:],
+                         (self.folder / "cube.off").read_bytes().replace(b".0", b"").split(b"\n")[2:])
+
+    def test_cubes_on_one_another(self):
+        """Faces that overlap, with different diagonals."""
+        other = [(0, 2, 3), (0, 3, 1), (4, 5, 6), (5, 7, 6)] + CUBE_FACETS[4:]
+        self.write("in.off", off(cube() + cube((0.25, 0.5, 1)), CUBE_FACETS + shifted(other, 8)))
+        self.repair("in.off")
+        self.check("in.off")
+        self.assertEqual(self.report()["max_displacement"], 0)
+
+    def test_repeated_facets_and_flat_ones(self):
+        facets = CUBE_FACETS + [CUBE_FACETS[3][::-1], (0, 1, 8)]
+        self.write("in.off", off(cube() + [(0.5, 0, 0)], facets))
+        self.repair("in.off")
+        self.check("in.off")
+        report = self.report()
+        self.assertEqual((report["merged"], report["dropped"]),
+                         ([{"facet": 12, "into": 3}], [{"facet": 13, "reason": "no area"}]))
+
+    def test_welded_vertices(self):
+        points = cube() + [(x + 1e-9, y, z) for x, y, z in cube((1, 0, 0))]
+        self.write("in.off", off(points, CUBE_FACETS + shifted(CUBE_FACETS, 8)))
+        self.repair("in.off", options=["--weld", "1e-8"])
+        self.check("in.off")
+        self.assertEqual(len(self.report()["moved"]), 4)
+
+    def test_holes(self):
+        self.write("in.off", off(cube(), CUBE_FACETS[1:]))
+        self.repair("in.off", options=["--fill-holes"])
+        self.check("in.off")
+
+    def test_several_inputs_and_markers(self):
+        points, facets = two_cubes()
+        self.write("a.mesh", medit(points[:8], facets[:12], range(1, 13)))
+        self.write("b.mesh", medit(points[8:], [[v - 8 for v in f] for f in facets[12:]], [40] * 12))
+        self.repair("a.mesh", "b.mesh", output="out.mesh")
+        self.assertIn("holds   markers kept", self.check("a.mesh", "b.mesh", output="out.mesh"))
+
+    def test_union(self):
+        self.write("in.off", off(*two_cubes()))
+        self.repair("in.off", options=["--union"])
+        self.check("in.off")
+
+
+class WhatWasTamperedWith(Repaired):
+    def setUp(self):
+        super().setUp()
+        self.crossing_cubes()
+        self.points, self.facets = read_off((self.folder / "out.off").read_text())
+
+    def write_output(self):
+        self.write("out.off", off(self.points, self.facets))
+
+    def test_nothing(self):
+        self.write_output()
+        self.check("in.off")
+
+    def test_an_input_vertex_moved_by_an_ulp(self):
+        self.points[3][1] = math.nextafter(self.points[3][1], 2)
+        self.write_output()
+        self.assertIn("vertices kept", self.broken("in.off"))
+
+    def test_it_is_listed_with_a_false_distance(self):
+        step = math.nextafter(self.points[3][1], 2) - self.points[3][1]
+        self.points[3][1] += step
+        self.write_output()
+        report = self.report()
+        report["moved"] = [{"vertex": 3, "distance": step / 2}]
+        self.both_files(report)
+        self.assertIn("distances right", self.broken("in.off"))
+        report["moved"][0]["distance"] = step * 2
+        self.both_files(report)
+        self.assertIn("distances right", self.broken("in.off"))
+        report["moved"] = [{"vertex": 4, "distance": step}]
+        self.both_files(report)
+        self.assertLess({"vertices kept", "distances right"}, self.broken("in.off"))
+
+    def test_the_largest_distance_is_too_small(self):
+        report = self.report()
+        report["max_displacement"] /= 1000
+        self.both_files(report)
+        self.assertIn("children near", self.broken("in.off"))
+        report["max_displacement"] = 0
+        self.both_files(report)
+        self.assertIn("children near", self.broken("in.off"))
+
+    def test_a_new_vertex_moved(self):
+        self.points[17][0] += 1e-7
+        self.write_output()
+        self.assertIn("children near", self.broken("in.off"))
+
+    def test_a_parent_is_missing(self):
+        """Of each triangle in turn: its place is covered all the same, but not by a child."""
+        report = self.report()
+        for f, own in enumerate(report["parents"]):
+            other = next(p for p in range(24) if p not in own)
+            for now in ([other], own + [other]):
+                parents = list(report["parents"])
+                parents[f] = now
+                self.both_files({**report, "parents": parents})
+                self.assertTrue({"parents covered", "children near", "losses listed"} & self.broken("in.off"), f)
+
+    def test_one_of_two_parents_is_missing(self):
+        other = [(0, 2, 3), (0, 3, 1), (4, 5, 6), (5, 7, 6)] + CUBE_FACETS[4:]
+        self.write("in.off", off(cube() + cube((0.25, 0.5, 1)), CUBE_FACETS + shifted(other, 8)))
+        self.repair("in.off")
+        report = self.report()
+        both = [f for f, p in enumerate(report["parents"]) if len(p) > 1]
+        self.assertGreater(len(both), 2)
+        for f in both:
+            for p in report["parents"][f]:
+                parents = list(report["parents"])
+                parents[f] = [p]
+                self.both_files({**report, "parents": parents})
+                self.assertEqual({"parents covered"}, self.broken("in.off"), f)
+
+    def test_a_parent_is_missing_in_one_file(self):
+        lines = (self.folder / "p.txt").read_text().splitlines()
+        at = next(i for i, line in enumerate(lines) if not line.startswith("#"))
+        lines[at] = "-"
+        self.write("p.txt", "\n".join(lines) + "\n")
+        self.assertIn("files agree", self.broken("in.off"))
+
+    def test_a_parent_too_many(self):
+        report = self.report()
+        report["parents"][0].append(23)
+        self.both_files(report)
+        self.assertIn("children near", self.broken("in.off"))
+        report["parents"][0][-1] = 24
+        self.both_files(report)
+        self.assertIn("parents named", self.broken("in.off"))
+
+    def test_a_triangle_is_missing(self):
+        report = self.report()
+        for f in range(len(self.facets)):
+            facets, parents = list(self.facets), list(report["parents"])
+            del facets[f], parents[f]
+            self.write("out.off", off(self.points, facets))
+            self.both_files({**report, "parents": parents})
+            self.assertTrue({"parents covered", "losses listed"} & self.broken("in.off"), f)
+
+    def test_an_unlisted_drop_and_one_without_reason(self):
+        report = self.report()
+        last = report["parents"][-1]
+        keep = [f for f, p in enumerate(report["parents"]) if p != last]
+        self.facets = [self.facets[f] for f in keep]
+        self.write_output()
+        report["parents"] = [report["parents"][f] for f in keep]
+        self.both_files(report)
+        self.assertIn("losses listed", self.broken("in.off"))
+        for reason in "no area", "vanished", "not finite", "inner":
+            report["dropped"] = [{"facet": last[0], "reason": reason}]
+            self.both_files(report)
+            self.assertIn("losses listed", self.broken("in.off"), reason)
+
+    def test_a_crossing(self):
+        self.write("out.off", off(*two_cubes()))
+        report = self.report()
+        report["parents"] = [[p] for p in range(24)]
+        self.both_files(report)
+        self.assertEqual(self.broken("in.off"), {"output valid"})
+
+    def test_a_valid_surface_changed(self):
+        self.write("out.off", off(cube() + [(0.5, 0.5, 0)],
+                                  [(0, 2, 8), (2, 3, 8), (0, 8, 1), (8, 3, 1)] + CUBE_FACETS[2:]))
+        report = self.report()
+        report["parents"] = [[0], [0], [1], [1]] + [[p] for p in range(2, 12)]
+        report["max_displacement"] = 0
+        self.both_files(report)
+        self.assertEqual(self.broken("cube.off"), {"valid unchanged"})
+
+    def test_false_markers(self):
+        points, facets = two_cubes()
+        self.write("in.mesh", medit(points, facets, range(1, 25)))
+        self.repair("in.mesh", output="out.mesh")
+        text = (self.folder / "out.mesh").read_text()
+        head, tail = text.split("Triangles", 1)
+        lines = tail.strip().split("\n")
+        lines[1] = lines[1].rsplit(None, 1)[0] + " 99"
+        self.write("out.mesh", head + "Triangles\n" + "\n".join(lines) + "\n")
+        self.assertEqual(self.broken("in.mesh", output="out.mesh"), {"markers kept"})
+
+
+class Usage(Repaired):
+    def test_files_that_are_none(self):
+        self.crossing_cubes()
+        self.run_program("check", "--repaired", "in.off", "out.off", expect=2)
+        self.run_program("check", "in.off", "out.off", "--parents", "p.txt", expect=2)
+        self.run_program("check", "--repaired", "--box", "in.off", "out.off", "--parents", "p.txt", expect=2)
+        for text in "1 2 x\n", "# max_displacement 0\n-1\n", "# max_displacement 0\n# dropped 3 nothing\n", "0\n1\n":
+            self.write("q.txt", text)
+            self.check("in.off", files=("--parents", "q.txt"), expect=3)
+        for text in "", "{}", "[1]", '{"parents": 3}', "x" * 1000:
+            self.write("q.json", text)
+            self.check("in.off", files=("--report", "q.json"), expect=3)
+
+    def test_verdict(self):
+        self.crossing_cubes()
+        self.check("in.off", files=("--parents", "p.txt", "--report", "r.json", "--verdict", "v.json"))
+        verdict = json.loads((self.folder / "v.json").read_text())
+        self.assertTrue(verdict["holds"])
+        self.assertEqual(len(verdict["rules"]), 12)
+
+
+class Proposals(Repaired):
+    """What `diagnose` proposes cures what it found."""
+
+    def cure(self, points, facets):
+        self.write("in.off", off(points, facets))
+        found = self.program_says_of("in.off")
+        self.repair("in.off", options=found["cures"]["options"].split())
+        self.check("in.off")
+        self.assertTrue(found["cures"]["tried"])
+        return found["cures"], self.program_says_of("out.off")
+
+    def program_says_of(self, name):
+        broken = self.run_anyhow("diagnose", name, "--report", "d.json")
+        report = json.loads((self.folder / "d.json").read_text())
+        self.assertEqual(broken.returncode, 0 if report["valid"] else 4)
+        if report["cures"]["proposals"]:
+            self.assertIn("cure: ", broken.stdout)
+        return report
+
+    def run_anyhow(self, *arguments):
+        return subprocess.run([self.program, *arguments], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              text=True, timeout=240, check=False)
+
+    def test_none_for_a_valid_surface(self):
+        self.assertEqual(self.program_says_of("cube.off")["cures"], {"tried": True, "options": "", "proposals": []})
+
+    def test_vertices_to_weld(self):
+        points = cube() + [(x + 2.3e-9, y, z) for x, y, z in cube((1, 0, 0))]
+        cures, after = self.cure(points, CUBE_FACETS[:10] + shifted(CUBE_FACETS[:8] + CUBE_FACETS[10:], 8))
+        self.assertEqual(cures["options"], "--weld 3e-09")
+        self.assertEqual(cures["proposals"][0]["count"], 4)
+        self.assertTrue(after["valid"])
+        self.assertEqual(after["summary"]["gaps"], [])
+        self.assertEqual(after["summary"]["encloses"], 1)
+
+    def test_a_hole(self):
+        cures, after = self.cure(cube(), CUBE_FACETS[2:])
+        self.assertEqual(cures["options"], "--fill-holes 4")
+        self.assertEqual(after["summary"]["encloses"], 1)
+        self.assertEqual(after["cures"]["proposals"], [])
+
+    def test_a_crack_and_a_hole(self):
+        points = cube() + [(1 + 1e-7, 1, 0.0)]
+        facets = [tuple(8 if v == 3 and i == 1 else v for v in f) for i, f in enumerate(CUBE_FACETS) if i not in (4, 5)]
+        cures, after = self.cure(points, facets)
+        self.assertEqual(cures["options"], "--weld 2e-07 --fill-holes 4")
+        self.assertEqual((after["valid"], after["summary"]["encloses"], after["summary"]["open_sides"]), (True, 1, []))
+
+    def test_parts_that_cross(self):
+        cures, after = self.cure(*two_cubes())
+        self.assertEqual([p["kind"] for p in cures["proposals"]], ["cut", "unite"])
+        self.assertTrue(after["valid"])
+        self.repair("in.off", options=["--union"])
+        self.assertEqual(self.program_says_of("out.off")["summary"]["encloses"], 1)
+
+
+class MeshAtOnce(Repaired):
+    """`mesh --repair`."""
+
+    def test_the_surface_that_was_meshed(self):
+        self.write("in.off", off(*two_cubes()))
+        self.run_program("mesh", "in.off", "-o", "v.vtu", "--fill", expect=4)
+        said = self.run_program("mesh", "in.off", "-o", "v.vtu", "--fill", "--repair", "--repaired", "out.off", "--report",
+                                "r.json").stderr
+        self.assertIn("repair: ", said)
+        self.run_program("check", "out.off", "v.vtu")
+        self.check("in.off", files=("--report", "r.json"))
+        self.assertEqual((self.report()["repair"]["moved"], self.report()["repair"]["rung"]), ([], "nearest"))
+
+    def test_a_tolerance(self):
+        points = cube() + [(x + 1e-9, y, z) for x, y, z in cube((1, 0, 0))]
+        self.write("in.off", off(points, CUBE_FACETS + shifted(CUBE_FACETS, 8)))
+        self.run_program("mesh", "in.off", "-o", "v.vtu", "--fill", "--repair=1e-8", "--repaired", "out.off", "--report", "r.json")
+        self.run_program("check", "out.off", "v.vtu")
+        self.assertEqual(len(self.report()["repair"]["moved"]), 4)
+
+    def test_a_valid_surface(self):
+        said = self.run_program("mesh", "cube.off", "-o", "v.vtu", "--fill", "--repair").stderr
+        self.assertIn("valid as it is", said)
+        self.run_program("check", "cube.off", "v.vtu")
+
+    def test_wrong_usage(self):
+        self.run_program("mesh", "cube.off", "-o", "v.vtu", "--repaired", "out.off", expect=2)
+        for tolerance in "x", "-1", "nan", "1,2":
+            self.run_program("mesh", "cube.off", "-o", "v.vtu", f"--repair={tolerance}", expect=2)
+        self.run_program("mesh", "cube.off", "-o", "v.vtu", "--repair", "--repaired", "v.vtu", expect=2)
+        self.assertEqual(self.files(), ["cube.off"])
+
+    def test_limits(self):
+        points, facets = [], []
+        for i in range(120):
+            facets += shifted(CUBE_FACETS, len(points))
+            points += [(x + 0.003 * i + 0.001 * y, y + 0.002 * i, z + 0.0037 * i + 0.0007 * x) for x, y, z in cube()]
+        self.write("in.off", off(points, facets))
+        self.run_program("mesh", "in.off", "-o", "v.vtu", "--repair", "--repaired", "out.off", "--time-limit", "0.05", expect=5)
+        self.run_program("repair", "in.off", "-o", "out.off", "--time-limit", "0.05", expect=5)
+        self.assertEqual(self.files(), ["cube.off", "in.off"])
+
+
+if __name__ == "__main__":
+    main()
