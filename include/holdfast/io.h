@@ -56,7 +56,7 @@ struct ReadOptions : Limits {
 ///   ReadOptions::tolerance), and their sides must not cross. Corners that repeat the place of the one before
 ///   do not count. A facet of several polygons or with holes (.poly) becomes triangles of what they enclose.
 /// - Markers: references (.mesh, .meshb), boundary markers (.poly, .smesh), physical or else elementary
-///   tags (.msh), the cell array "marker" (.vtu, .vtp, .vtk), numbers of the solids (.stl with several).
+///   tags (.msh), the cell array "marker" (.vtu, .vtp, .vtk), solids (.stl), and more (docs/formats.md).
 ///   Of vertices: references, boundary markers, physical tags of point elements, the point array "marker".
 ///   Marker vectors are empty if all markers are 0.
 /// - The largest volume V of a region (.poly, .smesh) becomes its size H = (6 sqrt(2) V)^(1/3), the edge of a
@@ -117,7 +117,7 @@ struct WriteOptions : Limits {
 /// for its limits; the file that had the name is then as it was.
 ///
 /// .vtu (appended raw data, with `input_vertices` as the point array "input_vertex"), .vtk (ASCII), .mesh,
-/// .meshb (GMF version 3), .msh (ASCII), .node (with .ele, .face and .edge; vertices from 0). Coordinates
+/// .meshb (GMF), .msh, .node (with .ele, .face and .edge; vertices from 0). Coordinates
 /// read back bit for bit, from text too. Vertices, and the corners of tetrahedra and facets, keep their
 /// order; .msh 4.1 groups the entities by marker. Throws FileError, and std::invalid_argument if regions,
 /// markers or input vertices are neither empty nor as many as their entities. What the format does not hold,

@@ -89,9 +89,10 @@ class UnvWriter {
     end(out_);
   }
 
+  /// The id is the physical property. There is no material, of which Gmsh would make groups, too.
   void element(int type, int id, const Nodes& nodes) {
     beat(out_.watch());
-    for (const std::int64_t value : {++number_, std::int64_t{type}, std::int64_t{id}, std::int64_t{id},
+    for (const std::int64_t value : {++number_, std::int64_t{type}, std::int64_t{id}, std::int64_t{0},
                                      std::int64_t{7}, static_cast<std::int64_t>(nodes.count)})
       column(out_, value);
     out_ << '\n';
