@@ -15,8 +15,10 @@ class Scale {
     double most = 0;
     for (const Position& p : points) most = std::max({most, std::abs(p[0]), std::abs(p[1])});
     exponent_ = most > 0 ? std::ilogb(most) : 0;
+    factor_ = std::abs(exponent_) < 1000 ? std::scalbn(1.0, -exponent_) : 0;
   }
   [[nodiscard]] Position down(const Position& p) const {
+    if (factor_ != 0) return {p[0] * factor_, p[1] * factor_};
     return {std::scalbn(p[0], -exponent_), std::scalbn(p[1], -exponent_)};
   }
   [[nodiscard]] Position up(const Position& p) const {
@@ -31,6 +33,7 @@ class Scale {
 
  private:
   int exponent_ = 0;
+  double factor_ = 0;  // 0 where it is no normal number
 };
 
 [[nodiscard]] inline double squared(const Position& a, const Position& b) {
