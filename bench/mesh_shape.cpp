@@ -5,14 +5,23 @@
 
 #include "holdfast/io.h"
 #include "mesh/quality.h"
+#include "numbers/vector.h"
+
+namespace {
+
+constexpr double kMostQ = 1e6;  // so that one flat element does not make the mean
+
+}  // namespace
 
 int main(int argc, char** argv) {
+  using holdfast::operator-;
   for (int i = 1; i < argc; ++i) {
     const holdfast::Volume volume = holdfast::read_volume(argv[i]);
     std::array<std::size_t, 4> below{};  // tetrahedra with an angle below 10, 20, 30, 40 degrees
     double least = 180;
     double most = 0;
-    double sum = 0;
+    double sum = 0, sum_of_q = 0, whole = 0;
+    std::array<double, 3> volume_below{};  // the same in volume, up to 30 degrees
     for (const holdfast::Tetrahedron& t : volume.tetrahedra) {
       const auto& v = volume.vertices;
       const std::array<double, 6> angles = holdfast::dihedral_angles(v[t[0]], v[t[1]], v[t[2]], v[t[3]]);
@@ -20,15 +29,24 @@ int main(int argc, char** argv) {
       least = std::min(least, low);
       most = std::max(most, *std::max_element(angles.begin(), angles.end()));
       sum += low;
-      for (std::size_t k = 0; k < below.size(); ++k)
-        if (!(low >= 10 * static_cast<double>(k + 1))) ++below[k];
+      const double six_volumes =
+          holdfast::dot(v[t[1]] - v[t[0]], holdfast::cross(v[t[2]] - v[t[0]], v[t[3]] - v[t[0]]));
+      sum_of_q += std::min(holdfast::quality(v[t[0]], v[t[1]], v[t[2]], v[t[3]]), kMostQ);
+      whole += six_volumes;
+      for (std::size_t k = 0; k < below.size(); ++k) {
+        if (low >= 10 * static_cast<double>(k + 1)) continue;
+        ++below[k];
+        if (k < volume_below.size()) volume_below[k] += six_volumes;
+      }
     }
+    for (double& x : volume_below) x *= 100 / whole;
     const auto count = static_cast<double>(volume.tetrahedra.size());
     const auto percent = [&](std::size_t k) { return 100 * static_cast<double>(below[k]) / count; };
     std::printf(
-        "{\"tetrahedra\": %zu, \"min_dihedral\": %.3f, \"max_dihedral\": %.3f, \"mean_min\": %.2f, "
-        "\"below\": [%.4f, %.4f, %.4f, %.4f]}\n",
-        volume.tetrahedra.size(), least, most, sum / count, percent(0), percent(1), percent(2), percent(3));
+        "{\"tetrahedra\": %zu, \"min_dihedral\": %.6g, \"max_dihedral\": %.3f, \"mean_min\": %.2f, "
+        "\"below\": [%.4f, %.4f, %.4f, %.4f], \"volume_below\": [%.4f, %.4f, %.4f], \"mean_q\": %.4f}\n",
+        volume.tetrahedra.size(), least, most, sum / count, percent(0), percent(1), percent(2), percent(3),
+        volume_below[0], volume_below[1], volume_below[2], sum_of_q / count);
   }
   return 0;
 }

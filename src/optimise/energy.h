@@ -1,14 +1,16 @@
 // The energy of a tetrahedron: what improving a volume makes less, summed over tetrahedra.
 //
-// It is q^-4, where q is the least sine of the six dihedral angles, an obtuse one counting for a little more
-// than its sine, since finite elements suffer more from small angles than from large ones only by degree but
-// users are shown the small ones. The sine of the angle at edge e between faces of doubled areas m and n is
-// |e| D / (m n), where D is six volumes (Freitag, Ollivier-Gooch 1997; Klingner, Shewchuk 2007). The power
-// makes a sum of energies follow the worst elements, and yet see how many there are of each kind. Where a
-// metric is given, elements are seen in the frame of the mean of the metrics at their corners.
-// What is larger than a bound on volumes allows is as bad as what is not positive.
+// It is q^-4, and below some q less steep, q^-2: what needles of the surface force would count for more than
+// all that can be helped, otherwise. Here q is the least sine of the six dihedral angles, an obtuse one
+// counting for a little more than its sine, since finite elements suffer more from small angles than from
+// large ones only by degree but users are shown the small ones. The sine of the angle at edge e between faces
+// of doubled areas m and n is |e| D / (m n), where D is six volumes (Freitag, Ollivier-Gooch 1997; Klingner,
+// Shewchuk 2007). The power makes a sum of energies follow the worst elements, and yet see how many there are
+// of each kind. Where a metric is given, elements are seen in the frame of the mean of the metrics at their
+// corners. What is larger than a bound on volumes allows is as bad as what is not positive.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -21,7 +23,10 @@ namespace holdfast {
 inline constexpr double kNoEnergy = std::numeric_limits<double>::infinity();
 
 /// The energy of an element whose least angle has this sine.
-[[nodiscard]] constexpr double energy_of_sine(double q) { return 1 / (q * q * q * q); }
+[[nodiscard]] constexpr double energy_of_sine(double q) {
+  const double q2 = q * q;
+  return 1 / (q2 * std::max(q2, tuning::kHopelessSine * tuning::kHopelessSine));
+}
 
 /// Of one tetrahedron, or of two if Number is a Pair.
 template <typename Number>
@@ -64,7 +69,8 @@ template <typename Number>
   const Number cd = sine2(zx * zx + zy * zy + zz * zz, iab, ax * bx + ay * by + az * bz);
   const Number least = less(less(less(ab, ac), less(ad, bc)), less(bd, cd));
   const Number q2 = volume * volume * least, infinite = Number{} + kNoEnergy;
-  const Number e = 1 / (q2 * q2), of_positive = e < infinite ? e : infinite;
+  const Number least_q2 = Number{} + tuning::kHopelessSine * tuning::kHopelessSine;
+  const Number e = 1 / (q2 * (q2 < least_q2 ? least_q2 : q2)), of_positive = e < infinite ? e : infinite;
   const Number of_small = volume > most ? infinite : of_positive;
   return volume > 0 ? of_small : infinite;
 }

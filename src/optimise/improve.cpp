@@ -18,7 +18,9 @@ class Improver {
         passes_(tuning::passes_of(effort)),
         spared_(spared),
         monitor_(monitor),
-        ways_(volume_, energy_of_sine(passes_.patient_aim)) {}
+        ways_(volume_, energy_of_sine(passes_.patient_aim)),
+        most_inserted_(
+            static_cast<std::size_t>(passes_.inserted_per_tet * static_cast<double>(mesh_.tet_count()))) {}
 
   ImproveStats run() {
     const int steps = passes_.passes + passes_.rounds;
@@ -115,6 +117,7 @@ class Improver {
       if (!volume_.is_inside(worst.tet) || volume_.energy(worst.tet) != worst.energy) continue;
       if (!volume_.take_changed(worst.tet)) continue;
       poll(std::max(work / budget, 1 - std::min(1.0, static_cast<double>(queue.size()) / count)));
+      ways_.allow_points(stats_.inserted < most_inserted_);
       const EnergyWays::Outcome outcome = ways_.try_all(worst.tet, refill, work);
       if (outcome.changed.empty()) continue;
       any = true;
@@ -130,6 +133,7 @@ class Improver {
   const std::span<const std::uint8_t> spared_;  // by vertex
   Monitor& monitor_;
   EnergyWays ways_;
+  const std::size_t most_inserted_;
   std::array<double, 2> stage_{};
   ImproveStats stats_;
 };

@@ -8,8 +8,9 @@
 
 namespace holdfast {
 
-std::span<const Tet> CavityRefiller::refill(Tet t) {
+std::span<const Tet> CavityRefiller::refill(Tet t, bool may_add) {
   best_ = {};
+  may_add_ = may_add;
   point_ = kNone;
   near_ = volume_.mesh().corners(t);
   frame_ = volume_.frame_of(near_);
@@ -30,7 +31,7 @@ std::span<const Tet> CavityRefiller::refill(Tet t) {
 
 void CavityRefiller::try_point(const Cavity& cavity) {
   find_place(cavity);
-  if (star_.energy() < kNoEnergy) offer(cavity, volume_.energy(cavity.tets()) - star_.energy());
+  if (may_add_ && star_.energy() < kNoEnergy) offer(cavity, volume_.energy(cavity.tets()) - star_.energy());
 }
 
 // Without a point no element may be half as bad as the worst that goes.

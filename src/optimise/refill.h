@@ -16,8 +16,9 @@ class CavityRefiller {
   explicit CavityRefiller(ImprovedVolume& volume) : volume_(volume) {}
 
   /// Fills a cavity that has grown from t so that the energy is less, in the best way found. Free vertices
-  /// inside it go. Returns the new tetrahedra, none where no way was found.
-  std::span<const Tet> refill(Tet t);
+  /// inside it go. Returns the new tetrahedra, none where no way was found. With `may_add`, it may take a
+  /// point.
+  std::span<const Tet> refill(Tet t, bool may_add = true);
   /// The point that the last call added, or kNone.
   [[nodiscard]] Vertex point() const { return point_; }
 
@@ -45,6 +46,7 @@ class CavityRefiller {
   Star star_;                    // in the frame
   std::vector<double> heights_;  // of the place over the faces, where it does not see them all
   Filling best_;
+  bool may_add_ = true;
   Vertex point_ = kNone;
 };
 

@@ -87,17 +87,20 @@ struct Passes {
   /// For a round, in elements tried, some three microseconds each. Most volumes take a small part of it: it
   /// is for those full of elements that the surface forces, which nothing helps.
   double work_per_tet;
+  /// The most points for single elements: of good surfaces few take any, but needles would take them without
+  /// end.
+  double inserted_per_tet;
 };
 [[nodiscard]] constexpr Passes passes_of(Effort effort) {
   switch (effort) {
     case Effort::fast:
-      return {1, 0.35, 0.50, 0.26, 0.24, 1, 0.2};
+      return {1, 0.35, 0.50, 0.26, 0.24, 1, 0.2, 0.04};
     case Effort::good:
-      return {1, 0.45, 0.50, 0.36, 0.24, 1, 8};
+      return {1, 0.45, 0.50, 0.36, 0.24, 1, 8, 0.04};
     case Effort::best:
       break;
   }
-  return {6, 0.65, 0.80, 0.60, 0.34, 6, 10};
+  return {6, 0.65, 0.80, 0.60, 0.34, 6, 10, 0.08};
 }
 inline constexpr int kMostPasses = 6;     ///< while many elements are bad, which passes help faster
 inline constexpr double kManyBad = 0.1;   ///< of the elements: as many are many
@@ -114,6 +117,7 @@ inline constexpr double kAddTetsAWork = 60;        ///< tetrahedra of its caviti
 inline constexpr double kContractTetsAWork = 100;  ///< tetrahedra looked at
 inline constexpr double kSmoothTetsAWork = 10;     ///< tetrahedra of a ball
 
+inline constexpr double kHopelessSine = 0.14;  ///< 8 degrees: below, energies grow less, for much is forced
 inline constexpr double kObtuse = 1.5;  ///< square of what the sine of an obtuse angle counts for: less harm
 inline constexpr double kSineOfFlat = 0.035;  ///< 2 degrees: what is worse gets the ways of --fill, too
 /// Part of a sum of energies that is rounding, and a gain that is worth a change.

@@ -64,7 +64,7 @@ void EnergyWays::contract_a_corner(Tet t, Outcome& out, double& work) {
 void EnergyWays::add_point(Tet t, Outcome& out, double& work) {
   constexpr double worth_a_point = energy_of_sine(tuning::kSineWorthAPoint);
   const double energy = volume_.energy(t);
-  if (!(energy > worth_a_point)) return;
+  if (!may_add_ || !(energy > worth_a_point)) return;
   const bool is_added = adder_.add(t, energy > very_bad_);
   work += tuning::kAddWork + adder_.work() / tuning::kAddTetsAWork;
   if (is_added) out.changed = adder_.ball();
@@ -73,7 +73,7 @@ void EnergyWays::add_point(Tet t, Outcome& out, double& work) {
 void EnergyWays::refill(Tet t, Outcome& out, double& work) {
   if (!(volume_.energy(t) > very_bad_)) return;
   work += tuning::kRefillWork;
-  out.changed = refiller_.refill(t);
+  out.changed = refiller_.refill(t, may_add_);
   if (refiller_.point() != kNone) out.count = &ImproveStats::inserted;
 }
 

@@ -28,6 +28,9 @@ class EnergyWays {
   /// Every way on one element, or all but the slowest. `work` grows, in elements tried.
   Outcome try_all(Tet t, bool with_refill, double& work);
 
+  /// From now on, whether points may be added.
+  void allow_points(bool may) { may_add_ = may; }
+
   /// One way alone, for passes over the volume: whether it helped.
   bool swap_as_worst(Tet t) {
     volume_.turn_to(t);
@@ -45,6 +48,7 @@ class EnergyWays {
 
   ImprovedVolume& volume_;
   const double very_bad_;
+  bool may_add_ = true;
   VertexSmoother smoother_;
   EnergySwapper swapper_;
   VertexContractor contractor_;

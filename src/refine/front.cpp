@@ -117,9 +117,9 @@ class Front {
     auto limit = limits_.begin();
     for (const Tet t : tets) {
       const ScaledCentre sphere = sphere_of(t);
-      if (is_larger(sphere, tuning::kLargeRadius * radius_of_corners(t)) ||
-          is_larger(sphere, tuning::kLargeRadius * *limit++))
-        queue(t, kIsLarge);
+      double allowed = radius_of_corners(t);
+      if (!is_larger(sphere, tuning::kLargeRadius * allowed)) allowed = std::min(allowed, *limit++);
+      if (is_larger_than_bearable(t, sphere, allowed)) queue(t, kIsLarge);
     }
   }
 
@@ -129,7 +129,14 @@ class Front {
     double allowed = radius_of_corners(t);
     if (sizes_.has_limit())
       allowed = std::min(allowed, sizes_.limit(centroid(mesh_, t), volume_.region_of[t]));
-    return is_larger(sphere_of(t), tuning::kLargeRadius * allowed);
+    return is_larger_than_bearable(t, sphere_of(t), allowed);
+  }
+
+  // Whether the radius of its sphere is larger than what is allowed, and what the facets near by can bear.
+  [[nodiscard]] bool is_larger_than_bearable(Tet t, const ScaledCentre& sphere, double allowed) const {
+    if (!is_larger(sphere, tuning::kLargeRadius * allowed)) return false;
+    const double bearable = sizes_.of_facets().bearable(centroid(mesh_, t), allowed);
+    return !(bearable > allowed) || is_larger(sphere, tuning::kLargeRadius * bearable);
   }
 
   [[nodiscard]] ScaledCentre sphere_of(Tet t) const {
@@ -224,7 +231,8 @@ class Front {
     const double area = std::sqrt(nn);
     const double sum =
         volume_.size_in_frame(v[0]) + volume_.size_in_frame(v[1]) + volume_.size_in_frame(v[2]);
-    const double length = sum / 3 * (1 + 0.4 * sizes_.gradation());
+    double length = sum / 3 * (1 + 0.4 * sizes_.gradation());
+    if (!sizes_.of_facets().empty()) length = sizes_.of_facets().bearable(middle_of(v), length);
     // The centre of the circle through the corners, or where that is far away, of the triangle.
     Vector foot = circle_centre(u, w);
     const double radius2 = dot(foot, foot);
@@ -243,6 +251,11 @@ class Front {
     for (std::size_t k = 0; k < 3; ++k) p[k] = a[k] + foot[k] + height * n[k] / area;
     p = frame.from(p);
     return true;
+  }
+
+  [[nodiscard]] Point middle_of(const std::array<Vertex, 3>& face) const {
+    const Point &a = mesh_.position(face[0]), &b = mesh_.position(face[1]), &c = mesh_.position(face[2]);
+    return {(a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3, (a[2] + b[2] + c[2]) / 3};
   }
 
   // Height over the plane of a face of the centre of the tetrahedron's sphere: of equal distance from the

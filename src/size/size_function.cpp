@@ -59,6 +59,25 @@ SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds
       return h;
     };
   limit_regions(sizes, seeds, kept);
+  // A metric is kept to as it is, and a bound on volumes is exact.
+  if (!metric_ && most_volumes_.empty()) of_facets_ = sizes_of_facets(complex);
+}
+
+FacetSizes SizeFunction::sizes_of_facets(const Complex& complex) const {
+  double least = most_;
+  for (const double h : of_region_) least = std::min(least, h);
+  if (field_) least = 0;  // it may ask for any size anywhere
+  std::vector<FacetSizes::Facet> facets;
+  facets.reserve(complex.facets.size());
+  for (const Triangle& t : complex.facets) {
+    FacetSizes::Facet f{{}, least};
+    for (std::size_t i = 0; i < 3; ++i) {
+      f.corners[i] = times_power(complex.vertices[t[i]], scale_);
+      f.wanted = std::min(f.wanted, of_vertex_[t[i]]);
+    }
+    facets.push_back(f);
+  }
+  return FacetSizes(facets);
 }
 
 void SizeFunction::limit_regions(const Sizes& sizes, std::span<const RegionSeed> seeds, const Kept& kept) {

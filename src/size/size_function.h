@@ -20,6 +20,7 @@
 #include "holdfast/holdfast.h"
 #include "mesh/parallel.h"
 #include "metric/metric.h"
+#include "size/facet_sizes.h"
 #include "surface/complex.h"
 
 namespace holdfast {
@@ -59,6 +60,8 @@ class SizeFunction {
   /// region has one.
   [[nodiscard]] const std::vector<double>& most_volumes() const { return most_volumes_; }
   [[nodiscard]] double gradation() const { return gradation_; }
+  /// What the facets near a point need, where that is more than the size wanted there.
+  [[nodiscard]] const FacetSizes& of_facets() const { return of_facets_; }
   /// Inside, sizes do not grow beyond those of the surface round it.
   [[nodiscard]] bool grows() const { return grows_; }
 
@@ -66,6 +69,7 @@ class SizeFunction {
   [[nodiscard]] double limit_of_region(RegionId region) const {
     return of_region_.empty() ? most_ : of_region_[region];
   }
+  [[nodiscard]] FacetSizes sizes_of_facets(const Complex& complex) const;
   void limit_regions(const Sizes& sizes, std::span<const RegionSeed> seeds, const Kept& kept);
   [[nodiscard]] Point unscaled(const Point& p) const;
   [[nodiscard]] double scaled(double h) const;
@@ -81,6 +85,7 @@ class SizeFunction {
   std::function<void(std::span<const Point>, std::span<double>)> fields_;
   std::function<Metric(const Point&)> metric_;
   std::vector<double> of_vertex_;
+  FacetSizes of_facets_;
 };
 
 }  // namespace holdfast

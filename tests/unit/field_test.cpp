@@ -98,6 +98,29 @@ TEST(FieldPoints, SizeIsTheLengthOfEdges) {
   }
 }
 
+// A cylinder whose ends are fans of needles, each round one vertex of its rim.
+Surface fanned_cylinder(Index n) {
+  Surface cylinder = double_fan(n);
+  for (Point& p : cylinder.vertices)
+    if (p[2] > 0) p[2] = 2;
+  return cylinder;
+}
+
+// Points came to lie as near as they liked to triangles much larger than the size, beside the tetrahedra on
+// these: 5.5 % of the elements were below 10 degrees.
+TEST(FieldPoints, TrianglesMuchLargerThanTheSizeKeepPointsAway) {
+  Options options;
+  options.effort = Effort::fast;
+  const Result result = mesh_with(fanned_cylinder(48), {.size = 0.1}, options);
+  const auto count = static_cast<double>(result.volume.tetrahedra.size());
+  EXPECT_LT(static_cast<double>(result.report.field.below_10_deg), 0.035 * count);
+  EXPECT_GT(count, 20'000);  // the size counts all the same
+  EXPECT_NEAR(
+      mean_edge_in(result.volume, [](const Point& p) { return std::hypot(p[0], p[1], p[2] - 1) < 0.4; }) /
+          0.1,
+      1.05, 0.15);
+}
+
 TEST(FieldPoints, SizesGrowInwardUnlessToldNotTo) {
   const Surface sphere = hard::icosphere(3);
   const double grown = mean_edge_in(mesh_with(sphere, {}).volume, near_the_centre);

@@ -1,0 +1,59 @@
+// What sizes the facets can bear. Elements on a facet that is much larger than the size wanted there, or long
+// and thin, cannot be small and well shaped at the same time, whatever is done: many small ones make many bad
+// ones.
+//
+// So a facet needs a size for points next to it, in proportion to its longest side, but no more than some
+// times what is wanted there. Off the facet the need falls with the distance, until the wanted size is
+// reached. And points keep a distance from such facets: a point beside the tetrahedron on a large facet is
+// not joined to it, so that the cavities of points do not tell how near it is. Facets that can bear what is
+// wanted are left out.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "holdfast/types.h"
+
+namespace holdfast {
+
+class FacetSizes {
+ public:
+  struct Facet {
+    std::array<Point, 3> corners;
+    double wanted;  ///< the least size at its corners, of their own and of the user's limits
+  };
+  FacetSizes() = default;
+  /// Facets that can bear what is wanted are left out.
+  explicit FacetSizes(std::span<const Facet> facets);
+
+  [[nodiscard]] bool empty() const { return nodes_.empty(); }
+  [[nodiscard]] std::size_t count() const { return facets_.size(); }
+
+  /// The most that the facets need at x, if it is above `size`; else `size`.
+  [[nodiscard]] double bearable(const Point& x, double size) const;
+  /// Whether x is nearer to a facet than a part of the size that the facet needs at x.
+  [[nodiscard]] bool is_too_near(const Point& x) const;
+
+ private:
+  struct Held {
+    std::array<Point, 3> corners;
+    double need;
+  };
+  // A box round facets first .. first + count - 1; children are nodes `left` and left + 1, none if it is 0.
+  struct Node {
+    Point low, high;
+    double need;  // the most of its facets
+    std::uint32_t first, count, left;
+  };
+  void build(std::uint32_t node);
+  // Calls act(need, distance) for the facets that need more than `size` and `rate` a unit of length at x, and
+  // some others, until it returns false; it may raise `size`.
+  template <typename Act>
+  void for_each_near(const Point& x, double rate, const double& size, Act&& act) const;
+
+  std::vector<Held> facets_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace holdfast

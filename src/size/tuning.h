@@ -1,0 +1,13 @@
+// Constants of this stage that were found by experiment. docs/tuning.md tells what is known of each.
+#pragma once
+
+namespace holdfast::tuning {
+
+// What a facet needs for points next to it.
+inline constexpr double kNeedOfFacet = 0.3;  ///< of its longest side
+inline constexpr double kMostNeed = 2.5;    ///< times the size wanted: else large facets leave no room for it
+inline constexpr double kFarBeyond = 1.5;   ///< times the size wanted there: what needs less can bear it
+inline constexpr double kFallOfNeed = 1.2;  ///< a unit of length
+inline constexpr double kLeastClearance = 0.4;  ///< of the size that a facet needs at a point: its distance
+
+}  // namespace holdfast::tuning

@@ -1,0 +1,76 @@
+// What sizes facets can bear: need, fall with the distance, clearance.
+#include "size/facet_sizes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "numbers/vector.h"
+#include "size/tuning.h"
+
+namespace holdfast {
+namespace {
+
+FacetSizes::Facet right_triangle(double side, double wanted, double z = 0) {
+  return {{{{0, 0, z}, {side, 0, z}, {0, side, z}}}, wanted};
+}
+
+TEST(FacetSizes, WhatCanBearTheWantedSizeIsLeftOut) {
+  EXPECT_TRUE(FacetSizes(std::array{right_triangle(1, 1)}).empty());
+  EXPECT_TRUE(FacetSizes().empty());
+  EXPECT_EQ(FacetSizes(std::array{right_triangle(1, 1), right_triangle(1, 0.01)}).count(), 1u);
+  EXPECT_EQ(FacetSizes(std::array{right_triangle(1, 1)}).bearable({0, 0, 0}, 0.5), 0.5);
+}
+
+TEST(FacetSizes, NeedFallsWithTheDistance) {
+  const double most = tuning::kMostNeed * 0.01;
+  const FacetSizes sizes(std::array{right_triangle(1, 0.01)});
+  EXPECT_DOUBLE_EQ(sizes.bearable({0.2, 0.2, 0}, 0.01), most);
+  EXPECT_NEAR(sizes.bearable({0.2, 0.2, 0.01}, 0.01), most - tuning::kFallOfNeed * 0.01, 1e-15);
+  EXPECT_NEAR(sizes.bearable({-0.006, -0.008, 0}, 0.01), most - tuning::kFallOfNeed * 0.01, 1e-15);
+  EXPECT_EQ(sizes.bearable({0.2, 0.2, 0.01}, 0.05), 0.05);
+  EXPECT_EQ(sizes.bearable({0.2, 0.2, 1}, 0.01), 0.01);
+  const FacetSizes needle(std::array{FacetSizes::Facet{{{{0, 0, 0}, {1, 0, 0}, {1, 1e-3, 0}}}, 0.15}});
+  EXPECT_DOUBLE_EQ(needle.bearable({0.5, 0, 0}, 0.1), tuning::kNeedOfFacet * std::hypot(1, 1e-3));
+}
+
+TEST(FacetSizes, PointsKeepAwayAlsoBesideTheMiddle) {
+  const FacetSizes sizes(std::array{right_triangle(1, 0.01)});
+  for (const Point& p : {Point{0.3, 0.3, 0}, Point{0.01, 0.9, 0}})
+    for (const double sign : {1.0, -1.0}) {
+      EXPECT_TRUE(sizes.is_too_near({p[0], p[1], sign * 1e-3}));
+      EXPECT_FALSE(sizes.is_too_near({p[0], p[1], sign * tuning::kMostNeed * 0.01}));
+    }
+}
+
+// The tree finds what looking at each facet alone does.
+TEST(FacetSizes, AllAreAsEachAlone) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> any(0, 1);
+  std::vector<FacetSizes::Facet> facets(200);
+  for (FacetSizes::Facet& f : facets) {
+    const Point at{any(random), any(random), any(random)};
+    const double size = 0.3 * any(random);
+    for (Point& p : f.corners)
+      for (std::size_t k = 0; k < 3; ++k) p[k] = at[k] + size * any(random);
+    f.wanted = 0.02 * any(random);
+  }
+  const FacetSizes all(facets);
+  for (int k = 0; k < 500; ++k) {
+    const Point x{any(random), any(random), any(random)};
+    double most = 0.001;
+    bool is_near = false;
+    for (const FacetSizes::Facet& f : facets) {
+      const FacetSizes alone(std::array{f});
+      most = std::max(most, alone.bearable(x, 0.001));
+      is_near = is_near || alone.is_too_near(x);
+    }
+    EXPECT_EQ(all.bearable(x, 0.001), most);
+    EXPECT_EQ(all.is_too_near(x), is_near);
+  }
+}
+
+}  // namespace
+}  // namespace holdfast
