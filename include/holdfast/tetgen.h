@@ -41,8 +41,8 @@ HOLDFAST_API void write_tetgen(const std::filesystem::path& name, const Volume& 
 /// not finite, and Interrupted.
 HOLDFAST_API std::size_t add_convex_hull(Surface& surface, const Limits& limits = {});
 
-/// The number that TetGen gives the first vertex of a file: that of the file in .node, .poly and .smesh, 1 for
-/// .mesh, .meshb and .stl, 0 for the other formats, and for what cannot be read.
+/// The number that TetGen gives the first vertex of a file: that of the file in .node, .poly and .smesh, 1
+/// for .mesh, .meshb and .stl, 0 for the other formats, and for what cannot be read.
 [[nodiscard]] HOLDFAST_API int tetgen_first_number(const std::filesystem::path& path);
 
 }  // namespace holdfast

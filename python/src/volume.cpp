@@ -95,10 +95,11 @@ void register_volume(py::module_& module) {
     mid.points = rows_from<Point>(points, "points");
     const std::vector<Segment> pairs = rows_from<Segment>(tetrahedra, "tetrahedra");  // three a tetrahedron
     for (std::size_t i = 0; i + 2 < pairs.size(); i += 3)
-      mid.tetrahedra.push_back({pairs[i][0], pairs[i][1], pairs[i + 1][0], pairs[i + 1][1], pairs[i + 2][0],
-                                pairs[i + 2][1]});
+      mid.tetrahedra.push_back(
+          {pairs[i][0], pairs[i][1], pairs[i + 1][0], pairs[i + 1][1], pairs[i + 2][0], pairs[i + 2][1]});
     mid.facets = rows_from<Triangle>(triangles, "triangles");
-    for (const int node : markers_from(segments, "segments")) mid.segments.push_back(static_cast<Index>(node));
+    for (const int node : markers_from(segments, "segments"))
+      mid.segments.push_back(static_cast<Index>(node));
     return copy;
   });
   module.def("second_order", [](const Volume& volume, const py::object& points, const py::object& triangles,

@@ -21,7 +21,9 @@ double dot(const Vector& u, const Vector& v) { return u[0] * v[0] + u[1] * v[1] 
 Point along(const Point& a, const Vector& u, double t) {
   return {a[0] + t * u[0], a[1] + t * u[1], a[2] + t * u[2]};
 }
-double distance(const Point& a, const Point& b) { return numbers::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+double distance(const Point& a, const Point& b) {
+  return numbers::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
 
 /// The nearest points of two segments (Ericson, Real-Time Collision Detection, 5.1.9).
 std::array<Point, 2> between_sides(const Point& a, const Point& b, const Point& c, const Point& d) {

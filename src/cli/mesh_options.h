@@ -8,8 +8,8 @@
 
 #include "bound_options.h"
 #include "holdfast/holdfast.h"
-#include "order_options.h"
 #include "holdfast/repair.h"
+#include "order_options.h"
 #include "report.h"
 #include "write_options.h"
 
@@ -23,7 +23,7 @@ struct MeshArguments {
   double tolerance = 0;
   bool surface_of = false, fill = false, drop_outside = false, quiet = false, verbose = false;
   std::optional<std::string> keep, quality, overlap;
-  std::optional<std::string> paste;  ///< the tolerance, or empty for none
+  std::optional<std::string> paste;   ///< the tolerance, or empty for none
   std::optional<std::string> repair;  ///< the tolerance, or "true"
   std::vector<std::string> holes, regions, without, names;
   std::string stop_after, order;

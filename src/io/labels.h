@@ -16,7 +16,8 @@
 
 namespace holdfast::io {
 
-/// A name as text that every output holds: valid UTF-8, without control characters, without blanks at its ends.
+/// A name as text that every output holds: valid UTF-8, without control characters, without blanks at its
+/// ends.
 [[nodiscard]] std::string cleaned_name(std::string_view name);
 
 /// What a format lets a name be.

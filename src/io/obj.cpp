@@ -1,4 +1,5 @@
-// Wavefront OBJ: v, f, l and p; groups or materials are markers; the rest describes looks (Wavefront Advanced Visualizer, appendix B1).
+// Wavefront OBJ: v, f, l and p; groups or materials are markers; the rest describes looks (Wavefront Advanced
+// Visualizer, appendix B1).
 #include <algorithm>
 #include <array>
 #include <charconv>

@@ -1,7 +1,7 @@
 // PLY, ASCII and binary (Turk, The PLY polygon file format, 1994).
 //
-// Read are vertex {x, y, z}, face {vertex_indices or vertex_index} and edge {vertex1, vertex2}, of each also an
-// integer "marker", and names in comments; other elements and properties are skipped.
+// Read are vertex {x, y, z}, face {vertex_indices or vertex_index} and edge {vertex1, vertex2}, of each also
+// an integer "marker", and names in comments; other elements and properties are skipped.
 #include <algorithm>
 #include <iterator>
 #include <optional>
@@ -214,7 +214,7 @@ class PlyReader {
  private:
   /// Says which properties of what is read, and which elements, have no place in a mesh.
   void tell_skipped() {
-    constexpr std::string_view kRead[] = {"x",       "y",      "z", "vertex_indices", "vertex_index",
+    constexpr std::string_view kRead[] = {"x",       "y",       "z",     "vertex_indices", "vertex_index",
                                           "vertex1", "vertex2", "marker"};
     for (const Element& element : header_.elements) {
       if (element.count == 0) continue;

@@ -40,7 +40,8 @@ constexpr NameRule kComments{1000, "!\"#$%&'()*+,-./:;<=>?@[]^_`{|}~", true, tru
 constexpr IdRule kAnyId{false};
 
 Labels facet_labels(const Surface& surface, const NameRule& rule) {
-  return labels_of(kFacetStem, surface.facet_markers, surface.facets.size(), surface.names.facets, rule, kAnyId);
+  return labels_of(kFacetStem, surface.facet_markers, surface.facets.size(), surface.names.facets, rule,
+                   kAnyId);
 }
 
 bool has_sets(const Surface& surface) {

@@ -19,8 +19,8 @@ inline constexpr std::size_t kMostCrossings = 2000;  ///< of a segment or facet
 inline constexpr std::size_t kMostPiercing =
     200;  ///< edges through a facet: with more, its cavities cost less
 inline constexpr std::size_t kMostFlipFailures = 100;  ///< crossings of one facet that could not be cleared
-inline constexpr std::size_t kMostClipped = 1000;  ///< tetrahedra of a shell whose ears are clipped
-inline constexpr int kMostWalk = 400;              ///< steps round a vertex; then its whole ball is looked at
+inline constexpr std::size_t kMostClipped = 1000;      ///< tetrahedra of a shell whose ears are clipped
+inline constexpr int kMostWalk = 400;  ///< steps round a vertex; then its whole ball is looked at
 
 // The two cavities of a facet.
 inline constexpr int kCavityPasses = 8;  ///< of flips, in a cavity's own mesh

@@ -11,9 +11,9 @@
 #include "numbers/elementary.h"
 #include "surface/complex.h"
 #include "surface/describe.h"
-#include "surface/separation.h"
 #include "surface/gaps.h"
 #include "surface/places.h"
+#include "surface/separation.h"
 #include "text/decimal.h"
 
 namespace holdfast {

@@ -1,5 +1,5 @@
-// Any bytes as a volume of a solver's format: read, or refused with a FileError; what is read is in range, and is
-// written and read again in a format that holds everything.
+// Any bytes as a volume of a solver's format: read, or refused with a FileError; what is read is in range,
+// and is written and read again in a format that holds everything.
 //
 // The first byte chooses the format, the rest is the file.
 #include <array>
@@ -11,7 +11,8 @@ namespace {
 
 using namespace holdfast;
 
-constexpr std::array<const char*, 8> kFormats{".inp", ".unv", ".bdf", ".su2", ".mfem", ".vol", ".vtm", ".msh"};
+constexpr std::array<const char*, 8> kFormats{".inp",  ".unv", ".bdf", ".su2",
+                                              ".mfem", ".vol", ".vtm", ".msh"};
 
 bool finite(const std::vector<Point>& points) {
   return std::all_of(points.begin(), points.end(), [](const Point& p) {

@@ -38,7 +38,8 @@ TEST_F(NamesOfFiles, AreUtf8) {
 
 TEST_F(NamesOfFiles, GroupsAndMaterialsOfObj) {
   const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
-  const Surface groups = surface(points + "g inlet\nusemtl red\nf 1 2 3\nf 1 2 4\ng wall side\nf 1 3 4\n", "a.obj");
+  const Surface groups =
+      surface(points + "g inlet\nusemtl red\nf 1 2 3\nf 1 2 4\ng wall side\nf 1 3 4\n", "a.obj");
   EXPECT_EQ(groups.facet_markers, (std::vector<int>{1, 1, 2}));
   EXPECT_EQ(groups.names.facets, (ByMarker{{1, "inlet"}, {2, "wall side"}}));
   ASSERT_EQ(groups.remarks.size(), 1u);
@@ -53,7 +54,8 @@ TEST_F(NamesOfFiles, MarkersOfPly) {
   const std::string text =
       "ply\nformat ascii 1.0\ncomment surface 7 inlet\nelement vertex 3\nproperty float x\nproperty float y\n"
       "property float z\nproperty short marker\nelement face 2\nproperty int marker\n"
-      "property list uchar int vertex_indices\nend_header\n0 0 0 5\n1 0 0 0\n0 1 0 0\n7 3 0 1 2\n-3 3 0 2 1\n";
+      "property list uchar int vertex_indices\nend_header\n0 0 0 5\n1 0 0 0\n0 1 0 0\n7 3 0 1 2\n-3 3 0 2 "
+      "1\n";
   const Surface read = surface(text, "a.ply");
   EXPECT_EQ(read.facet_markers, (std::vector<int>{7, -3}));
   EXPECT_EQ(read.vertex_markers, (std::vector<int>{5, 0, 0}));
@@ -85,7 +87,10 @@ TEST_F(NamesOfFiles, GoThroughSurfaceFiles) {
   Surface original = small::box();
   for (std::size_t f = 0; f < original.facets.size(); ++f)
     original.facet_markers.push_back(f < 4 ? 3 : f < 8 ? 12 : 0);
-  original.names.facets = {{3, "in \"let\""}, {12, "\xC3\xBC" "bergang"}};
+  original.names.facets = {{3, "in \"let\""},
+                           {12,
+                            "\xC3\xBC"
+                            "bergang"}};
   for (const char* name : {"a.stl", "a.obj", "a.ply", "a.msh", "a.vtu", "a.vtk"}) {
     write_surface(folder_ / name, original);
     const Surface copy = read_surface(folder_ / name);
@@ -96,10 +101,10 @@ TEST_F(NamesOfFiles, GoThroughSurfaceFiles) {
     std::sort(of_facets.begin(), of_facets.end());
     for (const char c : std::string("aaaabbbbcccc"))
       expected.push_back(c == 'a' ? "" : c == 'b' ? original.names.facets[3] : original.names.facets[12]);
-    if (std::string(name) == "a.obj") std::replace(expected.begin(), expected.end(), original.names.facets[3],
-                                                   std::string("in__let_"));
-    if (std::string(name) == "a.msh") std::replace(expected.begin(), expected.end(), original.names.facets[3],
-                                                   std::string("in _let_"));
+    if (std::string(name) == "a.obj")
+      std::replace(expected.begin(), expected.end(), original.names.facets[3], std::string("in__let_"));
+    if (std::string(name) == "a.msh")
+      std::replace(expected.begin(), expected.end(), original.names.facets[3], std::string("in _let_"));
     if (std::string(name) == "a.stl")  // solids are numbered anew, and each has a name
       std::replace(expected.begin(), expected.end(), std::string(), std::string("surface_0"));
     std::sort(expected.begin(), expected.end());

@@ -98,10 +98,10 @@ TEST_P(RoundTrip, ManyRandomDoubles) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip,
-                         testing::Values(Case{"a.vtu"}, Case{"a.vtu", uncompressed()},
-                                         Case{"a.vtk"}, Case{"a.mesh"}, Case{"a.meshb"}, Case{"a.msh"},
-                                         Case{"a.msh", legacy_msh()}, Case{"a.node"},
-                                         Case{"a.ele"}, Case{"A.VTU"}));
+                         testing::Values(Case{"a.vtu"}, Case{"a.vtu", uncompressed()}, Case{"a.vtk"},
+                                         Case{"a.mesh"}, Case{"a.meshb"}, Case{"a.msh"},
+                                         Case{"a.msh", legacy_msh()}, Case{"a.node"}, Case{"a.ele"},
+                                         Case{"A.VTU"}));
 
 TEST(RoundTrip, FormatOverridesTheExtension) {
   const TemporaryFolder folder;

@@ -1,4 +1,5 @@
-// Volumes of second order through every format that is read and written: nodes, markers and regions come back.
+// Volumes of second order through every format that is read and written: nodes, markers and regions come
+// back.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -95,8 +95,7 @@ TEST(AtomicWriter, FailuresSayWhy) {
   EXPECT_NE(reason_of(folder / "missing/a.vtu").find("folder does not exist"), std::string::npos);
   put(folder / "file", "");
   EXPECT_NE(reason_of(folder / "file/a.vtu").find("cannot be written"), std::string::npos);
-  EXPECT_NE(reason_of(folder / "a.xyz").find("the formats are .mesh, .meshb, .vtu"),
-            std::string::npos);
+  EXPECT_NE(reason_of(folder / "a.xyz").find("the formats are .mesh, .meshb, .vtu"), std::string::npos);
   EXPECT_NE(reason_of(folder / "noextension").find("a name without extension"), std::string::npos);
   EXPECT_NE(reason_of(folder / (std::string(300, 'x') + ".vtu")), "written");
   EXPECT_EQ(folder.names().size(), 2u);
