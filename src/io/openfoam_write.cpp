@@ -111,26 +111,30 @@ struct FoamMesh {
   std::map<int, std::vector<std::size_t>> zones;  ///< faces inside by marker
 };
 
-std::vector<Side> sorted_sides(const Volume& volume) {
+std::vector<Side> sorted_sides(const Volume& volume, Watch& watch) {
   std::vector<Side> sides;
   sides.reserve(4 * volume.tetrahedra.size());
   for (Index t = 0; t < volume.tetrahedra.size(); ++t)
     for (std::uint8_t i = 0; i < 4; ++i) {
+      watch.beat();
       const Tetrahedron& c = volume.tetrahedra[t];
       const auto& f = kOutwardFaces[i];
       sides.push_back({ascending(Triangle{c[f[0]], c[f[1]], c[f[2]]}), t, i});
     }
-  std::sort(sides.begin(), sides.end(),
-            [](const Side& a, const Side& b) { return a.key != b.key ? a.key < b.key : a.cell < b.cell; });
+  std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) {
+    watch.beat();
+    return a.key != b.key ? a.key < b.key : a.cell < b.cell;
+  });
   return sides;
 }
 
 /// Faces inside and on the boundary, with their facets.
-void find_faces(const Volume& volume, FoamMesh& mesh) {
+void find_faces(const Volume& volume, FoamMesh& mesh, Watch& watch) {
   std::map<Triangle, Index> facet_at;
   for (Index f = 0; f < volume.facets.size(); ++f) facet_at.emplace(ascending(volume.facets[f]), f);
-  const std::vector<Side> sides = sorted_sides(volume);
+  const std::vector<Side> sides = sorted_sides(volume, watch);
   for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
+    watch.beat();
     for (j = i; j < sides.size() && sides[j].key == sides[i].key;) ++j;
     if (j > i + 2)
       throw std::invalid_argument("a face of more than two tetrahedra, which OpenFOAM has no place for");
@@ -141,7 +145,8 @@ void find_faces(const Volume& volume, FoamMesh& mesh) {
     if (const auto found = facet_at.find(sides[i].key); found != facet_at.end()) face.facet = found->second;
     (j == i + 2 ? mesh.inside : mesh.boundary).push_back(face);
   }
-  std::sort(mesh.inside.begin(), mesh.inside.end(), [](const Face& a, const Face& b) {
+  std::sort(mesh.inside.begin(), mesh.inside.end(), [&](const Face& a, const Face& b) {
+    watch.beat();
     return a.owner != b.owner ? a.owner < b.owner : a.neighbour < b.neighbour;
   });
 }
@@ -167,13 +172,13 @@ void make_patches(FoamMesh& mesh) {
   }
 }
 
-FoamMesh foam_mesh(const Volume& volume) {
+FoamMesh foam_mesh(const Volume& volume, Watch& watch) {
   FoamMesh mesh;
   mesh.regions =
       labels_of(kRegionStem, volume.regions, volume.tetrahedra.size(), volume.names.regions, kNames, kAnyId);
   mesh.facets =
       labels_of(kFacetStem, volume.facet_markers, volume.facets.size(), volume.names.facets, kNames, kAnyId);
-  find_faces(volume, mesh);
+  find_faces(volume, mesh, watch);
   make_patches(mesh);
   for (std::size_t i = 0; i < mesh.inside.size(); ++i)
     if (mesh.inside[i].facet != no_entity) mesh.zones[mesh.facets.ids[mesh.inside[i].facet]].push_back(i);
@@ -263,7 +268,7 @@ std::vector<std::filesystem::path> openfoam_files(const std::filesystem::path& p
 
 void write_openfoam(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options,
                     Watch& watch) {
-  const FoamMesh mesh = foam_mesh(volume);
+  const FoamMesh mesh = foam_mesh(volume, watch);
   const std::filesystem::path folder = poly_mesh_of(path);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
