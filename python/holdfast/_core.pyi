@@ -151,7 +151,7 @@ class UntangleResult(metaclass=_Type):
     def report(self) -> str: ...
 
 def paste(
-    parts: list[tuple[Any, ...]], names: Sequence[str], options: dict[str, Any], progress: _Progress
+    parts: Sequence[tuple[Any, ...]], names: Sequence[str], options: dict[str, Any], progress: _Progress
 ) -> PasteResult: ...
 def mesh_pasted(
     pasted: PasteResult, options: dict[str, Any], size: Any, metric: Any, progress: _Progress

@@ -52,10 +52,10 @@ class Division:
         return list(self.manifest["parts"])
 
     def surface(self, part: dict[str, Any]) -> Path:
-        return self.folder / part["surface"]
+        return self.folder / str(part["surface"])
 
     def volume(self, part: dict[str, Any]) -> Path:
-        return self.folder / part["volume"]
+        return self.folder / str(part["volume"])
 
 
 def read(folder: PathLike) -> Division:
@@ -97,7 +97,7 @@ def split(
         earlier = read(folder)
         for part in earlier.parts:
             earlier.volume(part).unlink(missing_ok=True)
-    _run("split", *map(os.fspath, files), "--parts", str(parts), "-o", os.fspath(folder), "-q", *_with_limits(options))
+    _run("split", *(os.fspath(f) for f in files), "--parts", str(parts), "-o", os.fspath(folder), "-q", *_with_limits(options))
     return read(folder)
 
 
@@ -224,8 +224,8 @@ class _Race:
     def _room(self) -> int:
         """Half of the workers: the other half is idle."""
         if self._is_dask:
-            return sum(w["nthreads"] for w in self._executor.scheduler_info()["workers"].values()) // 2
-        return getattr(self._executor, "_max_workers", 0) // 2
+            return int(sum(w["nthreads"] for w in self._executor.scheduler_info()["workers"].values())) // 2
+        return int(getattr(self._executor, "_max_workers", 0)) // 2
 
     def _cancel(self) -> None:
         for future in self._task_of:

@@ -29,7 +29,7 @@ def test_parts_are_meshed_and_joined(cube, tmp_path):
     assert holdfast.distributed.check(division.folder)
     mesh = holdfast.read_volume(tmp_path / "out.vtu")
     assert holdfast.check(cube, mesh)
-    assert abs(mesh.volumes.sum() - 1) < 1e-12
+    assert abs(mesh.quality().volume.sum() - 1) < 1e-12
 
 
 def test_goes_on_where_it_stopped_and_begins_anew_for_another_call(cube, tmp_path):
