@@ -25,7 +25,7 @@ std::ostream& operator<<(std::ostream& out, const Family& family) { return out <
 
 const Family kFamilies[] = {
     {"stars", hard::star, 4, 0.2},
-    {"spikes", hard::spikes, 3, 0},
+    {"spikes", hard::spikes, 3, 0.4},
     {"twisted_prisms", hard::twisted_prism, 8, 0.3},
     {"nested_spheres", hard::nested_spheres, 3, 0.3},
     {"voxels", hard::voxels, 4, 0.5},

@@ -28,7 +28,7 @@ std::ostream& operator<<(std::ostream& out, const Family& family) { return out <
 const Family kFamilies[] = {
     {"sphere", [](hard::Random&) { return hard::icosphere(5); }, 0.045},
     {"nested_spheres", hard::nested_spheres, 0.045},
-    {"stars", hard::star, 0.016},
+    {"stars", hard::star, 0.012},
     {"furnished", hard::furnished, 0.045, Keep::box},
     {"lattices", hard::lattice, 0.03, Keep::bounded},
 };

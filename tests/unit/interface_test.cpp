@@ -231,17 +231,17 @@ TEST(Names, OfEveryEnumerationAndBack) {
   expect_names<Stage>(9);
   expect_names<Keep>(4);
   expect_names<Effort>(3);
-  expect_names<WarningKind>(4);
-  expect_names<RemarkKind>(4);
+  expect_names<WarningKind>(5);
+  expect_names<RemarkKind>(5);
   expect_names<DefectKind>(16);
-  expect_names<RuleKind>(13);
+  expect_names<RuleKind>(15);
   expect_names<UntangleStep>(6);
   expect_names<Cause>(16);
 }
 
 TEST(Names, RulesComeInTheirOrder) {
   const CheckResult result = check({}, {});
-  ASSERT_EQ(result.rules.size(), values_of<RuleKind>().size());
+  ASSERT_EQ(result.rules.size(), 13u);  // without those of second order
   for (std::size_t i = 0; i < result.rules.size(); ++i) {
     EXPECT_EQ(result.rules[i].kind, values_of<RuleKind>()[i]);
     EXPECT_EQ(result.rules[i].name, name(result.rules[i].kind));

@@ -116,7 +116,7 @@ TEST_F(Locale, Files) {
     const std::filesystem::path path = folder / ("volume" + format);
     same([&] {
       write_volume(path, sample_volume());
-      return get(path);
+      return get(std::filesystem::is_directory(path) ? path / "points" : path);
     });
     const std::vector<std::string> readable = readable_volume_formats();
     if (std::find(readable.begin(), readable.end(), format) == readable.end()) continue;
