@@ -50,7 +50,7 @@ int check_repaired_files(const RepairedFiles& named, const Limits& limits, bool 
   cancel_at_once();
   const Surface input = read_surfaces(named.inputs, reading(limits, named.input_format));
   const Surface output = read_surface(named.output, reading(limits, named.format));
-  const auto [claims, disagreements] = read_claims(named.parents, named.report);
+  const auto [claims, disagreements] = read_claims(named.parents, named.report, input, output);
 
   RepairCheckOptions options;
   static_cast<Limits&>(options) = limits;

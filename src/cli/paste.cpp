@@ -109,7 +109,7 @@ int run_volumes(const PasteArguments& arguments, const PasteOptions& options, st
   if (result.outcome == Outcome::done) {
     write_volume(target.path, result.volume, target.options);
     if (!arguments.quiet) tell(not_held(target.path, result.volume, target.options), target.path);
-    write_parents(arguments.parents, result.boundary);
+    write_parents(arguments.parents, 0, result.boundary);  // volumes bring no segments
   }
   result.boundary.outcome = result.outcome;
   result.boundary.message = result.message;
@@ -148,7 +148,9 @@ int run(const PasteArguments& arguments) {
   if (result.outcome == Outcome::done) {
     write_surface(arguments.output, result.surface, writing);
     if (!arguments.quiet) tell(not_held(arguments.output, result.surface, writing), arguments.output);
-    write_parents(arguments.parents, result);
+    std::size_t facets = 0;
+    for (const Surface& part : parts) facets += part.facets.size();
+    write_parents(arguments.parents, facets, result);
   }
   write_json(arguments.report, report_of(result, options_of(arguments)));
   return conclude(arguments, result);

@@ -126,7 +126,7 @@ int run(const RepairArguments& arguments) {
   if (result.outcome == Outcome::done) {
     write_surface(arguments.output, result.surface, writing);
     if (!arguments.quiet) tell(not_held(arguments.output, result.surface, writing), arguments.output);
-    write_parents(arguments.parents, result);
+    write_parents(arguments.parents, surface.facets.size(), result);
   }
   write_exact(arguments.exact, surface, result);
   const Json report = to_json(result, options_of(arguments));

@@ -195,15 +195,31 @@ std::vector<std::string> disagreements(const RepairClaims& file, const RepairCla
   return found;
 }
 
+/// Lines behind those of facets become parents of segments.
+void take_segments(RepairClaims& claims, std::size_t input_facets, std::size_t output_facets) {
+  if (claims.parents.size() <= output_facets) return;
+  IndexLists segments;
+  for (std::size_t line = output_facets; line < claims.parents.size(); ++line) {
+    for (const Index parent : claims.parents[line])
+      segments.all.push_back(parent < input_facets ? no_entity : parent - static_cast<Index>(input_facets));
+    segments.first.push_back(segments.all.size());
+  }
+  claims.parents.first.resize(output_facets + 1);
+  claims.parents.all.resize(claims.parents.first.back());
+  claims.segment_parents = std::move(segments);
+}
+
 }  // namespace
 
-ReadClaims read_claims(const std::filesystem::path& parents, const std::filesystem::path& report) {
+ReadClaims read_claims(const std::filesystem::path& parents, const std::filesystem::path& report,
+                       const Surface& input, const Surface& output) {
   if (parents.empty()) return {read_report(report), {}};
   RepairClaims claims = std::move(ParentsFile(parents).claims);
+  take_segments(claims, input.facets.size(), output.facets.size());
   if (report.empty()) return {std::move(claims), {}};
   RepairClaims told = read_report(report);
   std::vector<std::string> differences = disagreements(claims, told);
-  claims.segment_parents = std::move(told.segment_parents);
+  if (!claims.segment_parents) claims.segment_parents = std::move(told.segment_parents);
   claims.merged = std::move(told.merged);
   claims.filled = std::move(told.filled);
   claims.weld = told.weld;

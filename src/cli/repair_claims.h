@@ -14,8 +14,11 @@ struct ReadClaims {
   std::vector<std::string> disagreements;  ///< of the two files, one sentence each
 };
 
-/// Reads either file, or both; the first counts where they differ. Throws FileError.
+/// Reads either file, or both; the first counts where they differ. Lines of the file of parents behind those
+/// of the output's facets are its segments'; segments of the input are numbered behind its facets. Throws
+/// FileError.
 [[nodiscard]] ReadClaims read_claims(const std::filesystem::path& parents,
-                                     const std::filesystem::path& report);
+                                     const std::filesystem::path& report, const Surface& input,
+                                     const Surface& output);
 
 }  // namespace holdfast::cli

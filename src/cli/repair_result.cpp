@@ -26,7 +26,7 @@ std::string summary_of(const RepairResult& result) {
                             report.seconds.at("total"));
 }
 
-void write_parents(const std::filesystem::path& path, const RepairResult& result) {
+void write_parents(const std::filesystem::path& path, std::size_t input_facets, const RepairResult& result) {
   if (path.empty()) return;
   std::string text = fmt::format("# max_displacement {:.17g}\n", result.max_displacement);
   for (const auto& [vertex, distance] : result.moved)
@@ -38,6 +38,11 @@ void write_parents(const std::filesystem::path& path, const RepairResult& result
   for (std::size_t f = 0; f < result.parents.size(); ++f) {
     const auto parents = result.parents[f];
     text += parents.empty() ? "-\n" : fmt::format("{}\n", fmt::join(parents.begin(), parents.end(), " "));
+  }
+  for (std::size_t s = 0; s < result.segment_parents.size(); ++s) {
+    std::vector<std::size_t> parents;
+    for (const Index parent : result.segment_parents[s]) parents.push_back(input_facets + parent);
+    text += fmt::format("{}\n", fmt::join(parents, " "));
   }
   write_bytes(path, text);
 }

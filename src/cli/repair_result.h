@@ -15,7 +15,7 @@ namespace holdfast::cli {
 /// A line for each facet of the output with its parents, "-" where there are none; nothing when `path` is
 /// empty. Lines that begin with # say the rest, so that the file alone is enough to check the result. Throws
 /// FileError.
-void write_parents(const std::filesystem::path& path, const RepairResult& result);
+void write_parents(const std::filesystem::path& path, std::size_t input_facets, const RepairResult& result);
 
 /// JSON lines: {"vertex": i, "coordinates": [x, y, z]} where a coordinate is a number or a text "n/d", then
 /// {"facet": [a, b, c], "parents": [...]}; nothing when `path` is empty. Throws FileError.

@@ -179,6 +179,19 @@ class WhatWasTamperedWith(Repaired):
                 self.both_files({**report, "parents": parents})
                 self.assertTrue({"parents covered", "children near", "losses listed"} & self.broken("in.off"), f)
 
+    def test_segments_have_lines_behind_those_of_triangles(self):
+        points = cube() + [(0.5, 0.25, 0.5), (2.0, 0.25, 0.5)]
+        self.write("in.off", off(points, CUBE_FACETS + [(8, 9)]))
+        self.repair("in.off")
+        lines = [x for x in (self.folder / "p.txt").read_text().splitlines() if not x.startswith("#")]
+        faces = int((self.folder / "out.off").read_text().split()[2])
+        self.assertEqual(len(lines), faces)
+        self.assertEqual(lines[-2:], ["12", "12"])
+        self.check("in.off")
+        self.check("in.off", files=("--parents", "p.txt"))
+        (self.folder / "p.txt").write_text((self.folder / "p.txt").read_text().replace("\n12\n", "\n11\n", 1))
+        self.check("in.off", files=("--parents", "p.txt"), expect=6)
+
     def test_one_of_two_parents_is_missing(self):
         other = [(0, 2, 3), (0, 3, 1), (4, 5, 6), (5, 7, 6)] + CUBE_FACETS[4:]
         self.write("in.off", off(cube() + cube((0.25, 0.5, 1)), CUBE_FACETS + shifted(other, 8)))
