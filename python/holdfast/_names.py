@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import typing
-from typing import Mapping, Optional, Union
+from typing import Optional, Union
 
 
 class Names(typing.NamedTuple):
@@ -26,7 +26,7 @@ class Names(typing.NamedTuple):
         return any(len(names) > 0 for names in self)
 
 
-def names_of(names: Union[None, Names, Mapping[str, Mapping[int, str]]]) -> Names:
+def names_of(names: Union[None, Names, typing.Mapping[str, typing.Mapping[int, str]]]) -> Names:
     """A copy; names may be given as a dictionary of dictionaries, {"triangles": {3: "inlet"}}."""
     if names is None:
         return Names({}, {}, {}, {})
@@ -37,7 +37,7 @@ def names_of(names: Union[None, Names, Mapping[str, Mapping[int, str]]]) -> Name
     return Names(**{field: _checked(found.get(field)) for field in Names._fields})
 
 
-def _checked(names: Optional[Mapping[int, str]]) -> dict[int, str]:
+def _checked(names: Optional[typing.Mapping[int, str]]) -> dict[int, str]:
     checked = {int(i): name for i, name in (names or {}).items()}
     for i, name in checked.items():
         if not isinstance(name, str):
