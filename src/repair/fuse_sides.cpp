@@ -1,0 +1,170 @@
+// What each side of nearly coincident interfaces is led through: vertices of other parts, and crossings.
+#include <algorithm>
+#include <map>
+
+#include "numbers/sorted.h"
+#include "repair/fusing.h"
+
+namespace holdfast::repairing {
+
+void Fusing::list_sides() {
+  for (const Index f : close_)
+    for (std::size_t i = 0; i < 3; ++i) sides_[side_of(f, i)].parts.push_back(part_of(f));
+  for (auto& [side, on] : sides_) sort_unique(on.parts);
+  for (const Index f : close_)
+    for (const Index v : state_.facets[f]) close_vertices_.push_back(v);
+  sort_unique(close_vertices_);
+}
+
+Fusing::Side Fusing::side_of(Index f, std::size_t i) const {
+  return ascending(Side{state_.facets[f][i], state_.facets[f][(i + 1) % 3]});
+}
+
+bool Fusing::meet(const std::vector<Index>& a, const std::vector<Index>& b) {
+  return std::any_of(a.begin(), a.end(), [&](Index p) { return std::binary_search(b.begin(), b.end(), p); });
+}
+
+void Fusing::put_vertices_on_sides() {
+  std::vector<Box> boxes;
+  std::vector<std::map<Side, OnSide>::iterator> sides;
+  for (const Index v : close_vertices_) boxes.push_back(box_of(std::array{v}, gap_));
+  for (auto side = sides_.begin(); side != sides_.end(); ++side) {
+    sides.push_back(side);
+    boxes.push_back(box_of(side->first, 0));
+  }
+  struct Best {
+    double distance, t;
+    std::map<Side, OnSide>::iterator side;
+  };
+  std::map<std::pair<Index, Index>, Best> best;  // by vertex and part
+  const auto first = static_cast<Index>(close_vertices_.size());
+  AabbTree(boxes).for_each_overlap(
+      [&](Index i, Index j) {
+        if (i > j) std::swap(i, j);
+        if (i >= first || j < first) return true;
+        const Index v = close_vertices_[i];
+        const auto side = sides[j - first];
+        const auto [a, b] = side->first;
+        if (v == a || v == b || meet(parts_at_[v], side->second.parts)) return true;
+        const Nearness near = beside_side(at(v), at(a), at(b));
+        if (!(near.distance <= gap_) || is_led_back(v, a) || is_led_back(v, b)) return true;
+        for (const Index p : side->second.parts) {
+          const auto [there, is_new] = best.try_emplace({v, p}, Best{near.distance, near.t, side});
+          if (!is_new && std::pair(near.distance, side->first) <
+                             std::pair(there->second.distance, there->second.side->first))
+            there->second = {near.distance, near.t, side};
+        }
+        return true;
+      },
+      [](Index, Index) { return false; }, step_);
+  for (const auto& [key, found] : best) {
+    on_side_.insert(key);
+    auto& points = found.side->second.points;
+    const std::pair<double, Index> point{found.t, key.first};
+    if (std::find(points.begin(), points.end(), point) == points.end()) points.push_back(point);
+    most_ = std::max(most_, found.distance);
+  }
+}
+
+bool Fusing::is_led_back(Index v, Index end) const {
+  return v < end && length(minus(at(v), at(end))) <= gap_;
+}
+
+bool Fusing::has(const Side& side, const OnSide& on, Index v) {
+  return v == side[0] || v == side[1] ||
+         std::any_of(on.points.begin(), on.points.end(), [&](const auto& p) { return p.second == v; });
+}
+
+bool Fusing::are_joined(const Side& s, const OnSide& on_s, const Side& t, const OnSide& on_t) {
+  if (has(s, on_s, t[0]) || has(s, on_s, t[1])) return true;
+  return has(t, on_t, s[0]) || has(t, on_t, s[1]) ||
+         std::any_of(on_s.points.begin(), on_s.points.end(),
+                     [&](const auto& p) { return has(t, on_t, p.second); });
+}
+
+void Fusing::cross_sides() {
+  std::vector<Box> boxes;
+  std::vector<std::map<Side, OnSide>::iterator> sides;
+  for (auto side = sides_.begin(); side != sides_.end(); ++side) {
+    sides.push_back(side);
+    boxes.push_back(box_of(side->first, gap_ / 2));
+  }
+  struct Crossing {
+    Index first, second;
+    double t, s;
+    Point where;
+  };
+  std::vector<Crossing> crossings;
+  AabbTree(boxes).for_each_overlap(
+      [&](Index i, Index j) {
+        if (i > j) std::swap(i, j);
+        const auto& [s, on_s] = *sides[i];
+        const auto& [t, on_t] = *sides[j];
+        if (meet(on_s.parts, on_t.parts) || are_joined(s, on_s, t, on_t)) return true;
+        const bool earlier = on_s.parts[0] < on_t.parts[0];  // whose side the new vertex is put on
+        const Passing passing = pass(at(s[0]), at(s[1]), at(t[0]), at(t[1]));
+        if (!(passing.distance <= gap_)) return true;
+        crossings.push_back({i, j, passing.t, passing.s, earlier ? passing.on_first : passing.on_second});
+        most_ = std::max(most_, passing.distance);
+        return true;
+      },
+      [](Index, Index) { return false; }, step_);
+  std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
+    return std::pair(a.first, a.second) < std::pair(b.first, b.second);
+  });
+  for (const Crossing& crossing : crossings) {
+    auto& [s, on_s] = *sides[crossing.first];
+    auto& [t, on_t] = *sides[crossing.second];
+    // Where three sides meet in a point, two of them found it first.
+    Index v = near_on(s, on_s, crossing.where);
+    if (v == no_index) v = near_on(t, on_t, crossing.where);
+    if (v == no_index) v = add_vertex(crossing.where);
+    if (!has(s, on_s, v)) on_s.points.emplace_back(crossing.t, v);
+    if (!has(t, on_t, v)) on_t.points.emplace_back(crossing.s, v);
+  }
+}
+
+Index Fusing::near_on(const Side& side, const OnSide& on, const Point& p) const {
+  for (const Index v : side)
+    if (length(minus(at(v), p)) <= gap_) return v;
+  for (const auto& [t, v] : on.points)
+    if (length(minus(at(v), p)) <= gap_) return v;
+  return no_index;
+}
+
+Index Fusing::add_vertex(const Point& p) {
+  state_.vertices.push_back(p);
+  return static_cast<Index>(state_.vertices.size() - 1);
+}
+
+void Fusing::part_from_itself(const Side& side, OnSide& on) {
+  if (on.state == OnSide::done || on.points.empty()) return;
+  on.state = OnSide::open;
+  for (std::size_t k = 0; k <= on.points.size();) {
+    const Index a = k == 0 ? side[0] : on.points[k - 1].second;
+    const Index b = k == on.points.size() ? side[1] : on.points[k].second;
+    const auto piece = sides_.find(ascending(Side{a, b}));
+    if (piece != sides_.end() && piece->second.state == OnSide::open) {
+      on.points.erase(on.points.begin() + static_cast<std::ptrdiff_t>(k == 0 ? 0 : k - 1));
+      if (on.points.empty()) break;
+      k = k == 0 ? 0 : k - 1;
+      continue;
+    }
+    if (piece != sides_.end()) part_from_itself(piece->first, piece->second);
+    ++k;
+  }
+  on.state = OnSide::done;
+}
+
+std::vector<Index> Fusing::chain(Index from, Index to) const {
+  std::vector<Index> chain{from};
+  const auto found = sides_.find(ascending(Side{from, to}));
+  if (found != sides_.end()) {
+    for (const auto& [t, v] : found->second.points) chain.push_back(v);
+    if (from > to) std::reverse(chain.begin() + 1, chain.end());
+  }
+  chain.push_back(to);
+  return chain;
+}
+
+}  // namespace holdfast::repairing
