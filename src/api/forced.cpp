@@ -97,7 +97,8 @@ class ForcedElements {
     const auto first = std::lower_bound(wings.begin(), wings.end(), Wing{key, 0, 0});
     auto last = first;
     while (last != wings.end() && last->key == key) ++last;
-    return {first, last};
+    return std::span(wings).subspan(static_cast<std::size_t>(first - wings.begin()),
+                                    static_cast<std::size_t>(last - first));
   }
 
   // Two facets at an edge with a small angle between them: whatever lies there has no larger one.

@@ -30,7 +30,8 @@ class Lookup {
     const auto begin =
         std::partition_point(index_.begin(), index_.end(), [&](auto i) { return sorted_[i] < entity; });
     const auto end = std::find_if(begin, index_.end(), [&](auto i) { return sorted_[i] != entity; });
-    return {begin, end};
+    return std::span(index_).subspan(static_cast<std::size_t>(begin - index_.begin()),
+                                     static_cast<std::size_t>(end - begin));
   }
 
  private:

@@ -120,7 +120,8 @@ class VtuReader {
       const bool is_scalar = array->tag.attribute("NumberOfComponents").empty();
       const std::uint64_t components = is_scalar ? 1 : xml_.number(array->tag, "NumberOfComponents");
       if (components == 0 || components > 9) xml_.fail(array->tag, "the array has no 1 to 9 components");
-      return {components, values<double>("PointData/" + name, components * points_)};
+      return {static_cast<std::size_t>(components),
+              values<double>("PointData/" + name, components * points_)};
     }
     throw FileError(source_.path, "", "the points have no array " + known);
   }

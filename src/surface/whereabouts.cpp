@@ -22,7 +22,8 @@ class Sorted {
                                         [&](std::size_t i, double x) { return points_[i][by_] < x; });
     const auto last = std::upper_bound(first, order_.end(), high,
                                        [&](double x, std::size_t i) { return x < points_[i][by_]; });
-    return {first, last};
+    return std::span(order_).subspan(static_cast<std::size_t>(first - order_.begin()),
+                                     static_cast<std::size_t>(last - first));
   }
 
  private:
