@@ -147,7 +147,7 @@ class Arranging {
     for (Index i = 0; i < elements_.all.size() && elements_.all[i].corners == 3; ++i) {
       const Index s = sheet_of_[i];
       if (s == no_index) {
-        deliver(elements_.all[i].vertex, no_index, std::array{elements_.all[i].id});
+        deliver(elements_.all[i].vertex, std::array{elements_.all[i].id});
         continue;
       }
       const SheetTriangles& cut = cut_[s];
@@ -156,14 +156,13 @@ class Arranging {
         parents.clear();
         for (Index p = cut.first_parent[t]; p < cut.first_parent[t + 1]; ++p)
           parents.push_back(elements_.all[cut.parents[p]].id);
-        deliver(cut.triangles[t], s, parents);
+        deliver(cut.triangles[t], parents);
       }
     }
   }
 
-  void deliver(const Triangle& corners, Index sheet, std::span<const Index> parents) {
+  void deliver(const Triangle& corners, std::span<const Index> parents) {
     result_.facets.push_back(corners);
-    result_.sheet.push_back(sheet);
     result_.facet_parents.add(parents);
   }
 

@@ -43,8 +43,6 @@ struct Arrangement {
   /// In the order of their first parents, turned as these. Corners are the first vertices at their places.
   std::vector<Triangle> facets;
   Parents facet_parents;  ///< facets of the complex, in ascending order: several where these overlapped
-  /// For each facet the sheet that it was cut from, or no_index for one that is its only parent as it was.
-  std::vector<Index> sheet;
   std::size_t sheets = 0;
   std::vector<Segment> segments;  ///< pieces of the complex's, each once
   Parents segment_parents;

@@ -23,7 +23,17 @@ int rough_incircle(const Position& a, const Position& b, const Position& c, cons
       largest = std::max(largest, std::fabs((*p)[k]));
       extent = std::max(extent, std::fabs((*p)[k] - d[k]));
     }
-  if (!(extent > 0x1p-200) || !(largest < extent * 0x1p45)) return 0;
+  constexpr double kLeast = 0x1p-200, kMost = 0x1p200;
+  if (!(extent > 0) || !(largest / extent < 0x1p45)) return 0;
+  if (!(extent > kLeast && extent < kMost)) {
+    // Powers of two leave signs as they are, but for denormals.
+    const int by = -std::ilogb(extent);
+    if (!(extent > 0x1p-900) || !(largest < 0x1p1000)) return 0;
+    const auto scaled = [&](const Position& p) {
+      return Position{std::ldexp(p[0], by), std::ldexp(p[1], by)};
+    };
+    return rough_incircle(scaled(a), scaled(b), scaled(c), scaled(d));
+  }
   const double ax = a[0] - d[0], ay = a[1] - d[1], bx = b[0] - d[0], by = b[1] - d[1];
   const double cx = c[0] - d[0], cy = c[1] - d[1];
   const double det = (ax * ax + ay * ay) * (bx * cy - cx * by) + (bx * bx + by * by) * (cx * ay - ax * cy) +

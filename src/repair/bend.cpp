@@ -47,6 +47,7 @@ class Bending {
     for (const Index s : trouble_.segments)
       boxes.push_back(box_round(state_, state_.segments[s], kRoom * gap_));
     near_.resize(boxes.size() - vertices_.size());
+    looked_at_.resize(near_.size(), 0);
     const auto first = static_cast<Index>(vertices_.size());
     AabbTree(boxes).for_each_overlap(
         [&](Index i, Index j) {
@@ -87,8 +88,11 @@ class Bending {
     Segment ends;
     Index origin;
     std::vector<Index> lists;
+    double bent = 0;
     bool lives = true;
   };
+
+  static bool has_repeated_corners(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
   /// Facets and segments with a side between two of the vertices.
   void list_local() {
@@ -100,10 +104,7 @@ class Bending {
       const bool listed = next < trouble_.facets.size() && trouble_.facets[next] == f;
       std::vector<Index> lists;
       if (listed) lists.push_back(static_cast<Index>(next++));
-      if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
-        gone_.insert(f);
-        continue;
-      }
+      if (has_repeated_corners(t)) continue;
       if (is_vertex[t[0]] + is_vertex[t[1]] + is_vertex[t[2]] >= 2) add(LocalFacet{t, {f}, lists});
     }
     next = 0;
@@ -132,13 +133,28 @@ class Bending {
       note(ascending(Side{facet.corners[i], facet.corners[(i + 1) % 3]})).facets.push_back(fresh);
     if (!facet.lists.empty()) whole_.push_back(fresh);
     facets_.push_back(std::move(facet));
+    ++living_;
+  }
+  void end(Index f) {
+    facets_[f].lives = false;
+    --living_;
   }
   static void join(std::vector<Index>& list, const std::vector<Index>& other) {
     list.insert(list.end(), other.begin(), other.end());
     sort_unique(list);
   }
+  /// What a segment is led along twice it has once.
   void add(const LocalSegment& segment) {
+    most_ = std::max(most_, segment.bent);
     const auto index = static_cast<Index>(segments_.size());
+    const Side ends = ascending(Side(segment.ends));
+    const auto [found, is_new] = segment_with_.try_emplace({ends, segment.origin}, index);
+    if (!is_new && segments_[found->second].lives) {
+      LocalSegment& other = segments_[found->second];
+      other.bent = std::max(other.bent, segment.bent);
+      return;
+    }
+    found->second = index;
     segments_.push_back(segment);
     note(ascending(Side(segment.ends))).segments.push_back(index);
   }
@@ -152,10 +168,13 @@ class Bending {
     return found->second;
   }
 
-  /// The longest sides first: a facet that is thinner than the gap vanishes into its longest side.
+  /// The longest sides first: a facet that is thinner than the gap vanishes into its longest side. Ends early
+  /// where far more facets come of it than there were: what is left then is a surface, too.
   void bend() {
-    const std::size_t most_steps = 10000 + 60 * facets_.size();
-    for (std::size_t steps = 0; steps < most_steps; ++steps) {
+    constexpr std::size_t kGrowth = 8, kRoom = 200;
+    const std::size_t most_steps = 1000 + 60 * facets_.size();
+    const std::size_t most_facets = living_ + kGrowth * near_.size() + kRoom;
+    for (std::size_t steps = 0; steps < most_steps && living_ <= most_facets; ++steps) {
       if ((steps & 63) == 0) step_(0.5);
       if (!sides_.empty()) {
         const auto last = std::prev(sides_.end());
@@ -178,16 +197,20 @@ class Bending {
     const AtSide here = at_here->second;
     Index best = no_index;
     Nearness nearest;
+    const Box box = box_round(state_, side, gap_);
+    ++looked_;
     const auto look = [&](const std::vector<Index>& lists) {
-      for (const Index list : lists)
+      for (const Index list : lists) {
+        if (std::exchange(looked_at_[list], looked_) == looked_) continue;
         for (const Index v : near_[list]) {
-          if (v == side[0] || v == side[1] || v == best) continue;
+          if (v == side[0] || v == side[1] || v == best || !holds(box, at(v))) continue;
           const Nearness near = beside_side(at(v), at(side[0]), at(side[1]));
           if (!(near.distance <= gap_) || !(near.distance < nearest.distance)) continue;
           if (!has_room(here, near.bound())) continue;
           nearest = near;
           best = v;
         }
+      }
     };
     for (const Index f : here.facets)
       if (facets_[f].lives) look(facets_[f].lists);
@@ -197,7 +220,7 @@ class Bending {
     at_side_.erase(side);
     for (const Index f : here.facets) {
       if (!facets_[f].lives) continue;
-      facets_[f].lives = false;
+      end(f);
       LocalFacet part = facets_[f];
       part.lives = true;
       part.bent += nearest.bound();
@@ -212,15 +235,28 @@ class Bending {
     for (const Index s : here.segments) {
       if (!segments_[s].lives) continue;
       segments_[s].lives = false;
-      const LocalSegment whole = segments_[s];
-      add(LocalSegment{{whole.ends[0], best}, whole.origin, whole.lists});
-      add(LocalSegment{{best, whole.ends[1]}, whole.origin, whole.lists});
+      LocalSegment part = segments_[s];
+      part.lives = true;
+      part.bent += nearest.bound();
+      const Segment ends = part.ends;
+      part.ends = {ends[0], best};
+      add(part);
+      part.ends = {best, ends[1]};
+      add(part);
     }
+  }
+
+  [[nodiscard]] static bool holds(const Box& box, const Point& p) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (p[k] < box.low[k] || p[k] > box.high[k]) return false;
+    return true;
   }
 
   [[nodiscard]] bool has_room(const AtSide& here, double more) const {
     return std::all_of(here.facets.begin(), here.facets.end(),
-                       [&](Index f) { return !facets_[f].lives || facets_[f].bent + more <= room_; });
+                       [&](Index f) { return !facets_[f].lives || facets_[f].bent + more <= room_; }) &&
+           std::all_of(here.segments.begin(), here.segments.end(),
+                       [&](Index s) { return !segments_[s].lives || segments_[s].bent + more <= room_; });
   }
 
   void bend_facet(Index f) {
@@ -232,7 +268,7 @@ class Bending {
         if (v == a || v == b || v == c) continue;
         const Nearness near = beside_facet(at(v), at(a), at(b), at(c));
         if (!(near.distance <= gap_) || !(facet.bent + near.bound() <= room_)) continue;
-        facets_[f].lives = false;
+        end(f);
         for (std::size_t i = 0; i < 3; ++i) {
           LocalFacet part = facet;
           part.corners[i] = v;
@@ -244,12 +280,14 @@ class Bending {
   }
 
   void deliver() {
-    std::map<Index, std::vector<Index>> parts;  // by first origin, in facets_
-    std::set<Index> local;
+    std::vector<std::array<Index, 2>> parts;  // {first origin, in facets_}
+    std::vector<std::uint8_t> is_local(state_.facets.size(), 0);
     for (Index k = 0; k < facets_.size(); ++k) {
-      local.insert(facets_[k].origins.begin(), facets_[k].origins.end());
-      if (facets_[k].lives) parts[facets_[k].origins[0]].push_back(k);
+      for (const Index origin : facets_[k].origins) is_local[origin] = 1;
+      if (facets_[k].lives) parts.push_back({facets_[k].origins[0], k});
     }
+    std::sort(parts.begin(), parts.end());
+    auto part = parts.begin();
     std::vector<Triangle> facets;
     Parents parents;
     std::vector<std::uint8_t> known;
@@ -268,13 +306,13 @@ class Bending {
       if (!state_.known.empty()) known.push_back(same ? state_.known[f] : 0);
     };
     for (Index f = 0; f < state_.facets.size(); ++f) {
-      if (gone_.count(f) != 0) continue;
-      if (local.count(f) == 0) {
+      if (has_repeated_corners(state_.facets[f])) continue;
+      if (is_local[f] == 0) {
         take(state_.facets[f], std::array{f});
         continue;
       }
-      if (const auto own = parts.find(f); own != parts.end())
-        for (const Index k : own->second) take(facets_[k].corners, facets_[k].origins);
+      for (; part != parts.end() && (*part)[0] == f; ++part)
+        take(facets_[(*part)[1]].corners, facets_[(*part)[1]].origins);
     }
     state_.facets = std::move(facets);
     state_.facet_parents = std::move(parents);
@@ -309,13 +347,16 @@ class Bending {
   const double gap_, room_;
   const Step& step_;
   std::vector<std::vector<Index>> near_;  // vertices, by facets and then segments in trouble
+  std::vector<std::size_t> looked_at_;    // by lists: the last side for which they were looked at
+  std::size_t looked_ = 0;                // sides
   std::vector<LocalFacet> facets_;
   std::vector<LocalSegment> segments_;
-  std::map<Triangle, Index> facet_with_;  // by its corners, ascending: the last of them
+  std::size_t living_ = 0;
+  std::map<Triangle, Index> facet_with_;                  // by its corners, ascending: the last of them
+  std::map<std::pair<Side, Index>, Index> segment_with_;  // by its ends, ascending, and its origin
   std::map<Side, AtSide> at_side_;
   std::set<std::pair<double, Side>> sides_;  // to look at
   std::vector<Index> whole_;                 // facets to look at
-  std::set<Index> gone_;                     // facets of the state that have no corners of their own any more
   double most_ = 0;
 };
 

@@ -18,6 +18,9 @@ namespace {
 
 using Side = std::array<Index, 2>;
 
+/// How many gaps the sheets that are made of a cluster may be away from its facets.
+constexpr double kMostGaps = 64;
+
 /// Disjoint sets of facets.
 class Sets {
  public:
@@ -205,7 +208,7 @@ class Flattening {
     if (std::adjacent_find(places.begin(), places.end()) != places.end()) return false;  // one above another
     const Rounded rounded = round_(before.state);
     const State& after = rounded.state;
-    if (!rounded.is_valid ||
+    if (!rounded.is_valid || !(rounded.displacement <= kMostGaps * gap_) ||
         !std::equal(before.state.vertices.begin(), before.state.vertices.end(), after.vertices.begin()))
       return false;
     // Every side must have become a chain from end to end.
@@ -217,8 +220,8 @@ class Flattening {
       if (!chain_of(pieces[k], before.state.segments[k], chains[k]) ||
           (!chains[k].empty() && taken_.contains(before.sides[k])))
         return false;
-    taken_.insert(before.sides.begin(), before.sides.end());
 
+    const std::size_t vertices = state_.vertices.size();
     std::vector<Index> name(after.vertices.size());
     for (Index v = 0; v < name.size(); ++v) {
       if (v < before.vertices.size()) {
@@ -235,11 +238,32 @@ class Flattening {
       lifted_.erase(v);
     }
     below_.clear();
+    if (!is_near(cluster, after, before, chains, name)) {
+      lifted_.erase(lifted_.lower_bound(static_cast<Index>(vertices)), lifted_.end());
+      state_.vertices.resize(vertices);
+      return false;
+    }
+    taken_.insert(before.sides.begin(), before.sides.end());
     for (std::size_t f = 0; f < after.facets.size(); ++f) take(cluster, after, f, name);
     for (std::size_t k = 0; k < chains.size(); ++k)
       if (!chains[k].empty()) cut_side(cluster, before.sides[k], chains[k], name);
     for (const Index f : cluster.facets) in_cluster_[f] = 1;
     most_ = std::max(most_, rounded.displacement);
+    return true;
+  }
+
+  /// Whether what comes of a cluster is near to it. Facets that stand steep on the plane are not, since their
+  /// points come down on others far from them.
+  [[nodiscard]] bool is_near(const Cluster& cluster, const State& after, const Flat& before,
+                             std::span<const std::vector<Index>> chains, std::span<const Index> name) const {
+    const double far = kMostGaps * gap_;
+    for (std::size_t f = 0; f < after.facets.size(); ++f)
+      for (const Index k : after.facet_parents.of(f))
+        for (const Index v : after.facets[f])
+          if (!(distance(name[v], state_.facets[cluster.facets[k]]) <= far)) return false;
+    for (std::size_t k = 0; k < chains.size(); ++k)
+      for (const Index v : chains[k])
+        if (lifted_.count(name[v]) == 0 && !(distance(name[v], before.sides[k]) <= far)) return false;
     return true;
   }
 
@@ -257,8 +281,7 @@ class Flattening {
           std::clamp(length(minus(flat_v, flat_a)) / length(minus(flat_b, flat_a)), 0.0, 1.0);
       if (lifted_.erase(v) != 0)
         state_.vertices[v][cluster.axis] = a[cluster.axis] + share * (b[cluster.axis] - a[cluster.axis]);
-      const double to_ends = std::min(length(minus(at(v), a)), length(minus(at(v), b))) * (1 + 0x1p-48);
-      most_ = std::max(most_, std::min(beside_side(at(v), a, b).bound(), to_ends));
+      most_ = std::max(most_, distance(v, side));
     }
   }
 
@@ -306,6 +329,13 @@ class Flattening {
     const double z = at(a)[axis] + s * u[axis] + t * v[axis];
     const auto [low, high] = std::minmax({at(a)[axis], at(b)[axis], at(c)[axis]});
     return std::isfinite(z) ? std::clamp(z, low, high) : low;
+  }
+
+  /// Of a vertex and a side, rounded up.
+  [[nodiscard]] double distance(Index v, const Side& side) const {
+    const Point &a = at(side[0]), &b = at(side[1]);
+    const double to_ends = std::min(length(minus(at(v), a)), length(minus(at(v), b))) * (1 + 0x1p-48);
+    return std::min(beside_side(at(v), a, b).bound(), to_ends);
   }
 
   /// Of a vertex and a facet, rounded up.

@@ -21,16 +21,18 @@ double sum_above(double a, double b) {
   return std::nextafter(a + b, std::numeric_limits<double>::infinity());
 }
 
-double displacement_of(const arrange::Arrangement& arrangement, const std::vector<Point>& positions,
-                       const Threads& threads) {
-  std::vector<double> all(positions.size());
+/// How far each new point is from the doubles nearest to it.
+std::vector<double> rounded_by(const arrange::Arrangement& arrangement, const Threads& threads) {
+  std::vector<double> all(arrangement.points.size());
   parallel_ranges(threads, all.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k)
-      all[k] = exact::distance_bound(arrangement.points[k], positions[k].data());
+      all[k] = exact::distance_bound(arrangement.points[k], arrangement.nearest[k].data());
   });
-  double most = 0;
-  for (const double d : all) most = std::max(most, d);
-  return most;
+  return all;
+}
+
+double largest(const std::vector<double>& distances) {
+  return distances.empty() ? 0 : *std::max_element(distances.begin(), distances.end());
 }
 
 /// The last bit of the largest coordinate.
@@ -52,6 +54,10 @@ constexpr std::array kPlans{Plan{0x1p2, false},  Plan{0x1p3, false}, Plan{0x1p4,
                             Plan{0x1p6, false},  Plan{0x1p7, false}, Plan{0x1p8, false}, Plan{0x1p9, false},
                             Plan{0x1p10, false}, Plan{0x1p8, true},  Plan{0x1p10, true}, Plan{0x1p12, true},
                             Plan{0x1p14, true},  Plan{0x1p17, true}, Plan{0x1p20, true}, Plan{0x1p24, true}};
+
+/// In a plane that is projected for `flatten`, where vertices of the input must stay, and where it is no loss
+/// to give up.
+constexpr double kMostInPlane = 0x1p6;
 
 /// The quotient in lowest terms.
 std::string quotient_text(const exact::BigInt& numerator, const exact::BigInt& denominator) {
@@ -118,6 +124,7 @@ class Rounding {
     constexpr std::size_t kFew = 100;
     bool is_welded = false;
     for (const Plan& plan : kPlans) {
+      if (is_plane_ && (plan.moves_input || plan.last_bits > kMostInPlane)) break;
       if (!is_welded && (plan.moves_input || trouble_.size() > kFew)) {
         begin_flat(given, kWeldedPlans);
         is_welded = true;
@@ -163,7 +170,8 @@ class Rounding {
     int in_vain = 0;
     for (int pass = 0; pass < kPasses && in_vain < kPassesInVain && !trouble_.none(); ++pass) {
       const double moved = settle(now.state, now.trouble, how, here());
-      now.trouble = trouble_of(now.state, here(), threads_);
+      const std::size_t too_much = kTooMuch * (trouble_.size() + 16);
+      now.trouble = trouble_of(now.state, here(), threads_, too_much);
       now.displacement = sum_above(now.displacement, moved);
       if (now.trouble.size() < trouble_.size()) {
         stand(now);
@@ -171,7 +179,7 @@ class Rounding {
         continue;
       }
       ++in_vain;
-      if (now.trouble.size() > kTooMuch * (trouble_.size() + 16) || (how.passings && moved == 0)) break;
+      if (now.trouble.size() > too_much || (how.passings && moved == 0)) break;
       how.passings = true;
     }
   }
@@ -248,9 +256,9 @@ class Rounding {
     }
     if (report_.rounds == 0 && options_.exact) exact_ = exact_surface(rounded_.state, arrangement);
     tell(arrangement);
-    rounded_.displacement =
-        sum_above(rounded_.displacement, displacement_of(arrangement, arrangement.nearest, threads_));
-    rounded_.state = arranged(rounded_.state, arrangement, arrangement.nearest);
+    const std::vector<double> distances = rounded_by(arrangement, threads_);
+    rounded_.displacement = sum_above(rounded_.displacement, largest(distances));
+    rounded_.state = arranged(rounded_.state, arrangement, distances);
   }
 
   /// Where little is in trouble, many new points are a sign of facets that lie in each other: rather than cut
@@ -263,11 +271,12 @@ class Rounding {
       return;
     }
     constexpr std::size_t kMore = 24;
-    Attempt cut{arranged(rounded_.state, arrangement, arrangement.nearest), {}, 0};
-    cut.trouble = trouble_of(cut.state, here(), threads_);
-    if (cut.trouble.size() > 2 * trouble_.size() + kMore) return;
-    cut.displacement =
-        sum_above(rounded_.displacement, displacement_of(arrangement, arrangement.nearest, threads_));
+    const std::vector<double> distances = rounded_by(arrangement, threads_);
+    Attempt cut{arranged(rounded_.state, arrangement, distances), {}, 0};
+    const std::size_t too_much = 2 * trouble_.size() + kMore;
+    cut.trouble = trouble_of(cut.state, here(), threads_, too_much);
+    if (cut.trouble.size() > too_much) return;
+    cut.displacement = sum_above(rounded_.displacement, largest(distances));
     stand(std::move(cut));
     tell(arrangement);
   }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 #include <tuple>
@@ -20,6 +19,9 @@ namespace {
 
 using Side = std::array<Index, 2>;
 
+/// How many gaps facets are bent by in one pass: what is led to and fro ends there.
+constexpr double kMostGaps = 64;
+
 class Settling {
  public:
   Settling(State& state, const Trouble& trouble, const Settle& how, const Step& step)
@@ -29,7 +31,7 @@ class Settling {
     list_vertices();
     const double merged = merge_vertices();
     if (how_.passings) add_passings();
-    const double room = how_.most > 0 ? how_.most - merged : std::numeric_limits<double>::infinity();
+    const double room = how_.most > 0 ? how_.most - merged : kMostGaps * gap_;
     const double bent = bend(state_, trouble_, vertices_, gap_, room, step_);
     drop_unused(state_);
     return merged + bent;
@@ -186,17 +188,19 @@ class Settling {
 
 }  // namespace
 
-Trouble trouble_of(const State& state, const Step& step, const Threads& threads) {
+Trouble trouble_of(const State& state, const Step& step, const Threads& threads, std::size_t most) {
   const Complex complex = state.complex();
   const Elements elements = elements_of(complex, threads);
   Trouble trouble;
+  std::vector<std::uint8_t> is_listed(elements.all.size(), 0);
   const VisitPair visit = [&](Index i, Index j, const Contacts&) {
     for (const Index k : {i, j}) {
       const Element& element = elements.all[k];
+      if (std::exchange(is_listed[k], std::uint8_t{1}) != 0) continue;
       if (element.corners == 3) trouble.facets.push_back(element.id);
       if (element.corners == 2) trouble.segments.push_back(element.id);
     }
-    return true;
+    return trouble.size() <= most;
   };
   for_each_offending_pair(complex, elements, visit, step, {}, known_elements(state, elements));
   for (const Flaw& flaw : elements.flaws)

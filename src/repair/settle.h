@@ -2,6 +2,8 @@
 // each other is joined, by bending facets rather than by moving vertices.
 #pragma once
 
+#include <cstdint>
+
 #include "mesh/parallel.h"
 #include "repair/state.h"
 #include "surface/search.h"
@@ -15,11 +17,13 @@ struct Trouble {
   [[nodiscard]] bool none() const { return size() == 0; }
 };
 
-[[nodiscard]] Trouble trouble_of(const State& state, const Step& step, const Threads& threads);
+/// Stops once there are more than `most` of them.
+[[nodiscard]] Trouble trouble_of(const State& state, const Step& step, const Threads& threads,
+                                 std::size_t most = SIZE_MAX);
 
 struct Settle {
   double gap = 0;
-  double most = 0;           ///< nothing is moved or bent further in all; 0: no limit but what `gap` brings
+  double most = 0;           ///< nothing is moved or bent further in all; 0: no limit but some gaps
   bool moves_input = false;  ///< vertices of the input may move, too
   bool passings = true;      ///< see 2
 };

@@ -1,6 +1,7 @@
 // A surface under repair.
 #include "repair/state.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "numbers/sorted.h"
@@ -89,17 +90,21 @@ State state_of(const Complex& complex) {
 }
 
 State arranged(const State& before, const arrange::Arrangement& arrangement,
-               const std::vector<Point>& positions) {
+               std::span<const double> distances) {
   State state;
   state.input_vertices = before.input_vertices;
   state.vertices = before.vertices;
-  state.vertices.insert(state.vertices.end(), positions.begin(), positions.end());
+  state.vertices.insert(state.vertices.end(), arrangement.nearest.begin(), arrangement.nearest.end());
   state.facets = arrangement.facets;
   state.segments = arrangement.segments;
   state.facet_parents = composed(before.facet_parents, arrangement.facet_parents);
   state.segment_parents = composed(before.segment_parents, arrangement.segment_parents);
   state.known.reserve(state.facets.size());
-  for (const Index sheet : arrangement.sheet) state.known.push_back(sheet == no_index ? 1 : 0);
+  const auto stands = [&](Index v) {
+    return v < before.vertices.size() || distances[v - before.vertices.size()] == 0;
+  };
+  for (const Triangle& t : state.facets)
+    state.known.push_back(std::all_of(t.begin(), t.end(), stands) ? 1 : 0);
   drop_unused(state);
   return state;
 }

@@ -38,8 +38,9 @@ void drop_unused(State& state);
 [[nodiscard]] State state_of(const Complex& complex);
 
 /// What an arrangement makes of a state; vertices that nothing uses go, but for the input's. New points stand
-/// at `positions`, one each.
+/// at their nearest doubles, which are `distances` away, one each. An arrangement is a complex, so facets
+/// whose corners are not rounded fit together.
 [[nodiscard]] State arranged(const State& before, const arrange::Arrangement& arrangement,
-                             const std::vector<Point>& positions);
+                             std::span<const double> distances);
 
 }  // namespace holdfast::repairing

@@ -1,0 +1,139 @@
+// Repairs in the library: what does not depend on scale, and how far anything moves.
+#include "holdfast/repair.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "small_surfaces.h"
+
+namespace holdfast {
+namespace {
+
+/// A sphere of n rings and 2 n meridians.
+Surface sphere(int n, const Point& centre, double turned) {
+  Surface surface;
+  const auto put = [&](double x, double y, double z) {
+    const double c = std::cos(turned), s = std::sin(turned);
+    surface.vertices.push_back({centre[0] + c * x - s * y, centre[1] + s * x + c * y, centre[2] + z});
+    return static_cast<Index>(surface.vertices.size() - 1);
+  };
+  const Index top = put(0, 0, 1);
+  const int m = 2 * n;
+  for (int i = 1; i < n; ++i)
+    for (int j = 0; j < m; ++j) {
+      const double a = std::numbers::pi * i / n, b = 2 * std::numbers::pi * j / m;
+      put(std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a));
+    }
+  const Index bottom = put(0, 0, -1);
+  const auto at = [&](int i, int j) { return static_cast<Index>(1 + (i - 1) * m + j % m); };
+  for (int j = 0; j < m; ++j) {
+    surface.facets.push_back({top, at(1, j), at(1, j + 1)});
+    for (int i = 1; i + 1 < n; ++i) {
+      surface.facets.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      surface.facets.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+    surface.facets.push_back({at(n - 1, j), bottom, at(n - 1, j + 1)});
+  }
+  return surface;
+}
+
+Surface together(Surface a, const Surface& b) {
+  const auto n = static_cast<Index>(a.vertices.size());
+  a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
+  for (const Triangle& t : b.facets) a.facets.push_back({t[0] + n, t[1] + n, t[2] + n});
+  return a;
+}
+
+Surface scaled(Surface surface, int by) {
+  for (Point& p : surface.vertices)
+    for (double& x : p) x = std::ldexp(x, by);
+  return surface;
+}
+
+void expect_valid(const RepairResult& repaired) {
+  ASSERT_EQ(repaired.outcome, Outcome::done) << repaired.message;
+  EXPECT_TRUE(diagnose(repaired.surface.view()).empty());
+}
+
+const Surface& two_spheres() {
+  static const Surface both = together(sphere(5, {0, 0, 0}, 0), sphere(5, {0.3, 0.2, 0.1}, 0.4));
+  return both;
+}
+
+TEST(Repair, IsTheSameAtAnyScale) {
+  const RepairResult usual = repair(two_spheres());
+  expect_valid(usual);
+  for (const int by : {-332, -150, 300}) {
+    const RepairResult other = repair(scaled(two_spheres(), by));
+    expect_valid(other);
+    EXPECT_EQ(other.surface.vertices, scaled(usual.surface, by).vertices) << by;
+    EXPECT_EQ(other.surface.facets, usual.surface.facets) << by;
+    EXPECT_EQ(other.max_displacement, std::ldexp(usual.max_displacement, by)) << by;
+  }
+}
+
+TEST(Repair, ThreadsLeaveTheSameBits) {
+  RepairOptions options;
+  const RepairResult one = repair(two_spheres(), options);
+  options.threads = 3;
+  const RepairResult three = repair(two_spheres(), options);
+  EXPECT_EQ(one.surface.vertices, three.surface.vertices);
+  EXPECT_EQ(one.surface.facets, three.surface.facets);
+  EXPECT_EQ(one.parents.all, three.parents.all);
+}
+
+TEST(Repair, SheetsThatLieInEachOtherButForRounding) {
+  // A copy that is turned by next to nothing crosses the original nearly everywhere.
+  for (const double turned : {0x1p-53, 0x1p-50, 0x1p-46}) {
+    const RepairResult repaired = repair(together(sphere(5, {0, 0, 0}, 0), sphere(5, {0, 0, 0}, turned)));
+    expect_valid(repaired);
+    EXPECT_LT(repaired.max_displacement, 0x1p-40) << turned;
+  }
+}
+
+TEST(Repair, DoublesNeedNoRounding) {
+  // Pages of a book, whose spines are of different lengths.
+  Surface book;
+  for (int k = 0; k < 30; ++k)
+    small::add_triangle(book, {0, 0, -16.0 - k}, {0, 0, 16.0 + k % 7}, {k + 1.0, 30.0 - k, 0});
+  const RepairResult repaired = repair(book);
+  expect_valid(repaired);
+  EXPECT_EQ(repaired.max_displacement, 0);
+}
+
+TEST(Repair, ValidSurfacesComeOutAsTheyWere) {
+  Surface valid = sphere(6, {0.1, 0.2, 0.3}, 0.7);
+  small::add_box(valid, {3, 3, 3}, {4, 4, 4});
+  const RepairResult repaired = repair(valid);
+  expect_valid(repaired);
+  EXPECT_EQ(repaired.surface.vertices, valid.vertices);
+  EXPECT_EQ(repaired.surface.facets, valid.facets);
+  EXPECT_EQ(repaired.report.changed_facets, 0);
+}
+
+TEST(Repair, EveryFacetOfTheInputIsAParentOrListed) {
+  Surface surface = together(two_spheres(), small::box({0, 0, 0}, {1, 1, 1}));
+  surface.facets.push_back(surface.facets[3]);
+  surface.facets.push_back({0, 0, 1});
+  const RepairResult repaired = repair(surface);
+  expect_valid(repaired);
+  std::set<Index> named(repaired.parents.all.begin(), repaired.parents.all.end());
+  for (const RepairResult::Dropped& dropped : repaired.dropped)
+    EXPECT_TRUE(named.insert(dropped.facet).second);
+  EXPECT_EQ(named.size(), surface.facets.size());
+}
+
+TEST(Repair, LimitsEndIt) {
+  RepairOptions options;
+  options.most_points = 10;
+  const RepairResult many = repair(two_spheres(), options);
+  EXPECT_EQ(many.outcome, Outcome::memory_limit);
+  EXPECT_TRUE(many.surface.facets.empty());
+  EXPECT_NE(many.message.find("more than 10 new points"), std::string::npos) << many.message;
+}
+
+}  // namespace
+}  // namespace holdfast
