@@ -10,6 +10,7 @@
 #include "optimise/shape.h"
 #include "refine/bound_volumes.h"
 #include "refine/field_points.h"
+#include "refine/front.h"
 
 namespace holdfast {
 namespace {
@@ -53,31 +54,33 @@ void optimise_worst_of(const Attempt& attempt, BoxMesh& box, Division& division,
     find_regions_again(box.mesh, attempt.complex().facets, division.regions, attempt.threads);
 }
 
-// Returns the worst energy that is left.
-double improve_field(const Attempt& attempt, Field& field, Report::Field& report) {
+void note(const ImproveStats& stats, Report::Field& report) {
+  report.moves += stats.moved;
+  report.swaps += stats.swapped;
+  report.contractions += stats.contracted;
+  report.insertions += stats.inserted;
+  report.points += stats.filled_in;
+  report.stopped_early |= stats.filling_stopped_early;
+}
+
+// The part of the stage's work that every effort takes.
+constexpr double kCommonWork = 0.6;
+
+// What every effort begins with. Returns the worst energy that is left.
+double improve_as_fast(const Attempt& attempt, Field& field, Report::Field& report) {
   const Threads& threads = attempt.threads;
   report.before =
       describe_shape(field.parts ? shape_of(*field.parts, threads) : shape_of(field.volume(), threads));
   std::optional<FilledParts> filled;
   if (field.parts) filled.emplace(FilledParts{std::move(field.parts), field.size_function()});
   const ImproveStats stats =
-      improve_in_parts(field.volume(), std::move(filled), attempt.options.effort, threads, attempt.monitor);
-  report.edge_lengths = edge_lengths_of(field.volume(), threads);
-  report.moves = stats.moved;
-  report.swaps = stats.swapped;
-  report.contractions = stats.contracted;
-  report.insertions = stats.inserted;
-  report.points += stats.filled_in;
-  report.stopped_early |= stats.filling_stopped_early;
+      improve_in_parts(field.volume(), std::move(filled), Effort::fast, threads, attempt.monitor);
+  note(stats, report);
   return stats.worst;
 }
 
-void improve_with_field(const Attempt& attempt, BoxMesh& box, Division& division, Field& field,
-                        Report& report) {
-  const double worst = improve_field(attempt, field, report.field);
-  // Flat ones are told from others in space; in a metric they may be as they should be.
-  if (worst <= kEnergyOfFlat || field.has_metric()) return;
-  // Long thin facets may leave flat elements: what the other optimisation is made for.
+// Long thin facets may leave flat elements: what the other optimisation is made for.
+void improve_flat(const Attempt& attempt, BoxMesh& box, Division& division, Report& report) {
   std::vector<Tet> flat = division.tets(box.mesh);
   std::erase_if(flat, [&](Tet t) {
     const TetMesh& mesh = box.mesh;
@@ -85,6 +88,46 @@ void improve_with_field(const Attempt& attempt, BoxMesh& box, Division& division
     return !is_flat(mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2]), mesh.position(v[3]));
   });
   if (!flat.empty()) optimise_worst_of(attempt, box, division, flat, PointsToRemove::added_here, report);
+}
+
+// Field points must not make any figure worse than it is without. More work may help; if it does not, only
+// points that better their surroundings are put into the mesh without.
+void keep_what_pays(const Attempt& attempt, BoxMesh& box, Division& division, Field& field, Report& report) {
+  constexpr std::array<double, 2> kNoProgress{kCommonWork, kCommonWork};
+  WithoutField& without = *field.without;
+  if (!without.is_better_somewhere(figures_of(field.volume(), attempt.threads))) return;
+  note(improve_further(field.volume(), Effort::good, kNoProgress, attempt.threads, attempt.monitor),
+       report.field);
+  if (!without.is_better_somewhere(figures_of(field.volume(), attempt.threads))) return;
+  without.take(box, division);
+  field.set_sizes(attempt);
+  report.field.points = 0;
+  note(improve_further(field.volume(), Effort::fast, kNoProgress, attempt.threads, attempt.monitor),
+       report.field);
+}
+
+// More effort goes on where less has ended, and makes no figure worse: so it never pays to spend less.
+void improve_with_field(const Attempt& attempt, BoxMesh& box, Division& division, Field& field,
+                        Report& report) {
+  const Threads& threads = attempt.threads;
+  const double worst = improve_as_fast(attempt, field, report.field);
+  // Flat ones are told from others in space; in a metric they may be as they should be.
+  if (worst > kEnergyOfFlat && !field.has_metric()) {
+    improve_flat(attempt, box, division, report);
+    field.give_sizes_to_new_vertices();
+  }
+  if (field.without) keep_what_pays(attempt, box, division, field, report);
+  field.without.reset();
+  const Effort effort = attempt.options.effort;
+  constexpr double kUpToGood = 0.75;
+  if (effort != Effort::fast)
+    note(improve_further(field.volume(), Effort::good, {kCommonWork, effort == Effort::good ? 1 : kUpToGood},
+                         threads, attempt.monitor),
+         report.field);
+  if (effort == Effort::best)
+    note(improve_further(field.volume(), Effort::best, {kUpToGood, 1}, threads, attempt.monitor),
+         report.field);
+  report.field.edge_lengths = edge_lengths_of(field.volume(), threads);
 }
 
 // The improvement heeds bounds, so that it leaves next to nothing to do for a second pass; what a pass
@@ -112,6 +155,23 @@ Field::Field(const Attempt& attempt, BoxMesh& box, Division& division)
       size_function_(polling(attempt.input.sizes(), attempt.monitor), attempt.options.regions,
                      attempt.complex(), attempt.input.table(), division.kept, box.scale) {}
 
+void Field::set_sizes(const Attempt& attempt) {
+  set_sizes_at_vertices(volume(), size_function_, attempt.threads, attempt.monitor);
+}
+
+// As large as those of the vertices that they are joined to.
+void Field::give_sizes_to_new_vertices() {
+  const TetMesh& mesh = box_.mesh;
+  const std::size_t first = sizes_.size();
+  if (first == mesh.vertex_count()) return;
+  sizes_.resize(mesh.vertex_count(), 0);
+  for (const Tet t : division_.tets(mesh))
+    for (const Vertex v : mesh.corners(t))
+      if (v >= first)
+        for (const Vertex w : mesh.corners(t))
+          if (w < first) sizes_[v] = std::max(sizes_[v], sizes_[w]);
+}
+
 VolumeData Field::volume() {
   return {box_.mesh,
           division_.regions.of_tet,
@@ -131,6 +191,8 @@ std::unique_ptr<Field> add_field_points(const Attempt& attempt, BoxMesh& box, Di
   auto field = std::make_unique<Field>(attempt, box, division);
   const SizeFunction& sizes = field->size_function();
   require_few_enough(field->volume());
+  if (WithoutField::is_asked_for(attempt.options))
+    field->without = std::make_unique<WithoutField>(attempt, box, division);
   const std::size_t before = box.mesh.vertex_count();
   FieldPoints added = add_field_points(field->volume(), sizes, attempt.threads, attempt.monitor);
   field->parts = std::move(added.parts);

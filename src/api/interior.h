@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "api/boundary.h"
+#include "api/without_field.h"
 #include "refine/parts.h"
 #include "refine/volume_data.h"
 #include "size/size_function.h"
@@ -20,10 +21,16 @@ class Field {
   Field& operator=(const Field&) = delete;
 
   [[nodiscard]] VolumeData volume();
+  /// Of all vertices, as the surface and the user ask for.
+  void set_sizes(const Attempt& attempt);
+  /// Of those that came without.
+  void give_sizes_to_new_vertices();
   /// As long as a large mesh is in parts, for its improvement to go on with; else null.
   std::unique_ptr<Parts> parts;
   [[nodiscard]] const SizeFunction& size_function() const { return size_function_; }
   [[nodiscard]] bool has_metric() const { return !metrics_.empty(); }
+  /// To compare with, where the surface alone decides on sizes; else null.
+  std::unique_ptr<WithoutField> without;
 
  private:
   BoxMesh& box_;

@@ -73,9 +73,17 @@ bool PointAdder::improves(Vertex p) {
   if (!is_less(star_.energy(), before)) return false;
   MeshEditor(mesh).move_vertex(p, frame_.from(star_.at()));
   if (!frame_.is_plain() && !is_less(energy_of_ball(p), before)) return false;
-  return std::all_of(cavity_.rim().begin(), cavity_.rim().end(), [&](const PointCavity::Rim& rim) {
-    return mesh.orient(rim.v[0], rim.v[1], rim.v[2], p) > 0;
-  });
+  return std::all_of(
+             cavity_.rim().begin(), cavity_.rim().end(),
+             [&](const PointCavity::Rim& rim) { return mesh.orient(rim.v[0], rim.v[1], rim.v[2], p) > 0; }) &&
+         is_allowed(p);
+}
+
+bool PointAdder::is_allowed(Vertex p) {
+  if (!volume_.has_standard()) return true;
+  std::vector<TetMesh::Corners> fresh;
+  for (const PointCavity::Rim& rim : cavity_.rim()) fresh.push_back({rim.v[0], rim.v[1], rim.v[2], p});
+  return volume_.allows(cavity_.tets(), fresh);
 }
 
 // What the star, with one metric for all, has only nearly.

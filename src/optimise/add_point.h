@@ -27,6 +27,7 @@ class PointAdder {
   bool add_at(const Point& place, Tet t, std::span<const Tet> tets);
   [[nodiscard]] bool find_cavity(Vertex p, Tet t, std::span<const Tet> tets);
   [[nodiscard]] bool improves(Vertex p);
+  [[nodiscard]] bool is_allowed(Vertex p);
   [[nodiscard]] double energy_of_ball(Vertex p) const;
 
   ImprovedVolume& volume_;

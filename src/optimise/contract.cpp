@@ -33,7 +33,7 @@ std::span<const Tet> VertexContractor::contract(Vertex v, double longest) {
     best = after;
     fresh_.swap(candidate_);
   }
-  if (fresh_.empty()) return {};
+  if (fresh_.empty() || !volume_.allows(tets_, fresh_)) return {};
   const auto created = volume_.replace(tets_, fresh_);
   MeshEditor(mesh).remove_vertex(v);
   return created;

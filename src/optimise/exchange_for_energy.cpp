@@ -10,7 +10,8 @@ LeastEnergy::LeastEnergy(const ImprovedVolume& volume, double most)
 std::span<const Tet> EnergySwapper::improve(Tet t, bool as_worst) {
   LeastEnergy objective(volume_, as_worst ? volume_.energy(t) : kNoEnergy);
   const Exchange* const best = search_.best_at(t, objective);
-  return best != nullptr ? volume_.make(*best) : std::span<const Tet>{};
+  if (best == nullptr || !volume_.allows(best->old_tets, best->new_tets)) return {};
+  return volume_.make(*best);
 }
 
 }  // namespace holdfast

@@ -11,16 +11,21 @@ namespace {
 
 class Improver {
  public:
-  Improver(const VolumeData& volume, Effort effort, std::span<const std::uint8_t> spared,
+  Improver(const VolumeData& volume, const tuning::Passes& passes, std::span<const std::uint8_t> spared,
            std::span<const std::uint8_t> fresh, Monitor& monitor)
       : mesh_(volume.mesh),
         volume_(volume, fresh),
-        passes_(tuning::passes_of(effort)),
+        passes_(passes),
         spared_(spared),
         monitor_(monitor),
         ways_(volume_, energy_of_sine(passes_.patient_aim)),
         most_inserted_(
             static_cast<std::size_t>(passes_.inserted_per_tet * static_cast<double>(mesh_.tet_count()))) {}
+
+  /// From now on, no figure may become worse.
+  void keep(const Figures& figures) { volume_.keep(figures); }
+  /// Progress is that part of the stage's.
+  void tell_as(std::array<double, 2> work) { work_ = work; }
 
   ImproveStats run() {
     const int steps = passes_.passes + passes_.rounds;
@@ -54,7 +59,10 @@ class Improver {
     }
   };
 
-  void poll(double fraction) { monitor_.poll(Stage::optimise, stage_[0] + stage_[1] * fraction); }
+  void poll(double fraction) {
+    const double done = stage_[0] + stage_[1] * fraction;
+    monitor_.poll(Stage::optimise, work_[0] + (work_[1] - work_[0]) * done);
+  }
 
   // Whether t is to be looked at, being worse than that.
   [[nodiscard]] bool is_worse(Tet t, double from) const {
@@ -134,7 +142,7 @@ class Improver {
   Monitor& monitor_;
   EnergyWays ways_;
   const std::size_t most_inserted_;
-  std::array<double, 2> stage_{};
+  std::array<double, 2> stage_{}, work_{0, 1};
   ImproveStats stats_;
 };
 
@@ -142,7 +150,16 @@ class Improver {
 
 ImproveStats improve(const VolumeData& volume, Effort effort, Monitor& monitor,
                      std::span<const std::uint8_t> spared, std::span<const std::uint8_t> fresh) {
-  return Improver(volume, effort, spared, fresh, monitor).run();
+  return Improver(volume, tuning::passes_of(effort), spared, fresh, monitor).run();
+}
+
+ImproveStats improve_further(const VolumeData& volume, Effort effort, std::array<double, 2> work,
+                             const Threads& threads, Monitor& monitor) {
+  Improver improver(volume, tuning::further_passes_of(effort), {}, {}, monitor);
+  improver.tell_as(work);
+  // In a metric, elements are not to be good in space.
+  if (volume.metrics == nullptr) improver.keep(figures_of(volume, threads));
+  return improver.run();
 }
 
 }  // namespace holdfast

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <span>
 
 #include "holdfast/holdfast.h"
 #include "mesh/monitor.h"
+#include "mesh/parallel.h"
 #include "refine/volume_data.h"
 
 namespace holdfast {
@@ -36,5 +38,10 @@ struct ImproveStats {
 /// changed.
 ImproveStats improve(const VolumeData& volume, Effort effort, Monitor& monitor,
                      std::span<const std::uint8_t> spared = {}, std::span<const std::uint8_t> fresh = {});
+
+/// Goes on with what less effort has left, as far as `effort` goes, and makes none of the figures of the
+/// volume (figures.h) worse than they are. Progress is told as that part of the stage's work.
+ImproveStats improve_further(const VolumeData& volume, Effort effort, std::array<double, 2> work,
+                             const Threads& threads, Monitor& monitor);
 
 }  // namespace holdfast

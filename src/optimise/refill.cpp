@@ -106,7 +106,7 @@ std::span<const Tet> CavityRefiller::apply() {
   }
   if (!std::all_of(best_.fresh.begin(), best_.fresh.end(),
                    [&](const TetMesh::Corners& c) { return volume_.is_positive(c); }) ||
-      !is_better(best_)) {
+      !is_better(best_) || !volume_.allows(best_.old_tets, best_.fresh)) {
     if (with_point) volume_.remove_last_vertex();
     point_ = kNone;
     return {};

@@ -45,9 +45,10 @@ void VertexSmoother::gather_star(Vertex v) {
 bool VertexSmoother::settle(Vertex v, double before) {
   TetMesh& mesh = volume_.mesh();
   const auto is_positive = [&](Tet t) { return volume_.is_positive(mesh.corners(t)); };
+  const Figures old = volume_.has_standard() ? volume_.figures(tets_) : Figures{};
   if (!MeshEditor(mesh).move_if(v, frame_.from(star_.at()), tets_, [&] {
         return std::all_of(tets_.begin(), tets_.end(), is_positive) &&
-               (frame_.is_plain() || is_better(before));
+               (frame_.is_plain() || is_better(before)) && volume_.allows(old, tets_);
       }))
     return false;
   if (frame_.is_plain())

@@ -94,13 +94,17 @@ struct Passes {
 [[nodiscard]] constexpr Passes passes_of(Effort effort) {
   switch (effort) {
     case Effort::fast:
-      return {1, 0.35, 0.50, 0.26, 0.24, 1, 0.2, 0.04};
+      return {1, 0.45, 0.50, 0.26, 0.24, 1, 0.2, 0.04};
     case Effort::good:
       return {1, 0.45, 0.50, 0.36, 0.24, 1, 8, 0.04};
     case Effort::best:
       break;
   }
   return {6, 0.65, 0.80, 0.60, 0.34, 6, 10, 0.08};
+}
+/// Of what goes on where less effort ended, with whatever that has left undone.
+[[nodiscard]] constexpr Passes further_passes_of(Effort effort) {
+  return effort == Effort::good ? Passes{0, 0.45, 0.50, 0.36, 0.24, 1, 4, 0.015} : passes_of(effort);
 }
 inline constexpr int kMostPasses = 6;     ///< while many elements are bad, which passes help faster
 inline constexpr double kManyBad = 0.1;   ///< of the elements: as many are many

@@ -35,6 +35,22 @@ ImprovedVolume::ImprovedVolume(const VolumeData& data, std::span<const std::uint
   }
 }
 
+Figures ImprovedVolume::figures(std::span<const Tet> tets) const {
+  Figures sum;
+  for (const Tet t : tets) {
+    const TetMesh::Corners& c = mesh_.corners(t);
+    sum.add(mesh_.position(c[0]), mesh_.position(c[1]), mesh_.position(c[2]), mesh_.position(c[3]));
+  }
+  return sum;
+}
+
+Figures ImprovedVolume::figures(std::span<const TetMesh::Corners> tets) const {
+  Figures sum;
+  for (const TetMesh::Corners& c : tets)
+    sum.add(mesh_.position(c[0]), mesh_.position(c[1]), mesh_.position(c[2]), mesh_.position(c[3]));
+  return sum;
+}
+
 // A frame does not keep volumes.
 double ImprovedVolume::energy_in_frame(const TetMesh::Corners& c) const {
   if (most_ < kNoEnergy && six_volumes(mesh_, c) > most_) return kNoEnergy;

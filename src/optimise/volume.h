@@ -2,12 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "mesh/editor.h"
 #include "mesh/exchange.h"
 #include "optimise/energy.h"
+#include "optimise/figures.h"
 #include "optimise/tuning.h"
 #include "refine/volume_data.h"
 
@@ -87,6 +89,20 @@ class ImprovedVolume {
     std::fill(touched_.begin(), touched_.end(), std::uint8_t{1});
   }
 
+  /// From now on, no change may make the figures of the whole worse than they are.
+  void keep(const Figures& figures) { standard_.emplace(figures); }
+  /// Whether figures are kept at all, and whether tetrahedra may be replaced by others. What is allowed is
+  /// taken to be done.
+  [[nodiscard]] bool has_standard() const { return standard_.has_value(); }
+  [[nodiscard]] bool allows(std::span<const Tet> old_tets, std::span<const TetMesh::Corners> fresh) {
+    return !standard_ || standard_->allows(figures(old_tets), figures(fresh));
+  }
+  [[nodiscard]] bool allows(const Figures& old, std::span<const Tet> fresh) {
+    return !standard_ || standard_->allows(old, figures(fresh));
+  }
+  [[nodiscard]] Figures figures(std::span<const Tet> tets) const;
+  [[nodiscard]] Figures figures(std::span<const TetMesh::Corners> tets) const;
+
   /// Replaces tetrahedra inside one region. Returns the new ones, until the next call.
   std::span<const Tet> replace(std::span<const Tet> old_tets, std::span<const TetMesh::Corners> fresh) {
     const RegionId region = region_of_[old_tets.front()];
@@ -139,6 +155,7 @@ class ImprovedVolume {
   std::vector<RegionId>& region_of_;
   std::vector<double> energy_;  // by slot
   double most_ = kNoEnergy;
+  std::optional<Standard> standard_;
   std::vector<std::uint8_t> changed_, touched_;
   std::vector<Tet> created_;
 };

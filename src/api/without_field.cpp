@@ -1,0 +1,55 @@
+#include "api/without_field.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "optimise/optimise.h"
+
+namespace holdfast {
+namespace {
+
+// Larger ones take memory, and no optimisation makes them good.
+constexpr std::size_t kMostCompared = 300'000;  // tetrahedra
+// Of meshes of so many tetrahedra the optimisation changes a small part, so that the mean Q does not halve.
+constexpr std::size_t kManyTets = 10'000;
+
+}  // namespace
+
+bool WithoutField::is_asked_for(const Options& options) {
+  const Sizes& s = *options.sizes;
+  return s.size == 0 && s.vertex_sizes.empty() && !s.field && !s.fields && !s.metric && s.max_volume == 0 &&
+         s.max_ratio == 0 &&
+         std::all_of(options.regions.begin(), options.regions.end(),
+                     [](const RegionSeed& r) { return r.size == 0 && r.max_volume == 0; });
+}
+
+WithoutField::WithoutField(const Attempt& attempt, const BoxMesh& box, const Division& division)
+    : attempt_(attempt), first_free_(box.first_free) {
+  const std::vector<Tet> tets = division.tets(box.mesh);
+  if (tets.size() > kMostCompared) return;
+  mesh_ = box.mesh;
+  division_ = division;
+  before_ = figures_of(mesh_, tets, attempt.threads);
+}
+
+bool WithoutField::is_better_somewhere(const Figures& with_field) {
+  if (before_.elements() == 0) return false;
+  if (!optimised_) {
+    if (before_.elements() > kManyTets && with_field.below_10_deg() == 0 && before_.below_10_deg() > 0 &&
+        before_.mean_quality() > 2 * with_field.mean_quality())
+      return false;
+    optimise(
+        mesh_, division_.tets(mesh_), first_free_, attempt_.input.target(), attempt_.monitor,
+        {.add_points = attempt_.options.add_points, .remove = PointsToRemove::all, .seed = attempt_.seed});
+    find_regions_again(mesh_, attempt_.complex().facets, division_.regions, attempt_.threads);
+    optimised_ = figures_of(mesh_, division_.tets(mesh_), attempt_.threads);
+  }
+  return !with_field.is_no_worse_than(*optimised_);
+}
+
+void WithoutField::take(BoxMesh& box, Division& division) {
+  box.mesh = std::move(mesh_);
+  division = std::move(division_);
+}
+
+}  // namespace holdfast

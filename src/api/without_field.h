@@ -1,0 +1,34 @@
+// What a mesh would be without field points, as --fill makes it: the least that field points have to be worth
+// where the surface alone decides on the sizes.
+#pragma once
+
+#include <optional>
+
+#include "api/boundary.h"
+#include "optimise/figures.h"
+
+namespace holdfast {
+
+class WithoutField {
+ public:
+  /// Whether the user leaves sizes to the surface, so that there is something to compare.
+  [[nodiscard]] static bool is_asked_for(const Options& options);
+  /// Copies the mesh, which has no field points yet. Nothing of a very large one.
+  WithoutField(const Attempt& attempt, const BoxMesh& box, const Division& division);
+
+  /// Whether some figure of the mesh with field points is worse than of this one. The first call optimises
+  /// this one, unless it is plain that nothing will be.
+  [[nodiscard]] bool is_better_somewhere(const Figures& with_field);
+  /// Puts it, optimised, in the place of the mesh with field points.
+  void take(BoxMesh& box, Division& division);
+
+ private:
+  const Attempt& attempt_;
+  TetMesh mesh_;
+  Division division_;
+  Vertex first_free_ = 0;
+  Figures before_;                    // the optimisation
+  std::optional<Figures> optimised_;  // then
+};
+
+}  // namespace holdfast

@@ -1,0 +1,143 @@
+// More effort, and field points, make no figure of a mesh worse (optimise/figures.h, api/without_field.h).
+#include "optimise/figures.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <ostream>
+#include <string>
+
+#include "hard_surfaces.h"
+#include "holdfast/holdfast.h"
+#include "mesh/quality.h"
+#include "small_surfaces.h"
+
+namespace holdfast {
+namespace {
+
+// By other ways than Figures.
+struct Measured {
+  double least = 180, share_below = 0, mean_q = 0;
+};
+
+Measured measure_of(const Volume& volume) {
+  Measured m;
+  for (const Tetrahedron& t : volume.tetrahedra) {
+    const auto& v = volume.vertices;
+    const auto angles = dihedral_angles(v[t[0]], v[t[1]], v[t[2]], v[t[3]]);
+    const double least = *std::min_element(angles.begin(), angles.end());
+    m.least = std::min(m.least, least);
+    if (least < 10 - 1e-6) m.share_below += 1;
+    m.mean_q += quality(v[t[0]], v[t[1]], v[t[2]], v[t[3]]);
+  }
+  const auto count = static_cast<double>(volume.tetrahedra.size());
+  m.share_below /= count;
+  m.mean_q /= count;
+  return m;
+}
+
+struct Family {
+  const char* name;
+  std::function<Surface(hard::Random&)> make;
+  int count;
+  Keep keep = Keep::automatic;
+};
+std::ostream& operator<<(std::ostream& out, const Family& family) { return out << family.name; }
+
+Surface fan(hard::Random& random) {
+  Surface surface;
+  const int n = hard::integer(random, 8, 40);
+  for (const double z : {0.0, hard::uniform(random, 0.05, 2.0)})
+    for (int k = 0; k < n; ++k)
+      surface.vertices.push_back({std::cos(2 * hard::kPi * k / n),
+                                  hard::uniform(random, 0.9, 1) * std::sin(2 * hard::kPi * k / n), z});
+  const auto index = [](int i) { return static_cast<Index>(i); };
+  for (int k = 0; k < n; ++k) {
+    const int next = (k + 1) % n;
+    surface.facets.push_back({index(k), index(next), index(n + next)});
+    surface.facets.push_back({index(k), index(n + next), index(n + k)});
+  }
+  for (int k = 1; k + 1 < n; ++k) {
+    surface.facets.push_back({0, index(k + 1), index(k)});
+    surface.facets.push_back({index(n), index(n + k), index(n + k + 1)});
+  }
+  return surface;
+}
+
+class FiguresOf : public ::testing::TestWithParam<Family> {};
+
+TEST_P(FiguresOf, NeverGetWorse) {
+  for (int k = 0; k < GetParam().count; ++k) {
+    hard::Random random(static_cast<std::uint64_t>(k) + 11);
+    const Surface surface = GetParam().make(random);
+    for (const double size : {0.0, 0.3}) {
+      Options options;
+      options.keep = GetParam().keep;
+      std::vector<Measured> meshes;
+      if (size == 0) meshes.push_back(measure_of(mesh(surface.view(), options).volume));
+      options.sizes = Sizes{.size = size};
+      for (const Effort effort : {Effort::fast, Effort::good, Effort::best}) {
+        options.effort = effort;
+        const Result result = mesh(surface.view(), options);
+        ASSERT_EQ(result.outcome, Outcome::done) << k;
+        meshes.push_back(measure_of(result.volume));
+      }
+      for (std::size_t i = 1; i < meshes.size(); ++i) {
+        EXPECT_GE(meshes[i].least, meshes[i - 1].least * (1 - 1e-9)) << k << ", size " << size << ", " << i;
+        EXPECT_LE(meshes[i].share_below, meshes[i - 1].share_below) << k << ", size " << size << ", " << i;
+        EXPECT_LE(meshes[i].mean_q, meshes[i - 1].mean_q * (1 + 1e-8)) << k << ", size " << size << ", " << i;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Surfaces, FiguresOf,
+                         ::testing::Values(Family{"fans", fan, 6},
+                                           Family{"twisted_prisms", hard::twisted_prism, 4},
+                                           Family{"boxes", [](hard::Random&) { return small::box(); }, 1},
+                                           Family{"voxels", hard::voxels, 2},
+                                           Family{"spikes", hard::spikes, 1},
+                                           Family{"lattices", hard::lattice, 2, Keep::bounded},
+                                           Family{"scattered", hard::scattered, 2}),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+const Point kO{0, 0, 0}, kX{1, 0, 0}, kY{0, 1, 0}, kZ{0, 0, 1}, kLow{0.3, 0.3, 0.05};
+
+TEST(Standard, RefusesWhatLowersTheLeastAngle) {
+  Figures whole, good, bad;
+  good.add(kO, kX, kY, kZ);
+  bad.add(kO, kX, kY, kLow);
+  whole.add(good);
+  Standard standard(whole);
+  EXPECT_FALSE(standard.allows(good, bad));
+  EXPECT_TRUE(standard.allows(good, good));
+}
+
+// What has become better may become worse again, but not worse than it was.
+TEST(Standard, AllowsWhatGainsPayFor) {
+  Figures whole, good, bad;
+  good.add(kO, kX, kY, kZ);
+  bad.add(kO, kX, kY, kLow);
+  for (int k = 0; k < 3; ++k) whole.add(k < 2 ? bad : good);
+  Standard standard(whole);
+  EXPECT_FALSE(standard.allows(good, bad));
+  EXPECT_TRUE(standard.allows(bad, good));
+  EXPECT_TRUE(standard.allows(bad, good));
+  EXPECT_TRUE(standard.allows(good, bad));
+  EXPECT_FALSE(standard.allows(good, bad));  // but for rounding, that would be as it was
+}
+
+TEST(Figures, AnAngleOfTenDegreesIsNotBelow) {
+  const double t = std::tan(10 * hard::kPi / 180);
+  // A wedge of 10 degrees at the x axis, and of a little less.
+  Figures wedge, thinner;
+  wedge.add(kO, kX, {0.5, 1, 0}, {0.5, 1, t});
+  thinner.add(kO, kX, {0.5, 1, 0}, {0.5, 1, 0.999 * t});
+  EXPECT_EQ(wedge.below_10_deg(), 0u);
+  EXPECT_EQ(thinner.below_10_deg(), 1u);
+}
+
+}  // namespace
+}  // namespace holdfast
