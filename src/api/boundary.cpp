@@ -7,6 +7,7 @@
 #include "classify/open_interface.h"
 #include "delaunay/box.h"
 #include "delaunay/delaunay.h"
+#include "holdfast/region_bounds.h"
 #include "mesh/editor.h"
 #include "recover/recover.h"
 #include "suppress/suppress.h"
@@ -85,9 +86,10 @@ Division divide(const Attempt& attempt, BoxMesh& box) {
   division.regions = find_regions(box.mesh, attempt.complex().facets, attempt.threads);
   const Options& options = attempt.options;
   const PartsOfComplex* const parts = attempt.input.parts();
-  const std::span<const RegionSeed> seeds = options.regions;
-  const Wanted wanted{options.keep, options.holes, parts == nullptr ? seeds : seeds.first(parts->seeds),
-                      options.drop_outside, parts};
+  std::vector<RegionSeed> seeds = options.regions;
+  if (parts != nullptr) seeds.resize(parts->seeds);
+  std::erase_if(seeds, is_bound_alone);
+  const Wanted wanted{options.keep, options.holes, seeds, options.drop_outside, parts};
   division.kept = choose_regions(box.mesh, division.regions, attempt.complex(), attempt.input.table(), wanted,
                                  box.scale, attempt.input.names());
   return division;

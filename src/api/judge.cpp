@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "classify/keep.h"
+#include "holdfast/region_bounds.h"
 #include "surface/whereabouts.h"
 
 namespace holdfast {
@@ -106,7 +107,8 @@ void require_sensible(const Complex& complex, const Options& options) {
   require(std::all_of(options.holes.begin(), options.holes.end(), is_finite),
           "a hole has a coordinate that is not finite");
   for (const RegionSeed& seed : options.regions) {
-    require(is_finite(seed.where), "a region seed has a coordinate that is not finite");
+    require(is_finite(seed.where) || is_bound_alone(seed),
+            "a region seed has a coordinate that is not finite");
     require(is_length_or_none(seed.size), "the size of a region must be finite and not negative");
     require(is_length_or_none(seed.max_volume),
             "the largest volume of a region must be finite and not negative");
@@ -120,7 +122,9 @@ void require_sensible(const Complex& complex, const Options& options) {
 void require_well_placed(const Complex& complex, const SegmentTable& table, const Options& options,
                          const VertexNames& names, const std::function<void()>& step) {
   std::vector<Point> points = options.holes;
-  for (const RegionSeed& seed : options.regions) points.push_back(seed.where);
+  std::vector<RegionSeed> seeds = options.regions;
+  std::erase_if(seeds, is_bound_alone);
+  for (const RegionSeed& seed : seeds) points.push_back(seed.where);
   if (points.empty() || options.stop_after.value_or(Stage::optimise) < Stage::classify) return;
   const std::vector<Whereabouts> where = whereabouts(complex, Separation(table), points, step);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -131,8 +135,7 @@ void require_well_placed(const Complex& complex, const SegmentTable& table, cons
     if (is_outside) throw in_no_region(what, points[i]);
   }
   const auto holes = std::span(where).first(options.holes.size());
-  require_seeds_agree(complex, table, options.regions, holes, std::span(where).subspan(holes.size()), names,
-                      step);
+  require_seeds_agree(complex, table, seeds, holes, std::span(where).subspan(holes.size()), names, step);
 }
 
 }  // namespace holdfast

@@ -11,12 +11,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The format's name with its dot, in lower case.
-std::string format_of(const fs::path& path, std::string format) {
-  if (format.empty()) format = (path.extension() == ".gz" ? path.stem() : path).extension().string();
-  if (!format.empty() && format.front() != '.') format.insert(format.begin(), '.');
-  std::transform(format.begin(), format.end(), format.begin(),
-                 [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
-  return format;
+std::string format_of(const fs::path& path, const std::string& format) {
+  return volume_format_of(path.extension() == ".gz" ? path.parent_path() / path.stem() : path, format);
 }
 
 bool is_one_of(const std::vector<std::string>& formats, const std::string& format) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "command.h"
+#include "holdfast/region_bounds.h"
 #include "number.h"
 #include "parts_of_mesh.h"
 
@@ -43,9 +44,11 @@ std::vector<int> ids_of(const std::string& text, const Names& names) {
 
 void add_bounds(CLI::App& command, BoundArguments& arguments) {
   command
-      .add_option("--max-volume", arguments.max_volumes,
-                  "Field points: no tetrahedron is larger, anywhere or in a region with a seed (10=0.5, "
-                  "core=0.5), even at the price of flat ones, which are counted (repeatable)")
+      .add_option(
+          "--max-volume", arguments.max_volumes,
+          "Field points: no tetrahedron is larger, anywhere or in a region by the id or name that the "
+          "mesh gives it (10=0.5, core=0.5), even at the price of flat ones, which are counted "
+          "(repeatable)")
       ->allow_extra_args(false)
       ->option_text("[REGION=]V");
   command
@@ -67,22 +70,13 @@ void set_bounds(const BoundArguments& arguments, const Names& names, Options& op
   if (!options.sizes) return;
   for (const std::string& text : arguments.max_volumes) {
     const Bound bound = bound_of(text);
-    const auto limit = [&](double& most) { most = most > 0 ? std::min(most, bound.volume) : bound.volume; };
     if (bound.region.empty()) {
-      limit(options.sizes->max_volume);
+      double& most = options.sizes->max_volume;
+      most = most > 0 ? std::min(most, bound.volume) : bound.volume;
       continue;
     }
-    for (const int id : ids_of(bound.region, names)) {
-      bool found = false;
-      for (RegionSeed& seed : options.regions) {
-        if (seed.id != id) continue;
-        limit(seed.max_volume);
-        found = true;
-      }
-      if (!found)
-        throw UsageError(fmt::format(
-            "--max-volume {}: no region seed has the id {}; --region x,y,z,{} gives one", text, id, id));
-    }
+    for (const int id : ids_of(bound.region, names))
+      options.regions.push_back(bound_of_region(id, bound.volume));
   }
   if (arguments.max_ratio) options.sizes->max_ratio = *arguments.max_ratio;
 }

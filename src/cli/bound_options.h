@@ -20,8 +20,8 @@ struct BoundArguments {
 
 void add_bounds(CLI::App& command, BoundArguments& arguments);
 
-/// Puts the bounds into the sizes and, those by region, into the seeds of these regions: call it when all
-/// seeds are there, those of the files too. A region is named by its id or its name. Throws UsageError.
+/// Puts the bounds into the options. A region is named by its id in the mesh, or by its name: call it when
+/// the names of the files are there. Throws UsageError.
 void set_bounds(const BoundArguments& arguments, const Names& names, Options& options);
 
 /// Throws UsageError for what is no bound; reads no file.

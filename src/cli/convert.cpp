@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <set>
 
 #include "any_mesh.h"
 #include "command.h"
@@ -11,23 +10,23 @@
 #include "files_of_run.h"
 #include "holdfast/surface_io.h"
 #include "limits.h"
+#include "mesh_output.h"
 #include "name_options.h"
 #include "order_options.h"
 #include "parts_of_mesh.h"
 #include "signals.h"
 #include "summary.h"
-#include "write_options.h"
 
 namespace holdfast::cli {
 namespace {
 
 struct ConvertArguments {
-  std::filesystem::path input, output;
-  std::string input_format, format;
+  std::filesystem::path input;
+  OutputArguments output;
+  std::string input_format;
   std::vector<std::string> only, names;
   std::optional<double> scale;
   OrderArguments order;
-  WriteArguments writing;
   LimitArguments limits;
   unsigned threads = 1;
   bool quiet = false;
@@ -39,19 +38,15 @@ void suit(AnyMesh& mesh, const ConvertArguments& arguments, const AnyTarget& tar
   if (mesh.is_volume && !target.holds_volumes) {
     if (part_of(arguments.only).kind == Part::Kind::volume)
       throw UsageError(fmt::format("{}: the format holds surfaces alone, and --only volume leaves none",
-                                   arguments.output.string()));
-    const std::set<int> regions(mesh.volume.regions.begin(), mesh.volume.regions.end());
-    if (!arguments.quiet)
-      say("holdfast: {}: the format holds surfaces alone: {} and the ids of {} are left out\n",
-          arguments.output.string(), counted(mesh.volume.tetrahedra.size(), "tetrahedron", "tetrahedra"),
-          counted(regions.size(), "region"));
+                                   arguments.output.path.string()));
+    if (!arguments.quiet) tell_of_surface_alone(arguments.output.path, mesh.volume);
     mesh.surface = surface_of(mesh.volume);
     mesh.is_volume = false;
   } else if (!mesh.is_volume && !target.holds_surfaces) {
     Surface& surface = mesh.surface;
     const std::size_t seeds = surface.regions.size() + surface.holes.size();
     if (!arguments.quiet && seeds > 0)
-      say("holdfast: {}: {} left out\n", arguments.output.string(),
+      say("holdfast: {}: {} left out\n", arguments.output.path.string(),
           counted(seeds, "seed of a region or hole is", "seeds of regions and holes are"));
     Volume& volume = mesh.volume;
     volume = {};
@@ -67,7 +62,7 @@ void suit(AnyMesh& mesh, const ConvertArguments& arguments, const AnyTarget& tar
 }
 
 void write(const AnyMesh& mesh, const ConvertArguments& arguments, const WriteOptions& options) {
-  const std::filesystem::path& path = arguments.output;
+  const std::filesystem::path& path = arguments.output.path;
   if (mesh.is_volume) {
     write_volume(path, mesh.volume, options);
     if (!arguments.quiet) tell(not_held(path, mesh.volume, options), path);
@@ -86,10 +81,7 @@ int run(const ConvertArguments& arguments) {
   FilesOfRun files;
   read_any(files, arguments.input, arguments.input_format);
   take_order(arguments.order, files);
-  AnyTarget target = write_any(files, "the output", arguments.output, arguments.format);
-  VolumeTarget written{arguments.output, target.options};
-  apply(arguments.writing, written);
-  target.options = written.options;
+  AnyTarget target = output_target(files, "the output", arguments.output);
   target.options.threads = arguments.threads;
   watch_writing(target.options, limits);
   cancel_at_once();
@@ -101,10 +93,18 @@ int run(const ConvertArguments& arguments) {
     if (const std::size_t turned = scale(mesh, *arguments.scale); turned > 0)
       say("holdfast: --scale: rounding turns or flattens {}; a power of two rounds nothing\n",
           counted(turned, "tetrahedron", "tetrahedra"));
+  if (arguments.output.each_region) {
+    if (!mesh.is_volume) throw UsageError("--each-region: the file holds no tetrahedra, but a surface");
+    if (arguments.order.order)
+      set_order(mesh.volume, arguments.order, read_curved(arguments.order, limits), limits, arguments.quiet);
+    cancel_by_flag();
+    write_output(files, arguments.output, target, mesh.volume, arguments.quiet);
+    return exit_done;
+  }
   suit(mesh, arguments, target);
   if (const std::size_t nodes = mesh.volume.mid_nodes.points.size();
       nodes > 0 && !mesh.is_volume && !arguments.quiet)
-    say("holdfast: {}: surfaces are of first order: {} left out\n", arguments.output.string(),
+    say("holdfast: {}: surfaces are of first order: {} left out\n", arguments.output.path.string(),
         counted(nodes, "mid-edge node is", "mid-edge nodes are"));
   if (arguments.order.order) {
     if (!mesh.is_volume || mesh.volume.tetrahedra.empty())
@@ -115,7 +115,7 @@ int run(const ConvertArguments& arguments) {
   write(mesh, arguments, target.options);
   if (arguments.quiet) return exit_done;
   const bool has_tetrahedra = mesh.is_volume && !mesh.volume.tetrahedra.empty();
-  say("{}: {} vertices, {}{} triangles, {} segments\n", arguments.output.string(),
+  say("{}: {} vertices, {}{} triangles, {} segments\n", arguments.output.path.string(),
       mesh.is_volume ? mesh.volume.vertices.size() : mesh.surface.vertices.size(),
       has_tetrahedra ? fmt::format("{} tetrahedra, ", mesh.volume.tetrahedra.size()) : "",
       mesh.is_volume ? mesh.volume.facets.size() : mesh.surface.facets.size(),
@@ -132,7 +132,7 @@ void add_convert(CLI::App& app, Command& chosen) {
   command->add_option("IN", arguments->input, "Surface or volume file, as for `mesh` and `check`")
       ->transform(or_standard_input)
       ->required();
-  command->add_option("OUT,-o,--output", arguments->output, "File to write, -: standard output")
+  command->add_option("OUT,-o,--output", arguments->output.path, "File to write, -: standard output")
       ->transform(or_standard_output)
       ->required();
   command
@@ -140,12 +140,14 @@ void add_convert(CLI::App& app, Command& chosen) {
                    "volume (without triangles and segments), surface, or region=ID (or its name; repeatable)")
       ->allow_extra_args(false)
       ->option_text("PART");
+  command->add_flag("--each-region", arguments->output.each_region, each_region_help);
   command->add_option("--scale", arguments->scale, "Multiply all lengths")->option_text("F");
   add_name_option(*command, arguments->names);
   add_order(*command, arguments->order);
-  add_write_options(*command, arguments->writing);
+  add_write_options(*command, arguments->output.writing);
   command
-      ->add_option("--format", arguments->format, "Format to write, instead of by ending; msh2 is .msh 2.2")
+      ->add_option("--format", arguments->output.format,
+                   "Format to write, instead of by ending; msh2 is .msh 2.2")
       ->option_text("FORMAT");
   command->add_option("--input-format", arguments->input_format, "Format to read, instead of by ending")
       ->option_text("FORMAT");

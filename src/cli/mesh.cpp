@@ -16,6 +16,7 @@
 #include "idle_options.h"
 #include "limits.h"
 #include "mesh_options.h"
+#include "mesh_output.h"
 #include "name_options.h"
 #include "page.h"
 #include "paste_options.h"
@@ -84,7 +85,7 @@ int conclude(const MeshArguments& arguments, const Surface& surface, const Resul
       return exit_limit;
     case Outcome::not_representable:
       say("holdfast: {} ({} of {} added points have no position in doubles); {} was not written\n", message,
-          result.report.unrounded_points, result.report.steiner_points, arguments.output.string());
+          result.report.unrounded_points, result.report.steiner_points, arguments.output.path.string());
       if (arguments.exact.empty())
         say("--exact FILE writes the mesh with exact coordinates; a surface in finer units or "
             "nearer to the origin may have a mesh in doubles\n");
@@ -95,11 +96,10 @@ int conclude(const MeshArguments& arguments, const Surface& surface, const Resul
   return exit_internal_error;
 }
 
-void write_result(const MeshArguments& arguments, const VolumeTarget& target, const Result& result) {
-  if (result.outcome == Outcome::done) {
-    write_volume(target.path, result.volume, target.options);
-    if (!arguments.quiet) tell(not_held(target.path, result.volume, target.options), target.path);
-  }
+void write_result(const MeshArguments& arguments, FilesOfRun& files, const AnyTarget& target,
+                  const Result& result) {
+  if (result.outcome == Outcome::done)
+    write_output(files, arguments.output, target, result.volume, arguments.quiet);
   if (result.outcome == Outcome::not_representable && !arguments.exact.empty())
     write_exact(arguments.exact, result);
 }
@@ -127,7 +127,7 @@ void write_html(const MeshArguments& arguments, const Limits& limits, const Surf
   PageOfRun page(arguments.html, limits);
   const std::string input = arguments.surfaces.front().filename().string();
   page.set_title(input);
-  if (done) page.add(arguments.output.filename().string(), result.volume);
+  if (done) page.add(arguments.output.path.filename().string(), result.volume);
   if (!done || !result.defects.empty()) page.add(input, surface, result.defects);
   page.set_verdict(done ? fmt::format("{} in {}, {}; `holdfast check` verifies that they keep the surface",
                                       counted(result.report.tetrahedra, "tetrahedron", "tetrahedra"),
@@ -281,8 +281,11 @@ int run(const MeshArguments& arguments) {
     files.read_surfaces(arguments.surfaces, arguments.input_format);
   files.read_size_field("--size-field", arguments.size_field);
   take_order(arguments.elements, files);
-  VolumeTarget target = files.write_volume("-o", arguments.output, arguments.format);
-  apply(arguments.writing, target);
+  AnyTarget target = output_target(files, "-o", arguments.output);
+  if (arguments.elements.order == 2 && !target.holds_volumes)
+    throw UsageError(
+        fmt::format("--order 2 does nothing for {}: the format holds surfaces of first order alone",
+                    arguments.output.path.string()));
   target.options.threads = arguments.threads;
   watch_writing(target.options, options);
   WriteOptions surface_writing;
@@ -339,7 +342,7 @@ int run(const MeshArguments& arguments) {
   const Stopwatch writing;
   progress.writing();
   if (repaired) write_repaired(arguments.repaired, surface, result.outcome, surface_writing, arguments.quiet);
-  write_result(arguments, target, result);
+  write_result(arguments, files, target, result);
   progress.finish();
   result.report.seconds["read"] = reading;
   result.report.seconds["write"] = writing.seconds();
@@ -378,9 +381,11 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->required();
   command
       ->add_option(
-          "-o,--output", arguments->output,
+          "-o,--output", arguments->output.path,
           "Volume file (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol .xdmf .node, "
-          "or OpenFOAM's constant/polyMesh), -: standard output")
+          "or OpenFOAM's constant/polyMesh), or a surface file (.stl .ply .obj .off .poly) for the boundary "
+          "and "
+          "interfaces of the mesh, -: standard output")
       ->transform(or_standard_output)
       ->required()
       ->option_text("VOLUME");
@@ -452,20 +457,13 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->option_text("STEP");
   command
       ->add_option_function<std::vector<std::string>>(
-          "--order",
-          [arguments](const std::vector<std::string>& words) {
-            for (const std::string& word : words)
-              if (word == "1" || word == "2")
-                arguments->elements.order = word == "2" ? 2 : 1;
-              else
-                arguments->order = word;
-          },
-          "Order of the elements: 1 (default), or 2 with mid-edge nodes. Or which missing constraint is cut "
-          "in "
-          "next: random (default), given, or halving: the middle one, then those in the middle of both "
-          "halves")
+          "--order", [arguments](const std::vector<std::string>& words) { take_orders(*arguments, words); },
+          "Two things, by the word; give it twice for both. 1 (default) or 2: order of the elements, 2 with "
+          "mid-edge nodes. random (default), given or halving: the order in which missing constraints are "
+          "cut "
+          "in, where halving takes the middle one, then those in the middle of both halves")
       ->allow_extra_args(false)
-      ->option_text("ORDER");
+      ->option_text("1|2|random|given|halving");
   command->add_option("--seed", arguments->seed, "Seed of the random orders (default 1)")->option_text("N");
   command->add_option("--threads", arguments->threads, threads_help)
       ->check(CLI::Range(0u, 4096u))
@@ -489,11 +487,12 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->option_text("STAGE");
   add_html_option(*command, arguments->html);
   command
-      ->add_option("--format", arguments->format,
+      ->add_option("--format", arguments->output.format,
                    "Volume format, instead of by ending; msh2 is .msh 2.2, openfoam a case")
       ->option_text("FORMAT");
+  command->add_flag("--each-region", arguments->output.each_region, each_region_help);
   add_tolerance(*command, arguments->tolerance);
-  add_write_options(*command, arguments->writing);
+  add_write_options(*command, arguments->output.writing);
   command->add_option("--input-format", arguments->input_format, "Surface format, instead of by ending")
       ->option_text("FORMAT");
   CLI::Option* quiet =

@@ -116,6 +116,19 @@ void read_size_field(const MeshArguments& arguments, Options& options) {
     sizes.field = size_function(std::move(field));
 }
 
+void take_orders(MeshArguments& arguments, const std::vector<std::string>& words) {
+  std::string of_elements;
+  for (const std::string& word : words) {
+    std::string& given = word == "1" || word == "2" ? of_elements : arguments.order;
+    if (!given.empty())
+      throw CLI::ValidationError("--order " + given + " --order " + word,
+                                 "one order of the elements (1 or 2) and one of the constraints (random, "
+                                 "given or halving) is expected");
+    given = word;
+  }
+  if (!of_elements.empty()) arguments.elements.order = of_elements == "2" ? 2 : 1;
+}
+
 std::optional<RepairOptions> repair_options(const MeshArguments& arguments, const Options& options) {
   if (!arguments.repair) return std::nullopt;
   RepairOptions repair;
@@ -179,7 +192,7 @@ Json to_json(const MeshArguments& arguments) {
   for (const std::filesystem::path& path : arguments.surfaces) surfaces.push_back(path.string());
   return {{"surfaces", surfaces},
           {"surface_of", arguments.surface_of},
-          {"output", arguments.output.string()},
+          {"output", arguments.output.path.string()},
           {"fill", arguments.fill},
           {"size", arguments.size.value_or(0)},
           {"gradation", arguments.gradation.value_or(Sizes{}.gradation)},

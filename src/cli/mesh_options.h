@@ -9,17 +9,18 @@
 #include "bound_options.h"
 #include "holdfast/holdfast.h"
 #include "holdfast/repair.h"
+#include "mesh_output.h"
 #include "order_options.h"
 #include "report.h"
-#include "write_options.h"
 
 namespace holdfast::cli {
 
 /// What the user typed.
 struct MeshArguments {
   std::vector<std::filesystem::path> surfaces;
-  std::filesystem::path output, report, exact, html, repaired;
-  std::string input_format, format;
+  std::filesystem::path report, exact, html, repaired;
+  OutputArguments output;
+  std::string input_format;
   double tolerance = 0;
   bool surface_of = false, fill = false, drop_outside = false, quiet = false, verbose = false;
   std::optional<std::string> keep, quality, overlap;
@@ -35,8 +36,11 @@ struct MeshArguments {
   std::uint64_t seed = 1;
   unsigned threads = 1;
   std::optional<double> time_limit, memory_limit;
-  WriteArguments writing;
 };
+
+/// Takes the words of --order: at most one for the order of the elements, and one for that of the
+/// constraints. Throws CLI::ValidationError for more.
+void take_orders(MeshArguments& arguments, const std::vector<std::string>& words);
 
 /// The library's options, but for the size field. Reads no file. Throws UsageError that says what is wrong
 /// and what is right, also for options that do nothing beside others.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "command.h"
@@ -88,6 +89,33 @@ void drop_unused_vertices(Volume& volume) {
   renumber(volume.segments);
 }
 
+/// Facets with a tetrahedron on one side alone become seen from outside: an interface that looks into a
+/// region is its boundary where the other region is not there.
+void turn_outward(Volume& volume) {
+  std::map<Triangle, Index> listed;
+  for (Index f = 0; f < volume.facets.size(); ++f) listed.emplace(ascending(volume.facets[f]), f);
+  std::vector<int> inward(volume.facets.size(), 0), sides(volume.facets.size(), 0);
+  const auto turns_as = [](const Triangle& a, const Triangle& b) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (a[0] == b[k]) return a[1] == b[(k + 1) % 3];
+    return false;
+  };
+  for (const Tetrahedron& t : volume.tetrahedra)
+    for (const Triangle& face : {Triangle{t[1], t[2], t[3]}, Triangle{t[0], t[3], t[2]},
+                                 Triangle{t[0], t[1], t[3]}, Triangle{t[0], t[2], t[1]}}) {
+      const auto found = listed.find(ascending(face));
+      if (found == listed.end()) continue;
+      ++sides[found->second];
+      if (!turns_as(face, volume.facets[found->second])) ++inward[found->second];
+    }
+  for (std::size_t f = 0; f < volume.facets.size(); ++f) {
+    if (sides[f] != 1 || inward[f] != 1) continue;
+    std::swap(volume.facets[f][1], volume.facets[f][2]);
+    if (!volume.mid_nodes.facets.empty())  // of the edges 01 12 02
+      std::swap(volume.mid_nodes.facets[f][0], volume.mid_nodes.facets[f][2]);
+  }
+}
+
 void take_regions(Volume& volume, const std::vector<std::string>& regions) {
   std::set<int> ids;
   const std::set<int> present(volume.regions.begin(), volume.regions.end());
@@ -112,6 +140,7 @@ void take_regions(Volume& volume, const std::vector<std::string>& regions) {
   keep(volume.facets, volume.facet_markers, volume.mid_nodes.facets, [&](std::size_t f) {
     return std::binary_search(faces.begin(), faces.end(), ascending(volume.facets[f]));
   });
+  turn_outward(volume);
   keep(volume.segments, volume.segment_markers, volume.mid_nodes.segments, [&](std::size_t s) {
     const auto [a, b] = volume.segments[s];
     return std::binary_search(edges.begin(), edges.end(), Segment{std::min(a, b), std::max(a, b)});

@@ -45,7 +45,8 @@ Paths tetgen_files(const std::filesystem::path& path) {
 
 Paths files_of_surface(const std::filesystem::path& path, std::string_view format) {
   const std::string extension = extension_of(path, format);
-  if (extension == ".vtu" || extension == ".vtm") return files_of_volume(path, format);
+  for (const std::string_view of_several : {".vtu", ".vtm", ".xdmf", ".openfoam", ""})
+    if (extension == of_several) return files_of_volume(path, format);
   if ((extension == ".poly" || extension == ".smesh") && has_nodes_beside(path))
     return {path, io::sibling(path, ".node")};
   return {path};

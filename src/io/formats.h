@@ -76,18 +76,24 @@ void write_vtu(const std::filesystem::path& path, const Volume& volume, const Wr
 /// Writes both, and NAME.vtm, which names them as blocks.
 void write_vtm(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options,
                Watch& watch);
+/// Also reads the .h5 files that it names, and NAME_surface.xdmf where the file says that there is one.
+[[nodiscard]] MeshData read_xdmf(const Source& source);
 /// Writes NAME.xdmf and NAME_surface.xdmf, each with its arrays in a file .h5 of its name.
 void write_xdmf(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options,
                 Watch& watch);
 [[nodiscard]] std::vector<Remark> not_in_xdmf(const Volume& volume, const WriteOptions& options);
+[[nodiscard]] MeshData read_med(const Source& source);
+void write_med(AtomicWriter& out, const Volume& volume);
+[[nodiscard]] std::vector<Remark> not_in_med(const Volume& volume, const WriteOptions& options);
+/// The folder that the source names; it has no bytes of its own.
+[[nodiscard]] MeshData read_openfoam(const Source& source);
 /// Writes OpenFOAM's polyMesh into a folder, which is made where it is not there.
 void write_openfoam(const std::filesystem::path& folder, const Volume& volume, const WriteOptions& options,
                     Watch& watch);
 [[nodiscard]] std::vector<Remark> not_in_openfoam(const Volume& volume, const WriteOptions& options);
-/// Whether a path names a folder polyMesh, which tells the format as an ending does.
-[[nodiscard]] inline bool is_poly_mesh(const std::filesystem::path& path) {
-  return (path.has_filename() ? path : path.parent_path()).filename() == "polyMesh";
-}
+/// Whether a path names a folder polyMesh, or one of a case that has it, which tells the format as an ending
+/// does.
+[[nodiscard]] bool is_poly_mesh(const std::filesystem::path& path);
 /// The polyMesh folder that a path names: this itself, or constant/polyMesh in the case.
 [[nodiscard]] std::filesystem::path poly_mesh_of(const std::filesystem::path& path);
 /// The files in it, as they are written.

@@ -1,8 +1,7 @@
-// Writes HDF5 files by the HDF5 file format specification, version 2.0, with the oldest of its structures,
-// which every version of the library reads: superblock 0, a group as a B-tree of version 1 with one leaf, and
-// contiguous arrays.
+// Writes HDF5 files by the HDF5 file format specification, version 2.0, with structures that every version of
+// the library from 1.8 on reads: superblock 0, object headers of version 1, contiguous arrays.
 //
-//   superblock | root's object header | B-tree node | local heap of names | leaf | object headers | arrays
+//   superblock | of each group its members, then its object header with links to them | values of the arrays
 #include "io/hdf5_write.h"
 
 #include <algorithm>
@@ -15,9 +14,8 @@ namespace holdfast::io {
 namespace {
 
 constexpr std::uint64_t kUndefined = ~std::uint64_t{0};
-constexpr std::size_t kLeafK = 4, kInternalK = 16;  // half of the entries of a leaf and of an inner node
-constexpr std::size_t kSuperblock = 96, kRootHeader = 40, kTree = 24 + 8 * (4 * kInternalK + 1),
-                      kHeapHead = 32, kLeaf = 8 + 2 * kLeafK * 40;
+constexpr std::uint16_t kLeafK = 4, kInternalK = 16;  // of B-trees, which there are none of
+constexpr std::size_t kSuperblock = 96, kMostMessages = 65000;
 
 class Bytes {
  public:
@@ -28,8 +26,6 @@ class Bytes {
   }
   Bytes& text(std::string_view text) { return bytes_.append(text), *this; }
   Bytes& zeros(std::size_t count) { return bytes_.append(count, '\0'), *this; }
-  /// Zeros up to a size.
-  Bytes& fill(std::size_t size) { return zeros(size - bytes_.size()); }
   [[nodiscard]] std::size_t size() const { return bytes_.size(); }
   [[nodiscard]] const std::string& all() const { return bytes_; }
 
@@ -39,13 +35,40 @@ class Bytes {
 
 std::size_t round_up(std::size_t size) { return (size + 7) / 8 * 8; }
 
-std::size_t bytes_of(Hdf5Type type) { return type == Hdf5Type::int32 ? 4 : 8; }
+Bytes padded(Bytes bytes) { return bytes.zeros(round_up(bytes.size()) - bytes.size()); }
 
-Bytes dataspace(const Hdf5Array& array) {
-  const bool is_matrix = array.columns != 1;
+std::size_t bytes_of(Hdf5Type type) {
+  switch (type) {
+    case Hdf5Type::text80:
+      return 80;
+    case Hdf5Type::int32:
+      return 4;
+    default:
+      return 8;
+  }
+}
+
+Bytes dataspace(std::initializer_list<std::uint64_t> shape) {
   Bytes bytes;
-  bytes.put<std::uint8_t>(1).put<std::uint8_t>(is_matrix ? 2 : 1).zeros(6).put(array.rows);
-  if (is_matrix) bytes.put(array.columns);
+  bytes.put<std::uint8_t>(1).put(static_cast<std::uint8_t>(shape.size())).zeros(6);
+  for (const std::uint64_t n : shape) bytes.put(n);
+  return bytes;
+}
+Bytes dataspace(const Hdf5Array& array) {
+  return array.columns == 1 ? dataspace({array.rows}) : dataspace({array.rows, array.columns});
+}
+
+Bytes integer_type(std::uint32_t size) {
+  Bytes bytes;  // version 1, class 0; little endian, signed
+  bytes.put<std::uint8_t>(0x10).put<std::uint8_t>(0x08).put<std::uint8_t>(0).put<std::uint8_t>(0);
+  bytes.put(size).put<std::uint16_t>(0).put(static_cast<std::uint16_t>(8 * size));
+  return bytes;
+}
+
+/// A text with a zero at its end.
+Bytes text_type(std::uint32_t size) {
+  Bytes bytes;  // version 1, class 3
+  bytes.put<std::uint8_t>(0x13).zeros(3).put(size);
   return bytes;
 }
 
@@ -57,11 +80,13 @@ Bytes datatype(Hdf5Type type) {
     bytes.put<std::uint32_t>(8).put<std::uint16_t>(0).put<std::uint16_t>(64);
     bytes.put<std::uint8_t>(52).put<std::uint8_t>(11).put<std::uint8_t>(0).put<std::uint8_t>(52);
     bytes.put<std::uint32_t>(1023);
+  } else if (type == Hdf5Type::text80) {
+    // Version 2, class 10: an array of 80 integers of a byte each.
+    bytes.put<std::uint8_t>(0x2A).zeros(3).put<std::uint32_t>(80);
+    bytes.put<std::uint8_t>(1).zeros(3).put<std::uint32_t>(80).put<std::uint32_t>(0);
+    bytes.text(integer_type(1).all());
   } else {
-    const auto size = static_cast<std::uint32_t>(bytes_of(type));
-    // Version 1, class 0; little endian, signed.
-    bytes.put<std::uint8_t>(0x10).put<std::uint8_t>(0x08).put<std::uint8_t>(0).put<std::uint8_t>(0);
-    bytes.put(size).put<std::uint16_t>(0).put(static_cast<std::uint16_t>(8 * size));
+    bytes = integer_type(static_cast<std::uint32_t>(bytes_of(type)));
   }
   return bytes.zeros(round_up(bytes.size()) - bytes.size());
 }
@@ -92,17 +117,106 @@ Bytes header(const std::vector<std::pair<std::uint16_t, Bytes>>& messages) {
   return bytes;
 }
 
-Bytes array_header(const Hdf5Array& array, std::uint64_t address) {
-  return header({{0x0001, dataspace(array)},
-                 {0x0003, datatype(array.type)},
-                 {0x0005, fill_value()},
-                 {0x0008, layout(address, array.rows * array.columns * bytes_of(array.type))}});
+using Messages = std::vector<std::pair<std::uint16_t, Bytes>>;
+
+Bytes attribute(const Hdf5Attribute& attribute) {
+  Bytes type, value;
+  if (const auto* const text = std::get_if<std::string>(&attribute.value)) {
+    type = text_type(static_cast<std::uint32_t>(text->size() + 1));
+    value.text(*text).zeros(1);
+  } else if (const auto* const real = std::get_if<double>(&attribute.value)) {
+    type = datatype(Hdf5Type::float64);
+    value.put(*real);
+  } else {
+    type = integer_type(4);
+    value.put(std::get<std::int32_t>(attribute.value));
+  }
+  const Bytes space = dataspace({});
+  Bytes bytes;  // version 1
+  bytes.put<std::uint8_t>(1).zeros(1).put(static_cast<std::uint16_t>(attribute.name.size() + 1));
+  bytes.put(static_cast<std::uint16_t>(type.size())).put(static_cast<std::uint16_t>(space.size()));
+  Bytes name;
+  name.text(attribute.name).zeros(1);
+  bytes.text(padded(name).all()).text(padded(type).all()).text(padded(space).all()).text(value.all());
+  return padded(bytes);
 }
+
+void add_attributes(Messages& messages, const std::vector<Hdf5Attribute>& attributes) {
+  for (const Hdf5Attribute& one : attributes) messages.emplace_back(0x000C, attribute(one));
+}
+
+/// All of a file but the values of its arrays, which follow from `values_begin`.
+class Metadata {
+ public:
+  Metadata(const Hdf5Group& root, std::uint64_t values_begin) : values_end_(values_begin) {
+    bytes_.zeros(kSuperblock);
+    const std::uint64_t header = add_group(root);
+    Bytes head;
+    head.text("\x89HDF\r\n\x1a\n").zeros(5).put<std::uint8_t>(8).put<std::uint8_t>(8).zeros(1);
+    head.put(kLeafK).put(kInternalK).zeros(4);
+    head.put<std::uint64_t>(0).put(kUndefined).put(values_end_).put(kUndefined);
+    head.put<std::uint64_t>(0).put(header).zeros(24);  // the root's entry
+    superblock_ = head.all();
+  }
+
+  [[nodiscard]] std::size_t size() const { return bytes_.size(); }
+  [[nodiscard]] std::string all() const { return superblock_ + bytes_.all().substr(kSuperblock); }
+  /// In the order of their values.
+  [[nodiscard]] const std::vector<const Hdf5Array*>& arrays() const { return arrays_; }
+
+ private:
+  std::uint64_t add(const Bytes& block) {
+    const std::uint64_t at = bytes_.size();
+    bytes_.text(block.all()).zeros(round_up(bytes_.size()) - bytes_.size());
+    return at;
+  }
+
+  std::uint64_t add_array(const Hdf5Array& array) {
+    const std::uint64_t size = array.rows * array.columns * bytes_of(array.type);
+    Messages messages{{0x0001, dataspace(array)},
+                      {0x0003, datatype(array.type)},
+                      {0x0005, fill_value()},
+                      {0x0008, layout(values_end_, size)}};
+    add_attributes(messages, array.attributes);
+    values_end_ += round_up(size);
+    arrays_.push_back(&array);
+    return add(header(messages));
+  }
+
+  /// A group with its links in its header, in the order in which they are made, by which MED finds them.
+  std::uint64_t add_group(const Hdf5Group& group) {
+    if (group.arrays.size() + group.groups.size() + group.attributes.size() > kMostMessages)
+      throw std::invalid_argument("more sets than a group of HDF5 holds here");
+    Messages links;
+    const auto link = [&](const std::string& name, std::uint64_t object) {
+      Bytes bytes;  // version 1; with its number, and the length of the name in a byte
+      bytes.put<std::uint8_t>(1).put<std::uint8_t>(4).put(static_cast<std::uint64_t>(links.size()));
+      bytes.put(static_cast<std::uint8_t>(name.size())).text(name).put(object);
+      links.emplace_back(0x0006, padded(std::move(bytes)));
+    };
+    for (const Hdf5Array& array : group.arrays) link(array.name, add_array(array));
+    for (const Hdf5Group& inner : group.groups) link(inner.name, add_group(inner));
+    Bytes info, phases;
+    info.zeros(1).put<std::uint8_t>(1).put(static_cast<std::uint64_t>(links.size()));  // numbers are kept
+    info.put(kUndefined).put(kUndefined);                                              // no links elsewhere
+    constexpr std::uint16_t kMostInHeader = 65535, kLeastElsewhere = 65534;
+    phases.zeros(1).put<std::uint8_t>(1).put(kMostInHeader).put(kLeastElsewhere);
+    Messages messages{{0x0002, padded(std::move(info))}, {0x000A, padded(std::move(phases))}};
+    messages.insert(messages.end(), links.begin(), links.end());
+    add_attributes(messages, group.attributes);
+    return add(header(messages));
+  }
+
+  Bytes bytes_;
+  std::string superblock_;
+  std::uint64_t values_end_;
+  std::vector<const Hdf5Array*> arrays_;
+};
 
 void put_values(AtomicWriter& out, const Hdf5Array& array) {
   const std::size_t size = bytes_of(array.type), count = array.rows * array.columns;
   const char* const values = static_cast<const char*>(array.values);
-  if (std::endian::native == std::endian::little) {
+  if (std::endian::native == std::endian::little || array.type == Hdf5Type::text80) {
     out << std::string_view(values, count * size);
   } else {
     std::string turned;
@@ -117,56 +231,11 @@ void put_values(AtomicWriter& out, const Hdf5Array& array) {
 
 }  // namespace
 
-void write_hdf5(AtomicWriter& out, std::vector<Hdf5Array> arrays) {
-  if (arrays.size() > 2 * kLeafK) throw std::invalid_argument("more arrays than one leaf of a group holds");
-  std::sort(arrays.begin(), arrays.end(),
-            [](const Hdf5Array& a, const Hdf5Array& b) { return a.name < b.name; });
-  Bytes names;
-  names.zeros(8);
-  std::vector<std::uint64_t> name_at;
-  for (const Hdf5Array& array : arrays) {
-    name_at.push_back(names.size());
-    names.text(array.name).zeros(round_up(array.name.size() + 1) - array.name.size());
-  }
-  const std::uint64_t tree = kSuperblock + kRootHeader, heap = tree + kTree,
-                      leaf = heap + kHeapHead + names.size();
-  std::vector<std::uint64_t> header_at;
-  std::uint64_t end = leaf + kLeaf;
-  for (const Hdf5Array& array : arrays) {
-    header_at.push_back(end);
-    end += array_header(array, 0).size();
-  }
-  std::vector<std::uint64_t> values_at;
-  for (const Hdf5Array& array : arrays) {
-    values_at.push_back(end);
-    end += round_up(array.rows * array.columns * bytes_of(array.type));
-  }
-
-  Bytes head;
-  head.text("\x89HDF\r\n\x1a\n").zeros(5).put<std::uint8_t>(8).put<std::uint8_t>(8).zeros(1);
-  head.put(static_cast<std::uint16_t>(kLeafK)).put(static_cast<std::uint16_t>(kInternalK)).zeros(4);
-  head.put<std::uint64_t>(0).put(kUndefined).put(end).put(kUndefined);
-  // The root's entry, with the addresses of its tree and names at hand.
-  head.put<std::uint64_t>(0)
-      .put<std::uint64_t>(kSuperblock)
-      .put<std::uint32_t>(1)
-      .zeros(4)
-      .put(tree)
-      .put(heap);
-  Bytes symbols;
-  symbols.put(tree).put(heap);
-  head.text(header({{0x0011, symbols}}).all());
-  head.text("TREE").zeros(2).put<std::uint16_t>(arrays.empty() ? 0 : 1).put(kUndefined).put(kUndefined);
-  head.put<std::uint64_t>(0).put(leaf).put(arrays.empty() ? std::uint64_t{0} : name_at.back());
-  head.fill(heap);
-  head.text("HEAP").zeros(4).put<std::uint64_t>(names.size()).put<std::uint64_t>(1).put(heap + kHeapHead);
-  head.text(names.all());
-  head.text("SNOD").put<std::uint8_t>(1).zeros(1).put(static_cast<std::uint16_t>(arrays.size()));
-  for (std::size_t i = 0; i < arrays.size(); ++i) head.put(name_at[i]).put(header_at[i]).zeros(24);
-  head.fill(leaf + kLeaf);
-  for (std::size_t i = 0; i < arrays.size(); ++i) head.text(array_header(arrays[i], values_at[i]).all());
-  out << head.all();
-  for (const Hdf5Array& array : arrays) put_values(out, array);
+void write_hdf5(AtomicWriter& out, const Hdf5Group& root) {
+  // The size does not depend on where the values begin.
+  const Metadata metadata(root, Metadata(root, 0).size());
+  out << metadata.all();
+  for (const Hdf5Array* const array : metadata.arrays()) put_values(out, *array);
 }
 
 }  // namespace holdfast::io

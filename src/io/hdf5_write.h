@@ -1,10 +1,9 @@
-// As much of HDF5 as a mesh needs: arrays of numbers in the root group of a file.
+// As much of HDF5 as a mesh needs: groups with attributes, and arrays of numbers and texts.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
-#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "holdfast/types.h"
@@ -12,17 +11,35 @@
 
 namespace holdfast::io {
 
-enum class Hdf5Type { int32, int64, float64 };
+struct Hdf5Attribute {
+  std::string name;
+  std::variant<std::int32_t, double, std::string> value;
+};
+
+enum class Hdf5Type {
+  int32,
+  int64,
+  float64,
+  text80,  ///< 80 bytes, of which those behind the text are zeros, as MED has its names
+};
 
 /// An array of rows of numbers; its values stay with the caller.
 struct Hdf5Array {
-  std::string name;  ///< not empty; names differ
+  std::string name;  ///< not empty, without slashes; names in a group differ
   Hdf5Type type;
   std::uint64_t rows, columns;
   const void* values;  ///< rows * columns of the type, in the machine's byte order
+  std::vector<Hdf5Attribute> attributes = {};
 };
 
-/// Writes a file of at most eight arrays. Throws std::invalid_argument for more.
-void write_hdf5(AtomicWriter& out, std::vector<Hdf5Array> arrays);
+struct Hdf5Group {
+  std::string name;  ///< as of arrays; the root has none
+  std::vector<Hdf5Attribute> attributes = {};
+  std::vector<Hdf5Array> arrays = {};
+  std::vector<Hdf5Group> groups = {};
+};
+
+/// Writes a file. Throws std::invalid_argument for more than 65,000 members of a group.
+void write_hdf5(AtomicWriter& out, const Hdf5Group& root);
 
 }  // namespace holdfast::io

@@ -68,12 +68,24 @@ constexpr Format kFormats[] = {
     {".su2", read_su2, read_su2, write_file<write_su2>, not_in_su2},
     {".mfem", read_mfem, read_mfem, write_file<write_mfem>, not_in_mfem},
     {".vol", read_vol, read_vol, write_file<write_vol>, not_in_vol},
-    {".xdmf", nullptr, nullptr, write_xdmf, not_in_xdmf},
-    {".openfoam", nullptr, nullptr, write_openfoam, not_in_openfoam},
+    {".xdmf", read_xdmf, read_xdmf, write_xdmf, not_in_xdmf},
+    {".med", read_med, read_med, write_file<write_med>, not_in_med},
+    {".openfoam", read_openfoam, read_openfoam, write_openfoam, not_in_openfoam},
     {".node", read_node, read_tetgen_volume, write_tetgen_files},
     {".ele", nullptr, read_tetgen_volume, write_tetgen_files},
     {".face", nullptr, read_tetgen_volume, write_tetgen_files},
 };
+
+/// The bytes of a file; none of a format that is a folder.
+std::optional<FileBytes> bytes_of(const std::filesystem::path& path, const Format& format, Watch& watch) {
+  std::optional<FileBytes> bytes;
+  if (format.extension != ".openfoam") bytes.emplace(path, &watch);
+  watch.step(kRead);
+  return bytes;
+}
+std::string_view view_of(const std::optional<FileBytes>& bytes) {
+  return bytes ? bytes->view() : std::string_view();
+}
 
 /// The format's name as the table spells it: in lower case, with a dot.
 std::string extension_of(const std::filesystem::path& path, std::string_view format) {
@@ -167,12 +179,11 @@ MeshData parse_volume(const Source& source, std::string_view format) {
 
 Surface read_surface(const std::filesystem::path& path, const ReadOptions& options) {
   const FloatEnvironment environment;
-  static_cast<void>(io::surface_format(path, options.format));  // before a large file is read in vain
+  const io::Format& format = io::surface_format(path, options.format);
   io::Watch watch(options, options.progress);
-  const io::FileBytes bytes(path, &watch);
-  watch.step(io::kRead);
+  const auto bytes = io::bytes_of(path, format, watch);
   io::MeshData mesh =
-      io::parse_surface({path, bytes.view(), false, &watch, io::tolerance_of(options)}, options.format);
+      io::parse_surface({path, io::view_of(bytes), false, &watch, io::tolerance_of(options)}, options.format);
   Surface surface;
   surface.vertex_markers = mesh.vertex_markers.take(mesh.vertices.size());
   surface.facet_markers = mesh.facet_markers.take(mesh.facets.size());
@@ -192,12 +203,11 @@ Surface read_surface(const std::filesystem::path& path, const ReadOptions& optio
 Volume read_volume(const std::filesystem::path& path, const ReadOptions& options,
                    std::vector<Remark>* remarks) {
   const FloatEnvironment environment;
-  static_cast<void>(io::volume_format(path, options.format));
+  const io::Format& format = io::volume_format(path, options.format);
   io::Watch watch(options, options.progress);
-  const io::FileBytes bytes(path, &watch);
-  watch.step(io::kRead);
+  const auto bytes = io::bytes_of(path, format, watch);
   io::MeshData mesh =
-      io::parse_volume({path, bytes.view(), false, &watch, io::tolerance_of(options)}, options.format);
+      io::parse_volume({path, io::view_of(bytes), false, &watch, io::tolerance_of(options)}, options.format);
   Volume volume;
   volume.regions = mesh.regions.take(mesh.tetrahedra.size());
   volume.regions.resize(mesh.tetrahedra.size(), 0);

@@ -30,12 +30,15 @@ constexpr std::string_view kFiles[] = {"points",   "faces",     "owner",    "nei
 class FoamFile {
  public:
   FoamFile(const std::filesystem::path& folder, std::string_view object, std::string_view type, bool gzip,
-           Watch& watch, const std::string& note = {})
+           Watch& watch, const std::string& note = {}, const Labels* labels = nullptr)
       : out_(folder / (std::string(object) + (gzip ? ".gz" : "")), &watch), gzip_(gzip) {
     constexpr int kWindowOfGzip = 15 + 16;
     if (gzip_ && deflateInit2(&stream_, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kWindowOfGzip, 8,
                               Z_DEFAULT_STRATEGY) != Z_OK)
       throw std::bad_alloc();
+    if (labels != nullptr)  // what a reader finds the ids of names by
+      for (const auto& [id, name] : labels->names)
+        *this << "// " << labels->stem << " " << id << " " << name << "\n";
     *this << "FoamFile\n{\n    version     2.0;\n    format      ascii;\n    class       " << type << ";\n";
     if (!note.empty()) *this << "    note        \"" << note << "\";\n";
     *this << "    location    \"constant/polyMesh\";\n    object      " << object << ";\n}\n\n";
@@ -255,6 +258,12 @@ void write_face_zones(FoamFile& file, const FoamMesh& mesh, const Volume& volume
 
 }  // namespace
 
+bool is_poly_mesh(const std::filesystem::path& path) {
+  if ((path.has_filename() ? path : path.parent_path()).filename() == "polyMesh") return true;
+  std::error_code error;
+  return !path.empty() && std::filesystem::is_directory(path / "constant" / "polyMesh", error);
+}
+
 std::filesystem::path poly_mesh_of(const std::filesystem::path& path) {
   const std::filesystem::path named = path.has_filename() ? path : path.parent_path();
   return named.filename() == "polyMesh" ? named : named / "constant" / "polyMesh";
@@ -282,9 +291,9 @@ void write_openfoam(const std::filesystem::path& path, const Volume& volume, con
   FoamFile faces(folder, "faces", "faceList", gzip, watch);
   FoamFile owner(folder, "owner", "labelList", gzip, watch, note);
   FoamFile neighbour(folder, "neighbour", "labelList", gzip, watch, note);
-  FoamFile boundary(folder, "boundary", "polyBoundaryMesh", gzip, watch);
-  FoamFile cell_zones(folder, "cellZones", "regIOobject", gzip, watch);
-  FoamFile face_zones(folder, "faceZones", "regIOobject", gzip, watch);
+  FoamFile boundary(folder, "boundary", "polyBoundaryMesh", gzip, watch, {}, &mesh.facets);
+  FoamFile cell_zones(folder, "cellZones", "regIOobject", gzip, watch, {}, &mesh.regions);
+  FoamFile face_zones(folder, "faceZones", "regIOobject", gzip, watch, {}, &mesh.facets);
   write_faces(points, faces, owner, neighbour, mesh, volume, watch);
   write_patches(boundary, mesh);
   write_cell_zones(cell_zones, mesh);

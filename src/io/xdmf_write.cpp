@@ -1,7 +1,7 @@
 // Writes XDMF 3 with its arrays in HDF5 (xdmf.org, "XDMF model and format"), as DOLFINx and meshio read it:
 // NAME.xdmf has a grid "mesh" of tetrahedra and its arrays in NAME.h5, NAME_surface.xdmf one of triangles on
 // the same points and its arrays in NAME_surface.h5, since DOLFINx looks for arrays in the file of the same
-// name alone. In one file, the second grid is "surface".
+// name alone. In one file, the second grid is "surface"; without tetrahedra, the one of triangles is "mesh".
 #include "io/formats.h"
 #include "io/hdf5_write.h"
 #include "io/mesh_sets.h"
@@ -46,8 +46,9 @@ void write_item(AtomicWriter& out, const std::string& file, std::string_view arr
 }
 
 /// Names as meshio has them.
-void write_names(AtomicWriter& out, const Names& names) {
-  const VtkFields fields = vtk_fields(names);
+void write_names(AtomicWriter& out, const Names& names, bool surface_is_beside) {
+  VtkFields fields = vtk_fields(names);
+  if (surface_is_beside) fields[kSurfaceBeside] = {{1, -1}};  // of no dimension, so that it names nothing
   if (fields.empty()) return;
   out << "<Information Name=\"Information\" Value=\"" << std::uint64_t{fields.size()} << "\"><![CDATA[<main>";
   for (const auto& [name, pairs] : fields)
@@ -57,7 +58,8 @@ void write_names(AtomicWriter& out, const Names& names) {
 }
 
 void write_grid(AtomicWriter& out, const Heavy& heavy, std::string_view grid, std::string_view shape,
-                const Topology& topology, std::string_view cells, std::string_view ids, const Names& names) {
+                const Topology& topology, std::string_view cells, std::string_view ids, const Names& names,
+                bool surface_is_beside = false) {
   out << "<Grid Name=\"" << grid << "\" GridType=\"Uniform\">\n<Topology TopologyType=\"" << shape
       << "\" NumberOfElements=\"" << topology.cells << "\" NodesPerElement=\"" << topology.nodes_each
       << "\">\n";
@@ -67,7 +69,7 @@ void write_grid(AtomicWriter& out, const Heavy& heavy, std::string_view grid, st
   out << "</Geometry>\n<Attribute Name=\"" << ids << "\" AttributeType=\"Scalar\" Center=\"Cell\">\n";
   write_item(out, heavy.file, ids, topology.cells, 1, "Int", 4);
   out << "</Attribute>\n";
-  write_names(out, names);
+  write_names(out, names, surface_is_beside);
   out << "</Grid>\n";
 }
 
@@ -93,7 +95,8 @@ void write_xdmf(const std::filesystem::path& path, const Volume& volume, const W
                               surface_heavy_path = surface_beside(heavy_path);
   const std::string heavy_name = escaped(heavy_path.filename().string()),
                     surface_heavy_name = escaped(surface_heavy_path.filename().string());
-  const bool alone = options.one_file || facets.cells == 0;
+  const bool is_surface = tetrahedra.cells == 0 && facets.cells > 0;
+  const bool alone = options.one_file || facets.cells == 0 || is_surface;
   const std::vector<Hdf5Array> of_facets{
       {"triangles", Hdf5Type::int64, facets.cells, facets.nodes_each, facets.nodes.data()},
       {"marker", Hdf5Type::int32, facets.cells, 1, facets.ids.data()}};
@@ -108,18 +111,20 @@ void write_xdmf(const std::filesystem::path& path, const Volume& volume, const W
       {"tetrahedra", Hdf5Type::int64, tetrahedra.cells, tetrahedra.nodes_each, tetrahedra.nodes.data()},
       {"region", Hdf5Type::int32, tetrahedra.cells, 1, tetrahedra.ids.data()}};
   if (alone && facets.cells > 0) arrays.insert(arrays.end(), of_facets.begin(), of_facets.end());
-  write_hdf5(heavy_file, arrays);
+  write_hdf5(heavy_file, {"", {}, arrays, {}});
 
   AtomicWriter volume_file(path, &watch);
   begin(volume_file);
-  write_grid(volume_file, {heavy_name, heavy_name, points.size()}, "mesh",
-             second ? "Tetrahedron_10" : "Tetrahedron", tetrahedra, "tetrahedra", "region", volume.names);
-  if (alone && facets.cells > 0) write_surface(volume_file, heavy_name, "surface");
+  if (!is_surface)
+    write_grid(volume_file, {heavy_name, heavy_name, points.size()}, "mesh",
+               second ? "Tetrahedron_10" : "Tetrahedron", tetrahedra, "tetrahedra", "region", volume.names,
+               !alone);
+  if (alone && facets.cells > 0) write_surface(volume_file, heavy_name, is_surface ? "mesh" : "surface");
   end(volume_file);
   std::optional<AtomicWriter> surface_file, surface_heavy_file;
   if (!alone) {
     surface_heavy_file.emplace(surface_heavy_path, &watch);
-    write_hdf5(*surface_heavy_file, of_facets);
+    write_hdf5(*surface_heavy_file, {"", {}, of_facets, {}});
     surface_file.emplace(surface_beside(path), &watch);
     begin(*surface_file);
     write_surface(*surface_file, surface_heavy_name, "mesh");

@@ -8,9 +8,7 @@
 #include "io/text_reader.h"
 
 namespace holdfast::io {
-namespace {
 
-/// Text whose five named entities are characters again; others stay as they are.
 std::string unescaped(std::string_view text) {
   constexpr std::pair<std::string_view, char> kEntities[] = {
       {"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
@@ -24,8 +22,6 @@ std::string unescaped(std::string_view text) {
   }
   return result;
 }
-
-}  // namespace
 
 std::string escaped(std::string_view text) {
   std::string result;

@@ -13,6 +13,8 @@ namespace holdfast::io {
 
 /// Text as an attribute between double quotes holds it.
 [[nodiscard]] std::string escaped(std::string_view text);
+/// The reverse: its five named entities are characters again; others stay as they are.
+[[nodiscard]] std::string unescaped(std::string_view text);
 
 struct XmlTag {
   std::string name;

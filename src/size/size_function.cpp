@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <stdexcept>
+#include <string>
 
+#include "holdfast/region_bounds.h"
 #include "numbers/elementary.h"
 
 namespace holdfast {
@@ -36,6 +40,19 @@ std::vector<double> edge_lengths(const Complex& complex, const SegmentTable& tab
   }
   for (std::size_t v = 0; v < sum.size(); ++v) sum[v] = count[v] == 0 ? kNoLimit : sum[v] / count[v];
   return sum;
+}
+
+void require_regions_of_bounds(std::span<const RegionSeed> seeds, const Kept& kept) {
+  std::set<int> ids;
+  for (std::size_t r = 0; r < kept.id.size(); ++r)
+    if (kept.region[r]) ids.insert(kept.id[r]);
+  for (const RegionSeed& seed : seeds) {
+    if (!is_bound_alone(seed) || ids.contains(seed.id)) continue;
+    std::string known;
+    for (const int id : ids) known += (known.empty() ? "" : ", ") + std::to_string(id);
+    throw std::invalid_argument("a largest volume is given for region " + std::to_string(seed.id) +
+                                ", which the mesh does not have; its regions are " + known);
+  }
 }
 
 }  // namespace
@@ -84,6 +101,7 @@ void SizeFunction::limit_regions(const Sizes& sizes, std::span<const RegionSeed>
   const auto limits = [](const RegionSeed& seed) { return seed.size > 0 || seed.max_volume > 0; };
   const auto bounds = [](const RegionSeed& seed) { return seed.max_volume > 0; };
   const auto volume = [&](double v) { return v > 0 ? std::ldexp(v, 3 * scale_) : kNoLimit; };
+  require_regions_of_bounds(seeds, kept);
   const bool has_bound = sizes.max_volume > 0 || std::any_of(seeds.begin(), seeds.end(), bounds);
   if (!has_bound && std::none_of(seeds.begin(), seeds.end(), limits)) return;
   of_region_.assign(kept.id.size(), most_);

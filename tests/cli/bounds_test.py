@@ -58,6 +58,16 @@ class Bounds(CliTest):
         self.assertLessEqual(self.largest(20), Fraction(0.02))
         self.assertTrue(Fraction(0.02) < self.largest(10) <= Fraction(0.5))
 
+    def test_by_region_that_no_seed_numbers(self):
+        self.box_in_box()
+        for number in (1, 2):
+            self.run_program("mesh", "boxes.off", "-o", "out.mesh", "--keep", "bounded", "--max-volume", f"{number}=0.01",
+                             "--name", f"region:{number}=fine")
+            self.assertLessEqual(self.largest(number), Fraction(0.01))
+            self.assertGreater(self.largest(3 - number), Fraction(0.01))
+        said = self.run_program("mesh", "boxes.off", "-o", "no.mesh", "--keep", "bounded", "--max-volume", "3=1", expect=2)
+        self.assertIn("its regions are 1, 2", said.stderr)
+
     def test_a_region_that_is_not_there_is_2(self):
         regions = self.box_in_box()
         for region in ("7", "shell"):

@@ -59,6 +59,31 @@ class Convert(CliTest):
         self.assertEqual(self.run_program("convert", "boxes.vtu", "boxes.stl", "-q").stderr, "")
         self.run_program("convert", "boxes.vtu", "boxes2.stl", "--only", "volume", expect=2)
 
+    def test_mesh_writes_its_boundary_in_a_format_of_surfaces(self):
+        self.write("boxes.off", off(cube(size=4) + cube((1, 1, 1)), CUBE_FACETS + shifted(CUBE_FACETS, 8)))
+        for name in ("out.stl", "out.ply", "out.obj", "out.off", "out.poly"):
+            said = self.run_program("mesh", "boxes.off", "-o", name, "--keep", "bounded").stderr
+            self.assertIn("tetrahedra and the ids of 2 regions are left out", said)
+            self.assertEqual(self.info(name)["triangles"], 24)
+            self.run_program("diagnose", name)
+        self.run_program("mesh", "boxes.off", "-o", "out2.stl", "--order", "2", expect=2)
+        self.run_program("mesh", "boxes.off", "-o", "out2.stl", "--binary", expect=2)
+        self.assertNotIn("out2.stl", self.files())
+
+    def test_each_region_has_a_closed_surface_seen_from_outside(self):
+        self.write("boxes.off", off(cube(size=4) + cube((1, 1, 1)), CUBE_FACETS + shifted(CUBE_FACETS, 8)))
+        names = ["--region", "0.5,0.5,0.5,10", "--region", "1.5,1.5,1.5,20", "--name", "region:20=inner / part"]
+        self.run_program("mesh", "boxes.off", "-o", "out.stl", "--keep", "bounded", "--each-region", *names)
+        self.run_program("mesh", "boxes.off", "-o", "out.vtu", "--keep", "bounded", *names)
+        self.run_program("convert", "out.vtu", "two.ply", "--each-region")
+        self.assertNotIn("out.stl", self.files())
+        for name in ("out_%s.stl", "two_%s.ply"):
+            for region, volume in (("inner___part", 1), ("region_10", 63)):
+                found = self.info(name % region)
+                self.assertTrue(found["closed"])
+                self.assertAlmostEqual(found["volume"], volume)
+        self.run_program("convert", "cube.off", "no.stl", "--each-region", expect=2)
+
     def test_only(self):
         self.boxes()
         self.run_program("convert", "boxes.vtu", "v.vtu", "--only", "volume")
@@ -76,6 +101,7 @@ class Convert(CliTest):
             self.assertEqual((found["triangles"], found["unused_vertices"]), (triangles, 0))
             self.run_program("convert", "boxes.vtu", "r.stl", "--only", f"region={region}", "-q")
             self.run_program("diagnose", "r.stl")
+            self.assertAlmostEqual(self.info("r.stl")["volume"], volume)
             self.assertEqual(self.info("r.stl")["triangles"], triangles)
         self.run_program("convert", "boxes.vtu", "core.stl", "--name", "region:20=core", "--only", "region=core")
         both = ["--only", "region=10", "--only", "region=20"]

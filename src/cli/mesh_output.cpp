@@ -1,0 +1,101 @@
+#include "mesh_output.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "command.h"
+#include "files.h"
+#include "holdfast/surface_io.h"
+#include "parts_of_mesh.h"
+#include "summary.h"
+
+namespace holdfast::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_one(const fs::path& path, const AnyTarget& target, const Volume& volume, bool quiet) {
+  if (target.holds_volumes) {
+    write_volume(path, volume, target.options);
+    if (!quiet) tell(not_held(path, volume, target.options), path);
+    return;
+  }
+  const Surface surface = surface_of(volume);
+  write_surface(path, surface, target.options);
+  if (!quiet) tell(not_held(path, surface, target.options), path);
+}
+
+/// A name as part of a file's: UTF-8 stays, and of ASCII letters, digits and what no shell or system minds.
+std::string in_file_name(const std::string& name) {
+  constexpr std::size_t longest = 100;
+  std::string text;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool stays = byte >= 0x80 || std::isalnum(byte) != 0 || c == '-' || c == '.' || c == '_';
+    text += stays ? c : '_';
+  }
+  if (text.size() <= longest) return text;
+  std::size_t end = longest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not within a character
+  return text.substr(0, end);
+}
+
+/// The file of each region, by id.
+std::map<int, fs::path> files_of_regions(const fs::path& path, const Volume& volume) {
+  std::map<int, fs::path> files;
+  std::set<std::string> taken;
+  for (const int id : std::set<int>(volume.regions.begin(), volume.regions.end())) {
+    const auto found = volume.names.regions.find(id);
+    const bool named = found != volume.names.regions.end() && !found->second.empty();
+    std::string name = named ? in_file_name(found->second) : fmt::format("region_{}", id);
+    std::string lower = name;  // some file systems know no case
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    if (!taken.insert(lower).second) name += fmt::format("_{}", id);
+    fs::path file = path.stem();
+    file += "_" + name;
+    file += path.extension();
+    files[id] = path.parent_path() / file;
+  }
+  return files;
+}
+
+}  // namespace
+
+void tell_of_surface_alone(const fs::path& path, const Volume& volume) {
+  const std::set<int> regions(volume.regions.begin(), volume.regions.end());
+  say("holdfast: {}: the format holds surfaces alone: {} and the ids of {} are left out\n", path.string(),
+      counted(volume.tetrahedra.size(), "tetrahedron", "tetrahedra"), counted(regions.size(), "region"));
+}
+
+AnyTarget output_target(FilesOfRun& files, const char* option, const OutputArguments& arguments) {
+  AnyTarget target = write_any(files, option, arguments.path, arguments.format);
+  VolumeTarget written{arguments.path, target.options};
+  apply(arguments.writing, written);
+  target.options = written.options;
+  if (arguments.each_region && (arguments.path == "/dev/stdout" || format_of(written) == ".openfoam"))
+    throw UsageError("--each-region needs the name of a file, beside which those of the regions are written");
+  return target;
+}
+
+void write_output(FilesOfRun& files, const OutputArguments& arguments, const AnyTarget& target,
+                  const Volume& volume, bool quiet) {
+  if (!arguments.each_region) {
+    if (!target.holds_volumes && !quiet) tell_of_surface_alone(arguments.path, volume);
+    return write_one(arguments.path, target, volume, quiet);
+  }
+  const std::map<int, fs::path> paths = files_of_regions(arguments.path, volume);
+  for (const auto& [id, path] : paths)
+    static_cast<void>(write_any(files, "--each-region", path, arguments.format));
+  for (const auto& [id, path] : paths) {
+    AnyMesh part{true, volume, {}, {}};
+    take_part(part, {Part::Kind::regions, {std::to_string(id)}});
+    write_one(path, target, part.volume, quiet);
+    if (!quiet) say("{}: region {}\n", path.string(), id);
+  }
+}
+
+}  // namespace holdfast::cli

@@ -1,0 +1,39 @@
+// Where a volume goes: a file of volumes, one of surfaces alone, or a file for each region.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "any_mesh.h"
+#include "files_of_run.h"
+#include "write_options.h"
+
+namespace holdfast::cli {
+
+/// Of --each-region.
+inline constexpr const char* each_region_help =
+    "Write a file for each region, NAME_REGION with its name or region_ID, where a format of surfaces has "
+    "the "
+    "closed surface of the region, seen from outside";
+
+/// What the user typed.
+struct OutputArguments {
+  std::filesystem::path path;
+  std::string format;
+  WriteArguments writing;
+  bool each_region = false;
+};
+
+/// Names the file, and makes its options. Throws UsageError.
+[[nodiscard]] AnyTarget output_target(FilesOfRun& files, const char* option,
+                                      const OutputArguments& arguments);
+
+/// Writes a volume, or its boundary and interfaces where the format holds surfaces alone, which is told
+/// unless `quiet`. Throws FileError, and UsageError if a file for a region would replace one that is in use.
+void write_output(FilesOfRun& files, const OutputArguments& arguments, const AnyTarget& target,
+                  const Volume& volume, bool quiet);
+
+/// Says that the tetrahedra and region ids of a volume have no place in a file.
+void tell_of_surface_alone(const std::filesystem::path& path, const Volume& volume);
+
+}  // namespace holdfast::cli

@@ -1,0 +1,18 @@
+// What reader and writer of MED files share (the layout of MED 3 and 4 in HDF5): element types and names.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace holdfast::io {
+
+/// MED sees a tetrahedron's first three corners turn the other way: of ours, its corners and nodes on edges.
+/// The order of edges is the same once the corners are exchanged.
+inline constexpr std::array<std::size_t, 10> kMedTetrahedron{0, 2, 1, 3, 6, 5, 4, 7, 9, 8};
+
+/// Groups of the file.
+inline constexpr std::string_view kMedMeshes = "ENS_MAA", kMedFamilies = "FAS",
+                                  kMedStep = "-0000000000000000001-0000000000000000001";
+
+}  // namespace holdfast::io
