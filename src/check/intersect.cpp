@@ -126,8 +126,8 @@ bool hinge_meets(const double* a, const double* b, const double* c, const double
   return orient_along(along.axis, a, b, d) == along.sign;
 }
 
-/// Whether the boxes of a segment and a triangle are disjoint. In a large fan they mostly are, while the
-/// boxes of two triangles of the fan have its centre in common.
+/// Whether the boxes of a segment and a triangle are disjoint. In a large fan or a book of many pages they
+/// mostly are, while the boxes of two triangles have its centre or parts of its spine in common.
 bool far_apart(const double* p, const double* q, const Corners& t) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto [low, high] = std::minmax({t[0][axis], t[1][axis], t[2][axis]});
@@ -144,6 +144,14 @@ bool opposite_side_meets(const Corners& s, const Corners& t) {
 
 /// Two triangles without a common vertex.
 bool sides_meet(const Corners& s, const Corners& t) {
+  std::array<bool, 3> far_s{}, far_t{};
+  bool all_far = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    far_t[i] = far_apart(t[i], t[(i + 1) % 3], s);
+    far_s[i] = far_apart(s[i], s[(i + 1) % 3], t);
+    all_far = all_far && far_t[i] && far_s[i];
+  }
+  if (all_far) return false;
   const auto sides = [](const Corners& plane, const Corners& of) {
     return std::array{side_of_plane(plane, of[0]), side_of_plane(plane, of[1]), side_of_plane(plane, of[2])};
   };
@@ -156,8 +164,8 @@ bool sides_meet(const Corners& s, const Corners& t) {
   if (one_side(side_s)) return false;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
-    if (segment_meets(t[i], t[j], side_t[i], side_t[j], s)) return true;
-    if (segment_meets(s[i], s[j], side_s[i], side_s[j], t)) return true;
+    if (!far_t[i] && segment_meets(t[i], t[j], side_t[i], side_t[j], s)) return true;
+    if (!far_s[i] && segment_meets(s[i], s[j], side_s[i], side_s[j], t)) return true;
   }
   return false;
 }

@@ -23,25 +23,36 @@ Vector cross(const Vector& a, const Vector& b) {
 }
 
 // Rounded vectors, for what decides nothing or has a bound on its error.
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-double length(const Point& a) { return numbers::hypot(a[0], a[1], a[2]); }
+template <class Real>
+using Rounded = std::array<Real, 3>;
+
+template <class Real>
+Rounded<Real> minus(const Point& a, const Point& b) {
+  return {Real{a[0]} - Real{b[0]}, Real{a[1]} - Real{b[1]}, Real{a[2]} - Real{b[2]}};
+}
+template <class Real>
+Real dot(const Rounded<Real>& a, const Rounded<Real>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+double length(const Rounded<double>& a) { return numbers::hypot(a[0], a[1], a[2]); }
+long double length(const Rounded<long double>& a) { return std::sqrt(dot(a, a)); }
 
 /// Where in the triangle a + s u + t v the point a + w has its nearest point, roughly: s, t >= 0, s + t <= 1.
-std::array<double, 2> nearest_weights(const Point& u, const Point& v, const Point& w) {
-  const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
-  const double det = uu * vv - uv * uv;
-  double s = (uw * vv - vw * uv) / det, t = (vw * uu - uw * uv) / det;
+template <class Real>
+std::array<Real, 2> nearest_weights(const Rounded<Real>& u, const Rounded<Real>& v, const Rounded<Real>& w) {
+  const Real uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
+  const Real det = uu * vv - uv * uv;
+  Real s = (uw * vv - vw * uv) / det, t = (vw * uu - uw * uv) / det;
   if (s >= 0 && t >= 0 && s + t <= 1) return {s, t};
   // Else the best of the three sides.
-  const auto clamped = [](double x) { return x > 0 ? std::min(x, 1.0) : 0.0; };
-  const double on_uv = clamped((vv - uv - uw + vw) / (uu - 2 * uv + vv));
-  const std::array<std::array<double, 2>, 3> sides{
+  const auto clamped = [](Real x) { return x > 0 ? std::min(x, Real{1}) : Real{0}; };
+  const Real on_uv = clamped((vv - uv - uw + vw) / (uu - 2 * uv + vv));
+  const std::array<std::array<Real, 2>, 3> sides{
       {{clamped(uw / uu), 0}, {0, clamped(vw / vv)}, {1 - on_uv, on_uv}}};
-  double best = std::numeric_limits<double>::infinity();
+  Real best = std::numeric_limits<Real>::infinity();
   for (const auto& [x, y] : sides) {
-    const Point r{w[0] - x * u[0] - y * v[0], w[1] - x * u[1] - y * v[1], w[2] - x * u[2] - y * v[2]};
-    const double square = dot(r, r);
+    const Rounded<Real> r{w[0] - x * u[0] - y * v[0], w[1] - x * u[1] - y * v[1], w[2] - x * u[2] - y * v[2]};
+    const Real square = dot(r, r);
     if (square < best) {
       best = square;
       s = x;
@@ -51,11 +62,25 @@ std::array<double, 2> nearest_weights(const Point& u, const Point& v, const Poin
   return {s, t};
 }
 
-double residual(const Point& p, const std::array<Point, 3>& t, double& scale) {
-  const Point u = minus(t[1], t[0]), v = minus(t[2], t[0]), w = minus(p, t[0]);
+template <class Real>
+Real residual(const Point& p, const std::array<Point, 3>& t, Real& scale) {
+  const Rounded<Real> u = minus<Real>(t[1], t[0]), v = minus<Real>(t[2], t[0]), w = minus<Real>(p, t[0]);
   const auto [x, y] = nearest_weights(u, v, w);
   scale = length(u) + length(v) + length(w);
-  return length({w[0] - x * u[0] - y * v[0], w[1] - x * u[1] - y * v[1], w[2] - x * u[2] - y * v[2]});
+  return length(
+      Rounded<Real>{w[0] - x * u[0] - y * v[0], w[1] - x * u[1] - y * v[1], w[2] - x * u[2] - y * v[2]});
+}
+
+/// A point of the triangle that is near enough, if rounding lets it be seen: differences have a relative
+/// error of half an ulp, and the residual is a sum of five terms none of which exceeds `scale`, each with at
+/// most three roundings. Weights that are not in the triangle, or no numbers, fail the comparison or go to
+/// the exact test.
+template <class Real>
+bool is_surely_near(const Point& p, const std::array<Point, 3>& t, double distance) {
+  constexpr Real kEpsilon = std::numeric_limits<Real>::epsilon();
+  Real scale = 0;
+  const Real found = residual(p, t, scale);
+  return found * (1 + 8 * kEpsilon) + 8 * kEpsilon * scale + Real{0x1p-1000} <= Real{distance};
 }
 
 }  // namespace
@@ -94,15 +119,9 @@ bool Reach::of_triangle(const Point& p, const std::array<Point, 3>& t) const {
   return of_segment(p, t[0], t[1]) || of_segment(p, t[1], t[2]) || of_segment(p, t[2], t[0]);
 }
 
-/// A point of the triangle that is near enough, if rounding lets it be seen: differences have a relative
-/// error of half an ulp, and the residual is a sum of five terms none of which exceeds `scale`, each with at
-/// most three roundings. Weights that are not in the triangle, or no numbers, fail the comparison or go to
-/// the exact test.
+/// Often the distance is that of rounding itself, which only the longer format sees, where there is one.
 bool Reach::surely_of_triangle(const Point& p, const std::array<Point, 3>& t) const {
-  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-  double scale = 0;
-  const double found = residual(p, t, scale);
-  return found * (1 + 8 * kEpsilon) + 8 * kEpsilon * scale + 0x1p-1000 <= distance_;
+  return is_surely_near<double>(p, t, distance_) || is_surely_near<long double>(p, t, distance_);
 }
 
 int compare_distance(const Point& p, const Point& q, double distance) {
@@ -122,7 +141,7 @@ bool inscribed_at_most(const std::array<Point, 3>& t, double distance) {
   return dot(n, n) <= bound * bound;
 }
 
-double rough_distance(const Point& p, const Point& q) { return length(minus(p, q)); }
+double rough_distance(const Point& p, const Point& q) { return length(minus<double>(p, q)); }
 
 double rough_distance(const Point& p, const std::array<Point, 3>& t) {
   double scale = 0;
