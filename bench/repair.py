@@ -26,7 +26,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "scripts"))
 import corpus  # noqa: E402  (where the independent checker is)
 
 LIMIT = 120  # seconds a program of ours
-OTHERS = 30  # seconds of CPU for one of another project: admesh does not end on some surfaces with T-junctions
+OTHERS = 10  # seconds of CPU for one of another project: admesh does not end on some surfaces with T-junctions
 
 
 def build_checker(folder):

@@ -123,9 +123,13 @@ class Arranging {
       std::vector<Index> number;
       for (std::size_t k = 0; k < cut.points.size(); ++k)
         number.push_back(pool_.add(std::move(cut.points[k]), cut.nearest[k]));
-      for (Triangle& t : cut.triangles)
-        for (Index& v : t)
-          if (v >= before) v = number[v - before];
+      const auto renumber = [&](auto& lists) {
+        for (auto& list : lists)
+          for (Index& v : list)
+            if (v >= before) v = number[v - before];
+      };
+      renumber(cut.triangles);
+      renumber(cut.sides);
       step_(0.9);
       check_size();
     }
@@ -224,33 +228,11 @@ class Arranging {
 
   /// Sides of facets that share area with others cross these in the sheet, without a meeting.
   void note_sides_in_sheets(std::map<std::array<Index, 2>, std::vector<Index>>& points_on) const {
-    for (std::size_t s = 0; s < sheets_.size(); ++s) {
-      if (sheets_[s].facets.size() < 2) continue;
-      std::vector<Index> used;
-      for (const Triangle& t : cut_[s].triangles) used.insert(used.end(), t.begin(), t.end());
-      sort_unique(used);
-      for (const Index f : sheets_[s].facets)
-        for (std::size_t i = 0; i < 3; ++i) {
-          const std::array<Index, 3>& v = elements_.all[f].vertex;
-          const auto at = points_on.find(ascending(std::array<Index, 2>{v[i], v[(i + 1) % 3]}));
-          if (at == points_on.end()) continue;
-          for (const Index p : used)
-            if (lies_between(v[i], v[(i + 1) % 3], p)) at->second.push_back(p);
-        }
-    }
-  }
-
-  [[nodiscard]] bool lies_between(Index a, Index b, Index p) const {
-    if (p == a || p == b || pool_.compare(a, p) * pool_.compare(p, b) <= 0) return false;
-    const exact::SpacePoint at =
-        pool_.is_vertex(p) ? exact::space_point(complex_.vertices[p].data()) : pool_.exact(p);
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      const exact::SpacePlane plane =
-          exact::upright_plane(complex_.vertices[a].data(), complex_.vertices[b].data(), axis);
-      if (exact::BigInt(plane.a * at.x + plane.b * at.y + plane.c * at.z + plane.d * at.w).sign() != 0)
-        return false;
-    }
-    return true;
+    for (const SheetTriangles& cut : cut_)
+      for (const std::vector<Index>& side : cut.sides) {
+        const auto at = points_on.find(ascending(std::array<Index, 2>{side.front(), side.back()}));
+        if (at != points_on.end()) at->second.insert(at->second.end(), side.begin() + 1, side.end() - 1);
+      }
   }
 
   [[nodiscard]] bool is_element_vertex(Index v) const {

@@ -219,6 +219,8 @@ class Sheet {
       std::vector<plane::EdgeCode> sides;
       for (std::size_t i = 0; i < 3; ++i) {
         const std::vector<Vertex> chain = mesh.chain(corner[i], corner[(i + 1) % 3]);
+        std::vector<Index>& points = result_.sides.emplace_back();
+        for (const Vertex v : chain) points.push_back(point_of_[v]);
         for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
           const plane::EdgeCode e = mesh.edge_between(chain[k], chain[k + 1]);
           sides.push_back(e);

@@ -40,6 +40,8 @@ struct SheetTriangles {
   std::vector<Index> first_parent, parents;  ///< of each, in ascending order, as indices of Elements::all
   std::vector<exact::SpacePoint> points;     ///< where traces cross: numbers from the pool's size on
   std::vector<Point> nearest;
+  /// Where it is made of several facets, the points on each of their sides in order, from end to end.
+  std::vector<std::vector<Index>> sides;
 };
 
 /// Triangulates a sheet. Points on the sides of its facets must be among `points`; where traces cross, it

@@ -53,8 +53,11 @@ struct Cluster {
 
 class Flattening {
  public:
-  Flattening(State& state, double gap, const RoundPlane& round, const Step& step)
-      : state_(state), gap_(gap), round_(round), step_(step) {}
+  Flattening(State& state, double gap, const RoundPlane& round, const Step& step, std::span<const Index> some)
+      : state_(state), gap_(gap), round_(round), step_(step) {
+    is_some_.assign(state.facets.size(), some.empty() ? 1 : 0);
+    for (const Index f : some) is_some_[f] = 1;
+  }
 
   double run() {
     in_cluster_.assign(state_.facets.size(), 0);
@@ -89,6 +92,7 @@ class Flattening {
     AabbTree(boxes).for_each_overlap(
         [&](Index i, Index j) {
           const Index f = facet[i], g = facet[j];
+          if (is_some_[f] + is_some_[g] == 0) return true;
           if ((lies_in(f, g) && overlap(f, g)) || (lies_in(g, f) && overlap(g, f))) {
             sets.join(f, g);
             together.insert(f);
@@ -455,6 +459,7 @@ class Flattening {
   const double gap_;
   const RoundPlane& round_;
   const Step& step_;
+  std::vector<std::uint8_t> is_some_;                // by facet
   std::vector<std::uint8_t> in_cluster_;             // by facet
   std::map<Index, std::vector<Piece>> pieces_;       // by first facet
   std::set<Side> taken_;                             // of clusters that were arranged
@@ -466,8 +471,9 @@ class Flattening {
 
 }  // namespace
 
-double flatten(State& state, double gap, const RoundPlane& round, const Step& step) {
-  return Flattening(state, gap, round, step).run();
+double flatten(State& state, double gap, const RoundPlane& round, const Step& step,
+               std::span<const Index> some) {
+  return Flattening(state, gap, round, step, some).run();
 }
 
 }  // namespace holdfast::repairing

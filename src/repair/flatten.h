@@ -21,6 +21,7 @@ using RoundPlane = std::function<Rounded(State)>;
 /// The result is a graph over a triangulation of the plane and cannot cross itself; what is round it may.
 /// Returns the largest distance by which anything was moved or bent, rounded up; 0 where there was nothing to
 /// do.
-double flatten(State& state, double gap, const RoundPlane& round, const Step& step);
+double flatten(State& state, double gap, const RoundPlane& round, const Step& step,
+               std::span<const Index> some = {});
 
 }  // namespace holdfast::repairing

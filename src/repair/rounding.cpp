@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "numbers/sorted.h"
 #include "repair/flatten.h"
@@ -128,9 +129,10 @@ class Rounding {
       if (!is_welded && (plan.moves_input || trouble_.size() > kFew)) {
         begin_flat(given, kWeldedPlans);
         is_welded = true;
+        if (best_ && trouble_.size() < best_->trouble.size()) best_.reset();
       }
       if (is_done()) break;
-      join(plan);
+      join_from_best(plan);
       if (!trouble_.none()) cut_if_better();
     }
     rounded_.is_valid = is_done();
@@ -184,6 +186,46 @@ class Rounding {
     }
   }
 
+  /// From what the last plan left and cutting made of it, and if that leaves more in trouble than the best so
+  /// far, from this.
+  void join_from_best(const Plan& plan) {
+    join(plan);
+    if (!best_ || trouble_.size() < best_->trouble.size()) {
+      best_ = Attempt{rounded_.state, trouble_, rounded_.displacement};
+      return;
+    }
+    stand(*best_);
+    join(plan);
+    if (trouble_.size() == best_->trouble.size()) flatten_again(plan);
+    if (trouble_.size() < best_->trouble.size())
+      best_ = Attempt{rounded_.state, trouble_, rounded_.displacement};
+  }
+
+  Rounded round_plane(State plane) {
+    RepairOptions options = options_;
+    options.exact = false;
+    RepairReport report;
+    ExactSurface exact;
+    return Rounding(std::move(plane), options, report, exact, here(), threads_, true).run();
+  }
+
+  /// Makes sheets one that lie in each other by now and are in trouble.
+  void flatten_again(const Plan& plan) {
+    if (is_plane_ || trouble_.facets.empty()) return;
+    Attempt flat{rounded_.state, trouble_, rounded_.displacement};
+    constexpr int kPasses = 4;
+    for (int pass = 0; pass < kPasses && !flat.trouble.none(); ++pass) {
+      const double moved = flatten(
+          flat.state, plan.last_bits * last_bit(flat.state),
+          [&](State plane) { return round_plane(std::move(plane)); }, here(), flat.trouble.facets);
+      if (moved == 0) return;
+      flat.displacement = sum_above(flat.displacement, moved);
+      flat.trouble = trouble_of(flat.state, here(), threads_, 4 * trouble_.size());
+      if (flat.trouble.size() < trouble_.size()) return stand(std::move(flat));
+      if (flat.trouble.size() > 4 * trouble_.size()) return;
+    }
+  }
+
   void begin_flat(const State& given, std::span<const Plan> plans) {
     if (is_plane_) return;
     for (const Plan& plan : plans)
@@ -193,13 +235,7 @@ class Rounding {
   /// Begins again with sheets that lie in each other made one before anything is cut: their planes would
   /// cross in lines all over them. Counts if it leaves less in trouble.
   void begin_flat(const State& given, const Plan& plan) {
-    const RoundPlane round = [&](State plane) {
-      RepairOptions options = options_;
-      options.exact = false;
-      RepairReport report;
-      ExactSurface exact;
-      return Rounding(std::move(plane), options, report, exact, here(), threads_, true).run();
-    };
+    const RoundPlane round = [&](State plane) { return round_plane(std::move(plane)); };
     const double gap = plan.last_bits * last_bit(given);
     Attempt flat{given, {}, 0};
     if (plan.moves_input) flat.displacement = weld(flat.state, gap, here());
@@ -300,6 +336,7 @@ class Rounding {
   const bool is_plane_;
   Rounded rounded_;
   Trouble trouble_;
+  std::optional<Attempt> best_;  // of the plans so far
 };
 
 }  // namespace
