@@ -18,6 +18,7 @@ from ._api import (
     untangle,
 )
 from ._core import CancelToken, __version__
+from ._convert import convert
 from ._names import Names
 from ._paste import Pasted, paste
 from ._repair import Repair, repair
@@ -59,6 +60,7 @@ __all__ = [
     "__version__",
     "batch",
     "check",
+    "convert",
     "delaunay",
     "diagnose",
     "info",

@@ -79,7 +79,7 @@ def mesh(
     growth
         Whether sizes may grow inside beyond those of the surface round.
     max_volume
-        The most that a tetrahedron may measure: a number, or a dict of numbers by the ids of `regions` (None: anywhere). It holds
+        The most that a tetrahedron may measure: a number, or a dict of numbers by the ids of the mesh's regions (None: anywhere). It holds
         for every tetrahedron, even at the price of flat ones; `TetMesh.report["bounds"]` counts them.
     max_ratio
         The most that the radius of the sphere round a tetrahedron should be over its shortest edge: an aim. Exceptions
@@ -228,9 +228,9 @@ def _bounded(
     if not isinstance(most, (numbers.Real, typing.Mapping, type(None))):
         raise TypeError("max_volume is a number, or a dict of numbers by the ids of regions")
     by_id = {id: v for id, v in most.items() if id is not None} if isinstance(most, typing.Mapping) else {}
-    if unknown := sorted(set(by_id) - {r[3] for r in regions}):
-        raise ValueError(f"max_volume: no region has the id {unknown[0]}; `regions` numbers them")
-    return [(*r, _positive(by_id[r[3]], "max_volume") if r[3] in by_id else 0.0) for r in regions]
+    nowhere = float("nan")  # the region that has the id in the mesh, whatever gives it (holdfast/region_bounds.h)
+    bounds = [(nowhere, nowhere, nowhere, int(id), 0.0, _positive(v, "max_volume")) for id, v in sorted(by_id.items())]
+    return [(*r, 0.0) for r in regions] + bounds
 
 
 def _is_background(value: Any) -> bool:
@@ -509,7 +509,8 @@ def read_volume(
     cancel: Optional[CancelToken] = None,
     progress: Progress = None,
 ) -> TetMesh:
-    """Reads tetrahedra from .vtu, .vtk, .mesh, .meshb, .msh or .node with .ele. Raises FileError.
+    """Reads tetrahedra from .vtu, .vtm, .vtk, .mesh, .meshb, .msh, .inp, .unv, .bdf, .nas, .su2, .mfem, .vol, .xdmf, .med,
+    .node with .ele, or a folder polyMesh. Raises FileError.
 
     >>> read_volume("part.vtu")  # doctest: +SKIP
     TetMesh(2817 points, 9213 tetrahedra, 1 region)
@@ -529,8 +530,7 @@ def info(path: PathLike, format: Optional[str] = None) -> dict[str, Any]:
     12.5
     """
     name = os.fspath(path)
-    ending = "." + format.lstrip(".") if format else os.path.splitext(name.removesuffix(".gz"))[1]
-    ending = ending.lower()
+    ending = _core.volume_format_of(name.removesuffix(".gz"), format or "")
     remarks: list[str] = []
     told: dict[str, Any] = {}
     stem = os.path.splitext(name)[0]

@@ -6,6 +6,7 @@ import html
 import importlib
 import json
 import os
+import tempfile
 import typing
 from typing import Any, Optional, Union
 
@@ -14,6 +15,7 @@ import numpy.ma as ma
 import numpy.typing as npt
 
 from . import _core
+from ._convert import convert
 from ._limits import CancelToken, MemoryAmount, ProgressCallback, Shown, limits
 from ._names import Names, names_of
 from ._repair import Repair
@@ -295,6 +297,15 @@ class TetMesh:
         path: PathLike,
         format: Optional[str] = None,
         *,
+        binary: bool = False,
+        one_file: bool = False,
+        gzip: bool = False,
+        shells: bool = False,
+        order: Optional[int] = None,
+        names: Union[None, Names, typing.Mapping[str, typing.Mapping[int, str]]] = None,
+        only: Union[None, str, typing.Sequence[str]] = None,
+        each_region: bool = False,
+        scale: Optional[float] = None,
         compress: bool = True,
         threads: int = 1,
         time_limit: Optional[float] = None,
@@ -302,14 +313,76 @@ class TetMesh:
         cancel: Optional[CancelToken] = None,
         progress: Union[None, bool, ProgressCallback] = None,
     ) -> list[str]:
-        """Writes .vtu, .vtk, .mesh, .meshb, .msh ("msh2" for version 2.2) or .node; the file appears complete or not
-        at all. Gives what the format does not hold, a sentence each. Raises FileError."""
+        """Writes a file that appears complete or not at all, of the second order if the mesh is.
+
+        Parameters
+        ----------
+        path
+            .vtu, .vtm, .vtk, .mesh, .meshb, .msh, .inp, .unv, .bdf, .nas, .su2, .mfem, .vol, .xdmf, .med, .node, or a
+            folder polyMesh (OpenFOAM); or .stl, .ply, .obj, .off or .poly for the boundary and the interfaces.
+            docs/formats.md tells what each holds.
+        format
+            The ending to go by, "msh2" (version 2.2 of .msh) or "openfoam" (`path` is the case), where the name does not
+            tell.
+        binary
+            .msh: numbers as bytes.
+        one_file
+            .vtu, .xdmf: triangles and segments in the same file, not in NAME_surface beside it.
+        gzip
+            OpenFOAM: packed files.
+        shells
+            .inp: triangles as shell elements, too.
+        order, names, only, each_region, scale
+            As `holdfast.convert` takes them: elements of first or second order, names of ids, a part, a file for each
+            region, another unit. The mesh itself stays as it is.
+        compress
+            .vtu: blocks packed by zlib, by `threads` threads.
+        time_limit, memory_limit, cancel, progress
+            As `mesh` takes them.
+
+        Returns
+        -------
+        list of str
+            What the format does not hold, a sentence each.
+
+        Raises
+        ------
+        FileError
+            If the file cannot be written.
+        ValueError
+            For an option that does nothing in the format.
+
+        >>> import holdfast, os, tempfile
+        >>> mesh = holdfast.mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
+        ...                      [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)], fill=True)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     told = mesh.save(os.path.join(folder, "one.msh"), "msh2", binary=True)
+        ...     holdfast.read_volume(os.path.join(folder, "one.msh"))
+        TetMesh(4 points, 1 tetrahedron, 1 region)
+        """
+        surfaces = os.path.splitext(os.fspath(path))[1].lower() in (".stl", ".ply", ".obj", ".off", ".poly") and not format
+        if surfaces or each_region or any(x is not None for x in (order, names, only, scale)):
+            with tempfile.TemporaryDirectory() as folder:
+                inner = os.path.join(folder, "mesh.vtu")
+                self.save(inner, compress=False, time_limit=time_limit, memory_limit=memory_limit, cancel=cancel)
+                return convert(inner, path, format=format, binary=binary, one_file=one_file, gzip=gzip, shells=shells,
+                               order=order, names=names, only=only, each_region=each_region, scale=scale, threads=threads,
+                               time_limit=time_limit, memory_limit=memory_limit)
         legacy = format in ("msh2", ".msh2")
-        ending = ".msh" if legacy else format or ""
+        ending = _core.volume_format_of(os.fspath(path), ".msh" if legacy else format or "")
+        for option, given, of in (
+            ("binary", binary, (".msh",)),
+            ("one_file", one_file, (".vtu", ".xdmf")),
+            ("gzip", gzip, (".openfoam",)),
+            ("shells", shells, (".inp",)),
+        ):
+            if given and ending not in of:
+                raise ValueError(f"{option} does nothing for {ending}: it is for {', '.join(of)}")
+        how = {"format": ending, "threads": threads, "compress": compress, "legacy_msh": legacy, "binary": binary,
+               "one_file": one_file, "gzip": gzip, "shells": shells}
         options = limits(time_limit, memory_limit, cancel)
         with Shown(progress, "write") as callback:
-            return _core.write_volume(os.fspath(path), self._volume, ending, compress, legacy, threads, options,
-                                      callback)
+            return _core.write_volume(os.fspath(path), self._volume, how, options, callback)
 
     def to_meshio(self) -> Any:
         """A `meshio.Mesh` with cell data "region" and "marker". Raises ImportError without meshio."""

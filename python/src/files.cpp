@@ -27,6 +27,19 @@ ReadOptions reading(const py::dict& options, const Watch& watch, const std::stri
   return to;
 }
 
+WriteOptions writing(const py::dict& from) {
+  WriteOptions to;
+  to.format = from["format"].cast<std::string>();
+  to.threads = from["threads"].cast<unsigned>();
+  to.compress = from["compress"].cast<bool>();
+  to.legacy_msh = from["legacy_msh"].cast<bool>();
+  to.binary = from["binary"].cast<bool>();
+  to.one_file = from["one_file"].cast<bool>();
+  to.gzip = from["gzip"].cast<bool>();
+  to.shells = from["shells"].cast<bool>();
+  return to;
+}
+
 py::list regions_of(const Surface& surface) {
   py::list regions;
   for (const auto& seed : surface.regions)
@@ -116,15 +129,11 @@ void register_files(py::module_& module) {
     return std::make_shared<SizeField>(read_size_field(path, how));
   });
   module.def("write_volume",
-             [](const std::string& path, const Volume& volume, const std::string& format, bool compress,
-                bool legacy_msh, unsigned threads, const py::dict& options, const py::object& progress) {
+             [](const std::string& path, const Volume& volume, const py::dict& how_to_write,
+                const py::dict& options, const py::object& progress) {
                const Watch watch(progress);
-               WriteOptions how;
+               WriteOptions how = writing(how_to_write);
                take_limits(options, how);
-               how.format = format;
-               how.compress = compress;
-               how.legacy_msh = legacy_msh;
-               how.threads = threads;
                how.progress = [&watch](double fraction) { return watch.go_on("write", fraction); };
                std::vector<Remark> remarks;
                {
@@ -145,6 +154,8 @@ void register_files(py::module_& module) {
     return std::make_shared<Surface>(surface_of(volume));
   });
   module.def("volume_formats", &volume_formats);
+  module.def("volume_format_of",
+             [](const std::string& path, const std::string& format) { return volume_format_of(path, format); });
   module.def("volume_info", [](const Volume& volume) {
     const py::gil_scoped_release unlocked;
     return reports::text_of(reports::to_json(statistics(volume)));

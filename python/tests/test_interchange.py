@@ -196,3 +196,75 @@ def test_float32_surface_keeps_its_values():
     single = points.astype(np.float32)
     mesh = holdfast.mesh(single, triangles)
     assert np.array_equal(mesh.points[: len(single)], single.astype(np.float64))
+
+
+def boxes():
+    """A box in a box; regions 1 and 2."""
+    corners = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
+    sides = np.array([(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3), (0, 4, 6),
+                      (0, 6, 2), (1, 3, 7), (1, 7, 5)])
+    return np.concatenate([4 * corners, corners + 1]), np.concatenate([sides, sides + 8])
+
+
+@pytest.mark.parametrize("ending", ["vtu", "msh", "inp", "med", "xdmf", "unv", "bdf", "vol", "mfem", "node"])
+def test_convert_keeps_what_there_is(tmp_path, ending):
+    names = {"regions": {1: "shell", 2: "core"}}
+    mesh = holdfast.mesh(holdfast.Surface(*boxes(), names=names), keep="bounded", fill=True)
+    mesh.save(tmp_path / "a.vtu")
+    holdfast.convert(tmp_path / "a.vtu", tmp_path / f"b.{ending}")
+    found, said = holdfast.info(tmp_path / f"b.{ending}"), mesh.info()
+    assert (found["vertices"], found["tetrahedra"], found["triangles"]) == (said["vertices"], said["tetrahedra"], said["triangles"])
+    assert [r["id"] for r in found["regions"]] == [1, 2]
+    if ending != "node":
+        assert [r["name"] for r in found["regions"]] == ["shell", "core"]
+    assert len(holdfast.read_volume(tmp_path / f"b.{ending}").tetrahedra) == found["tetrahedra"]
+
+
+def test_convert_takes_parts_and_tells_what_is_lost(tmp_path):
+    mesh = holdfast.mesh(*boxes(), keep="bounded", fill=True)
+    mesh.save(tmp_path / "a.vtu", names={"regions": {2: "core"}})
+    told = holdfast.convert(tmp_path / "a.vtu", tmp_path / "core.stl", only="region=core", scale=2)
+    assert any("tetrahedra" in line for line in told)
+    assert holdfast.info(tmp_path / "core.stl")["volume"] == pytest.approx(8)
+    holdfast.convert(tmp_path / "a.vtu", tmp_path / "each.ply", each_region=True)
+    assert {p.name for p in tmp_path.glob("each*")} == {"each_core.ply", "each_region_1.ply"}
+    with pytest.raises(ValueError):
+        holdfast.convert(tmp_path / "a.vtu", tmp_path / "no.stl", only="part")
+    with pytest.raises(ValueError):
+        holdfast.convert(tmp_path / "a.vtu", tmp_path / "no.stl", binary=True)
+    with pytest.raises(holdfast.FileError) as caught:
+        holdfast.convert(tmp_path / "there_is_none.vtu", tmp_path / "no.stl")
+    assert caught.value.filename.endswith("there_is_none.vtu")
+    assert not (tmp_path / "no.stl").exists()
+
+
+def test_save_takes_what_the_writers_take(tmp_path):
+    mesh = holdfast.mesh(*boxes(), keep="bounded", fill=True).second_order()
+    mesh.save(tmp_path / "a.msh", binary=True)
+    assert b"4.1 1 8" in (tmp_path / "a.msh").read_bytes()[:40]
+    mesh.save(tmp_path / "b.vtu", one_file=True)
+    assert not (tmp_path / "b_surface.vtu").exists()
+    mesh.save(tmp_path / "c.inp", shells=True)
+    assert "TYPE=S6" in (tmp_path / "c.inp").read_text()
+    mesh.save(tmp_path / "case", "openfoam", gzip=True)
+    assert holdfast.info(tmp_path / "case")["tetrahedra"] == len(mesh)
+    assert holdfast.read_volume(tmp_path / "a.msh").order == 2
+    mesh.save(tmp_path / "e.mesh", order=1, scale=2, only="region=2")
+    found = holdfast.info(tmp_path / "e.mesh")
+    assert (found["order"], found["volume"]) == (1, pytest.approx(8))
+    holdfast.mesh(*boxes(), keep="bounded", fill=True).save(tmp_path / "f.med", order=2)
+    assert holdfast.info(tmp_path / "f.med")["order"] == 2
+    mesh.save(tmp_path / "g.stl")
+    assert holdfast.info(tmp_path / "g.stl")["triangles"] == 24
+    for option in ("binary", "one_file", "gzip", "shells"):
+        with pytest.raises(ValueError):
+            mesh.save(tmp_path / "d.mesh", **{option: True})
+    assert not (tmp_path / "d.mesh").exists()
+
+
+def test_max_volume_of_a_region_that_no_seed_numbers():
+    mesh = holdfast.mesh(*boxes(), keep="bounded", max_volume={2: 0.01})
+    volumes = mesh.quality().volume
+    assert volumes[mesh.regions == 2].max() <= 0.01 < volumes[mesh.regions == 1].max()
+    with pytest.raises(ValueError, match="its regions are 1, 2"):
+        holdfast.mesh(*boxes(), keep="bounded", max_volume={7: 0.01})
