@@ -9,7 +9,7 @@ SEED ?= 1
 MINUTES ?= 5
 PYTHON ?= /usr/bin/python3
 
-.PHONY: help setup build demo test python wheel slurm python-corpus corpus random planes solvers fuzz bench field repair tables paper figures format viewer web-test pictures docs web tidy debug asan tsan libcxx install clean
+.PHONY: help setup build demo test python wheel slurm python-corpus corpus random planes solvers fuzz bench field repair tables paper figures format viewer web-test web-bits pictures docs web tidy debug asan tsan libcxx install clean
 .DEFAULT_GOAL := help
 
 help:  ## this list
@@ -113,9 +113,22 @@ $(VIEWER_TOOLS): viewer/package-lock.json
 viewer: $(VIEWER_TOOLS)  ## viewer/dist: the page that the program fills, out of viewer/src
 	@cd viewer && npx tsc --noEmit && node build.mjs
 
-web-test: build $(VIEWER_TOOLS)  ## pages in headless Chromium: each control, no request, foreign names
+WEB := build/web
+
+web: $(VIEWER_TOOLS)  ## build/web: the page that meshes in a browser, index.html, and the npm package (ten minutes)
+	@scripts/setup.sh emscripten
+	@JOBS=$(JOBS) web/build.sh $(WEB)
+
+web-test: build $(VIEWER_TOOLS)  ## pages in headless Chromium: each control, no request, foreign names; with those of `make web`
 	@scripts/setup.sh browser
-	@HOLDFAST=$(RELEASE)/holdfast node --test viewer/test/*.test.mjs
+	@tests=viewer/test/*.test.mjs; \
+	if web/build.sh --stands $(WEB); then tests="$$tests web/test/*.test.mjs"; \
+	else echo "web-test: $(WEB) is not built from these sources, so that the page that meshes is not tested: make web"; fi; \
+	HOLDFAST=$(RELEASE)/holdfast WEB=$(WEB) node --test $$tests
+
+web-bits: build  ## 200 surfaces of CORPUS=dir through the npm package: the native bytes; to docs/web.md (ARGS="--count 50")
+	@HOLDFAST=$(RELEASE)/holdfast WEB=$(WEB) node web/test/bits.mjs "$(or $(CORPUS),../shared/corpus)" \
+	  --write docs/web.md $(ARGS)
 
 pictures: build $(VIEWER_TOOLS)  ## docs/pictures, from runs of the program seen by headless Chromium
 	@scripts/setup.sh browser

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <limits>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -136,6 +137,7 @@ class ArrayDecoder {
     const std::string packed = stream_.take(packed_size);
     if (size / kBestRatio > packed_size) stream_.fail("a block of impossible size; the file is damaged");
     const std::size_t start = result.size();
+    if (size > result.max_size() - start) throw std::bad_alloc();  // where sizes have 32 bits
     result.resize(start + size);
     uLongf unpacked = size;
     const int status = uncompress(reinterpret_cast<Bytef*>(result.data() + start), &unpacked,
