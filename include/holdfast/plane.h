@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <map>
+#include <span>
 
 #include "holdfast/intermediate.h"
 #include "holdfast/io.h"
@@ -177,6 +178,15 @@ struct PlanesInSpace {
 /// .poly, has a plane of its own. Throws FileError, also for polygons that lie in no plane.
 [[nodiscard]] HOLDFAST_API PlanesInSpace read_planes(const std::filesystem::path& path,
                                                      const ReadOptions& options = {});
+
+/// Points and segments that lie in one plane in space: exactly, up to rounding, or within `tolerance`. Each
+/// point is numbered as given; those at one place are taken as one. Throws std::invalid_argument for a
+/// tolerance that is negative or not finite, for segments of points that are not there, and where there is no
+/// such plane.
+[[nodiscard]] HOLDFAST_API PlanesInSpace plane_in_space(std::span<const Point> points,
+                                                        std::span<const Segment> segments,
+                                                        std::span<const Point> holes = {},
+                                                        double tolerance = 0);
 
 /// Writes triangles: .off (z = 0), .node and .ele beside it, .vtu. Throws FileError.
 HOLDFAST_API void write_plane(const std::filesystem::path& path, const PlaneMesh& mesh,

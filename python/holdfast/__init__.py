@@ -21,6 +21,7 @@ from ._core import CancelToken, __version__
 from ._convert import convert
 from ._names import Names
 from ._paste import Pasted, paste
+from ._plane import PlaneMesh, plane
 from ._repair import Repair, repair
 from ._surface import Surface, read_surface
 from ._tetmesh import Quality, TetMesh
@@ -51,6 +52,7 @@ __all__ = [
     "Names",
     "NotRepresentable",
     "Pasted",
+    "PlaneMesh",
     "Quality",
     "Repair",
     "Rule",
@@ -66,6 +68,7 @@ __all__ = [
     "info",
     "mesh",
     "paste",
+    "plane",
     "read_surface",
     "read_volume",
     "repair",

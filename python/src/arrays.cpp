@@ -1,7 +1,10 @@
 #include "arrays.h"
 
+#include <pybind11/stl.h>
+
 #include <string>
 
+#include "holdfast/names.h"
 #include "names.h"
 
 namespace holdfast::python {
@@ -109,6 +112,17 @@ std::vector<int> markers_from(const py::object& object, const char* what) {
   Arrays arrays;
   arrays.set_vertex_markers(view_of(py::cast<py::array>(object), 0, what));
   return copy(arrays.view().vertex_markers);
+}
+
+py::list defects_of(const std::vector<Defect>& defects) {
+  py::list list;
+  for (const Defect& d : defects) {
+    py::list where;
+    for (const Point& p : d.where) where.append(py::make_tuple(p[0], p[1], p[2]));
+    list.append(py::make_tuple(name(d.kind), py::tuple(py::cast(d.vertices)), py::tuple(py::cast(d.facets)),
+                               py::tuple(py::cast(d.segments)), py::tuple(where), d.message));
+  }
+  return list;
 }
 
 }  // namespace holdfast::python

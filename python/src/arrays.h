@@ -59,4 +59,7 @@ template <class Row>
   return indices_on(there, owner);
 }
 
+/// As _defects of errors.py takes them.
+[[nodiscard]] py::list defects_of(const std::vector<Defect>& defects);
+
 }  // namespace holdfast::python

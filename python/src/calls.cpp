@@ -132,17 +132,6 @@ SurfaceArrays surface_from(const py::tuple& arrays) {
   return {py::cast<py::array>(arrays[0]), arrays[1], arrays[2], arrays[3], arrays[4], arrays[5], arrays[6]};
 }
 
-py::list defects_of(const std::vector<Defect>& defects) {
-  py::list list;
-  for (const Defect& d : defects) {
-    py::list where;
-    for (const Point& p : d.where) where.append(py::make_tuple(p[0], p[1], p[2]));
-    list.append(py::make_tuple(name(d.kind), py::tuple(py::cast(d.vertices)), py::tuple(py::cast(d.facets)),
-                               py::tuple(py::cast(d.segments)), py::tuple(where), d.message));
-  }
-  return list;
-}
-
 // Ids in front of and behind each facet, and where there is no region.
 py::tuple facet_regions(const std::vector<FacetRegions>& regions) {
   const auto count = static_cast<py::ssize_t>(regions.size());

@@ -50,4 +50,5 @@ PYBIND11_MODULE(_core, module) {
   register_calls(module);
   register_paste(module);
   register_repair(module);
+  register_plane(module);
 }

@@ -12,5 +12,6 @@ void register_files(py::module_& module);
 void register_calls(py::module_& module);
 void register_paste(py::module_& module);
 void register_repair(py::module_& module);
+void register_plane(py::module_& module);
 
 }  // namespace holdfast::python

@@ -1,11 +1,15 @@
 // The public functions of holdfast/plane.h: limits and outcomes round the work of src/plane.
 #include "holdfast/plane.h"
 
+#include <cmath>
 #include <new>
+#include <stdexcept>
+#include <string>
 
 #include "mesh/plain_monitor.h"
 #include "numbers/float_environment.h"
 #include "plane/defects.h"
+#include "plane/facets.h"
 #include "plane/in_space.h"
 #include "plane/triangulate.h"
 
@@ -46,6 +50,27 @@ PlaneResult triangulate(const Plane& plane, const PlaneOptions& options) {
 
 PlaneResult triangulate(const PlanesInSpace& planes, const PlaneOptions& options) {
   return within_limits(planes, options);
+}
+
+PlanesInSpace plane_in_space(std::span<const Point> points, std::span<const Segment> segments,
+                             std::span<const Point> holes, double tolerance) {
+  const FloatEnvironment environment;
+  if (!(tolerance >= 0) || std::isinf(tolerance))
+    throw std::invalid_argument("the tolerance must be finite and not negative");
+  plane::PolygonFacet all;
+  all.holes.assign(holes.begin(), holes.end());
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    for (const Index v : segments[i])
+      if (v >= points.size())
+        throw std::invalid_argument("segment " + std::to_string(i) + " names point " + std::to_string(v) +
+                                    ", but there are " + std::to_string(points.size()) + " points");
+    all.polygons.push_back({segments[i][0], segments[i][1]});
+  }
+  for (Index v = 0; v < points.size(); ++v) all.polygons.push_back({v});
+  plane::FoundPlanes found = plane::planes_of(points, {std::move(all)}, tolerance, {});
+  if (!found.reason.empty()) throw std::invalid_argument("the points: " + found.reason);
+  found.planes.points.assign(points.begin(), points.end());
+  return std::move(found.planes);
 }
 
 std::vector<Defect> diagnose(const Plane& plane, std::size_t most) {

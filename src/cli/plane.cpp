@@ -1,6 +1,8 @@
 // `holdfast plane`: points and segments in the plane, triangles out.
 #include "holdfast/plane.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +13,7 @@
 #include "files.h"
 #include "files_of_run.h"
 #include "limits.h"
+#include "plane_report.h"
 #include "report.h"
 #include "signals.h"
 
@@ -92,57 +95,26 @@ PlaneOptions to_options(const PlaneArguments& arguments) {
   return options;
 }
 
-std::size_t points_of(const PlaneMesh& mesh) {
-  return mesh.in_space.empty() ? mesh.points.size() : mesh.in_space.size();
-}
-
 Json report_of(const PlaneArguments& arguments, const PlaneResult& result) {
-  const PlaneReport& report = result.report;
-  Json json = {{"input", {{"points", report.points}, {"segments", report.segments}, {"holes", report.holes}}},
-               {"missing_segments", report.missing_segments},
-               {"swaps", report.swaps},
-               {"delaunay_swaps", report.delaunay_swaps},
-               {"partition_points", report.partition_points},
-               {"most_partition_points", report.most_partition_points},
-               {"ears", report.ears},
-               {"joined", report.joined},
-               {"links", report.links},
-               {"field_points", report.field_points},
-               {"segment_points", report.segment_points},
-               {"small_angles", report.small_angles},
-               {"small_angles_left", report.small_angles_left},
-               {"large_left", report.large_left},
-               {"capped", report.capped},
-               {"mesh",
-                {{"points", points_of(result.mesh)},
-                 {"triangles", report.triangles},
-                 {"regions", report.regions},
-                 {"least_angle", report.least_angle}}},
-               {"seconds", report.seconds},
-               {"version", version()},
-               {"options",
-                {{"input", arguments.input.string()},
-                 {"output", arguments.output.string()},
-                 {"method", arguments.method},
-                 {"ears", arguments.ears},
-                 {"partition_first", arguments.partition_first},
-                 {"delaunay", arguments.delaunay},
-                 {"hull", arguments.hull},
-                 {"size", arguments.size.value_or(0)},
-                 {"angle", arguments.angle ? Json(*arguments.angle) : Json()},
-                 {"tolerance", arguments.tolerance},
-                 {"keep_boundary", arguments.keep_boundary},
-                 {"max_points", arguments.max_points},
-                 {"stop_after", arguments.stop_after},
-                 {"order", arguments.order.empty() ? name(LayingOrder::given) : arguments.order},
-                 {"seed", arguments.seed},
-                 {"time_limit", arguments.limits.time_limit.value_or(0)},
-                 {"memory_limit", arguments.limits.memory_limit.value_or(0)}}},
-               {"outcome", name(result.outcome)},
-               {"message", result.message},
-               {"defects", to_json(result.defects)}};
-  if (!arguments.stop_after.empty()) json["intermediate"] = to_json(result.intermediate);
-  return json;
+  return reports::to_json(result,
+                          {{"input", arguments.input.string()},
+                           {"output", arguments.output.string()},
+                           {"method", arguments.method},
+                           {"ears", arguments.ears},
+                           {"partition_first", arguments.partition_first},
+                           {"delaunay", arguments.delaunay},
+                           {"hull", arguments.hull},
+                           {"size", arguments.size.value_or(0)},
+                           {"angle", arguments.angle ? Json(*arguments.angle) : Json()},
+                           {"tolerance", arguments.tolerance},
+                           {"keep_boundary", arguments.keep_boundary},
+                           {"max_points", arguments.max_points},
+                           {"stop_after", arguments.stop_after},
+                           {"order", arguments.order.empty() ? name(LayingOrder::given) : arguments.order},
+                           {"seed", arguments.seed},
+                           {"time_limit", arguments.limits.time_limit.value_or(0)},
+                           {"memory_limit", arguments.limits.memory_limit.value_or(0)}},
+                          !arguments.stop_after.empty());
 }
 
 /// What refinement did and what it left.
@@ -166,7 +138,7 @@ int conclude(const PlaneArguments& arguments, const PlaneResult& result) {
   if (result.outcome == Outcome::done) {
     if (!arguments.quiet)
       say("{}: {} points, {} triangles in {} region{}, {:.2f} s\n", arguments.output.string(),
-          points_of(result.mesh), result.report.triangles, result.report.regions,
+          reports::points_of(result.mesh), result.report.triangles, result.report.regions,
           result.report.regions == 1 ? "" : "s", result.report.seconds.at("total"));
     if (!arguments.quiet) tell_of_refinement(arguments, result.report);
     return exit_done;

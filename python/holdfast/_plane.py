@@ -1,0 +1,313 @@
+"""plane: triangles in the plane that keep every segment."""
+
+from __future__ import annotations
+
+import json
+import os
+import typing
+from typing import Any, Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._limits import CancelToken, MemoryAmount, ProgressCallback, Shown, limits
+from ._surface import Array, PathLike, indices_of, markers_of
+from .errors import _raise_unless_done
+
+_MOST_POINTS = 10_000_000
+_METHODS, _EARS = ("ears", "swaps", "partition"), ("first", "best", "join")
+_STAGES, _ORDERS = ("delaunay", "partition"), ("given", "random", "halving")
+
+
+class PlaneMesh:
+    """Triangles in the plane, as read-only arrays.
+
+    Points 0 to `n_input_points - 1` are those given, bit for bit.
+    """
+
+    def __init__(self, result: _core.PlaneResult) -> None:
+        self._result = result
+        self._report: Optional[dict[str, Any]] = None
+        self.n_input_points: int = result.n_input_points
+        """Points that were given; what follows was added by `size` or `angle`."""
+        self.remarks: list[str] = list(result.remarks)
+        """What the file holds that the plane does not, or holds in another way."""
+
+    @property
+    def points(self) -> Array:
+        """(n, 2) coordinates; (n, 3) of what lies in a plane in space."""
+        return self._result.points
+
+    @property
+    def triangles(self) -> Array:
+        """(m, 3) indices of points. Corners turn left; in space they turn as the first polygon of their plane."""
+        return self._result.triangles
+
+    @property
+    def regions(self) -> Array:
+        """(m,) the region of each triangle: that of the input, or the next free number from 1."""
+        return self._result.regions
+
+    @property
+    def segments(self) -> Array:
+        """(k, 2) indices of the ends of segments: those given, in pieces where points were added on them."""
+        return self._result.segments
+
+    @property
+    def point_markers(self) -> Optional[Array]:
+        """(n,) where points have markers, else None. Points on a segment have its marker."""
+        return _or_none(self._result.point_markers)
+
+    @property
+    def segment_markers(self) -> Optional[Array]:
+        """(k,) where segments have markers, else None."""
+        return _or_none(self._result.segment_markers)
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """As `holdfast plane --report` writes it."""
+        if self._report is None:
+            self._report = json.loads(self._result.report())
+        return self._report
+
+    def save(
+        self,
+        path: PathLike,
+        format: Optional[str] = None,
+        *,
+        time_limit: Optional[float] = None,
+        memory_limit: Optional[MemoryAmount] = None,
+        cancel: Optional[CancelToken] = None,
+        progress: Union[None, bool, ProgressCallback] = None,
+    ) -> None:
+        """Writes .off (z = 0), .node with .ele beside it, or .vtu; the file appears complete or not at all. Raises
+        FileError."""
+        options = limits(time_limit, memory_limit, cancel)
+        with Shown(progress, "write") as callback:
+            self._result.save(os.fspath(path), format or "", options, callback)
+
+    def __repr__(self) -> str:
+        return f"PlaneMesh({len(self.points)} points, {len(self.triangles)} triangles)"
+
+
+def plane(
+    points: Any,
+    segments: Optional[npt.ArrayLike] = None,
+    *,
+    holes: typing.Iterable[typing.Sequence[float]] = (),
+    regions: typing.Iterable[typing.Sequence[float]] = (),
+    point_markers: Optional[npt.ArrayLike] = None,
+    segment_markers: Optional[npt.ArrayLike] = None,
+    method: str = "swaps",
+    ears: Optional[str] = None,
+    partition_first: bool = False,
+    delaunay: bool = False,
+    hull: bool = False,
+    size: Optional[float] = None,
+    angle: Optional[float] = None,
+    keep_boundary: bool = False,
+    max_points: Optional[int] = None,
+    stop_after: Optional[str] = None,
+    order: Optional[str] = None,
+    tolerance: float = 0.0,
+    seed: int = 1,
+    format: Optional[str] = None,
+    time_limit: Optional[float] = None,
+    memory_limit: Optional[MemoryAmount] = None,
+    cancel: Optional[CancelToken] = None,
+    progress: Union[None, bool, ProgressCallback] = None,
+) -> PlaneMesh:
+    """Fills outlines in the plane with triangles that keep every segment; no point is added without a size or an angle.
+
+    Parameters
+    ----------
+    points
+        (n, 2) coordinates; (n, 3) ones of points that lie in one plane in space; or the path of a .poly or .node (Triangle), or
+        of polygons in space (.off, .obj, .ply, ...).
+    segments
+        (k, 2) indices from 0. Outlines, nested or not, and segments that end anywhere. Kept is every region that segments
+        separate from the outside; without segments, all within the convex hull.
+    holes
+        (x, y) of points in regions to leave empty; (x, y, z) in space.
+    regions
+        (x, y, id[, area]): the id of the region that holds the point, and the most that its triangles may measure with
+        `size` or `angle`.
+    point_markers, segment_markers
+        (n,) and (k,) integers that the result repeats.
+    method
+        "ears", "swaps" or "partition": how segments come into the mesh. All solve every valid input.
+    ears
+        For the method "ears": "first", "best" (the corner whose triangle is closest to a regular one) or "join" (the second
+        construction of the paper's §2.1.2).
+    partition_first
+        For the method "partition": remove points when all segments stand, and not after each.
+    delaunay
+        Then swap edges until the triangles are constrained Delaunay.
+    hull
+        Keep all within the convex hull, but holes.
+    size
+        Add points until no edge is longer, in the points' unit; the triangles then are constrained Delaunay, with angles of 20
+        degrees.
+    angle
+        Add points until no angle is smaller, in degrees: 0 to 34; up to 26.45 that ends for every input.
+    keep_boundary
+        Add points inside alone, none on segments.
+    max_points
+        The most points that `size` and `angle` add; 10,000,000 by default.
+    stop_after
+        "delaunay" or "partition": give what stands after this stage, with the report's "intermediate".
+    order
+        Which missing segment is laid next, for "swaps" and "partition": "given", "random" or "halving".
+    tolerance
+        How far points in space may be from their mean plane; rounding is allowed always.
+    seed
+        Of the random orders.
+    format
+        The ending to go by (".poly"), where the file's own does not tell.
+    time_limit, memory_limit, cancel, progress
+        As `mesh` takes them.
+
+    Raises
+    ------
+    InvalidSurface
+        With `.defects`: repeated points, points on segments, segments that cross, overlap or have no length, and segments that
+        enclose nothing. Indices count from 0, `where` has z = 0.
+    TimeLimit, MemoryLimit, Cancelled
+        With `.report` of the run so far.
+    FileError
+        If `points` is a path that cannot be read.
+    ValueError, TypeError
+        For arrays of a wrong shape or type, and options that make no sense.
+
+    Example
+    -------
+    A square with a square hole:
+
+    >>> import holdfast
+    >>> points = [(0, 0), (3, 0), (3, 3), (0, 3), (1, 1), (2, 1), (2, 2), (1, 2)]
+    >>> segments = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4)]
+    >>> mesh = holdfast.plane(points, segments, holes=[(1.5, 1.5)])
+    >>> mesh.points.shape, mesh.triangles.shape
+    ((8, 2), (8, 3))
+    >>> fine = holdfast.plane(points, segments, holes=[(1.5, 1.5)], size=0.5, angle=25)
+    >>> fine.report["mesh"]["least_angle"] >= 25, bool((fine.points[:8] == points).all())
+    (True, True)
+    """
+    options = limits(time_limit, memory_limit, cancel)
+    refines = size is not None or angle is not None
+    _require_sense(method, ears, order, partition_first, stop_after, refines, keep_boundary, max_points)
+    options.update(
+        method=method,
+        ears=ears,
+        partition_first=bool(partition_first),
+        delaunay=bool(delaunay),
+        hull=bool(hull),
+        size=0.0 if size is None else _positive(size),
+        angle=None if angle is None else float(angle),
+        keep_boundary=bool(keep_boundary),
+        max_points=_MOST_POINTS if max_points is None else int(max_points),
+        stop_after=stop_after,
+        order=order,
+        seed=int(seed),
+    )
+    if isinstance(points, (str, os.PathLike)):
+        if segments is not None or point_markers is not None or segment_markers is not None or list(holes) or list(regions):
+            raise ValueError("a file holds its own segments, markers, holes and regions: leave them out")
+        with Shown(progress, "plane") as callback:
+            result = _core.plane_file(os.fspath(points), format or "", float(tolerance), options, callback)
+    else:
+        if format is not None:
+            raise ValueError("format: there is no file to read")
+        array = _coordinates(points)
+        ends = None if segments is None else indices_of(segments, 2, "segments")
+        seeds = [_seed(r) for r in regions]
+        places = [_place(h, array.shape[1]) for h in holes]
+        marks = (markers_of(point_markers, "point_markers"), markers_of(segment_markers, "segment_markers"))
+        with Shown(progress, "plane") as callback:
+            if array.shape[1] == 3:
+                if seeds or marks != (None, None):
+                    raise ValueError("points in space have no regions and markers here: leave them out")
+                result = _core.plane_in_space((array, ends, places), float(tolerance), options, callback)
+            else:
+                if tolerance != 0:
+                    raise ValueError("tolerance: points of two coordinates lie in the plane")
+                result = _core.plane((array, ends, *marks, places, seeds), options, callback)
+    _raise_unless_done(result)
+    return PlaneMesh(result)
+
+
+def _require_sense(
+    method: str,
+    ears: Optional[str],
+    order: Optional[str],
+    partition_first: bool,
+    stop_after: Optional[str],
+    refines: bool,
+    keep_boundary: bool,
+    max_points: Optional[int],
+) -> None:
+    """Options that would do nothing are refused."""
+    for what, value, known in (("method", method, _METHODS), ("ears", ears, _EARS), ("order", order, _ORDERS),
+                               ("stop_after", stop_after, _STAGES)):
+        if value is not None and value not in known:
+            raise ValueError(f"{what}={value!r}: there is {', '.join(known)}")
+    if ears is not None and method != "ears":
+        raise ValueError(f"ears={ears!r} does nothing without method='ears'")
+    if order is not None and method == "ears":
+        raise ValueError("order: the method ears lays no segments one by one")
+    if partition_first and method != "partition":
+        raise ValueError("partition_first does nothing without method='partition'")
+    if stop_after is not None and (method == "ears" or (stop_after == "partition" and method != "partition")):
+        raise ValueError(f"stop_after={stop_after!r}: the method {method} has no such stage")
+    if stop_after is not None and refines:
+        raise ValueError("stop_after: size and angle come after it")
+    if keep_boundary and not refines:
+        raise ValueError("keep_boundary does nothing without size or angle: no point is added")
+    if max_points is not None and not refines:
+        raise ValueError("max_points does nothing without size or angle: no point is added")
+    if max_points is not None and max_points < 0:
+        raise ValueError(f"max_points={max_points}: a number of points is expected")
+
+
+def _positive(size: float) -> float:
+    number = float(size)
+    if not 0 < number < float("inf"):
+        raise ValueError(f"size={number}: a positive length is expected")
+    return number
+
+
+def _coordinates(values: Any) -> Array:
+    array = np.asarray(values)
+    if array.dtype == object or array.dtype.kind not in "fiu":
+        raise TypeError(f"points must be real numbers, not {array.dtype}")
+    if array.ndim != 2 or array.shape[1] not in (2, 3):
+        raise ValueError(f"points must have the shape (n, 2) or (n, 3), not {array.shape}")
+    if array.dtype.kind == "f" and array.dtype.itemsize > 8:
+        raise TypeError(f"points are {array.dtype}, which doubles do not hold")
+    found = np.ascontiguousarray(array, np.float64)
+    if array.dtype.kind in "iu" and np.any(found.astype(array.dtype) != array):
+        raise ValueError("points are whole numbers beyond 2^53, which doubles do not hold")
+    return found
+
+
+def _place(values: typing.Sequence[float], count: int) -> tuple[float, ...]:
+    found = tuple(float(v) for v in values)
+    if len(found) != count:
+        raise ValueError(f"a hole is given by {count} numbers, not {len(found)}")
+    return found
+
+
+def _seed(values: typing.Sequence[float]) -> tuple[float, float, int, float]:
+    if len(values) not in (3, 4):
+        raise ValueError(f"a region is given as (x, y, id) or (x, y, id, area), not by {len(values)} numbers")
+    if int(values[2]) != values[2] or not -(2**31) <= int(values[2]) < 2**31:
+        raise ValueError(f"the id of a region must be an integer of 32 bits, not {values[2]!r}")
+    area = float(values[3]) if len(values) == 4 and values[3] is not None else 0.0
+    if not 0 <= area < float("inf"):
+        raise ValueError(f"the area of a region must be positive, or 0 for any, not {area}")
+    return (float(values[0]), float(values[1]), int(values[2]), area)
+
+
+def _or_none(array: Array) -> Optional[Array]:
+    return array if len(array) else None

@@ -1,0 +1,193 @@
+// Triangles in the plane. The interpreter lock is released while the call runs.
+#include "holdfast/plane.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "arrays.h"
+#include "limits.h"
+#include "plane_report.h"
+#include "register.h"
+#include "watch.h"
+
+namespace holdfast::python {
+namespace {
+
+struct PlaneRun {
+  PlaneResult result;
+  std::vector<Remark> remarks;
+  bool stopped = false;
+  std::size_t input_points = 0;
+};
+
+using Seeds = std::vector<std::tuple<double, double, int, double>>;
+
+template <typename Enum, std::size_t N>
+void take_named(const py::dict& options, const char* option, const std::array<Enum, N>& values, Enum& to) {
+  if (!options.contains(option) || options[option].is_none()) return;
+  const auto text = py::cast<std::string>(options[option]);
+  std::string known;
+  for (const Enum value : values) {
+    if (text == name(value)) {
+      to = value;
+      return;
+    }
+    known += (known.empty() ? "" : ", ") + std::string(name(value));
+  }
+  throw std::invalid_argument(std::string(option) + "='" + text + "': there is " + known);
+}
+
+PlaneOptions options_from(const py::dict& options) {
+  PlaneOptions how;
+  take_limits(options, how);
+  take_named(options, "method", plane_methods, how.method);
+  take_named(options, "ears", plane_ears, how.ears);
+  take_named(options, "order", laying_orders, how.order);
+  take(options, "partition_first", how.partition_first);
+  take(options, "delaunay", how.delaunay);
+  take(options, "hull", how.hull);
+  take(options, "size", how.size);
+  if (!options["angle"].is_none()) how.angle = py::cast<double>(options["angle"]);
+  take(options, "keep_boundary", how.keep_boundary);
+  take(options, "max_points", how.max_points);
+  take(options, "seed", how.seed);
+  if (PlaneStage stage{}; !options["stop_after"].is_none()) {
+    take_named(options, "stop_after", plane_stages, stage);
+    how.stop_after = stage;
+  }
+  return how;
+}
+
+/// (points, segments, point markers, segment markers, holes, regions), of two dimensions.
+Plane plane_from(const py::tuple& given) {
+  Plane plane;
+  const auto points = py::array_t<double, py::array::c_style | py::array::forcecast>(given[0]);
+  plane.points.resize(static_cast<std::size_t>(points.shape(0)));
+  const auto at = points.unchecked<2>();
+  for (py::ssize_t i = 0; i < at.shape(0); ++i)
+    plane.points[static_cast<std::size_t>(i)] = {at(i, 0), at(i, 1)};
+  plane.segments = rows_from<Segment>(given[1], "segments");
+  plane.point_markers = markers_from(given[2], "point_markers");
+  plane.segment_markers = markers_from(given[3], "segment_markers");
+  plane.holes = py::cast<std::vector<PlanePoint>>(given[4]);
+  for (const auto& [x, y, id, area] : py::cast<Seeds>(given[5])) plane.regions.push_back({{x, y}, id, area});
+  return plane;
+}
+
+template <typename Make>
+std::shared_ptr<PlaneRun> solve(const py::dict& options, const py::object& progress, Make&& planes) {
+  PlaneOptions how = options_from(options);
+  const Watch watch(progress);
+  how.progress = [&watch](double fraction) { return watch.go_on("plane", fraction); };
+  auto run = std::make_shared<PlaneRun>();
+  run->stopped = how.stop_after.has_value();
+  const py::gil_scoped_release unlocked;
+  const auto given = planes(watch, how);
+  run->input_points = given.points.size();
+  if constexpr (std::is_same_v<decltype(given), const PlanesInSpace>) {
+    if (given.points.empty() && given.parts.size() == 1)
+      run->input_points = given.parts[0].plane.points.size();
+  }
+  run->remarks = given.remarks;
+  run->result = triangulate(given, how);
+  return run;
+}
+
+std::shared_ptr<PlaneRun> plane_arrays(const py::tuple& given, const py::dict& options,
+                                       const py::object& progress) {
+  Plane plane = plane_from(given);
+  return solve(options, progress, [&](const Watch&, const PlaneOptions&) { return std::move(plane); });
+}
+
+/// (points, segments, holes) of three dimensions.
+std::shared_ptr<PlaneRun> plane_in_space_arrays(const py::tuple& given, double tolerance,
+                                                const py::dict& options, const py::object& progress) {
+  const std::vector<Point> points = rows_from<Point>(given[0], "points");
+  const std::vector<Segment> segments = rows_from<Segment>(given[1], "segments");
+  const auto holes = py::cast<std::vector<Point>>(given[2]);
+  return solve(options, progress, [&](const Watch&, const PlaneOptions&) {
+    return plane_in_space(points, segments, holes, tolerance);
+  });
+}
+
+std::shared_ptr<PlaneRun> plane_file(const std::string& path, const std::string& format, double tolerance,
+                                     const py::dict& options, const py::object& progress) {
+  return solve(options, progress, [&](const Watch& watch, const PlaneOptions& how) {
+    ReadOptions reading;
+    static_cast<Limits&>(reading) = how;
+    reading.format = format;
+    reading.tolerance = tolerance;
+    reading.progress = [&watch](double fraction) { return watch.go_on("read", fraction); };
+    return read_planes(path, reading);
+  });
+}
+
+void save(const PlaneRun& run, const std::string& path, const std::string& format, const py::dict& options,
+          const py::object& progress) {
+  const Watch watch(progress);
+  WriteOptions how;
+  take_limits(options, how);
+  how.format = format;
+  how.progress = [&watch](double fraction) { return watch.go_on("write", fraction); };
+  const py::gil_scoped_release unlocked;
+  write_plane(path, run.result.mesh, how);
+}
+
+template <typename See>
+auto seen(See see) {
+  return [see](py::object self) { return see(self.cast<const PlaneRun&>().result.mesh, self); };
+}
+
+}  // namespace
+
+void register_plane(py::module_& module) {
+  py::class_<PlaneRun, std::shared_ptr<PlaneRun>>(module, "PlaneResult")
+      .def_property_readonly("outcome", [](const PlaneRun& r) { return static_cast<int>(r.result.outcome); })
+      .def_property_readonly("message", [](const PlaneRun& r) { return r.result.message; })
+      .def_property_readonly("defects", [](const PlaneRun& r) { return defects_of(r.result.defects); })
+      .def_property_readonly("n_input_points", [](const PlaneRun& r) { return r.input_points; })
+      .def_property_readonly("points", seen([](const PlaneMesh& m, py::handle self) {
+                               return m.in_space.empty()
+                                          ? view_on(reinterpret_cast<const double*>(m.points.data()),
+                                                    m.points.size(), 2, self)
+                                          : view_on(reinterpret_cast<const double*>(m.in_space.data()),
+                                                    m.in_space.size(), 3, self);
+                             }))
+      .def_property_readonly("triangles", seen([](const PlaneMesh& m, py::handle self) {
+                               return indices_on(m.triangles, self);
+                             }))
+      .def_property_readonly(
+          "segments", seen([](const PlaneMesh& m, py::handle self) { return indices_on(m.segments, self); }))
+      .def_property_readonly("regions", seen([](const PlaneMesh& m, py::handle self) {
+                               return view_on(m.regions.data(), m.regions.size(), 0, self);
+                             }))
+      .def_property_readonly("point_markers", seen([](const PlaneMesh& m, py::handle self) {
+                               return view_on(m.point_markers.data(), m.point_markers.size(), 0, self);
+                             }))
+      .def_property_readonly("segment_markers", seen([](const PlaneMesh& m, py::handle self) {
+                               return view_on(m.segment_markers.data(), m.segment_markers.size(), 0, self);
+                             }))
+      .def_property_readonly("remarks",
+                             [](const PlaneRun& r) {
+                               std::vector<std::string> messages;
+                               for (const Remark& remark : r.remarks) messages.push_back(remark.message);
+                               return messages;
+                             })
+      .def("report",
+           [](const PlaneRun& r) {
+             return reports::text_of(reports::to_json(r.result, reports::Json::object(), r.stopped));
+           })
+      .def("save", &save);
+  module.def("plane", &plane_arrays);
+  module.def("plane_in_space", &plane_in_space_arrays);
+  module.def("plane_file", &plane_file);
+}
+
+}  // namespace holdfast::python
