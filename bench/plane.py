@@ -11,7 +11,7 @@ import subprocess
 from fractions import Fraction
 from statistics import median
 
-from plane_inputs import plate, scaled, spiral, star, straight, touching, write_poly, write_random
+from plane_inputs import comb, plate, scaled, spiral, star, straight, touching, write_poly, write_random
 from process import apart, run, take_turns
 
 OURS, CGAL = "holdfast", "CGAL"
@@ -124,6 +124,8 @@ def polygons_to_time():
         yield f"a star of {count:,} corners", [star(count)]
     for count in (10_000, 100_000):
         yield f"a spiral of {count:,} corners", [spiral(count)]
+    for count in (10_000, 100_000):
+        yield f"a comb of {count:,} corners", [comb(count)]
     yield "a plate with 900 holes of 8 corners", plate(30)
 
 

@@ -42,6 +42,12 @@ def spiral(count):
     return [at(i, 0) for i in range(half)] + [at(i, 1) for i in reversed(range(half))]
 
 
+def comb(count):
+    """Teeth ten high on a bar: every second corner is reflex."""
+    teeth = [(float(i), 0.3 if i % 2 else 10.0) for i in range(count - 2)]
+    return [(-3.0, -1.0), (float(count), -1.0), *reversed(teeth)]
+
+
 def plate(side):
     """A square with side x side holes of eight corners."""
     holes = [[(i + 0.5 + 0.3 * math.cos(math.pi * k / 4), j + 0.5 - 0.3 * math.sin(math.pi * k / 4)) for k in range(8)]

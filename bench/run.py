@@ -4,7 +4,8 @@
 
 Parts, each told in its module: delaunay, surfaces, fig15, growth, recovery, mesh, flips, native, plane. What is measured is kept
 in <build>/bench/<part>.json (kept.py), and a part that is known for these programs and options is not measured again, unless
---again asks for it. --part restricts what is measured; docs/benchmarks.md is written from all that is known.
+--again asks for it. --part restricts what is measured; docs/benchmarks.md is written from all that is known, and keeps what it
+says of parts that are not known for this program, marked as such.
 """
 import argparse
 import os
@@ -95,28 +96,58 @@ def known(options):
     return {name: part(name) for name in PARTS}
 
 
-def field_lines(options):
+EARLIER = "*Measured earlier, with another build than the one named above.*"
+
+
+class Earlier:
+    """What the document says already: sections by title, and rows of the targets by their texts."""
+
+    def __init__(self, path):
+        text = path.read_text(encoding="utf-8") if path.exists() else ""
+        parts = re.split(r"^## (.*)\n", text, flags=re.M)
+        self.sections = {title: body.strip().splitlines() for title, body in zip(parts[1::2], parts[2::2])}
+        rows = [line for line in self.sections.get("Targets", []) if line.startswith("| ")]
+        self.targets = {row[2:].split(" | ")[0]: row for row in rows}
+
+    def section(self, title, lines, known):
+        """`lines`, or what stands there where they are not known."""
+        before = self.sections.get(title)
+        if known or not before or before[0].startswith("Not measured yet"):
+            return lines
+        return before if before[0] == EARLIER else [EARLIER, "", *before]
+
+    def target(self, line):
+        if "| not measured |" not in line:
+            return line
+        text = line[2:].split(" | ")[0]
+        return next((row for told, row in self.targets.items() if told.startswith(text)), line)
+
+
+def field_lines(options, earlier):
     """What bench/field.py kept of its targets beside its rows."""
     told = field_targets(options.build / "field_targets.json", digest(options.build / "holdfast"))
-    return ["## Meshes with field points", "",
-            "Meshes to compute with, beside Gmsh, TetGen and Netgen: [field.md](field.md), by `make field`.", "", *told, ""]
+    lines = ["Meshes to compute with, beside Gmsh, TetGen and Netgen: [field.md](field.md), by `make field`.", "", *told]
+    measured = not told[0].startswith("Not measured yet")
+    return ["## Meshes with field points", "", *earlier.section("Meshes with field points", lines, measured), ""]
 
 
 def document(options):
     version = run([options.build / "holdfast", "--version"]).output.strip()
     commit = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=False)
     parts = known(options)
+    earlier = Earlier(options.output)
     figures = {name: told for name, (_, told) in parts.items() if told}
     lines = ["# Benchmarks", "",
              f"Written by `make bench` on {time.strftime('%Y-%m-%d')}: {version} at {commit.stdout.strip()}, against Debian's TetGen "
              f"{version_of('tetgen')}, CGAL {version_of('libcgal-dev')} and Gmsh {version_of('gmsh')}; {machine()}. A portable x86-64 "
              "build but where it says native. The programs took turns; each found memory that the machine has at hand, but for the "
              "surfaces of the corpus (bench/process.py says why).", "",
-             "## Targets", "", *table(targets.targets(figures)), "",
+             "## Targets", "", *map(earlier.target, table(targets.targets(figures))), "",
              (ROOT / "bench" / "missed.md").read_text(encoding="utf-8").strip(), ""]
-    for name, (told, _) in parts.items():
-        lines += [f"## {PARTS[name].title}", "", *told, ""]
-    return "\n".join(lines + field_lines(options)).rstrip() + "\n"
+    for name, (told, figure) in parts.items():
+        title = PARTS[name].title
+        lines += [f"## {title}", "", *earlier.section(title, told, figure is not None), ""]
+    return "\n".join(lines + field_lines(options, earlier)).rstrip() + "\n"
 
 
 def parse_arguments():

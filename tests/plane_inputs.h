@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -97,6 +98,58 @@ inline Plane random_plane(std::uint64_t seed, std::size_t most = 200) {
     plane.segments.push_back(s);
   }
   return plane;
+}
+
+/// Spoils a valid input in one way: a point again, a point on a segment, a segment that crosses, overlaps,
+/// stands twice or has no length. What a message must name; nothing where the input has no place for it.
+struct Spoilt {
+  DefectKind kind;
+  std::vector<Index> vertices, segments;
+};
+inline std::optional<Spoilt> spoil(Plane& plane, numbers::Random& random) {
+  const auto any = [&](std::size_t n) { return static_cast<Index>(numbers::below(n, random)); };
+  const auto last_point = [&] { return static_cast<Index>(plane.points.size() - 1); };
+  const auto last_segment = [&] { return static_cast<Index>(plane.segments.size() - 1); };
+  const std::uint64_t way = numbers::below(6, random);
+  if (way == 0) {
+    const Index v = any(plane.points.size());
+    plane.points.push_back(plane.points[v]);
+    return Spoilt{DefectKind::repeated_vertex, {v, last_point()}, {}};
+  }
+  if (way == 1) {
+    const Index v = any(plane.points.size());
+    plane.segments.push_back({v, v});
+    return Spoilt{DefectKind::degenerate_segment, {v, v}, {last_segment()}};
+  }
+  if (plane.segments.empty()) return std::nullopt;
+  const Index s = any(plane.segments.size());
+  const auto [a, b] = plane.segments[s];
+  if (way == 2) {
+    plane.segments.push_back({b, a});
+    return Spoilt{DefectKind::segments_overlap, {}, {s, last_segment()}};
+  }
+  if (way == 3 || way == 4) {
+    // The middle, where doubles have it; as a point alone, or as the end of a segment that overlaps.
+    const PlanePoint &p = plane.points[a], &q = plane.points[b];
+    const PlanePoint middle{p[0] / 2 + q[0] / 2, p[1] / 2 + q[1] / 2};
+    if (!lies_between(p, q, middle)) return std::nullopt;
+    if (std::find(plane.points.begin(), plane.points.end(), middle) != plane.points.end())
+      return std::nullopt;
+    plane.points.push_back(middle);
+    if (way == 3) return Spoilt{DefectKind::vertex_in_segment, {last_point()}, {s}};
+    plane.segments.push_back({a, last_point()});
+    return Spoilt{DefectKind::segments_overlap, {}, {s, last_segment()}};
+  }
+  for (int tries = 0; tries < 50; ++tries) {
+    const Segment t{any(plane.points.size()), any(plane.points.size())};
+    const auto at = [&](Index v) { return plane.points[v].data(); };
+    if (exact::orient2d(at(a), at(b), at(t[0])) * exact::orient2d(at(a), at(b), at(t[1])) >= 0 ||
+        exact::orient2d(at(t[0]), at(t[1]), at(a)) * exact::orient2d(at(t[0]), at(t[1]), at(b)) >= 0)
+      continue;
+    plane.segments.push_back(t);
+    return Spoilt{DefectKind::segments_cross, {}, {s, last_segment()}};
+  }
+  return std::nullopt;
 }
 
 /// Twice the area, exactly.

@@ -100,7 +100,7 @@ def plane(options, folder, rows):
         *sums, "",
         "The difference comes from the edges at the ends of the segments, which the equation leaves out.", "",
         "Ears (§2.1), in seconds of the processor for the whole program, by n; r reflex vertices. The paper's n (1 + r) tests every reflex vertex against every "
-        "ear; ours looks up those near by a grid, which helps little on a comb, whose ears are as long as the grid is wide.", "",
+        "ear; ours looks up those near in boxes along a Hilbert curve, which is near linear, on a comb, too.", "",
         *complexity.ears_lines(options, folder, rows["complexity"]), ""]
 
 

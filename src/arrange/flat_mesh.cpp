@@ -215,7 +215,7 @@ void FlatMesh::constrain(Vertex from, Vertex to, std::uint32_t line) {
 void FlatMesh::lay(Vertex from, Vertex to, const std::vector<EdgeCode>& crossed, std::uint32_t line) {
   if (!crossed.empty()) {
     if (!random_) random_.emplace(1);
-    plane::swap_in(mesh_, points_, from, to, crossed, *random_, pending_);
+    plane::SegmentSwaps(mesh_, points_).lay(from, to, crossed, *random_, pending_);
   }
   constrain(from, to, line);
   legalise();

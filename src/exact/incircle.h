@@ -27,10 +27,16 @@ namespace detail {
   const double bxcy = bx * cy, cxby = cx * by, cxay = cx * ay, axcy = ax * cy, axby = ax * by, bxay = bx * ay;
   const double a2 = ax * ax + ay * ay, b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
   const double det = a2 * (bxcy - cxby) + b2 * (cxay - axcy) + c2 * (axby - bxay);
+  // The permanent is at most S^2 / 3, with S the sum of the squares a2, b2 and c2 (Cauchy-Schwarz, and the
+  // inequality of the means twice); 4 eps S^2 leaves a sixth for the roundings of the bound. It decides most.
+  const double squares = a2 + b2 + c2;
+  const double rough = 4 * kEpsilon * squares * squares + 0x1p-900;
+  if (std::fabs(det) > rough) [[likely]]
+    return det > 0 ? 1 : -1;
   const double ma = std::fabs(bxcy) + std::fabs(cxby), mb = std::fabs(cxay) + std::fabs(axcy),
                mc = std::fabs(axby) + std::fabs(bxay);
   const double permanent = ma * a2 + mb * b2 + mc * c2;
-  const double room = 0x1p-900 + 0x1p-900 * ((ma + mb + mc) + (a2 + b2 + c2));
+  const double room = 0x1p-900 + 0x1p-900 * ((ma + mb + mc) + squares);
   return filtered_sign(det, (10 + 128 * kEpsilon) * kEpsilon * permanent + room);
 }
 

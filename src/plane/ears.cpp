@@ -12,7 +12,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "plane/grid.h"
+#include "plane/point_tree.h"
 
 namespace holdfast::plane {
 namespace {
@@ -30,7 +30,7 @@ class Clipper {
     for (Corner i = 0; i < n; ++i)
       corners_.push_back({walk[i], i > 0 ? i - 1 : n - 1, i + 1 < n ? i + 1 : 0});
     for (Corner i = 0; i < n; ++i) corners_[i].reflex = turn(i) <= 0;
-    make_cells(walk);
+    plant_tree();
     // The last is looked at first, so that ears come in the order of the walk.
     for (Corner i = n; i-- > 0;) look_at(i);
   }
@@ -46,7 +46,7 @@ class Clipper {
       const Corner a = corners_[b].before, c = corners_[b].behind;
       if (a == corners_[c].behind) {  // the last triangle of a part
         emit(a, b, c);
-        for (const Corner i : {a, b, c}) corners_[i].removed = true;
+        for (const Corner i : {a, b, c}) remove(i);
         continue;
       }
       const Corner witness = blocker(a, b, c);
@@ -70,6 +70,7 @@ class Clipper {
     Corner before, behind;
     bool reflex = false, removed = false;
     std::uint32_t waiting = kNone;  // first of a list of corners of which this one is the witness
+    std::uint32_t item = kNone;     // in the tree, if it was reflex in the beginning
     Corner twin = kNone;            // another corner at the vertex, by the second construction
   };
   struct Waiting {
@@ -129,54 +130,35 @@ class Clipper {
 
   // --- Corners in a triangle ------------------------------------------------------------------------------
 
-  // Reflex corners by cells of a grid, about one in each.
-  void make_cells(std::span<const Vertex> walk) {
-    std::vector<Position> places;
-    for (Corner i = 0; i < corners_.size(); ++i)
-      if (corners_[i].reflex) places.push_back(points_[walk[i]]);
-    if (places.empty()) return;
-    side_ = 1;
-    while (std::size_t{side_} * side_ < places.size() && side_ < 4096) side_ *= 2;
-    grid_.emplace(places, side_);
-    first_.assign(std::size_t{side_} * side_ + 1, 0);
-    const auto cell = [&](Corner i) {
-      const Position& p = points_[corners_[i].v];
-      return std::size_t{grid_->cell(p[1], 1)} * side_ + grid_->cell(p[0], 0);
-    };
-    for (Corner i = 0; i < corners_.size(); ++i)
-      if (corners_[i].reflex) ++first_[cell(i) + 1];
-    for (std::size_t k = 1; k < first_.size(); ++k) first_[k] += first_[k - 1];
-    in_cells_.resize(places.size());
-    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    for (Corner i = 0; i < corners_.size(); ++i)
-      if (corners_[i].reflex) in_cells_[next[cell(i)]++] = i;
+  void plant_tree() {
+    std::vector<Vertex> reflex;
+    for (Corner i = 0; i < corners_.size(); ++i) {
+      if (!corners_[i].reflex) continue;
+      corners_[i].item = static_cast<std::uint32_t>(reflex.size());
+      corner_of_.push_back(i);
+      reflex.push_back(corners_[i].v);
+    }
+    tree_.emplace(points_, reflex);
+  }
+
+  /// Of a corner that is removed, or not reflex any more. Twins stand for each other.
+  void take_out(Corner i) {
+    if (corners_[i].item != kNone && corners_[i].twin == kNone) tree_->erase(corners_[i].item);
   }
 
   /// Calls `visit` for reflex corners in the triangle, but those at its own vertices, until it returns false.
   template <typename Visit>
   void each_inside(Corner a, Corner b, Corner c, Visit&& visit) const {
-    if (!grid_) return;
     const Vertex va = corners_[a].v, vb = corners_[b].v, vc = corners_[c].v;
-    const Position &pa = points_[va], &pb = points_[vb], &pc = points_[vc];
-    const double left = std::min({pa[0], pb[0], pc[0]}), right = std::max({pa[0], pb[0], pc[0]});
-    const double low = std::min({pa[1], pb[1], pc[1]}), high = std::max({pa[1], pb[1], pc[1]});
-    const std::uint32_t x0 = grid_->cell(left, 0), x1 = grid_->cell(right, 0);
-    const std::uint32_t y0 = grid_->cell(low, 1), y1 = grid_->cell(high, 1);
-    for (std::uint32_t y = y0; y <= y1; ++y) {
-      const std::size_t row = std::size_t{y} * side_;
-      for (std::uint32_t k = first_[row + x0]; k < first_[row + x1 + 1]; ++k) {
-        const Vertex v = corners_[in_cells_[k]].v;
-        const Position& p = points_[v];
-        if (p[0] < left || p[0] > right || p[1] < low || p[1] > high) continue;
-        if (v == va || v == vb || v == vc) continue;
-        for (Corner i = in_cells_[k]; i != kNone; i = corners_[i].twin) {
-          if (!corners_[i].reflex || corners_[i].removed) continue;
-          if (points_.orient(va, vb, v) < 0 || points_.orient(vb, vc, v) < 0 || points_.orient(vc, va, v) < 0)
-            break;
-          if (!visit(i)) return;
-        }
-      }
-    }
+    tree_->each_near(va, vb, vc, [&](std::uint32_t item) {
+      const Vertex v = corners_[corner_of_[item]].v;
+      if (v == va || v == vb || v == vc) return true;
+      if (points_.orient(va, vb, v) < 0 || points_.orient(vb, vc, v) < 0 || points_.orient(vc, va, v) < 0)
+        return true;
+      for (Corner i = corner_of_[item]; i != kNone; i = corners_[i].twin)
+        if (corners_[i].reflex && !corners_[i].removed && !visit(i)) return false;
+      return true;
+    });
   }
 
   [[nodiscard]] Corner blocker(Corner a, Corner b, Corner c) const {
@@ -188,12 +170,16 @@ class Clipper {
     return found;
   }
 
-  // --- Triangles
-  // --------------------------------------------------------------------------------------------
+  // --- Triangles ---------------------------------------------------------------------------------------
 
   void emit(Corner a, Corner b, Corner c) {
     triangles_.push_back({corners_[a].v, corners_[b].v, corners_[c].v});
     ++counts_.ears;
+  }
+
+  void remove(Corner i) {
+    corners_[i].removed = true;
+    take_out(i);
   }
 
   void connect(Corner a, Corner b) {
@@ -205,6 +191,7 @@ class Clipper {
   void refresh(Corner i) {
     if (corners_[i].reflex && turn(i) > 0) {
       corners_[i].reflex = false;
+      take_out(i);
       wake(i);
     }
     look_at(i);
@@ -212,7 +199,7 @@ class Clipper {
 
   void cut(Corner a, Corner b, Corner c) {
     emit(a, b, c);
-    corners_[b].removed = true;
+    remove(b);
     wake(b);
     connect(a, c);
     refresh(a);
@@ -238,6 +225,7 @@ class Clipper {
     Place place = corners_[r];
     place.before = a;
     place.waiting = kNone;
+    place.item = kNone;
     corners_.push_back(place);
     corners_[r].twin = other;
     if (corners_[other].behind == a) {  // a part of two corners, which is an edge
@@ -268,7 +256,7 @@ class Clipper {
   void close(Corner i, Corner j) {
     if (corners_[j].behind == i) {
       for (const Corner k : {i, j}) {
-        corners_[k].removed = true;
+        remove(k);
         wake(k);
       }
       return;
@@ -284,10 +272,8 @@ class Clipper {
   std::vector<Place> corners_;
   std::vector<Candidate> candidates_;
   std::vector<Waiting> waiting_;
-  std::uint32_t side_ = 0;
-  std::optional<Grid> grid_;
-  std::vector<std::uint32_t> first_;
-  std::vector<Corner> in_cells_;
+  std::vector<Corner> corner_of_;  // of the tree's items
+  std::optional<PointTree> tree_;  // of reflex corners
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "plane/order.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <utility>
@@ -11,21 +12,52 @@
 namespace holdfast::plane {
 namespace {
 
-constexpr int kBits = 20;  // of a cell's number along an axis
+constexpr unsigned kBits = 20;  // of a cell's number along an axis
+constexpr unsigned kStep = 4;   // of these that the tables take at once
+static_assert(kBits % kStep == 0);
 
-/// Place along the Hilbert curve of a cell (Skilling 2004, Programming the Hilbert curve).
-std::uint64_t hilbert(std::uint32_t x, std::uint32_t y) {
-  std::uint64_t place = 0;
-  for (std::uint32_t s = 1u << (kBits - 1); s > 0; s >>= 1) {
-    const std::uint32_t rx = (x & s) != 0, ry = (y & s) != 0;
-    place = place << 2 | ((3 * rx) ^ ry);
-    if (ry == 0) {
-      if (rx == 1) {
-        x = ~x;
-        y = ~y;
-      }
-      std::swap(x, y);
+/// Places along the Hilbert curve of a cell in a square of 2^kStep cells, and how the curve lies in the cell,
+/// for the four ways in which it may lie in the square: turned round, mirrored, both, neither (Skilling 2004,
+/// Programming the Hilbert curve).
+struct HilbertTable {
+  struct Entry {
+    std::uint8_t place, way;
+  };
+  std::array<std::array<Entry, 1u << 2 * kStep>, 4> of_way{};
+
+  constexpr HilbertTable() {
+    for (std::uint32_t way = 0; way < 4; ++way)
+      for (std::uint32_t cell = 0; cell < 1u << 2 * kStep; ++cell) of_way[way][cell] = entry(way, cell);
+  }
+
+ private:
+  static constexpr Entry entry(std::uint32_t way, std::uint32_t cell) {
+    bool turned = (way & 1) != 0, mirrored = (way & 2) != 0;
+    std::uint32_t place = 0;
+    for (std::uint32_t bit = kStep; bit-- > 0;) {
+      std::uint32_t x = cell >> (kStep + bit) & 1, y = cell >> bit & 1;
+      if (mirrored) std::swap(x, y);
+      if (turned) x ^= 1, y ^= 1;
+      place = place << 2 | ((3 * x) ^ y);
+      if (y != 0) continue;
+      turned ^= x != 0;
+      mirrored = !mirrored;
     }
+    return {static_cast<std::uint8_t>(place),
+            static_cast<std::uint8_t>((turned ? 1 : 0) | (mirrored ? 2 : 0))};
+  }
+};
+constexpr HilbertTable kHilbert;
+
+std::uint64_t hilbert(std::uint32_t x, std::uint32_t y) {
+  constexpr std::uint32_t kMask = (1u << kStep) - 1;
+  std::uint64_t place = 0;
+  std::uint32_t way = 0;
+  for (unsigned shift = kBits; shift > 0;) {
+    shift -= kStep;
+    const auto [part, next] = kHilbert.of_way[way][(x >> shift & kMask) << kStep | (y >> shift & kMask)];
+    place = place << 2 * kStep | part;
+    way = next;
   }
   return place;
 }
@@ -38,24 +70,56 @@ std::uint64_t scattered(std::uint64_t i) {
   return i ^ i >> 31;
 }
 
+struct Entry {
+  std::uint64_t key;
+  Vertex point;
+};
+
+/// Stable, by the low `bits` bits of the keys, least significant digit first.
+void sort(std::vector<Entry>& entries, unsigned bits) {
+  constexpr std::size_t kFew = 2048;
+  if (entries.size() < kFew) {
+    std::stable_sort(entries.begin(), entries.end(),
+                     [](const Entry& a, const Entry& b) { return a.key < b.key; });
+    return;
+  }
+  constexpr unsigned kDigit = 11;
+  std::vector<Entry> other(entries.size());
+  std::vector<std::size_t> next(std::size_t{1} << kDigit);
+  for (unsigned shift = 0; shift < bits; shift += kDigit) {
+    const auto digit = [=](const Entry& e) { return e.key >> shift & ((1u << kDigit) - 1); };
+    std::fill(next.begin(), next.end(), 0);
+    for (const Entry& e : entries) ++next[digit(e)];
+    std::size_t sum = 0;
+    for (std::size_t& n : next) n = std::exchange(sum, sum + n);
+    for (const Entry& e : entries) other[next[digit(e)]++] = e;
+    entries.swap(other);
+  }
+}
+
+/// Half of the points come in the last round, a quarter in the one before, and so on.
+std::vector<Vertex> order_in_rounds(std::span<const Position> points, int rounds) {
+  if (points.empty()) return {};
+  const Grid grid(points, 1u << kBits);
+  std::vector<Entry> entries(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const int back = rounds == 0 ? 0 : std::min(std::countr_zero(scattered(i)), rounds);
+    const std::uint64_t place = hilbert(grid.cell(points[i][0], 0), grid.cell(points[i][1], 1));
+    entries[i] = {static_cast<std::uint64_t>(rounds - back) << (2 * kBits) | place, static_cast<Vertex>(i)};
+  }
+  sort(entries, 2 * kBits + static_cast<unsigned>(std::bit_width(static_cast<unsigned>(rounds))));
+  std::vector<Vertex> order(points.size());
+  for (std::size_t i = 0; i < entries.size(); ++i) order[i] = entries[i].point;
+  return order;
+}
+
 }  // namespace
 
 std::vector<Vertex> insertion_order(std::span<const Position> points) {
-  if (points.empty()) return {};
   constexpr std::uint64_t kFirstRound = 1024;
-  const Grid grid(points, 1u << kBits);
-  const int rounds = static_cast<int>(std::bit_width(points.size() / kFirstRound));
-  std::vector<std::pair<std::uint64_t, Vertex>> keys(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    // Half of the points come in the last round, a quarter in the one before, and so on.
-    const int back = std::min(std::countr_zero(scattered(i)), rounds);
-    const std::uint64_t place = hilbert(grid.cell(points[i][0], 0), grid.cell(points[i][1], 1));
-    keys[i] = {static_cast<std::uint64_t>(rounds - back) << (2 * kBits) | place, static_cast<Vertex>(i)};
-  }
-  std::sort(keys.begin(), keys.end());
-  std::vector<Vertex> order(points.size());
-  for (std::size_t i = 0; i < keys.size(); ++i) order[i] = keys[i].second;
-  return order;
+  return order_in_rounds(points, static_cast<int>(std::bit_width(points.size() / kFirstRound)));
 }
+
+std::vector<Vertex> curve_order(std::span<const Position> points) { return order_in_rounds(points, 0); }
 
 }  // namespace holdfast::plane

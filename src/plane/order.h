@@ -13,4 +13,7 @@ namespace holdfast::plane {
 /// Delaunay triangulation quadratic in expectation that is not so in the end.
 [[nodiscard]] std::vector<Vertex> insertion_order(std::span<const Position> points);
 
+/// Indices of points along a Hilbert curve.
+[[nodiscard]] std::vector<Vertex> curve_order(std::span<const Position> points);
+
 }  // namespace holdfast::plane

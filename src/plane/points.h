@@ -27,6 +27,10 @@ class Points {
   [[nodiscard]] const Position& operator[](Vertex v) const { return positions_[v]; }
   [[nodiscard]] const std::vector<Position>& positions() const { return positions_; }
 
+  [[nodiscard]] bool all_explicit() const { return exact_.empty(); }
+  /// Asks for its position, which will be needed soon.
+  void fetch(Vertex v) const { __builtin_prefetch(&positions_[v]); }
+
   Vertex add(const Position& p);
   Vertex add(exact::RationalPoint p);
   /// The same for callers that know the doubles nearest to it.

@@ -6,19 +6,21 @@
 namespace holdfast::plane {
 namespace {
 
+/// Breadth first, so that the triangles of the queue can be fetched ahead.
 void flood(const Triangles& mesh, std::uint32_t first, std::uint32_t region,
-           std::vector<std::uint32_t>& of_triangle) {
-  std::vector<std::uint32_t> pending{first};
+           std::vector<std::uint32_t>& of_triangle, std::vector<std::uint32_t>& queue) {
+  queue.assign(1, first);
   of_triangle[first] = region;
-  while (!pending.empty()) {
-    const std::uint32_t t = pending.back();
-    pending.pop_back();
+  for (std::size_t next = 0; next < queue.size(); ++next) {
+    const Corners& corners = mesh[queue[next]];
     for (std::uint32_t i = 0; i < 3; ++i) {
-      const EdgeCode other = mesh[t].across[i];
-      if (other == kNoEdge || (mesh[t].constrained >> i & 1) != 0) continue;
-      if (of_triangle[triangle_of(other)] != kNoVertex) continue;
-      of_triangle[triangle_of(other)] = region;
-      pending.push_back(triangle_of(other));
+      const EdgeCode other = corners.across[i];
+      if (other == kNoEdge || (corners.constrained >> i & 1) != 0) continue;
+      const std::uint32_t t = triangle_of(other);
+      if (of_triangle[t] != kNoVertex) continue;
+      of_triangle[t] = region;
+      __builtin_prefetch(&mesh[t]);
+      queue.push_back(t);
     }
   }
 }
@@ -27,12 +29,13 @@ void flood(const Triangles& mesh, std::uint32_t first, std::uint32_t region,
 
 Regions find_regions(const Triangles& mesh) {
   Regions regions;
+  std::vector<std::uint32_t> queue;
   regions.of_triangle.assign(mesh.size(), kNoVertex);
   for (std::uint32_t t = 0; t < mesh.size(); ++t)
     if (mesh.is_ghost(t) && regions.of_triangle[t] == kNoVertex)
-      flood(mesh, t, kOutside, regions.of_triangle);
+      flood(mesh, t, kOutside, regions.of_triangle, queue);
   for (std::uint32_t t = 0; t < mesh.size(); ++t)
-    if (regions.of_triangle[t] == kNoVertex) flood(mesh, t, ++regions.count, regions.of_triangle);
+    if (regions.of_triangle[t] == kNoVertex) flood(mesh, t, ++regions.count, regions.of_triangle, queue);
   return regions;
 }
 

@@ -3,20 +3,21 @@
 
 namespace holdfast::plane {
 
-std::optional<Passage> passage(const Triangles& mesh, const Points& points, Vertex a, Vertex b) {
-  Passage found;
+bool find_passage(const Triangles& mesh, const Points& points, Vertex a, Vertex b, Passage& found) {
+  found.edge = kNoEdge;
+  found.crossed.clear();
   const EdgeCode first = mesh.edge_from(a);
-  if (first == kNoEdge) return std::nullopt;
+  if (first == kNoEdge) return false;
   EdgeCode e = first, leave = kNoEdge;
   do {
     const Vertex right = mesh.to(e), left = mesh.apex(e);
     if (right == b) {
       found.edge = e;
-      return found;
+      return true;
     }
     if (right != kNoVertex) {
       const int side = points.orient(a, b, right);
-      if (side == 0 && points.between(a, b, right)) return std::nullopt;
+      if (side == 0 && points.between(a, b, right)) return false;
       if (side < 0 && left != kNoVertex && left != b && points.orient(a, b, left) > 0) leave = next_edge(e);
     }
     e = mesh.turn_right(e);
@@ -24,16 +25,16 @@ std::optional<Passage> passage(const Triangles& mesh, const Points& points, Vert
 
   // The corner across the edge lies on one side of ab, and so tells the edge by which ab leaves.
   while (leave != kNoEdge) {
-    if (mesh.constrained(leave)) return std::nullopt;
+    if (mesh.constrained(leave)) return false;
     found.crossed.push_back(leave);
     const EdgeCode entered = mesh.across(leave);
     const Vertex corner = mesh.apex(entered);
-    if (corner == b) return found;
+    if (corner == b) return true;
     const int side = points.orient(a, b, corner);
-    if (side == 0) return std::nullopt;
+    if (side == 0) return false;
     leave = side > 0 ? next_edge(entered) : previous_edge(entered);
   }
-  return std::nullopt;
+  return false;
 }
 
 }  // namespace holdfast::plane

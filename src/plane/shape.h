@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/elementary.h"
 #include "plane/points.h"
 
 namespace holdfast::plane {
@@ -18,7 +19,8 @@ class Scale {
     factor_ = std::abs(exponent_) < 1000 ? std::scalbn(1.0, -exponent_) : 0;
   }
   [[nodiscard]] Position down(const Position& p) const {
-    if (factor_ != 0) return {p[0] * factor_, p[1] * factor_};
+    if (factor_ != 0) [[likely]]
+      return {p[0] * factor_, p[1] * factor_};
     return {std::scalbn(p[0], -exponent_), std::scalbn(p[1], -exponent_)};
   }
   [[nodiscard]] Position up(const Position& p) const {
@@ -63,6 +65,33 @@ struct Shape {
   std::array<double, 3> edges;  ///< squares of lengths
   std::uint32_t shortest;
   double cosine;  ///< of the least angle, which lies opposite to the shortest edge
+};
+
+/// The least angle of triangles.
+class LeastAngle {
+ public:
+  explicit LeastAngle(const std::vector<Position>& points) : scale_(points) {}
+
+  void take(const Position& a, const Position& b, const Position& c) {
+    const Position p = scale_.down(a), q = scale_.down(b), r = scale_.down(c);
+    const double pq = squared(p, q), qr = squared(q, r), rp = squared(r, p);
+    // Roots and quotients only for triangles that may have the least: its shortest edge has the largest
+    // cosine, n / (2 sqrt(product)).
+    const double shortest = std::min({pq, qr, rp}), n = pq + qr + rp - 2 * shortest;
+    const double product = shortest == pq ? qr * rp : shortest == qr ? rp * pq : pq * qr;
+    if (n * n < bound_ * product) return;
+    const double cosine = Shape(p, q, r).cosine;
+    cosine_ = std::max(cosine_, std::isnan(cosine) ? 1 : cosine);
+    bound_ = cosine_ > 0 ? 4 * (1 - 1e-12) * cosine_ * cosine_ : 0;
+  }
+  [[nodiscard]] double degrees() const {
+    constexpr double kDegrees = 180 / 3.14159265358979323846;
+    return numbers::acos(std::clamp(cosine_, -1.0, 1.0)) * kDegrees;
+  }
+
+ private:
+  Scale scale_;
+  double cosine_ = -1, bound_ = 0;
 };
 
 /// The centre of the circle through a, b and c; not finite where they lie on a line as far as doubles tell.

@@ -2,76 +2,71 @@
 #include "plane/swaps.h"
 
 namespace holdfast::plane {
+
+/// Some edge can be swapped as long as one is crossed, and a sequence of swaps that never increases their
+/// number ends with none; random ones find it with probability 1.
+std::size_t SegmentSwaps::lay(Vertex a, Vertex b, const std::vector<EdgeCode>& crossed,
+                              numbers::Random& random, std::vector<EdgeCode>& swapped) {
+  a_ = a;
+  b_ = b;
+  links_.clear();
+  standing_.clear();
+  const auto n = static_cast<std::uint32_t>(crossed.size());
+  for (std::uint32_t k = 0; k < n; ++k) {
+    links_.push_back({crossed[k], k > 0 ? k - 1 : kNone, k + 1 < n ? k + 1 : kNone, k});
+    standing_.push_back(k);
+  }
+  std::size_t swaps = 0;
+  while (!standing_.empty()) {
+    const std::size_t k = standing_.size() == 1 ? 0 : numbers::below(standing_.size(), random);
+    const EdgeCode diagonal = swap(k);
+    if (diagonal == kNoEdge) continue;
+    swapped.push_back(diagonal);
+    swapped.push_back(mesh_.across(diagonal));
+    ++swaps;
+  }
+  return swaps;
+}
+
+/// Tries to swap the k-th of those that stand; the edge that came of it, or kNoEdge if it cannot be.
+EdgeCode SegmentSwaps::swap(std::size_t k) {
+  const std::uint32_t link = standing_[k];
+  const EdgeCode e = links_[link].edge;
+  const Vertex p = mesh_.apex(e), from = mesh_.from(e), to = mesh_.to(e), q = mesh_.apex(mesh_.across(e));
+  if (points_.orient(p, from, q) <= 0 || points_.orient(q, to, p) <= 0) return kNoEdge;
+  const std::uint32_t before = links_[link].before, after = links_[link].after;
+  // Of the next edge the far side stays as it is, and tells where the near one is afterwards.
+  const EdgeCode far = after == kNone ? kNoEdge : mesh_.across(links_[after].edge);
+  mesh_.flip(e);
+  if (after != kNone) links_[after].edge = mesh_.across(far);
+  const std::uint32_t t = triangle_of(e);
+  const EdgeCode diagonal = code(t, 1);
+  if (crosses(p, q)) {
+    links_[link].edge = near_side(diagonal, before);
+  } else {
+    remove(link);
+  }
+  return diagonal;
+}
+
+/// The diagonal from the triangle that the segment enters first: the one behind the edge before, or at a.
+EdgeCode SegmentSwaps::near_side(EdgeCode diagonal, std::uint32_t before) const {
+  const std::uint32_t t = triangle_of(diagonal);
+  const bool here = before != kNone ? triangle_of(mesh_.across(links_[before].edge)) == t
+                                    : mesh_[t].v[0] == a_ || mesh_[t].v[1] == a_ || mesh_[t].v[2] == a_;
+  return here ? diagonal : mesh_.across(diagonal);
+}
+
+void SegmentSwaps::remove(std::uint32_t link) {
+  const auto [edge, before, after, place] = links_[link];
+  if (before != kNone) links_[before].after = after;
+  if (after != kNone) links_[after].before = before;
+  standing_[place] = standing_.back();
+  links_[standing_[place]].place = place;
+  standing_.pop_back();
+}
+
 namespace {
-
-/// The edges that a segment crosses, in order from its first end a, while they are swapped.
-class Crossings {
- public:
-  Crossings(Triangles& mesh, const Points& points, Vertex a, Vertex b, const std::vector<EdgeCode>& crossed)
-      : mesh_(mesh), points_(points), a_(a), b_(b) {
-    const auto n = static_cast<std::uint32_t>(crossed.size());
-    for (std::uint32_t k = 0; k < n; ++k) {
-      links_.push_back({crossed[k], k > 0 ? k - 1 : kNone, k + 1 < n ? k + 1 : kNone, k});
-      standing_.push_back(k);
-    }
-  }
-
-  [[nodiscard]] std::size_t count() const { return standing_.size(); }
-
-  /// Tries to swap the k-th of those that stand; the edge that came of it, or kNoEdge if it cannot be.
-  EdgeCode swap(std::size_t k) {
-    const std::uint32_t link = standing_[k];
-    const EdgeCode e = links_[link].edge;
-    const Vertex p = mesh_.apex(e), from = mesh_.from(e), to = mesh_.to(e), q = mesh_.apex(mesh_.across(e));
-    if (points_.orient(p, from, q) <= 0 || points_.orient(q, to, p) <= 0) return kNoEdge;
-    const std::uint32_t before = links_[link].before, after = links_[link].after;
-    // Of the next edge the far side stays as it is, and tells where the near one is afterwards.
-    const EdgeCode far = after == kNone ? kNoEdge : mesh_.across(links_[after].edge);
-    mesh_.flip(e);
-    if (after != kNone) links_[after].edge = mesh_.across(far);
-    const std::uint32_t t = triangle_of(e);
-    const EdgeCode diagonal = code(t, 1);
-    if (crosses(p, q)) {
-      links_[link].edge = near_side(diagonal, before);
-    } else {
-      remove(link);
-    }
-    return diagonal;
-  }
-
- private:
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  struct Link {
-    EdgeCode edge;  // seen from the side of a
-    std::uint32_t before, after, place;
-  };
-
-  [[nodiscard]] int side(Vertex v) const { return v == a_ || v == b_ ? 0 : points_.orient(a_, b_, v); }
-  [[nodiscard]] bool crosses(Vertex p, Vertex q) const { return side(p) * side(q) < 0; }
-
-  /// The diagonal from the triangle that the segment enters first: the one behind the edge before, or at a.
-  [[nodiscard]] EdgeCode near_side(EdgeCode diagonal, std::uint32_t before) const {
-    const std::uint32_t t = triangle_of(diagonal);
-    const bool here = before != kNone ? triangle_of(mesh_.across(links_[before].edge)) == t
-                                      : mesh_[t].v[0] == a_ || mesh_[t].v[1] == a_ || mesh_[t].v[2] == a_;
-    return here ? diagonal : mesh_.across(diagonal);
-  }
-
-  void remove(std::uint32_t link) {
-    const auto [edge, before, after, place] = links_[link];
-    if (before != kNone) links_[before].after = after;
-    if (after != kNone) links_[after].before = before;
-    standing_[place] = standing_.back();
-    links_[standing_[place]].place = place;
-    standing_.pop_back();
-  }
-
-  Triangles& mesh_;
-  const Points& points_;
-  Vertex a_, b_;
-  std::vector<Link> links_;
-  std::vector<std::uint32_t> standing_;  // of the links, in any order
-};
 
 bool legal(const Triangles& mesh, const Points& points, EdgeCode e) {
   const EdgeCode f = mesh.across(e);
@@ -84,25 +79,7 @@ bool legal(const Triangles& mesh, const Points& points, EdgeCode e) {
 
 }  // namespace
 
-/// Some edge can be swapped as long as one is crossed, and a sequence of swaps that never increases their
-/// number ends with none; random ones find it with probability 1.
-std::size_t swap_in(Triangles& mesh, const Points& points, Vertex a, Vertex b,
-                    const std::vector<EdgeCode>& crossed, numbers::Random& random,
-                    std::vector<EdgeCode>& swapped) {
-  Crossings crossings(mesh, points, a, b, crossed);
-  std::size_t swaps = 0;
-  while (crossings.count() > 0) {
-    const std::size_t k = crossings.count() == 1 ? 0 : numbers::below(crossings.count(), random);
-    const EdgeCode diagonal = crossings.swap(k);
-    if (diagonal == kNoEdge) continue;
-    swapped.push_back(diagonal);
-    swapped.push_back(mesh.across(diagonal));
-    ++swaps;
-  }
-  return swaps;
-}
-
-std::size_t swap_to_delaunay(Triangles& mesh, const Points& points, std::vector<EdgeCode> pending,
+std::size_t swap_to_delaunay(Triangles& mesh, const Points& points, std::vector<EdgeCode>& pending,
                              const Poll& poll) {
   std::size_t swaps = 0, looks = 0;
   while (!pending.empty()) {
@@ -123,7 +100,7 @@ std::size_t swap_to_delaunay(Triangles& mesh, const Points& points, const Poll& 
   for (std::size_t t = 0; t < mesh.size(); ++t)
     for (std::uint32_t i = 0; i < 3; ++i)
       if (mesh[t].across[i] != kNoEdge && code(t, i) < mesh[t].across[i]) pending.push_back(code(t, i));
-  return swap_to_delaunay(mesh, points, std::move(pending), poll);
+  return swap_to_delaunay(mesh, points, pending, poll);
 }
 
 }  // namespace holdfast::plane

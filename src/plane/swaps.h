@@ -6,15 +6,39 @@
 
 namespace holdfast::plane {
 
-/// Swaps edges that the segment ab crosses, at random, until it crosses none; `crossed` is its passage. Edges
-/// that were swapped, seen from both sides, are added to `swapped`. The number of swaps.
-std::size_t swap_in(Triangles& mesh, const Points& points, Vertex a, Vertex b,
-                    const std::vector<EdgeCode>& crossed, numbers::Random& random,
-                    std::vector<EdgeCode>& swapped);
+/// Swaps edges that segments cross, at random, until they cross none.
+class SegmentSwaps {
+ public:
+  SegmentSwaps(Triangles& mesh, const Points& points) : mesh_(mesh), points_(points) {}
+
+  /// For the segment ab, of which `crossed` is the passage. Edges that were swapped are added to `swapped`,
+  /// as seen from both sides. The number of swaps.
+  std::size_t lay(Vertex a, Vertex b, const std::vector<EdgeCode>& crossed, numbers::Random& random,
+                  std::vector<EdgeCode>& swapped);
+
+ private:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  struct Link {
+    EdgeCode edge;  // seen from the side of a
+    std::uint32_t before, after, place;
+  };
+  [[nodiscard]] int side(Vertex v) const { return v == a_ || v == b_ ? 0 : points_.orient(a_, b_, v); }
+  [[nodiscard]] bool crosses(Vertex p, Vertex q) const { return side(p) * side(q) < 0; }
+  [[nodiscard]] EdgeCode near_side(EdgeCode diagonal, std::uint32_t before) const;
+  EdgeCode swap(std::size_t k);
+  void remove(std::uint32_t link);
+
+  Triangles& mesh_;
+  const Points& points_;
+  Vertex a_ = kNoVertex, b_ = kNoVertex;
+  std::vector<Link> links_;              // in order from a
+  std::vector<std::uint32_t> standing_;  // of these the ones that are crossed, in any order
+};
 
 /// Swaps edges that are no constraints until the circle of each triangle has no corner of a neighbour inside
-/// (but behind constraints), beginning with the edges of the triangles of `pending`. The number of swaps.
-std::size_t swap_to_delaunay(Triangles& mesh, const Points& points, std::vector<EdgeCode> pending,
+/// (but behind constraints), beginning with the edges of the triangles of `pending`, which is empty then. The
+/// number of swaps.
+std::size_t swap_to_delaunay(Triangles& mesh, const Points& points, std::vector<EdgeCode>& pending,
                              const Poll& poll);
 /// The same for all edges.
 std::size_t swap_to_delaunay(Triangles& mesh, const Points& points, const Poll& poll);

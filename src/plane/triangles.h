@@ -89,6 +89,12 @@ class Triangles {
     const EdgeCode other = across(e);
     return other == kNoEdge ? kNoEdge : next_edge(other);
   }
+  /// Ask for memory that will be needed soon: of a vertex, which triangle is at it, and then this triangle.
+  void fetch_star(Vertex v) const { __builtin_prefetch(&star_[v]); }
+  void fetch_triangle(Vertex v) const {
+    if (const std::uint32_t t = star_[v]; t != kNoVertex) __builtin_prefetch(&all_[t]);
+  }
+  void fetch(std::uint32_t triangle) const { __builtin_prefetch(&all_[triangle]); }
   void set_star(Vertex v, std::uint32_t triangle) { star_[v] = triangle; }
   void add_star(std::uint32_t triangle) { star_.push_back(triangle); }
   void drop_stars(std::size_t count) { star_.resize(count); }

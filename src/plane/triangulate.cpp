@@ -7,7 +7,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "numbers/elementary.h"
 #include "numbers/halving.h"
 #include "numbers/random.h"
 #include "plane/defects.h"
@@ -128,11 +127,9 @@ class Run {
       keep([](std::uint32_t) { return true; });
       return true;
     }
-    if (is_delaunay())
+    if (is_delaunay() && options_.method == PlaneMethod::partition)
       stage("lawson", kLawson, [&](const Poll& poll) {
-        result_.report.delaunay_swaps = options_.method == PlaneMethod::swaps
-                                            ? swap_to_delaunay(mesh_, points_, edges_of_swapped(), poll)
-                                            : swap_to_delaunay(mesh_, points_, poll);
+        result_.report.delaunay_swaps = swap_to_delaunay(mesh_, points_, poll);
       });
     keep_regions();
     return true;
@@ -155,24 +152,28 @@ class Run {
 
   bool insert_segments(const Poll& poll) {
     mesh_.find_stars(points_.size());
-    std::size_t laid = 0;
-    for (const Index s : laying_order()) {
-      if (laid++ % 256 == 0) poll(static_cast<double>(laid) / static_cast<double>(segments_.size()));
+    Passage passage;
+    SegmentSwaps swaps(mesh_, points_);
+    const std::vector<Index> order = laying_order();
+    for (std::size_t laid = 0; laid < order.size(); ++laid) {
+      if (laid % 256 == 0) poll(static_cast<double>(laid) / static_cast<double>(order.size()));
+      fetch_ahead(order, laid);
+      const Index s = order[laid];
       const auto [a, b] = segments_[s];
-      const std::optional<Passage> found = passage(mesh_, points_, a, b);
-      if (!found) return false;
-      EdgeCode edge = found->edge;
+      if (!find_passage(mesh_, points_, a, b, passage)) return false;
+      EdgeCode edge = passage.edge;
       if (edge == kNoEdge) {
         ++result_.report.missing_segments;
         if (options_.method == PlaneMethod::partition) {
-          take_apart(s, found->crossed);
+          take_apart(s, passage.crossed);
           continue;
         }
-        result_.report.swaps += swap_in(mesh_, points_, a, b, found->crossed, random_, swapped_);
+        result_.report.swaps += swaps.lay(a, b, passage.crossed, random_, swapped_);
         edge = mesh_.find_edge(a, b);
       }
       if (mesh_.constrained(edge)) return false;  // by the same segment
       mesh_.constrain(edge);
+      restore_delaunay();
     }
     if (options_.stop_after != PlaneStage::partition) put_together();
     if (options_.hull || segments_.empty())
@@ -228,13 +229,27 @@ class Run {
     mesh_.drop_stars(points_.size());
   }
 
-  // All triangles that swaps have changed, edge by edge.
-  [[nodiscard]] std::vector<EdgeCode> edges_of_swapped() const {
-    std::vector<EdgeCode> edges;
-    edges.reserve(3 * swapped_.size());
-    for (const EdgeCode e : swapped_)
-      for (const EdgeCode edge : {e, next_edge(e), previous_edge(e)}) edges.push_back(edge);
-    return edges;
+  /// The triangles that swaps have changed are still at hand.
+  void restore_delaunay() {
+    if (is_delaunay()) {
+      pending_.clear();
+      for (const EdgeCode e : swapped_) pending_.insert(pending_.end(), {e, next_edge(e), previous_edge(e)});
+      result_.report.delaunay_swaps += swap_to_delaunay(mesh_, points_, pending_, poll_none_);
+    }
+    swapped_.clear();
+  }
+
+  /// Segments come in any order, so that each begins where nothing has been lately.
+  void fetch_ahead(const std::vector<Index>& order, std::size_t laid) const {
+    constexpr std::size_t kStars = 24, kTriangles = 16, kCorners = 8;
+    if (laid + kStars < order.size()) mesh_.fetch_star(segments_[order[laid + kStars]][0]);
+    if (laid + kTriangles < order.size()) mesh_.fetch_triangle(segments_[order[laid + kTriangles]][0]);
+    if (laid + kCorners >= order.size()) return;
+    const EdgeCode e = mesh_.edge_from(segments_[order[laid + kCorners]][0]);
+    if (e == kNoEdge) return;
+    for (const Vertex v : mesh_[triangle_of(e)].v)
+      if (v != kNoVertex) points_.fetch(v);
+    for (const EdgeCode across : mesh_[triangle_of(e)].across) mesh_.fetch(triangle_of(across));
   }
 
   [[nodiscard]] bool is_delaunay() const { return options_.delaunay || refines(options_); }
@@ -319,12 +334,17 @@ class Run {
   template <typename Kept, typename Id>
   void keep(Kept&& kept, Id&& id) {
     PlaneMesh& mesh = result_.mesh;
+    mesh.triangles.reserve(mesh_.size());
+    mesh.regions.reserve(mesh_.size());
+    LeastAngle least(points_.positions());
     for (std::uint32_t t = 0; t < mesh_.size(); ++t) {
       if (mesh_.is_ghost(t) || !kept(t)) continue;
       const std::array<Vertex, 3>& v = mesh_[t].v;
       mesh.triangles.push_back({number(v[0]), number(v[1]), number(v[2])});
       mesh.regions.push_back(id(t));
+      least.take(points_[v[0]], points_[v[1]], points_[v[2]]);
     }
+    if (!mesh.triangles.empty()) result_.report.least_angle = least.degrees();
     mesh.points = plane_.points;
     mesh.point_markers = plane_.point_markers;
     mesh.segments = plane_.segments;
@@ -334,22 +354,6 @@ class Run {
       mesh.points.push_back(points_[static_cast<Vertex>(v)]);
     if (!mesh.point_markers.empty()) mesh.point_markers.resize(mesh.points.size(), 0);
     result_.report.triangles = mesh.triangles.size();
-    measure();
-  }
-
-  void measure() {
-    const PlaneMesh& mesh = result_.mesh;
-    const Scale scale(mesh.points);
-    double cosine = -1;
-    for (const Triangle& t : mesh.triangles) {
-      const double of_triangle =
-          Shape(scale.down(mesh.points[t[0]]), scale.down(mesh.points[t[1]]), scale.down(mesh.points[t[2]]))
-              .cosine;
-      cosine = std::max(cosine, std::isnan(of_triangle) ? 1 : of_triangle);
-    }
-    constexpr double kDegrees = 180 / 3.14159265358979323846;
-    result_.report.least_angle =
-        mesh.triangles.empty() ? 0 : numbers::acos(std::clamp(cosine, -1.0, 1.0)) * kDegrees;
   }
   template <typename Kept>
   void keep(Kept&& kept) {
@@ -392,7 +396,8 @@ class Run {
   Points points_;
   std::vector<std::array<Vertex, 2>> segments_;
   Triangles mesh_;
-  std::vector<EdgeCode> swapped_;
+  std::vector<EdgeCode> swapped_, pending_;
+  Poll poll_none_;
   Partition partition_{mesh_, points_};
   std::vector<Pieces> pieces_;  // of segments whose points are still there
   Refined refined_;
