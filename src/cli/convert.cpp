@@ -29,6 +29,7 @@ struct ConvertArguments {
   OrderArguments order;
   LimitArguments limits;
   unsigned threads = 1;
+  double tolerance = 0;
   bool quiet = false;
 };
 
@@ -85,7 +86,7 @@ int run(const ConvertArguments& arguments) {
   target.options.threads = arguments.threads;
   watch_writing(target.options, limits);
   cancel_at_once();
-  AnyMesh mesh = read_any(arguments.input, reading(limits, arguments.input_format));
+  AnyMesh mesh = read_any(arguments.input, reading(limits, arguments.input_format, arguments.tolerance));
   if (!arguments.quiet) tell(mesh.remarks, arguments.input);
   merge(mesh.names(), names);
   take_part(mesh, part);
@@ -154,6 +155,7 @@ void add_convert(CLI::App& app, Command& chosen) {
   command->add_option("--threads", arguments->threads, threads_help)
       ->check(CLI::Range(0u, 4096u))
       ->option_text("N");
+  add_tolerance(*command, arguments->tolerance);
   add_limits(*command, arguments->limits);
   command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });

@@ -19,6 +19,7 @@ struct InfoArguments {
   std::filesystem::path file, report;
   std::string format;
   LimitArguments limits;
+  double tolerance = 0;
   bool json = false, quiet = false;
 };
 
@@ -110,7 +111,7 @@ int run(const InfoArguments& arguments) {
   const std::filesystem::path json = arguments.json ? or_standard_output("-") : "";
   files.write("--json", json);
   cancel_at_once();
-  const AnyMesh mesh = read_any(arguments.file, reading(limits, arguments.format));
+  const AnyMesh mesh = read_any(arguments.file, reading(limits, arguments.format, arguments.tolerance));
   if (!arguments.quiet) tell(mesh.remarks);
   const Statistics counts =
       mesh.is_volume ? statistics(mesh.volume, limits) : statistics(mesh.surface, limits);
@@ -139,6 +140,7 @@ void add_info(CLI::App& app, Command& chosen) {
       ->option_text("FILE.json");
   command->add_option("--input-format,--format", arguments->format, "Format, instead of by ending")
       ->option_text("FORMAT");
+  add_tolerance(*command, arguments->tolerance);
   add_limits(*command, arguments->limits);
   command->add_flag("-q,--quiet", arguments->quiet, "Say nothing of what the reader left out");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });

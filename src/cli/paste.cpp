@@ -136,7 +136,8 @@ int run(const PasteArguments& arguments) {
   files.write("--parents", arguments.parents);
   files.write("--report", arguments.report);
   cancel_at_once();
-  const std::vector<Surface> parts = read_parts(arguments.surfaces, reading(options, arguments.input_format));
+  const std::vector<Surface> parts =
+      read_parts(arguments.surfaces, reading(options, arguments.input_format, options.tolerance));
   if (!arguments.quiet)
     for (const Surface& part : parts) tell(part.remarks);
 
@@ -178,7 +179,9 @@ void add_paste(CLI::App& app, Command& chosen) {
       ->option_text("FILE");
   command
       ->add_option("--tolerance", arguments->tolerance,
-                   "Put what is nearer to an earlier file than this on it; the first file stays as it is")
+                   "Put what is nearer to an earlier file than this on it (the first file stays); so near to "
+                   "its plane a "
+                   "polygon of a file must lie, too")
       ->option_text("T");
   add_overlap_option(*command, arguments->overlap);
   command

@@ -151,7 +151,8 @@ int run(const SplitArguments& arguments) {
   if (error) throw FileError(arguments.folder, "", "the folder cannot be made: " + error.message());
   files.write("-o", arguments.folder / manifest_name);
   cancel_at_once();
-  Surface surface = read_surfaces(arguments.mesh.surfaces, reading(limits, arguments.mesh.input_format));
+  Surface surface = read_surfaces(arguments.mesh.surfaces,
+                                  reading(limits, arguments.mesh.input_format, arguments.mesh.tolerance));
   if (!arguments.mesh.quiet) tell(surface.remarks);
   for (const auto& [id, name] : names.facets) surface.names.facets[id] = name;
   for (const auto& [id, name] : names.regions) surface.names.regions[id] = name;
@@ -206,6 +207,7 @@ void add_split(CLI::App& app, Command& chosen) {
       ->option_text("N");
   command->add_option("--input-format", mesh.input_format, "Surface format, instead of by ending")
       ->option_text("FORMAT");
+  add_tolerance(*command, mesh.tolerance);
   add_limits(*command, arguments->limits);
   command->add_flag("-q,--quiet", mesh.quiet, "Say nothing unless something is wrong");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });

@@ -31,6 +31,7 @@ struct TetgenArguments {
   std::filesystem::path report;
   LimitArguments limits;
   unsigned threads = 1;
+  double tolerance = 0;
 };
 
 Options to_options(const TetgenArguments& arguments, const TetgenSwitches& switches, TetgenInput& input) {
@@ -248,7 +249,7 @@ int run(const TetgenArguments& arguments) {
   files.write("the output", viewers.medit);
   files.write("--report", arguments.report);
   cancel_at_once();
-  read_input(input, switches, reading(limits, {}));
+  read_input(input, switches, reading(limits, {}, arguments.tolerance));
   names = files_of(switches, input, command);  // what the file holds is known now
   static_cast<Limits&>(names) = limits;
   names.progress = goes_on;
@@ -283,6 +284,7 @@ void add_tetgen(CLI::App& app, Command& chosen) {
   command->add_option("--threads", arguments->threads, threads_help)
       ->check(CLI::Range(0u, 4096u))
       ->option_text("N");
+  add_tolerance(*command, arguments->tolerance);
   add_limits(*command, arguments->limits);
   command->callback([arguments, command, &chosen] {
     arguments->words = command->remaining();

@@ -22,6 +22,7 @@ struct ViewArguments {
   std::filesystem::path output;
   std::string input_format;
   LimitArguments limits;
+  double tolerance = 0;
   bool quiet = false;
 };
 
@@ -98,7 +99,8 @@ int run(const ViewArguments& arguments) {
   cancel_at_once();
   std::vector<Shape> shapes;
   for (const auto& path : arguments.files)
-    shapes.push_back(read_shape(path, reading(limits, arguments.input_format), arguments.quiet));
+    shapes.push_back(
+        read_shape(path, reading(limits, arguments.input_format, arguments.tolerance), arguments.quiet));
 
   cancel_by_flag();  // from here on files are open
   const bool is_temporary = arguments.output.empty();
@@ -139,6 +141,7 @@ void add_view(CLI::App& app, Command& chosen) {
       ->option_text("PAGE.html");
   command->add_option("--input-format", arguments->input_format, "Format of the files, instead of by ending")
       ->option_text("FORMAT");
+  add_tolerance(*command, arguments->tolerance);
   add_limits(*command, arguments->limits);
   command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });

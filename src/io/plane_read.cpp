@@ -85,9 +85,11 @@ class PlaneReader {
     const std::size_t count = text_.count("the number of segments", 6);
     text_.skip_line();
     plane_.segments.reserve(count);
+    std::int64_t first = plane_.base;
     for (std::size_t i = 0; i < count; ++i) {
-      const std::int64_t expected = plane_.base + static_cast<std::int64_t>(i);
       const std::int64_t number = text_.integer("the segment's number");
+      if (i == 0 && (number == 0 || number == 1)) first = number;
+      const std::int64_t expected = first + static_cast<std::int64_t>(i);
       if (number != expected)
         text_.fail("expected segment " + std::to_string(expected) + ", found the number " +
                    std::to_string(number));
@@ -97,6 +99,10 @@ class PlaneReader {
       plane_.segments.push_back(segment);
       text_.skip_line();
     }
+    if (first != plane_.base)
+      plane_.remarks.push_back({RemarkKind::renumbered, count,
+                                "segments are numbered from " + std::to_string(first) + " and points from " +
+                                    std::to_string(plane_.base) + "; messages number both as the points"});
   }
 
   void read_holes() {

@@ -173,9 +173,9 @@ class InSpace(CliTest):
 
     CORNERS = [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (2.0, 1.0), (0.0, 3.0)]
 
-    def off(self, points, polygons):
+    def off(self, points, polygons, name="in.off"):
         lines = ["OFF", f"{len(points)} {len(polygons)} 0"] + ["%r %r %r" % tuple(p) for p in points]
-        self.write("in.off", "\n".join(lines + [" ".join(map(str, [len(f), *f])) for f in polygons]) + "\n")
+        self.write(name, "\n".join(lines + [" ".join(map(str, [len(f), *f])) for f in polygons]) + "\n")
 
     def test_a_concave_polygon_of_a_leaning_plane(self):
         points = [(u, v, u + 2 * v + 0.125) for u, v in self.CORNERS]
@@ -221,6 +221,28 @@ class InSpace(CliTest):
             self.assertIn("from the mean plane", said)
         self.assertEqual(read_off(self.folder / "out.off")[0], points)
 
+    def prism(self, name, low, high):
+        """With five corners, one reflex, whose upper one of the lower and the upper polygon is 0.01 off."""
+        points = [(u, v, z + (0.01 if u == 2 else 0.0)) for z in (low, high) for u, v in self.CORNERS]
+        polygons = [[4, 3, 2, 1, 0], [5, 6, 7, 8, 9]] + [[k, (k + 1) % 5, 5 + (k + 1) % 5, 5 + k] for k in range(5)]
+        self.off(points, polygons, name)
+
+    def test_every_command_that_reads_surfaces_has_the_tolerance(self):
+        self.prism("in.off", 0.0, 1.0)
+        self.prism("other.off", 9.0, 10.0)
+        (self.folder / "copy").mkdir()
+        self.write("copy/in.off", (self.folder / "in.off").read_text())
+        for command in (["mesh", "in.off", "-o", "out.vtu"], ["convert", "in.off", "out.ply"], ["info", "in.off"],
+                        ["split", "in.off", "--parts", "1", "-o", "parts"], ["paste", "in.off", "other.off", "-o", "both.off"],
+                        ["repair", "in.off", "-o", "repaired.off"], ["tetgen", "-p", "copy/in.off"],
+                        ["view", "in.off", "-o", "page.html"]):
+            with self.subTest(command[0]):
+                said = self.run_program(*command, expect=3).stderr
+                self.assertIn("lies in no plane", said)
+                self.assertIn("tolerance", said)
+                self.run_program(*command, "--tolerance", "0.02")
+                self.run_program(*command, "--tolerance", "-1", expect=2)
+
     def test_holes_of_facets(self):
         square = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)]
         nodes = "".join("%d %r 3.0 %r\n" % (i, u, v) for i, (u, v) in enumerate(square + INNER))
@@ -259,6 +281,15 @@ class Refused(CliTest):
     def test_numbers_may_begin_with_0(self):
         segments = [(0, 1), (1, 2), (2, 3), (3, 0), (0, 2), (1, 3)]
         self.refused(SQUARE, segments, "segment 4 (0-2) and segment 5 (1-3) cross", base=0)
+
+    def test_segments_may_be_numbered_apart_from_points(self):
+        text = poly(SQUARE, [(0, 1), (1, 2), (2, 3), (3, 0)], base=0)
+        for k in range(3, -1, -1):
+            text = text.replace(f"\n{k} {k} ", f"\n{k + 1} {k} ")
+        self.write("in.poly", text)
+        said = self.run_program("plane", "in.poly", "-o", "out.off").stderr
+        self.assertIn("segments are numbered from 1 and points from 0", said)
+        self.assertEqual(len(read_off(self.folder / "out.off")[1]), 2)
 
     def test_files_that_are_wrong(self):
         whole = poly(SQUARE, RING[:4])
