@@ -155,8 +155,11 @@ class Run {
     Passage passage;
     SegmentSwaps swaps(mesh_, points_);
     const std::vector<Index> order = laying_order();
+    double share = 0;
+    const Poll at_share = [&](double) { poll(share); };
     for (std::size_t laid = 0; laid < order.size(); ++laid) {
-      if (laid % 256 == 0) poll(static_cast<double>(laid) / static_cast<double>(order.size()));
+      share = static_cast<double>(laid) / static_cast<double>(order.size());
+      if (laid % 256 == 0) poll(share);
       fetch_ahead(order, laid);
       const Index s = order[laid];
       const auto [a, b] = segments_[s];
@@ -173,7 +176,7 @@ class Run {
       }
       if (mesh_.constrained(edge)) return false;  // by the same segment
       mesh_.constrain(edge);
-      restore_delaunay();
+      restore_delaunay(at_share);
     }
     if (options_.stop_after != PlaneStage::partition) put_together();
     if (options_.hull || segments_.empty())
@@ -229,17 +232,17 @@ class Run {
     mesh_.drop_stars(points_.size());
   }
 
-  /// The triangles that swaps have changed are still at hand.
-  void restore_delaunay() {
+  // At once, while the triangles that swaps have changed are still at hand.
+  void restore_delaunay(const Poll& poll) {
     if (is_delaunay()) {
       pending_.clear();
       for (const EdgeCode e : swapped_) pending_.insert(pending_.end(), {e, next_edge(e), previous_edge(e)});
-      result_.report.delaunay_swaps += swap_to_delaunay(mesh_, points_, pending_, poll_none_);
+      result_.report.delaunay_swaps += swap_to_delaunay(mesh_, points_, pending_, poll);
     }
     swapped_.clear();
   }
 
-  /// Segments come in any order, so that each begins where nothing has been lately.
+  // Segments come in any order, so that each begins where nothing has been lately.
   void fetch_ahead(const std::vector<Index>& order, std::size_t laid) const {
     constexpr std::size_t kStars = 24, kTriangles = 16, kCorners = 8;
     if (laid + kStars < order.size()) mesh_.fetch_star(segments_[order[laid + kStars]][0]);
@@ -397,7 +400,6 @@ class Run {
   std::vector<std::array<Vertex, 2>> segments_;
   Triangles mesh_;
   std::vector<EdgeCode> swapped_, pending_;
-  Poll poll_none_;
   Partition partition_{mesh_, points_};
   std::vector<Pieces> pieces_;  // of segments whose points are still there
   Refined refined_;

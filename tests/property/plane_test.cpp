@@ -4,14 +4,17 @@
 
 #include <optional>
 
+#include "plane/point_tree.h"
 #include "plane_inputs.h"
 
 namespace holdfast {
 namespace {
 
+using testing::Coordinates;
 using testing::double_area;
 using testing::fault_of;
 using testing::random_plane;
+using testing::random_point;
 
 class PlaneMethods : public ::testing::TestWithParam<int> {};
 
@@ -102,6 +105,36 @@ TEST(PlaneDefects, AreNamed) {
           }
         if (found) expect(DefectKind::segments_cross, {}, {s, last_segment});
       }
+    }
+  }
+}
+
+TEST(PointTree, FindsEveryPointInATriangle) {
+  for (const Coordinates kind : {Coordinates::grid, Coordinates::random, Coordinates::tiny, Coordinates::huge,
+                                 Coordinates::at_2_52, Coordinates::clustered}) {
+    numbers::Random random(7);
+    plane::Points points;
+    std::vector<plane::Vertex> vertices;
+    for (plane::Vertex v = 0; v < 700; ++v) {
+      points.add(random_point(kind, 40, random));
+      vertices.push_back(v);
+    }
+    plane::PointTree tree(points, vertices);
+    std::vector<bool> erased(vertices.size(), false);
+    for (int round = 0; round < 300; ++round) {
+      const auto any = [&] { return static_cast<plane::Vertex>(numbers::below(vertices.size(), random)); };
+      const plane::Vertex a = any(), b = any(), c = any();
+      if (points.orient(a, b, c) <= 0) continue;
+      std::set<std::uint32_t> found;
+      tree.each_near(a, b, c, [&](std::uint32_t item) { return found.insert(item).second; });
+      for (const plane::Vertex v : vertices) {
+        const bool inside =
+            points.orient(a, b, v) >= 0 && points.orient(b, c, v) >= 0 && points.orient(c, a, v) >= 0;
+        EXPECT_TRUE(found.contains(v) ? !erased[v] : !inside || erased[v]) << v;
+      }
+      const plane::Vertex gone = any();
+      tree.erase(gone);
+      erased[gone] = true;
     }
   }
 }
