@@ -102,6 +102,10 @@ int run(const ConvertArguments& arguments) {
     write_output(files, arguments.output, target, mesh.volume, arguments.quiet);
     return exit_done;
   }
+  if (arguments.output.no_interfaces) {
+    if (!mesh.is_volume) throw UsageError("--no-interfaces: the file holds no tetrahedra, but a surface");
+    drop_interfaces(mesh.volume);
+  }
   suit(mesh, arguments, target);
   if (const std::size_t nodes = mesh.volume.mid_nodes.points.size();
       nodes > 0 && !mesh.is_volume && !arguments.quiet)
@@ -142,6 +146,7 @@ void add_convert(CLI::App& app, Command& chosen) {
       ->allow_extra_args(false)
       ->option_text("PART");
   command->add_flag("--each-region", arguments->output.each_region, each_region_help);
+  command->add_flag("--no-interfaces", arguments->output.no_interfaces, no_interfaces_help);
   command->add_option("--scale", arguments->scale, "Multiply all lengths")->option_text("F");
   add_name_option(*command, arguments->names);
   add_order(*command, arguments->order);

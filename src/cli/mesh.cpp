@@ -491,6 +491,7 @@ void add_mesh(CLI::App& app, Command& chosen) {
                    "Volume format, instead of by ending; msh2 is .msh 2.2, openfoam a case")
       ->option_text("FORMAT");
   command->add_flag("--each-region", arguments->output.each_region, each_region_help);
+  command->add_flag("--no-interfaces", arguments->output.no_interfaces, no_interfaces_help);
   add_tolerance(*command, arguments->tolerance);
   add_write_options(*command, arguments->output.writing);
   command->add_option("--input-format", arguments->input_format, "Surface format, instead of by ending")

@@ -76,13 +76,19 @@ AnyTarget output_target(FilesOfRun& files, const char* option, const OutputArgum
   VolumeTarget written{arguments.path, target.options};
   apply(arguments.writing, written);
   target.options = written.options;
+  if (arguments.no_interfaces && !target.holds_volumes)
+    throw UsageError(
+        fmt::format("--no-interfaces does nothing for {}: it is for volumes", arguments.path.string()));
   if (arguments.each_region && (arguments.path == "/dev/stdout" || format_of(written) == ".openfoam"))
     throw UsageError("--each-region needs the name of a file, beside which those of the regions are written");
   return target;
 }
 
 void write_output(FilesOfRun& files, const OutputArguments& arguments, const AnyTarget& target,
-                  const Volume& volume, bool quiet) {
+                  const Volume& all, bool quiet) {
+  Volume without;
+  if (arguments.no_interfaces) drop_interfaces(without = all);
+  const Volume& volume = arguments.no_interfaces ? without : all;
   if (!arguments.each_region) {
     if (!target.holds_volumes && !quiet) tell_of_surface_alone(arguments.path, volume);
     return write_one(arguments.path, target, volume, quiet);

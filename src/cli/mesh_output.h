@@ -16,12 +16,16 @@ inline constexpr const char* each_region_help =
     "the "
     "closed surface of the region, seen from outside";
 
+/// Of --no-interfaces.
+inline constexpr const char* no_interfaces_help =
+    "Leave out triangles with tetrahedra on both sides, as deal.II wants it";
+
 /// What the user typed.
 struct OutputArguments {
   std::filesystem::path path;
   std::string format;
   WriteArguments writing;
-  bool each_region = false;
+  bool each_region = false, no_interfaces = false;
 };
 
 /// Names the file, and makes its options. Throws UsageError.

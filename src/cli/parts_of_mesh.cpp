@@ -89,27 +89,36 @@ void drop_unused_vertices(Volume& volume) {
   renumber(volume.segments);
 }
 
+/// Of each facet, how many tetrahedra have it as a face, and how many of these see it turn inward.
+struct SidesOfFacets {
+  std::vector<int> count, inward;
+
+  explicit SidesOfFacets(const Volume& volume)
+      : count(volume.facets.size(), 0), inward(volume.facets.size(), 0) {
+    std::map<Triangle, Index> listed;
+    for (Index f = 0; f < volume.facets.size(); ++f) listed.emplace(ascending(volume.facets[f]), f);
+    const auto turns_as = [](const Triangle& a, const Triangle& b) {
+      for (std::size_t k = 0; k < 3; ++k)
+        if (a[0] == b[k]) return a[1] == b[(k + 1) % 3];
+      return false;
+    };
+    for (const Tetrahedron& t : volume.tetrahedra)
+      for (const Triangle& face : {Triangle{t[1], t[2], t[3]}, Triangle{t[0], t[3], t[2]},
+                                   Triangle{t[0], t[1], t[3]}, Triangle{t[0], t[2], t[1]}}) {
+        const auto found = listed.find(ascending(face));
+        if (found == listed.end()) continue;
+        ++count[found->second];
+        if (!turns_as(face, volume.facets[found->second])) ++inward[found->second];
+      }
+  }
+};
+
 /// Facets with a tetrahedron on one side alone become seen from outside: an interface that looks into a
 /// region is its boundary where the other region is not there.
 void turn_outward(Volume& volume) {
-  std::map<Triangle, Index> listed;
-  for (Index f = 0; f < volume.facets.size(); ++f) listed.emplace(ascending(volume.facets[f]), f);
-  std::vector<int> inward(volume.facets.size(), 0), sides(volume.facets.size(), 0);
-  const auto turns_as = [](const Triangle& a, const Triangle& b) {
-    for (std::size_t k = 0; k < 3; ++k)
-      if (a[0] == b[k]) return a[1] == b[(k + 1) % 3];
-    return false;
-  };
-  for (const Tetrahedron& t : volume.tetrahedra)
-    for (const Triangle& face : {Triangle{t[1], t[2], t[3]}, Triangle{t[0], t[3], t[2]},
-                                 Triangle{t[0], t[1], t[3]}, Triangle{t[0], t[2], t[1]}}) {
-      const auto found = listed.find(ascending(face));
-      if (found == listed.end()) continue;
-      ++sides[found->second];
-      if (!turns_as(face, volume.facets[found->second])) ++inward[found->second];
-    }
+  const SidesOfFacets sides(volume);
   for (std::size_t f = 0; f < volume.facets.size(); ++f) {
-    if (sides[f] != 1 || inward[f] != 1) continue;
+    if (sides.count[f] != 1 || sides.inward[f] != 1) continue;
     std::swap(volume.facets[f][1], volume.facets[f][2]);
     if (!volume.mid_nodes.facets.empty())  // of the edges 01 12 02
       std::swap(volume.mid_nodes.facets[f][0], volume.mid_nodes.facets[f][2]);
@@ -205,6 +214,12 @@ void take_part(AnyMesh& mesh, const Part& part) {
     volume.names.segments.clear();
   }
   drop_unused_vertices(volume);
+}
+
+void drop_interfaces(Volume& volume) {
+  const SidesOfFacets sides(volume);
+  keep(volume.facets, volume.facet_markers, volume.mid_nodes.facets,
+       [&](std::size_t f) { return sides.count[f] < 2; });
 }
 
 std::size_t scale(AnyMesh& mesh, double factor) {

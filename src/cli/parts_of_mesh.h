@@ -26,6 +26,9 @@ struct Part {
 /// boundary or within. Throws UsageError for parts that the mesh does not have.
 void take_part(AnyMesh& mesh, const Part& part);
 
+/// Leaves out the facets with tetrahedra on both sides.
+void drop_interfaces(Volume& volume);
+
 /// Multiplies all lengths. Returns how many tetrahedra are turned or flat only now, by rounding.
 [[nodiscard]] std::size_t scale(AnyMesh& mesh, double factor);
 

@@ -133,7 +133,7 @@ void write_bdf(AtomicWriter& out, const Volume& volume) {
     field(out, property);
     std::size_t on_line = 2;
     for (const Index v : nodes) {
-      if (on_line == 8) out << "\n        ";
+      if (on_line == 8) out << "+\n+       ";  // Gmsh goes on to the next line by this alone
       on_line = on_line == 8 ? 1 : on_line + 1;
       field(out, std::int64_t{v} + 1);
     }

@@ -47,6 +47,7 @@ class Hdf5File {
 
   /// How many values an array has in each direction, slowest first.
   [[nodiscard]] std::vector<std::uint64_t> shape(Object array) const;
+  [[nodiscard]] bool holds_integers(Object array) const;
   /// The values of an array of numbers, of any type. Integers beyond 64 bits, and reals that are none in an
   /// array of integers, are refused.
   [[nodiscard]] std::vector<double> reals(Object array) const;

@@ -170,6 +170,10 @@ Hdf5File::Values Hdf5File::described(Object array) const {
   return values;
 }
 
+bool Hdf5File::holds_integers(Object array) const {
+  return described(array).type.kind == Hdf5Datatype::Kind::integer;
+}
+
 Hdf5File::Values Hdf5File::values(Object array) const {
   Values values = described(array);
   if (values.count == 0) return values;

@@ -277,8 +277,11 @@ std::vector<std::filesystem::path> openfoam_files(const std::filesystem::path& p
 
 void write_openfoam(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options,
                     Watch& watch) {
-  const FoamMesh mesh = foam_mesh(volume, watch);
   const std::filesystem::path folder = poly_mesh_of(path);
+  if (volume.tetrahedra.empty())
+    throw FileError(folder, "",
+                    "a surface without tetrahedra has no place in OpenFOAM; its STL files take it");
+  const FoamMesh mesh = foam_mesh(volume, watch);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw FileError(folder, "", "the folder cannot be made (" + error.message() + ")");

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <memory>
+#include <numeric>
 #include <system_error>
 
 #include "io/file_bytes.h"
@@ -269,8 +271,9 @@ class XdmfReader {
     const std::size_t first = grid_.types.size();
     if (!grid.topology) {  // attributes of the first grid's cells
       if (&grid == &grids_.front()) xml_.fail(grid.tag, "the grid has no Topology");
-      read_attributes(grid, 0, first_cells_);
-      return;
+      std::vector<std::size_t> cells(first_cells_);
+      std::iota(cells.begin(), cells.end(), std::size_t{0});
+      return read_attributes(grid, cells);
     }
     const XmlTag& tag = *grid.topology;
     std::string name = lower(tag.attribute("TopologyType"));
@@ -299,7 +302,12 @@ class XdmfReader {
         xml_.number(tag, "NumberOfElements") != count)
       xml_.fail(tag, "there are " + std::to_string(count) + " cells, but NumberOfElements says " + announced);
     if (&grid == &grids_.front()) first_cells_ = count;
-    read_attributes(grid, first, count);
+    std::vector<std::size_t> cells = take_off_known(first);
+    if (cells.empty()) {
+      cells.resize(count);
+      std::iota(cells.begin(), cells.end(), first);
+    }
+    read_attributes(grid, cells);
   }
 
   void read_mixed(const XmlTag& tag, const std::vector<std::int64_t>& nodes) {
@@ -324,14 +332,10 @@ class XdmfReader {
   }
 
   // Ids of the cells: of tetrahedra the region, of what else there is the marker.
-  void read_attributes(const Grid& grid, std::size_t first, std::size_t count) {
-    const auto is_ids = [](const Attribute& a) {
+  void read_attributes(const Grid& grid, const std::vector<std::size_t>& cells) {
+    const auto is_ids = [&](const Attribute& a) {
       const std::string center = lower(a.tag.attribute("Center"));
-      if (a.items.empty() || (center != "cell" && !center.empty())) return false;
-      const XmlTag& item = a.items.front().tag;
-      const std::string type =
-          lower(item.attribute(item.attribute("NumberType").empty() ? "DataType" : "NumberType"));
-      return type.find("int") != std::string::npos || type == "char" || type == "uchar";
+      return !a.items.empty() && (center == "cell" || center.empty()) && holds_integers(a.items.front());
     };
     const Attribute* ids = nullptr;
     const auto rank_of = [&](const Attribute& a) {
@@ -349,15 +353,54 @@ class XdmfReader {
       if (&a != ids && rank_of(a) > 0) grid_.other_arrays.push_back(a.tag.attribute("Name"));
     if (ids == nullptr) return;
     const std::vector<std::int64_t> values = values_of<std::int64_t>(ids->items, ids->tag);
-    if (values.size() != count)
+    if (values.size() != cells.size())
       xml_.fail(ids->tag, "there are " + std::to_string(values.size()) + " values for " +
-                              std::to_string(count) + " cells");
+                              std::to_string(cells.size()) + " cells");
     tags_.resize(grid_.types.size(), 0);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
       if (!std::in_range<int>(values[i]))
         xml_.fail(ids->tag, "value " + std::to_string(i) + " is no id of 32 bits");
-      tags_[first + i] = static_cast<int>(values[i]);
+      tags_[cells[i]] = static_cast<int>(values[i]);
     }
+  }
+
+  /// What an item's type says, or the array itself where it says none, as DOLFINx's do not.
+  bool holds_integers(const Item& item) {
+    std::string type = item.tag.attribute("NumberType");
+    if (type.empty()) type = item.tag.attribute("DataType");
+    if (type.empty() && lower(item.tag.attribute("Format")) == "hdf") {
+      const auto [file, array] = array_of(item);
+      return file->holds_integers(array);
+    }
+    type = lower(type);
+    return type.find("int") != std::string::npos || type == "char" || type == "uchar";
+  }
+
+  /// A grid of tetrahedra that an earlier one has lists the tags of these, in whatever order: then they are
+  /// taken off again, and the result is which ones they are.
+  std::vector<std::size_t> take_off_known(std::size_t first) {
+    std::vector<std::size_t> known;
+    const auto key_of = [&](std::size_t cell) {
+      const std::int64_t begin = cell == 0 ? 0 : grid_.ends[cell - 1];
+      std::array<std::int64_t, 4> key{};
+      std::copy_n(grid_.connectivity.begin() + begin, 4, key.begin());
+      std::sort(key.begin(), key.end());
+      return key;
+    };
+    if (first == 0 || first == grid_.types.size()) return known;
+    std::map<std::array<std::int64_t, 4>, std::size_t> cells;
+    for (std::size_t i = 0; i < first; ++i)
+      if (is_volume(grid_.types[i])) cells.emplace(key_of(i), i);
+    for (std::size_t i = first; i < grid_.types.size(); ++i) {
+      beat(source_.watch);
+      const auto found = is_volume(grid_.types[i]) ? cells.find(key_of(i)) : cells.end();
+      if (found == cells.end()) return {};
+      known.push_back(found->second);
+    }
+    grid_.types.resize(first);
+    grid_.ends.resize(first);
+    grid_.connectivity.resize(static_cast<std::size_t>(grid_.ends.back()));
+    return known;
   }
 
   void settle_tags() {

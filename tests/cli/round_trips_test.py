@@ -8,6 +8,7 @@ import json
 import random
 import shutil
 import struct
+import subprocess
 
 from cli_case import CUBE_FACETS, CliTest, cube, main, off, shifted
 
@@ -111,6 +112,26 @@ class RoundTrips(CliTest):
         self.run_program("mesh", "case", "-o", "again.vtu", "--surface-of", "--keep", "bounded")
         self.assertEqual(self.info("again.vtu")["triangles"], said["triangles"])
 
+    def test_what_is_several_files_or_a_volume_is_refused_elsewhere(self):
+        for name in ("xdmf", "node", "vtm"):
+            with open(self.folder / "out", "wb") as out:  # a regular file, which has no other beside it all the same
+                code = subprocess.run([self.program, "mesh", "cube.off", "-o", "-", "--format", name, "--fill"], cwd=self.folder,
+                                      stdout=out, stderr=subprocess.DEVNULL, timeout=60, check=False).returncode
+            self.assertEqual(code, 2)
+        self.assertIn("without tetrahedra", self.run_program("convert", "cube.off", "polyMesh", expect=3).stderr)
+        self.assertNotIn("polyMesh", self.files())
+
+    def test_no_interfaces(self):
+        self.mesh("a.msh", "--no-interfaces")
+        self.mesh("b.msh")
+        self.run_program("convert", "b.msh", "c.msh", "--no-interfaces")
+        for name in ("a.msh", "c.msh"):
+            found = self.info(name)
+            self.assertEqual([m["id"] for m in found["markers"]], [1, 2, 3, 4, 5, 6])
+            self.assertEqual([r["id"] for r in found["regions"]], [10, 20])
+        self.run_program("convert", "cube.off", "d.msh", "--no-interfaces", expect=2)
+        self.run_program("mesh", "cube.off", "-o", "d.stl", "--no-interfaces", expect=2)
+
     def damaged(self, folder, name, change):
         packed = folder / name
         before = packed.read_text()
@@ -159,7 +180,6 @@ class RoundTrips(CliTest):
 
     def assert_ends(self, path):
         """Read, or refused with exit 3."""
-        import subprocess
         code = subprocess.run([self.program, "info", path, "-q"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                               timeout=60, check=False).returncode
         self.assertIn(code, (0, 3))
@@ -186,6 +206,19 @@ class RoundTrips(CliTest):
         before = (self.folder / "a.med").read_bytes()
         (self.folder / "a.med").write_bytes(before.replace(struct.pack("<d", 4.0), struct.pack("<d", float("nan")), 1))
         self.assertIn("node", self.run_program("info", "a.med", expect=3).stderr)
+
+    def test_tags_of_cells_that_an_earlier_grid_has(self):
+        """As DOLFINx writes them: the cells again, in another order, without a type of the tags."""
+        self.write("tags.xdmf", """<Xdmf Version="3.0" xmlns:xi="http://www.w3.org/2001/XInclude"><Domain><Grid Name="mesh">
+<Topology TopologyType="Tetrahedron" NumberOfElements="2"><DataItem Dimensions="2 4" Format="XML">0 1 2 3 1 2 3 4</DataItem></Topology>
+<Geometry GeometryType="XYZ"><DataItem Dimensions="5 3" Format="XML">0 0 0 1 0 0 0 1 0 0 0 1 1 1 1</DataItem></Geometry></Grid>
+<Grid Name="tags"><xi:include xpointer="xpointer(/Xdmf/Domain/Grid/Geometry)"/>
+<Topology TopologyType="Tetrahedron"><DataItem Dimensions="2 4" Format="XML">4 3 2 1 3 1 2 0</DataItem></Topology>
+<Attribute Name="cell_tags" Center="Cell"><DataItem NumberType="Int" Dimensions="2 1" Format="XML">6 5</DataItem></Attribute></Grid>
+</Domain></Xdmf>""")
+        found = self.info("tags.xdmf")
+        self.assertEqual([(r["id"], r["tetrahedra"]) for r in found["regions"]], [(5, 1), (6, 1)])
+        self.assertAlmostEqual(found["regions"][0]["volume"], 1 / 6)
 
     def test_damaged_xdmf_is_3(self):
         self.mesh("a.xdmf")

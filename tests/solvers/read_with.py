@@ -56,6 +56,13 @@ def with_meshio(path):
                 key = "marker" if "marker" in keys else keys[0] if keys else None
                 markers += data[key][i].ravel().tolist() if key else []
     mesh = meshes[0]
+    if path.suffix == ".med":  # MED's families by their groups, and its tetrahedra, which turn the other way
+        from assembly import MARKERS, REGIONS
+
+        ids = {family: i for family, groups in mesh.cell_tags.items() for i, name in (MARKERS | REGIONS).items() if name in groups}
+        regions, markers = [ids[r] for r in regions], [ids[m] for m in markers]
+        tets = np.asarray(tets)[:, [0, 2, 1, 3]]
+        names = {(MARKERS | REGIONS)[i]: (i, 3 if i in REGIONS else 2) for i in ids.values()}
     found = measures(mesh.points, tets, regions if len(regions) == len(tets) else None, np.array(triangles, int).reshape(-1, 3),
                      markers if triangles and len(markers) == len(triangles) else None)
     if names:
@@ -382,6 +389,51 @@ def with_ccx(path):
     force = re.search(r"total force \(fx,fy,fz\) for set INLET.*?\n\s*\n\s*([\dE+.-]+)\s", data)
     return {"volumes_by_name": {n.lower(): float(v) for n, v in volumes},
             "force": float(force[1]) if force else None}
+
+
+def with_libmed(path):
+    """What mdump, of the MED library, lists: counts, and the groups of every family."""
+    run = subprocess.run(["mdump", str(path), "NODALE", "FULL_INTERLACE", "1"], capture_output=True, text=True, errors="replace",
+                         timeout=120)
+    text = run.stdout + run.stderr
+    if "ERREUR" in text or "Erreur" in text:
+        raise ValueError("mdump: " + text[-400:])
+    found = {"points": int(re.search(r"Nombre de noeuds : (\d+)", text)[1]),
+             "tetrahedra": int(re.search(r"type MED_TETRA(?:4|10) : (\d+)", text)[1])}
+    families = re.findall(r"Famille de nom (region|surface)_(\d+) et de numero.*?gro = (\S+)", text, re.S)
+    found["region_names"] = {name: int(i) for kind, i, name in families if kind == "region"}
+    found["marker_names"] = {name: int(i) for kind, i, name in families if kind == "surface"}
+    return found
+
+
+def with_parser(path):
+    """MFEM's text, version 1.0 to 1.3 (mfem.org, "Mesh formats")."""
+    lines = [line.split("#")[0].strip() for line in path.read_text().splitlines()]
+    lines = [line for line in lines if line]
+
+    def section(name):
+        start = lines.index(name)
+        return [[float(x) if "." in x or "e" in x else int(x) for x in line.split()]
+                for line in lines[start + 2:start + 2 + int(lines[start + 1])]]
+
+    if not lines[0].startswith("MFEM mesh v1"):
+        raise ValueError(lines[0])
+    start = lines.index("vertices")
+    count, width = int(lines[start + 1]), int(lines[start + 2])
+    points = [[float(x) for x in line.split()] for line in lines[start + 3:start + 3 + count]]
+    if width != 3 or len(points) != count:
+        raise ValueError("vertices")
+    elements, boundary = section("elements"), section("boundary")
+    if {e[1] for e in elements} != {4} or {b[1] for b in boundary} != {2}:
+        raise ValueError("tetrahedra and triangles are expected")
+    found = measures(points, [e[2:] for e in elements], [e[0] for e in elements], [b[2:] for b in boundary],
+                     [b[0] for b in boundary])
+    for key, name in (("region_names", "attribute_sets"), ("marker_names", "bdr_attribute_sets")):
+        if name in lines:
+            at = lines.index(name)
+            sets = [re.match(r'"(.*)" 1 (\d+)$', line) for line in lines[at + 2:at + 2 + int(lines[at + 1])]]
+            found[key] = {m[1]: int(m[2]) for m in sets}
+    return found
 
 
 if __name__ == "__main__":

@@ -24,41 +24,68 @@ READS = {
     "vtu": ["meshio", "vtk", "sfepy"],
     "vtm": ["vtk"],
     "vtk": ["meshio", "vtk"],
-    "msh": ["gmsh", "meshio", "dolfinx", "getfem"],
-    "msh2": ["meshio", "gmsh", "openfoam", "freefem", "getfem"],
+    "msh": ["gmsh", "meshio", "dolfinx", "getfem", "dealii"],
+    "msh2": ["meshio", "gmsh", "openfoam", "freefem", "getfem", "dealii"],
     "msh binary": ["gmsh", "meshio", "dolfinx"],
     "msh2 binary": ["meshio", "gmsh"],
-    "mesh": ["meshio", "freefem", "gmsh"],
+    "mesh": ["meshio", "freefem", "gmsh", "sfepy"],
     "meshb": ["freefem"],
     "inp": ["ccx", "meshio"],
     "unv": ["openfoam", "gmsh"],
     "bdf": ["meshio", "gmsh"],
     "su2": ["meshio"],
+    "mfem": ["parser"],
     "vol": ["meshio", "netgen"],
     "xdmf": ["meshio", "dolfinx"],
+    "med": ["meshio", "libmed"],
+    "node": ["meshio"],
     "openfoam": ["openfoam"],
 }
-PROGRAMS = ["meshio", "vtk", "gmsh", "dolfinx", "sfepy", "getfem", "freefem", "netgen", "openfoam", "ccx"]
-LEAST = {"openfoam": "checkMesh", "freefem": "FreeFem++", "gmsh": "gmsh", "ccx": "ccx"}
+# The same of second order: counts of nodes, and the volumes and areas that the elements have by their corners.
+SECOND_ORDER = {
+    "vtu": ["meshio", "vtk"],
+    "vtk": ["meshio", "vtk"],
+    "msh": ["gmsh", "meshio", "dolfinx"],
+    "msh2": ["meshio", "gmsh"],
+    "msh binary": ["gmsh", "meshio"],
+    "inp": ["ccx"],
+    "unv": ["gmsh"],
+    "bdf": ["meshio", "gmsh"],
+    "vol": ["netgen"],
+    "xdmf": ["meshio", "dolfinx"],
+    "med": ["meshio", "libmed"],
+}
+PROGRAMS = ["meshio", "vtk", "gmsh", "dolfinx", "sfepy", "getfem", "freefem", "netgen", "openfoam", "ccx", "dealii",
+            "libmed", "parser"]
+LEAST = {"openfoam": "checkMesh", "freefem": "FreeFem++", "gmsh": "gmsh", "ccx": "ccx", "libmed": "mdump"}
 MODULE = {"meshio": "meshio", "vtk": "vtk", "dolfinx": "dolfinx", "sfepy": "sfepy", "getfem": "getfem", "netgen": "netgen"}
 
 
 def is_installed(name):
+    if name == "parser":
+        return True
+    if name == "dealii":
+        return Path("/usr/include/deal.II/grid/grid_in.h").exists() and shutil.which("mpicxx") is not None
     if name in LEAST:
         return shutil.which(LEAST[name]) is not None
     return subprocess.run([PYTHON, "-c", f"import importlib.util as u, sys; import site; "
                            f"sys.exit(u.find_spec('{MODULE[name]}') is None)"], check=False).returncode == 0
 
 
-def write(program, folder, kind):
+def write(program, folder, kind, order=1):
     form, *options = kind.split()
     if form == "openfoam":
         assembly.mesh(program, folder, folder / "case" / "constant" / "polyMesh")
         return folder / "case"
-    path = folder / f"{kind.replace(' ', '_')}.{'msh' if form == 'msh2' else form}"
-    arguments = (["--format", "msh2"] if form == "msh2" else []) + (["--binary"] if options else [])
+    path = folder / f"{kind.replace(' ', '_')}_{order}.{'msh' if form == 'msh2' else form}"
+    arguments = ["--order", "2"] if order == 2 else []
+    arguments += (["--format", "msh2"] if form == "msh2" else []) + (["--binary"] if options else [])
     assembly.mesh(program, folder, path, *arguments)
     return path
+
+
+# Formats that some programs read without the interface, which OpenFOAM has as a face zone.
+INSIDE_IS_LOST = ("su2", "openfoam", "msh2", "unv")
 
 
 def with_numbers(found):
@@ -70,7 +97,7 @@ def near(a, b):
     return math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-9)
 
 
-def faults(found, counts, kind):
+def faults(found, counts, kind, reader):
     """What of the answer is wrong, one string each."""
     names = {name.lower(): i for i, name in assembly.MARKERS.items()}
     for key in ("points", "tetrahedra"):
@@ -91,7 +118,7 @@ def faults(found, counts, kind):
     if "areas" in found:
         areas = {names.get(k, int(k) if k.lstrip("-").isdigit() else k): v for k, v in
                  ((str(k).lower(), v) for k, v in found["areas"].items())}
-        wanted = {i: a for i, a in assembly.AREAS.items() if i != 7 or 7 in areas or kind not in ("su2", "openfoam", "msh2", "unv")}
+        wanted = {i: a for i, a in assembly.AREAS.items() if i != 7 or 7 in areas or kind not in INSIDE_IS_LOST and reader != "dealii"}
         if set(areas) != set(wanted) or not all(math.isclose(areas[i], a, rel_tol=1e-6) for i, a in wanted.items()):
             yield f"areas {areas}"
     if "zones" in found and set(found["zones"]) != set(assembly.REGIONS.values()):
@@ -118,34 +145,58 @@ def cell(found):
     return ", ".join(parts)
 
 
-def table(program, folder, short, only):
+def asked(program, reader, path, folder):
+    """What a program has found in a file. Raises ValueError with its last words."""
+    command = [PYTHON, HERE / "read_with.py", reader, path]
+    if reader == "dealii":  # which takes no faces inside for a boundary
+        outer = path.with_stem(path.stem + "_outer")
+        subprocess.run([program, "convert", path, outer, "--no-interfaces", "-q", *(["--format", "msh2"] if "msh2" in path.stem else [])],
+                       check=True, capture_output=True, timeout=120)
+        command = [build_dealii(folder), outer]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
+    lines = done.stdout.strip().splitlines()
+    if done.returncode or not lines:
+        raise ValueError((done.stderr.strip().splitlines() or ["no answer"])[-1][:400])
+    return with_numbers(json.loads(lines[-1]))
+
+
+def build_dealii(folder):
+    """deal.II is a library: the program that reads with it is compiled once."""
+    built = folder / "read_with_dealii"
+    if not built.exists():
+        flags = [subprocess.run(["mpicxx", f"--showme:{what}"], capture_output=True, text=True, check=True).stdout.split()
+                 for what in ("compile", "link")]
+        subprocess.run(["g++", "-O1", "-std=c++17", "-w", "-I/usr/include/trilinos", *flags[0], HERE / "read_with_dealii.cpp", "-o",
+                        built, "-Wl,--copy-dt-needed-entries", "-ldeal.ii", *flags[1], "-ltbb"], check=True, timeout=1200,
+                       capture_output=True)
+    return built
+
+
+def table(program, folder, short, only, order=1):
     rows, wrong = {}, []
     counts = None
     installed = {name for name in PROGRAMS if is_installed(name)}
-    if not installed:
+    if installed == {"parser"}:
         sys.exit(77)
-    for kind, readers in READS.items():
+    for kind, readers in (READS if order == 1 else SECOND_ORDER).items():
         if only and only not in (kind, *readers):
             continue
-        path = write(program, folder, kind)
+        path = write(program, folder, kind, order)
         if counts is None:
-            reference = write(program, folder, "mesh")
-            lines = reference.read_text().split("\n")
-            counts = {"points": int(lines[lines.index("Vertices") + 1]), "tetrahedra": int(lines[lines.index("Tetrahedra") + 1])}
+            reference = write(program, folder, "vtu", order)
+            found = json.loads(subprocess.run([program, "info", reference, "--json"], capture_output=True, text=True,
+                                              check=True).stdout)
+            counts = {"points": found["vertices"] + found["mid_nodes"], "tetrahedra": found["tetrahedra"]}
         present = [r for r in readers if r in installed and (not only or only in (kind, r))]
         for reader in present[:1] if short else present:
-            done = subprocess.run([PYTHON, HERE / "read_with.py", reader, path], capture_output=True, text=True, timeout=300,
-                                  check=False)
-            lines = done.stdout.strip().splitlines()
-            if done.returncode or not lines:
-                bad = [(done.stderr.strip().splitlines() or ["no answer"])[-1][:400]]
-                found = {}
-            else:
-                found = with_numbers(json.loads(lines[-1]))
-                bad = list(faults(found, counts, kind))
+            try:
+                found = asked(program, reader, path, folder)
+                bad = list(faults(found, counts, kind, reader))
+            except (ValueError, OSError, subprocess.SubprocessError) as error:
+                found, bad = {}, [str(error)]
             rows.setdefault(kind, {})[reader] = "**wrong**" if bad else cell(found)
-            wrong += [f"{kind} by {reader}: {fault}" for fault in bad]
-            print(kind, reader, "; ".join(bad) or cell(found), flush=True)
+            wrong += [f"{kind}{' of second order' if order == 2 else ''} by {reader}: {fault}" for fault in bad]
+            print(kind, order, reader, "; ".join(bad) or cell(found), flush=True)
     return rows, wrong
 
 
@@ -177,15 +228,19 @@ def problems(program, folder, only):
     return rows, wrong
 
 
-def document(rows, solved):
+def document(rows, second, solved):
+    def lines_of(kinds, found):
+        return ["| format | " + " | ".join(PROGRAMS) + " |", "|---" * (len(PROGRAMS) + 1) + "|",
+                *(f"| {kind} | " + " | ".join(found.get(kind, {}).get(p, "") for p in PROGRAMS) + " |" for kind in kinds)]
+
     text = ["# Solvers", "",
             "Written by `make solvers`, which installs Debian's programs, meshes a box in a box (two regions, six named sides, a",
             "named interface) into every format, and has each program that reads the format tell what it found: *counts* of",
             "points and tetrahedra, *regions* with their volumes, *faces* with the area of each marker, *names*. What stands in a",
-            "cell was right in that run, but for **wrong**; an empty one is what the program does not read.", "",
-            "| format | " + " | ".join(PROGRAMS) + " |", "|---" * (len(PROGRAMS) + 1) + "|"]
-    for kind in READS:
-        text.append(f"| {kind} | " + " | ".join(rows.get(kind, {}).get(p, "") for p in PROGRAMS) + " |")
+            "cell was right in that run, but for **wrong**; an empty one is what the program does not read. *dealii* is deal.II,",
+            "*libmed* its `mdump`, *parser* the test's own reader of MFEM's format, which has no Debian package.", "",
+            *lines_of(READS, rows), "", "## Second order", "", "`mesh --order 2`, read by the same programs where they take it.", "",
+            *lines_of(SECOND_ORDER, second)]
     text += ["", "## Problems solved", "", "| | found | expected |", "|---|---|---|"]
     for what, value, expected, tolerance, right in solved:
         text.append(f"| {what} | {value:.6g}{'' if right else ' **wrong**'} | {expected:.6g} ± {tolerance:g} |")
@@ -202,12 +257,14 @@ def main():
     program = str(Path(arguments.program).resolve())
     with tempfile.TemporaryDirectory() as folder:
         rows, wrong = table(program, Path(folder), arguments.short, arguments.only)
-        solved = []
+        solved, second = [], {}
         if not arguments.short:
+            second, more = table(program, Path(folder), False, arguments.only, 2)
+            wrong += more
             solved, more = problems(program, Path(folder), arguments.only)
             wrong += more
     if arguments.write:
-        Path(arguments.write).write_text(document(rows, solved))
+        Path(arguments.write).write_text(document(rows, second, solved))
     for line in wrong:
         print("WRONG", line)
     return 1 if wrong else 0
