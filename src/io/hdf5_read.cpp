@@ -83,7 +83,8 @@ void Hdf5File::read_messages_1(Object object, std::vector<Hdf5Message>& found) c
     auto [at, size] = blocks[block];
     const std::uint64_t end = at + bytes(at, size).size();
     while (at + 8 <= end && found.size() < count) {
-      const Hdf5Message message{number<std::uint16_t>(at), at + 8, number<std::uint16_t>(at + 2)};
+      const Hdf5Message message{number<std::uint16_t>(at), static_cast<std::size_t>(at + 8),
+                                number<std::uint16_t>(at + 2)};
       if (message.at + message.size > end) fail(at, "a message of HDF5 goes beyond its block");
       found.push_back(message);
       if (message.type == kContinuation)
@@ -104,7 +105,8 @@ void Hdf5File::read_messages_2(Object object, std::vector<Hdf5Message>& found) c
     at = blocks[block].first;
     const std::uint64_t end = at + bytes(at, blocks[block].second).size();
     while (at + head <= end) {
-      const Hdf5Message message{number<std::uint8_t>(at), at + head, number<std::uint16_t>(at + 1)};
+      const Hdf5Message message{number<std::uint8_t>(at), static_cast<std::size_t>(at + head),
+                                number<std::uint16_t>(at + 1)};
       if (message.at + message.size > end) fail(at, "a message of HDF5 goes beyond its block");
       if (found.size() == kMost) fail(at, "an object's header of HDF5 runs in circles");
       found.push_back(message);

@@ -152,7 +152,8 @@ class MedReader {
 
   void read_elements(Hdf5File::Object elements) {
     const auto all = file_.links(elements);
-    for (const auto& [name, object] : all) {
+    for (const auto& link : all) {
+      const std::string& name = link.first;
       const auto type = std::find_if(std::begin(kTypes), std::end(kTypes),
                                      [&](const ElementType& t) { return t.name == name; });
       if (type != std::end(kTypes)) continue;
