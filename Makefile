@@ -61,9 +61,9 @@ random: setup $(RELEASE)/build.ninja  ## meshes N random complexes of SEED and c
 	@python3 scripts/random_complexes.py --program $(RELEASE)/tests/random/random_complexes --count $(N) --seed $(SEED) \
 	  --jobs $(JOBS) $(ARGS)
 
-planes: setup $(RELEASE)/build.ninja  ## triangulates N random planes from SEED by every method and checks the triangles
+planes: setup $(RELEASE)/build.ninja  ## triangulates N random planes from SEED by every method and checks them; goes on where it stopped
 	@cmake --build $(RELEASE) -j $(JOBS) --target random_planes
-	@$(RELEASE)/tests/random/random_planes --count $(N) --seed $(SEED) $(ARGS)
+	@python3 scripts/random_planes.py --program $(RELEASE)/tests/random/random_planes --count $(N) --seed $(SEED) --jobs $(JOBS) $(ARGS)
 
 fuzz:  ## every reader, mesh, untangle, check and plane on arbitrary bytes, each for MINUTES, under the sanitizers
 	@scripts/setup.sh build fuzz

@@ -46,6 +46,7 @@ def mesh(
     drop_outside: bool = False,
     repair: Union[bool, float] = False,
     without: typing.Iterable[str] = (),
+    order: str = "random",
     seed: int = 1,
     threads: int = 1,
     time_limit: Optional[float] = None,
@@ -103,6 +104,9 @@ def mesh(
         The result's `repair` tells what changed.
     without
         Steps to leave out: "flips", "optimise", "points".
+    order
+        In which missing constraints are cut into the mesh: "random", "given" (as the surface has them) or "halving" (the middle
+        one first, then those in the middle of both halves).
     seed, threads
         Of the random orders; 0 threads are all there are. The result is the same on any number of threads.
     time_limit
@@ -175,6 +179,7 @@ def mesh(
         flips="flips" not in steps,
         optimise="optimise" not in steps,
         add_points="points" not in steps,
+        order=order,
         seed=int(seed),
         threads=int(threads),
     )

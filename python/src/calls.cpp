@@ -114,6 +114,7 @@ Options mesh_options(const py::dict& from, const Fields& fields) {
   if (!fill) options.sizes = sizes_from(from, fields);
   options.effort = named<Effort>(from, "quality");
   options.keep = named<Keep>(from, "keep");
+  options.order = named<LayingOrder>(from, "order");
   take(from, "box_margin", options.box_margin);
   take(from, "holes", options.holes);
   for (const auto& [x, y, z, id, size, volume] :

@@ -119,6 +119,16 @@ def test_keep_box(cube):
     assert holdfast.check(cube, mesh, box=True).holds
 
 
+def test_orders_of_laying():
+    # Every constraint of this prism is cut in without flips (Schönhardt).
+    turn = lambda z, angle: [(np.cos(a + angle), np.sin(a + angle), z) for a in 2 * np.pi * np.arange(3) / 3]
+    points = np.array(turn(0, 0) + turn(1, np.pi / 6))
+    triangles = [(0, 2, 1), (3, 4, 5)] + [t for i in range(3) for t in ((i, (i + 1) % 3, 3 + i), ((i + 1) % 3, 3 + (i + 1) % 3, 3 + i))]
+    for order in ("random", "given", "halving"):
+        mesh = holdfast.mesh(points, triangles, fill=True, without=["flips"], order=order)
+        assert holdfast.check((points, triangles), mesh)
+
+
 def test_same_bits_for_seed_and_threads():
     surface = sphere(30)
     first = holdfast.mesh(*surface)
