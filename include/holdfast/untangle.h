@@ -18,6 +18,7 @@ enum class UntangleStep {
   smooth,    ///< many vertices at once, by an energy that is infinite for inverted tetrahedra
   refill,    ///< cavities emptied and filled again, as `mesh` does it
   check,     ///< the result, exactly
+  improve,   ///< better elements, once all are positive; before `check`
 };
 
 /// Name of a step as the command line and the report spell it.
@@ -32,11 +33,23 @@ struct UntangleOptions : Limits {
   std::vector<Index> fixed;  ///< vertices to keep besides those of the boundary, facets and segments
   bool refill = true;        ///< empties and refills what nothing else untangles: may add and remove points
   std::uint64_t seed = 1;    ///< of the random orders when refilling
+  /// Makes elements better when all are positive, also where nothing was tangled: vertices inside are moved,
+  /// tetrahedra exchanged, vertices added and removed. Needs `refill`.
+  bool improve = false;
   /// Called now and then from the calling thread; returns false to cancel.
   std::function<bool(const UntangleProgress&)> progress;
 };
 
 struct UntangleReport {
+  /// What `improve` did, and to what end. None of the figures gets worse.
+  struct Improved {
+    std::size_t moves = 0, swaps = 0, contractions = 0, insertions = 0;
+    struct Figures {
+      double min_dihedral_deg = 0;  ///< the least
+      double mean_quality = 0;      ///< of the paper's Q, at most 1e15 each
+      std::size_t below_10_deg = 0, tetrahedra = 0;
+    } before, after;
+  } improved;
   std::size_t vertices = 0, tetrahedra = 0;        ///< of the volume that came in
   std::size_t free_vertices = 0;                   ///< of these, those that may move
   std::size_t turned = 0;                          ///< tetrahedra that were listed the other way round
@@ -45,7 +58,7 @@ struct UntangleReport {
   std::size_t moved = 0;                           ///< vertices in another place than before
   std::size_t swapped = 0;                         ///< exchanges of tetrahedra
   std::size_t cavities = 0;                        ///< emptied and filled again
-  std::size_t added = 0, removed = 0;              ///< vertices
+  std::size_t added = 0, removed = 0;              ///< vertices, by `improve`, too
   std::size_t rounds = 0;                          ///< of relocation, swaps and smoothing
   std::map<std::string, double> seconds;           ///< by step, and "total"
   std::uint64_t peak_memory_bytes = 0;
@@ -72,10 +85,11 @@ struct UntangleResult {
 /// positive in doubles, no two overlap, and each region fills the space that it filled. Other vertices may
 /// have moved; with `refill` some may be new (they take the places of removed ones, then come last), and a
 /// removed vertex whose place nothing takes remains as an unused one. A mesh without non-positive tetrahedra
-/// comes out as it came in.
+/// comes out as it came in, unless it is to be improved.
 ///
 /// Throws std::invalid_argument if arrays of regions or markers have a wrong length or `fixed` is out of
-/// range, std::length_error beyond 2^28 vertices, std::bad_alloc when memory runs out without a limit.
+/// range or `improve` is set without `refill`, std::length_error beyond 2^28 vertices, std::bad_alloc when
+/// memory runs out without a limit.
 [[nodiscard]] HOLDFAST_API UntangleResult untangle(const Volume& volume, const UntangleOptions& options = {});
 
 }  // namespace holdfast

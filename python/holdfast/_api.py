@@ -478,6 +478,7 @@ def untangle(
     *,
     fixed: typing.Iterable[int] = (),
     refill: bool = True,
+    improve: bool = False,
     seed: int = 1,
     time_limit: Optional[float] = None,
     memory_limit: Optional[MemoryAmount] = None,
@@ -487,8 +488,9 @@ def untangle(
     """Makes every tetrahedron of a mesh positive, with its boundary fixed bit for bit.
 
     `fixed` are points to keep besides those of the boundary, triangles and segments; `refill` may add and remove points
-    where moves and exchanges do not do. Raises InvalidSurface if the boundary or the connectivity is wrong,
-    NotRepresentable if no positive mesh was found, and as `mesh` for limits.
+    where moves and exchanges do not do. `improve` makes elements better when all are positive; it adds and removes points,
+    and so needs `refill`. Raises InvalidSurface if the boundary or the connectivity is wrong, NotRepresentable if no positive
+    mesh was found, and as `mesh` for limits.
 
     >>> import holdfast
     >>> tangled = holdfast.TetMesh([(0, 0, 0), (3, 0, 0), (0, 3, 0), (0, 0, 3), (2, 2, 2)],
@@ -497,7 +499,7 @@ def untangle(
     True
     """
     options = limits(time_limit, memory_limit, cancel)
-    options.update(fixed=[int(v) for v in fixed], refill=bool(refill), seed=int(seed))
+    options.update(fixed=[int(v) for v in fixed], refill=bool(refill), improve=bool(improve), seed=int(seed))
     what = volume_of(mesh)
     with Shown(progress, "untangle") as callback:
         result = _core.untangle(what._volume, options, callback)

@@ -231,6 +231,7 @@ std::shared_ptr<UntangleResult> untangle_volume(const Volume& volume, const py::
   take_limits(options, how);
   take(options, "fixed", how.fixed);
   take(options, "refill", how.refill);
+  take(options, "improve", how.improve);
   take(options, "seed", how.seed);
   const Watch watch(progress);
   how.progress = [&watch](const UntangleProgress& at) { return watch.go_on(name(at.step), at.fraction); };

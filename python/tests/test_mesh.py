@@ -247,6 +247,16 @@ def test_untangle():
     assert mesh.report["input"]["negative"] > 0
 
 
+def test_untangle_improves():
+    good = holdfast.mesh(*sphere(12), fill=True)
+    mesh = holdfast.untangle(good, improve=True)
+    improved = mesh.report["improved"]
+    assert improved["after"]["mean_q"] < improved["before"]["mean_q"]
+    assert np.array_equal(mesh.points[: good.n_input_points], good.points[: good.n_input_points])
+    with pytest.raises(ValueError):
+        holdfast.untangle(good, improve=True, refill=False)
+
+
 def test_check_finds_what_is_wrong(cube):
     mesh = holdfast.mesh(*cube)
     result = holdfast.check(cube, holdfast.TetMesh(mesh.points, mesh.tetrahedra[1:], triangles=mesh.triangles))

@@ -10,8 +10,8 @@
 
 namespace holdfast {
 
-void attempt(Input& input, const Options& options, std::uint64_t seed, const Threads& threads,
-             Monitor& monitor, Result& result) {
+double attempt(Input& input, const Options& options, std::uint64_t seed, const Threads& threads,
+               Monitor& monitor, Result& result) {
   const Attempt attempt{input, options, seed, threads, monitor};
   const Course course(options, monitor, result.report);
   Report& report = result.report;
@@ -20,7 +20,10 @@ void attempt(Input& input, const Options& options, std::uint64_t seed, const Thr
   if (course.reaches(CallStep::delaunay)) report.delaunay = box.missing();
   std::vector<Defect> defects =
       course.run(CallStep::validate_missing, [&] { return input.validate_missing(box.mesh, box.standing); });
-  if (!defects.empty()) return refuse(result, std::move(defects));
+  if (!defects.empty()) {
+    refuse(result, std::move(defects));
+    return 0;
+  }
 
   course.run(CallStep::flips, [&] {
     if (options.flips) recover_by_flips(attempt, box);
@@ -41,9 +44,12 @@ void attempt(Input& input, const Options& options, std::uint64_t seed, const Thr
   if (input.parts() != nullptr && input.parts()->refuses()) {
     result.outcome = Outcome::invalid_input;
     result.message = overlap_message(*input.parts());
-    return;
+    return 0;
   }
-  if (!division.kept.defects.empty()) return refuse(result, std::move(division.kept.defects));
+  if (!division.kept.defects.empty()) {
+    refuse(result, std::move(division.kept.defects));
+    return 0;
+  }
   report.forced_points =
       course.run(CallStep::suppress, [&] { return suppress_points(attempt, box, division); });
 
@@ -55,6 +61,7 @@ void attempt(Input& input, const Options& options, std::uint64_t seed, const Thr
 
   course.begin(CallStep::deliver);
   deliver(attempt, box, division, field.get(), result);
+  return field ? field->worst_without : 0;
 }
 
 namespace {

@@ -11,9 +11,10 @@
 namespace holdfast {
 
 /// Meshes with the random orders of one seed. `result` comes with the outcome `done` and a report of what was
-/// before, to which the attempt adds its own.
-void attempt(Input& input, const Options& options, std::uint64_t seed, const Threads& threads,
-             Monitor& monitor, Result& result);
+/// before, to which the attempt adds its own. Returns the worst Q of the same attempt without field points; 0
+/// where it was not asked for.
+double attempt(Input& input, const Options& options, std::uint64_t seed, const Threads& threads,
+               Monitor& monitor, Result& result);
 
 /// For a result whose outcome is `invalid_input`: its defects, and how many.
 void refuse(Result& result, std::vector<Defect> defects);

@@ -116,7 +116,10 @@ void improve_with_field(const Attempt& attempt, BoxMesh& box, Division& division
     improve_flat(attempt, box, division, report);
     field.give_sizes_to_new_vertices();
   }
-  if (field.without) keep_what_pays(attempt, box, division, field, report);
+  if (field.without) {
+    keep_what_pays(attempt, box, division, field, report);
+    field.worst_without = field.without->worst_quality();
+  }
   field.without.reset();
   const Effort effort = attempt.options.effort;
   constexpr double kUpToGood = 0.75;
@@ -134,7 +137,7 @@ void improve_with_field(const Attempt& attempt, BoxMesh& box, Division& division
 // without it leaves is exact.
 void keep_bounds(const Attempt& attempt, Field& field, bool improves, Report& report) {
   const VolumeData volume = field.volume();
-  volume.sizes.resize(volume.mesh.vertex_count(), 0);  // points for flat elements have none
+  field.give_sizes_to_new_vertices();  // points for flat elements have none
   const double most_ratio = attempt.options.sizes->max_ratio;
   if (most_ratio > 0) report.bounds.ratio_points += lower_ratios(volume, most_ratio, attempt.monitor).points;
   if (volume.most_volumes == nullptr) return;

@@ -28,6 +28,13 @@ namespace {
 
 constexpr std::size_t kMostAttempts = 5;
 
+// Where the worst element is so many times as bad as the facets ask for, other random orders may do better:
+// these, whatever the seed, so that runs with different seeds end with the same choice.
+constexpr double kFarFromTarget = 30;
+constexpr std::size_t kOtherChoices = 8, kChoicesInVain = 4;
+constexpr std::uint64_t kFirstOtherSeed = 0x9E3779B97F4A7C15;
+constexpr std::size_t kMostFacetsForChoices = 5'000;  // larger ones take long
+
 // The one of the overloads that is no template.
 Result mesh_complex(const Complex& complex, const Options& options) { return mesh(complex, options); }
 
@@ -64,6 +71,7 @@ class Call {
            try_again()) {
     }
     const bool has_all = options_.stop_after.value_or(Stage::optimise) == Stage::optimise;
+    if (result_.outcome == Outcome::done && has_all) try_other_choices();
     if (result_.outcome == Outcome::done && options_.sizes && has_all && options_.keep != Keep::box)
       mesh_remote_components(input_.complex(), with_sizes(input_.sizes()), mesh_complex, result_);
     if (result_.outcome == Outcome::done && options_.sizes &&
@@ -112,7 +120,79 @@ class Call {
     Options options = options_;
     options.flips = options.flips && result_.report.attempts % 2 == 0;
     ++result_.report.attempts;
-    attempt(input_, options, seed_++, threads_, monitor_, result_);
+    worst_without_field_ = attempt(input_, options, seed_++, threads_, monitor_, result_);
+  }
+
+  // What is flat is seldom forced. With field points the choice is that of the mesh without, to which they
+  // are held.
+  void try_other_choices() {
+    const double worst = options_.sizes ? worst_without_field_ : result_.report.elements.worst;
+    if (!options_.optimise || !options_.add_points || !options_.flips || input_.parts() != nullptr ||
+        !(worst > kFarFromTarget * input_.target()) || input_.complex().facets.size() > kMostFacetsForChoices)
+      return;
+    if (options_.sizes)
+      choose_for_field(worst);
+    else
+      choose_the_best();
+  }
+
+  void choose_the_best() {
+    std::size_t in_vain = 0;
+    for (std::uint64_t k = 0;
+         k < kOtherChoices && in_vain < kChoicesInVain && is_far(result_.report.elements.worst); ++k) {
+      const double worst = result_.report.elements.worst;
+      ++in_vain;
+      const bool goes_on = try_instead(options_, kFirstOtherSeed + k, [&](const Result& other) {
+        if (is_much_better(other.report.elements.worst, worst)) in_vain = 0;
+        return other.report.elements.worst < worst;
+      });
+      if (!goes_on) return;
+    }
+  }
+
+  void choose_for_field(double worst) {
+    Options fill = options_;
+    fill.sizes.reset();
+    std::optional<std::uint64_t> best;
+    std::size_t in_vain = 0;
+    for (std::uint64_t k = 0; k < kOtherChoices && in_vain < kChoicesInVain && is_far(worst); ++k) {
+      ++in_vain;
+      const bool goes_on = try_instead(fill, kFirstOtherSeed + k, [&](const Result& other) {
+        if (other.report.elements.worst < worst) {
+          if (is_much_better(other.report.elements.worst, worst)) in_vain = 0;
+          worst = other.report.elements.worst;
+          best = kFirstOtherSeed + k;
+        }
+        return false;
+      });
+      if (!goes_on) return;
+    }
+    if (best) try_instead(options_, *best, [](const Result&) { return true; });
+  }
+
+  static bool is_much_better(double x, double y) { return x < 0.8 * y; }
+  [[nodiscard]] bool is_far(double worst) { return worst > kFarFromTarget * input_.target(); }
+
+  // Another attempt in the place of the result, if it is done and `is_better`. Returns false where a limit or
+  // an error has ended it.
+  template <typename IsBetter>
+  bool try_instead(const Options& options, std::uint64_t seed, IsBetter&& is_better) {
+    Result before = std::exchange(result_, {});
+    try {
+      result_.report = of_all_attempts(before.report);
+      attempt(input_, options, seed, threads_, monitor_, result_);
+    } catch (const Interrupted& interrupted) {
+      if (interrupted.outcome() == Outcome::cancelled) throw;
+      go_back_to(std::move(before));
+      return false;
+    } catch (...) {
+      if (monitor_.caller_threw()) throw;
+      go_back_to(std::move(before));
+      warn_of(std::current_exception());
+      return false;
+    }
+    if (result_.outcome != Outcome::done || !is_better(result_)) go_back_to(std::move(before));
+    return true;
   }
 
   // Where no doubles were found for some point, others may be with another random order, or where flips have
@@ -197,6 +277,7 @@ class Call {
   const Threads threads_;
   Input input_;
   std::uint64_t seed_ = options_.seed;  // of the next attempt
+  double worst_without_field_ = 0;      // of the last one
   Result result_;
 };
 

@@ -82,7 +82,8 @@ constexpr std::array kRuleKinds{Named{RuleKind::input_vertices_kept, "input vert
 constexpr std::array kUntangleSteps{
     Named{UntangleStep::validate, "validate"}, Named{UntangleStep::relocate, "relocate"},
     Named{UntangleStep::swap, "swap"},         Named{UntangleStep::smooth, "smooth"},
-    Named{UntangleStep::refill, "refill"},     Named{UntangleStep::check, "check"}};
+    Named{UntangleStep::refill, "refill"},     Named{UntangleStep::check, "check"},
+    Named{UntangleStep::improve, "improve"}};
 
 constexpr std::array kCauses{Named{Cause::not_finite, "coordinates that are not finite"},
                              Named{Cause::bad_index, "indices out of range"},

@@ -1,4 +1,4 @@
-// Untangling (paper §6.4): validate, relocate, swap, smooth, refill by the mesher itself, check.
+// Untangling (paper §6.4): validate, relocate, swap, smooth, refill by the mesher itself, improve, check.
 #include "holdfast/untangle.h"
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "api/improve_tangle.h"
 #include "api/mesh.h"
 #include "api/scale.h"
 #include "holdfast/check.h"
@@ -39,6 +40,8 @@ void require_sensible(const Volume& volume, const UntangleOptions& options) {
     if (v >= volume.vertices.size())
       throw std::invalid_argument("vertex " + std::to_string(v) + " is to be fixed, but there are " +
                                   std::to_string(volume.vertices.size()) + " vertices");
+  if (options.improve && !options.refill)
+    throw std::invalid_argument("improving adds and removes vertices, so that it needs refill");
   if (volume.vertices.size() > kMostVertices) throw std::length_error("more than 2^28 vertices are too many");
 }
 
@@ -159,8 +162,22 @@ class Untangling {
     result_.report.cavities = stats.refill.cavities;
     count_signs(result_.report.negative_after, result_.report.null_after);
     if (tangle_->nonpositive_count() > 0) return conclude_tangled(stats.refill);
+    if (options_.improve) {
+      watch_.enter(UntangleStep::improve);
+      improve();
+    }
     watch_.enter(UntangleStep::check);
     deliver();
+  }
+
+  void improve() {
+    const ImprovedTangle improved = improve_tangle(*tangle_, grid_after(scale_), options_.seed, monitor_);
+    const auto told = [](const Figures& figures) -> UntangleReport::Improved::Figures {
+      return {figures.least().degrees(), figures.mean_quality(), figures.below_10_deg(), figures.elements()};
+    };
+    const ImproveStats& stats = improved.stats;
+    result_.report.improved = {stats.moved,    stats.swapped,         stats.contracted,
+                               stats.inserted, told(improved.before), told(improved.after)};
   }
 
   bool validate() {

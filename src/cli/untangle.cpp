@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <memory>
+#include <tuple>
 
 #include "command.h"
 #include "files.h"
@@ -24,7 +25,7 @@ constexpr std::size_t defects_shown = 20;
 struct UntangleArguments {
   std::filesystem::path input, output, report, html;
   std::string input_format, format;
-  bool no_refill = false, quiet = false, verbose = false;
+  bool no_refill = false, improve = false, quiet = false, verbose = false;
   std::uint64_t seed = 1;
   std::optional<double> time_limit, memory_limit;
   WriteArguments writing;
@@ -33,6 +34,7 @@ struct UntangleArguments {
 UntangleOptions to_options(const UntangleArguments& arguments) {
   UntangleOptions options;
   options.refill = !arguments.no_refill;
+  options.improve = arguments.improve;
   options.seed = arguments.seed;
   options.time_limit = time_limit_of(arguments.time_limit);
   options.memory_limit = memory_limit_of(arguments.memory_limit);
@@ -43,6 +45,7 @@ Json report_of(const UntangleArguments& arguments, const UntangleResult& result)
   return to_json(result, {{"input", arguments.input.string()},
                           {"output", arguments.output.string()},
                           {"refill", !arguments.no_refill},
+                          {"improve", arguments.improve},
                           {"seed", arguments.seed},
                           {"time_limit", arguments.time_limit.value_or(0)},
                           {"memory_limit", arguments.memory_limit.value_or(0)}});
@@ -86,6 +89,13 @@ void print_summary(const UntangleArguments& arguments, const UntangleResult& res
       "refilled, {} vertices added, {} removed, {:.2f} s\n",
       arguments.output.string(), report.negative, report.null, report.tetrahedra, report.moved,
       report.swapped, report.cavities, report.added, report.removed, report.seconds.at("total"));
+  if (!arguments.improve) return;
+  const auto& [before, after] = std::tie(report.improved.before, report.improved.after);
+  say("improved: least dihedral angle {:.4g} to {:.4g} degrees, {} to {} of the elements below 10, mean Q "
+      "{:.4g} to "
+      "{:.4g}, {} to {} tetrahedra\n",
+      before.min_dihedral_deg, after.min_dihedral_deg, before.below_10_deg, after.below_10_deg,
+      before.mean_quality, after.mean_quality, before.tetrahedra, after.tetrahedra);
 }
 
 /// The volume untangled, and as it came.
@@ -164,8 +174,13 @@ void add_untangle(CLI::App& app, Command& chosen) {
       ->transform(or_standard_output)
       ->required()
       ->option_text("VOLUME");
-  command->add_flag("--no-refill", arguments->no_refill,
-                    "Only move vertices and swap tetrahedra: neither add nor remove vertices");
+  CLI::Option* no_refill =
+      command->add_flag("--no-refill", arguments->no_refill,
+                        "Only move vertices and swap tetrahedra: neither add nor remove vertices");
+  command
+      ->add_flag("--improve", arguments->improve,
+                 "Then make elements better, with the boundary as it is; adds and removes inner vertices")
+      ->excludes(no_refill);
   command->add_option("--seed", arguments->seed, "Seed of the random orders (default 1)")->option_text("N");
   command->add_option("--time-limit", arguments->time_limit, "Give up after so many seconds (exit 5)")
       ->option_text("S");

@@ -64,6 +64,7 @@ void Figures::add(const Point& a, const Point& b, const Point& c, const Point& d
   ++elements_;
   if (element.least < kTenDegrees) ++below_;
   if (element.least < least_) least_ = element.least;
+  worst_ = std::max(worst_, element.quality);
   for (std::size_t k = 0; k < sums_.size(); ++k) sums_[k] += std::min(element.quality, kMostQuality[k]);
 }
 
@@ -71,6 +72,7 @@ void Figures::add(const Figures& others) {
   elements_ += others.elements_;
   below_ += others.below_;
   if (others.least_ < least_) least_ = others.least_;
+  worst_ = std::max(worst_, others.worst_);
   for (std::size_t k = 0; k < sums_.size(); ++k) sums_[k] += others.sums_[k];
 }
 

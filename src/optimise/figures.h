@@ -21,6 +21,7 @@ class Figures {
   [[nodiscard]] const Angle& least() const { return least_; }
   [[nodiscard]] std::size_t elements() const { return elements_; }
   [[nodiscard]] std::size_t below_10_deg() const { return below_; }
+  [[nodiscard]] double worst_quality() const { return worst_; }
   [[nodiscard]] double mean_quality() const { return sums_[0] / static_cast<double>(elements_); }
   /// Whether none of the three is worse.
   [[nodiscard]] bool is_no_worse_than(const Figures& other) const;
@@ -32,6 +33,7 @@ class Figures {
 
   std::size_t elements_ = 0, below_ = 0;
   Angle least_{0, -1};
+  double worst_ = 0;
   std::array<double, 2> sums_{};
 };
 

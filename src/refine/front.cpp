@@ -232,7 +232,7 @@ class Front {
     const double sum =
         volume_.size_in_frame(v[0]) + volume_.size_in_frame(v[1]) + volume_.size_in_frame(v[2]);
     double length = sum / 3 * (1 + 0.4 * sizes_.gradation());
-    if (!sizes_.of_facets().empty()) length = sizes_.of_facets().bearable(middle_of(v), length);
+    if (!sizes_.of_facets().empty()) length = bearable_at(middle_of(v), volume_.region_of[tet_of(f)], length);
     // The centre of the circle through the corners, or where that is far away, of the triangle.
     Vector foot = circle_centre(u, w);
     const double radius2 = dot(foot, foot);
@@ -251,6 +251,13 @@ class Front {
     for (std::size_t k = 0; k < 3; ++k) p[k] = a[k] + foot[k] + height * n[k] / area;
     p = frame.from(p);
     return true;
+  }
+
+  // Sizes at vertices may have been raised already, but not what a function of the user asks for.
+  [[nodiscard]] double bearable_at(const Point& x, RegionId region, double size) const {
+    const double bearable = sizes_.of_facets().bearable(x, size);
+    if (!(bearable > size) || !sizes_.has_field()) return bearable;
+    return sizes_.of_facets().bearable(x, std::min(size, sizes_.limit(x, region)));
   }
 
   [[nodiscard]] Point middle_of(const std::array<Vertex, 3>& face) const {

@@ -56,6 +56,13 @@ Json to_json(const Report::Field& field) {
           {"worst_forced", forced}};
 }
 
+Json to_json(const UntangleReport::Improved::Figures& figures) {
+  return {{"min_dihedral_deg", figures.min_dihedral_deg},
+          {"mean_q", figures.mean_quality},
+          {"below_10_deg", figures.below_10_deg},
+          {"tetrahedra", figures.tetrahedra}};
+}
+
 }  // namespace
 
 Json to_json(const std::vector<Defect>& defects) {
@@ -201,6 +208,13 @@ Json to_json(const UntangleResult& result, Json options) {
           {"added", report.added},
           {"removed", report.removed},
           {"rounds", report.rounds},
+          {"improved",
+           {{"moves", report.improved.moves},
+            {"swaps", report.improved.swaps},
+            {"contractions", report.improved.contractions},
+            {"insertions", report.improved.insertions},
+            {"before", to_json(report.improved.before)},
+            {"after", to_json(report.improved.after)}}},
           {"mesh",
            {{"vertices", result.volume.vertices.size()}, {"tetrahedra", result.volume.tetrahedra.size()}}},
           {"seconds", report.seconds},

@@ -47,10 +47,10 @@ double longest_side(const std::array<Point, 3>& t) {
 
 }  // namespace
 
-FacetSizes::FacetSizes(std::span<const Facet> facets) {
+FacetSizes::FacetSizes(std::span<const Facet> facets, Wanted wanted) : wanted_(wanted) {
   for (const Facet& f : facets) {
     const double need = tuning::kNeedOfFacet * longest_side(f.corners);
-    if (need > tuning::kFarBeyond * f.wanted)
+    if (need > tuning::kFarBeyond * f.wanted || wanted == Wanted::anywhere)
       facets_.push_back({f.corners, std::min(need, tuning::kMostNeed * f.wanted)});
   }
   if (facets_.empty()) return;
@@ -105,23 +105,30 @@ void FacetSizes::for_each_near(const Point& x, double rate, const double& size, 
     }
     for (std::uint32_t k = n.first; k < n.first + n.count; ++k) {
       const Held& f = facets_[k];
-      if (f.need > size && !act(f.need, distance_to(x, f.corners))) return;
+      if (f.need > size && !act(f, distance_to(x, f.corners))) return;
     }
   }
 }
 
+double FacetSizes::most_need(double size) const {
+  return wanted_ == Wanted::anywhere ? tuning::kMostNeed * size : std::numeric_limits<double>::infinity();
+}
+
 double FacetSizes::bearable(const Point& x, double size) const {
-  for_each_near(x, tuning::kFallOfNeed, size, [&](double need, double distance) {
-    size = std::max(size, need - tuning::kFallOfNeed * distance);
+  const double most = most_need(size), least = wanted_ == Wanted::anywhere ? tuning::kFarBeyond * size : 0;
+  for_each_near(x, tuning::kFallOfNeed, size, [&](const Held& f, double distance) {
+    if (f.need > least) size = std::max(size, std::min(f.need, most) - tuning::kFallOfNeed * distance);
     return true;
   });
   return size;
 }
 
-bool FacetSizes::is_too_near(const Point& x) const {
+bool FacetSizes::is_too_near(const Point& x, double size) const {
   constexpr double part = tuning::kLeastClearance;
+  const double most = most_need(size), least = wanted_ == Wanted::anywhere ? tuning::kFarBeyond * size : 0;
   bool is_near = false;
-  for_each_near(x, tuning::kFallOfNeed + 1 / part, 0, [&](double need, double distance) {
+  for_each_near(x, tuning::kFallOfNeed + 1 / part, 0, [&](const Held& f, double distance) {
+    const double need = f.need > least ? std::min(f.need, most) : 0;
     is_near = distance < part * (need - tuning::kFallOfNeed * distance);
     return !is_near;
   });

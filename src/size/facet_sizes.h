@@ -23,17 +23,20 @@ class FacetSizes {
     std::array<Point, 3> corners;
     double wanted;  ///< the least size at its corners, of their own and of the user's limits
   };
+  /// Whether what is wanted is known at corners, or may be less at any place: then facets need no more than
+  /// some times what is wanted at the place that is asked about.
+  enum class Wanted { at_corners, anywhere };
   FacetSizes() = default;
-  /// Facets that can bear what is wanted are left out.
-  explicit FacetSizes(std::span<const Facet> facets);
+  /// Facets that can bear what is wanted are left out, where that is known.
+  explicit FacetSizes(std::span<const Facet> facets, Wanted wanted = Wanted::at_corners);
 
   [[nodiscard]] bool empty() const { return nodes_.empty(); }
   [[nodiscard]] std::size_t count() const { return facets_.size(); }
 
-  /// The most that the facets need at x, if it is above `size`; else `size`.
+  /// The most that the facets need at x, if it is above the `size` that is wanted there; else `size`.
   [[nodiscard]] double bearable(const Point& x, double size) const;
-  /// Whether x is nearer to a facet than a part of the size that the facet needs at x.
-  [[nodiscard]] bool is_too_near(const Point& x) const;
+  /// Whether x, where `size` is wanted, is nearer to a facet than a part of the size that it needs at x.
+  [[nodiscard]] bool is_too_near(const Point& x, double size) const;
 
  private:
   struct Held {
@@ -47,11 +50,14 @@ class FacetSizes {
     std::uint32_t first, count, left;
   };
   void build(std::uint32_t node);
-  // Calls act(need, distance) for the facets that need more than `size` and `rate` a unit of length at x, and
-  // some others, until it returns false; it may raise `size`.
+  // Calls act(facet, distance) for the facets that need more than `size` and `rate` a unit of length at x,
+  // and some others, until it returns false; it may raise `size`.
   template <typename Act>
   void for_each_near(const Point& x, double rate, const double& size, Act&& act) const;
 
+  [[nodiscard]] double most_need(double size) const;
+
+  Wanted wanted_ = Wanted::at_corners;
   std::vector<Held> facets_;
   std::vector<Node> nodes_;
 };

@@ -83,7 +83,6 @@ SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds
 FacetSizes SizeFunction::sizes_of_facets(const Complex& complex) const {
   double least = most_;
   for (const double h : of_region_) least = std::min(least, h);
-  if (field_) least = 0;  // it may ask for any size anywhere
   std::vector<FacetSizes::Facet> facets;
   facets.reserve(complex.facets.size());
   for (const Triangle& t : complex.facets) {
@@ -94,7 +93,8 @@ FacetSizes SizeFunction::sizes_of_facets(const Complex& complex) const {
     }
     facets.push_back(f);
   }
-  return FacetSizes(facets);
+  // A function may ask for any size anywhere.
+  return FacetSizes(facets, field_ ? FacetSizes::Wanted::anywhere : FacetSizes::Wanted::at_corners);
 }
 
 void SizeFunction::limit_regions(const Sizes& sizes, std::span<const RegionSeed> seeds, const Kept& kept) {

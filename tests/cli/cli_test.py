@@ -520,6 +520,18 @@ class Untangle(CliTest):
         self.assertEqual(self.run_program("untangle", "tangled.mesh", "-o", "a.msh", "-q").stderr, "")
         self.assertIn("relocate", self.run_program("untangle", "tangled.mesh", "-o", "a.msh", "-v").stderr)
 
+    def test_improving(self):
+        self.write("cube.off", off(CUBE_POINTS, CUBE_FACETS))
+        self.run_program("mesh", "cube.off", "-o", "filled.mesh", "--size", "0.2", "--without", "optimise", "-q")
+        told = self.run_program("untangle", "filled.mesh", "-o", "out.mesh", "--improve", "--report", "r.json").stderr
+        self.assertRegex(told, r"improved: least dihedral angle [\d.]+ to [\d.]+ degrees")
+        improved = json.loads((self.folder / "r.json").read_text())["improved"]
+        self.assertGreater(improved["after"]["min_dihedral_deg"], improved["before"]["min_dihedral_deg"])
+        self.assertLess(improved["after"]["mean_q"], improved["before"]["mean_q"])
+        self.run_program("check", "cube.off", "out.mesh")
+        refused = self.run_program("untangle", "filled.mesh", "-o", "b.mesh", "--improve", "--no-refill", expect=2)
+        self.assertIn("--no-refill", refused.stderr)
+
     def test_a_filled_surface_is_checked_against_it(self):
         self.write("moved.off", off([(x + 0.4 * y * z, y, z * (1 + x)) for x, y, z in CUBE_POINTS], CUBE_FACETS))
         self.run_program("mesh", "moved.off", "-o", "a.mesh", "--fill", "-q")

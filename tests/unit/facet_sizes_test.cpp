@@ -40,9 +40,24 @@ TEST(FacetSizes, PointsKeepAwayAlsoBesideTheMiddle) {
   const FacetSizes sizes(std::array{right_triangle(1, 0.01)});
   for (const Point& p : {Point{0.3, 0.3, 0}, Point{0.01, 0.9, 0}})
     for (const double sign : {1.0, -1.0}) {
-      EXPECT_TRUE(sizes.is_too_near({p[0], p[1], sign * 1e-3}));
-      EXPECT_FALSE(sizes.is_too_near({p[0], p[1], sign * tuning::kMostNeed * 0.01}));
+      EXPECT_TRUE(sizes.is_too_near({p[0], p[1], sign * 1e-3}, 0.01));
+      EXPECT_FALSE(sizes.is_too_near({p[0], p[1], sign * tuning::kMostNeed * 0.01}, 0.01));
     }
+}
+
+// Where a function of the user tells what is wanted, facets need at most so many times that, at any place.
+TEST(FacetSizes, WhatIsWantedMayDifferFromPlaceToPlace) {
+  const FacetSizes sizes(std::array{right_triangle(1, 1)}, FacetSizes::Wanted::anywhere);
+  EXPECT_EQ(sizes.count(), 1u);
+  for (const double wanted : {0.001, 0.01}) {
+    EXPECT_DOUBLE_EQ(sizes.bearable({0.2, 0.2, 0}, wanted), tuning::kMostNeed * wanted);
+    EXPECT_NEAR(sizes.bearable({0.2, 0.2, wanted}, wanted),
+                (tuning::kMostNeed - tuning::kFallOfNeed) * wanted, 1e-15);
+    EXPECT_TRUE(sizes.is_too_near({0.3, 0.3, 0.1 * wanted}, wanted));
+    EXPECT_FALSE(sizes.is_too_near({0.3, 0.3, tuning::kMostNeed * wanted}, wanted));
+  }
+  EXPECT_EQ(sizes.bearable({0.2, 0.2, 0}, 0.5), 0.5);
+  EXPECT_FALSE(sizes.is_too_near({0.3, 0.3, 0.01}, 0.5));
 }
 
 // The tree finds what looking at each facet alone does.
@@ -65,10 +80,10 @@ TEST(FacetSizes, AllAreAsEachAlone) {
     for (const FacetSizes::Facet& f : facets) {
       const FacetSizes alone(std::array{f});
       most = std::max(most, alone.bearable(x, 0.001));
-      is_near = is_near || alone.is_too_near(x);
+      is_near = is_near || alone.is_too_near(x, 0.001);
     }
     EXPECT_EQ(all.bearable(x, 0.001), most);
-    EXPECT_EQ(all.is_too_near(x), is_near);
+    EXPECT_EQ(all.is_too_near(x, 0.001), is_near);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <random>
 #include <set>
+#include <tuple>
 
 #include "exact/predicates.h"
 #include "hard_surfaces.h"
@@ -145,6 +146,49 @@ TEST(Untangle, APositiveMeshComesOutAsItCame) {
   EXPECT_EQ(result.volume.vertices, g.volume.vertices);
   EXPECT_EQ(result.volume.tetrahedra, g.volume.tetrahedra);
   EXPECT_EQ(result.report.moved, 0u);
+}
+
+// Negative, then null, then quality (paper §6.4); the expectations on the boundary are those of `untangled`.
+TEST(Untangle, Improves) {
+  for (const double amplitude : {0.0, 0.3}) {
+    Random random(3);
+    Grid g = grid(4, 0.2, random, true);
+    displace(g.volume, g.surface.vertices.size(), amplitude, random);
+    const UntangleResult plain = untangled(g.surface, g.volume);
+    UntangleOptions options;
+    options.improve = true;
+    const UntangleResult result = untangled(g.surface, g.volume, options);
+    const auto& [before, after] = std::tie(result.report.improved.before, result.report.improved.after);
+    EXPECT_EQ(before.tetrahedra, plain.volume.tetrahedra.size());
+    EXPECT_EQ(after.tetrahedra, result.volume.tetrahedra.size());
+    EXPECT_GT(after.min_dihedral_deg, before.min_dihedral_deg);
+    EXPECT_LT(after.mean_quality, before.mean_quality);
+    EXPECT_LE(after.below_10_deg, before.below_10_deg);
+    EXPECT_EQ(result.volume.regions.size(), result.volume.tetrahedra.size());
+    const UntangleResult again = untangled(g.surface, g.volume, options);
+    EXPECT_EQ(again.volume.vertices, result.volume.vertices);
+    EXPECT_EQ(again.volume.tetrahedra, result.volume.tetrahedra);
+  }
+}
+
+TEST(Untangle, ImprovingKeepsFixedVertices) {
+  Random random(4);
+  const Grid g = grid(3, 0.4, random);
+  UntangleOptions options;
+  options.improve = true;
+  for (std::size_t v = g.surface.vertices.size(); v < g.volume.vertices.size(); ++v)
+    options.fixed.push_back(static_cast<Index>(v));
+  const UntangleResult result = untangled(g.surface, g.volume, options);
+  ASSERT_GE(result.volume.vertices.size(), g.volume.vertices.size());
+  EXPECT_TRUE(std::equal(g.volume.vertices.begin(), g.volume.vertices.end(), result.volume.vertices.begin()));
+}
+
+TEST(Untangle, ImprovingNeedsRefill) {
+  Random random(5);
+  UntangleOptions options;
+  options.improve = true;
+  options.refill = false;
+  EXPECT_THROW((void)untangle(grid(2, 0.1, random).volume, options), std::invalid_argument);
 }
 
 TEST(Untangle, DisplacedInnerVertices) {
