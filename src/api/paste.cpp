@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "api/mesh.h"
 #include "api/part_components.h"
@@ -18,7 +19,10 @@
 #include "repair/fuse.h"
 #include "repair/glue.h"
 #include "repair/rounding.h"
+#include "repair/settle.h"
 #include "repair/snap.h"
+#include "surface/aabb_tree.h"
+#include "text/decimal.h"
 
 namespace holdfast {
 namespace {
@@ -148,6 +152,29 @@ std::vector<Index> parts_of_facets(std::span<const Surface> parts) {
   return part;
 }
 
+/// A tolerance of half a part's extent leaves nothing of it.
+void require_smaller_than_parts(const Complex& complex, const PasteResult& result, double tolerance) {
+  std::vector<Box> boxes(result.parts.size());
+  std::vector<std::uint8_t> is_known(boxes.size(), 0);
+  for (std::size_t f = 0; f < complex.facets.size(); ++f)
+    for (const Index v : complex.facets[f]) {
+      if (v >= complex.vertices.size()) continue;
+      const Point& p = complex.vertices[v];
+      if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) continue;
+      const Index k = result.part_of_facet[f];
+      if (std::exchange(is_known[k], std::uint8_t{1}) == 0) boxes[k] = {p, p};
+      boxes[k].extend({p, p});
+    }
+  for (std::size_t k = 0; k < boxes.size(); ++k) {
+    double extent = 0;
+    for (std::size_t i = 0; i < 3; ++i) extent = std::max(extent, boxes[k].high[i] - boxes[k].low[i]);
+    if (is_known[k] != 0 && !(tolerance < extent / 2))
+      throw std::invalid_argument("a tolerance of " + decimal(tolerance) +
+                                  " is no less than half the extent of " + result.parts[k].name +
+                                  ", which is " + decimal(extent));
+  }
+}
+
 void compare_with_parents(const Complex& joined, std::span<const Index> part, PasteResult& result) {
   std::set<Index> of;
   for (std::size_t f = 0; f < result.parents.size(); ++f) {
@@ -161,6 +188,12 @@ void compare_with_parents(const Complex& joined, std::span<const Index> part, Pa
     }
     if (of.size() > 1) ++result.shared_facets;
   }
+}
+
+/// A tolerance above the size of details makes far more facets than there were, most of which cross.
+bool is_hopeless(const repairing::State& state, const Step& step, const Threads& threads) {
+  const std::size_t most = 1000 + 10 * state.input_vertices;
+  return repairing::trouble_of(state, step, threads, most).size() > most;
 }
 
 PartsOfComplex parts_of(const PasteResult& pasted) {
@@ -204,12 +237,20 @@ void run(const Surface& joined, const PasteOptions& options, PlainMonitor& monit
   repairing::Rounded rounded;
   if (options.cut) {
     const bool has_tolerance = options.tolerance > 0;
+    if (has_tolerance) require_smaller_than_parts(complex, result, options.tolerance);
     const double rounding = rounding_of(complex), gap = std::max(options.tolerance, rounding);
     const auto to = has_tolerance ? repairing::SnapTo::all : repairing::SnapTo::vertices;
     double moved = repairing::snap(state, part, to, gap, step, threads);
     repairing::glue(state, part);
     moved += repairing::fuse(state, part, gap, rounding, step);
     repairing::glue(state, part);
+    if (has_tolerance && is_hopeless(state, step, threads)) {
+      result.outcome = Outcome::not_representable;
+      result.message =
+          "what was brought together within " + decimal(options.tolerance) +
+          " of each other crosses nearly everywhere: the tolerance is too large for the parts' details";
+      return;
+    }
     ExactSurface exact;
     RepairOptions arranging;
     static_cast<Limits&>(arranging) = options;

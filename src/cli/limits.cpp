@@ -24,6 +24,15 @@ Limits limits_of(const LimitArguments& arguments) {
   return limits;
 }
 
+int tell_limit(Outcome outcome, const std::string& message) {
+  if (outcome == Outcome::cancelled)
+    say("holdfast: cancelled; nothing was written\n");
+  else
+    say("holdfast: {}; nothing was written; give a {}\n", message,
+        outcome == Outcome::time_limit ? "longer --time-limit" : "larger --memory-limit");
+  return exit_limit;
+}
+
 void add_tolerance(CLI::App& command, double& tolerance) {
   command
       .add_option(

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "holdfast/holdfast.h"
 #include "holdfast/io.h"
 #include "holdfast/limits.h"
 
@@ -28,6 +29,10 @@ void add_tolerance(CLI::App& command, double& tolerance);
 
 /// Lets limits and signals end the writing of a file.
 void watch_writing(WriteOptions& options, const Limits& limits);
+
+/// Says that a command ended by a limit or a signal, which `outcome` must be, and what helps; returns the
+/// exit code. `message` is that of the result.
+int tell_limit(Outcome outcome, const std::string& message);
 
 /// For `progress` of calls that tell nothing: false after a signal.
 [[nodiscard]] bool goes_on(double fraction);

@@ -75,15 +75,15 @@ int conclude(const MeshArguments& arguments, const Surface& surface, const Resul
       print_refusal(arguments, surface, result);
       return exit_invalid_surface;
     case Outcome::time_limit:
-      say("holdfast: {}; nothing was written; give a longer --time-limit\n", message);
-      return exit_limit;
     case Outcome::memory_limit:
-      say("holdfast: {}; nothing was written; give a larger --memory-limit\n", message);
-      return exit_limit;
     case Outcome::cancelled:
-      say("holdfast: cancelled; nothing was written\n");
-      return exit_limit;
+      return tell_limit(result.outcome, message);
     case Outcome::not_representable:
+      if (result.report.steiner_points == 0) {  // the parts could not be pasted
+        say("holdfast: {}; {} was not written; another --paste=T may help\n", message,
+            arguments.output.path.string());
+        return exit_not_representable;
+      }
       say("holdfast: {} ({} of {} added points have no position in doubles); {} was not written\n", message,
           result.report.unrounded_points, result.report.steiner_points, arguments.output.path.string());
       if (arguments.exact.empty())

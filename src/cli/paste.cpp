@@ -64,16 +64,11 @@ int conclude(const PasteArguments& arguments, const PasteResult& result) {
       if (!result.overlaps.empty()) say("{}\n", overlap_advice);
       return exit_invalid_surface;
     case Outcome::time_limit:
-      say("holdfast: {}; nothing was written; give a longer --time-limit\n", result.message);
-      return exit_limit;
     case Outcome::memory_limit:
-      say("holdfast: {}; nothing was written; give a larger --memory-limit\n", result.message);
-      return exit_limit;
     case Outcome::cancelled:
-      say("holdfast: cancelled; nothing was written\n");
-      return exit_limit;
+      return tell_limit(result.outcome, result.message);
     case Outcome::not_representable:
-      say("holdfast: {}; {} was not written; a larger --tolerance may help\n", result.message,
+      say("holdfast: {}; {} was not written; another --tolerance may help\n", result.message,
           arguments.output.string());
       return exit_not_representable;
   }

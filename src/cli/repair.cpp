@@ -64,14 +64,9 @@ int conclude(const RepairArguments& arguments, const RepairResult& result) {
       if (!arguments.quiet) say("{}: {}\n", arguments.output.string(), summary_of(result));
       return exit_done;
     case Outcome::time_limit:
-      say("holdfast: {}; nothing was written; give a longer --time-limit\n", result.message);
-      return exit_limit;
     case Outcome::memory_limit:
-      say("holdfast: {}; nothing was written; give a larger --memory-limit\n", result.message);
-      return exit_limit;
     case Outcome::cancelled:
-      say("holdfast: cancelled; nothing was written\n");
-      return exit_limit;
+      return tell_limit(result.outcome, result.message);
     case Outcome::not_representable:
       say("holdfast: {}; {} was not written\n", result.message, arguments.output.string());
       if (arguments.exact.empty())

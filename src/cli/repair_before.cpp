@@ -3,6 +3,7 @@
 #include "command.h"
 #include "files.h"
 #include "holdfast/surface_io.h"
+#include "limits.h"
 
 namespace holdfast::cli {
 
@@ -17,23 +18,12 @@ RepairResult repair_before(const Surface& given, RepairOptions options, Progress
 }
 
 int conclude_repair(const RepairResult& result) {
-  switch (result.outcome) {
-    case Outcome::time_limit:
-      say("holdfast: {} in the repair; nothing was written; give a longer --time-limit\n", result.message);
-      return exit_limit;
-    case Outcome::memory_limit:
-      say("holdfast: {} in the repair; nothing was written; give a larger --memory-limit\n", result.message);
-      return exit_limit;
-    case Outcome::not_representable:
-      say("holdfast: {}; nothing was written; `holdfast repair --exact FILE` writes the exact arrangement, "
-          "and a "
-          "larger tolerance, --repair=T, may help\n",
-          result.message);
-      return exit_not_representable;
-    default:
-      say("holdfast: cancelled; nothing was written\n");
-      return exit_limit;
-  }
+  if (result.outcome != Outcome::not_representable)
+    return tell_limit(result.outcome, result.message + " in the repair");
+  say("holdfast: {}; nothing was written; `holdfast repair --exact FILE` writes the exact arrangement, and a "
+      "larger tolerance, --repair=T, may help\n",
+      result.message);
+  return exit_not_representable;
 }
 
 void write_repaired(const std::filesystem::path& path, const Surface& surface, Outcome outcome,

@@ -63,14 +63,9 @@ int conclude(const UntangleArguments& arguments, const UntangleResult& result) {
         say("... and {} more\n", result.defects.size() - defects_shown);
       return exit_invalid_surface;
     case Outcome::time_limit:
-      say("holdfast: {}; nothing was written; give a longer --time-limit\n", result.message);
-      return exit_limit;
     case Outcome::memory_limit:
-      say("holdfast: {}; nothing was written; give a larger --memory-limit\n", result.message);
-      return exit_limit;
     case Outcome::cancelled:
-      say("holdfast: cancelled; nothing was written\n");
-      return exit_limit;
+      return tell_limit(result.outcome, result.message);
     case Outcome::not_representable:
       say("holdfast: {} ({} negative and {} null tetrahedra are left); {} was not written{}\n",
           result.message, result.report.negative_after, result.report.null_after, arguments.output.string(),

@@ -315,6 +315,35 @@ class PasteTest(CliTest):
         found = volumes(points, tets)
         self.assertAlmostEqual(found[3], 0.3 * 0.4 * 0.7, places=9)
 
+    def test_tolerances_that_are_too_large(self):
+        names = self.parts(box((0, 0, 0), (1, 1, 1), 3), box((1, 0, 0), (2.5, 1, 1), 4))
+        for tolerance in "0.5", "10", "1e300":
+            for ended in (self.run_program("mesh", *names, "-o", "x.mesh", "--paste=" + tolerance, expect=2),
+                          self.run_program("paste", *names, "-o", "x.mesh", "--tolerance", tolerance, expect=2)):
+                self.assertIn("half the extent of a.off, which is 1", ended.stderr)
+        self.assertFalse((self.folder / "x.mesh").exists())
+
+    def test_corners_within_rounding_become_the_first(self):
+        up = math.nextafter(1, 2)
+        a, b = box((0, 0, 0), (1, 1, 1), 3), box((up, 0, 0), (2, 1, up), 4)
+        points, _, tets, report, _ = self.mesh(self.parts(a, b), "--paste")
+        self.require_vertices(points, a)
+        found = volumes(points, tets)
+        for region in (1, 2):
+            self.assertAlmostEqual(found[region], 1, places=12)
+        self.assertAlmostEqual(interface_areas(points, tets)[1, 2], 1, places=12)
+
+    def test_regions_with_the_same_id(self):
+        parts = [box((0, 0, 0), (1, 1, 1), 2), box((1, 0, 0), (2, 1, 1), 3)]
+        for name, (points, triangles) in zip("ab", parts):
+            self.write(name + ".poly", f"{len(points)} 3 0 0\n"
+                       + "".join(f"{i} {x!r} {y!r} {z!r}\n" for i, (x, y, z) in enumerate(points))
+                       + f"{len(triangles)} 0\n" + "".join(f"1\n3 {a} {b} {c}\n" for a, b, c in triangles)
+                       + f"0\n1\n0 {points[0][0] + 0.4} 0.5 0.5 7\n")
+        points, _, tets, _, _ = self.mesh(["a.poly", "b.poly"], "--paste")
+        self.assertEqual(set(volumes(points, tets)), {7})
+        self.assertAlmostEqual(volumes(points, tets)[7], 2, places=12)
+
     def test_parents_and_report(self):
         a, b = box((0, 0, 0), (1, 1, 1), 4), box((1, 0, 0), (2, 1, 1), 7)
         names = self.parts(a, b)
