@@ -1,0 +1,58 @@
+"""Surfaces that are not valid: `repair`, and `mesh(..., repair=True)`."""
+
+import numpy as np
+import pytest
+
+import holdfast
+
+CUBE = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
+FACES = np.array([(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4),
+                  (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2), (1, 3, 7), (1, 7, 5)])
+
+
+def two_cubes(by=(0.3, 0.41, 0.37)):
+    return np.vstack([CUBE, CUBE @ np.array([(0.9, 0.2, 0), (-0.1, 0.95, 0.1), (0, 0.1, 1)]) + by]), np.vstack([FACES, FACES + 8])
+
+
+def test_cubes_that_cross():
+    points, triangles = two_cubes()
+    repaired = holdfast.repair(points, triangles)
+    assert np.array_equal(repaired.surface.points[:16], points) and repaired.moved == {} and repaired.dropped == {}
+    assert 0 < repaired.max_displacement < 1e-15
+    assert holdfast.diagnose(repaired.surface).valid and repaired.check()["holds"]
+    first, all_ = repaired.parents
+    assert set(all_) == set(range(24)) and len(first) == len(repaired.surface.triangles) + 1
+    assert "Repair(" in repr(repaired)
+
+
+def test_valid_surfaces_come_out_as_they_were():
+    repaired = holdfast.repair(CUBE, FACES)
+    assert np.array_equal(repaired.surface.points, CUBE) and np.array_equal(repaired.surface.triangles, FACES)
+    assert repaired.max_displacement == 0
+
+
+def test_options():
+    near = np.vstack([CUBE, CUBE + (1, 0, 0) + np.array([1e-9, 0, 0])])
+    welded = holdfast.repair(near, np.vstack([FACES, FACES + 8]), weld=1e-8)
+    assert sorted(welded.moved) == [8, 10, 12, 14] and max(welded.moved.values()) == pytest.approx(1e-9, rel=1e-3)
+    filled = holdfast.repair(CUBE, FACES[1:], fill_holes=True)
+    assert len(filled.report["filled"]) == 1
+    assert holdfast.mesh(filled.surface, fill=True).quality().volume.sum() == pytest.approx(1)
+    united = holdfast.repair(*two_cubes(), union=True)
+    assert set(united.dropped.values()) <= {"inner"} and len(united.surface.triangles) < len(holdfast.repair(*two_cubes()).surface.triangles)
+
+
+def test_repair_and_mesh_at_once():
+    points, triangles = two_cubes()
+    mesh = holdfast.mesh(points, triangles, repair=True, fill=True)
+    assert mesh.repair.moved == {} and holdfast.check(mesh.repair.surface, mesh)
+    assert np.array_equal(mesh.points[:16], points)
+
+
+def test_what_is_refused():
+    with pytest.raises(ValueError, match="three sides"):
+        holdfast.repair(CUBE, FACES, fill_holes=2)
+    with pytest.raises(ValueError, match="negative"):
+        holdfast.repair(CUBE, FACES, weld=-1)
+    with pytest.raises(holdfast.TimeLimit):
+        holdfast.repair(*two_cubes(), time_limit=1e-9)
