@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "holdfast/condition.h"
 #include "holdfast/names.h"
 
 namespace holdfast::reports {
@@ -131,6 +132,7 @@ Json to_json(const Intermediate& intermediate) {
 
 Json to_json(const Result& result, Json options) {
   const Report& report = result.report;
+  const Condition condition = holdfast::condition(result.volume);
   Json sets = Json::object();
   for (const auto& [marker, set] : result.marker_sets) sets[std::to_string(marker)] = set;
   const auto missing = [](const Report::Missing& m) {
@@ -177,7 +179,11 @@ Json to_json(const Result& result, Json options) {
         {"min_dihedral_deg", report.elements.min_dihedral_deg},
         {"max_dihedral_deg", report.elements.max_dihedral_deg},
         {"below_10_deg", report.elements.below_10_deg},
-        {"histogram", report.elements.histogram}}},
+        {"histogram", report.elements.histogram},
+        {"below", condition.below},
+        {"volume_below", condition.volume_below},
+        {"element_eigenvalue", condition.element_eigenvalue},
+        {"stiffness_bound", condition.stiffness_bound}}},
       {"seconds", report.seconds},
       {"peak_memory_bytes", report.peak_memory_bytes},
       {"version", version()},
