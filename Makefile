@@ -72,9 +72,9 @@ fuzz:  ## every reader, mesh, untangle, check and plane on arbitrary bytes, each
 	@scripts/fuzz.sh build/fuzz $$(( $(MINUTES) * 60 )) $(JOBS)
 
 bench:  ## speed against TetGen, CGAL and Gmsh, to docs/benchmarks.md; goes on where it stopped (ARGS="--again mesh")
-	@scripts/setup.sh build bench
+	@scripts/setup.sh build bench node
 	@cmake --preset release -DHOLDFAST_BUILD_BENCH=ON
-	@cmake --build $(RELEASE) -j $(JOBS) --target holdfast_cli cgal_delaunay tetgen_delaunay
+	@cmake --build $(RELEASE) -j $(JOBS) --target holdfast_cli cgal_delaunay cgal_plane plane_times tetgen_delaunay
 	@cmake --preset native
 	@cmake --build $(NATIVE) -j $(JOBS) --target holdfast_cli
 	@python3 bench/run.py --build $(RELEASE) --native $(NATIVE) --corpus "$(or $(CORPUS),../shared/corpus)" $(ARGS)

@@ -339,6 +339,7 @@ def read_surface(
     path: Union[PathLike, typing.Iterable[PathLike]],
     format: Optional[str] = None,
     *,
+    tolerance: float = 0.0,
     time_limit: Optional[float] = None,
     memory_limit: Optional[MemoryAmount] = None,
     cancel: Optional[CancelToken] = None,
@@ -353,6 +354,8 @@ def read_surface(
         without markers get the next free one, from 1, and the file's name.
     format
         The ending to go by (".stl"), where the file's own does not tell.
+    tolerance
+        How far corners of a polygon that is not convex may lie from its plane, in the file's unit; rounding is allowed always.
     time_limit, memory_limit, cancel, progress
         As `mesh` takes them.
 
@@ -367,6 +370,9 @@ def read_surface(
     Surface(1042 points, 2080 triangles)
     """
     options = limits(time_limit, memory_limit, cancel)
+    if not 0 <= tolerance < float("inf"):
+        raise ValueError(f"tolerance={tolerance}: a finite length, not negative, is expected")
+    options["tolerance"] = float(tolerance)
     paths = [path] if isinstance(path, (str, os.PathLike)) else list(path)
     with Shown(progress, "read") as callback:
         parts = [_core.read_surface(os.fspath(p), format or "", options, callback) for p in paths]

@@ -22,6 +22,7 @@ namespace {
 ReadOptions reading(const py::dict& options, const Watch& watch, const std::string& format) {
   ReadOptions to;
   take_limits(options, to);
+  take(options, "tolerance", to.tolerance);
   to.format = format;
   to.progress = [&watch](double fraction) { return watch.go_on("read", fraction); };
   return to;
