@@ -242,7 +242,7 @@ def write_stl(path, out):
 def surfaces(folders):
     """(path, group): the family of a generated surface, else the name of its folder."""
     found = []
-    for folder in map(Path, folders):
+    for folder in (Path(f).resolve() for f in folders):
         families = {}
         if (folder / "list.tsv").exists():
             families = dict(line.split("\t")[:2] for line in (folder / "list.tsv").read_text().splitlines()[1:])
@@ -294,7 +294,9 @@ def document(rows, arguments, wanted):
              "verified by `holdfast check --repaired` and by an independent program, then filled where it encloses anything, and that mesh",
              "checked. *moved*: surfaces on which vertices of the input moved. *largest distance*: in parts of the surface's extent, as",
              "reported and verified. *seconds*: of CPU, of all repairs of the group together, on one thread. *ms per 1,000*: the same by vertices",
-             "of the result. Other programs have %d s of CPU a surface; their results are judged by both checks' tests of validity." % OTHERS, "",
+             f"of the results that have 1,000 or more. Other programs have {OTHERS} s of CPU a surface; their results are only asked whether they",
+             "are valid, by `holdfast diagnose` and by the independent program.", "",
+             *([f"The table has {len(rows)} of {wanted} surfaces, the smallest.", ""] if len(rows) < wanted else []),
              "| group | surfaces | repaired | own check | independent | mesh checked | moved | largest distance | seconds | ms per 1,000 | admesh valid | autorefine valid |",
              "|---|---|---|---|---|---|---|---|---|---|---|---|"]
 
