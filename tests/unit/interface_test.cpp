@@ -235,7 +235,7 @@ TEST(Names, OfEveryEnumerationAndBack) {
   expect_names<RemarkKind>(5);
   expect_names<DefectKind>(16);
   expect_names<RuleKind>(15);
-  expect_names<UntangleStep>(6);
+  expect_names<UntangleStep>(7);
   expect_names<Cause>(16);
 }
 
