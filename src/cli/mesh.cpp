@@ -374,15 +374,14 @@ void add_mesh(CLI::App& app, Command& chosen) {
   command
       ->add_option("SURFACE", arguments->surfaces,
                    "Surface files (.stl .off .obj .ply .mesh .meshb .poly .smesh .node .msh .vtu .vtp .vtk, "
-                   "each also .gz); "
-                   "several count on from "
+                   "each also .gz, and whatever else `convert` reads); several count on from "
                    "one another; vertices with identical coordinates are one")
       ->transform(or_standard_input)
       ->required();
   command
       ->add_option(
           "-o,--output", arguments->output.path,
-          "Volume file (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol .xdmf .node, "
+          "Volume file (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol .xdmf .med .node, "
           "or OpenFOAM's constant/polyMesh), or a surface file (.stl .ply .obj .off .poly) for the boundary "
           "and "
           "interfaces of the mesh, -: standard output")

@@ -124,7 +124,8 @@ void print_decisions(const Result& result) {
 
 void print_summary(const MeshArguments& arguments, const Options& options, const Result& result,
                    double seconds) {
-  say("{}: {} vertices ({} added), {} in {}{}, {:.2f} s{}\n", arguments.output.path.string(),
+  say("{}: {} vertices ({} added), {} in {}{}, {:.2f} s{}\n",
+      arguments.output.each_region ? "all regions" : arguments.output.path.string(),
       result.volume.vertices.size(), result.report.steiner_points,
       result.volume.tetrahedra.size() == 1 ? "1 tetrahedron"
                                            : fmt::format("{} tetrahedra", result.volume.tetrahedra.size()),
