@@ -9,7 +9,7 @@ SEED ?= 1
 MINUTES ?= 5
 PYTHON ?= /usr/bin/python3
 
-.PHONY: help setup build demo test python wheel slurm python-corpus corpus random planes solvers fuzz bench field repair tables paper figures format viewer web-test web-bits pictures docs web tidy debug asan tsan libcxx install clean
+.PHONY: help setup build demo test python wheel slurm python-corpus corpus random planes solvers partitioned scale fuzz bench field repair tables paper figures format viewer web-test web-bits pictures docs web tidy debug asan tsan libcxx install clean
 .DEFAULT_GOAL := help
 
 help:  ## this list
@@ -51,6 +51,15 @@ python-corpus: python  ## N=500 surfaces of CORPUS=dir through batch and through
 solvers: build  ## every format into Debian's solvers, and problems solved by them, to docs/solvers.md (ARGS="--only gmsh")
 	@scripts/setup.sh solvers
 	@$(PYTHON) tests/solvers/run.py $(RELEASE)/holdfast $(if $(ARGS),,--write docs/solvers.md) $(ARGS)
+
+partitioned: build  ## DOLFINx, OpenFOAM, VTK and Gmsh on meshes in pieces, as two processes, to docs/scaling.md
+	@scripts/setup.sh solvers
+	@$(PYTHON) tests/solvers/partitioned.py $(RELEASE)/holdfast --write docs/scaling.md $(or $(ARGS),--no-msh)
+
+scale: python  ## N=1e6 tetrahedra in parts through Dask, one worker killed, to docs/scaling.md; goes on where it stopped
+	@scripts/setup.sh python-test
+	@PYTHONPATH=$(RELEASE)/python /usr/bin/python3 scripts/scale.py $(RELEASE)/holdfast build/scale-$(N) --elements $(N) \
+	  --write docs/scaling.md $(ARGS)
 
 corpus: build  ## meshes and verifies every surface of CORPUS=dir (options: ARGS="--only 'gen_*'")
 	@python3 scripts/corpus.py --holdfast $(RELEASE)/holdfast --corpus "$(or $(CORPUS),../shared/corpus)" \

@@ -62,9 +62,12 @@ void suit(AnyMesh& mesh, const ConvertArguments& arguments, const AnyTarget& tar
   }
 }
 
-void write(const AnyMesh& mesh, const ConvertArguments& arguments, const WriteOptions& options) {
+void write(const AnyMesh& mesh, const ConvertArguments& arguments, const AnyTarget& target) {
   const std::filesystem::path& path = arguments.output.path;
+  const WriteOptions& options = target.options;
   if (mesh.is_volume) {
+    if (arguments.output.pieces.parts)
+      return write_partition({path, options}, *arguments.output.pieces.parts, mesh.volume, arguments.quiet);
     write_volume(path, mesh.volume, options);
     if (!arguments.quiet) tell(not_held(path, mesh.volume, options), path);
   } else {
@@ -117,7 +120,7 @@ int run(const ConvertArguments& arguments) {
     set_order(mesh.volume, arguments.order, read_curved(arguments.order, limits), limits, arguments.quiet);
   }
   cancel_by_flag();  // from here on files are open
-  write(mesh, arguments, target.options);
+  write(mesh, arguments, target);
   if (arguments.quiet) return exit_done;
   const bool has_tetrahedra = mesh.is_volume && !mesh.volume.tetrahedra.empty();
   say("{}: {} vertices, {}{} triangles, {} segments\n", arguments.output.path.string(),
@@ -151,6 +154,7 @@ void add_convert(CLI::App& app, Command& chosen) {
   add_name_option(*command, arguments->names);
   add_order(*command, arguments->order);
   add_write_options(*command, arguments->output.writing);
+  add_partition(*command, arguments->output.pieces);
   command
       ->add_option("--format", arguments->output.format,
                    "Format to write, instead of by ending; msh2 is .msh 2.2")

@@ -169,8 +169,13 @@ void FilesOfRun::write(std::string_view option, const fs::path& path, bool with_
   const fs::path target = linked(path);
   if (!status_of(path, file.status)) {
     file.exists = false;
+    // In the nearest folder that is there: others are made with the file.
+    fs::path folder = folder_of(target);
     file.name = target.filename();
-    static_cast<void>(stat(folder_of(target).c_str(), &file.status));
+    while (stat(folder.c_str(), &file.status) != 0 && folder.has_filename()) {
+      file.name = folder.filename() / file.name;
+      folder = folder_of(folder);
+    }
   }
   if (with_folders)
     require_writable_with_folders(path);
@@ -189,6 +194,8 @@ VolumeTarget FilesOfRun::write_volume(std::string_view option, const fs::path& p
     target.options.legacy_msh = true;
   }
   const std::string kind = format_of(target);
+  if (kind == ".pvtu")
+    throw UsageError(fmt::format("{}: {} is of pieces; give --partition K", called(path), kind));
   const std::vector<std::string> known = volume_formats();
   if (std::find(known.begin(), known.end(), kind) == known.end())
     throw UsageError(fmt::format(

@@ -4,9 +4,12 @@
 #include "command.h"
 #include "files.h"
 #include "files_of_run.h"
+#include "holdfast/partition.h"
 #include "limits.h"
 #include "manifest.h"
+#include "partition_option.h"
 #include "signals.h"
+#include "write_options.h"
 
 namespace holdfast::cli {
 namespace {
@@ -16,8 +19,10 @@ namespace fs = std::filesystem;
 struct JoinArguments {
   fs::path folder, output;
   std::string format;
+  WriteArguments writing;
+  PartitionArguments pieces;
   LimitArguments limits;
-  bool quiet = false;
+  bool as_parts = false, quiet = false;
 };
 
 bool is_vtu(const JoinArguments& arguments) {
@@ -26,18 +31,44 @@ bool is_vtu(const JoinArguments& arguments) {
   return format == ".vtu" || format == "vtu";
 }
 
+/// A format of pieces alone has the parts, too.
+bool keeps_parts(const JoinArguments& arguments) {
+  if (arguments.pieces.parts) {
+    if (arguments.as_parts) throw UsageError("--as-parts and --partition make other pieces of one mesh");
+    return false;
+  }
+  return arguments.as_parts || volume_format_of(arguments.output, arguments.format) == ".pvtu";
+}
+
 int run(const JoinArguments& arguments) {
   const Limits limits = limits_of(arguments.limits);
+  const bool as_parts = keeps_parts(arguments);
   FilesOfRun files;
   const Manifest manifest = read_manifest(arguments.folder);
   for (const ManifestPart& part : manifest.parts) files.read_volume(manifest.path_of(part.volume), {});
-  VolumeTarget target = files.write_volume("-o", arguments.output, arguments.format);
+  VolumeTarget target;
+  if (as_parts) {
+    target = target_of_pieces(files, "-o", arguments.output, arguments.format, manifest.parts.size(),
+                              arguments.writing);
+  } else if (arguments.pieces.parts) {
+    target = target_of_partition(files, "-o", arguments.output, arguments.format, *arguments.pieces.parts,
+                                 arguments.writing);
+  } else {
+    target = files.write_volume("-o", arguments.output, arguments.format);
+    apply(arguments.writing, target);
+  }
   watch_writing(target.options, limits);
   cancel_by_flag();
   try {
     const Surface whole = whole_of(manifest, limits);
     const auto load = [&](std::size_t k) { return volume_of(manifest, k, limits); };
-    if (is_vtu(arguments)) {
+    if (as_parts) {
+      write_pieces(target.path, manifest.parts.size(),
+                   joined_pieces(whole.view(), manifest.parts.size(), load, manifest.interface_marker),
+                   target.options);
+      return exit_done;
+    }
+    if (is_vtu(arguments) && !arguments.pieces.parts) {
       write_joined(target.path, whole.view(), manifest.parts.size(), load, manifest.interface_marker,
                    target.options);
       return exit_done;
@@ -45,6 +76,10 @@ int run(const JoinArguments& arguments) {
     std::vector<Volume> parts;
     for (std::size_t k = 0; k < manifest.parts.size(); ++k) parts.push_back(load(k));
     const Volume joined = join_parts(whole.view(), parts, manifest.interface_marker);
+    if (arguments.pieces.parts) {
+      write_partition(target, *arguments.pieces.parts, joined, arguments.quiet);
+      return exit_done;
+    }
     write_volume(target.path, joined, target.options);
     if (!arguments.quiet) tell(not_held(target.path, joined, target.options), target.path);
   } catch (const Stale& stale) {
@@ -69,6 +104,12 @@ void add_join(CLI::App& app, Command& chosen) {
       ->option_text("VOLUME");
   command->add_option("--format", arguments->format, "Volume format, instead of by ending")
       ->option_text("FORMAT");
+  command->add_flag(
+      "--as-parts", arguments->as_parts,
+      "Leave the parts as the pieces of K processes, in the formats that --partition has (.pvtu always "
+      "does)");
+  add_partition(*command, arguments->pieces);
+  add_write_options(*command, arguments->writing);
   add_limits(*command, arguments->limits);
   command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });

@@ -493,6 +493,7 @@ void add_mesh(CLI::App& app, Command& chosen) {
   command->add_flag("--no-interfaces", arguments->output.no_interfaces, no_interfaces_help);
   add_tolerance(*command, arguments->tolerance);
   add_write_options(*command, arguments->output.writing);
+  add_partition(*command, arguments->output.pieces);
   command->add_option("--input-format", arguments->input_format, "Surface format, instead of by ending")
       ->option_text("FORMAT");
   CLI::Option* quiet =

@@ -72,7 +72,17 @@ void tell_of_surface_alone(const fs::path& path, const Volume& volume) {
 }
 
 AnyTarget output_target(FilesOfRun& files, const char* option, const OutputArguments& arguments) {
-  AnyTarget target = write_any(files, option, arguments.path, arguments.format);
+  if (arguments.pieces.parts && arguments.each_region)
+    throw UsageError("--partition and --each-region are two ways to cut a mesh; give one of them");
+  AnyTarget target;
+  if (arguments.pieces.parts) {
+    target.options = target_of_partition(files, option, arguments.path, arguments.format,
+                                         *arguments.pieces.parts, arguments.writing)
+                         .options;
+    target.holds_volumes = true;
+    return target;
+  }
+  target = write_any(files, option, arguments.path, arguments.format);
   VolumeTarget written{arguments.path, target.options};
   apply(arguments.writing, written);
   target.options = written.options;
@@ -89,6 +99,8 @@ void write_output(FilesOfRun& files, const OutputArguments& arguments, const Any
   Volume without;
   if (arguments.no_interfaces) drop_interfaces(without = all);
   const Volume& volume = arguments.no_interfaces ? without : all;
+  if (arguments.pieces.parts)
+    return write_partition({arguments.path, target.options}, *arguments.pieces.parts, volume, quiet);
   if (!arguments.each_region) {
     if (!target.holds_volumes && !quiet) tell_of_surface_alone(arguments.path, volume);
     return write_one(arguments.path, target, volume, quiet);

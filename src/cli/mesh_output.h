@@ -6,6 +6,7 @@
 
 #include "any_mesh.h"
 #include "files_of_run.h"
+#include "partition_option.h"
 #include "write_options.h"
 
 namespace holdfast::cli {
@@ -25,6 +26,7 @@ struct OutputArguments {
   std::filesystem::path path;
   std::string format;
   WriteArguments writing;
+  PartitionArguments pieces;
   bool each_region = false, no_interfaces = false;
 };
 

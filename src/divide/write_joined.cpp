@@ -7,6 +7,7 @@
 #include "holdfast/divide.h"
 #include "io/atomic_writer.h"
 #include "io/vtk_cells.h"
+#include "io/xml_reader.h"
 #include "numbers/float_environment.h"
 
 namespace holdfast {
@@ -77,8 +78,9 @@ class JoinedWriter {
     const bool wide = vertices_ > UINT32_MAX;
     out_ << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
          << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
-         << "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << vertices_
-         << "\" NumberOfCells=\"" << cells_ << "\">\n<Points>\n";
+         << "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n";
+    write_names();
+    out_ << "<Piece NumberOfPoints=\"" << vertices_ << "\" NumberOfCells=\"" << cells_ << "\">\n<Points>\n";
     array("Float64", "Points", 3, 3 * sizeof(double) * vertices_);
     out_ << "</Points>\n<Cells>\n";
     array(wide ? "UInt64" : "UInt32", "connectivity", 1, corners_ * (wide ? 8 : 4));
@@ -90,6 +92,20 @@ class JoinedWriter {
     array("Int64", "input_vertex", 1, 8 * vertices_);
     if (!common_.vertex_markers.empty()) array("Int32", "marker", 1, 4 * vertices_);
     out_ << "</PointData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+  }
+
+  void write_names() {
+    const io::VtkFields fields = io::vtk_fields(common_.names);
+    if (fields.empty()) return;
+    out_ << "<FieldData>\n";
+    for (const auto& [name, values] : fields) {
+      out_ << "<DataArray type=\"Int32\" Name=\"" << io::escaped(name)
+           << "\" NumberOfComponents=\"2\" NumberOfTuples=\"" << std::uint64_t{values.size()}
+           << "\" format=\"ascii\">";
+      for (const auto& [id, dimension] : values) out_ << id << ' ' << dimension << ' ';
+      out_ << "</DataArray>\n";
+    }
+    out_ << "</FieldData>\n";
   }
 
   void begin_array() { put(out_, sizes_[next_array_++]); }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "io/formats.h"
 #include "io/labels.h"
@@ -126,6 +127,9 @@ class MshReader {
     } else if (name == "$Entities" && modern_) {
       read_entities();
       expect_end("$EndEntities");
+    } else if (name == "$PartitionedEntities" && modern_) {
+      read_partitioned_entities();
+      expect_end("$EndPartitionedEntities");
     } else {
       skip_section("$End" + name.substr(1));
       if (name != "$Entities" && name != "$Comments")
@@ -201,20 +205,42 @@ class MshReader {
     in_.begin();
     std::array<std::size_t, 4> counts{};
     for (std::size_t& count : counts) count = in_.count("the number of entities", 10, 4);
-    for (std::size_t dimension = 0; dimension < 4; ++dimension) {
+    for (std::size_t dimension = 0; dimension < 4; ++dimension)
+      for (std::size_t i = 0; i < counts[dimension]; ++i)
+        read_bounds_and_physicals(dimension, in_.integer("an entity tag"));
+  }
+
+  /// What stands behind the tag of an entity of either kind.
+  void read_bounds_and_physicals(std::size_t dimension, std::int64_t tag) {
+    for (int bound = 0; bound < (dimension == 0 ? 3 : 6); ++bound) static_cast<void>(in_.real("a bound"));
+    const std::size_t physicals = in_.count("the number of physical tags", 2, 4);
+    for (std::size_t k = 0; k < physicals; ++k) {
+      const int physical = in_.tag("a physical tag");
+      if (k == 0) physicals_[{dimension, tag}] = physical;
+    }
+    if (dimension == 0) return;
+    const std::size_t borders = in_.count("the number of bounding entities", 2, 4);
+    for (std::size_t k = 0; k < borders; ++k) static_cast<void>(in_.integer("an entity tag"));
+  }
+
+  /// Entities by part. One whose parent has more dimensions lies between parts, and is none of the mesh.
+  void read_partitioned_entities() {
+    in_.begin();
+    static_cast<void>(in_.size("the number of parts"));
+    const std::size_t ghosts = in_.count("the number of ghost entities", 4, 8);
+    for (std::size_t i = 0; i < 2 * ghosts; ++i) static_cast<void>(in_.integer("a ghost entity"));
+    std::array<std::size_t, 4> counts{};
+    for (std::size_t& count : counts) count = in_.count("the number of entities", 10, 4);
+    for (std::size_t dimension = 0; dimension < 4; ++dimension)
       for (std::size_t i = 0; i < counts[dimension]; ++i) {
         const std::int64_t tag = in_.integer("an entity tag");
-        for (int bound = 0; bound < (dimension == 0 ? 3 : 6); ++bound) static_cast<void>(in_.real("a bound"));
-        const std::size_t physicals = in_.count("the number of physical tags", 2, 4);
-        for (std::size_t k = 0; k < physicals; ++k) {
-          const int physical = in_.tag("a physical tag");
-          if (k == 0) physicals_[{dimension, tag}] = physical;
-        }
-        if (dimension == 0) continue;
-        const std::size_t borders = in_.count("the number of bounding entities", 2, 4);
-        for (std::size_t k = 0; k < borders; ++k) static_cast<void>(in_.integer("an entity tag"));
+        const std::int64_t parent = in_.integer("the dimension of the parent");
+        static_cast<void>(in_.integer("the tag of the parent"));
+        const std::size_t parts = in_.count("the number of parts", 2, 4);
+        for (std::size_t k = 0; k < parts; ++k) static_cast<void>(in_.integer("a part"));
+        read_bounds_and_physicals(dimension, tag);
+        if (parent > static_cast<std::int64_t>(dimension)) between_.insert({dimension, tag});
       }
-    }
   }
 
   void read_nodes_4() {
@@ -250,11 +276,23 @@ class MshReader {
       const auto found = physicals_.find({static_cast<std::size_t>(dimension), entity});
       const int physical = found == physicals_.end() ? 0 : found->second;
       const int elementary = found == physicals_.end() ? entity : 0;
+      const bool between = between_.contains({static_cast<std::size_t>(dimension), entity});
       for (std::size_t i = 0; i < count; ++i) {
         static_cast<void>(in_.size("an element tag"));
-        read_element(type, physical, elementary);
+        if (between)
+          skip_element(type);
+        else
+          read_element(type, physical, elementary);
       }
     }
+  }
+
+  void skip_element(std::int64_t type) {
+    static const std::map<std::int64_t, int> nodes{{1, 2}, {2, 3}, {3, 4}, {8, 3}, {9, 6}, {15, 1}};
+    const auto found = nodes.find(type);
+    if (found == nodes.end())
+      in_.fail("elements of type " + std::to_string(type) + " do not lie between parts");
+    for (int i = 0; i < found->second; ++i) static_cast<void>(in_.size("a node tag"));
   }
 
   template <std::size_t N>
@@ -316,6 +354,7 @@ class MshReader {
   bool modern_ = false;  ///< version 4.1
   MshNodes nodes_;
   std::map<std::pair<std::size_t, std::int64_t>, int> physicals_;  ///< by dimension and entity tag
+  std::set<std::pair<std::size_t, std::int64_t>> between_;         ///< entities between parts
   std::vector<int> point_markers_;                                 ///< by vertex, where any is marked
   std::array<NamedIds, 4> names_{NamedIds(kVertexStem), NamedIds(kSegmentStem), NamedIds(kFacetStem),
                                  NamedIds(kRegionStem)};  ///< by dimension

@@ -4,25 +4,18 @@
 // tag for a reversed orientation, so such ids get other numbers. Each group is an entity of its own; the
 // entities' tags differ between dimensions, too, since some readers tell groups by these.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <set>
 
-#include "io/byte_reader.h"
 #include "io/formats.h"
 #include "io/labels.h"
 #include "io/mesh_sets.h"
+#include "io/msh_out.h"
 
 namespace holdfast::io {
 namespace {
-
-constexpr int kLine = 1, kTriangle = 2, kTetrahedron = 4, kLine3 = 8, kTriangle6 = 9, kTetrahedron10 = 11,
-              kPoint = 15;
-
-/// Gmsh cuts names off behind 127 bytes, and a quote ends them.
-constexpr NameRule kNames{127, "!#$%&'()*+,-./:;<=>?@[]^_`{|}~", true, true, false, true};
 
 /// The entities of one dimension: their groups and how to get their nodes.
 struct Dimension {
@@ -47,19 +40,19 @@ struct MshData {
     }
     const Names& names = of.names;
     dimensions = {
-        Dimension{0, kPoint, labels_of(kVertexStem, markers, markers.size(), names.vertices, kNames),
+        Dimension{0, kMshPoint, labels_of(kVertexStem, markers, markers.size(), names.vertices, kMshNames),
                   std::move(marked)},
         Dimension{1,
-                  second ? kLine3 : kLine,
-                  labels_of(kSegmentStem, of.segment_markers, of.segments.size(), names.segments, kNames),
+                  second ? kMshLine3 : kMshLine,
+                  labels_of(kSegmentStem, of.segment_markers, of.segments.size(), names.segments, kMshNames),
                   {}},
         Dimension{2,
-                  second ? kTriangle6 : kTriangle,
-                  labels_of(kFacetStem, of.facet_markers, of.facets.size(), names.facets, kNames),
+                  second ? kMshTriangle6 : kMshTriangle,
+                  labels_of(kFacetStem, of.facet_markers, of.facets.size(), names.facets, kMshNames),
                   {}},
         Dimension{3,
-                  second ? kTetrahedron10 : kTetrahedron,
-                  labels_of(kRegionStem, of.regions, of.tetrahedra.size(), names.regions, kNames),
+                  second ? kMshTetrahedron10 : kMshTetrahedron,
+                  labels_of(kRegionStem, of.regions, of.tetrahedra.size(), names.regions, kMshNames),
                   {}}};
   }
 
@@ -82,64 +75,10 @@ struct MshData {
   }
 };
 
-/// Numbers as text or as bytes; words and the counts of version 2 are text in both.
-class MshOut {
- public:
-  MshOut(AtomicWriter& out, bool binary) : out_(out), binary_(binary) {}
-  MshOut& integer(std::int64_t value) {
-    return binary_ ? bytes(static_cast<std::int32_t>(value)) : text(value);
-  }
-  MshOut& size(std::uint64_t value) { return binary_ ? bytes(value) : text(value); }
-  MshOut& point(const Point& p) {
-    for (const double x : p) binary_ ? bytes(x) : text(x);
-    return *this;
-  }
-  void end_line() {
-    if (!binary_) out_ << '\n';
-    first_ = true;
-  }
-  /// Behind the numbers of a section.
-  void end_section(std::string_view end) {
-    if (binary_) out_ << '\n';
-    out_ << end << '\n';
-  }
-  [[nodiscard]] bool binary() const { return binary_; }
-  AtomicWriter& out() { return out_; }
-
- private:
-  template <typename T>
-  MshOut& bytes(T value) {
-    std::string raw;
-    store(raw, value, std::endian::native);
-    out_ << raw;
-    return *this;
-  }
-  template <typename T>
-  MshOut& text(T value) {
-    if (!first_) out_ << ' ';
-    first_ = false;
-    out_ << value;
-    return *this;
-  }
-  AtomicWriter& out_;
-  bool binary_, first_ = true;
-};
-
 void write_head(MshOut& to, std::string_view version, const MshData& data) {
-  to.out() << "$MeshFormat\n" << version << (to.binary() ? " 1 8\n" : " 0 8\n");
-  if (to.binary()) {
-    to.integer(1);
-    to.out() << '\n';
-  }
-  to.out() << "$EndMeshFormat\n";
-  std::uint64_t groups = 0;
-  for (const Dimension& dimension : data.dimensions) groups += dimension.labels.names.size();
-  if (groups == 0) return;
-  to.out() << "$PhysicalNames\n" << groups << '\n';
-  for (const Dimension& dimension : data.dimensions)
-    for (const auto& [id, name] : dimension.labels.names)
-      to.out() << dimension.number << ' ' << id << " \"" << name << "\"\n";
-  to.out() << "$EndPhysicalNames\n";
+  write_msh_head(to, version,
+                 {&data.dimensions[0].labels, &data.dimensions[1].labels, &data.dimensions[2].labels,
+                  &data.dimensions[3].labels});
 }
 
 /// Least and largest finite coordinates, "0 0 0 0 0 0" if there are none.
@@ -302,6 +241,23 @@ void write_msh_2(MshOut& to, const MshData& data) {
 }
 
 }  // namespace
+
+void write_msh_head(MshOut& to, std::string_view version, const std::array<const Labels*, 4>& labels) {
+  to.out() << "$MeshFormat\n" << version << (to.binary() ? " 1 8\n" : " 0 8\n");
+  if (to.binary()) {
+    to.integer(1);
+    to.out() << '\n';
+  }
+  to.out() << "$EndMeshFormat\n";
+  std::uint64_t groups = 0;
+  for (const Labels* of : labels) groups += of->names.size();
+  if (groups == 0) return;
+  to.out() << "$PhysicalNames\n" << groups << '\n';
+  for (std::size_t dimension = 0; dimension < labels.size(); ++dimension)
+    for (const auto& [id, name] : labels[dimension]->names)
+      to.out() << std::uint64_t{dimension} << ' ' << id << " \"" << name << "\"\n";
+  to.out() << "$EndPhysicalNames\n";
+}
 
 void write_msh(AtomicWriter& out, const Volume& volume, const WriteOptions& options) {
   MshOut to(out, options.binary);

@@ -34,12 +34,20 @@ template <typename T>
           std::as_bytes(std::span(values))};
 }
 
+/// A table of integers that belongs to the whole grid.
+struct VtuTable {
+  std::string name;
+  std::size_t columns;
+  std::vector<std::int64_t> values;
+};
+
 struct VtuArrays {
   std::size_t points, cells;
   VtuArray coordinates, connectivity, offsets, types;
   std::vector<VtuArray> cell_data;
   std::vector<VtuArray> point_data = {};
   VtkFields field_data = {};
+  std::vector<VtuTable> tables = {};
 };
 
 /// Cells in VTK's flat form.

@@ -14,6 +14,7 @@
 #include "io/formats.h"
 #include "io/labels.h"
 #include "io/mid_nodes.h"
+#include "io/pieces.h"
 #include "io/text_reader.h"
 #include "io/vtk_cells.h"
 #include "io/vtk_values.h"
@@ -314,7 +315,7 @@ class VtuReader {
       const std::string name = array.tag.attribute("Name");
       if (name == kSurfaceBeside)
         surface_beside_ = true;
-      else
+      else if (name != kInterfaces)
         names.add(name, read_values<std::int64_t>(array, std::nullopt));
     }
     grid_.names = names.take();

@@ -68,13 +68,20 @@ void write_vtu_arrays(AtomicWriter& out, const VtuArrays& arrays, const WriteOpt
       << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
       << "\" header_type=\"UInt64\"" << (options.compress ? " compressor=\"vtkZLibDataCompressor\"" : "")
       << ">\n<UnstructuredGrid>\n";
-  if (!arrays.field_data.empty()) {
+  if (!arrays.field_data.empty() || !arrays.tables.empty()) {
     out << "<FieldData>\n";
     for (const auto& [name, values] : arrays.field_data) {
       out << "<DataArray type=\"Int32\" Name=\"" << escaped(name)
           << "\" NumberOfComponents=\"2\" NumberOfTuples=\"" << std::uint64_t{values.size()}
           << "\" format=\"ascii\">";
       for (const auto& [id, dimension] : values) out << id << ' ' << dimension << ' ';
+      out << "</DataArray>\n";
+    }
+    for (const VtuTable& table : arrays.tables) {
+      out << "<DataArray type=\"Int64\" Name=\"" << table.name << "\" NumberOfComponents=\""
+          << std::uint64_t{table.columns} << "\" NumberOfTuples=\""
+          << std::uint64_t{table.values.size() / table.columns} << "\" format=\"ascii\">";
+      for (const std::int64_t value : table.values) out << value << ' ';
       out << "</DataArray>\n";
     }
     out << "</FieldData>\n";

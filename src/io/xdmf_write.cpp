@@ -6,6 +6,7 @@
 #include "io/hdf5_write.h"
 #include "io/mesh_sets.h"
 #include "io/vtk_cells.h"
+#include "io/xdmf_grid.h"
 #include "io/xml_reader.h"
 
 namespace holdfast::io {
@@ -31,12 +32,6 @@ Topology topology_of(std::size_t cells, const std::vector<int>& ids, Watch& watc
   return result;
 }
 
-/// Where XDMF finds the arrays and the points, and how many these are.
-struct Heavy {
-  std::string file, file_of_points;
-  std::uint64_t points;
-};
-
 void write_item(AtomicWriter& out, const std::string& file, std::string_view array, std::uint64_t rows,
                 std::uint64_t columns, std::string_view type, int precision) {
   out << "<DataItem Dimensions=\"" << rows;
@@ -57,29 +52,37 @@ void write_names(AtomicWriter& out, const Names& names, bool surface_is_beside) 
   out << "</main>]]></Information>\n";
 }
 
-void write_grid(AtomicWriter& out, const Heavy& heavy, std::string_view grid, std::string_view shape,
-                const Topology& topology, std::string_view cells, std::string_view ids, const Names& names,
-                bool surface_is_beside = false) {
-  out << "<Grid Name=\"" << grid << "\" GridType=\"Uniform\">\n<Topology TopologyType=\"" << shape
-      << "\" NumberOfElements=\"" << topology.cells << "\" NodesPerElement=\"" << topology.nodes_each
-      << "\">\n";
-  write_item(out, heavy.file, cells, topology.cells, topology.nodes_each, "Int", 8);
+}  // namespace
+
+void put_xdmf_grid(AtomicWriter& out, const XdmfHeavy& heavy, std::string_view name, const XdmfCells& cells,
+                   const Names& names, bool surface_is_beside) {
+  out << "<Grid Name=\"" << name << "\" GridType=\"Uniform\">\n<Topology TopologyType=\"" << cells.shape
+      << "\" NumberOfElements=\"" << cells.cells << "\" NodesPerElement=\"" << cells.nodes_each << "\">\n";
+  write_item(out, heavy.file, cells.array, cells.cells, cells.nodes_each, "Int", 8);
   out << "</Topology>\n<Geometry GeometryType=\"XYZ\">\n";
   write_item(out, heavy.file_of_points, "points", heavy.points, 3, "Float", 8);
-  out << "</Geometry>\n<Attribute Name=\"" << ids << "\" AttributeType=\"Scalar\" Center=\"Cell\">\n";
-  write_item(out, heavy.file, ids, topology.cells, 1, "Int", 4);
-  out << "</Attribute>\n";
+  out << "</Geometry>\n";
+  for (const std::string_view attribute : cells.attributes) {
+    out << "<Attribute Name=\"" << attribute << "\" AttributeType=\"Scalar\" Center=\"Cell\">\n";
+    write_item(out, heavy.file, attribute, cells.cells, 1, "Int", 4);
+    out << "</Attribute>\n";
+  }
   write_names(out, names, surface_is_beside);
   out << "</Grid>\n";
 }
 
-void begin(AtomicWriter& out) {
+void begin_xdmf(AtomicWriter& out) {
   out << "<?xml version=\"1.0\"?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n"
          "<Xdmf Version=\"3.0\" xmlns:xi=\"http://www.w3.org/2001/XInclude\">\n<Domain>\n";
 }
-void end(AtomicWriter& out) { out << "</Domain>\n</Xdmf>\n"; }
+void end_xdmf(AtomicWriter& out) { out << "</Domain>\n</Xdmf>\n"; }
 
-}  // namespace
+void write_xdmf_grid(AtomicWriter& out, const XdmfHeavy& heavy, const XdmfCells& cells, const Names& names,
+                     bool surface_is_beside) {
+  begin_xdmf(out);
+  put_xdmf_grid(out, heavy, "mesh", cells, names, surface_is_beside);
+  end_xdmf(out);
+}
 
 void write_xdmf(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options,
                 Watch& watch) {
@@ -101,8 +104,10 @@ void write_xdmf(const std::filesystem::path& path, const Volume& volume, const W
       {"triangles", Hdf5Type::int64, facets.cells, facets.nodes_each, facets.nodes.data()},
       {"marker", Hdf5Type::int32, facets.cells, 1, facets.ids.data()}};
   const auto write_surface = [&](AtomicWriter& out, const std::string& file, std::string_view grid) {
-    write_grid(out, {file, heavy_name, points.size()}, grid, second ? "Triangle_6" : "Triangle", facets,
-               "triangles", "marker", volume.names);
+    put_xdmf_grid(
+        out, {file, heavy_name, points.size()}, grid,
+        {second ? "Triangle_6" : "Triangle", "triangles", facets.cells, facets.nodes_each, {"marker"}},
+        volume.names);
   };
 
   AtomicWriter heavy_file(heavy_path, &watch);
@@ -114,21 +119,25 @@ void write_xdmf(const std::filesystem::path& path, const Volume& volume, const W
   write_hdf5(heavy_file, {"", {}, arrays, {}});
 
   AtomicWriter volume_file(path, &watch);
-  begin(volume_file);
+  begin_xdmf(volume_file);
   if (!is_surface)
-    write_grid(volume_file, {heavy_name, heavy_name, points.size()}, "mesh",
-               second ? "Tetrahedron_10" : "Tetrahedron", tetrahedra, "tetrahedra", "region", volume.names,
-               !alone);
+    put_xdmf_grid(volume_file, {heavy_name, heavy_name, points.size()}, "mesh",
+                  {second ? "Tetrahedron_10" : "Tetrahedron",
+                   "tetrahedra",
+                   tetrahedra.cells,
+                   tetrahedra.nodes_each,
+                   {"region"}},
+                  volume.names, !alone);
   if (alone && facets.cells > 0) write_surface(volume_file, heavy_name, is_surface ? "mesh" : "surface");
-  end(volume_file);
+  end_xdmf(volume_file);
   std::optional<AtomicWriter> surface_file, surface_heavy_file;
   if (!alone) {
     surface_heavy_file.emplace(surface_heavy_path, &watch);
     write_hdf5(*surface_heavy_file, {"", {}, of_facets, {}});
     surface_file.emplace(surface_beside(path), &watch);
-    begin(*surface_file);
+    begin_xdmf(*surface_file);
     write_surface(*surface_file, surface_heavy_name, "mesh");
-    end(*surface_file);
+    end_xdmf(*surface_file);
     surface_heavy_file->finish();
     surface_file->finish();
   }

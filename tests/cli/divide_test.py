@@ -55,6 +55,8 @@ class Divided(CliTest):
         self.assertEqual(self.manifest["names"]["regions"]["1"], "core")
         self.mesh()
         self.run_program("check", "d")
+        self.run_program("join", "d", "-o", "whole.vtu")
+        self.assertIn("core", self.run_program("info", "whole.vtu").stdout)
 
     def test_what_is_missing_exchanged_or_stale_is_found(self):
         parts = self.split("--size", 0.25)

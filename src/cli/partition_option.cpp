@@ -1,0 +1,84 @@
+#include "partition_option.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "command.h"
+#include "files.h"
+#include "holdfast/partition.h"
+
+namespace holdfast::cli {
+namespace {
+
+/// Up to so many pieces, files that are named later are compared with each of them, too.
+constexpr std::size_t kNamedEach = 1000;
+
+bool is_one_of(const std::vector<std::string>& formats, const std::string& format) {
+  return std::find(formats.begin(), formats.end(), format) != formats.end();
+}
+
+}  // namespace
+
+void add_partition(CLI::App& command, PartitionArguments& arguments) {
+  command
+      .add_option(
+          "--partition", arguments.parts,
+          "Write K pieces of equal size for K processes, each with its interfaces and a layer of ghosts "
+          "(.pvtu .msh .xdmf, or OpenFOAM's processorN; by METIS)")
+      ->option_text("K");
+}
+
+VolumeTarget target_of_pieces(FilesOfRun& files, std::string_view option, const std::filesystem::path& path,
+                              std::string format, std::size_t pieces, const WriteArguments& writing) {
+  VolumeTarget target{path, {}};
+  target.options.format = std::move(format);
+  const std::string kind = format_of(target);
+  target.options.format = kind;
+  if (!is_one_of(piece_formats(), kind))
+    throw UsageError(fmt::format("{}: {} not written in pieces; use {} as the file's ending or by --format",
+                                 path.string(), kind.empty() ? "what has no ending is" : "'" + kind + "' is",
+                                 fmt::join(piece_formats(), " ")));
+  if (descriptor_of(path)) throw UsageError(fmt::format("{}: pieces need a name", path.string()));
+  if (writing.one_file) throw UsageError("--one-file does nothing for pieces, which have files of their own");
+  apply(writing, target);
+  // Pieces differ from each other; where they are many, each is compared with the other files alone. Folders
+  // of OpenFOAM's processes are made with their files.
+  const FilesOfRun others = files;
+  for (const std::filesystem::path& file : files_of_pieces(path, pieces, kind)) {
+    if (pieces <= kNamedEach) {
+      files.write(option, file, kind == ".openfoam");
+    } else {
+      FilesOfRun both = others;
+      both.write(option, file, kind == ".openfoam");
+    }
+  }
+  return target;
+}
+
+VolumeTarget target_of_partition(FilesOfRun& files, std::string_view option,
+                                 const std::filesystem::path& path, const std::string& format,
+                                 std::size_t pieces, const WriteArguments& writing) {
+  if (pieces == 0) throw UsageError("--partition: one part or more are expected");
+  if (pieces > std::size_t{std::numeric_limits<std::int32_t>::max()})
+    throw UsageError("--partition: so many parts have no numbers");
+  if (!has_metis())
+    throw UsageError("--partition: this program was built without METIS (Debian: libmetis-dev)");
+  return target_of_pieces(files, option, path, format, pieces, writing);
+}
+
+void write_partition(const VolumeTarget& target, std::size_t pieces, const Volume& volume, bool quiet) {
+  if (pieces > volume.tetrahedra.size())
+    throw UsageError(fmt::format("--partition {}: the mesh has {} tetrahedra; nothing was written", pieces,
+                                 volume.tetrahedra.size()));
+  if (!volume.mid_nodes.empty())
+    throw UsageError("--partition: elements of second order are not written in pieces; nothing was written");
+  write_pieces(target.path, pieces, pieces_of(volume, partition(volume, pieces), pieces), target.options);
+  // What a format does not hold does not depend on pieces.
+  if (!quiet && is_one_of(volume_formats(), format_of(target)))
+    tell(not_held(target.path, volume, target.options), target.path);
+}
+
+}  // namespace holdfast::cli

@@ -1,0 +1,33 @@
+// --partition, for commands that write a volume.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "files_of_run.h"
+#include "write_options.h"
+
+namespace holdfast::cli {
+
+struct PartitionArguments {
+  std::optional<std::size_t> parts;
+};
+
+void add_partition(CLI::App& command, PartitionArguments& arguments);
+
+/// Where to write a volume in pieces, and how. Throws UsageError for formats that have none, and for options
+/// that do nothing there.
+[[nodiscard]] VolumeTarget target_of_pieces(FilesOfRun& files, std::string_view option,
+                                            const std::filesystem::path& path, std::string format,
+                                            std::size_t pieces, const WriteArguments& writing);
+/// The same for pieces that METIS makes.
+[[nodiscard]] VolumeTarget target_of_partition(FilesOfRun& files, std::string_view option,
+                                               const std::filesystem::path& path, const std::string& format,
+                                               std::size_t pieces, const WriteArguments& writing);
+
+/// Writes the volume in pieces by METIS, and tells what the files do not hold unless `quiet`. Throws
+/// UsageError for more pieces than tetrahedra, and for elements of second order.
+void write_partition(const VolumeTarget& target, std::size_t pieces, const Volume& volume, bool quiet);
+
+}  // namespace holdfast::cli

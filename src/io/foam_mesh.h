@@ -1,0 +1,77 @@
+// A volume as OpenFOAM has it: faces with their owners, patches and zones.
+//
+// Faces inside come first, by the cell that they belong to and then by their neighbour, which has the larger
+// number (upper-triangular order); then those of each patch. A face's normal leads out of its owner.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "holdfast/partition.h"
+#include "io/labels.h"
+
+namespace holdfast::io {
+
+/// OpenFOAM's words have neither blanks nor quotes, brackets, slashes or semicolons; others are wildcards.
+inline constexpr NameRule kFoamNames{128, "_-."};
+inline constexpr IdRule kFoamIds{false};
+
+/// A face of the mesh: its owner, its other cell, and the facet that lies on it.
+struct FoamFace {
+  Triangle corners;  ///< seen from outside the owner
+  Index owner = no_entity, neighbour = no_entity;
+  Index facet = no_entity;
+};
+
+struct FoamMesh {
+  std::vector<FoamFace> inside, boundary;  ///< the second by patch
+  struct Patch {
+    std::string name;
+    std::size_t first, count;
+    Index other = no_entity;  ///< the process on the other side, if there is one
+  };
+  std::vector<Patch> patches;
+  Labels regions, facets;
+  std::map<int, std::vector<std::size_t>> zones;  ///< faces with tetrahedra on both sides, by marker
+};
+
+[[nodiscard]] FoamMesh foam_mesh(const Volume& volume, Watch& watch);
+
+/// What all processes of a case must have alike: names of zones and patches.
+struct FoamNames {
+  Labels regions, facets;  ///< of the whole; no ids of entities
+  std::set<int> patches, zones;
+  bool has_rest = false;  ///< faces on the boundary without a marker
+};
+
+/// Enters what a process has.
+class FoamNamesOfPieces {
+ public:
+  void add(const Volume& own, const MeshPiece& piece, Watch& watch);
+  [[nodiscard]] FoamNames take();
+
+ private:
+  std::set<int> regions_, facets_, patches_, zones_;
+  bool has_rest_ = false;
+  Names names_;
+};
+
+/// The own tetrahedra of a piece as a volume.
+[[nodiscard]] Volume own_volume(const MeshPiece& piece);
+
+/// Of process `number`. Behind all other patches, one for each interface.
+[[nodiscard]] FoamMesh foam_mesh(const Volume& own, const MeshPiece& piece, const FoamNames& names,
+                                 Watch& watch);
+
+/// The files of a polyMesh in its folder.
+[[nodiscard]] std::vector<std::filesystem::path> files_of_poly_mesh(const std::filesystem::path& folder);
+
+/// Writes the files of a polyMesh into a folder, which is made where it is not there; `process` is the number
+/// of the process that it is of, if it is one's.
+void write_foam_mesh(const std::filesystem::path& folder, const FoamMesh& mesh, const Volume& volume,
+                     bool gzip, Watch& watch, Index process = no_entity);
+
+}  // namespace holdfast::io

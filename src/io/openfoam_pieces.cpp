@@ -1,0 +1,54 @@
+// Writes pieces as OpenFOAM's processes read them: a case with processork/constant/polyMesh.
+//
+// All processes have the same patches and zones in the same order, be they empty; those to other processes
+// come last, and their faces stand in the same order on both sides, begin with the same vertex, and turn the
+// other way.
+#include <system_error>
+
+#include "io/foam_mesh.h"
+#include "io/formats.h"
+#include "io/pieces.h"
+
+namespace holdfast::io {
+namespace {
+
+/// constant/polyMesh without its last two names.
+std::filesystem::path case_of(const std::filesystem::path& path) {
+  const std::filesystem::path constant = poly_mesh_of(path).parent_path();
+  return constant.filename() == "constant" ? constant.parent_path() : constant;
+}
+
+/// OpenFOAM counts the folders of processes, so those of a run with more must not stay.
+void require_no_more(const std::filesystem::path& path, std::size_t parts) {
+  const std::filesystem::path next = case_of(path) / ("processor" + std::to_string(parts));
+  std::error_code error;
+  if (std::filesystem::exists(next, error))
+    throw FileError(next, "",
+                    "is of a run with more processes than " + std::to_string(parts) +
+                        ", and OpenFOAM counts these folders; remove it and those after it");
+}
+
+}  // namespace
+
+std::filesystem::path processor_mesh(const std::filesystem::path& path, std::size_t k) {
+  return case_of(path) / ("processor" + std::to_string(k)) / "constant" / "polyMesh";
+}
+
+void write_processors(const std::filesystem::path& path, std::size_t parts, const PieceLoader& load,
+                      const WriteOptions& options, Watch& watch) {
+  require_no_more(path, parts);
+  FoamNamesOfPieces names_of_pieces;
+  for (std::size_t k = 0; k < parts; ++k) {
+    const MeshPiece piece = load(k);
+    names_of_pieces.add(own_volume(piece), piece, watch);
+  }
+  const FoamNames names = names_of_pieces.take();
+  for (std::size_t k = 0; k < parts; ++k) {
+    const MeshPiece piece = load(k);
+    const Volume own = own_volume(piece);
+    write_foam_mesh(processor_mesh(path, k), foam_mesh(own, piece, names, watch), own, options.gzip, watch,
+                    static_cast<Index>(k));
+  }
+}
+
+}  // namespace holdfast::io
