@@ -20,12 +20,11 @@ POINTS, SEGMENTS = 1_000_000, 100_000
 HARD = {"holes that touch": touching, "straight sides of many corners": straight, "1e-300 to 1e300": scaled}
 EACH = 100  # hard polygons of a kind
 SLOW = 30_000  # corners beyond which only earcut takes part
-MEMORY = 1 << 30
 
 
 def holdfast(options, folder, path, *more):
     report, mesh = folder / "plane.json", folder / "plane.off"
-    done = run([options.build / "holdfast", "plane", path, "-o", mesh, "-q", "--report", report, *more], memory=MEMORY)
+    done = run([options.build / "holdfast", "plane", path, "-o", mesh, "-q", "--report", report, *more])
     if done.code != 0:
         return None
     told = json.loads(report.read_text(encoding="utf-8"))
