@@ -91,7 +91,7 @@ class Numbering {
       const std::size_t last = starts[part + 1];
       std::size_t poll_at = starts[part] + kPollCells;
       for (std::size_t place = starts[part]; place < last;) {
-        if (part == 0 && place >= poll_at) {
+        if (place >= poll_at) {
           threads_.poll();
           poll_at = place + kPollCells;
         }
@@ -147,6 +147,7 @@ class Numbering {
   template <class NextPlace>
   void distribute(std::size_t first, std::size_t last, std::vector<C>& ghosts, const NextPlace& next_place) {
     constexpr std::size_t kBlock = (std::size_t{1} << 21) / sizeof(Cell);
+    constexpr std::size_t kPolled = 256;  // each of the first cells may be the first on its huge page
     LargeArray<Cell>& cells = triangulation_.cells();
     const Vertex ghost = triangulation_.ghost();
     for (std::size_t t = first; t < last; ++t) {
@@ -157,9 +158,8 @@ class Numbering {
         set(ghosts.emplace_back(), cell, slot, 0);
       else
         set(cells_[next_place(cell.v[0])], cell, slot, turn_of(cell.v));
-      if ((t + 1 - first) % kBlock != 0) continue;
-      give_back(&cells[t + 1 - kBlock], kBlock * sizeof(Cell));
-      if (first == 0) threads_.poll();  // on the calling thread
+      if ((t + 1 - first) % kPolled == 0) threads_.poll();
+      if ((t + 1 - first) % kBlock == 0) give_back(&cells[t + 1 - kBlock], kBlock * sizeof(Cell));
     }
   }
 

@@ -40,8 +40,9 @@ class Monitor {
   }
   /// As poll, but looks at once and always tells the caller: a stage begins.
   void enter(Stage stage) { look(stage, 0, true); }
-  /// As poll, where a loop does not know what is going on.
-  void poll_again() { poll(stage_, fraction_); }
+  /// As poll, where a loop does not know what is going on, and turns in milliseconds: looks at once, whatever
+  /// the pace of the loop before it was.
+  void poll_again() { look(stage_, fraction_, false); }
   /// From now on fractions are of this part of the whole call.
   void begin_part(std::array<double, 2> part) { part_ = part; }
   /// Whatever fraction was told last, all of it is done.

@@ -156,6 +156,7 @@ Threads Threads::at_most(unsigned count) const {
 Threads Threads::polling(std::function<void()> between) const {
   Threads polling = *this;
   polling.between_ = std::make_shared<const std::function<void()>>(std::move(between));
+  polling.polls_on_ = std::this_thread::get_id();
   return polling;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <thread>
 
 namespace holdfast {
 
@@ -20,9 +21,10 @@ class Threads {
   /// The same, but that the thread that calls `parallel` calls `between`, too: between tasks, and while it
   /// waits for those of others. What it throws ends the work as soon as may be and is thrown on.
   [[nodiscard]] Threads polling(std::function<void()> between) const;
-  /// Calls that function, if there is one; for long loops of task 0 and between calls of `parallel`.
+  /// Calls that function, if there is one, on the thread that gave it; for long loops and tasks, and between
+  /// calls of `parallel`.
   void poll() const {
-    if (between_) (*between_)();
+    if (between_ && std::this_thread::get_id() == polls_on_) (*between_)();
   }
 
  private:
@@ -35,6 +37,7 @@ class Threads {
   unsigned count_;
   std::shared_ptr<Helpers> helpers_;  // none for one thread
   std::shared_ptr<const std::function<void()>> between_;
+  std::thread::id polls_on_;
 };
 
 /// Calls task(0) to task(count - 1), each once, on up to `threads` threads, and returns when all are done.

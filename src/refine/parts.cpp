@@ -22,13 +22,14 @@ class PartMaker {
             const std::vector<Tet>& local_of, const std::vector<Tet>& tets, Part& part)
       : whole_(whole), part_of_(part_of), local_of_(local_of), tets_(tets), part_(part) {}
 
-  void make() {
-    copy_neighbours();
-    number_vertices();
-    copy_vertices();
-    copy_tets();
-    copy_flags();
-    hold_and_link();
+  void make(const Threads& threads) {
+    using Step = void (PartMaker::*)();
+    for (const Step step :
+         {&PartMaker::copy_neighbours, &PartMaker::number_vertices, &PartMaker::copy_vertices,
+          &PartMaker::copy_tets, &PartMaker::copy_flags, &PartMaker::hold_and_link}) {
+      (this->*step)();
+      threads.poll();
+    }
   }
 
  private:
@@ -350,16 +351,18 @@ Parts::Parts(const VolumeData& whole, const std::vector<std::uint32_t>& part_of,
   for (Tet t = 0; t < part_of.size(); ++t)
     if (part_of[t] != kNone) parts_[part_of[t]].slots_.push_back(t);
   for (Part& part : parts_) part.seed = whole.seed;
+  threads.poll();
   const CurveKeys keys(whole.mesh);
   std::vector<std::vector<Tet>> tets(count);  // as they come along the curve
   std::vector<Tet> local_of(whole.mesh.slot_count());
+  threads.poll();
   parallel(threads, count, [&](std::size_t k) {
     tets[k] = parts_[k].slots_;
     keys.sort(tets[k]);
     for (Tet t = 0; t < tets[k].size(); ++t) local_of[tets[k][t]] = t;
   });
   parallel(threads, count, [&](std::size_t k) {
-    if (!tets[k].empty()) PartMaker(whole_, part_of, local_of, tets[k], parts_[k]).make();
+    if (!tets[k].empty()) PartMaker(whole_, part_of, local_of, tets[k], parts_[k]).make(threads);
   });
 }
 
@@ -405,6 +408,7 @@ void Parts::join(const Threads& threads) {
     vertex += static_cast<Vertex>(joiner.new_vertices());
   }
   MeshAssembly(whole_.mesh).add_slots(tet - whole_.mesh.slot_count());
+  threads.poll();
   MeshAssembly(whole_.mesh).add_vertices(vertex - whole_.mesh.vertex_count());
   whole_.region_of.resize(whole_.mesh.slot_count(), kNone);
   whole_.sizes.resize(whole_.mesh.vertex_count(), 0);
@@ -413,7 +417,10 @@ void Parts::join(const Threads& threads) {
     joiners[k].number(first[k].first, first[k].second);
     joiners[k].write();
   });
-  for (PartJoiner& joiner : joiners) joiner.tidy();
+  for (PartJoiner& joiner : joiners) {
+    joiner.tidy();
+    threads.poll();
+  }
   link_seams(whole_.mesh, joiners);
   MeshAssembly(whole_.mesh).finish();
 }
