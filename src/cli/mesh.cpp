@@ -11,10 +11,9 @@
 #include "exact_file.h"
 #include "files.h"
 #include "files_of_run.h"
-#include "holdfast/patches.h"
-#include "holdfast/surface_io.h"
 #include "idle_options.h"
 #include "limits.h"
+#include "mesh_input.h"
 #include "mesh_options.h"
 #include "mesh_output.h"
 #include "name_options.h"
@@ -139,86 +138,6 @@ void write_html(const MeshArguments& arguments, const Limits& limits, const Surf
   page.write();
 }
 
-/// Vertices on no facet and no segment become vertices of the mesh, which is seldom meant for those inside a
-/// volume that is meshed again.
-void tell_of_lone_vertices(const MeshArguments& arguments, const Surface& surface, ProgressView& progress) {
-  std::vector<bool> used(surface.vertices.size());
-  const auto use = [&](Index v) {
-    if (v < used.size()) used[v] = true;
-  };
-  for (const Triangle& t : surface.facets) std::for_each(t.begin(), t.end(), use);
-  for (const Segment& s : surface.segments) std::for_each(s.begin(), s.end(), use);
-  const auto lone = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
-  if (lone == 0) return;
-  progress.finish();
-  say("holdfast: {} in {} on no triangle and no segment {} as the mesh's, too{}\n",
-      counted(lone, "vertex", "vertices"),
-      arguments.surfaces.size() == 1 ? arguments.surfaces[0].string() : "the files",
-      lone == 1 ? "is kept" : "are kept",
-      arguments.surface_of ? "" : "; --surface-of takes the surface of a volume alone");
-}
-
-/// Sizes of the regions in the file are for field points.
-void tell_unused_sizes(const MeshArguments& arguments, const Surface& surface) {
-  const auto sizes = std::count_if(surface.regions.begin(), surface.regions.end(),
-                                   [](const RegionSeed& seed) { return seed.size > 0; });
-  if (arguments.fill && !arguments.quiet && sizes > 0)
-    fmt::print(stderr, "holdfast: with --fill the sizes of {} in the file are unused\n",
-               counted(static_cast<std::size_t>(sizes), "region"));
-}
-
-/// Sizes in a file without a background mesh are those of the surface's vertices.
-void require_a_size_a_vertex(const MeshArguments& arguments, const Options& options, const Surface& surface) {
-  if (!options.sizes || options.sizes->vertex_sizes.empty()) return;
-  const std::size_t sizes = options.sizes->vertex_sizes.size();
-  if (sizes != surface.vertices.size())
-    throw FileError(
-        arguments.size_field, "",
-        fmt::format(
-            "there are {} for {} of the surface", counted(sizes, "size"),
-            surface.vertices.size() == 1 ? "1 vertex" : fmt::format("{} vertices", surface.vertices.size())));
-}
-
-/// What is meshed: one surface, or the parts of several files.
-struct MeshInput {
-  Surface surface;
-  std::vector<Surface> parts;  ///< empty where the surface is meshed as it is
-  std::optional<PasteResult> pasted;
-};
-
-MeshInput read_input(const MeshArguments& arguments, const Options& options) {
-  MeshInput input;
-  input.parts = read_parts(arguments.surfaces, reading(options, arguments.input_format, arguments.tolerance),
-                           arguments.surface_of);
-  if (input.parts.size() > 1) {
-    input.surface = join(input.parts, stems(arguments.surfaces));
-    return input;
-  }
-  input.surface = std::move(input.parts.front());
-  input.parts.clear();
-  return input;
-}
-
-/// Several files are parts where they have triangles in common, or where that was asked for; then components
-/// of a single file are, too.
-void paste_parts(const MeshArguments& arguments, const Options& options, MeshInput& input) {
-  if (input.parts.empty() && !arguments.paste) return;
-  PasteOptions pasting;
-  static_cast<Limits&>(pasting) = options;
-  pasting.cut = arguments.paste.has_value();
-  if (pasting.cut && !arguments.paste->empty()) pasting.tolerance = tolerance_of(*arguments.paste, "--paste");
-  pasting.overlap = overlap_named(arguments.overlap);
-  pasting.judge = false;
-  pasting.labels = labels_of(arguments.surfaces);
-  pasting.threads = options.threads;
-  pasting.progress = goes_on;
-  PasteResult pasted = input.parts.empty() ? paste_components(input.surface, pasting)
-                                           : paste(input.parts, pasting, stems(arguments.surfaces));
-  if (!pasting.cut && !arguments.overlap && pasted.shared_facets == 0) return;
-  merge(pasted.surface.names, names_of(arguments.names));
-  input.pasted = std::move(pasted);
-}
-
 /// Options that do not suit the surface (a hole on a facet, say) are wrong usage. The files' seeds join those
 /// of the options.
 Result mesh_or_refuse(const MeshArguments& arguments, const MeshInput& input, Options& options) {
@@ -242,26 +161,6 @@ Result mesh_or_refuse(const MeshArguments& arguments, const MeshInput& input, Op
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
-}
-
-/// Facets that files have in common are no defect; what is one is told by the indices of the files in turn.
-void tell_defects_of_files(const MeshArguments& arguments, const MeshInput& input, Result& result) {
-  if (!input.pasted || result.outcome != Outcome::invalid_input || is_valid(result.defects)) return;
-  if (arguments.paste) return;
-  const std::vector<Index>& part = input.pasted->part_of_facet;
-  result.defects = diagnose(input.surface.view());
-  std::erase_if(result.defects, [&](const Defect& defect) {
-    return defect.kind == DefectKind::repeated_facet && defect.facets.size() == 2 &&
-           part[defect.facets[0]] != part[defect.facets[1]];
-  });
-}
-
-/// Gives the facets without a marker one for each smooth patch, and says how many there are.
-void split_by_angle(const MeshArguments& arguments, Surface& surface) {
-  const std::size_t patches = markers_by_angle(surface, *arguments.markers_by_angle);
-  if (patches == 0)
-    throw UsageError("--markers-by-angle does nothing: every triangle of the surface has a marker already");
-  if (!arguments.quiet) say("holdfast: {} by angle\n", counted(patches, "smooth patch", "smooth patches"));
 }
 
 Json report_of(const RepairResult& result, const RepairOptions& options) {
