@@ -13,6 +13,7 @@
 #include "command.h"
 #include "holdfast/holdfast.h"
 #include "holdfast/io.h"
+#include "limits.h"
 #include "signals.h"
 
 namespace holdfast::cli {
@@ -60,6 +61,21 @@ void open_standard_streams() {
       static_cast<void>(open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY));
 }
 
+/// A limit ended the run while files were read or written, or in a call that has no outcome. Tells it as it
+/// was given.
+int tell_interruption(const Interrupted& interrupted, const CLI::App& command) {
+  const auto given = [&](const char* option) { return command.get_option(option)->as<std::string>(); };
+  switch (interrupted.outcome()) {
+    case Outcome::time_limit:
+      return tell_limit(interrupted.outcome(), "the time limit of " + given("--time-limit") + " s ran out");
+    case Outcome::memory_limit:
+      return tell_limit(interrupted.outcome(),
+                        "the memory limit of " + given("--memory-limit") + " GB was reached");
+    default:
+      return tell_limit(interrupted.outcome(), interrupted.what());
+  }
+}
+
 int run(int count, const char* const* arguments) {
   open_standard_streams();
   fail_rather_than_die();
@@ -82,7 +98,11 @@ int run(int count, const char* const* arguments) {
     // Help and version are "errors" of code 0 here.
     return app.exit(error) == 0 ? exit_done : exit_usage;
   }
-  return chosen();
+  try {
+    return chosen();
+  } catch (const Interrupted& interrupted) {
+    return tell_interruption(interrupted, *app.get_subcommands().front());
+  }
 }
 
 }  // namespace
@@ -105,15 +125,6 @@ int main(int count, char** arguments) {
   } catch (const holdfast::FileError& error) {
     say("", error.what());
     return cli::exit_file;
-  } catch (const holdfast::Interrupted& interrupted) {
-    // While files are read or written, or in a call that has no outcome.
-    const char* const advice = interrupted.outcome() == holdfast::Outcome::time_limit
-                                   ? "; nothing was written; give a longer --time-limit"
-                               : interrupted.outcome() == holdfast::Outcome::memory_limit
-                                   ? "; nothing was written; give a larger --memory-limit"
-                                   : "; nothing was written";
-    say(interrupted.what(), advice);
-    return cli::exit_limit;
   } catch (const std::length_error& error) {
     say("", error.what());
     return cli::exit_limit;
