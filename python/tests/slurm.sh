@@ -6,10 +6,17 @@ holdfast=$(realpath "$1")
 here=$(cd "$(dirname "$0")/../.." && pwd)
 work=$(mktemp -d /tmp/holdfast-slurm.XXXXXX)
 host=$(hostname -s)
+# Daemons write their state as they end: the folder stands until they have.
 stop() {
-  pkill -F "$work/slurmctld.pid" 2>/dev/null || true
-  pkill -F "$work/slurmd.pid" 2>/dev/null || true
-  [ -z "${munged:-}" ] || pkill -F "$work/munged.pid" 2>/dev/null || true
+  local name
+  for name in slurmctld slurmd ${munged:+munged}; do
+    [ -e "$work/$name.pid" ] || continue
+    pkill -F "$work/$name.pid" 2>/dev/null || continue
+    for _ in $(seq 100); do
+      pgrep -F "$work/$name.pid" >/dev/null 2>&1 || break
+      sleep 0.1
+    done
+  done
   rm -rf "$work"
 }
 trap stop EXIT
@@ -62,7 +69,7 @@ sbatch --wait --array=0-3 --cpus-per-task=1 --output="$work/%a.log" "$here/examp
   "$work"/parts/*.stl || { cat "$work"/*.log; exit 1; }
 done_parts=$(cat "$work"/meshes/results.?-of-4.jsonl | grep -c '"status": "done"')
 merged=$(grep -c '"status": "done"' "$work/meshes/results.jsonl")
-volumes=$(ls "$work"/meshes/*.vtu | wc -l)
+volumes=$(find "$work/meshes" -name "*.vtu" ! -name "*_surface.vtu" | wc -l)
 cat "$work"/?.log
 echo "$done_parts parts done by the tasks, $merged in the merged results, $volumes volumes"
 [ "$done_parts" -eq 10 ] && [ "$merged" -eq 10 ] && [ "$volumes" -eq 10 ]
