@@ -21,6 +21,8 @@ import threading
 import time
 from pathlib import Path
 
+from blocks import known_blocks
+
 ROOT = Path(__file__).resolve().parent.parent
 BLOCK = 250
 SECONDS_A_COMPLEX = 4  # of a block, on the average: some hundred times what they take
@@ -63,17 +65,6 @@ def run_block(options, first, count):
             lines.append(f"FAILED: --seed {options.seed} --first {number} --count 1: {how}")
             add(counts, {"(no end)": dict.fromkeys(COLUMNS, 0) | {"complexes": 1, "failed": 1}})
     return {"first": first, "count": count, "lines": lines, "counts": counts}
-
-
-def known_blocks(path):
-    known = {}
-    for line in path.read_text().splitlines() if path.exists() else []:
-        try:
-            record = json.loads(line)
-        except ValueError:  # the last line of a run that was killed
-            continue
-        known[record["first"], record["count"]] = record
-    return known
 
 
 def run_all(options, results):

@@ -15,6 +15,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from blocks import known_blocks
+
 ROOT = Path(__file__).resolve().parent.parent
 BLOCK = 200
 SECONDS_A_PLANE = 5  # of a block, on the average: a hundred times what they take
@@ -48,17 +50,6 @@ def run_block(program, first, count):
         for what, number in counts.items():
             total[what] = total.get(what, 0) + number
     return {"first": first, "count": count, "counts": total, "lines": told}
-
-
-def known_blocks(path):
-    known = {}
-    for line in path.read_text(encoding="utf-8").splitlines() if path.exists() else []:
-        try:
-            record = json.loads(line)
-        except ValueError:  # the last line of a run that was killed
-            continue
-        known[record["first"], record["count"]] = record
-    return known
 
 
 def main():

@@ -79,23 +79,13 @@ std::optional<Fusing::PlaneOf> Fusing::plane_of(const Triangle& t) const {
   return plane;
 }
 
-Box Fusing::box_of(std::span<const Index> corners, double margin) const {
-  Box box{at(corners[0]), at(corners[0])};
-  for (const Index v : corners) box.extend({at(v), at(v)});
-  for (std::size_t k = 0; k < 3; ++k) {
-    box.low[k] -= margin;
-    box.high[k] += margin;
-  }
-  return box;
-}
-
 template <class Visit>
 void Fusing::for_each_close(Visit&& visit) const {
   std::vector<Box> boxes;
   std::vector<Index> ids;
   for (Index f = 0; f < state_.facets.size(); ++f) {
     if (!planes_[f] || is_shared(f)) continue;
-    boxes.push_back(box_of(state_.facets[f], gap_ / 2));
+    boxes.push_back(box_round(state_, state_.facets[f], gap_ / 2));
     ids.push_back(f);
   }
   AabbTree(boxes).for_each_overlap(

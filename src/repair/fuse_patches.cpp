@@ -76,7 +76,7 @@ bool Fusing::triangulate_curved(const std::vector<Index>& facets) {
                    [&](Index f, Index g) { return part_of(f) < part_of(g); });
   const std::map<Index, std::vector<Index>> inside = vertices_inside(facets);
   std::vector<Box> boxes;
-  for (const Index f : in_order) boxes.push_back(box_of(state_.facets[f], gap_));
+  for (const Index f : in_order) boxes.push_back(box_round(state_, state_.facets[f], gap_));
   std::vector<Pasted> pasted;
   for (const Index f : in_order) {
     step_(0.7);
@@ -96,8 +96,8 @@ std::map<Index, std::vector<Index>> Fusing::vertices_inside(const std::vector<In
     vertices.insert(vertices.end(), state_.facets[f].begin(), state_.facets[f].end());
   sort_unique(vertices);
   std::vector<Box> boxes;
-  for (const Index v : vertices) boxes.push_back(box_of(std::array{v}, gap_));
-  for (const Index f : facets) boxes.push_back(box_of(state_.facets[f], 0));
+  for (const Index v : vertices) boxes.push_back(box_round(state_, std::array{v}, gap_));
+  for (const Index f : facets) boxes.push_back(box_round(state_, state_.facets[f], 0));
   std::map<std::pair<Index, Index>, std::pair<double, Index>> best;  // by vertex and part
   const auto first = static_cast<Index>(vertices.size());
   AabbTree(boxes).for_each_overlap(
@@ -145,7 +145,7 @@ bool Fusing::cut_one(Index f, const std::vector<Index>& inside, const std::vecto
     const auto a = sides.find(v), b = sides.find(w);
     return a != sides.end() && b != sides.end() && (a->second & b->second) == 0;
   };
-  const Box box = box_of(state_.facets[f], gap_);
+  const Box box = box_round(state_, state_.facets[f], gap_);
   for (std::size_t k = 0; k < patch.size(); ++k) {
     if (part_of(patch[k]) == part_of(f) || !boxes[k].overlaps(box)) continue;
     for (std::size_t i = 0; i < 3; ++i) {

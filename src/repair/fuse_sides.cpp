@@ -27,10 +27,10 @@ bool Fusing::meet(const std::vector<Index>& a, const std::vector<Index>& b) {
 void Fusing::put_vertices_on_sides() {
   std::vector<Box> boxes;
   std::vector<std::map<Side, OnSide>::iterator> sides;
-  for (const Index v : close_vertices_) boxes.push_back(box_of(std::array{v}, gap_));
+  for (const Index v : close_vertices_) boxes.push_back(box_round(state_, std::array{v}, gap_));
   for (auto side = sides_.begin(); side != sides_.end(); ++side) {
     sides.push_back(side);
-    boxes.push_back(box_of(side->first, 0));
+    boxes.push_back(box_round(state_, side->first, 0));
   }
   struct Best {
     double distance, t;
@@ -87,7 +87,7 @@ void Fusing::cross_sides() {
   std::vector<std::map<Side, OnSide>::iterator> sides;
   for (auto side = sides_.begin(); side != sides_.end(); ++side) {
     sides.push_back(side);
-    boxes.push_back(box_of(side->first, gap_ / 2));
+    boxes.push_back(box_round(state_, side->first, gap_ / 2));
   }
   struct Crossing {
     Index first, second;

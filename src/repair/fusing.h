@@ -43,7 +43,6 @@ class Fusing {
   void name_places();
   void list_facets();
   [[nodiscard]] std::optional<PlaneOf> plane_of(const Triangle& t) const;
-  [[nodiscard]] Box box_of(std::span<const Index> corners, double margin) const;
 
   /// Calls visit(f, g) for facets of different parts whose boxes come nearer than the gap.
   template <class Visit>

@@ -43,16 +43,6 @@ class Snapping {
  private:
   [[nodiscard]] const Point& at(Index v) const { return state_.vertices[v]; }
 
-  [[nodiscard]] Box box_of(std::span<const Index> corners, double margin) const {
-    Box box{at(corners[0]), at(corners[0])};
-    for (const Index v : corners) box.extend({at(v), at(v)});
-    for (std::size_t k = 0; k < 3; ++k) {
-      box.low[k] -= margin;
-      box.high[k] += margin;
-    }
-    return box;
-  }
-
   [[nodiscard]] std::vector<Index> vertices_of(Index part) const {
     std::vector<Index> vertices;
     for (const Index f : facets_[part])
@@ -76,8 +66,8 @@ class Snapping {
     std::vector<Index> before;
     for (Index p = 0; p < part; ++p) before.insert(before.end(), facets_[p].begin(), facets_[p].end());
     std::vector<Box> boxes;
-    for (const Index v : own) boxes.push_back(box_of(std::array{v}, tolerance_));
-    for (const Index f : before) boxes.push_back(box_of(state_.facets[f], 0));
+    for (const Index v : own) boxes.push_back(box_round(state_, std::array{v}, tolerance_));
+    for (const Index f : before) boxes.push_back(box_round(state_, state_.facets[f], 0));
     std::map<Index, Target> best;
     const auto first = static_cast<Index>(own.size());
     AabbTree(boxes).for_each_overlap(
