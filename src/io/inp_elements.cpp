@@ -1,0 +1,117 @@
+#include "io/inp_elements.h"
+
+#include <span>
+
+#include "io/mid_nodes.h"
+#include "io/polygon.h"
+
+namespace holdfast::io {
+
+struct InpElements::Type {
+  std::string_view prefix;
+  int dimension;
+  std::size_t nodes;
+};
+
+namespace {
+
+[[noreturn]] void fail_twice(const Source& source, const char* what, std::int64_t number) {
+  throw FileError(source.path, "",
+                  "the " + std::string(what) + " " + std::to_string(number) + " is there twice");
+}
+
+}  // namespace
+
+void InpElements::read_nodes(InpText& text) {
+  for (; text.is_data(); text.next()) {
+    const std::vector<std::string_view> fields = text.fields();
+    if (fields.size() < 3) text.reader().fail("a node needs a number and its coordinates");
+    nodes_.add(integer_of(text.reader(), fields[0], "a node's number"));
+    Point point{};
+    for (std::size_t axis = 0; axis < 3 && axis + 1 < fields.size(); ++axis)
+      if (!fields[axis + 1].empty()) point[axis] = real_of(text.reader(), fields[axis + 1], "a coordinate");
+    mesh_.vertices.push_back(point);
+  }
+}
+
+const InpElements::Type& InpElements::type_of(const TextReader& text, const InpKeyword& key) {
+  // The longest prefix of a type's name counts.
+  static constexpr Type kTypes[] = {
+      {"c3d4", 3, 4},    {"c3d10", 3, 10}, {"dc3d4", 3, 4},  {"dc3d10", 3, 10}, {"ac3d4", 3, 4},
+      {"ac3d10", 3, 10}, {"s3", 2, 3},     {"ds3", 2, 3},    {"stri3", 2, 3},   {"cps3", 2, 3},
+      {"cpe3", 2, 3},    {"m3d3", 2, 3},   {"sfm3d3", 2, 3}, {"r3d3", 2, 3},    {"s6", 2, 6},
+      {"ds6", 2, 6},     {"stri65", 2, 6}, {"cps6", 2, 6},   {"cpe6", 2, 6},    {"m3d6", 2, 6},
+      {"sfm3d6", 2, 6},  {"s4", 2, 4},     {"cps4", 2, 4},   {"cpe4", 2, 4},    {"m3d4", 2, 4},
+      {"sfm3d4", 2, 4},  {"r3d4", 2, 4},   {"t3d2", 1, 2},   {"b31", 1, 2},     {"b21", 1, 2},
+      {"t2d2", 1, 2},    {"t3d3", 1, 3},   {"b32", 1, 3}};
+  const auto found = key.values.find("type");
+  if (found == key.values.end()) text.fail("*ELEMENT without TYPE");
+  const std::string name = lower(found->second);
+  const Type* best = nullptr;
+  for (const Type& type : kTypes)
+    if (name.starts_with(type.prefix) && (best == nullptr || type.prefix.size() > best->prefix.size()))
+      best = &type;
+  const char behind = best == nullptr || name.size() == best->prefix.size() ? ' ' : name[best->prefix.size()];
+  if (best == nullptr || (behind >= '0' && behind <= '9'))
+    text.fail("elements of type " + in_quotes(found->second) +
+              " are not read; only tetrahedra, triangles, quadrangles and lines are");
+  return *best;
+}
+
+std::vector<std::int64_t> InpElements::read(InpText& text, const InpKeyword& key) {
+  const Type& type = type_of(text.reader(), key);
+  if (const auto twice = nodes_.finish()) fail_twice(text.reader().source(), "node", *twice);
+  std::vector<std::int64_t> read;
+  while (text.is_data()) {
+    // An element may take several lines.
+    std::vector<std::int64_t> numbers;
+    for (; text.is_data() && numbers.size() < type.nodes + 1; text.next())
+      for (const std::string_view field : text.fields())
+        if (!field.empty())
+          numbers.push_back(integer_of(text.reader(), field, "a number of an element or node"));
+    if (numbers.size() != type.nodes + 1)
+      text.reader().fail("an element of " + std::to_string(type.nodes) + " nodes has " +
+                         std::to_string(numbers.empty() ? 0 : numbers.size() - 1));
+    std::array<Index, 10> nodes{};
+    for (std::size_t i = 0; i < type.nodes; ++i) nodes[i] = vertex(text.reader(), numbers[i + 1]);
+    add(text.reader(), type, nodes, numbers[0]);
+    read.push_back(numbers[0]);
+  }
+  return read;
+}
+
+Index InpElements::vertex(const TextReader& text, std::int64_t number) const {
+  const std::optional<Index> found = nodes_.find(number);
+  if (!found) text.fail("the node " + std::to_string(number) + " does not exist");
+  return *found;
+}
+
+void InpElements::add(const TextReader& text, const Type& type, const std::array<Index, 10>& n,
+                      std::int64_t number) {
+  const std::size_t before[] = {0, mesh_.segments.size(), mesh_.facets.size(), mesh_.tetrahedra.size()};
+  const auto dimension = static_cast<std::size_t>(type.dimension);
+  if (type.nodes == 10)
+    add_second_order(mesh_, Tetrahedron{n[0], n[1], n[2], n[3]}, {n[4], n[5], n[6], n[7], n[8], n[9]}, 0);
+  else if (type.dimension == 3)
+    mesh_.add_tetrahedron({n[0], n[1], n[2], n[3]});
+  else if (type.nodes == 6)
+    add_second_order(mesh_, Triangle{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, 0);
+  else if (type.dimension == 2)
+    add_polygon(mesh_, std::span(n).first(type.nodes), 0,
+                [&](const std::string& reason) { text.fail(reason); });
+  else if (type.nodes == 3)  // Abaqus has the middle node between the ends
+    add_second_order(mesh_, Segment{n[0], n[2]}, n[1], 0);
+  else
+    mesh_.add_segment({n[0], n[1]});
+  const std::size_t after[] = {0, mesh_.segments.size(), mesh_.facets.size(), mesh_.tetrahedra.size()};
+  numbers_.add(number);
+  elements_.push_back({type.dimension, static_cast<Index>(before[dimension]),
+                       static_cast<Index>(after[dimension] - before[dimension])});
+}
+
+void InpElements::finish(const Source& source) {
+  if (const auto twice = nodes_.finish()) fail_twice(source, "node", *twice);
+  if (const auto twice = numbers_.finish()) fail_twice(source, "element", *twice);
+}
+
+}  // namespace holdfast::io

@@ -1,0 +1,48 @@
+// The nodes and elements of an .inp file, by the numbers that it gives them.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "io/inp_text.h"
+#include "io/numbered.h"
+
+namespace holdfast::io {
+
+struct InpElement {
+  int dimension;
+  Index entity;  ///< of the mesh: its index among those of the dimension, the first of a polygon
+  Index count;   ///< of a polygon that is cut: how many facets
+};
+
+/// Every node is a vertex of the mesh, every element an entity of it, or a run of facets.
+class InpElements {
+ public:
+  explicit InpElements(MeshData& mesh) : mesh_(mesh) {}
+
+  void read_nodes(InpText& text);
+  /// The elements behind a keyword: their numbers in order.
+  std::vector<std::int64_t> read(InpText& text, const InpKeyword& key);
+  /// Before `find`. Throws if a number is there twice.
+  void finish(const Source& source);
+
+  [[nodiscard]] std::size_t size() const { return elements_.size(); }
+  /// The element of a number, or null.
+  [[nodiscard]] const InpElement* find(std::int64_t number) const {
+    const std::optional<Index> found = numbers_.find(number);
+    return found ? &elements_[*found] : nullptr;
+  }
+
+ private:
+  struct Type;
+  static const Type& type_of(const TextReader& text, const InpKeyword& key);
+  [[nodiscard]] Index vertex(const TextReader& text, std::int64_t number) const;
+  void add(const TextReader& text, const Type& type, const std::array<Index, 10>& nodes, std::int64_t number);
+
+  MeshData& mesh_;
+  Numbered nodes_, numbers_;
+  std::vector<InpElement> elements_;
+};
+
+}  // namespace holdfast::io

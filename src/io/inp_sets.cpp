@@ -1,0 +1,182 @@
+#include "io/inp_sets.h"
+
+#include <algorithm>
+
+#include "io/mesh_sets.h"
+#include "io/mid_nodes.h"
+#include "numbers/sorted.h"
+
+namespace holdfast::io {
+namespace {
+
+/// Sides S1 to S4 of a tetrahedron, by the corner opposite them.
+constexpr std::array<std::size_t, 4> kOpposite{3, 2, 0, 1};
+
+/// Sets may name an element several times; more often than so many for each, and a few, is no sane file.
+constexpr std::size_t kMostPerElement = 16;
+
+bool is_number(std::string_view field) { return !field.empty() && field[0] >= '0' && field[0] <= '9'; }
+
+/// A side of a tetrahedron, with the nodes on its edges where the tetrahedron has some.
+void add_facet(MeshData& mesh, Index tetrahedron, const std::array<std::size_t, 3>& outward,
+               const Triangle& facet) {
+  if (tetrahedron >= mesh.mids.tetrahedra.size() || mesh.mids.tetrahedra[tetrahedron][0] == no_entity)
+    return mesh.add_facet(facet);
+  constexpr std::size_t kEdge[4][4] = {{0, 0, 2, 3}, {0, 0, 1, 4}, {2, 1, 0, 5}, {3, 4, 5, 0}};
+  const std::array<Index, 6>& mids = mesh.mids.tetrahedra[tetrahedron];
+  add_second_order(mesh, facet,
+                   {mids[kEdge[outward[0]][outward[1]]], mids[kEdge[outward[1]][outward[2]]],
+                    mids[kEdge[outward[0]][outward[2]]]},
+                   0);
+}
+
+}  // namespace
+
+void InpSets::add_listed(const std::string& name, const Members& members) {
+  Members& all = listed_[name];
+  if (std::find(order_.begin(), order_.end(), name) == order_.end()) order_.push_back(name);
+  all.insert(all.end(), members.begin(), members.end());
+}
+
+void InpSets::read(InpText& text, const InpKeyword& key, std::size_t elements) {
+  const std::string& name = key.values.at("elset");
+  const bool range = key.has("generate");
+  if (!sets_.contains(name)) order_.push_back(name);
+  Members& members = sets_[name];
+  for (; text.is_data(); text.next()) {
+    const std::vector<std::string_view> fields = text.fields();
+    if (range) {
+      add_range(text.reader(), fields, elements, members);
+      continue;
+    }
+    for (const std::string_view field : fields) {
+      if (field.empty()) continue;
+      if (is_number(field))
+        members.push_back(integer_of(text.reader(), field, "an element's number"));
+      else
+        add_other(text.reader(), std::string(field), elements, members);
+    }
+  }
+}
+
+void InpSets::add_range(const TextReader& text, const std::vector<std::string_view>& fields,
+                        std::size_t elements, Members& members) const {
+  if (fields.size() < 2) text.fail("GENERATE needs a first and a last element");
+  const std::int64_t first = integer_of(text, fields[0], "the first element"),
+                     last = integer_of(text, fields[1], "the last element");
+  const std::int64_t step =
+      fields.size() > 2 && !fields[2].empty() ? integer_of(text, fields[2], "a step") : 1;
+  if (step < 1 || first < 0 || last < first) text.fail("a range that does not go up");
+  // No more numbers than there are elements, which come first.
+  if ((last - first) / step >= static_cast<std::int64_t>(elements))
+    text.fail("a range of more elements than there are");
+  for (std::int64_t number = first; number <= last; number += step) members.push_back(number);
+}
+
+void InpSets::add_other(const TextReader& text, const std::string& name, std::size_t elements,
+                        Members& members) const {
+  const Members* other = find(name);
+  if (other == nullptr) text.fail("the set " + in_quotes(name) + " does not exist");
+  if (members.size() + other->size() > kMostPerElement * (elements + 1))
+    text.fail("sets of more elements than there are");
+  const Members copy = *other;  // a set may name itself
+  members.insert(members.end(), copy.begin(), copy.end());
+}
+
+const InpSets::Members* InpSets::find(const std::string& name) const {
+  for (const auto* sets : {&sets_, &listed_})
+    for (const auto& [known, members] : *sets)
+      if (lower(known) == lower(name)) return &members;
+  return nullptr;
+}
+
+std::size_t InpSets::size_of(const std::string& name) const {
+  const auto found = sets_.find(name);
+  return found == sets_.end() ? 0 : found->second.size();
+}
+
+std::vector<std::pair<std::string, const InpSets::Members*>> InpSets::largest_first() const {
+  std::vector<std::string> by_size = order_;
+  std::stable_sort(by_size.begin(), by_size.end(),
+                   [&](const std::string& a, const std::string& b) { return size_of(a) > size_of(b); });
+  std::vector<std::pair<std::string, const Members*>> result;
+  for (const auto* sets : {&sets_, &listed_})
+    for (const std::string& name : by_size)
+      if (const auto found = sets->find(name); found != sets->end())
+        result.emplace_back(name, &found->second);
+  return result;
+}
+
+void InpSurfaces::read(InpText& text, const std::string& name) {
+  auto& sides = surfaces_[name];
+  if (sides.empty()) order_.push_back(name);
+  for (; text.is_data(); text.next()) {
+    const std::vector<std::string_view> fields = text.fields();
+    sides.push_back({fields[0], fields.size() > 1 ? fields[1] : std::string_view(), text.reader().last()});
+  }
+}
+
+/// The facets of a mesh with their markers, each found by its corners.
+class InpSurfaces::Facets {
+ public:
+  explicit Facets(MeshData& mesh) : mesh_(mesh), markers_(mesh.facets.size(), 0) {
+    for (Index f = 0; f < mesh.facets.size(); ++f) facet_of_.emplace(ascending(mesh.facets[f]), f);
+  }
+
+  /// Marks a side of an element, which becomes a facet if it is none.
+  void mark(const TextReader& text, const InpElement& element, const Side& side, int id) {
+    if (element.dimension == 2) {
+      for (Index k = 0; k < element.count; ++k) markers_[element.entity + k] = id;
+      return;
+    }
+    const std::string name = lower(side.side);
+    if (element.dimension != 3 || name.size() != 2 || name[0] != 's' || name[1] < '1' || name[1] > '4')
+      text.fail_at(side.position, "expected a side S1 to S4 of a tetrahedron, found " + in_quotes(side.side));
+    const std::size_t opposite = kOpposite[static_cast<std::size_t>(name[1] - '1')];
+    const Tetrahedron& corners = mesh_.tetrahedra[element.entity];
+    const auto& outward = kOutwardFaces[opposite];
+    const Triangle facet{corners[outward[0]], corners[outward[1]], corners[outward[2]]};
+    const auto [there, fresh] = facet_of_.emplace(ascending(facet), static_cast<Index>(mesh_.facets.size()));
+    if (fresh) {
+      add_facet(mesh_, element.entity, outward, facet);
+      markers_.push_back(0);
+    }
+    markers_[there->second] = id;
+  }
+
+  [[nodiscard]] std::vector<int> take_markers() { return std::move(markers_); }
+
+ private:
+  MeshData& mesh_;
+  std::map<Triangle, Index> facet_of_;
+  std::vector<int> markers_;
+};
+
+std::vector<int> InpSurfaces::apply(MeshData& mesh, InpText& text, const InpElements& elements,
+                                    const InpSets& sets, NamedIds& names) const {
+  if (order_.empty()) return std::vector<int>(mesh.facets.size(), 0);
+  Facets facets(mesh);
+  const auto mark = [&](std::int64_t number, const Side& side, int id) {
+    const InpElement* element = elements.find(number);
+    if (element == nullptr)
+      text.reader().fail_at(side.position, "the element " + std::to_string(number) + " does not exist");
+    facets.mark(text.reader(), *element, side, id);
+  };
+  for (const std::string& name : order_) {
+    const int id = names.id_of(name);
+    for (const Side& side : surfaces_.at(name)) {
+      if (is_number(side.element)) {
+        text.seek(side.position);
+        mark(integer_of(text.reader(), side.element, "an element's number"), side, id);
+        continue;
+      }
+      const InpSets::Members* set = sets.find(std::string(side.element));
+      if (set == nullptr)
+        text.reader().fail_at(side.position, "the set " + in_quotes(side.element) + " does not exist");
+      for (const std::int64_t number : *set) mark(number, side, id);
+    }
+  }
+  return facets.take_markers();
+}
+
+}  // namespace holdfast::io

@@ -1,0 +1,35 @@
+#include "io/inp_text.h"
+
+#include <span>
+
+namespace holdfast::io {
+
+bool InpText::next() {
+  while (!text_.remaining().empty()) {
+    line_ = trimmed(text_.rest_of_line());
+    beat(text_.source().watch);
+    if (!line_.empty() && !line_.starts_with("**")) return true;
+    if (!line_.empty()) read_id_comment(line_.substr(2), std::array{&names_.regions, &names_.markers});
+  }
+  line_ = {};
+  return false;
+}
+
+InpKeyword InpText::keyword() {
+  if (line_[0] != '*') text_.fail("expected a keyword, found " + in_quotes(line_));
+  std::string all(line_.substr(1));
+  while (all.ends_with(',') && next()) all += line_;
+  const std::vector<std::string_view> fields = split(all, ',');
+  InpKeyword result{lower(fields[0]), {}};
+  for (const std::string_view field : std::span(fields).subspan(1)) {
+    const std::size_t equals = field.find('=');
+    std::string_view value = equals == std::string_view::npos ? "" : trimmed(field.substr(equals + 1));
+    if (value.size() >= 2 && value.front() == '"' && value.back() == '"')
+      value = value.substr(1, value.size() - 2);
+    result.values[lower(trimmed(field.substr(0, equals)))] = std::string(value);
+  }
+  next();
+  return result;
+}
+
+}  // namespace holdfast::io
