@@ -1,0 +1,79 @@
+// A VTK XML file as its arrays: ASCII, base64 and raw, uncompressed and in zlib blocks.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/vtk_values.h"
+#include "io/vtu_decode.h"
+#include "io/xml_reader.h"
+
+namespace holdfast::io {
+
+/// A DataArray element, not yet decoded.
+struct DataArray {
+  XmlTag tag;
+  std::size_t content = 0;  ///< offset behind the tag
+};
+
+/// A whole file of one piece. Its arrays are decoded when they are asked for.
+class VtuFile {
+ public:
+  /// Throws FileError for what is no such file, or is truncated.
+  explicit VtuFile(const Source& source);
+
+  [[nodiscard]] const Source& source() const { return source_; }
+  /// PolyData; else an UnstructuredGrid.
+  [[nodiscard]] bool is_polydata() const { return polydata_; }
+  [[nodiscard]] std::uint64_t points() const { return points_; }
+  [[nodiscard]] std::uint64_t cells() const { return cells_; }
+  /// Of polygonal data, in a section.
+  [[nodiscard]] std::uint64_t cells_of(const std::string& section) const {
+    const auto found = counts_.find(section);
+    return found == counts_.end() ? 0 : found->second;
+  }
+
+  /// By "section/name"; the points' array has no name.
+  [[nodiscard]] const std::map<std::string, DataArray>& arrays() const { return arrays_; }
+  [[nodiscard]] const DataArray* find(const std::string& name) const;
+  /// The values of an array that must exist, `count` of them if that is known. T: double, int, std::int64_t
+  /// or std::uint8_t.
+  template <typename T>
+  [[nodiscard]] std::vector<T> values(const std::string& name, std::optional<std::uint64_t> count) const;
+  /// The number of values a point or cell, 1 to 9.
+  [[nodiscard]] std::uint64_t components(const DataArray& array) const;
+
+ private:
+  struct Seen;
+  struct Appended {
+    std::size_t offset;
+    bool base64;
+  };
+  void read_tag(const XmlTag& tag, Seen& seen);
+  void read_file_attributes(const XmlTag& tag, Seen& seen);
+  void read_piece(const XmlTag& tag, Seen& seen);
+  void read_appended(const XmlTag& tag);
+
+  template <typename T>
+  [[nodiscard]] std::vector<T> read_values(const DataArray& array, std::optional<std::uint64_t> count) const;
+  template <typename T>
+  [[nodiscard]] std::vector<T> text_values(const DataArray& array) const;
+  [[nodiscard]] std::string decoded(const DataArray& array, bool base64, std::size_t position,
+                                    std::optional<std::uint64_t> count) const;
+  void require_count(const DataArray& array, std::uint64_t size, std::optional<std::uint64_t> count) const;
+  [[nodiscard]] VtkType type_of(const DataArray& array) const;
+
+  Source source_;
+  XmlReader xml_;
+  VtuEncoding encoding_;
+  bool polydata_ = false;
+  std::uint64_t points_ = 0, cells_ = 0;
+  std::map<std::string, std::uint64_t> counts_;
+  std::map<std::string, DataArray> arrays_;
+  std::optional<Appended> appended_;
+};
+
+}  // namespace holdfast::io
