@@ -13,11 +13,12 @@ std::size_t vertices_of(std::size_t faces) { return faces / 2 + 2; }
 
 }  // namespace
 
-Boundary::Boundary(Vertex ghost_scratch)
+CavityBoundary::CavityBoundary(Vertex ghost_scratch)
     : ghost_scratch_(ghost_scratch), faces_(kFirstScratch), ring_(kFirstScratch), spokes_(kFirstScratch) {}
 
-bool Boundary::take(Triangulation& triangulation, std::span<const Face> cavity, std::span<const Face> rim,
-                    Slots& slots, std::span<Face> table, std::uint32_t side) {
+bool CavityBoundary::take(Triangulation& triangulation, std::span<const Face> cavity,
+                          std::span<const Face> rim, Slots& slots, std::span<Face> table,
+                          std::uint32_t side) {
   face_count_ = rim.size();
   if (faces_.size() < face_count_) faces_.resize(2 * face_count_);
   if (ring_.size() <= vertices_of(face_count_)) {
@@ -37,7 +38,7 @@ bool Boundary::take(Triangulation& triangulation, std::span<const Face> cavity, 
   return by_table;
 }
 
-void Boundary::give_slots(std::span<const Face> cavity, Slots& slots) {
+void CavityBoundary::give_slots(std::span<const Face> cavity, Slots& slots) {
   const std::size_t own = std::min(cavity.size(), face_count_);
   for (std::size_t j = cavity.size(); j > own; --j) slots.put(tet_of(cavity[j - 1]));
   for (std::size_t j = 0; j < own; ++j) faces_[j].slot = tet_of(cavity[j]);
@@ -47,8 +48,8 @@ void Boundary::give_slots(std::span<const Face> cavity, Slots& slots) {
 // Reads the faces round the cavity off its cells, whose slots are about to be used again.
 // The boundary face (v0, v1, v2) sees the new vertex p; the new cell is (p, v1, v0, v2), with the ghost last.
 template <bool kByTable>
-void Boundary::list(Triangulation& triangulation, std::span<const Face> rim, Face* table,
-                    std::uint32_t side) {
+void CavityBoundary::list(Triangulation& triangulation, std::span<const Face> rim, Face* table,
+                          std::uint32_t side) {
   Cell* const cells = triangulation.cells().data();
   Triangulation::Site* const sites = triangulation.sites();
   Vertex* const ring = ring_.data();
@@ -80,7 +81,7 @@ void Boundary::list(Triangulation& triangulation, std::span<const Face> rim, Fac
       b = std::exchange(a, std::exchange(c, b));
     }
     const std::uint32_t la = local_index(a), lb = local_index(b), lc = local_index(c);
-    BoundaryFace& face = faces_[j];
+    CavityFace& face = faces_[j];
     face.outer = inner.n[i];
     face.v = {a, b, c};
     face.local = {la, lb, lc};
@@ -94,7 +95,7 @@ void Boundary::list(Triangulation& triangulation, std::span<const Face> rim, Fac
   ring_count_ = fresh;
 }
 
-void Boundary::look_from(const Triangulation& triangulation, const double* p) {
+void CavityBoundary::look_from(const Triangulation& triangulation, const double* p) {
   for (std::size_t l = 0; l < ring_count_; ++l) spokes_[l] = spoke(p, triangulation.at(ring_[l]));
 }
 

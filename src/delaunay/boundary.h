@@ -13,17 +13,17 @@
 
 namespace holdfast {
 
-struct BoundaryFace {
+struct CavityFace {
   Face outer;
   std::array<Vertex, 3> v;             // (new vertex, v) is positive
   std::array<std::uint32_t, 3> local;  // the same vertices as places in the ring
   Tet slot;
 };
 
-class Boundary {
+class CavityBoundary {
  public:
   /// `ghost_scratch` is the site in which the ghost's place is kept.
-  explicit Boundary(Vertex ghost_scratch);
+  explicit CavityBoundary(Vertex ghost_scratch);
 
   /// Takes the boundary of a cavity whose cells are about to go: gives a slot to each face, those of the
   /// cavity first, and lists the faces, each linked to its outer neighbour. The code of the face of a new
@@ -34,7 +34,7 @@ class Boundary {
   /// Makes the vertices relative to the new one.
   void look_from(const Triangulation& triangulation, const double* p);
 
-  [[nodiscard]] std::span<const BoundaryFace> faces() const { return {faces_.data(), face_count_}; }
+  [[nodiscard]] std::span<const CavityFace> faces() const { return {faces_.data(), face_count_}; }
   [[nodiscard]] std::span<const Vertex> vertices() const { return {ring_.data(), ring_count_}; }
   /// Of each vertex.
   [[nodiscard]] const Spoke* spokes() const { return spokes_.data(); }
@@ -46,7 +46,7 @@ class Boundary {
 
   const Vertex ghost_scratch_;
   // Kept to allocate nothing. The counts say how much of each array is in use.
-  std::vector<BoundaryFace> faces_;
+  std::vector<CavityFace> faces_;
   std::vector<Vertex> ring_;
   std::vector<Spoke> spokes_;
   std::size_t face_count_ = 0;

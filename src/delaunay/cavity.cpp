@@ -13,12 +13,13 @@ std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x); }
 
 }  // namespace
 
-Cavity::Cavity() : cells_(kFirstScratch), rim_(kFirstScratch) {}
+ConflictCavity::ConflictCavity() : cells_(kFirstScratch), rim_(kFirstScratch) {}
 
 // The outcome of a test is a coin toss to the processor, so both lists are written always and only
 // their lengths depend on it; sign bits do the marking.
 template <Insertion kMode>
-bool Cavity::dig(Triangulation& triangulation, const Ownership& own, Tet seed, const double* q, Vertex k) {
+bool ConflictCavity::dig(Triangulation& triangulation, const Ownership& own, Tet seed, const double* q,
+                         Vertex k) {
   Cell* const cells = triangulation.cells().data();
   const Triangulation::Site* const sites = triangulation.sites();
   const double qx = q[0], qy = q[1], qz = q[2];
@@ -66,11 +67,14 @@ bool Cavity::dig(Triangulation& triangulation, const Ownership& own, Tet seed, c
   return !escapes;
 }
 
-template bool Cavity::dig<Insertion::in_order>(Triangulation&, const Ownership&, Tet, const double*, Vertex);
-template bool Cavity::dig<Insertion::late>(Triangulation&, const Ownership&, Tet, const double*, Vertex);
-template bool Cavity::dig<Insertion::in_slab>(Triangulation&, const Ownership&, Tet, const double*, Vertex);
+template bool ConflictCavity::dig<Insertion::in_order>(Triangulation&, const Ownership&, Tet, const double*,
+                                                       Vertex);
+template bool ConflictCavity::dig<Insertion::late>(Triangulation&, const Ownership&, Tet, const double*,
+                                                   Vertex);
+template bool ConflictCavity::dig<Insertion::in_slab>(Triangulation&, const Ownership&, Tet, const double*,
+                                                      Vertex);
 
-void Cavity::restore(Triangulation& triangulation) const {
+void ConflictCavity::restore(Triangulation& triangulation) const {
   Cell* const all = triangulation.cells().data();
   for (const Face reached : cells()) {
     Cell& cell = all[tet_of(reached)];

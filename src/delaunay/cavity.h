@@ -14,9 +14,9 @@ namespace holdfast {
 enum class Insertion { in_order, late, in_slab };
 
 /// Its cells are marked: the sign bit of `reach` is set.
-class Cavity {
+class ConflictCavity {
  public:
-  Cavity();
+  ConflictCavity();
 
   /// Collects the cells in conflict with q, vertex k, from one of them on; false if one of them is not owned.
   template <Insertion kMode>

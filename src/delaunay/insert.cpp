@@ -34,11 +34,11 @@ void turn(Triangulation& triangulation, Tet t) {
 }
 
 // Puts the highest vertex first in the cells of a boundary where it is not the new one, k.
-void turn_new_cells(Triangulation& triangulation, const Boundary& boundary, Vertex k) {
+void turn_new_cells(Triangulation& triangulation, const CavityBoundary& boundary, Vertex k) {
   const auto above = [&](Vertex v) { return v > k && v != triangulation.ghost(); };
   const auto ring = boundary.vertices();
   if (std::none_of(ring.begin(), ring.end(), above)) return;
-  for (const BoundaryFace& face : boundary.faces()) turn(triangulation, face.slot);
+  for (const CavityFace& face : boundary.faces()) turn(triangulation, face.slot);
 }
 
 }  // namespace
@@ -129,11 +129,11 @@ void Inserter::fill(Vertex k) {
 void Inserter::set_geometry(Vertex k) {
   Cell* const cells = triangulation_.cells().data();
   const Spoke* const spokes = boundary_.spokes();
-  const std::span<const BoundaryFace> faces = boundary_.faces();
+  const std::span<const CavityFace> faces = boundary_.faces();
   const Vertex ghost = triangulation_.ghost();
   bool ghosts = false;
   for (std::size_t j = 0; j < faces.size(); j += 2) {
-    const BoundaryFace &f = faces[j], &g = faces[j + 1];
+    const CavityFace &f = faces[j], &g = faces[j + 1];
     Cell &s = cells[f.slot], &t = cells[g.slot];
     s.v = {k, f.v[0], f.v[1], f.v[2]};
     t.v = {k, g.v[0], g.v[1], g.v[2]};
@@ -148,7 +148,7 @@ void Inserter::set_geometry(Vertex k) {
   last_ = faces[0].slot;
   if (!ghosts) [[likely]]
     return;
-  for (const BoundaryFace& f : faces) {
+  for (const CavityFace& f : faces) {
     if (f.v[2] == ghost) {
       set_half_space(cells[f.slot], spokes[f.local[0]], spokes[f.local[1]], triangulation_.diameter());
       --finite;

@@ -79,8 +79,8 @@ class Inserter {
   Tet last_ = 0;
   Xorshift random_;
   Slots slots_;
-  Cavity cavity_;  // of the last point, as is its boundary
-  Boundary boundary_;
+  ConflictCavity cavity_;  // of the last point, as is its boundary
+  CavityBoundary boundary_;
   EdgeLinks links_;
 };
 

@@ -8,9 +8,9 @@ namespace holdfast {
 
 // Face i of a new cell (i = 1, 2, 3) lies at the boundary edge opposite local vertex i - 1; the
 // neighbour has the same edge reversed. The boundary is closed, so every entry read has been written.
-void EdgeLinks::by_table(std::span<const BoundaryFace> faces, Cell* cells) const {
+void EdgeLinks::by_table(std::span<const CavityFace> faces, Cell* cells) const {
   const Face* const table = table_.data();
-  for (const BoundaryFace& face : faces) {
+  for (const CavityFace& face : faces) {
     const auto [a, b, c] = face.local;
     Cell& cell = cells[face.slot];
     cell.n[1] = table[c * kTableSide + b];
@@ -20,7 +20,7 @@ void EdgeLinks::by_table(std::span<const BoundaryFace> faces, Cell* cells) const
 }
 
 // Each edge is met twice: the first face leaves its code, the second links the two.
-void EdgeLinks::by_hash(std::span<const BoundaryFace> faces, Cell* cells) {
+void EdgeLinks::by_hash(std::span<const CavityFace> faces, Cell* cells) {
   const std::size_t size = std::bit_ceil(3 * faces.size());
   if (hash_.size() < size) hash_.resize(size);
   const auto shift = static_cast<unsigned>(64 - std::countr_zero(size));
@@ -37,7 +37,7 @@ void EdgeLinks::by_hash(std::span<const BoundaryFace> faces, Cell* cells) {
     cells[tet_of(face)].n[face & 3u] = other;
     cells[tet_of(other)].n[other & 3u] = face;
   };
-  for (const BoundaryFace& face : faces) {
+  for (const CavityFace& face : faces) {
     const auto [a, b, c] = face.local;
     meet(b, c, face_code(face.slot, 1));
     meet(c, a, face_code(face.slot, 2));

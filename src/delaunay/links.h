@@ -20,9 +20,9 @@ class EdgeLinks {
   /// Where the boundary writes the faces of new cells at its edges, side by side.
   [[nodiscard]] std::span<Face> table() { return table_; }
   /// Links the cells on `faces`, whose codes are in the table.
-  void by_table(std::span<const BoundaryFace> faces, Cell* cells) const;
+  void by_table(std::span<const CavityFace> faces, Cell* cells) const;
   /// The same for boundaries with more vertices than the table has sides.
-  void by_hash(std::span<const BoundaryFace> faces, Cell* cells);
+  void by_hash(std::span<const CavityFace> faces, Cell* cells);
 
  private:
   struct HashEntry {
