@@ -1,6 +1,7 @@
 #include "api/improve_tangle.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -11,90 +12,84 @@
 namespace holdfast {
 namespace {
 
-// A tangle as a mesh with a hull of ghosts, whose vertices that stand come first.
-class AsMesh {
+// The vertices of a tangle that stand, in the mesh: fixed ones come first.
+struct Numbering {
+  std::vector<Vertex> in_mesh;    // by vertex of the tangle, or kNone
+  std::vector<Vertex> in_tangle;  // by vertex of the mesh
+  Vertex first_free = 0;          // of the mesh
+};
+
+Numbering number_vertices(const Tangle& tangle) {
+  Numbering number{std::vector<Vertex>(tangle.vertex_count(), kNone), {}, 0};
+  for (const bool fixed : {true, false}) {
+    for (Vertex v = 0; v < tangle.vertex_count(); ++v) {
+      if (tangle.star(v).empty() || tangle.is_fixed(v) != fixed) continue;
+      number.in_mesh[v] = static_cast<Vertex>(number.in_tangle.size());
+      number.in_tangle.push_back(v);
+    }
+    if (fixed) number.first_free = static_cast<Vertex>(number.in_tangle.size());
+  }
+  return number;
+}
+
+std::vector<Tet> tetrahedra_of(const Tangle& tangle) {
+  std::vector<Tet> tets;
+  for (Tet t = 0; t < tangle.slot_count(); ++t)
+    if (tangle.alive(t)) tets.push_back(t);
+  return tets;
+}
+
+// Which regions a mesh has.
+struct Regions {
+  std::vector<int> ids;      // by region; region 0 is the outside
+  std::vector<RegionId> of;  // by tetrahedron
+  [[nodiscard]] std::vector<bool> kept() const {
+    std::vector<bool> kept(ids.size(), true);
+    kept[0] = false;
+    return kept;
+  }
+};
+
+// `slots` is the number of the mesh's tetrahedra; those behind the tangle's are outside.
+Regions regions_of(const Tangle& tangle, std::span<const Tet> tets, std::size_t slots) {
+  Regions regions{{}, std::vector<RegionId>(slots, 0)};
+  for (const Tet t : tets) regions.ids.push_back(tangle.region(t));
+  sort_unique(regions.ids);
+  regions.ids.insert(regions.ids.begin(), 0);
+  for (std::size_t k = 0; k < tets.size(); ++k)
+    regions.of[k] = static_cast<RegionId>(
+        std::lower_bound(regions.ids.begin() + 1, regions.ids.end(), tangle.region(tets[k])) -
+        regions.ids.begin());
+  return regions;
+}
+
+// The tetrahedra of a tangle with ghosts round them, each linked to its neighbours.
+class WithGhosts {
  public:
-  AsMesh(const Tangle& tangle, const exact::DoubleGrid& grid, std::uint64_t seed)
-      : tangle_(tangle), seed_(seed) {
-    MeshEditor(mesh_).set_grid(grid);
-    number_vertices();
-    read_tetrahedra();
-    add_ghosts();
+  WithGhosts(const Tangle& tangle, std::span<const Tet> tets, const std::vector<Vertex>& in_mesh)
+      : tets_(tets) {
+    for (const Tet t : tets) {
+      const Tangle::Corners& c = tangle.corners(t);
+      corners_.push_back({in_mesh[c[0]], in_mesh[c[1]], in_mesh[c[2]], in_mesh[c[3]]});
+    }
+    neighbours_.resize(corners_.size());
+    add_ghosts(tangle);
     link_ghosts();
-    MeshEditor(mesh_).load(std::move(corners_), std::move(neighbours_));
-    mark_constraints();
-    set_sizes();
   }
 
-  [[nodiscard]] VolumeData data() {
-    return {mesh_, region_of_, sizes_, kept_, first_free_, nullptr, nullptr, seed_, nullptr};
-  }
-
-  // New vertices of the mesh come after all of the tangle.
-  [[nodiscard]] Tangle tangle() {
-    std::vector<Point> points;
-    for (Vertex v = 0; v < tangle_.vertex_count(); ++v) points.push_back(tangle_.position(v));
-    for (Vertex v = static_cast<Vertex>(number_.size()); v < mesh_.vertex_count(); ++v) {
-      number_.push_back(static_cast<Vertex>(points.size()));
-      points.emplace_back();
-    }
-    for (Vertex v = first_free_; v < mesh_.vertex_count(); ++v)
-      if (mesh_.in_mesh(v)) points[number_[v]] = mesh_.position(v);
-    std::vector<Tangle::Corners> tets;
-    std::vector<int> regions;
-    for (Tet t = 0; t < mesh_.slot_count(); ++t) {
-      if (!data().is_inside(t)) continue;
-      const TetMesh::Corners& c = mesh_.corners(t);
-      tets.push_back({number_[c[0]], number_[c[1]], number_[c[2]], number_[c[3]]});
-      regions.push_back(ids_[region_of_[t]]);
-    }
-    Constraints constraints = tangle_.constraints();
-    constraints.fixed.resize(points.size(), false);
-    return {points, std::move(tets), std::move(regions), std::move(constraints), mesh_.grid()};
-  }
+  [[nodiscard]] std::size_t size() const { return corners_.size(); }
+  void move_to(TetMesh& mesh) { MeshEditor(mesh).load(std::move(corners_), std::move(neighbours_)); }
 
  private:
-  void number_vertices() {
-    std::vector<Vertex> of_tangle(tangle_.vertex_count(), kNone);
-    for (const bool fixed : {true, false}) {
-      for (Vertex v = 0; v < tangle_.vertex_count(); ++v) {
-        if (tangle_.star(v).empty() || tangle_.is_fixed(v) != fixed) continue;
-        of_tangle[v] = MeshEditor(mesh_).add_vertex(tangle_.position(v));
-        number_.push_back(v);
-      }
-      if (fixed) first_free_ = static_cast<Vertex>(number_.size());
-    }
-    of_tangle_ = std::move(of_tangle);
-  }
-
-  void read_tetrahedra() {
-    slot_.assign(tangle_.slot_count(), kNone);
-    ids_ = {0};  // of the outside
-    for (Tet t = 0; t < tangle_.slot_count(); ++t) {
-      if (!tangle_.alive(t)) continue;
-      slot_[t] = static_cast<Tet>(corners_.size());
-      const Tangle::Corners& c = tangle_.corners(t);
-      corners_.push_back({of_tangle_[c[0]], of_tangle_[c[1]], of_tangle_[c[2]], of_tangle_[c[3]]});
-      tets_.push_back(t);
-      ids_.push_back(tangle_.region(t));
-    }
-    std::sort(ids_.begin() + 1, ids_.end());
-    ids_.erase(std::unique(ids_.begin() + 1, ids_.end()), ids_.end());
-    for (const Tet t : tets_)
-      region_of_.push_back(static_cast<RegionId>(
-          std::lower_bound(ids_.begin() + 1, ids_.end(), tangle_.region(t)) - ids_.begin()));
-    kept_.assign(ids_.size(), true);
-    kept_[0] = false;
-    neighbours_.resize(corners_.size());
-  }
-
-  void add_ghosts() {
+  void add_ghosts(const Tangle& tangle) {
+    std::vector<Tet> slot(tangle.slot_count(), kNone);
+    for (Tet k = 0; k < tets_.size(); ++k) slot[tets_[k]] = k;
     for (Tet k = 0; k < tets_.size(); ++k)
       for (int i = 0; i < 4; ++i) {
-        const Tet other = tangle_.across(tets_[k], i);
+        const Tet other = tangle.across(tets_[k], i);
         Face& across = neighbours_[k][static_cast<std::size_t>(i)];
         if (other != kNone) {
-          across = face_of(slot_[other], face_key(corners_[k], i));
+          across = face_of(slot[other], face_key(corners_[k], i));
           continue;
         }
         const auto ghost = static_cast<Tet>(corners_.size());
@@ -102,7 +97,6 @@ class AsMesh {
         const auto v = corners_of_face(corners_[k], i);
         corners_.push_back({v[0], v[2], v[1], kGhost});
         neighbours_.push_back({kNone, kNone, kNone, face_code(k, i)});
-        region_of_.push_back(0);
       }
   }
 
@@ -131,62 +125,108 @@ class AsMesh {
       }
   }
 
-  void mark_constraints() {
-    const Constraints& c = tangle_.constraints();
-    std::vector<EdgeKey> edges;
-    for (const auto& [a, b] : c.segments) edges.push_back(edge_key(a, b));
-    for (const auto& f : c.faces)
-      for (std::size_t k = 0; k < 3; ++k) edges.push_back(edge_key(f[k], f[(k + 1) % 3]));
-    sort_unique(edges);
-    for (Tet t = 0; t < mesh_.slot_count(); ++t) {
-      const auto vertex = [&](int i) {
-        return mesh_.corner(t, i) == kGhost ? kNone : number_[mesh_.corner(t, i)];
-      };
-      Flags flags = 0;
-      for (int i = 0; i < 4; ++i) {
-        const auto& f = kFaceVertex[static_cast<std::size_t>(i)];
-        if (mesh_.is_ghost(t) ? i == 3 : tangle_.is_constraint({vertex(f[0]), vertex(f[1]), vertex(f[2])}))
-          flags = static_cast<Flags>(flags | facet_bit(i));
-      }
-      for (int k = 0; k < 6; ++k) {
-        const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
-        if (vertex(e[0]) != kNone && vertex(e[1]) != kNone &&
-            std::binary_search(edges.begin(), edges.end(), edge_key(vertex(e[0]), vertex(e[1]))))
-          flags = static_cast<Flags>(flags | segment_bit(k));
-      }
-      MeshEditor(mesh_).mark_constraints(t, flags);
-    }
-    MeshEditor(mesh_).finish();
-  }
-
-  // The mean length of the edges at each vertex, an edge once for each element.
-  void set_sizes() {
-    sizes_.assign(mesh_.vertex_count(), 0);
-    std::vector<std::size_t> count(mesh_.vertex_count(), 0);
-    for (Tet t = 0; t < tets_.size(); ++t)
-      for (int k = 0; k < 6; ++k) {
-        const auto ends = ends_of_edge(mesh_.corners(t), k);
-        for (const Vertex v : ends) {
-          sizes_[v] += distance(mesh_.position(ends[0]), mesh_.position(ends[1]));
-          ++count[v];
-        }
-      }
-    for (Vertex v = 0; v < sizes_.size(); ++v)
-      if (count[v] > 0) sizes_[v] /= static_cast<double>(count[v]);
-  }
-
-  const Tangle& tangle_;
-  const std::uint64_t seed_;
-  TetMesh mesh_;
+  std::span<const Tet> tets_;  // of the tangle, which come first
   std::vector<TetMesh::Corners> corners_;
   std::vector<TetMesh::Neighbours> neighbours_;
-  std::vector<Vertex> of_tangle_, number_;  // in the mesh, by vertex of the tangle; and the other way
-  std::vector<Tet> slot_, tets_;            // the same of tetrahedra
-  std::vector<RegionId> region_of_;
-  std::vector<int> ids_;  // by region of the mesh
+};
+
+void mark_constraints(const Tangle& tangle, const std::vector<Vertex>& in_tangle, TetMesh& mesh) {
+  const Constraints& c = tangle.constraints();
+  std::vector<EdgeKey> edges;
+  for (const auto& [a, b] : c.segments) edges.push_back(edge_key(a, b));
+  for (const auto& f : c.faces)
+    for (std::size_t k = 0; k < 3; ++k) edges.push_back(edge_key(f[k], f[(k + 1) % 3]));
+  sort_unique(edges);
+  for (Tet t = 0; t < mesh.slot_count(); ++t) {
+    const auto vertex = [&](int i) {
+      return mesh.corner(t, i) == kGhost ? kNone : in_tangle[mesh.corner(t, i)];
+    };
+    Flags flags = 0;
+    for (int i = 0; i < 4; ++i) {
+      const auto& f = kFaceVertex[static_cast<std::size_t>(i)];
+      if (mesh.is_ghost(t) ? i == 3 : tangle.is_constraint({vertex(f[0]), vertex(f[1]), vertex(f[2])}))
+        flags = static_cast<Flags>(flags | facet_bit(i));
+    }
+    for (int k = 0; k < 6; ++k) {
+      const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
+      if (vertex(e[0]) != kNone && vertex(e[1]) != kNone &&
+          std::binary_search(edges.begin(), edges.end(), edge_key(vertex(e[0]), vertex(e[1]))))
+        flags = static_cast<Flags>(flags | segment_bit(k));
+    }
+    MeshEditor(mesh).mark_constraints(t, flags);
+  }
+  MeshEditor(mesh).finish();
+}
+
+// The mean length of the edges at each vertex, an edge once for each element.
+std::vector<double> sizes_at_vertices(const TetMesh& mesh, Tet tetrahedra) {
+  std::vector<double> sizes(mesh.vertex_count(), 0);
+  std::vector<std::size_t> count(mesh.vertex_count(), 0);
+  for (Tet t = 0; t < tetrahedra; ++t)
+    for (int k = 0; k < 6; ++k) {
+      const auto ends = ends_of_edge(mesh.corners(t), k);
+      for (const Vertex v : ends) {
+        sizes[v] += distance(mesh.position(ends[0]), mesh.position(ends[1]));
+        ++count[v];
+      }
+    }
+  for (Vertex v = 0; v < sizes.size(); ++v)
+    if (count[v] > 0) sizes[v] /= static_cast<double>(count[v]);
+  return sizes;
+}
+
+// A tangle as a mesh with a hull of ghosts, whose vertices that stand come first.
+class AsMesh {
+ public:
+  AsMesh(const Tangle& tangle, const exact::DoubleGrid& grid, std::uint64_t seed)
+      : tangle_(tangle), seed_(seed), number_(number_vertices(tangle)) {
+    MeshEditor(mesh_).set_grid(grid);
+    for (const Vertex v : number_.in_tangle) MeshEditor(mesh_).add_vertex(tangle.position(v));
+    const std::vector<Tet> tets = tetrahedra_of(tangle);
+    WithGhosts cells(tangle, tets, number_.in_mesh);
+    regions_ = regions_of(tangle, tets, cells.size());
+    kept_ = regions_.kept();
+    cells.move_to(mesh_);
+    mark_constraints(tangle, number_.in_tangle, mesh_);
+    sizes_ = sizes_at_vertices(mesh_, static_cast<Tet>(tets.size()));
+  }
+
+  [[nodiscard]] VolumeData data() {
+    return {mesh_, regions_.of, sizes_, kept_, number_.first_free, nullptr, nullptr, seed_, nullptr};
+  }
+
+  // New vertices of the mesh come after all of the tangle.
+  [[nodiscard]] Tangle tangle() {
+    std::vector<Vertex> number = number_.in_tangle;
+    std::vector<Point> points;
+    for (Vertex v = 0; v < tangle_.vertex_count(); ++v) points.push_back(tangle_.position(v));
+    for (Vertex v = static_cast<Vertex>(number.size()); v < mesh_.vertex_count(); ++v) {
+      number.push_back(static_cast<Vertex>(points.size()));
+      points.emplace_back();
+    }
+    for (Vertex v = number_.first_free; v < mesh_.vertex_count(); ++v)
+      if (mesh_.in_mesh(v)) points[number[v]] = mesh_.position(v);
+    std::vector<Tangle::Corners> tets;
+    std::vector<int> regions;
+    for (Tet t = 0; t < mesh_.slot_count(); ++t) {
+      if (!data().is_inside(t)) continue;
+      const TetMesh::Corners& c = mesh_.corners(t);
+      tets.push_back({number[c[0]], number[c[1]], number[c[2]], number[c[3]]});
+      regions.push_back(regions_.ids[regions_.of[t]]);
+    }
+    Constraints constraints = tangle_.constraints();
+    constraints.fixed.resize(points.size(), false);
+    return {points, std::move(tets), std::move(regions), std::move(constraints), mesh_.grid()};
+  }
+
+ private:
+  const Tangle& tangle_;
+  const std::uint64_t seed_;
+  const Numbering number_;
+  TetMesh mesh_;
+  Regions regions_;
   std::vector<bool> kept_;
   std::vector<double> sizes_;
-  Vertex first_free_ = 0;
 };
 
 }  // namespace

@@ -23,11 +23,11 @@ std::vector<Defect> Input::validate(Report::Input& counts) {
     if (std::vector<Defect> found = defects(); !found.empty()) return found;
   counts = all_counts;
   // Dangling facets enclose nothing wherever their vertices are; so say this before the long work.
-  const bool encloses = counts.dangling_facets < complex_.facets.size();
+  const bool encloses = counts.dangling_facets < complex().facets.size();
   const bool must_enclose = options_.keep != Keep::box && last >= Stage::classify;
   if (encloses || !must_enclose) return {};
   std::vector<Defect> found = defects();
-  if (found.empty()) found.push_back(encloses_nothing(complex_, table_, names_));
+  if (found.empty()) found.push_back(encloses_nothing(complex(), table_, names()));
   return found;
 }
 
@@ -46,8 +46,9 @@ Report::Input Input::list_elements_and_segments() {
     }
   });
   if (in_range && !elements_.places.all_distinct()) {
-    merge_vertices();
-    counts = describe_input(complex_, &table_);
+    distinct_.merge(given_, elements_.places);
+    table_ = segment_table(complex());
+    counts = describe_input(complex(), &table_);
   }
   count_places(counts);
   return counts;
@@ -60,27 +61,16 @@ void Input::count_places(Report::Input& counts) const {
   counts.vertices = given_.vertices.size() - places.merged - places.left_out;
 }
 
-void Input::merge_vertices() {
-  merged_ = merge(given_, elements_.places);
-  complex_.vertices = merged_.vertices;
-  complex_.facets = merged_.facets;
-  complex_.segments = merged_.segments;
-  complex_.vertex_markers = merged_.vertex_markers;
-  table_ = segment_table(complex_);
-  names_ = VertexNames(merged_.first);
-}
-
 // What stands in the Delaunay mesh fits together, as faces of one triangulation do. So the exact test is
 // left for what is missing there: of a fine surface, next to nothing.
 std::vector<Defect> Input::validate_missing(TetMesh& mesh, const Standing& standing) {
   if (std::exchange(elements_fit_, true)) return {};
-  const Standing fitting = with_other_diagonals(mesh, complex_, table_, standing);
-  const auto here = [&](Index given) { return merged_.index.empty() ? given : merged_.index[given]; };
+  const Standing fitting = with_other_diagonals(mesh, complex(), table_, standing);
   std::vector<std::uint8_t> fits(elements_.all.size());
   std::transform(elements_.all.begin(), elements_.all.end(), fits.begin(), [&](const Element& e) {
     if (e.corners == 3) return fitting.facets[e.id];
     return e.corners == 1 ? std::uint8_t{1}
-                          : fitting.segments[table_.find(here(e.vertex[0]), here(e.vertex[1]))];
+                          : fitting.segments[table_.find(distinct_(e.vertex[0]), distinct_(e.vertex[1]))];
   });
   if (!all_fit(given_, elements_, fits, poll(), threads_)) {
     std::vector<Defect> found = defects();
@@ -93,16 +83,15 @@ std::vector<Defect> Input::validate_missing(TetMesh& mesh, const Standing& stand
 
 Sizes Input::sizes() const {
   Sizes sizes = options_.sizes.value();
-  if (!merged_.index.empty() && !sizes.vertex_sizes.empty())
-    sizes.vertex_sizes = merged_sizes(merged_, sizes.vertex_sizes);
+  sizes.vertex_sizes = distinct_.sizes(sizes.vertex_sizes);
   return sizes;
 }
 
 double Input::target() {
   if (!target_) {
-    const int scale = choose_scale(complex_.vertices);  // measures over- and underflow
-    target_ = scale == 0 ? target_quality(complex_.vertices, complex_.facets, threads_)
-                         : target_quality(scaled(complex_.vertices, scale), complex_.facets, threads_);
+    const int scale = choose_scale(complex().vertices);  // measures over- and underflow
+    target_ = scale == 0 ? target_quality(complex().vertices, complex().facets, threads_)
+                         : target_quality(scaled(complex().vertices, scale), complex().facets, threads_);
   }
   return *target_;
 }

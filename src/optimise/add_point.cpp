@@ -62,7 +62,7 @@ bool PointAdder::improves(Vertex p) {
   TetMesh& mesh = volume_.mesh();
   star_.clear();
   star_.bound(frame_.is_plain() ? volume_.most() : kNoEnergy);
-  for (const PointCavity::Rim& rim : cavity_.rim())
+  for (const RimFace& rim : cavity_.rim())
     star_.add(frame_.to(mesh.position(rim.v[0])), frame_.to(mesh.position(rim.v[1])),
               frame_.to(mesh.position(rim.v[2])), 1);
   star_.start_at(frame_.to(mesh.position(p)));
@@ -73,24 +73,22 @@ bool PointAdder::improves(Vertex p) {
   if (!is_less(star_.energy(), before)) return false;
   MeshEditor(mesh).move_vertex(p, frame_.from(star_.at()));
   if (!frame_.is_plain() && !is_less(energy_of_ball(p), before)) return false;
-  return std::all_of(
-             cavity_.rim().begin(), cavity_.rim().end(),
-             [&](const PointCavity::Rim& rim) { return mesh.orient(rim.v[0], rim.v[1], rim.v[2], p) > 0; }) &&
+  return std::all_of(cavity_.rim().begin(), cavity_.rim().end(),
+                     [&](const RimFace& rim) { return mesh.orient(rim.v[0], rim.v[1], rim.v[2], p) > 0; }) &&
          is_allowed(p);
 }
 
 bool PointAdder::is_allowed(Vertex p) {
   if (!volume_.has_standard()) return true;
   std::vector<TetMesh::Corners> fresh;
-  for (const PointCavity::Rim& rim : cavity_.rim()) fresh.push_back({rim.v[0], rim.v[1], rim.v[2], p});
+  for (const RimFace& rim : cavity_.rim()) fresh.push_back({rim.v[0], rim.v[1], rim.v[2], p});
   return volume_.allows(cavity_.tets(), fresh);
 }
 
 // What the star, with one metric for all, has only nearly.
 double PointAdder::energy_of_ball(Vertex p) const {
   double sum = 0;
-  for (const PointCavity::Rim& rim : cavity_.rim())
-    sum += volume_.energy_of({rim.v[0], rim.v[1], rim.v[2], p});
+  for (const RimFace& rim : cavity_.rim()) sum += volume_.energy_of({rim.v[0], rim.v[1], rim.v[2], p});
   return sum;
 }
 

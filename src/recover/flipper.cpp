@@ -71,8 +71,7 @@ bool Flipper::stands(const Crossing& crossing) const {
 
 void Flipper::begin(int depth, std::size_t budget, int most_change) {
   if (levels_.size() <= static_cast<std::size_t>(depth)) levels_.resize(static_cast<std::size_t>(depth) + 1);
-  budget_ = budget;
-  work_before_ = all_work_;
+  work_.begin(budget);
   change_ = 0;
   most_change_ = most_change;
   tried_.forget();
@@ -86,7 +85,7 @@ bool Flipper::clear(const Crossing& crossing, int depth, std::size_t budget) {
   }
   if (flip_face(crossing)) return true;
   const std::size_t first = random_() % 3;
-  for (std::size_t k = first; k < first + 3 && change_ == 0 && !exhausted(); ++k) {
+  for (std::size_t k = first; k < first + 3 && change_ == 0 && !work_.exhausted(); ++k) {
     const Vertex a = crossing.corners[k % 3], b = crossing.corners[(k + 1) % 3];
     if (holds(crossing.tet, a, b)) remove_edge(crossing.tet, a, b, depth);
   }
@@ -107,7 +106,7 @@ bool Flipper::flip_face(const Crossing& face) {
   if (mesh_.is_facet(code) || mesh_.is_ghost(face.tet) || mesh_.is_ghost(tet_of(across))) return false;
   const Vertex e = mesh_.apex(across);
   const auto f = mesh_.face_vertices(code);
-  all_work_ += 3;
+  work_.add(3);
   for (std::size_t k = 0; k < 3; ++k)
     if (mesh_.orient(f[k], f[(k + 1) % 3], e, d) <= 0) return false;
   int change = target_.edge(mesh_, d, e) - target_.face(mesh_, f[0], f[1], f[2]);
@@ -157,15 +156,15 @@ void Flipper::list_ears(Level& level) {
 // An edge that the target crosses (nothing is avoided) is to lessen the crossings.
 bool Flipper::remove_now(const Level& level, Vertex avoided) {
   const EdgeShell& shell = level.shell;
-  all_work_ += shell.size();
+  work_.add(shell.size());
   // Every triangulation of a polygon has two ears (Meisters 1975).
   if (std::count_if(level.ears.begin(), level.ears.end(), [](const Ear& e) { return e.sees_both(); }) < 2) {
-    all_work_ += 2 * shell.size();
+    work_.add(2 * shell.size());
     return false;
   }
   ForTarget objective(mesh_, shell, level.ears, target_, avoided);
   const auto cost = triangulation_.find(shell.size(), objective);
-  all_work_ += 2 * objective.tests;
+  work_.add(2 * objective.tests);
   if (!cost || *cost % ForTarget::kWeight != 0) return false;
   const int change = *cost / ForTarget::kWeight - objective.cost_now();
   if (change_ + change > (avoided == kNone ? most_change_ : 0)) return false;
@@ -193,15 +192,17 @@ bool Flipper::clip_ears(EdgeShell& shell) {
 bool Flipper::clip_ear(EdgeShell& shell, std::size_t i) {
   const std::size_t n = shell.size(), last = (i + n - 1) % n, next = (i + 1) % n;
   const Vertex a = shell.a, b = shell.b, u = shell.link[last], p = shell.link[i], w = shell.link[next];
-  all_work_ += 3;
+  work_.add(3);
   if (mesh_.orient(u, p, w, b) <= 0 || mesh_.orient(w, p, u, a) <= 0 || mesh_.orient(a, b, u, w) <= 0)
     return false;
   int change = target_.edge(mesh_, u, w) - target_.face(mesh_, a, b, p);
   for (const Vertex v : {a, b, p}) change += target_.face(mesh_, v, u, w);
   if (change > 0) return false;
-  fresh_ = {{u, p, w, b}, {w, p, u, a}, {a, b, u, w}};
+  const std::array<TetMesh::Corners, 3> fresh{{{u, p, w, b}, {w, p, u, a}, {a, b, u, w}}};
   const std::array<Tet, 2> old_tets{shell.tets[last], shell.tets[i]};
-  apply(old_tets, change);
+  created_.clear();
+  MeshEditor(mesh_).replace({.old_tets = old_tets, .new_tets = fresh}, &created_);
+  note_flip(old_tets.size(), change);
   ++counts_.face_flips;
   shell.tets[last] = created_[2];
   shell.tets.erase(shell.tets.begin() + static_cast<std::ptrdiff_t>(i));
@@ -222,22 +223,16 @@ void Flipper::begin_spokes(Level& level) {
   }
   numbers::shuffle(spokes.begin(), spokes.end(), random_);
   std::stable_partition(spokes.begin(), spokes.end(), [](const BlockedSpoke& s) { return !s.blocked_twice; });
-  all_work_ += 2 * level.ears.size();
+  work_.add(2 * level.ears.size());
 }
 
 std::optional<ShellSpoke> Flipper::next_blocked(Level& level) {
-  if (level.next == level.spokes.size() || exhausted()) return std::nullopt;
+  if (level.next == level.spokes.size() || work_.exhausted()) return std::nullopt;
   return level.spokes[level.next++].spoke;
 }
 
-void Flipper::apply(std::span<const Tet> old_tets, int change) {
-  created_.clear();
-  MeshEditor(mesh_).replace({.old_tets = old_tets, .new_tets = fresh_}, &created_);
-  note_flip(old_tets.size(), change);
-}
-
 void Flipper::note_flip(std::size_t old_tets, int change) {
-  all_work_ += 8 * old_tets;
+  work_.add(8 * old_tets);
   tried_.forget();
   change_ += change;
 }

@@ -22,6 +22,22 @@ struct FlipCounts {
   [[nodiscard]] std::size_t all() const { return face_flips + edge_removals; }
 };
 
+/// The work of attempts, in sign tests, roughly, and the limit of the one that goes on.
+class FlipWork {
+ public:
+  void begin(std::size_t budget) {
+    budget_ = budget;
+    before_ = all_;
+  }
+  void add(std::size_t tests) { all_ += tests; }
+  [[nodiscard]] std::size_t of_attempt() const { return all_ - before_; }
+  [[nodiscard]] std::size_t all() const { return all_; }
+  [[nodiscard]] bool exhausted() const { return of_attempt() > budget_; }
+
+ private:
+  std::size_t budget_ = 0, all_ = 0, before_ = 0;
+};
+
 class Flipper {
  public:
   Flipper(TetMesh& mesh, Random& random) : mesh_(mesh), piercing_(mesh, random), random_(random) {}
@@ -43,9 +59,9 @@ class Flipper {
   bool remove(Tet t, Vertex a, Vertex b, int depth, std::size_t budget);
 
   /// Of the last call, in sign tests, roughly.
-  [[nodiscard]] std::size_t work() const { return all_work_ - work_before_; }
+  [[nodiscard]] std::size_t work() const { return work_.of_attempt(); }
   /// Of all calls.
-  [[nodiscard]] std::size_t all_work() const { return all_work_; }
+  [[nodiscard]] std::size_t all_work() const { return work_.all(); }
 
   /// Whether the tetrahedron of a crossing is still alive and holds it.
   [[nodiscard]] bool stands(const Crossing& crossing) const;
@@ -53,7 +69,6 @@ class Flipper {
 
  private:
   [[nodiscard]] bool holds(Tet t, Vertex a, Vertex b) const;
-  [[nodiscard]] bool exhausted() const { return work() > budget_; }
   // Whether the triangle at a corner of a shell's link sees the ends of the edge from the right side.
   struct Ear {
     bool sees_a, sees_b;
@@ -92,21 +107,19 @@ class Flipper {
   void list_ears(Level& level);
   bool clip_ears(EdgeShell& shell);
   bool clip_ear(EdgeShell& shell, std::size_t i);
-  void apply(std::span<const Tet> old_tets, int change);
   void note_flip(std::size_t old_tets, int change);
 
   TetMesh& mesh_;
   Piercing piercing_;
   Random& random_;
   Target target_ = Target::none();
-  std::size_t budget_ = 0, all_work_ = 0, work_before_ = 0;
+  FlipWork work_;
   int most_change_ = -1;  // of a flip that ends an attempt
   int change_ = 0;        // of the target's cost since `clear` began; never positive
   FlipCounts counts_;
   TriedEdges tried_;  // in this attempt, since the last flip
 
   std::vector<Level> levels_;  // by depth
-  std::vector<TetMesh::Corners> fresh_;
   LinkTriangulation<int> triangulation_;
   std::vector<LinkTriangle> triangles_;
   std::vector<Tet> created_;

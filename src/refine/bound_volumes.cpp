@@ -44,7 +44,7 @@ class Queue {
   std::priority_queue<Waiting> queue_;
 };
 
-using Rims = std::span<const PointCavity::Rim>;
+using Rims = std::span<const RimFace>;
 
 class VolumeBounder {
  public:
@@ -104,7 +104,7 @@ class VolumeBounder {
         x, t, alone, [&](std::span<const Tet> old, Rims rim, Vertex p) -> std::optional<double> {
           if (std::find(old.begin(), old.end(), t) == old.end()) return std::nullopt;
           double least = 1;
-          for (const PointCavity::Rim& face : rim) {
+          for (const RimFace& face : rim) {
             const TetMesh::Corners made{face.v[0], face.v[1], face.v[2], p};
             if (!(six_volumes(mesh_, made) <= limit)) return std::nullopt;
             least = std::min(least, fatness_of(mesh_.position(made[0]), mesh_.position(made[1]),
@@ -180,7 +180,7 @@ class RatioLowerer {
             if (ratio(mesh_.corners(gone)) > most_) ++bad;
             thinnest = std::min(thinnest, fatness(mesh_.corners(gone)));
           }
-          for (const PointCavity::Rim& face : rim) {
+          for (const RimFace& face : rim) {
             const TetMesh::Corners made{face.v[0], face.v[1], face.v[2], p};
             const bool is_bad = ratio(made) > most_;
             if ((is_bad && bad-- <= 1) || fatness(made) < thinnest || six_volumes(mesh_, made) > largest)

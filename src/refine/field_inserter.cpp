@@ -41,7 +41,7 @@ bool FieldInserter::fits(Vertex p, Tet start) {
 // Whether p is in the smallest ball round a face of an interface: then spheres beyond the face may hold it.
 bool FieldInserter::is_near_an_interface(Vertex p) const {
   return volume_.part != nullptr &&
-         std::any_of(cavity_.rim().begin(), cavity_.rim().end(), [&](const PointCavity::Rim& rim) {
+         std::any_of(cavity_.rim().begin(), cavity_.rim().end(), [&](const RimFace& rim) {
            if (!volume_.part->is_beyond_interface(tet_of(rim.outer))) return false;
            if (!volume_.part->is_beyond_cut(tet_of(rim.outer))) return true;
            const Point& a = mesh_.position(rim.v[0]);
@@ -101,7 +101,7 @@ double FieldInserter::want_metric(Vertex p, std::span<const Vertex> vertices) {
 // Where constraints cut the cavity, or the mesh is not Delaunay, a near vertex may stand just beyond it.
 bool FieldInserter::is_near_beyond(Vertex p) const {
   const double least = tuning::kNearest * wanted_;
-  for (const PointCavity::Rim& rim : cavity_.rim()) {
+  for (const RimFace& rim : cavity_.rim()) {
     const Vertex v = mesh_.apex(rim.outer);
     if ((rim.flags & facet_bit(3)) == 0 && v != kGhost &&
         distance(frame_.to(mesh_.position(v)), frame_.to(mesh_.position(p))) < least)
@@ -111,7 +111,7 @@ bool FieldInserter::is_near_beyond(Vertex p) const {
 }
 
 bool FieldInserter::is_near_a_facet(Vertex p) const {
-  for (const PointCavity::Rim& rim : cavity_.rim()) {
+  for (const RimFace& rim : cavity_.rim()) {
     if ((rim.flags & facet_bit(3)) == 0) continue;
     const Point a = frame_.to(mesh_.position(rim.v[0]));
     const Vector n = cross(frame_.to(mesh_.position(rim.v[1])) - a, frame_.to(mesh_.position(rim.v[2])) - a);

@@ -28,7 +28,7 @@ class FieldInserter {
   /// vertex or a facet. Returns the tetrahedra round it, none if it was not inserted.
   std::span<const Tet> insert(const Point& x, Tet start);
   /// The faces opposite the point inserted last.
-  [[nodiscard]] std::span<const PointCavity::Rim> rim() const { return cavity_.rim(); }
+  [[nodiscard]] std::span<const RimFace> rim() const { return cavity_.rim(); }
   /// Between vertices with thousands of neighbours each attempt looks at thousands of tetrahedra, and nearly
   /// all come to nothing. Elsewhere some ten tetrahedra are looked at in vain for each that is made.
   [[nodiscard]] bool has_wasted_enough() const {

@@ -279,7 +279,7 @@ class Front {
     for (const Tet t : created) state_[t] = 0;
     queue_large(created);
     // A neighbour may have come to be on the front.
-    for (const PointCavity::Rim& rim : inserter_.rim()) {
+    for (const RimFace& rim : inserter_.rim()) {
       const Tet n = tet_of(rim.outer);
       if ((state_[n] & kIsLarge) != 0 && (rim.flags & facet_bit(3)) == 0 && (state_[n] & kQueued) == 0)
         queue(n, state_[n]);

@@ -5,13 +5,6 @@
 #include "mesh/editor.h"
 
 namespace holdfast {
-namespace {
-
-// Side i < 3 of a face of the rim is its edge opposite corner i.
-constexpr std::array<std::array<std::size_t, 2>, 3> kSide{{{1, 2}, {2, 0}, {0, 1}}};
-
-}  // namespace
-
 bool PointCavity::find(Vertex p, Tet base, const Frame& frame, std::size_t most) {
   p_ = p;
   spread(base, frame, most);
@@ -32,7 +25,6 @@ bool PointCavity::find_among(Vertex p, Tet base, std::span<const Tet> tets) {
 
 // Takes out of the cavity what does not belong there.
 bool PointCavity::settle(Tet base) {
-  if (place_.size() < mesh_.vertex_count()) place_.resize(mesh_.vertex_count() + mesh_.vertex_count() / 2, 0);
   for (;;) {
     if (!shrink_until_seen(base)) {
       abandon();
@@ -41,7 +33,7 @@ bool PointCavity::settle(Tet base) {
     poll_if_large();
     list_rim();
     poll_if_large();
-    list_edges();
+    edges_.list(rim_, vertices_);
     poll_if_large();
     const Tet t = holder_of_lost_entity(base);
     if (t == kNone) break;
@@ -145,12 +137,12 @@ bool PointCavity::shrink_until_seen(Tet base) {
 }
 
 void PointCavity::list_rim() {
-  ring_.clear();
+  vertices_.clear(mesh_.vertex_count());
   rim_.resize(faces_.size());
   for (std::size_t k = 0; k < faces_.size(); ++k) {
     const Face f = faces_[k];
     const Flags old = mesh_.flags(tet_of(f));
-    Rim& rim = rim_[k];
+    RimFace& rim = rim_[k];
     rim.v = mesh_.face_vertices(f);
     rim.outer = mesh_.neighbour(f);
     unsigned flags = mesh_.is_facet(f) ? facet_bit(3) : 0u;
@@ -165,14 +157,7 @@ void PointCavity::list_rim() {
       if (bit(1, 2)) flags |= segment_bit(3);
     }
     rim.flags = static_cast<Flags>(flags);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vertex v = rim.v[i];
-      if (!on_ring(v)) {
-        place_[v] = static_cast<std::uint32_t>(ring_.size());
-        ring_.push_back(v);
-      }
-      rim.local[i] = place_[v];
-    }
+    for (std::size_t i = 0; i < 3; ++i) rim.local[i] = vertices_.add(rim.v[i]);
   }
 }
 
@@ -181,43 +166,17 @@ Tet PointCavity::holder_of_lost_entity(Tet base) const {
   Tet lost = kNone;
   for (const Tet t : tets_) {
     const auto& c = mesh_.corners(t);
-    bool holds = !(on_ring(c[0]) && on_ring(c[1]) && on_ring(c[2]) && on_ring(c[3]));
+    bool holds = !std::all_of(c.begin(), c.end(), [&](Vertex v) { return vertices_.has(v); });
     if ((mesh_.flags(t) & kSegmentBits) != 0)
       for (int k = 0; k < 6 && !holds; ++k) {
         const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
-        holds = mesh_.is_segment(t, k) && !on_rim(mesh_.corner(t, e[0]), mesh_.corner(t, e[1]));
+        holds = mesh_.is_segment(t, k) &&
+                !edges_.has(rim_, vertices_, mesh_.corner(t, e[0]), mesh_.corner(t, e[1]));
       }
     if (holds) lost = t;
     if (holds && t != base) return t;
   }
   return lost;
-}
-
-void PointCavity::list_edges() {
-  edges_.clear();
-  if (fits_table()) {
-    const std::size_t n = ring_.size();
-    if (table_.size() < n * n) table_.resize(n * n);
-    for (std::uint32_t k = 0; k < rim_.size(); ++k)
-      for (std::uint32_t i = 0; i < 3; ++i)
-        table_[rim_[k].local[kSide[i][0]] * n + rim_[k].local[kSide[i][1]]] =
-            face_code(k, static_cast<int>(i));
-    return;
-  }
-  for (const Rim& r : rim_)
-    for (std::size_t i = 0; i < 3; ++i) edges_.push_back(edge_key(r.v[i], r.v[(i + 1) % 3]));
-  std::sort(edges_.begin(), edges_.end());
-}
-
-// The rim is closed: it holds each of its edges both ways.
-bool PointCavity::on_rim(Vertex a, Vertex b) const {
-  if (!fits_table()) return std::binary_search(edges_.begin(), edges_.end(), edge_key(a, b));
-  if (!on_ring(a) || !on_ring(b)) return false;
-  const std::uint32_t entry = table_[place_[a] * ring_.size() + place_[b]];
-  const std::size_t k = entry >> 2;
-  if (k >= rim_.size() || (entry & 3u) == 3u) return false;
-  const auto& side = kSide[entry & 3u];
-  return rim_[k].v[side[0]] == a && rim_[k].v[side[1]] == b;
 }
 
 void PointCavity::abandon() {
@@ -230,38 +189,10 @@ void PointCavity::insert() {
     const auto& [v, local, outer, flags] = rim_[k];
     new_tets_[k] = {{v[0], v[1], v[2], p_}, {kNone, kNone, kNone, outer}, flags};
   }
-  if (fits_table())
-    link_by_table();
-  else
-    link_by_sorting();
+  edges_.link(rim_, vertices_, new_tets_);
   poll_if_large();
   created_.clear();
   MeshEditor(mesh_).apply({tets_, new_tets_, p_}, created_);
-}
-
-// Face i of a new tetrahedron, i < 3, lies at side i of its face of the rim; the neighbour has the same edge
-// reversed.
-void PointCavity::link_by_table() {
-  const std::size_t n = ring_.size();
-  for (std::size_t k = 0; k < rim_.size(); ++k)
-    for (std::size_t i = 0; i < 3; ++i)
-      new_tets_[k].neighbours[i] =
-          table_[rim_[k].local[kSide[i][1]] * n + rim_[k].local[kSide[i][0]]] | kNewFace;
-}
-
-void PointCavity::link_by_sorting() {
-  sides_.clear();
-  for (std::size_t k = 0; k < rim_.size(); ++k)
-    for (std::size_t i = 0; i < 3; ++i)
-      sides_.push_back({edge_key(rim_[k].local[(i + 1) % 3], rim_[k].local[(i + 2) % 3]), new_face(k, i)});
-  std::sort(sides_.begin(), sides_.end(), [](const Side& x, const Side& y) {
-    return x.edge != y.edge ? x.edge < y.edge : x.face < y.face;
-  });
-  for (std::size_t k = 0; k + 1 < sides_.size(); k += 2) {
-    const Face f = sides_[k].face, g = sides_[k + 1].face;
-    new_tets_[number_of_new(f)].neighbours[f & 3u] = g;
-    new_tets_[number_of_new(g)].neighbours[g & 3u] = f;
-  }
 }
 
 }  // namespace holdfast

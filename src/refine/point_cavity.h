@@ -18,10 +18,10 @@
 #include <vector>
 
 #include "mesh/change.h"
-#include "mesh/keys.h"
 #include "mesh/tet_mesh.h"
 #include "mesh/traverse.h"
 #include "metric/frame.h"
+#include "refine/rim.h"
 #include "refine/tuning.h"
 
 namespace holdfast {
@@ -44,16 +44,9 @@ class PointCavity {
   /// The same, but the cavity is made of these tetrahedra alone, as far as p sees their faces.
   [[nodiscard]] bool find_among(Vertex p, Tet base, std::span<const Tet> tets);
   /// The vertices that p would be joined to.
-  [[nodiscard]] std::span<const Vertex> ring() const { return ring_; }
+  [[nodiscard]] std::span<const Vertex> ring() const { return vertices_.all(); }
 
-  /// A face of the cavity's boundary; p sees it with orient(v0, v1, v2, p) > 0.
-  struct Rim {
-    std::array<Vertex, 3> v;
-    std::array<std::uint32_t, 3> local;  ///< positions in the ring
-    Face outer;                          ///< the same face from outside
-    Flags flags;                         ///< of the new tetrahedron (v0 v1 v2 p)
-  };
-  [[nodiscard]] std::span<const Rim> rim() const { return rim_; }
+  [[nodiscard]] std::span<const RimFace> rim() const { return rim_; }
   /// The tetrahedra that p would replace.
   [[nodiscard]] std::span<const Tet> tets() const { return tets_; }
 
@@ -79,34 +72,17 @@ class PointCavity {
   bool shrink_until_seen(Tet base);
   bool release(Tet t, Tet base);
   void list_rim();
-  void list_edges();
   [[nodiscard]] Tet holder_of_lost_entity(Tet base) const;
-  [[nodiscard]] bool on_ring(Vertex v) const { return place_[v] < ring_.size() && ring_[place_[v]] == v; }
-  [[nodiscard]] bool on_rim(Vertex a, Vertex b) const;
-  void link_by_table();
-  void link_by_sorting();
-
-  [[nodiscard]] bool fits_table() const { return ring_.size() <= tuning::kMostInTable; }
-
   TetMesh& mesh_;
   std::function<void()> poll_;
   Vertex p_ = kNone;
   std::vector<Tet> tets_;
   std::vector<Face> faces_;  // of the boundary, from inside
-  std::vector<Rim> rim_;
-  std::vector<Vertex> ring_;
-  std::vector<std::uint32_t> place_;  // by vertex: position in the ring, if the ring holds it there
-  std::vector<NewTet> new_tets_;      // the star of p: new_tets_[k] stands on rim_[k]
+  std::vector<RimFace> rim_;
+  RimVertices vertices_;          // of the rim
+  RimEdges edges_;                // of the rim
+  std::vector<NewTet> new_tets_;  // the star of p: new_tets_[k] stands on rim_[k]
   std::vector<Tet> created_;
-  // By the ring's two vertices of an edge of the rim: 4 * face of the rim + side. Entries of other cavities
-  // stay: who reads one compares.
-  std::vector<std::uint32_t> table_;
-  struct Side {
-    EdgeKey edge;
-    Face face;
-  };
-  std::vector<Side> sides_;     // where the ring is too large for the table
-  std::vector<EdgeKey> edges_;  // of the rim, sorted; likewise
   std::uint32_t random_;
   std::size_t work_ = 0;
 };

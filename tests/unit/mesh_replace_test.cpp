@@ -195,7 +195,7 @@ TEST(Replace, AStarAsAnyOtherCavity) {
       continue;
     }
     std::vector<TetMesh::Corners> star;
-    for (const PointCavity::Rim& rim : cavity.rim()) star.push_back({rim.v[0], rim.v[1], rim.v[2], p});
+    for (const RimFace& rim : cavity.rim()) star.push_back({rim.v[0], rim.v[1], rim.v[2], p});
     std::vector<Tet> created;
     MeshEditor(other).replace({.old_tets = cavity.tets(), .new_tets = star}, &created);
     cavity.insert();
