@@ -75,6 +75,9 @@ int main(int argc, char** argv) {
   std::thread watcher(watch, pthread_self(), std::cref(done));
   const holdfast::Result result = holdfast::mesh(surface.view(), options);
   const double rest = cpu_time(CLOCK_THREAD_CPUTIME_ID) - last_look;
+  if (rest > kLong)
+    gaps.push_back({rest, holdfast::Stage::optimise, 1,
+                    std::vector<void*>(frames.begin(), frames.begin() + frame_count)});
   done = true;
   watcher.join();
   std::printf("%zu tetrahedra, %.0f s of CPU, %zu gaps above %.0f ms; after the last look %.3f s\n",

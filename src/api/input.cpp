@@ -41,13 +41,13 @@ Report::Input Input::list_elements_and_segments() {
     if (task == 0) {
       elements_ = elements_of(given_, shared, same_place_);
     } else if (in_range = has_indices_in_range(given_); in_range) {
-      table_ = segment_table(given_);
+      table_ = segment_table(given_, threads_);
       counts = describe_input(given_, &table_);
     }
   });
   if (in_range && !elements_.places.all_distinct()) {
     distinct_.merge(given_, elements_.places);
-    table_ = segment_table(complex());
+    table_ = segment_table(complex(), threads_);
     counts = describe_input(complex(), &table_);
   }
   count_places(counts);

@@ -73,7 +73,7 @@ class Call {
     const bool has_all = options_.stop_after.value_or(Stage::optimise) == Stage::optimise;
     if (result_.outcome == Outcome::done && has_all) try_other_choices();
     if (result_.outcome == Outcome::done && options_.sizes && has_all && options_.keep != Keep::box)
-      mesh_remote_components(input_.complex(), with_sizes(input_.sizes()), mesh_complex, result_);
+      mesh_remote_components(input_.complex(), with_sizes(input_.sizes()), threads_, mesh_complex, result_);
     if (result_.outcome == Outcome::done && options_.sizes &&
         options_.stop_after.value_or(Stage::optimise) >= Stage::field_points)
       judge_bounds(options_, threads_, result_);

@@ -1,10 +1,13 @@
 #include "api/remote_components.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "api/report.h"
 #include "api/scale.h"
@@ -30,12 +33,9 @@ class RemoteComponents {
         volume_(result.volume),
         scale_(choose_scale(complex.vertices)) {}
 
-  void run(const Mesher& mesh) {
+  void run(const Threads& threads, const Mesher& mesh) {
     const std::vector<Point>& v = volume_.vertices;
-    if (std::none_of(volume_.tetrahedra.begin(), volume_.tetrahedra.end(), [&](const Tetrahedron& t) {
-          return is_remote(extent({v[t[0]], v[t[1]], v[t[2]], v[t[3]]}));
-        }))
-      return;
+    if (!has_remote_tetrahedra(threads)) return;
     find_components();
     if (components_.size() == 1) return;
     for (const std::vector<std::size_t>& tets : components_) {
@@ -49,7 +49,7 @@ class RemoteComponents {
 
  private:
   // Exponent of the largest side of the box round the points.
-  [[nodiscard]] static std::optional<std::int64_t> extent(const std::vector<Point>& points) {
+  [[nodiscard]] static std::optional<std::int64_t> extent(std::span<const Point> points) {
     double most = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const auto [low, high] = std::minmax_element(
@@ -60,6 +60,18 @@ class RemoteComponents {
   }
   [[nodiscard]] bool is_remote(const std::optional<std::int64_t>& extent) const {
     return extent && std::abs(*extent + scale_) > kReach;
+  }
+
+  [[nodiscard]] bool has_remote_tetrahedra(const Threads& threads) const {
+    std::atomic<bool> found = false;
+    parallel_ranges(threads, volume_.tetrahedra.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t t = first; t < last && !found; ++t) {
+        std::array<Point, 4> corners;
+        for (std::size_t i = 0; i < 4; ++i) corners[i] = volume_.vertices[volume_.tetrahedra[t][i]];
+        if (is_remote(extent(corners))) found = true;
+      }
+    });
+    return found;
   }
 
   void find_components() {
@@ -199,9 +211,9 @@ class RemoteComponents {
 
 }  // namespace
 
-void mesh_remote_components(const Complex& complex, const Options& options, const Mesher& mesh,
-                            Result& result) {
-  RemoteComponents(complex, options, result).run(mesh);
+void mesh_remote_components(const Complex& complex, const Options& options, const Threads& threads,
+                            const Mesher& mesh, Result& result) {
+  RemoteComponents(complex, options, result).run(threads, mesh);
 }
 
 }  // namespace holdfast

@@ -47,13 +47,24 @@ std::uint64_t key_of(const C& cell) {
   return std::uint64_t{corners_of(cell)[1]} << 32 | corners_of(cell)[2];
 }
 
+// A vertex of the box may be that of half of the cells.
 template <class C>
-void sort_cells(C* first, C* last) {
-  constexpr std::ptrdiff_t kMany = 32;
-  if (last - first > kMany) {
-    std::sort(first, last, [](const C& a, const C& b) { return key_of(a) < key_of(b); });
-    return;
+void sort_many_cells(C* first, C* last, const Threads& threads) {
+  constexpr std::ptrdiff_t kAtOnce = 1 << 15;  // some milliseconds' work
+  const auto less = [](const C& a, const C& b) { return key_of(a) < key_of(b); };
+  for (; last - first > kAtOnce; threads.poll()) {
+    C* const middle = first + (last - first) / 2;
+    std::nth_element(first, middle, last, less);
+    sort_many_cells(first, middle, threads);
+    first = middle;
   }
+  std::sort(first, last, less);
+}
+
+template <class C>
+void sort_cells(C* first, C* last, const Threads& threads) {
+  constexpr std::ptrdiff_t kMany = 32;
+  if (last - first > kMany) return sort_many_cells(first, last, threads);
   for (C* i = first + 1; i < last; ++i) {
     const C cell = *i;
     const std::uint64_t key = key_of(cell);
@@ -96,7 +107,7 @@ class Numbering {
           poll_at = place + kPollCells;
         }
         const std::size_t end = end_of_run(place, last);
-        sort_cells(&cells_[place], &cells_[end]);
+        sort_cells(&cells_[place], &cells_[end], threads_);
         for (; place < end; ++place) put(place, cells_[place]);
       }
     });
@@ -147,7 +158,8 @@ class Numbering {
   template <class NextPlace>
   void distribute(std::size_t first, std::size_t last, std::vector<C>& ghosts, const NextPlace& next_place) {
     constexpr std::size_t kBlock = (std::size_t{1} << 21) / sizeof(Cell);
-    constexpr std::size_t kPolled = 256;  // each of the first cells may be the first on its huge page
+    // Each of the first cells may be the first on its huge page, which the system empties.
+    constexpr std::size_t kFirstCells = std::size_t{1} << 16, kPolledFirst = 16, kPolled = 256;
     LargeArray<Cell>& cells = triangulation_.cells();
     const Vertex ghost = triangulation_.ghost();
     for (std::size_t t = first; t < last; ++t) {
@@ -158,7 +170,7 @@ class Numbering {
         set(ghosts.emplace_back(), cell, slot, 0);
       else
         set(cells_[next_place(cell.v[0])], cell, slot, turn_of(cell.v));
-      if ((t + 1 - first) % kPolled == 0) threads_.poll();
+      if ((t + 1 - first) % (t - first < kFirstCells ? kPolledFirst : kPolled) == 0) threads_.poll();
       if ((t + 1 - first) % kBlock == 0) give_back(&cells[t + 1 - kBlock], kBlock * sizeof(Cell));
     }
   }

@@ -24,6 +24,8 @@ class MeshAssembly : public MeshEditor {
   using MeshEditor::set_incident;
 
   // --- tetrahedra
+  /// Room for so many vertices and slots in all.
+  using MeshEditor::reserve;
   /// As load, but the neighbours need not be right yet.
   using MeshEditor::set_tets;
   /// Has no neighbours yet.

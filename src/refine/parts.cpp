@@ -12,6 +12,8 @@ namespace holdfast {
 namespace {
 
 constexpr Flags kConstraintBits = kFacetBits | kSegmentBits;
+constexpr std::size_t kSlotsAtOnce = std::size_t{1}
+                                     << 18;  // some milliseconds' work for the system: new pages
 
 }  // namespace
 
@@ -407,8 +409,13 @@ void Parts::join(const Threads& threads) {
     tet += static_cast<Tet>(joiner.new_tets());
     vertex += static_cast<Vertex>(joiner.new_vertices());
   }
-  MeshAssembly(whole_.mesh).add_slots(tet - whole_.mesh.slot_count());
+  MeshAssembly(whole_.mesh).reserve(vertex, tet);
   threads.poll();
+  for (std::size_t more = tet - whole_.mesh.slot_count(); more > 0; threads.poll()) {
+    const std::size_t some = std::min(more, kSlotsAtOnce);
+    MeshAssembly(whole_.mesh).add_slots(some);
+    more -= some;
+  }
   MeshAssembly(whole_.mesh).add_vertices(vertex - whole_.mesh.vertex_count());
   whole_.region_of.resize(whole_.mesh.slot_count(), kNone);
   whole_.sizes.resize(whole_.mesh.vertex_count(), 0);

@@ -11,6 +11,7 @@ namespace holdfast {
 namespace {
 
 constexpr Index kOwn = 3;
+constexpr std::size_t kPolledTurns = 1u << 14;  // a few milliseconds' work
 
 // A side of a facet, opposite a corner, or one of the complex's own segments, at its lesser end.
 struct Side {
@@ -42,12 +43,14 @@ struct SortedSides {
   std::vector<std::size_t> first;
   std::vector<Side> sides;
 
-  explicit SortedSides(const Complex& complex)
+  SortedSides(const Complex& complex, const Threads& polled)
       : first(complex.vertices.size() + 1, 0), sides(3 * complex.facets.size() + complex.segments.size()) {
     for_each_side(complex, [&](Index low, const Side&) { ++first[low]; });
     std::inclusive_scan(first.begin(), first.end(), first.begin());
+    polled.poll();
     for_each_side(complex, [&](Index low, const Side& side) { sides[--first[low]] = side; });
     for (std::size_t v = 0; v < complex.vertices.size(); ++v) {
+      if (v % kPolledTurns == 0) polled.poll();
       const auto at = [&](std::size_t k) { return sides.begin() + static_cast<std::ptrdiff_t>(first[k]); };
       std::sort(at(v), at(v + 1));
     }
@@ -107,9 +110,10 @@ bool has_indices_in_range(const Complex& complex) {
          std::all_of(complex.segments.begin(), complex.segments.end(), are_in_range);
 }
 
-SegmentTable segment_table(const Complex& complex) {
-  const SortedSides sorted(complex);
+SegmentTable segment_table(const Complex& complex, const Threads& polled) {
+  const SortedSides sorted(complex, polled);
   const std::size_t count = sorted.segment_count();
+  polled.poll();
   SegmentTable table;
   table.segments.reserve(count);
   table.first_facet.reserve(count + 1);
@@ -118,6 +122,7 @@ SegmentTable segment_table(const Complex& complex) {
   table.facets.reserve(3 * complex.facets.size());
   table.facet_segments.resize(complex.facets.size());
   for (Index low = 0; low < complex.vertices.size(); ++low) {
+    if (low % kPolledTurns == 0) polled.poll();
     table.first_of_vertex.push_back(static_cast<Index>(table.segments.size()));
     for (std::size_t k = sorted.first[low]; k < sorted.first[low + std::size_t{1}]; ++k) {
       const Side& side = sorted.sides[k];

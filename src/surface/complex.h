@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "holdfast/types.h"
+#include "mesh/parallel.h"
 
 namespace holdfast {
 
@@ -47,8 +48,8 @@ struct SegmentTable {
 /// Builds the table in O(vertices + facets + segments), but for sorting the segments at each vertex.
 ///
 /// Every index must be in range. Facets and segments that name a vertex twice give segments with
-/// equal ends (callers refuse those before: see surface/diagnose.h).
-[[nodiscard]] SegmentTable segment_table(const Complex& complex);
+/// equal ends (callers refuse those before: see surface/diagnose.h). One thread does it, and polls.
+[[nodiscard]] SegmentTable segment_table(const Complex& complex, const Threads& polled = {});
 
 /// For each facet whether it goes when facets with a side that no other has are taken away until there is
 /// none.
