@@ -14,7 +14,7 @@ CAPTIONS = {
     1: ("Polygons that are convex, not convex, and with holes", plane_pictures.figure_1, "svg",
         "`holdfast plane --method ears`. Links join the parts of an outline (§2.1.3), before ears are cut off."),
     2: ("Swaps until a missing edge stands", plane_pictures.figure_2, "svg",
-        "`--method swaps`: what `--stop-after delaunay` writes, and the end. The states between two swaps are not written."),
+        "`--method swaps`: what `--stop-after delaunay`, `--stop-after swap=K` and the whole run write."),
     3: ("Points where a missing edge crosses the mesh", plane_pictures.figure_3, "svg",
         "`--method partition`: `--stop-after delaunay`, `--stop-after partition`, and the end. The paper's third drawing stops after the first point; ours has all of them."),
     4: ("The worst case in the plane", plane_pictures.figure_4, "svg",

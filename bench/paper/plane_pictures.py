@@ -53,7 +53,8 @@ def stages(options, folder, given, method, words):
 
 def figure_2(options, folder, path):
     panels, told = stages(options, folder, strip(7), "swaps",
-                          (("delaunay", "Delaunay: {missing_segments} segment missing"), (None, "after {swaps} swaps it stands")))
+                          (("delaunay", "Delaunay: {missing_segments} segment missing"), *((f"swap={k}", "after {swaps} swap" + "s" * (k > 1)) for k in (1, 5, 15)),
+                           (None, "after {swaps} swaps it stands")))
     svg.write(path, panels)
     return told["done"]
 

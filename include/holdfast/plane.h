@@ -22,7 +22,8 @@ using PlanePoint = std::array<double, 2>;
 /// and points on none.
 ///
 /// Valid are finite coordinates, no two points at one place, and segments with two different ends that meet
-/// each other and the points in common ends alone. Markers are as many as their entities, or none.
+/// each other, the points, holes and seeds in common ends alone. Markers are as many as their entities, or
+/// none.
 struct Plane {
   std::vector<PlanePoint> points;
   std::vector<Segment> segments;
@@ -61,8 +62,9 @@ inline constexpr std::array plane_ears{PlaneEars::first, PlaneEars::best, PlaneE
 enum class PlaneStage {
   delaunay,   ///< swaps and partition: the Delaunay triangles of all points
   partition,  ///< partition: every segment stands, in pieces, and all added points are there
+  swap,       ///< swaps: after some number of them
 };
-inline constexpr std::array plane_stages{PlaneStage::delaunay, PlaneStage::partition};
+inline constexpr std::array plane_stages{PlaneStage::delaunay, PlaneStage::partition, PlaneStage::swap};
 [[nodiscard]] HOLDFAST_API const char* name(PlaneStage stage);
 
 struct PlaneOptions : Limits {
@@ -87,8 +89,10 @@ struct PlaneOptions : Limits {
   /// Most points that refinement adds; it stops there and says so in the report.
   std::size_t max_points = 10'000'000;
   std::optional<PlaneStage> stop_after;
-  LayingOrder order = LayingOrder::given;  ///< of missing segments, for swaps and partition
-  std::uint64_t seed = 1;                  ///< of the random orders
+  std::size_t stop_after_swaps = 0;  ///< for PlaneStage::swap: how many of them
+  /// Of missing segments, for swaps and partition; unless given, such that each is near the one before.
+  std::optional<LayingOrder> order;
+  std::uint64_t seed = 1;  ///< of the random orders
   ProgressFunction progress = {};
 };
 
@@ -138,7 +142,7 @@ struct PlaneResult {
 /// Triangulates every region that segments separate from the outside, but for those of holes, keeping each
 /// segment in them. Points are added by refinement alone: those on a segment cut it into pieces, which have
 /// its marker, and are rounded to doubles. Throws std::invalid_argument for markers of a wrong number, for
-/// holes and seeds that are not finite or on a segment, for a stage that the method does not have, and for a
+/// holes and seeds that are not finite, for a stage that the method does not have, and for a
 /// size or angle (0 to 34 degrees) out of range, or refinement after a stage; std::length_error beyond 2^28
 /// points.
 [[nodiscard]] HOLDFAST_API PlaneResult triangulate(const Plane& plane, const PlaneOptions& options = {});

@@ -158,7 +158,8 @@ def plane(
     stop_after
         "delaunay" or "partition": give what stands after this stage, with the report's "intermediate".
     order
-        Which missing segment is laid next, for "swaps" and "partition": "given", "random" or "halving".
+        Which missing segment is laid next, for "swaps" and "partition": "given", "random" or "halving"; else one near the
+        last.
     tolerance
         How far points in space may be from their mean plane; rounding is allowed always.
     seed

@@ -29,8 +29,8 @@ struct PlaneRun {
 
 using Seeds = std::vector<std::tuple<double, double, int, double>>;
 
-template <typename Enum, std::size_t N>
-void take_named(const py::dict& options, const char* option, const std::array<Enum, N>& values, Enum& to) {
+template <typename Enum, std::size_t N, typename To>
+void take_named(const py::dict& options, const char* option, const std::array<Enum, N>& values, To& to) {
   if (!options.contains(option) || options[option].is_none()) return;
   const auto text = py::cast<std::string>(options[option]);
   std::string known;

@@ -139,7 +139,7 @@ def test_what_is_invalid(points, segments, kind, which):
     (ValueError, "no file", {"format": ".poly"}),
     (ValueError, "2 numbers", {"holes": [(1, 2, 3)]}),
     (ValueError, "hole 1 is not finite", {"holes": [(1, np.nan)]}),
-    (ValueError, "lies on a segment", {"holes": [(1, 0)]}),
+    (holdfast.InvalidSurface, "hole 0 .* lies on segment 0", {"holes": [(1, 0)]}),
     (ValueError, "region is given", {"regions": [(1, 1)]}),
     (ValueError, "markers", {"segment_markers": [1]}),
     (TypeError, "integers", {"segment_markers": ["a"] * 8}),

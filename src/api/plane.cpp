@@ -106,6 +106,8 @@ const char* name(PlaneStage stage) {
   switch (stage) {
     case PlaneStage::delaunay:
       return "delaunay";
+    case PlaneStage::swap:
+      return "swap";
     case PlaneStage::partition:
       return "partition";
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -63,13 +64,27 @@ void set_refinement(const PlaneArguments& arguments, PlaneOptions& options) {
     throw UsageError(fmt::format("--stop-after {}: --size and --angle come after it", arguments.stop_after));
 }
 
+/// delaunay, partition, or swap=K: after K swaps.
+void set_stage(const std::string& text, PlaneOptions& options) {
+  const std::string stage = text.substr(0, text.find('='));
+  options.stop_after = named("--stop-after", stage, plane_stages);
+  if (options.stop_after != PlaneStage::swap && stage == text) return;
+  const char* const first = text.data() + std::min(text.size(), stage.size() + 1);
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(first, last, options.stop_after_swaps);
+  if (options.stop_after != PlaneStage::swap || first == last || end != last || error != std::errc())
+    throw UsageError(
+        fmt::format("--stop-after {}: the stages are delaunay, partition and swap=K, after K swaps", text));
+}
+
 PlaneOptions to_options(const PlaneArguments& arguments) {
   PlaneOptions options;
   static_cast<Limits&>(options) = limits_of(arguments.limits);
   options.method = named("--method", arguments.method, plane_methods);
   if (!arguments.stop_after.empty()) {
-    options.stop_after = named("--stop-after", arguments.stop_after, plane_stages);
+    set_stage(arguments.stop_after, options);
     if (options.method == PlaneMethod::ears ||
+        (options.stop_after == PlaneStage::swap && options.method != PlaneMethod::swaps) ||
         (options.stop_after == PlaneStage::partition && options.method != PlaneMethod::partition))
       throw UsageError(fmt::format("--stop-after {}: the method {} has no such stage", arguments.stop_after,
                                    arguments.method));
@@ -110,7 +125,7 @@ Json report_of(const PlaneArguments& arguments, const PlaneResult& result) {
                            {"keep_boundary", arguments.keep_boundary},
                            {"max_points", arguments.max_points},
                            {"stop_after", arguments.stop_after},
-                           {"order", arguments.order.empty() ? name(LayingOrder::given) : arguments.order},
+                           {"order", arguments.order},
                            {"seed", arguments.seed},
                            {"time_limit", arguments.limits.time_limit.value_or(0)},
                            {"memory_limit", arguments.limits.memory_limit.value_or(0)}},
@@ -219,13 +234,13 @@ void add_method(CLI::App& command, PlaneArguments& arguments) {
                    "Keep all within the convex hull, not what segments enclose alone");
   command
       .add_option("--stop-after", arguments.stop_after,
-                  "Write what stands after delaunay (swaps, partition) or partition")
+                  "Write what stands after delaunay (swaps, partition), partition, or swap=K: after K swaps")
       ->option_text("STAGE");
   command
-      .add_option(
-          "--order", arguments.order,
-          "Which missing segment is laid next: given (default), random, or halving: the middle one, then "
-          "those in the middle of both halves")
+      .add_option("--order", arguments.order,
+                  "Which missing segment is laid next: given, as in the file, random, or halving: the middle "
+                  "one, then "
+                  "those in the middle of both halves (default: one near the last)")
       ->option_text("ORDER");
   command.add_option("--seed", arguments.seed, "Seed of the random orders (default 1)")->option_text("N");
 }

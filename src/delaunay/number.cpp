@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "delaunay/large_array.h"
+#include "mesh/large_array.h"
 #include "mesh/parallel.h"
 
 namespace holdfast {

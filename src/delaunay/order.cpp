@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "delaunay/large_array.h"
+#include "mesh/large_array.h"
 #include "mesh/parallel.h"
 
 namespace holdfast {

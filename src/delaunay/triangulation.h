@@ -29,7 +29,7 @@
 #include <vector>
 
 #include "delaunay/cell.h"
-#include "delaunay/large_array.h"
+#include "mesh/large_array.h"
 #include "delaunay/order.h"
 #include "holdfast/types.h"
 #include "mesh/anatomy.h"

@@ -1,11 +1,17 @@
 // Points and segments in the plane: .poly and .node of two dimensions (Shewchuk, Triangle,
 // https://www.cs.cmu.edu/~quake/triangle.poly.html).
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
 #include "holdfast/plane.h"
 #include "io/file_bytes.h"
 #include "io/plane_files.h"
 #include "io/tetgen.h"
 #include "io/text_reader.h"
 #include "numbers/float_environment.h"
+#include "text/decimal.h"
 
 namespace holdfast {
 namespace io {
@@ -52,6 +58,14 @@ class PlaneReader {
   static PlanePoint point(TextReader& text) {
     const double x = text.real("a coordinate");
     return {x, text.real("a coordinate")};
+  }
+
+  /// Of a hole or region.
+  PlanePoint finite_point(const char* what) {
+    const PlanePoint p = point(text_);
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]))
+      text_.fail(std::string(what) + " is not at a finite place");
+    return p;
   }
 
   void read_nodes(TextReader& text) {
@@ -111,7 +125,7 @@ class PlaneReader {
     text_.skip_line();
     for (std::size_t i = 0; i < count; ++i) {
       static_cast<void>(text_.integer("the hole's number"));
-      plane_.holes.push_back(point(text_));
+      plane_.holes.push_back(finite_point("a hole"));
       text_.skip_line();
     }
   }
@@ -120,13 +134,43 @@ class PlaneReader {
     if (text_.at_end()) return;
     const std::size_t count = text_.count("the number of regions", 8);
     text_.skip_line();
+    std::vector<double> attributes;
     for (std::size_t i = 0; i < count; ++i) {
       static_cast<void>(text_.integer("the region's number"));
-      Plane::Seed seed{point(text_), 0};
-      seed.id = text_.tag_from_real("a region's attribute");
+      Plane::Seed seed{finite_point("a region"), 0};
+      attributes.push_back(text_.real("a region's attribute"));
       if (!text_.at_line_end()) seed.area = std::max(0.0, text_.real("a region's largest area"));
       plane_.regions.push_back(seed);
       text_.skip_line();
+    }
+    name_regions(attributes);
+  }
+
+  /// Regions have whole numbers here; attributes that are none get those from 1 on that no other has.
+  void name_regions(const std::vector<double>& attributes) {
+    const auto whole = [](double a) {
+      return a == std::rint(a) && std::abs(a) <= std::numeric_limits<int>::max();
+    };
+    std::set<int> taken;
+    for (const double a : attributes)
+      if (whole(a)) taken.insert(static_cast<int>(a));
+    std::map<double, int> named;
+    int next = 1;
+    for (std::size_t i = 0; i < attributes.size(); ++i) {
+      const double a = attributes[i];
+      if (whole(a)) {
+        plane_.regions[i].id = static_cast<int>(a);
+        continue;
+      }
+      const auto [found, fresh] = named.try_emplace(a, 0);
+      if (fresh) {
+        while (taken.contains(next)) ++next;
+        found->second = next++;
+        plane_.remarks.push_back({RemarkKind::renumbered, 1,
+                                  "the attribute " + decimal(a) + " of regions is no whole number; it is " +
+                                      std::to_string(found->second) + " in the output"});
+      }
+      plane_.regions[i].id = found->second;
     }
   }
 

@@ -83,7 +83,9 @@ class Diagnosis {
     find_not_finite();
     find_repeated_points();
     find_flawed_segments();
-    find_pairs();
+    const BoxTree tree = tree_of_segments();
+    find_pairs(tree);
+    find_places_on_segments(tree);
     return std::move(defects_);
   }
 
@@ -161,10 +163,13 @@ class Diagnosis {
     return {{std::min(a[0], b[0]), std::min(a[1], b[1])}, {std::max(a[0], b[0]), std::max(a[1], b[1])}};
   }
 
-  void find_pairs() {
+  [[nodiscard]] BoxTree tree_of_segments() const {
     std::vector<Box> boxes;
     for (const Index s : sound_) boxes.push_back(box_of(s));
-    const BoxTree tree(std::move(boxes));
+    return BoxTree(std::move(boxes));
+  }
+
+  void find_pairs(const BoxTree& tree) {
     const double all = static_cast<double>(sound_.size() + plane_.points.size());
     for (Index v = 0; v < plane_.points.size(); ++v) {
       if (v % 1024 == 0 && poll_) poll_(static_cast<double>(v) / all);
@@ -180,6 +185,31 @@ class Diagnosis {
       std::sort(others.begin(), others.end());
       for (const Index other : others) judge_pair(sound_[i], other);
     }
+  }
+
+  // Holes and seeds of regions, which lie in no region there.
+  void find_places_on_segments(const BoxTree& tree) {
+    for (std::size_t i = 0; i < plane_.holes.size(); ++i)
+      judge_place(tree, plane_.holes[i], "hole " + number(i), "that it shall empty");
+    for (std::size_t i = 0; i < plane_.regions.size(); ++i)
+      judge_place(tree, plane_.regions[i].where, "the point of region " + number(i), "that it is of");
+  }
+
+  void judge_place(const BoxTree& tree, const PlanePoint& p, const std::string& what, const char* purpose) {
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1])) return;
+    const Vertex v = points_.add(p);
+    std::optional<Index> on;
+    tree.meet({p, p}, [&](Index i) {
+      const auto [a, b] = plane_.segments[sound_[i]];
+      const bool holds =
+          points_.orient(a, b, v) == 0 &&
+          (points_.between(a, b, v) || points_.compare(a, v) == 0 || points_.compare(b, v) == 0);
+      if (holds && (!on || sound_[i] < *on)) on = sound_[i];
+    });
+    points_.shrink(plane_.points.size());
+    if (!on) return;
+    add(DefectKind::vertex_in_segment, {}, {*on}, {p},
+        what + " " + place(p) + " lies on " + segment_text(*on) + ": move it into the region " + purpose);
   }
 
   void judge_point(Index v, Index s) {

@@ -8,7 +8,7 @@ namespace holdfast::plane {
 
 void Inserter::begin(Vertex a, Vertex b, Vertex c) {
   if (points_.orient(a, b, c) < 0) std::swap(b, c);
-  std::vector<Corners>& all = mesh_.all();
+  LargeVector<Corners>& all = mesh_.all();
   all.clear();
   all.push_back({{a, b, c}, {}});
   all.push_back({{kNoVertex, c, b}, {}});
@@ -88,7 +88,7 @@ void Inserter::find_cavity(std::uint32_t first, Vertex p) {
 
 /// Joins p to every side of the border; there are two more triangles than before.
 void Inserter::fill_cavity(Vertex p) {
-  std::vector<Corners>& all = mesh_.all();
+  LargeVector<Corners>& all = mesh_.all();
   while (cavity_.size() < border_.size()) {
     cavity_.push_back(static_cast<std::uint32_t>(all.size()));
     all.emplace_back();

@@ -144,6 +144,9 @@ class Together {
       case DefectKind::segments_overlap:
         return "the sides " + sides + " overlap" + place + counted + ": split the longer one, or remove one";
       case DefectKind::vertex_in_segment:
+        if (defect.vertices.empty())
+          return "a hole" + place + " lies on the side " + sides + counted +
+                 ": move it into the region to empty";
         return "point " + std::to_string(vertices[0]) + place + " lies inside the side " + sides + counted +
                ": split the side at this point";
       case DefectKind::repeated_vertex:

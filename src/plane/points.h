@@ -6,10 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <vector>
 
 #include "exact/incircle.h"
 #include "exact/rational_point.h"
+#include "mesh/large_array.h"
 
 namespace holdfast::plane {
 
@@ -17,15 +19,17 @@ using Vertex = std::uint32_t;
 inline constexpr Vertex kNoVertex = ~Vertex{0};
 /// The doubles of a point, or those nearest to an exact one.
 using Position = std::array<double, 2>;
+using Positions = LargeVector<Position>;
 
 class Points {
  public:
   Points() = default;
-  explicit Points(std::vector<Position> positions) : positions_(std::move(positions)) {}
+  explicit Points(std::span<const Position> positions) : positions_(positions.begin(), positions.end()) {}
+  explicit Points(Positions&& positions) : positions_(std::move(positions)) {}
 
   [[nodiscard]] std::size_t size() const { return positions_.size(); }
   [[nodiscard]] const Position& operator[](Vertex v) const { return positions_[v]; }
-  [[nodiscard]] const std::vector<Position>& positions() const { return positions_; }
+  [[nodiscard]] const Positions& positions() const { return positions_; }
 
   [[nodiscard]] bool all_explicit() const { return exact_.empty(); }
   /// Asks for its position, which will be needed soon.
@@ -80,7 +84,7 @@ class Points {
   [[nodiscard]] int mixed_incircle(Vertex a, Vertex b, Vertex c, Vertex d) const;
   [[nodiscard]] int mixed_compare(Vertex a, Vertex b) const;
 
-  std::vector<Position> positions_;
+  Positions positions_;
   // Of exact points, by vertex; null for explicit ones, and too short where none follows.
   std::vector<const exact::RationalPoint*> exact_;
   std::deque<exact::RationalPoint> store_;  // which keeps its addresses

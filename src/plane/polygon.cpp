@@ -20,7 +20,7 @@ struct Sorted {
   explicit Sorted(const std::vector<Position>& given) : order(given.size()), number(given.size()) {
     std::iota(order.begin(), order.end(), Vertex{0});
     std::sort(order.begin(), order.end(), [&](Vertex v, Vertex w) { return given[v] < given[w]; });
-    std::vector<Position> positions(given.size());
+    Positions positions(given.size());
     for (Vertex i = 0; i < order.size(); ++i) {
       positions[i] = given[order[i]];
       number[order[i]] = i;

@@ -1,14 +1,14 @@
 // The regions that constraints separate from each other and from the outside.
 #include "plane/regions.h"
 
-#include <algorithm>
+#include "plane/point_tree.h"
 
 namespace holdfast::plane {
 namespace {
 
 /// Breadth first, so that the triangles of the queue can be fetched ahead.
 void flood(const Triangles& mesh, std::uint32_t first, std::uint32_t region,
-           std::vector<std::uint32_t>& of_triangle, std::vector<std::uint32_t>& queue) {
+           LargeVector<std::uint32_t>& of_triangle, std::vector<std::uint32_t>& queue) {
   queue.assign(1, first);
   of_triangle[first] = region;
   for (std::size_t next = 0; next < queue.size(); ++next) {
@@ -43,33 +43,23 @@ std::vector<Found> find_triangles(const Triangles& mesh, Points& points, std::sp
   std::vector<Found> found(places.size());
   if (places.empty()) return found;
   const std::size_t before = points.size();
-  // By x, so that each triangle looks at those within its own extent alone.
-  std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    points.add(places[i]);
-    order.emplace_back(places[i][0], i);
-  }
-  std::sort(order.begin(), order.end());
+  std::vector<Vertex> vertices;
+  for (const Position& p : places) vertices.push_back(points.add(p));
+  const PointTree tree(points, vertices);
   for (std::uint32_t t = 0; t < mesh.size(); ++t) {
     if (mesh.is_ghost(t)) continue;
     const std::array<Vertex, 3>& v = mesh[t].v;
-    const Position &a = points[v[0]], &b = points[v[1]], &c = points[v[2]];
-    const double low = std::min({a[0], b[0], c[0]}), high = std::max({a[0], b[0], c[0]});
-    auto it = std::lower_bound(order.begin(), order.end(), std::pair(low, std::size_t{0}));
-    for (; it != order.end() && it->first <= high; ++it) {
-      const double y = places[it->second][1];
-      if (y < std::min({a[1], b[1], c[1]}) || y > std::max({a[1], b[1], c[1]})) continue;
-      const auto p = static_cast<Vertex>(before + it->second);
+    tree.each_near(v[0], v[1], v[2], [&](std::uint32_t item) {
       std::array<int, 3> side{};
-      for (std::uint32_t i = 0; i < 3; ++i) side[i] = points.orient(v[(i + 1) % 3], v[(i + 2) % 3], p);
-      if (side[0] < 0 || side[1] < 0 || side[2] < 0) continue;
-      Found& result = found[it->second];
+      for (std::uint32_t i = 0; i < 3; ++i)
+        side[i] = points.orient(v[(i + 1) % 3], v[(i + 2) % 3], vertices[item]);
+      if (side[0] < 0 || side[1] < 0 || side[2] < 0) return true;
+      Found& result = found[item];
       result.triangle = t;
-      for (std::uint32_t i = 0; i < 3; ++i) {
-        if (side[i] != 0) continue;
-        result.on_constraint |= (mesh[t].constrained >> i & 1) != 0;
-      }
-    }
+      for (std::uint32_t i = 0; i < 3; ++i)
+        if (side[i] == 0) result.on_constraint |= (mesh[t].constrained >> i & 1) != 0;
+      return true;
+    });
   }
   points.shrink(before);
   return found;

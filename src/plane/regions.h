@@ -13,7 +13,7 @@ inline constexpr std::uint32_t kOutside = 0;
 /// The region of each triangle: kOutside for what no constraints separate from the outside (ghosts, or
 /// borders that are none), then numbers from 1 as their first triangles come.
 struct Regions {
-  std::vector<std::uint32_t> of_triangle;
+  LargeVector<std::uint32_t> of_triangle;
   std::uint32_t count = 0;
 };
 [[nodiscard]] Regions find_regions(const Triangles& mesh);

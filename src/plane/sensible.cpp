@@ -41,7 +41,9 @@ void require_sensible(const Plane& plane, const PlaneOptions& options) {
       throw std::invalid_argument("region " + std::to_string(i + 1) + " is not finite");
   if (options.stop_after == PlaneStage::partition && options.method != PlaneMethod::partition)
     throw std::invalid_argument("only the method partition has the stage partition");
-  if (options.order != LayingOrder::given && options.method == PlaneMethod::ears)
+  if (options.stop_after == PlaneStage::swap && options.method != PlaneMethod::swaps)
+    throw std::invalid_argument("only the method swaps has the stage swap");
+  if (options.order && options.method == PlaneMethod::ears)
     throw std::invalid_argument("the method ears lays no segments one by one");
   require_sensible_refinement(options);
 }

@@ -12,7 +12,7 @@ namespace holdfast::plane {
 /// Coordinates times a power of two, so that the largest is about 1.
 class Scale {
  public:
-  explicit Scale(const std::vector<Position>& points) {
+  explicit Scale(std::span<const Position> points) {
     double most = 0;
     for (const Position& p : points) most = std::max({most, std::abs(p[0]), std::abs(p[1])});
     exponent_ = most > 0 ? std::ilogb(most) : 0;
@@ -70,16 +70,15 @@ struct Shape {
 /// The least angle of triangles.
 class LeastAngle {
  public:
-  explicit LeastAngle(const std::vector<Position>& points) : scale_(points) {}
+  explicit LeastAngle(std::span<const Position> points) : scale_(points) {}
 
   void take(const Position& a, const Position& b, const Position& c) {
     const Position p = scale_.down(a), q = scale_.down(b), r = scale_.down(c);
     const double pq = squared(p, q), qr = squared(q, r), rp = squared(r, p);
     // Roots and quotients only for triangles that may have the least: its shortest edge has the largest
-    // cosine, n / (2 sqrt(product)).
-    const double shortest = std::min({pq, qr, rp}), n = pq + qr + rp - 2 * shortest;
-    const double product = shortest == pq ? qr * rp : shortest == qr ? rp * pq : pq * qr;
-    if (n * n < bound_ * product) return;
+    // cosine, n / (2 sqrt(product of the others)). Far above what underflows.
+    const double shortest = std::min(std::min(pq, qr), rp), n = pq + qr + rp - 2 * shortest;
+    if (n * n * shortest + 0x1p-900 < bound_ * (pq * qr * rp)) return;
     const double cosine = Shape(p, q, r).cosine;
     cosine_ = std::max(cosine_, std::isnan(cosine) ? 1 : cosine);
     bound_ = cosine_ > 0 ? 4 * (1 - 1e-12) * cosine_ * cosine_ : 0;

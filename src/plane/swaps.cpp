@@ -6,7 +6,7 @@ namespace holdfast::plane {
 /// Some edge can be swapped as long as one is crossed, and a sequence of swaps that never increases their
 /// number ends with none; random ones find it with probability 1.
 std::size_t SegmentSwaps::lay(Vertex a, Vertex b, const std::vector<EdgeCode>& crossed,
-                              numbers::Random& random, std::vector<EdgeCode>& swapped) {
+                              numbers::Random& random, std::vector<EdgeCode>& swapped, std::size_t most) {
   a_ = a;
   b_ = b;
   links_.clear();
@@ -17,7 +17,7 @@ std::size_t SegmentSwaps::lay(Vertex a, Vertex b, const std::vector<EdgeCode>& c
     standing_.push_back(k);
   }
   std::size_t swaps = 0;
-  while (!standing_.empty()) {
+  while (!standing_.empty() && swaps < most) {
     const std::size_t k = standing_.size() == 1 ? 0 : numbers::below(standing_.size(), random);
     const EdgeCode diagonal = swap(k);
     if (diagonal == kNoEdge) continue;

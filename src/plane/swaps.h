@@ -12,9 +12,9 @@ class SegmentSwaps {
   SegmentSwaps(Triangles& mesh, const Points& points) : mesh_(mesh), points_(points) {}
 
   /// For the segment ab, of which `crossed` is the passage. Edges that were swapped are added to `swapped`,
-  /// as seen from both sides. The number of swaps.
+  /// as seen from both sides. The number of swaps, which ends at `most`.
   std::size_t lay(Vertex a, Vertex b, const std::vector<EdgeCode>& crossed, numbers::Random& random,
-                  std::vector<EdgeCode>& swapped);
+                  std::vector<EdgeCode>& swapped, std::size_t most = SIZE_MAX);
 
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};

@@ -47,7 +47,7 @@ class Triangles {
   [[nodiscard]] std::size_t size() const { return all_.size(); }
   [[nodiscard]] const Corners& operator[](std::size_t t) const { return all_[t]; }
   [[nodiscard]] Corners& operator[](std::size_t t) { return all_[t]; }
-  std::vector<Corners>& all() { return all_; }
+  LargeVector<Corners>& all() { return all_; }
 
   [[nodiscard]] bool is_ghost(std::size_t t) const {
     const std::array<Vertex, 3>& v = all_[t].v;
@@ -110,8 +110,8 @@ class Triangles {
       if (v != kNoVertex) star_[v] = t;
   }
 
-  std::vector<Corners> all_;
-  std::vector<std::uint32_t> star_;  // empty until find_stars
+  LargeVector<Corners> all_;
+  LargeVector<std::uint32_t> star_;  // empty until find_stars
 };
 
 }  // namespace holdfast::plane

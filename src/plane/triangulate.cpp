@@ -105,8 +105,7 @@ class Run {
       stage("lawson", kLawson, [&](const Poll& poll) {
         result_.report.delaunay_swaps = swap_to_delaunay(mesh_, points_, poll);
       });
-    keep_regions();
-    return true;
+    return keep_regions();
   }
 
   bool make_by_delaunay() {
@@ -123,7 +122,8 @@ class Run {
       return true;
     }
     if (!stage("segments", 0.8, [&](const Poll& poll) { return insert_segments(poll); })) return false;
-    if (options_.stop_after == PlaneStage::partition) {
+    if (options_.stop_after == PlaneStage::swap) tell_missing();
+    if (options_.stop_after && options_.stop_after != PlaneStage::delaunay) {
       keep([](std::uint32_t) { return true; });
       return true;
     }
@@ -131,15 +131,14 @@ class Run {
       stage("lawson", kLawson, [&](const Poll& poll) {
         result_.report.delaunay_swaps = swap_to_delaunay(mesh_, points_, poll);
       });
-    keep_regions();
-    return true;
+    return keep_regions();
   }
 
   // Points are numbered as they are inserted, so that those near each other are so in memory, too.
   void order_points() {
     stage("order", 0.1, [&](const Poll&) {
       order_ = insertion_order(plane_.points);
-      std::vector<Position> positions(order_.size());
+      Positions positions(order_.size());
       std::vector<Vertex> number(order_.size());
       for (Vertex i = 0; i < order_.size(); ++i) {
         positions[i] = plane_.points[order_[i]];
@@ -171,8 +170,9 @@ class Run {
           take_apart(s, passage.crossed);
           continue;
         }
-        result_.report.swaps += swaps.lay(a, b, passage.crossed, random_, swapped_);
+        result_.report.swaps += swaps.lay(a, b, passage.crossed, random_, swapped_, swaps_left());
         edge = mesh_.find_edge(a, b);
+        if (edge == kNoEdge) return true;  // where it was to stop
       }
       if (mesh_.constrained(edge)) return false;  // by the same segment
       mesh_.constrain(edge);
@@ -186,11 +186,27 @@ class Run {
     return true;
   }
 
+  [[nodiscard]] std::size_t swaps_left() const {
+    return options_.stop_after == PlaneStage::swap ? options_.stop_after_swaps - result_.report.swaps
+                                                   : SIZE_MAX;
+  }
+
   [[nodiscard]] std::vector<Index> laying_order() {
+    if (!options_.order) return order_by_points();
     std::vector<Index> order(segments_.size());
     std::iota(order.begin(), order.end(), Index{0});
     if (options_.order == LayingOrder::random) numbers::shuffle(order.begin(), order.end(), random_);
     return options_.order == LayingOrder::halving ? numbers::halved(order) : order;
+  }
+
+  // As their last points were inserted, so that each is near the one before.
+  [[nodiscard]] std::vector<Index> order_by_points() const {
+    std::vector<Index> next(points_.size() + 1, 0), order(segments_.size());
+    for (const Ends& s : segments_) ++next[std::max(s[0], s[1]) + std::size_t{1}];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    for (Index s = 0; s < segments_.size(); ++s)
+      order[next[std::max(segments_[s][0], segments_[s][1])]++] = s;
+    return order;
   }
 
   // Its points go at once, or, as §2.3 tells it, when all segments stand.
@@ -204,7 +220,7 @@ class Run {
     if (!options_.partition_first && options_.stop_after != PlaneStage::partition) put_together();
   }
 
-  // After Delaunay: segments that are no edges.
+  // After Delaunay, and some swaps: segments that are no edges.
   void tell_missing() {
     mesh_.find_stars(points_.size());
     for (Index s = 0; s < segments_.size(); ++s)
@@ -257,12 +273,15 @@ class Run {
 
   [[nodiscard]] bool is_delaunay() const { return options_.delaunay || refines(options_); }
 
-  void keep_regions() {
+  /// False where a hole or seed lies on a segment.
+  bool keep_regions() {
     Regions regions;
     std::vector<int> ids;
     std::vector<bool> kept;
     RefineOptions wanted;
-    stage("regions", kRegions, [&](const Poll&) { choose_regions(regions, ids, kept, wanted.areas); });
+    if (!stage("regions", kRegions,
+               [&](const Poll&) { return choose_regions(regions, ids, kept, wanted.areas); }))
+      return false;
     if (refines(options_)) {
       mesh_ = kept_part(mesh_, regions, kept);
       stage("refine", 1, [&](const Poll& poll) { refine_kept(wanted, poll); });
@@ -273,32 +292,36 @@ class Run {
            [&](std::uint32_t t) { return ids[regions.of_triangle[t]]; });
     }
     if (result_.mesh.triangles.empty()) encloses_nothing();
+    return true;
   }
 
-  void choose_regions(Regions& regions, std::vector<int>& ids, std::vector<bool>& kept,
+  bool choose_regions(Regions& regions, std::vector<int>& ids, std::vector<bool>& kept,
                       std::vector<double>& areas) {
     regions = find_regions(mesh_);
     ids.assign(regions.count + std::size_t{1}, 0);
     kept.assign(ids.size(), true);
     areas.assign(ids.size(), 0);
     kept[kOutside] = false;
-    const auto locate = [&](const std::vector<Position>& places, const char* what, auto&& use) {
+    bool on_constraints = false;
+    const auto locate = [&](const std::vector<Position>& places, auto&& use) {
       const std::vector<Found> found = find_triangles(mesh_, points_, places);
       for (std::size_t i = 0; i < found.size(); ++i) {
-        if (found[i].on_constraint)
-          throw std::invalid_argument(std::string(what) + " " + std::to_string(i + 1) +
-                                      " lies on a segment, so that it is in no region; move it");
-        if (found[i].triangle != kNoVertex) use(i, regions.of_triangle[found[i].triangle]);
+        on_constraints = on_constraints || found[i].on_constraint;
+        if (found[i].triangle != kNoVertex && !found[i].on_constraint)
+          use(i, regions.of_triangle[found[i].triangle]);
       }
     };
-    locate(plane_.holes, "hole", [&](std::size_t, std::uint32_t region) { kept[region] = false; });
+    locate(plane_.holes, [&](std::size_t, std::uint32_t region) { kept[region] = false; });
     std::vector<Position> seeds;
     for (const Plane::Seed& seed : plane_.regions) seeds.push_back(seed.where);
-    locate(seeds, "region", [&](std::size_t i, std::uint32_t region) {
+    locate(seeds, [&](std::size_t i, std::uint32_t region) {
       ids[region] = plane_.regions[i].id;
       areas[region] = plane_.regions[i].area;
     });
     number_regions(kept, ids);
+    // On sides of the hull that are no segments they are in no region, as those outside.
+    if (on_constraints) result_.defects = find_defects(plane_, kMostDefects, poll_);
+    return result_.defects.empty();
   }
 
   void refine_kept(RefineOptions& wanted, const Poll& poll) {

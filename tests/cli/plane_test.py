@@ -101,6 +101,23 @@ class Triangles(CliTest):
         self.assertEqual(self.report["swaps"], 0)
         self.assertEqual(self.report["intermediate"]["missing_segments"], [[0, 1]])
 
+    def test_states_between_swaps(self):
+        low, high = [(float(i), 0.0) for i in range(12)], [(i + 0.5, 1.6) for i in range(12)]
+        self.write("in.poly", poly([(-1.6, 0.8), (13.1, 0.8), *low, *high], [(1, 2)]))
+        whole = self.areas("--hull")[0]
+        swaps = self.report["swaps"]
+        before = None
+        for k in range(swaps + 2):
+            self.assertAlmostEqual(self.areas("--hull", "--stop-after", f"swap={k}")[0], whole, places=9)
+            self.assertEqual(self.report["swaps"], min(k, swaps))
+            self.assertEqual(self.report["intermediate"]["missing_segments"], [[0, 1]] if k < swaps else [])
+            triangles = set(map(frozenset, read_off(self.folder / "out.off")[1]))
+            self.assertEqual(len(triangles - (before or triangles)), 2 if 0 < k <= swaps else 0)  # one swap, two triangles
+            before = triangles
+        for wrong in ("swap", "swap=", "swap=x", "swap=-1", "delaunay=3", "swap=1.5"):
+            self.run_program("plane", "in.poly", "-o", "out.off", "--stop-after", wrong, expect=2)
+        self.run_program("plane", "in.poly", "-o", "out.off", "--method", "partition", "--stop-after", "swap=1", expect=2)
+
     def test_order(self):
         # Seven segments side by side through a pencil: from the top, points beget points; from the middle, fewer.
         low, high, most = [(float(i), 0.0) for i in range(-8, 9)], [(0.0, 2.0)], 7
@@ -307,10 +324,27 @@ class Refused(CliTest):
         self.run_program("plane", "none.poly", "-o", "out.off", expect=3)
         self.assertEqual(self.files(), ["cube.off", "in.poly"])
 
+    def test_holes_on_segments(self):
+        for hole in [(2.0, 0.0), (4.0, 4.0)]:
+            self.write("in.poly", poly(SQUARE, RING[:4], holes=[hole]))
+            for method in ("ears", "swaps", "partition"):
+                said = self.run_program("plane", "in.poly", "-o", "out.off", "--method", method, expect=4).stderr
+                self.assertIn(f"hole 1 ({hole[0]:g}, {hole[1]:g}) lies on segment", said)
+        # On a side of the hull alone it is in no region.
+        self.write("in.poly", poly(SQUARE, [(1, 3)], holes=[(2.0, 0.0)]))
+        self.run_program("plane", "in.poly", "-o", "out.off", "--hull")
+        self.write("in.poly", poly(SQUARE, RING[:4], holes=[(math.nan, 0.0)]))
+        said = self.run_program("plane", "in.poly", "-o", "out.off", expect=3).stderr
+        self.assertRegex(said, "line [0-9]+.*finite")
+
+    def test_attributes_of_regions(self):
+        self.write("in.poly", poly(SQUARE, [*RING[:4], (1, 3)])[:-2] + "2\n1 3 1 1.5 0\n2 1 3 1 0\n")
+        said = self.run_program("plane", "in.poly", "-o", "out.ele").stderr
+        self.assertIn("the attribute 1.5 of regions is no whole number; it is 2 in the output", said)
+        regions = [int(line.split()[4]) for line in (self.folder / "out.ele").read_text().splitlines()[1:]]
+        self.assertEqual(sorted(regions), [1, 2])
+
     def test_usage(self):
-        self.write("in.poly", poly(SQUARE, RING[:4], holes=[(2.0, 0.0)]))
-        self.assertIn("hole 1 lies on a segment",
-                      self.run_program("plane", "in.poly", "-o", "out.off", expect=2).stderr)
         self.write("in.poly", poly(SQUARE, RING[:4]))
         for options in (["--method", "ear"], ["--method", "ears", "--stop-after", "delaunay"],
                         ["--stop-after", "partition"], ["--ears", "best"], ["--partition-first"],

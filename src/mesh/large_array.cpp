@@ -1,4 +1,4 @@
-#include "delaunay/large_array.h"
+#include "mesh/large_array.h"
 
 #include <cstdint>
 #include <new>
