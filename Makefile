@@ -143,7 +143,7 @@ pictures: build $(VIEWER_TOOLS)  ## docs/pictures, from runs of the program seen
 	@scripts/setup.sh browser
 	@node viewer/pictures.mjs $(RELEASE)/holdfast docs/pictures
 
-docs: build  ## the documents as a site with search and meshes to look at, build/site/index.html
+docs: build  ## the documents as a site with search, meshes and the page of `make web`, build/site/index.html
 	@scripts/setup.sh docs
 	@python3 scripts/site.py $(RELEASE)/holdfast build
 

@@ -1,4 +1,5 @@
-"""Makes the documents a site that can be searched, with five meshes to look at: build/site/index.html.
+"""Makes the documents a site that can be searched, with five meshes to look at and the page that meshes, where
+`make web` has built it: build/site/index.html.
 
     site.py HOLDFAST FOLDER
 
@@ -91,6 +92,17 @@ def make_examples(holdfast, source):
     (source / "examples.md").write_text(text)
 
 
+def add_page_that_meshes(page, source):
+    """A copy of what `make web` built, with a line that leads there on top of the document about it."""
+    if not page.exists():
+        print(f"{page} is not built, so that the site is without it: make web")
+        return
+    shutil.copy(page, source / "mesh.html")
+    document = source / "web.md"
+    title, rest = document.read_text().split("\n", 1)
+    document.write_text(f"{title}\n\n**[Mesh a surface here, in this browser](mesh.html)**\n{rest}")
+
+
 def title_of(path):
     return re.search(r"^# (.+)$", path.read_text(), re.M).group(1).replace('"', "'").replace("`", "")
 
@@ -101,6 +113,7 @@ def main(holdfast, folder):
     source.mkdir(parents=True)
     copy_documents(source)
     make_examples(holdfast, source)
+    add_page_that_meshes(folder / "web" / "index.html", source)
     first = ["index.md", "tutorial.md", "examples.md", "command-line.md", "viewer.md"]
     rest = sorted(p.name for p in source.glob("*.md") if p.name not in first)
     lines = [f'  - "{title_of(source / name)}": {name}' for name in [*first, *rest]]
