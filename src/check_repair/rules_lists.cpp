@@ -104,14 +104,15 @@ RepairRule repeats_listed(const RepairExamination& on) {
       continue;
     }
     ++repeats;
-    if (listed == into.end() || listed->second != at->second)
+    const Index other = at->second;
+    if (listed == into.end() || listed->second != other)
       violations.add([&] {
-        return input_facet(on, f) + " repeats " + std::to_string(at->second) +
+        return input_facet(on, f) + " repeats " + std::to_string(other) +
                " and is not listed as merged into it";
       });
-    if (on.children[f] != on.children[at->second])
+    if (on.children[f] != on.children[other])
       violations.add([&] {
-        return input_facet(on, f) + " repeats " + std::to_string(at->second) + " and has other children";
+        return input_facet(on, f) + " repeats " + std::to_string(other) + " and has other children";
       });
   }
   return violations.rule(std::to_string(repeats) + " triangles merged");
