@@ -84,8 +84,7 @@ bench:  ## speed against TetGen, CGAL and Gmsh, to docs/benchmarks.md; goes on w
 	@scripts/setup.sh build bench node
 	@cmake --preset release -DHOLDFAST_BUILD_BENCH=ON
 	@cmake --build $(RELEASE) -j $(JOBS) --target holdfast_cli cgal_delaunay cgal_plane plane_times tetgen_delaunay
-	@cmake --preset native
-	@cmake --build $(NATIVE) -j $(JOBS) --target holdfast_cli
+	@$(if $(if $(findstring --part,$(ARGS)),$(findstring native,$(ARGS)),all),cmake --preset native && cmake --build $(NATIVE) -j $(JOBS) --target holdfast_cli,:)
 	@python3 bench/run.py --build $(RELEASE) --native $(NATIVE) --corpus "$(or $(CORPUS),../shared/corpus)" $(ARGS)
 
 field:  ## meshes to compute with, beside Gmsh, TetGen and Netgen, to docs/field.md

@@ -24,6 +24,8 @@ declare -A packages=(
   [lint]="clang-format clang-tidy"
   [libcxx]="clang libc++-dev libc++abi-dev"
 )
+# Programs that often come from elsewhere, where Debian's package would not go with them.
+declare -A elsewhere=([nodejs]=node [npm]=npm)
 
 wanted=""
 for group in "${@:-build}"; do
@@ -39,6 +41,8 @@ fi
 installed=$(dpkg-query -W -f='${db:Status-Abbrev} ${Package}\n' $wanted 2>/dev/null | awk '$1 == "ii" { print $2 }') || true
 missing=""
 for package in $wanted; do
+  command=${elsewhere[$package]:-}
+  [ -z "$command" ] || ! command -v "$command" >/dev/null || continue
   grep -qxF "$package" <<<"$installed" || missing+=" $package"
 done
 [ -n "$missing" ] || exit 0

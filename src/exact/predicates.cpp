@@ -96,7 +96,13 @@ int orient3d_mixed(PointRef a, PointRef b, PointRef c, PointRef d) {
   return sign != 0 ? sign : decide_orient3d(a, b, c, d).sign;
 }
 
-int orient2d_slow(const double* a, const double* b, const double* c) { return decide_orient2d(a, b, c).sign; }
+int orient2d_slow(const double* a, const double* b, const double* c) {
+  // Grids and drawings are full of points along an axis, and sweeps ask for ends of segments.
+  const bool ab[] = {a[0] == b[0], a[1] == b[1]}, bc[] = {b[0] == c[0], b[1] == c[1]};
+  if ((ab[0] && bc[0]) || (ab[1] && bc[1]) || (ab[0] && ab[1]) || (bc[0] && bc[1])) return 0;
+  if (a[0] == c[0] && a[1] == c[1]) return 0;
+  return decide_orient2d(a, b, c).sign;
+}
 
 int insphere_slow(const double* a, const double* b, const double* c, const double* d, const double* e) {
   return decide_insphere(a, b, c, d, e).sign;

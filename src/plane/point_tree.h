@@ -46,9 +46,11 @@ class PointTree {
     Query(const Points& points, Vertex a, Vertex b, Vertex c);
     /// False only where no point of the box lies in the triangle.
     [[nodiscard]] bool may_meet(const Box& box) const {
-      if (box.low[0] > box_.high[0] || box.high[0] < box_.low[0] || box.low[1] > box_.high[1] ||
-          box.high[1] < box_.low[1])
-        return false;
+      // Without branches, which could not be foretold.
+      const bool meets = static_cast<bool>(
+          static_cast<int>(box.low[0] <= box_.high[0]) & static_cast<int>(box.high[0] >= box_.low[0]) &
+          static_cast<int>(box.low[1] <= box_.high[1]) & static_cast<int>(box.high[1] >= box_.low[1]));
+      if (!meets) return false;
       return !(certain_ && (is_right_of(0, box) || is_right_of(1, box) || is_right_of(2, box)));
     }
     [[nodiscard]] bool holds(const Position& p) const {
