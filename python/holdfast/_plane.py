@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import typing
-from typing import Any, Optional, Union
+from typing import Any, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -17,7 +17,7 @@ from .errors import _raise_unless_done
 
 _MOST_POINTS = 10_000_000
 _METHODS, _EARS = ("ears", "swaps", "partition"), ("first", "best", "join")
-_STAGES, _ORDERS = ("delaunay", "partition"), ("given", "random", "halving")
+_STAGES, _ORDERS = ("delaunay", "partition", "swap"), ("given", "random", "halving")
 
 
 class PlaneMesh:
@@ -156,7 +156,7 @@ def plane(
     max_points
         The most points that `size` and `angle` add; 10,000,000 by default.
     stop_after
-        "delaunay" or "partition": give what stands after this stage, with the report's "intermediate".
+        "delaunay", "partition" or "swap=K" (after K swaps): give what stands after this stage, with the report's "intermediate".
     order
         Which missing segment is laid next, for "swaps" and "partition": "given", "random" or "halving"; else one near the
         last.
@@ -197,6 +197,7 @@ def plane(
     """
     options = limits(time_limit, memory_limit, cancel)
     refines = size is not None or angle is not None
+    stop_after, swaps = _stage(stop_after)
     _require_sense(method, ears, order, partition_first, stop_after, refines, keep_boundary, max_points)
     options.update(
         method=method,
@@ -209,6 +210,7 @@ def plane(
         keep_boundary=bool(keep_boundary),
         max_points=_MOST_POINTS if max_points is None else int(max_points),
         stop_after=stop_after,
+        stop_after_swaps=swaps,
         order=order,
         seed=int(seed),
     )
@@ -238,6 +240,16 @@ def plane(
     return PlaneMesh(result)
 
 
+def _stage(text: Optional[str]) -> Tuple[Optional[str], int]:
+    """The stage, and of swap=K the number."""
+    name, equals, count = (text or "").partition("=")
+    if name != "swap":
+        return text, 0
+    if not equals or not (count.isascii() and count.isdigit()) or int(count) >= 2**63:
+        raise ValueError(f"stop_after={text!r}: swap=K is expected, after K swaps")
+    return name, int(count)
+
+
 def _require_sense(
     method: str,
     ears: Optional[str],
@@ -259,7 +271,8 @@ def _require_sense(
         raise ValueError("order: the method ears lays no segments one by one")
     if partition_first and method != "partition":
         raise ValueError("partition_first does nothing without method='partition'")
-    if stop_after is not None and (method == "ears" or (stop_after == "partition" and method != "partition")):
+    if stop_after is not None and (method == "ears" or (stop_after == "partition" and method != "partition")
+                                   or (stop_after == "swap" and method != "swaps")):
         raise ValueError(f"stop_after={stop_after!r}: the method {method} has no such stage")
     if stop_after is not None and refines:
         raise ValueError("stop_after: size and angle come after it")

@@ -61,6 +61,7 @@ PlaneOptions options_from(const py::dict& options) {
   if (PlaneStage stage{}; !options["stop_after"].is_none()) {
     take_named(options, "stop_after", plane_stages, stage);
     how.stop_after = stage;
+    take(options, "stop_after_swaps", how.stop_after_swaps);
   }
   return how;
 }

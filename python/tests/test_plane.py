@@ -130,6 +130,8 @@ def test_what_is_invalid(points, segments, kind, which):
     (ValueError, "lays no segments", {"method": "ears", "order": "random"}),
     (ValueError, "without method='partition'", {"partition_first": True}),
     (ValueError, "no such stage", {"stop_after": "partition"}),
+    (ValueError, "no such stage", {"stop_after": "swap=3", "method": "ears"}),
+    (ValueError, "swap=K", {"stop_after": "swap"}),
     (ValueError, "come after it", {"stop_after": "delaunay", "angle": 20}),
     (ValueError, "no point is added", {"keep_boundary": True}),
     (ValueError, "no point is added", {"max_points": 3}),
@@ -176,6 +178,9 @@ def test_stages():
     crossed = [(0, 0), (4, 0), (2, 1), (2, -1), (1, 0.5), (3, -0.5)]
     mesh = holdfast.plane(crossed, [(0, 1)], method="partition", stop_after="delaunay", hull=True)
     assert mesh.report["intermediate"]["missing_segments"] == [[0, 1]]
+    for count, missing in ((0, [[0, 1]]), (100, [])):
+        mesh = holdfast.plane(crossed, [(0, 1)], stop_after=f"swap={count}", hull=True)
+        assert mesh.report["intermediate"]["missing_segments"] == missing
 
 
 def test_surfaces_are_read_with_a_tolerance(tmp_path):
