@@ -90,7 +90,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (plane.points.size() + plane.segments.size() > 300) return 0;
     solve(plane, (how & 2u) != 0, (how >> 2u) % 35);
   } catch (const FileError&) {
-  } catch (const std::invalid_argument&) {  // a hole on a segment
+  } catch (const std::invalid_argument&) {  // a hole that is not finite
   }
   return 0;
 }
