@@ -91,9 +91,10 @@ EnforceStats enforce(TetMesh& mesh, const SegmentTable& table, std::span<const T
 
   std::vector<Way> for_segments, for_facets;
   if (options.flips && options.eliminate) {
-    for_segments = {segment_by_flips};
-    for_facets =
-        options.cavities ? std::vector{facet_by_few_flips, facet_by_cavities} : std::vector{facet_by_flips};
+    // One by one: where memory runs out in a list of several, g++ 12 destroys one that it has not made.
+    for_segments.push_back(segment_by_flips);
+    for_facets.push_back(options.cavities ? facet_by_few_flips : facet_by_flips);
+    if (options.cavities) for_facets.push_back(facet_by_cavities);
   }
   for_segments.push_back(segment_by_partition);
   for_facets.push_back(facet_by_partition);

@@ -73,7 +73,8 @@ TEST(ViewPacked, Base64) {  // RFC 4648, section 10
 }
 
 TEST(ViewPacked, ArraysStandInPlanes) {
-  io::Watch watch({}, {});
+  const Limits limits;
+  io::Watch watch(limits, {});
   view::Packed packed(watch);
   const std::array<std::uint32_t, 4> words{1, 2, 0x103, 4};
   packed.words(words, 2);
