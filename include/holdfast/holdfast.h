@@ -68,6 +68,10 @@ struct Sizes {
   /// The most that the radius of the sphere round a tetrahedron should be, over its shortest edge; 0: no
   /// limit. Regular ones have 0.612. This is an aim: what the surface forces stays, and is counted.
   double max_ratio = 0;
+  /// Elements across, at least: on every path of edges inside from one of two walls that face each other to
+  /// the other (docs/sizes.md says which do); 0 or 1: no demand. Edges are parted for it, even at the price
+  /// of flat elements. At most 100.
+  unsigned layers = 0;
 };
 
 /// How long to improve the elements with field points: each is some times slower than the one before.
@@ -172,6 +176,14 @@ struct Report {
     double worst_ratio = 0;
     std::size_t above_ratio = 0;  ///< tetrahedra with a larger ratio than was asked for
   } bounds;
+  /// What was done for `Sizes::layers`; all zero without.
+  struct Layers {
+    std::size_t points = 0;     ///< added for it
+    std::size_t left = 0;       ///< edges that span too much all the same
+    std::vector<Point> places;  ///< the middles of those edges, the first 100 of a region
+    std::size_t at_rims =
+        0;  ///< vertices that are left out, as on a way of fewer edges over triangles of the side
+  } layers;
   std::size_t vertices = 0, tetrahedra = 0, regions = 0;
   /// The rule by which regions were kept: never Keep::automatic once they were chosen.
   Keep keep = Keep::automatic;

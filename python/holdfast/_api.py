@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import numbers
+import operator
 import os
 import typing
 from dataclasses import dataclass
@@ -37,6 +38,7 @@ def mesh(
     growth: bool = True,
     max_volume: Union[None, float, typing.Mapping[Optional[int], float]] = None,
     max_ratio: Optional[float] = None,
+    layers: Optional[int] = None,
     fill: bool = False,
     quality: str = "good",
     keep: str = "auto",
@@ -85,9 +87,12 @@ def mesh(
     max_ratio
         The most that the radius of the sphere round a tetrahedron should be over its shortest edge: an aim. Exceptions
         are counted in `TetMesh.report["bounds"]`.
+    layers
+        Elements across, at least, on every path inside between two sides of a wall or a gap that face each other;
+        `TetMesh.report["layers"]` tells the points that it took. At most 100.
     fill
-        Add no field points: only what the surface forces. `size`, `metric`, `gradation`, `growth`, `max_volume` and
-        `max_ratio` have no meaning then.
+        Add no field points: only what the surface forces. `size`, `metric`, `gradation`, `growth`, `max_volume`,
+        `max_ratio` and `layers` have no meaning then.
     quality
         Effort for the elements with field points: "fast", "good" or "best".
     keep
@@ -144,8 +149,8 @@ def mesh(
     steps = {without} if isinstance(without, str) else set(without)
     if unknown := steps - {"flips", "optimise", "points"}:
         raise ValueError(f"without={sorted(unknown)}: only 'flips', 'optimise' and 'points' can be left out")
-    if fill and any(x is not None for x in (size, metric, max_volume, max_ratio)):
-        raise ValueError("fill=True adds no field points, so that size, metric, max_volume and max_ratio have no meaning; "
+    if fill and any(x is not None for x in (size, metric, max_volume, max_ratio, layers)):
+        raise ValueError("fill=True adds no field points, so that size, metric, max_volume, max_ratio and layers have no meaning; "
                          "leave out one of them")
     pasted = surface if isinstance(surface, Pasted) else None
     what = surface_of(
@@ -175,6 +180,7 @@ def mesh(
         regions=_bounded([_region(r) for r in [*regions, *what.regions]], max_volume),
         max_volume=_most_volume(max_volume),
         max_ratio=0.0 if max_ratio is None else _positive(max_ratio, "max_ratio"),
+        layers=_layers(layers),
         drop_outside=bool(drop_outside),
         flips="flips" not in steps,
         optimise="optimise" not in steps,
@@ -216,6 +222,15 @@ def _positive(value: Any, what: str) -> float:
     number = float(value)
     if not 0 < number < float("inf"):
         raise ValueError(f"{what}={number}: a positive number is expected")
+    return number
+
+
+def _layers(layers: Optional[int]) -> int:
+    if layers is None:
+        return 0
+    number = operator.index(layers)
+    if not 1 <= number <= 100:
+        raise ValueError(f"layers={number}: 1 to 100 are expected")
     return number
 
 

@@ -93,6 +93,7 @@ Sizes sizes_from(const py::dict& options, const Fields& fields) {
   take(options, "growth", sizes.grow);
   take(options, "max_volume", sizes.max_volume);
   take(options, "max_ratio", sizes.max_ratio);
+  take(options, "layers", sizes.layers);
   take(options, "point_sizes", sizes.vertex_sizes);
   if (!fields.size.is_none()) sizes.fields = sizes_asked_of(fields.size);
   if (!fields.metric.is_none()) sizes.metric = metric_asked_of(fields.metric);

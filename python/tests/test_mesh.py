@@ -257,6 +257,17 @@ def test_untangle_improves():
         holdfast.untangle(good, improve=True, refill=False)
 
 
+def test_layers(cube):
+    points, triangles = cube
+    mesh = holdfast.mesh(np.asarray(points) * [1, 1, 0.05], triangles, layers=3)
+    assert mesh.report["layers"]["at_rims"] == 8  # all of them
+    for wrong in (0, 101, -1):
+        with pytest.raises(ValueError):
+            holdfast.mesh(points, triangles, layers=wrong)
+    with pytest.raises(ValueError):
+        holdfast.mesh(points, triangles, layers=2, fill=True)
+
+
 def test_check_finds_what_is_wrong(cube):
     mesh = holdfast.mesh(*cube)
     result = holdfast.check(cube, holdfast.TetMesh(mesh.points, mesh.tetrahedra[1:], triangles=mesh.triangles))

@@ -11,6 +11,7 @@
 #include "refine/bound_volumes.h"
 #include "refine/field_points.h"
 #include "refine/front.h"
+#include "refine/layers.h"
 
 namespace holdfast {
 namespace {
@@ -133,19 +134,50 @@ void improve_with_field(const Attempt& attempt, BoxMesh& box, Division& division
   report.field.edge_lengths = edge_lengths_of(field.volume(), threads);
 }
 
+// Each region has levels of its own, which improvement keeps to.
+void keep_layers(const Attempt& attempt, const VolumeData& volume, bool improves, Report::Layers& report) {
+  const unsigned layers = attempt.options.sizes->layers;
+  if (layers < 2) return;
+  std::vector<std::vector<Tet>> tets_of(volume.kept.size());
+  for (Tet t = 0; t < volume.mesh.slot_count(); ++t)
+    if (volume.is_inside(t)) tets_of[volume.region_of[t]].push_back(t);
+  Levels levels;
+  for (RegionId region = 0; region < tets_of.size(); ++region) {
+    if (tets_of[region].empty()) continue;
+    const std::vector<std::uint8_t> fresh(volume.mesh.vertex_count(), 0);
+    const LayerStats made = make_layers(volume, tets_of[region], layers, levels, attempt.monitor);
+    report.points += made.points;
+    report.left += made.left;
+    report.at_rims += made.at_rims;
+    report.places.insert(report.places.end(), made.places.begin(), made.places.end());
+    if (!improves || made.points == 0) continue;
+    std::vector<bool> alone(volume.kept.size(), false);
+    alone[region] = true;
+    const VolumeData own{volume.mesh,         volume.region_of, volume.sizes,   alone,
+                         volume.first_free,   nullptr,          volume.metrics, volume.seed,
+                         volume.most_volumes, &levels};
+    improve(own, attempt.options.effort, attempt.monitor, {}, fresh);
+  }
+}
+
 // The improvement heeds bounds, so that it leaves next to nothing to do for a second pass; what a pass
 // without it leaves is exact.
-void keep_bounds(const Attempt& attempt, Field& field, bool improves, Report& report) {
-  const VolumeData volume = field.volume();
-  field.give_sizes_to_new_vertices();  // points for flat elements have none
+void bound(const Attempt& attempt, const VolumeData& volume, bool improves, Report::Bounds& report) {
   const double most_ratio = attempt.options.sizes->max_ratio;
-  if (most_ratio > 0) report.bounds.ratio_points += lower_ratios(volume, most_ratio, attempt.monitor).points;
+  if (most_ratio > 0) report.ratio_points += lower_ratios(volume, most_ratio, attempt.monitor).points;
   if (volume.most_volumes == nullptr) return;
   const std::vector<std::uint8_t> fresh(volume.mesh.vertex_count(), 0);
-  report.bounds.points += bound_volumes(volume, attempt.monitor).points;
+  report.points += bound_volumes(volume, attempt.monitor).points;
   if (!improves || volume.mesh.vertex_count() == fresh.size()) return;
   improve(volume, attempt.options.effort, attempt.monitor, {}, fresh);
-  report.bounds.points += bound_volumes(volume, attempt.monitor).points;
+  report.points += bound_volumes(volume, attempt.monitor).points;
+}
+
+// Layers come last: points for bounds would join what levels keep apart, and parted edges break no bound.
+void keep_bounds(const Attempt& attempt, Field& field, bool improves, Report& report) {
+  field.give_sizes_to_new_vertices();  // points for flat elements have none
+  bound(attempt, field.volume(), improves, report.bounds);
+  keep_layers(attempt, field.volume(), improves, report.layers);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ constexpr std::size_t kManyTets = 10'000;
 bool WithoutField::is_asked_for(const Options& options) {
   const Sizes& s = *options.sizes;
   return s.size == 0 && s.vertex_sizes.empty() && !s.field && !s.fields && !s.metric && s.max_volume == 0 &&
-         s.max_ratio == 0 &&
+         s.max_ratio == 0 && s.layers <= 1 &&
          std::all_of(options.regions.begin(), options.regions.end(),
                      [](const RegionSeed& r) { return r.size == 0 && r.max_volume == 0; });
 }

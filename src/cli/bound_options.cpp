@@ -57,6 +57,13 @@ void add_bounds(CLI::App& command, BoundArguments& arguments) {
           "Field points: aim at no larger ratio of the radius of the sphere round a tetrahedron to its "
           "shortest edge; exceptions are counted")
       ->option_text("R");
+  command
+      .add_option(
+          "--layers", arguments.layers,
+          "Field points: at least N elements across, on every path inside between two sides of a wall "
+          "or a gap that face each other, even at the price of flat elements; 1 to 100")
+      ->check(CLI::Range(1U, 100U))
+      ->option_text("N");
 }
 
 void require_bounds(const BoundArguments& arguments) {
@@ -79,9 +86,24 @@ void set_bounds(const BoundArguments& arguments, const Names& names, Options& op
       options.regions.push_back(bound_of_region(id, bound.volume));
   }
   if (arguments.max_ratio) options.sizes->max_ratio = *arguments.max_ratio;
+  options.sizes->layers = arguments.layers.value_or(0);
 }
 
-std::string bounds_text(const Options& options, const Report::Bounds& bounds) {
+namespace {
+
+std::string layers_text(const Report::Layers& layers, unsigned asked) {
+  std::string text =
+      fmt::format("{} points for {} layers, {} edges too long for them", layers.points, asked, layers.left);
+  if (layers.at_rims > 0)
+    text += fmt::format(", {} vertices left out where fewer edges lead over the side from wall to wall",
+                        layers.at_rims);
+  return text;
+}
+
+}  // namespace
+
+std::string bounds_text(const Options& options, const Report& report) {
+  const Report::Bounds& bounds = report.bounds;
   std::string text;
   const bool has_volume =
       options.sizes && (options.sizes->max_volume > 0 ||
@@ -95,6 +117,8 @@ std::string bounds_text(const Options& options, const Report::Bounds& bounds) {
   if (options.sizes && options.sizes->max_ratio > 0)
     text += fmt::format("{}largest ratio {:.4g}, {} above {:g}", text.empty() ? "" : "; ", bounds.worst_ratio,
                         bounds.above_ratio, options.sizes->max_ratio);
+  if (options.sizes && options.sizes->layers > 1)
+    text += (text.empty() ? "" : "; ") + layers_text(report.layers, options.sizes->layers);
   return text;
 }
 

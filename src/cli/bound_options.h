@@ -14,8 +14,11 @@ namespace holdfast::cli {
 struct BoundArguments {
   std::vector<std::string> max_volumes;
   std::optional<double> max_ratio;
+  std::optional<unsigned> layers;
 
-  [[nodiscard]] bool any() const { return !max_volumes.empty() || max_ratio.has_value(); }
+  [[nodiscard]] bool any() const {
+    return !max_volumes.empty() || max_ratio.has_value() || layers.has_value();
+  }
 };
 
 void add_bounds(CLI::App& command, BoundArguments& arguments);
@@ -28,6 +31,6 @@ void set_bounds(const BoundArguments& arguments, const Names& names, Options& op
 void require_bounds(const BoundArguments& arguments);
 
 /// How far the bounds are met, for the summary of a run; empty without bounds.
-[[nodiscard]] std::string bounds_text(const Options& options, const Report::Bounds& bounds);
+[[nodiscard]] std::string bounds_text(const Options& options, const Report& report);
 
 }  // namespace holdfast::cli

@@ -31,6 +31,7 @@ std::vector<Given> for_field_points(const MeshArguments& a) {
           {"--no-growth", a.no_growth},
           {"--max-volume", !a.bounds.max_volumes.empty()},
           {"--max-ratio", a.bounds.max_ratio.has_value()},
+          {"--layers", a.bounds.layers.has_value()},
           {"the size H of --region", limits_a_region(a)}};
 }
 

@@ -200,6 +200,7 @@ Json to_json(const MeshArguments& arguments) {
           {"size_field", arguments.size_field.string()},
           {"max_volume", arguments.bounds.max_volumes},
           {"max_ratio", arguments.bounds.max_ratio.value_or(0)},
+          {"layers", arguments.bounds.layers.value_or(0)},
           {"element_order", arguments.elements.order.value_or(1)},
           {"curved", arguments.elements.curved.string()},
           {"curved_tolerance", arguments.elements.tolerance.value_or(0)},

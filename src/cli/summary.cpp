@@ -131,7 +131,7 @@ void print_summary(const MeshArguments& arguments, const Options& options, const
                                            : fmt::format("{} tetrahedra", result.volume.tetrahedra.size()),
       counted(result.report.regions, "region"), options.keep == Keep::automatic ? decided_rule(result) : "",
       seconds, result.report.tetrahedra > 0 ? "; " + quality_of(result, options) : "");
-  if (const std::string bounds = bounds_text(options, result.report.bounds); !bounds.empty())
+  if (const std::string bounds = bounds_text(options, result.report); !bounds.empty())
     say("bounds: {}\n", bounds);
 }
 

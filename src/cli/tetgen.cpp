@@ -147,7 +147,7 @@ void tell_the_end(const TetgenSwitches& switches, const TetgenInput& input, cons
       input.output.string(), result.volume.vertices.size(), result.report.steiner_points,
       result.volume.tetrahedra.size(), counted(result.report.regions, "region"),
       result.report.elements.min_dihedral_deg);
-  if (const std::string bounds = bounds_text(options, result.report.bounds); !bounds.empty())
+  if (const std::string bounds = bounds_text(options, result.report); !bounds.empty())
     say("bounds: {}\n", bounds);
 }
 

@@ -125,7 +125,7 @@ class Improver {
       if (!volume_.is_inside(worst.tet) || volume_.energy(worst.tet) != worst.energy) continue;
       if (!volume_.take_changed(worst.tet)) continue;
       poll(std::max(work / budget, 1 - std::min(1.0, static_cast<double>(queue.size()) / count)));
-      ways_.allow_points(stats_.inserted < most_inserted_);
+      ways_.allow_points(volume_.may_add() && stats_.inserted < most_inserted_);
       const EnergyWays::Outcome outcome = ways_.try_all(worst.tet, refill, work);
       if (outcome.changed.empty()) continue;
       any = true;

@@ -11,6 +11,7 @@
 #include "optimise/energy.h"
 #include "optimise/figures.h"
 #include "optimise/tuning.h"
+#include "refine/levels.h"
 #include "refine/volume_data.h"
 
 namespace holdfast {
@@ -91,10 +92,14 @@ class ImprovedVolume {
 
   /// From now on, no change may make the figures of the whole worse than they are.
   void keep(const Figures& figures) { standard_.emplace(figures); }
+  /// Whether points may be added at all.
+  [[nodiscard]] bool may_add() const { return data_.levels == nullptr; }
   /// Whether figures are kept at all, and whether tetrahedra may be replaced by others. What is allowed is
   /// taken to be done.
   [[nodiscard]] bool has_standard() const { return standard_.has_value(); }
   [[nodiscard]] bool allows(std::span<const Tet> old_tets, std::span<const TetMesh::Corners> fresh) {
+    if (data_.levels != nullptr && !data_.levels->allow(mesh_, old_tets, fresh)) [[unlikely]]
+      return false;
     return !standard_ || standard_->allows(figures(old_tets), figures(fresh));
   }
   [[nodiscard]] bool allows(const Figures& old, std::span<const Tet> fresh) {

@@ -12,6 +12,7 @@
 
 namespace holdfast {
 
+class Levels;
 class Part;
 
 struct VolumeData {
@@ -26,6 +27,7 @@ struct VolumeData {
   /// By region: the most that a tetrahedron may measure, infinite without a bound; none where no region has
   /// one.
   const std::vector<double>* most_volumes = nullptr;
+  const Levels* levels = nullptr;  ///< that edges are not to jump over; no points are added then
 
   [[nodiscard]] bool is_inside(Tet t) const {
     return mesh.alive(t) && !mesh.is_ghost(t) && kept[region_of[t]];

@@ -1,4 +1,4 @@
-"""--max-volume and --max-ratio: a true bound on every tetrahedron, by region too, and an aim with its exceptions.
+"""--max-volume, --max-ratio and --layers: a true bound on every tetrahedron, by region too, an aim with its exceptions, elements across.
 
     bounds_test.py PROGRAM [unittest options]
 """
@@ -81,6 +81,31 @@ class Bounds(CliTest):
         bounds = json.loads((self.folder / "r.json").read_text())["bounds"]
         self.assertGreater(bounds["worst_ratio"], 0.612)
         self.assertEqual(bounds["above_ratio"] > 0, bounds["worst_ratio"] > 1.2)
+
+    def test_layers_across_a_plate(self):
+        n, thickness = 6, 0.3
+        points = [(x, y, k * thickness) for x in range(n + 1) for y in range(n + 1) for k in range(2)]
+        at = lambda x, y, k: (x * (n + 1) + y) * 2 + k
+        facets = []
+        def quadrangle(a, b, c, d):
+            facets.extend([(a, b, c), (a, c, d)])
+        for i in range(n):
+            for j in range(n):
+                quadrangle(at(i, j, 0), at(i, j + 1, 0), at(i + 1, j + 1, 0), at(i + 1, j, 0))
+                quadrangle(at(i, j, 1), at(i + 1, j, 1), at(i + 1, j + 1, 1), at(i, j + 1, 1))
+            quadrangle(at(i, 0, 0), at(i + 1, 0, 0), at(i + 1, 0, 1), at(i, 0, 1))
+            quadrangle(at(i, n, 0), at(i, n, 1), at(i + 1, n, 1), at(i + 1, n, 0))
+            quadrangle(at(0, i, 0), at(0, i, 1), at(0, i + 1, 1), at(0, i + 1, 0))
+            quadrangle(at(n, i, 0), at(n, i + 1, 0), at(n, i + 1, 1), at(n, i, 1))
+        self.write("plate.off", off(points, facets))
+        run = self.run_program("mesh", "plate.off", "-o", "out.mesh", "--layers", "3", "--report", "r.json")
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertGreater(report["layers"]["points"], 0)
+        self.assertEqual(report["layers"]["left"], 0)
+        self.assertEqual(report["layers"]["at_rims"], 8 * n)
+        self.assertEqual(report["options"]["layers"], 3)
+        self.assertIn("for 3 layers, 0 edges too long for them, 48 vertices left out", run.stderr)
+        self.run_program("check", "plate.off", "out.mesh")
 
 
 if __name__ == "__main__":

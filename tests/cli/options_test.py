@@ -13,6 +13,7 @@ IDLE = [
     ("--no-growth", ["--fill", "--no-growth"]),
     ("--max-volume", ["--fill", "--max-volume", "0.5"]),
     ("--max-ratio", ["--fill", "--max-ratio", "2"]),
+    ("--layers", ["--fill", "--layers", "2"]),
     ("--quality", ["--fill", "--quality", "good"]),
     ("--region", ["--fill", "--region", "0.4,0.5,0.6,1,0.2"]),
     ("--quality", ["--without", "optimise", "--quality", "fast"]),
@@ -39,6 +40,8 @@ SENSELESS = [
     ("--max-volume", ["--max-volume", "0"]), ("--max-volume", ["--max-volume", "core="]),
     ("--max-volume", ["--max-volume", "=1"]), ("--max-volume", ["--max-volume", "2=inf"]),
     ("--max-ratio", ["--max-ratio", "0.5"]), ("--max-ratio", ["--max-ratio", "nan"]),
+    ("--layers", ["--layers", "0"]), ("--layers", ["--layers", "-1"]), ("--layers", ["--layers", "1.5"]),
+    ("--layers", ["--layers", "101"]),
 ]
 SENSIBLE = [
     ["--fill", "--without", "points"], ["--without", "points"], ["--without", "optimise", "--size", "0.5"],
