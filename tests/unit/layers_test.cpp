@@ -9,6 +9,7 @@
 #include <deque>
 #include <functional>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "checked_mesh.h"
@@ -96,12 +97,50 @@ TEST(Layers, AcrossASlab) {
   }
 }
 
-TEST(Layers, AcrossTheGapBetweenTwoBoxes) {
-  Surface surface = small::box({0, 0, 0}, {1, 1, 1});
-  small::add_box(surface, {0.02, 0.02, 0.02}, {0.98, 0.98, 0.98}, false);
+// A cube from `low` to `high` with n x n squares a side, turned inside out unless `outwards`.
+void add_cube(Surface& s, double low, double high, int n, bool outwards) {
+  std::map<std::array<int, 3>, Index> index;
+  const auto at = [&](std::array<int, 3> place) {
+    const auto [found, is_new] = index.try_emplace(place, static_cast<Index>(s.vertices.size()));
+    if (is_new) {
+      Point p;
+      for (std::size_t k = 0; k < 3; ++k) p[k] = low + (high - low) * place[k] / n;
+      s.vertices.push_back(p);
+    }
+    return found->second;
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const int side : {0, n})
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+          const auto corner = [&](int di, int dj) {
+            std::array<int, 3> place{};
+            place[axis] = side;
+            place[(axis + 1) % 3] = i + di;
+            place[(axis + 2) % 3] = j + dj;
+            return at(place);
+          };
+          const Index a = corner(0, 0), c = corner(1, 1);
+          const bool turned = (side == 0) == outwards;
+          const Index b = turned ? corner(0, 1) : corner(1, 0), d = turned ? corner(1, 0) : corner(0, 1);
+          s.facets.push_back({a, b, c});
+          s.facets.push_back({a, c, d});
+        }
+}
+
+TEST(Layers, AcrossTheGapBetweenTwoCubes) {
+  constexpr double kLow = 0.04;
+  Surface surface;
+  add_cube(surface, 0, 1, 6, true);
+  add_cube(surface, kLow, 1 - kLow, 6, false);
   const Result result = mesh_with(surface, {.layers = 3});
   EXPECT_EQ(result.report.layers.left, 0u);
+  EXPECT_EQ(result.report.layers.at_rims, 0u);
   EXPECT_GT(result.report.layers.points, 0u);
+  for (const std::size_t k : {0u, 1u, 2u}) {
+    const auto side_of = [&](const Point& p) { return p[k] == 0 ? -1 : p[k] == kLow ? 1 : 0; };
+    EXPECT_GE(edges_across(result.volume, side_of, surface.vertices.size()), 3) << k;
+  }
 }
 
 TEST(Layers, TooManyAreRefused) {
