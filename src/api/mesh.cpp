@@ -2,6 +2,7 @@
 #include "api/mesh.h"
 
 #include <algorithm>
+#include <chrono>
 #include <exception>
 #include <new>
 #include <optional>
@@ -42,7 +43,8 @@ class Call {
  public:
   Call(const Complex& complex, const Options& options, SamePlace same_place, PartsOfComplex* parts = nullptr)
       : options_(options),
-        monitor_(options),
+        limits_(started(options)),
+        monitor_(limits_, options.progress),
         threads_(Threads(options.threads).polling([this] { poll(); })),
         input_(complex, same_place, options, threads_, monitor_, parts) {}
 
@@ -123,6 +125,29 @@ class Call {
     worst_without_field_ = attempt(input_, options, seed_++, threads_, monitor_, result_);
   }
 
+  static Limits started(const Limits& limits) {
+    Limits own = limits;
+    own.started = limits.started.value_or(std::chrono::steady_clock::now());
+    return own;
+  }
+
+  // As long as it lives, half of the time that was left is all there is: for what may be done without, when a
+  // result is there that has to be delivered, and written, within the limit.
+  class HalfOfTheTime {
+   public:
+    explicit HalfOfTheTime(Limits& limits) : limits_(limits), whole_(limits.time_limit) {
+      const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - *limits.started;
+      if (whole_ > 0) limits.time_limit = std::min(whole_, (gone.count() + whole_) / 2);
+    }
+    HalfOfTheTime(const HalfOfTheTime&) = delete;
+    HalfOfTheTime& operator=(const HalfOfTheTime&) = delete;
+    ~HalfOfTheTime() { limits_.time_limit = whole_; }
+
+   private:
+    Limits& limits_;
+    const double whole_;
+  };
+
   // What is flat is seldom forced. With field points the choice is that of the mesh without, to which they
   // are held.
   void try_other_choices() {
@@ -130,6 +155,7 @@ class Call {
     if (!options_.optimise || !options_.add_points || !options_.flips || input_.parts() != nullptr ||
         !(worst > kFarFromTarget * input_.target()) || input_.complex().facets.size() > kMostFacetsForChoices)
       return;
+    const HalfOfTheTime half(limits_);
     if (options_.sizes)
       choose_for_field(worst);
     else
@@ -200,6 +226,7 @@ class Call {
   // counts, also where a limit or an error ends the next one: then returns false.
   bool try_again() {
     Result best = std::exchange(result_, {});
+    const HalfOfTheTime half(limits_);
     try {
       result_.report = of_all_attempts(best.report);
       try_once();
@@ -273,6 +300,7 @@ class Call {
 
   const Options& options_;
   const std::thread::id caller_ = std::this_thread::get_id();
+  Limits limits_;  // the caller's, or less while something is tried that may be left
   Monitor monitor_;
   const Threads threads_;
   Input input_;

@@ -1,10 +1,13 @@
 // Several attempts at one mesh: what they add up to, and that an error in a later one loses nothing.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <new>
+#include <thread>
 
 #include "holdfast/holdfast.h"
+#include "number_range_surfaces.h"
 #include "small_surfaces.h"
 
 namespace {
@@ -85,13 +88,32 @@ TEST(Attempts, AnErrorInALaterOneLosesNothing) {
 TEST(Attempts, ALimitInALaterOneLosesNothing) {
   const Surface surface = without_doubles();
   Options options;
-  options.time_limit = 3600;
-  // As if the call had begun long ago, from the third attempt on: the monitor holds the options by reference.
-  options.progress = at_attempt(3, [&] { options.time_limit = 1e-9; });
+  options.time_limit = 3;
+  options.progress = at_attempt(3, [] { std::this_thread::sleep_for(std::chrono::seconds(3)); });
   const Result result = mesh(surface.view(), options);
   EXPECT_EQ(result.outcome, Outcome::not_representable);
   EXPECT_FALSE(result.exact_vertices.empty());
   EXPECT_EQ(result.report.attempts, 3u);
+}
+
+// A result that could be delivered is not held back for a better one until there is no time left to write it.
+TEST(Attempts, OtherChoicesLeaveTimeForTheResult) {
+  const Surface surface = number_range::schoenhardt(1e6, 1e6, 59.9);
+  Options options;
+  options.time_limit = 6;  // the first attempt takes a tenth of a second
+  const auto started = std::chrono::steady_clock::now();
+  options.started = started;
+  bool slow = false;
+  const auto begins = at_attempt(2, [&] { slow = true; });
+  options.progress = [&](const Progress& progress) {
+    if (slow) std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    return begins(progress);
+  };
+  const Result result = mesh(surface.view(), options);
+  ASSERT_TRUE(slow);
+  EXPECT_EQ(result.outcome, Outcome::done);
+  EXPECT_FALSE(result.volume.tetrahedra.empty());
+  EXPECT_LT(std::chrono::steady_clock::now() - started, std::chrono::seconds(5));
 }
 
 TEST(Attempts, WhatTheCallbackThrowsEndsTheCall) {
