@@ -10,7 +10,7 @@ namespace {
 
 constexpr NameRule kNames{255, "!#$%&'()*+,-./:;<=>?@[]^_`{|}~", true, true, false, true};
 constexpr IdRule kIds{};
-constexpr int kSegment = 1, kTriangle = 2, kSquare = 3, kTetrahedron = 4;
+constexpr int kSegment = 1, kTriangle = 2, kTetrahedron = 4;  // 3 are squares
 
 class MfemReader {
  public:
