@@ -302,11 +302,12 @@ class Run {
     kept.assign(ids.size(), true);
     areas.assign(ids.size(), 0);
     kept[kOutside] = false;
-    bool on_constraints = false;
+    bool on_constraints = false;  // perhaps: ears leave segments out that bound nothing
     const auto locate = [&](const std::vector<Position>& places, auto&& use) {
       const std::vector<Found> found = find_triangles(mesh_, points_, places);
       for (std::size_t i = 0; i < found.size(); ++i) {
-        on_constraints = on_constraints || found[i].on_constraint;
+        on_constraints = on_constraints || found[i].on_constraint ||
+                         (options_.method == PlaneMethod::ears && found[i].triangle == kNoVertex);
         if (found[i].triangle != kNoVertex && !found[i].on_constraint)
           use(i, regions.of_triangle[found[i].triangle]);
       }

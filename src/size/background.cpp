@@ -109,8 +109,20 @@ std::optional<Background::Place> Background::place_in(const Tetrahedron& t, cons
        six_volumes(v[t[0]], v[t[1]], p, v[t[3]]) / volume,
        six_volumes(v[t[0]], v[t[1]], v[t[2]], p) / volume}};
   for (const double part : place.parts)
-    if (!(part >= -kSlack)) return {};
+    if (!(part >= -kSlack && part <= 1 + 4 * kSlack)) return {};
   return place;
+}
+
+// The slack of a place may lead out of the range of its corners, and even below zero where they differ much.
+double Background::size_at(const Place& place) const {
+  double size = 0, least = std::numeric_limits<double>::infinity(), most = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double h = field_.sizes[place.tetrahedron[i]];
+    size += place.parts[i] * h;
+    least = std::min(least, h);
+    most = std::max(most, h);
+  }
+  return std::clamp(size, least, std::max(least, most));
 }
 
 namespace {
@@ -138,10 +150,8 @@ std::function<double(const Point&)> size_function(SizeField field) {
     throw std::invalid_argument("a size field has a size that is not finite");
   return [background = background_of(std::move(field))](const Point& p) {
     const FloatEnvironment environment;
-    double size = 0;
-    if (const auto place = background->locate(p))
-      for (std::size_t i = 0; i < 4; ++i) size += place->parts[i] * background->size(place->tetrahedron[i]);
-    return size;
+    const auto place = background->locate(p);
+    return place ? background->size_at(*place) : 0;
   };
 }
 

@@ -22,7 +22,8 @@ class Background {
   /// Where p is; nothing outside.
   [[nodiscard]] std::optional<Place> locate(const Point& point) const;
 
-  [[nodiscard]] double size(Index vertex) const { return field_.sizes[vertex]; }
+  /// Linear, and between those of the corners.
+  [[nodiscard]] double size_at(const Place& place) const;
   [[nodiscard]] const Metric& metric(Index vertex) const { return field_.metrics[vertex]; }
 
  private:

@@ -330,6 +330,11 @@ class Refused(CliTest):
             for method in ("ears", "swaps", "partition"):
                 said = self.run_program("plane", "in.poly", "-o", "out.off", "--method", method, expect=4).stderr
                 self.assertIn(f"hole 1 ({hole[0]:g}, {hole[1]:g}) lies on segment", said)
+        # Ears have no triangle at a segment outside, and are told all the same.
+        self.write("in.poly", poly(SQUARE + [(6, 0), (6, 4)], RING[:4] + [(5, 6)], holes=[(6.0, 2.0)]))
+        for method in ("ears", "swaps", "partition"):
+            said = self.run_program("plane", "in.poly", "-o", "out.off", "--method", method, expect=4).stderr
+            self.assertIn("hole 1 (6, 2) lies on segment", said)
         # On a side of the hull alone it is in no region.
         self.write("in.poly", poly(SQUARE, [(1, 3)], holes=[(2.0, 0.0)]))
         self.run_program("plane", "in.poly", "-o", "out.off", "--hull")

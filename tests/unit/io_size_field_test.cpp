@@ -58,6 +58,17 @@ TEST(SizeFunction, IsTheSameAtEveryScale) {
     }
 }
 
+TEST(SizeFunction, StaysBetweenThatOfTheCorners) {
+  SizeField field = one_tetrahedron(kUnit);
+  field.sizes = {1, 1, 1, 1e20};
+  const auto size = size_function(field);
+  for (const double z : {-1e-10, 0.0, 1e-10}) {
+    const double h = size({0.25, 0.25, z});
+    EXPECT_GE(h, 1) << z;
+    EXPECT_LE(h, 1e20) << z;
+  }
+}
+
 TEST(SizeFunction, AnswersForPointsThatAreNotFinite) {
   const auto size = size_function(one_tetrahedron(kUnit));
   for (const double x : {kInfinity, -kInfinity, kNan, std::numeric_limits<double>::max()})
