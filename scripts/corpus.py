@@ -33,6 +33,8 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+from blocks import read_records
+
 ROOT = Path(__file__).resolve().parent.parent
 CACHE = Path.home() / ".cache" / "holdfast-corpus"
 SHARED = ROOT.parent / "shared"
@@ -292,22 +294,15 @@ def build_checker(folder):
 # ------------------------------------------------------------------------------------------------ the whole run
 
 
-def read_records(paths):
+def latest_records(paths):
     """The latest record of every (name, mode)."""
-    records = {}
-    for path in sorted(paths, key=lambda p: p.stat().st_mtime):
-        for line in path.read_text().splitlines():
-            try:
-                record = json.loads(line)
-            except ValueError:  # the last line of a run that was killed
-                continue
-            records[record["name"], record["mode"]] = record
-    return records
+    return {(record["name"], record["mode"]): record
+            for path in sorted(paths, key=lambda p: p.stat().st_mtime) for record in read_records(path)}
 
 
 def run_all(cases, runner, results, options):
     """Runs the cases that have no record yet; returns the records of all that were run."""
-    known = read_records(results.parent.glob("*.jsonl") if options.resume_any else
+    known = latest_records(results.parent.glob("*.jsonl") if options.resume_any else
                          [results] if results.exists() else [])
     if options.again:
         known = {}
