@@ -188,7 +188,7 @@ Field::Field(const Attempt& attempt, BoxMesh& box, Division& division)
       seed_(attempt.seed),
       asks_for_metric_(attempt.options.sizes && attempt.options.sizes->metric),
       size_function_(polling(attempt.input.sizes(), attempt.monitor), attempt.options.regions,
-                     attempt.complex(), attempt.input.table(), division.kept, box.scale) {}
+                     attempt.complex(), attempt.input.table(), division.kept, box.scale, attempt.threads) {}
 
 void Field::set_sizes(const Attempt& attempt) {
   set_sizes_at_vertices(volume(), size_function_, attempt.threads, attempt.monitor);

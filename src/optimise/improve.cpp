@@ -14,7 +14,7 @@ class Improver {
   Improver(const VolumeData& volume, const tuning::Passes& passes, std::span<const std::uint8_t> spared,
            std::span<const std::uint8_t> fresh, Monitor& monitor)
       : mesh_(volume.mesh),
-        volume_(volume, fresh),
+        volume_(volume, fresh, Threads(1).polling([&monitor] { monitor.poll_again(); })),
         passes_(passes),
         spared_(spared),
         monitor_(monitor),

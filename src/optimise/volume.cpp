@@ -3,36 +3,52 @@
 #include "mesh/measure.h"
 
 namespace holdfast {
+namespace {
 
-ImprovedVolume::ImprovedVolume(const VolumeData& data, std::span<const std::uint8_t> fresh)
+constexpr Tet kTetsALook = 1 << 16;  // some milliseconds
+
+}  // namespace
+
+ImprovedVolume::ImprovedVolume(const VolumeData& data, std::span<const std::uint8_t> fresh,
+                               const Threads& threads)
     : data_(data), mesh_(data.mesh), region_of_(data.region_of) {
-  energy_.assign(mesh_.slot_count(), 0);
-  Tet first = kNone;  // of two
-  for (Tet t = 0; t < mesh_.slot_count(); ++t) {
-    if (!is_inside(t)) continue;
-    if (data.most_volumes != nullptr) {
-      turn_to(t);
-      energy_[t] = energy_of(mesh_.corners(t));
-      continue;
-    }
-    if (first == kNone) {
-      first = t;
-      continue;
-    }
-    const Pair both = energies_of(mesh_.corners(first), mesh_.corners(t));
-    energy_[std::exchange(first, kNone)] = both[0];
-    energy_[t] = both[1];
+  const auto slots = static_cast<Tet>(mesh_.slot_count());
+  energy_.assign(slots, 0);
+  for (Tet first = 0; first < slots; first += std::min(kTetsALook, slots - first)) {
+    compute_energies(first, first + std::min(kTetsALook, slots - first));
+    threads.poll();
   }
-  if (first != kNone) energy_[first] = energy_of(mesh_.corners(first));
   touched_.assign(fresh.begin(), fresh.end());
   touched_.resize(mesh_.vertex_count(), 1);
-  changed_.assign(mesh_.slot_count(), fresh.empty() ? 1 : 0);
+  changed_.assign(slots, fresh.empty() ? 1 : 0);
   if (fresh.empty()) return;
-  for (Tet t = 0; t < mesh_.slot_count(); ++t) {
+  for (Tet t = 0; t < slots; ++t) {
+    if (t % kTetsALook == 0) threads.poll();
     const TetMesh::Corners& c = mesh_.corners(t);
     if (is_inside(t) && std::any_of(c.begin(), c.end(), [&](Vertex v) { return touched_[v] != 0; }))
       changed_[t] = 1;
   }
+}
+
+// Two at a time, where elements of all regions are judged alike.
+void ImprovedVolume::compute_energies(Tet first, Tet last) {
+  Tet waiting = kNone;  // for a second one
+  for (Tet t = first; t < last; ++t) {
+    if (!is_inside(t)) continue;
+    if (data_.most_volumes != nullptr) {
+      turn_to(t);
+      energy_[t] = energy_of(mesh_.corners(t));
+      continue;
+    }
+    if (waiting == kNone) {
+      waiting = t;
+      continue;
+    }
+    const Pair both = energies_of(mesh_.corners(waiting), mesh_.corners(t));
+    energy_[std::exchange(waiting, kNone)] = both[0];
+    energy_[t] = both[1];
+  }
+  if (waiting != kNone) energy_[waiting] = energy_of(mesh_.corners(waiting));
 }
 
 Figures ImprovedVolume::figures(std::span<const Tet> tets) const {

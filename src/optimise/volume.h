@@ -8,6 +8,7 @@
 
 #include "mesh/editor.h"
 #include "mesh/exchange.h"
+#include "mesh/parallel.h"
 #include "optimise/energy.h"
 #include "optimise/figures.h"
 #include "optimise/tuning.h"
@@ -20,7 +21,8 @@ class ImprovedVolume {
  public:
   /// Free vertices may move and go. All vertices of kept tetrahedra are explicit. What is at vertices that
   /// `fresh` marks, or that are higher than it tells of, counts as changed.
-  explicit ImprovedVolume(const VolumeData& data, std::span<const std::uint8_t> fresh = {});
+  explicit ImprovedVolume(const VolumeData& data, std::span<const std::uint8_t> fresh = {},
+                          const Threads& threads = 1);
 
   [[nodiscard]] TetMesh& mesh() { return mesh_; }
   [[nodiscard]] const TetMesh& mesh() const { return mesh_; }
@@ -147,6 +149,7 @@ class ImprovedVolume {
   [[nodiscard]] RegionId region_of(Tet t) const { return region_of_[t]; }
 
  private:
+  void compute_energies(Tet first, Tet last);
   void turn_to_region(RegionId region) {
     constexpr double kSurely = 1 - 1e-9;
     if (data_.most_volumes != nullptr) [[unlikely]]

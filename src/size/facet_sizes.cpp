@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 #include "numbers/vector.h"
 #include "size/tuning.h"
@@ -11,6 +13,10 @@ namespace holdfast {
 namespace {
 
 constexpr std::uint32_t kLeaf = 4;
+constexpr std::uint32_t kFacetsALook = 1 << 14;  // parted in some milliseconds
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::pair<Point, Point> kNothing{{kInfinity, kInfinity, kInfinity},
+                                           {-kInfinity, -kInfinity, -kInfinity}};
 
 double square(double x) { return x * x; }
 
@@ -45,47 +51,89 @@ double longest_side(const std::array<Point, 3>& t) {
   return std::max({distance(t[0], t[1]), distance(t[1], t[2]), distance(t[2], t[0])});
 }
 
+struct Centre {
+  Point place;
+  std::uint32_t facet;
+};
+
+Point centre_of(const std::array<Point, 3>& t) {
+  Point centre;
+  for (std::size_t k = 0; k < 3; ++k) centre[k] = t[0][k] / 3 + t[1][k] / 3 + t[2][k] / 3;
+  return centre;
+}
+
+void extend(Point& low, Point& high, const Point& other_low, const Point& other_high) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    low[k] = std::min(low[k], other_low[k]);
+    high[k] = std::max(high[k], other_high[k]);
+  }
+}
+
+// By the place along an axis, and no two alike: which ones are in which half does not depend on the library.
+void part_in_middle(std::span<Centre> centres) {
+  auto [low, high] = kNothing;
+  for (const Centre& c : centres) extend(low, high, c.place, c.place);
+  std::size_t axis = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
+  const auto middle = centres.begin() + static_cast<std::ptrdiff_t>(centres.size() / 2);
+  std::nth_element(centres.begin(), middle, centres.end(), [axis](const Centre& f, const Centre& g) {
+    return f.place[axis] != g.place[axis] ? f.place[axis] < g.place[axis] : f.facet < g.facet;
+  });
+}
+
 }  // namespace
 
-FacetSizes::FacetSizes(std::span<const Facet> facets, Wanted wanted) : wanted_(wanted) {
+FacetSizes::FacetSizes(std::span<const Facet> facets, Wanted wanted, const Threads& threads)
+    : wanted_(wanted) {
   for (const Facet& f : facets) {
     const double need = tuning::kNeedOfFacet * longest_side(f.corners);
     if (need > tuning::kFarBeyond * f.wanted || wanted == Wanted::anywhere)
       facets_.push_back({f.corners, std::min(need, tuning::kMostNeed * f.wanted)});
   }
   if (facets_.empty()) return;
-  nodes_.push_back({{}, {}, 0, 0, static_cast<std::uint32_t>(facets_.size()), 0});
-  for (std::uint32_t node = 0; node < nodes_.size(); ++node) build(node);
+  part_facets(threads);
+  // Children stand behind their parents.
+  for (std::size_t node = nodes_.size(); node-- > 0;) enclose(nodes_[node]);
 }
 
-// Parts a node in the middle of its facets along its longest extent.
-void FacetSizes::build(std::uint32_t node) {
-  Node n = nodes_[node];
-  n.low.fill(std::numeric_limits<double>::infinity());
-  n.high.fill(-std::numeric_limits<double>::infinity());
-  const auto first = facets_.begin() + n.first, last = first + n.count;
-  for (auto f = first; f != last; ++f) {
-    n.need = std::max(n.need, f->need);
-    for (const Point& p : f->corners)
-      for (std::size_t k = 0; k < 3; ++k) {
-        n.low[k] = std::min(n.low[k], p[k]);
-        n.high[k] = std::max(n.high[k], p[k]);
-      }
+// Parts each node in the middle of its facets along the longest extent of their centres, and leaves the
+// facets in the order of the leaves.
+void FacetSizes::part_facets(const Threads& threads) {
+  std::vector<Centre> centres(facets_.size());
+  for (std::uint32_t f = 0; f < centres.size(); ++f) centres[f] = {centre_of(facets_[f].corners), f};
+  threads.poll();
+  nodes_.push_back({{}, {}, 0, 0, static_cast<std::uint32_t>(facets_.size()), 0});
+  for (std::uint32_t node = 0; node < nodes_.size(); ++node) {
+    const std::uint32_t first = nodes_[node].first, count = nodes_[node].count, half = count / 2;
+    if (count <= kLeaf) continue;
+    part_in_middle(std::span(centres).subspan(first, count));
+    nodes_[node].left = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.push_back({{}, {}, 0, first, half, 0});
+    nodes_.push_back({{}, {}, 0, first + half, count - half, 0});
+    if (count > kFacetsALook) threads.poll();
   }
-  if (n.count > kLeaf) {
-    std::size_t axis = 0;
-    for (std::size_t k = 1; k < 3; ++k)
-      if (n.high[k] - n.low[k] > n.high[axis] - n.low[axis]) axis = k;
-    const auto place = [axis](const Held& f) {
-      return f.corners[0][axis] / 3 + f.corners[1][axis] / 3 + f.corners[2][axis] / 3;
-    };
-    std::stable_sort(first, last, [&](const Held& f, const Held& g) { return place(f) < place(g); });
-    n.left = static_cast<std::uint32_t>(nodes_.size());
-    const std::uint32_t half = n.count / 2;
-    nodes_.push_back({{}, {}, 0, n.first, half, 0});
-    nodes_.push_back({{}, {}, 0, n.first + half, n.count - half, 0});
+  std::vector<Held> parted;
+  parted.reserve(facets_.size());
+  for (const Centre& c : centres) parted.push_back(facets_[c.facet]);
+  facets_ = std::move(parted);
+  threads.poll();
+}
+
+void FacetSizes::enclose(Node& node) const {
+  if (node.left == 0) {
+    std::tie(node.low, node.high) = kNothing;
+    for (std::uint32_t f = node.first; f < node.first + node.count; ++f) {
+      node.need = std::max(node.need, facets_[f].need);
+      for (const Point& p : facets_[f].corners) extend(node.low, node.high, p, p);
+    }
+    return;
   }
-  nodes_[node] = n;
+  const Node &x = nodes_[node.left], &y = nodes_[node.left + 1];
+  node.low = x.low;
+  node.high = x.high;
+  extend(node.low, node.high, y.low, y.high);
+  node.need = std::max(x.need, y.need);
 }
 
 template <typename Act>

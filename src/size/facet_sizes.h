@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "holdfast/types.h"
+#include "mesh/parallel.h"
 
 namespace holdfast {
 
@@ -28,7 +29,8 @@ class FacetSizes {
   enum class Wanted { at_corners, anywhere };
   FacetSizes() = default;
   /// Facets that can bear what is wanted are left out, where that is known.
-  explicit FacetSizes(std::span<const Facet> facets, Wanted wanted = Wanted::at_corners);
+  explicit FacetSizes(std::span<const Facet> facets, Wanted wanted = Wanted::at_corners,
+                      const Threads& threads = 1);
 
   [[nodiscard]] bool empty() const { return nodes_.empty(); }
   [[nodiscard]] std::size_t count() const { return facets_.size(); }
@@ -49,7 +51,8 @@ class FacetSizes {
     double need;  // the most of its facets
     std::uint32_t first, count, left;
   };
-  void build(std::uint32_t node);
+  void part_facets(const Threads& threads);
+  void enclose(Node& node) const;
   // Calls act(facet, distance) for the facets that need more than `size` and `rate` a unit of length at x,
   // and some others, until it returns false; it may raise `size`.
   template <typename Act>

@@ -58,7 +58,7 @@ void require_regions_of_bounds(std::span<const RegionSeed> seeds, const Kept& ke
 }  // namespace
 
 SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds, const Complex& complex,
-                           const SegmentTable& table, const Kept& kept, int scale)
+                           const SegmentTable& table, const Kept& kept, int scale, const Threads& threads)
     : gradation_(sizes.gradation),
       grows_(sizes.grow),
       most_(sizes.size > 0 ? std::ldexp(sizes.size, scale) : kNoLimit),
@@ -67,6 +67,7 @@ SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds
       fields_(sizes.fields),
       metric_(sizes.metric),
       of_vertex_(edge_lengths(complex, table, scale)) {
+  threads.poll();
   for (std::size_t v = 0; v < std::min(of_vertex_.size(), sizes.vertex_sizes.size()); ++v)
     if (sizes.vertex_sizes[v] > 0) of_vertex_[v] = std::ldexp(sizes.vertex_sizes[v], scale);
   if (fields_ && !field_)
@@ -77,10 +78,10 @@ SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds
     };
   limit_regions(sizes, seeds, kept);
   // A metric is kept to as it is, and a bound on volumes is exact.
-  if (!metric_ && most_volumes_.empty()) of_facets_ = sizes_of_facets(complex);
+  if (!metric_ && most_volumes_.empty()) of_facets_ = sizes_of_facets(complex, threads);
 }
 
-FacetSizes SizeFunction::sizes_of_facets(const Complex& complex) const {
+FacetSizes SizeFunction::sizes_of_facets(const Complex& complex, const Threads& threads) const {
   double least = most_;
   for (const double h : of_region_) least = std::min(least, h);
   std::vector<FacetSizes::Facet> facets;
@@ -93,8 +94,9 @@ FacetSizes SizeFunction::sizes_of_facets(const Complex& complex) const {
     }
     facets.push_back(f);
   }
+  threads.poll();
   // A function may ask for any size anywhere.
-  return FacetSizes(facets, field_ ? FacetSizes::Wanted::anywhere : FacetSizes::Wanted::at_corners);
+  return FacetSizes(facets, field_ ? FacetSizes::Wanted::anywhere : FacetSizes::Wanted::at_corners, threads);
 }
 
 void SizeFunction::limit_regions(const Sizes& sizes, std::span<const RegionSeed> seeds, const Kept& kept) {

@@ -29,7 +29,7 @@ class SizeFunction {
  public:
   /// `seeds` may give the regions that are kept sizes of their own. The mesh is the complex times 2^scale.
   SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds, const Complex& complex,
-               const SegmentTable& table, const Kept& kept, int scale);
+               const SegmentTable& table, const Kept& kept, int scale, const Threads& threads = 1);
 
   /// Of a vertex of the complex; infinite for one without edges.
   [[nodiscard]] std::size_t vertex_count() const { return of_vertex_.size(); }
@@ -69,7 +69,7 @@ class SizeFunction {
   [[nodiscard]] double limit_of_region(RegionId region) const {
     return of_region_.empty() ? most_ : of_region_[region];
   }
-  [[nodiscard]] FacetSizes sizes_of_facets(const Complex& complex) const;
+  [[nodiscard]] FacetSizes sizes_of_facets(const Complex& complex, const Threads& threads) const;
   void limit_regions(const Sizes& sizes, std::span<const RegionSeed> seeds, const Kept& kept);
   [[nodiscard]] Point unscaled(const Point& p) const;
   [[nodiscard]] double scaled(double h) const;
