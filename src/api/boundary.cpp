@@ -18,11 +18,13 @@ namespace {
 constexpr double kHiddenMargin = 0.5;    // of the box that is cut away again, in extents of the complex
 constexpr std::size_t kTetsAVertex = 7;  // of a Delaunay mesh, for the reservation of memory
 
-std::vector<Vertex> points_inside(const BoxMesh& box, const Division& division) {
+std::vector<Vertex> points_inside(const Attempt& attempt, const BoxMesh& box, const Division& division) {
   const TetMesh& mesh = box.mesh;
   if (mesh.vertex_count() == box.first_free) return {};
   std::vector<bool> inside(mesh.vertex_count(), false);
-  for (const Tet t : division.tets(mesh))
+  const std::vector<Tet> tets = division.tets(mesh);
+  attempt.threads.poll();
+  for (const Tet t : tets)
     for (const Vertex v : mesh.corners(t)) inside[v] = true;
   std::vector<Vertex> points;
   for (Vertex v = box.first_free; v < mesh.vertex_count(); ++v)
@@ -110,11 +112,11 @@ void report_choice(const Attempt& attempt, BoxMesh& box, const Division& divisio
 }
 
 std::size_t suppress_points(const Attempt& attempt, BoxMesh& box, Division& division) {
-  std::vector<Vertex> points = points_inside(box, division);
+  std::vector<Vertex> points = points_inside(attempt, box, division);
   if (points.empty()) return 0;
   suppress(box.mesh, std::move(points), box.first_free, attempt.monitor, attempt.seed);
   find_regions_again(box.mesh, attempt.complex().facets, division.regions, attempt.threads);
-  return points_inside(box, division).size();
+  return points_inside(attempt, box, division).size();
 }
 
 }  // namespace holdfast

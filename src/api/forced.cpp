@@ -1,29 +1,22 @@
 #include "api/forced.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <compare>
 #include <numbers>
+#include <numeric>
+#include <optional>
 #include <span>
 
 #include "mesh/anatomy.h"
-#include "mesh/keys.h"
 #include "mesh/quality.h"
 #include "numbers/elementary.h"
-#include "numbers/sorted.h"
 
 namespace holdfast {
 namespace {
 
 constexpr double kSmall = 10;  // degrees
 constexpr std::size_t kMostListed = 100;
-
-std::uint64_t key_of(const Triangle& corners) {
-  const Triangle t = ascending(corners);
-  std::uint64_t h = t[0] * 0x9E3779B97F4A7C15ull;
-  h = (h ^ (h >> 29) ^ t[1]) * 0xBF58476D1CE4E5B9ull;
-  return (h ^ (h >> 31) ^ t[2]) * 0x94D049BB133111EBull;
-}
 
 double angle_at(const Point& p, const Point& q, const Point& r) {
   double uu = 0, vv = 0, uv = 0;
@@ -34,6 +27,40 @@ double angle_at(const Point& p, const Point& q, const Point& r) {
   }
   return numbers::atan2(std::sqrt(std::max(0.0, uu * vv - uv * uv)), uv) * 180 / std::numbers::pi;
 }
+
+// The facets at each vertex, in ascending order.
+class FacetsAtVertices {
+ public:
+  FacetsAtVertices(const std::vector<Triangle>& facets, std::size_t vertices,
+                   const std::function<void()>& tell)
+      : first_(vertices + 1, 0), facets_(3 * facets.size()) {
+    for (const Triangle& t : facets) {
+      tell();
+      for (const Index v : t) ++first_[v + 1];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+    for (Index f = 0; f < facets.size(); ++f) {
+      tell();
+      for (const Index v : facets[f]) facets_[next[v]++] = f;
+    }
+  }
+
+  /// Those at the vertex that has the fewest of them: some have thousands.
+  template <std::size_t N>
+  [[nodiscard]] std::span<const Index> at_least_of(const std::array<Index, N>& vertices) const {
+    return at(*std::min_element(vertices.begin(), vertices.end(),
+                                [this](Index v, Index w) { return at(v).size() < at(w).size(); }));
+  }
+
+ private:
+  [[nodiscard]] std::span<const Index> at(Index v) const {
+    return std::span(facets_).subspan(first_[v], first_[v + 1] - first_[v]);
+  }
+
+  std::vector<std::size_t> first_;  // in facets_, by vertex
+  std::vector<Index> facets_;
+};
 
 class ForcedElements {
  public:
@@ -88,37 +115,23 @@ class ForcedElements {
     return wedge_at(c[static_cast<std::size_t>(ends[0])], c[static_cast<std::size_t>(ends[1])]);
   }
 
+  // A facet at an edge, and its corner that is not on it.
   struct Wing {
-    std::uint64_t key;
-    Index facet, apex;  // the corner that is not on the edge
-    friend auto operator<=>(const Wing&, const Wing&) = default;
+    Index facet, apex;
   };
-  static std::span<const Wing> with_key(const std::vector<Wing>& wings, std::uint64_t key) {
-    const auto first = std::lower_bound(wings.begin(), wings.end(), Wing{key, 0, 0});
-    auto last = first;
-    while (last != wings.end() && last->key == key) ++last;
-    return std::span(wings).subspan(static_cast<std::size_t>(first - wings.begin()),
-                                    static_cast<std::size_t>(last - first));
-  }
-
   // Two facets at an edge with a small angle between them: whatever lies there has no larger one.
   std::vector<Index> wedge_at(Index a, Index b) {
-    if (by_edge_.empty()) list_edges();
-    const auto wings = with_key(by_edge_, edge_key(a, b));
+    std::vector<Wing> wings;
+    for (const Index f : facets_at().at_least_of(std::array{a, b})) {
+      const Triangle& t = volume_.facets[f];
+      const auto is_on = [&](Index v) { return v == a || v == b; };
+      if (std::count_if(t.begin(), t.end(), is_on) == 2)
+        wings.push_back({f, *std::find_if_not(t.begin(), t.end(), is_on)});
+    }
     for (auto i = wings.begin(); i != wings.end(); ++i)
       for (auto j = wings.begin(); j != i; ++j)
         if (angle_between(a, b, i->apex, j->apex) < kSmall) return {j->facet, i->facet};
     return {};
-  }
-
-  void list_edges() {
-    for (Index f = 0; f < volume_.facets.size(); ++f) {
-      tell_();
-      const Triangle& c = volume_.facets[f];
-      for (std::size_t k = 0; k < 3; ++k)
-        by_edge_.push_back({edge_key(c[(k + 1) % 3], c[(k + 2) % 3]), f, c[k]});
-    }
-    std::sort(by_edge_.begin(), by_edge_.end());
   }
 
   // Of the half-planes from the line ab through p and through q, in degrees.
@@ -147,25 +160,22 @@ class ForcedElements {
                      angle_at(v[t[2]], v[t[0]], v[t[1]])}) < kSmall;
   }
 
-  // The table is built when first asked: most volumes have no such element.
-  std::optional<Index> facet_at(Triangle face) {
-    if (by_key_.empty()) {
-      for (Index f = 0; f < volume_.facets.size(); ++f) {
-        tell_();
-        by_key_.push_back({key_of(volume_.facets[f]), f, 0});
-      }
-      std::sort(by_key_.begin(), by_key_.end());
-    }
-    for (const Wing& found : with_key(by_key_, key_of(face)))
-      if (std::is_permutation(face.begin(), face.end(), volume_.facets[found.facet].begin()))
-        return found.facet;
+  [[nodiscard]] std::optional<Index> facet_at(const Triangle& face) {
+    for (const Index f : facets_at().at_least_of(face))
+      if (std::is_permutation(face.begin(), face.end(), volume_.facets[f].begin())) return f;
     return std::nullopt;
+  }
+
+  // The table is built when first asked for: most volumes have no such element.
+  const FacetsAtVertices& facets_at() {
+    if (!facets_at_) facets_at_.emplace(volume_.facets, volume_.vertices.size(), tell_);
+    return *facets_at_;
   }
 
   const Volume& volume_;
   const std::size_t first_added_;
   const std::function<void()>& tell_;
-  std::vector<Wing> by_key_, by_edge_;  // in their order
+  std::optional<FacetsAtVertices> facets_at_;
 };
 
 }  // namespace

@@ -84,6 +84,7 @@ double improve_as_fast(const Attempt& attempt, Field& field, Report::Field& repo
 void improve_flat(const Attempt& attempt, BoxMesh& box, Division& division, Report& report) {
   std::vector<Tet> flat = division.tets(box.mesh);
   std::erase_if(flat, [&](Tet t) {
+    attempt.monitor.poll(Stage::optimise, kCommonWork);
     const TetMesh& mesh = box.mesh;
     const auto& v = mesh.corners(t);
     return !is_flat(mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2]), mesh.position(v[3]));

@@ -91,6 +91,7 @@ FacetSizes::FacetSizes(std::span<const Facet> facets, Wanted wanted, const Threa
     if (need > tuning::kFarBeyond * f.wanted || wanted == Wanted::anywhere)
       facets_.push_back({f.corners, std::min(need, tuning::kMostNeed * f.wanted)});
   }
+  threads.poll();
   if (facets_.empty()) return;
   part_facets(threads);
   // Children stand behind their parents.

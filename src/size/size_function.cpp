@@ -13,6 +13,7 @@ namespace holdfast {
 namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+constexpr std::size_t kFacetsALook = 1 << 16;  // some milliseconds
 
 // The edge of the regular tetrahedron of a volume. Elements of a field mesh vary in volume, and most are
 // below that of a regular one with edges of the size.
@@ -93,8 +94,8 @@ FacetSizes SizeFunction::sizes_of_facets(const Complex& complex, const Threads& 
       f.wanted = std::min(f.wanted, of_vertex_[t[i]]);
     }
     facets.push_back(f);
+    if (facets.size() % kFacetsALook == 0) threads.poll();
   }
-  threads.poll();
   // A function may ask for any size anywhere.
   return FacetSizes(facets, field_ ? FacetSizes::Wanted::anywhere : FacetSizes::Wanted::at_corners, threads);
 }
