@@ -9,7 +9,7 @@ SEED ?= 1
 MINUTES ?= 5
 PYTHON ?= /usr/bin/python3
 
-.PHONY: help setup build demo test python wheel slurm python-corpus corpus random planes solvers partitioned scale fuzz bench field repair tables paper figures format viewer web-test web-bits pictures docs web tidy debug asan tsan libcxx install clean
+.PHONY: help setup build demo test python wheel slurm python-corpus corpus random planes solvers partitioned scale scale-slurm scale-whole fuzz bench field repair tables paper figures format viewer web-test web-bits pictures docs web tidy debug asan tsan libcxx install clean
 .DEFAULT_GOAL := help
 
 help:  ## this list
@@ -56,10 +56,19 @@ partitioned: build  ## DOLFINx, OpenFOAM, VTK and Gmsh on meshes in pieces, as t
 	@scripts/setup.sh solvers
 	@$(PYTHON) tests/solvers/partitioned.py $(RELEASE)/holdfast --write docs/scaling.md $(or $(ARGS),--no-msh)
 
+SCALE = PYTHONPATH=$(RELEASE)/python /usr/bin/python3 scripts/scale.py $(RELEASE)/holdfast
+
 scale: python  ## N=1e6 tetrahedra in parts through Dask, one worker killed, to docs/scaling.md; goes on where it stopped
 	@scripts/setup.sh python-test
-	@PYTHONPATH=$(RELEASE)/python /usr/bin/python3 scripts/scale.py $(RELEASE)/holdfast build/scale-$(N) --elements $(N) \
-	  --write docs/scaling.md $(ARGS)
+	@$(SCALE) build/scale-$(N) --elements $(N) --write docs/scaling.md $(ARGS)
+
+scale-slurm: python  ## the same through an array on a Slurm cluster of this machine alone (as root)
+	@scripts/setup.sh python-test slurm
+	@python/tests/slurm_cluster.sh env $(SCALE) build/scale-slurm-$(N) --elements $(N) --slurm --write docs/scaling.md $(ARGS)
+
+scale-whole: build  ## 10^6 and 10^7 tetrahedra in one process, beside Gmsh HXT and TetGen, to docs/scaling.md
+	@scripts/setup.sh bench
+	@$(PYTHON) bench/large.py $(RELEASE)/holdfast build/scale-whole --write docs/scaling.md $(ARGS)
 
 corpus: build  ## meshes and verifies every surface of CORPUS=dir (options: ARGS="--only 'gen_*'")
 	@python3 scripts/corpus.py --holdfast $(RELEASE)/holdfast --corpus "$(or $(CORPUS),../shared/corpus)" \
