@@ -1,12 +1,13 @@
 """Repairs broken surfaces and judges what comes out: docs/repair.md, by `make repair`.
 
     bench/repair.py --holdfast PROGRAM --rows FILE.jsonl --out docs/repair.md [--checker CHECK_REPAIR] [--autorefine PROGRAM]
-                    [--jobs N] [--most TRIANGLES] [--only PATTERN] [--report-only] [--test N] [FOLDER...]
+                    [--jobs N] [--most TRIANGLES] [--only PATTERN] [--without-others] [--report-only] [--test N]
+                    [FOLDER...]
 
 Every surface is repaired with the options of its group, and the result is judged by `holdfast check --repaired` and by an
 independent checker; then it is meshed where it encloses anything, and the mesh is checked. The same surfaces go through Debian's
 admesh and CGAL's autorefine, whose results are only asked whether they are valid. A row is kept for as long as the program is
-the same, so that a run may be interrupted.
+the same, so that a run may be interrupted; what other programs did is kept when ours changes.
 """
 import argparse
 import fnmatch
@@ -120,15 +121,16 @@ class Bench:
     def limited(self, *words):
         return [self.holdfast, *words, "--time-limit", LIMIT, "--memory-limit", 6, "-q"]
 
-    def measure(self, path, group):
+    def measure(self, path, group, others=None):
+        """A row; `others` are what the other projects' programs did before, if that is known."""
         row = {"name": path.stem, "group": group, "stamp": self.stamp, "triangles": counts(path)[1]}
         with tempfile.TemporaryDirectory() as folder:
             folder = Path(folder)
             self.repair(path, folder, row)
-            row["others"] = {}
-            if self.admesh:
+            row["others"] = dict(others or {})
+            if self.admesh and "admesh" not in row["others"]:
                 row["others"]["admesh"] = self.other(path, folder, [self.admesh, "-b", "admesh.stl", "in.stl"], "admesh.stl", True)
-            if self.autorefine:
+            if self.autorefine and "autorefine" not in row["others"]:
                 row["others"]["autorefine"] = self.other(path, folder, [self.autorefine, path, "refined.off"], "refined.off", False)
         return row
 
@@ -345,6 +347,7 @@ def main():
     parser.add_argument("--most", type=int, default=0)
     parser.add_argument("--only", default="*")
     parser.add_argument("--report-only", action="store_true")
+    parser.add_argument("--without-others", action="store_true", help="our program alone")
     parser.add_argument("--test", type=int, default=0, metavar="N",
                         help="only about N surfaces, evenly over all sizes, without the others' programs; exit 1 unless 97 %% are "
                              "repaired and hold by our own check, 77 where there are none")
@@ -360,9 +363,10 @@ def main():
             known[row["group"], row["name"]] = row
     wanted = [(p, g) for p, g in surfaces(folders_of(arguments)) if fnmatch.fnmatch(p.stem, arguments.only) and
               (arguments.most == 0 or counts(p)[1] <= arguments.most)]
+    if arguments.test or arguments.without_others:
+        bench.admesh = bench.autorefine = None
     if arguments.test:
         wanted = wanted[::max(1, len(wanted) // arguments.test)]
-        bench.admesh = bench.autorefine = None
         if not wanted:
             sys.exit(77)
     missing = [] if arguments.report_only else [(p, g) for p, g in wanted
@@ -370,7 +374,7 @@ def main():
 
     def measure(task):
         path, group = task
-        row = bench.measure(path, group)
+        row = bench.measure(path, group, known.get((group, path.stem), {}).get("others"))
         with open(rows_file, "a", encoding="utf-8") as file:
             file.write(json.dumps(row) + "\n")
             file.flush()

@@ -195,11 +195,15 @@ std::vector<std::string> disagreements(const RepairClaims& file, const RepairCla
   return found;
 }
 
-/// Lines behind those of facets become parents of segments.
-void take_segments(RepairClaims& claims, std::size_t input_facets, std::size_t output_facets) {
+/// Lines behind those of facets become parents of segments; those of isolated vertices, which have none and
+/// come last, go.
+void take_segments(RepairClaims& claims, std::size_t input_facets, const Surface& output) {
+  const std::size_t output_facets = output.facets.size();
+  std::size_t lines = claims.parents.size();
+  while (lines > output_facets + output.segments.size() && claims.parents[lines - 1].empty()) --lines;
   if (claims.parents.size() <= output_facets) return;
   IndexLists segments;
-  for (std::size_t line = output_facets; line < claims.parents.size(); ++line) {
+  for (std::size_t line = output_facets; line < lines; ++line) {
     for (const Index parent : claims.parents[line])
       segments.all.push_back(parent < input_facets ? no_entity : parent - static_cast<Index>(input_facets));
     segments.first.push_back(segments.all.size());
@@ -215,7 +219,7 @@ ReadClaims read_claims(const std::filesystem::path& parents, const std::filesyst
                        const Surface& input, const Surface& output) {
   if (parents.empty()) return {read_report(report), {}};
   RepairClaims claims = std::move(ParentsFile(parents).claims);
-  take_segments(claims, input.facets.size(), output.facets.size());
+  take_segments(claims, input.facets.size(), output);
   if (report.empty()) return {std::move(claims), {}};
   RepairClaims told = read_report(report);
   std::vector<std::string> differences = disagreements(claims, told);

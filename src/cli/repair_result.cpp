@@ -7,6 +7,23 @@
 #include "summary.h"
 
 namespace holdfast::cli {
+namespace {
+
+/// How many vertices nothing uses that are vertices of a mesh all the same.
+std::size_t isolated_vertices(const Surface& surface) {
+  std::vector<bool> used(surface.vertices.size(), false);
+  for (const Triangle& t : surface.facets)
+    for (const Index v : t) used[v] = true;
+  for (const Segment& s : surface.segments)
+    for (const Index v : s) used[v] = true;
+  const std::vector<std::int64_t> map = vertex_map(surface.view());
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (!used[v] && (map.empty() || map[v] >= 0)) ++count;
+  return count;
+}
+
+}  // namespace
 
 std::string summary_of(const RepairResult& result) {
   const RepairReport& report = result.report;
@@ -44,6 +61,7 @@ void write_parents(const std::filesystem::path& path, std::size_t input_facets, 
     for (const Index parent : result.segment_parents[s]) parents.push_back(input_facets + parent);
     text += fmt::format("{}\n", fmt::join(parents, " "));
   }
+  for (std::size_t v = isolated_vertices(result.surface); v > 0; --v) text += "-\n";
   write_bytes(path, text);
 }
 

@@ -9,6 +9,7 @@
 #include "io/labels.h"
 #include "io/text_reader.h"
 #include "numbers/float_environment.h"
+#include "surface/isolated.h"
 
 namespace holdfast {
 namespace io {
@@ -24,13 +25,16 @@ AtomicWriter& operator<<(AtomicWriter& out, const Point& p) {
   return out << p[0] << ' ' << p[1] << ' ' << p[2];
 }
 
+/// Segments are faces of two corners, isolated vertices of one, as the reader takes them.
 void write_off(AtomicWriter& out, const Surface& surface) {
+  const std::vector<Index> isolated = isolated_vertices(surface.view());
   out << "OFF\n"
       << std::uint64_t{surface.vertices.size()} << ' '
-      << std::uint64_t{surface.facets.size() + surface.segments.size()} << " 0\n";
+      << std::uint64_t{surface.facets.size() + surface.segments.size() + isolated.size()} << " 0\n";
   for (const Point& p : surface.vertices) out << p << '\n';
   for (const Triangle& t : surface.facets) out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
   for (const Segment& s : surface.segments) out << "2 " << s[0] << ' ' << s[1] << '\n';
+  for (const Index v : isolated) out << "1 " << v << '\n';
 }
 
 /// STL's solids and OBJ's groups take a name up to the line's end; groups are words.

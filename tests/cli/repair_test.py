@@ -73,6 +73,21 @@ class WhatIsMade(Repaired):
         self.check("in.off", files=("--report", "r.json"))
         self.assertGreater(self.report()["max_displacement"], 0)
 
+    def test_isolated_vertices(self):
+        """A face of one corner in OFF: written again where nothing came to use the vertex, with a line of its own."""
+        points = cube() + [(0.5, 0.5, 0.5), (0.5, 0.25, 0.5)]
+        self.write("in.off", off(points, [*CUBE_FACETS, (8,), (9,)]))
+        self.repair("in.off")
+        self.assertEqual(read_off((self.folder / "out.off").read_text()), read_off((self.folder / "in.off").read_text()))
+        self.assertEqual((self.folder / "p.txt").read_text().split("\n")[-3:], ["-", "-", ""])
+        self.check("in.off")
+        self.check("in.off", files=("--parents", "p.txt"))
+        points[9] = (0.5, 0.25, 0.0)
+        self.write("in.off", off(points, [*CUBE_FACETS, (8,), (9,)]))
+        self.repair("in.off")
+        self.assertEqual(read_off((self.folder / "out.off").read_text())[1][-1], [8])
+        self.check("in.off")
+
     def test_a_valid_surface(self):
         self.repair("cube.off")
         self.assertIn("the triangles are as they were", self.check("cube.off"))
