@@ -1,0 +1,56 @@
+#include "plane/chosen.h"
+
+#include <algorithm>
+
+namespace holdfast::plane {
+namespace {
+
+// Kept regions without a seed get the numbers from 1 on that no seed has.
+void number_regions(const Plane& plane, Chosen& chosen) {
+  std::vector<int> taken;
+  for (const Plane::Seed& seed : plane.regions) taken.push_back(seed.id);
+  std::sort(taken.begin(), taken.end());
+  int next = 1;
+  for (std::size_t region = 1; region < chosen.ids.size(); ++region) {
+    if (!chosen.kept[region] || chosen.ids[region] != 0) continue;
+    while (std::binary_search(taken.begin(), taken.end(), next)) ++next;
+    chosen.ids[region] = next++;
+  }
+}
+
+}  // namespace
+
+std::size_t Chosen::count() const {
+  return static_cast<std::size_t>(std::count(kept.begin() + 1, kept.end(), true));
+}
+
+Chosen choose_regions(Draft& draft, const Plane& plane, PlaneMethod method) {
+  Chosen chosen;
+  chosen.regions = find_regions(draft.mesh);
+  const std::size_t count = chosen.regions.count + std::size_t{1};
+  chosen.ids.assign(count, 0);
+  chosen.kept.assign(count, true);
+  chosen.areas.assign(count, 0);
+  chosen.kept[kOutside] = false;
+  const auto locate = [&](const std::vector<Position>& places, auto&& use) {
+    const std::vector<Found> found = find_triangles(draft.mesh, draft.points, places);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      // Ears leave segments out that bound nothing.
+      if (found[i].on_constraint || (method == PlaneMethod::ears && found[i].triangle == kNoVertex))
+        chosen.on_constraint = true;
+      if (found[i].triangle != kNoVertex && !found[i].on_constraint)
+        use(i, chosen.regions.of_triangle[found[i].triangle]);
+    }
+  };
+  locate(plane.holes, [&](std::size_t, std::uint32_t region) { chosen.kept[region] = false; });
+  std::vector<Position> seeds;
+  for (const Plane::Seed& seed : plane.regions) seeds.push_back(seed.where);
+  locate(seeds, [&](std::size_t i, std::uint32_t region) {
+    chosen.ids[region] = plane.regions[i].id;
+    chosen.areas[region] = plane.regions[i].area;
+  });
+  number_regions(plane, chosen);
+  return chosen;
+}
+
+}  // namespace holdfast::plane

@@ -1,0 +1,20 @@
+// What the stages of a run hand on to each other.
+#pragma once
+
+#include <vector>
+
+#include "plane/sweep.h"
+
+namespace holdfast::plane {
+
+struct Draft {
+  Points points;  ///< those of the input, then those that are added
+  std::vector<Ends> segments;
+  Triangles mesh;
+  std::vector<Vertex> order = {};  ///< of each point of the input its number there, if it is not the same
+
+  /// The number of a point in the input; of one that is added, behind these.
+  [[nodiscard]] Vertex number(Vertex v) const { return v < order.size() ? order[v] : v; }
+};
+
+}  // namespace holdfast::plane
