@@ -69,11 +69,10 @@ bool Flipper::stands(const Crossing& crossing) const {
                      [&](Vertex v) { return mesh_.index_of(crossing.tet, v) >= 0; });
 }
 
-void Flipper::begin(int depth, std::size_t budget, int most_change) {
+void Flipper::begin(int depth, std::size_t budget, int most_change_at_end) {
   if (levels_.size() <= static_cast<std::size_t>(depth)) levels_.resize(static_cast<std::size_t>(depth) + 1);
   work_.begin(budget);
-  change_ = 0;
-  most_change_ = most_change;
+  change_.begin(most_change_at_end);
   tried_.forget();
 }
 
@@ -81,15 +80,15 @@ bool Flipper::clear(const Crossing& crossing, int depth, std::size_t budget) {
   begin(depth, budget, -1);
   if (crossing.count == 2) {
     remove_edge(crossing.tet, crossing.corners[0], crossing.corners[1], depth);
-    return change_ < 0;
+    return change_.is_fall();
   }
   if (flip_face(crossing)) return true;
   const std::size_t first = random_() % 3;
-  for (std::size_t k = first; k < first + 3 && change_ == 0 && !work_.exhausted(); ++k) {
+  for (std::size_t k = first; k < first + 3 && !change_.is_fall() && !work_.exhausted(); ++k) {
     const Vertex a = crossing.corners[k % 3], b = crossing.corners[(k + 1) % 3];
     if (holds(crossing.tet, a, b)) remove_edge(crossing.tet, a, b, depth);
   }
-  return change_ < 0;
+  return change_.is_fall();
 }
 
 bool Flipper::remove(Tet t, Vertex a, Vertex b, int depth, std::size_t budget) {
@@ -167,7 +166,7 @@ bool Flipper::remove_now(const Level& level, Vertex avoided) {
   work_.add(2 * objective.tests);
   if (!cost || *cost % ForTarget::kWeight != 0) return false;
   const int change = *cost / ForTarget::kWeight - objective.cost_now();
-  if (change_ + change > (avoided == kNone ? most_change_ : 0)) return false;
+  if (!change_.allows(change, avoided == kNone)) return false;
   triangles_.clear();
   triangulation_.triangles(shell.size(), triangles_);
   MeshEditor(mesh_).replace_shell(shell, triangles_);
@@ -234,7 +233,7 @@ std::optional<ShellSpoke> Flipper::next_blocked(Level& level) {
 void Flipper::note_flip(std::size_t old_tets, int change) {
   work_.add(8 * old_tets);
   tried_.forget();
-  change_ += change;
+  change_.add(change);
 }
 
 }  // namespace holdfast

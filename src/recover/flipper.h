@@ -38,6 +38,24 @@ class FlipWork {
   std::size_t budget_ = 0, all_ = 0, before_ = 0;
 };
 
+/// By how much the flips of an attempt changed the target's cost: it never rises above where it began.
+class CostChange {
+ public:
+  /// `most_at_end` is how much of it the flip may leave that ends the attempt.
+  void begin(int most_at_end) {
+    all_ = 0;
+    most_at_end_ = most_at_end;
+  }
+  [[nodiscard]] bool allows(int more, bool ends_attempt) const {
+    return all_ + more <= (ends_attempt ? most_at_end_ : 0);
+  }
+  void add(int more) { all_ += more; }
+  [[nodiscard]] bool is_fall() const { return all_ < 0; }
+
+ private:
+  int all_ = 0, most_at_end_ = -1;
+};
+
 class Flipper {
  public:
   Flipper(TetMesh& mesh, Random& random) : mesh_(mesh), piercing_(mesh, random), random_(random) {}
@@ -88,7 +106,7 @@ class Flipper {
   class ForTarget;
   friend EdgeClearing<Flipper>;
 
-  void begin(int depth, std::size_t budget, int most_change);
+  void begin(int depth, std::size_t budget, int most_change_at_end);
   bool flip_face(const Crossing& face);
   bool remove_edge(Tet t, Vertex a, Vertex b, int depth) {
     return EdgeClearing(mesh_, *this).remove(t, a, b, depth, kNone);
@@ -114,8 +132,7 @@ class Flipper {
   Random& random_;
   Target target_ = Target::none();
   FlipWork work_;
-  int most_change_ = -1;  // of a flip that ends an attempt
-  int change_ = 0;        // of the target's cost since `clear` began; never positive
+  CostChange change_;
   FlipCounts counts_;
   TriedEdges tried_;  // in this attempt, since the last flip
 
