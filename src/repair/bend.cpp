@@ -6,10 +6,10 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include "numbers/sorted.h"
+#include "repair/bent.h"
 #include "repair/near.h"
 #include "surface/aabb_tree.h"
 #include "surface/complex.h"
@@ -17,184 +17,140 @@
 namespace holdfast::repairing {
 namespace {
 
-using Side = std::array<Index, 2>;
+bool has_repeated_corners(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
+bool holds(const Box& box, const Point& p) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (p[k] < box.low[k] || p[k] > box.high[k]) return false;
+  return true;
+}
+
+// --- 1. What is near --------------------------------------------------------------------------------------
+
+bool is_near(const State& state, Index v, const Triangle& facet, double distance) {
+  const auto at = [&](Index w) -> const Point& { return state.vertices[w]; };
+  const auto& [a, b, c] = facet;
+  if (v == a || v == b || v == c) return true;
+  return beside_side(at(v), at(a), at(b)).distance <= distance ||
+         beside_side(at(v), at(b), at(c)).distance <= distance ||
+         beside_side(at(v), at(c), at(a)).distance <= distance ||
+         beside_facet(at(v), at(a), at(b), at(c)).distance <= distance;
+}
+
+/// For each facet, and then each segment, in trouble the vertices near it, with room for bending.
+std::vector<std::vector<Index>> list_near(const State& state, const Trouble& trouble,
+                                          std::span<const Index> vertices, double gap, const Step& step) {
+  constexpr double kRoom = 4;
+  std::vector<Box> boxes;
+  for (const Index v : vertices) boxes.push_back(box_round(state, std::array{v}, 0));
+  for (const Index f : trouble.facets) boxes.push_back(box_round(state, state.facets[f], kRoom * gap));
+  for (const Index s : trouble.segments) boxes.push_back(box_round(state, state.segments[s], kRoom * gap));
+  std::vector<std::vector<Index>> near(boxes.size() - vertices.size());
+  const auto first = static_cast<Index>(vertices.size());
+  AabbTree(boxes).for_each_overlap(
+      [&](Index i, Index j) {
+        if (i > j) std::swap(i, j);
+        if (i >= first || j < first) return true;
+        const Index v = vertices[i], k = j - first;
+        if (k >= trouble.facets.size() || is_near(state, v, state.facets[trouble.facets[k]], kRoom * gap))
+          near[k].push_back(v);
+        return true;
+      },
+      [](Index, Index) { return false; }, step);
+  for (std::vector<Index>& list : near) std::sort(list.begin(), list.end());
+  return near;
+}
+
+/// Facets and segments with a side between two of the vertices.
+void begin(const State& state, const Trouble& trouble, std::span<const Index> vertices, BentSurface& bent) {
+  std::vector<std::uint8_t> is_vertex(state.vertices.size(), 0);
+  for (const Index v : vertices) is_vertex[v] = 1;
+  std::size_t next = 0;
+  for (Index f = 0; f < state.facets.size(); ++f) {
+    const Triangle& t = state.facets[f];
+    const bool listed = next < trouble.facets.size() && trouble.facets[next] == f;
+    std::vector<Index> lists;
+    if (listed) lists.push_back(static_cast<Index>(next++));
+    if (has_repeated_corners(t)) continue;
+    if (is_vertex[t[0]] + is_vertex[t[1]] + is_vertex[t[2]] >= 2) bent.add(BentFacet{t, {f}, lists});
+  }
+  next = 0;
+  for (Index s = 0; s < state.segments.size(); ++s) {
+    const bool listed = next < trouble.segments.size() && trouble.segments[next] == s;
+    std::vector<Index> lists;
+    if (listed) lists.push_back(static_cast<Index>(trouble.facets.size() + next++));
+    const Segment& ends = state.segments[s];
+    if (is_vertex[ends[0]] + is_vertex[ends[1]] == 2) bent.add(BentSegment{ends, s, lists});
+  }
+}
+
+// --- 2. and 3. Sides and facets
+// -----------------------------------------------------------------------------
+
+/// One side at a time is led through one vertex, in all that have it: (a b x) becomes (a p x) and (p b x),
+/// and vanishes where x is p. So the boundary of the facets stays what it was, and what was closed is.
 class Bending {
  public:
-  Bending(State& state, const Trouble& trouble, std::span<const Index> vertices, double gap, double room,
-          const Step& step)
-      : state_(state), trouble_(trouble), vertices_(vertices), gap_(gap), room_(room), step_(step) {}
+  /// `near` has the vertices near to each facet and segment, by the numbers in their `lists`.
+  Bending(const State& state, std::vector<std::vector<Index>> near, BentSurface& surface, double gap,
+          double room)
+      : state_(state),
+        near_(std::move(near)),
+        looked_at_(near_.size(), 0),
+        surface_(surface),
+        gap_(gap),
+        room_(room) {}
 
-  double run() {
-    list_near();
-    list_local();
-    bend();
-    deliver();
-    return most_;
+  /// The longest sides first: a facet that is thinner than the gap vanishes into its longest side. Ends early
+  /// where far more facets come of it than there were: what is left then is a surface, too.
+  void run(const Step& step) {
+    constexpr std::size_t kGrowth = 8, kRoom = 200;
+    const std::size_t most_steps = 1000 + 60 * surface_.facets().size();
+    const std::size_t most_facets = surface_.living() + kGrowth * near_.size() + kRoom;
+    for (std::size_t steps = 0; steps < most_steps && surface_.living() <= most_facets; ++steps) {
+      if ((steps & 63) == 0) step(0.5);
+      if (const std::optional<Side> side = surface_.next_side())
+        bend_side(*side);
+      else if (const std::optional<Index> facet = surface_.next_facet())
+        bend_facet(*facet);
+      else
+        return;
+    }
   }
 
  private:
   [[nodiscard]] const Point& at(Index v) const { return state_.vertices[v]; }
 
-  // --- What is near -----------------------------------------------------------------------------------
-
-  /// For each facet and segment in trouble the vertices near it, with room for bending.
-  void list_near() {
-    constexpr double kRoom = 4;
-    std::vector<Box> boxes;
-    for (const Index v : vertices_) boxes.push_back(box_round(state_, std::array{v}, 0));
-    for (const Index f : trouble_.facets) boxes.push_back(box_round(state_, state_.facets[f], kRoom * gap_));
-    for (const Index s : trouble_.segments)
-      boxes.push_back(box_round(state_, state_.segments[s], kRoom * gap_));
-    near_.resize(boxes.size() - vertices_.size());
-    looked_at_.resize(near_.size(), 0);
-    const auto first = static_cast<Index>(vertices_.size());
-    AabbTree(boxes).for_each_overlap(
-        [&](Index i, Index j) {
-          if (i > j) std::swap(i, j);
-          if (i >= first || j < first) return true;
-          if (is_near(vertices_[i], j - first, kRoom * gap_)) near_[j - first].push_back(vertices_[i]);
-          return true;
-        },
-        [](Index, Index) { return false; }, step_);
-    for (std::vector<Index>& list : near_) std::sort(list.begin(), list.end());
-  }
-
-  [[nodiscard]] bool is_near(Index v, std::size_t element, double distance) const {
-    if (element >= trouble_.facets.size()) return true;
-    const auto& [a, b, c] = state_.facets[trouble_.facets[element]];
-    if (v == a || v == b || v == c) return true;
-    return beside_side(at(v), at(a), at(b)).distance <= distance ||
-           beside_side(at(v), at(b), at(c)).distance <= distance ||
-           beside_side(at(v), at(c), at(a)).distance <= distance ||
-           beside_facet(at(v), at(a), at(b), at(c)).distance <= distance;
-  }
-
-  // --- 2. and 3. Sides and facets ---------------------------------------------------------------------
-  //
-  // One side at a time is led through one vertex, in all that have it: (a b x) becomes (a p x) and (p b x),
-  // and vanishes where x is p. So the boundary of the facets stays what it was, and what was closed is.
-
-  // Facets that come to have the same corners are one from then on, with all that these came from.
-
-  struct LocalFacet {
-    Triangle corners;
-    std::vector<Index> origins;  // in the state, ascending
-    std::vector<Index> lists;    // in near_
-    double bent = 0;             // by how much its points were moved so far
-    bool lives = true;
-  };
-  struct LocalSegment {
-    Segment ends;
-    Index origin;
-    std::vector<Index> lists;
-    double bent = 0;
-    bool lives = true;
-  };
-
-  static bool has_repeated_corners(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
-
-  /// Facets and segments with a side between two of the vertices.
-  void list_local() {
-    std::vector<std::uint8_t> is_vertex(state_.vertices.size(), 0);
-    for (const Index v : vertices_) is_vertex[v] = 1;
-    std::size_t next = 0;
-    for (Index f = 0; f < state_.facets.size(); ++f) {
-      const Triangle& t = state_.facets[f];
-      const bool listed = next < trouble_.facets.size() && trouble_.facets[next] == f;
-      std::vector<Index> lists;
-      if (listed) lists.push_back(static_cast<Index>(next++));
-      if (has_repeated_corners(t)) continue;
-      if (is_vertex[t[0]] + is_vertex[t[1]] + is_vertex[t[2]] >= 2) add(LocalFacet{t, {f}, lists});
-    }
-    next = 0;
-    for (Index s = 0; s < state_.segments.size(); ++s) {
-      const bool listed = next < trouble_.segments.size() && trouble_.segments[next] == s;
-      std::vector<Index> lists;
-      if (listed) lists.push_back(static_cast<Index>(trouble_.facets.size() + next++));
-      const Segment& ends = state_.segments[s];
-      if (is_vertex[ends[0]] + is_vertex[ends[1]] == 2) add(LocalSegment{ends, s, lists});
-    }
-  }
-
-  void add(LocalFacet facet) {
-    most_ = std::max(most_, facet.bent);
-    const auto fresh = static_cast<Index>(facets_.size());
-    const auto [found, is_new] = facet_with_.try_emplace(ascending(facet.corners), fresh);
-    if (!is_new && facets_[found->second].lives) {
-      LocalFacet& other = facets_[found->second];
-      join(other.origins, facet.origins);
-      join(other.lists, facet.lists);
-      other.bent = std::max(other.bent, facet.bent);
-      return;
-    }
-    found->second = fresh;
-    for (std::size_t i = 0; i < 3; ++i)
-      note(ascending(Side{facet.corners[i], facet.corners[(i + 1) % 3]})).facets.push_back(fresh);
-    if (!facet.lists.empty()) whole_.push_back(fresh);
-    facets_.push_back(std::move(facet));
-    ++living_;
-  }
-  void end(Index f) {
-    facets_[f].lives = false;
-    --living_;
-  }
-  static void join(std::vector<Index>& list, const std::vector<Index>& other) {
-    list.insert(list.end(), other.begin(), other.end());
-    sort_unique(list);
-  }
-  /// What a segment is led along twice it has once.
-  void add(const LocalSegment& segment) {
-    most_ = std::max(most_, segment.bent);
-    const auto index = static_cast<Index>(segments_.size());
-    const Side ends = ascending(Side(segment.ends));
-    const auto [found, is_new] = segment_with_.try_emplace({ends, segment.origin}, index);
-    if (!is_new && segments_[found->second].lives) {
-      LocalSegment& other = segments_[found->second];
-      other.bent = std::max(other.bent, segment.bent);
-      return;
-    }
-    found->second = index;
-    segments_.push_back(segment);
-    note(ascending(Side(segment.ends))).segments.push_back(index);
-  }
-
-  struct AtSide {
-    std::vector<Index> facets, segments;
-  };
-  AtSide& note(const Side& side) {
-    const auto [found, is_new] = at_side_.try_emplace(side);
-    if (is_new) sides_.emplace(length(minus(at(side[0]), at(side[1]))), side);
-    return found->second;
-  }
-
-  /// The longest sides first: a facet that is thinner than the gap vanishes into its longest side. Ends early
-  /// where far more facets come of it than there were: what is left then is a surface, too.
-  void bend() {
-    constexpr std::size_t kGrowth = 8, kRoom = 200;
-    const std::size_t most_steps = 1000 + 60 * facets_.size();
-    const std::size_t most_facets = living_ + kGrowth * near_.size() + kRoom;
-    for (std::size_t steps = 0; steps < most_steps && living_ <= most_facets; ++steps) {
-      if ((steps & 63) == 0) step_(0.5);
-      if (!sides_.empty()) {
-        const auto last = std::prev(sides_.end());
-        const Side side = last->second;
-        sides_.erase(last);
-        bend_side(side);
-      } else if (!whole_.empty()) {
-        const Index f = whole_.back();
-        whole_.pop_back();
-        bend_facet(f);
-      } else {
-        return;
+  void bend_side(const Side& side) {
+    const BentSurface::AtSide* at_side = surface_.at(side);
+    if (at_side == nullptr) return;
+    const BentSurface::AtSide here = *at_side;
+    const auto [through, nearest] = vertex_beside(side, here);
+    if (through == no_index) return;
+    surface_.forget(side);
+    for (const Index f : here.facets) {
+      if (!surface_.facet(f).lives) continue;
+      const BentFacet part = surface_.take(f, nearest.bound());
+      if (std::count(part.corners.begin(), part.corners.end(), through) != 0) continue;
+      for (const Index end : side) {
+        BentFacet half = part;
+        std::replace(half.corners.begin(), half.corners.end(), end, through);
+        surface_.add(std::move(half));
       }
     }
+    for (const Index s : here.segments) {
+      if (!surface_.segment(s).lives) continue;
+      BentSegment part = surface_.take_segment(s, nearest.bound());
+      const Segment ends = part.ends;
+      part.ends = {ends[0], through};
+      surface_.add(part);
+      part.ends = {through, ends[1]};
+      surface_.add(part);
+    }
   }
 
-  void bend_side(const Side& side) {
-    const auto at_here = at_side_.find(side);
-    if (at_here == at_side_.end()) return;
-    const AtSide here = at_here->second;
+  /// The nearest of the vertices that a side passes and may be led through.
+  [[nodiscard]] std::pair<Index, Nearness> vertex_beside(const Side& side, const BentSurface::AtSide& here) {
     Index best = no_index;
     Nearness nearest;
     const Box box = box_round(state_, side, gap_);
@@ -213,158 +169,120 @@ class Bending {
       }
     };
     for (const Index f : here.facets)
-      if (facets_[f].lives) look(facets_[f].lists);
+      if (surface_.facet(f).lives) look(surface_.facet(f).lists);
     for (const Index s : here.segments)
-      if (segments_[s].lives) look(segments_[s].lists);
-    if (best == no_index) return;
-    at_side_.erase(side);
-    for (const Index f : here.facets) {
-      if (!facets_[f].lives) continue;
-      end(f);
-      LocalFacet part = facets_[f];
-      part.lives = true;
-      part.bent += nearest.bound();
-      most_ = std::max(most_, part.bent);
-      if (std::count(part.corners.begin(), part.corners.end(), best) != 0) continue;
-      for (const Index end : side) {
-        LocalFacet half = part;
-        std::replace(half.corners.begin(), half.corners.end(), end, best);
-        add(std::move(half));
-      }
-    }
-    for (const Index s : here.segments) {
-      if (!segments_[s].lives) continue;
-      segments_[s].lives = false;
-      LocalSegment part = segments_[s];
-      part.lives = true;
-      part.bent += nearest.bound();
-      const Segment ends = part.ends;
-      part.ends = {ends[0], best};
-      add(part);
-      part.ends = {best, ends[1]};
-      add(part);
-    }
+      if (surface_.segment(s).lives) look(surface_.segment(s).lists);
+    return {best, nearest};
   }
 
-  [[nodiscard]] static bool holds(const Box& box, const Point& p) {
-    for (std::size_t k = 0; k < 3; ++k)
-      if (p[k] < box.low[k] || p[k] > box.high[k]) return false;
-    return true;
-  }
-
-  [[nodiscard]] bool has_room(const AtSide& here, double more) const {
+  [[nodiscard]] bool has_room(const BentSurface::AtSide& here, double more) const {
+    const auto fits = [&](const auto& part) { return !part.lives || part.bent + more <= room_; };
     return std::all_of(here.facets.begin(), here.facets.end(),
-                       [&](Index f) { return !facets_[f].lives || facets_[f].bent + more <= room_; }) &&
+                       [&](Index f) { return fits(surface_.facet(f)); }) &&
            std::all_of(here.segments.begin(), here.segments.end(),
-                       [&](Index s) { return !segments_[s].lives || segments_[s].bent + more <= room_; });
+                       [&](Index s) { return fits(surface_.segment(s)); });
   }
 
   void bend_facet(Index f) {
-    if (!facets_[f].lives) return;
-    const LocalFacet facet = facets_[f];
-    const auto& [a, b, c] = facet.corners;
-    for (const Index list : facet.lists)
+    if (!surface_.facet(f).lives) return;
+    const auto [a, b, c] = surface_.facet(f).corners;
+    for (const Index list : surface_.facet(f).lists)
       for (const Index v : near_[list]) {
         if (v == a || v == b || v == c) continue;
         const Nearness near = beside_facet(at(v), at(a), at(b), at(c));
-        if (!(near.distance <= gap_) || !(facet.bent + near.bound() <= room_)) continue;
-        end(f);
+        if (!(near.distance <= gap_) || !(surface_.facet(f).bent + near.bound() <= room_)) continue;
+        const BentFacet facet = surface_.take(f, near.bound());
         for (std::size_t i = 0; i < 3; ++i) {
-          LocalFacet part = facet;
+          BentFacet part = facet;
           part.corners[i] = v;
-          part.bent += near.bound();
-          add(std::move(part));
+          surface_.add(std::move(part));
         }
         return;
       }
   }
 
-  void deliver() {
-    std::vector<std::array<Index, 2>> parts;  // {first origin, in facets_}
-    std::vector<std::uint8_t> is_local(state_.facets.size(), 0);
-    for (Index k = 0; k < facets_.size(); ++k) {
-      for (const Index origin : facets_[k].origins) is_local[origin] = 1;
-      if (facets_[k].lives) parts.push_back({facets_[k].origins[0], k});
-    }
-    std::sort(parts.begin(), parts.end());
-    auto part = parts.begin();
-    std::vector<Triangle> facets;
-    Parents parents;
-    std::vector<std::uint8_t> known;
-    std::vector<Index> list;
-    const auto take = [&](const Triangle& t, std::span<const Index> origins) {
-      const Index f = origins[0];
-      facets.push_back(t);
-      list.clear();
-      for (const Index origin : origins) {
-        const auto of = state_.facet_parents.of(origin);
-        list.insert(list.end(), of.begin(), of.end());
-      }
-      sort_unique(list);
-      parents.add(list);
-      const bool same = origins.size() == 1 && t == state_.facets[f];
-      if (!state_.known.empty()) known.push_back(same ? state_.known[f] : 0);
-    };
-    for (Index f = 0; f < state_.facets.size(); ++f) {
-      if (has_repeated_corners(state_.facets[f])) continue;
-      if (is_local[f] == 0) {
-        take(state_.facets[f], std::array{f});
-        continue;
-      }
-      for (; part != parts.end() && (*part)[0] == f; ++part)
-        take(facets_[(*part)[1]].corners, facets_[(*part)[1]].origins);
-    }
-    state_.facets = std::move(facets);
-    state_.facet_parents = std::move(parents);
-    state_.known = std::move(known);
-    deliver_segments();
-  }
-
-  void deliver_segments() {
-    if (state_.segments.empty()) return;
-    std::map<Index, std::vector<Segment>> parts;
-    std::set<Index> local;
-    for (const LocalSegment& segment : segments_) {
-      local.insert(segment.origin);
-      if (segment.lives) parts[segment.origin].push_back(segment.ends);
-    }
-    std::vector<Segment> segments;
-    Parents parents;
-    for (Index s = 0; s < state_.segments.size(); ++s) {
-      if (local.count(s) == 0) parts[s] = {state_.segments[s]};
-      for (const Segment& part : parts[s]) {
-        segments.push_back(part);
-        parents.add(state_.segment_parents.of(s));
-      }
-    }
-    state_.segments = std::move(segments);
-    state_.segment_parents = std::move(parents);
-  }
-
-  State& state_;
-  const Trouble& trouble_;
-  std::span<const Index> vertices_;
+  const State& state_;
+  const std::vector<std::vector<Index>> near_;
+  std::vector<std::size_t> looked_at_;  // by lists: the last side for which they were looked at
+  std::size_t looked_ = 0;              // sides
+  BentSurface& surface_;
   const double gap_, room_;
-  const Step& step_;
-  std::vector<std::vector<Index>> near_;  // vertices, by facets and then segments in trouble
-  std::vector<std::size_t> looked_at_;    // by lists: the last side for which they were looked at
-  std::size_t looked_ = 0;                // sides
-  std::vector<LocalFacet> facets_;
-  std::vector<LocalSegment> segments_;
-  std::size_t living_ = 0;
-  std::map<Triangle, Index> facet_with_;                  // by its corners, ascending: the last of them
-  std::map<std::pair<Side, Index>, Index> segment_with_;  // by its ends, ascending, and its origin
-  std::map<Side, AtSide> at_side_;
-  std::set<std::pair<double, Side>> sides_;  // to look at
-  std::vector<Index> whole_;                 // facets to look at
-  double most_ = 0;
 };
+
+// --- The result
+// ---------------------------------------------------------------------------------------------
+
+void deliver_facets(const BentSurface& bent, State& state) {
+  std::vector<std::array<Index, 2>> parts;  // {first origin, in the bent surface}
+  std::vector<std::uint8_t> is_bent(state.facets.size(), 0);
+  for (Index k = 0; k < bent.facets().size(); ++k) {
+    for (const Index origin : bent.facet(k).origins) is_bent[origin] = 1;
+    if (bent.facet(k).lives) parts.push_back({bent.facet(k).origins[0], k});
+  }
+  std::sort(parts.begin(), parts.end());
+  auto part = parts.begin();
+  std::vector<Triangle> facets;
+  Parents parents;
+  std::vector<std::uint8_t> known;
+  std::vector<Index> list;
+  const auto take = [&](const Triangle& t, std::span<const Index> origins) {
+    const Index f = origins[0];
+    facets.push_back(t);
+    list.clear();
+    for (const Index origin : origins) {
+      const auto of = state.facet_parents.of(origin);
+      list.insert(list.end(), of.begin(), of.end());
+    }
+    sort_unique(list);
+    parents.add(list);
+    const bool same = origins.size() == 1 && t == state.facets[f];
+    if (!state.known.empty()) known.push_back(same ? state.known[f] : 0);
+  };
+  for (Index f = 0; f < state.facets.size(); ++f) {
+    if (has_repeated_corners(state.facets[f])) continue;
+    if (is_bent[f] == 0) {
+      take(state.facets[f], std::array{f});
+      continue;
+    }
+    for (; part != parts.end() && (*part)[0] == f; ++part)
+      take(bent.facet((*part)[1]).corners, bent.facet((*part)[1]).origins);
+  }
+  state.facets = std::move(facets);
+  state.facet_parents = std::move(parents);
+  state.known = std::move(known);
+}
+
+void deliver_segments(const BentSurface& bent, State& state) {
+  if (state.segments.empty()) return;
+  std::map<Index, std::vector<Segment>> parts;
+  std::set<Index> is_bent;
+  for (const BentSegment& segment : bent.segments()) {
+    is_bent.insert(segment.origin);
+    if (segment.lives) parts[segment.origin].push_back(segment.ends);
+  }
+  std::vector<Segment> segments;
+  Parents parents;
+  for (Index s = 0; s < state.segments.size(); ++s) {
+    if (is_bent.count(s) == 0) parts[s] = {state.segments[s]};
+    for (const Segment& part : parts[s]) {
+      segments.push_back(part);
+      parents.add(state.segment_parents.of(s));
+    }
+  }
+  state.segments = std::move(segments);
+  state.segment_parents = std::move(parents);
+}
 
 }  // namespace
 
 double bend(State& state, const Trouble& trouble, std::span<const Index> vertices, double gap, double room,
             const Step& step) {
-  return Bending(state, trouble, vertices, gap, room, step).run();
+  BentSurface bent(state.vertices);
+  begin(state, trouble, vertices, bent);
+  Bending(state, list_near(state, trouble, vertices, gap, step), bent, gap, room).run(step);
+  deliver_facets(bent, state);
+  deliver_segments(bent, state);
+  return bent.most();
 }
 
 }  // namespace holdfast::repairing

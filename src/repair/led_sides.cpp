@@ -1,51 +1,63 @@
-// What each side of nearly coincident interfaces is led through: vertices of other parts, and crossings.
+#include "repair/led_sides.h"
+
 #include <algorithm>
-#include <map>
 
 #include "numbers/sorted.h"
-#include "repair/fusing.h"
+#include "surface/aabb_tree.h"
+#include "surface/complex.h"
 
 namespace holdfast::repairing {
 
-void Fusing::list_sides() {
-  for (const Index f : close_)
-    for (std::size_t i = 0; i < 3; ++i) sides_[side_of(f, i)].parts.push_back(part_of(f));
+LedSides::LedSides(const PartFacets& facets, std::span<const Index> close, double gap,
+                   std::vector<Point>& vertices, const Step& step)
+    : facets_(facets), gap_(gap) {
+  list(close);
+  put_vertices(close, step);
+  cross_sides(vertices, step);
+  for (auto& [side, on] : sides_) std::sort(on.points.begin(), on.points.end());
+  for (auto& [side, on] : sides_) part_from_itself(side, on);
+}
+
+void LedSides::list(std::span<const Index> close) {
+  for (const Index f : close)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Triangle& t = facets_.corners(f);
+      sides_[ascending(Side{t[i], t[(i + 1) % 3]})].parts.push_back(facets_.part_of(f));
+    }
   for (auto& [side, on] : sides_) sort_unique(on.parts);
-  for (const Index f : close_)
-    for (const Index v : state_.facets[f]) close_vertices_.push_back(v);
-  sort_unique(close_vertices_);
 }
 
-Fusing::Side Fusing::side_of(Index f, std::size_t i) const {
-  return ascending(Side{state_.facets[f][i], state_.facets[f][(i + 1) % 3]});
-}
-
-bool Fusing::meet(const std::vector<Index>& a, const std::vector<Index>& b) {
+bool LedSides::meet(const std::vector<Index>& a, const std::vector<Index>& b) {
   return std::any_of(a.begin(), a.end(), [&](Index p) { return std::binary_search(b.begin(), b.end(), p); });
 }
 
-void Fusing::put_vertices_on_sides() {
+// Of the sides of a part near a vertex the nearest.
+void LedSides::put_vertices(std::span<const Index> close, const Step& step) {
+  std::vector<Index> vertices;
+  for (const Index f : close)
+    vertices.insert(vertices.end(), facets_.corners(f).begin(), facets_.corners(f).end());
+  sort_unique(vertices);
   std::vector<Box> boxes;
-  std::vector<std::map<Side, OnSide>::iterator> sides;
-  for (const Index v : close_vertices_) boxes.push_back(box_round(state_, std::array{v}, gap_));
+  std::vector<Sides::iterator> sides;
+  for (const Index v : vertices) boxes.push_back(box_round(facets_.state(), std::array{v}, gap_));
   for (auto side = sides_.begin(); side != sides_.end(); ++side) {
     sides.push_back(side);
-    boxes.push_back(box_round(state_, side->first, 0));
+    boxes.push_back(box_round(facets_.state(), side->first, 0));
   }
   struct Best {
     double distance, t;
-    std::map<Side, OnSide>::iterator side;
+    Sides::iterator side;
   };
   std::map<std::pair<Index, Index>, Best> best;  // by vertex and part
-  const auto first = static_cast<Index>(close_vertices_.size());
+  const auto first = static_cast<Index>(vertices.size());
   AabbTree(boxes).for_each_overlap(
       [&](Index i, Index j) {
         if (i > j) std::swap(i, j);
         if (i >= first || j < first) return true;
-        const Index v = close_vertices_[i];
+        const Index v = vertices[i];
         const auto side = sides[j - first];
         const auto [a, b] = side->first;
-        if (v == a || v == b || meet(parts_at_[v], side->second.parts)) return true;
+        if (v == a || v == b || meet(facets_.parts_at(v), side->second.parts)) return true;
         const Nearness near = beside_side(at(v), at(a), at(b));
         if (!(near.distance <= gap_) || is_led_back(v, a) || is_led_back(v, b)) return true;
         for (const Index p : side->second.parts) {
@@ -56,7 +68,7 @@ void Fusing::put_vertices_on_sides() {
         }
         return true;
       },
-      [](Index, Index) { return false; }, step_);
+      [](Index, Index) { return false; }, step);
   for (const auto& [key, found] : best) {
     on_side_.insert(key);
     auto& points = found.side->second.points;
@@ -66,28 +78,30 @@ void Fusing::put_vertices_on_sides() {
   }
 }
 
-bool Fusing::is_led_back(Index v, Index end) const {
+// Two vertices that are within the gap may each pass a side of the other: the later one goes on the side.
+bool LedSides::is_led_back(Index v, Index end) const {
   return v < end && length(minus(at(v), at(end))) <= gap_;
 }
 
-bool Fusing::has(const Side& side, const OnSide& on, Index v) {
+bool LedSides::has(const Side& side, const OnSide& on, Index v) {
   return v == side[0] || v == side[1] ||
          std::any_of(on.points.begin(), on.points.end(), [&](const auto& p) { return p.second == v; });
 }
 
-bool Fusing::are_joined(const Side& s, const OnSide& on_s, const Side& t, const OnSide& on_t) {
+// Whether two sides have a vertex in common by now: then they meet there, and nowhere else.
+bool LedSides::are_joined(const Side& s, const OnSide& on_s, const Side& t, const OnSide& on_t) {
   if (has(s, on_s, t[0]) || has(s, on_s, t[1])) return true;
   return has(t, on_t, s[0]) || has(t, on_t, s[1]) ||
          std::any_of(on_s.points.begin(), on_s.points.end(),
                      [&](const auto& p) { return has(t, on_t, p.second); });
 }
 
-void Fusing::cross_sides() {
+void LedSides::cross_sides(std::vector<Point>& vertices, const Step& step) {
   std::vector<Box> boxes;
-  std::vector<std::map<Side, OnSide>::iterator> sides;
+  std::vector<Sides::iterator> sides;
   for (auto side = sides_.begin(); side != sides_.end(); ++side) {
     sides.push_back(side);
-    boxes.push_back(box_round(state_, side->first, gap_ / 2));
+    boxes.push_back(box_round(facets_.state(), side->first, gap_ / 2));
   }
   struct Crossing {
     Index first, second;
@@ -108,7 +122,7 @@ void Fusing::cross_sides() {
         most_ = std::max(most_, passing.distance);
         return true;
       },
-      [](Index, Index) { return false; }, step_);
+      [](Index, Index) { return false; }, step);
   std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
     return std::pair(a.first, a.second) < std::pair(b.first, b.second);
   });
@@ -118,13 +132,16 @@ void Fusing::cross_sides() {
     // Where three sides meet in a point, two of them found it first.
     Index v = near_on(s, on_s, crossing.where);
     if (v == no_index) v = near_on(t, on_t, crossing.where);
-    if (v == no_index) v = add_vertex(crossing.where);
+    if (v == no_index) {
+      v = static_cast<Index>(vertices.size());
+      vertices.push_back(crossing.where);
+    }
     if (!has(s, on_s, v)) on_s.points.emplace_back(crossing.t, v);
     if (!has(t, on_t, v)) on_t.points.emplace_back(crossing.s, v);
   }
 }
 
-Index Fusing::near_on(const Side& side, const OnSide& on, const Point& p) const {
+Index LedSides::near_on(const Side& side, const OnSide& on, const Point& p) const {
   for (const Index v : side)
     if (length(minus(at(v), p)) <= gap_) return v;
   for (const auto& [t, v] : on.points)
@@ -132,12 +149,9 @@ Index Fusing::near_on(const Side& side, const OnSide& on, const Point& p) const 
   return no_index;
 }
 
-Index Fusing::add_vertex(const Point& p) {
-  state_.vertices.push_back(p);
-  return static_cast<Index>(state_.vertices.size() - 1);
-}
-
-void Fusing::part_from_itself(const Side& side, OnSide& on) {
+// A piece of a side may be a side, which is led through vertices in its turn. Where that would lead back to
+// the first one, a vertex is left out.
+void LedSides::part_from_itself(const Side& side, OnSide& on) {
   if (on.state == OnSide::done || on.points.empty()) return;
   on.state = OnSide::open;
   for (std::size_t k = 0; k <= on.points.size();) {
@@ -156,7 +170,7 @@ void Fusing::part_from_itself(const Side& side, OnSide& on) {
   on.state = OnSide::done;
 }
 
-std::vector<Index> Fusing::chain(Index from, Index to) const {
+std::vector<Index> LedSides::chain(Index from, Index to) const {
   std::vector<Index> chain{from};
   const auto found = sides_.find(ascending(Side{from, to}));
   if (found != sides_.end()) {
@@ -165,6 +179,22 @@ std::vector<Index> Fusing::chain(Index from, Index to) const {
   }
   chain.push_back(to);
   return chain;
+}
+
+bool LedSides::split(const Triangle& t, std::vector<Triangle>& pieces, int depth) const {
+  constexpr int kDeepest = 24;  // each level is done with a side
+  if (depth > kDeepest) return false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Index a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];
+    const std::vector<Index> along = chain(a, b);
+    if (along.size() == 2) continue;
+    for (std::size_t k = 0; k + 1 < along.size(); ++k)
+      if (along[k] != c && along[k + 1] != c && !split({along[k], along[k + 1], c}, pieces, depth + 1))
+        return false;
+    return true;
+  }
+  pieces.push_back(t);
+  return true;
 }
 
 }  // namespace holdfast::repairing

@@ -1,0 +1,83 @@
+// The part of a surface that is being bent: facets and segments, what they came from, and which of them have
+// yet to be looked at.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "repair/state.h"
+
+namespace holdfast::repairing {
+
+/// Two vertices, ascending.
+using Side = std::array<Index, 2>;
+
+struct BentFacet {
+  Triangle corners;
+  std::vector<Index> origins;  ///< in the state, ascending
+  std::vector<Index> lists;    ///< of vertices near it, by number
+  double bent = 0;             ///< by how much its points were moved so far
+  bool lives = true;
+};
+
+struct BentSegment {
+  Segment ends;
+  Index origin;
+  std::vector<Index> lists;
+  double bent = 0;
+  bool lives = true;
+};
+
+/// Of facets that live no two have the same corners: such are one from then on, with all that these came
+/// from. The same holds for segments of one origin.
+class BentSurface {
+ public:
+  explicit BentSurface(const std::vector<Point>& vertices) : vertices_(vertices) {}
+
+  [[nodiscard]] const BentFacet& facet(Index f) const { return facets_[f]; }
+  [[nodiscard]] const BentSegment& segment(Index s) const { return segments_[s]; }
+  [[nodiscard]] const std::vector<BentFacet>& facets() const { return facets_; }
+  [[nodiscard]] const std::vector<BentSegment>& segments() const { return segments_; }
+  /// Facets that live.
+  [[nodiscard]] std::size_t living() const { return living_; }
+  /// The most by which anything was bent.
+  [[nodiscard]] double most() const { return most_; }
+
+  void add(BentFacet facet);
+  void add(const BentSegment& segment);
+  /// Takes out what lives, for its parts to be added: it comes back, bent by some more.
+  [[nodiscard]] BentFacet take(Index facet, double more);
+  [[nodiscard]] BentSegment take_segment(Index segment, double more);
+
+  /// What has a side, or had it before it ended.
+  struct AtSide {
+    std::vector<Index> facets, segments;
+  };
+  /// The longest side that nobody has looked at since something came to have it.
+  [[nodiscard]] std::optional<Side> next_side();
+  [[nodiscard]] const AtSide* at(const Side& side) const;
+  /// When all that has it is taken out.
+  void forget(const Side& side) { at_side_.erase(side); }
+  /// The last facet with lists that nobody has looked at.
+  [[nodiscard]] std::optional<Index> next_facet();
+
+ private:
+  AtSide& note(const Side& side);
+
+  const std::vector<Point>& vertices_;
+  std::vector<BentFacet> facets_;
+  std::vector<BentSegment> segments_;
+  std::size_t living_ = 0;
+  std::map<Triangle, Index> facet_with_;                  // by its corners, ascending: the last of them
+  std::map<std::pair<Side, Index>, Index> segment_with_;  // by its ends and its origin
+  std::map<Side, AtSide> at_side_;
+  std::set<std::pair<double, Side>> sides_;  // to look at, by their lengths
+  std::vector<Index> whole_;                 // facets to look at
+  double most_ = 0;
+};
+
+}  // namespace holdfast::repairing

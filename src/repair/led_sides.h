@@ -1,0 +1,64 @@
+// What each side of nearly coincident interfaces is led through: vertices of other parts, and crossings. It
+// is decided once for all facets that have the side, so that no crack can open: a vertex of another part lies
+// on at most one side of a part, and two sides cross in one vertex.
+#pragma once
+
+#include <map>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "repair/part_facets.h"
+#include "surface/search.h"
+
+namespace holdfast::repairing {
+
+class LedSides {
+ public:
+  /// The sides of facets that are close to another part, led through vertices that they pass within `gap`,
+  /// and through new ones, which are added to `vertices`, where they cross.
+  LedSides(const PartFacets& facets, std::span<const Index> close, double gap, std::vector<Point>& vertices,
+           const Step& step);
+
+  /// The vertices of a side from one end to the other.
+  [[nodiscard]] std::vector<Index> chain(Index from, Index to) const;
+  /// Whether a vertex is on a side of a part that is led through it.
+  [[nodiscard]] bool is_on_side(Index v, Index part) const { return on_side_.count({v, part}) != 0; }
+  /// A facet that is in no patch, cut with its sides. False where that leads back to itself, as it may in
+  /// facets that are thinner than the gap.
+  [[nodiscard]] bool split(const Triangle& t, std::vector<Triangle>& pieces, int depth = 0) const;
+  /// The furthest that a side passes what it is led through.
+  [[nodiscard]] double most() const { return most_; }
+
+ private:
+  using Side = std::array<Index, 2>;  // ascending
+
+  /// What a side is led through, by how far along it.
+  struct OnSide {
+    std::vector<Index> parts;
+    std::vector<std::pair<double, Index>> points;
+    enum { fresh, open, done } state = fresh;  // of part_from_itself
+  };
+  using Sides = std::map<Side, OnSide>;
+
+  [[nodiscard]] const Point& at(Index v) const { return facets_.at(v); }
+  void list(std::span<const Index> close);
+  void put_vertices(std::span<const Index> close, const Step& step);
+  void cross_sides(std::vector<Point>& vertices, const Step& step);
+  [[nodiscard]] bool is_led_back(Index v, Index end) const;
+  [[nodiscard]] Index near_on(const Side& side, const OnSide& on, const Point& p) const;
+  void part_from_itself(const Side& side, OnSide& on);
+
+  [[nodiscard]] static bool meet(const std::vector<Index>& a, const std::vector<Index>& b);
+  [[nodiscard]] static bool has(const Side& side, const OnSide& on, Index v);
+  [[nodiscard]] static bool are_joined(const Side& s, const OnSide& on_s, const Side& t, const OnSide& on_t);
+
+  const PartFacets& facets_;
+  const double gap_;
+  Sides sides_;
+  std::set<std::pair<Index, Index>> on_side_;  // vertices, with the parts that have a side led through them
+  double most_ = 0;
+};
+
+}  // namespace holdfast::repairing
