@@ -73,8 +73,8 @@ class Agenda {
 /// The triangles whose circles hold a point.
 class ConflictRegion {
  public:
-  /// Calls `at_border` and `within` for the edges of the region in conflict with p, which holds triangle
-  /// `first`: constraints are its border, whatever lies behind.
+  /// Calls `visit` for all edges of the triangles in conflict with p, of which `first` is one, as far as they
+  /// hang together over edges that are no constraints.
   template <typename Visit>
   void each_edge(const GrowingMesh& growing, Vertex p, std::uint32_t first, Visit&& visit) {
     const Triangles& mesh = growing.mesh();
