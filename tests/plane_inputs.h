@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <set>
@@ -100,8 +101,9 @@ inline Plane random_plane(std::uint64_t seed, std::size_t most = 200) {
   return plane;
 }
 
-/// Spoils a valid input in one way: a point again, a point on a segment, a segment that crosses, overlaps,
-/// stands twice or has no length. What a message must name; nothing where the input has no place for it.
+/// Spoils a valid input in one way: a point again, off to infinity or on a segment, a segment that crosses,
+/// overlaps, stands twice or has no length, a hole on a segment. What a message must name; nothing where the
+/// input has no place for it.
 struct Spoilt {
   DefectKind kind;
   std::vector<Index> vertices, segments;
@@ -110,7 +112,7 @@ inline std::optional<Spoilt> spoil(Plane& plane, numbers::Random& random) {
   const auto any = [&](std::size_t n) { return static_cast<Index>(numbers::below(n, random)); };
   const auto last_point = [&] { return static_cast<Index>(plane.points.size() - 1); };
   const auto last_segment = [&] { return static_cast<Index>(plane.segments.size() - 1); };
-  const std::uint64_t way = numbers::below(6, random);
+  const std::uint64_t way = numbers::below(8, random);
   if (way == 0) {
     const Index v = any(plane.points.size());
     plane.points.push_back(plane.points[v]);
@@ -121,6 +123,11 @@ inline std::optional<Spoilt> spoil(Plane& plane, numbers::Random& random) {
     plane.segments.push_back({v, v});
     return Spoilt{DefectKind::degenerate_segment, {v, v}, {last_segment()}};
   }
+  if (way == 6) {
+    const Index v = any(plane.points.size());
+    plane.points[v][v % 2] = v % 3 == 0 ? std::nan("") : -HUGE_VAL;
+    return Spoilt{DefectKind::non_finite_coordinate, {v}, {}};
+  }
   if (plane.segments.empty()) return std::nullopt;
   const Index s = any(plane.segments.size());
   const auto [a, b] = plane.segments[s];
@@ -128,13 +135,17 @@ inline std::optional<Spoilt> spoil(Plane& plane, numbers::Random& random) {
     plane.segments.push_back({b, a});
     return Spoilt{DefectKind::segments_overlap, {}, {s, last_segment()}};
   }
-  if (way == 3 || way == 4) {
-    // The middle, where doubles have it; as a point alone, or as the end of a segment that overlaps.
+  if (way == 3 || way == 4 || way == 7) {
+    // The middle, where doubles have it: a point alone, the end of a segment that overlaps, or a hole.
     const PlanePoint &p = plane.points[a], &q = plane.points[b];
     const PlanePoint middle{p[0] / 2 + q[0] / 2, p[1] / 2 + q[1] / 2};
     if (!lies_between(p, q, middle)) return std::nullopt;
     if (std::find(plane.points.begin(), plane.points.end(), middle) != plane.points.end())
       return std::nullopt;
+    if (way == 7) {
+      plane.holes.push_back(middle);
+      return Spoilt{DefectKind::vertex_in_segment, {}, {s}};
+    }
     plane.points.push_back(middle);
     if (way == 3) return Spoilt{DefectKind::vertex_in_segment, {last_point()}, {s}};
     plane.segments.push_back({a, last_point()});
@@ -164,6 +175,22 @@ inline exact::Dyadic double_area(const PlaneMesh& mesh) {
   return sum;
 }
 
+/// The least box that holds some points: what is true of none in it need not be asked of those outside.
+struct PlaneBox {
+  PlanePoint low, high;
+  PlaneBox(std::initializer_list<PlanePoint> points) : low(*points.begin()), high(low) {
+    for (const PlanePoint& p : points)
+      for (std::size_t k = 0; k < 2; ++k) {
+        low[k] = std::min(low[k], p[k]);
+        high[k] = std::max(high[k], p[k]);
+      }
+  }
+  [[nodiscard]] bool meets(const PlaneBox& other) const {
+    return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] &&
+           other.low[1] <= high[1];
+  }
+};
+
 /// What is wrong with triangles of a plane: nothing, or one sentence. `delaunay`: each must be constrained
 /// Delaunay.
 inline std::string fault_of(const Plane& plane, const PlaneMesh& mesh, bool delaunay) {
@@ -181,20 +208,23 @@ inline std::string fault_of(const Plane& plane, const PlaneMesh& mesh, bool dela
       if (!apex.insert({{t[i], t[(i + 1) % 3]}, t[(i + 2) % 3]}).second)
         return "triangles overlap at an edge";
     }
+    const PlaneBox box{mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]};
     for (Index v = 0; v < mesh.points.size(); ++v) {
-      if (v == t[0] || v == t[1] || v == t[2]) continue;
+      if (v == t[0] || v == t[1] || v == t[2] || !box.meets({mesh.points[v]})) continue;
       bool inside = true;
       for (std::size_t i = 0; i < 3 && inside; ++i)
         inside = exact::orient2d(at(t[i]), at(t[(i + 1) % 3]), at(v)) >= 0;
       if (inside) return "point " + std::to_string(v) + " lies in a triangle";
     }
-    for (const auto& [a, b] : plane.segments)
+    for (const auto& [a, b] : plane.segments) {
+      if (!box.meets({mesh.points[a], mesh.points[b]})) continue;
       for (std::size_t i = 0; i < 3; ++i) {
         const Index p = t[i], q = t[(i + 1) % 3];
         const int c = exact::orient2d(at(a), at(b), at(p)), d = exact::orient2d(at(a), at(b), at(q));
         const int e = exact::orient2d(at(p), at(q), at(a)), f = exact::orient2d(at(p), at(q), at(b));
         if (c * d < 0 && e * f < 0) return "a side crosses a segment";
       }
+    }
   }
   for (const auto& [side, corner] : apex) {
     const auto other = apex.find({side.second, side.first});

@@ -84,6 +84,7 @@ class Diagnosis {
     find_repeated_points();
     find_flawed_segments();
     const BoxTree tree = tree_of_segments();
+    find_points_in_segments(tree);
     find_pairs(tree);
     find_places_on_segments(tree);
     return std::move(defects_);
@@ -169,22 +170,44 @@ class Diagnosis {
     return BoxTree(std::move(boxes));
   }
 
-  void find_pairs(const BoxTree& tree) {
-    const double all = static_cast<double>(sound_.size() + plane_.points.size());
-    for (Index v = 0; v < plane_.points.size(); ++v) {
-      if (v % 1024 == 0 && poll_) poll_(static_cast<double>(v) / all);
+  // Of pairs, of which there may be as many as squares of segments, no more are looked for than are told.
+
+  void find_points_in_segments(const BoxTree& tree) {
+    for (Index v = 0; v < plane_.points.size() && !is_full(DefectKind::vertex_in_segment); ++v) {
+      if (v % 1024 == 0) tell_progress(v);
       if (!finite_[v] || place_[v] != v) continue;
       tree.meet({plane_.points[v], plane_.points[v]}, [&](Index i) { judge_point(v, sound_[i]); });
     }
+  }
+
+  void find_pairs(const BoxTree& tree) {
+    std::vector<Index> others;
+    std::size_t judged = 0;  // since the last poll
     for (std::size_t i = 0; i < sound_.size(); ++i) {
-      if (i % 1024 == 0 && poll_) poll_(static_cast<double>(plane_.points.size() + i) / all);
-      std::vector<Index> others;
+      others.clear();
       tree.meet(box_of(sound_[i]), [&](Index j) {
         if (j > i) others.push_back(sound_[j]);
       });
+      judged += others.size() + 1;
+      if (judged > 10'000) {
+        tell_progress(plane_.points.size() + i);
+        judged = 0;
+      }
       std::sort(others.begin(), others.end());
-      for (const Index other : others) judge_pair(sound_[i], other);
+      for (const Index other : others) {
+        judge_pair(sound_[i], other);
+        if (is_full(DefectKind::segments_cross) || is_full(DefectKind::segments_overlap)) return;
+      }
     }
+  }
+
+  void tell_progress(std::size_t judged) const {
+    const std::size_t all = sound_.size() + plane_.points.size();
+    if (poll_) poll_(static_cast<double>(judged) / static_cast<double>(all));
+  }
+  [[nodiscard]] bool is_full(DefectKind kind) const {
+    const auto found = count_.find(kind);
+    return found != count_.end() && found->second >= most_;
   }
 
   // Holes and seeds of regions, which lie in no region there.

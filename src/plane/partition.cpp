@@ -1,16 +1,13 @@
 // Segments made edges by points where they cross the mesh, which then are removed again.
 //
-//            S                    A missing segment AB with the points P on it. The triangles at these make
-//            two
-//      S-   / \    S+             polygons, above and below. Of the vertices above, S is the furthest from
-//      AB:
-//       \  / | \   /              S-, S, S+ and the outer two of the points that it is joined to bound a
-//       convex
-//        \/  |  \ /               region, since S- and S+ are no further away and S- is nearer (of several at
-//        the
-//   A----P---P---P----B           same distance S is the first). So its edges to the points can be swapped
-//   one
-//                                 after another, until S is joined to S- and S+ alone.
+// clang-format off
+//            S              A missing segment AB with the points P on it. The triangles at these make two
+//      S-   / \    S+       polygons, above and below. Of the vertices above, S is the furthest from AB: S-, S,
+//       \  / | \   /        S+ and the outer two of the points that it is joined to bound a convex region,
+//        \/  |  \ /         since S- and S+ are no further away and S- is nearer (of several at the same
+//   A----P---P---P----B     distance S is the first). So its edges to the points can be swapped one after
+//                           another, until S is joined to S- and S+ alone.
+// clang-format on
 #include "plane/partition.h"
 
 #include <algorithm>

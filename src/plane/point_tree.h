@@ -1,11 +1,11 @@
 // Points of which those in a triangle are asked for, and which are taken out one by one.
 //
-//        [ all ]             Boxes over points along a Hilbert curve, eight by eight, and over eight boxes,
-//        and
-//       /   |    \           so on (Kamel, Faloutsos 1993, On packing R-trees). A box that no point is left
-//       in,
-//    [  ] [  ] [  ]          or that lies outside one side of the triangle, is passed by.
+// clang-format off
+//        [ all ]          Boxes over points along a Hilbert curve, eight by eight, and over eight boxes, and
+//       /   |    \        so on (Kamel, Faloutsos 1993, On packing R-trees). A box that no point is left in,
+//    [  ] [  ] [  ]       or that lies outside one side of the triangle, is passed by.
 //    .... .... ....
+// clang-format on
 #pragma once
 
 #include <algorithm>

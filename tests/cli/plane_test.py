@@ -4,6 +4,8 @@
 """
 import json
 import math
+import random
+import resource
 
 from cli_case import CliTest, main
 
@@ -294,6 +296,18 @@ class Refused(CliTest):
         self.refused(SQUARE, RING[:3], "enclose nothing")
         self.refused([(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)], [], "on one line")
         self.refused(SQUARE[:3] + [(float("nan"), 1.0)], RING[:3], "point 4 (nan, 1) is not finite")
+
+    def test_millions_of_crossings_end_soon(self):
+        # Told are a hundred of a kind, and no more are looked for: all would take a dozen seconds.
+        numbers = random.Random(1)
+        points = [(numbers.random(), numbers.random()) for _ in range(10_000)]
+        segments = [(2 * i + 1, 2 * i + 2) for i in range(5_000)]
+        self.write("in.poly", poly(points, segments))
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        said = self.run_program("plane", "in.poly", "-o", "out.off", expect=4).stderr
+        self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before, 5)
+        self.assertIn("segment 1 (1-2) and segment 3 (5-6) cross", said)
+        self.assertIn("and 80 more", said)
 
     def test_numbers_may_begin_with_0(self):
         segments = [(0, 1), (1, 2), (2, 3), (3, 0), (0, 2), (1, 3)]
