@@ -11,8 +11,8 @@ from process import run
 ORDERS = ("given", "random", "halving")
 SIZES = (8, 16, 32, 64, 128, 256, 512, 1024)
 SPACE = (2, 3, 4, 5, 6, 8, 12, 16, 24, 32)
-SPACE_ALONE = (2, 3, 4, 5, 6, 8)  # of 8 there are half a million points
 CHAZELLE = (2, 3, 4, 6, 8, 12, 16)
+LIMIT = 3600  # seconds of the clock: a run beyond it has no result
 
 
 def power(sizes, counts):
@@ -51,19 +51,24 @@ def grow(name, sizes, rows, measure, most_seconds):
 # -------------------------------------------------------------------------------------------------- plane
 
 
+def seconds_of(options, alone):
+    """Partition alone grows so fast that its series would end at small sizes."""
+    return options.most_seconds_alone if alone else options.most_seconds
+
+
 def plane_points(options, folder, rows, order, alone):
     def measure(n):
         extra = ["--stop-after", "partition"] if alone else []
         told = run_plane(options, folder, plane_inputs.quadrilateral(n, n), "--hull", "--method", "partition", "--order", order, *extra)
         return told and told["partition_points"]
 
-    return grow(f"Fig. 4, partition{' alone' if alone else ''}, {order}", SIZES, rows, measure, options.most_seconds)
+    return grow(f"Fig. 4, partition{' alone' if alone else ''}, {order}", SIZES, rows, measure, seconds_of(options, alone))
 
 
 def run_plane(options, folder, given, *extra):
     poly, out, report = folder / "in.poly", folder / "out.off", folder / "report.json"
     given.write(poly)
-    done = run([options.build / "holdfast", "plane", poly, "-o", out, "--report", report, "-q", *extra], 150 * options.most_seconds)
+    done = run([options.build / "holdfast", "plane", poly, "-o", out, "--report", report, "-q", *extra], LIMIT)
     return json.loads(report.read_text(encoding="utf-8")) if done.code == 0 else None
 
 
@@ -102,7 +107,7 @@ def run_space(options, folder, script, arguments, *extra):
     surface, report = folder / "in.off", folder / "report.json"
     run([sys.executable, ROOT / "examples" / script, arguments[0], surface, *arguments[1:]])
     done = run([options.build / "holdfast", "mesh", surface, "-o", folder / "out.meshb", "--fill", "-q", "--report", report, *extra],
-               150 * options.most_seconds)
+               LIMIT)
     return json.loads(report.read_text(encoding="utf-8")) if done.code == 0 else None
 
 
@@ -112,7 +117,7 @@ def space_points(options, folder, rows, order, stage, key):
                          "flips", "--order", order, "--stop-after", stage)
         return told and {k: told["partition"][k] for k in ("segment_points", "facet_points")}
 
-    told = grow(f"Fig. 13, {stage}, {order}", SPACE_ALONE if stage == "partition" else SPACE, rows, measure, options.most_seconds)
+    told = grow(f"Fig. 13, {stage}, {order}", SPACE, rows, measure, seconds_of(options, stage == "partition"))
     return [(n, value[key] if key else sum(value.values())) for n, value in told]
 
 
