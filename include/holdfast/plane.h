@@ -127,6 +127,7 @@ struct PlaneMesh {
   std::vector<int> point_markers, segment_markers;  ///< empty, or one each
   /// Of planes in space, where the points lie, those of the input bit for bit; `points` is empty then.
   std::vector<Point> in_space = {};
+  int base = 0;  ///< number of the first point and of the first triangle in .node and .ele
 };
 
 struct PlaneResult {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "command.h"
 #include "files.h"
@@ -17,6 +18,7 @@
 #include "plane_report.h"
 #include "report.h"
 #include "signals.h"
+#include "summary.h"
 
 namespace holdfast::cli {
 namespace {
@@ -135,14 +137,16 @@ Json report_of(const PlaneArguments& arguments, const PlaneResult& result) {
 /// What refinement did and what it left.
 void tell_of_refinement(const PlaneArguments& arguments, const PlaneReport& report) {
   if (!arguments.size && !arguments.angle) return;
-  say("{} points inside and {} on segments were added; the least angle is {:.2f} degrees\n",
-      report.field_points, report.segment_points, report.least_angle);
+  say("added: {} inside, {} on segments; the least angle is {:.2f} degrees\n",
+      counted(report.field_points, "point"), report.segment_points, report.least_angle);
   if (report.small_angles > 0)
-    say("{} triangles have a smaller angle than asked for at, or across from, a small angle of the input\n",
-        report.small_angles);
+    say("{} a smaller angle than asked for at, or across from, a small angle of the input\n",
+        counted(report.small_angles, "triangle has", "triangles have"));
   if (report.small_angles_left > 0)
-    say("{} other triangles have a smaller angle than asked for\n", report.small_angles_left);
-  if (report.large_left > 0) say("{} triangles are larger than asked for\n", report.large_left);
+    say("{} a smaller angle than asked for\n",
+        counted(report.small_angles_left, "other triangle has", "other triangles have"));
+  if (report.large_left > 0)
+    say("{} larger than asked for\n", counted(report.large_left, "triangle is", "triangles are"));
   if (report.capped)
     say("no more than {} points are added: allow more by --max-points, or ask for less\n",
         arguments.max_points);
@@ -152,15 +156,16 @@ void tell_of_refinement(const PlaneArguments& arguments, const PlaneReport& repo
 int conclude(const PlaneArguments& arguments, const PlaneResult& result) {
   if (result.outcome == Outcome::done) {
     if (!arguments.quiet)
-      say("{}: {} points, {} triangles in {} region{}, {:.2f} s\n", arguments.output.string(),
-          reports::points_of(result.mesh), result.report.triangles, result.report.regions,
-          result.report.regions == 1 ? "" : "s", result.report.seconds.at("total"));
+      say("{}: {}, {} in {}, {:.2f} s\n", arguments.output.string(),
+          counted(reports::points_of(result.mesh), "point"), counted(result.report.triangles, "triangle"),
+          counted(result.report.regions, "region"), result.report.seconds.at("total"));
     if (!arguments.quiet) tell_of_refinement(arguments, result.report);
     return exit_done;
   }
   say("holdfast: {}: {}; nothing was written\n", arguments.input.string(), result.message);
   if (result.outcome != Outcome::invalid_input) return exit_limit;
-  print_defects(result.defects, defects_shown);
+  for (const Defect& defect : std::span(result.defects).first(std::min(defects_shown, result.defects.size())))
+    say("{}: {}\n", name(defect.kind), defect.message);
   if (result.defects.size() > defects_shown)
     say("... and {} more; --report FILE.json lists them\n", result.defects.size() - defects_shown);
   return exit_invalid_surface;

@@ -35,10 +35,11 @@ void write_triangle(const std::filesystem::path& path, const PlaneMesh& mesh, Wa
   const bool marked = !mesh.point_markers.empty();
   const bool in_space = !mesh.in_space.empty();
   const std::size_t count = in_space ? mesh.in_space.size() : mesh.points.size();
+  const auto base = static_cast<std::uint64_t>(mesh.base);
   node << std::uint64_t{count} << (in_space ? " 3" : " 2") << (marked ? " 0 1\n" : " 0 0\n");
   for (std::size_t i = 0; i < count; ++i) {
     const double* const p = in_space ? mesh.in_space[i].data() : mesh.points[i].data();
-    node << std::uint64_t{i} << ' ' << p[0] << ' ' << p[1];
+    node << std::uint64_t{base + i} << ' ' << p[0] << ' ' << p[1];
     if (in_space) node << ' ' << p[2];
     if (marked) node << ' ' << mesh.point_markers[i];
     node << '\n';
@@ -46,7 +47,9 @@ void write_triangle(const std::filesystem::path& path, const PlaneMesh& mesh, Wa
   ele << std::uint64_t{mesh.triangles.size()} << " 3 1\n";
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Triangle& t = mesh.triangles[i];
-    ele << std::uint64_t{i} << ' ' << t[0] << ' ' << t[1] << ' ' << t[2] << ' ' << mesh.regions[i] << '\n';
+    ele << base + i;
+    for (const Index v : t) ele << ' ' << base + v;
+    ele << ' ' << mesh.regions[i] << '\n';
   }
   for (AtomicWriter* file : {&node, &ele}) file->finish();
   for (AtomicWriter* file : {&node, &ele}) file->commit();
@@ -96,6 +99,7 @@ void write_plane(const std::filesystem::path& path, const PlaneMesh& mesh, const
                         " cannot be written; the formats are .off, .node, .ele, .vtu");
   if (mesh.regions.size() != mesh.triangles.size())
     throw std::invalid_argument("as many region ids as triangles are needed");
+  if (mesh.base < 0) throw std::invalid_argument("points are numbered from 0 on");
   io::Watch watch(options, options.progress);
   if (extension == ".node" || extension == ".ele") {
     io::write_triangle(path, mesh, &watch);

@@ -245,6 +245,7 @@ PlaneResult triangulate(const Plane& plane, const PlaneOptions& options, const P
     if (!is_sound(plane) || !make(plane, options, result, poll)) refuse(plane, result, poll);
   }
   result.report.seconds["total"] = total;
+  result.mesh.base = plane.base;
   return result;
 }
 

@@ -135,14 +135,24 @@ class Triangles(CliTest):
             self.areas("--hull", "--method", "swaps", "--order", order)
         self.assertLess(counts["halving"], counts["given"])
 
+    def test_numbers_go_on_as_they_began(self):
+        for base in (0, 1):
+            self.write("in.poly", poly(SQUARE[:3], [(base, base + 1), (base + 1, base + 2), (base + 2, base)], base=base))
+            said = self.run_program("plane", "in.poly", "-o", "out.ele").stderr
+            self.assertIn("3 points, 1 triangle in 1 region", said)
+            lines = (self.folder / "out.ele").read_text().split("\n") + (self.folder / "out.node").read_text().split("\n")
+            self.assertEqual(sorted(map(int, lines[1].split()[1:4])), [base, base + 1, base + 2])
+            self.assertEqual([line.split()[0] for line in lines if line], ["1", str(base), "3", *(str(base + k) for k in range(3))])
+
     def test_formats(self):
         self.write("in.poly", poly(SQUARE, RING[:4], regions=[(1.0, 2.0, 7)]))
         self.run_program("plane", "in.poly", "-o", "out.node")
         self.assertEqual(self.files(), ["cube.off", "in.poly", "out.ele", "out.node"])
-        self.assertEqual((self.folder / "out.node").read_text(), "4 2 0 0\n0 0 0\n1 4 0\n2 4 4\n3 0 4\n")
+        self.assertEqual((self.folder / "out.node").read_text(), "4 2 0 0\n1 0 0\n2 4 0\n3 4 4\n4 0 4\n")
         elements = (self.folder / "out.ele").read_text().split("\n")
         self.assertEqual(elements[0], "2 3 1")
-        self.assertTrue(elements[1].endswith(" 7"))
+        self.assertEqual({int(v) for line in elements[1:3] for v in line.split()[1:4]}, {1, 2, 3, 4})
+        self.assertEqual([line.split()[::4] for line in elements[1:3]], [["1", "7"], ["2", "7"]])
         self.run_program("plane", "in.poly", "-o", "out.vtu")
         self.assertIn(b'NumberOfCells="6"', (self.folder / "out.vtu").read_bytes())
         self.run_program("plane", "out.node", "-o", "hull.off")
@@ -294,7 +304,7 @@ class Refused(CliTest):
         self.refused(SQUARE, RING[:4] + [(3, 3)], "segment 5 (3-3) has no length")
         self.refused(SQUARE + [(6.0, 0.0)], RING[:4] + [(1, 5)], "segment 1 (1-2) and segment 5 (1-5) overlap")
         self.refused(SQUARE, RING[:3], "enclose nothing")
-        self.refused([(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)], [], "on one line")
+        self.refused([(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)], [], "so that there is no triangle\n")
         self.refused(SQUARE[:3] + [(float("nan"), 1.0)], RING[:3], "point 4 (nan, 1) is not finite")
 
     def test_millions_of_crossings_end_soon(self):
