@@ -48,7 +48,9 @@ def mesh(program, surface, out, options):
 
 
 def spread(items, count):
-    return [items[i * len(items) // count] for i in range(min(count, len(items)))]
+    """At most `count` of them, each once."""
+    count = min(count, len(items))
+    return [items[i * len(items) // count] for i in range(count)]
 
 
 def compare(args, surfaces, out):

@@ -16,7 +16,6 @@ enum class LayingOrder {
   random,   ///< any order, each as likely
   halving,  ///< the middle one of the given order, those in the middle of both halves, and so on
 };
-inline constexpr std::array laying_orders{LayingOrder::given, LayingOrder::random, LayingOrder::halving};
 [[nodiscard]] HOLDFAST_API const char* name(LayingOrder order);
 
 /// What stands where `stop_after` ended a run before regions were found. Vertices are numbered as in the

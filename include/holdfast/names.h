@@ -5,15 +5,21 @@
 #include <span>
 #include <string_view>
 
+#include "holdfast/arrays.h"
 #include "holdfast/check.h"
+#include "holdfast/check_repair.h"
+#include "holdfast/cures.h"
+#include "holdfast/divide.h"
 #include "holdfast/holdfast.h"
+#include "holdfast/paste.h"
+#include "holdfast/plane.h"
+#include "holdfast/repair.h"
 #include "holdfast/summary.h"
 #include "holdfast/untangle.h"
 
 namespace holdfast {
 
-// `name(Stage)`, `name(LayingOrder)`, `name(UntangleStep)` and `name(Cause)` are declared beside their
-// enumerations.
+// The others are declared beside their enumerations, as `name(Stage)` is in holdfast/holdfast.h.
 
 /// "unknown" for a value that is none of the enumeration's.
 [[nodiscard]] HOLDFAST_API const char* name(Outcome outcome);
@@ -22,6 +28,8 @@ namespace holdfast {
 [[nodiscard]] HOLDFAST_API const char* name(WarningKind kind);
 [[nodiscard]] HOLDFAST_API const char* name(RemarkKind kind);
 [[nodiscard]] HOLDFAST_API const char* name(DefectKind kind);
+[[nodiscard]] HOLDFAST_API const char* name(Overlap overlap);
+[[nodiscard]] HOLDFAST_API const char* name(Scalar scalar);
 
 /// The value with a name, or nothing: `from_name<Keep>("winding")`. For every enumeration that has names.
 template <class Enum>
@@ -48,6 +56,16 @@ HOLDFAST_NAMED(DefectKind)
 HOLDFAST_NAMED(RuleKind)
 HOLDFAST_NAMED(UntangleStep)
 HOLDFAST_NAMED(Cause)
+HOLDFAST_NAMED(PlaneMethod)
+HOLDFAST_NAMED(PlaneEars)
+HOLDFAST_NAMED(PlaneStage)
+HOLDFAST_NAMED(Rung)
+HOLDFAST_NAMED(DropReason)
+HOLDFAST_NAMED(CureKind)
+HOLDFAST_NAMED(RepairRuleKind)
+HOLDFAST_NAMED(FitKind)
+HOLDFAST_NAMED(Overlap)
+HOLDFAST_NAMED(Scalar)
 #undef HOLDFAST_NAMED
 
 }  // namespace holdfast

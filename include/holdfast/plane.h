@@ -45,7 +45,6 @@ enum class PlaneMethod {
   swaps,      ///< §2.2: of Delaunay triangles, edges are swapped at random until the segments stand
   partition,  ///< §2.3: points are added where segments cross Delaunay edges, and removed by swaps
 };
-inline constexpr std::array plane_methods{PlaneMethod::ears, PlaneMethod::swaps, PlaneMethod::partition};
 [[nodiscard]] HOLDFAST_API const char* name(PlaneMethod method);
 
 /// Which corner the method ears takes.
@@ -55,7 +54,6 @@ enum class PlaneEars {
   join,   ///< any; if its triangle holds others, its side goes with the nearest of them, which splits the
           ///< polygon
 };
-inline constexpr std::array plane_ears{PlaneEars::first, PlaneEars::best, PlaneEars::join};
 [[nodiscard]] HOLDFAST_API const char* name(PlaneEars ears);
 
 /// Where a run may end before it is done.
@@ -64,7 +62,6 @@ enum class PlaneStage {
   partition,  ///< partition: every segment stands, in pieces, and all added points are there
   swap,       ///< swaps: after some number of them
 };
-inline constexpr std::array plane_stages{PlaneStage::delaunay, PlaneStage::partition, PlaneStage::swap};
 [[nodiscard]] HOLDFAST_API const char* name(PlaneStage stage);
 
 struct PlaneOptions : Limits {

@@ -5,26 +5,20 @@
 >>> mesh.save("part.vtu")  # doctest: +SKIP
 """
 
-from ._api import (
-    CheckResult,
-    Diagnosis,
-    Rule,
-    check,
-    delaunay,
-    diagnose,
-    info,
-    mesh,
-    read_volume,
-    untangle,
-)
 from ._core import CancelToken, __version__
+from ._check import CheckResult, Rule, check
 from ._convert import convert
+from ._diagnose import Diagnosis, diagnose
+from ._mesh import delaunay, mesh
 from ._names import Names
 from ._paste import Pasted, paste
 from ._plane import PlaneMesh, plane
 from ._repair import Repair, repair
+from ._shapes import Quality
 from ._surface import Surface, read_surface
-from ._tetmesh import Quality, TetMesh
+from ._tetmesh import TetMesh
+from ._untangle import untangle
+from ._volume import info, read_volume
 from ._batch import batch
 from .errors import (
     Cancelled,

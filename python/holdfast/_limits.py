@@ -11,6 +11,7 @@ from typing import Any, Optional, Union
 from ._core import CancelToken as CancelToken
 
 ProgressCallback = typing.Callable[[str, float], Any]
+Progress = Union[None, bool, ProgressCallback]
 MemoryAmount = Union[float, str]
 
 _UNITS = {"": 1e9, "B": 1.0, "KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12, "KIB": 2.0**10, "MIB": 2.0**20, "GIB": 2.0**30,
@@ -75,7 +76,7 @@ class _Bar:
 class Shown:
     """A context that gives the callback for the extension: None, the user's, or a bar for True."""
 
-    def __init__(self, progress: Union[None, bool, ProgressCallback], what: str) -> None:
+    def __init__(self, progress: Progress, what: str) -> None:
         if progress is not None and not isinstance(progress, bool) and not callable(progress):
             raise TypeError("progress must be True, or a function that takes (stage, fraction)")
         self.progress = progress

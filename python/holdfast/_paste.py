@@ -5,10 +5,10 @@ from __future__ import annotations
 import json
 import os
 import typing
-from typing import Any, Optional, Union
+from typing import Any, Optional
 
 from . import _core
-from ._limits import CancelToken, MemoryAmount, ProgressCallback, Shown, limits
+from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits
 from ._surface import Surface, _of_data, _stem, surface_of
 from .errors import _raise_unless_done
 
@@ -58,7 +58,7 @@ def paste(
     time_limit: Optional[float] = None,
     memory_limit: Optional[MemoryAmount] = None,
     cancel: Optional[CancelToken] = None,
-    progress: Union[None, bool, ProgressCallback] = None,
+    progress: Progress = None,
 ) -> Pasted:
     """Pastes parts that touch: common faces are there once, cut alike.
 

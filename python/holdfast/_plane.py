@@ -5,13 +5,13 @@ from __future__ import annotations
 import json
 import os
 import typing
-from typing import Any, Optional, Tuple, Union
+from typing import Any, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._limits import CancelToken, MemoryAmount, ProgressCallback, Shown, limits
+from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits
 from ._surface import Array, PathLike, indices_of, markers_of
 from .errors import _raise_unless_done
 
@@ -79,7 +79,7 @@ class PlaneMesh:
         time_limit: Optional[float] = None,
         memory_limit: Optional[MemoryAmount] = None,
         cancel: Optional[CancelToken] = None,
-        progress: Union[None, bool, ProgressCallback] = None,
+        progress: Progress = None,
     ) -> None:
         """Writes .off (z = 0), .node with .ele beside it, or .vtu; the file appears complete or not at all. Raises
         FileError."""
@@ -116,7 +116,7 @@ def plane(
     time_limit: Optional[float] = None,
     memory_limit: Optional[MemoryAmount] = None,
     cancel: Optional[CancelToken] = None,
-    progress: Union[None, bool, ProgressCallback] = None,
+    progress: Progress = None,
 ) -> PlaneMesh:
     """Fills outlines in the plane with triangles that keep every segment; no point is added without a size or an angle.
 

@@ -8,7 +8,7 @@ from typing import Any, Optional, Union
 import numpy.typing as npt
 
 from . import _core
-from ._limits import CancelToken, MemoryAmount, ProgressCallback, Shown, limits
+from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits
 from ._surface import Array, Surface, _of_data, surface_of
 from .errors import _raise_unless_done
 
@@ -81,7 +81,7 @@ def repair(
     time_limit: Optional[float] = None,
     memory_limit: Optional[MemoryAmount] = None,
     cancel: Optional[CancelToken] = None,
-    progress: Union[None, bool, ProgressCallback] = None,
+    progress: Progress = None,
 ) -> Repair:
     """Makes a surface valid: what crosses, touches or overlaps is cut where it does, and nothing else changes.
 

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._limits import CancelToken, MemoryAmount, ProgressCallback, Shown, limits
+from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits
 from ._names import Names, names_of
 
 Array = npt.NDArray[Any]
@@ -343,7 +343,7 @@ def read_surface(
     time_limit: Optional[float] = None,
     memory_limit: Optional[MemoryAmount] = None,
     cancel: Optional[CancelToken] = None,
-    progress: Union[None, bool, ProgressCallback] = None,
+    progress: Progress = None,
 ) -> Surface:
     """Reads a surface from .stl, .off, .obj, .ply, .mesh, .meshb, .poly, .smesh, .node, .msh, .vtu, .vtp or .vtk.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import html
-import importlib
 import json
 import os
 import tempfile
@@ -14,27 +13,13 @@ import numpy as np
 import numpy.ma as ma
 import numpy.typing as npt
 
-from . import _core
+from . import _core, _other_packages
 from ._convert import convert
-from ._limits import CancelToken, MemoryAmount, ProgressCallback, Shown, limits
+from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits
 from ._names import Names, names_of
 from ._repair import Repair
+from ._shapes import Quality, frozen, quality_of, regions_beside
 from ._surface import Array, PathLike, Surface, _or_none, indices_of, markers_of, points_of, surface_of
-
-_VTK_LINE, _VTK_TRIANGLE, _VTK_TETRA = 3, 5, 10
-
-
-class Quality(typing.NamedTuple):
-    """Shape of each tetrahedron, arrays of length m."""
-
-    volume: Array
-    """In the surface's unit cubed, positive."""
-    min_dihedral: Array
-    """Least angle between two faces, degrees; 70.5 is regular."""
-    max_dihedral: Array
-    """Largest angle between two faces, degrees."""
-    q: Array
-    """The paper's Q = sqrt(6)/12 h_max / inradius; 1 is regular, larger is worse."""
 
 
 class TetMesh:
@@ -177,8 +162,8 @@ class TetMesh:
         if self._result is not None and hasattr(self._result, "triangle_regions"):
             ids, none = self._result.triangle_regions()
             if len(ids) == len(self.triangles):
-                return _frozen(ids, none)
-        return _regions_beside(self.tetrahedra, self.regions, self.triangles)
+                return frozen(ids, none)
+        return regions_beside(self.tetrahedra, self.regions, self.triangles)
 
     @property
     def report(self) -> dict[str, Any]:
@@ -206,7 +191,7 @@ class TetMesh:
         >>> float(mesh.quality().volume.sum())
         0.16666666666666666
         """
-        return _quality(self.points, self.tetrahedra)
+        return quality_of(self.points, self.tetrahedra)
 
     def info(self) -> dict[str, Any]:
         """Counts, sizes, regions and markers with their names and measures, shapes of the tetrahedra: the keys of
@@ -311,7 +296,7 @@ class TetMesh:
         time_limit: Optional[float] = None,
         memory_limit: Optional[MemoryAmount] = None,
         cancel: Optional[CancelToken] = None,
-        progress: Union[None, bool, ProgressCallback] = None,
+        progress: Progress = None,
     ) -> list[str]:
         """Writes a file that appears complete or not at all, of the second order if the mesh is.
 
@@ -386,68 +371,18 @@ class TetMesh:
 
     def to_meshio(self) -> Any:
         """A `meshio.Mesh` with cell data "region" and "marker". Raises ImportError without meshio."""
-        meshio = _wanted("meshio", "to_meshio")
-        counts = (len(self.tetrahedra), len(self.triangles), len(self.segments))
-        cells = [("tetra", self.tetrahedra), ("triangle", self.triangles), ("line", self.segments)]
-        if self.order == 2:
-            cells = [("tetra10", self.tetrahedra10), ("triangle6", self.triangles6), ("line3", self.segments3)]
-        region = [self._regions(), np.zeros(counts[1], np.int32), np.zeros(counts[2], np.int32)]
-        marker = [np.zeros(counts[0], np.int32), self.triangle_markers, self.segment_markers]
-        there = [i for i in range(3) if counts[i] > 0]
-        return meshio.Mesh(
-            np.array(self.nodes),
-            [(cells[i][0], np.array(cells[i][1])) for i in there],
-            cell_data={"region": [np.array(region[i]) for i in there], "marker": [np.array(marker[i]) for i in there]},
-        )
+        return _other_packages.to_meshio(self)
 
     def to_vtk(self) -> Any:
         """A `vtkUnstructuredGrid` with cell arrays "region" and "marker". Raises ImportError without VTK."""
-        support = _wanted("vtkmodules.util.numpy_support", "to_vtk", "vtk")
-        core = _wanted("vtkmodules.vtkCommonCore", "to_vtk", "vtk")
-        model = _wanted("vtkmodules.vtkCommonDataModel", "to_vtk", "vtk")
-        numpy_to_vtk, to_ids = support.numpy_to_vtk, support.numpy_to_vtkIdTypeArray
-        cells, types, region, marker = self._vtk_cells()
-        points = core.vtkPoints()
-        points.SetData(numpy_to_vtk(np.array(self.nodes), deep=True))
-        counts = _vtk_counts(types)
-        offsets = np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
-        array = model.vtkCellArray()
-        array.SetData(to_ids(offsets, deep=True), to_ids(cells, deep=True))
-        grid = model.vtkUnstructuredGrid()
-        grid.SetPoints(points)
-        grid.SetCells(numpy_to_vtk(types, deep=True), array)
-        for name, values in (("region", region), ("marker", marker)):
-            data = numpy_to_vtk(values, deep=True)
-            data.SetName(name)
-            grid.GetCellData().AddArray(data)
-        return grid
+        return _other_packages.to_vtk(self)
 
     def to_pyvista(self) -> Any:
         """A `pyvista.UnstructuredGrid` with cell data "region" and "marker". Raises ImportError without PyVista."""
-        pyvista = _wanted("pyvista", "to_pyvista")
-        cells, types, region, marker = self._vtk_cells()
-        counts = _vtk_counts(types)
-        starts = np.concatenate([[0], np.cumsum(counts)[:-1]]).astype(np.int64) if len(counts) else np.empty(0, np.int64)
-        grid = pyvista.UnstructuredGrid(np.insert(cells, starts, counts), types, np.array(self.nodes))
-        grid.cell_data["region"] = region
-        grid.cell_data["marker"] = marker
-        return grid
+        return _other_packages.to_pyvista(self)
 
     def _regions(self) -> Array:
         return self._markers(self.regions, len(self.tetrahedra))
-
-    def _vtk_cells(self) -> tuple[Array, Array, Array, Array]:
-        """Corners of all cells, their types, regions and markers."""
-        if self.order == 2:
-            blocks = ((self.tetrahedra10, 24), (self.triangles6, 22), (self.segments3, 21))
-        else:
-            blocks = ((self.tetrahedra, _VTK_TETRA), (self.triangles, _VTK_TRIANGLE), (self.segments, _VTK_LINE))
-        cells = np.concatenate([b.astype(np.int64).ravel() for b, _ in blocks])
-        types = np.concatenate([np.full(len(b), t, np.uint8) for b, t in blocks])
-        lower = len(self.triangles) + len(self.segments)
-        region = np.concatenate([self._regions(), np.zeros(lower, np.int32)])
-        marker = np.concatenate([np.zeros(len(self.tetrahedra), np.int32), self.triangle_markers, self.segment_markers])
-        return cells, types, region, marker
 
     def __len__(self) -> int:
         return len(self.tetrahedra)
@@ -506,72 +441,4 @@ class TetMesh:
         self.curve_report = state["curve_report"]
         self._report = state["report"]
         regions = state["triangle_regions"]
-        self._triangle_regions = None if regions is None else _frozen(regions.data, np.asarray(regions.mask))
-
-
-def _vtk_counts(types: Array) -> Array:
-    """Nodes of cells: quadratic tetrahedra, triangles and edges are types 24, 22, 21."""
-    counts = np.zeros(25, np.int64)
-    for kind, nodes in ((_VTK_TETRA, 4), (_VTK_TRIANGLE, 3), (_VTK_LINE, 2), (24, 10), (22, 6), (21, 3)):
-        counts[kind] = nodes
-    return counts[types]
-
-
-def _frozen(ids: Array, none: Array) -> "ma.MaskedArray[Any, Any]":
-    ids.setflags(write=False)
-    masked: "ma.MaskedArray[Any, Any]" = ma.MaskedArray(ids, none)  # type: ignore[no-untyped-call]
-    return masked
-
-
-def _regions_beside(tetrahedra: Array, regions: Array, triangles: Array) -> "ma.MaskedArray[Any, Any]":
-    """In front of and behind each triangle, by the tetrahedra that have it as a face."""
-    faces = np.array([(1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)])  # opposite to each corner, seen from outside
-    corners = tetrahedra[:, faces].reshape(-1, 3).astype(np.int64)
-    owners = np.repeat(regions if len(regions) else np.zeros(len(tetrahedra), np.int32), 4)
-
-    def keys(rows: Array) -> tuple[Array, Array]:
-        """Sorted corners as bytes, and whether they turn evenly from there."""
-        order = np.argsort(rows, axis=1)
-        even = (order[:, 1] - order[:, 0]) % 3 == 1
-        found = np.ascontiguousarray(np.take_along_axis(rows, order, axis=1))
-        return found.view([("", found.dtype)] * 3).ravel(), even
-
-    key, even = keys(corners)
-    sides: dict[Any, list[tuple[bool, int]]] = {}
-    wanted, turned = keys(triangles.astype(np.int64))
-    is_wanted = np.isin(key, wanted)
-    for k, e, r in zip(key[is_wanted].tolist(), even[is_wanted].tolist(), owners[is_wanted].tolist()):
-        sides.setdefault(k, []).append((e, r))
-    ids = np.zeros((len(triangles), 2), np.int32)
-    none = np.ones((len(triangles), 2), bool)
-    for i, (k, e) in enumerate(zip(wanted.tolist(), turned.tolist())):
-        for side, region in sides.get(k, []):
-            behind = side == e  # seen from outside its tetrahedron as the triangle turns: that one is behind
-            ids[i, int(behind)], none[i, int(behind)] = region, False
-    return _frozen(ids, none)
-
-
-def _quality(points: Array, tetrahedra: Array) -> Quality:
-    p = np.asarray(points)[tetrahedra]
-    edges = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
-    longest = np.sqrt(np.max([((p[:, a] - p[:, b]) ** 2).sum(axis=1) for a, b in edges], axis=0)) if len(p) else np.empty(0)
-    faces = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))
-    normals = np.stack([np.cross(p[:, b] - p[:, a], p[:, c] - p[:, a]) for a, b, c in faces], axis=1)
-    lengths = np.linalg.norm(normals, axis=2)
-    volume = np.einsum("ij,ij->i", np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), p[:, 3] - p[:, 0]) / 6
-    with np.errstate(divide="ignore", invalid="ignore"):
-        unit = normals / lengths[..., None]
-        cosines = np.stack([-(unit[:, a] * unit[:, b]).sum(axis=1) for a, b in edges], axis=1)
-        angles = np.degrees(np.arccos(np.clip(cosines, -1, 1)))
-        inradius = 3 * volume / (lengths.sum(axis=1) / 2)
-        q = np.sqrt(6) / 12 * longest / inradius
-    if not len(p):
-        return Quality(volume, np.empty(0), np.empty(0), q)
-    return Quality(volume, angles.min(axis=1), angles.max(axis=1), q)
-
-
-def _wanted(module: str, what: str, package: Optional[str] = None) -> Any:
-    try:
-        return importlib.import_module(module)
-    except ImportError as error:
-        raise ImportError(f"{what}() needs the package {package or module}, which is not installed") from error
+        self._triangle_regions = None if regions is None else frozen(regions.data, np.asarray(regions.mask))

@@ -16,7 +16,7 @@ from typing import Any, Optional
 import numpy as np
 import numpy.typing as npt
 
-from ._api import mesh as _mesh
+from ._mesh import mesh as _mesh
 from ._surface import Array, Surface, surface_of
 from ._tetmesh import TetMesh
 
@@ -135,9 +135,9 @@ class TetGen:
     @property
     def mesh(self) -> Any:
         """The surface as PyVista's PolyData. Raises ImportError without PyVista."""
-        from ._tetmesh import _wanted
+        from ._other_packages import wanted
 
-        pyvista = _wanted("pyvista", "TetGen.mesh")
+        pyvista = wanted("pyvista", "TetGen.mesh")
         faces = np.insert(np.asarray(self.f, np.int64), 0, 3, axis=1).ravel()
         return pyvista.PolyData(np.array(self.v, np.float64), faces)
 
@@ -241,9 +241,9 @@ class TetGen:
     @property
     def grid(self) -> Any:
         """A `pyvista.UnstructuredGrid` of the tetrahedra. Raises ImportError without PyVista."""
-        from ._tetmesh import _wanted
+        from ._other_packages import wanted
 
-        pyvista = _wanted("pyvista", "TetGen.grid")
+        pyvista = wanted("pyvista", "TetGen.grid")
         mesh = self._done()
         cells = np.insert(mesh.tetrahedra.astype(np.int64), 0, 4, axis=1).ravel()
         grid = pyvista.UnstructuredGrid(cells, np.full(len(mesh.tetrahedra), 10, np.uint8), np.array(mesh.points))

@@ -5,7 +5,8 @@ from __future__ import annotations
 import importlib
 from typing import Any
 
-from ._api import Diagnosis, diagnose, mesh
+from ._diagnose import Diagnosis, diagnose
+from ._mesh import mesh
 
 
 class HoldfastAccessor:

@@ -24,6 +24,7 @@
 #include "holdfast/summary.h"
 #include "holdfast/untangle.h"
 #include "limits.h"
+#include "named.h"
 #include "register.h"
 #include "reports.h"
 #include "watch.h"
@@ -33,11 +34,7 @@ namespace {
 
 template <class Enum>
 Enum named(const py::dict& options, const char* key) {
-  const auto text = py::cast<std::string>(options[key]);
-  if (const std::optional<Enum> value = from_name<Enum>(text)) return *value;
-  std::string known;
-  for (const Enum value : values_of<Enum>()) known += std::string(known.empty() ? "" : ", ") + name(value);
-  throw std::invalid_argument(std::string(key) + "='" + text + "': there is " + known);
+  return python::named<Enum>(py::cast<std::string>(options[key]), key);
 }
 
 // A function of the user takes an array of points (m, 3) and gives m sizes, or m metrics of six numbers, or

@@ -14,6 +14,7 @@
 #include "arrays.h"
 #include "holdfast/names.h"
 #include "limits.h"
+#include "named.h"
 #include "register.h"
 #include "reports.h"
 #include "watch.h"
@@ -45,14 +46,6 @@ Surface surface_from(const py::tuple& part) {
   return surface;
 }
 
-Overlap overlap_named(const std::string& text) {
-  if (text == "refuse") return Overlap::refuse;
-  if (text == "first") return Overlap::first;
-  if (text == "last") return Overlap::last;
-  if (text == "new") return Overlap::fresh;
-  throw std::invalid_argument("overlap='" + text + "': there is refuse, first, last, new");
-}
-
 std::shared_ptr<PasteResult> paste_parts(const py::list& parts, const std::vector<std::string>& names,
                                          const py::dict& options, const py::object& progress) {
   std::vector<Surface> surfaces;
@@ -60,7 +53,7 @@ std::shared_ptr<PasteResult> paste_parts(const py::list& parts, const std::vecto
   PasteOptions how;
   take_limits(options, how);
   take(options, "tolerance", how.tolerance);
-  how.overlap = overlap_named(py::cast<std::string>(options["overlap"]));
+  how.overlap = named<Overlap>(py::cast<std::string>(options["overlap"]), "overlap");
   take(options, "threads", how.threads);
   const Watch watch(progress);
   how.progress = [&watch](double fraction) { return watch.go_on("paste", fraction); };

@@ -13,6 +13,7 @@
 
 #include "arrays.h"
 #include "limits.h"
+#include "named.h"
 #include "plane_report.h"
 #include "register.h"
 #include "watch.h"
@@ -29,27 +30,18 @@ struct PlaneRun {
 
 using Seeds = std::vector<std::tuple<double, double, int, double>>;
 
-template <typename Enum, std::size_t N, typename To>
-void take_named(const py::dict& options, const char* option, const std::array<Enum, N>& values, To& to) {
+template <typename Enum, typename To>
+void take_named(const py::dict& options, const char* option, To& to) {
   if (!options.contains(option) || options[option].is_none()) return;
-  const auto text = py::cast<std::string>(options[option]);
-  std::string known;
-  for (const Enum value : values) {
-    if (text == name(value)) {
-      to = value;
-      return;
-    }
-    known += (known.empty() ? "" : ", ") + std::string(name(value));
-  }
-  throw std::invalid_argument(std::string(option) + "='" + text + "': there is " + known);
+  to = named<Enum>(py::cast<std::string>(options[option]), option);
 }
 
 PlaneOptions options_from(const py::dict& options) {
   PlaneOptions how;
   take_limits(options, how);
-  take_named(options, "method", plane_methods, how.method);
-  take_named(options, "ears", plane_ears, how.ears);
-  take_named(options, "order", laying_orders, how.order);
+  take_named<PlaneMethod>(options, "method", how.method);
+  take_named<PlaneEars>(options, "ears", how.ears);
+  take_named<LayingOrder>(options, "order", how.order);
   take(options, "partition_first", how.partition_first);
   take(options, "delaunay", how.delaunay);
   take(options, "hull", how.hull);
@@ -58,11 +50,8 @@ PlaneOptions options_from(const py::dict& options) {
   take(options, "keep_boundary", how.keep_boundary);
   take(options, "max_points", how.max_points);
   take(options, "seed", how.seed);
-  if (PlaneStage stage{}; !options["stop_after"].is_none()) {
-    take_named(options, "stop_after", plane_stages, stage);
-    how.stop_after = stage;
-    take(options, "stop_after_swaps", how.stop_after_swaps);
-  }
+  take_named<PlaneStage>(options, "stop_after", how.stop_after);
+  if (how.stop_after) take(options, "stop_after_swaps", how.stop_after_swaps);
   return how;
 }
 

@@ -40,34 +40,4 @@ RepairCheckResult check_repaired(const Complex& input, const Complex& output, co
   }
 }
 
-const char* name(RepairRuleKind kind) {
-  switch (kind) {
-    case RepairRuleKind::output_valid:
-      return "output valid";
-    case RepairRuleKind::vertices_kept:
-      return "vertices kept";
-    case RepairRuleKind::distances_right:
-      return "distances right";
-    case RepairRuleKind::parents_named:
-      return "parents named";
-    case RepairRuleKind::children_near:
-      return "children near";
-    case RepairRuleKind::parents_covered:
-      return "parents covered";
-    case RepairRuleKind::segments_covered:
-      return "segments covered";
-    case RepairRuleKind::losses_listed:
-      return "losses listed";
-    case RepairRuleKind::repeats_listed:
-      return "repeats listed";
-    case RepairRuleKind::fillings_bounded:
-      return "fillings bounded";
-    case RepairRuleKind::markers_kept:
-      return "markers kept";
-    case RepairRuleKind::valid_unchanged:
-      return "valid unchanged";
-  }
-  return "unknown";
-}
-
 }  // namespace holdfast

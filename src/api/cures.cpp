@@ -126,18 +126,4 @@ Cures propose_cures(const Complex& complex, std::span<const Defect> defects, con
   return Proposal(complex, defects, summary, options).run();
 }
 
-const char* name(CureKind kind) {
-  switch (kind) {
-    case CureKind::weld:
-      return "weld";
-    case CureKind::cut:
-      return "cut";
-    case CureKind::fill_holes:
-      return "fill holes";
-    case CureKind::unite:
-      return "unite";
-  }
-  return "unknown";
-}
-
 }  // namespace holdfast

@@ -102,6 +102,51 @@ constexpr std::array kCauses{Named{Cause::not_finite, "coordinates that are not 
                              Named{Cause::crack, "cracks"},
                              Named{Cause::open_border, "open borders"}};
 
+constexpr std::array kPlaneMethods{Named{PlaneMethod::ears, "ears"}, Named{PlaneMethod::swaps, "swaps"},
+                                   Named{PlaneMethod::partition, "partition"}};
+
+constexpr std::array kPlaneEars{Named{PlaneEars::first, "first"}, Named{PlaneEars::best, "best"},
+                                Named{PlaneEars::join, "join"}};
+
+constexpr std::array kPlaneStages{Named{PlaneStage::delaunay, "delaunay"},
+                                  Named{PlaneStage::partition, "partition"}, Named{PlaneStage::swap, "swap"}};
+
+constexpr std::array kRungs{Named{Rung::none, "none"}, Named{Rung::nearest, "nearest"},
+                            Named{Rung::again, "again"}, Named{Rung::coarser, "coarser"},
+                            Named{Rung::snapped, "snapped"}};
+
+constexpr std::array kDropReasons{Named{DropReason::not_finite, "not finite"},
+                                  Named{DropReason::no_area, "no area"},
+                                  Named{DropReason::vanished, "vanished"}, Named{DropReason::inner, "inner"}};
+
+constexpr std::array kCureKinds{Named{CureKind::weld, "weld"}, Named{CureKind::cut, "cut"},
+                                Named{CureKind::fill_holes, "fill holes"}, Named{CureKind::unite, "unite"}};
+
+constexpr std::array kRepairRuleKinds{Named{RepairRuleKind::output_valid, "output valid"},
+                                      Named{RepairRuleKind::vertices_kept, "vertices kept"},
+                                      Named{RepairRuleKind::distances_right, "distances right"},
+                                      Named{RepairRuleKind::parents_named, "parents named"},
+                                      Named{RepairRuleKind::children_near, "children near"},
+                                      Named{RepairRuleKind::parents_covered, "parents covered"},
+                                      Named{RepairRuleKind::segments_covered, "segments covered"},
+                                      Named{RepairRuleKind::losses_listed, "losses listed"},
+                                      Named{RepairRuleKind::repeats_listed, "repeats listed"},
+                                      Named{RepairRuleKind::fillings_bounded, "fillings bounded"},
+                                      Named{RepairRuleKind::markers_kept, "markers kept"},
+                                      Named{RepairRuleKind::valid_unchanged, "valid unchanged"}};
+
+constexpr std::array kFitKinds{
+    Named{FitKind::facets_there, "facets there"}, Named{FitKind::segments_there, "segments there"},
+    Named{FitKind::vertices_there, "vertices there"},
+    Named{FitKind::interfaces_matched, "interfaces matched"}, Named{FitKind::nothing_twice, "nothing twice"}};
+
+constexpr std::array kOverlaps{Named{Overlap::refuse, "refuse"}, Named{Overlap::first, "first"},
+                               Named{Overlap::last, "last"}, Named{Overlap::fresh, "new"}};
+
+constexpr std::array kScalars{Named{Scalar::float32, "float32"}, Named{Scalar::float64, "float64"},
+                              Named{Scalar::int32, "int32"},     Named{Scalar::uint32, "uint32"},
+                              Named{Scalar::int64, "int64"},     Named{Scalar::uint64, "uint64"}};
+
 template <const auto& table>
 const char* name_in(decltype(table[0].value) value) {
   for (const auto& entry : table)
@@ -146,6 +191,16 @@ HOLDFAST_NAMED(DefectKind, kDefectKinds)
 HOLDFAST_NAMED(RuleKind, kRuleKinds)
 HOLDFAST_NAMED(UntangleStep, kUntangleSteps)
 HOLDFAST_NAMED(Cause, kCauses)
+HOLDFAST_NAMED(PlaneMethod, kPlaneMethods)
+HOLDFAST_NAMED(PlaneEars, kPlaneEars)
+HOLDFAST_NAMED(PlaneStage, kPlaneStages)
+HOLDFAST_NAMED(Rung, kRungs)
+HOLDFAST_NAMED(DropReason, kDropReasons)
+HOLDFAST_NAMED(CureKind, kCureKinds)
+HOLDFAST_NAMED(RepairRuleKind, kRepairRuleKinds)
+HOLDFAST_NAMED(FitKind, kFitKinds)
+HOLDFAST_NAMED(Overlap, kOverlaps)
+HOLDFAST_NAMED(Scalar, kScalars)
 #undef HOLDFAST_NAMED
 
 const char* version() { return HOLDFAST_VERSION; }

@@ -78,40 +78,4 @@ std::vector<Defect> diagnose(const Plane& plane, std::size_t most) {
   return plane::find_defects(plane, most, {});
 }
 
-const char* name(PlaneMethod method) {
-  switch (method) {
-    case PlaneMethod::ears:
-      return "ears";
-    case PlaneMethod::swaps:
-      return "swaps";
-    case PlaneMethod::partition:
-      return "partition";
-  }
-  return "unknown";
-}
-
-const char* name(PlaneEars ears) {
-  switch (ears) {
-    case PlaneEars::first:
-      return "first";
-    case PlaneEars::best:
-      return "best";
-    case PlaneEars::join:
-      return "join";
-  }
-  return "unknown";
-}
-
-const char* name(PlaneStage stage) {
-  switch (stage) {
-    case PlaneStage::delaunay:
-      return "delaunay";
-    case PlaneStage::swap:
-      return "swap";
-    case PlaneStage::partition:
-      return "partition";
-  }
-  return "unknown";
-}
-
 }  // namespace holdfast

@@ -99,34 +99,4 @@ RepairResult repair(const Complex& complex, const RepairOptions& options) {
   return result;
 }
 
-const char* name(Rung rung) {
-  switch (rung) {
-    case Rung::none:
-      return "none";
-    case Rung::nearest:
-      return "nearest";
-    case Rung::again:
-      return "again";
-    case Rung::coarser:
-      return "coarser";
-    case Rung::snapped:
-      return "snapped";
-  }
-  return "unknown";
-}
-
-const char* name(DropReason reason) {
-  switch (reason) {
-    case DropReason::not_finite:
-      return "not finite";
-    case DropReason::no_area:
-      return "no area";
-    case DropReason::vanished:
-      return "vanished";
-    case DropReason::inner:
-      return "inner";
-  }
-  return "unknown";
-}
-
 }  // namespace holdfast

@@ -167,6 +167,82 @@ Json report_of(const RepairResult& result, const RepairOptions& options) {
   return to_json(result, {{"weld", options.weld}, {"union", options.unite}});
 }
 
+/// Notes all files of the run before anything is read, so that one that cannot be is found at once.
+struct Targets {
+  AnyTarget volume;
+  WriteOptions repaired;
+};
+Targets note_files(const MeshArguments& arguments, const Options& options, FilesOfRun& files) {
+  if (arguments.surface_of)
+    for (const auto& volume : arguments.surfaces) files.read_volume(volume, arguments.input_format);
+  else
+    files.read_surfaces(arguments.surfaces, arguments.input_format);
+  files.read_size_field("--size-field", arguments.size_field);
+  take_order(arguments.elements, files);
+  Targets targets{output_target(files, "-o", arguments.output), {}};
+  if (arguments.elements.order == 2 && !targets.volume.holds_volumes)
+    throw UsageError(
+        fmt::format("--order 2 does nothing for {}: the format holds surfaces of first order alone",
+                    arguments.output.path.string()));
+  targets.volume.options.threads = arguments.threads;
+  watch_writing(targets.volume.options, options);
+  if (!arguments.repaired.empty())
+    targets.repaired = files.write_surface("--repaired", arguments.repaired, {});
+  watch_writing(targets.repaired, options);
+  files.write("--report", arguments.report);
+  files.write("--exact", arguments.exact);
+  files.write("--html", arguments.html);
+  return targets;
+}
+
+/// What is to be meshed, and the smooth surface on which --curved puts mid-edge nodes.
+struct Given {
+  MeshInput input;
+  std::optional<Surface> smooth;
+};
+Given read_all(const MeshArguments& arguments, const Names& names, Options& options, ProgressView& progress) {
+  progress.reading();
+  read_size_field(arguments, options);
+  Given given{read_input(arguments, options), {}};
+  Surface& surface = given.input.surface;
+  if (arguments.markers_by_angle) {
+    progress.finish();
+    split_by_angle(arguments, surface);
+  }
+  merge(surface.names, names);
+  given.smooth = read_curved(arguments.elements, options);
+  if (!arguments.quiet) tell_of_lone_vertices(arguments, surface, progress);
+  if (!surface.remarks.empty()) progress.finish();
+  if (!arguments.quiet) tell(surface.remarks);
+  tell_unused_sizes(arguments, surface);
+  require_a_size_a_vertex(arguments, options, surface);
+  refuse_idle_options(arguments, options, surface);
+  return given;
+}
+
+void take_repaired(const MeshArguments& arguments, const Options& options, const RepairResult& repaired,
+                   MeshInput& input) {
+  if (!arguments.quiet) say("repair: {}\n", summary_of(repaired));
+  input.surface = repaired.surface;
+  input.parts.clear();
+  require_a_size_a_vertex(arguments, options, input.surface);
+}
+
+/// Without what --order 2 and --repair add to it.
+Json report_of(const MeshArguments& arguments, const Options& options, const MeshInput& input,
+               const Surface& meshed, const Result& result) {
+  Json report = to_json(result, to_json(arguments));
+  if (!result.defects.empty()) report["summary"] = to_json(summarise(meshed.view(), result.defects));
+  report["remarks"] = to_json(input.surface.remarks);
+  if (options.stop_after && *options.stop_after < Stage::classify)
+    report["intermediate"] = to_json(result.intermediate);
+  if (input.pasted) {
+    report["parts"] = parts_of(*input.pasted);
+    report["shared_facets"] = input.pasted->shared_facets;
+  }
+  return report;
+}
+
 int run(const MeshArguments& arguments) {
   const Stopwatch whole;
   Options options = to_options(arguments);
@@ -174,88 +250,45 @@ int run(const MeshArguments& arguments) {
   options.started = whole.start();  // the limit is on the whole command
   const std::optional<RepairOptions> repairing = repair_options(arguments, options);
   FilesOfRun files;
-  if (arguments.surface_of)
-    for (const auto& volume : arguments.surfaces) files.read_volume(volume, arguments.input_format);
-  else
-    files.read_surfaces(arguments.surfaces, arguments.input_format);
-  files.read_size_field("--size-field", arguments.size_field);
-  take_order(arguments.elements, files);
-  AnyTarget target = output_target(files, "-o", arguments.output);
-  if (arguments.elements.order == 2 && !target.holds_volumes)
-    throw UsageError(
-        fmt::format("--order 2 does nothing for {}: the format holds surfaces of first order alone",
-                    arguments.output.path.string()));
-  target.options.threads = arguments.threads;
-  watch_writing(target.options, options);
-  WriteOptions surface_writing;
-  if (!arguments.repaired.empty())
-    surface_writing = files.write_surface("--repaired", arguments.repaired, {});
-  watch_writing(surface_writing, options);
-  files.write("--report", arguments.report);
-  files.write("--exact", arguments.exact);
-  files.write("--html", arguments.html);
+  const Targets targets = note_files(arguments, options, files);
   cancel_at_once();
 
   ProgressView progress(how_to_show(arguments.quiet, arguments.verbose));
-  progress.reading();
-  read_size_field(arguments, options);
-  MeshInput input = read_input(arguments, options);
-  Surface& surface = input.surface;
-  if (arguments.markers_by_angle) {
-    progress.finish();
-    split_by_angle(arguments, surface);
-  }
-  merge(surface.names, names);
-  const std::optional<Surface> smooth = read_curved(arguments.elements, options);
-  if (!arguments.quiet) tell_of_lone_vertices(arguments, surface, progress);
-  if (!surface.remarks.empty()) progress.finish();
-  if (!arguments.quiet) tell(surface.remarks);
-  tell_unused_sizes(arguments, surface);
-  require_a_size_a_vertex(arguments, options, surface);
-  refuse_idle_options(arguments, options, surface);
+  Given given = read_all(arguments, names, options, progress);
+  MeshInput& input = given.input;
   const double reading = whole.seconds();
 
   cancel_by_flag();  // from here on the mesher asks, and files are open
   std::optional<RepairResult> repaired;
   if (repairing) {
-    repaired = repair_before(surface, *repairing, progress);
+    repaired = repair_before(input.surface, *repairing, progress);
     if (repaired->outcome != Outcome::done) {
       write_json(arguments.report, {{"outcome", name(repaired->outcome)},
                                     {"message", repaired->message},
                                     {"repair", report_of(*repaired, *repairing)}});
       return conclude_repair(*repaired);
     }
-    if (!arguments.quiet) say("repair: {}\n", summary_of(*repaired));
-    surface = repaired->surface;
-    input.parts.clear();
-    require_a_size_a_vertex(arguments, options, surface);
+    take_repaired(arguments, options, *repaired, input);
   }
   options.progress = std::ref(progress);
   if (!repaired) paste_parts(arguments, options, input);
   Result result = mesh_or_refuse(arguments, input, options);
   tell_defects_of_files(arguments, input, result);
-  const Surface& meshed = input.pasted && arguments.paste ? input.pasted->surface : surface;
-  const Json order = result.outcome == Outcome::done
-                         ? set_order(result.volume, arguments.elements, smooth, options, arguments.quiet)
-                         : Json();
+  const Surface& meshed = input.pasted && arguments.paste ? input.pasted->surface : input.surface;
+  const Json order = result.outcome == Outcome::done ? set_order(result.volume, arguments.elements,
+                                                                 given.smooth, options, arguments.quiet)
+                                                     : Json();
   const Stopwatch writing;
   progress.writing();
-  if (repaired) write_repaired(arguments.repaired, surface, result.outcome, surface_writing, arguments.quiet);
-  write_result(arguments, files, target, result);
+  if (repaired)
+    write_repaired(arguments.repaired, input.surface, result.outcome, targets.repaired, arguments.quiet);
+  write_result(arguments, files, targets.volume, result);
   progress.finish();
   result.report.seconds["read"] = reading;
   result.report.seconds["write"] = writing.seconds();
   result.report.seconds["total"] = whole.seconds();
   if (!arguments.report.empty() || !arguments.html.empty()) {
-    Json report = to_json(result, to_json(arguments));
-    if (!result.defects.empty()) report["summary"] = to_json(summarise(meshed.view(), result.defects));
-    report["remarks"] = to_json(surface.remarks);
-    if (options.stop_after && *options.stop_after < Stage::classify)
-      report["intermediate"] = to_json(result.intermediate);
-    if (input.pasted) {
-      report["parts"] = parts_of(*input.pasted);
-      report["shared_facets"] = input.pasted->shared_facets;
-    }
+    Json report = report_of(arguments, options, input, meshed, result);
     report["second_order"] = order;
     if (repaired) report["repair"] = report_of(*repaired, *repairing);
     write_json(arguments.report, report);

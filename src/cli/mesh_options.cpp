@@ -10,6 +10,7 @@
 #include "holdfast/names.h"
 #include "idle_options.h"
 #include "limits.h"
+#include "named.h"
 #include "number.h"
 #include "paste_options.h"
 
@@ -84,9 +85,7 @@ LayingOrder order_named(const std::string& text) {
 
 Stage stage_named(const std::string& text) {
   if (const std::optional<Stage> stage = from_name<Stage>(text)) return *stage;
-  std::string known;
-  for (const Stage stage : values_of<Stage>()) known += std::string(known.empty() ? "" : ", ") + name(stage);
-  throw UsageError("--stop-after " + text + ": there is no such stage; there are " + known);
+  throw UsageError("--stop-after " + text + ": there is no such stage; there are " + names_of<Stage>());
 }
 
 double time_limit_of(const std::optional<double>& seconds) {

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "command.h"
+#include "holdfast/names.h"
 
 namespace holdfast::cli {
 
@@ -30,9 +31,8 @@ void add_overlap_option(CLI::App& command, std::optional<std::string>& overlap) 
 
 Overlap overlap_named(const std::optional<std::string>& text) {
   if (!text) return Overlap::refuse;
-  if (*text == "first") return Overlap::first;
-  if (*text == "last") return Overlap::last;
-  if (*text == "new") return Overlap::fresh;
+  const std::optional<Overlap> overlap = from_name<Overlap>(*text);
+  if (overlap && *overlap != Overlap::refuse) return *overlap;
   throw UsageError(fmt::format("--overlap {}: there is first, last and new", *text));
 }
 

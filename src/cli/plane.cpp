@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <memory>
@@ -15,6 +14,7 @@
 #include "files.h"
 #include "files_of_run.h"
 #include "limits.h"
+#include "named.h"
 #include "plane_report.h"
 #include "report.h"
 #include "signals.h"
@@ -35,16 +35,6 @@ struct PlaneArguments {
   std::size_t max_points = PlaneOptions{}.max_points;
   bool partition_first = false, delaunay = false, hull = false, keep_boundary = false, quiet = false;
 };
-
-template <typename Enum, std::size_t N>
-Enum named(const char* option, const std::string& text, const std::array<Enum, N>& values) {
-  std::string known;
-  for (const Enum value : values) {
-    if (text == name(value)) return value;
-    known += (known.empty() ? "" : ", ") + std::string(name(value));
-  }
-  throw UsageError(fmt::format("{}: there is no '{}'; the values are {}", option, text, known));
-}
 
 void set_refinement(const PlaneArguments& arguments, PlaneOptions& options) {
   if (arguments.size && !(*arguments.size > 0 && std::isfinite(*arguments.size)))
@@ -69,7 +59,7 @@ void set_refinement(const PlaneArguments& arguments, PlaneOptions& options) {
 /// delaunay, partition, or swap=K: after K swaps.
 void set_stage(const std::string& text, PlaneOptions& options) {
   const std::string stage = text.substr(0, text.find('='));
-  options.stop_after = named("--stop-after", stage, plane_stages);
+  options.stop_after = named<PlaneStage>("--stop-after", stage);
   if (options.stop_after != PlaneStage::swap && stage == text) return;
   const char* const first = text.data() + std::min(text.size(), stage.size() + 1);
   const char* const last = text.data() + text.size();
@@ -82,7 +72,7 @@ void set_stage(const std::string& text, PlaneOptions& options) {
 PlaneOptions to_options(const PlaneArguments& arguments) {
   PlaneOptions options;
   static_cast<Limits&>(options) = limits_of(arguments.limits);
-  options.method = named("--method", arguments.method, plane_methods);
+  options.method = named<PlaneMethod>("--method", arguments.method);
   if (!arguments.stop_after.empty()) {
     set_stage(arguments.stop_after, options);
     if (options.method == PlaneMethod::ears ||
@@ -94,14 +84,14 @@ PlaneOptions to_options(const PlaneArguments& arguments) {
   if (!arguments.ears.empty()) {
     if (options.method != PlaneMethod::ears)
       throw UsageError(fmt::format("--ears {}: give --method ears, too", arguments.ears));
-    options.ears = named("--ears", arguments.ears, plane_ears);
+    options.ears = named<PlaneEars>("--ears", arguments.ears);
   }
   if (arguments.partition_first && options.method != PlaneMethod::partition)
     throw UsageError("--partition-first: give --method partition, too");
   if (!arguments.order.empty()) {
     if (options.method == PlaneMethod::ears)
       throw UsageError("--order: the method ears lays no segments one by one");
-    options.order = named("--order", arguments.order, laying_orders);
+    options.order = named<LayingOrder>("--order", arguments.order);
   }
   options.partition_first = arguments.partition_first;
   options.delaunay = arguments.delaunay;

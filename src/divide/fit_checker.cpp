@@ -107,20 +107,4 @@ std::vector<Fit> FitChecker::finish() const {
            twice == 0 ? "" : std::to_string(twice) + " faces have two parts on one side: " + first_twice}};
 }
 
-const char* name(FitKind kind) {
-  switch (kind) {
-    case FitKind::facets_there:
-      return "facets there";
-    case FitKind::segments_there:
-      return "segments there";
-    case FitKind::vertices_there:
-      return "vertices there";
-    case FitKind::interfaces_matched:
-      return "interfaces matched";
-    case FitKind::nothing_twice:
-      return "nothing twice";
-  }
-  return "unknown";
-}
-
 }  // namespace holdfast

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "io/text_reader.h"
+#include "text/markup.h"
 
 namespace holdfast::io {
 
@@ -26,22 +27,10 @@ std::string unescaped(std::string_view text) {
 std::string escaped(std::string_view text) {
   std::string result;
   for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:  // XML has no control characters
-        result += c >= '\0' && c < ' ' ? ' ' : c;
-    }
+    if (const std::string_view entity = entity_of(c); !entity.empty())
+      result += entity;
+    else  // XML has no control characters
+      result += c >= '\0' && c < ' ' ? ' ' : c;
   }
   return result;
 }

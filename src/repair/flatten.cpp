@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 
-#include "exact/predicates.h"
 #include "numbers/sorted.h"
+#include "repair/clusters.h"
 #include "repair/near.h"
-#include "surface/aabb_tree.h"
 #include "surface/complex.h"
-#include "surface/intersect.h"
 
 namespace holdfast::repairing {
 namespace {
@@ -21,48 +18,14 @@ using Side = std::array<Index, 2>;
 /// How many gaps the sheets that are made of a cluster may be away from its facets.
 constexpr double kMostGaps = 64;
 
-/// Disjoint sets of facets.
-class Sets {
- public:
-  explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
-  Index find(Index x) {
-    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
-    return x;
-  }
-  void join(Index x, Index y) { parent_[std::max(find(x), find(y))] = std::min(find(x), find(y)); }
-
- private:
-  std::vector<Index> parent_;
-};
-
-Vector normal_of(const Point& a, const Point& b, const Point& c) {
-  const Vector u = minus(b, a), v = minus(c, a);
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-
-double height(const Point& p, const Point& a, const Vector& n) {
-  const Vector w = minus(p, a);
-  return std::fabs(w[0] * n[0] + w[1] * n[1] + w[2] * n[2]) / length(n);
-}
-
-/// Sets of facets that overlap, each with the axis along which its plane is projected.
-struct Cluster {
-  std::vector<Index> facets;
-  unsigned axis = 0;
-};
-
 class Flattening {
  public:
-  Flattening(State& state, double gap, const RoundPlane& round, const Step& step, std::span<const Index> some)
-      : state_(state), gap_(gap), round_(round), step_(step) {
-    is_some_.assign(state.facets.size(), some.empty() ? 1 : 0);
-    for (const Index f : some) is_some_[f] = 1;
-  }
+  Flattening(State& state, double gap, const RoundPlane& round)
+      : state_(state), gap_(gap), round_(round), in_cluster_(state.facets.size(), 0) {}
 
-  double run() {
-    in_cluster_.assign(state_.facets.size(), 0);
+  double run(const std::vector<Cluster>& clusters) {
     bool any = false;
-    for (const Cluster& cluster : clusters()) any |= arrange_cluster(cluster);
+    for (const Cluster& cluster : clusters) any |= arrange_cluster(cluster);
     if (!any) return 0;
     deliver();
     drop_unused(state_);
@@ -71,98 +34,6 @@ class Flattening {
 
  private:
   [[nodiscard]] const Point& at(Index v) const { return state_.vertices[v]; }
-  [[nodiscard]] Vector normal(Index f) const {
-    const auto& [a, b, c] = state_.facets[f];
-    return normal_of(at(a), at(b), at(c));
-  }
-
-  [[nodiscard]] std::vector<Cluster> clusters() const {
-    std::vector<Box> boxes;
-    std::vector<Index> facet;
-    for (Index f = 0; f < state_.facets.size(); ++f) {
-      const Triangle& t = state_.facets[f];
-      if (std::any_of(t.begin(), t.end(),
-                      [&](Index v) { return v >= state_.vertices.size() || !is_finite(at(v)); }))
-        continue;
-      facet.push_back(f);
-      boxes.push_back(box_round(state_, t, gap_));
-    }
-    Sets sets(state_.facets.size());
-    std::set<Index> together;
-    AabbTree(boxes).for_each_overlap(
-        [&](Index i, Index j) {
-          const Index f = facet[i], g = facet[j];
-          if (is_some_[f] + is_some_[g] == 0) return true;
-          if ((lies_in(f, g) && overlap(f, g)) || (lies_in(g, f) && overlap(g, f))) {
-            sets.join(f, g);
-            together.insert(f);
-            together.insert(g);
-          }
-          return true;
-        },
-        [](Index, Index) { return false; }, step_);
-    std::map<Index, Cluster> by_first;
-    for (const Index f : together) by_first[sets.find(f)].facets.push_back(f);
-    std::vector<Cluster> found;
-    for (auto& [first, cluster] : by_first) {
-      keep_projected(cluster);
-      if (cluster.facets.size() > 1) found.push_back(std::move(cluster));
-    }
-    return found;
-  }
-
-  /// The coordinate axis that is steepest to the plane of a facet.
-  [[nodiscard]] unsigned axis_of(Index f) const {
-    const Vector n = normal(f);
-    unsigned axis = 0;
-    for (unsigned k = 1; k < 3; ++k)
-      if (std::fabs(n[k]) > std::fabs(n[axis])) axis = k;
-    return axis;
-  }
-
-  /// Whether two facets share area in the projection along the axis of the second.
-  [[nodiscard]] bool overlap(Index f, Index g) const {
-    const unsigned axis = axis_of(g);
-    std::array<std::array<Point, 3>, 2> corners{};
-    std::array<Simplex, 2> flat;
-    for (std::size_t k = 0; k < 2; ++k) {
-      const Triangle& t = state_.facets[k == 0 ? f : g];
-      flat[k].corners = 3;
-      for (std::size_t i = 0; i < 3; ++i) {
-        corners[k][i] = at(t[i]);
-        corners[k][i][axis] = 0;
-        flat[k].vertex[i] = t[i];
-        flat[k].point[i] = corners[k][i].data();
-      }
-      if (!set_projection(flat[k])) return false;
-    }
-    return facets_meet(flat[0], flat[1]) == Meet::area;
-  }
-
-  /// Whether all of the first facet is near to the plane of the second.
-  [[nodiscard]] bool lies_in(Index f, Index g) const {
-    const Vector n = normal(g);
-    if (!(length(n) > 0)) return false;
-    const Point& origin = at(state_.facets[g][0]);
-    return std::all_of(state_.facets[f].begin(), state_.facets[f].end(),
-                       [&](Index v) { return height(at(v), origin, n) <= gap_; });
-  }
-
-  /// Takes the axis that is steepest to the largest facet, and leaves out what has no area along it.
-  void keep_projected(Cluster& cluster) const {
-    const Index largest =
-        *std::max_element(cluster.facets.begin(), cluster.facets.end(),
-                          [&](Index f, Index g) { return length(normal(f)) < length(normal(g)); });
-    cluster.axis = axis_of(largest);
-    std::erase_if(cluster.facets, [&](Index f) {
-      std::array<std::array<double, 2>, 3> p{};
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Point& corner = at(state_.facets[f][i]);
-        p[i] = {corner[(cluster.axis + 1) % 3], corner[(cluster.axis + 2) % 3]};
-      }
-      return exact::orient2d(p[0].data(), p[1].data(), p[2].data()) == 0;
-    });
-  }
 
   /// The facets of a cluster in the plane, with their sides as segments.
   struct Flat {
@@ -316,7 +187,7 @@ class Flattening {
       if (!lifted_.contains(name[v])) continue;
       for (const Index k : after.facet_parents.of(f)) {
         const Index parent = cluster.facets[k];
-        const double size = length(normal(parent));
+        const double size = length(normal_of(state_, parent));
         const auto [largest, is_new] = below_.try_emplace(name[v], size, parent);
         if (!is_new && largest->second.first < size) largest->second = {size, parent};
       }
@@ -458,8 +329,6 @@ class Flattening {
   State& state_;
   const double gap_;
   const RoundPlane& round_;
-  const Step& step_;
-  std::vector<std::uint8_t> is_some_;                // by facet
   std::vector<std::uint8_t> in_cluster_;             // by facet
   std::map<Index, std::vector<Piece>> pieces_;       // by first facet
   std::set<Side> taken_;                             // of clusters that were arranged
@@ -473,7 +342,7 @@ class Flattening {
 
 double flatten(State& state, double gap, const RoundPlane& round, const Step& step,
                std::span<const Index> some) {
-  return Flattening(state, gap, round, step, some).run();
+  return Flattening(state, gap, round).run(find_clusters(state, gap, some, step));
 }
 
 }  // namespace holdfast::repairing

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "text/decimal.h"
+#include "text/markup.h"
 
 namespace holdfast::view {
 namespace {
@@ -46,25 +47,11 @@ std::string clean(std::string_view text) {
 std::string html(std::string_view text) {
   std::string result;
   for (const char c : clean(text)) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      case '\'':
-        result += "&#39;";
-        break;
-      default:
-        result += c;
-    }
+    const std::string_view entity = c == '\'' ? "&#39;" : entity_of(c);
+    if (!entity.empty())
+      result += entity;
+    else
+      result += c;
   }
   return result;
 }

@@ -8,6 +8,7 @@
 #include "bytes.h"
 #include "exact/dyadic.h"
 #include "exact/predicates.h"
+#include "holdfast/names.h"
 
 namespace {
 
@@ -61,7 +62,7 @@ exact::Dyadic double_area(const PlaneMesh& mesh) {
 
 void solve(const Plane& plane, bool hull, double angle) {
   std::optional<exact::Dyadic> area;
-  for (const PlaneMethod method : plane_methods) {
+  for (const PlaneMethod method : values_of<PlaneMethod>()) {
     PlaneOptions options;
     options.method = method;
     options.hull = hull;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "holdfast/names.h"
 #include "plane_inputs.h"
 
 namespace holdfast {
@@ -68,7 +69,7 @@ TEST(PlaneRefinement, KeepsItsBoundsOnRandomInputs) {
     const bool fine = most > 0x1p-1000 && most < 0x1p50;  // where doubles leave room for points
     for (const double angle : {20.0, 26.45, 30.0}) {
       PlaneOptions options;
-      options.method = plane_methods[seed % plane_methods.size()];
+      options.method = values_of<PlaneMethod>()[seed % values_of<PlaneMethod>().size()];
       options.angle = angle;
       options.max_points = 20000;
       SCOPED_TRACE(::testing::Message() << "seed " << seed << ", angle " << angle);

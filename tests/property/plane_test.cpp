@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "holdfast/names.h"
 #include "plane/point_tree.h"
 #include "plane_inputs.h"
 
@@ -26,7 +27,7 @@ TEST_P(PlaneMethods, SolveRandomInputsAlike) {
     SCOPED_TRACE(::testing::Message() << "seed " << seed);
     const Plane plane = random_plane(seed);
     std::optional<exact::Dyadic> area;
-    for (const PlaneMethod method : plane_methods)
+    for (const PlaneMethod method : values_of<PlaneMethod>())
       for (const bool delaunay : {false, true}) {
         PlaneOptions options;
         options.method = method;
@@ -63,7 +64,7 @@ TEST(PlaneDefects, AreNamed) {
     const auto [a, b] = plane.segments[s];
     const auto expect = [&](DefectKind kind, const std::vector<Index>& points,
                             const std::vector<Index>& segments) {
-      for (const PlaneMethod method : plane_methods) {
+      for (const PlaneMethod method : values_of<PlaneMethod>()) {
         PlaneOptions options;
         options.method = method;
         const PlaneResult result = triangulate(plane, options);

@@ -237,6 +237,16 @@ TEST(Names, OfEveryEnumerationAndBack) {
   expect_names<RuleKind>(15);
   expect_names<UntangleStep>(7);
   expect_names<Cause>(16);
+  expect_names<PlaneMethod>(3);
+  expect_names<PlaneEars>(3);
+  expect_names<PlaneStage>(3);
+  expect_names<Rung>(5);
+  expect_names<DropReason>(4);
+  expect_names<CureKind>(4);
+  expect_names<RepairRuleKind>(12);
+  expect_names<FitKind>(5);
+  expect_names<Overlap>(4);
+  expect_names<Scalar>(6);
 }
 
 TEST(Names, RulesComeInTheirOrder) {

@@ -1,0 +1,269 @@
+"""The functions mesh and delaunay."""
+
+from __future__ import annotations
+
+import numbers
+import operator
+import typing
+from typing import Any, Optional, Union
+
+import numpy.typing as npt
+
+from . import _core
+from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits
+from ._paste import Pasted
+from ._repair import repair as repair_surface
+from ._size import Size, set_metric, set_size
+from ._surface import Array, points_of, surface_of
+from ._tetmesh import TetMesh
+from .errors import _raise_unless_done
+
+
+def mesh(
+    surface: Any,
+    triangles: Optional[npt.ArrayLike] = None,
+    *,
+    segments: Optional[npt.ArrayLike] = None,
+    triangle_markers: Optional[npt.ArrayLike] = None,
+    segment_markers: Optional[npt.ArrayLike] = None,
+    size: Size = None,
+    metric: Any = None,
+    gradation: float = 0.3,
+    growth: bool = True,
+    max_volume: Union[None, float, typing.Mapping[Optional[int], float]] = None,
+    max_ratio: Optional[float] = None,
+    layers: Optional[int] = None,
+    fill: bool = False,
+    quality: str = "good",
+    keep: str = "auto",
+    box_margin: float = 0.1,
+    holes: typing.Iterable[typing.Sequence[float]] = (),
+    regions: typing.Iterable[typing.Sequence[float]] = (),
+    drop_outside: bool = False,
+    repair: Union[bool, float] = False,
+    without: typing.Iterable[str] = (),
+    order: str = "random",
+    seed: int = 1,
+    threads: int = 1,
+    time_limit: Optional[float] = None,
+    memory_limit: Optional[MemoryAmount] = None,
+    cancel: Optional[CancelToken] = None,
+    progress: Progress = None,
+) -> TetMesh:
+    """Fills a surface with tetrahedra and keeps every triangle and segment of it exactly.
+
+    Parameters
+    ----------
+    surface
+        A path, a `Surface`, parts that `paste` put together, an (n, 3) array of points together with `triangles`, or anything shaped like a PyVista or
+        VTK PolyData, a `meshio.Mesh` or a `trimesh.Trimesh`. Arrays of float64 points and int32 or uint32 triangles that
+        lie together in memory are not copied.
+    triangles
+        (m, 3) indices from 0.
+    segments
+        (k, 2) indices: edges to keep that belong to no triangle, or that have markers.
+    triangle_markers, segment_markers
+        (m,) and (k,) integers that the result repeats.
+    size
+        How long edges should be, in the surface's unit: a number (the most anywhere), one a point of the surface (0: as
+        the surface has it), a background mesh (a path to .mesh with .sol, .vtu, .mtr or .pos; or `(points, tetrahedra,
+        sizes)`), or a function that takes an (m, 3) array and gives m sizes, where what is not positive is no limit.
+    metric
+        The same for sizes that depend on the direction: `(points, tetrahedra, tensors)`, a path, or a function that takes
+        an (m, 3) array and gives (m, 3, 3) or (m, 6) numbers (m11 m12 m22 m13 m23 m33): in this metric edges have length 1.
+    gradation
+        How much sizes grow a unit of length, away from the surface; 0 to 1.
+    growth
+        Whether sizes may grow inside beyond those of the surface round.
+    max_volume
+        The most that a tetrahedron may measure: a number, or a dict of numbers by the ids of the mesh's regions (None: anywhere). It holds
+        for every tetrahedron, even at the price of flat ones; `TetMesh.report["bounds"]` counts them.
+    max_ratio
+        The most that the radius of the sphere round a tetrahedron should be over its shortest edge: an aim. Exceptions
+        are counted in `TetMesh.report["bounds"]`.
+    layers
+        Elements across, at least, on every path inside between two sides of a wall or a gap that face each other;
+        `TetMesh.report["layers"]` tells the points that it took. At most 100.
+    fill
+        Add no field points: only what the surface forces. `size`, `metric`, `gradation`, `growth`, `max_volume`,
+        `max_ratio` and `layers` have no meaning then.
+    quality
+        Effort for the elements with field points: "fast", "good" or "best".
+    keep
+        "auto" (by winding number where the surface is turned consistently, else every bounded region), "bounded",
+        "winding" or "box" (everything out to a box, `box_margin` of the largest extent away).
+    holes
+        (x, y, z) of points in regions to leave empty.
+    regions
+        (x, y, z, id[, size]): the id, and the longest edge wanted, of the region that holds the point.
+    drop_outside
+        Drop triangles outside every kept region instead of refusing them.
+    repair
+        Make the surface valid first, as `holdfast.repair` does: True, or the distance within which vertices are joined.
+        The result's `repair` tells what changed.
+    without
+        Steps to leave out: "flips", "optimise", "points".
+    order
+        In which missing constraints are cut into the mesh: "random", "given" (as the surface has them) or "halving" (the middle
+        one first, then those in the middle of both halves).
+    seed, threads
+        Of the random orders; 0 threads are all there are. The result is the same on any number of threads.
+    time_limit
+        Seconds.
+    memory_limit
+        Of the process: gigabytes, or bytes from a million on, or text with a unit ("500 MB").
+    cancel
+        A `CancelToken` that another thread may use.
+    progress
+        True shows a bar; or a function that takes (stage, fraction of the whole call). Where it returns False, the call
+        is cancelled; what it raises comes out of the call.
+
+    Raises
+    ------
+    InvalidSurface
+        With `.defects`, if the surface breaks a rule.
+    TimeLimit, MemoryLimit, Cancelled, NotRepresentable
+        With `.report` of the run so far.
+    FileError
+        If `surface` is a path that cannot be read.
+    ValueError, TypeError
+        For arrays of a wrong shape or type, and options that make no sense or do not suit the surface.
+
+    Example
+    -------
+    >>> import holdfast
+    >>> points = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    >>> quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    >>> triangles = [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+    >>> cube = holdfast.mesh(points, triangles, size=0.5)
+    >>> cube.n_input_points, round(float(cube.quality().volume.sum()), 12)
+    (8, 1.0)
+    """
+    options = limits(time_limit, memory_limit, cancel)
+    steps = {without} if isinstance(without, str) else set(without)
+    if unknown := steps - {"flips", "optimise", "points"}:
+        raise ValueError(f"without={sorted(unknown)}: only 'flips', 'optimise' and 'points' can be left out")
+    if fill and any(x is not None for x in (size, metric, max_volume, max_ratio, layers)):
+        raise ValueError("fill=True adds no field points, so that size, metric, max_volume, max_ratio and layers have no meaning; "
+                         "leave out one of them")
+    pasted = surface if isinstance(surface, Pasted) else None
+    what = surface_of(
+        surface if pasted is None else pasted.surface,
+        triangles,
+        segments=segments,
+        triangle_markers=triangle_markers,
+        segment_markers=segment_markers,
+    )
+    if pasted is not None and what is not pasted.surface:
+        raise ValueError("a pasted surface is meshed as it is: leave out triangles, segments and markers")
+    repaired = None
+    if pasted is not None and repair is not False:
+        raise ValueError("a pasted surface is valid: leave out repair")
+    if repair is not False:
+        repaired = repair_surface(what, weld=0.0 if repair is True else float(repair), threads=int(threads),
+                                  time_limit=time_limit, memory_limit=memory_limit, cancel=cancel, progress=progress)
+        what = repaired.surface
+    options.update(
+        fill=fill,
+        gradation=float(gradation),
+        growth=bool(growth),
+        quality=quality,
+        keep=keep,
+        box_margin=float(box_margin),
+        holes=[_numbers(h, 3, "a hole") for h in holes] + [list(map(float, h)) for h in what.holes],
+        regions=_bounded([_region(r) for r in [*regions, *what.regions]], max_volume),
+        max_volume=_most_volume(max_volume),
+        max_ratio=0.0 if max_ratio is None else _positive(max_ratio, "max_ratio"),
+        layers=_layers(layers),
+        drop_outside=bool(drop_outside),
+        flips="flips" not in steps,
+        optimise="optimise" not in steps,
+        add_points="points" not in steps,
+        order=order,
+        seed=int(seed),
+        threads=int(threads),
+    )
+    asked_size = set_size(size, options, len(what.points))
+    asked_metric = set_metric(metric, options)
+    with Shown(progress, "mesh") as callback:
+        if pasted is not None:
+            result = _core.mesh_pasted(pasted._result, options, asked_size, asked_metric, callback)
+        else:
+            result = _core.mesh(what._arrays(), options, asked_size, asked_metric, callback)
+    _raise_unless_done(result)
+    meshed = TetMesh._of(result.volume, result.n_input_points, result)
+    meshed.repair = repaired
+    return meshed
+
+
+def _numbers(values: typing.Sequence[float], count: int, what: str) -> list[float]:
+    found = [float(v) for v in values]
+    if len(found) != count:
+        raise ValueError(f"{what} is given by {count} numbers, not {len(found)}")
+    return found
+
+
+def _region(values: typing.Sequence[float]) -> tuple[float, float, float, int, float]:
+    if len(values) not in (4, 5):
+        raise ValueError(f"a region is given as (x, y, z, id) or (x, y, z, id, size), not by {len(values)} numbers")
+    if int(values[3]) != values[3] or not -(2**31) <= int(values[3]) < 2**31:
+        raise ValueError(f"the id of a region must be an integer of 32 bits, not {values[3]!r}")
+    size = float(values[4]) if len(values) == 5 and values[4] is not None else 0.0
+    return (float(values[0]), float(values[1]), float(values[2]), int(values[3]), size)
+
+
+def _positive(value: Any, what: str) -> float:
+    number = float(value)
+    if not 0 < number < float("inf"):
+        raise ValueError(f"{what}={number}: a positive number is expected")
+    return number
+
+
+def _layers(layers: Optional[int]) -> int:
+    if layers is None:
+        return 0
+    number = operator.index(layers)
+    if not 1 <= number <= 100:
+        raise ValueError(f"layers={number}: 1 to 100 are expected")
+    return number
+
+
+def _most_volume(most: Union[None, float, typing.Mapping[Optional[int], float]]) -> float:
+    """The bound that holds anywhere, 0 for none."""
+    anywhere = most.get(None) if isinstance(most, typing.Mapping) else most
+    return 0.0 if anywhere is None else _positive(anywhere, "max_volume")
+
+
+def _bounded(
+    regions: list[tuple[float, float, float, int, float]],
+    most: Union[None, float, typing.Mapping[Optional[int], float]],
+) -> list[tuple[float, float, float, int, float, float]]:
+    """The regions with the volume that their tetrahedra may measure, 0 for any."""
+    if not isinstance(most, (numbers.Real, typing.Mapping, type(None))):
+        raise TypeError("max_volume is a number, or a dict of numbers by the ids of regions")
+    by_id = {id: v for id, v in most.items() if id is not None} if isinstance(most, typing.Mapping) else {}
+    nowhere = float("nan")  # the region that has the id in the mesh, whatever gives it (holdfast/region_bounds.h)
+    bounds = [(nowhere, nowhere, nowhere, int(id), 0.0, _positive(v, "max_volume")) for id, v in sorted(by_id.items())]
+    return [(*r, 0.0) for r in regions] + bounds
+
+
+def delaunay(
+    points: npt.ArrayLike,
+    *,
+    seed: int = 1,
+    threads: int = 1,
+    time_limit: Optional[float] = None,
+    memory_limit: Optional[MemoryAmount] = None,
+    cancel: Optional[CancelToken] = None,
+    progress: Progress = None,
+) -> Array:
+    """(m, 4) int32: Delaunay tetrahedra of (n, 3) points. Repeated points are left unused; none where all are coplanar.
+
+    >>> import holdfast
+    >>> holdfast.delaunay([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]).shape
+    (1, 4)
+    """
+    options = limits(time_limit, memory_limit, cancel)
+    options.update(seed=int(seed), threads=int(threads))
+    with Shown(progress, "delaunay") as callback:
+        return _core.delaunay(points_of(points), options, callback)

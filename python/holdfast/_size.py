@@ -1,0 +1,100 @@
+"""What `size` and `metric` of mesh mean: a number, an array, a background mesh, a path or a function."""
+
+from __future__ import annotations
+
+import os
+import typing
+from typing import Any, Optional
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._surface import Array, indices_of, points_of
+
+Size = Any  # a number, an array, a background mesh, a path or a function
+
+
+def _is_background(value: Any) -> bool:
+    return isinstance(value, tuple) and len(value) == 3 and np.ndim(value[0]) == 2 and np.ndim(value[1]) == 2
+
+
+def set_size(size: Size, options: dict[str, Any], points: int) -> Optional[typing.Callable[[Array], Any]]:
+    """Puts what `size` means into the options, or gives the function that it is."""
+    if size is None:
+        return None
+    if isinstance(size, (str, os.PathLike)):
+        field = _core.read_size_field(os.fspath(size), {})
+        if field.has_mesh:
+            options["size_field"] = field
+        else:
+            options["point_sizes"] = _point_sizes(field.sizes, points)
+    elif _is_background(size):
+        where, tetrahedra, sizes = size
+        options["size_field"] = _core.SizeField(points_of(where), indices_of(tetrahedra, 4, "tetrahedra"),
+                                                np.asarray(sizes, np.float64).ravel().tolist(), [])
+    elif hasattr(size, "points") and hasattr(size, "point_data"):
+        options["size_field"] = _background(size, "size")
+    elif callable(size):
+        asked: typing.Callable[[Array], Any] = size
+        return asked
+    elif np.ndim(size) == 0:
+        number = float(size)
+        if not 0 < number < float("inf"):
+            raise ValueError(f"size={number}: a positive length is expected")
+        options["size"] = number
+    else:
+        options["point_sizes"] = _point_sizes(size, points)
+    return None
+
+
+def _point_sizes(sizes: npt.ArrayLike, points: int) -> list[float]:
+    array = np.asarray(sizes, np.float64)
+    if array.shape != (points,):
+        raise ValueError(f"size must be one number, or one a point of the surface, ({points},), not {array.shape}")
+    return [float(x) for x in array]
+
+
+def _as_six(tensors: npt.ArrayLike) -> Array:
+    """m11 m12 m22 m13 m23 m33 of (m, 3, 3) or (m, 6) numbers."""
+    array = np.asarray(tensors, np.float64)
+    if array.ndim == 3 and array.shape[1:] == (3, 3):
+        return np.stack([array[:, i, j] for i, j in ((0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2))], axis=1)
+    if array.ndim == 2 and array.shape[1] == 6:
+        return array
+    raise ValueError(f"metrics must have the shape (m, 3, 3) or (m, 6), not {array.shape}")
+
+
+def _background(mesh: Any, name: str) -> _core.SizeField:
+    """A `meshio.Mesh` with a point array "size" or "metric"."""
+    data = mesh.point_data
+    if name not in data:
+        raise ValueError(f"the background mesh has no point data '{name}'")
+    cells = [np.asarray(b.data) for b in mesh.cells if b.type == "tetra"]
+    tetrahedra = np.concatenate(cells) if cells else np.empty((0, 4), np.int64)
+    values = np.asarray(data[name], np.float64)
+    if name == "size":
+        return _core.SizeField(points_of(mesh.points), indices_of(tetrahedra, 4, "tetrahedra"), values.ravel().tolist(), [])
+    return _core.SizeField(points_of(mesh.points), indices_of(tetrahedra, 4, "tetrahedra"), [], _as_six(values).tolist())
+
+
+def set_metric(metric: Any, options: dict[str, Any]) -> Optional[typing.Callable[[Array], Array]]:
+    if metric is None:
+        return None
+    if "size_field" in options:
+        raise ValueError("size and metric cannot both be background meshes")
+    if isinstance(metric, (str, os.PathLike)):
+        options["size_field"] = _core.read_size_field(os.fspath(metric), {})
+        if not options["size_field"].has_metrics:
+            raise ValueError(f"metric={os.fspath(metric)!r}: the file holds sizes, not metrics; give it as size")
+    elif _is_background(metric):
+        where, tetrahedra, tensors = metric
+        options["size_field"] = _core.SizeField(points_of(where), indices_of(tetrahedra, 4, "tetrahedra"), [],
+                                                _as_six(tensors).tolist())
+    elif hasattr(metric, "points") and hasattr(metric, "point_data"):
+        options["size_field"] = _background(metric, "metric")
+    elif callable(metric):
+        return lambda points: _as_six(metric(points))
+    else:
+        raise TypeError("metric must be a function, a path or (points, tetrahedra, tensors)")
+    return None

@@ -1,0 +1,102 @@
+"""Volumes from files and from objects of other packages: read_volume, info."""
+
+from __future__ import annotations
+
+import json
+import os
+import typing
+from typing import Any, Optional
+
+import numpy as np
+
+from . import _core
+from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits
+from ._surface import Array, PathLike, markers_of
+from ._tetmesh import TetMesh
+
+
+def read_volume(
+    path: PathLike,
+    format: Optional[str] = None,
+    *,
+    time_limit: Optional[float] = None,
+    memory_limit: Optional[MemoryAmount] = None,
+    cancel: Optional[CancelToken] = None,
+    progress: Progress = None,
+) -> TetMesh:
+    """Reads tetrahedra from .vtu, .vtm, .vtk, .mesh, .meshb, .msh, .inp, .unv, .bdf, .nas, .su2, .mfem, .vol, .xdmf, .med,
+    .node with .ele, or a folder polyMesh. Raises FileError.
+
+    >>> read_volume("part.vtu")  # doctest: +SKIP
+    TetMesh(2817 points, 9213 tetrahedra, 1 region)
+    """
+    options = limits(time_limit, memory_limit, cancel)
+    with Shown(progress, "read") as callback:
+        volume, _ = _core.read_volume(os.fspath(path), format or "", options, callback)
+    known = volume.input_points
+    return TetMesh._of(volume, int(np.count_nonzero(known >= 0)) if len(known) else None)
+
+
+def info(path: PathLike, format: Optional[str] = None) -> dict[str, Any]:
+    """What a surface or volume file holds: counts, sizes, regions and markers with their names and measures, shapes of the
+    tetrahedra, with the keys of `holdfast info --json` (docs/command-line.md). Raises FileError.
+
+    >>> holdfast.info("part.vtu")["volume"]  # doctest: +SKIP
+    12.5
+    """
+    name = os.fspath(path)
+    ending = _core.volume_format_of(name.removesuffix(".gz"), format or "")
+    remarks: list[str] = []
+    told: dict[str, Any] = {}
+    stem = os.path.splitext(name)[0]
+    if ending in _core.volume_formats() and (ending != ".node" or os.path.exists(stem + ".ele")):
+        volume, remarks = _core.read_volume(name, format or "", {}, None)
+        if len(volume.tetrahedra):
+            told = {"file": name, "kind": "volume", **json.loads(_core.volume_info(volume))}
+    if not told:
+        surface = _core.read_surface(name, format or "", {}, None)
+        remarks = surface.remarks
+        told = {"file": name, "kind": "surface", **json.loads(_core.surface_info(surface))}
+    return {**told, "remarks": remarks}
+
+
+def volume_of(mesh: Any) -> TetMesh:
+    """The mesh that an argument means."""
+    if isinstance(mesh, TetMesh):
+        return mesh
+    if isinstance(mesh, (str, os.PathLike)):
+        return read_volume(mesh)
+    if hasattr(mesh, "points") and hasattr(mesh, "cells") and not hasattr(mesh, "celltypes"):
+        return _of_meshio(mesh)
+    if hasattr(mesh, "points") and hasattr(mesh, "cells_dict"):  # PyVista's grid
+        cells = mesh.cells_dict
+        regions = mesh.cell_data["region"][np.asarray(mesh.celltypes) == 10] if "region" in mesh.cell_data else None
+        return TetMesh(mesh.points, cells[10], regions=regions, triangles=cells.get(5), segments=cells.get(3))
+    if isinstance(mesh, (tuple, list)) and len(mesh) == 2 and np.ndim(mesh[0]) == 2:
+        return TetMesh(mesh[0], mesh[1])
+    raise TypeError(f"a mesh is expected: a TetMesh, a path, (points, tetrahedra), or an object like a meshio.Mesh; "
+                    f"not {type(mesh).__name__}")
+
+
+_REGION_NAMES = ("region", "gmsh:physical", "medit:ref")
+_MARKER_NAMES = ("marker", "gmsh:physical", "medit:ref")
+
+
+def _of_meshio(mesh: Any) -> TetMesh:
+    data = getattr(mesh, "cell_data", None) or {}
+
+    def blocks(kind: str, names: typing.Sequence[str]) -> tuple[Optional[Array], Optional[Array]]:
+        here = [i for i, b in enumerate(mesh.cells) if b.type == kind]
+        if not here:
+            return None, None
+        name = next((n for n in names if n in data), None)
+        cells = np.concatenate([np.asarray(mesh.cells[i].data) for i in here])
+        return cells, None if name is None else np.concatenate([np.asarray(data[name][i]) for i in here])
+
+    tetrahedra, regions = blocks("tetra", _REGION_NAMES)
+    triangles, triangle_markers = blocks("triangle", _MARKER_NAMES)
+    segments, segment_markers = blocks("line", _MARKER_NAMES)
+    if tetrahedra is None:
+        raise TypeError("the mesh holds no tetrahedra")
+    return TetMesh(mesh.points, tetrahedra, regions=markers_of(regions, "regions"), triangles=triangles,
+                   triangle_markers=triangle_markers, segments=segments, segment_markers=segment_markers)

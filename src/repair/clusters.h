@@ -1,0 +1,27 @@
+// Facets that overlap but for rounding, and the plane in which they do.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "repair/near.h"
+#include "repair/state.h"
+#include "surface/search.h"
+
+namespace holdfast::repairing {
+
+/// Facets that overlap, with the axis along which their plane is projected.
+struct Cluster {
+  std::vector<Index> facets;
+  unsigned axis = 0;
+};
+
+/// Clusters of facets that lie within `gap` of each other's planes. Of each pair one is among `some`, unless
+/// that is empty.
+[[nodiscard]] std::vector<Cluster> find_clusters(const State& state, double gap, std::span<const Index> some,
+                                                 const Step& step);
+
+/// Normal to a facet, as long as twice its area.
+[[nodiscard]] Vector normal_of(const State& state, Index facet);
+
+}  // namespace holdfast::repairing
