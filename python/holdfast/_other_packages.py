@@ -10,7 +10,7 @@ import numpy as np
 from ._surface import Array
 
 if TYPE_CHECKING:
-    from ._tetmesh import TetMesh
+    from . import _tetmesh
 
 _VTK_LINE, _VTK_TRIANGLE, _VTK_TETRA = 3, 5, 10
 
@@ -22,7 +22,7 @@ def wanted(module: str, what: str, package: Optional[str] = None) -> Any:
         raise ImportError(f"{what}() needs the package {package or module}, which is not installed") from error
 
 
-def to_meshio(mesh: TetMesh) -> Any:
+def to_meshio(mesh: _tetmesh.TetMesh) -> Any:
     meshio = wanted("meshio", "to_meshio")
     counts = (len(mesh.tetrahedra), len(mesh.triangles), len(mesh.segments))
     cells = [("tetra", mesh.tetrahedra), ("triangle", mesh.triangles), ("line", mesh.segments)]
@@ -38,7 +38,7 @@ def to_meshio(mesh: TetMesh) -> Any:
     )
 
 
-def to_vtk(mesh: TetMesh) -> Any:
+def to_vtk(mesh: _tetmesh.TetMesh) -> Any:
     support = wanted("vtkmodules.util.numpy_support", "to_vtk", "vtk")
     core = wanted("vtkmodules.vtkCommonCore", "to_vtk", "vtk")
     model = wanted("vtkmodules.vtkCommonDataModel", "to_vtk", "vtk")
@@ -60,7 +60,7 @@ def to_vtk(mesh: TetMesh) -> Any:
     return grid
 
 
-def to_pyvista(mesh: TetMesh) -> Any:
+def to_pyvista(mesh: _tetmesh.TetMesh) -> Any:
     pyvista = wanted("pyvista", "to_pyvista")
     cells, types, region, marker = _vtk_cells(mesh)
     counts = _vtk_counts(types)
@@ -71,7 +71,7 @@ def to_pyvista(mesh: TetMesh) -> Any:
     return grid
 
 
-def _vtk_cells(mesh: TetMesh) -> tuple[Array, Array, Array, Array]:
+def _vtk_cells(mesh: _tetmesh.TetMesh) -> tuple[Array, Array, Array, Array]:
     """Corners of all cells, their types, regions and markers."""
     if mesh.order == 2:
         blocks = ((mesh.tetrahedra10, 24), (mesh.triangles6, 22), (mesh.segments3, 21))
