@@ -7,12 +7,12 @@ declare -A packages=(
   # libgmp-dev is for the independent checker of `make corpus`, not for the product.
   [build]="cmake ninja-build g++ ccache python3 xz-utils zlib1g-dev libboost-dev libmetis-dev libcli11-dev libfmt-dev
            nlohmann-json3-dev libgtest-dev libgmp-dev locales pkg-config dpkg-dev"
-  [test]="python3-dolfinx python3-scipy"
+  [test]="python3-dolfinx python3-scipy python3-meshio python3-h5py"
   [python]="python3-dev pybind11-dev python3-numpy python3-setuptools python3-wheel python3-pip python3-venv"
   [python-test]="python3-pytest mypy python3-build python3-meshio python3-vtk9 python3-distributed python3-tqdm"
   [paper]="python3-numpy"
   [solvers]="calculix-ccx openfoam freefem++ libfreefem++ python3-dolfinx python3-getfem python3-netgen python3-sfepy python3-meshio
-             python3-vtk9 python3-gmsh gmsh netgen libmed-tools libdeal.ii-dev"
+             python3-vtk9 python3-gmsh python3-h5py gmsh netgen libmed-tools libdeal.ii-dev"
   [slurm]="slurmctld slurmd slurm-client munge"
   [bench]="admesh tetgen libtet1.5-dev gmsh libcgal-dev libgmp-dev libmpfr-dev libtbb-dev libbenchmark-dev"
   [field]="gmsh tetgen python3-netgen"

@@ -14,9 +14,9 @@ from pathlib import Path
 # Layers that may use less than everything below them.
 ONLY = {"check": {"text", "numbers", "exact"}, "check_repair": {"text", "numbers", "exact", "check"},
         "io": {"text", "numbers", "metric"}}
-# Threads and limits are no part of the mesh that they lie beside, the table of places asks for nothing but points, and polygons
-# become triangles by one header.
-BESIDES = {"io": {"mesh/parallel.h", "mesh/plain_monitor.h", "surface/weld.h", "plane/facets.h",
+# Threads and limits are no part of the mesh that they lie beside, the table of places and that of isolated vertices ask for
+# nothing but the surface, and polygons become triangles by one header.
+BESIDES = {"io": {"mesh/parallel.h", "mesh/plain_monitor.h", "surface/weld.h", "surface/isolated.h", "plane/facets.h",
                  "second_order/edge_numbers.h", "second_order/edges_of.h"}}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]', re.M)

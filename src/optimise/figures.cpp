@@ -98,7 +98,6 @@ Figures figures_of(const TetMesh& mesh, const std::vector<Tet>& tets, const Thre
 
 bool Standard::allows(const Figures& old, const Figures& fresh) {
   if (fresh.least_ < kept_.least_) return false;
-  if (worst_ == WorstQuality::is_kept && fresh.worst_quality() > kept_.worst_quality()) return false;
   Figures next = now_;
   next.elements_ = now_.elements_ - old.elements_ + fresh.elements_;
   next.below_ = now_.below_ - old.below_ + fresh.below_;

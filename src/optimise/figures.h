@@ -42,21 +42,16 @@ class Figures {
 [[nodiscard]] Figures figures_of(const TetMesh& mesh, const std::vector<Tet>& tets,
                                  const Threads& threads = 1);
 
-/// Whether changes have to keep the worst Q, too.
-enum class WorstQuality { may_rise, is_kept };
-
 /// Figures that changes of a mesh have to keep, starting from a mesh that has them.
 class Standard {
  public:
-  explicit Standard(const Figures& kept, WorstQuality worst = WorstQuality::may_rise)
-      : kept_(kept), now_(kept), worst_(worst) {}
+  explicit Standard(const Figures& kept) : kept_(kept), now_(kept) {}
 
   /// Whether the figures are kept when `fresh` are in the place of `old`; if so, that is taken note of.
   [[nodiscard]] bool allows(const Figures& old, const Figures& fresh);
 
  private:
   Figures kept_, now_;
-  WorstQuality worst_;
 };
 
 }  // namespace holdfast

@@ -1,10 +1,7 @@
 #include "optimise/improve.h"
 
 #include <algorithm>
-#include <optional>
 #include <queue>
-#include <utility>
-#include <vector>
 
 #include "optimise/tuning.h"
 #include "optimise/ways_for_energy.h"
@@ -26,7 +23,7 @@ class Improver {
             static_cast<std::size_t>(passes_.inserted_per_tet * static_cast<double>(mesh_.tet_count()))) {}
 
   /// From now on, no figure may become worse.
-  void keep(const Figures& figures, WorstQuality worst) { volume_.keep(figures, worst); }
+  void keep(const Figures& figures) { volume_.keep(figures); }
   /// Progress is that part of the stage's.
   void tell_as(std::array<double, 2> work) { work_ = work; }
 
@@ -149,23 +146,6 @@ class Improver {
   ImproveStats stats_;
 };
 
-/// A volume as it is, to go back to.
-class Snapshot {
- public:
-  explicit Snapshot(const VolumeData& volume)
-      : mesh_(volume.mesh), region_of_(volume.region_of), sizes_(volume.sizes) {}
-  void restore(const VolumeData& volume) {
-    volume.mesh = std::move(mesh_);
-    volume.region_of = std::move(region_of_);
-    volume.sizes = std::move(sizes_);
-  }
-
- private:
-  TetMesh mesh_;
-  std::vector<RegionId> region_of_;
-  std::vector<double> sizes_;
-};
-
 }  // namespace
 
 ImproveStats improve(const VolumeData& volume, Effort effort, Monitor& monitor,
@@ -175,23 +155,11 @@ ImproveStats improve(const VolumeData& volume, Effort effort, Monitor& monitor,
 
 ImproveStats improve_further(const VolumeData& volume, Effort effort, std::array<double, 2> work,
                              const Threads& threads, Monitor& monitor) {
-  const auto run = [&](const Figures* figures, WorstQuality worst) {
-    Improver improver(volume, tuning::further_passes_of(effort), {}, {}, monitor);
-    improver.tell_as(work);
-    if (figures != nullptr) improver.keep(*figures, worst);
-    return improver.run();
-  };
+  Improver improver(volume, tuning::further_passes_of(effort), {}, {}, monitor);
+  improver.tell_as(work);
   // In a metric, elements are not to be good in space.
-  if (volume.metrics != nullptr) return run(nullptr, WorstQuality::may_rise);
-  const Figures before = figures_of(volume, threads);
-  std::optional<Snapshot> snapshot;
-  if (before.elements() <= tuning::kMostRepeated) snapshot.emplace(volume);
-  const ImproveStats stats = run(&before, WorstQuality::may_rise);
-  // The worst Q may rise and fall again on the way: to forbid that from the start is dearer in angles.
-  if (!snapshot || figures_of(volume, threads).worst_quality() <= before.worst_quality()) return stats;
-  snapshot->restore(volume);
-  work[0] = work[1];
-  return run(&before, WorstQuality::is_kept);
+  if (volume.metrics == nullptr) improver.keep(figures_of(volume, threads));
+  return improver.run();
 }
 
 }  // namespace holdfast

@@ -40,8 +40,7 @@ ImproveStats improve(const VolumeData& volume, Effort effort, Monitor& monitor,
                      std::span<const std::uint8_t> spared = {}, std::span<const std::uint8_t> fresh = {});
 
 /// Goes on with what less effort has left, as far as `effort` goes, and makes none of the figures of the
-/// volume (figures.h) worse than they are, nor, but for very large ones, the worst Q. Progress is told as
-/// that part of the stage's work.
+/// volume (figures.h) worse than they are. Progress is told as that part of the stage's work.
 ImproveStats improve_further(const VolumeData& volume, Effort effort, std::array<double, 2> work,
                              const Threads& threads, Monitor& monitor);
 

@@ -109,9 +109,7 @@ struct Passes {
 inline constexpr int kMostPasses = 6;     ///< while many elements are bad, which passes help faster
 inline constexpr double kManyBad = 0.1;   ///< of the elements: as many are many
 inline constexpr int kPatientRounds = 3;  ///< times the rounds: the very worst are few and get all that help
-inline constexpr double kPatientShare = 0.1;  ///< of the work of a round for each of these
-/// Elements of a mesh that is improved once more, and copied for it, if its worst Q has become worse.
-inline constexpr std::size_t kMostRepeated = 300'000;
+inline constexpr double kPatientShare = 0.1;       ///< of the work of a round for each of these
 inline constexpr double kBeyondPatientAim = 0.02;  ///< so that what is just better gets the cheap ways, too
 inline constexpr double kSineWorthAPoint = 0.42;   ///< 25 degrees; no element above is worth a vertex
 inline constexpr double kLongestContracted = 1.6;  ///< sizes: longer edges would undo the sizes asked for

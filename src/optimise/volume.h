@@ -93,7 +93,7 @@ class ImprovedVolume {
   }
 
   /// From now on, no change may make the figures of the whole worse than they are.
-  void keep(const Figures& figures, WorstQuality worst) { standard_.emplace(figures, worst); }
+  void keep(const Figures& figures) { standard_.emplace(figures); }
   /// Whether points may be added at all.
   [[nodiscard]] bool may_add() const { return data_.levels == nullptr; }
   /// Whether figures are kept at all, and whether tetrahedra may be replaced by others. What is allowed is
