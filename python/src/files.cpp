@@ -129,21 +129,20 @@ void register_files(py::module_& module) {
     const py::gil_scoped_release unlocked;
     return std::make_shared<SizeField>(read_size_field(path, how));
   });
-  module.def("write_volume",
-             [](const std::string& path, const Volume& volume, const py::dict& how_to_write,
-                const py::dict& options, const py::object& progress) {
-               const Watch watch(progress);
-               WriteOptions how = writing(how_to_write);
-               take_limits(options, how);
-               how.progress = [&watch](double fraction) { return watch.go_on("write", fraction); };
-               std::vector<Remark> remarks;
-               {
-                 const py::gil_scoped_release unlocked;
-                 write_volume(path, volume, how);
-                 remarks = not_held(path, volume, how);
-               }
-               return messages_of(remarks);
-             });
+  module.def("write_volume", [](const std::string& path, const Volume& volume, const py::dict& how_to_write,
+                                const py::dict& options, const py::object& progress) {
+    const Watch watch(progress);
+    WriteOptions how = writing(how_to_write);
+    take_limits(options, how);
+    how.progress = [&watch](double fraction) { return watch.go_on("write", fraction); };
+    std::vector<Remark> remarks;
+    {
+      const py::gil_scoped_release unlocked;
+      write_volume(path, volume, how);
+      remarks = not_held(path, volume, how);
+    }
+    return messages_of(remarks);
+  });
   module.def("join",
              [](const std::vector<std::shared_ptr<Surface>>& parts, const std::vector<std::string>& names) {
                std::vector<Surface> all;
@@ -155,8 +154,9 @@ void register_files(py::module_& module) {
     return std::make_shared<Surface>(surface_of(volume));
   });
   module.def("volume_formats", &volume_formats);
-  module.def("volume_format_of",
-             [](const std::string& path, const std::string& format) { return volume_format_of(path, format); });
+  module.def("volume_format_of", [](const std::string& path, const std::string& format) {
+    return volume_format_of(path, format);
+  });
   module.def("volume_info", [](const Volume& volume) {
     const py::gil_scoped_release unlocked;
     return reports::text_of(reports::to_json(statistics(volume)));

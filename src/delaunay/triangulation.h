@@ -29,10 +29,10 @@
 #include <vector>
 
 #include "delaunay/cell.h"
-#include "mesh/large_array.h"
 #include "delaunay/order.h"
 #include "holdfast/types.h"
 #include "mesh/anatomy.h"
+#include "mesh/large_array.h"
 #include "mesh/parallel.h"
 
 namespace holdfast {
