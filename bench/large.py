@@ -57,6 +57,7 @@ def commands(program, folder, surface, elements):
 
 def measure(arguments):
     rows = []
+    arguments.folder = arguments.folder.resolve()  # programs run in it
     arguments.folder.mkdir(parents=True, exist_ok=True)
     for elements in arguments.elements:
         surface = write_cube_of(arguments.folder, elements)
