@@ -11,6 +11,7 @@
 #include "refine/cut_parts.h"
 #include "refine/front.h"
 #include "refine/order.h"
+#include "refine/restore_delaunay.h"
 #include "refine/section_points.h"
 #include "refine/tets_inside.h"
 #include "refine/tuning.h"
@@ -79,6 +80,7 @@ FilledIn fill_parts(Parts& parts, const SizeFunction& sizes, Stage stage, std::a
 FieldPoints add_field_points(const VolumeData& volume, const SizeFunction& sizes, const Threads& threads,
                              Monitor& monitor) {
   set_sizes_at_vertices(volume, sizes, threads, monitor);
+  if (!sizes.has_metric()) restore_delaunay(volume, threads, monitor);
   if (FieldPoints filled = filled_parts(volume, sizes, threads, monitor); filled.parts) return filled;
   order_along_curve(volume);
   const bool stopped_early = advance_front(volume, sizes, Stage::field_points, monitor);

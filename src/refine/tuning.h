@@ -5,6 +5,9 @@
 
 namespace holdfast::tuning {
 
+/// Tetrahedra of a shell that is exchanged to make the mesh Delaunay: time grows with its cube.
+inline constexpr std::size_t kMostShellForDelaunay = 8;
+
 // The front. Lengths are in the sizes that are wanted there.
 inline constexpr double kLargeRadius =
     0.85;                              ///< circumradius of a tetrahedron to be refined; 0.61 is regular
