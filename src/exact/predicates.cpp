@@ -88,6 +88,9 @@ Decision decide_incircle(const double* a, const double* b, const double* c, cons
 }
 
 int orient3d_slow(const double* a, const double* b, const double* c, const double* d) {
+  // Boxes are full of points in a plane across an axis.
+  for (std::size_t k = 0; k < 3; ++k)
+    if (a[k] == b[k] && a[k] == c[k] && a[k] == d[k]) return 0;
   return decide_orient3d(a, b, c, d).sign;
 }
 

@@ -120,10 +120,13 @@ class Rounding {
     if (!rounded_.is_valid) cut(std::min(options_.most_points, 1000 + 4 * report_.points));
     if (rounded_.is_valid) return std::move(rounded_);
     trouble_ = trouble_of(rounded_.state, here(), threads_);
-    begin_flat(given, kFlatPlans);
     // Joining what is near costs less than to move the input, but takes long where sheets lie in each other.
-    constexpr std::size_t kFew = 100;
-    bool is_welded = false;
+    constexpr std::size_t kFew = 100, kMany = 400;
+    const double twin_gap = kWeldedPlans[0].last_bits * last_bit(given);
+    bool is_welded =
+        !is_plane_ && trouble_.size() > kMany && most_have_twins(rounded_.state, trouble_, twin_gap, here());
+    if (is_welded) begin_flat(given, kWeldedPlans);
+    begin_flat(given, kFlatPlans);
     for (const Plan& plan : kPlans) {
       if (is_plane_ && (plan.moves_input || plan.last_bits > kMostInPlane)) break;
       if (!is_welded && (plan.moves_input || trouble_.size() > kFew)) {
@@ -246,6 +249,8 @@ class Rounding {
       flat.displacement = sum_above(flat.displacement, moved);
     }
     if (flat.displacement == 0) return;
+    if (flat.state.facets == flattened_.facets && flat.state.vertices == flattened_.vertices) return;
+    flattened_ = flat.state;
     Rounded before = std::move(rounded_);
     rounded_ = {false, std::move(flat.state), flat.displacement, false};
     cut(std::min(options_.most_points, 1000 + 4 * report_.points));
@@ -337,6 +342,7 @@ class Rounding {
   Rounded rounded_;
   Trouble trouble_;
   std::optional<Attempt> best_;  // of the plans so far
+  State flattened_;              // by the last plan that began again
 };
 
 }  // namespace

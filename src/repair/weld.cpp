@@ -2,19 +2,19 @@
 #include "repair/weld.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
+#include <array>
+#include <cstdint>
 
-#include "repair/settle.h"
+#include "numbers/sorted.h"
+#include "repair/near.h"
+#include "surface/aabb_tree.h"
 
 namespace holdfast::repairing {
 namespace {
 
 bool is_usable(const State& state, std::span<const Index> corners) {
-  return std::all_of(corners.begin(), corners.end(), [&](Index v) {
-    return v < state.vertices.size() && std::isfinite(state.vertices[v][0]) &&
-           std::isfinite(state.vertices[v][1]) && std::isfinite(state.vertices[v][2]);
-  });
+  return std::all_of(corners.begin(), corners.end(),
+                     [&](Index v) { return v < state.vertices.size() && is_finite(state.vertices[v]); });
 }
 
 }  // namespace
@@ -28,6 +28,29 @@ double weld(State& state, double tolerance, const Step& step) {
   constexpr double kRoomForRounding = 0x1p-20;  // of the tolerance
   const double gap = tolerance * (1 - kRoomForRounding);
   return settle(state, all, {gap, gap, true, false}, step);
+}
+
+bool most_have_twins(const State& state, const Trouble& trouble, double gap, const Step& step) {
+  std::vector<Index> vertices;
+  const auto list = [&](std::span<const Index> corners) {
+    for (const Index v : corners)
+      if (v < state.input_vertices) vertices.push_back(v);
+  };
+  for (const Index f : trouble.facets) list(state.facets[f]);
+  for (const Index s : trouble.segments) list(state.segments[s]);
+  sort_unique(vertices);
+  std::vector<Box> boxes;
+  for (const Index v : vertices) boxes.push_back(box_round(state, std::array{v}, gap / 2));
+  std::vector<std::uint8_t> has_twin(vertices.size(), 0);
+  const auto visit = [&](Index i, Index j) {
+    const Point &p = state.vertices[vertices[i]], &q = state.vertices[vertices[j]];
+    if (p != q && length(minus(p, q)) <= gap) has_twin[i] = has_twin[j] = 1;
+    return true;
+  };
+  AabbTree(boxes).for_each_overlap(
+      visit, [](Index, Index) { return false; }, step);
+  const auto twins = std::count(has_twin.begin(), has_twin.end(), std::uint8_t{1});
+  return 2 * static_cast<std::size_t>(twins) > vertices.size();
 }
 
 }  // namespace holdfast::repairing

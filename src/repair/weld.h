@@ -1,6 +1,7 @@
 // Vertices that lie near to each other, or to a side or facet, joined within the user's tolerance.
 #pragma once
 
+#include "repair/settle.h"
 #include "repair/state.h"
 #include "surface/search.h"
 
@@ -9,5 +10,9 @@ namespace holdfast::repairing {
 /// `RepairOptions::weld`. Returns the largest distance by which anything moved or was bent, rounded up: less
 /// than the tolerance, with room left for rounding where that is possible.
 double weld(State& state, double tolerance, const Step& step);
+
+/// Whether more than half of the vertices of the input that are in trouble lie at most `gap` from another one
+/// of them at another place, as they do where a surface is there twice but for rounding.
+[[nodiscard]] bool most_have_twins(const State& state, const Trouble& trouble, double gap, const Step& step);
 
 }  // namespace holdfast::repairing

@@ -75,6 +75,30 @@ TEST(Repair, IsTheSameAtAnyScale) {
   }
 }
 
+/// A sphere, and the same moved by the last bit.
+Surface twice_but_for_rounding(int n) {
+  const Surface one = sphere(n, {0, 0, 0}, 0);
+  Surface other = one;
+  for (Point& p : other.vertices) p[0] = std::nextafter(p[0], 2);
+  return together(one, other);
+}
+
+/// Only where much is in trouble that the vertices tell to be one: see below.
+TEST(Repair, WeldsAtOnceWhatIsThereTwiceButForRounding) {
+  const Surface twice = twice_but_for_rounding(14);
+  const RepairResult repaired = repair(twice);
+  expect_valid(repaired);
+  EXPECT_EQ(repaired.surface.facets.size(), twice.facets.size() / 2);
+  EXPECT_EQ(repaired.report.rung, Rung::snapped);
+  EXPECT_LE(repaired.report.rounds, 2u);  // those before anything is welded
+}
+
+TEST(Repair, MovesNoVertexWhereItTakesNotLong) {
+  const RepairResult repaired = repair(twice_but_for_rounding(5));
+  expect_valid(repaired);
+  EXPECT_TRUE(repaired.moved.empty());
+}
+
 TEST(Repair, ThreadsLeaveTheSameBits) {
   RepairOptions options;
   const RepairResult one = repair(two_spheres(), options);
