@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "holdfast/names.h"
 #include "ready_memory.h"
 
 int main(int count, char** arguments) try {
@@ -22,8 +23,8 @@ int main(int count, char** arguments) try {
   const holdfast::Plane plane = holdfast::read_plane(arguments[1]);
   holdfast::PlaneOptions options;
   for (int i = 3; i < count; ++i) {
-    for (const holdfast::PlaneMethod method : holdfast::plane_methods)
-      if (std::string(arguments[i]) == name(method)) options.method = method;
+    if (const auto method = holdfast::from_name<holdfast::PlaneMethod>(arguments[i]))
+      options.method = *method;
     options.delaunay = options.delaunay || std::string(arguments[i]) == "delaunay";
   }
   options.hull = options.delaunay;
