@@ -11,6 +11,7 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "plane/point_tree.h"
 
@@ -20,15 +21,29 @@ namespace {
 using Corner = std::uint32_t;
 constexpr Corner kNone = ~Corner{0};
 
+/// Of corner i to the one behind it: the edge of a triangle on its outside, or a side of the walk.
+class Beyond {
+ public:
+  [[nodiscard]] static Beyond triangle(EdgeCode e) { return Beyond(e, false); }
+  [[nodiscard]] static Beyond walk(Corner side) { return Beyond(side, true); }
+  [[nodiscard]] bool is_walk() const { return is_walk_; }
+  [[nodiscard]] std::uint32_t number() const { return number_; }
+
+ private:
+  Beyond(std::uint32_t number, bool is_walk) : number_(number), is_walk_(is_walk) {}
+  std::uint32_t number_;
+  bool is_walk_;
+};
+
 class Clipper {
  public:
-  Clipper(const Points& points, std::span<const Vertex> walk, PlaneEars choice,
-          std::vector<std::array<Vertex, 3>>& triangles, EarCounts& counts)
-      : points_(points), choice_(choice), triangles_(triangles), counts_(counts) {
+  Clipper(const Points& points, std::span<const Vertex> walk, std::span<const std::uint32_t> sides,
+          PlaneEars choice, EarMesh& ears)
+      : points_(points), sides_(sides), choice_(choice), ears_(ears) {
     const auto n = static_cast<Corner>(walk.size());
     corners_.reserve(n);
     for (Corner i = 0; i < n; ++i)
-      corners_.push_back({walk[i], i > 0 ? i - 1 : n - 1, i + 1 < n ? i + 1 : 0});
+      corners_.push_back({walk[i], i > 0 ? i - 1 : n - 1, i + 1 < n ? i + 1 : 0, Beyond::walk(i)});
     for (Corner i = 0; i < n; ++i) corners_[i].reflex = turn(i) <= 0;
     plant_tree();
     // The last is looked at first, so that ears come in the order of the walk.
@@ -36,7 +51,7 @@ class Clipper {
   }
 
   void run() {
-    const std::size_t before = triangles_.size(), corners = corners_.size();
+    const std::size_t before = ears_.mesh.size(), corners = corners_.size();
     while (!candidates_.empty()) {
       const Candidate candidate = take();
       const Corner b = candidate.corner;
@@ -45,10 +60,12 @@ class Clipper {
       if (choice_ == PlaneEars::best && candidate.quality != quality(b)) continue;
       const Corner a = corners_[b].before, c = corners_[b].behind;
       if (a == corners_[c].behind) {  // the last triangle of a part
-        emit(a, b, c);
+        meet(code(emit(a, b, c), 1), corners_[c].beyond);
         for (const Corner i : {a, b, c}) remove(i);
         continue;
       }
+      // With other neighbours, too, it waits for that one.
+      if (const Corner witness = corners_[b].witness; witness != kNone && blocks(witness, a, b, c)) continue;
       const Corner witness = blocker(a, b, c);
       if (witness == kNone) {
         cut(a, b, c);
@@ -56,11 +73,12 @@ class Clipper {
         join(a, b, c);
       } else {
         // Not before the witness is cut off, or convex, can this corner be an ear with these neighbours.
+        corners_[b].witness = witness;
         waiting_.push_back({b, corners_[witness].waiting});
         corners_[witness].waiting = static_cast<std::uint32_t>(waiting_.size() - 1);
       }
     }
-    if (triangles_.size() - before != corners - 2)
+    if (ears_.mesh.size() - before != corners - 2)
       throw std::logic_error("holdfast: a polygon is left without an ear");
   }
 
@@ -68,8 +86,10 @@ class Clipper {
   struct Place {
     Vertex v;
     Corner before, behind;
+    Beyond beyond;  // of the side to the corner behind
     bool reflex = false, removed = false;
     std::uint32_t waiting = kNone;  // first of a list of corners of which this one is the witness
+    Corner witness = kNone;         // in the triangle that the corner made when it was last looked for
     std::uint32_t item = kNone;     // in the tree, if it was reflex in the beginning
     Corner twin = kNone;            // another corner at the vertex, by the second construction
   };
@@ -146,15 +166,22 @@ class Clipper {
     if (corners_[i].item != kNone && corners_[i].twin == kNone) tree_->erase(corners_[i].item);
   }
 
+  /// Whether the vertex lies in the triangle, but not at a vertex of it.
+  [[nodiscard]] bool is_inside(Vertex v, Vertex a, Vertex b, Vertex c) const {
+    return v != a && v != b && v != c && points_.orient(c, a, v) >= 0 && points_.orient(a, b, v) >= 0 &&
+           points_.orient(b, c, v) >= 0;
+  }
+  [[nodiscard]] bool blocks(Corner i, Corner a, Corner b, Corner c) const {
+    const Place& p = corners_[i];
+    return p.reflex && !p.removed && is_inside(p.v, corners_[a].v, corners_[b].v, corners_[c].v);
+  }
+
   /// Calls `visit` for reflex corners in the triangle, but those at its own vertices, until it returns false.
   template <typename Visit>
   void each_inside(Corner a, Corner b, Corner c, Visit&& visit) const {
     const Vertex va = corners_[a].v, vb = corners_[b].v, vc = corners_[c].v;
     tree_->each_near(va, vb, vc, [&](std::uint32_t item) {
-      const Vertex v = corners_[corner_of_[item]].v;
-      if (v == va || v == vb || v == vc) return true;
-      if (points_.orient(va, vb, v) < 0 || points_.orient(vb, vc, v) < 0 || points_.orient(vc, va, v) < 0)
-        return true;
+      if (!is_inside(corners_[corner_of_[item]].v, va, vb, vc)) return true;
       for (Corner i = corner_of_[item]; i != kNone; i = corners_[i].twin)
         if (corners_[i].reflex && !corners_[i].removed && !visit(i)) return false;
       return true;
@@ -172,9 +199,28 @@ class Clipper {
 
   // --- Triangles ---------------------------------------------------------------------------------------
 
-  void emit(Corner a, Corner b, Corner c) {
-    triangles_.push_back({corners_[a].v, corners_[b].v, corners_[c].v});
-    ++counts_.ears;
+  /// A side of a triangle, and what is beyond it.
+  void meet(EdgeCode e, Beyond beyond) {
+    if (beyond.is_walk())
+      ears_.sides[sides_[beyond.number()]] = e;
+    else
+      ears_.mesh.join(e, beyond.number());
+  }
+
+  /// The triangle of side ab with corner c.
+  std::size_t make_triangle(Corner a, Corner b, Corner c) {
+    const std::size_t t = ears_.mesh.size();
+    ears_.mesh.all().push_back({{corners_[a].v, corners_[b].v, corners_[c].v}, {kNoEdge, kNoEdge, kNoEdge}});
+    meet(code(t, 2), corners_[a].beyond);
+    return t;
+  }
+
+  /// That of sides ab and bc.
+  std::size_t emit(Corner a, Corner b, Corner c) {
+    const std::size_t t = make_triangle(a, b, c);
+    meet(code(t, 0), corners_[b].beyond);
+    ++ears_.counts.ears;
+    return t;
   }
 
   void remove(Corner i) {
@@ -182,8 +228,9 @@ class Clipper {
     take_out(i);
   }
 
-  void connect(Corner a, Corner b) {
+  void connect(Corner a, Corner b, EdgeCode beyond) {
     corners_[a].behind = b;
+    corners_[a].beyond = Beyond::triangle(beyond);
     corners_[b].before = a;
   }
 
@@ -198,10 +245,10 @@ class Clipper {
   }
 
   void cut(Corner a, Corner b, Corner c) {
-    emit(a, b, c);
+    const std::size_t t = emit(a, b, c);
     remove(b);
     wake(b);
-    connect(a, c);
+    connect(a, c, code(t, 1));
     refresh(a);
     refresh(c);
   }
@@ -218,8 +265,8 @@ class Clipper {
     });
     const Corner r = nearest;
     if (r == kNone) throw std::logic_error("holdfast: no corner sees the side of a triangle that holds some");
-    triangles_.push_back({corners_[a].v, corners_[b].v, corners_[r].v});
-    ++counts_.joined;
+    const std::size_t t = make_triangle(a, b, r);
+    ++ears_.counts.joined;
     // One part is b, c, ..., r; the other one r', ..., a, with a corner of its own at r.
     const auto other = static_cast<Corner>(corners_.size());
     Place place = corners_[r];
@@ -228,13 +275,10 @@ class Clipper {
     place.item = kNone;
     corners_.push_back(place);
     corners_[r].twin = other;
-    if (corners_[other].behind == a) {  // a part of two corners, which is an edge
-      corners_[a].behind = other;
-    } else {
-      corners_[corners_[other].behind].before = other;
-      connect(a, other);
-    }
-    connect(r, b);
+    // Where r is before a, this part has two corners and is an edge.
+    corners_[corners_[other].behind].before = other;
+    connect(a, other, code(t, 1));
+    connect(r, b, code(t, 0));
     close(a, other);
     close(r, b);
   }
@@ -254,7 +298,8 @@ class Clipper {
   }
 
   void close(Corner i, Corner j) {
-    if (corners_[j].behind == i) {
+    if (corners_[j].behind == i) {  // an edge, with a triangle on the side that was connected
+      meet(corners_[i].beyond.number(), corners_[j].beyond);
       for (const Corner k : {i, j}) {
         remove(k);
         wake(k);
@@ -266,9 +311,9 @@ class Clipper {
   }
 
   const Points& points_;
+  std::span<const std::uint32_t> sides_;  // of the graph, along the walk
   PlaneEars choice_;
-  std::vector<std::array<Vertex, 3>>& triangles_;
-  EarCounts& counts_;
+  EarMesh& ears_;
   std::vector<Place> corners_;
   std::vector<Candidate> candidates_;
   std::vector<Waiting> waiting_;
@@ -278,9 +323,23 @@ class Clipper {
 
 }  // namespace
 
-void cut_ears(const Points& points, std::span<const Vertex> walk, PlaneEars choice,
-              std::vector<std::array<Vertex, 3>>& triangles, EarCounts& counts) {
-  Clipper(points, walk, choice, triangles, counts).run();
+void cut_ears(const Points& points, const Walks& faces, std::size_t f, PlaneEars choice, EarMesh& ears) {
+  const std::size_t first = faces.first[f], count = faces.first[f + 1] - first;
+  Clipper(points, std::span(faces.vertices).subspan(first, count),
+          std::span(faces.sides).subspan(first, count), choice, ears)
+      .run();
+}
+
+Triangles join_faces(EarMesh&& ears, std::size_t first_segment) {
+  Triangles mesh = std::move(ears.mesh);
+  for (std::size_t i = 0; 2 * i < ears.sides.size(); ++i) {
+    EdgeCode e = ears.sides[2 * i], f = ears.sides[2 * i + 1];
+    if (e == kNoEdge) std::swap(e, f);
+    if (e == kNoEdge) continue;
+    if (f != kNoEdge) mesh.join(e, f);
+    if (i >= first_segment) mesh.constrain(e);
+  }
+  return mesh;
 }
 
 }  // namespace holdfast::plane

@@ -1,10 +1,10 @@
-// Triangles of a polygon by cutting off its corners (paper §2.1).
+// Triangles of polygons by cutting off their corners (paper §2.1).
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "holdfast/plane.h"
+#include "plane/faces.h"
 #include "plane/triangles.h"
 
 namespace holdfast::plane {
@@ -14,9 +14,18 @@ struct EarCounts {
   std::size_t joined = 0;  ///< triangles made with the reflex corner nearest to a side
 };
 
-/// Triangulates the face on the left of a closed walk, which may pass vertices and edges twice, and adds its
-/// triangles.
-void cut_ears(const Points& points, std::span<const Vertex> walk, PlaneEars choice,
-              std::vector<std::array<Vertex, 3>>& triangles, EarCounts& counts);
+/// Triangles of faces of a graph, each face joined within itself.
+struct EarMesh {
+  explicit EarMesh(std::size_t edges) : sides(2 * edges, kNoEdge) {}
+  Triangles mesh;
+  std::vector<EdgeCode> sides;  ///< on the left of edge i, 2 i, and on its right, 2 i + 1
+  EarCounts counts;
+};
+
+/// Triangulates face `f`, whose walk may pass vertices and edges twice.
+void cut_ears(const Points& points, const Walks& faces, std::size_t f, PlaneEars choice, EarMesh& ears);
+
+/// Joins the faces along the graph's edges, of which those from `first_segment` on become constraints.
+[[nodiscard]] Triangles join_faces(EarMesh&& ears, std::size_t first_segment);
 
 }  // namespace holdfast::plane

@@ -70,17 +70,21 @@ Walks find_faces(const Points& points, const std::vector<Ends>& edges) {
   Walks walks;
   walks.first.push_back(0);
   walks.vertices.reserve(graph.size());
+  walks.sides.reserve(graph.size());
   std::vector<bool> seen(graph.size(), false);
   for (std::uint32_t start = 0; start < graph.size(); ++start) {
     if (seen[start]) continue;
     for (std::uint32_t h = start; !seen[h]; h = graph.next(h)) {
       seen[h] = true;
       walks.vertices.push_back(graph.from(h));
+      walks.sides.push_back(h);
     }
-    if (is_bounded(points, walks.vertices, walks.first.back()))
+    if (is_bounded(points, walks.vertices, walks.first.back())) {
       walks.first.push_back(walks.vertices.size());
-    else
+    } else {
       walks.vertices.resize(walks.first.back());
+      walks.sides.resize(walks.first.back());
+    }
   }
   return walks;
 }

@@ -10,6 +10,8 @@ namespace holdfast::plane {
 /// Walks one after another, each with its face on the left. A vertex comes as often as the walk passes it.
 struct Walks {
   std::vector<Vertex> vertices;
+  /// Of each vertex, how the walk leaves it: 2 i by edge i in its direction, 2 i + 1 against it.
+  std::vector<std::uint32_t> sides;
   std::vector<std::size_t> first;  ///< of each walk, and the end of the last
   [[nodiscard]] std::size_t count() const { return first.size() - 1; }
 };

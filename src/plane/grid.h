@@ -12,6 +12,7 @@ namespace holdfast::plane {
 /// whatever the magnitudes: halves, and extents that are no denormals, keep it from over- and underflow.
 class Grid {
  public:
+  Grid() = default;  ///< of one cell
   Grid(std::span<const Position> points, std::uint32_t n) {
     for (std::size_t k = 0; k < 2; ++k) {
       double least = points[0][k], most = least;
@@ -25,13 +26,14 @@ class Grid {
     }
     last_ = n - 1;
   }
+  /// Places beyond the points are in the outermost cells.
   [[nodiscard]] std::uint32_t cell(double x, std::size_t axis) const {
-    return std::min(last_, static_cast<std::uint32_t>(std::max(0.0, (x / 2 - low_[axis]) * scale_[axis])));
+    return static_cast<std::uint32_t>(std::min(last_, std::max(0.0, (x / 2 - low_[axis]) * scale_[axis])));
   }
 
  private:
   std::array<double, 2> low_{}, scale_{};
-  std::uint32_t last_;
+  double last_ = 0;
 };
 
 }  // namespace holdfast::plane

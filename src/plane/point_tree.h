@@ -6,12 +6,17 @@
 //    [  ] [  ] [  ]       or that lies outside one side of the triangle, is passed by.
 //    .... .... ....
 // clang-format on
+//
+// Eight boxes are compared with that of the triangle at once, by the cells of a grid that their corners lie
+// in; those that are left, by their corners.
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <span>
 #include <vector>
 
+#include "plane/grid.h"
 #include "plane/points.h"
 
 namespace holdfast::plane {
@@ -27,13 +32,15 @@ class PointTree {
   /// returns false.
   template <typename Visit>
   void each_near(Vertex a, Vertex b, Vertex c, Visit&& visit) const {
-    if (levels_.empty()) return;
-    const Query query(points_, a, b, c);
-    walk(query, levels_.size() - 1, 0, visit);
+    if (order_.empty()) return;
+    const Query query(*this, a, b, c);
+    walk(query, levels_.size(), 0, visit);
   }
 
  private:
   static constexpr std::size_t kFan = 8;
+  using Lanes = std::int16_t __attribute__((vector_size(2 * kFan)));
+
   struct Box {
     Position low, high;
   };
@@ -41,17 +48,41 @@ class PointTree {
     Box box;
     std::uint32_t left;  // items in it
   };
+  /// Cells of eight boxes, or of eight points, which have their high corners at the low ones.
+  struct Group {
+    std::array<Lanes, 2> low, high;
+
+    /// Cells are not negative, so that nothing is near a box that ends below them.
+    void clear(std::size_t lane) {
+      for (std::size_t k = 0; k < 2; ++k) low[k][lane] = high[k][lane] = -1;
+    }
+    [[nodiscard]] bool stands(std::size_t lane) const { return low[0][lane] >= 0; }
+    void set(std::size_t lane, const std::array<std::int16_t, 2>& from,
+             const std::array<std::int16_t, 2>& to) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        low[k][lane] = from[k];
+        high[k][lane] = to[k];
+      }
+    }
+  };
+
   class Query {
    public:
-    Query(const Points& points, Vertex a, Vertex b, Vertex c);
+    Query(const PointTree& tree, Vertex a, Vertex b, Vertex c);
+    /// Which boxes of a group may meet that of the triangle: a byte each, 1 for yes.
+    [[nodiscard]] std::uint64_t near(const Group& group) const {
+      using Bytes = std::int8_t __attribute__((vector_size(kFan)));
+      const Lanes apart = (group.low[0] > high_[0]) | (low_[0] > group.high[0]) | (group.low[1] > high_[1]) |
+                          (low_[1] > group.high[1]);
+      return ~std::bit_cast<std::uint64_t>(__builtin_convertvector(apart, Bytes)) & 0x0101010101010101u;
+    }
     /// False only where no point of the box lies in the triangle.
     [[nodiscard]] bool may_meet(const Box& box) const {
-      // Without branches, which could not be foretold.
-      const bool meets = static_cast<bool>(
-          static_cast<int>(box.low[0] <= box_.high[0]) & static_cast<int>(box.high[0] >= box_.low[0]) &
-          static_cast<int>(box.low[1] <= box_.high[1]) & static_cast<int>(box.high[1] >= box_.low[1]));
-      if (!meets) return false;
-      return !(certain_ && (is_right_of(0, box) || is_right_of(1, box) || is_right_of(2, box)));
+      if (box.low[0] > box_.high[0] || box.high[0] < box_.low[0] || box.low[1] > box_.high[1] ||
+          box.high[1] < box_.low[1])
+        return false;
+      // Of an ear, the side ca is the one within the polygon.
+      return !(certain_ && (is_right_of(2, box) || is_right_of(0, box) || is_right_of(1, box)));
     }
     [[nodiscard]] bool holds(const Position& p) const {
       return p[0] >= box_.low[0] && p[0] <= box_.high[0] && p[1] >= box_.low[1] && p[1] <= box_.high[1];
@@ -67,32 +98,39 @@ class PointTree {
 
     std::array<Position, 3> corners_;
     Box box_;
+    std::array<Lanes, 2> low_, high_;
     bool certain_;  // corners are where their doubles are
   };
 
+  /// The cell of a place, or of the one nearest to it that the grid has.
+  [[nodiscard]] std::array<std::int16_t, 2> cell(const Position& p) const {
+    return {static_cast<std::int16_t>(grid_.cell(p[0], 0)), static_cast<std::int16_t>(grid_.cell(p[1], 1))};
+  }
+  template <typename BoxOf>
+  void add_groups(std::size_t count, BoxOf&& box_of);
+  void add_level();
+
+  // Of a group at a level, 0 for points.
   template <typename Visit>
-  bool walk(const Query& query, std::size_t level, std::size_t first, Visit& visit) const {
-    const std::vector<Node>& nodes = levels_[level];
-    const std::size_t last = std::min(first + kFan, nodes.size());
-    for (std::size_t k = first; k < last; ++k) {
-      if (nodes[k].left == 0 || !query.may_meet(nodes[k].box)) continue;
+  bool walk(const Query& query, std::size_t level, std::size_t group, Visit& visit) const {
+    for (std::uint64_t near = query.near(groups_[level][group]); near != 0; near &= near - 1) {
+      const std::size_t i = group * kFan + static_cast<std::size_t>(std::countr_zero(near)) / 8;
       if (level > 0) {
-        if (!walk(query, level - 1, k * kFan, visit)) return false;
-        continue;
+        if (query.may_meet(levels_[level - 1][i].box) && !walk(query, level - 1, i, visit)) return false;
+      } else if (query.holds(at_[i]) && !visit(order_[i])) {
+        return false;
       }
-      const std::size_t end = std::min((k + 1) * kFan, order_.size());
-      for (std::size_t i = k * kFan; i < end; ++i)
-        if (standing_[i] && query.holds(at_[i]) && !visit(order_[i])) return false;
     }
     return true;
   }
 
   const Points& points_;
-  std::vector<std::uint32_t> order_;  // items along the curve
-  std::vector<std::uint32_t> place_;  // of an item in this order
-  std::vector<Position> at_;          // in this order
-  std::vector<std::uint8_t> standing_;
-  std::vector<std::vector<Node>> levels_;  // from below
+  Grid grid_;
+  std::vector<std::uint32_t> order_;        // items along the curve
+  std::vector<std::uint32_t> place_;        // of an item in this order
+  std::vector<Position> at_;                // in this order
+  std::vector<std::vector<Node>> levels_;   // from below
+  std::vector<std::vector<Group>> groups_;  // of points, then of these
 };
 
 }  // namespace holdfast::plane

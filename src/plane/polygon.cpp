@@ -129,10 +129,6 @@ class Windings {
   std::vector<int> winding_;
 };
 
-std::span<const Vertex> walk_of(const Walks& faces, std::size_t f) {
-  return std::span(faces.vertices).subspan(faces.first[f], faces.first[f + 1] - faces.first[f]);
-}
-
 std::vector<Corners3> corners_of(const Triangles& mesh) {
   std::vector<Corners3> triangles;
   triangles.reserve(mesh.size());
@@ -154,13 +150,12 @@ std::optional<std::vector<Corners3>> triangles_of_walk(const std::vector<Positio
   Windings windings(sides, faces);
   const int direction = windings.direction();
   if (direction == 0) return std::nullopt;
-  std::vector<Corners3> triangles;
-  EarCounts counts;
+  EarMesh ears(edges.size());
   for (std::uint32_t f = 0; f < faces.count(); ++f)
-    if (windings.encloses(f)) cut_ears(sorted.points, walk_of(faces, f), PlaneEars::first, triangles, counts);
-  Triangles mesh = Triangles::joined(triangles, edges);
+    if (windings.encloses(f)) cut_ears(sorted.points, faces, f, PlaneEars::first, ears);
+  Triangles mesh = join_faces(std::move(ears), 0);
   swap_to_delaunay(mesh, sorted.points, poll);
-  triangles = sorted.original(corners_of(mesh));
+  std::vector<Corners3> triangles = sorted.original(corners_of(mesh));
   if (direction < 0)
     for (Corners3& t : triangles) std::swap(t[1], t[2]);
   return triangles;
@@ -180,13 +175,12 @@ std::optional<std::vector<Corners3>> triangles_of_outlines(const std::vector<Pos
   std::sort(segments.begin(), segments.end());
   std::optional<std::vector<Ends>> graph = sweep(sorted.points, segments, poll);
   if (!graph) return std::nullopt;
+  const std::size_t links = graph->size();
   graph->insert(graph->end(), segments.begin(), segments.end());
   const Walks faces = find_faces(sorted.points, *graph);
-  std::vector<Corners3> triangles;
-  EarCounts counts;
-  for (std::size_t f = 0; f < faces.count(); ++f)
-    cut_ears(sorted.points, walk_of(faces, f), PlaneEars::first, triangles, counts);
-  Triangles mesh = Triangles::joined(triangles, segments);
+  EarMesh ears(graph->size());
+  for (std::size_t f = 0; f < faces.count(); ++f) cut_ears(sorted.points, faces, f, PlaneEars::first, ears);
+  Triangles mesh = join_faces(std::move(ears), links);
   swap_to_delaunay(mesh, sorted.points, poll);
   const Regions regions = find_regions(mesh);
   std::vector<bool> kept(regions.count + std::size_t{1}, true);
@@ -195,7 +189,7 @@ std::optional<std::vector<Corners3>> triangles_of_outlines(const std::vector<Pos
     if (found.on_constraint) return std::nullopt;
     if (found.triangle != kNoVertex) kept[regions.of_triangle[found.triangle]] = false;
   }
-  triangles.clear();
+  std::vector<Corners3> triangles;
   for (std::size_t t = 0; t < mesh.size(); ++t)
     if (kept[regions.of_triangle[t]]) triangles.push_back(mesh[t].v);
   return sorted.original(std::move(triangles));

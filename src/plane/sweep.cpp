@@ -2,7 +2,9 @@
 #include "plane/sweep.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
+#include <optional>
 #include <set>
 
 namespace holdfast::plane {
@@ -11,7 +13,14 @@ namespace {
 class Sweep {
  public:
   Sweep(const Points& points, const std::vector<Ends>& segments)
-      : points_(points), ends_(segments), helper_(segments.size()), status_(Above{this}) {
+      : points_(points),
+        ends_(segments),
+        helper_(segments.size()),
+        status_(Above{this}),
+        held_by_(segments.size()),
+        seat_of_(segments.size()),
+        place_(segments.size()),
+        ending_(points.size(), kNone) {
     part_.resize(points.size());
     std::iota(part_.begin(), part_.end(), Vertex{0});
     for (Ends& e : ends_) {
@@ -35,25 +44,30 @@ class Sweep {
 
  private:
   using Item = std::uint32_t;  // a segment
+  // A seat in the status, with the number of the segment that first held it. Where one segment ends another
+  // one nearly always starts, and takes its seat.
+  using Seat = std::uint32_t;
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
   // Order from below of what the sweep line crosses.
   struct Above {
     using is_transparent = void;
     const Sweep* sweep;
     // Two segments that the line crosses, of which neither is crossed by the other.
-    bool operator()(Item s, Item t) const {
-      if (s == t) return false;
+    bool operator()(Seat i, Seat j) const {
+      if (i == j) return false;
+      const Item s = sweep->held_by_[i], t = sweep->held_by_[j];
       const Ends &p = sweep->ends_[s], &q = sweep->ends_[t];
       if (p[0] == q[0]) return sweep->points_.orient(p[0], p[1], q[1]) > 0;
       if (sweep->points_.compare(p[0], q[0]) > 0) return sweep->points_.orient(q[0], q[1], p[0]) < 0;
       return sweep->points_.orient(p[0], p[1], q[0]) > 0;
     }
-    // Segment s is below the point.
-    bool operator()(Item s, const Vertex* v) const {
-      return sweep->points_.orient(sweep->ends_[s][0], sweep->ends_[s][1], *v) > 0;
-    }
+    // The segment is below the point.
+    bool operator()(Seat i, const Vertex* v) const { return sweep->side(sweep->held_by_[i], *v) > 0; }
   };
-  using Status = std::set<Item, Above>;
+  using Status = std::set<Seat, Above>;
+
+  [[nodiscard]] int side(Item s, Vertex v) const { return points_.orient(ends_[s][0], ends_[s][1], v); }
 
   // --- Parts of the graph: trees of disjoint sets, with path halving -----------------------------------
 
@@ -71,9 +85,18 @@ class Sweep {
   }
 
   void order_points() {
-    order_.resize(points_.size());
-    std::iota(order_.begin(), order_.end(), Vertex{0});
-    std::sort(order_.begin(), order_.end(), [&](Vertex v, Vertex w) { return points_.compare(v, w) < 0; });
+    struct Entry {
+      double x;
+      Vertex v;
+    };
+    std::vector<Entry> entries(points_.size());
+    for (Vertex v = 0; v < entries.size(); ++v) entries[v] = {points_[v][0], v};
+    // Where the doubles nearest to points differ, the points do so in the same sense.
+    std::sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
+      return a.x != b.x ? a.x < b.x : points_.compare(a.v, b.v) < 0;
+    });
+    order_.reserve(entries.size());
+    for (const Entry& e : entries) order_.push_back(e.v);
   }
 
   // Segments by their first ends.
@@ -104,39 +127,73 @@ class Sweep {
     return p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1];
   }
 
-  bool pass(Vertex v) {
-    // What ends here stands together, and above what is below v.
-    auto it = status_.lower_bound(&v);
-    bool ends = false;
-    while (it != status_.end() && points_.orient(ends_[*it][0], ends_[*it][1], v) == 0) {
-      if (ends_[*it][1] != v) return false;  // v lies inside it
-      it = status_.erase(it);
-      ends = true;
+  /// What ends at a vertex stands together in the status, above what is below the vertex.
+  struct Ending {
+    Status::iterator first, last;
+    std::size_t count = 0;
+  };
+
+  // Nothing where the vertex lies inside a segment.
+  std::optional<Ending> find_ending(Vertex v) {
+    Ending found;
+    if (const Item s = ending_[v]; s != kNone) {
+      found.first = place_[seat_of_[s]];
+      while (found.first != status_.begin() && side(held_by_[*std::prev(found.first)], v) == 0) --found.first;
+    } else {
+      found.first = status_.lower_bound(&v);
     }
-    const bool has_below = it != status_.begin();
-    const Item below = has_below ? *std::prev(it) : 0;
-    // The last vertex that came between the two segments is seen from v. A part is linked by its leftmost
-    // vertex; further links would only make cycles, outside of all faces, too.
-    if (!ends && has_below && it != status_.end() && unite(helper_[below], v))
-      links.push_back({helper_[below], v});
-    if (has_below) helper_[below] = v;
-    return start_segments(v, it, has_below, below);
+    for (found.last = found.first; found.last != status_.end(); ++found.last, ++found.count) {
+      const Item s = held_by_[*found.last];
+      if (ends_[s][1] == v) continue;
+      if (side(s, v) == 0) return std::nullopt;
+      break;
+    }
+    return found;
   }
 
-  bool start_segments(Vertex v, Status::iterator above, bool has_below, Item below) {
+  bool pass(Vertex v) {
+    const std::optional<Ending> ending = find_ending(v);
+    if (!ending) return false;
+    const bool has_below = ending->first != status_.begin(), has_above = ending->last != status_.end();
+    const Item below = has_below ? held_by_[*std::prev(ending->first)] : kNone;
+    const Item above = has_above ? held_by_[*ending->last] : kNone;
+    // The last vertex that came between the two segments is seen from v. A part is linked by its leftmost
+    // vertex; further links would only make cycles, outside of all faces, too.
+    if (ending->count == 0 && has_below && has_above && unite(helper_[below], v))
+      links.push_back({helper_[below], v});
+    if (has_below) helper_[below] = v;
+    return start_segments(v, *ending, below, above);
+  }
+
+  bool start_segments(Vertex v, const Ending& ending, Item below, Item above) {
     Item* const first = starts_.data() + first_[v];
     Item* const last = starts_.data() + first_[v + std::size_t{1}];
-    if (first == last) return !has_below || above == status_.end() || fit(below, *above);
+    if (first == last && below != kNone && above != kNone && !fit(below, above)) return false;
     std::sort(first, last, [&](Item s, Item t) { return points_.orient(v, ends_[s][1], ends_[t][1]) > 0; });
     for (Item* s = first; s + 1 < last; ++s)
       if (points_.orient(v, ends_[s[0]][1], ends_[s[1]][1]) == 0) return false;
-    if (has_below && !fit(below, *first)) return false;
-    if (above != status_.end() && !fit(last[-1], *above)) return false;
+    if (first != last && below != kNone && !fit(below, *first)) return false;
+    if (first != last && above != kNone && !fit(last[-1], above)) return false;
+    seat(first, last, ending);
     for (Item* s = first; s < last; ++s) {
       helper_[*s] = v;
-      status_.emplace_hint(above, *s);
+      ending_[ends_[*s][1]] = *s;
     }
     return true;
+  }
+
+  /// Gives the seats of what ends to what starts, in the same order from below.
+  void seat(const Item* first, const Item* last, const Ending& ending) {
+    Status::iterator it = ending.first;
+    for (; first < last && it != ending.last; ++first, ++it) {
+      held_by_[*it] = *first;
+      seat_of_[*first] = *it;
+    }
+    status_.erase(it, ending.last);
+    for (; first < last; ++first) {
+      held_by_[*first] = seat_of_[*first] = *first;
+      place_[*first] = status_.emplace_hint(ending.last, *first);
+    }
   }
 
   const Points& points_;
@@ -147,6 +204,10 @@ class Sweep {
   std::vector<std::uint32_t> first_;
   std::vector<Item> starts_;
   Status status_;
+  std::vector<Item> held_by_;            // of a seat
+  std::vector<Seat> seat_of_;            // of a segment in the status
+  std::vector<Status::iterator> place_;  // of a seat
+  std::vector<Item> ending_;             // of a vertex, a segment in the status that ends there
 };
 
 }  // namespace

@@ -61,47 +61,4 @@ EdgeCode Triangles::find_edge(Vertex a, Vertex b) const {
   return kNoEdge;
 }
 
-Triangles Triangles::joined(const std::vector<std::array<Vertex, 3>>& corners,
-                            const std::vector<std::array<Vertex, 2>>& segments) {
-  Triangles mesh;
-  mesh.all_.reserve(corners.size());
-  Vertex most = 0;
-  for (const std::array<Vertex, 3>& c : corners) {
-    mesh.all_.push_back({c, {kNoEdge, kNoEdge, kNoEdge}});
-    most = std::max({most, c[0], c[1], c[2]});
-  }
-  // Edges in lists by their lower ends, each by the higher one.
-  struct Edge {
-    Vertex high;
-    EdgeCode edge;
-  };
-  std::vector<std::uint32_t> first(std::size_t{most} + 2, 0);
-  const auto each_edge = [&](auto&& visit) {
-    for (std::size_t t = 0; t < corners.size(); ++t)
-      for (std::uint32_t i = 0; i < 3; ++i) {
-        const auto [low, high] = std::minmax(corners[t][(i + 1) % 3], corners[t][(i + 2) % 3]);
-        visit(low, Edge{high, code(t, i)});
-      }
-  };
-  each_edge([&](Vertex low, const Edge&) { ++first[low + 1]; });
-  for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
-  std::vector<Edge> edges(3 * corners.size());
-  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-  each_edge([&](Vertex low, const Edge& edge) { edges[next[low]++] = edge; });
-  const auto before = [](const Edge& e, const Edge& f) { return e.high < f.high; };
-  for (std::size_t v = 0; v + 1 < first.size(); ++v) {
-    std::sort(edges.begin() + first[v], edges.begin() + first[v + 1], before);
-    for (std::size_t i = first[v]; i + 1 < first[v + 1]; ++i)
-      if (edges[i].high == edges[i + 1].high) mesh.join(edges[i].edge, edges[i + 1].edge);
-  }
-  for (const std::array<Vertex, 2>& s : segments) {
-    const auto [low, high] = std::minmax(s[0], s[1]);
-    if (low > most) continue;
-    const auto end = edges.begin() + first[low + 1];
-    const auto found = std::lower_bound(edges.begin() + first[low], end, Edge{high, kNoEdge}, before);
-    if (found != end && found->high == high) mesh.constrain(found->edge);
-  }
-  return mesh;
-}
-
 }  // namespace holdfast::plane

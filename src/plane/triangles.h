@@ -99,11 +99,6 @@ class Triangles {
   void add_star(std::uint32_t triangle) { star_.push_back(triangle); }
   void drop_stars(std::size_t count) { star_.resize(count); }
 
-  /// Makes neighbours of triangles that have an edge in common, and constraints of the edges among
-  /// `segments`.
-  [[nodiscard]] static Triangles joined(const std::vector<std::array<Vertex, 3>>& corners,
-                                        const std::vector<std::array<Vertex, 2>>& segments);
-
  private:
   void touch(std::uint32_t t) {
     for (const Vertex v : all_[t].v)

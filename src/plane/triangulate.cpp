@@ -57,21 +57,18 @@ std::optional<Draft> make_by_ears(const Plane& plane, const PlaneOptions& option
       stages.run("sweep", 0.4, [&](const Poll& poll) { return sweep(draft.points, draft.segments, poll); });
   if (!links) return std::nullopt;
   report.links = links->size();
-  std::vector<std::array<Vertex, 3>> triangles;
-  stages.run("ears", 0.7, [&](const Poll& poll) {
+  stages.run("ears", 0.75, [&](const Poll& poll) {
     links->insert(links->end(), draft.segments.begin(), draft.segments.end());
-    const Walks walks = find_faces(draft.points, *links);
-    EarCounts counts;
-    for (std::size_t i = 0; i < walks.count(); ++i) {
-      poll(static_cast<double>(i) / static_cast<double>(walks.count()));
-      cut_ears(draft.points,
-               std::span(walks.vertices).subspan(walks.first[i], walks.first[i + 1] - walks.first[i]),
-               options.ears, triangles, counts);
+    const Walks faces = find_faces(draft.points, *links);
+    EarMesh ears(links->size());
+    for (std::size_t f = 0; f < faces.count(); ++f) {
+      poll(static_cast<double>(f) / static_cast<double>(faces.count()));
+      cut_ears(draft.points, faces, f, options.ears, ears);
     }
-    report.ears = counts.ears;
-    report.joined = counts.joined;
+    report.ears = ears.counts.ears;
+    report.joined = ears.counts.joined;
+    draft.mesh = join_faces(std::move(ears), report.links);
   });
-  stages.run("join", 0.75, [&](const Poll&) { draft.mesh = Triangles::joined(triangles, draft.segments); });
   return draft;
 }
 
