@@ -253,7 +253,8 @@ void add_plane(CLI::App& app, Command& chosen) {
       ->transform(or_standard_input)
       ->required();
   command
-      ->add_option("-o,--output", arguments->output, "Triangles (.off .node .ele .vtu), -: standard output")
+      ->add_option("-o,--output", arguments->output,
+                   "Triangles (.off .node .ele .vtu; .node brings .ele and .edge), -: standard output")
       ->transform(or_standard_output)
       ->required()
       ->option_text("FILE");

@@ -1,4 +1,4 @@
-// Writes triangles of the plane: .off, .node with .ele, .vtu.
+// Writes triangles of the plane: .off, .node with .ele and .edge, .vtu.
 #include <algorithm>
 #include <stdexcept>
 
@@ -31,7 +31,7 @@ void write_triangle(const std::filesystem::path& path, const PlaneMesh& mesh, Wa
   const auto with = [&](const char* extension) {
     return std::filesystem::path(path).replace_extension(extension);
   };
-  AtomicWriter node(with(".node"), watch), ele(with(".ele"), watch);
+  AtomicWriter node(with(".node"), watch), ele(with(".ele"), watch), edge(with(".edge"), watch);
   const bool marked = !mesh.point_markers.empty();
   const bool in_space = !mesh.in_space.empty();
   const std::size_t count = in_space ? mesh.in_space.size() : mesh.points.size();
@@ -51,8 +51,17 @@ void write_triangle(const std::filesystem::path& path, const PlaneMesh& mesh, Wa
     for (const Index v : t) ele << ' ' << base + v;
     ele << ' ' << mesh.regions[i] << '\n';
   }
-  for (AtomicWriter* file : {&node, &ele}) file->finish();
-  for (AtomicWriter* file : {&node, &ele}) file->commit();
+  // Of the edges, those that are segments.
+  const bool edges_marked = !mesh.segment_markers.empty();
+  edge << std::uint64_t{mesh.segments.size()} << (edges_marked ? " 1\n" : " 0\n");
+  for (std::size_t i = 0; i < mesh.segments.size(); ++i) {
+    edge << base + i;
+    for (const Index v : mesh.segments[i]) edge << ' ' << base + v;
+    if (edges_marked) edge << ' ' << mesh.segment_markers[i];
+    edge << '\n';
+  }
+  for (AtomicWriter* file : {&node, &ele, &edge}) file->finish();
+  for (AtomicWriter* file : {&node, &ele, &edge}) file->commit();
 }
 
 void write_grid(AtomicWriter& out, const PlaneMesh& mesh, const WriteOptions& options) {
@@ -86,7 +95,8 @@ std::vector<std::filesystem::path> files_of_plane(const std::filesystem::path& p
   const std::string extension = io::written_extension(path, format);
   if (extension != ".node" && extension != ".ele") return {path};
   return {std::filesystem::path(path).replace_extension(".node"),
-          std::filesystem::path(path).replace_extension(".ele")};
+          std::filesystem::path(path).replace_extension(".ele"),
+          std::filesystem::path(path).replace_extension(".edge")};
 }
 
 void write_plane(const std::filesystem::path& path, const PlaneMesh& mesh, const WriteOptions& options) {

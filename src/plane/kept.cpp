@@ -23,7 +23,22 @@ Triangles kept_part(const Triangles& mesh, const Regions& regions, const std::ve
   return left;
 }
 
+namespace {
+
+/// Where points of the input have no markers, those at ends of segments get that of the first one that has
+/// any.
+void mark_ends(const Plane& plane, PlaneMesh& mesh) {
+  if (!plane.point_markers.empty() || plane.segment_markers.empty()) return;
+  mesh.point_markers.assign(mesh.points.size(), 0);
+  for (std::size_t s = 0; s < plane.segments.size(); ++s)
+    for (const Index v : plane.segments[s])
+      if (mesh.point_markers[v] == 0) mesh.point_markers[v] = plane.segment_markers[s];
+}
+
+}  // namespace
+
 void cut_segments(const Plane& plane, const Refined& refined, PlaneMesh& mesh) {
+  mark_ends(plane, mesh);
   std::vector<Segment> pieces;
   std::vector<int> markers;
   auto on = refined.on_segments.begin();

@@ -12,7 +12,7 @@ namespace holdfast::plane {
                                   const std::vector<bool>& kept);
 
 /// Gives a refined mesh the pieces of segments, in their direction and with their markers, which points on
-/// them have, too.
+/// them have, too; so have the points of the input at their ends, if none of these came with a marker.
 void cut_segments(const Plane& plane, const Refined& refined, PlaneMesh& mesh);
 
 }  // namespace holdfast::plane

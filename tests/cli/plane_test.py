@@ -147,7 +147,8 @@ class Triangles(CliTest):
     def test_formats(self):
         self.write("in.poly", poly(SQUARE, RING[:4], regions=[(1.0, 2.0, 7)]))
         self.run_program("plane", "in.poly", "-o", "out.node")
-        self.assertEqual(self.files(), ["cube.off", "in.poly", "out.ele", "out.node"])
+        self.assertEqual(self.files(), ["cube.off", "in.poly", "out.edge", "out.ele", "out.node"])
+        self.assertEqual((self.folder / "out.edge").read_text(), "4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n")
         self.assertEqual((self.folder / "out.node").read_text(), "4 2 0 0\n1 0 0\n2 4 0\n3 4 4\n4 0 4\n")
         elements = (self.folder / "out.ele").read_text().split("\n")
         self.assertEqual(elements[0], "2 3 1")
@@ -183,6 +184,30 @@ class Refined(CliTest):
         self.assertGreater(self.report["field_points"], 0)
         for x, y, _ in points[8:]:
             self.assertTrue(0 < x < 4 and 0 < y < 4 and not (1 <= x <= 3 and 1 <= y <= 3))
+
+    def test_markers_of_segments_are_kept(self):
+        marked = poly(SQUARE, RING[:4]).replace("4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n", "4 1\n1 1 2 7\n2 2 3 0\n3 3 4 9\n4 4 1 9\n")
+        self.write("in.poly", marked)
+        self.run_program("plane", "in.poly", "-o", "out.node", "--size", "1")
+        numbers = {name: [[float(word) for word in line.split()] for line in (self.folder / f"out.{name}").read_text().splitlines()]
+                   for name in ("node", "edge")}
+        self.assertEqual(numbers["node"][0][2:], [0, 1])
+        self.assertEqual(numbers["edge"][0], [len(numbers["edge"]) - 1, 1])
+        at = {}
+        for number, x, y, marker in numbers["node"][1:]:
+            at[number] = x, y
+            # Corners have that of the first of their segments with one.
+            self.assertEqual(marker, 7 if y == 0 else 9 if y == 4 or x == 0 else 0, (x, y))
+        for _, a, b, marker in numbers["edge"][1:]:
+            x, y = ((at[a][k] + at[b][k]) / 2 for k in range(2))
+            self.assertEqual(marker, 7 if y == 0 else 0 if x == 4 else 9)
+        # What came with markers keeps them.
+        self.write("in.poly", marked.replace("4 2 0 0\n", "4 2 0 1\n").replace("1 0.0 0.0\n", "1 0.0 0.0 5\n").replace("2 4.0 0.0\n", "2 4.0 0.0 0\n")
+                   .replace("3 4.0 4.0\n", "3 4.0 4.0 0\n").replace("4 0.0 4.0\n", "4 0.0 4.0 0\n"))
+        self.run_program("plane", "in.poly", "-o", "out.node", "--size", "1")
+        lines = (self.folder / "out.node").read_text().splitlines()
+        self.assertEqual(lines[1:5], ["1 0 0 5", "2 4 0 0", "3 4 4 0", "4 0 4 0"])
+        self.assertIn("7", {line.split()[3] for line in lines[5:]})
 
     def test_a_cap_is_told(self):
         self.write("in.poly", poly(SQUARE, RING[:4]))
