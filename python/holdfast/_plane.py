@@ -81,7 +81,7 @@ class PlaneMesh:
         cancel: Optional[CancelToken] = None,
         progress: Progress = None,
     ) -> None:
-        """Writes .off (z = 0), .node with .ele beside it, or .vtu; the file appears complete or not at all. Raises
+        """Writes .off (z = 0), .node with .ele and .edge beside it, or .vtu; the file appears complete or not at all. Raises
         FileError."""
         options = limits(time_limit, memory_limit, cancel)
         with Shown(progress, "write") as callback:
