@@ -33,7 +33,7 @@ Monitor::Monitor(Monitor& whole, MonitoredTasks& tasks)
       last_told_(start_),
       last_measured_(start_),
       last_looked_(start_),
-      stage_(whole.stage_),
+      stage_(tasks.stage),
       whole_(&whole),
       tasks_(&tasks) {}
 
@@ -96,7 +96,7 @@ void Monitor::look_as_task(Stage stage, double fraction) {
 
 void parallel_monitored(const Threads& threads, std::size_t count, Monitor& monitor,
                         std::array<double, 2> part, const std::function<void(std::size_t, Monitor&)>& task) {
-  MonitoredTasks tasks{.count = count, .part = part};
+  MonitoredTasks tasks{.count = count, .part = part, .stage = monitor.stage()};
   std::once_flag first;
   std::exception_ptr cause;  // those of other tasks may be what came of it
   const auto end_all = [&](Outcome why) {

@@ -18,6 +18,7 @@ struct MonitoredTasks {
   const std::thread::id caller = std::this_thread::get_id();
   std::size_t count = 1;
   std::array<double, 2> part{0, 1};  ///< of the stage's work
+  Stage stage = Stage::validate;     ///< of the whole, which looks again while tasks begin
   std::atomic<std::size_t> done = 0;
   std::atomic<bool> stop = false;
   std::atomic<Outcome> why = Outcome::done;  ///< set before `stop`
