@@ -8,6 +8,7 @@
 #include "mesh/editor.h"
 #include "mesh/keys.h"
 #include "numbers/sorted.h"
+#include "optimise/improve_parts.h"
 
 namespace holdfast {
 namespace {
@@ -237,7 +238,7 @@ ImprovedTangle improve_tangle(Tangle& tangle, const exact::DoubleGrid& grid, std
   ImprovedTangle improved;
   improved.before = figures_of(as_mesh.data());
   for (const Effort effort : {Effort::fast, Effort::good})
-    improved.stats += improve_further(as_mesh.data(), effort, {0, 1}, 1, monitor);
+    improved.stats += improve_further_in_parts(as_mesh.data(), effort, {0, 1}, 1, monitor);
   improved.after = figures_of(as_mesh.data());
   tangle = as_mesh.tangle();
   return improved;

@@ -98,13 +98,13 @@ void keep_what_pays(const Attempt& attempt, BoxMesh& box, Division& division, Fi
   constexpr std::array<double, 2> kNoProgress{kCommonWork, kCommonWork};
   WithoutField& without = *field.without;
   if (!without.is_better_somewhere(figures_of(field.volume(), attempt.threads))) return;
-  note(improve_further(field.volume(), Effort::good, kNoProgress, attempt.threads, attempt.monitor),
+  note(improve_further_in_parts(field.volume(), Effort::good, kNoProgress, attempt.threads, attempt.monitor),
        report.field);
   if (!without.is_better_somewhere(figures_of(field.volume(), attempt.threads))) return;
   without.take(box, division);
   field.set_sizes(attempt);
   report.field.points = 0;
-  note(improve_further(field.volume(), Effort::fast, kNoProgress, attempt.threads, attempt.monitor),
+  note(improve_further_in_parts(field.volume(), Effort::fast, kNoProgress, attempt.threads, attempt.monitor),
        report.field);
 }
 
@@ -126,11 +126,12 @@ void improve_with_field(const Attempt& attempt, BoxMesh& box, Division& division
   const Effort effort = attempt.options.effort;
   constexpr double kUpToGood = 0.75;
   if (effort != Effort::fast)
-    note(improve_further(field.volume(), Effort::good, {kCommonWork, effort == Effort::good ? 1 : kUpToGood},
-                         threads, attempt.monitor),
+    note(improve_further_in_parts(field.volume(), Effort::good,
+                                  {kCommonWork, effort == Effort::good ? 1 : kUpToGood}, threads,
+                                  attempt.monitor),
          report.field);
   if (effort == Effort::best)
-    note(improve_further(field.volume(), Effort::best, {kUpToGood, 1}, threads, attempt.monitor),
+    note(improve_further_in_parts(field.volume(), Effort::best, {kUpToGood, 1}, threads, attempt.monitor),
          report.field);
   report.field.edge_lengths = edge_lengths_of(field.volume(), threads);
 }

@@ -153,12 +153,12 @@ ImproveStats improve(const VolumeData& volume, Effort effort, Monitor& monitor,
   return Improver(volume, tuning::passes_of(effort), spared, fresh, monitor).run();
 }
 
-ImproveStats improve_further(const VolumeData& volume, Effort effort, std::array<double, 2> work,
-                             const Threads& threads, Monitor& monitor) {
-  Improver improver(volume, tuning::further_passes_of(effort), {}, {}, monitor);
+ImproveStats improve_further(const VolumeData& volume, Effort effort, const std::optional<Figures>& figures,
+                             std::array<double, 2> work, Monitor& monitor,
+                             std::span<const std::uint8_t> spared, std::span<const std::uint8_t> fresh) {
+  Improver improver(volume, tuning::further_passes_of(effort), spared, fresh, monitor);
   improver.tell_as(work);
-  // In a metric, elements are not to be good in space.
-  if (volume.metrics == nullptr) improver.keep(figures_of(volume, threads));
+  if (figures) improver.keep(*figures);
   return improver.run();
 }
 

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <span>
 
 #include "holdfast/holdfast.h"
 #include "mesh/monitor.h"
-#include "mesh/parallel.h"
+#include "optimise/figures.h"
 #include "refine/volume_data.h"
 
 namespace holdfast {
@@ -39,9 +40,12 @@ struct ImproveStats {
 ImproveStats improve(const VolumeData& volume, Effort effort, Monitor& monitor,
                      std::span<const std::uint8_t> spared = {}, std::span<const std::uint8_t> fresh = {});
 
-/// Goes on with what less effort has left, as far as `effort` goes, and makes none of the figures of the
-/// volume (figures.h) worse than they are. Progress is told as that part of the stage's work.
-ImproveStats improve_further(const VolumeData& volume, Effort effort, std::array<double, 2> work,
-                             const Threads& threads, Monitor& monitor);
+/// Goes on with what less effort has left, as far as `effort` goes. Changes keep `figures`, those of the
+/// whole that the volume is, or is a part of, if they are given. Progress is told as that part of the stage's
+/// work.
+ImproveStats improve_further(const VolumeData& volume, Effort effort, const std::optional<Figures>& figures,
+                             std::array<double, 2> work, Monitor& monitor,
+                             std::span<const std::uint8_t> spared = {},
+                             std::span<const std::uint8_t> fresh = {});
 
 }  // namespace holdfast

@@ -23,4 +23,11 @@ struct FilledParts {
 ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledParts> filled, Effort effort,
                               const Threads& threads, Monitor& monitor);
 
+/// Goes on with what less effort has left, as far as `effort` goes, and makes none of the figures of the
+/// volume (figures.h) worse than they are. Progress is told as that part of the stage's work. A large mesh is
+/// cut into parts. Each keeps the figures of the whole as if the others stayed as they are; as all but the
+/// least angle are means, the parts keep them together.
+ImproveStats improve_further_in_parts(const VolumeData& volume, Effort effort, std::array<double, 2> work,
+                                      const Threads& threads, Monitor& monitor);
+
 }  // namespace holdfast

@@ -435,5 +435,26 @@ TEST(ImproveInParts, IsTheSameOnAnyNumberOfThreadsAndMissesNothing) {
   EXPECT_LT(bad_share(true), 1.5 * bad_share(false) + 0.002);
 }
 
+TEST(ImproveInParts, MoreEffortKeepsTheFiguresOfTheWholeOnAnyNumberOfThreads) {
+  const Options options;
+  Monitor monitor(options);
+  Cube fast(14000, false);  // some 90,000 tetrahedra: two parts
+  improve_in_parts(fast.data(), {}, Effort::fast, 2, monitor);
+  const Figures before = figures_of(fast.data());
+  const auto improved = [&](unsigned threads) {
+    Cube cube = fast;
+    improve_further_in_parts(cube.data(), Effort::good, {0, 1}, threads, monitor);
+    EXPECT_EQ(find_fault(cube.mesh), "");
+    return cube;
+  };
+  Cube one = improved(1);
+  const Cube two = improved(2);
+  EXPECT_EQ(one.content(), two.content());
+  EXPECT_TRUE(std::ranges::equal(one.mesh.positions(), two.mesh.positions()));
+  const Figures after = figures_of(one.data());
+  EXPECT_TRUE(after.is_no_worse_than(before));
+  EXPECT_LT(after.below_10_deg(), before.below_10_deg());
+}
+
 }  // namespace
 }  // namespace holdfast
