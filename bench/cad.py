@@ -1,109 +1,213 @@
-"""Elements on tessellated CAD parts, which are full of needles: Holdfast beside TetGen on a fixed sample of the corpus.
+"""Tessellated CAD parts, which are full of needles: the second group of field.py, beside TetGen, Gmsh and Netgen.
 
-    cad.py --build build/release --corpus DIR [--modes fill,fast,good,best] [--only NAME]
-
-DIR holds the valid surfaces of the corpus as .off. Tells, for each surface and mesher, the tetrahedra, the shares with an angle below
-10, 20 and 30 degrees by number and by volume, the least angle, the mean Q and the seconds of CPU with files read and written;
-then the means, and on how many surfaces Holdfast's shares are no larger than TetGen's (`tetgen -pYq1.4`).
+The sample is fixed by a rule: the valid, closed surfaces of the corpus of more than 1,000 triangles whose names tell of CAD (CAD_NAMES), in
+the order of the SHA-256 of their names, the first of these. Holdfast runs with its default options and nothing else. Seconds are CPU
+time of whole processes, files and all; Holdfast and TetGen take turns, and medians count. The others run once; each has --timeout seconds
+of processor time a surface. A peer's mesh counts where all of its elements are positive and its volume is Holdfast's to SAME_VOLUME.
 """
-import argparse
-import json
+import hashlib
 import statistics
-import subprocess
-import tempfile
 from pathlib import Path
+from typing import NamedTuple
 
-import process
+import sample
+from meshers import Meshers
+from target import Target, table
 
-SAMPLE = """
-kicad_Connector_PinSocket_1.00mm_PinSocket_1x32_P1.00mm_Vertical_SMD_Pin1Right_d0.002_fuse
-kicad_Package_QFP_LQFP-64_10x10mm_P0.5mm_d0.03_fuse
-kicad_Package_BGA_BGA-624_21.0x21.0mm_Layout25x25_P0.8mm_d0.02_fuse
-kicad_Package_BGA_UFBGA-132_7x7mm_Layout12x12_P0.5mm_d0.002_fuse
-kicad_Package_SO_TSSOP-16_4.4x5mm_P0.65mm_d0.002_fuse
-kicad_Package_DIP_DIP-24_W15.24mm_d0.01_fuse
-kicad_Capacitor_SMD_CP_Elec_8x6.5_d0.002_fuse
-kicad_TerminalBlock_Phoenix_TerminalBlock_Phoenix_MPT-0_5-11-2.54_1x11_P2.54mm_Horizontal_d0.002_fuse
-kicad_Crystal_Crystal_SMD_0603-2Pin_6.0x3.5mm_d0.002_fuse
-kicad_Connector_Dsub_DSUB-9_Male_Horizontal_P2.77x2.54mm_EdgePinOffset9.40mm_d0.03_fuse
-kicad_Converter_DCDC_Converter_DCDC_RECOM_R-78HB-0.5_THT_d0.001_fuse
-kicad_Connector_PinHeader_2.54mm_PinHeader_2x19_P2.54mm_Vertical_d0.002_fuse
-prusa_extruder-idler_d0.001_fuse
-prusa_y-motor-holder
-mendel_x_idler_bracket-7
-stepcode_HEAD_FRONT_d0.001_fuse
-""".split()
+HEADING = "## Tessellated CAD parts"
+CAD_NAMES = ("kicad_", "prusa_", "mendel_", "stepcode_", "pyocc_", "netgen_")
+LEAST_TRIANGLES = 1000
+TURNS = 3
+OURS, FAST = "Holdfast", "Holdfast fast"
+PEERS = ("TetGen", "Gmsh HXT", "Gmsh Delaunay", "Netgen")
+EFFORTS = ("Holdfast fill", FAST, OURS, "Holdfast best")  # each no worse than the one before
+OPTIONS = {"Holdfast fill": ["--fill"], FAST: ["--quality", "fast"], OURS: [], "Holdfast best": ["--quality", "best"]}
+SAME_VOLUME = 1e-6  # of the volume
+SHARE = 0.9  # of the surfaces, of which the targets ask
+MOST_ELEMENTS = 1.3
+MOST_CPU = {OURS: 1.0, FAST: 0.5}
 
 
-def holdfast(options, surface, mode):
-    words = ["--fill"] if mode == "fill" else ["--quality", mode]
-    done = process.run([options.build / "holdfast", "mesh", surface, "-o", "out.mesh", "-q", "--threads", "1", *words],
-                       options.timeout, options.folder)
-    return done, options.folder / "out.mesh"
+def surfaces(folder, count):
+    """The first `count` of the rule's order, so that a smaller sample is part of a larger one."""
+    chosen = [s.path for s in sample.closed_surfaces(folder) if s.name.startswith(CAD_NAMES) and s.triangles > LEAST_TRIANGLES]
+    return sorted(chosen, key=lambda path: hashlib.sha256(path.stem.encode()).digest())[:count]
 
 
-def tetgen(options, surface):
-    (options.folder / "s.off").write_bytes(surface.read_bytes())
-    return process.run(["tetgen", "-pYq1.4", "s.off"], options.timeout, options.folder), options.folder / "s.1.ele"
+class CadBench(Meshers):
+    """Processor seconds, on whatever memory there is."""
+
+    def __init__(self, options, folder):
+        super().__init__(options, folder, memory=0)
+        self.programs = self.peers() | {name: lambda s, words=words: self.holdfast(s, *words) for name, words in OPTIONS.items()}
+
+    def turns(self, meshers, surface, turns):
+        return self.in_turns({mesher: self.programs[mesher] for mesher in meshers}, surface, turns, lambda made: made.cpu)
 
 
-def measure(options, surface, mesher):
-    """One row, or None where there is no mesh."""
-    done, volume = tetgen(options, surface) if mesher == "tetgen" else holdfast(options, surface, mesher)
-    if done.code != 0 or not volume.exists():
+# What is measured together.
+GROUPS = {"cad": lambda bench, surface: bench.turns((OURS, FAST, "TetGen"), surface, TURNS),
+          "cad peers": lambda bench, surface: bench.turns(PEERS[1:], surface, 1),
+          "cad efforts": lambda bench, surface: bench.turns((EFFORTS[0], EFFORTS[-1]), surface, 1)}
+OF_HOLDFAST = ("cad", "cad efforts")
+
+
+class Figure(NamedTuple):
+    """What is compared with peers; less is better."""
+    text: str
+    of: object
+
+
+SHARES = [Figure(f"below {10 * (k + 1)} degrees", lambda row, k=k: row["below"][k]) for k in range(3)]
+VOLUME_SHARES = [Figure(f"below {10 * (k + 1)} degrees by volume", lambda row, k=k: row["volume_below"][k]) for k in range(3)]
+LEAST_ANGLE = Figure("least angle", lambda row: -row["min_dihedral"])
+MEAN_Q = Figure("mean Q", lambda row: row["mean_q"])
+
+
+def is_mesh(row):
+    return row is not None and "failed" not in row
+
+
+def peers_of(rows):
+    """Verified meshes of the same volume by others."""
+    ours = rows[OURS]
+    return {peer: row for peer in PEERS if is_mesh(row := rows.get(peer)) and row["not_positive"] == 0 and
+            (not is_mesh(ours) or abs(row["volume"] - ours["volume"]) <= SAME_VOLUME * abs(ours["volume"]))}
+
+
+def is_worse(figure, row, other):
+    """Beyond what writing and measuring round."""
+    x, y = figure.of(row), figure.of(other)
+    return x > y + 1e-6 * abs(y) + 1e-9
+
+
+def holds(figure, rows):
+    """Whether no peer is better."""
+    return is_mesh(rows[OURS]) and not any(is_worse(figure, rows[OURS], row) for row in peers_of(rows).values())
+
+
+def elements_ratio(rows):
+    """Our number over the largest of those peers that have the least of some share; None without peers."""
+    peers = peers_of(rows).values()
+    if not peers or not is_mesh(rows[OURS]):
         return None
-    shape = subprocess.run([options.build / "mesh_shape", volume], check=True, stdout=subprocess.PIPE, text=True).stdout
-    volume.unlink()
-    return json.loads(shape) | {"cpu": done.cpu}
+    best = [row for row in peers if any(figure.of(row) == min(map(figure.of, peers)) for figure in SHARES)]
+    return rows[OURS]["tetrahedra"] / max(row["tetrahedra"] for row in best)
 
 
-def text_of(row):
-    shares = [" / ".join(f"{row[key][k]:.3g}" for k in range(3)) for key in ("below", "volume_below")]
-    return (f"{row['tetrahedra']:.0f} tetrahedra; {shares[0]} % below 10 / 20 / 30 degrees, {shares[1]} % by volume; "
-            f"least {row['min_dihedral']:.3g}; mean Q {row['mean_q']:.3g}; {row['cpu']:.2f} s")
+def shares_target(figure, results, least):
+    held = sum(holds(figure, rows) for rows in results.values())
+    return Target(f"{figure.text[0].upper()}{figure.text[1:]} no larger than the best peer's on {10 * least:.0f} of 10",
+                  f"on {held} of {len(results)}", held >= least * len(results))
 
 
-def summary(mesher, rows, peers):
-    """Means, and how often the shares are no larger than those of the other on the same surface."""
-    mean = {key: statistics.mean(r[key] for r in rows) for key in ("tetrahedra", "min_dihedral", "mean_q", "cpu")}
-    for key in ("below", "volume_below"):
-        mean[key] = [statistics.mean(r[key][k] for r in rows) for k in range(3)]
-    print(f"{mesher}, mean of {len(rows)}: {text_of(mean)}")
-    pairs = [(r, p) for r, p in zip(rows, peers) if p is not None]
-    if not pairs or mesher == "tetgen":
-        return
-    wins = [sum(r["below"][k] <= p["below"][k] for r, p in pairs) for k in range(3)]
-    least = sum(r["min_dihedral"] >= p["min_dihedral"] for r, p in pairs)
-    number = statistics.median(r["tetrahedra"] / p["tetrahedra"] for r, p in pairs)
-    cpu = statistics.median(r["cpu"] / p["cpu"] for r, p in pairs)
-    print(f"  beside TetGen: shares no larger on {wins[0]}, {wins[1]}, {wins[2]} of {len(pairs)}, least angle no smaller on "
-          f"{least}; {number:.2f} times as many tetrahedra and {cpu:.2f} of the time (medians)")
+def elements_target(results):
+    ratios = [ratio for rows in results.values() if (ratio := elements_ratio(rows)) is not None]
+    within = sum(ratio <= MOST_ELEMENTS for ratio in ratios)
+    return Target(f"Number of tetrahedra at most {MOST_ELEMENTS} times the largest of those peers that hold one of the three shares, on 9 of 10",
+                  f"on {within} of {len(ratios)}; median {statistics.median(ratios):.2f}, most {max(ratios):.2f}" if ratios else "no peers",
+                  within >= SHARE * len(ratios) if ratios else None)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", type=lambda p: Path(p).resolve(), required=True)
-    parser.add_argument("--corpus", type=lambda p: Path(p).resolve(), required=True)
-    parser.add_argument("--modes", default="fill,fast,good")
-    parser.add_argument("--only", default="")
-    parser.add_argument("--timeout", type=float, default=600)
-    options = parser.parse_args()
-    meshers = ["tetgen", *options.modes.split(",")]
-    table = {mesher: [] for mesher in meshers}
-    with tempfile.TemporaryDirectory() as folder:
-        options.folder = Path(folder)
-        for name in SAMPLE:
-            if options.only not in name:
-                continue
-            print(name)
-            for mesher in meshers:
-                row = measure(options, options.corpus / f"{name}.off", mesher)
-                table[mesher].append(row)
-                print(f"  {mesher}: {text_of(row) if row else 'no mesh'}", flush=True)
-    for mesher in meshers:
-        if all(table[mesher]) and table[mesher]:
-            summary(mesher, table[mesher], table["tetgen"])
+def all_target(results):
+    """All that is asked for on nine of ten, on one and the same surface."""
+    held = sum(all(holds(figure, rows) for figure in (*SHARES, LEAST_ANGLE)) and (elements_ratio(rows) or 0) <= MOST_ELEMENTS
+               for rows in results.values())
+    return Target("All of these (by number) on one and the same surface, on 9 of 10", f"on {held} of {len(results)}",
+                  held >= SHARE * len(results))
 
 
-if __name__ == "__main__":
-    main()
+def cpu_target(mesher, results):
+    ratios = [rows[mesher]["seconds"] / rows["TetGen"]["seconds"] for rows in results.values()
+              if is_mesh(rows[mesher]) and is_mesh(rows["TetGen"])]
+    most = MOST_CPU[mesher]
+    text = f"CPU time of {mesher} at most {most} of TetGen's on the median"
+    if not ratios:
+        return Target(text, "not measured", None)
+    middle = statistics.median(ratios)
+    return Target(text, f"{middle:.2f}; {min(ratios):.2f} to {max(ratios):.2f}", middle <= most)
+
+
+def effort_targets(results):
+    """More effort, and field points, make no figure worse."""
+    for less, more in zip(EFFORTS, EFFORTS[1:]):
+        pairs = {name: (rows[more], rows[less]) for name, rows in results.items() if is_mesh(rows.get(more)) and is_mesh(rows.get(less))}
+        worse = [name for name, (row, other) in pairs.items()
+                 if any(is_worse(figure, row, other) for figure in (LEAST_ANGLE, SHARES[0], MEAN_Q))]
+        yield Target(f"{more} no worse than {less} in least angle, share below 10 degrees and mean Q",
+                     f"on {len(pairs) - len(worse)} of {len(pairs)}" + "".join(f"; not {name}" for name in worse), not worse if pairs else None)
+
+
+def targets(results):
+    return table([*(shares_target(figure, results, SHARE) for figure in SHARES),
+                  *(shares_target(figure, results, SHARE - 0.1) for figure in VOLUME_SHARES),
+                  shares_target(LEAST_ANGLE, results, SHARE)._replace(text="Least angle no smaller than the best peer's on 9 of 10"),
+                  elements_target(results), all_target(results), *(cpu_target(mesher, results) for mesher in MOST_CPU),
+                  *effort_targets(results)])
+
+
+def percent(row, key):
+    return " / ".join(f"{x:.3g}" for x in row[key][:3])
+
+
+def means(results):
+    lines = ["| mesher | surfaces | tetrahedra, mean | below 10 / 20 / 30 degrees, mean % | by volume | least angle, median | CPU s, mean |",
+             "|---|---|---|---|---|---|---|"]
+    whole = {name: rows for name, rows in results.items() if is_mesh(rows[OURS])}
+    for mesher in (*reversed(EFFORTS), *PEERS):
+        peer = mesher in PEERS
+        rows = [r[mesher] for r in whole.values() if (mesher in peers_of(r) if peer else is_mesh(r.get(mesher)))]
+        if not rows:
+            continue
+        mean = {key: [statistics.mean(r[key][k] for r in rows) for k in range(3)] for key in ("below", "volume_below")}
+        lines.append(f"| {mesher} | {len(rows)} of {len(results)} | {statistics.mean(r['tetrahedra'] for r in rows):.0f} | {percent(mean, 'below')} "
+                     f"| {percent(mean, 'volume_below')} | {statistics.median(r['min_dihedral'] for r in rows):.2g} "
+                     f"| {statistics.mean(r['seconds'] for r in rows):.2f} |")
+    return lines
+
+
+def line(name, mesher, rows):
+    row = rows[mesher]
+    if not is_mesh(row):
+        return f"| {name} | {mesher} | {row['failed']} | | | | |"
+    other = "" if mesher not in PEERS or mesher in peers_of(rows) else " (other volume)"
+    return (f"| {name} | {mesher}{other} | {row['tetrahedra']} | {percent(row, 'below')} | {percent(row, 'volume_below')} | "
+            f"{row['min_dihedral']:.3g} | {row['seconds']:.2f} |")
+
+
+def section(results, timeout):
+    """Lines of docs/field.md."""
+    text = [HEADING, "", f"{len(results)} surfaces of the corpus by the rule in `bench/cad.py`; Holdfast with its default options; one thread; at most "
+            f"{timeout:.0f} s a surface. Seconds are CPU time with files read and written.", "", *targets(results), "", *means(results), "",
+            "| surface | mesher | tetrahedra | % below 10 / 20 / 30 degrees | by volume | least angle | CPU s |", "|---|---|---|---|---|---|---|"]
+    text += [line(name, mesher, rows) for name, rows in results.items() for mesher in (*reversed(EFFORTS), *PEERS) if mesher in rows]
+    return text
+
+
+def run(options, rows, folder, scratch):
+    """Measures, and writes the section after each surface. `rows` keeps what is measured."""
+    results = {}
+    bench = CadBench(options, scratch)
+    for surface in surfaces(folder, options.cad_count):
+        told = {}
+        for group in GROUPS:
+            told |= rows.get(group, surface.resolve(), bench)
+        results[surface.stem] = told
+        print("\n".join(line(surface.stem, mesher, told) for mesher in told), flush=True)
+        replace_section(options.output, section(results, options.timeout))
+
+
+def parts_of(path: Path):
+    """(what stands before the heading, the section) of the document."""
+    before, _, after = (path.read_text(encoding="utf-8") if path.exists() else "").partition(f"{HEADING}\n")
+    return before.rstrip("\n"), after
+
+
+def replace_section(path, lines):
+    before, _ = parts_of(path)
+    path.write_text("\n".join([*([before, ""] if before else []), *lines]) + "\n", encoding="utf-8")
+
+
+def replace_before_section(path, lines):
+    _, after = parts_of(path)
+    path.write_text("\n".join(lines) + "\n" + (f"\n{HEADING}\n{after}" if after else ""), encoding="utf-8")

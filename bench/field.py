@@ -1,13 +1,16 @@
 """Meshes to compute with, side by side: Holdfast, Gmsh (HXT, and Delaunay with optimisation), TetGen and Netgen.
 
-    field.py --build build/release --corpus DIR [--only NAME] [--again GROUP] [--output docs/field.md]
+    field.py --build build/release --corpus DIR [--part good|cad] [--only NAME] [--cad-count N] [--again GROUP] [--output docs/field.md]
+
+There are two parts: surfaces of good triangles, as told here, and tessellated CAD parts, as told in bench/cad.py. Each writes its part of
+the document and leaves the other's as it is.
 
 Every mesher gets the same triangles and keeps them: `holdfast mesh --no-growth --gradation 0.6` (sizes inside lie
 between those of the surface round, as Gmsh has them), `gmsh -3 -algo hxt`, `gmsh -3 -algo del3d` with Mesh.Optimize, `tetgen -pYq1.4`,
 and Netgen's GenerateVolumeMesh through bench/netgen_volume.py. One thread each. Seconds are wall-clock time of meshing as the
 program itself tells it, without reading and writing files (CPU time of TetGen and Netgen; Gmsh's would leave the system's out). The
 faster ones take turns, on memory that is at hand, and their medians count; the others run once. Angles are measured by one
-program, mesh_shape. A mesher has --timeout seconds a surface, which the table states. RING, of half a million triangles, is made
+program, mesh_shape. A mesher has --timeout seconds of processor time a surface, which the table states. RING, of half a million triangles, is made
 here; only the faster meshers get it.
 
 Then the whole of `holdfast mesh`, files and all, with its default options on one and on two threads: the least wall-clock
@@ -19,10 +22,8 @@ Those of another Holdfast, other surfaces or another time limit are measured ane
 targets goes to field_targets.json there, for docs/benchmarks.md.
 """
 import argparse
-import hashlib
 import json
 import platform
-import re
 import statistics
 import subprocess
 import sys
@@ -32,9 +33,12 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "scripts"))
+import cad  # noqa: E402
 import corpus  # noqa: E402  (the folder of surfaces)
 import field_targets  # noqa: E402
-from gmsh_files import read_off, write_msh  # noqa: E402
+from gmsh_files import read_off  # noqa: E402
+from kept import digest  # noqa: E402
+from meshers import Meshers, TookTooLong  # noqa: E402
 import process  # noqa: E402
 
 SURFACES = ["iglt_3holes", "aj_fandisk", "iglt_arm", "aj_rocker-arm", "irmb_cactus25k", "tgt_armadillo",
@@ -43,13 +47,6 @@ RING = "ring_500k"
 TURNS = 5
 TURNS_OF_RING = 3
 TURNS_ON_THREADS = 9  # the least counts
-MEMORY = 1 << 30
-GEO = """Merge "{surface}";
-Surface Loop(1) = {{1}};
-Volume(1) = {{1}};
-Mesh.SaveAll = 1;
-Mesh.Optimize = 1;
-"""
 
 
 def write_ring(path, rows=8334, columns=30):
@@ -80,111 +77,24 @@ def spread_of_edges(surface):
     return lengths[int(0.95 * len(lengths))] / lengths[int(0.05 * len(lengths))]
 
 
-class TookTooLong(Exception):
-    pass
+class Bench(Meshers):
+    """Sizes inside lie between those of the surface round, as Gmsh has them."""
 
+    def lying_between(self, surface, *extra):
+        return self.holdfast(surface, "--no-growth", "--gradation", "0.6", *extra)
 
-class Bench:
-    def __init__(self, options, folder):
-        self.options, self.folder = options, folder
+    def of_names(self, names):
+        programs = self.peers() | {"Holdfast": self.lying_between, "Holdfast fast": lambda s: self.lying_between(s, "--quality", "fast")}
+        return {name: programs[name] for name in names}
 
-    def run(self, command, memory=MEMORY):
-        """A command that found so much memory at hand, or None for one that fails."""
-        done = process.run(command, self.options.timeout, self.folder, memory)
-        if done.code is None:
-            raise TookTooLong
-        return done if done.code == 0 else None
-
-    def shape(self, volume):
-        told = self.run([self.options.build / "mesh_shape", volume])
-        return None if told is None else json.loads(told.output)
-
-    def holdfast(self, surface, *extra):
-        volume, report = "hf.mesh", self.folder / "hf.json"
-        if self.run([self.options.build / "holdfast", "mesh", surface, "-o", volume, "-q", "--no-growth", "--gradation", "0.6",
-                     "--report", report, *extra]) is None:
-            return None
-        seconds = json.loads(report.read_text())["seconds"]
-        return volume, seconds["total"] - seconds["read"] - seconds["write"]
-
-    def on_two_threads(self, surface):
-        seconds, files = {1: [], 2: []}, {}
-        for _ in range(TURNS_ON_THREADS):
-            for count in seconds:
-                volume = self.folder / f"hf{count}.vtu"
-                told = self.run([self.options.build / "holdfast", "mesh", surface, "-o", volume, "-q", "--threads", count,
-                                 "--report", self.folder / "hf.json"], memory=0)
-                if told is None:
-                    return None
-                seconds[count].append(told.wall)
-                files[count] = Rows.digest(volume)
-        tetrahedra = json.loads((self.folder / "hf.json").read_text())["mesh"]["tetrahedra"]
-        return {"one": min(seconds[1]), "two": min(seconds[2]), "same": files[1] == files[2], "tetrahedra": tetrahedra}
-
-    def gmsh(self, surface, algorithm):
-        write_msh(self.folder / "s.msh", *read_off(surface))
-        (self.folder / "s.geo").write_text(GEO.format(surface="s.msh"))
-        told = self.run(["gmsh", "-nt", "1", "-3", "-format", "msh2", "-algo", algorithm, "-o", "g.msh", "s.geo"])
-        if told is None or "Error" in told.output:
-            return None
-        return "g.msh", sum(map(float, re.findall(r"Done (?:meshing|optimizing) .*Wall ([0-9.e-]+)s", told.output)))
-
-    def tetgen(self, surface):
-        points, triangles = read_off(surface)
-        with open(self.folder / "t.smesh", "w", encoding="ascii") as out:
-            out.write(f"{len(points)} 3 0 0\n")
-            out.writelines(f"{i} {' '.join(p[:3])}\n" for i, p in enumerate(points))
-            out.write(f"{len(triangles)} 0\n")
-            out.writelines(f"3 {' '.join(t)}\n" for t in triangles)
-            out.write("0\n0\n")
-        told = self.run(["tetgen", "-pYq1.4", "t.smesh"])
-        if told is None:
-            return None
-        total = re.search(r"Total running seconds:\s+([0-9.e-]+)", told.output)
-        output = re.search(r"Output seconds:\s+([0-9.e-]+)", told.output)
-        return ("t.1.node", float(total.group(1)) - (float(output.group(1)) if output else 0)) if total else None
-
-    def netgen(self, surface):
-        told = self.run(["/usr/bin/python3", ROOT / "bench" / "netgen_volume.py", surface, "n.mesh"])
-        return None if told is None else ("n.mesh", float(told.output.split()[-1]))
-
-    def mesh(self, mesher, surface):
-        """(file, seconds), or None without a mesh."""
-        run = {"Holdfast": self.holdfast, "Holdfast fast": lambda s: self.holdfast(s, "--quality", "fast"),
-               "Gmsh HXT": lambda s: self.gmsh(s, "hxt"), "Gmsh Delaunay": lambda s: self.gmsh(s, "del3d"),
-               "TetGen": self.tetgen, "Netgen": self.netgen}[mesher]
-        try:
-            return run(surface)
-        except TookTooLong:
-            self.late.add(mesher)
-            return None
-
-    def in_turns(self, meshers, surface, turns):
-        """mesher -> its row; {"failed": why} without a mesh."""
-        self.late = set()
-        rows = {}
-
-        def turn(mesher):
-            told = self.mesh(mesher, surface)
-            if told is None:
-                return None
-            if mesher not in rows:
-                rows[mesher] = self.shape(told[0])
-            return told[1]
-
-        seconds = process.take_turns({mesher: lambda m=mesher: turn(m) for mesher in meshers}, turns)
-        for mesher, told in seconds.items():
-            if told is None or not rows[mesher] or not rows[mesher]["tetrahedra"]:
-                rows[mesher] = {"failed": f"exceeds {self.options.timeout:.0f} s" if mesher in self.late else "fails"}
-            else:
-                rows[mesher]["seconds"] = statistics.median(told)
-        return rows
+    def side_by_side(self, names, surface, turns):
+        return self.in_turns(self.of_names(names), surface, turns, lambda made: made.seconds)
 
     def faster(self, surface):
-        return self.in_turns(FASTER, surface, TURNS_OF_RING if surface.stem == RING else TURNS)
+        return self.side_by_side(FASTER, surface, TURNS_OF_RING if surface.stem == RING else TURNS)
 
     def slower(self, surface):
-        return self.in_turns(SLOWER, surface, 1)
+        return self.side_by_side(SLOWER, surface, 1)
 
     def edges(self, surface):
         return spread_of_edges(surface)
@@ -196,9 +106,25 @@ class Bench:
         except TookTooLong:
             return {"failed": f"exceeds {self.options.timeout:.0f} s"}
 
+    def on_two_threads(self, surface):
+        seconds, files = {1: [], 2: []}, {}
+        for _ in range(TURNS_ON_THREADS):
+            for count in seconds:
+                volume = self.folder / f"hf{count}.vtu"
+                told = process.run([self.options.build / "holdfast", "mesh", surface, "-o", volume, "-q", "--threads", count,
+                                    "--report", self.folder / "hf.json"], self.options.timeout, self.folder)
+                if told.code is None:
+                    raise TookTooLong
+                if told.code != 0:
+                    return None
+                seconds[count].append(told.wall)
+                files[count] = digest(volume)
+        tetrahedra = json.loads((self.folder / "hf.json").read_text())["mesh"]["tetrahedra"]
+        return {"one": min(seconds[1]), "two": min(seconds[2]), "same": files[1] == files[2], "tetrahedra": tetrahedra}
 
-GROUPS = {"side by side": Bench.faster, "once": Bench.slower, "on two threads": Bench.threads, "edges": Bench.edges}
-OF_HOLDFAST = ("side by side", "on two threads")  # measured anew for another one
+
+GROUPS = {"side by side": Bench.faster, "once": Bench.slower, "on two threads": Bench.threads, "edges": Bench.edges} | cad.GROUPS
+OF_HOLDFAST = ("side by side", "on two threads", *cad.OF_HOLDFAST)  # measured anew for another one
 FASTER = ["Holdfast", "Holdfast fast", "Gmsh HXT", "TetGen"]
 SLOWER = ["Gmsh Delaunay", "Netgen"]
 MESHERS = ["Holdfast", "Holdfast fast", "Gmsh HXT", "Gmsh Delaunay", "TetGen", "Netgen"]
@@ -211,15 +137,11 @@ class Rows:
         self.path = options.build / "field.json"
         self.rows = json.loads(self.path.read_text()) if self.path.exists() else {}
         self.timeout = options.timeout
-        self.program = self.digest(options.build / "holdfast")
-
-    @staticmethod
-    def digest(path):
-        return hashlib.sha256(path.read_bytes()).hexdigest()[:16]
+        self.program = digest(options.build / "holdfast")
 
     def key(self, group, surface):
         program = self.program if group in OF_HOLDFAST else ""
-        return f"{surface.stem} {self.digest(surface)} {group} {program} {self.timeout:.0f}"
+        return f"{surface.stem} {digest(surface)} {group} {program} {self.timeout:.0f}"
 
     def drop(self, groups):
         self.rows = {key: row for key, row in self.rows.items() if not any(f" {group} " in key for group in groups)}
@@ -288,14 +210,40 @@ def write(results, threads, targets, path, timeout):
             "| surface | mesher | tetrahedra | seconds | a second | least angle | largest | % below 10 / 20 / 30 |",
             "|---|---|---|---|---|---|---|---|"]
     text += [line(name, mesher, row) for name, rows in results.items() for mesher, row in rows.items()]
-    path.write_text("\n".join(text) + "\n", encoding="utf-8")
+    cad.replace_before_section(path, text)
+
+
+def measure_good(options, folder, rows, scratch):
+    """Surfaces of good triangles, large enough to time."""
+    results, threads, spreads, targets = {}, {}, {}, []
+    ring = scratch / (RING + ".off")
+    write_ring(ring)
+    bench = Bench(options, scratch)
+    for name in options.only or SURFACES + [RING]:
+        surface = ring if name == RING else next(folder.rglob(name + ".off"), None)
+        if surface is None:
+            continue
+        told = rows.get("side by side", surface.resolve(), bench)
+        if name != RING:
+            told = told | rows.get("once", surface.resolve(), bench)
+            spreads[name] = rows.get("edges", surface.resolve(), bench)
+        results[name] = {mesher: told[mesher] for mesher in MESHERS if mesher in told}
+        threads[name] = rows.get("on two threads", surface.resolve(), bench)
+        print("\n".join(line(name, mesher, row) for mesher, row in results[name].items()), flush=True)
+        print(threads_table({name: threads[name]})[-1], flush=True)
+        targets = field_targets.lines(results, threads, spreads, extra=[RING])
+        write(results, threads, targets, options.output, options.timeout)
+    if not options.only:
+        field_targets.keep(options.build / "field_targets.json", rows.program, targets)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=lambda p: Path(p).resolve(), required=True)
     parser.add_argument("--corpus", default="")
-    parser.add_argument("--only", action="append")
+    parser.add_argument("--part", choices=["good", "cad", "all"], default="all")
+    parser.add_argument("--only", action="append", help="surfaces of the first part")
+    parser.add_argument("--cad-count", type=int, default=60)
     parser.add_argument("--again", action="append", choices=GROUPS, default=[])
     parser.add_argument("--timeout", type=float, default=300)
     parser.add_argument("--output", type=Path, default=ROOT / "docs" / "field.md")
@@ -303,29 +251,13 @@ def main():
     folder = corpus.locate(options.corpus, False)
     if folder is None:
         sys.exit("field.py: no corpus of surfaces")
-    results, threads, spreads = {}, {}, {}
     rows = Rows(options)
     rows.drop(options.again)
     with tempfile.TemporaryDirectory(prefix="holdfast-field-") as scratch:
-        ring = Path(scratch) / (RING + ".off")
-        write_ring(ring)
-        for name in options.only or SURFACES + [RING]:
-            surface = ring if name == RING else next(folder.rglob(name + ".off"), None)
-            if surface is None:
-                continue
-            bench = Bench(options, Path(scratch))
-            told = rows.get("side by side", surface.resolve(), bench)
-            if name != RING:
-                told = told | rows.get("once", surface.resolve(), bench)
-                spreads[name] = rows.get("edges", surface.resolve(), bench)
-            results[name] = {mesher: told[mesher] for mesher in MESHERS if mesher in told}
-            threads[name] = rows.get("on two threads", surface.resolve(), bench)
-            print("\n".join(line(name, mesher, row) for mesher, row in results[name].items()), flush=True)
-            print(threads_table({name: threads[name]})[-1], flush=True)
-            targets = field_targets.lines(results, threads, spreads, extra=[RING])
-            write(results, threads, targets, options.output, options.timeout)
-    if not options.only:
-        field_targets.keep(options.build / "field_targets.json", rows.program, targets)
+        if options.part != "cad":
+            measure_good(options, folder, rows, Path(scratch))
+        if options.part != "good":
+            cad.run(options, rows, folder, Path(scratch))
 
 
 if __name__ == "__main__":

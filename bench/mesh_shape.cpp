@@ -10,6 +10,8 @@
 namespace {
 
 constexpr double kMostQ = 1e6;  // so that one flat element does not make the mean
+// Degrees: an angle so near to 10, 20 or 30 is not below it. Boxes make many that are round numbers.
+constexpr double kRoundAngle = 1e-6;
 
 }  // namespace
 
@@ -21,6 +23,7 @@ int main(int argc, char** argv) {
     double least = 180;
     double most = 0;
     double sum = 0, sum_of_q = 0, whole = 0;
+    std::size_t not_positive = 0;
     std::array<double, 3> volume_below{};  // the same in volume, up to 30 degrees
     for (const holdfast::Tetrahedron& t : volume.tetrahedra) {
       const auto& v = volume.vertices;
@@ -33,8 +36,9 @@ int main(int argc, char** argv) {
           holdfast::dot(v[t[1]] - v[t[0]], holdfast::cross(v[t[2]] - v[t[0]], v[t[3]] - v[t[0]]));
       sum_of_q += std::min(holdfast::quality(v[t[0]], v[t[1]], v[t[2]], v[t[3]]), kMostQ);
       whole += six_volumes;
+      if (!(six_volumes > 0)) ++not_positive;
       for (std::size_t k = 0; k < below.size(); ++k) {
-        if (low >= 10 * static_cast<double>(k + 1)) continue;
+        if (low >= 10 * static_cast<double>(k + 1) - kRoundAngle) continue;
         ++below[k];
         if (k < volume_below.size()) volume_below[k] += six_volumes;
       }
@@ -44,9 +48,10 @@ int main(int argc, char** argv) {
     const auto percent = [&](std::size_t k) { return 100 * static_cast<double>(below[k]) / count; };
     std::printf(
         "{\"tetrahedra\": %zu, \"min_dihedral\": %.6g, \"max_dihedral\": %.3f, \"mean_min\": %.2f, "
-        "\"below\": [%.4f, %.4f, %.4f, %.4f], \"volume_below\": [%.4f, %.4f, %.4f], \"mean_q\": %.4f}\n",
+        "\"below\": [%.4f, %.4f, %.4f, %.4f], \"volume_below\": [%.4f, %.4f, %.4f], \"mean_q\": %.8g, "
+        "\"volume\": %.17g, \"not_positive\": %zu}\n",
         volume.tetrahedra.size(), least, most, sum / count, percent(0), percent(1), percent(2), percent(3),
-        volume_below[0], volume_below[1], volume_below[2], sum_of_q / count);
+        volume_below[0], volume_below[1], volume_below[2], sum_of_q / count, whole / 6, not_positive);
   }
   return 0;
 }
