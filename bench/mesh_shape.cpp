@@ -43,8 +43,9 @@ int main(int argc, char** argv) {
         if (k < volume_below.size()) volume_below[k] += six_volumes;
       }
     }
-    for (double& x : volume_below) x *= 100 / whole;
-    const auto count = static_cast<double>(volume.tetrahedra.size());
+    for (double& x : volume_below) x *= whole != 0 ? 100 / whole : 0;
+    // Some programs write files without elements: JSON has no word for their means.
+    const auto count = static_cast<double>(std::max<std::size_t>(volume.tetrahedra.size(), 1));
     const auto percent = [&](std::size_t k) { return 100 * static_cast<double>(below[k]) / count; };
     std::printf(
         "{\"tetrahedra\": %zu, \"min_dihedral\": %.6g, \"max_dihedral\": %.3f, \"mean_min\": %.2f, "
