@@ -1,6 +1,7 @@
 // Shape of the tetrahedra of volume files, one line of JSON each: the same measure for every mesher.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 #include "holdfast/io.h"
@@ -13,12 +14,23 @@ constexpr double kMostQ = 1e6;  // so that one flat element does not make the me
 // Degrees: an angle so near to 10, 20 or 30 is not below it. Boxes make many that are round numbers.
 constexpr double kRoundAngle = 1e-6;
 
+bool is_finite(const holdfast::Point& p) {
+  return std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
+}
+
+// A peer's file with a vertex that is no place has no mesh.
+holdfast::Volume read(const char* file) {
+  holdfast::Volume volume = holdfast::read_volume(file);
+  if (!std::all_of(volume.vertices.begin(), volume.vertices.end(), is_finite)) volume.tetrahedra.clear();
+  return volume;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   using holdfast::operator-;
   for (int i = 1; i < argc; ++i) {
-    const holdfast::Volume volume = holdfast::read_volume(argv[i]);
+    const holdfast::Volume volume = read(argv[i]);
     std::array<std::size_t, 4> below{};  // tetrahedra with an angle below 10, 20, 30, 40 degrees
     double least = 180;
     double most = 0;
@@ -28,9 +40,11 @@ int main(int argc, char** argv) {
     for (const holdfast::Tetrahedron& t : volume.tetrahedra) {
       const auto& v = volume.vertices;
       const std::array<double, 6> angles = holdfast::dihedral_angles(v[t[0]], v[t[1]], v[t[2]], v[t[3]]);
-      const double low = *std::min_element(angles.begin(), angles.end());
+      // Angles of a null element may be no numbers.
+      const bool is_null = std::any_of(angles.begin(), angles.end(), [](double x) { return std::isnan(x); });
+      const double low = is_null ? 0 : *std::min_element(angles.begin(), angles.end());
       least = std::min(least, low);
-      most = std::max(most, *std::max_element(angles.begin(), angles.end()));
+      most = is_null ? 180 : std::max(most, *std::max_element(angles.begin(), angles.end()));
       sum += low;
       const double six_volumes =
           holdfast::dot(v[t[1]] - v[t[0]], holdfast::cross(v[t[2]] - v[t[0]], v[t[3]] - v[t[0]]));

@@ -92,15 +92,21 @@ void improve_flat(const Attempt& attempt, BoxMesh& box, Division& division, Repo
   if (!flat.empty()) optimise_worst_of(attempt, box, division, flat, PointsToRemove::added_here, report);
 }
 
-// Field points must not make any figure worse than it is without. More work may help; if it does not, only
-// points that better their surroundings are put into the mesh without.
+// Field points must not make any figure worse than it is without. Where little is missing, more work may
+// help; if it does not, only points that better their surroundings are put into the mesh without.
 void keep_what_pays(const Attempt& attempt, BoxMesh& box, Division& division, Field& field, Report& report) {
   constexpr std::array<double, 2> kNoProgress{kCommonWork, kCommonWork};
   WithoutField& without = *field.without;
-  if (!without.is_better_somewhere(figures_of(field.volume(), attempt.threads))) return;
-  note(improve_further_in_parts(field.volume(), Effort::good, kNoProgress, attempt.threads, attempt.monitor),
-       report.field);
-  if (!without.is_better_somewhere(figures_of(field.volume(), attempt.threads))) return;
+  const auto falls_behind = [&] {
+    return without.is_better_somewhere(figures_of(field.volume(), attempt.threads));
+  };
+  if (!falls_behind()) return;
+  if (without.is_within_reach(figures_of(field.volume(), attempt.threads))) {
+    note(
+        improve_further_in_parts(field.volume(), Effort::good, kNoProgress, attempt.threads, attempt.monitor),
+        report.field);
+    if (!falls_behind()) return;
+  }
   without.take(box, division);
   field.set_sizes(attempt);
   report.field.points = 0;

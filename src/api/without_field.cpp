@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t kMostCompared = 300'000;  // tetrahedra
 // Of meshes of so many tetrahedra the optimisation changes a small part, so that the mean Q does not halve.
 constexpr std::size_t kManyTets = 10'000;
+// More work takes off such a part of what the mean Q is above that of elements none of which is bad.
+constexpr double kMended = 0.3, kWithoutBad = 3;
 
 }  // namespace
 
@@ -45,6 +47,11 @@ bool WithoutField::is_better_somewhere(const Figures& with_field) {
     optimised_ = figures_of(mesh_, division_.tets(mesh_), attempt_.threads);
   }
   return !with_field.is_no_worse_than(*optimised_);
+}
+
+bool WithoutField::is_within_reach(const Figures& with_field) const {
+  const double now = with_field.tempered_quality();
+  return now - kMended * std::max(now - kWithoutBad, 0.0) <= optimised_->tempered_quality();
 }
 
 void WithoutField::take(BoxMesh& box, Division& division) {

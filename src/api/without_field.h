@@ -19,6 +19,8 @@ class WithoutField {
   /// Whether some figure of the mesh with field points is worse than of this one. The first call optimises
   /// this one, unless it is plain that nothing will be.
   [[nodiscard]] bool is_better_somewhere(const Figures& with_field);
+  /// Whether more work on a mesh with field points, some figure of which is worse, may mend that.
+  [[nodiscard]] bool is_within_reach(const Figures& with_field) const;
   /// Of the optimised one; 0 without.
   [[nodiscard]] double worst_quality() const { return optimised_ ? optimised_->worst_quality() : 0; }
   /// Puts it, optimised, in the place of the mesh with field points.

@@ -68,8 +68,9 @@ bool PointAdder::improves(Vertex p) {
   star_.start_at(frame_.to(mesh.position(p)));
   if (!(star_.energy() < kNoEnergy)) return false;
   star_.step_to_ideal_place();
-  star_.descend();
   const double before = volume_.energy(cavity_.tets());
+  if (star_.energy() > tuning::kFarFromGain * before) return false;
+  star_.descend();
   if (!is_less(star_.energy(), before)) return false;
   MeshEditor(mesh).move_vertex(p, frame_.from(star_.at()));
   if (!frame_.is_plain() && !is_less(energy_of_ball(p), before)) return false;

@@ -23,6 +23,8 @@ class Figures {
   [[nodiscard]] std::size_t below_10_deg() const { return below_; }
   [[nodiscard]] double worst_quality() const { return worst_; }
   [[nodiscard]] double mean_quality() const { return sums_[0] / static_cast<double>(elements_); }
+  /// The same, where flat elements count for less.
+  [[nodiscard]] double tempered_quality() const { return sums_[1] / static_cast<double>(elements_); }
   /// Whether none of the three is worse.
   [[nodiscard]] bool is_no_worse_than(const Figures& other) const;
 

@@ -41,8 +41,9 @@ class Improver {
     }
     // The very worst are few: they get as many rounds as help.
     const double aim = passes_.patient_aim + tuning::kBeyondPatientAim;
+    volume_.touch_all();
     for (int round = 0; round < tuning::kPatientRounds * passes_.rounds; ++round) {
-      volume_.touch_all();
+      volume_.touch_beside_touched();
       if (!work_on_the_worst(aim, tuning::kPatientShare * passes_.work_per_tet, true)) break;
     }
     for (Tet t = 0; t < mesh_.slot_count(); ++t)

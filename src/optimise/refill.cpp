@@ -86,7 +86,7 @@ void CavityRefiller::find_place(const Cavity& cavity) {
     }
   }
   star_.step_to_ideal_place();
-  star_.descend();
+  if (star_.energy() < tuning::kFarFromGain * volume_.energy(cavity.tets())) star_.descend();
 }
 
 // Across the face that is worst for the point.

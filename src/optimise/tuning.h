@@ -135,11 +135,13 @@ inline constexpr double kDifference = 1e-5;     ///< sizes of the star, for the 
 inline constexpr double kDescentStep = 0.15;    ///< sizes of the star, in the first trial
 inline constexpr double kStepDivisor = 2.5;     ///< of the step from trial to trial
 inline constexpr double kLeastDescent = 0.995;  ///< part of the energy above which the descent ends
+inline constexpr double kFarFromGain =
+    3;  ///< times the energy that goes: from there no descent leads below it
 
 // Cavities, in tetrahedra: balls of hundreds take long and are seldom bad.
 inline constexpr std::size_t kMostContractedBall = 100, kMostAddedBall = 200;
-inline constexpr std::size_t kMostRefilled = 80;        ///< the best one for a point has mostly some twenty
-inline constexpr std::size_t kFartherThanBest = 12;     ///< by which it grows beyond the best so far
+inline constexpr std::size_t kMostRefilled = 25;        ///< the best one for a point has mostly fewer
+inline constexpr std::size_t kFartherThanBest = 5;      ///< by which it grows beyond the best so far
 inline constexpr std::size_t kMostRefillVertices = 13;  ///< a search without a point soon takes too long
 inline constexpr std::size_t kRefillNodes = 100;        ///< of that search
 inline constexpr double kRefillGain =

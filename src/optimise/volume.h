@@ -92,6 +92,16 @@ class ImprovedVolume {
     std::fill(touched_.begin(), touched_.end(), std::uint8_t{1});
   }
 
+  /// Where nothing has changed near by since this was last called, nothing helps that has not helped before.
+  void touch_beside_touched() {
+    for (Tet t = 0; t < mesh_.slot_count(); ++t) {
+      const TetMesh::Corners& c = mesh_.corners(t);
+      if (is_inside(t) && std::any_of(c.begin(), c.end(), [&](Vertex v) { return touched_[v] != 0; }))
+        changed_[t] = 1;
+    }
+    std::fill(touched_.begin(), touched_.end(), std::uint8_t{0});
+  }
+
   /// From now on, no change may make the figures of the whole worse than they are.
   void keep(const Figures& figures) { standard_.emplace(figures); }
   /// Whether points may be added at all.
