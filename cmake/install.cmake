@@ -54,8 +54,11 @@ set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE-MIT)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# A static library needs zlib's headers and library where a program links it.
+# A static library needs those that it stands on where a program links it.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "zlib1g-dev, pkg-config")
+if(HOLDFAST_METIS_LIBRARIES)
+  string(APPEND CPACK_DEBIAN_PACKAGE_RECOMMENDS ", libmetis-dev")
+endif()
 set(CPACK_SOURCE_GENERATOR TGZ)
 set(CPACK_SOURCE_IGNORE_FILES "/build/;/\\\\.git/")
 include(CPack)

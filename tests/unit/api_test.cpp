@@ -2,111 +2,24 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <set>
-#include <stdexcept>
 
 #include "api/scale.h"
 #include "delaunay/box.h"
 #include "holdfast/check.h"
 #include "holdfast/holdfast.h"
 #include "small_surfaces.h"
+#include "unit/meshed.h"
 
 namespace holdfast {
 namespace {
 
+using namespace testing;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// The rules that do not hold, one a line.
-std::string broken_rules(const Surface& surface, const Result& result, const CheckOptions& options = {}) {
-  std::string text;
-  for (const Rule& rule : check(surface.view(), result.volume, options).rules)
-    if (!rule.holds) text += rule.name + ": " + rule.detail + "\n";
-  return text;
-}
-
-void expect_done(const Surface& surface, const Result& result, const CheckOptions& options = {}) {
-  EXPECT_EQ(result.outcome, Outcome::done) << result.message;
-  for (const Defect& defect : result.defects) ADD_FAILURE() << defect.message;
-  EXPECT_EQ(broken_rules(surface, result, options), "");
-  EXPECT_TRUE(result.exact_vertices.empty());
-  EXPECT_EQ(result.message, "");
-}
-
-void expect_empty(const Volume& volume) {
-  EXPECT_TRUE(volume.vertices.empty());
-  EXPECT_TRUE(volume.tetrahedra.empty());
-  EXPECT_TRUE(volume.regions.empty());
-  EXPECT_TRUE(volume.facets.empty());
-  EXPECT_TRUE(volume.segments.empty());
-}
-
-bool same_bits(const Point& p, const Point& q) {
-  return std::equal(p.begin(), p.end(), q.begin(), [](double x, double y) {
-    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
-  });
-}
-
-bool same(const Volume& a, const Volume& b) {
-  return std::equal(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(), same_bits) &&
-         a.tetrahedra == b.tetrahedra && a.regions == b.regions && a.facets == b.facets &&
-         a.segments == b.segments && a.facet_markers == b.facet_markers &&
-         a.segment_markers == b.segment_markers && a.vertex_markers == b.vertex_markers;
-}
-
-std::set<int> ids(const Volume& volume) { return {volume.regions.begin(), volume.regions.end()}; }
-
-// The regions on the sides of every facet, from the tetrahedra alone.
-std::vector<FacetRegions> sides(const Volume& volume) {
-  std::vector<FacetRegions> found(volume.facets.size());
-  const auto turned = [](Triangle t) {  // least corner first, the orientation kept
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    return t;
-  };
-  for (std::size_t t = 0; t < volume.tetrahedra.size(); ++t) {
-    const auto [a, b, c, d] = volume.tetrahedra[t];
-    for (const Triangle& face : {Triangle{b, d, c}, Triangle{a, c, d}, Triangle{a, d, b}, Triangle{a, b, c}})
-      for (std::size_t f = 0; f < volume.facets.size(); ++f) {
-        const auto [u, v, w] = volume.facets[f];
-        if (turned(face) == turned({u, v, w}))
-          found[f][0] = volume.regions[t];  // it sees them counterclockwise
-        if (turned(face) == turned({u, w, v})) found[f][1] = volume.regions[t];
-      }
-  }
-  return found;
-}
-
-// A sphere of bumps: `rings` x `around` quadrilaterals and two caps, enough work to interrupt.
-Surface bumpy(unsigned rings, unsigned around) {
-  Surface surface;
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> bump(0.9, 1.1);
-  surface.vertices.push_back({0, 0, -1});
-  for (unsigned i = 1; i < rings; ++i)
-    for (unsigned j = 0; j < around; ++j) {
-      const double u = 3.141592653589793 * i / rings;
-      const double v = 6.283185307179586 * j / around;
-      const double r = bump(random);
-      surface.vertices.push_back(
-          {r * std::sin(u) * std::cos(v), r * std::sin(u) * std::sin(v), -r * std::cos(u)});
-    }
-  const auto last = static_cast<Index>(surface.vertices.size());
-  surface.vertices.push_back({0, 0, 1});
-  const auto at = [&](unsigned i, unsigned j) { return 1 + (i - 1) * around + j % around; };
-  for (unsigned j = 0; j < around; ++j) {
-    surface.facets.push_back({0, at(1, j + 1), at(1, j)});
-    for (unsigned i = 1; i + 1 < rings; ++i) {
-      surface.facets.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
-      surface.facets.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
-    }
-    surface.facets.push_back({last, at(rings - 1, j), at(rings - 1, j + 1)});
-  }
-  return surface;
-}
 
 TEST(Mesh, Tetrahedron) {
   Surface surface;
@@ -428,83 +341,6 @@ TEST(Mesh, NotRepresentable) {
   }
 }
 
-TEST(Refusal, OfInvalidInput) {
-  Surface surface = small::box();
-  small::add_triangle(surface, {0.5, 0.5, 0.5}, {1.5, 0.4, 0.5}, {0.5, 0.5, 1.5});
-  const Result result = mesh(surface.view());
-  EXPECT_EQ(result.outcome, Outcome::invalid_input);
-  EXPECT_FALSE(result.defects.empty());
-  EXPECT_FALSE(result.message.empty());
-  expect_empty(result.volume);
-  EXPECT_EQ(result.report.input.facets, 13u);
-}
-
-TEST(Refusal, OfIndicesAndCoordinatesThatMakeNoSense) {
-  Surface surface = small::box();
-  surface.facets[3][1] = 1000000;
-  surface.vertices[2][1] = kInfinity;
-  const Result result = mesh(surface.view());
-  EXPECT_EQ(result.outcome, Outcome::invalid_input);
-  EXPECT_EQ(result.defects.size(), 2u);
-}
-
-TEST(Refusal, OfWhatEnclosesNothing) {
-  for (const Surface& surface : {small::open_box(), Surface{}}) {
-    const Result result = mesh(surface.view());
-    EXPECT_EQ(result.outcome, Outcome::invalid_input);
-    ASSERT_EQ(result.defects.size(), 1u);
-    EXPECT_EQ(result.defects[0].kind, DefectKind::encloses_nothing);
-    expect_empty(result.volume);
-  }
-}
-
-TEST(Refusal, OfWhatLiesOutside) {
-  Surface surface = small::box();
-  small::add_triangle(surface, {2, 0, 0}, {3, 0, 0}, {2, 1, 0});
-  const Result refused = mesh(surface.view());
-  EXPECT_EQ(refused.outcome, Outcome::invalid_input);
-  ASSERT_EQ(refused.defects.size(), 1u);
-  EXPECT_EQ(refused.defects[0].kind, DefectKind::outside_region);
-
-  Options options;
-  options.drop_outside = true;
-  const Result result = mesh(surface.view(), options);
-  CheckOptions check_options;
-  check_options.outside_dropped = true;
-  expect_done(surface, result, check_options);
-  EXPECT_EQ(result.volume.facets.size(), 12u);
-  EXPECT_EQ(result.volume.vertices.size(), surface.vertices.size() + result.report.steiner_points);
-}
-
-TEST(Refusal, OfOptionsThatMakeNoSense) {
-  Surface surface = small::box();
-  const auto refused = [&](const Options& options) {
-    EXPECT_THROW(static_cast<void>(mesh(surface.view(), options)), std::invalid_argument);
-  };
-  Options options;
-  options.holes = {{5, 5, 5}};
-  refused(options);
-  options.holes = {{kInfinity, 5, 5}};
-  refused(options);
-  options = {};
-  options.regions = {{{0.5, std::nan(""), 0.5}, 1}};
-  refused(options);
-  options = {};
-  options.keep = Keep::box;
-  for (const double margin : {0.0, -1.0, kInfinity, std::nan("")}) {
-    options.box_margin = margin;
-    refused(options);
-  }
-  surface.facet_markers = {1, 2, 3};
-  refused({});
-  surface.facet_markers.clear();
-  surface.vertex_markers = {1};
-  EXPECT_THROW(static_cast<void>(mesh(surface.view())), std::invalid_argument);
-  surface.vertex_markers.clear();
-  surface.segment_markers = {1};
-  refused({});
-}
-
 TEST(Mesh, TheSeedDecidesAndNothingElseDoes) {
   std::set<std::vector<Tetrahedron>> meshes;
   Surface surface = small::box({0, 0, 0}, {4, 4, 4});
@@ -524,113 +360,6 @@ TEST(Mesh, TheSeedDecidesAndNothingElseDoes) {
     }
     EXPECT_GT(meshes.size(), 1u);
   }
-}
-
-TEST(Interruption, ByTime) {
-  Options options;
-  options.time_limit = 1e-9;
-  const Result result = mesh(small::box(), options);
-  EXPECT_EQ(result.outcome, Outcome::time_limit);
-  EXPECT_NE(result.message.find("time limit"), std::string::npos) << result.message;
-  EXPECT_TRUE(result.report.seconds.contains("total"));
-  expect_empty(result.volume);
-}
-
-TEST(Interruption, ByMemory) {
-  Options options;
-  options.memory_limit = 1;
-  const Result result = mesh(small::box(), options);
-  EXPECT_EQ(result.outcome, Outcome::memory_limit);
-  EXPECT_NE(result.message.find("memory limit"), std::string::npos) << result.message;
-  expect_empty(result.volume);
-}
-
-TEST(Interruption, AtEveryStage) {
-  const Surface surface = small::box();
-  for (const Stage stage : {Stage::validate, Stage::delaunay, Stage::flips, Stage::partition, Stage::classify,
-                            Stage::suppress, Stage::optimise}) {
-    Options options;
-    options.progress = [&](const Progress& progress) { return progress.stage != stage; };
-    const Result result = mesh(surface.view(), options);
-    EXPECT_EQ(result.outcome, Outcome::cancelled) << name(stage);
-    EXPECT_EQ(result.message, std::string("cancelled in stage ") + name(stage));
-    expect_empty(result.volume);
-  }
-}
-
-// The callback is asked at intervals of time; the fraction is 0 only when a stage begins. However fast the
-// machine is, some surface is large enough that a stage takes longer than the interval.
-TEST(Interruption, WithinAStage) {
-  Options options;
-  options.flips = false;
-  options.progress = [](const Progress& progress) { return progress.fraction == 0; };
-  Outcome outcome = Outcome::done;
-  for (int size = 100; outcome == Outcome::done && size <= 1600; size *= 2)
-    outcome = mesh(bumpy(size, 200), options).outcome;
-  EXPECT_EQ(outcome, Outcome::cancelled);
-}
-
-TEST(Progress, StagesComeInOrder) {
-  std::vector<Stage> stages;
-  Options options;
-  options.progress = [&](const Progress& progress) {
-    EXPECT_GE(progress.fraction, 0);
-    EXPECT_LE(progress.fraction, 1);
-    if (stages.empty() || stages.back() != progress.stage) stages.push_back(progress.stage);
-    return true;
-  };
-  EXPECT_EQ(mesh(small::box(), options).outcome, Outcome::done);
-  EXPECT_EQ(stages,
-            (std::vector<Stage>{Stage::validate, Stage::delaunay, Stage::validate, Stage::flips,
-                                Stage::partition, Stage::classify, Stage::suppress, Stage::optimise}));
-}
-
-TEST(StopAfter, ShowsWhatStands) {
-  const Surface surface = small::without_integer_points(0);
-  Options options;
-  const auto after = [&](Stage stage) {
-    options.stop_after = stage;
-    Result result = mesh(surface.view(), options);
-    EXPECT_EQ(result.outcome, Outcome::done) << name(stage);
-    EXPECT_EQ(result.volume.regions.size(), result.volume.tetrahedra.size());
-    for (std::size_t i = 0; i < surface.vertices.size(); ++i)
-      EXPECT_EQ(result.volume.vertices[i], surface.vertices[i]);
-    return result;
-  };
-  const Result validated = after(Stage::validate);
-  EXPECT_EQ(validated.volume.vertices.size(), 6u);
-  EXPECT_TRUE(validated.volume.tetrahedra.empty());
-
-  for (const Stage stage : {Stage::delaunay, Stage::flips}) {
-    const Result result = after(stage);
-    EXPECT_EQ(ids(result.volume), std::set<int>{0});
-    EXPECT_EQ(result.volume.vertices.size(), 14u);
-    EXPECT_EQ(result.report.steiner_points, 0u);
-    const std::size_t missing =
-        (stage == Stage::delaunay ? result.report.delaunay : result.report.flips).facets;
-    EXPECT_EQ(result.volume.facets.size(), 8 - missing);
-    EXPECT_GT(missing, 0u);
-  }
-  const Result partitioned = after(Stage::partition);
-  EXPECT_GT(partitioned.report.segment_points, 0u);
-  EXPECT_EQ(partitioned.report.steiner_points,
-            partitioned.report.segment_points + partitioned.report.facet_points);
-  EXPECT_EQ(partitioned.volume.facets.size(), 8 - partitioned.report.flips.facets);
-
-  const Result eliminated = after(Stage::eliminate);
-  EXPECT_EQ(ids(eliminated.volume), std::set<int>{0});
-  EXPECT_EQ(eliminated.volume.facets.size(), 8u);
-
-  const Result classified = after(Stage::classify);
-  EXPECT_EQ(ids(classified.volume), std::set<int>{1});
-  EXPECT_EQ(classified.report.regions, 1u);
-  expect_done(surface, after(Stage::suppress));
-}
-
-TEST(StopAfter, OpenSurfacesCanBeLookedAt) {
-  Options options;
-  options.stop_after = Stage::delaunay;
-  EXPECT_EQ(mesh(small::open_box(), options).outcome, Outcome::done);
 }
 
 TEST(Names, OfStagesAndVersion) {

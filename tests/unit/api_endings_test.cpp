@@ -1,0 +1,206 @@
+// How calls end that do not end with a whole mesh: refused, interrupted, or after a stage.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include "delaunay/box.h"
+#include "holdfast/check.h"
+#include "holdfast/holdfast.h"
+#include "small_surfaces.h"
+#include "unit/meshed.h"
+
+namespace holdfast {
+namespace {
+
+using namespace testing;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(Refusal, OfInvalidInput) {
+  Surface surface = small::box();
+  small::add_triangle(surface, {0.5, 0.5, 0.5}, {1.5, 0.4, 0.5}, {0.5, 0.5, 1.5});
+  const Result result = mesh(surface.view());
+  EXPECT_EQ(result.outcome, Outcome::invalid_input);
+  EXPECT_FALSE(result.defects.empty());
+  EXPECT_FALSE(result.message.empty());
+  expect_empty(result.volume);
+  EXPECT_EQ(result.report.input.facets, 13u);
+}
+
+TEST(Refusal, OfIndicesAndCoordinatesThatMakeNoSense) {
+  Surface surface = small::box();
+  surface.facets[3][1] = 1000000;
+  surface.vertices[2][1] = kInfinity;
+  const Result result = mesh(surface.view());
+  EXPECT_EQ(result.outcome, Outcome::invalid_input);
+  EXPECT_EQ(result.defects.size(), 2u);
+}
+
+TEST(Refusal, OfWhatEnclosesNothing) {
+  for (const Surface& surface : {small::open_box(), Surface{}}) {
+    const Result result = mesh(surface.view());
+    EXPECT_EQ(result.outcome, Outcome::invalid_input);
+    ASSERT_EQ(result.defects.size(), 1u);
+    EXPECT_EQ(result.defects[0].kind, DefectKind::encloses_nothing);
+    expect_empty(result.volume);
+  }
+}
+
+TEST(Refusal, OfWhatLiesOutside) {
+  Surface surface = small::box();
+  small::add_triangle(surface, {2, 0, 0}, {3, 0, 0}, {2, 1, 0});
+  const Result refused = mesh(surface.view());
+  EXPECT_EQ(refused.outcome, Outcome::invalid_input);
+  ASSERT_EQ(refused.defects.size(), 1u);
+  EXPECT_EQ(refused.defects[0].kind, DefectKind::outside_region);
+
+  Options options;
+  options.drop_outside = true;
+  const Result result = mesh(surface.view(), options);
+  CheckOptions check_options;
+  check_options.outside_dropped = true;
+  expect_done(surface, result, check_options);
+  EXPECT_EQ(result.volume.facets.size(), 12u);
+  EXPECT_EQ(result.volume.vertices.size(), surface.vertices.size() + result.report.steiner_points);
+}
+
+TEST(Refusal, OfOptionsThatMakeNoSense) {
+  Surface surface = small::box();
+  const auto refused = [&](const Options& options) {
+    EXPECT_THROW(static_cast<void>(mesh(surface.view(), options)), std::invalid_argument);
+  };
+  Options options;
+  options.holes = {{5, 5, 5}};
+  refused(options);
+  options.holes = {{kInfinity, 5, 5}};
+  refused(options);
+  options = {};
+  options.regions = {{{0.5, std::nan(""), 0.5}, 1}};
+  refused(options);
+  options = {};
+  options.keep = Keep::box;
+  for (const double margin : {0.0, -1.0, kInfinity, std::nan("")}) {
+    options.box_margin = margin;
+    refused(options);
+  }
+  surface.facet_markers = {1, 2, 3};
+  refused({});
+  surface.facet_markers.clear();
+  surface.vertex_markers = {1};
+  EXPECT_THROW(static_cast<void>(mesh(surface.view())), std::invalid_argument);
+  surface.vertex_markers.clear();
+  surface.segment_markers = {1};
+  refused({});
+}
+
+TEST(Interruption, ByTime) {
+  Options options;
+  options.time_limit = 1e-9;
+  const Result result = mesh(small::box(), options);
+  EXPECT_EQ(result.outcome, Outcome::time_limit);
+  EXPECT_NE(result.message.find("time limit"), std::string::npos) << result.message;
+  EXPECT_TRUE(result.report.seconds.contains("total"));
+  expect_empty(result.volume);
+}
+
+TEST(Interruption, ByMemory) {
+  Options options;
+  options.memory_limit = 1;
+  const Result result = mesh(small::box(), options);
+  EXPECT_EQ(result.outcome, Outcome::memory_limit);
+  EXPECT_NE(result.message.find("memory limit"), std::string::npos) << result.message;
+  expect_empty(result.volume);
+}
+
+TEST(Interruption, AtEveryStage) {
+  const Surface surface = small::box();
+  for (const Stage stage : {Stage::validate, Stage::delaunay, Stage::flips, Stage::partition, Stage::classify,
+                            Stage::suppress, Stage::optimise}) {
+    Options options;
+    options.progress = [&](const Progress& progress) { return progress.stage != stage; };
+    const Result result = mesh(surface.view(), options);
+    EXPECT_EQ(result.outcome, Outcome::cancelled) << name(stage);
+    EXPECT_EQ(result.message, std::string("cancelled in stage ") + name(stage));
+    expect_empty(result.volume);
+  }
+}
+
+// The callback is asked at intervals of time; the fraction is 0 only when a stage begins. However fast the
+// machine is, some surface is large enough that a stage takes longer than the interval.
+TEST(Interruption, WithinAStage) {
+  Options options;
+  options.flips = false;
+  options.progress = [](const Progress& progress) { return progress.fraction == 0; };
+  Outcome outcome = Outcome::done;
+  for (int size = 100; outcome == Outcome::done && size <= 1600; size *= 2)
+    outcome = mesh(bumpy(size, 200), options).outcome;
+  EXPECT_EQ(outcome, Outcome::cancelled);
+}
+
+TEST(Progress, StagesComeInOrder) {
+  std::vector<Stage> stages;
+  Options options;
+  options.progress = [&](const Progress& progress) {
+    EXPECT_GE(progress.fraction, 0);
+    EXPECT_LE(progress.fraction, 1);
+    if (stages.empty() || stages.back() != progress.stage) stages.push_back(progress.stage);
+    return true;
+  };
+  EXPECT_EQ(mesh(small::box(), options).outcome, Outcome::done);
+  EXPECT_EQ(stages,
+            (std::vector<Stage>{Stage::validate, Stage::delaunay, Stage::validate, Stage::flips,
+                                Stage::partition, Stage::classify, Stage::suppress, Stage::optimise}));
+}
+
+TEST(StopAfter, ShowsWhatStands) {
+  const Surface surface = small::without_integer_points(0);
+  Options options;
+  const auto after = [&](Stage stage) {
+    options.stop_after = stage;
+    Result result = mesh(surface.view(), options);
+    EXPECT_EQ(result.outcome, Outcome::done) << name(stage);
+    EXPECT_EQ(result.volume.regions.size(), result.volume.tetrahedra.size());
+    for (std::size_t i = 0; i < surface.vertices.size(); ++i)
+      EXPECT_EQ(result.volume.vertices[i], surface.vertices[i]);
+    return result;
+  };
+  const Result validated = after(Stage::validate);
+  EXPECT_EQ(validated.volume.vertices.size(), 6u);
+  EXPECT_TRUE(validated.volume.tetrahedra.empty());
+
+  for (const Stage stage : {Stage::delaunay, Stage::flips}) {
+    const Result result = after(stage);
+    EXPECT_EQ(ids(result.volume), std::set<int>{0});
+    EXPECT_EQ(result.volume.vertices.size(), 14u);
+    EXPECT_EQ(result.report.steiner_points, 0u);
+    const std::size_t missing =
+        (stage == Stage::delaunay ? result.report.delaunay : result.report.flips).facets;
+    EXPECT_EQ(result.volume.facets.size(), 8 - missing);
+    EXPECT_GT(missing, 0u);
+  }
+  const Result partitioned = after(Stage::partition);
+  EXPECT_GT(partitioned.report.segment_points, 0u);
+  EXPECT_EQ(partitioned.report.steiner_points,
+            partitioned.report.segment_points + partitioned.report.facet_points);
+  EXPECT_EQ(partitioned.volume.facets.size(), 8 - partitioned.report.flips.facets);
+
+  const Result eliminated = after(Stage::eliminate);
+  EXPECT_EQ(ids(eliminated.volume), std::set<int>{0});
+  EXPECT_EQ(eliminated.volume.facets.size(), 8u);
+
+  const Result classified = after(Stage::classify);
+  EXPECT_EQ(ids(classified.volume), std::set<int>{1});
+  EXPECT_EQ(classified.report.regions, 1u);
+  expect_done(surface, after(Stage::suppress));
+}
+
+TEST(StopAfter, OpenSurfacesCanBeLookedAt) {
+  Options options;
+  options.stop_after = Stage::delaunay;
+  EXPECT_EQ(mesh(small::open_box(), options).outcome, Outcome::done);
+}
+
+}  // namespace
+}  // namespace holdfast
