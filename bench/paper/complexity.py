@@ -1,8 +1,9 @@
 """§2.4 and §7 measured: points that partition makes alone and with elimination, in three orders; swaps; ears; equation (1)."""
 import json
+import os
 import resource
 import sys
-from math import log
+from math import ceil, log
 
 import plane_inputs
 from models import ROOT
@@ -12,12 +13,19 @@ ORDERS = ("given", "random", "halving")
 SIZES = (8, 16, 32, 64, 128, 256, 512, 1024)
 SPACE = (2, 3, 4, 5, 6, 8, 12, 16, 24, 32)
 CHAZELLE = (2, 3, 4, 6, 8, 12, 16)
-LIMIT = 3600  # seconds of the clock: a run beyond it has no result
+# A run that reaches one of these has no number but says so, and ends its series.
+LIMIT = 3600  # seconds of the clock
+PATIENCE = 2  # times the seconds of the processor after which a series ends
+MEMORY = min(12 << 30, os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") * 3 // 4)
+
+
+class Beyond(Exception):
+    """A run reached a limit, which the text names."""
 
 
 def power(sizes, counts):
     """Slope of log(count) over log(size) by least squares, from the larger half of the sizes."""
-    pairs = [(log(n), log(c)) for n, c in zip(sizes, counts) if c]
+    pairs = [(log(n), log(c)) for n, c in zip(sizes, counts) if c and not isinstance(c, str)]
     pairs = pairs[len(pairs) // 2 if len(pairs) > 3 else 0:]
     if len(pairs) < 2:
         return None
@@ -31,19 +39,33 @@ def processor_time():
     return told.ru_utime + told.ru_stime
 
 
+def limited(command, seconds):
+    """Runs a program that may take so many seconds of the processor."""
+    done = run(["prlimit", f"--cpu={ceil(seconds)}", f"--as={MEMORY}", *command], LIMIT)
+    if done.code == 0:
+        return
+    if "out of memory" in done.output:
+        raise Beyond(f"over {MEMORY / 2**30:.0f} GiB")
+    if done.code in (None, -9, -24):  # by the clock; SIGKILL, SIGXCPU
+        raise Beyond(f"over {LIMIT if done.code is None else ceil(seconds):,} s")
+    raise RuntimeError(f"{' '.join(map(str, command))} ended with {done.code}: {done.output}")
+
+
 def grow(name, sizes, rows, measure, most_seconds):
-    """Rows of growing cases, up to the first that takes longer than that, or fails."""
+    """Rows of growing cases, up to the first that takes longer than that, or reaches a limit, which then stands for its number."""
     told = []
     for n in sizes:
         def timed(n=n):
             started = processor_time()
-            return {"value": measure(n), "seconds": processor_time() - started}
+            try:
+                value = measure(n, PATIENCE * most_seconds)
+            except Beyond as beyond:
+                value = str(beyond)
+            return {"value": value, "seconds": processor_time() - started}
 
-        row = rows.get(f"{name}, n = {n}", timed)
-        if row["value"] is None:
-            break
+        row = rows.get(f"{name}, n = {n}, at most {most_seconds:g} s", timed)
         told.append((n, row["value"]))
-        if row["seconds"] > most_seconds:
+        if row["seconds"] > most_seconds or isinstance(row["value"], str):
             break
     return told
 
@@ -57,44 +79,54 @@ def seconds_of(options, alone):
 
 
 def plane_points(options, folder, rows, order, alone):
-    def measure(n):
-        extra = ["--stop-after", "partition"] if alone else []
-        told = run_plane(options, folder, plane_inputs.quadrilateral(n, n), "--hull", "--method", "partition", "--order", order, *extra)
-        return told and told["partition_points"]
+    def measure(n, seconds):
+        given = plane_inputs.quadrilateral(n, n)
+        call = ("--hull", "--method", "partition", "--order", order)
+        if not alone:
+            return run_plane(options, folder, given, seconds, *call)["partition_points"]
+        # All of them are in the output, and a report of each would take most of the memory.
+        with plane_output(options, folder, given, seconds, *call, "--stop-after", "partition").open(encoding="ascii") as file:
+            next(file)  # OFF
+            return int(next(file).split()[0]) - len(given.points)
 
     return grow(f"Fig. 4, partition{' alone' if alone else ''}, {order}", SIZES, rows, measure, seconds_of(options, alone))
 
 
-def run_plane(options, folder, given, *extra):
-    poly, out, report = folder / "in.poly", folder / "out.off", folder / "report.json"
+def plane_output(options, folder, given, seconds, *extra):
+    poly, out = folder / "in.poly", folder / "out.off"
     given.write(poly)
-    done = run([options.build / "holdfast", "plane", poly, "-o", out, "--report", report, "-q", *extra], LIMIT)
-    return json.loads(report.read_text(encoding="utf-8")) if done.code == 0 else None
+    limited([options.build / "holdfast", "plane", poly, "-o", out, "-q", *extra], seconds)
+    return out
+
+
+def run_plane(options, folder, given, seconds, *extra):
+    report = folder / "report.json"
+    plane_output(options, folder, given, seconds, "--report", report, *extra)
+    return json.loads(report.read_text(encoding="utf-8"))
 
 
 def plane_swaps(options, folder, rows, order):
-    def measure(n):
-        told = run_plane(options, folder, plane_inputs.quadrilateral(n, n), "--hull", "--method", "swaps", "--order", order)
-        return told and told["swaps"]
+    def measure(n, seconds):
+        return run_plane(options, folder, plane_inputs.quadrilateral(n, n), seconds, "--hull", "--method", "swaps", "--order", order)["swaps"]
 
     return grow(f"Fig. 4, swaps, {order}", SIZES, rows, measure, options.most_seconds)
 
 
 def ears(options, folder, rows, kind):
-    def measure(n):
-        told = run_plane(options, folder, getattr(plane_inputs, kind)(n), "--method", "ears")
-        return told and told["ears"]
+    """Seconds of the processor, of the whole program."""
+    def measure(n, seconds):
+        given, started = getattr(plane_inputs, kind)(n), processor_time()
+        run_plane(options, folder, given, seconds, "--method", "ears")
+        return processor_time() - started
 
-    name = f"ears, {kind}"
-    told = grow(name, [2 ** k for k in range(10, 18)], rows, measure, options.most_seconds)
-    return [(n, rows.rows[f"{name}, n = {n}"]["seconds"]) for n, _ in told]  # of the processor, whole program
+    return grow(f"ears, {kind}", [2 ** k for k in range(10, 18)], rows, measure, options.most_seconds)
 
 
 def equation_1(options, folder, rows, n, m):
     """Points on each segment in the order that equation (1) assumes, from the top."""
     def measure():
-        told = run_plane(options, folder, plane_inputs.pencil(n, m), "--hull", "--method", "partition", "--order", "given",
-                         "--stop-after", "partition")
+        told = run_plane(options, folder, plane_inputs.pencil(n, m), options.most_seconds_alone, "--hull", "--method", "partition", "--order",
+                         "given", "--stop-after", "partition")
         return [len(chain["vertices"]) - 2 for chain in told["intermediate"]["chains"]]
 
     return rows.get(f"equation (1), n = {n}, m = {m}", measure)
@@ -103,33 +135,49 @@ def equation_1(options, folder, rows, n, m):
 # --------------------------------------------------------------------------------------------------- space
 
 
-def run_space(options, folder, script, arguments, *extra):
+def run_space(options, folder, seconds, script, arguments, *extra):
     surface, report = folder / "in.off", folder / "report.json"
     run([sys.executable, ROOT / "examples" / script, arguments[0], surface, *arguments[1:]])
-    done = run([options.build / "holdfast", "mesh", surface, "-o", folder / "out.meshb", "--fill", "-q", "--report", report, *extra],
-               LIMIT)
-    return json.loads(report.read_text(encoding="utf-8")) if done.code == 0 else None
+    limited([options.build / "holdfast", "mesh", surface, "-o", folder / "out.meshb", "--fill", "-q", "--report", report, *extra], seconds)
+    return counts_in(report)
+
+
+def counts_in(report):
+    """A report without its list of what each added point lies on, which may be as long as the mesh; the report is indented by two."""
+    lines, within = [], False
+    with report.open(encoding="utf-8") as file:
+        for line in file:
+            within = within or line.startswith('  "intermediate": {')
+            if not within:
+                lines.append(line)
+            elif line.startswith("  }"):
+                within = False
+    return json.loads("".join(lines))
 
 
 def space_points(options, folder, rows, order, stage, key):
-    def measure(n):
-        told = run_space(options, folder, "make_paper.py", ["worst", "-n", str(n), "-m", str(n), "--height", "0.05"], "--without",
+    def measure(n, seconds):
+        told = run_space(options, folder, seconds, "make_paper.py", ["worst", "-n", str(n), "-m", str(n), "--height", "0.05"], "--without",
                          "flips", "--order", order, "--stop-after", stage)
-        return told and {k: told["partition"][k] for k in ("segment_points", "facet_points")}
+        return {k: told["partition"][k] for k in ("segment_points", "facet_points")}
 
     told = grow(f"Fig. 13, {stage}, {order}", SPACE, rows, measure, seconds_of(options, stage == "partition"))
-    return [(n, value[key] if key else sum(value.values())) for n, value in told]
+    return [(n, value if isinstance(value, str) else value[key] if key else sum(value.values())) for n, value in told]
 
 
 def chazelle(options, folder, rows):
-    def measure(n):
-        told = run_space(options, folder, "make_hard.py", ["chazelle", "-n", str(n), "--gap", repr(0.5 / n**2)])
-        return told and told["mesh"]["tetrahedra"]
+    def measure(n, seconds):
+        told = run_space(options, folder, seconds, "make_hard.py", ["chazelle", "-n", str(n), "--gap", repr(0.5 / n**2)])
+        return told["mesh"]["tetrahedra"]
 
     return grow("Chazelle", CHAZELLE, rows, measure, options.most_seconds)
 
 
 # ---------------------------------------------------------------------------------------------------- text
+
+
+def in_a_cell(value):
+    return "" if value is None else f"{value:,}" if isinstance(value, int) else f"{value:.2g}" if isinstance(value, float) else value
 
 
 def table(series, paper):
@@ -139,7 +187,7 @@ def table(series, paper):
     for name, told in series.items():
         counts = dict(told)
         fitted = power(*zip(*told)) if told else None
-        shown = [f"{counts[n]:,}" if isinstance(counts.get(n), int) else f"{counts[n]:.2g}" if n in counts else "" for n in sizes]
+        shown = [in_a_cell(counts.get(n)) for n in sizes]
         lines.append(f"| {name} | " + " | ".join(shown) + f" | {'' if fitted is None else f'{fitted:.2f}'} | {paper.get(name, '')} |")
     return lines
 

@@ -90,11 +90,10 @@ def plane(options, folder, rows):
     return lines + [
         "### Complexity in the plane", "",
         "The quadrilateral of Figure 4 with n = m. Columns are n; a series ends with the first case that takes longer than "
-        f"{options.most_seconds:g} s of the processor. The power fits the larger half of the sizes. Points are those added by partition (temporarily, with elimination).", "",
+        f"{options.most_seconds:g} s of the processor, of partition alone {options.most_seconds_alone:g} s, or with one that takes over "
+        f"{complexity.PATIENCE} times as long, or over {complexity.MEMORY / 2**30:.0f} GiB, which then stands in place of a number. The power fits the larger half of the sizes. Points are those added by partition (temporarily, with elimination).", "",
         *table, "",
-        "Partition alone at n = 256, by hand: 9,953,810 points in the given order (the power 2.99 from n = 128), 2,031,959 by "
-        "halving (2.59), in 88 and 23 s of the processor and 7.3 and 1.4 GiB, reports of every added point included. By the "
-        "same powers n = 1,024 has 600 million in the given order, for which no memory here suffices.", "",
+        "By the power in the given order, n = 1,024 would have 600 million points.", "",
         "With elimination in the given order, the paper's n^2 shows. In random order and by halving far fewer points are made, about 2.5 n log2 n by halving: "
         "the first segments part the edges, and a later one crosses those of its part alone. Without elimination, halving also lowers the power, since "
         "only half of a point's new edges lie on the side of a later segment. Swaps: 2n edges cross each of the m segments, and random ones may leave their number as it was.", "",
@@ -127,10 +126,7 @@ def space(options, folder, rows):
     return lines + ["## Complexity (§7)", "", *figure(options, folder, rows, 13), "### Complexity in space", "",
                     "`examples/make_paper.py worst -n N -m N --height 0.05`, `--without flips`. Columns are n = m; the counts are those of partition points, all of them "
                     "made whether or not they stay. Edges alone are counted in runs that partition the facets as well, which is what ends the series. Elimination "
-                    "after each constraint (the paper's remark at the end of §7) takes the power from above four to two.", "", *table, "",
-                    "Partition alone of n = m = 8, by hand: on edges 52,387 points in the given order (the power 4.53 from n ="
-                    " 6), 11,495 at random and 12,668 by halving; on edges and facets 930,208, 365,839 and 389,338; 17, 6 and "
-                    "7 s of the processor.", ""]
+                    "after each constraint (the paper's remark at the end of §7) takes the power from above four to two. Series end as in the plane.", "", *table, ""]
 
 
 def examples(options, folder, rows):

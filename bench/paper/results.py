@@ -18,7 +18,7 @@ def measure(options, folder, model):
     for name, extra in RUNS.items():
         done = run([options.build / "holdfast", "mesh", surface, "-o", folder / "model.meshb", "-q", "--report", report, *extra], LIMIT)
         if done.code != 0:
-            row[name] = None
+            row[name] = None  # its cells say so
             continue
         told = json.loads(report.read_text(encoding="utf-8"))
         row[name] = {key: told[key] for key in ("input", "delaunay", "flips", "partition", "steiner", "mesh", "quality", "field_points")}
@@ -64,11 +64,15 @@ def columns(row):
     }
 
 
+OF_THE_SURFACE = ("faini", "arini", "Target")
 FIRST = ("faini", "arini", "faper", "arper", "npface", "nparet")
 SECOND = ("npste", "ne", "np", "Target", "Q", "cpu")
 
 
 def line(name, who, names, told):
+    """Of a run that did not end well the row says so."""
+    if all(told.get(k) is None for k in names if k not in OF_THE_SURFACE):
+        return f"| {name} | {who}: no mesh within {LIMIT} s |" + " |" * len(names)
     return f"| {name} | {who} | " + " | ".join(number(told.get(k)) for k in names) + " |"
 
 
