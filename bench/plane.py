@@ -20,6 +20,7 @@ POINTS, SEGMENTS = 1_000_000, 100_000
 HARD = {"holes that touch": touching, "straight sides of many corners": straight, "1e-300 to 1e300": scaled}
 EACH = 100  # hard polygons of a kind
 SLOW = 30_000  # corners beyond which only earcut takes part
+WARM, LONG = 40, 3  # turns of ours and of earcut, the median of which is of code that is compiled; of polygons beyond SLOW
 
 
 def holdfast(options, folder, path, *more):
@@ -138,12 +139,14 @@ def polygons_to_time():
 
 def measure_ears(options, folder, outlines):
     as_poly(folder / "ears.poly", outlines)
-    told = timed(options, folder / "ears.poly", options.runs, "ears")
+    few = sum(map(len, outlines)) <= SLOW
+    turns = WARM if few else LONG
+    told = timed(options, folder / "ears.poly", turns, "ears")
     seconds = {OURS: told and told["seconds"]}
     for package in PACKAGES:
-        few = sum(map(len, outlines)) <= SLOW or package == "earcut"
+        wanted = turns if package == "earcut" else options.runs
         try:
-            (found,) = package_on(options, folder, package, [outlines], options.runs if sum(map(len, outlines)) <= SLOW else 1) if few else ({},)
+            (found,) = package_on(options, folder, package, [outlines], wanted) if few or package == "earcut" else ({},)
         except subprocess.TimeoutExpired:
             found = {}
         seconds[package] = found["ms"] / 1000 if "ms" in found else None
@@ -161,10 +164,11 @@ def bench(options, folder, rows):
     names = (OURS, *PACKAGES)
     lines += ["Ears (`--method ears`), milliseconds of the processor; holdfast's time is that of the whole call, in which it validates the input "
               "and finds the regions. Packages other than earcut take part up to "
-              f"{SLOW:,} corners, beyond which there is one turn; - stands for a failure or none.", "", f"| polygon | {' | '.join(names)} |", "|---|" + "---:|" * len(names)]
+              f"{SLOW:,} corners; - stands for a failure or none. Medians in one process: of {WARM} turns for holdfast and earcut, "
+              f"so that node has compiled it, of {LONG} beyond {SLOW:,} corners, of {options.runs} for the others.", "", f"| polygon | {' | '.join(names)} |", "|---|" + "---:|" * len(names)]
     figures = {"cgal": ratio, "ears": [], "failed": {name: 0 for name in names}}
     for what, outlines in polygons_to_time():
-        seconds = rows.get(f"{what}, {options.runs} turns", measure_ears, options, folder, outlines)
+        seconds = rows.get(f"{what}, {WARM}, {LONG} and {options.runs} turns", measure_ears, options, folder, outlines)
         lines.append(f"| {what} | " + " | ".join("-" if seconds[n] is None else f"{1000 * seconds[n]:.2f}" for n in names) + " |")
         if seconds["earcut"] and seconds[OURS]:
             figures["ears"].append({"what": what, "ratio": seconds["earcut"] / seconds[OURS]})
