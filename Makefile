@@ -9,7 +9,7 @@ SEED ?= 1
 MINUTES ?= 5
 PYTHON ?= /usr/bin/python3
 
-.PHONY: help setup build demo test python wheel slurm python-corpus corpus random planes solvers partitioned scale scale-slurm scale-whole scale-interfaces fuzz bench field repair tables paper figures format viewer web-test web-bits pictures docs web tidy debug asan tsan libcxx install clean
+.PHONY: help setup build demo test python wheel slurm python-corpus corpus random planes solvers partitioned scale scale-slurm scale-whole scale-interfaces scaling fuzz bench field repair tables paper figures format viewer web-test web-bits pictures docs web tidy debug asan tsan libcxx install clean
 .DEFAULT_GOAL := help
 
 help:  ## this list
@@ -72,6 +72,9 @@ scale-whole: build  ## 10^6 and 10^7 tetrahedra in one process, beside Gmsh HXT 
 
 scale-interfaces: build  ## the demo part whole and in 2, 8 and 64 parts, their elements, to docs/scaling.md
 	@$(PYTHON) bench/interfaces.py $(RELEASE)/holdfast build/scale-interfaces --write docs/scaling.md $(ARGS)
+
+scaling: build  ## what threads gain by stage, and what more cores would, to docs/scaling.md
+	@$(PYTHON) bench/scaling.py $(RELEASE)/holdfast build/scaling --write docs/scaling.md $(ARGS)
 
 corpus: build  ## meshes and verifies every surface of CORPUS=dir (options: ARGS="--only 'gen_*'")
 	@python3 scripts/corpus.py --holdfast $(RELEASE)/holdfast --corpus "$(or $(CORPUS),../shared/corpus)" \
