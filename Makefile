@@ -9,7 +9,7 @@ SEED ?= 1
 MINUTES ?= 5
 PYTHON ?= /usr/bin/python3
 
-.PHONY: help setup build demo test python wheel slurm python-corpus corpus random planes solvers partitioned scale scale-slurm scale-whole scale-interfaces scaling fuzz bench field repair tables paper figures format viewer web-test web-bits pictures docs web tidy debug asan tsan libcxx install clean
+.PHONY: help setup build demo test python wheel slurm python-corpus corpus paste-corpus random planes solvers partitioned scale scale-slurm scale-whole scale-interfaces scaling fuzz bench field repair tables paper figures format viewer web-test web-bits pictures docs web tidy debug asan tsan libcxx install clean
 .DEFAULT_GOAL := help
 
 help:  ## this list
@@ -79,6 +79,9 @@ scaling: build  ## what threads gain by stage, and what more cores would, to doc
 corpus: build  ## meshes and verifies every surface of CORPUS=dir (options: ARGS="--only 'gen_*'")
 	@python3 scripts/corpus.py --holdfast $(RELEASE)/holdfast --corpus "$(or $(CORPUS),../shared/corpus)" \
 	  --jobs $(JOBS) $(ARGS)
+
+paste-corpus: build  ## pastes, verifies and fills every assembly (*_nofuse) of the unpacked corpus (ARGS="--most BYTES --only 'gmsh_*'")
+	@python3 scripts/corpus_paste.py --holdfast $(RELEASE)/holdfast $(ARGS)
 
 random: setup $(RELEASE)/build.ninja  ## meshes N random complexes of SEED and checks every mesh; goes on where it stopped
 	@cmake --build $(RELEASE) -j $(JOBS) --target random_complexes
