@@ -87,7 +87,8 @@ void part_in_middle(std::span<Centre> centres) {
 FacetSizes::FacetSizes(std::span<const Facet> facets, Wanted wanted, const Threads& threads)
     : wanted_(wanted) {
   for (const Facet& f : facets) {
-    const double need = tuning::kNeedOfFacet * longest_side(f.corners);
+    const bool is_asked = f.is_asked || wanted == Wanted::anywhere;
+    const double need = (is_asked ? tuning::kNeedWhereAsked : tuning::kNeedOfFacet) * longest_side(f.corners);
     if (need > tuning::kFarBeyond * f.wanted || wanted == Wanted::anywhere)
       facets_.push_back({f.corners, std::min(need, tuning::kMostNeed * f.wanted)});
   }

@@ -22,7 +22,8 @@ class FacetSizes {
  public:
   struct Facet {
     std::array<Point, 3> corners;
-    double wanted;  ///< the least size at its corners, of their own and of the user's limits
+    double wanted;          ///< the least size at its corners, of their own and of the user's limits
+    bool is_asked = false;  ///< whether that is the user's
   };
   /// Whether what is wanted is known at corners, or may be less at any place: then facets need no more than
   /// some times what is wanted at the place that is asked about.

@@ -93,6 +93,7 @@ FacetSizes SizeFunction::sizes_of_facets(const Complex& complex, const Threads& 
       f.corners[i] = times_power(complex.vertices[t[i]], scale_);
       f.wanted = std::min(f.wanted, of_vertex_[t[i]]);
     }
+    f.is_asked = f.wanted == least;
     facets.push_back(f);
     if (facets.size() % kFacetsALook == 0) threads.poll();
   }

@@ -4,7 +4,8 @@
 namespace holdfast::tuning {
 
 // What a facet needs for points next to it.
-inline constexpr double kNeedOfFacet = 0.3;  ///< of its longest side
+inline constexpr double kNeedOfFacet = 0.3;      ///< of its longest side, where the surface decides on sizes
+inline constexpr double kNeedWhereAsked = 0.15;  ///< where the user does: small boxes must get their number
 inline constexpr double kMostNeed = 2.5;    ///< times the size wanted: else large facets leave no room for it
 inline constexpr double kFarBeyond = 1.5;   ///< times the size wanted there: what needs less can bear it
 inline constexpr double kFallOfNeed = 1.2;  ///< a unit of length

@@ -121,6 +121,17 @@ TEST(FieldPoints, TrianglesMuchLargerThanTheSizeKeepPointsAway) {
       1.05, 0.15);
 }
 
+// A box a few sizes wide is near to its large triangles everywhere. Regular tetrahedra of edges H would be
+// 8.49 V / H^3.
+TEST(FieldPoints, SmallBoxesGetTheNumberThatTheSizeAsksFor) {
+  for (const double size : {0.05, 0.1, 0.15, 0.2}) {
+    const Result result = mesh_with(small::box(), {.size = size});
+    const double regular = 8.49 / (size * size * size);
+    EXPECT_GE(static_cast<double>(result.volume.tetrahedra.size()), regular / 2) << size;
+    EXPECT_LE(static_cast<double>(result.volume.tetrahedra.size()), regular) << size;
+  }
+}
+
 TEST(FieldPoints, SizesGrowInwardUnlessToldNotTo) {
   const Surface sphere = hard::icosphere(3);
   const double grown = mean_edge_in(mesh_with(sphere, {}).volume, near_the_centre);
