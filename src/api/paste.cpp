@@ -18,6 +18,7 @@
 #include "repair/deliver.h"
 #include "repair/fuse.h"
 #include "repair/glue.h"
+#include "repair/opened.h"
 #include "repair/rounding.h"
 #include "repair/settle.h"
 #include "repair/snap.h"
@@ -259,6 +260,15 @@ void run(const Surface& joined, const PasteOptions& options, PlainMonitor& monit
     if (!rounded.is_valid) {
       result.outcome = Outcome::not_representable;
       result.message = "no doubles were found for the new points with which the surface is valid";
+      return;
+    }
+    const Index opened =
+        has_tolerance ? repairing::opened_part(repairing::state_of(complex), rounded.state, part) : no_index;
+    if (opened != no_index) {
+      result.outcome = Outcome::not_representable;
+      result.message =
+          result.parts[opened].name + " was closed, and is not once it is brought together within " +
+          decimal(options.tolerance) + " of the others: the tolerance is too large for the parts' details";
       return;
     }
   } else {

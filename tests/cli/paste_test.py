@@ -323,6 +323,14 @@ class PasteTest(CliTest):
                 self.assertIn("half the extent of a.off, which is 1", ended.stderr)
         self.assertFalse((self.folder / "x.mesh").exists())
 
+    def test_a_tolerance_that_opens_a_part(self):
+        names = self.parts(box((0, 0, 0), (1, 1, 1), 1), box((1.1, -0.3, 0.2), (2.1, 0.7, 1.2), 1))
+        for ended in (self.run_program("mesh", *names, "-o", "x.mesh", "--paste=0.3", expect=7),
+                      self.run_program("paste", *names, "-o", "x.mesh", "--tolerance", "0.3", expect=7)):
+            self.assertIn("b.off was closed, and is not once it is brought together within 0.3 of the others: the tolerance is too "
+                          "large for the parts' details", ended.stderr)
+        self.assertFalse((self.folder / "x.mesh").exists())
+
     def test_corners_within_rounding_become_the_first(self):
         up = math.nextafter(1, 2)
         a, b = box((0, 0, 0), (1, 1, 1), 3), box((up, 0, 0), (2, 1, up), 4)

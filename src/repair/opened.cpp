@@ -1,0 +1,47 @@
+#include "repair/opened.h"
+
+#include <algorithm>
+#include <array>
+
+#include "numbers/sorted.h"
+#include "surface/complex.h"
+#include "surface/places.h"
+
+namespace holdfast::repairing {
+namespace {
+
+/// Parts with a facet that is the only one at one of its sides, in ascending order.
+std::vector<Index> open_parts(const State& state, std::span<const Index> part) {
+  const std::vector<Index> first = first_at_places(state.vertices);
+  std::vector<std::array<Index, 3>> sides;  // ends and facet
+  for (Index f = 0; f < state.facets.size(); ++f) {
+    const Triangle& t = state.facets[f];
+    if (std::any_of(t.begin(), t.end(), [&](Index v) { return v >= first.size(); })) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [a, b] = ascending(std::array{first[t[i]], first[t[(i + 1) % 3]]});
+      sides.push_back({a, b, f});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  const auto same = [&](std::size_t i, std::size_t j) {
+    return sides[i][0] == sides[j][0] && sides[i][1] == sides[j][1];
+  };
+  std::vector<Index> open;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if ((i > 0 && same(i, i - 1)) || (i + 1 < sides.size() && same(i, i + 1))) continue;
+    for (const Index parent : state.facet_parents.of(sides[i][2])) open.push_back(part[parent]);
+  }
+  sort_unique(open);
+  return open;
+}
+
+}  // namespace
+
+Index opened_part(const State& before, const State& after, std::span<const Index> part) {
+  const std::vector<Index> open = open_parts(before, part);
+  for (const Index p : open_parts(after, part))
+    if (!std::binary_search(open.begin(), open.end(), p)) return p;
+  return no_index;
+}
+
+}  // namespace holdfast::repairing
