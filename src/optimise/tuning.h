@@ -115,7 +115,7 @@ inline constexpr double kSineWorthAPoint = 0.42;   ///< 25 degrees; no element a
 inline constexpr double kLongestContracted = 1.6;  ///< sizes: longer edges would undo the sizes asked for
 // Work, in elements tried, some three microseconds each, as timed.
 inline constexpr double kLeastElements = 1500;     ///< so that small meshes are done thoroughly
-inline constexpr double kRefillWork = 300;         ///< 0.7 to 1.5 ms
+inline constexpr double kRefillWork = 600;         ///< 1 to 4 ms
 inline constexpr double kAddWork = 6;              ///< the shells of a point
 inline constexpr double kAddTetsAWork = 60;        ///< tetrahedra of its cavities
 inline constexpr double kContractTetsAWork = 100;  ///< tetrahedra looked at
