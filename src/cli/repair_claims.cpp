@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <concepts>
 #include <fstream>
 #include <iterator>
 #include <string_view>
 
 #include "holdfast/io.h"
+#include "number.h"
 #include "report.h"
 
 namespace holdfast::cli {
@@ -59,10 +61,17 @@ class ParentsFile {
     return word;
   }
 
+  static std::from_chars_result parse(const char* first, const char* last, double& value) {
+    return parse_double(first, last, value);
+  }
+  static std::from_chars_result parse(const char* first, const char* last, std::integral auto& value) {
+    return std::from_chars(first, last, value);
+  }
+
   template <class Number>
   [[nodiscard]] Number number(std::string_view word) const {
     Number value{};
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const auto [end, error] = parse(word.data(), word.data() + word.size(), value);
     if (error != std::errc() || end != word.data() + word.size() || word.empty())
       fail(fmt::format("'{}' is no number", word));
     return value;
