@@ -64,12 +64,7 @@ inline Surface schoenhardt(double radius, double height, double degrees) {
     s.vertices.push_back(
         {std::round(radius * std::cos(angle)), std::round(radius * std::sin(angle)), k < 3 ? 0 : height});
   }
-  s.facets = {{0, 2, 1}, {3, 4, 5}};
-  for (Index k = 0; k < 3; ++k) {
-    const Index j = (k + 1) % 3;
-    s.facets.push_back({k, j, 3 + j});
-    s.facets.push_back({k, 3 + j, 3 + k});
-  }
+  s.facets = small::prism_facets({0, 2, 1}, {3, 4, 5});
   return s;
 }
 

@@ -85,6 +85,17 @@ inline void add_segment(Surface& surface, const Point& a, const Point& b) {
   surface.segments.push_back({first, first + 1});
 }
 
+/// The ends of a prism 0 1 2, 3 4 5, and its three sides, two triangles each with the diagonals 0 4, 1 5,
+/// 2 3.
+inline std::vector<Triangle> prism_facets(const Triangle& bottom, const Triangle& top) {
+  std::vector<Triangle> facets{bottom, top};
+  for (Index k = 0; k < 3; ++k) {
+    const Index j = (k + 1) % 3;
+    facets.insert(facets.end(), {{k, j, 3 + j}, {k, 3 + j, 3 + k}});
+  }
+  return facets;
+}
+
 /// The polyhedron of docs/concepts.md, What cannot be had, moved by `offset`: valid, of volume 1.5, it needs
 /// a Steiner point (all of its diagonals lie outside) and holds no integer point.
 inline Surface without_integer_points(double offset) {
@@ -92,12 +103,7 @@ inline Surface without_integer_points(double offset) {
   surface.vertices = {{2, 1, 0}, {1, 1, 3}, {1, 2, 1}, {3, 2, 2}, {0, 0, 3}, {2, 1, 3}};
   for (Point& p : surface.vertices)
     for (double& x : p) x += offset;
-  surface.facets = {{0, 1, 2}, {3, 4, 5}};
-  for (Index k = 0; k < 3; ++k) {
-    const Index j = (k + 1) % 3;
-    surface.facets.push_back({k, j, 3 + j});
-    surface.facets.push_back({k, 3 + j, 3 + k});
-  }
+  surface.facets = prism_facets({0, 1, 2}, {3, 4, 5});
   return surface;
 }
 

@@ -97,15 +97,13 @@ void improve_flat(const Attempt& attempt, BoxMesh& box, Division& division, Repo
 void keep_what_pays(const Attempt& attempt, BoxMesh& box, Division& division, Field& field, Report& report) {
   constexpr std::array<double, 2> kNoProgress{kCommonWork, kCommonWork};
   WithoutField& without = *field.without;
-  const auto falls_behind = [&] {
-    return without.is_better_somewhere(figures_of(field.volume(), attempt.threads));
-  };
-  if (!falls_behind()) return;
-  if (without.is_within_reach(figures_of(field.volume(), attempt.threads))) {
+  const Figures now = figures_of(field.volume(), attempt.threads);
+  if (!without.is_better_somewhere(now)) return;
+  if (without.is_within_reach(now)) {
     note(
         improve_further_in_parts(field.volume(), Effort::good, kNoProgress, attempt.threads, attempt.monitor),
         report.field);
-    if (!falls_behind()) return;
+    if (!without.is_better_somewhere(figures_of(field.volume(), attempt.threads))) return;
   }
   without.take(box, division);
   field.set_sizes(attempt);

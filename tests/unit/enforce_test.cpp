@@ -8,6 +8,7 @@
 #include "hard_surfaces.h"
 #include "mesh/validate.h"
 #include "mesh_fixtures.h"
+#include "small_surfaces.h"
 #include "unit/enforced.h"
 
 namespace holdfast {
@@ -22,11 +23,7 @@ Surface schoenhardt(double twist, double height) {
     const double angle = 2 * hard::kPi / 3 * (k % 3) + (k < 3 ? 0 : twist);
     s.vertices.push_back({std::cos(angle), std::sin(angle), k < 3 ? 0 : height});
   }
-  s.facets = {{0, 2, 1}, {3, 4, 5}};
-  for (Index k = 0; k < 3; ++k) {
-    const Index j = (k + 1) % 3;
-    s.facets.insert(s.facets.end(), {{k, j, 3 + j}, {k, 3 + j, 3 + k}});
-  }
+  s.facets = small::prism_facets({0, 2, 1}, {3, 4, 5});
   return s;
 }
 

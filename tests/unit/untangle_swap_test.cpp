@@ -7,6 +7,7 @@
 #include <set>
 
 #include "holdfast/untangle.h"
+#include "small_surfaces.h"
 #include "unit/tangled.h"
 #include "untangle/connectivity.h"
 #include "untangle/refill_cavity.h"
@@ -51,12 +52,7 @@ TEST(Untangle, AddsAVertexWhereNothingElseHelps) {
   };
   Surface surface;
   surface.vertices = prism(0.5);
-  surface.facets = {{0, 2, 1}, {3, 4, 5}};
-  for (Index k = 0; k < 3; ++k) {
-    const Index j = (k + 1) % 3;
-    surface.facets.push_back({k, j, 3 + j});
-    surface.facets.push_back({k, 3 + j, 3 + k});
-  }
+  surface.facets = small::prism_facets({0, 2, 1}, {3, 4, 5});
   // A vertex in the middle joined to all facets, then displaced far outside.
   Volume volume;
   volume.vertices = surface.vertices;
