@@ -69,12 +69,14 @@ class PointTree {
   class Query {
    public:
     Query(const PointTree& tree, Vertex a, Vertex b, Vertex c);
-    /// Which boxes of a group may meet that of the triangle: a byte each, 1 for yes.
+    /// Which boxes of a group may meet that of the triangle: a byte each, the first one lowest, 1 for yes.
     [[nodiscard]] std::uint64_t near(const Group& group) const {
       using Bytes = std::int8_t __attribute__((vector_size(kFan)));
       const Lanes apart = (group.low[0] > high_[0]) | (low_[0] > group.high[0]) | (group.low[1] > high_[1]) |
                           (low_[1] > group.high[1]);
-      return ~std::bit_cast<std::uint64_t>(__builtin_convertvector(apart, Bytes)) & 0x0101010101010101u;
+      const std::uint64_t near =
+          ~std::bit_cast<std::uint64_t>(__builtin_convertvector(apart, Bytes)) & 0x0101010101010101u;
+      return std::endian::native == std::endian::little ? near : __builtin_bswap64(near);
     }
     /// False only where no point of the box lies in the triangle.
     [[nodiscard]] bool may_meet(const Box& box) const {
