@@ -47,7 +47,7 @@ Sizes polling(Sizes sizes, Monitor& monitor) {
 void optimise_worst_of(const Attempt& attempt, BoxMesh& box, Division& division, const std::vector<Tet>& tets,
                        PointsToRemove remove, Report& report) {
   const OptimiseStats stats =
-      optimise(box.mesh, tets, box.first_free, attempt.input.target(), attempt.monitor,
+      optimise(box.mesh, tets, box.first_free, attempt.input.target(), attempt.threads, attempt.monitor,
                {.add_points = attempt.options.add_points, .remove = remove, .seed = attempt.seed});
   report.optimised = {stats.exchanged + stats.unflattened + stats.reconnected, stats.relocated,
                       stats.inserted};

@@ -6,11 +6,11 @@
 namespace holdfast {
 
 OptimiseStats optimise(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, double target,
-                       Monitor& monitor, const OptimiseOptions& options) {
-  Search search(mesh, tets, first_free, target, options.seed, monitor);
+                       const Threads& threads, Monitor& monitor, const OptimiseOptions& options) {
+  Search search(mesh, tets, first_free, target, options.seed, threads, monitor);
   const std::size_t points_before = search.points().size();
   search.move_points();
-  search.push(tets);
+  search.push_all(tets);
   // Where points stand for a size, some more do not matter.
   const bool saves_points = options.add_points && options.remove == PointsToRemove::all;
   search.work_off(!options.add_points ? Ways::Points::none

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh/monitor.h"
+#include "mesh/parallel.h"
 #include "mesh/tet_mesh.h"
 
 namespace holdfast {
@@ -32,8 +33,9 @@ struct OptimiseOptions {
 /// Improves the worst of `tets`; others of their regions may go for them, and all vertices of these are
 /// explicit. Facets and segments stand, and so do the vertices below `first_free`; the Steiner points, the
 /// vertices from there on, lie on no constraint: they may move, and go where they are in the way. `target` is
-/// the worst Q that the facets ask for (mesh/quality.h).
+/// the worst Q that the facets ask for (mesh/quality.h). The threads compute Q of the whole; the search
+/// itself runs on the calling one.
 OptimiseStats optimise(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, double target,
-                       Monitor& monitor, const OptimiseOptions& options = {});
+                       const Threads& threads, Monitor& monitor, const OptimiseOptions& options = {});
 
 }  // namespace holdfast

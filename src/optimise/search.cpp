@@ -1,6 +1,7 @@
 #include "optimise/search.h"
 
 #include <algorithm>
+#include <mutex>
 
 #include "mesh/traverse.h"
 #include "numbers/sorted.h"
@@ -35,11 +36,12 @@ std::vector<bool> slots_of_others(const TetMesh& mesh, const std::vector<Tet>& t
 }  // namespace
 
 Search::Search(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, double target,
-               std::uint64_t seed, Monitor& monitor)
+               std::uint64_t seed, const Threads& threads, Monitor& monitor)
     : mesh_(mesh),
       good_(std::max(tuning::kGood, target)),
       bad_from_(holdfast::bad_from(target)),
       monitor_(monitor),
+      threads_(threads),
       is_others_(slots_of_others(mesh, tets)),
       qualities_(mesh),
       ways_(mesh, qualities_, first_free, bad_from_, seed),
@@ -52,6 +54,11 @@ void Search::move_points() {
   for (const Vertex p : points_)
     if (!budget_.is_half_spent() && ways_.move(p, budget_, changed)) ++stats_.relocated;
   stats_.changed += changed.size();
+}
+
+void Search::push_all(std::span<const Tet> tets) {
+  qualities_.compute(tets, threads_);
+  push(tets);
 }
 
 void Search::push(std::span<const Tet> tets) {
@@ -105,12 +112,16 @@ std::size_t Search::points_in_mesh() const {
 }
 
 Badness Search::badness() const {
-  Badness badness;
-  for (Tet t = 0; t < mesh_.slot_count(); ++t) {
-    if (mesh_.alive(t) && is_ours(t)) badness.add(quality_of(mesh_, mesh_.corners(t)), bad_from_);
-    monitor_.poll(Stage::optimise, budget_.fraction());
-  }
-  return badness;
+  Badness all;
+  std::mutex mutex;
+  parallel_ranges(threads_, mesh_.slot_count(), [&](std::size_t first, std::size_t last) {
+    Badness own;
+    for (auto t = static_cast<Tet>(first); t < last; ++t)
+      if (mesh_.alive(t) && is_ours(t)) own.add(quality_of(mesh_, mesh_.corners(t)), bad_from_);
+    const std::scoped_lock lock(mutex);
+    all = join(all, own);
+  });
+  return all;
 }
 
 Search::Trial::Trial(Search& search, Agenda agenda)

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mesh/monitor.h"
+#include "mesh/parallel.h"
 #include "mesh/undo_log.h"
 #include "optimise/agenda.h"
 #include "optimise/budget.h"
@@ -19,10 +20,12 @@ class Search {
   /// The tetrahedra are to be better; others of their regions may go for them. Vertices from `first_free` on
   /// may move and go.
   Search(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, double target, std::uint64_t seed,
-         Monitor& monitor);
+         const Threads& threads, Monitor& monitor);
 
   /// Moves the points that were there, to begin with.
   void move_points();
+  /// The same as `push`, for a whole mesh: their Q are computed by all threads.
+  void push_all(std::span<const Tet> tets);
   void push(std::span<const Tet> tets);
   /// Until the agenda is empty or the budget spent. While points come later, other ways are tried less hard.
   void work_off(Ways::Points points);
@@ -73,6 +76,7 @@ class Search {
   const double good_;
   const BadFrom bad_from_;
   Monitor& monitor_;
+  const Threads threads_;
   std::vector<bool> is_others_;  // by slot
   Qualities qualities_;
   Ways ways_;

@@ -313,7 +313,7 @@ TEST(Optimise, NoNullTetrahedraStayInAThinSlab) {
     EXPECT_GT(badness_of(mesh, solid(mesh), from).null, 10u);
     const Options options;
     Monitor monitor(options);
-    optimise(mesh, solid(mesh), static_cast<Vertex>(mesh.vertex_count()), 2, monitor);
+    optimise(mesh, solid(mesh), static_cast<Vertex>(mesh.vertex_count()), 2, 1, monitor);
     const Badness after = badness_of(mesh, solid(mesh), from);
     EXPECT_EQ(after.null, 0u) << gap;
     EXPECT_GT(after.hopeless, 10u) << gap;
@@ -333,7 +333,7 @@ TEST(Optimise, SliversGo) {
       const Badness before = badness_of(mesh, solid(mesh), {100});
       const Options options;
       Monitor monitor(options);
-      optimise(mesh, solid(mesh), static_cast<Vertex>(mesh.vertex_count()), 20, monitor);
+      optimise(mesh, solid(mesh), static_cast<Vertex>(mesh.vertex_count()), 20, 1, monitor);
       const Badness after = badness_of(mesh, solid(mesh), {100});
       EXPECT_FALSE(before < after);
       if (!constrained) {  // facets on both sides of a sliver keep it
@@ -355,7 +355,7 @@ TEST(Shake, IsNotAtTheCostOfOthers) {
     const Tet worst = worst_tet(mesh);
     const Options options;
     Monitor monitor(options);
-    Search search(mesh, {worst}, static_cast<Vertex>(mesh.vertex_count()), 2, seed, monitor);
+    Search search(mesh, {worst}, static_cast<Vertex>(mesh.vertex_count()), 2, seed, 1, monitor);
     search.agenda().give_up({before.worst, worst, mesh.corners(worst)});
     shake_the_worst(search);
     const Badness after = badness_of(mesh, solid(mesh), {100, 1000, 1e10});
