@@ -1,4 +1,4 @@
-"""Makes a mechanical part as a binary STL: a flanged bearing housing, triangulated as a CAD system exports it.
+"""Makes a mechanical part as a binary STL, or as OFF where the name ends in .off: a flanged bearing housing, triangulated as a CAD system exports it.
 
     make_part.py part.stl [--detail D]
 
@@ -107,9 +107,9 @@ def housing(detail=1):
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("stl")
+    parser.add_argument("file")
     parser.add_argument("--detail", type=int, default=1)
     arguments = parser.parse_args()
     surface = housing(arguments.detail)
-    surface.write_stl(arguments.stl)
-    print(f"{arguments.stl}: {len(surface.triangles)} triangles, {surface.volume6() / 6 / GRID**3 / 1000:.1f} cm3")
+    (surface.write_off if arguments.file.endswith(".off") else surface.write_stl)(arguments.file)
+    print(f"{arguments.file}: {len(surface.triangles)} triangles, {surface.volume6() / 6 / GRID**3 / 1000:.1f} cm3")
