@@ -31,6 +31,8 @@ struct Cures {
   std::vector<Cure> cures;  ///< in the order in which a repair does them
   /// Whether they were applied, all but `unite` together, and gave a valid surface without the gaps.
   bool tried = false;
+  /// Holes that no option closes: their fillings would meet the surface.
+  std::size_t left_open = 0;
 };
 
 /// What cures a surface with such a summary, the one that `summarise` gives of its defects.

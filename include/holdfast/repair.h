@@ -60,6 +60,14 @@ enum class DropReason {
 };
 [[nodiscard]] HOLDFAST_API const char* name(DropReason reason);
 
+/// Why a hole stays open that was to be closed.
+enum class OpenReason {
+  too_many_sides,  ///< more than were asked for
+  meets_surface,   ///< its filling would meet the surface, or another filling, other than in its border
+  no_filling,      ///< none was found: it is not plane and has more than 600 sides, or encloses no area
+};
+[[nodiscard]] HOLDFAST_API const char* name(OpenReason reason);
+
 struct RepairReport {
   std::size_t vertices = 0, facets = 0, segments = 0;  ///< of the input
   std::size_t pairs = 0;                               ///< of elements that did not fit together
@@ -99,6 +107,10 @@ struct RepairResult {
     std::vector<Index> facets;  ///< of the output
     bool is_plane;
   };
+  struct LeftOpen {
+    std::vector<Index> border;  ///< vertices of the output
+    OpenReason reason;
+  };
 
   /// done; not_representable (no rounding was found); or what Limits say.
   Outcome outcome = Outcome::done;
@@ -113,6 +125,7 @@ struct RepairResult {
   std::vector<Dropped> dropped;
   std::vector<Merged> merged;
   std::vector<Filled> filled;
+  std::vector<LeftOpen> left_open;  ///< other holes, where they were to be filled
   /// Markers of the output that stand for several of the input: facets that parents with different markers
   /// have in common carry the next free number.
   std::map<int, std::vector<int>> marker_sets;

@@ -102,8 +102,10 @@ class Proposal {
     options.fill_holes = sides;
     options.unite = options.exact = false;
     const RepairResult result = repair(valid, options);
-    if (result.outcome != Outcome::done || result.filled.empty()) return;
-    const std::size_t left = repairing::border_loops(result.surface.view()).size();
+    if (result.outcome != Outcome::done) return;
+    const std::size_t left = result.left_open.size();
+    cures_.left_open = left;
+    if (result.filled.empty()) return;
     cures_.cures.push_back({CureKind::fill_holes, loops.size() - left, 0, 0, sides, left});
   }
 

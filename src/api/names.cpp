@@ -119,6 +119,10 @@ constexpr std::array kDropReasons{Named{DropReason::not_finite, "not finite"},
                                   Named{DropReason::no_area, "no area"},
                                   Named{DropReason::vanished, "vanished"}, Named{DropReason::inner, "inner"}};
 
+constexpr std::array kOpenReasons{Named{OpenReason::too_many_sides, "too many sides"},
+                                  Named{OpenReason::meets_surface, "meets surface"},
+                                  Named{OpenReason::no_filling, "no filling"}};
+
 constexpr std::array kCureKinds{Named{CureKind::weld, "weld"}, Named{CureKind::cut, "cut"},
                                 Named{CureKind::fill_holes, "fill holes"}, Named{CureKind::unite, "unite"}};
 
@@ -196,6 +200,7 @@ HOLDFAST_NAMED(PlaneEars, kPlaneEars)
 HOLDFAST_NAMED(PlaneStage, kPlaneStages)
 HOLDFAST_NAMED(Rung, kRungs)
 HOLDFAST_NAMED(DropReason, kDropReasons)
+HOLDFAST_NAMED(OpenReason, kOpenReasons)
 HOLDFAST_NAMED(CureKind, kCureKinds)
 HOLDFAST_NAMED(RepairRuleKind, kRepairRuleKinds)
 HOLDFAST_NAMED(FitKind, kFitKinds)

@@ -57,8 +57,11 @@ void run(const Complex& complex, const RepairOptions& options, PlainMonitor& mon
   if (!rounded.is_valid)
     return end(result, Outcome::not_representable,
                "no doubles were found for the new points with which the surface is valid");
-  if (options.fill_holes)
-    result.filled = repairing::fill_holes(rounded.state, *options.fill_holes, step, threads);
+  if (options.fill_holes) {
+    auto [filled, left_open] = repairing::fill_holes(rounded.state, *options.fill_holes, step, threads);
+    result.filled = std::move(filled);
+    result.left_open = std::move(left_open);
+  }
   if (options.unite) {
     const std::size_t before = rounded.state.facets.size();
     if (const Outcome outcome = unite(complex, rounded.state, options, step); outcome != Outcome::done)

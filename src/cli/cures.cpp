@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "summary.h"
 
 namespace holdfast::cli {
@@ -47,15 +49,26 @@ std::string options_of(const Cures& cures) {
   return options;
 }
 
+/// Of holes that are all left: beside others the proposal for these says how many are.
+std::string left_open_text(const Cures& cures) {
+  const bool some_are_filled = std::any_of(cures.cures.begin(), cures.cures.end(), [](const Cure& cure) {
+    return cure.kind == CureKind::fill_holes;
+  });
+  if (cures.left_open == 0 || some_are_filled) return {};
+  return fmt::format("no cure: {}: `--fill-holes` leaves open what would meet the surface\n",
+                     counted(cures.left_open, "hole"));
+}
+
 }  // namespace
 
 std::string cures_text(const Cures& cures) {
-  if (cures.cures.empty()) return {};
+  if (cures.cures.empty()) return left_open_text(cures);
   std::string text;
   for (const Cure& cure : cures.cures) text += fmt::format("cure: {}\n", message_of(cure));
   const std::string options = options_of(cures);
-  return text + fmt::format("cure: `holdfast repair IN -o OUT{}{}` {}\n", options.empty() ? "" : " ", options,
-                            cures.tried ? "makes it valid" : "may make it valid (not tried: too much meets)");
+  return text + left_open_text(cures) +
+         fmt::format("cure: `holdfast repair IN -o OUT{}{}` {}\n", options.empty() ? "" : " ", options,
+                     cures.tried ? "makes it valid" : "may make it valid (not tried: too much meets)");
 }
 
 Json to_json(const Cures& cures) {
@@ -75,7 +88,10 @@ Json to_json(const Cures& cures) {
     }
     list.push_back(std::move(entry));
   }
-  return {{"tried", cures.tried}, {"options", options_of(cures)}, {"proposals", list}};
+  return {{"tried", cures.tried},
+          {"options", options_of(cures)},
+          {"proposals", list},
+          {"left_open", cures.left_open}};
 }
 
 }  // namespace holdfast::cli

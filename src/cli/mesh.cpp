@@ -43,6 +43,13 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// Facets whose borders do not meet enclose nothing, or lie outside.
+bool is_open(const std::vector<Defect>& defects) {
+  return std::any_of(defects.begin(), defects.end(), [](const Defect& defect) {
+    return defect.kind == DefectKind::encloses_nothing || defect.kind == DefectKind::outside_region;
+  });
+}
+
 /// The surface is not valid, or valid and nothing to fill.
 void print_refusal(const MeshArguments& arguments, const Surface& surface, const Result& result) {
   if (result.defects.empty()) {
@@ -55,6 +62,8 @@ void print_refusal(const MeshArguments& arguments, const Surface& surface, const
     // The defects say what and where themselves; what may be the reason is that the borders do not meet.
     say("holdfast: the surface is valid, but cannot be filled so\n{}",
         list_text(summary, result.defects, shown_in_passing, "--report FILE.json has them"));
+    if (is_open(result.defects))
+      say("`holdfast diagnose` lists the open borders and proposes what closes them\n");
     return;
   }
   say("holdfast: the surface is not valid: {}\n{}\n{}", result.message, summary_text(summary),

@@ -3,7 +3,10 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "holdfast/io.h"
+#include "holdfast/names.h"
 #include "summary.h"
 
 namespace holdfast::cli {
@@ -23,12 +26,41 @@ std::size_t isolated_vertices(const Surface& surface) {
   return count;
 }
 
+const char* explanation(OpenReason reason) {
+  switch (reason) {
+    case OpenReason::too_many_sides:
+      return "more sides than --fill-holes allows";
+    case OpenReason::meets_surface:
+      return "a filling would meet the surface";
+    case OpenReason::no_filling:
+      return "not plane, and more than 600 sides or no area";
+  }
+  return "";
+}
+
+/// How many holes stay open for each reason, with a vertex of the first.
+std::string open_holes_of(const RepairResult& result) {
+  std::string text;
+  for (const OpenReason reason : values_of<OpenReason>()) {
+    const auto is_so = [&](const RepairResult::LeftOpen& hole) { return hole.reason == reason; };
+    const auto count = std::count_if(result.left_open.begin(), result.left_open.end(), is_so);
+    if (count == 0) continue;
+    const auto first = std::find_if(result.left_open.begin(), result.left_open.end(), is_so);
+    const Point& p = result.surface.vertices[first->border.front()];
+    text +=
+        fmt::format("; {} open ({}{} sides from ({:.10g}, {:.10g}, {:.10g})): {}",
+                    count == 1 ? "1 hole stays" : fmt::format("{} holes stay", count),
+                    count == 1 ? "" : "one of ", first->border.size(), p[0], p[1], p[2], explanation(reason));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string summary_of(const RepairResult& result) {
   const RepairReport& report = result.report;
   if (report.rung == Rung::none && report.rounds == 0 && result.filled.empty() && result.dropped.empty())
-    return "the surface is valid as it is";
+    return "the surface is valid as it is" + open_holes_of(result);
   std::string text =
       fmt::format("{}, {} ({} cut or joined)", counted(result.surface.vertices.size(), "vertex", "vertices"),
                   counted(result.surface.facets.size(), "triangle"), report.changed_facets);
@@ -39,8 +71,10 @@ std::string summary_of(const RepairResult& result) {
   tell(result.dropped.size(), "dropped");
   tell(result.merged.size(), "merged");
   tell(result.filled.size(), "filled");
-  return text + fmt::format("; at most {:.3g} from the input, {:.2f} s", result.max_displacement,
-                            report.seconds.at("total"));
+  return text +
+         fmt::format("; at most {:.3g} from the input, {:.2f} s", result.max_displacement,
+                     report.seconds.at("total")) +
+         open_holes_of(result);
 }
 
 void write_parents(const std::filesystem::path& path, std::size_t input_facets, const RepairResult& result) {

@@ -116,9 +116,26 @@ std::vector<Triangle> fill_least(const State& state, const Loop& loop, const Ste
   return facets;
 }
 
+struct Filling {
+  Loop loop;
+  std::vector<Triangle> facets;
+  bool is_plane;
+};
+
+std::optional<Filling> filling_of(const State& state, const Loop& loop, const Step& step) {
+  const std::optional<unsigned> axis = plane_axis(state, loop);
+  std::vector<Triangle> facets;
+  if (axis)
+    facets = fill_plane(state, loop, *axis, step);
+  else if (loop.size() <= kMostSides)
+    facets = fill_least(state, loop, step);
+  if (facets.empty()) return std::nullopt;
+  return Filling{loop, std::move(facets), axis.has_value()};
+}
+
 /// Fillings that do not fit together with the surface, or with one before them.
 std::set<std::size_t> unfit(const State& state, std::size_t before,
-                            const std::vector<std::size_t>& filling_of, const Step& step,
+                            const std::vector<std::size_t>& filling_with, const Step& step,
                             const Threads& threads) {
   const Complex complex = state.complex();
   const Elements elements = elements_of(complex, threads);
@@ -126,14 +143,14 @@ std::set<std::size_t> unfit(const State& state, std::size_t before,
   for (const Element& e : elements.all) known.push_back(e.corners == 3 && e.id >= before ? 0 : 1);
   std::set<std::size_t> found;
   for (const Flaw& flaw : elements.flaws)
-    if (flaw.corners == 3 && flaw.id >= before) found.insert(filling_of[flaw.id - before]);
+    if (flaw.corners == 3 && flaw.id >= before) found.insert(filling_with[flaw.id - before]);
   const VisitPair visit = [&](Index i, Index j, const Contacts&) {
     std::size_t last = 0;
     bool any = false;
     for (const Index k : {i, j}) {
       const Element& e = elements.all[k];
       if (e.corners != 3 || e.id < before) continue;
-      last = std::max(last, filling_of[e.id - before]);
+      last = std::max(last, filling_with[e.id - before]);
       any = true;
     }
     if (any) found.insert(last);
@@ -145,43 +162,38 @@ std::set<std::size_t> unfit(const State& state, std::size_t before,
 
 }  // namespace
 
-std::vector<RepairResult::Filled> fill_holes(State& state, std::size_t most_sides, const Step& step,
-                                             const Threads& threads) {
-  struct Filling {
-    Loop loop;
-    std::vector<Triangle> facets;
-    bool is_plane;
-  };
+Holes fill_holes(State& state, std::size_t most_sides, const Step& step, const Threads& threads) {
+  Holes holes;
   std::vector<Filling> fillings;
   for (Loop& loop : border_loops(state.complex())) {
     step(0.9);
-    if (loop.size() > most_sides) continue;
-    const std::optional<unsigned> axis = plane_axis(state, loop);
-    std::vector<Triangle> facets;
-    if (axis)
-      facets = fill_plane(state, loop, *axis, step);
-    else if (loop.size() <= kMostSides)
-      facets = fill_least(state, loop, step);
-    if (!facets.empty()) fillings.push_back({std::move(loop), std::move(facets), axis.has_value()});
+    if (loop.size() > most_sides) {
+      holes.left_open.push_back({std::move(loop), OpenReason::too_many_sides});
+    } else if (std::optional<Filling> filling = filling_of(state, loop, step)) {
+      fillings.push_back(std::move(*filling));
+    } else {
+      holes.left_open.push_back({std::move(loop), OpenReason::no_filling});
+    }
   }
   const std::size_t before = state.facets.size();
   for (;;) {
-    std::vector<std::size_t> filling_of;
+    std::vector<std::size_t> filling_with;
     state.facets.resize(before);
     for (std::size_t k = 0; k < fillings.size(); ++k)
       for (const Triangle& t : fillings[k].facets) {
         state.facets.push_back(t);
-        filling_of.push_back(k);
+        filling_with.push_back(k);
       }
-    const std::set<std::size_t> bad = unfit(state, before, filling_of, step, threads);
+    const std::set<std::size_t> bad = unfit(state, before, filling_with, step, threads);
     if (bad.empty()) break;
-    for (auto k = bad.rbegin(); k != bad.rend(); ++k)
+    for (auto k = bad.rbegin(); k != bad.rend(); ++k) {
+      holes.left_open.push_back({std::move(fillings[*k].loop), OpenReason::meets_surface});
       fillings.erase(fillings.begin() + static_cast<std::ptrdiff_t>(*k));
+    }
   }
-  std::vector<RepairResult::Filled> filled;
   auto next = static_cast<Index>(before);
   for (const Filling& filling : fillings) {
-    RepairResult::Filled& entry = filled.emplace_back();
+    RepairResult::Filled& entry = holes.filled.emplace_back();
     entry.border = filling.loop;
     entry.is_plane = filling.is_plane;
     for (std::size_t k = 0; k < filling.facets.size(); ++k) {
@@ -189,7 +201,7 @@ std::vector<RepairResult::Filled> fill_holes(State& state, std::size_t most_side
       state.facet_parents.add({});
     }
   }
-  return filled;
+  return holes;
 }
 
 }  // namespace holdfast::repairing

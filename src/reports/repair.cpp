@@ -10,7 +10,8 @@ namespace holdfast::reports {
 Json to_json(const RepairResult& result, Json options) {
   const RepairReport& report = result.report;
   Json moved = Json::array(), dropped = Json::array(), merged = Json::array(), filled = Json::array(),
-       parents = Json::array(), segment_parents = Json::array(), sets = Json::object();
+       left_open = Json::array(), parents = Json::array(), segment_parents = Json::array(),
+       sets = Json::object();
   for (const auto& [vertex, distance] : result.moved)
     moved.push_back({{"vertex", vertex}, {"distance", distance}});
   for (const auto& [facet, reason] : result.dropped)
@@ -18,6 +19,8 @@ Json to_json(const RepairResult& result, Json options) {
   for (const auto& [facet, into] : result.merged) merged.push_back({{"facet", facet}, {"into", into}});
   for (const auto& [border, facets, is_plane] : result.filled)
     filled.push_back({{"border", border}, {"facets", facets}, {"plane", is_plane}});
+  for (const auto& [border, reason] : result.left_open)
+    left_open.push_back({{"border", border}, {"reason", name(reason)}});
   const auto list = [](Json& to, const IndexLists& lists) {
     for (std::size_t i = 0; i < lists.size(); ++i) {
       Json entry = Json::array();
@@ -45,6 +48,7 @@ Json to_json(const RepairResult& result, Json options) {
       {"dropped", dropped},
       {"merged", merged},
       {"filled", filled},
+      {"left_open", left_open},
       {"marker_sets", sets},
       {"parents", parents},
       {"segment_parents", segment_parents},

@@ -123,6 +123,24 @@ class WhatIsMade(Repaired):
         self.repair("in.off", options=["--fill-holes"])
         self.check("in.off")
 
+    def test_holes_that_stay_open_are_told_with_the_reason(self):
+        # A spike stands in a cube without its top, and out of it.
+        points = cube() + [(0.4, 0.4, 0.5), (0.6, 0.4, 0.5), (0.5, 0.6, 0.5), (0.5, 0.5, 1.5)]
+        spike = [(8, 10, 9), (8, 9, 11), (9, 10, 11), (10, 8, 11)]
+        top = [f for f in CUBE_FACETS if all(points[v][2] == 1 for v in f)]
+        self.assertEqual(len(top), 2)
+        self.write("in.off", off(points, [f for f in CUBE_FACETS if f not in top] + spike))
+        for most, reason, words in (("3", "too many sides", "more sides than"), ("4", "meets surface", "would meet the surface")):
+            said = self.run_program("repair", "in.off", "-o", "out.off", "--report", "r.json", "--fill-holes", most).stderr
+            self.assertIn("1 hole stays open (4 sides", said)
+            self.assertIn(words, said)
+            report = self.report()
+            self.assertEqual((report["filled"], [hole["reason"] for hole in report["left_open"]]), ([], [reason]))
+            self.assertEqual({points[v][2] for v in report["left_open"][0]["border"]}, {1.0})
+        self.assertIn("no cure: 1 hole", self.run_program("diagnose", "in.off").stdout)
+        said = self.run_program("mesh", "in.off", "-o", "v.vtu", expect=4).stderr
+        self.assertIn("diagnose", said)
+
     def test_several_inputs_and_markers(self):
         points, facets = two_cubes()
         self.write("a.mesh", medit(points[:8], facets[:12], range(1, 13)))
@@ -333,7 +351,7 @@ class Proposals(Repaired):
                               text=True, timeout=240, check=False)
 
     def test_none_for_a_valid_surface(self):
-        self.assertEqual(self.program_says_of("cube.off")["cures"], {"tried": True, "options": "", "proposals": []})
+        self.assertEqual(self.program_says_of("cube.off")["cures"], {"tried": True, "options": "", "proposals": [], "left_open": 0})
 
     def test_vertices_to_weld(self):
         points = cube() + [(x + 2.3e-9, y, z) for x, y, z in cube((1, 0, 0))]

@@ -242,6 +242,7 @@ TEST(Names, OfEveryEnumerationAndBack) {
   expect_names<PlaneStage>(3);
   expect_names<Rung>(5);
   expect_names<DropReason>(4);
+  expect_names<OpenReason>(3);
   expect_names<CureKind>(4);
   expect_names<RepairRuleKind>(12);
   expect_names<FitKind>(5);
