@@ -1,9 +1,9 @@
 """Compiles and runs the programs in the documents, against a shared library.
 
-    documents.py SOURCE CXX CC LIBRARY FOLDER
+    documents.py SOURCE CXX CC LIBRARY FOLDER [FLAG...]
 
 Blocks of ```cpp and ```c that have a main are programs; each is given the names of a surface and of a volume to write,
-and must write it.
+and must write it. Flags are the compilers': a library with sanitizers needs programs with the same.
 """
 import os
 import re
@@ -36,7 +36,7 @@ CUBE = """OFF
 """
 
 
-def main(source, cxx, cc, library, folder):
+def main(source, cxx, cc, library, folder, *flags):
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     surface = folder / "cube.off"
@@ -56,8 +56,8 @@ def main(source, cxx, cc, library, folder):
         program, volume = folder / f"program{number}", folder / f"cube{number}.vtu"
         volume.unlink(missing_ok=True)
         compiler = [cxx, "-std=c++20"] if kind == "cpp" else [cc, "-std=c99"]
-        subprocess.run([*compiler, "-Wall", "-Wextra", "-Wpedantic", "-Werror", f"-I{source}/include", file, library,
-                        "-o", program], check=True)
+        subprocess.run([*compiler, "-Wall", "-Wextra", "-Wpedantic", "-Werror", *flags, f"-I{source}/include",
+                        file, library, "-o", program], check=True)
         subprocess.run([program, surface, volume], check=True, env={**os.environ, "LD_LIBRARY_PATH": str(libraries)})
         if not volume.stat().st_size:
             sys.exit(f"{file} has written nothing")
