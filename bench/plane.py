@@ -162,8 +162,8 @@ def bench(options, folder, rows):
              *(f"| {title} | {name} | {told['seconds']:.3f} | {told['triangles']:,} | {told['seconds'] / row[OURS]['seconds']:.2f} |"
                for name, told in row.items()), ""]
     names = (OURS, *PACKAGES)
-    lines += ["Ears (`--method ears`), milliseconds of the processor; holdfast's time is that of the whole call, in which it validates the input "
-              "and finds the regions. Packages other than earcut take part up to "
+    lines += ["Ears (`--method ears`), milliseconds of the processor; holdfast's time is that of the whole call: it copies the input, validates it, "
+              "and gives regions and the least angle, too; a package gets its data as it wants them and gives triangles. Packages other than earcut take part up to "
               f"{SLOW:,} corners; - stands for a failure or none. Medians in one process: of {WARM} turns for holdfast and earcut, "
               f"so that node has compiled it, of {LONG} beyond {SLOW:,} corners, of {options.runs} for the others.", "", f"| polygon | {' | '.join(names)} |", "|---|" + "---:|" * len(names)]
     figures = {"cgal": ratio, "ears": [], "failed": {name: 0 for name in names}}

@@ -4,7 +4,8 @@
 // c behind it is an ear if abc is positive and holds no vertex of the walk but a, b and c, on its sides
 // neither: no edge can then enter it, as an edge that enters by ac would have to leave by ac. It is enough to
 // ask corners that are reflex or straight. For of the vertices in abc, the one furthest from ac has nothing
-// of the walk beyond it, and so its corner on that side is of 180 degrees or more.
+// of the walk beyond it, and so its corner on that side is of 180 degrees or more. Vertices are numbered from
+// left to right, so that those between the ends of a triangle are found in a set of numbers.
 #include "plane/ears.h"
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "plane/number_set.h"
 #include "plane/point_tree.h"
 
 namespace holdfast::plane {
@@ -37,27 +39,52 @@ class Beyond {
 
 class Clipper {
  public:
-  Clipper(const Points& points, std::span<const Vertex> walk, std::span<const std::uint32_t> sides,
-          PlaneEars choice, EarMesh& ears)
-      : points_(points), sides_(sides), choice_(choice), ears_(ears) {
+  Clipper(const Points& points, PlaneEars choice, EarMesh& ears)
+      : points_(points), choice_(choice), ears_(ears), reflex_(points.size()), first_at_(points.size()) {}
+
+  void cut(std::span<const Vertex> walk, std::span<const std::uint32_t> sides) {
+    sides_ = sides;
+    take_in(walk);
+    cut_all();
+  }
+
+ private:
+  struct Place {
+    Vertex v;
+    Corner before, behind;
+    Beyond beyond;  // of the side to the corner behind
+    bool reflex = false, removed = false, queued = false;
+    std::uint32_t waiting = kNone;  // first of a list of corners of which this one is the witness
+    Corner witness = kNone;         // in the triangle that the corner made when it was last looked for
+    std::uint32_t item = kNone;     // in the tree, of the first reflex corner at a vertex
+    Corner twin = kNone;            // another corner at the vertex that is or was reflex
+  };
+  struct Waiting {
+    Corner corner;
+    std::uint32_t next;
+  };
+
+  void take_in(std::span<const Vertex> walk) {
     const auto n = static_cast<Corner>(walk.size());
+    corners_.clear();
+    candidates_.clear();
+    queue_.clear();
+    late_queue_.clear();
+    next_ = next_late_ = 0;
+    waiting_.clear();
+    tree_.reset();
     corners_.reserve(n);
     for (Corner i = 0; i < n; ++i)
       corners_.push_back({walk[i], i > 0 ? i - 1 : n - 1, i + 1 < n ? i + 1 : 0, Beyond::walk(i)});
-    for (Corner i = 0; i < n; ++i) corners_[i].reflex = turn(i) <= 0;
-    plant_tree();
-    // The last is looked at first, so that ears come in the order of the walk.
-    for (Corner i = n; i-- > 0;) look_at(i);
+    for (Corner i = 0; i < n; ++i)
+      if (turn(i) <= 0) mark_reflex(i);
+    for (Corner i = 0; i < n; ++i) look_at(i);
   }
 
-  void run() {
+  void cut_all() {
     const std::size_t before = ears_.mesh.size(), corners = corners_.size();
-    while (!candidates_.empty()) {
-      const Candidate candidate = take();
-      const Corner b = candidate.corner;
+    for (Corner b = take(); b != kNone; b = take()) {
       if (corners_[b].removed || corners_[b].reflex) continue;
-      // With other neighbours by now, it comes again.
-      if (choice_ == PlaneEars::best && candidate.quality != quality(b)) continue;
       const Corner a = corners_[b].before, c = corners_[b].behind;
       if (a == corners_[c].behind) {  // the last triangle of a part
         meet(code(emit(a, b, c), 1), corners_[c].beyond);
@@ -66,7 +93,12 @@ class Clipper {
       }
       // With other neighbours, too, it waits for that one.
       if (const Corner witness = corners_[b].witness; witness != kNone && blocks(witness, a, b, c)) continue;
-      const Corner witness = blocker(a, b, c);
+      const std::optional<Corner> found = blocker(a, b, c);
+      if (!found) {
+        postpone(b);
+        continue;
+      }
+      const Corner witness = *found;
       if (witness == kNone) {
         cut(a, b, c);
       } else if (choice_ == PlaneEars::join) {
@@ -81,22 +113,6 @@ class Clipper {
     if (ears_.mesh.size() - before != corners - 2)
       throw std::logic_error("holdfast: a polygon is left without an ear");
   }
-
- private:
-  struct Place {
-    Vertex v;
-    Corner before, behind;
-    Beyond beyond;  // of the side to the corner behind
-    bool reflex = false, removed = false;
-    std::uint32_t waiting = kNone;  // first of a list of corners of which this one is the witness
-    Corner witness = kNone;         // in the triangle that the corner made when it was last looked for
-    std::uint32_t item = kNone;     // in the tree, if it was reflex in the beginning
-    Corner twin = kNone;            // another corner at the vertex, by the second construction
-  };
-  struct Waiting {
-    Corner corner;
-    std::uint32_t next;
-  };
 
   [[nodiscard]] int turn(Corner i) const {
     const Place& p = corners_[i];
@@ -130,16 +146,41 @@ class Clipper {
   };
 
   void look_at(Corner i) {
-    if (corners_[i].reflex || corners_[i].removed) return;
-    candidates_.push_back({choice_ == PlaneEars::best ? quality(i) : 0, i});
-    if (choice_ == PlaneEars::best) std::push_heap(candidates_.begin(), candidates_.end());
+    Place& p = corners_[i];
+    if (p.reflex || p.removed) return;
+    if (choice_ == PlaneEars::best) {
+      candidates_.push_back({quality(i), i});
+      std::push_heap(candidates_.begin(), candidates_.end());
+    } else if (!p.queued) {
+      p.queued = true;
+      queue_.push_back(i);
+    }
   }
 
-  Candidate take() {
-    if (choice_ == PlaneEars::best) std::pop_heap(candidates_.begin(), candidates_.end());
-    const Candidate candidate = candidates_.back();
-    candidates_.pop_back();
-    return candidate;
+  /// The best, or the one that has waited longest: those with new neighbours come behind the others, so that
+  /// corners are cut off all round, and triangles stay small as long as they can.
+  Corner take() {
+    if (choice_ != PlaneEars::best) {
+      may_wait_ = next_ < queue_.size();
+      if (!may_wait_ && next_late_ == late_queue_.size()) return kNone;
+      const Corner b = may_wait_ ? queue_[next_++] : late_queue_[next_late_++];
+      corners_[b].queued = false;
+      return b;
+    }
+    while (!candidates_.empty()) {
+      std::pop_heap(candidates_.begin(), candidates_.end());
+      const Candidate candidate = candidates_.back();
+      candidates_.pop_back();
+      // With other neighbours by now, it comes again.
+      if (candidate.quality == quality(candidate.corner)) return candidate.corner;
+    }
+    return kNone;
+  }
+
+  /// Until the first queue is empty.
+  void postpone(Corner b) {
+    corners_[b].queued = true;
+    late_queue_.push_back(b);
   }
 
   void wake(Corner witness) {
@@ -150,20 +191,35 @@ class Clipper {
 
   // --- Corners in a triangle ------------------------------------------------------------------------------
 
-  void plant_tree() {
-    std::vector<Vertex> reflex;
-    for (Corner i = 0; i < corners_.size(); ++i) {
-      if (!corners_[i].reflex) continue;
-      corners_[i].item = static_cast<std::uint32_t>(reflex.size());
-      corner_of_.push_back(i);
-      reflex.push_back(corners_[i].v);
-    }
-    tree_.emplace(points_, reflex);
+  [[nodiscard]] bool stands_reflex(Corner i) const { return corners_[i].reflex && !corners_[i].removed; }
+
+  void mark_reflex(Corner i) {
+    const Vertex v = corners_[i].v;
+    corners_[i].reflex = true;
+    if (reflex_.contains(v)) corners_[i].twin = first_at_[v];
+    first_at_[v] = i;
+    reflex_.insert(v);
   }
 
-  /// Of a corner that is removed, or not reflex any more. Twins stand for each other.
+  /// Of a reflex corner that is removed, or is not reflex any more: the vertex may have another one.
   void take_out(Corner i) {
-    if (corners_[i].item != kNone && corners_[i].twin == kNone) tree_->erase(corners_[i].item);
+    const Vertex v = corners_[i].v;
+    for (Corner j = first_at_[v]; j != kNone; j = corners_[j].twin)
+      if (stands_reflex(j)) return;
+    reflex_.erase(v);
+    if (tree_) tree_->erase(corners_[first_at_[v]].item);
+  }
+
+  [[nodiscard]] const PointTree& tree() {
+    if (!tree_) {
+      planted_.clear();
+      for (std::size_t v = reflex_.from(0); v != NumberSet::none; v = reflex_.from(v + 1)) {
+        corners_[first_at_[v]].item = static_cast<std::uint32_t>(planted_.size());
+        planted_.push_back(static_cast<Vertex>(v));
+      }
+      tree_.emplace(points_, planted_);
+    }
+    return *tree_;
   }
 
   /// Whether the vertex lies in the triangle, but not at a vertex of it.
@@ -172,28 +228,48 @@ class Clipper {
            points_.orient(b, c, v) >= 0;
   }
   [[nodiscard]] bool blocks(Corner i, Corner a, Corner b, Corner c) const {
-    const Place& p = corners_[i];
-    return p.reflex && !p.removed && is_inside(p.v, corners_[a].v, corners_[b].v, corners_[c].v);
+    return stands_reflex(i) && is_inside(corners_[i].v, corners_[a].v, corners_[b].v, corners_[c].v);
   }
 
-  /// Calls `visit` for reflex corners in the triangle, but those at its own vertices, until it returns false.
+  /// Calls `visit` for reflex corners at a vertex, if it lies in the triangle, until it returns false.
   template <typename Visit>
-  void each_inside(Corner a, Corner b, Corner c, Visit&& visit) const {
-    const Vertex va = corners_[a].v, vb = corners_[b].v, vc = corners_[c].v;
-    tree_->each_near(va, vb, vc, [&](std::uint32_t item) {
-      if (!is_inside(corners_[corner_of_[item]].v, va, vb, vc)) return true;
-      for (Corner i = corner_of_[item]; i != kNone; i = corners_[i].twin)
-        if (corners_[i].reflex && !corners_[i].removed && !visit(i)) return false;
-      return true;
-    });
+  bool go_on_at(Vertex v, Vertex a, Vertex b, Vertex c, Visit&& visit) const {
+    if (!is_inside(v, a, b, c)) return true;
+    for (Corner i = first_at_[v]; i != kNone; i = corners_[i].twin)
+      if (stands_reflex(i) && !visit(i)) return false;
+    return true;
   }
 
-  [[nodiscard]] Corner blocker(Corner a, Corner b, Corner c) const {
+  /// For those in a triangle, but not at its own vertices.
+  template <typename Visit>
+  void each_inside(Corner a, Corner b, Corner c, Visit&& visit) {
+    const Vertex va = corners_[a].v, vb = corners_[b].v, vc = corners_[c].v;
+    tree().each_near(va, vb, vc,
+                     [&](std::uint32_t item) { return go_on_at(planted_[item], va, vb, vc, visit); });
+  }
+
+  /// A reflex corner in the triangle, or kNone. The first few vertices from its left end on are looked at,
+  /// which are mostly all that there are up to its right end; else the tree tells. Nothing is returned for a
+  /// wide triangle that may wait: when the others are cut off, little may be left in its way.
+  [[nodiscard]] std::optional<Corner> blocker(Corner a, Corner b, Corner c) {
+    constexpr int kFew = 2, kWide = 4;  // wide: from one end to the other a quarter of all vertices
+    const Vertex va = corners_[a].v, vb = corners_[b].v, vc = corners_[c].v;
+    const Vertex left = std::min(std::min(va, vb), vc), right = std::max(std::max(va, vb), vc);
+    const double ya = points_[va][1], yb = points_[vb][1], yc = points_[vc][1];
+    const double low = std::min(std::min(ya, yb), yc), high = std::max(std::max(ya, yb), yc);
     Corner found = kNone;
-    each_inside(a, b, c, [&](Corner i) {
+    const auto take_first = [&](Corner i) {
       found = i;
       return false;
-    });
+    };
+    std::size_t i = reflex_.from(left + std::size_t{1});
+    for (int few = kFew; i < right && few-- > 0; i = reflex_.from(i + 1)) {
+      const auto v = static_cast<Vertex>(i);
+      if (points_[v][1] >= low && points_[v][1] <= high && !go_on_at(v, va, vb, vc, take_first)) return found;
+    }
+    if (i >= right) return kNone;
+    if (may_wait_ && right - left > points_.size() / kWide) return std::nullopt;
+    each_inside(a, b, c, take_first);
     return found;
   }
 
@@ -225,7 +301,7 @@ class Clipper {
 
   void remove(Corner i) {
     corners_[i].removed = true;
-    take_out(i);
+    if (corners_[i].reflex) take_out(i);
   }
 
   void connect(Corner a, Corner b, EdgeCode beyond) {
@@ -272,8 +348,8 @@ class Clipper {
     Place place = corners_[r];
     place.before = a;
     place.waiting = kNone;
-    place.item = kNone;
-    corners_.push_back(place);
+    place.queued = false;
+    corners_.push_back(place);  // which is a twin of r's twin, too
     corners_[r].twin = other;
     // Where r is before a, this part has two corners and is an edge.
     corners_[corners_[other].behind].before = other;
@@ -311,23 +387,36 @@ class Clipper {
   }
 
   const Points& points_;
-  std::span<const std::uint32_t> sides_;  // of the graph, along the walk
   PlaneEars choice_;
   EarMesh& ears_;
+  NumberSet reflex_;              // vertices with a reflex corner
+  std::vector<Corner> first_at_;  // of these, the first one that is or was reflex
+  // Of the face at hand:
+  std::span<const std::uint32_t> sides_;  // of the graph, along the walk
   std::vector<Place> corners_;
-  std::vector<Candidate> candidates_;
+  std::vector<Candidate> candidates_;       // a heap, for the best
+  std::vector<Corner> queue_, late_queue_;  // for the others
+  std::size_t next_ = 0, next_late_ = 0;    // in the queues
+  bool may_wait_ = false;                   // the corner at hand, until the first queue is empty
   std::vector<Waiting> waiting_;
-  std::vector<Corner> corner_of_;  // of the tree's items
-  std::optional<PointTree> tree_;  // of reflex corners
+  std::vector<Vertex> planted_;    // in the tree
+  std::optional<PointTree> tree_;  // of reflex corners, once it is asked for
 };
 
 }  // namespace
 
-void cut_ears(const Points& points, const Walks& faces, std::size_t f, PlaneEars choice, EarMesh& ears) {
-  const std::size_t first = faces.first[f], count = faces.first[f + 1] - first;
-  Clipper(points, std::span(faces.vertices).subspan(first, count),
-          std::span(faces.sides).subspan(first, count), choice, ears)
-      .run();
+EarMesh cut_ears(const Points& points, const Walks& faces, std::size_t edges, PlaneEars choice,
+                 const std::function<bool(std::size_t)>& wanted) {
+  EarMesh ears(edges);
+  ears.mesh.all().reserve(faces.vertices.size() - 2 * faces.count());
+  Clipper clipper(points, choice, ears);
+  for (std::size_t f = 0; f < faces.count(); ++f) {
+    if (!wanted(f)) continue;
+    const std::size_t first = faces.first[f], count = faces.first[f + 1] - first;
+    clipper.cut(std::span(faces.vertices).subspan(first, count),
+                std::span(faces.sides).subspan(first, count));
+  }
+  return ears;
 }
 
 Triangles join_faces(EarMesh&& ears, std::size_t first_segment) {

@@ -1,6 +1,7 @@
 // Triangles of polygons by cutting off their corners (paper §2.1).
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "holdfast/plane.h"
@@ -22,8 +23,10 @@ struct EarMesh {
   EarCounts counts;
 };
 
-/// Triangulates face `f`, whose walk may pass vertices and edges twice.
-void cut_ears(const Points& points, const Walks& faces, std::size_t f, PlaneEars choice, EarMesh& ears);
+/// Triangulates the faces of a graph of so many edges for which `wanted` returns true. Their walks may pass
+/// vertices and edges twice. Points stand from left to right (sorted.h).
+[[nodiscard]] EarMesh cut_ears(const Points& points, const Walks& faces, std::size_t edges, PlaneEars choice,
+                               const std::function<bool(std::size_t)>& wanted);
 
 /// Joins the faces along the graph's edges, of which those from `first_segment` on become constraints.
 [[nodiscard]] Triangles join_faces(EarMesh&& ears, std::size_t first_segment);

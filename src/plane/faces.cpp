@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 namespace holdfast::plane {
 namespace {
@@ -11,35 +12,34 @@ namespace {
 class Graph {
  public:
   Graph(const Points& points, const std::vector<Ends>& edges) : points_(points), edges_(edges) {
-    first_.assign(points.size() + 1, 0);
+    std::vector<std::uint32_t> first(points.size() + 1, 0);
     for (const Ends& e : edges)
-      for (const Vertex v : e) ++first_[v + std::size_t{1}];
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    around_.resize(2 * edges.size());
-    place_.resize(2 * edges.size());
-    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    for (std::uint32_t h = 0; h < around_.size(); ++h) around_[next[from(h)]++] = h;
-    for (Vertex v = 0; v < points.size(); ++v) sort_around(v);
-    for (std::uint32_t i = 0; i < around_.size(); ++i) place_[around_[i]] = i;
+      for (const Vertex v : e) ++first[v];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<std::uint32_t> around(2 * edges.size());
+    for (std::uint32_t h = 0; h < around.size(); ++h) around[--first[from(h)]] = h;
+    next_.resize(around.size());
+    for (Vertex v = 0; v < points.size(); ++v)
+      link_around(v, std::span(around).subspan(first[v], first[v + std::size_t{1}] - first[v]));
   }
 
-  [[nodiscard]] std::size_t size() const { return around_.size(); }
+  [[nodiscard]] std::size_t size() const { return next_.size(); }
   [[nodiscard]] Vertex from(std::uint32_t h) const { return edges_[h / 2][h % 2]; }
   [[nodiscard]] Vertex to(std::uint32_t h) const { return edges_[h / 2][1 - h % 2]; }
   /// The half-edge behind h on the border of the face on its left: clockwise from where h came from.
-  [[nodiscard]] std::uint32_t next(std::uint32_t h) const {
-    const std::uint32_t back = place_[h ^ 1];
-    const Vertex v = to(h);
-    return back == first_[v] ? around_[first_[v + std::size_t{1}] - 1] : around_[back - 1];
-  }
+  [[nodiscard]] std::uint32_t next(std::uint32_t h) const { return next_[h]; }
 
  private:
+  void link_around(Vertex v, std::span<std::uint32_t> around) {
+    if (around.size() > 2) sort_around(v, around);  // any order of two is cyclic
+    for (std::size_t i = 0; i < around.size(); ++i)
+      next_[around[i + 1 < around.size() ? i + 1 : 0] ^ 1] = around[i];
+  }
+
   // Counterclockwise, from straight down: first what lies to the right in the order of the sweep.
-  void sort_around(Vertex v) {
-    const auto begin = around_.begin() + first_[v], end = around_.begin() + first_[v + std::size_t{1}];
-    if (end - begin < 3) return;  // any order of two is cyclic
-    std::sort(begin, end, [&](std::uint32_t g, std::uint32_t h) {
-      const bool g_left = points_.compare(to(g), v) < 0, h_left = points_.compare(to(h), v) < 0;
+  void sort_around(Vertex v, std::span<std::uint32_t> around) const {
+    std::sort(around.begin(), around.end(), [&](std::uint32_t g, std::uint32_t h) {
+      const bool g_left = to(g) < v, h_left = to(h) < v;
       if (g_left != h_left) return h_left;
       return points_.orient(v, to(g), to(h)) > 0;
     });
@@ -47,18 +47,16 @@ class Graph {
 
   const Points& points_;
   const std::vector<Ends>& edges_;
-  std::vector<std::uint32_t> first_, around_, place_;
+  std::vector<std::uint32_t> next_;
 };
 
 /// The outer face is that of a walk whose leftmost vertex has the side away from the others in the face.
 bool is_bounded(const Points& points, const std::vector<Vertex>& walk, std::size_t first) {
   const std::size_t n = walk.size() - first;
-  Vertex least = walk[first];
-  for (std::size_t i = first; i < walk.size(); ++i)
-    if (points.compare(walk[i], least) < 0) least = walk[i];
+  const Vertex least = *std::min_element(walk.begin() + static_cast<std::ptrdiff_t>(first), walk.end());
   for (std::size_t i = 0; i < n; ++i)
-    if (walk[first + i] == least &&
-        points.orient(walk[first + (i + n - 1) % n], least, walk[first + (i + 1) % n]) <= 0)
+    if (walk[first + i] == least && points.orient(walk[first + (i > 0 ? i - 1 : n - 1)], least,
+                                                  walk[first + (i + 1 < n ? i + 1 : 0)]) <= 0)
       return false;
   return true;
 }

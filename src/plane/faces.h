@@ -16,7 +16,8 @@ struct Walks {
   [[nodiscard]] std::size_t count() const { return first.size() - 1; }
 };
 
-/// The bounded faces between edges that meet in common ends alone; within each all hangs together.
+/// The bounded faces between edges that meet in common ends alone; within each all hangs together. Points
+/// stand from left to right (sorted.h).
 [[nodiscard]] Walks find_faces(const Points& points, const std::vector<Ends>& edges);
 
 }  // namespace holdfast::plane

@@ -24,14 +24,22 @@ class Grid {
       const double extent = most / 2 - least / 2;
       scale_[k] = extent > 0x1p-900 ? (n - 0.5) / extent : 0;
     }
+    // Of points on one line along an axis any scale will do.
+    for (std::size_t k = 0; k < 2; ++k)
+      if (scale_[k] == 0) scale_[k] = scale_[1 - k];
     last_ = n - 1;
   }
-  /// Places beyond the points are in the outermost cells.
-  [[nodiscard]] std::uint32_t cell(double x, std::size_t axis) const {
-    return static_cast<std::uint32_t>(std::min(last_, std::max(0.0, (x / 2 - low_[axis]) * scale_[axis])));
+  /// Where a point lies, measured in cells from the first one; beyond the grid, too.
+  [[nodiscard]] Position place(const Position& p) const { return {place(p[0], 0), place(p[1], 1)}; }
+  /// The cell of a coordinate so measured, or the nearest one.
+  [[nodiscard]] std::uint32_t cell_at(double place) const {
+    return static_cast<std::uint32_t>(std::min(last_, std::max(0.0, place)));
   }
+  [[nodiscard]] std::uint32_t cell(double x, std::size_t axis) const { return cell_at(place(x, axis)); }
 
  private:
+  [[nodiscard]] double place(double x, std::size_t axis) const { return (x / 2 - low_[axis]) * scale_[axis]; }
+
   std::array<double, 2> low_{}, scale_{};
   double last_ = 0;
 };

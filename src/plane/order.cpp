@@ -1,4 +1,4 @@
-// The order in which points are inserted.
+// Orders of points.
 #include "plane/order.h"
 
 #include <algorithm>
@@ -75,6 +75,8 @@ struct Entry {
   Vertex point;
 };
 
+constexpr unsigned kDigit = 11;
+
 /// Stable, by the low `bits` bits of the keys, least significant digit first.
 void sort(std::vector<Entry>& entries, unsigned bits) {
   constexpr std::size_t kFew = 2048;
@@ -83,7 +85,6 @@ void sort(std::vector<Entry>& entries, unsigned bits) {
                      [](const Entry& a, const Entry& b) { return a.key < b.key; });
     return;
   }
-  constexpr unsigned kDigit = 11;
   std::vector<Entry> other(entries.size());
   std::vector<std::size_t> next(std::size_t{1} << kDigit);
   for (unsigned shift = 0; shift < bits; shift += kDigit) {
@@ -97,13 +98,47 @@ void sort(std::vector<Entry>& entries, unsigned bits) {
   }
 }
 
+constexpr unsigned kCellBits = 2 * kDigit;
+
+/// Numbers below `count` by the cells in which `cell` puts them; in cells of more than `few` as `before`
+/// tells.
+template <typename Cell, typename Before>
+std::vector<Vertex> order_by_cells(std::size_t count, std::size_t few, const Cell& cell,
+                                   const Before& before) {
+  std::vector<std::uint64_t> keys(count), other(count);  // cells, and what is in them in the low half
+  std::array<std::vector<std::uint32_t>, 2> next;
+  for (std::vector<std::uint32_t>& n : next) n.assign(std::size_t{1} << kDigit, 0);
+  constexpr std::uint64_t kMask = (1u << kDigit) - 1;
+  for (Vertex v = 0; v < count; ++v) {
+    const std::uint64_t c = cell(v);
+    keys[v] = c << 32 | v;
+    ++next[0][c & kMask];
+    ++next[1][c >> kDigit];
+  }
+  for (std::size_t digit = 0; digit < 2; ++digit) {
+    std::uint32_t sum = 0;
+    for (std::uint32_t& n : next[digit]) n = std::exchange(sum, sum + n);
+    for (const std::uint64_t key : keys) other[next[digit][key >> (32 + digit * kDigit) & kMask]++] = key;
+    keys.swap(other);
+  }
+  std::vector<Vertex> order(count);
+  for (std::size_t i = 0; i < count; ++i) order[i] = static_cast<Vertex>(keys[i]);
+  for (std::size_t first = 0, last = 0; first < count; first = last) {
+    while (last < count && keys[last] >> 32 == keys[first] >> 32) ++last;
+    if (last - first > few)
+      std::sort(order.begin() + static_cast<std::ptrdiff_t>(first),
+                order.begin() + static_cast<std::ptrdiff_t>(last), before);
+  }
+  return order;
+}
+
 /// Half of the points come in the last round, a quarter in the one before, and so on.
 std::vector<Vertex> order_in_rounds(std::span<const Position> points, int rounds) {
   if (points.empty()) return {};
   const Grid grid(points, 1u << kBits);
   std::vector<Entry> entries(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const int back = rounds == 0 ? 0 : std::min(std::countr_zero(scattered(i)), rounds);
+    const int back = std::min(std::countr_zero(scattered(i)), rounds);
     const std::uint64_t place = hilbert(grid.cell(points[i][0], 0), grid.cell(points[i][1], 1));
     entries[i] = {static_cast<std::uint64_t>(rounds - back) << (2 * kBits) | place, static_cast<Vertex>(i)};
   }
@@ -120,6 +155,27 @@ std::vector<Vertex> insertion_order(std::span<const Position> points) {
   return order_in_rounds(points, static_cast<int>(std::bit_width(points.size() / kFirstRound)));
 }
 
-std::vector<Vertex> curve_order(std::span<const Position> points) { return order_in_rounds(points, 0); }
+std::vector<Vertex> curve_order(std::span<const Position> points) {
+  constexpr std::size_t kFewOnCurve = 8;
+  if (points.empty()) return {};
+  const Grid grid(points, 1u << kBits);
+  const auto place = [&](Vertex v) {
+    return hilbert(grid.cell(points[v][0], 0), grid.cell(points[v][1], 1));
+  };
+  return order_by_cells(
+      points.size(), kFewOnCurve, [&](Vertex v) { return place(v) >> (2 * kBits - kCellBits); },
+      [&](Vertex v, Vertex w) {
+        const std::uint64_t p = place(v), q = place(w);
+        return p != q ? p < q : v < w;
+      });
+}
+
+std::vector<Vertex> order_from_left(std::span<const Position> points) {
+  if (points.empty()) return {};
+  const Grid grid(points, 1u << kCellBits);
+  return order_by_cells(
+      points.size(), 1, [&](Vertex v) { return grid.cell(points[v][0], 0); },
+      [&](Vertex v, Vertex w) { return points[v] != points[w] ? points[v] < points[w] : v < w; });
+}
 
 }  // namespace holdfast::plane

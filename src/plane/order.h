@@ -1,4 +1,4 @@
-// The order in which points are inserted.
+// Orders of points.
 #pragma once
 
 #include <span>
@@ -13,7 +13,10 @@ namespace holdfast::plane {
 /// Delaunay triangulation quadratic in expectation that is not so in the end.
 [[nodiscard]] std::vector<Vertex> insertion_order(std::span<const Position> points);
 
-/// Indices of points along a Hilbert curve.
+/// Indices of points along a Hilbert curve; of a few that lie close together, in the order given.
 [[nodiscard]] std::vector<Vertex> curve_order(std::span<const Position> points);
+
+/// Indices of points in lexicographic order, and of those at one place in the order given.
+[[nodiscard]] std::vector<Vertex> order_from_left(std::span<const Position> points);
 
 }  // namespace holdfast::plane

@@ -8,10 +8,10 @@
 // clang-format on
 //
 // Eight boxes are compared with that of the triangle at once, by the cells of a grid that their corners lie
-// in; those that are left, by their corners.
+// in. Where several are left, its sides tell which of them to look into.
 #pragma once
 
-#include <algorithm>
+#include <array>
 #include <bit>
 #include <span>
 #include <vector>
@@ -33,20 +33,19 @@ class PointTree {
   template <typename Visit>
   void each_near(Vertex a, Vertex b, Vertex c, Visit&& visit) const {
     if (order_.empty()) return;
-    const Query query(*this, a, b, c);
-    walk(query, levels_.size(), 0, visit);
+    Query query(*this, {a, b, c});
+    walk(query, boxes_.size(), 0, visit);
   }
 
  private:
   static constexpr std::size_t kFan = 8;
+  static constexpr std::size_t kLow = 0, kHigh = 1;
   using Lanes = std::int16_t __attribute__((vector_size(2 * kFan)));
 
+  /// Its corners, and how many points are left in it.
   struct Box {
-    Position low, high;
-  };
-  struct Node {
-    Box box;
-    std::uint32_t left;  // items in it
+    std::array<Position, 2> at;
+    std::uint32_t left;
   };
   /// Cells of eight boxes, or of eight points, which have their high corners at the low ones.
   struct Group {
@@ -68,7 +67,7 @@ class PointTree {
 
   class Query {
    public:
-    Query(const PointTree& tree, Vertex a, Vertex b, Vertex c);
+    Query(const PointTree& tree, const std::array<Vertex, 3>& corners);
     /// Which boxes of a group may meet that of the triangle: a byte each, the first one lowest, 1 for yes.
     [[nodiscard]] std::uint64_t near(const Group& group) const {
       using Bytes = std::int8_t __attribute__((vector_size(kFan)));
@@ -78,49 +77,50 @@ class PointTree {
           ~std::bit_cast<std::uint64_t>(__builtin_convertvector(apart, Bytes)) & 0x0101010101010101u;
       return std::endian::native == std::endian::little ? near : __builtin_bswap64(near);
     }
-    /// False only where no point of the box lies in the triangle.
-    [[nodiscard]] bool may_meet(const Box& box) const {
-      if (box.low[0] > box_.high[0] || box.high[0] < box_.low[0] || box.low[1] > box_.high[1] ||
-          box.high[1] < box_.low[1])
-        return false;
-      // Of an ear, the side ca is the one within the polygon.
-      return !(certain_ && (is_right_of(2, box) || is_right_of(0, box) || is_right_of(1, box)));
-    }
-    [[nodiscard]] bool holds(const Position& p) const {
-      return p[0] >= box_.low[0] && p[0] <= box_.high[0] && p[1] >= box_.low[1] && p[1] <= box_.high[1];
+    /// True only where no point of the box lies in the triangle.
+    [[nodiscard]] bool is_beyond_side(const Box& box) {
+      if (!has_sides_) find_sides();
+      bool beyond = false;
+      for (const Side& s : sides_) beyond |= s.x * box.at[s.x_end][0] + s.y * box.at[s.y_end][1] < s.bound;
+      return beyond;
     }
 
    private:
-    // Whether the corner of the box that is furthest to the left of a side lies to its right.
-    [[nodiscard]] bool is_right_of(std::size_t side, const Box& box) const {
-      const Position &p = corners_[side], &q = corners_[side < 2 ? side + 1 : 0];
-      const double x = q[1] < p[1] ? box.high[0] : box.low[0], y = q[0] > p[0] ? box.high[1] : box.low[1];
-      return exact::detail::orient2d_filter(p[0], p[1], q[0], q[1], x, y) < 0;
-    }
+    /// Of a place (X, Y) to the right x X + y Y is less than the bound; X and Y are those of the corner of a
+    /// box that is furthest to the left.
+    struct Side {
+      double x = 0, y = 0, bound = 0;
+      std::size_t x_end = kLow, y_end = kLow;
+    };
+    [[nodiscard]] static Side side(const Position& p, const Position& q);
+    void find_sides();
 
-    std::array<Position, 3> corners_;
-    Box box_;
+    const PointTree& tree_;
+    std::array<Position, 3> corners_;  // measured in cells
     std::array<Lanes, 2> low_, high_;
-    bool certain_;  // corners are where their doubles are
+    bool has_sides_ = false;
+    std::array<Side, 3> sides_;
   };
 
-  /// The cell of a place, or of the one nearest to it that the grid has.
-  [[nodiscard]] std::array<std::int16_t, 2> cell(const Position& p) const {
-    return {static_cast<std::int16_t>(grid_.cell(p[0], 0)), static_cast<std::int16_t>(grid_.cell(p[1], 1))};
+  /// The cell of a place, or the nearest one.
+  [[nodiscard]] std::array<std::int16_t, 2> cell(const Position& place) const {
+    return {static_cast<std::int16_t>(grid_.cell_at(place[0])),
+            static_cast<std::int16_t>(grid_.cell_at(place[1]))};
   }
-  template <typename BoxOf>
-  void add_groups(std::size_t count, BoxOf&& box_of);
-  void add_level();
+  [[nodiscard]] static std::vector<Box> boxes_over(const std::vector<Box>& parts);
+  void add_groups(const std::vector<Box>& boxes);
 
   // Of a group at a level, 0 for points.
   template <typename Visit>
-  bool walk(const Query& query, std::size_t level, std::size_t group, Visit& visit) const {
-    for (std::uint64_t near = query.near(groups_[level][group]); near != 0; near &= near - 1) {
+  bool walk(Query& query, std::size_t level, std::size_t group, Visit& visit) const {
+    std::uint64_t near = query.near(groups_[level][group]);
+    const bool several = (near & (near - 1)) != 0;
+    for (; near != 0; near &= near - 1) {
       const std::size_t i = group * kFan + static_cast<std::size_t>(std::countr_zero(near)) / 8;
-      if (level > 0) {
-        if (query.may_meet(levels_[level - 1][i].box) && !walk(query, level - 1, i, visit)) return false;
-      } else if (query.holds(at_[i]) && !visit(order_[i])) {
-        return false;
+      if (level == 0) {
+        if (!visit(order_[i])) return false;
+      } else if (!(several && query.is_beyond_side(boxes_[level - 1][i]))) {
+        if (!walk(query, level - 1, i, visit)) return false;
       }
     }
     return true;
@@ -130,9 +130,8 @@ class PointTree {
   Grid grid_;
   std::vector<std::uint32_t> order_;        // items along the curve
   std::vector<std::uint32_t> place_;        // of an item in this order
-  std::vector<Position> at_;                // in this order
-  std::vector<std::vector<Node>> levels_;   // from below
-  std::vector<std::vector<Group>> groups_;  // of points, then of these
+  std::vector<std::vector<Box>> boxes_;     // from below, measured in cells
+  std::vector<std::vector<Group>> groups_;  // of points, then of boxes
 };
 
 }  // namespace holdfast::plane

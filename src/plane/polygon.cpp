@@ -10,31 +10,11 @@
 #include "plane/ears.h"
 #include "plane/faces.h"
 #include "plane/regions.h"
+#include "plane/sorted.h"
 #include "plane/swaps.h"
 
 namespace holdfast::plane {
 namespace {
-
-/// Points from left to right; `order` has their numbers before, `number` those here.
-struct Sorted {
-  explicit Sorted(const std::vector<Position>& given) : order(given.size()), number(given.size()) {
-    std::iota(order.begin(), order.end(), Vertex{0});
-    std::sort(order.begin(), order.end(), [&](Vertex v, Vertex w) { return given[v] < given[w]; });
-    Positions positions(given.size());
-    for (Vertex i = 0; i < order.size(); ++i) {
-      positions[i] = given[order[i]];
-      number[order[i]] = i;
-    }
-    points = Points(std::move(positions));
-  }
-  [[nodiscard]] std::vector<Corners3> original(std::vector<Corners3> triangles) const {
-    for (Corners3& t : triangles)
-      for (Vertex& v : t) v = order[v];
-    return triangles;
-  }
-  std::vector<Vertex> order, number;
-  Points points;
-};
 
 /// How often a walk passes an edge from its lower end to the upper one, less how often back.
 struct Side {
@@ -101,7 +81,7 @@ class Windings {
     }
     return direction;
   }
-  [[nodiscard]] bool encloses(std::uint32_t face) const { return winding_[slot(face)] != 0; }
+  [[nodiscard]] bool encloses(std::size_t face) const { return winding_[face] != 0; }
 
  private:
   static constexpr std::uint32_t kOuter = ~std::uint32_t{0};
@@ -129,11 +109,10 @@ class Windings {
   std::vector<int> winding_;
 };
 
-std::vector<Corners3> corners_of(const Triangles& mesh) {
-  std::vector<Corners3> triangles;
-  triangles.reserve(mesh.size());
-  for (std::size_t t = 0; t < mesh.size(); ++t) triangles.push_back(mesh[t].v);
-  return triangles;
+/// By the numbers that the points had before.
+Corners3 corners_of(const Triangles& mesh, std::size_t t, const Sorted& sorted) {
+  const Corners3& v = mesh[t].v;
+  return {sorted.order[v[0]], sorted.order[v[1]], sorted.order[v[2]]};
 }
 
 }  // namespace
@@ -150,12 +129,13 @@ std::optional<std::vector<Corners3>> triangles_of_walk(const std::vector<Positio
   Windings windings(sides, faces);
   const int direction = windings.direction();
   if (direction == 0) return std::nullopt;
-  EarMesh ears(edges.size());
-  for (std::uint32_t f = 0; f < faces.count(); ++f)
-    if (windings.encloses(f)) cut_ears(sorted.points, faces, f, PlaneEars::first, ears);
-  Triangles mesh = join_faces(std::move(ears), 0);
+  Triangles mesh = join_faces(cut_ears(sorted.points, faces, edges.size(), PlaneEars::first,
+                                       [&](std::size_t f) { return windings.encloses(f); }),
+                              0);
   swap_to_delaunay(mesh, sorted.points, poll);
-  std::vector<Corners3> triangles = sorted.original(corners_of(mesh));
+  std::vector<Corners3> triangles;
+  triangles.reserve(mesh.size());
+  for (std::size_t t = 0; t < mesh.size(); ++t) triangles.push_back(corners_of(mesh, t, sorted));
   if (direction < 0)
     for (Corners3& t : triangles) std::swap(t[1], t[2]);
   return triangles;
@@ -178,9 +158,9 @@ std::optional<std::vector<Corners3>> triangles_of_outlines(const std::vector<Pos
   const std::size_t links = graph->size();
   graph->insert(graph->end(), segments.begin(), segments.end());
   const Walks faces = find_faces(sorted.points, *graph);
-  EarMesh ears(graph->size());
-  for (std::size_t f = 0; f < faces.count(); ++f) cut_ears(sorted.points, faces, f, PlaneEars::first, ears);
-  Triangles mesh = join_faces(std::move(ears), links);
+  Triangles mesh = join_faces(
+      cut_ears(sorted.points, faces, graph->size(), PlaneEars::first, [](std::size_t) { return true; }),
+      links);
   swap_to_delaunay(mesh, sorted.points, poll);
   const Regions regions = find_regions(mesh);
   std::vector<bool> kept(regions.count + std::size_t{1}, true);
@@ -191,8 +171,8 @@ std::optional<std::vector<Corners3>> triangles_of_outlines(const std::vector<Pos
   }
   std::vector<Corners3> triangles;
   for (std::size_t t = 0; t < mesh.size(); ++t)
-    if (kept[regions.of_triangle[t]]) triangles.push_back(mesh[t].v);
-  return sorted.original(std::move(triangles));
+    if (kept[regions.of_triangle[t]]) triangles.push_back(corners_of(mesh, t, sorted));
+  return triangles;
 }
 
 }  // namespace holdfast::plane

@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <numeric>
 #include <optional>
-#include <set>
+
+#include "plane/sequence.h"
 
 namespace holdfast::plane {
 namespace {
@@ -16,26 +17,24 @@ class Sweep {
       : points_(points),
         ends_(segments),
         helper_(segments.size()),
-        status_(Above{this}),
+        status_(segments.size()),
         held_by_(segments.size()),
         seat_of_(segments.size()),
-        place_(segments.size()),
         ending_(points.size(), kNone) {
     part_.resize(points.size());
     std::iota(part_.begin(), part_.end(), Vertex{0});
     for (Ends& e : ends_) {
-      if (points_.compare(e[0], e[1]) > 0) std::swap(e[0], e[1]);
+      if (e[0] > e[1]) std::swap(e[0], e[1]);
       unite(e[0], e[1]);
     }
   }
 
   [[nodiscard]] bool run(const Poll& poll) {
-    order_points();
     list_starts();
-    for (std::size_t i = 0; i < order_.size(); ++i) {
-      if (i % 4096 == 0 && poll) poll(static_cast<double>(i) / static_cast<double>(order_.size()));
-      if (i > 0 && points_.compare(order_[i - 1], order_[i]) == 0) return false;
-      if (!pass(order_[i])) return false;
+    for (Vertex v = 0; v < points_.size(); ++v) {
+      if (v % 4096 == 0 && poll) poll(static_cast<double>(v) / static_cast<double>(points_.size()));
+      if (v > 0 && points_.compare(v - 1, v) == 0) return false;
+      if (!pass(v)) return false;
     }
     return true;
   }
@@ -48,24 +47,6 @@ class Sweep {
   // one nearly always starts, and takes its seat.
   using Seat = std::uint32_t;
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-
-  // Order from below of what the sweep line crosses.
-  struct Above {
-    using is_transparent = void;
-    const Sweep* sweep;
-    // Two segments that the line crosses, of which neither is crossed by the other.
-    bool operator()(Seat i, Seat j) const {
-      if (i == j) return false;
-      const Item s = sweep->held_by_[i], t = sweep->held_by_[j];
-      const Ends &p = sweep->ends_[s], &q = sweep->ends_[t];
-      if (p[0] == q[0]) return sweep->points_.orient(p[0], p[1], q[1]) > 0;
-      if (sweep->points_.compare(p[0], q[0]) > 0) return sweep->points_.orient(q[0], q[1], p[0]) < 0;
-      return sweep->points_.orient(p[0], p[1], q[0]) > 0;
-    }
-    // The segment is below the point.
-    bool operator()(Seat i, const Vertex* v) const { return sweep->side(sweep->held_by_[i], *v) > 0; }
-  };
-  using Status = std::set<Seat, Above>;
 
   [[nodiscard]] int side(Item s, Vertex v) const { return points_.orient(ends_[s][0], ends_[s][1], v); }
 
@@ -84,21 +65,6 @@ class Sweep {
     return true;
   }
 
-  void order_points() {
-    struct Entry {
-      double x;
-      Vertex v;
-    };
-    std::vector<Entry> entries(points_.size());
-    for (Vertex v = 0; v < entries.size(); ++v) entries[v] = {points_[v][0], v};
-    // Where the doubles nearest to points differ, the points do so in the same sense.
-    std::sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
-      return a.x != b.x ? a.x < b.x : points_.compare(a.v, b.v) < 0;
-    });
-    order_.reserve(entries.size());
-    for (const Entry& e : entries) order_.push_back(e.v);
-  }
-
   // Segments by their first ends.
   void list_starts() {
     first_.assign(points_.size() + 1, 0);
@@ -112,24 +78,22 @@ class Sweep {
   // False where two segments have a point in common other than a common end.
   [[nodiscard]] bool fit(Item s, Item t) const {
     const Ends &p = ends_[s], &q = ends_[t];
+    if (p[0] == q[0]) return points_.orient(p[0], p[1], q[1]) != 0;
+    if (p[1] == q[1]) return points_.orient(p[0], p[1], q[0]) != 0;
     const int c = points_.orient(p[0], p[1], q[0]), d = points_.orient(p[0], p[1], q[1]);
     if (c * d > 0) return true;
     const int a = points_.orient(q[0], q[1], p[0]), b = points_.orient(q[0], q[1], p[1]);
     if (a * b > 0) return true;
     if (c * d < 0 && a * b < 0) return false;
     // On one line: from the later of the first ends to the earlier of the last ones.
-    if (c == 0 && d == 0) {
-      const Vertex low = points_.compare(p[0], q[0]) > 0 ? p[0] : q[0];
-      const Vertex high = points_.compare(p[1], q[1]) < 0 ? p[1] : q[1];
-      return points_.compare(low, high) >= 0;
-    }
+    if (c == 0 && d == 0) return std::max(p[0], q[0]) >= std::min(p[1], q[1]);
     // One end at most touches: it must be an end of both.
-    return p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1];
+    return p[0] == q[1] || p[1] == q[0];
   }
 
   /// What ends at a vertex stands together in the status, above what is below the vertex.
   struct Ending {
-    Status::iterator first, last;
+    Seat first, last;
     std::size_t count = 0;
   };
 
@@ -137,13 +101,16 @@ class Sweep {
   std::optional<Ending> find_ending(Vertex v) {
     Ending found;
     if (const Item s = ending_[v]; s != kNone) {
-      found.first = place_[seat_of_[s]];
-      while (found.first != status_.begin() && side(held_by_[*std::prev(found.first)], v) == 0) --found.first;
+      found.first = seat_of_[s];
+      for (Seat i = status_.previous(found.first); i != status_.end() && side(held_by_[i], v) == 0;
+           i = status_.previous(i))
+        found.first = i;
     } else {
-      found.first = status_.lower_bound(&v);
+      found.first = status_.find([&](Seat i) { return side(held_by_[i], v) > 0; });
     }
-    for (found.last = found.first; found.last != status_.end(); ++found.last, ++found.count) {
-      const Item s = held_by_[*found.last];
+    for (found.last = found.first; found.last != status_.end();
+         found.last = status_.next(found.last), ++found.count) {
+      const Item s = held_by_[found.last];
       if (ends_[s][1] == v) continue;
       if (side(s, v) == 0) return std::nullopt;
       break;
@@ -154,9 +121,10 @@ class Sweep {
   bool pass(Vertex v) {
     const std::optional<Ending> ending = find_ending(v);
     if (!ending) return false;
-    const bool has_below = ending->first != status_.begin(), has_above = ending->last != status_.end();
-    const Item below = has_below ? held_by_[*std::prev(ending->first)] : kNone;
-    const Item above = has_above ? held_by_[*ending->last] : kNone;
+    const Seat lower = status_.previous(ending->first), upper = ending->last;
+    const bool has_below = lower != status_.end(), has_above = upper != status_.end();
+    const Item below = has_below ? held_by_[lower] : kNone;
+    const Item above = has_above ? held_by_[upper] : kNone;
     // The last vertex that came between the two segments is seen from v. A part is linked by its leftmost
     // vertex; further links would only make cycles, outside of all faces, too.
     if (ending->count == 0 && has_below && has_above && unite(helper_[below], v))
@@ -184,15 +152,19 @@ class Sweep {
 
   /// Gives the seats of what ends to what starts, in the same order from below.
   void seat(const Item* first, const Item* last, const Ending& ending) {
-    Status::iterator it = ending.first;
-    for (; first < last && it != ending.last; ++first, ++it) {
-      held_by_[*it] = *first;
-      seat_of_[*first] = *it;
+    Seat it = ending.first;
+    for (; first < last && it != ending.last; ++first, it = status_.next(it)) {
+      held_by_[it] = *first;
+      seat_of_[*first] = it;
     }
-    status_.erase(it, ending.last);
+    while (it != ending.last) {
+      const Seat next = status_.next(it);
+      status_.erase(it);
+      it = next;
+    }
     for (; first < last; ++first) {
       held_by_[*first] = seat_of_[*first] = *first;
-      place_[*first] = status_.emplace_hint(ending.last, *first);
+      status_.insert(ending.last, *first);
     }
   }
 
@@ -200,14 +172,12 @@ class Sweep {
   std::vector<Ends> ends_;  // in the order of the sweep
   std::vector<Vertex> part_;
   std::vector<Vertex> helper_;  // of what is just above a segment, the last vertex that came
-  std::vector<Vertex> order_;
   std::vector<std::uint32_t> first_;
   std::vector<Item> starts_;
-  Status status_;
-  std::vector<Item> held_by_;            // of a seat
-  std::vector<Seat> seat_of_;            // of a segment in the status
-  std::vector<Status::iterator> place_;  // of a seat
-  std::vector<Item> ending_;             // of a vertex, a segment in the status that ends there
+  Sequence status_;            // from below, of what the sweep line crosses
+  std::vector<Item> held_by_;  // of a seat
+  std::vector<Seat> seat_of_;  // of a segment in the status
+  std::vector<Item> ending_;   // of a vertex, a segment in the status that ends there
 };
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "plane/refine.h"
 #include "plane/sensible.h"
 #include "plane/shape.h"
+#include "plane/sorted.h"
 #include "plane/stages.h"
 #include "plane/swaps.h"
 
@@ -47,24 +48,35 @@ void encloses_nothing(const Plane& plane, PlaneResult& result) {
 // --- Triangles of the whole
 // ---------------------------------------------------------------------------------
 
+std::vector<Ends> renumbered(const std::vector<Segment>& segments, const std::vector<Vertex>& number) {
+  std::vector<Ends> ends;
+  ends.reserve(segments.size());
+  for (const Segment& s : segments) ends.push_back({number[s[0]], number[s[1]]});
+  return ends;
+}
+
 /// Paper §2.1. The faces between segments and links, each cut into triangles. Nothing where the input is
 /// invalid.
 std::optional<Draft> make_by_ears(const Plane& plane, const PlaneOptions& options, PlaneReport& report,
                                   Stages& stages) {
-  Draft draft{Points(plane.points), plane.segments, {}};
-  if (options.hull || draft.segments.empty()) add_hull(draft.points, draft.segments);
-  std::optional<std::vector<Ends>> links =
-      stages.run("sweep", 0.4, [&](const Poll& poll) { return sweep(draft.points, draft.segments, poll); });
+  Draft draft;
+  std::optional<std::vector<Ends>> links = stages.run("sweep", 0.4, [&](const Poll& poll) {
+    Sorted sorted(plane.points);
+    draft.points = std::move(sorted.points);
+    draft.order = std::move(sorted.order);
+    draft.segments = renumbered(plane.segments, sorted.number);
+    if (options.hull || draft.segments.empty()) add_hull(draft.points, draft.segments);
+    return sweep(draft.points, draft.segments, poll);
+  });
   if (!links) return std::nullopt;
   report.links = links->size();
   stages.run("ears", 0.75, [&](const Poll& poll) {
     links->insert(links->end(), draft.segments.begin(), draft.segments.end());
     const Walks faces = find_faces(draft.points, *links);
-    EarMesh ears(links->size());
-    for (std::size_t f = 0; f < faces.count(); ++f) {
+    EarMesh ears = cut_ears(draft.points, faces, links->size(), options.ears, [&](std::size_t f) {
       poll(static_cast<double>(f) / static_cast<double>(faces.count()));
-      cut_ears(draft.points, faces, f, options.ears, ears);
-    }
+      return true;
+    });
     report.ears = ears.counts.ears;
     report.joined = ears.counts.joined;
     draft.mesh = join_faces(std::move(ears), report.links);
@@ -83,7 +95,7 @@ Draft ordered(const Plane& plane) {
     number[draft.order[i]] = i;
   }
   draft.points = Points(std::move(positions));
-  for (const Segment& s : plane.segments) draft.segments.push_back({number[s[0]], number[s[1]]});
+  draft.segments = renumbered(plane.segments, number);
   return draft;
 }
 

@@ -2,10 +2,15 @@
 // segment.
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <optional>
+#include <set>
 
 #include "holdfast/names.h"
+#include "plane/number_set.h"
+#include "plane/order.h"
 #include "plane/point_tree.h"
+#include "plane/sequence.h"
 #include "plane_inputs.h"
 
 namespace holdfast {
@@ -116,14 +121,16 @@ TEST(PointTree, FindsEveryPointInATriangle) {
     numbers::Random random(7);
     plane::Points points;
     std::vector<plane::Vertex> vertices;
+    // Corners of triangles may lie outside of all points of the tree.
+    constexpr plane::Vertex kPlanted = 500;
     for (plane::Vertex v = 0; v < 700; ++v) {
       points.add(random_point(kind, 40, random));
-      vertices.push_back(v);
+      if (v < kPlanted) vertices.push_back(v);
     }
     plane::PointTree tree(points, vertices);
     std::vector<bool> erased(vertices.size(), false);
     for (int round = 0; round < 300; ++round) {
-      const auto any = [&] { return static_cast<plane::Vertex>(numbers::below(vertices.size(), random)); };
+      const auto any = [&] { return static_cast<plane::Vertex>(numbers::below(points.size(), random)); };
       const plane::Vertex a = any(), b = any(), c = any();
       if (points.orient(a, b, c) <= 0) continue;
       std::set<std::uint32_t> found;
@@ -133,10 +140,79 @@ TEST(PointTree, FindsEveryPointInATriangle) {
             points.orient(a, b, v) >= 0 && points.orient(b, c, v) >= 0 && points.orient(c, a, v) >= 0;
         EXPECT_TRUE(found.contains(v) ? !erased[v] : !inside || erased[v]) << v;
       }
-      const plane::Vertex gone = any();
+      const plane::Vertex gone = any() % kPlanted;
       tree.erase(gone);
       erased[gone] = true;
     }
+  }
+}
+
+TEST(PlaneOrder, GoesFromLeftToRight) {
+  for (const Coordinates kind : {Coordinates::grid, Coordinates::random, Coordinates::tiny, Coordinates::huge,
+                                 Coordinates::at_2_52, Coordinates::clustered}) {
+    numbers::Random random(11);
+    for (const std::size_t count : {0u, 1u, 2u, 30u, 5000u}) {
+      std::vector<plane::Position> points;
+      for (std::size_t i = 0; i < count; ++i) points.push_back(random_point(kind, 40, random));
+      std::vector<plane::Vertex> expected(count);
+      std::iota(expected.begin(), expected.end(), plane::Vertex{0});
+      std::stable_sort(expected.begin(), expected.end(),
+                       [&](plane::Vertex v, plane::Vertex w) { return points[v] < points[w]; });
+      EXPECT_EQ(plane::order_from_left(points), expected) << count;
+    }
+  }
+}
+
+TEST(NumberSet, FindsTheNextNumber) {
+  for (const std::size_t bound : {1u, 64u, 65u, 5000u}) {
+    numbers::Random random(bound);
+    plane::NumberSet set(bound);
+    std::set<std::size_t> expected;
+    for (int step = 0; step < 3000; ++step) {
+      const std::size_t i = numbers::below(bound, random), from = numbers::below(bound + 2, random);
+      if (numbers::below(3, random) == 0) {
+        set.insert(i);
+        expected.insert(i);
+      } else {
+        set.erase(i);
+        expected.erase(i);
+      }
+      EXPECT_EQ(set.contains(i), expected.contains(i));
+      const auto next = expected.lower_bound(from);
+      EXPECT_EQ(set.from(from), next == expected.end() ? plane::NumberSet::none : *next);
+    }
+  }
+}
+
+TEST(Sequence, KeepsAnOrder) {
+  constexpr std::size_t kBound = 700;
+  numbers::Random random(3);
+  // Numbers stand in the order of their heights.
+  std::vector<std::uint64_t> height(kBound);
+  for (std::uint64_t& h : height) h = random();
+  plane::Sequence sequence(kBound);
+  std::set<std::pair<std::uint64_t, std::uint32_t>> expected;
+  for (int step = 0; step < 6000; ++step) {
+    const auto i = static_cast<std::uint32_t>(numbers::below(kBound, random));
+    const std::uint32_t at = sequence.find([&](std::uint32_t j) { return height[j] < height[i]; });
+    const auto place = expected.lower_bound({height[i], 0});
+    ASSERT_EQ(at, place == expected.end() ? sequence.end() : place->second);
+    // It grows to several blocks in the first half, and shrinks to none in the second.
+    if (at == i && step > 3000) {
+      sequence.erase(i);
+      expected.erase(place);
+    } else if (at != i && step < 3000) {
+      sequence.insert(at, i);
+      expected.insert({height[i], i});
+    }
+    if (step % 100 != 0) continue;
+    std::uint32_t next = sequence.end();
+    for (const auto& [h, number] : expected) {
+      EXPECT_EQ(sequence.previous(number), next);
+      next = sequence.next(next);
+      ASSERT_EQ(next, number);
+    }
+    EXPECT_EQ(sequence.next(next), sequence.end());
   }
 }
 
