@@ -73,11 +73,6 @@ def grow(name, sizes, rows, measure, most_seconds):
 # -------------------------------------------------------------------------------------------------- plane
 
 
-def seconds_of(options, alone):
-    """Partition alone grows so fast that its series would end at small sizes."""
-    return options.most_seconds_alone if alone else options.most_seconds
-
-
 def plane_points(options, folder, rows, order, alone):
     def measure(n, seconds):
         given = plane_inputs.quadrilateral(n, n)
@@ -89,7 +84,8 @@ def plane_points(options, folder, rows, order, alone):
             next(file)  # OFF
             return int(next(file).split()[0]) - len(given.points)
 
-    return grow(f"Fig. 4, partition{' alone' if alone else ''}, {order}", SIZES, rows, measure, seconds_of(options, alone))
+    return grow(f"Fig. 4, partition{' alone' if alone else ''}, {order}", SIZES, rows, measure,
+                options.most_seconds_alone if alone else options.most_seconds)
 
 
 def plane_output(options, folder, given, seconds, *extra):
@@ -161,7 +157,8 @@ def space_points(options, folder, rows, order, stage, key):
                          "flips", "--order", order, "--stop-after", stage)
         return {k: told["partition"][k] for k in ("segment_points", "facet_points")}
 
-    told = grow(f"Fig. 13, {stage}, {order}", SPACE, rows, measure, seconds_of(options, stage == "partition"))
+    told = grow(f"Fig. 13, {stage}, {order}", SPACE, rows, measure,
+                options.most_seconds_space if stage == "partition" else options.most_seconds)
     return [(n, value if isinstance(value, str) else value[key] if key else sum(value.values())) for n, value in told]
 
 

@@ -93,7 +93,7 @@ def plane(options, folder, rows):
         f"{options.most_seconds:g} s of the processor, of partition alone {options.most_seconds_alone:g} s, or with one that takes over "
         f"{complexity.PATIENCE} times as long, or over {complexity.MEMORY / 2**30:.0f} GiB, which then stands in place of a number. The power fits the larger half of the sizes. Points are those added by partition (temporarily, with elimination).", "",
         *table, "",
-        "By the power in the given order, n = 1,024 would have 600 million points.", "",
+        "By the power in the given order, n = 1,024 would have some 600 million points.", "",
         "With elimination in the given order, the paper's n^2 shows. In random order and by halving far fewer points are made, about 2.5 n log2 n by halving: "
         "the first segments part the edges, and a later one crosses those of its part alone. Without elimination, halving also lowers the power, since "
         "only half of a point's new edges lie on the side of a later segment. Swaps: 2n edges cross each of the m segments, and random ones may leave their number as it was.", "",
@@ -126,7 +126,8 @@ def space(options, folder, rows):
     return lines + ["## Complexity (§7)", "", *figure(options, folder, rows, 13), "### Complexity in space", "",
                     "`examples/make_paper.py worst -n N -m N --height 0.05`, `--without flips`. Columns are n = m; the counts are those of partition points, all of them "
                     "made whether or not they stay. Edges alone are counted in runs that partition the facets as well, which is what ends the series. Elimination "
-                    "after each constraint (the paper's remark at the end of §7) takes the power from above four to two. Series end as in the plane.", "", *table, ""]
+                    "after each constraint (the paper's remark at the end of §7) takes the power from above four to two. Series end as in the plane, of partition alone "
+                    f"after {options.most_seconds_space:g} s.", "", *table, ""]
 
 
 def examples(options, folder, rows):
@@ -136,7 +137,7 @@ def examples(options, folder, rows):
     for number in (14, 15):
         lines += [*figure(options, folder, rows, number), *academic(told, number)]
     lines += ["### Table I", "", *results.table_1(told, concrete), "", "### Table II", "", *results.table_2(told, concrete), "",
-              *results.verdicts(told, concrete), "", *results.why(), ""]
+              *results.verdicts(told, concrete), "", *results.why(told), ""]
     for number in (16, 17, 18, 19):
         lines += figure(options, folder, rows, number)
     return lines

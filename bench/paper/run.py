@@ -1,6 +1,6 @@
 """The whole paper (George, Borouchaki, Saltel 2003) by one command: writes docs/paper.md and docs/paper/*.
 
-    run.py --build build/release [--again PART]... [--most-seconds 8] [--most-seconds-alone 60] [--out docs]
+    run.py --build build/release [--again PART]... [--most-seconds 8] [--most-seconds-alone 60] [--most-seconds-space 10] [--out docs]
 
 Parts, each told in its module: results (figures 14 to 19, tables), pictures, complexity (§2.4, §7), literal (§5, §6). What is
 measured is kept in <build>/paper/<part>.json, so that a run goes on where the last one ended; --again measures a part anew.
@@ -27,6 +27,7 @@ def parse_arguments():
     parser.add_argument("--most-seconds", type=float, default=8,
                         help="of the processor: a series of growing cases ends with the first that takes longer")
     parser.add_argument("--most-seconds-alone", type=float, default=60, help="the same of partition alone, without elimination")
+    parser.add_argument("--most-seconds-space", type=float, default=10, help="the same in space, where it grows faster still")
     parser.add_argument("--out", type=Path, default=ROOT / "docs")
     return parser.parse_args()
 
