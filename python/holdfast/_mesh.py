@@ -72,7 +72,7 @@ def mesh(
         The same for sizes that depend on the direction: `(points, tetrahedra, tensors)`, a path, or a function that takes
         an (m, 3) array and gives (m, 3, 3) or (m, 6) numbers (m11 m12 m22 m13 m23 m33): in this metric edges have length 1.
     gradation
-        How much sizes grow a unit of length, away from the surface; 0 to 1.
+        How much sizes grow a unit of length, away from the surface; 0 to 1. 0.3, the default, is up to 0.5 on surfaces full of needles.
     growth
         Whether sizes may grow inside beyond those of the surface round.
     max_volume

@@ -8,6 +8,7 @@
 
 #include "holdfast/region_bounds.h"
 #include "numbers/elementary.h"
+#include "size/tuning.h"
 
 namespace holdfast {
 namespace {
@@ -26,21 +27,62 @@ Point times_power(const Point& p, int k) {
   return {std::ldexp(p[0], k), std::ldexp(p[1], k), std::ldexp(p[2], k)};
 }
 
-// The mean length of the edges at each vertex, times 2^scale: where lengths neither over- nor underflow.
-std::vector<double> edge_lengths(const Complex& complex, const SegmentTable& table, int scale) {
-  std::vector<double> sum(complex.vertices.size(), 0);
-  std::vector<unsigned> count(complex.vertices.size(), 0);
-  for (const Segment& s : table.segments) {
-    const Point &a = complex.vertices[s[0]], &b = complex.vertices[s[1]];
-    const double length = scale == 0 ? numbers::distance(a, b)
-                                     : numbers::distance(times_power(a, scale), times_power(b, scale));
-    for (const Index v : s) {
-      sum[v] += length;
-      ++count[v];
-    }
+double length_of(const Segment& s, const Complex& complex, int scale) {
+  const Point &a = complex.vertices[s[0]], &b = complex.vertices[s[1]];
+  return scale == 0 ? numbers::distance(a, b)
+                    : numbers::distance(times_power(a, scale), times_power(b, scale));
+}
+
+// The edges at a vertex.
+struct Lengths {
+  double sum = 0, squares = 0, least = kNoLimit, most = 0;
+  double count = 0;
+
+  void add(double length) {
+    sum += length;
+    squares += length * length;
+    least = std::min(least, length);
+    most = std::max(most, length);
+    ++count;
   }
-  for (std::size_t v = 0; v < sum.size(); ++v) sum[v] = count[v] == 0 ? kNoLimit : sum[v] / count[v];
-  return sum;
+  // Where some are far longer than others, these count for more: the root of their mean square.
+  [[nodiscard]] double size() const {
+    if (count == 0) return kNoLimit;
+    return most > tuning::kUnlike * least ? std::sqrt(squares / count) : sum / count;
+  }
+};
+
+// The size that the edges at each vertex ask for, times 2^scale: where lengths neither over- nor underflow.
+std::vector<double> edge_lengths(const Complex& complex, const SegmentTable& table, int scale) {
+  std::vector<Lengths> lengths(complex.vertices.size());
+  for (const Segment& s : table.segments) {
+    const double length = length_of(s, complex, scale);
+    for (const Index v : s) lengths[v].add(length);
+  }
+  std::vector<double> sizes(lengths.size());
+  std::transform(lengths.begin(), lengths.end(), sizes.begin(), [](const Lengths& l) { return l.size(); });
+  return sizes;
+}
+
+// The share of the vertices from which sizes grow along some edge by more than its length.
+double share_of_steep(std::span<const double> of_vertex, const Complex& complex, const SegmentTable& table,
+                      int scale) {
+  std::vector<std::uint8_t> has_edge(of_vertex.size(), 0), is_steep(of_vertex.size(), 0);
+  for (const Segment& s : table.segments) {
+    for (const Index v : s) has_edge[v] = 1;
+    const Index smaller = of_vertex[s[0]] < of_vertex[s[1]] ? s[0] : s[1];
+    if (std::abs(of_vertex[s[1]] - of_vertex[s[0]]) > length_of(s, complex, scale)) is_steep[smaller] = 1;
+  }
+  const auto steep = std::count(is_steep.begin(), is_steep.end(), 1),
+             all = std::count(has_edge.begin(), has_edge.end(), 1);
+  return static_cast<double>(steep) / static_cast<double>(std::max<std::ptrdiff_t>(all, 1));
+}
+
+// Where the sizes of the surface grow much faster than those inside, as they do where it is full of needles,
+// slow growth fills the volume with small elements and makes few of them better.
+double default_gradation(double share_of_steep) {
+  const double part = (share_of_steep - tuning::kFewSteep) / (tuning::kManySteep - tuning::kFewSteep);
+  return std::lerp(Sizes{}.gradation, tuning::kGradationOfSteep, std::clamp(part, 0.0, 1.0));
 }
 
 void require_regions_of_bounds(std::span<const RegionSeed> seeds, const Kept& kept) {
@@ -71,6 +113,8 @@ SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds
   threads.poll();
   for (std::size_t v = 0; v < std::min(of_vertex_.size(), sizes.vertex_sizes.size()); ++v)
     if (sizes.vertex_sizes[v] > 0) of_vertex_[v] = std::ldexp(sizes.vertex_sizes[v], scale);
+  if (gradation_ == Sizes{}.gradation && sizes.vertex_sizes.empty() && !metric_)
+    gradation_ = default_gradation(share_of_steep(of_vertex_, complex, table, scale));
   if (fields_ && !field_)
     field_ = [fields = fields_](const Point& p) {
       double h = 0;

@@ -1,11 +1,13 @@
 // The size that edges should have: from the surface, and from what the user asks for (paper §8;
 // docs/sizes.md).
 //
-// A vertex of the surface has the mean length of the edges of its facets, or what the user gave for it. A
-// size spreads inward: from a vertex of size h, at distance d, it is at most h + gradation * d. A point gets
-// the least that the vertices round it allow, so that sizes are handed from point to point as the mesh grows,
-// and no other structure is needed. On top of this come the user's limits: one number, one a region, a field.
-// A largest volume limits sizes, too, so that few tetrahedra are larger when all else is done.
+// A vertex of the surface has the mean length of the edges of its facets (of very unlike ones the root of the
+// mean square), or what the user gave for it. A size spreads inward: from a vertex of size h, at distance d,
+// it is at most h + gradation * d. The default gradation is larger where the sizes of the surface themselves
+// jump. A point gets the least that the vertices round it allow, so that sizes are handed from point to point
+// as the mesh grows, and no other structure is needed. On top of this come the user's limits: one number, one
+// a region, a field. A largest volume limits sizes, too, so that few tetrahedra are larger when all else is
+// done.
 //
 // With a metric of the user, sizes depend on the direction. What is handed from point to point is the largest
 // of them, so that the metric is kept to but where it asks for more than all this allows in any direction:

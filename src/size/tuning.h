@@ -3,6 +3,14 @@
 
 namespace holdfast::tuning {
 
+/// Times the shortest edge at a vertex, from which on the longest makes long ones count for more.
+inline constexpr double kUnlike = 4;
+
+// The default gradation, by the share of vertices from which sizes grow along an edge by more than its
+// length.
+inline constexpr double kFewSteep = 0.35, kManySteep = 0.5;
+inline constexpr double kGradationOfSteep = 0.5;  ///< where many are
+
 // What a facet needs for points next to it.
 inline constexpr double kNeedOfFacet = 0.3;      ///< of its longest side, where the surface decides on sizes
 inline constexpr double kNeedWhereAsked = 0.15;  ///< where the user does: small boxes must get their number

@@ -1,4 +1,4 @@
-// What sizes facets can bear: need, fall with the distance, clearance.
+// What sizes facets can bear: need, fall with the distance, clearance. How fast sizes grow by default.
 #include "size/facet_sizes.h"
 
 #include <gtest/gtest.h>
@@ -7,11 +7,15 @@
 #include <cmath>
 #include <random>
 
+#include "checked_mesh.h"
+#include "hard_surfaces.h"
 #include "numbers/vector.h"
 #include "size/tuning.h"
 
 namespace holdfast {
 namespace {
+
+using testing::mesh_with;
 
 FacetSizes::Facet right_triangle(double side, double wanted, double z = 0) {
   return {{{{0, 0, z}, {side, 0, z}, {0, side, z}}}, wanted};
@@ -85,6 +89,42 @@ TEST(FacetSizes, AllAreAsEachAlone) {
     EXPECT_EQ(all.bearable(x, 0.001), most);
     EXPECT_EQ(all.is_too_near(x, 0.001), is_near);
   }
+}
+
+// Each of the first `count` triangles gets a smaller one of its shape inside, which takes its number.
+Surface with_insets(Surface surface, std::size_t count, double part) {
+  for (std::size_t f = 0; f < count; ++f) {
+    const Triangle outer = surface.facets[f];
+    Triangle inner{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      Point p{};
+      for (std::size_t k = 0; k < 3; ++k)
+        for (const Index v : outer)
+          p[k] += surface.vertices[v][k] * (v == outer[i] ? (1 + 2 * part) / 3 : (1 - part) / 3);
+      inner[i] = static_cast<Index>(surface.vertices.size());
+      surface.vertices.push_back(p);
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      surface.facets.push_back({outer[i], outer[j], inner[j]});
+      surface.facets.push_back({outer[i], inner[j], inner[i]});
+    }
+    surface.facets[f] = inner;
+  }
+  return surface;
+}
+
+// Each innermost triangle, with 60 of the 132 vertices, is a twentieth of the triangle that it is in.
+TEST(Gradation, SizesGrowFasterWhereThoseOfTheSurfaceJump) {
+  // The mesh of the default gradation over that of the same one asked for.
+  const auto part = [](const Surface& surface) {
+    const auto count = [&](double gradation) {
+      return static_cast<double>(mesh_with(surface, {.gradation = gradation}).volume.tetrahedra.size());
+    };
+    return count(Sizes{}.gradation) / count(Sizes{}.gradation + 1e-9);
+  };
+  EXPECT_LT(part(with_insets(with_insets(hard::icosphere(0), 20, 0.1), 20, 0.5)), 0.9);
+  EXPECT_NEAR(part(hard::icosphere(2)), 1, 0.05);
 }
 
 }  // namespace
