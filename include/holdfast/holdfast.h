@@ -43,12 +43,12 @@ using RegionSeed = Surface::RegionSeed;
 /// How long edges should be, for field points. The least of all limits counts.
 struct Sizes {
   double size = 0;  ///< the most anywhere; 0: as the surface has it
-  /// From a vertex of the surface, whose size is the mean length of its edges, sizes grow by this much a unit
-  /// of length, inward and towards larger triangles.
+  /// From a vertex of the surface, whose size is that of its edges, sizes grow inward by this much a unit of
+  /// length. 0.3 stands for up to 0.5 where sizes of the surface jump (docs/sizes.md).
   double gradation = 0.3;
   /// Whether sizes grow inside beyond those of the surface round; else they lie between them.
   bool grow = true;
-  /// One a vertex of the complex, instead of the mean length of its edges (0: keep that); or none. Of several
+  /// One a vertex of the complex, instead of what its edges ask for (0: keep that); or none. Of several
   /// vertices at one place the least counts.
   std::vector<double> vertex_sizes = {};
   /// The most at a point; what is not positive is no limit. Called often, from the calling thread.
