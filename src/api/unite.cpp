@@ -124,7 +124,7 @@ void keep_only(repairing::State& state, const std::vector<std::uint8_t>& keep) {
   }
   state.facets = std::move(facets);
   state.facet_parents = std::move(parents);
-  state.known.clear();
+  state.doubt_all();
   repairing::drop_unused(state);
 }
 

@@ -39,7 +39,8 @@ class Arranging {
         find_meetings(complex_, elements_, std::move(pairs), pool_, step_, options_.threads);
     check_size();
     gather(meetings);
-    triangulate_sheets();
+    Crossings crossings(complex_, elements_, cutting(meetings), options_.threads);
+    triangulate_sheets(crossings);
     number_points();
     deliver_facets();
     deliver_segments(meetings);
@@ -97,7 +98,17 @@ class Arranging {
     }
   }
 
-  void triangulate_sheets() {
+  /// For each element whether it leaves traces in others, or has some.
+  [[nodiscard]] std::vector<std::uint8_t> cutting(const Meetings& meetings) const {
+    std::vector<std::uint8_t> cutting(elements_.all.size(), 0);
+    for (const Meeting& meeting : meetings.all)
+      for (const Index e : meeting.elements)
+        if (elements_.all[e].corners == 3) cutting[e] = 1;
+    for (const Gathered& sheet : sheets_) cutting[sheet.facets[0]] = 1;
+    return cutting;
+  }
+
+  void triangulate_sheets(Crossings& crossings) {
     cut_.resize(sheets_.size());
     const std::thread::id caller = std::this_thread::get_id();
     std::size_t done = 0;
@@ -110,7 +121,8 @@ class Arranging {
       };
       for (std::size_t k = first; k < last; ++k) {
         const Gathered& sheet = sheets_[k];
-        cut_[k] = triangulate({sheet.facets, sheet.points, sheet.traces}, complex_, elements_, pool_, poll);
+        cut_[k] = triangulate({sheet.facets, sheet.points, sheet.traces}, complex_, elements_, pool_,
+                              crossings, poll);
         if (tells) done = k;
       }
     });
@@ -121,8 +133,11 @@ class Arranging {
     const Index before = pool_.size();
     for (SheetTriangles& cut : cut_) {
       std::vector<Index> number;
-      for (std::size_t k = 0; k < cut.points.size(); ++k)
-        number.push_back(pool_.add(std::move(cut.points[k]), cut.nearest[k]));
+      for (CrossingPoint* crossing : cut.points) {
+        if (crossing->number == no_index)
+          crossing->number = pool_.add(std::move(crossing->point), crossing->nearest);
+        number.push_back(crossing->number);
+      }
       const auto renumber = [&](auto& lists) {
         for (auto& list : lists)
           for (Index& v : list)
@@ -151,7 +166,7 @@ class Arranging {
     for (Index i = 0; i < elements_.all.size() && elements_.all[i].corners == 3; ++i) {
       const Index s = sheet_of_[i];
       if (s == no_index) {
-        deliver(elements_.all[i].vertex, std::array{elements_.all[i].id});
+        deliver(elements_.all[i].vertex, std::array{elements_.all[i].id}, no_index);
         continue;
       }
       const SheetTriangles& cut = cut_[s];
@@ -160,13 +175,14 @@ class Arranging {
         parents.clear();
         for (Index p = cut.first_parent[t]; p < cut.first_parent[t + 1]; ++p)
           parents.push_back(elements_.all[cut.parents[p]].id);
-        deliver(cut.triangles[t], parents);
+        deliver(cut.triangles[t], parents, cut.fits_rounded ? s : no_index);
       }
     }
   }
 
-  void deliver(const Triangle& corners, std::span<const Index> parents) {
+  void deliver(const Triangle& corners, std::span<const Index> parents, Index sheet) {
     result_.facets.push_back(corners);
+    result_.facet_sheet.push_back(sheet);
     result_.facet_parents.add(parents);
   }
 

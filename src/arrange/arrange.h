@@ -43,6 +43,9 @@ struct Arrangement {
   /// In the order of their first parents, turned as these. Corners are the first vertices at their places.
   std::vector<Triangle> facets;
   Parents facet_parents;  ///< facets of the complex, in ascending order: several where these overlapped
+  /// For each facet its sheet, if the facets of that fit together where their corners stand at the nearest
+  /// doubles, too; else `no_index`.
+  std::vector<Index> facet_sheet;
   std::size_t sheets = 0;
   std::vector<Segment> segments;  ///< pieces of the complex's, each once
   Parents segment_parents;

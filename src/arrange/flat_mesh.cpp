@@ -181,12 +181,12 @@ EdgeCode FlatMesh::edge_between(Vertex a, Vertex b) const {
   return found;
 }
 
-FlatMesh::Departure FlatMesh::depart(Vertex from, Vertex to) const {
+FlatMesh::Departure FlatMesh::depart(Vertex from, Vertex to, Vertex behind) const {
   Departure found;
   for_each_corner(from, [&](EdgeCode opposite) {
     const Vertex right = mesh_.from(opposite), left = mesh_.to(opposite);
-    const auto side = [&](Vertex v) { return v == to ? 0 : points_.orient(from, to, v); };
-    const auto is_on = [&](Vertex v) { return v == to || points_.between(from, to, v); };
+    const auto side = [&](Vertex v) { return v == to || v == behind ? 0 : points_.orient(from, to, v); };
+    const auto is_on = [&](Vertex v) { return v == to || (v != behind && points_.between(from, to, v)); };
     const int on_right = side(right);
     if (on_right == 0 && is_on(right)) {
       found.along = right;
@@ -223,11 +223,11 @@ void FlatMesh::lay(Vertex from, Vertex to, const std::vector<EdgeCode>& crossed,
 
 void FlatMesh::insert_segment(Vertex a, Vertex b, std::uint32_t line, const Crossing& crossing) {
   std::vector<EdgeCode> crossed;
-  for (Vertex at = a; at != b;) {
-    const Departure leaving = depart(at, b);
+  for (Vertex at = a, behind = kNoVertex; at != b;) {
+    const Departure leaving = depart(at, b, behind);
     if (leaving.along != kNoVertex) {
       constrain(at, leaving.along, line);
-      at = leaving.along;
+      behind = std::exchange(at, leaving.along);
       continue;
     }
     crossed.clear();
@@ -239,7 +239,7 @@ void FlatMesh::insert_segment(Vertex a, Vertex b, std::uint32_t line, const Cros
         mesh_.add_star(0);
         split_edge(leave, p);
         // The triangles at the edge have changed; the way to p crosses no segment.
-        const Departure again = depart(at, p);
+        const Departure again = depart(at, p, behind);
         crossed.clear();
         next = p;
         if (again.along == p) break;
@@ -261,14 +261,14 @@ void FlatMesh::insert_segment(Vertex a, Vertex b, std::uint32_t line, const Cros
       leave = side > 0 ? next_edge(entered) : previous_edge(entered);
     }
     lay(at, next, crossed, line);
-    at = next;
+    behind = std::exchange(at, next);
   }
 }
 
 std::vector<Vertex> FlatMesh::chain(Vertex a, Vertex b) const {
   std::vector<Vertex> vertices{a};
-  while (vertices.back() != b) {
-    const Vertex next = depart(vertices.back(), b).along;
+  for (Vertex behind = kNoVertex; vertices.back() != b; behind = vertices[vertices.size() - 2]) {
+    const Vertex next = depart(vertices.back(), b, behind).along;
     if (next == kNoVertex) throw std::logic_error("a side of a facet is no chain of edges");
     vertices.push_back(next);
   }

@@ -50,7 +50,8 @@ class FlatMesh {
   void put(std::uint32_t t, std::array<Vertex, 3> v);
   std::uint32_t add_triangle();
   void legalise();
-  [[nodiscard]] Departure depart(Vertex from, Vertex to) const;
+  /// `behind`: a vertex on the same line on the other side of `from`, if one is known.
+  [[nodiscard]] Departure depart(Vertex from, Vertex to, Vertex behind = plane::kNoVertex) const;
   void lay(Vertex from, Vertex to, const std::vector<EdgeCode>& crossed, std::uint32_t line);
   void constrain(Vertex from, Vertex to, std::uint32_t line);
   template <class Visit>

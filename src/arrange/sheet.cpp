@@ -6,6 +6,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "arrange/fits_rounded.h"
 #include "arrange/flat_mesh.h"
 #include "exact/predicates.h"
 #include "numbers/sorted.h"
@@ -68,67 +69,51 @@ class SheetPoints {
     point_of_.push_back(no_index);
     return points_.add(std::move(p));
   }
-  Vertex add_crossing(exact::SpacePoint point) {
-    const Point nearest = exact::nearest(point);
+  Vertex add_crossing(CrossingPoint& crossing) {
     point_of_.push_back(given_.pool.size() + static_cast<Index>(crossings_.size()));
-    const Vertex v = points_.add(exact::projected(point, given_.axis), given_.flat(nearest));
-    crossings_.push_back(std::move(point));
-    nearest_.push_back(nearest);
-    return v;
+    crossings_.push_back(&crossing);
+    return points_.add(exact::projected(crossing.point, given_.axis), given_.flat(crossing.nearest));
   }
-  void deliver_crossings(SheetTriangles& result) {
-    result.points = std::move(crossings_);
-    result.nearest = std::move(nearest_);
-  }
+  std::vector<CrossingPoint*> take_crossings() { return std::move(crossings_); }
 
  private:
   const Given& given_;
   plane::Points points_;
   std::unordered_map<Index, Vertex> vertex_of_;  // of points of the pool
   std::vector<Index> point_of_;                  // of vertices
-  std::vector<exact::SpacePoint> crossings_;
-  std::vector<Point> nearest_;
+  std::vector<CrossingPoint*> crossings_;
 };
 
 /// The lines of segments, by number, and where two of them cross.
 class SheetLines {
  public:
-  explicit SheetLines(const Given& given) : given_(given) {}
+  SheetLines(const Given& given, Crossings& crossings) : given_(given), crossings_(crossings) {}
 
   std::uint32_t add(const Line& line) {
     lines_.push_back(line);
     return static_cast<std::uint32_t>(lines_.size() - 1);
   }
 
-  [[nodiscard]] exact::SpacePoint crossing(std::uint32_t a, std::uint32_t b) {
+  [[nodiscard]] CrossingPoint& crossing(std::uint32_t a, std::uint32_t b) const {
     const Line &p = lines_[a], &q = lines_[b];
     if (p.facet == no_index) return crossing(p.vertices, plane_of(q));
     if (q.facet == no_index) return crossing(q.vertices, plane_of(p));
-    return exact::crossing(plane_of(given_.input.facets[0]), plane_of(p), plane_of(q));
+    return crossings_.of_facets({given_.input.facets[0], p.facet, q.facet});
   }
 
  private:
-  [[nodiscard]] exact::SpacePoint crossing(const std::array<Index, 2>& ends, const SpacePlane& plane) const {
-    return exact::crossing(given_.coordinates(ends[0]), given_.coordinates(ends[1]), plane);
+  [[nodiscard]] CrossingPoint& crossing(const std::array<Index, 2>& ends, const SpacePlane& plane) const {
+    return crossings_.add(exact::crossing(given_.coordinates(ends[0]), given_.coordinates(ends[1]), plane));
   }
-  const SpacePlane& plane_of(Index facet) {
-    const auto [at, is_new] = planes_.try_emplace(facet);
-    if (is_new) {
-      const std::array<Index, 3>& v = given_.facet(facet).vertex;
-      at->second =
-          exact::plane_through(given_.coordinates(v[0]), given_.coordinates(v[1]), given_.coordinates(v[2]));
-    }
-    return at->second;
-  }
-  [[nodiscard]] SpacePlane plane_of(const Line& line) {
-    if (line.facet != no_index) return plane_of(line.facet);
+  [[nodiscard]] SpacePlane plane_of(const Line& line) const {
+    if (line.facet != no_index) return crossings_.plane_of(line.facet);
     return exact::upright_plane(given_.coordinates(line.vertices[0]), given_.coordinates(line.vertices[1]),
                                 given_.axis);
   }
 
   const Given& given_;
+  Crossings& crossings_;
   std::vector<Line> lines_;
-  std::unordered_map<Index, SpacePlane> planes_;  // of facets
 };
 
 // --- Points
@@ -205,14 +190,15 @@ void insert_points(const Given& given, SheetPoints& all, FlatMesh& mesh, const p
 // -------------------------------------------------------------------------------------------------
 
 /// And the sides of facets, where these are several.
-void insert_traces(const Given& given, SheetPoints& points, FlatMesh& mesh, const plane::Poll& poll) {
-  SheetLines lines(given);
-  const FlatMesh::Crossing crossing = [&](std::uint32_t a, std::uint32_t b) {
+void insert_traces(const Given& given, SheetPoints& points, FlatMesh& mesh, Crossings& crossings,
+                   const plane::Poll& poll) {
+  SheetLines lines(given, crossings);
+  const FlatMesh::Crossing cross = [&](std::uint32_t a, std::uint32_t b) {
     return points.add_crossing(lines.crossing(a, b));
   };
   const auto insert = [&](const std::array<Index, 2>& ends, const Line& line) {
     poll(1);
-    mesh.insert_segment(points.vertex(ends[0]), points.vertex(ends[1]), lines.add(line), crossing);
+    mesh.insert_segment(points.vertex(ends[0]), points.vertex(ends[1]), lines.add(line), cross);
   };
   if (!given.is_single)
     for (const Index f : given.input.facets)
@@ -292,7 +278,7 @@ void take_all(const Given& given, const SheetPoints& points, const FlatMesh& mes
 }  // namespace
 
 SheetTriangles triangulate(const SheetInput& input, const Complex& complex, const Elements& elements,
-                           const PointPool& pool, const plane::Poll& poll) {
+                           const PointPool& pool, Crossings& crossings, const plane::Poll& poll) {
   const Element& first = elements.all[input.facets[0]];
   const bool is_single = std::all_of(input.facets.begin(), input.facets.end(), [&](Index f) {
     return ascending(elements.all[f].vertex) == ascending(first.vertex);
@@ -301,14 +287,15 @@ SheetTriangles triangulate(const SheetInput& input, const Complex& complex, cons
   SheetPoints points(given);
   FlatMesh mesh = begin(given, points);
   insert_points(given, points, mesh, poll);
-  insert_traces(given, points, mesh, poll);
+  insert_traces(given, points, mesh, crossings, poll);
   SheetTriangles result;
   result.first_parent.push_back(0);
   if (given.is_single)
     take_all(given, points, mesh, result);
   else
     take_covered(given, points, mesh, result, poll);
-  points.deliver_crossings(result);
+  result.points = points.take_crossings();
+  result.fits_rounded = arrange::fits_rounded(mesh.triangles(), points.all());
   return result;
 }
 

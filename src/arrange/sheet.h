@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "arrange/crossings.h"
 #include "arrange/point_pool.h"
 #include "holdfast/types.h"
 #include "numbers/random.h"
@@ -38,16 +39,18 @@ struct SheetInput {
 struct SheetTriangles {
   std::vector<Triangle> triangles;  ///< points of the pool, then those below; turned as the first parent
   std::vector<Index> first_parent, parents;  ///< of each, in ascending order, as indices of Elements::all
-  std::vector<exact::SpacePoint> points;     ///< where traces cross: numbers from the pool's size on
-  std::vector<Point> nearest;
+  std::vector<CrossingPoint*> points;        ///< where traces cross: numbers from the pool's size on
   /// Where it is made of several facets, the points on each of their sides in order, from end to end.
   std::vector<std::vector<Index>> sides;
+  /// Whether the triangles still meet in common vertices and edges only where all points stand at their
+  /// nearest doubles; false where that is not known.
+  bool fits_rounded = false;
 };
 
 /// Triangulates a sheet. Points on the sides of its facets must be among `points`; where traces cross, it
 /// finds out itself.
 [[nodiscard]] SheetTriangles triangulate(const SheetInput& input, const Complex& complex,
                                          const Elements& elements, const PointPool& pool,
-                                         const plane::Poll& poll);
+                                         Crossings& crossings, const plane::Poll& poll);
 
 }  // namespace holdfast::arrange

@@ -124,9 +124,11 @@ int run(const RepairArguments& arguments) {
     write_parents(arguments.parents, surface.facets.size(), result);
   }
   write_exact(arguments.exact, surface, result);
-  const Json report = to_json(result, options_of(arguments));
-  write_json(arguments.report, report);
-  write_html(arguments, options, surface, result, report);
+  if (!arguments.report.empty() || !arguments.html.empty()) {  // it names the parents of each triangle
+    const Json report = to_json(result, options_of(arguments));
+    write_json(arguments.report, report);
+    write_html(arguments, options, surface, result, report);
+  }
   return conclude(arguments, result);
 }
 

@@ -224,6 +224,7 @@ void deliver_facets(const BentSurface& bent, State& state) {
   std::vector<Triangle> facets;
   Parents parents;
   std::vector<std::uint8_t> known;
+  std::vector<Index> sheet;
   std::vector<Index> list;
   const auto take = [&](const Triangle& t, std::span<const Index> origins) {
     const Index f = origins[0];
@@ -237,6 +238,7 @@ void deliver_facets(const BentSurface& bent, State& state) {
     parents.add(list);
     const bool same = origins.size() == 1 && t == state.facets[f];
     if (!state.known.empty()) known.push_back(same ? state.known[f] : 0);
+    if (!state.sheet.empty()) sheet.push_back(same ? state.sheet[f] : no_index);
   };
   for (Index f = 0; f < state.facets.size(); ++f) {
     if (has_repeated_corners(state.facets[f])) continue;
@@ -250,6 +252,7 @@ void deliver_facets(const BentSurface& bent, State& state) {
   state.facets = std::move(facets);
   state.facet_parents = std::move(parents);
   state.known = std::move(known);
+  state.sheet = std::move(sheet);
 }
 
 void deliver_segments(const BentSurface& bent, State& state) {

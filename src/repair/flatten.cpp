@@ -265,6 +265,7 @@ class Flattening {
     state_.facets = std::move(facets);
     state_.facet_parents = std::move(parents);
     if (!state_.known.empty()) state_.known = std::move(known);
+    state_.sheet.clear();
     deliver_segments();
   }
 

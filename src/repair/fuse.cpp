@@ -62,7 +62,7 @@ void deliver(const PartFacets& facets_of_parts, const LedSides& sides, const Pat
   }
   state.facets = std::move(facets);
   state.facet_parents = std::move(parents);
-  state.known.clear();
+  state.doubt_all();
   drop_unused(state);
 }
 

@@ -98,6 +98,7 @@ void glue(State& state, std::span<const Index> part) {
   state.facets = std::move(facets);
   state.facet_parents = std::move(parents);
   state.known = std::move(known);
+  state.sheet.clear();
 }
 
 }  // namespace holdfast::repairing

@@ -146,8 +146,8 @@ class Rounding {
   /// Nothing is in trouble, and nothing that is said to be known is taken for granted.
   bool is_done() {
     if (!trouble_.none()) return false;
-    if (rounded_.state.known.empty()) return true;
-    rounded_.state.known.clear();
+    if (rounded_.state.known.empty() && rounded_.state.sheet.empty()) return true;
+    rounded_.state.doubt_all();
     trouble_ = trouble_of(rounded_.state, here(), threads_);
     return trouble_.none();
   }
@@ -274,10 +274,10 @@ class Rounding {
   arrange::Arrangement arrangement_of(std::size_t most_points) const {
     const Complex complex = rounded_.state.complex();
     const Elements elements = elements_of(complex, threads_);
-    const std::vector<std::uint8_t> known = known_elements(rounded_.state, elements);
+    const KnownElements known(rounded_.state, elements);
     arrange::ArrangeOptions arranging;
     arranging.threads = threads_;
-    arranging.known = known;
+    arranging.known = known.known();
     arranging.most_points = most_points;
     return arrange::arrange(complex, elements, here(), arranging);
   }

@@ -86,16 +86,16 @@ class Settling {
     }
     if (into.empty()) return 0;
     move_slots(into);
-    const auto rename = [&](auto& entities, std::vector<std::uint8_t>* known) {
+    const auto rename = [&](auto& entities, auto&& renamed) {
       for (std::size_t i = 0; i < entities.size(); ++i)
         for (Index& v : entities[i])
           if (const auto found = into.find(v); found != into.end()) {
             v = found->second;
-            if (known != nullptr && !known->empty()) (*known)[i] = 0;
+            renamed(i);
           }
     };
-    rename(state_.facets, &state_.known);
-    rename(state_.segments, nullptr);
+    rename(state_.facets, [&](std::size_t f) { state_.doubt(f); });
+    rename(state_.segments, [](std::size_t) {});
     std::erase_if(vertices_, [&](Index v) { return into.count(v) != 0; });
     return most;
   }
@@ -202,7 +202,7 @@ Trouble trouble_of(const State& state, const Step& step, const Threads& threads,
     }
     return trouble.size() <= most;
   };
-  for_each_offending_pair(complex, elements, visit, step, {}, known_elements(state, elements));
+  for_each_offending_pair(complex, elements, visit, step, {}, KnownElements(state, elements).known());
   for (const Flaw& flaw : elements.flaws)
     if (flaw.kind == DefectKind::degenerate_facet) trouble.facets.push_back(flaw.id);
   sort_unique(trouble.facets);

@@ -69,13 +69,11 @@ void drop_unused(State& state) {
   renumber(state.segments);
 }
 
-std::vector<std::uint8_t> known_elements(const State& state, const Elements& elements) {
-  std::vector<std::uint8_t> known;
-  if (state.known.empty()) return known;
-  known.reserve(elements.all.size());
-  for (const Element& e : elements.all)
-    known.push_back(e.corners == 3 ? state.known[e.id] : e.corners == 1 ? 1 : 0);
-  return known;
+KnownElements::KnownElements(const State& state, const Elements& elements) {
+  for (const Element& e : elements.all) {
+    if (!state.known.empty()) each_.push_back(e.corners == 3 ? state.known[e.id] : e.corners == 1 ? 1 : 0);
+    if (!state.sheet.empty()) sheet_.push_back(e.corners == 3 ? state.sheet[e.id] : no_index);
+  }
 }
 
 State state_of(const Complex& complex) {
@@ -99,6 +97,7 @@ State arranged(const State& before, const arrange::Arrangement& arrangement,
   state.segments = arrangement.segments;
   state.facet_parents = composed(before.facet_parents, arrangement.facet_parents);
   state.segment_parents = composed(before.segment_parents, arrangement.segment_parents);
+  state.sheet = arrangement.facet_sheet;
   state.known.reserve(state.facets.size());
   const auto stands = [&](Index v) {
     return v < before.vertices.size() || distances[v - before.vertices.size()] == 0;

@@ -7,6 +7,7 @@
 #include "holdfast/types.h"
 #include "surface/aabb_tree.h"
 #include "surface/elements.h"
+#include "surface/search.h"
 
 namespace holdfast::repairing {
 
@@ -21,12 +22,32 @@ struct State {
   Parents segment_parents;
   /// For each facet whether it is known to fit together with all others of which that is known.
   std::vector<std::uint8_t> known;
+  /// For each facet the sheet of an arrangement that it is a part of, if all parts of that are known to fit
+  /// together, else `no_index`; empty where there are none.
+  std::vector<Index> sheet;
 
   [[nodiscard]] Complex complex() const { return {vertices, facets, segments, {}, {}}; }
+  /// Nothing is known of a facet from now on.
+  void doubt(std::size_t facet) {
+    if (!known.empty()) known[facet] = 0;
+    if (!sheet.empty()) sheet[facet] = no_index;
+  }
+  /// Nor of any.
+  void doubt_all() {
+    known.clear();
+    sheet.clear();
+  }
 };
 
-/// `State::known` for the elements of its complex, as the search takes it; empty where nothing is known.
-[[nodiscard]] std::vector<std::uint8_t> known_elements(const State& state, const Elements& elements);
+/// `State::known` and `State::sheet` for the elements of its complex.
+struct KnownElements {
+  KnownElements(const State& state, const Elements& elements);
+  [[nodiscard]] Known known() const { return {each_, sheet_}; }
+
+ private:
+  std::vector<std::uint8_t> each_;
+  std::vector<Index> sheet_;
+};
 
 /// The box of some vertices, wider by a margin on all sides.
 [[nodiscard]] Box box_round(const State& state, std::span<const Index> corners, double margin);

@@ -22,11 +22,8 @@ Json to_json(const RepairResult& result, Json options) {
   for (const auto& [border, reason] : result.left_open)
     left_open.push_back({{"border", border}, {"reason", name(reason)}});
   const auto list = [](Json& to, const IndexLists& lists) {
-    for (std::size_t i = 0; i < lists.size(); ++i) {
-      Json entry = Json::array();
-      for (const Index p : lists[i]) entry.push_back(p);
-      to.push_back(std::move(entry));
-    }
+    for (std::size_t i = 0; i < lists.size(); ++i)
+      to.push_back(Json::array_t(lists[i].begin(), lists[i].end()));
   };
   list(parents, result.parents);
   list(segment_parents, result.segment_parents);
@@ -44,14 +41,14 @@ Json to_json(const RepairResult& result, Json options) {
         {"facets", result.surface.facets.size()},
         {"segments", result.surface.segments.size()}}},
       {"max_displacement", result.max_displacement},
-      {"moved", moved},
-      {"dropped", dropped},
-      {"merged", merged},
-      {"filled", filled},
-      {"left_open", left_open},
-      {"marker_sets", sets},
-      {"parents", parents},
-      {"segment_parents", segment_parents},
+      {"moved", std::move(moved)},
+      {"dropped", std::move(dropped)},
+      {"merged", std::move(merged)},
+      {"filled", std::move(filled)},
+      {"left_open", std::move(left_open)},
+      {"marker_sets", std::move(sets)},
+      {"parents", std::move(parents)},
+      {"segment_parents", std::move(segment_parents)},
       {"seconds", report.seconds},
       {"peak_memory_bytes", report.peak_memory_bytes},
       {"version", version()},

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "exact/predicates.h"
 #include "mesh/parallel.h"
 #include "surface/aabb_tree.h"
 #include "surface/complex.h"
@@ -148,13 +149,13 @@ class Skip {
        const Box& all, std::size_t patience)
       : complex_(complex),
         elements_(elements),
-        known_(known),
+        known_(known.each),
         hubs_(hubs),
         tree_(tree),
         frame_(all),
         patience_(patience * elements.all.size()),
         common_(hubs.all().empty() ? 0 : tree.nodes()),
-        all_known_(known.empty() ? 0 : tree.nodes()) {}
+        all_known_(known.each.empty() ? 0 : tree.nodes()) {}
 
   // All elements of the nodes are known, all of node a share a hub with all of node b, or oriented boxes
   // separate them.
@@ -221,7 +222,7 @@ class Skip {
 
   const Complex& complex_;
   const Elements& elements_;
-  const Known known_;
+  const std::span<const std::uint8_t> known_;
   const Hubs& hubs_;
   const AabbTree& tree_;
   UnitFrame frame_;
@@ -321,7 +322,8 @@ class Search {
   }
 
   [[nodiscard]] bool test(Index i, Index j, const VisitPair& visit) const {
-    if (!known_.empty() && known_[i] != 0 && known_[j] != 0) return true;
+    if (!known_.each.empty() && known_.each[i] != 0 && known_.each[j] != 0) return true;
+    if (!known_.sheet.empty() && fit_as_sheets(i, j)) return true;
     if (i > j) std::swap(i, j);
     const Element &a = elements_.all[i], &b = elements_.all[j];
     const Simplex p = Elements::simplex(a, complex_), q = Elements::simplex(b, complex_);
@@ -329,6 +331,25 @@ class Search {
     const Contacts found = contacts(p, q);
     const bool repeated = a.corners == b.corners && (found.common & Contacts::bit(whole(a), whole(b))) != 0;
     return (found.distinct == 0 && !repeated) || visit(i, j, found);
+  }
+
+  // Facets of one sheet do; those of two are most often on one side of each other.
+  [[nodiscard]] bool fit_as_sheets(Index i, Index j) const {
+    if (known_.sheet[i] == no_index || known_.sheet[j] == no_index) return false;
+    return known_.sheet[i] == known_.sheet[j] || is_on_one_side(i, j) || is_on_one_side(j, i);
+  }
+
+  // Whether all corners of j that are none of i's are surely strictly on one side of i's plane.
+  [[nodiscard]] bool is_on_one_side(Index i, Index j) const {
+    const std::array<Index, 3>& t = elements_.all[i].vertex;
+    const auto at = [&](Index v) { return complex_.vertices[v].data(); };
+    int sides = 0, count = 0;
+    for (const Index v : elements_.all[j].vertex) {
+      if (v == t[0] || v == t[1] || v == t[2]) continue;
+      sides += exact::detail::orient3d_filter(at(t[0]), at(t[1]), at(t[2]), at(v));
+      ++count;
+    }
+    return count > 0 && (sides == count || sides == -count);
   }
 
   const Complex& complex_;
@@ -343,7 +364,8 @@ class Search {
 
 // The elements that are not known and those whose boxes overlap one of theirs, and which of them are known.
 std::pair<Elements, std::vector<std::uint8_t>> near_unknown(const Complex& complex, const Elements& elements,
-                                                            Known known, const Threads& threads) {
+                                                            std::span<const std::uint8_t> known,
+                                                            const Threads& threads) {
   std::vector<Box> boxes;
   for (Index e = 0; e < elements.all.size(); ++e)
     if (known[e] == 0) boxes.push_back(box_of(complex, elements.all[e]));
@@ -374,9 +396,10 @@ bool all_fit(const Complex& complex, const Elements& elements, Known known, cons
   constexpr std::size_t kFew = 4;  // a part of all
   Elements near;
   std::vector<std::uint8_t> near_known;
-  const auto unknown = static_cast<std::size_t>(std::count(known.begin(), known.end(), std::uint8_t{0}));
-  const bool reduced = !known.empty() && unknown < elements.all.size() / kFew;
-  if (reduced) std::tie(near, near_known) = near_unknown(complex, elements, known, threads);
+  const auto unknown =
+      static_cast<std::size_t>(std::count(known.each.begin(), known.each.end(), std::uint8_t{0}));
+  const bool reduced = !known.each.empty() && known.sheet.empty() && unknown < elements.all.size() / kFew;
+  if (reduced) std::tie(near, near_known) = near_unknown(complex, elements, known.each, threads);
   bool fit = true;
   const auto visit = [&](Index, Index, const Contacts&) { return fit = false; };
   SearchTuning tuning;

@@ -53,9 +53,20 @@ struct SearchTuning {
   Threads threads = 1;
 };
 
-/// For each element whether it is known to fit together with all others of which that is known, as faces of
-/// one triangulation do; or empty, where nothing is known.
-using Known = std::span<const std::uint8_t>;
+/// Which elements are known to fit together; empty lists where nothing is known.
+struct Known {
+  Known() = default;
+  Known(const std::vector<std::uint8_t>& of_all) : each(of_all) {}  // NOLINT(*-explicit-*): the usual case
+  Known(std::span<const std::uint8_t> of_all, std::span<const Index> of_sheet)
+      : each(of_all), sheet(of_sheet) {}
+
+  /// For each element whether it fits together with all others of which that is said, as faces of one
+  /// triangulation do.
+  std::span<const std::uint8_t> each;
+  /// The number of its sheet, or `no_index`: facets of one sheet lie in a plane but for rounding and fit
+  /// together.
+  std::span<const Index> sheet;
+};
 
 /// Visits every pair of elements that do not meet in a common face or not at all, in no useful order; but
 /// for pairs of known ones.

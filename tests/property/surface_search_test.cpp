@@ -145,6 +145,22 @@ void check_with_known(const Complex& complex, const Elements& elements, const Pa
   ASSERT_EQ(all_fit(complex, elements, {}, [](double) {}), all_expected.empty());
 }
 
+/// Facets that fit together may be a sheet; no pair is lost by it.
+void check_with_sheets(const Complex& complex, const Elements& elements, const Pairs& expected,
+                       Random& random) {
+  constexpr double kSheets = 3;
+  std::vector<Index> sheet;
+  for (const Element& e : elements.all)
+    sheet.push_back(e.corners == 3 ? static_cast<Index>(uniform(random, 0, kSheets)) : no_index);
+  for (const auto& [i, j] : expected)
+    if (sheet[i] == sheet[j]) sheet[j] = no_index;
+  Pairs pairs;
+  const auto visit = [&](Index i, Index j, const Contacts&) { return pairs.insert({i, j}).second; };
+  for_each_offending_pair(
+      complex, elements, visit, [](double) {}, {3, 1000}, Known({}, sheet));
+  ASSERT_EQ(pairs, expected);
+}
+
 void check(Surface (*make)(Random&), unsigned seeds) {
   std::size_t found_some = 0;
   for (unsigned seed = 0; seed < seeds; ++seed) {
@@ -166,6 +182,7 @@ void check(Surface (*make)(Random&), unsigned seeds) {
       ASSERT_EQ(pairs, expected);
     }
     check_with_known(complex, elements, expected, random);
+    check_with_sheets(complex, elements, expected, random);
   }
   EXPECT_GT(found_some, seeds / 2);
 }
