@@ -138,7 +138,7 @@ class Sweep {
     Item* const last = starts_.data() + first_[v + std::size_t{1}];
     if (first == last && below != kNone && above != kNone && !fit(below, above)) return false;
     std::sort(first, last, [&](Item s, Item t) { return points_.orient(v, ends_[s][1], ends_[t][1]) > 0; });
-    for (Item* s = first; s + 1 < last; ++s)
+    for (Item* s = first; last - s > 1; ++s)
       if (points_.orient(v, ends_[s[0]][1], ends_[s[1]][1]) == 0) return false;
     if (first != last && below != kNone && !fit(below, *first)) return false;
     if (first != last && above != kNone && !fit(last[-1], above)) return false;
