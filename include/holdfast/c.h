@@ -176,7 +176,7 @@ typedef struct holdfast_mesh_options {
   size_t struct_size;         /* sizeof(holdfast_mesh_options) */
   int field_points;           /* 1: points inside, to compute with; 0: only what the surface forces */
   double size;                /* for field points: no edge much longer; 0: as the surface has it */
-  double gradation;           /* default 0.3: as in C++ */
+  double gradation;           /* negative, the default: 0.3 to 0.5, by the surface */
   int no_growth;              /* 1: sizes inside stay between those of the surface round */
   const double* vertex_sizes; /* one a vertex of the surface, or NULL */
   /* Sizes at `count` points (count, 3), written to `sizes`; what is not positive is no limit. May be NULL. It

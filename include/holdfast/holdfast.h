@@ -4,6 +4,7 @@
 #include <concepts>
 #include <functional>
 #include <map>
+#include <optional>
 
 #include "holdfast/export.h"
 #include "holdfast/intermediate.h"
@@ -44,8 +45,8 @@ using RegionSeed = Surface::RegionSeed;
 struct Sizes {
   double size = 0;  ///< the most anywhere; 0: as the surface has it
   /// From a vertex of the surface, whose size is that of its edges, sizes grow inward by this much a unit of
-  /// length. 0.3 stands for up to 0.5 where sizes of the surface jump (docs/sizes.md).
-  double gradation = 0.3;
+  /// length, 0 to 1. Unset: 0.3, and up to 0.5 where sizes of the surface jump (docs/sizes.md).
+  std::optional<double> gradation = {};
   /// Whether sizes grow inside beyond those of the surface round; else they lie between them.
   bool grow = true;
   /// One a vertex of the complex, instead of what its edges ask for (0: keep that); or none. Of several
@@ -155,7 +156,9 @@ struct Report {
   /// What was done for the sizes; all zero without.
   struct Field {
     std::size_t points = 0;  ///< field points; they count as Steiner points, too
-    Shape before, after;     ///< the optimisation; as the metric sees it, if there is one
+    double gradation =
+        0;  ///< by which sizes grew a unit of length: `Sizes::gradation`, or what it was chosen as
+    Shape before, after;  ///< the optimisation; as the metric sees it, if there is one
     /// Lengths of edges over the mean of the sizes wanted at their ends, or in the metrics there, in bins of
     /// 1/8, the last without end; an edge counts once for each element.
     std::array<std::size_t, 24> edge_lengths{};

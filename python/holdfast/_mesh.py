@@ -28,7 +28,7 @@ def mesh(
     segment_markers: Optional[npt.ArrayLike] = None,
     size: Size = None,
     metric: Any = None,
-    gradation: float = 0.3,
+    gradation: Optional[float] = None,
     growth: bool = True,
     max_volume: Union[None, float, typing.Mapping[Optional[int], float]] = None,
     max_ratio: Optional[float] = None,
@@ -72,7 +72,7 @@ def mesh(
         The same for sizes that depend on the direction: `(points, tetrahedra, tensors)`, a path, or a function that takes
         an (m, 3) array and gives (m, 3, 3) or (m, 6) numbers (m11 m12 m22 m13 m23 m33): in this metric edges have length 1.
     gradation
-        How much sizes grow a unit of length, away from the surface; 0 to 1. 0.3, the default, is up to 0.5 on surfaces full of needles.
+        How much sizes grow a unit of length, away from the surface; 0 to 1. By default 0.3, and up to 0.5 on surfaces full of needles.
     growth
         Whether sizes may grow inside beyond those of the surface round.
     max_volume
@@ -165,7 +165,7 @@ def mesh(
         what = repaired.surface
     options.update(
         fill=fill,
-        gradation=float(gradation),
+        gradation=None if gradation is None else float(gradation),
         growth=bool(growth),
         quality=quality,
         keep=keep,

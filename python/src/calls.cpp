@@ -86,7 +86,8 @@ struct Fields {
 Sizes sizes_from(const py::dict& options, const Fields& fields) {
   Sizes sizes;
   take(options, "size", sizes.size);
-  take(options, "gradation", sizes.gradation);
+  if (options.contains("gradation") && !options["gradation"].is_none())
+    sizes.gradation = py::cast<double>(options["gradation"]);
   take(options, "growth", sizes.grow);
   take(options, "max_volume", sizes.max_volume);
   take(options, "max_ratio", sizes.max_ratio);

@@ -238,6 +238,7 @@ std::unique_ptr<Field> add_field_points(const Attempt& attempt, BoxMesh& box, Di
   FieldPoints added = add_field_points(field->volume(), sizes, attempt.threads, attempt.monitor);
   field->parts = std::move(added.parts);
   report.stopped_early = added.stopped_early;
+  report.gradation = sizes.gradation();
   const bool improves = attempt.options.optimise && attempt.last_stage() == Stage::optimise;
   if (!improves)
     report.stopped_early |= join_filled(std::move(field->parts), sizes, attempt.threads, attempt.monitor);

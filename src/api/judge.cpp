@@ -36,7 +36,8 @@ void require_sensible_sizes(const Complex& complex, const Sizes& sizes) {
       sizes.max_ratio == 0 || (sizes.max_ratio > kLeastRatio && std::isfinite(sizes.max_ratio)),
       "the largest ratio of radii to edges must be finite and above that of a regular tetrahedron, 0.6124");
   require(sizes.layers <= kMostLayers, "at most 100 layers can be asked for");
-  require(sizes.gradation >= 0 && sizes.gradation <= 1, "the gradation must lie between 0 and 1");
+  require(!sizes.gradation || (*sizes.gradation >= 0 && *sizes.gradation <= 1),
+          "the gradation must lie between 0 and 1");
   require(sizes.vertex_sizes.empty() || sizes.vertex_sizes.size() == complex.vertices.size(),
           "as many sizes as vertices are needed, or none");
   require(std::all_of(sizes.vertex_sizes.begin(), sizes.vertex_sizes.end(), is_length_or_none),

@@ -26,7 +26,7 @@ Struct known_part(const Struct* given, void (*init)(Struct*)) {
 Sizes to_sizes(const holdfast_mesh_options& given, std::size_t vertices) {
   Sizes sizes;
   sizes.size = given.size;
-  sizes.gradation = given.gradation;
+  if (!(given.gradation < 0)) sizes.gradation = given.gradation;
   sizes.grow = given.no_growth == 0;
   if (given.vertex_sizes != nullptr)
     sizes.vertex_sizes.assign(given.vertex_sizes, given.vertex_sizes + vertices);
@@ -106,7 +106,7 @@ void holdfast_control_init(holdfast_control* control) {
 void holdfast_mesh_options_init(holdfast_mesh_options* options) {
   *options = {};
   options->struct_size = sizeof *options;
-  options->gradation = holdfast::Sizes{}.gradation;
+  options->gradation = -1;
   options->effort = HOLDFAST_GOOD;
   options->box_margin = holdfast::Options{}.box_margin;
   options->seed = 1;

@@ -62,8 +62,8 @@ Sizes to_sizes(const MeshArguments& arguments) {
     throw UsageError("--size: the length must be positive");
   Sizes sizes;
   sizes.size = arguments.size.value_or(sizes.size);
-  sizes.gradation = arguments.gradation.value_or(sizes.gradation);
-  if (!(sizes.gradation >= 0 && sizes.gradation <= 1))
+  sizes.gradation = arguments.gradation;
+  if (sizes.gradation && !(*sizes.gradation >= 0 && *sizes.gradation <= 1))
     throw UsageError("--gradation: a number from 0 to 1 is expected");
   sizes.grow = !arguments.no_growth;
   return sizes;
@@ -194,7 +194,7 @@ Json to_json(const MeshArguments& arguments) {
           {"output", arguments.output.path.string()},
           {"fill", arguments.fill},
           {"size", arguments.size.value_or(0)},
-          {"gradation", arguments.gradation.value_or(Sizes{}.gradation)},
+          {"gradation", arguments.gradation ? Json(*arguments.gradation) : Json()},
           {"no_growth", arguments.no_growth},
           {"size_field", arguments.size_field.string()},
           {"max_volume", arguments.bounds.max_volumes},

@@ -16,6 +16,7 @@
 #include "holdfast/io.h"
 #include "numbers/float_environment.h"
 #include "numbers/vector.h"
+#include "size/tuning.h"
 
 namespace holdfast {
 namespace division {
@@ -57,7 +58,7 @@ class Divider {
 
  private:
   void divide(SurfaceDivision& division) {
-    const WantedSize wanted(complex_, Sizes{}.gradation, coarse_limit());
+    const WantedSize wanted(complex_, tuning::kGradation, coarse_limit());
     const Bisection cells(work(wanted), options_.parts);
     coarse_ = {};
     const Result fine = mesh_near(wanted, cells);

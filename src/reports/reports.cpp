@@ -47,6 +47,7 @@ Json to_json(const Report::Field& field) {
           {"after", to_json(field.after)},
           {"edge_length_histogram", field.edge_lengths},
           {"moves", field.moves},
+          {"gradation", field.gradation},
           {"swaps", field.swaps},
           {"contractions", field.contractions},
           {"insertions", field.insertions},

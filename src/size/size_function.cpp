@@ -82,7 +82,7 @@ double share_of_steep(std::span<const double> of_vertex, const Complex& complex,
 // slow growth fills the volume with small elements and makes few of them better.
 double default_gradation(double share_of_steep) {
   const double part = (share_of_steep - tuning::kFewSteep) / (tuning::kManySteep - tuning::kFewSteep);
-  return std::lerp(Sizes{}.gradation, tuning::kGradationOfSteep, std::clamp(part, 0.0, 1.0));
+  return tuning::kGradation + (tuning::kGradationOfSteep - tuning::kGradation) * std::clamp(part, 0.0, 1.0);
 }
 
 void require_regions_of_bounds(std::span<const RegionSeed> seeds, const Kept& kept) {
@@ -102,7 +102,7 @@ void require_regions_of_bounds(std::span<const RegionSeed> seeds, const Kept& ke
 
 SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds, const Complex& complex,
                            const SegmentTable& table, const Kept& kept, int scale, const Threads& threads)
-    : gradation_(sizes.gradation),
+    : gradation_(sizes.gradation.value_or(tuning::kGradation)),
       grows_(sizes.grow),
       most_(sizes.size > 0 ? std::ldexp(sizes.size, scale) : kNoLimit),
       scale_(scale),
@@ -113,7 +113,7 @@ SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds
   threads.poll();
   for (std::size_t v = 0; v < std::min(of_vertex_.size(), sizes.vertex_sizes.size()); ++v)
     if (sizes.vertex_sizes[v] > 0) of_vertex_[v] = std::ldexp(sizes.vertex_sizes[v], scale);
-  if (gradation_ == Sizes{}.gradation && sizes.vertex_sizes.empty() && !metric_)
+  if (!sizes.gradation && sizes.vertex_sizes.empty() && !metric_)
     gradation_ = default_gradation(share_of_steep(of_vertex_, complex, table, scale));
   if (fields_ && !field_)
     field_ = [fields = fields_](const Point& p) {

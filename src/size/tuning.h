@@ -6,7 +6,9 @@ namespace holdfast::tuning {
 /// Times the shortest edge at a vertex, from which on the longest makes long ones count for more.
 inline constexpr double kUnlike = 4;
 
-// The default gradation, by the share of vertices from which sizes grow along an edge by more than its
+inline constexpr double kGradation = 0.3;  ///< where none is asked for
+
+// More than that, by the share of vertices from which sizes grow along an edge by more than its
 // length.
 inline constexpr double kFewSteep = 0.35, kManySteep = 0.5;
 inline constexpr double kGradationOfSteep = 0.5;  ///< where many are

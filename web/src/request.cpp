@@ -80,8 +80,8 @@ void refuse_beside_fill(const Json& options) {
 Sizes sizes_of(const Json& options) {
   Sizes sizes;
   sizes.size = positive(options, "size", 0);
-  sizes.gradation = number(options, "gradation", sizes.gradation);
-  if (!(sizes.gradation >= 0 && sizes.gradation <= 1))
+  if (options.contains("gradation")) sizes.gradation = number(options, "gradation", 0);
+  if (sizes.gradation && !(*sizes.gradation >= 0 && *sizes.gradation <= 1))
     throw std::invalid_argument("gradation: a number from 0 to 1 is expected");
   sizes.grow = !flag(options, "no_growth");
   sizes.max_volume = positive(options, "max_volume", 0);

@@ -79,7 +79,7 @@ export interface MeshOptions extends Limits {
   fill?: boolean;
   /** The most that edges inside should measure. */
   size?: number;
-  /** 0 to 1; 0.3. */
+  /** 0 to 1; by default 0.3 to 0.5, by the surface. */
   gradation?: number;
   noGrowth?: boolean;
   maxVolume?: number;
