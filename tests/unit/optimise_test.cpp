@@ -90,7 +90,7 @@ TEST(Badness, FewerFlatOnesCountFirst) {
 }
 
 TEST(Badness, NoneBecomesHopelessForFewerFlatOnes) {
-  const BadFrom from(100, 1000);
+  const BadFrom from{100, 1000};
   Badness cap, parted;  // a cap, and the three that a point makes of it
   cap.add(1e12, from);
   for (int k = 0; k < 3; ++k) parted.add(400, from);
