@@ -156,9 +156,8 @@ struct Report {
   /// What was done for the sizes; all zero without.
   struct Field {
     std::size_t points = 0;  ///< field points; they count as Steiner points, too
-    double gradation =
-        0;  ///< by which sizes grew a unit of length: `Sizes::gradation`, or what it was chosen as
-    Shape before, after;  ///< the optimisation; as the metric sees it, if there is one
+    double gradation = 0;    ///< `Sizes::gradation`, or what was chosen where that is unset
+    Shape before, after;     ///< the optimisation; as the metric sees it, if there is one
     /// Lengths of edges over the mean of the sizes wanted at their ends, or in the metrics there, in bins of
     /// 1/8, the last without end; an edge counts once for each element.
     std::array<std::size_t, 24> edge_lengths{};

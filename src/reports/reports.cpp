@@ -43,11 +43,11 @@ Json to_json(const Report::Field& field) {
   for (const Report::Forced& f : field.worst_forced)
     forced.push_back(
         {{"tetrahedron", f.tetrahedron}, {"min_dihedral_deg", f.min_dihedral_deg}, {"facets", f.facets}});
-  return {{"before", to_json(field.before)},
+  return {{"gradation", field.gradation},
+          {"before", to_json(field.before)},
           {"after", to_json(field.after)},
           {"edge_length_histogram", field.edge_lengths},
           {"moves", field.moves},
-          {"gradation", field.gradation},
           {"swaps", field.swaps},
           {"contractions", field.contractions},
           {"insertions", field.insertions},
