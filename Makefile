@@ -9,7 +9,7 @@ SEED ?= 1
 MINUTES ?= 5
 PYTHON ?= /usr/bin/python3
 
-.PHONY: help setup build demo test python wheel slurm python-corpus corpus paste-corpus random planes solvers partitioned scale scale-slurm scale-whole scale-interfaces scaling fuzz bench field repair tables paper figures format viewer web-test web-bits pictures docs web tidy debug asan tsan libcxx install clean
+.PHONY: help setup build demo test python wheel slurm python-corpus corpus paste-corpus random planes solvers partitioned scale scale-slurm scale-whole scale-interfaces scaling fuzz bench field repair fetch-content tables paper figures format viewer web-test web-bits pictures docs web tidy debug asan tsan libcxx install clean
 .DEFAULT_GOAL := help
 
 help:  ## this list
@@ -117,6 +117,11 @@ repair: build  ## broken surfaces repaired and verified, beside admesh and CGAL,
 	@cmake --build $(RELEASE) -j $(JOBS) --target holdfast_cli cgal_autorefine
 	@python3 bench/repair.py --holdfast $(RELEASE)/holdfast --rows $(RELEASE)/bench/repair.jsonl --out docs/repair.md \
 	  --autorefine $(RELEASE)/cgal_autorefine --jobs $(JOBS) $(ARGS)
+
+fetch-content: setup  ## a project that takes the library by CMake's FetchContent, compiled as a whole and run
+	@cmake -G Ninja -S tests/consumer/fetch_content -B build/fetch_content -DCMAKE_BUILD_TYPE=Release -DHOLDFAST_SOURCE=$(CURDIR)
+	@cmake --build build/fetch_content -j $(JOBS)
+	@build/fetch_content/consumer
 
 tables: build  ## the paper's tables beside TetGen, for the corpus and the paper's cases, to docs/results.md
 	@scripts/setup.sh bench

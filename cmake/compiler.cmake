@@ -7,6 +7,9 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
   find_program(HOLDFAST_CCACHE ccache)
   if(HOLDFAST_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    set(CMAKE_CXX_COMPILER_LAUNCHER ${HOLDFAST_CCACHE})
+    # Paths are hashed as seen from the build folder, so that another clone has the same ones; without the second setting ccache
+    # caches nothing that uses precompiled headers.
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}
+                                    CCACHE_SLOPPINESS=pch_defines,time_macros ${HOLDFAST_CCACHE})
   endif()
 endif()

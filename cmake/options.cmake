@@ -4,9 +4,13 @@
 function(holdfast_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -ffp-contract=off -fno-math-errno
                          $<$<BOOL:${HOLDFAST_WERROR}>:-Werror>)
-  # g++ 12 sees overlaps in string concatenation where there are none (GCC bug 105651).
+  # g++ 12 sees overlaps in string concatenation where there are none (GCC bug 105651), and bounds that are passed, too, where
+  # <string> is precompiled.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-restrict)
+    if(HOLDFAST_PRECOMPILE)
+      target_compile_options(${target} PRIVATE -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
+    endif()
     # With sanitizers it takes std::optional for uninitialised (GCC bug 80635).
     if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
       target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)

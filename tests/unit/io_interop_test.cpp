@@ -73,7 +73,7 @@ TEST(Interop, OtherProgramsReadTheSame) {
       "{\"points\": [" + points + "], \"tetrahedra\": " + json(original.tetrahedra, original.regions) +
           ", \"facets\": " + json(original.facets, original.facet_markers) + ", \"segments\": " +
           json(original.segments, original.segment_markers) + ", \"vertex_markers\": [0, 5, 0, 8, 0, 8]}");
-  const std::string script = (std::filesystem::path(__FILE__).parent_path() / "io_interop.py").string();
+  const std::string script = HOLDFAST_SOURCE_DIR "/tests/unit/io_interop.py";
   int worst = 77 << 8;
   // The system's Python has the packages more often than one of the user's own.
   for (const char* python : {"/usr/bin/python3", "python3"}) {

@@ -153,8 +153,7 @@ TEST(View, ACancelledPageLeavesNoFile) {
 }
 
 TEST(View, WhatIsEmbeddedIsWhatIsCommitted) {
-  const std::filesystem::path source =
-      std::filesystem::path(__FILE__).parent_path() / "../../viewer/dist/viewer.html";
+  const std::filesystem::path source = HOLDFAST_SOURCE_DIR "/viewer/dist/viewer.html";
   std::ifstream file(source, std::ios::binary);
   ASSERT_TRUE(file) << source;
   const std::string text{std::istreambuf_iterator<char>(file), {}};
