@@ -122,35 +122,44 @@ void Hdf5File::read_messages_2(Object object, std::vector<Hdf5Message>& found) c
 }
 
 std::optional<Hdf5File::Values> Hdf5File::attribute(Object object, std::string_view name) const {
+  std::optional<Values> found;
+  const auto look_at = [&](std::uint64_t at, std::uint64_t size) {
+    if (!found) found = attribute_of_message(at, size, name);
+  };
   for (const Hdf5Message& message : messages(object)) {
-    if (message.type == kAttributeInfo &&
-        number<std::uint64_t>(message.at + 2 + ((number<std::uint8_t>(message.at + 1) & 1) != 0 ? 2 : 0)) !=
-            ~std::uint64_t{0})
-      fail(message.at, "more attributes than a header of HDF5 holds are not read");
-    if (message.type != kAttribute) continue;
-    const auto version = number<std::uint8_t>(message.at);
-    if (version < 1 || version > 3) fail(message.at, "an attribute's version of HDF5 is not read");
-    const std::size_t name_size = number<std::uint16_t>(message.at + 2),
-                      type_size = number<std::uint16_t>(message.at + 4),
-                      space_size = number<std::uint16_t>(message.at + 6);
-    const auto padded = [&](std::size_t size) { return version == 1 ? round_up(size) : size; };
-    const std::uint64_t name_at = message.at + (version == 3 ? 9 : 8);
-    const std::uint64_t type_at = name_at + padded(name_size), space_at = type_at + padded(type_size),
-                        data_at = space_at + padded(space_size);
-    if (data_at > message.at + message.size) fail(message.at, "an attribute of HDF5 goes beyond its message");
-    std::string_view found = bytes(name_at, name_size);
-    found = found.substr(0, found.find('\0'));
-    if (found != name) continue;
-    Values values;
-    set_type(values, {0, static_cast<std::size_t>(type_at), type_size});
-    set_shape(values, dataspace(space_at, space_size));
-    const std::uint64_t size = values.count * values.type.size;
-    if (size > message.at + message.size - data_at)
-      fail(data_at, "an attribute of HDF5 goes beyond its message");
-    values.bytes = bytes(data_at, size);
-    return values;
+    if (message.type == kAttribute) {
+      look_at(message.at, message.size);
+    } else if (message.type == kAttributeInfo) {  // of many attributes, which stand in a heap
+      const std::uint64_t at = message.at + ((number<std::uint8_t>(message.at + 1) & 1) != 0 ? 4 : 2);
+      const auto heap = number<std::uint64_t>(at), tree = number<std::uint64_t>(at + 8);
+      constexpr std::size_t kNothing = 0;  // before the attribute's place in a record
+      if (heap != kNoAddress) each_in_heap(heap, tree, kNothing, look_at);
+    }
   }
-  return std::nullopt;
+  return found;
+}
+
+std::optional<Hdf5File::Values> Hdf5File::attribute_of_message(std::uint64_t at, std::uint64_t size,
+                                                               std::string_view name) const {
+  const auto version = number<std::uint8_t>(at);
+  if (version < 1 || version > 3) fail(at, "an attribute's version of HDF5 is not read");
+  const std::size_t name_size = number<std::uint16_t>(at + 2), type_size = number<std::uint16_t>(at + 4),
+                    space_size = number<std::uint16_t>(at + 6);
+  const auto padded = [&](std::size_t bytes) { return version == 1 ? round_up(bytes) : bytes; };
+  const std::uint64_t name_at = at + (version == 3 ? 9 : 8);
+  const std::uint64_t type_at = name_at + padded(name_size), space_at = type_at + padded(type_size),
+                      data_at = space_at + padded(space_size);
+  if (data_at > at + size) fail(at, "an attribute of HDF5 goes beyond its message");
+  std::string_view found = bytes(name_at, name_size);
+  found = found.substr(0, found.find('\0'));
+  if (found != name) return std::nullopt;
+  Values values;
+  set_type(values, {0, static_cast<std::size_t>(type_at), type_size});
+  set_shape(values, dataspace(space_at, space_size));
+  const std::uint64_t data_size = values.count * values.type.size;
+  if (data_size > at + size - data_at) fail(data_at, "an attribute of HDF5 goes beyond its message");
+  values.bytes = bytes(data_at, data_size);
+  return values;
 }
 
 std::optional<std::int64_t> Hdf5File::integer_attribute(Object object, std::string_view name) const {

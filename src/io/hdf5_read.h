@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -93,7 +94,10 @@ class Hdf5File {
 
   void links_of_table(std::uint64_t tree, std::uint64_t heap, std::map<std::string, Object>& found) const;
   void link_of_message(std::uint64_t at, std::uint64_t size, std::map<std::string, Object>& found) const;
-  void links_of_heap(std::uint64_t heap, std::uint64_t tree, std::map<std::string, Object>& found) const;
+  /// Calls `visit` with place and size of every object that a tree lists in a heap; its records have the
+  /// object's id behind `id_in_record` bytes.
+  void each_in_heap(std::uint64_t heap, std::uint64_t tree, std::size_t id_in_record,
+                    const std::function<void(std::uint64_t, std::uint64_t)>& visit) const;
 
   [[nodiscard]] Hdf5Datatype datatype(std::uint64_t at, std::uint64_t size, std::uint64_t& inner) const;
   [[nodiscard]] std::vector<std::uint64_t> dataspace(std::uint64_t at, std::uint64_t size) const;
@@ -104,6 +108,9 @@ class Hdf5File {
   [[nodiscard]] Values described(Object array) const;
   [[nodiscard]] Values values(Object array) const;
   [[nodiscard]] std::optional<Values> attribute(Object object, std::string_view name) const;
+  /// An attribute's message, if it is of this name.
+  [[nodiscard]] std::optional<Values> attribute_of_message(std::uint64_t at, std::uint64_t size,
+                                                           std::string_view name) const;
   void read_layout(const Hdf5Message& layout, const std::vector<Filter>& filters, Values& values) const;
   void read_chunks(std::uint64_t tree, const Chunks& chunks, Values& values) const;
   [[nodiscard]] std::string unpacked_chunk(std::uint64_t at, std::uint64_t size, std::uint32_t mask,

@@ -207,6 +207,20 @@ class RoundTrips(CliTest):
         (self.folder / "a.med").write_bytes(before.replace(struct.pack("<d", 4.0), struct.pack("<d", float("nan")), 1))
         self.assertIn("node", self.run_program("info", "a.med", expect=3).stderr)
 
+    def test_attributes_that_stand_in_a_heap(self):
+        """As HDF5 keeps those of a MED mesh since 1.8: an object has at most eight in its header."""
+        self.mesh("a.med")
+        script = ("import h5py\nold, new = h5py.File('a.med'), h5py.File('b.med', 'w', libver='latest')\n"
+                  "[old.copy(name, new) for name in old]\n"
+                  "mesh = next(iter(new['ENS_MAA'].values()))\nmesh.attrs['ESP'], mesh.attrs['TYP'] = 3, %d\n"
+                  "[mesh.attrs.create(f'A{i}', i) for i in range(%d)]")
+        for more in (12, 300):  # a tree of one leaf, and of several
+            if subprocess.run(["/usr/bin/python3", "-c", script % (0, more)], cwd=self.folder, check=False).returncode:
+                self.skipTest("there is no h5py")
+            self.assertEqual(self.info("b.med")["regions"], self.info("a.med")["regions"])
+        subprocess.run(["/usr/bin/python3", "-c", script % (1, 12)], cwd=self.folder, check=True)  # the attribute is read
+        self.assertIn("structured", self.run_program("info", "b.med", expect=3).stderr)
+
     def test_tags_of_cells_that_an_earlier_grid_has(self):
         """As DOLFINx writes them: the cells again, in another order, without a type of the tags."""
         self.write("tags.xdmf", """<Xdmf Version="3.0" xmlns:xi="http://www.w3.org/2001/XInclude"><Domain><Grid Name="mesh">
