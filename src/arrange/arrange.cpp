@@ -283,8 +283,10 @@ Arrangement arrange(const Complex& complex, const Elements& elements, const Step
   };
   for_each_offending_pair(
       complex, elements, visit, [&](double fraction) { step(0.3 * fraction); }, tuning, options.known);
-  const bool whole = std::all_of(elements.flaws.begin(), elements.flaws.end(),
-                                 [](const Flaw& flaw) { return flaw.corners == 1; });
+  // What has a corner that is not finite is no element, and only the corner's flaw tells it.
+  const bool whole = std::all_of(elements.flaws.begin(), elements.flaws.end(), [](const Flaw& flaw) {
+    return flaw.corners == 1 && flaw.kind != DefectKind::non_finite_coordinate;
+  });
   if (pairs.empty() && whole && elements.places.merged == 0) {
     Arrangement same;
     same.is_same = true;

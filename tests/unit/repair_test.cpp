@@ -150,6 +150,31 @@ TEST(Repair, EveryFacetOfTheInputIsAParentOrListed) {
   EXPECT_EQ(named.size(), surface.facets.size());
 }
 
+// With nothing else wrong, and with nothing left.
+TEST(Repair, WhatIsNotFiniteGoes) {
+  Surface surface = small::box({0, 0, 0}, {1, 1, 1});
+  const std::size_t whole = surface.facets.size();
+  small::add_triangle(surface, {2, 0, 0}, {3, 0, 0}, {2, 1, std::nan("")});
+  surface.segments.push_back({0, static_cast<Index>(surface.vertices.size() - 1)});
+  Surface nothing;
+  small::add_triangle(nothing, {-HUGE_VAL, 0, 0}, {HUGE_VAL, 0, 0}, {0, 1, std::nan("")});
+  for (const bool unite : {false, true}) {
+    RepairOptions options;
+    options.unite = unite;
+    const RepairResult repaired = repair(surface, options);
+    expect_valid(repaired);
+    EXPECT_EQ(repaired.surface.facets.size(), whole);
+    EXPECT_TRUE(repaired.surface.segments.empty());
+    ASSERT_EQ(repaired.dropped.size(), 1u);
+    EXPECT_EQ(repaired.dropped[0].facet, whole);
+    EXPECT_EQ(repaired.dropped[0].reason, DropReason::not_finite);
+    const RepairResult empty = repair(nothing, options);
+    expect_valid(empty);
+    EXPECT_TRUE(empty.surface.facets.empty());
+    EXPECT_EQ(empty.dropped.size(), 1u);
+  }
+}
+
 TEST(Repair, LimitsEndIt) {
   RepairOptions options;
   options.most_points = 10;
