@@ -38,7 +38,7 @@ struct ReadOptions : Limits {
   std::string format;  ///< overrides the extension: ".stl", ...
   ProgressFunction progress = {};
   /// How far, in the file's unit, corners of a polygon that is not convex may lie from its mean plane; 0: as
-  /// far as the rounding of its coordinates explains.
+  /// far as the rounding of its coordinates to six digits or to single precision explains.
   double tolerance = 0;
 };
 

@@ -137,7 +137,7 @@ CutPolygon cut_polygon(std::span<const Point> vertices, std::span<const Index> c
   std::vector<Triangle> triangles = fan(vertices, corners);
   if (!triangles.empty() && (!level.flat() || turn_alike(vertices, triangles, level.axis())))
     return {std::move(triangles), {}, level.deviation()};
-  if (!level.near()) return {{}, not_plane(level, "that is not convex and"), 0};
+  if (!level.near_in_file()) return {{}, not_plane(level, "that is not convex and"), 0};
   const auto flat = triangles_of_walk(projected(places, level), walk, poll);
   if (!flat) return {{}, "that crosses or overlaps itself" + crossing_of(projected(places, level), walk), 0};
   return {in_space(places, *flat), {}, level.deviation()};
@@ -164,7 +164,8 @@ CutPolygon cut_facet(std::span<const Point> vertices, const PolygonFacet& facet,
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   const Level level(places, sides_of(first), tolerance);
   if (level.straight()) return {{}, "whose corners lie on one line", 0};
-  if (!level.near()) return {{}, not_plane(level, "that"), 0};
+  // Without holes its polygons may stand by themselves, in planes that are close to each other.
+  if (!(facet.holes.empty() ? level.near() : level.near_in_file())) return {{}, not_plane(level, "that"), 0};
   std::vector<Position> holes;
   for (const Point& hole : facet.holes) holes.push_back(level.project(hole));
   const std::vector<Position> positions = projected(places, level);

@@ -27,7 +27,8 @@ struct CutPolygon {
 /// The triangles of a polygon of four places or more, turned as it is: a fan if it is convex, seen along its
 /// mean normal; else constrained Delaunay triangles in the coordinate plane that its plane leans from least,
 /// the same whatever corner comes first, with all corners kept. A polygon that is not convex must lie in a
-/// plane, up to the rounding of its coordinates or to `tolerance`, and its sides must not cross.
+/// plane, up to the rounding of its coordinates to six digits or to `tolerance`, and its sides must not
+/// cross.
 [[nodiscard]] CutPolygon cut_polygon(std::span<const Point> vertices, std::span<const Index> corners,
                                      double tolerance, const Poll& poll);
 

@@ -61,6 +61,7 @@ Level::Level(const Places& places, const Sides& sides, double tolerance) : place
   flat_ = exactly_flat();
   if (flat_) deviation_ = 0;
   near_ = flat_ || deviation_ <= std::max(rounding_, tolerance);
+  near_in_file_ = near_ || deviation_ <= rounding_in_file_;
   choose_axis();
 }
 
@@ -112,8 +113,11 @@ void Level::measure(const Sides& sides) {
   double furthest = 0;
   for (const Point& p : local) furthest = std::max(furthest, std::abs(dot(normal_, p - middle)));
   deviation_ = std::scalbn(norm > 0 ? furthest / norm * size : size, exponent);
-  constexpr int kRounding = -50;  // a few units in the last place of the largest coordinate
-  rounding_ = std::scalbn(std::scalbn(most, -exponent), exponent + kRounding);
+  // A few units in the last place of the largest coordinate: of a double, and of six digits.
+  constexpr int kRounding = -50, kRoundingInFile = -16;
+  const double unit = std::scalbn(most, -exponent);
+  rounding_ = std::scalbn(unit, exponent + kRounding);
+  rounding_in_file_ = std::scalbn(unit, exponent + kRoundingInFile);
 }
 
 // Onto it no two places of a plane fall together, if the three of the base do not fall on a line.

@@ -50,6 +50,8 @@ class Level {
   [[nodiscard]] bool straight() const { return straight_; }  ///< all places lie on one line
   [[nodiscard]] bool flat() const { return flat_; }          ///< exactly
   [[nodiscard]] bool near() const { return near_; }          ///< within the tolerance, or rounding
+  /// The same, or as near as places of a plane are that a file has in six digits or in single precision.
+  [[nodiscard]] bool near_in_file() const { return near_in_file_; }
   /// Of the place furthest from the mean plane; 0 where rounding explains it.
   [[nodiscard]] double deviation() const { return deviation_ <= rounding_ ? 0 : deviation_; }
   [[nodiscard]] std::size_t axis() const { return axis_; }
@@ -64,9 +66,9 @@ class Level {
 
   const Places& places_;
   Vertex third_ = 0;  // on no line with the first two
-  bool straight_ = false, flat_ = false, near_ = false;
+  bool straight_ = false, flat_ = false, near_ = false, near_in_file_ = false;
   Point normal_{};
-  double deviation_ = 0, rounding_ = 0;
+  double deviation_ = 0, rounding_ = 0, rounding_in_file_ = 0;
   std::size_t axis_ = 0;
 };
 

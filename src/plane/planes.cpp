@@ -19,19 +19,20 @@ class Planes {
       all.polygons.insert(all.polygons.end(), facet.polygons.begin(), facet.polygons.end());
       all.holes.insert(all.holes.end(), facet.holes.begin(), facet.holes.end());
     }
-    if (add(all) || facets_.size() == 1) return std::move(found_);
+    if (add(all, facets_.size() == 1) || facets_.size() == 1) return std::move(found_);
     found_.reason.clear();
     for (found_.facet = 0; found_.facet < facets_.size(); ++found_.facet) {
       if (poll && found_.facet % 256 == 0)
         poll(static_cast<double>(found_.facet) / static_cast<double>(facets_.size()));
-      if (!add(facets_[found_.facet])) break;
+      if (!add(facets_[found_.facet], true)) break;
     }
     return std::move(found_);
   }
 
  private:
-  /// The plane of a facet; false, with the reason, if it has none.
-  bool add(const PolygonFacet& facet) {
+  /// The plane of a facet; false, with the reason, if it has none. What is `alone` may have been rounded in
+  /// its file; of all together that would hide what lies in planes close to each other.
+  bool add(const PolygonFacet& facet, bool alone) {
     std::vector<Index> corners;
     for (const std::vector<Index>& polygon : facet.polygons)
       corners.insert(corners.end(), polygon.begin(), polygon.end());
@@ -46,7 +47,7 @@ class Planes {
     const std::vector<Vertex> first = first_walk(facet, places);
     const Level level(places, sides_of(first), tolerance_);
     if (level.straight()) return fail("all corners lie on one line");
-    if (!level.near())
+    if (!(alone ? level.near_in_file() : level.near()))
       return fail("it lies in no plane: its corners are up to " + decimal(level.deviation(), 3) +
                   " away from the mean one; give a larger tolerance");
     found_.deviation = std::max(found_.deviation, level.deviation());

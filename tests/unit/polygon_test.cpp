@@ -184,6 +184,36 @@ TEST_F(Polygons, ThatAreNotPlaneMustBeConvexOrTolerated) {
     EXPECT_THROW(static_cast<void>(read(file, "a.off", tolerance)), std::invalid_argument);
 }
 
+// As programs write them that print six digits, or numbers of single precision.
+TEST_F(Polygons, RoundingToSixDigitsOrSinglePrecisionNeedsNoTolerance) {
+  const double c = std::cos(0.3), s = std::sin(0.3), d = std::cos(1.1), e = std::sin(1.1);
+  std::vector<Point> single;
+  std::string six = "OFF\n13 1 0\n";
+  for (const Point& p : kComb) {
+    const double x = c * p[0] - s * p[1], y = s * p[0] + c * p[1];
+    const Point turned{100 + x, d * y, e * y};
+    single.push_back({});
+    for (std::size_t k = 0; k < 3; ++k) single.back()[k] = static_cast<float>(turned[k]);
+    char line[64];
+    std::snprintf(line, sizeof line, "%.6g %.6g %.6g\n", turned[0], turned[1], turned[2]);
+    six += line;
+  }
+  std::vector<Index> corners(kComb.size());
+  for (Index i = 0; i < corners.size(); ++i) corners[i] = i;
+  for (const std::string& file : {off_of(single, corners), six + "13 0 1 2 3 4 5 6 7 8 9 10 11 12\n"}) {
+    const Surface read_back = read(file, "a.off");
+    EXPECT_EQ(read_back.facets.size(), kComb.size() - 2);
+    ASSERT_EQ(read_back.remarks.size(), 1u);  // and told
+    EXPECT_NE(read_back.remarks[0].message.find("from the mean plane"), std::string::npos);
+  }
+}
+
+// Seen along an axis, two corners of such a polygon may fall together.
+TEST_F(Polygons, NearlyPlaneButFoldedIsRefused) {
+  const std::vector<Point> points{{0, 0, 0}, {2, 0, 0}, {2, 0, 1e-6}, {1, 0, 2e-6}, {0, 2, 0}};
+  EXPECT_NE(error(off_of(points, {0, 1, 2, 3, 4}), "a.off"), "read");
+}
+
 TEST_F(Polygons, RoundingAloneNeedsNoTolerance) {
   // Turned by angles that no doubles hold.
   const double c = std::cos(0.3), s = std::sin(0.3), d = std::cos(1.1), e = std::sin(1.1);
