@@ -112,7 +112,8 @@ class GmfReader {
   void read_entries(std::int32_t keyword) {
     switch (keyword) {
       case kDimension:
-        if (bytes_.read<std::int32_t>() != 3) bytes_.fail("the dimension is not 3");
+        dimension_ = bytes_.read<std::int32_t>();
+        if (dimension_ != 2 && dimension_ != 3) bytes_.fail("the dimension is neither 3 nor 2");
         return;
       case kVertices:
         return read_vertices();
@@ -158,11 +159,12 @@ class GmfReader {
 
   void read_vertices() {
     if (!mesh_.vertices.empty()) bytes_.fail("a second section of vertices");
-    const std::size_t vertices = count((version_ == 1 ? 12 : 24) + integer_size(), "vertices");
+    const auto axes = static_cast<std::size_t>(dimension_);
+    const std::size_t vertices = count(axes * (version_ == 1 ? 4 : 8) + integer_size(), "vertices");
     mesh_.vertices.reserve(vertices);
     for (std::size_t i = 0; i < vertices; ++i) {
-      const double x = real(), y = real();
-      const Point point{x, y, real()};
+      Point point{};  // in the plane z is 0
+      for (std::size_t axis = 0; axis < axes; ++axis) point[axis] = real();
       mesh_.add_vertex(point, tag());
     }
   }
@@ -201,7 +203,7 @@ class GmfReader {
 
   ByteReader bytes_;
   bool finite_;
-  std::int32_t version_ = 0;
+  std::int32_t version_ = 0, dimension_ = 3;
   MeshData mesh_;
   std::optional<GmfSolution> solution_;  // where it is asked for
 };

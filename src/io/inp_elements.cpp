@@ -1,5 +1,6 @@
 #include "io/inp_elements.h"
 
+#include <algorithm>
 #include <span>
 
 #include "io/mid_nodes.h"
@@ -42,8 +43,10 @@ const InpElements::Type& InpElements::type_of(const TextReader& text, const InpK
       {"cpe3", 2, 3},    {"m3d3", 2, 3},   {"sfm3d3", 2, 3}, {"r3d3", 2, 3},    {"s6", 2, 6},
       {"ds6", 2, 6},     {"stri65", 2, 6}, {"cps6", 2, 6},   {"cpe6", 2, 6},    {"m3d6", 2, 6},
       {"sfm3d6", 2, 6},  {"s4", 2, 4},     {"cps4", 2, 4},   {"cpe4", 2, 4},    {"m3d4", 2, 4},
-      {"sfm3d4", 2, 4},  {"r3d4", 2, 4},   {"t3d2", 1, 2},   {"b31", 1, 2},     {"b21", 1, 2},
-      {"t2d2", 1, 2},    {"t3d3", 1, 3},   {"b32", 1, 3}};
+      {"sfm3d4", 2, 4},  {"r3d4", 2, 4},   {"s8", 2, 8},     {"cps8", 2, 8},    {"cpe8", 2, 8},
+      {"m3d8", 2, 8},    {"sfm3d8", 2, 8}, {"cax3", 2, 3},   {"cax4", 2, 4},    {"cax6", 2, 6},
+      {"cax8", 2, 8},    {"t3d2", 1, 2},   {"b31", 1, 2},    {"b21", 1, 2},     {"t2d2", 1, 2},
+      {"t3d3", 1, 3},    {"b32", 1, 3}};
   const auto found = key.values.find("type");
   if (found == key.values.end()) text.fail("*ELEMENT without TYPE");
   const std::string name = lower(found->second);
@@ -96,10 +99,11 @@ void InpElements::add(const TextReader& text, const Type& type, const std::array
     mesh_.add_tetrahedron({n[0], n[1], n[2], n[3]});
   else if (type.nodes == 6)
     add_second_order(mesh_, Triangle{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, 0);
-  else if (type.dimension == 2)
-    add_polygon(mesh_, std::span(n).first(type.nodes), 0,
+  else if (type.dimension == 2) {
+    add_polygon(mesh_, std::span(n).first(std::min<std::size_t>(type.nodes, 4)), 0,
                 [&](const std::string& reason) { text.fail(reason); });
-  else if (type.nodes == 3)  // Abaqus has the middle node between the ends
+    if (type.nodes == 8) add_no_corners(mesh_, std::span(n).subspan(4, 4));
+  } else if (type.nodes == 3)  // Abaqus has the middle node between the ends
     add_second_order(mesh_, Segment{n[0], n[2]}, n[1], 0);
   else
     mesh_.add_segment({n[0], n[1]});

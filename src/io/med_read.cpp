@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <span>
 
 #include "io/hdf5_read.h"
 #include "io/labels.h"
@@ -29,8 +30,10 @@ struct ElementType {
 constexpr ElementType kTypes[] = {
     {"TE4", 4, ElementType::Kind::tetrahedron}, {"T10", 10, ElementType::Kind::tetrahedron},
     {"TR3", 3, ElementType::Kind::triangle},    {"TR6", 6, ElementType::Kind::triangle},
-    {"QU4", 4, ElementType::Kind::quadrangle},  {"SE2", 2, ElementType::Kind::segment},
-    {"SE3", 3, ElementType::Kind::segment},
+    {"TR7", 7, ElementType::Kind::triangle},    {"QU4", 4, ElementType::Kind::quadrangle},
+    {"QU8", 8, ElementType::Kind::quadrangle},  {"QU9", 9, ElementType::Kind::quadrangle},
+    {"SE2", 2, ElementType::Kind::segment},     {"SE3", 3, ElementType::Kind::segment},
+    {"SE4", 4, ElementType::Kind::segment},
 };
 
 class MedReader {
@@ -208,14 +211,17 @@ class MedReader {
         return add_second_order(mesh_, corners, {at(4), at(5), at(6), at(7), at(8), at(9)}, id);
       }
       case Kind::triangle:
-        if (type.nodes == 3) return mesh_.add_facet({n[0], n[1], n[2]}, id);
+        if (type.nodes == 7) add_no_corners(mesh_, std::span(n).subspan(3));
+        if (type.nodes != 6) return mesh_.add_facet({n[0], n[1], n[2]}, id);
         return add_second_order(mesh_, Triangle{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, id);
       case Kind::quadrangle:
-        return add_polygon(mesh_, n, id, [&](const std::string& reason) {
+        add_no_corners(mesh_, std::span(n).subspan(4));
+        return add_polygon(mesh_, std::span(n).first(4), id, [&](const std::string& reason) {
           fail(reason, std::string(type.name) + " element " + std::to_string(i + 1));
         });
       case Kind::segment:
-        if (type.nodes == 2) return mesh_.add_segment({n[0], n[1]}, id);
+        if (type.nodes == 4) add_no_corners(mesh_, std::span(n).subspan(2));
+        if (type.nodes != 3) return mesh_.add_segment({n[0], n[1]}, id);
         return add_second_order(mesh_, Segment{n[0], n[1]}, n[2], id);
     }
   }

@@ -19,12 +19,13 @@ void read_entities(TextReader& text, const char* what, std::size_t vertices, Add
   }
 }
 
-void read_vertices(TextReader& text, MeshData& mesh) {
+void read_vertices(TextReader& text, bool plane, MeshData& mesh) {
   if (!mesh.vertices.empty()) text.fail("a second section of vertices");
-  const std::size_t count = text.count("the number of vertices", 8);
+  const std::size_t count = text.count("the number of vertices", plane ? 6 : 8);
   mesh.vertices.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const Point point = text.point();
+    Point point{};
+    for (std::size_t axis = 0; axis < (plane ? 2u : 3u); ++axis) point[axis] = text.real("a coordinate");
     mesh.add_vertex(point, text.tag_from_real("a reference"));  // some programs write "1.0"
   }
 }
@@ -50,16 +51,18 @@ void refuse_elements(TextReader& text, const std::string& keyword) {
             " is not read; split its elements into triangles or tetrahedra");
 }
 
-/// Reads the section of a keyword in lower case; whether it was the last one.
-bool read_section(TextReader& text, const std::string& keyword, MeshData& mesh) {
+/// Reads the section of a keyword in lower case; whether it was the last one. `plane` tells the dimension.
+bool read_section(TextReader& text, const std::string& keyword, bool& plane, MeshData& mesh) {
   const std::size_t vertices = mesh.vertices.size();
   if (keyword == "end") return true;
   if (keyword == "meshversionformatted") {
     static_cast<void>(text.integer("the version"));
   } else if (keyword == "dimension") {
-    if (text.integer("the dimension") != 3) text.fail("the dimension is not 3");
+    const std::int64_t dimension = text.integer("the dimension");
+    if (dimension != 2 && dimension != 3) text.fail("the dimension is neither 3 nor 2");
+    plane = dimension == 2;  // z is 0
   } else if (keyword == "vertices") {
-    read_vertices(text, mesh);
+    read_vertices(text, plane, mesh);
   } else if (keyword == "triangles") {
     read_entities<3>(text, "the number of triangles", vertices,
                      [&](const Triangle& corners, int tag) { mesh.add_facet(corners, tag); });
@@ -104,12 +107,17 @@ MeshData read_medit(const Source& source) {
     text.fail("not a Medit mesh: it does not start with MeshVersionFormatted");
   static_cast<void>(text.integer("the version"));
   MeshData mesh(source);
-  for (;;) {
+  bool plane = false;
+  // Some programs leave End out. A section knows how long it is, so that only whole ones can be missing.
+  while (!text.at_end() || mesh.vertices.empty()) {
     const std::string keyword = lower(text.word("a keyword or End"));
     if (keyword.empty() || keyword[0] < 'a' || keyword[0] > 'z')
       text.fail("expected a keyword, found " + in_quotes(keyword));
-    if (read_section(text, keyword, mesh)) return mesh;
+    if (read_section(text, keyword, plane, mesh)) return mesh;
   }
+  mesh.remarks.push_back(
+      {RemarkKind::left_out, 1, "the file ends without 'End'; if it was cut off, sections are missing"});
+  return mesh;
 }
 
 namespace {

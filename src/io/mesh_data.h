@@ -76,6 +76,7 @@ struct MeshData {
     std::vector<std::array<Index, 6>> tetrahedra;
     std::vector<std::array<Index, 3>> facets;
     std::vector<Index> segments;
+    std::vector<Index> others;  ///< nodes that are no corners, of elements that keep none
   } mids;
   MidNodes mid_nodes;  ///< what `settle_mid_nodes` (mid_nodes.h) makes of these
 

@@ -16,30 +16,34 @@ void mark(std::vector<bool>& marks, const std::vector<std::array<Index, N>>& ent
       if (v != no_entity) marks[v] = value;
 }
 
-/// Which vertices are nodes on edges and nothing else.
-std::vector<bool> only_on_edges(const MeshData& mesh) {
+/// Which vertices are nodes of elements, and corners of none.
+std::vector<bool> no_corners(const MeshData& mesh) {
   std::vector<bool> marks(mesh.vertices.size());
   mark(marks, mesh.mids.tetrahedra, true);
   mark(marks, mesh.mids.facets, true);
   for (const Index v : mesh.mids.segments)
     if (v != no_entity) marks[v] = true;
+  for (const Index v : mesh.mids.others) marks[v] = true;
   mark(marks, mesh.tetrahedra, false);
   mark(marks, mesh.facets, false);
   mark(marks, mesh.segments, false);
+  for (const plane::PolygonFacet& facet : mesh.polygons)
+    for (const std::vector<Index>& polygon : facet.polygons)
+      for (const Index v : polygon) marks[v] = false;
   return marks;
 }
 
 bool complete(const MeshData& mesh, const std::vector<bool>& on_edges) {
   const auto is_node = [&](Index v) { return v != no_entity && on_edges[v]; };
   const auto all = [&](const auto& nodes) { return std::all_of(nodes.begin(), nodes.end(), is_node); };
-  return mesh.mids.tetrahedra.size() == mesh.tetrahedra.size() &&
+  return mesh.mids.others.empty() && mesh.mids.tetrahedra.size() == mesh.tetrahedra.size() &&
          mesh.mids.facets.size() == mesh.facets.size() && mesh.mids.segments.size() == mesh.segments.size() &&
          std::all_of(mesh.mids.tetrahedra.begin(), mesh.mids.tetrahedra.end(), all) &&
          std::all_of(mesh.mids.facets.begin(), mesh.mids.facets.end(), all) && all(mesh.mids.segments);
 }
 
-template <std::size_t N>
-void renumber(std::vector<std::array<Index, N>>& entities, const std::vector<Index>& number) {
+template <typename Entity>
+void renumber(std::vector<Entity>& entities, const std::vector<Index>& number) {
   for (auto& entity : entities)
     for (Index& v : entity) v = number[v];
 }
@@ -65,9 +69,15 @@ void add_second_order(MeshData& mesh, const Segment& corners, Index mid, int mar
   mesh.add_segment(corners, marker);
 }
 
+void add_no_corners(MeshData& mesh, std::span<const Index> nodes) {
+  mesh.mids.others.insert(mesh.mids.others.end(), nodes.begin(), nodes.end());
+}
+
 void settle_mid_nodes(MeshData& mesh, bool keep) {
-  if (mesh.mids.tetrahedra.empty() && mesh.mids.facets.empty() && mesh.mids.segments.empty()) return;
-  const std::vector<bool> on_edges = only_on_edges(mesh);
+  if (mesh.mids.tetrahedra.empty() && mesh.mids.facets.empty() && mesh.mids.segments.empty() &&
+      mesh.mids.others.empty())
+    return;
+  const std::vector<bool> on_edges = no_corners(mesh);
   keep = keep && complete(mesh, on_edges);
   const std::vector<int> markers = mesh.vertex_markers.take(mesh.vertices.size());
   mesh.vertex_markers = {};
@@ -87,9 +97,13 @@ void settle_mid_nodes(MeshData& mesh, bool keep) {
   renumber(mesh.tetrahedra, number);
   renumber(mesh.facets, number);
   renumber(mesh.segments, number);
+  for (plane::PolygonFacet& facet : mesh.polygons) renumber(facet.polygons, number);
   mesh.vertices = std::move(corners);
   if (!keep) {
-    mesh.leave_out(mids.size(), "nodes in the middle of edges", "node in the middle of an edge");
+    if (mesh.mids.others.empty())
+      mesh.leave_out(mids.size(), "nodes in the middle of edges", "node in the middle of an edge");
+    else
+      mesh.leave_out(mids.size(), "nodes that are no corners", "node that is no corner");
   } else {
     renumber(mesh.mids.tetrahedra, number);
     renumber(mesh.mids.facets, number);

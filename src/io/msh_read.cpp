@@ -7,11 +7,13 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <span>
 
 #include "io/formats.h"
 #include "io/labels.h"
 #include "io/mid_nodes.h"
 #include "io/msh_numbers.h"
+#include "io/msh_types.h"
 #include "io/polygon.h"
 
 namespace holdfast::io {
@@ -288,11 +290,13 @@ class MshReader {
   }
 
   void skip_element(std::int64_t type) {
-    static const std::map<std::int64_t, int> nodes{{1, 2}, {2, 3}, {3, 4}, {8, 3}, {9, 6}, {15, 1}};
+    static const std::map<std::int64_t, std::size_t> nodes{{1, 2}, {2, 3}, {3, 4}, {8, 3}, {9, 6}, {15, 1}};
     const auto found = nodes.find(type);
-    if (found == nodes.end())
+    const MshByCorners* const other = by_corners(type);
+    if (found == nodes.end() && (other == nullptr || other->shape == MshShape::tetrahedron))
       in_.fail("elements of type " + std::to_string(type) + " do not lie between parts");
-    for (int i = 0; i < found->second; ++i) static_cast<void>(in_.size("a node tag"));
+    const std::size_t count = found != nodes.end() ? found->second : other->nodes;
+    for (std::size_t i = 0; i < count; ++i) static_cast<void>(in_.size("a node tag"));
   }
 
   template <std::size_t N>
@@ -336,11 +340,35 @@ class MshReader {
       case 15:
         return mark_vertex(corners<1>()[0], names_[0].resolve(physical));
       default:
-        in_.fail(
-            "elements of type " + std::to_string(type) +
-            " are not read; only points, lines, triangles, quadrangles and tetrahedra are, these but for "
-            "quadrangles also of second order");
+        read_by_corners(type, segment, facet, region);
     }
+  }
+
+  /// An element of higher order, or a quadrangle of second order: its corners come first.
+  void read_by_corners(std::int64_t type, int segment, int facet, int region) {
+    const MshByCorners* const found = by_corners(type);
+    if (found == nullptr)
+      in_.fail("elements of type " + std::to_string(type) +
+               " are not read; only points, lines, triangles, quadrangles and tetrahedra are");
+    std::vector<Index> n(found->nodes);
+    for (Index& node : n)
+      node = nodes_.index(in_, modern_ ? in_.size("a node tag") : in_.integer("a node tag"));
+    switch (found->shape) {
+      case MshShape::line:
+        mesh_.add_segment({n[0], n[1]}, segment);
+        break;
+      case MshShape::triangle:
+        mesh_.add_facet({n[0], n[1], n[2]}, facet);
+        break;
+      case MshShape::quadrangle:
+        add_polygon(mesh_, std::span(n).first(4), facet,
+                    [&](const std::string& reason) { in_.fail(reason); });
+        break;
+      case MshShape::tetrahedron:
+        mesh_.add_tetrahedron({n[0], n[1], n[2], n[3]}, region);
+        break;
+    }
+    add_no_corners(mesh_, std::span(n).subspan(corners_of(found->shape)));
   }
 
   void mark_vertex(Index vertex, int physical) {

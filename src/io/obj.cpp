@@ -17,10 +17,10 @@ namespace {
 
 /// Statements that say nothing about the mesh. Any other unknown one is an error, not a lost facet.
 constexpr std::string_view kLooks[] = {
-    "vt",       "vn",     "vp",     "g",    "o",     "s",          "mg",        "usemtl",
-    "mtllib",   "usemap", "maplib", "lod",  "bevel", "shadow_obj", "trace_obj", "c_interp",
-    "d_interp", "ctech",  "stech",  "deg",  "bmat",  "step",       "cstype",    "curv2",
-    "parm",     "trim",   "hole",   "scrv", "sp",    "end",        "con"};
+    "vt",       "vn",       "vp",     "vc",     "g",    "o",     "s",          "mg",
+    "usemtl",   "mtllib",   "usemap", "maplib", "lod",  "bevel", "shadow_obj", "trace_obj",
+    "c_interp", "d_interp", "ctech",  "stech",  "deg",  "bmat",  "step",       "cstype",
+    "curv2",    "parm",     "trim",   "hole",   "scrv", "sp",    "end",        "con"};
 
 class ObjReader {
  public:

@@ -1,6 +1,7 @@
 // Turns the cells of the VTK formats into facets, segments and tetrahedra.
 #include "io/vtk_cells.h"
 
+#include <span>
 #include <utility>
 
 #include "io/mid_nodes.h"
@@ -127,6 +128,36 @@ class CellReader {
             mesh_, Tetrahedron{corners_[0], corners_[1], corners_[2], corners_[3]},
             {corners_[4], corners_[5], corners_[6], corners_[7], corners_[8], corners_[9]},
             tag_of(grid_.regions, cell_));
+      default:
+        return add_by_corners(marker);
+    }
+  }
+
+  /// Cells of second order that have no place here, and those of any order: their corners come first.
+  void add_by_corners(int marker) {
+    const auto corners = [&](std::size_t count) {
+      if (corners_.size() < count) fail("has fewer than " + std::to_string(count) + " corners");
+      add_no_corners(mesh_, std::span(corners_).subspan(count));
+      return std::span<const Index>(corners_).first(count);
+    };
+    switch (static_cast<VtkCell>(grid_.types[cell_])) {
+      case VtkCell::lagrange_curve: {
+        const auto c = corners(2);
+        return mesh_.add_segment({c[0], c[1]}, marker);
+      }
+      case VtkCell::biquadratic_triangle:
+      case VtkCell::lagrange_triangle: {
+        const auto c = corners(3);
+        return mesh_.add_facet({c[0], c[1], c[2]}, marker);
+      }
+      case VtkCell::quadratic_quad:
+      case VtkCell::biquadratic_quad:
+      case VtkCell::lagrange_quad:
+        return add_polygon(mesh_, corners(4), marker, [&](const std::string& reason) { fail(reason); });
+      case VtkCell::lagrange_tetrahedron: {
+        const auto c = corners(4);
+        return mesh_.add_tetrahedron({c[0], c[1], c[2], c[3]}, tag_of(grid_.regions, cell_));
+      }
       default:
         fail("is of type " + std::to_string(grid_.types[cell_]) +
              ", which is not read; split it into triangles or tetrahedra");

@@ -35,7 +35,14 @@ enum class VtkCell : std::uint8_t {
   tetrahedron = 10,
   quadratic_edge = 21,
   quadratic_triangle = 22,
+  quadratic_quad = 23,
   quadratic_tetrahedron = 24,
+  biquadratic_quad = 28,
+  biquadratic_triangle = 34,
+  lagrange_curve = 68,
+  lagrange_triangle = 69,
+  lagrange_quad = 70,
+  lagrange_tetrahedron = 71,
 };
 
 /// Arrays of a whole file: of names, pairs of an id and a dimension by name, as meshio has them from Gmsh.

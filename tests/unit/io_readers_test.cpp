@@ -1,6 +1,7 @@
 // What each reader takes in: the variants of its format, and the errors that name the line.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "io/formats.h"
@@ -242,9 +243,26 @@ TEST(Medit, Errors) {
   EXPECT_EQ(error(replaced(kMesh, "Ridges\n1\n1", "Prisms\n0"), "a.mesh"), "read");
   EXPECT_EQ(error(replaced(kMesh, "1 2 4 20", "1 2 5 20"), "a.mesh"),
             "line 17: a vertex index is out of range: 5 (they run from 1 to 4)");
-  EXPECT_EQ(error(replaced(kMesh, "End\n", ""), "a.mesh"),
-            "line 23: the file ends where a keyword or End is expected; it is truncated");
-  EXPECT_EQ(error(replaced(kMesh, "\n3\n#", "\n2\n#"), "a.mesh"), "line 3: the dimension is not 3");
+  EXPECT_EQ(error("MeshVersionFormatted 2\nDimension 3\n", "a.mesh"),
+            "line 3: the file ends where a keyword or End is expected; it is truncated");
+  EXPECT_EQ(error(replaced(kMesh, "\n3\n#", "\n4\n#"), "a.mesh"), "line 3: the dimension is neither 3 nor 2");
+}
+
+// SfePy's meshes end so.
+TEST(Medit, WithoutEndIsReadAndTold) {
+  const Surface s = surface(replaced(kMesh, "End\n", ""), "a.mesh");
+  EXPECT_EQ(s.facets, surface(kMesh, "a.mesh").facets);
+  const auto told = [](const Remark& r) { return r.message.starts_with("the file ends without 'End'"); };
+  EXPECT_EQ(std::count_if(s.remarks.begin(), s.remarks.end(), told), 1);
+}
+
+TEST(Medit, OfTwoDimensionsLiesInThePlane) {
+  const Surface s = surface(
+      "MeshVersionFormatted 1\nDimension 2\nVertices\n3\n0 0 1\n2 0 1\n0.5 3 1\n"
+      "Triangles\n1\n1 2 3 7\nEnd\n",
+      "a.mesh");
+  EXPECT_EQ(s.vertices, (std::vector<Point>{{0, 0, 0}, {2, 0, 0}, {0.5, 3, 0}}));
+  EXPECT_EQ(s.facets, (Facets{{0, 1, 2}}));
 }
 
 TEST(Gmf, EveryVersionAndByteOrder) {
