@@ -3,23 +3,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "repair/borders.h"
+#include "text/parse.h"
 
 namespace holdfast {
 namespace {
 
+/// A digit times a power of ten, read as the text that a user types is.
+double one_digit(int digit, int exponent) {
+  const std::string text = std::to_string(digit) + "e" + std::to_string(exponent);
+  double value = exponent > 0 ? HUGE_VAL : 0;  // beyond the range it stays
+  parse_double(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
 /// The smallest of 1, 2, ... 9 times a power of ten that is more than x, x > 0.
 double one_digit_above(double x) {
-  double power = 1;
-  while (power > x) power /= 10;
-  while (power * 10 <= x) power *= 10;
-  for (int digit = 1; digit <= 9; ++digit) {
-    // Read as the text that a user types is.
-    const double candidate = power < 1 ? digit / std::round(1 / power) : digit * power;
-    if (candidate > x) return candidate;
-  }
-  return 10 * power;
+  int exponent = 0;
+  while (one_digit(1, exponent) > x) --exponent;
+  while (one_digit(1, exponent + 1) <= x) ++exponent;
+  int digit = 2;
+  while (digit <= 9 && one_digit(digit, exponent) <= x) ++digit;
+  return digit <= 9 ? one_digit(digit, exponent) : one_digit(1, exponent + 1);
 }
 
 bool breaks_validity(const Defect& defect) { return defect.kind < DefectKind::encloses_nothing; }

@@ -362,6 +362,12 @@ class Proposals(Repaired):
         self.assertEqual(after["summary"]["gaps"], [])
         self.assertEqual(after["summary"]["encloses"], 1)
 
+    def test_a_length_to_weld_is_a_short_number(self):
+        points = [(x - 1, y, z) for x, y, z in cube()] + [(x + 1.7e-16, y, z) for x, y, z in cube()]
+        cures, after = self.cure(points, CUBE_FACETS[:10] + shifted(CUBE_FACETS[:8] + CUBE_FACETS[10:], 8))
+        self.assertEqual(cures["options"], "--weld 2e-16")
+        self.assertTrue(after["valid"])
+
     def test_a_hole(self):
         cures, after = self.cure(cube(), CUBE_FACETS[2:])
         self.assertEqual(cures["options"], "--fill-holes 4")
