@@ -22,6 +22,7 @@ namespace {
 struct Gathered {
   std::vector<Index> facets, points;
   std::vector<Trace> traces;
+  std::vector<PointOnSide> on_sides;
 };
 
 class Arranging {
@@ -33,13 +34,16 @@ class Arranging {
         options_(options),
         pool_(complex.vertices, elements.places.first) {}
 
-  Arrangement run(std::vector<std::array<Index, 2>> pairs) {
+  Arrangement run(std::vector<OffendingPair> pairs) {
     result_.pairs = pairs.size();
+    std::sort(pairs.begin(), pairs.end());
+    const FacetPlanes planes(complex_, elements_, facets_of(pairs), options_.threads);
     const Meetings meetings =
-        find_meetings(complex_, elements_, std::move(pairs), pool_, step_, options_.threads);
+        find_meetings(complex_, elements_, pairs, planes, pool_, step_, options_.threads);
+    pairs = {};
     check_size();
     gather(meetings);
-    Crossings crossings(complex_, elements_, cutting(meetings), options_.threads);
+    Crossings crossings(planes);
     triangulate_sheets(crossings);
     number_points();
     deliver_facets();
@@ -90,6 +94,10 @@ class Arranging {
     const unsigned mask = meeting.mask(e);
     if (std::popcount(mask) == 1) return;  // a corner
     Gathered& sheet = sheet_at(meeting.elements[e]);
+    for (std::size_t k = 0; k < 2 && meeting.points[k] != no_index; ++k)
+      if (const unsigned face = meeting.faces[k][e]; std::popcount(face) == 2)
+        sheet.on_sides.push_back(
+            {meeting.points[k], meeting.elements[e], static_cast<unsigned>(std::countr_zero(7u & ~face))});
     if (meeting.is_point() || std::popcount(mask) == 2) {
       for (std::size_t k = 0; k < 2 && meeting.points[k] != no_index; ++k)
         sheet.points.push_back(meeting.points[k]);
@@ -98,14 +106,13 @@ class Arranging {
     }
   }
 
-  /// For each element whether it leaves traces in others, or has some.
-  [[nodiscard]] std::vector<std::uint8_t> cutting(const Meetings& meetings) const {
-    std::vector<std::uint8_t> cutting(elements_.all.size(), 0);
-    for (const Meeting& meeting : meetings.all)
-      for (const Index e : meeting.elements)
-        if (elements_.all[e].corners == 3) cutting[e] = 1;
-    for (const Gathered& sheet : sheets_) cutting[sheet.facets[0]] = 1;
-    return cutting;
+  /// For each element whether it is a facet of some pair.
+  [[nodiscard]] std::vector<std::uint8_t> facets_of(std::span<const OffendingPair> pairs) const {
+    std::vector<std::uint8_t> is_facet(elements_.all.size(), 0);
+    for (const OffendingPair& pair : pairs)
+      for (const Index e : pair.elements)
+        if (elements_.all[e].corners == 3) is_facet[e] = 1;
+    return is_facet;
   }
 
   void triangulate_sheets(Crossings& crossings) {
@@ -121,8 +128,8 @@ class Arranging {
       };
       for (std::size_t k = first; k < last; ++k) {
         const Gathered& sheet = sheets_[k];
-        cut_[k] = triangulate({sheet.facets, sheet.points, sheet.traces}, complex_, elements_, pool_,
-                              crossings, poll);
+        cut_[k] = triangulate({sheet.facets, sheet.points, sheet.traces, sheet.on_sides}, complex_, elements_,
+                              pool_, crossings, poll);
         if (tells) done = k;
       }
     });
@@ -274,11 +281,11 @@ class Arranging {
 
 Arrangement arrange(const Complex& complex, const Elements& elements, const Step& step,
                     const ArrangeOptions& options) {
-  std::vector<std::array<Index, 2>> pairs;
+  std::vector<OffendingPair> pairs;
   SearchTuning tuning;
   tuning.threads = options.threads;
-  const VisitPair visit = [&](Index i, Index j, const Contacts&) {
-    pairs.push_back({std::min(i, j), std::max(i, j)});
+  const VisitPair visit = [&](Index i, Index j, const Contacts& contacts) {
+    pairs.push_back({{i, j}, contacts.part});
     return true;
   };
   for_each_offending_pair(

@@ -6,14 +6,10 @@
 #include <deque>
 #include <map>
 #include <mutex>
-#include <span>
-#include <vector>
 
+#include "arrange/facet_planes.h"
 #include "exact/space_point.h"
 #include "holdfast/types.h"
-#include "mesh/parallel.h"
-#include "surface/complex.h"
-#include "surface/elements.h"
 
 namespace holdfast::arrange {
 
@@ -26,11 +22,9 @@ struct CrossingPoint {
 /// May be used by several threads. Points stay where they are, and do not depend on who asks first.
 class Crossings {
  public:
-  /// `cut`: for each element whether it is a facet whose plane will be asked for.
-  Crossings(const Complex& complex, const Elements& elements, const std::vector<std::uint8_t>& cut,
-            const Threads& threads);
+  explicit Crossings(const FacetPlanes& planes) : planes_(planes) {}
 
-  [[nodiscard]] const exact::SpacePlane& plane_of(Index facet) const { return planes_[plane_[facet]]; }
+  [[nodiscard]] const exact::SpacePlane& plane_of(Index facet) const { return planes_[facet]; }
   /// The point of the planes of three facets, which are indices of Elements::all.
   CrossingPoint& of_facets(std::array<Index, 3> facets);
   /// Some other point.
@@ -44,8 +38,7 @@ class Crossings {
     std::deque<CrossingPoint> all;
   };
 
-  std::vector<Index> plane_;  // by element
-  std::vector<exact::SpacePlane> planes_;
+  const FacetPlanes& planes_;
   std::array<Part, 64> parts_;
 };
 

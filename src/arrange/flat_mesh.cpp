@@ -20,6 +20,10 @@ using plane::triangle_of;
 FlatMesh::FlatMesh(plane::Points& points, Vertex a, Vertex b, Vertex c) : points_(points) {
   mesh_.all().push_back({{a, b, c}, {kNoEdge, kNoEdge, kNoEdge}});
   mesh_.find_stars(points.size());
+  sides_.resize(points.size(), 0);
+  sides_[a] = 0b110;
+  sides_[b] = 0b101;
+  sides_[c] = 0b011;
 }
 
 std::uint32_t FlatMesh::add_triangle() {
@@ -44,7 +48,7 @@ EdgeCode FlatMesh::locate(Vertex p, unsigned& zeros) const {
     const std::uint32_t first = (turn >> 24) % 3;
     for (std::uint32_t k = 0; k < 3 && out == kNoEdge; ++k) {
       const EdgeCode e = code(t, (first + k) % 3);
-      const int side = points_.orient(mesh_.from(e), mesh_.to(e), p);
+      const int side = orient(mesh_.from(e), mesh_.to(e), p);
       if (side < 0) out = e;
       if (side == 0) {
         ++zeros;
@@ -61,8 +65,12 @@ EdgeCode FlatMesh::locate(Vertex p, unsigned& zeros) const {
   }
 }
 
-void FlatMesh::insert(Vertex p) {
+void FlatMesh::insert(Vertex p, unsigned sides) {
   mesh_.add_star(0);
+  if (sides != 0) {
+    sides_.resize(p, 0);
+    sides_.push_back(static_cast<std::uint8_t>(sides));
+  }
   unsigned zeros = 0;
   const EdgeCode at = locate(p, zeros);
   if (zeros > 1) throw std::logic_error("two points of a sheet are at one place");
@@ -185,7 +193,7 @@ FlatMesh::Departure FlatMesh::depart(Vertex from, Vertex to, Vertex behind) cons
   Departure found;
   for_each_corner(from, [&](EdgeCode opposite) {
     const Vertex right = mesh_.from(opposite), left = mesh_.to(opposite);
-    const auto side = [&](Vertex v) { return v == to || v == behind ? 0 : points_.orient(from, to, v); };
+    const auto side = [&](Vertex v) { return v == to || v == behind ? 0 : orient(from, to, v); };
     const auto is_on = [&](Vertex v) { return v == to || (v != behind && points_.between(from, to, v)); };
     const int on_right = side(right);
     if (on_right == 0 && is_on(right)) {
@@ -248,7 +256,7 @@ void FlatMesh::insert_segment(Vertex a, Vertex b, std::uint32_t line, const Cros
           const EdgeCode entered = mesh_.across(e);
           const Vertex corner = mesh_.apex(entered);
           if (corner == p) break;
-          e = points_.orient(at, p, corner) > 0 ? next_edge(entered) : previous_edge(entered);
+          e = orient(at, p, corner) > 0 ? next_edge(entered) : previous_edge(entered);
         }
         break;
       }
@@ -256,7 +264,7 @@ void FlatMesh::insert_segment(Vertex a, Vertex b, std::uint32_t line, const Cros
       const EdgeCode entered = mesh_.across(leave);
       if (entered == kNoEdge) throw std::logic_error("a trace leaves its sheet");
       const Vertex corner = mesh_.apex(entered);
-      const int side = corner == b ? 0 : points_.orient(at, b, corner);
+      const int side = corner == b ? 0 : orient(at, b, corner);
       if (side == 0) next = corner;
       leave = side > 0 ? next_edge(entered) : previous_edge(entered);
     }

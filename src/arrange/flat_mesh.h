@@ -23,8 +23,10 @@ class FlatMesh {
   /// The points are the caller's; a, b, c turn left.
   FlatMesh(plane::Points& points, Vertex a, Vertex b, Vertex c);
 
-  /// Puts in a vertex that no other is at the place of, the last of the points.
-  void insert(Vertex p);
+  /// Puts in a vertex that no other is at the place of, the last of the points. `sides`: those of the first
+  /// triangle on which it is known to lie, bit i for the one opposite to corner i. That saves arithmetic,
+  /// since points on a line are what filters cannot tell.
+  void insert(Vertex p, unsigned sides = 0);
 
   /// The point where the lines of two segments cross, by the segments' numbers; added to the points.
   using Crossing = std::function<Vertex(std::uint32_t line, std::uint32_t other)>;
@@ -44,6 +46,11 @@ class FlatMesh {
     Vertex along = plane::kNoVertex;
     EdgeCode across = plane::kNoEdge;
   };
+  [[nodiscard]] unsigned sides_of(Vertex v) const { return v < sides_.size() ? sides_[v] : 0; }
+  [[nodiscard]] int orient(Vertex a, Vertex b, Vertex c) const {
+    if ((sides_of(a) & sides_of(b) & sides_of(c)) != 0) return 0;
+    return points_.orient(a, b, c);
+  }
   [[nodiscard]] EdgeCode locate(Vertex p, unsigned& zeros) const;
   void split_triangle(std::uint32_t t, Vertex p);
   void split_edge(EdgeCode e, Vertex p);
@@ -62,6 +69,7 @@ class FlatMesh {
 
   plane::Points& points_;
   plane::Triangles mesh_;
+  std::vector<std::uint8_t> sides_;  // by vertex, those that it is known to lie on; too short where none is
   std::unordered_map<std::uint64_t, std::uint32_t> line_of_;  // of edges that are pieces of segments
   mutable std::uint32_t last_ = 0;                            // where the search for a point begins
   std::vector<EdgeCode> pending_;                             // edges that may have to be exchanged

@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "numbers/sorted.h"
-#include "surface/contacts.h"
 
 namespace holdfast::arrange {
 namespace {
@@ -64,37 +63,26 @@ unsigned axis_of(const Complex& complex, const Crossing& crossing) {
   return 2;
 }
 
-exact::SpacePoint point_of(const Complex& complex, const Elements& elements, const Crossing& crossing) {
+exact::SpacePoint point_of(const Complex& complex, const FacetPlanes& planes, const Crossing& crossing) {
   const auto at = [&](Index v) { return complex.vertices[v].data(); };
-  if (crossing.facet != no_index) {
-    const std::array<Index, 3>& v = elements.all[crossing.facet].vertex;
-    return exact::crossing(at(crossing.side[0]), at(crossing.side[1]),
-                           exact::plane_through(at(v[0]), at(v[1]), at(v[2])));
-  }
+  if (crossing.facet != no_index)
+    return exact::crossing(at(crossing.side[0]), at(crossing.side[1]), planes[crossing.facet]);
   return exact::crossing(
       at(crossing.side[0]), at(crossing.side[1]),
       exact::upright_plane(at(crossing.other[0]), at(crossing.other[1]), axis_of(complex, crossing)));
 }
 
-struct Found {
-  bool is_area = false;
-  Meeting meeting;
-};
-
-Found meeting_of(const Complex& complex, const Elements& elements, std::array<Index, 2> pair) {
-  const Common common = common_part(Elements::simplex(elements.all[pair[0]], complex),
-                                    Elements::simplex(elements.all[pair[1]], complex));
-  Found found{common.is_area, {pair}};
-  for (std::size_t k = 0; k < common.count; ++k)
-    found.meeting.faces[k] = {static_cast<std::uint8_t>(common.touches[k].a),
-                              static_cast<std::uint8_t>(common.touches[k].b)};
-  if (common.count < 2) found.meeting.faces[1] = {0, 0};
-  return found;
+Meeting meeting_of(const OffendingPair& pair) {
+  Meeting meeting{pair.elements};
+  for (std::size_t k = 0; k < pair.part.count; ++k)
+    meeting.faces[k] = {static_cast<std::uint8_t>(pair.part.touches[k].a),
+                        static_cast<std::uint8_t>(pair.part.touches[k].b)};
+  return meeting;
 }
 
 /// Gives numbers to the ends that are no vertices: computed on all threads, numbered in the crossings' order.
 void number(std::vector<End>& ends, std::vector<Meeting>& meetings, const Complex& complex,
-            const Elements& elements, PointPool& pool, const Step& step, const Threads& threads) {
+            const FacetPlanes& planes, PointPool& pool, const Step& step, const Threads& threads) {
   std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) {
     return std::tuple(a.crossing.tied(), a.meeting, a.which) <
            std::tuple(b.crossing.tied(), b.meeting, b.which);
@@ -106,7 +94,7 @@ void number(std::vector<End>& ends, std::vector<Meeting>& meetings, const Comple
   std::vector<Point> nearest(firsts.size());
   parallel_ranges(threads, firsts.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
-      points[k] = point_of(complex, elements, ends[firsts[k]].crossing);
+      points[k] = point_of(complex, planes, ends[firsts[k]].crossing);
       nearest[k] = exact::nearest(points[k]);
     }
   });
@@ -120,35 +108,30 @@ void number(std::vector<End>& ends, std::vector<Meeting>& meetings, const Comple
 
 }  // namespace
 
-Meetings find_meetings(const Complex& complex, const Elements& elements,
-                       std::vector<std::array<Index, 2>> pairs, PointPool& pool, const Step& step,
-                       const Threads& threads) {
-  std::sort(pairs.begin(), pairs.end());
-  std::vector<Found> found(pairs.size());
-  parallel_ranges(threads, pairs.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k) found[k] = meeting_of(complex, elements, pairs[k]);
-  });
+Meetings find_meetings(const Complex& complex, const Elements& elements, std::span<const OffendingPair> pairs,
+                       const FacetPlanes& planes, PointPool& pool, const Step& step, const Threads& threads) {
   Meetings meetings;
   std::vector<End> ends;
-  for (Found& f : found) {
-    const auto [i, j] = f.meeting.elements;
-    if (f.is_area) {
+  for (const OffendingPair& pair : pairs) {
+    const auto [i, j] = pair.elements;
+    if (pair.part.is_area) {
       meetings.overlapping.push_back({i, j});
       continue;
     }
+    Meeting meeting = meeting_of(pair);
     const auto number = static_cast<Index>(meetings.all.size());
-    for (std::size_t k = 0; k < 2 && f.meeting.faces[k][0] != 0; ++k) {
-      const unsigned mask_i = f.meeting.faces[k][0], mask_j = f.meeting.faces[k][1];
+    for (std::size_t k = 0; k < 2 && meeting.faces[k][0] != 0; ++k) {
+      const unsigned mask_i = meeting.faces[k][0], mask_j = meeting.faces[k][1];
       if (std::popcount(mask_i) == 1)
-        f.meeting.points[k] = corner_of_mask(elements.all[i], mask_i);
+        meeting.points[k] = corner_of_mask(elements.all[i], mask_i);
       else if (std::popcount(mask_j) == 1)
-        f.meeting.points[k] = corner_of_mask(elements.all[j], mask_j);
+        meeting.points[k] = corner_of_mask(elements.all[j], mask_j);
       else
         ends.push_back({number, static_cast<std::uint8_t>(k), crossing_of(elements, i, mask_i, j, mask_j)});
     }
-    meetings.all.push_back(f.meeting);
+    meetings.all.push_back(meeting);
   }
-  number(ends, meetings.all, complex, elements, pool, step, threads);
+  number(ends, meetings.all, complex, planes, pool, step, threads);
   return meetings;
 }
 

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "arrange/arrange.h"
+#include "arrange/facet_planes.h"
 #include "arrange/point_pool.h"
 #include "arrange/sheet.h"
+#include "surface/contacts.h"
 
 namespace holdfast::arrange {
 
@@ -31,10 +34,18 @@ struct Meetings {
   std::vector<std::array<Index, 2>> overlapping;  ///< pairs of facets that share area
 };
 
-/// Of pairs of elements, each with the lesser index first. New points go into the pool.
+/// Two elements that do not fit together, the lesser index first, and what they have in common.
+struct OffendingPair {
+  std::array<Index, 2> elements;
+  Common part;
+
+  friend bool operator<(const OffendingPair& a, const OffendingPair& b) { return a.elements < b.elements; }
+};
+
+/// `planes`: of all facets of the pairs. New points go into the pool.
 [[nodiscard]] Meetings find_meetings(const Complex& complex, const Elements& elements,
-                                     std::vector<std::array<Index, 2>> pairs, PointPool& pool,
-                                     const Step& step, const Threads& threads);
+                                     std::span<const OffendingPair> pairs, const FacetPlanes& planes,
+                                     PointPool& pool, const Step& step, const Threads& threads);
 
 /// The line of a trace that a meeting leaves on the plane of its first (0) or second (1) element.
 [[nodiscard]] Line line_of(const Meeting& meeting, std::size_t element, const Elements& elements);

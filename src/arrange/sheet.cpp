@@ -170,6 +170,19 @@ std::vector<Index> in_order(const Given& given, const std::vector<Index>& points
   return ordered;
 }
 
+/// For points that are known to lie on sides of the only facet, these, in the order of the points; bit i for
+/// the side opposite to corner i of the mesh's first triangle, which turns left.
+std::vector<std::array<Index, 2>> sides_of_points(const Given& given) {
+  std::vector<std::array<Index, 2>> sides;
+  if (!given.is_single) return sides;
+  const bool is_turned = given.facet(given.input.facets[0]).turn < 0;
+  for (const PointOnSide& on : given.input.on_sides)
+    if (on.facet == given.input.facets[0])
+      sides.push_back({on.point, 1u << (is_turned ? (3 - on.opposite) % 3 : on.opposite)});
+  sort_unique(sides);
+  return sides;
+}
+
 void insert_points(const Given& given, SheetPoints& all, FlatMesh& mesh, const plane::Poll& poll) {
   std::vector<Index> points(given.input.points.begin(), given.input.points.end());
   for (const Index f : given.input.facets)
@@ -180,9 +193,12 @@ void insert_points(const Given& given, SheetPoints& all, FlatMesh& mesh, const p
   std::erase_if(points, [&](Index p) { return all.has(p); });
   constexpr std::size_t kFew = 16;
   if (points.size() > kFew) points = in_order(given, points);
+  const std::vector<std::array<Index, 2>> sides = sides_of_points(given);
   for (std::size_t k = 0; k < points.size(); ++k) {
     poll(static_cast<double>(k) / static_cast<double>(points.size()));
-    mesh.insert(all.add(points[k]));
+    const auto on = std::lower_bound(sides.begin(), sides.end(), std::array<Index, 2>{points[k], 0});
+    const bool is_on_side = on != sides.end() && (*on)[0] == points[k];
+    mesh.insert(all.add(points[k]), is_on_side ? (*on)[1] : 0);
   }
 }
 

@@ -29,11 +29,18 @@ struct Trace {
   Line line;
 };
 
+/// A point of the pool that is known to lie on the side of a facet opposite to one of its corners.
+struct PointOnSide {
+  Index point, facet;
+  unsigned opposite;
+};
+
 /// What a sheet is made of; indices of facets are those of Elements::all.
 struct SheetInput {
   std::span<const Index> facets;
   std::span<const Index> points;
   std::span<const Trace> traces;
+  std::span<const PointOnSide> on_sides;  ///< of points and ends of traces; need not be all
 };
 
 struct SheetTriangles {

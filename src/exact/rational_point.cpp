@@ -2,9 +2,14 @@
 #include "exact/rational_point.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "exact/determinant.h"
+#include "exact/expansion.h"
+#include "exact/fixed_int.h"
 #include "exact/float_bits.h"
 #include "numbers/float_environment.h"
 
@@ -22,22 +27,80 @@ Row<BigInt> cross(const Row<BigInt>& u, const Row<BigInt>& v) {
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
+/// |m| = (bits + rest) 2^exponent with 0 <= rest < 1, where `bits` has 128 of them, the uppermost one set.
+struct Leading {
+  Uint128 bits;
+  std::int64_t exponent;
+};
+
+Leading leading(const BigInt& m) {
+  const Limb* limbs = m.backend().limbs();
+  const std::size_t size = m.backend().size();
+  const auto limb = [&](std::size_t from_above) {
+    return from_above < size ? limbs[size - 1 - from_above] : Limb{0};
+  };
+  const int zeros = std::countl_zero(limb(0));
+  Uint128 bits = static_cast<Uint128>(limb(0)) << 64 | limb(1);
+  if (zeros > 0) bits = bits << zeros | limb(2) >> (64 - zeros);
+  return {bits, 64 * (static_cast<std::int64_t>(size) - 2) - zeros};
+}
+
+/// The double nearest to |n / d|, where the leading bits tell and it is no denormal; else none.
+///
+/// Let m be half the first number's bits, rounded down, and e the upper 64 bits of the second's. The quotient
+/// is v 2^k with m / (e + 1) < v < (m + 1) / e. Now q = floor(m / e) is in (2^62 - 1, 2^64), so v > m / e - 2
+/// and v < q + 2. Rounding is monotonic: v has the double of q - 2 and of q + 2 if these are one.
+std::optional<double> nearest_by_leading_bits(const BigInt& n, const BigInt& d) {
+  const Leading a = leading(n), b = leading(d);
+  const Uint128 quotient = (a.bits >> 1) / static_cast<std::uint64_t>(b.bits >> 64);
+  const auto q = static_cast<std::uint64_t>(quotient);
+  const double low = static_cast<double>(q - 2);
+  if (q > std::numeric_limits<std::uint64_t>::max() - 2 || low != static_cast<double>(q + 2)) return {};
+  const std::int64_t exponent = a.exponent + 1 - (b.exponent + 64);
+  if (exponent < -1000 || exponent > 950) return {};
+  return low * power_of_two(static_cast<int>(exponent));
+}
+
 std::int64_t bits(const BigInt& m) {
   return m.is_zero() ? 0 : static_cast<std::int64_t>(boost::multiprecision::msb(abs(m))) + 1;
 }
 
 }  // namespace
 
-/// The quotient has 66 bits or more; a last bit that stands for the rest makes its rounding
-/// that of the exact value.
+/// Where the leading bits do not tell, the quotient has 66 bits or more; a last bit that stands for the rest
+/// makes its rounding that of the exact value.
 double nearest_quotient(const BigInt& n, const BigInt& d) {
   if (n.is_zero()) return 0;
+  if (const auto nearest = nearest_by_leading_bits(n, d)) return n.sign() < 0 ? -*nearest : *nearest;
   const std::int64_t shift = std::max<std::int64_t>(0, 66 - (bits(n) - bits(d)));
   BigInt quotient, rest;
   divide_qr(BigInt(abs(n) << static_cast<std::size_t>(shift)), d, quotient, rest);
   quotient <<= 1;
   if (!rest.is_zero()) quotient += 1;
   return Dyadic(n.sign() < 0 ? BigInt(-quotient) : quotient, -shift - 1).to_double();
+}
+
+/// Two doubles for each number have 106 of its leading bits. With q the rounded quotient of the first ones
+/// and r = n - q d, which is 2^-52 of n and errs by 2^-104 of it, q + r / d errs by 2^-103 at most.
+double rest_of_quotient(const BigInt& n, const BigInt& d, double high) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  if (n.is_zero()) return 0;
+  const Leading a = leading(n), b = leading(d);
+  const std::int64_t exponent = a.exponent - b.exponent;
+  if (exponent < -800 || exponent > 800) return kUnknown;
+  const auto two_doubles = [](Uint128 bits) {  // in [1, 2]
+    const auto upper = static_cast<double>(static_cast<std::uint64_t>(bits >> 75)) * 0x1p-52;
+    return TwoTerms{
+        upper, static_cast<double>(static_cast<std::uint64_t>(bits >> 22) & (kHiddenBit * 2 - 1)) * 0x1p-105};
+  };
+  const TwoTerms x = two_doubles(a.bits), y = two_doubles(b.bits);
+  const double q = x.high / y.high;
+  const TwoTerms product = two_product(q, y.high);
+  const double r = ((x.high - product.high) - product.low) + (x.low - q * y.low);
+  const TwoTerms sum = fast_two_sum(q, r / y.high);
+  const double scaled = std::fabs(high) * power_of_two(static_cast<int>(-exponent));
+  const double rest = ((sum.high - scaled) + sum.low) * power_of_two(static_cast<int>(exponent));
+  return n.sign() < 0 ? -rest : rest;
 }
 
 RationalPoint rational_point(const double* p) {

@@ -26,6 +26,10 @@ struct RationalPoint {
 /// The double nearest to n / d, ties to even, with d > 0; infinity beyond the range.
 [[nodiscard]] double nearest_quotient(const BigInt& n, const BigInt& d);
 
+/// The double nearest to n / d - high, give or take 2^-100 |high|, where `high` is the double nearest to n /
+/// d; NaN where something would over- or underflow.
+[[nodiscard]] double rest_of_quotient(const BigInt& n, const BigInt& d, double high);
+
 /// As the predicates on doubles.
 [[nodiscard]] int orient2d(const RationalPoint& a, const RationalPoint& b, const RationalPoint& c);
 [[nodiscard]] int incircle(const RationalPoint& a, const RationalPoint& b, const RationalPoint& c,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "exact/expansion.h"
 #include "exact/tiers.h"
 #include "numbers/float_environment.h"
 
@@ -57,7 +58,9 @@ Vertex Points::add(exact::RationalPoint p) {
 
 Vertex Points::add(exact::RationalPoint p, const Position& nearest) {
   const Vertex v = add(nearest);
-  store_.push_back(std::move(p));
+  const Position rest{exact::rest_of_quotient(p.x, p.w, nearest[0]),
+                      exact::rest_of_quotient(p.y, p.w, nearest[1])};
+  store_.push_back({std::move(p), rest});
   exact_.resize(v);
   exact_.push_back(&store_.back());
   return v;
@@ -73,13 +76,48 @@ void Points::shrink(std::size_t count) {
 }
 
 exact::RationalPoint Points::rational(Vertex v) const {
-  return is_exact(v) ? *exact_[v] : exact::rational_point(at(v));
+  return is_exact(v) ? exact_[v]->at : exact::rational_point(at(v));
 }
 
 int Points::mixed_orient(Vertex a, Vertex b, Vertex c) const {
   if (!is_exact(a) && !is_exact(b) && !is_exact(c)) return exact::orient2d(at(a), at(b), at(c));
   const int sign = exact::detail::orient2d_mixed_filter(at(a), at(b), at(c), 0, 1);
-  return sign != 0 ? sign : exact::orient2d(rational(a), rational(b), rational(c));
+  if (sign != 0) return sign;
+  const int fine = fine_orient(a, b, c);
+  return fine != 0 ? fine : exact::orient2d(rational(a), rational(b), rational(c));
+}
+
+/// Decides orient from two doubles a coordinate, or 0: where points lie as near to a line as rounding lets
+/// them.
+///
+/// Let M be the largest coordinate of an axis and D the largest difference. Coordinates err by 2^-100 M, so
+/// differences, whose two roundings are below 2^-104 M each, by 2^-98 M. Four roundings of a product of two
+/// doubles each err by 2^-104 of it. So the determinant errs by less than 2^-96 (Mx Dy + Dx My + Dx Dy).
+int Points::fine_orient(Vertex a, Vertex b, Vertex c) const {
+  std::array<exact::TwoTerms, 2> u{}, v{};
+  std::array<double, 2> largest{}, extent{};
+  const auto rest = [&](Vertex p, std::size_t k) { return is_exact(p) ? exact_[p]->rest[k] : 0.0; };
+  const auto difference = [&](Vertex p, Vertex q, std::size_t k) {
+    const exact::TwoTerms high = exact::two_diff(at(p)[k], at(q)[k]);
+    return exact::two_sum(high.high, high.low + (rest(p, k) - rest(q, k)));
+  };
+  for (std::size_t k = 0; k < 2; ++k) {
+    u[k] = difference(b, a, k);
+    v[k] = difference(c, a, k);
+    largest[k] = std::max({std::fabs(at(a)[k]), std::fabs(at(b)[k]), std::fabs(at(c)[k])});
+    extent[k] = std::max(std::fabs(u[k].high), std::fabs(v[k].high));
+  }
+  constexpr double kLeast = 0x1p-300, kMost = 0x1p300;
+  if (!(largest[0] < kMost && largest[1] < kMost && extent[0] > kLeast && extent[1] > kLeast)) return 0;
+  const auto product = [](const exact::TwoTerms& x, const exact::TwoTerms& y) {
+    const exact::TwoTerms high = exact::two_product(x.high, y.high);
+    return exact::TwoTerms{high.high, high.low + (x.high * y.low + x.low * y.high)};
+  };
+  const exact::TwoTerms left = product(u[0], v[1]), right = product(u[1], v[0]);
+  const exact::TwoTerms high = exact::two_diff(left.high, right.high);
+  const double det = high.high + (high.low + (left.low - right.low));
+  const double bound = 0x1p-96 * (largest[0] * extent[1] + extent[0] * largest[1] + extent[0] * extent[1]);
+  return exact::detail::filtered_sign(det, bound);
 }
 
 int Points::mixed_incircle(Vertex a, Vertex b, Vertex c, Vertex d) const {

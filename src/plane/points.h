@@ -81,13 +81,18 @@ class Points {
   }
   [[nodiscard]] bool is_exact(Vertex v) const { return v < exact_.size() && exact_[v] != nullptr; }
   [[nodiscard]] int mixed_orient(Vertex a, Vertex b, Vertex c) const;
+  [[nodiscard]] int fine_orient(Vertex a, Vertex b, Vertex c) const;
   [[nodiscard]] int mixed_incircle(Vertex a, Vertex b, Vertex c, Vertex d) const;
   [[nodiscard]] int mixed_compare(Vertex a, Vertex b) const;
 
   Positions positions_;
+  struct ExactPoint {
+    exact::RationalPoint at;
+    Position rest;  // what its position lacks, to 2^-100 of that, or NaN
+  };
   // Of exact points, by vertex; null for explicit ones, and too short where none follows.
-  std::vector<const exact::RationalPoint*> exact_;
-  std::deque<exact::RationalPoint> store_;  // which keeps its addresses
+  std::vector<const ExactPoint*> exact_;
+  std::deque<ExactPoint> store_;  // which keeps its addresses
 };
 
 }  // namespace holdfast::plane

@@ -20,9 +20,12 @@ namespace holdfast {
 struct Box {
   std::array<double, 3> low, high;
 
+  /// Without branches, which could not be predicted.
   [[nodiscard]] bool overlaps(const Box& other) const {
-    return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] &&
-           other.low[1] <= high[1] && low[2] <= other.high[2] && other.low[2] <= high[2];
+    const auto in = [&](std::size_t k) {
+      return static_cast<unsigned>(low[k] <= other.high[k]) & static_cast<unsigned>(other.low[k] <= high[k]);
+    };
+    return (in(0) & in(1) & in(2)) != 0;
   }
   void extend(const Box& other);
   /// The middle in coordinate k.

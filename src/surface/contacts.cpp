@@ -19,6 +19,9 @@ using exact::Dyadic;
 constexpr std::array<std::array<unsigned, 3>, 8> kCorners = {
     {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}, {0, 2, 0}, {1, 2, 0}, {0, 1, 2}}};
 constexpr std::array<unsigned, 8> kCount = {0, 1, 1, 2, 1, 2, 2, 3};
+// The corner that the face begins with where its corners follow each other counterclockwise: so side i leads
+// from corner i to the next one.
+constexpr std::array<unsigned, 8> kBegin = {0, 0, 1, 0, 2, 2, 1, 0};
 
 // --- Certificates -----------------------------------------------------------------------------------
 
@@ -224,39 +227,113 @@ bool same_face(const Simplex& a, unsigned mask_a, const Simplex& b, unsigned mas
   return true;
 }
 
-// Interiors of different faces; the face of `a` has no more corners than that of `b`.
-Meet faces_meet(const Simplex& a, unsigned mask_a, const Sides& sides_a, const Simplex& b, unsigned mask_b,
-                const Sides& sides_b) {
-  const auto& i = kCorners[mask_a];
-  const auto& j = kCorners[mask_b];
-  const double* const p = a.point[i[0]];
-  if (kCount[mask_b] == 1) return Meet::none;  // different vertices are different points
-  if (kCount[mask_a] == 1) {
-    const bool in =
-        kCount[mask_b] == 2 ? in_segment(p, b.point[j[0]], b.point[j[1]]) : in_facet(p, sides_a[i[0]], b);
-    return in ? Meet::point : Meet::none;
+// The faces of a simplex whose interiors may meet a plane, bit m for mask m: some corners are on each side of
+// it, or all are on it.
+unsigned faces_at_plane(const Sides& sides, unsigned corners) {
+  unsigned faces = 0;
+  for (unsigned mask = 1; mask < 1u << corners; ++mask) {
+    bool above = false, below = false;
+    for (unsigned i = 0; i < corners; ++i) {
+      if ((mask >> i & 1u) == 0) continue;
+      above = above || sides[i] > 0;
+      below = below || sides[i] < 0;
+    }
+    if (above == below) faces |= 1u << mask;
   }
-  if (kCount[mask_b] == 2) return segments_meet(p, a.point[i[1]], b.point[j[0]], b.point[j[1]]);
-  if (kCount[mask_a] == 2) return segment_meets_facet(p, sides_a[i[0]], a.point[i[1]], sides_a[i[1]], b);
-  return facets_meet(a, sides_a, b, sides_b);
+  return faces;
 }
 
-// Calls visit(mask of a, mask of b, same face?, how they meet) for all pairs of faces that meet.
-template <class Visit>
-void for_each_contact(const Simplex& a, const Simplex& b, Visit&& visit) {
-  const Sides sides_a = sides_of_corners(b, a), sides_b = sides_of_corners(a, b);
-  for (unsigned mask_a = 1; mask_a < 1u << a.corners; ++mask_a) {
-    for (unsigned mask_b = 1; mask_b < 1u << b.corners; ++mask_b) {
-      if (same_face(a, mask_a, b, mask_b)) {
-        visit(mask_a, mask_b, true, static_cast<Meet>(kCount[mask_a]));
-        continue;
+// Two simplices with the signs that several pairs of their faces ask for.
+class FacePairs {
+ public:
+  FacePairs(const Simplex& a, const Simplex& b)
+      : a_(a), b_(b), sides_a_(sides_of_corners(b, a)), sides_b_(sides_of_corners(a, b)) {}
+
+  // Calls visit(mask of a, mask of b, same face?, how they meet) for all pairs of faces that meet.
+  template <class Visit>
+  void for_each_contact(Visit&& visit) {
+    constexpr unsigned kAll = 0xff;
+    const unsigned faces_a = b_.corners == 3 ? faces_at_plane(sides_a_, a_.corners) : kAll;
+    const unsigned faces_b = a_.corners == 3 ? faces_at_plane(sides_b_, b_.corners) : kAll;
+    for (unsigned mask_a = 1; mask_a < 1u << a_.corners; ++mask_a) {
+      if ((faces_a >> mask_a & 1u) == 0) continue;
+      for (unsigned mask_b = 1; mask_b < 1u << b_.corners; ++mask_b) {
+        if ((faces_b >> mask_b & 1u) == 0) continue;
+        if (same_face(a_, mask_a, b_, mask_b)) {
+          visit(mask_a, mask_b, true, static_cast<Meet>(kCount[mask_a]));
+          continue;
+        }
+        const Meet meet = faces_meet(mask_a, mask_b);
+        if (meet != Meet::none) visit(mask_a, mask_b, false, meet);
       }
-      const Meet meet = kCount[mask_a] <= kCount[mask_b] ? faces_meet(a, mask_a, sides_a, b, mask_b, sides_b)
-                                                         : faces_meet(b, mask_b, sides_b, a, mask_a, sides_a);
-      if (meet != Meet::none) visit(mask_a, mask_b, false, meet);
     }
   }
-}
+
+ private:
+  // Interiors of different faces.
+  Meet faces_meet(unsigned mask_a, unsigned mask_b) {
+    const unsigned count_a = kCount[mask_a], count_b = kCount[mask_b];
+    const unsigned i = kBegin[mask_a], j = kBegin[mask_b];
+    if (count_a == 1 && count_b == 1) return Meet::none;  // different vertices are different points
+    if (count_a == 1) return vertex_meets(a_.point[i], sides_a_[i], b_, mask_b);
+    if (count_b == 1) return vertex_meets(b_.point[j], sides_b_[j], a_, mask_a);
+    if (count_a == 3 && count_b == 3) return facets_meet();
+    if (count_a == 3) return side_meets_facet(b_, j, sides_b_, a_, [&](unsigned k) { return way(k, j); });
+    if (count_b == 3) return side_meets_facet(a_, i, sides_a_, b_, [&](unsigned k) { return way(i, k); });
+    if (way(i, j) != 0) return Meet::none;
+    return segments_meet(a_.point[i], end(a_, i), b_.point[j], end(b_, j));
+  }
+
+  static Meet vertex_meets(const double* p, int side_p, const Simplex& other, unsigned mask) {
+    const auto& j = kCorners[mask];
+    const bool in =
+        kCount[mask] == 2 ? in_segment(p, other.point[j[0]], other.point[j[1]]) : in_facet(p, side_p, other);
+    return in ? Meet::point : Meet::none;
+  }
+
+  // Side i of one simplex, and the other one, which is a facet; way(k): of the side and the facet's side k.
+  template <class Way>
+  static Meet side_meets_facet(const Simplex& simplex, unsigned i, const Sides& sides, const Simplex& facet,
+                               Way&& way) {
+    const int side_p = sides[i], side_q = sides[next(simplex, i)];
+    if (side_p == 0 && side_q == 0)
+      return segment_meets_facet(simplex.point[i], 0, end(simplex, i), 0, facet);
+    if (side_p * side_q >= 0) return Meet::none;
+    // The line passes all three sides of the facet the same way round.
+    const int first = way(0);
+    return first != 0 && way(1) == first && way(2) == first ? Meet::point : Meet::none;
+  }
+
+  // Of two facets, as holdfast::facets_meet. The signs of LineOrder are those of sides, which lead to the
+  // lone corner or away from it.
+  Meet facets_meet() {
+    if (sides_a_ == Sides{0, 0, 0} || !both_signs(sides_a_) || !both_signs(sides_b_))
+      return holdfast::facets_meet(a_, sides_a_, b_, sides_b_);
+    const unsigned i = lone_corner(sides_a_), j = lone_corner(sides_b_);
+    const int signs[] = {way(i, j), -way((i + 2) % 3, j), -way(i, (j + 2) % 3),
+                         way((i + 2) % 3, (j + 2) % 3)};
+    const bool before = std::any_of(std::begin(signs), std::end(signs), [](int s) { return s < 0; });
+    const bool behind = std::any_of(std::begin(signs), std::end(signs), [](int s) { return s > 0; });
+    return before && behind ? Meet::length : Meet::none;
+  }
+
+  static unsigned next(const Simplex& simplex, unsigned i) { return i + 1 == simplex.corners ? 0 : i + 1; }
+  static const double* end(const Simplex& simplex, unsigned i) { return simplex.point[next(simplex, i)]; }
+
+  // Which way round the sides i of a and j of b, from corners i and j to the next ones, pass each other.
+  int way(unsigned i, unsigned j) {
+    std::int8_t& known = ways_[3 * i + j];
+    if (known == kUnknown)
+      known = static_cast<std::int8_t>(exact::orient3d(a_.point[i], end(a_, i), b_.point[j], end(b_, j)));
+    return known;
+  }
+
+  static constexpr std::int8_t kUnknown = 2;
+  const Simplex &a_, &b_;
+  const Sides sides_a_, sides_b_;
+  std::array<std::int8_t, 9> ways_{kUnknown, kUnknown, kUnknown, kUnknown, kUnknown,
+                                   kUnknown, kUnknown, kUnknown, kUnknown};
+};
 
 // --- Places -----------------------------------------------------------------------------------------
 
@@ -316,27 +393,21 @@ bool surely_fit(const Simplex& a, const Simplex& b) {
 
 Contacts contacts(const Simplex& a, const Simplex& b) {
   Contacts found;
-  for_each_contact(a, b, [&found](unsigned mask_a, unsigned mask_b, bool same, Meet) {
+  Common& part = found.part;
+  FacePairs(a, b).for_each_contact([&](unsigned mask_a, unsigned mask_b, bool same, Meet meet) {
     (same ? found.common : found.distinct) |= Contacts::bit(mask_a, mask_b);
-  });
-  return found;
-}
-
-Common common_part(const Simplex& a, const Simplex& b) {
-  Common found;
-  for_each_contact(a, b, [&found](unsigned mask_a, unsigned mask_b, bool, Meet meet) {
-    found.is_area = found.is_area || meet == Meet::area;
+    part.is_area = part.is_area || meet == Meet::area;
     if (meet != Meet::point) return;
-    if (found.count < found.touches.size()) found.touches[found.count] = {mask_a, mask_b};
-    ++found.count;
+    if (part.count < part.touches.size()) part.touches[part.count] = {mask_a, mask_b};
+    ++part.count;
   });
-  if (found.is_area) found.count = 0;
+  if (part.is_area) part.count = 0;
   return found;
 }
 
 std::vector<Point> common_corners(const Simplex& a, const Simplex& b) {
   std::vector<Point> corners;
-  for_each_contact(a, b, [&](unsigned mask_a, unsigned mask_b, bool, Meet meet) {
+  FacePairs(a, b).for_each_contact([&](unsigned mask_a, unsigned mask_b, bool, Meet meet) {
     if (meet != Meet::point) return;
     const auto& i = kCorners[mask_a];
     const auto& j = kCorners[mask_b];

@@ -14,23 +14,6 @@
 
 namespace holdfast {
 
-/// Pairs of faces of two simplices A and B whose interiors meet. A face is a mask of corners (bit i:
-/// corner i), and the pair (a, b) of masks is bit 8 a + b.
-struct Contacts {
-  std::uint64_t common = 0;    ///< pairs that are one simplex, by vertex index
-  std::uint64_t distinct = 0;  ///< pairs of different simplices: each breaks the complex
-
-  [[nodiscard]] static constexpr std::uint64_t bit(unsigned a, unsigned b) {
-    return std::uint64_t{1} << (8 * a + b);
-  }
-};
-
-/// True only if A and B are different and fit; false says nothing.
-[[nodiscard]] bool surely_fit(const Simplex& a, const Simplex& b);
-
-/// All pairs of faces that meet. A and B fit if and only if `distinct` is zero.
-[[nodiscard]] Contacts contacts(const Simplex& a, const Simplex& b);
-
 /// What two simplices have in common, a convex set.
 struct Common {
   /// A corner of it: faces of A and B, as masks, whose interiors meet in this point alone. No two touches are
@@ -43,7 +26,23 @@ struct Common {
   bool is_area = false;  ///< it is a polygon, and touches are not told
 };
 
-[[nodiscard]] Common common_part(const Simplex& a, const Simplex& b);
+/// Pairs of faces of two simplices A and B whose interiors meet. A face is a mask of corners (bit i:
+/// corner i), and the pair (a, b) of masks is bit 8 a + b.
+struct Contacts {
+  std::uint64_t common = 0;    ///< pairs that are one simplex, by vertex index
+  std::uint64_t distinct = 0;  ///< pairs of different simplices: each breaks the complex
+  Common part;
+
+  [[nodiscard]] static constexpr std::uint64_t bit(unsigned a, unsigned b) {
+    return std::uint64_t{1} << (8 * a + b);
+  }
+};
+
+/// True only if A and B are different and fit; false says nothing.
+[[nodiscard]] bool surely_fit(const Simplex& a, const Simplex& b);
+
+/// All pairs of faces that meet. A and B fit if and only if `distinct` is zero.
+[[nodiscard]] Contacts contacts(const Simplex& a, const Simplex& b);
 
 /// Corners of the convex set that A and B have in common, rounded (error at most two units in the last
 /// place). None: they are disjoint; one: a point; two: a segment; more: a polygon, in no particular order.

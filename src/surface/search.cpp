@@ -245,7 +245,14 @@ class Search {
         step_(step),
         patience_(tuning.patience),
         threads_(tuning.threads),
-        hubs_(complex, elements, tuning.hub_degree) {}
+        hubs_(complex, elements, tuning.hub_degree) {
+    if (known.sheet.empty()) return;
+    sides_.reserve(elements.all.size());
+    for (const Element& e : elements.all) {
+      const auto at = [&](unsigned i) { return complex.vertices[e.vertex[i < e.corners ? i : 0]].data(); };
+      sides_.emplace_back(at(0), at(1), at(2));
+    }
+  }
 
   void run() {
     if (!elements_.all.empty() && search_space()) {
@@ -342,11 +349,10 @@ class Search {
   // Whether all corners of j that are none of i's are surely strictly on one side of i's plane.
   [[nodiscard]] bool is_on_one_side(Index i, Index j) const {
     const std::array<Index, 3>& t = elements_.all[i].vertex;
-    const auto at = [&](Index v) { return complex_.vertices[v].data(); };
     int sides = 0, count = 0;
     for (const Index v : elements_.all[j].vertex) {
       if (v == t[0] || v == t[1] || v == t[2]) continue;
-      sides += exact::detail::orient3d_filter(at(t[0]), at(t[1]), at(t[2]), at(v));
+      sides += sides_[i](complex_.vertices[v].data());
       ++count;
     }
     return count > 0 && (sides == count || sides == -count);
@@ -360,6 +366,7 @@ class Search {
   std::size_t patience_;
   Threads threads_;
   Hubs hubs_;
+  std::vector<exact::OrientFilter> sides_;  // of each facet's plane, where there are sheets
 };
 
 // The elements that are not known and those whose boxes overlap one of theirs, and which of them are known.

@@ -3,8 +3,10 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "exact/dyadic.h"
+#include "exact/rational_point.h"
 
 namespace holdfast::exact {
 namespace {
@@ -125,6 +127,39 @@ TEST(Dyadic, ComputesExactly) {
   const Dyadic same = x;
   x -= same;
   EXPECT_EQ(x, Dyadic());
+}
+
+/// Up to 500 bits, and as often few of them.
+BigInt random_integer(std::mt19937_64& random) {
+  const unsigned bits = 1 + static_cast<unsigned>(random() % (random() % 2 == 0 ? 500 : 80));
+  BigInt m = 0;
+  for (unsigned k = 0; k < bits; k += 64) m = (m << 64) + BigInt(random());
+  m >>= (bits + 63) / 64 * 64 - bits;
+  return m + 1;
+}
+
+/// Which of two doubles that follow each other a quotient is nearer to is a matter of integers.
+TEST(Quotient, IsRoundedToTheNearestDouble) {
+  std::mt19937_64 random(1);
+  for (int k = 0; k < 20000; ++k) {
+    BigInt n = random_integer(random);
+    const BigInt d = random_integer(random);
+    if (k % 4 == 0) n = d * BigInt(random() >> 8) + (k % 8 == 0 ? 1 : 0);  // at a tie, or next to it
+    const double nearest = nearest_quotient(n, d);
+    ASSERT_GT(nearest, 0);
+    EXPECT_EQ(nearest_quotient(BigInt(-n), d), -nearest);
+    const Dyadic exact_n(n, 0), exact_d(d, 0);
+    const auto apart = [&](double x) {
+      const Dyadic difference = exact_n - Dyadic(x) * exact_d;
+      return difference.sign() < 0 ? -difference : difference;
+    };
+    const Dyadic mine = apart(nearest);
+    for (const double other : {std::nextafter(nearest, 0.0), std::nextafter(nearest, kInfinity)})
+      EXPECT_LE(mine, apart(other)) << n.str() << " / " << d.str();
+    const double rest = rest_of_quotient(n, d, nearest);
+    const Dyadic error = exact_n - (Dyadic(nearest) + Dyadic(rest)) * exact_d;
+    EXPECT_LE(error.sign() < 0 ? -error : error, Dyadic(nearest) * exact_d * power(-100));
+  }
 }
 
 }  // namespace

@@ -47,5 +47,34 @@ TEST(FitsRounded, PointsThatRoundingPutsElsewhere) {
   }
 }
 
+/// By two doubles a coordinate as far as these go, by integers beyond.
+TEST(Points, TurnsNextToALine) {
+  for (unsigned j = 1; j < 300; ++j)
+    for (const int s : {-1, 0, 1}) {
+      plane::Points points;
+      const plane::Vertex a = points.add(plane::Position{0, 0}), b = points.add(plane::Position{1, 1});
+      const BigInt power = BigInt(1) << j;
+      const plane::Vertex p = points.add(rational(power + 3 * s, power, 3 * power));
+      EXPECT_EQ(points.orient(a, b, p), -s) << j;
+      EXPECT_EQ(points.orient(p, b, a), s) << j;
+    }
+}
+
+/// A point that is told to be on a side costs no arithmetic, and changes nothing.
+TEST(FlatMesh, TakesPointsOnSidesAtTheirWord) {
+  for (const bool told : {false, true}) {
+    plane::Points points;
+    for (const plane::Position& p : {plane::Position{0, 0}, plane::Position{1, 0}, plane::Position{0, 1}})
+      points.add(p);
+    FlatMesh mesh(points, 0, 1, 2);
+    const plane::Vertex p = points.add(rational(2, 1, 3));
+    mesh.insert(p, told ? 0b001 : 0);
+    const plane::Vertex q = points.add(rational(1, 2, 3));
+    mesh.insert(q, told ? 0b001 : 0);
+    EXPECT_EQ(mesh.chain(1, 2), (std::vector<Vertex>{1, p, q, 2}));
+    EXPECT_EQ(mesh.triangles().size(), 3u);
+  }
+}
+
 }  // namespace
 }  // namespace holdfast::arrange
