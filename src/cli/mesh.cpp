@@ -13,6 +13,7 @@
 #include "files_of_run.h"
 #include "idle_options.h"
 #include "limits.h"
+#include "mesh_attempts.h"
 #include "mesh_input.h"
 #include "mesh_options.h"
 #include "mesh_output.h"
@@ -147,31 +148,6 @@ void write_html(const MeshArguments& arguments, const Limits& limits, const Surf
   page.write();
 }
 
-/// Options that do not suit the surface (a hole on a facet, say) are wrong usage. The files' seeds join those
-/// of the options.
-Result mesh_or_refuse(const MeshArguments& arguments, const MeshInput& input, Options& options) {
-  try {
-    if (input.pasted) {
-      const Surface& pasted = input.pasted->surface;  // seeds of a single file are its own
-      options.holes.insert(options.holes.end(), pasted.holes.begin(), pasted.holes.end());
-      options.regions.insert(options.regions.end(), pasted.regions.begin(), pasted.regions.end());
-      set_bounds(arguments.bounds, pasted.names, options);
-      if (input.pasted->outcome == Outcome::done) return holdfast::mesh(*input.pasted, options);
-      Result result;
-      result.outcome = input.pasted->outcome;
-      result.message = input.pasted->message;
-      return result;
-    }
-    const Surface& surface = input.surface;
-    options.holes.insert(options.holes.end(), surface.holes.begin(), surface.holes.end());
-    options.regions.insert(options.regions.end(), surface.regions.begin(), surface.regions.end());
-    set_bounds(arguments.bounds, surface.names, options);
-    return holdfast::mesh(surface.view(), options);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(error.what());
-  }
-}
-
 Json report_of(const RepairResult& result, const RepairOptions& options) {
   return to_json(result, {{"weld", options.weld}, {"union", options.unite}});
 }
@@ -257,7 +233,7 @@ int run(const MeshArguments& arguments) {
   Options options = to_options(arguments);
   const Names names = names_of(arguments.names);
   options.started = whole.start();  // the limit is on the whole command
-  const std::optional<RepairOptions> repairing = repair_options(arguments, options);
+  std::optional<RepairOptions> repairing = repair_options(arguments, options);
   FilesOfRun files;
   const Targets targets = note_files(arguments, options, files);
   cancel_at_once();
@@ -269,7 +245,9 @@ int run(const MeshArguments& arguments) {
 
   cancel_by_flag();  // from here on the mesher asks, and files are open
   std::optional<RepairResult> repaired;
+  Surface unrepaired;
   if (repairing) {
+    unrepaired = input.surface;
     repaired = repair_before(input.surface, *repairing, progress);
     if (repaired->outcome != Outcome::done) {
       write_json(arguments.report, {{"outcome", name(repaired->outcome)},
@@ -281,7 +259,11 @@ int run(const MeshArguments& arguments) {
   }
   options.progress = std::ref(progress);
   if (!repaired) paste_parts(arguments, options, input);
+  const Options asked = options;
   Result result = mesh_or_refuse(arguments, input, options);
+  if (repaired && repairing->weld == 0 && arguments.exact.empty() && result.report.unrounded_points > 0 &&
+      result.outcome == Outcome::not_representable)
+    mesh_joined(arguments, unrepaired, asked, progress, input, *repairing, *repaired, result);
   tell_defects_of_files(arguments, input, result);
   const Surface& meshed = input.pasted && arguments.paste ? input.pasted->surface : input.surface;
   const Json order = result.outcome == Outcome::done ? set_order(result.volume, arguments.elements,
