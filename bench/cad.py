@@ -7,7 +7,6 @@ of processor time a surface. A peer's mesh counts where all of its elements are 
 """
 import hashlib
 import statistics
-from pathlib import Path
 from typing import NamedTuple
 
 import sample
@@ -184,8 +183,8 @@ def section(results, timeout):
     return text
 
 
-def run(options, rows, folder, scratch):
-    """Measures, and writes the section after each surface. `rows` keeps what is measured."""
+def run(options, rows, folder, scratch, write):
+    """Measures, and hands the section to `write` after each surface. `rows` keeps what is measured."""
     results = {}
     bench = CadBench(options, scratch)
     for surface in surfaces(folder, options.cad_count):
@@ -194,20 +193,4 @@ def run(options, rows, folder, scratch):
             told |= rows.get(group, surface.resolve(), bench)
         results[surface.stem] = told
         print("\n".join(line(surface.stem, mesher, told) for mesher in told), flush=True)
-        replace_section(options.output, section(results, options.timeout))
-
-
-def parts_of(path: Path):
-    """(what stands before the heading, the section) of the document."""
-    before, _, after = (path.read_text(encoding="utf-8") if path.exists() else "").partition(f"{HEADING}\n")
-    return before.rstrip("\n"), after
-
-
-def replace_section(path, lines):
-    before, _ = parts_of(path)
-    path.write_text("\n".join([*([before, ""] if before else []), *lines]) + "\n", encoding="utf-8")
-
-
-def replace_before_section(path, lines):
-    _, after = parts_of(path)
-    path.write_text("\n".join(lines) + "\n" + (f"\n{HEADING}\n{after}" if after else ""), encoding="utf-8")
+        write(section(results, options.timeout))

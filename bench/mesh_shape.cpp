@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "holdfast/io.h"
 #include "mesh/quality.h"
@@ -34,7 +35,7 @@ int main(int argc, char** argv) {
     std::array<std::size_t, 4> below{};  // tetrahedra with an angle below 10, 20, 30, 40 degrees
     double least = 180;
     double most = 0;
-    double sum = 0, sum_of_q = 0, whole = 0;
+    double sum = 0, sum_of_q = 0, worst_q = 0, whole = 0;
     std::size_t not_positive = 0;
     std::array<double, 3> volume_below{};  // the same in volume, up to 30 degrees
     for (const holdfast::Tetrahedron& t : volume.tetrahedra) {
@@ -48,7 +49,9 @@ int main(int argc, char** argv) {
       sum += low;
       const double six_volumes =
           holdfast::dot(v[t[1]] - v[t[0]], holdfast::cross(v[t[2]] - v[t[0]], v[t[3]] - v[t[0]]));
-      sum_of_q += std::min(holdfast::quality(v[t[0]], v[t[1]], v[t[2]], v[t[3]]), kMostQ);
+      const double q = holdfast::quality(v[t[0]], v[t[1]], v[t[2]], v[t[3]]);
+      sum_of_q += std::min(q, kMostQ);
+      worst_q = std::max(worst_q, std::isfinite(q) ? q : std::numeric_limits<double>::max());
       whole += six_volumes;
       if (!(six_volumes > 0)) ++not_positive;
       for (std::size_t k = 0; k < below.size(); ++k) {
@@ -64,9 +67,10 @@ int main(int argc, char** argv) {
     std::printf(
         "{\"tetrahedra\": %zu, \"min_dihedral\": %.6g, \"max_dihedral\": %.3f, \"mean_min\": %.2f, "
         "\"below\": [%.4f, %.4f, %.4f, %.4f], \"volume_below\": [%.4f, %.4f, %.4f], \"mean_q\": %.8g, "
-        "\"volume\": %.17g, \"not_positive\": %zu}\n",
+        "\"worst_q\": %.8g, \"volume\": %.17g, \"not_positive\": %zu}\n",
         volume.tetrahedra.size(), least, most, sum / count, percent(0), percent(1), percent(2), percent(3),
-        volume_below[0], volume_below[1], volume_below[2], sum_of_q / count, whole / 6, not_positive);
+        volume_below[0], volume_below[1], volume_below[2], sum_of_q / count, worst_q, whole / 6,
+        not_positive);
   }
   return 0;
 }
