@@ -41,7 +41,7 @@ class SeedBench(Meshers):
         if made is None:
             return {"failed": "fails"}
         shape = self.shape(made.file)
-        target = json.loads((self.folder / "hf.json").read_text())["elements"]["target"]
+        target = json.loads((self.folder / "hf.json").read_text())["quality"]["target"]
         return {key: shape[key] for key in ("tetrahedra", "worst_q", "min_dihedral")} | {"target": target, "seconds": made.cpu}
 
     def all_seeds(self, surface):

@@ -2,6 +2,7 @@
 
 #include "optimise/search.h"
 #include "optimise/shaking.h"
+#include "optimise/walking.h"
 
 namespace holdfast {
 
@@ -17,6 +18,7 @@ OptimiseStats optimise(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first
                   : saves_points      ? Ways::Points::later
                                       : Ways::Points::now);
   if (!saves_points || !try_with_points(search)) shake_the_worst(search);
+  if (options.remove == PointsToRemove::all) walk_from_the_worst(search);
   remove_points(search, options.remove == PointsToRemove::all ? 0 : points_before);
   return search.stats();
 }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <mutex>
+#include <tuple>
 
+#include "mesh/quality.h"
 #include "mesh/traverse.h"
 #include "numbers/sorted.h"
 #include "optimise/tuning.h"
@@ -33,11 +35,17 @@ std::vector<bool> slots_of_others(const TetMesh& mesh, const std::vector<Tet>& t
   return others;
 }
 
+double quality_before(const UndoLog::Before& before, Tet t) {
+  const TetMesh::Corners& c = before.corners(t);
+  return quality(before.position(c[0]), before.position(c[1]), before.position(c[2]), before.position(c[3]));
+}
+
 }  // namespace
 
 Search::Search(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, double target,
                std::uint64_t seed, const Threads& threads, Monitor& monitor)
     : mesh_(mesh),
+      target_(target),
       good_(std::max(tuning::kGood, target)),
       bad_from_(holdfast::bad_from(target)),
       monitor_(monitor),
@@ -132,6 +140,20 @@ Search::Trial::Trial(Search& search, Agenda agenda)
       stats_(search.stats_),
       points_(search.points_.size()),
       points_in_mesh_(search.points_in_mesh()) {}
+
+bool Search::Trial::has_paid() const {
+  const TetMesh& mesh = search_.mesh_;
+  const BadFrom& bad_from = search_.bad_from_;
+  const UndoLog::Before was_there = before();
+  Badness was, is;
+  // All that has changed is of our regions, whichever slots of them the search began with.
+  for (const Tet t : was_there.changed()) {
+    if (was_there.existed(t) && was_there.alive(t)) was.add(quality_before(was_there, t), bad_from);
+    if (mesh.alive(t)) is.add(quality_of(mesh, mesh.corners(t)), bad_from);
+  }
+  return std::tuple(is.null, is.hopeless, is.worst) <
+         std::tuple(was.null, was.hopeless, tuning::kLeastGain * was.worst);
+}
 
 void Search::Trial::take_back() {
   TetMesh& mesh = search_.mesh_;

@@ -40,6 +40,9 @@ class Search {
     Trial(const Trial&) = delete;
     Trial& operator=(const Trial&) = delete;
     void take_back();
+    /// No more hopeless elements than before, and the worst of all better; other flat ones are of less
+    /// account.
+    [[nodiscard]] bool has_paid() const;
     [[nodiscard]] UndoLog::Before before() const { return search_.log_.before(mark_); }
     [[nodiscard]] std::size_t points() const { return points_in_mesh_; }
 
@@ -53,6 +56,8 @@ class Search {
   };
 
   [[nodiscard]] TetMesh& mesh() { return mesh_; }
+  /// The worst Q that the facets ask for.
+  [[nodiscard]] double target() const { return target_; }
   [[nodiscard]] const BadFrom& bad_from() const { return bad_from_; }
   [[nodiscard]] Vertex first_free() const { return ways_.first_free(); }
   [[nodiscard]] Agenda& agenda() { return agenda_; }
@@ -73,7 +78,7 @@ class Search {
   void improve(const WaitingElement& e, Ways::Points points);
 
   TetMesh& mesh_;
-  const double good_;
+  const double target_, good_;
   const BadFrom bad_from_;
   Monitor& monitor_;
   const Threads threads_;

@@ -1,7 +1,6 @@
 #include "optimise/shaking.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include "mesh/traverse.h"
 #include "optimise/tuning.h"
@@ -10,24 +9,6 @@
 
 namespace holdfast {
 namespace {
-
-double quality_before(const UndoLog::Before& before, Tet t) {
-  const TetMesh::Corners& c = before.corners(t);
-  return quality(before.position(c[0]), before.position(c[1]), before.position(c[2]), before.position(c[3]));
-}
-
-// No more hopeless elements than before, and the worst of all better; other flat ones are of less account.
-bool is_better(Search& search, const UndoLog::Before& before) {
-  const TetMesh& mesh = search.mesh();
-  Badness was, is;
-  // All that has changed is of our regions, whichever slots of them the search began with.
-  for (const Tet t : before.changed()) {
-    if (before.existed(t) && before.alive(t)) was.add(quality_before(before, t), search.bad_from());
-    if (mesh.alive(t)) is.add(quality_of(mesh, mesh.corners(t)), search.bad_from());
-  }
-  return std::tuple(is.null, is.hopeless, is.worst) <
-         std::tuple(was.null, was.hopeless, tuning::kLeastGain * was.worst);
-}
 
 void shake_and_improve(Search& search, const WaitingElement& worst, const Search::Trial& trial) {
   Flipper flipper(search.mesh(), search.random());
@@ -74,7 +55,7 @@ void shake_the_worst(Search& search) {
       return;
     Search::Trial trial(search, Search::Trial::Agenda::set_aside);
     shake_and_improve(search, worst, trial);
-    if (is_better(search, trial.before())) {
+    if (trial.has_paid()) {
       ++search.stats().changed;
       vain = 0;
       continue;

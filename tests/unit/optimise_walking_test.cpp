@@ -1,0 +1,88 @@
+// Random exchanges round the worst element: none makes anything as bad, and what a walk comes to pays.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <tuple>
+
+#include "mesh/assembly.h"
+#include "mesh/validate.h"
+#include "mesh_fixtures.h"
+#include "optimise/badness.h"
+#include "optimise/optimise.h"
+#include "optimise/random_exchange.h"
+#include "optimise/search.h"
+#include "optimise/walking.h"
+
+namespace holdfast {
+namespace {
+
+using namespace testing;
+
+std::vector<Tet> solid(const TetMesh& mesh) {
+  std::vector<Tet> tets = living(mesh);
+  std::erase_if(tets, [&](Tet t) { return mesh.is_ghost(t); });
+  return tets;
+}
+
+constexpr BadFrom kFrom{100, 1000, 1e10};
+
+// Points of a jittered grid, the jitter so small that Delaunay leaves slivers.
+TetMesh slivers(double jitter, std::uint64_t seed, int n) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> shift(-jitter, jitter);
+  std::vector<Point> points;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k) points.push_back({i + shift(random), j + shift(random), k + shift(random)});
+  return delaunay_in_box(points, 2.0 * n);
+}
+
+TEST(RandomExchange, MakesNothingAsBad) {
+  std::mt19937_64 random(7);
+  TetMesh mesh = slivers(0.2, 7, 3);
+  const exact::Dyadic volume = volume_of(mesh);
+  RandomExchanger exchanger(mesh);
+  std::vector<Tet> created;
+  int made = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const std::vector<Tet> tets = solid(mesh);
+    const Tet t = tets[random() % tets.size()];
+    created.clear();
+    if (!exchanger.exchange(t, 50, random, created)) continue;
+    ++made;
+    EXPECT_LT(badness_of(mesh, created, kFrom).worst, 50);
+  }
+  EXPECT_GT(made, 500);
+  EXPECT_EQ(find_fault(mesh), "");
+  EXPECT_EQ((volume_of(mesh) - volume).sign(), 0);
+}
+
+// What neither exchanges nor shakes take away may go after a walk; whatever comes of it is no worse.
+TEST(Walk, GoesOnWhereNothingElseHelps) {
+  int better = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    TetMesh mesh = slivers(0.4, seed, 3);
+    const exact::Dyadic volume = volume_of(mesh);
+    const Options options;
+    Monitor monitor(options);
+    const auto first_free = static_cast<Vertex>(mesh.vertex_count());
+    const std::vector<Tet> tets = solid(mesh);
+    Search search(mesh, tets, first_free, 2, seed, 1, monitor);
+    search.push_all(tets);
+    search.work_off(Ways::Points::none);
+    const Badness before = badness_of(mesh, solid(mesh), kFrom);
+    walk_from_the_worst(search);
+    const Badness after = badness_of(mesh, solid(mesh), kFrom);
+    EXPECT_LE(std::tuple(after.null, after.hopeless, after.worst),
+              std::tuple(before.null, before.hopeless, before.worst))
+        << seed;
+    if (after.worst < before.worst) ++better;
+    EXPECT_EQ(find_fault(mesh), "");
+    EXPECT_EQ((volume_of(mesh) - volume).sign(), 0);
+  }
+  EXPECT_GT(better, 0);
+}
+
+}  // namespace
+}  // namespace holdfast
