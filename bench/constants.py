@@ -1,4 +1,4 @@
-"""What the constants of a stage (src/*/tuning.h) are worth: a sample of a corpus meshed with other values of them.
+"""What the constants of a stage (src/*/*tuning.h) are worth: a sample of a corpus meshed with other values of them.
 
     constants.py CONSTANT=VALUE ... [--mode fill|field|noflips|untangle] [--corpus DIR] [--count N] [--build DIR]
 
@@ -95,10 +95,10 @@ def row(name, rows, base):
 def header_of(constant):
     """The header that defines it."""
     pattern = re.compile(rf"\b{constant}(\s*=\s*|\{{)")
-    for path in sorted(ROOT.glob("src/*/tuning.h")):
+    for path in sorted(ROOT.glob("src/*/*tuning.h")):
         if pattern.search(path.read_text()):
             return path
-    sys.exit(f"no src/*/tuning.h defines {constant}")
+    sys.exit(f"no src/*/*tuning.h defines {constant}")
 
 
 def with_value(text, constant, value):

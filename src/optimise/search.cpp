@@ -132,6 +132,19 @@ Badness Search::badness() const {
   return all;
 }
 
+std::optional<WaitingElement> Search::worst() {
+  std::optional<WaitingElement> found;
+  double most = good_;
+  for (Tet t = 0; t < mesh_.slot_count(); ++t) {
+    if (!mesh_.alive(t) || !is_ours(t)) continue;
+    const double q = qualities_.of(t);
+    if (!(q > most)) continue;
+    most = q;
+    found = WaitingElement{q, t, mesh_.corners(t)};
+  }
+  return found;
+}
+
 Search::Trial::Trial(Search& search, Agenda agenda)
     : search_(search),
       mark_(search.log_.mark()),

@@ -1,6 +1,7 @@
 // The search of the optimisation: the worst element first, by the cheapest way that helps (paper §8).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "mesh/monitor.h"
@@ -71,6 +72,9 @@ class Search {
   [[nodiscard]] bool is_ours(Tet t) const { return t >= is_others_.size() || !is_others_[t]; }
   [[nodiscard]] bool is_current(const WaitingElement& e);
   [[nodiscard]] Badness badness() const;
+  /// The worst of the elements that are to be better, whether it waits, was given up, or neither; nothing
+  /// where none is worse than good.
+  [[nodiscard]] std::optional<WaitingElement> worst();
   void forget(std::span<const Tet> tets) { qualities_.forget(tets); }
 
  private:

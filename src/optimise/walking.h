@@ -5,8 +5,8 @@
 
 namespace holdfast {
 
-/// Takes the worst that is left away, as long as that succeeds. What a walk comes to is taken back where it does
-/// not pay.
+/// Takes the worst that is left away, as long as that succeeds. What a walk comes to is taken back where it
+/// does not pay.
 void walk_from_the_worst(Search& search);
 
 }  // namespace holdfast
