@@ -50,10 +50,28 @@ inline TetMesh delaunay_in_box(const std::vector<Point>& points, double half_ext
   return mesh;
 }
 
+// Points of a jittered grid, the jitter so small that Delaunay leaves slivers.
+inline TetMesh slivers(double jitter, std::uint64_t seed, int n = 4) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> shift(-jitter, jitter);
+  std::vector<Point> points;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k) points.push_back({i + shift(random), j + shift(random), k + shift(random)});
+  return delaunay_in_box(points, 2.0 * n);
+}
+
 inline std::vector<Tet> living(const TetMesh& mesh) {
   std::vector<Tet> tets;
   for (Tet t = 0; t < mesh.slot_count(); ++t)
     if (mesh.alive(t)) tets.push_back(t);
+  return tets;
+}
+
+// Those that are no ghosts.
+inline std::vector<Tet> solid(const TetMesh& mesh) {
+  std::vector<Tet> tets = living(mesh);
+  std::erase_if(tets, [&](Tet t) { return mesh.is_ghost(t); });
   return tets;
 }
 

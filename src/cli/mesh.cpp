@@ -245,9 +245,9 @@ int run(const MeshArguments& arguments) {
 
   cancel_by_flag();  // from here on the mesher asks, and files are open
   std::optional<RepairResult> repaired;
-  Surface unrepaired;
+  Surface unrepaired;  // if it may be repaired once more
   if (repairing) {
-    unrepaired = input.surface;
+    if (repairing->weld == 0 && arguments.exact.empty()) unrepaired = input.surface;
     repaired = repair_before(input.surface, *repairing, progress);
     if (repaired->outcome != Outcome::done) {
       write_json(arguments.report, {{"outcome", name(repaired->outcome)},

@@ -63,7 +63,12 @@ void mesh_joined(const MeshArguments& arguments, const Surface& given, const Opt
   MeshInput other;
   other.surface = joined.surface;
   Options meshing = options;
-  Result now = mesh_or_refuse(arguments, other, meshing);
+  Result now;
+  try {
+    now = mesh_or_refuse(arguments, other, meshing);
+  } catch (const UsageError&) {  // a size a vertex, say, of which there are fewer now
+    return;
+  }
   if (now.outcome != Outcome::done) return;
   input.surface = std::move(other.surface);
   repairing = joining;

@@ -32,6 +32,9 @@ struct Exchange {
   std::vector<TetMesh::Corners> new_tets;
 };
 
+/// `created` receives the tetrahedra that come.
+void make(TetMesh& mesh, const Exchange& exchange, std::vector<Tet>& created);
+
 /// What the exchanges in a TetMesh are, for objectives to inherit from. Larger shells hardly ever pay, and
 /// cost their cube.
 class ExchangesInMesh {
@@ -68,8 +71,8 @@ class ExchangesInMesh {
 ///   Corners beside(SharedFace, k)                     the new tetrahedron at side k of such a face, k < 3
 ///   std::optional<Cost> before(span<const Tet>)       of what goes; nothing where it must stay or cannot pay
 ///   link(shell, before)                               an objective for LinkTriangulation<Cost>
-///   std::optional<Cost> after(three, before)          of what comes for a face; nothing where that is no
-///   better bool gains(before, after)                         whether it pays, and more than the best so far
+///   std::optional<Cost> after(three, before)          of what comes for a face; nothing if no better
+///   bool gains(before, after)                         whether it pays, and more than the best so far
 ///   bool take(before, after, span<const Corners>)     the last, exact test; then this is the best so far
 template <typename Objective>
 class ExchangeSearch {

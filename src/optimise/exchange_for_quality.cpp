@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "mesh/editor.h"
 #include "optimise/tuning.h"
 
 namespace holdfast {
@@ -47,12 +46,8 @@ LeastBadness::Gain LeastBadness::gain_of(const Badness& before, const Badness& a
 bool Exchanger::improve(Tet t, std::vector<Tet>& created) {
   LeastBadness objective(mesh_, qualities_, bad_from_);
   const Exchange* const best = search_.best_at(t, objective);
-  if (best == nullptr) return false;
-  if (best->removes_edge)
-    MeshEditor(mesh_).replace_shell(best->shell, best->triangles, &created);
-  else
-    MeshEditor(mesh_).replace({.old_tets = best->old_tets, .new_tets = best->new_tets}, &created);
-  return true;
+  if (best != nullptr) make(mesh_, *best, created);
+  return best != nullptr;
 }
 
 }  // namespace holdfast

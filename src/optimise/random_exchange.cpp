@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "mesh/editor.h"
 #include "optimise/tuning.h"
 
 namespace holdfast {
@@ -23,12 +22,8 @@ std::optional<double> AnyExchange::after(const std::array<TetMesh::Corners, 3>& 
 bool RandomExchanger::exchange(Tet t, double bad_from, std::mt19937_64& random, std::vector<Tet>& created) {
   AnyExchange objective(mesh_, bad_from, random);
   const Exchange* const any = search_.best_at(t, objective);
-  if (any == nullptr) return false;
-  if (any->removes_edge)
-    MeshEditor(mesh_).replace_shell(any->shell, any->triangles, &created);
-  else
-    MeshEditor(mesh_).replace({.old_tets = any->old_tets, .new_tets = any->new_tets}, &created);
-  return true;
+  if (any != nullptr) make(mesh_, *any, created);
+  return any != nullptr;
 }
 
 }  // namespace holdfast

@@ -129,10 +129,9 @@ class ImprovedVolume {
     return created_;
   }
   std::span<const Tet> make(const Exchange& exchange) {
-    if (!exchange.removes_edge) return replace(exchange.old_tets, exchange.new_tets);
     const RegionId region = region_of_[exchange.old_tets.front()];
     created_.clear();
-    MeshEditor(mesh_).replace_shell(exchange.shell, exchange.triangles, &created_);
+    holdfast::make(mesh_, exchange, created_);
     adopt(created_, region);
     return created_;
   }

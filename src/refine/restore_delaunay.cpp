@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <deque>
 
-#include "mesh/editor.h"
 #include "mesh/exchange.h"
 #include "refine/tets_inside.h"
 #include "refine/tuning.h"
@@ -91,11 +90,7 @@ class BecomesDelaunay : public ExchangesInMesh {
 void make(const VolumeData& volume, const Exchange& exchange, std::vector<Tet>& created) {
   const RegionId region = volume.region_of[exchange.old_tets.front()];
   created.clear();
-  MeshEditor editor(volume.mesh);
-  if (exchange.removes_edge)
-    editor.replace_shell(exchange.shell, exchange.triangles, &created);
-  else
-    editor.replace({exchange.old_tets, exchange.new_tets}, &created);
+  make(volume.mesh, exchange, created);
   volume.region_of.resize(volume.mesh.slot_count(), kNone);
   for (const Tet t : created) volume.region_of[t] = region;
 }

@@ -19,24 +19,7 @@ namespace {
 
 using namespace testing;
 
-std::vector<Tet> solid(const TetMesh& mesh) {
-  std::vector<Tet> tets = living(mesh);
-  std::erase_if(tets, [&](Tet t) { return mesh.is_ghost(t); });
-  return tets;
-}
-
 constexpr BadFrom kFrom{100, 1000, 1e10};
-
-// Points of a jittered grid, the jitter so small that Delaunay leaves slivers.
-TetMesh slivers(double jitter, std::uint64_t seed, int n) {
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> shift(-jitter, jitter);
-  std::vector<Point> points;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j)
-      for (int k = 0; k < n; ++k) points.push_back({i + shift(random), j + shift(random), k + shift(random)});
-  return delaunay_in_box(points, 2.0 * n);
-}
 
 TEST(RandomExchange, MakesNothingAsBad) {
   std::mt19937_64 random(7);
