@@ -4,6 +4,7 @@
 """
 import json
 import math
+import random
 import subprocess
 
 from cli_case import CUBE_FACETS, CliTest, cube, main, off, shifted
@@ -408,6 +409,24 @@ class MeshAtOnce(Repaired):
         self.run_program("mesh", "in.off", "-o", "v.vtu", "--fill", "--repair=1e-8", "--repaired", "out.off", "--report", "r.json")
         self.run_program("check", "out.off", "v.vtu")
         self.assertEqual(len(self.report()["repair"]["moved"]), 4)
+
+    def test_sheets_a_last_bit_apart_are_joined(self):
+        """Boxes stacked half in each other: sums of 0.05 make sheets that differ in their last bits, and no mesh in doubles."""
+        rng = random.Random(3)
+        points, facets = [], []
+        low = 0.0
+        for _ in range(8):
+            x, y = rng.uniform(0, 0.5), rng.uniform(0, 0.5)
+            facets += shifted(CUBE_FACETS, len(points))
+            points += [(x + a, y + b, low + 0.1 if c else low) for a, b, c in cube()]
+            low += 0.05
+        self.write("in.off", off(points, facets))
+        said = self.run_program("mesh", "in.off", "-o", "v.vtu", "--fill", "--repair", "--repaired", "out.off", "--report",
+                                "r.json").stderr
+        self.assertIn("repaired again, with --repair=", said)
+        self.run_program("check", "out.off", "v.vtu")
+        self.check("in.off", files=("--report", "r.json"))
+        self.assertGreater(self.report()["repair"]["options"]["weld"], 0)
 
     def test_a_valid_surface(self):
         said = self.run_program("mesh", "cube.off", "-o", "v.vtu", "--fill", "--repair").stderr

@@ -39,11 +39,11 @@ TEST_F(NamesOfFiles, AreUtf8) {
 TEST_F(NamesOfFiles, GroupsAndMaterialsOfObj) {
   const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
   const Surface groups =
-      surface(points + "g inlet\nusemtl red\nf 1 2 3\nf 1 2 4\ng wall side\nf 1 3 4\n", "a.obj");
+      surface(points + "g inlet\nvc 1 0 0\nusemtl red\nf 1 2 3\nf 1 2 4\ng wall side\nf 1 3 4\n", "a.obj");
   EXPECT_EQ(groups.facet_markers, (std::vector<int>{1, 1, 2}));
   EXPECT_EQ(groups.names.facets, (ByMarker{{1, "inlet"}, {2, "wall side"}}));
   ASSERT_EQ(groups.remarks.size(), 1u);
-  EXPECT_EQ(groups.remarks[0].message, "1 line of looks, groups or names (usemtl) is left out");
+  EXPECT_EQ(groups.remarks[0].message, "2 lines of looks, groups or names (vc, usemtl) are left out");
   const Surface materials = surface(points + "f 1 2 3\nusemtl red\nf 1 2 4\nusemtl blue\nf 1 3 4\n", "b.obj");
   EXPECT_EQ(materials.facet_markers, (std::vector<int>{0, 1, 2}));
   EXPECT_EQ(materials.names.facets, (ByMarker{{1, "red"}, {2, "blue"}}));

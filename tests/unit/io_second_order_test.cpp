@@ -79,10 +79,12 @@ TEST(ByCorners, QuadranglesOfSecondOrder) {
                                "$EndNodes\n$Elements\n1\n1 16 2 0 1 1 2 3 4 5 6 7 8\n$EndElements\n",
                            ".msh"),
                  4);
-  expect_corners(read_text("*NODE\n1, 0, 0, 0\n2, 2, 0, 0\n3, 2, 2, 0\n4, 0, 2, 0\n5, 1, 0, 0\n6, 2, 1, 0\n"
-                           "7, 1, 2, 0\n8, 0, 1, 0\n*ELEMENT, TYPE=S8R\n1, 1, 2, 3, 4, 5, 6, 7, 8\n",
-                           ".inp"),
-                 4);
+  for (const std::string type : {"S8R", "CAX8"})  // a shell, and axisymmetric
+    expect_corners(read_text("*NODE\n1, 0, 0, 0\n2, 2, 0, 0\n3, 2, 2, 0\n4, 0, 2, 0\n5, 1, 0, 0\n6, 2, 1, 0\n"
+                             "7, 1, 2, 0\n8, 0, 1, 0\n*ELEMENT, TYPE=" +
+                                 type + "\n1, 1, 2, 3, 4, 5, 6, 7, 8\n",
+                             ".inp"),
+                   4);
   const std::string head =
       "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 9 float\n"
       "0 0 0 2 0 0 2 2 0 0 2 0 1 0 0 2 1 0 1 2 0 0 1 0 1 1 0\n";
