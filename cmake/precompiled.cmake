@@ -1,8 +1,7 @@
 # Headers of others that most sources of a target include are parsed once, not once a source: that is half of the time of a
-# build. A source still includes what it names. Builds by clang, with sanitizers or for debugging have none of this, and so tell
-# where one does not.
+# build. A source still includes what it names; builds by clang have none of this, and so tell where one does not.
 set(default OFF)
-if(PROJECT_IS_TOP_LEVEL AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "Release")
+if(PROJECT_IS_TOP_LEVEL AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(default ON)
 endif()
 option(HOLDFAST_PRECOMPILE "Precompile headers of the standard library, Boost and others" ${default})
