@@ -29,7 +29,8 @@ std::string message_of(const Cure& cure) {
       return fmt::format("{} within {:.3g} of another or of a side: {}",
                          counted(cure.count, "vertex lies", "vertices lie"), cure.distance, option_of(cure));
     case CureKind::cut:
-      return fmt::format("{}: `holdfast repair` cuts what meets", counted(cure.count, "defect"));
+      return fmt::format("{}: `holdfast repair` cuts what meets and leaves out what is no triangle",
+                         counted(cure.count, "defect"));
     case CureKind::fill_holes:
       return fmt::format("{} of at most {} sides: {}{}", counted(cure.count, "hole"), cure.sides,
                          option_of(cure), cure.left > 0 ? fmt::format(" ({} stay open)", cure.left) : "");

@@ -1,6 +1,7 @@
 // `holdfast diagnose`: what is wrong with a surface, and where.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "command.h"
@@ -26,9 +27,16 @@ struct DiagnoseArguments {
   bool all = false, json = false, quiet = false;
 };
 
-Json report_of(const Surface& surface, const Report::Input& input, const std::vector<Defect>& defects,
-               const DefectSummary& summary, const Cures& cures) {
-  return {{"valid", defects.empty()},
+/// What is told of a surface.
+struct Findings {
+  std::vector<Defect> defects;
+  std::vector<Defect> outside;  ///< of a valid one: what `mesh` refuses unless it is asked to keep or drop it
+  DefectSummary summary;
+  Cures cures;
+};
+
+Json report_of(const Surface& surface, const Report::Input& input, const Findings& found) {
+  return {{"valid", found.defects.empty()},
           {"input",
            {{"vertices", input.vertices},
             {"merged_vertices", input.merged_vertices},
@@ -36,19 +44,31 @@ Json report_of(const Surface& surface, const Report::Input& input, const std::ve
             {"segments", input.segments},
             {"facets", input.facets}}},
           {"version", version()},
-          {"summary", to_json(summary)},
-          {"cures", to_json(cures)},
+          {"summary", to_json(found.summary)},
+          {"cures", to_json(found.cures)},
           {"remarks", to_json(surface.remarks)},
-          {"defects", to_json(defects)}};
+          {"outside", to_json(found.outside)},
+          {"defects", to_json(found.defects)}};
 }
 
 std::string counted(std::size_t count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
+constexpr const char* listed_elsewhere = "--all lists them, --report FILE.json, too";
+
+std::string outside_text(const std::vector<Defect>& outside, std::size_t most) {
+  std::string text = "`mesh` needs to be told what to do with what lies outside every region:\n";
+  for (std::size_t i = 0; i < std::min(most, outside.size()); ++i)
+    text += fmt::format("  {}\n", message_of(outside[i]));
+  if (outside.size() > most)
+    text += fmt::format("  ... and {} more like these; {}\n", outside.size() - most, listed_elsewhere);
+  return text;
+}
+
 /// The summary, then the list.
-std::string listing_of(const Report::Input& counts, const std::vector<Defect>& defects,
-                       const DefectSummary& summary, const Cures& cures, std::size_t most) {
+std::string listing_of(const Report::Input& counts, const Findings& found, std::size_t most) {
+  const auto& [defects, outside, summary, cures] = found;
   const std::string input = fmt::format("{} vertices, {} segments, {} facets in {}", counts.vertices,
                                         counts.segments, counts.facets, counted(summary.parts, "part"));
   std::string text;
@@ -59,7 +79,8 @@ std::string listing_of(const Report::Input& counts, const std::vector<Defect>& d
   else
     text = fmt::format("valid: {}; encloses {}\n", input, counted(summary.enclosed.value_or(0), "region"));
   text += summary_text(summary) + cures_text(cures);
-  const std::string list = list_text(summary, defects, most, "--all lists them, --report FILE.json, too");
+  if (!outside.empty()) text += outside_text(outside, most);
+  const std::string list = list_text(summary, defects, most, listed_elsewhere);
   return list.empty() ? text : text + "\n" + list;
 }
 
@@ -85,6 +106,40 @@ RepairOptions trials(const DiagnoseOptions& options) {
   return trial;
 }
 
+/// Whether some element encloses nothing, so that it may lie outside every region.
+bool has_loose_elements(const Surface& surface, const DefectSummary& summary) {
+  if (!surface.segments.empty() || !summary.groups.empty()) return true;
+  std::vector<bool> used(surface.vertices.size(), false);
+  for (const Triangle& facet : surface.facets)
+    for (const Index v : facet) used[v] = true;
+  return std::find(used.begin(), used.end(), false) != used.end();
+}
+
+/// What `mesh` says of a valid surface by default: the regions are found as there.
+std::vector<Defect> find_outside(const Surface& surface, const DefectSummary& summary,
+                                 const DiagnoseOptions& options) {
+  if (summary.enclosed.value_or(0) == 0 || !has_loose_elements(surface, summary)) return {};
+  Options meshing;
+  static_cast<Limits&>(meshing) = options;
+  meshing.threads = options.threads;
+  meshing.stop_after = Stage::classify;
+  meshing.progress = [](const Progress& at) { return goes_on(at.fraction); };
+  Result result = mesh(surface.view(), meshing);
+  if (result.outcome != Outcome::done && result.outcome != Outcome::invalid_input)
+    throw Interrupted(result.outcome);
+  std::erase_if(result.defects, [](const Defect& d) { return d.kind != DefectKind::outside_region; });
+  return std::move(result.defects);
+}
+
+Findings examine(const Surface& surface, const DiagnoseOptions& options) {
+  Findings found;
+  found.defects = diagnose(surface.view(), options);
+  found.summary = summarise(surface.view(), found.defects);
+  found.cures = propose_cures(surface.view(), found.defects, found.summary, trials(options));
+  if (found.defects.empty()) found.outside = find_outside(surface, found.summary, options);
+  return found;
+}
+
 int run(const DiagnoseArguments& arguments) {
   DiagnoseOptions options;
   static_cast<Limits&>(options) = limits_of(arguments.limits);
@@ -100,21 +155,20 @@ int run(const DiagnoseArguments& arguments) {
   const Surface surface =
       read_surfaces(arguments.surfaces, reading(options, arguments.input_format, arguments.tolerance));
   if (!arguments.quiet) tell(surface.remarks);
-  const std::vector<Defect> defects = diagnose(surface.view(), options);
+  const Findings found = examine(surface, options);
+  const std::vector<Defect>& defects = found.defects;
 
   cancel_by_flag();  // from here on files are open
   if (!arguments.marks.empty()) write_marks(arguments.marks, surface.view(), defects);
   const Report::Input input = count_vertices(surface);
   if (!arguments.quiet) print_merged(input);
-  const DefectSummary summary = summarise(surface.view(), defects);
-  const Cures cures = propose_cures(surface.view(), defects, summary, trials(options));
-  const Json report = report_of(surface, input, defects, summary, cures);
+  const Json report = report_of(surface, input, found);
   write_json(arguments.report, report);
   write_json(json, report);
   write_html(arguments, options, surface, defects, report);
   if (!arguments.quiet && !arguments.json) {
     const bool cut = !arguments.all && files.list_is_on_terminal();
-    files.list(listing_of(input, defects, summary, cures, cut ? shown_on_terminal : SIZE_MAX));
+    files.list(listing_of(input, found, cut ? shown_on_terminal : SIZE_MAX));
   }
   if (defects.empty()) return exit_done;
   say("holdfast: the surface is not valid: {} defect{}{}\n", defects.size(), defects.size() == 1 ? "" : "s",

@@ -37,13 +37,21 @@ class DiagnoseAndMesh(CliTest):
             (CUBE_POINTS, CUBE_FACETS + [(0, 1, 7)], "1 region"),
         ]:
             self.write("s.off", off(points, facets))
-            self.assertRegex(self.run_program("diagnose", "s.off").stdout, rf"^valid: .*; encloses {regions}\n")
+            told = self.run_program("diagnose", "s.off").stdout
+            self.assertRegex(told, rf"^valid: .*; encloses {regions}\n")
+            self.assertNotIn("outside", told)
 
     def test_what_does_not_suit_the_kept_regions_leaves_the_surface_valid(self):
         self.write("wing.off", off(CUBE_POINTS + [(3, 0, 0), (3, 1, 0)], CUBE_FACETS + [(1, 8, 9)]))
         said = self.run_program("mesh", "wing.off", "-o", "a.vtu", expect=4).stderr
         self.assertNotIn("not valid", said)
         self.assertIn("--drop-outside", said)
+        told = self.run_program("diagnose", "wing.off", "--report", "r.json").stdout
+        self.assertIn("encloses 1 region", told)
+        self.assertIn("triangle 12 at (1, 0, 0) borders on no kept region", told)
+        self.assertIn("--drop-outside", told)
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertEqual([defect["facets"] for defect in report["outside"]], [[12]])
         turned = [CUBE_FACETS[0][::-1]] + CUBE_FACETS[1:]
         self.write("turned.off", off(CUBE_POINTS, turned))
         said = self.run_program("mesh", "turned.off", "-o", "a.vtu", "--keep", "winding", expect=4).stderr
