@@ -1,17 +1,18 @@
-// Reads Gmsh's .msh, versions 2.x and 4.1, ASCII and binary (Gmsh reference manual, "File formats").
+// Reads Gmsh's .msh, versions 1 (which has no version), 2.x, 4.0 and 4.1, ASCII and binary (Gmsh reference
+// manual, "File formats" and "Legacy formats").
 //
 // A marker or region is the first physical tag, or the elementary entity's tag where there is none; the
 // marker of a vertex is the physical tag of a point element. Names are those of the physical groups. Vertices
 // are ordered by node tag, which is the order in which Holdfast numbers them.
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 #include <span>
 
 #include "io/formats.h"
 #include "io/labels.h"
 #include "io/mid_nodes.h"
+#include "io/msh_nodes.h"
 #include "io/msh_numbers.h"
 #include "io/msh_types.h"
 #include "io/polygon.h"
@@ -19,62 +20,21 @@
 namespace holdfast::io {
 namespace {
 
-/// Nodes in file order, and then indices by node tag.
-class MshNodes {
- public:
-  void reserve(std::size_t count) {
-    tags_.reserve(count);
-    points_.reserve(count);
-  }
-  void add_tag(std::int64_t tag) { tags_.push_back(tag); }
-  void add_point(const Point& point) { points_.push_back(point); }
-
-  /// Sorts by tag; a tag that occurs twice fails at the numbers' position.
-  void finish(const MshNumbers& numbers) {
-    if (std::is_sorted(tags_.begin(), tags_.end(), std::less_equal<>())) return;
-    std::vector<std::size_t> order(tags_.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return tags_[a] < tags_[b]; });
-    MshNodes sorted;
-    sorted.reserve(order.size());
-    for (const std::size_t i : order) {
-      if (!sorted.tags_.empty() && sorted.tags_.back() == tags_[i])
-        numbers.fail("the node tag " + std::to_string(tags_[i]) + " occurs twice");
-      sorted.add_tag(tags_[i]);
-      sorted.add_point(points_[i]);
-    }
-    *this = std::move(sorted);
-  }
-
-  [[nodiscard]] Index index(const MshNumbers& numbers, std::int64_t tag) const {
-    // Tags without gaps are the rule; then no search is needed.
-    if (!tags_.empty() && tag >= tags_.front() && tag <= tags_.back()) {
-      // The difference may be beyond 63 bits.
-      const std::size_t guess = static_cast<std::uint64_t>(tag) - static_cast<std::uint64_t>(tags_.front());
-      if (guess < tags_.size() && tags_[guess] == tag) return static_cast<Index>(guess);
-      const auto found = std::lower_bound(tags_.begin(), tags_.end(), tag);
-      if (*found == tag) return static_cast<Index>(found - tags_.begin());
-    }
-    numbers.fail("the node " + std::to_string(tag) + " does not exist");
-  }
-
-  [[nodiscard]] std::size_t size() const { return tags_.size(); }
-  [[nodiscard]] std::vector<Point> take_points() { return std::move(points_); }
-
- private:
-  std::vector<std::int64_t> tags_;
-  std::vector<Point> points_;
-};
+enum class MshVersion { v1, v2, v4_0, v4_1 };
 
 class MshReader {
  public:
   explicit MshReader(const Source& source) : in_(source), text_(in_.text()), mesh_(source) {}
 
   MeshData read() {
-    if (text_.word("$MeshFormat") != "$MeshFormat")
+    const std::string_view first = text_.word("$MeshFormat");
+    if (first == "$MeshFormat")
+      read_format();
+    else if (first == "$NOD")
+      read_section("$NOD");
+    else
       text_.fail("not a Gmsh mesh: it does not start with $MeshFormat");
-    read_format();
-    while (!text_.at_end()) read_section();
+    while (!text_.at_end()) read_section(std::string(text_.word("a section")));
     for (std::size_t i = 0; i < point_markers_.size(); ++i) mesh_.vertex_markers.add(i, point_markers_[i]);
     mesh_.names = {names_[2].take(), names_[3].take(), names_[1].take(), names_[0].take()};
     return std::move(mesh_);
@@ -83,8 +43,13 @@ class MshReader {
  private:
   void read_format() {
     const std::string version(text_.word("the version"));
-    modern_ = version == "4.1";
-    if (!modern_ && version != "2" && !version.starts_with("2."))
+    if (version == "2" || version.starts_with("2."))
+      version_ = MshVersion::v2;
+    else if (version == "4" || version == "4.0")
+      version_ = MshVersion::v4_0;
+    else if (version == "4.1")
+      version_ = MshVersion::v4_1;
+    else
       text_.fail("version " + in_quotes(version) + " is not read; save it as 4.1 or 2.2");
     const std::int64_t type = text_.integer("the file type");
     if (type != 0 && type != 1) text_.fail("the file type is neither 0 (text) nor 1 (binary)");
@@ -95,7 +60,7 @@ class MshReader {
 
   /// The number 1 as bytes tells their order.
   void read_byte_order(std::int64_t size) {
-    if (size != 8 && !(modern_ && size == 4))
+    if (size != 8 && !(has_entities() && size == 4))
       text_.fail("numbers of " + std::to_string(size) + " bytes are not read");
     text_.skip_line();
     const std::string_view one = text_.remaining().substr(0, 4);
@@ -111,29 +76,31 @@ class MshReader {
     if (word != end) text_.fail("expected " + std::string(end) + ", found " + in_quotes(word));
   }
 
-  void read_section() {
-    const std::string name(text_.word("a section"));
+  void read_section(const std::string& name) {
     if (!name.starts_with('$')) text_.fail("expected a section, found " + in_quotes(name));
-    if (name == "$Nodes") {
+    if (name == (version_ == MshVersion::v1 ? "$NOD" : "$Nodes")) {
       if (nodes_.size() > 0) text_.fail("a second section of nodes");
-      modern_ ? read_nodes_4() : read_nodes_2();
+      has_entities() ? read_nodes_4() : read_nodes();
       nodes_.finish(in_);
       mesh_.vertices = nodes_.take_points();
-      expect_end("$EndNodes");
+      expect_end(version_ == MshVersion::v1 ? "$ENDNOD" : "$EndNodes");
+    } else if (version_ == MshVersion::v1 && name == "$ELM") {
+      read_elements_1();
+      expect_end("$ENDELM");
     } else if (name == "$Elements") {
-      modern_ ? read_elements_4() : read_elements_2();
+      has_entities() ? read_elements_4() : read_elements_2();
       expect_end("$EndElements");
     } else if (name == "$PhysicalNames") {
       read_names();
       expect_end("$EndPhysicalNames");
-    } else if (name == "$Entities" && modern_) {
+    } else if (name == "$Entities" && has_entities()) {
       read_entities();
       expect_end("$EndEntities");
-    } else if (name == "$PartitionedEntities" && modern_) {
+    } else if (name == "$PartitionedEntities" && has_entities()) {
       read_partitioned_entities();
       expect_end("$EndPartitionedEntities");
     } else {
-      skip_section("$End" + name.substr(1));
+      skip_section((version_ == MshVersion::v1 ? "$END" : "$End") + name.substr(1));
       if (name != "$Entities" && name != "$Comments")
         mesh_.remarks.push_back({RemarkKind::left_out, 1, "the section " + name + " is left out"});
     }
@@ -169,13 +136,25 @@ class MshReader {
     text_.fail_truncated(end);
   }
 
-  void read_nodes_2() {
+  void read_nodes() {
     const std::size_t count = in_.text_count("the number of nodes", 8, 28);
     in_.begin();
     nodes_.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
       nodes_.add_tag(in_.integer("a node tag"));
       nodes_.add_point(in_.point());
+    }
+  }
+
+  /// Elements of physical and elementary tags, which count their nodes.
+  void read_elements_1() {
+    const std::size_t count = text_.count("the number of elements", 12);
+    for (std::size_t i = 0; i < count; ++i) {
+      static_cast<void>(in_.integer("an element tag"));
+      const std::int64_t type = in_.integer("an element type");
+      const int physical = in_.tag("a physical tag"), elementary = in_.tag("an elementary tag");
+      static_cast<void>(in_.integer("the number of nodes"));
+      read_element(type, physical, elementary);
     }
   }
 
@@ -214,7 +193,8 @@ class MshReader {
 
   /// What stands behind the tag of an entity of either kind.
   void read_bounds_and_physicals(std::size_t dimension, std::int64_t tag) {
-    for (int bound = 0; bound < (dimension == 0 ? 3 : 6); ++bound) static_cast<void>(in_.real("a bound"));
+    const int bounds = dimension == 0 && version_ == MshVersion::v4_1 ? 3 : 6;
+    for (int bound = 0; bound < bounds; ++bound) static_cast<void>(in_.real("a bound"));
     const std::size_t physicals = in_.count("the number of physical tags", 2, 4);
     for (std::size_t k = 0; k < physicals; ++k) {
       const int physical = in_.tag("a physical tag");
@@ -245,21 +225,43 @@ class MshReader {
       }
   }
 
+  /// Nodes or elements of an entity.
+  struct Block {
+    std::int64_t dimension;
+    int entity;
+    std::int64_t kind;  ///< whether nodes are parametric, or the type of the elements
+    std::size_t count;
+  };
+  Block read_block(const char* kind, const char* count, std::size_t bytes_text, std::size_t bytes_binary) {
+    Block block{};
+    if (version_ == MshVersion::v4_0) block.entity = in_.tag("an entity tag");
+    block.dimension = in_.integer("a dimension");
+    if (version_ != MshVersion::v4_0) block.entity = in_.tag("an entity tag");
+    block.kind = in_.integer(kind);
+    block.count = in_.count(count, bytes_text, bytes_binary);
+    return block;
+  }
+  /// Version 4.1 has the bounds of tags before the blocks.
+  void skip_bounds(const char* least, const char* largest) {
+    if (version_ == MshVersion::v4_0) return;
+    static_cast<void>(in_.size(least));
+    static_cast<void>(in_.size(largest));
+  }
+
   void read_nodes_4() {
     in_.begin();
     const std::size_t blocks = in_.count("the number of blocks", 8, 12);
     nodes_.reserve(in_.count("the number of nodes", 8, 24));
-    static_cast<void>(in_.size("the least node tag"));
-    static_cast<void>(in_.size("the largest node tag"));
-    for (std::size_t block = 0; block < blocks; ++block) {
-      const std::int64_t dimension = in_.integer("a dimension");
-      static_cast<void>(in_.integer("an entity tag"));
-      const bool parametric = in_.integer("the parametric flag") != 0;
-      const std::size_t count = in_.count("the number of nodes", 8, 24);
-      for (std::size_t i = 0; i < count; ++i) nodes_.add_tag(in_.size("a node tag"));
-      for (std::size_t i = 0; i < count; ++i) {
+    skip_bounds("the least node tag", "the largest node tag");
+    for (std::size_t i = 0; i < blocks; ++i) {
+      const Block block = read_block("the parametric flag", "the number of nodes", 8, 24);
+      const bool tags_first = version_ == MshVersion::v4_1;
+      for (std::size_t k = 0; tags_first && k < block.count; ++k) nodes_.add_tag(node_tag());
+      for (std::size_t k = 0; k < block.count; ++k) {
+        if (!tags_first) nodes_.add_tag(node_tag());
         nodes_.add_point(in_.point());
-        for (std::int64_t axis = 0; parametric && axis < std::min<std::int64_t>(dimension, 3); ++axis)
+        for (std::int64_t axis = 0; block.kind != 0 && axis < std::min<std::int64_t>(block.dimension, 3);
+             ++axis)
           static_cast<void>(in_.real("a parametric coordinate"));
       }
     }
@@ -268,23 +270,21 @@ class MshReader {
   void read_elements_4() {
     in_.begin();
     const std::size_t blocks = in_.count("the number of blocks", 8, 12);
-    for (const char* what : {"the number of elements", "the least element tag", "the largest element tag"})
-      static_cast<void>(in_.size(what));
-    for (std::size_t block = 0; block < blocks; ++block) {
-      const std::int64_t dimension = in_.integer("a dimension");
-      const int entity = in_.tag("an entity tag");
-      const std::int64_t type = in_.integer("an element type");
-      const std::size_t count = in_.count("the number of elements", 4, 4);
-      const auto found = physicals_.find({static_cast<std::size_t>(dimension), entity});
+    static_cast<void>(in_.size("the number of elements"));
+    skip_bounds("the least element tag", "the largest element tag");
+    for (std::size_t i = 0; i < blocks; ++i) {
+      const Block block = read_block("an element type", "the number of elements", 4, 4);
+      const std::pair entity{static_cast<std::size_t>(block.dimension), std::int64_t{block.entity}};
+      const auto found = physicals_.find(entity);
       const int physical = found == physicals_.end() ? 0 : found->second;
-      const int elementary = found == physicals_.end() ? entity : 0;
-      const bool between = between_.contains({static_cast<std::size_t>(dimension), entity});
-      for (std::size_t i = 0; i < count; ++i) {
-        static_cast<void>(in_.size("an element tag"));
+      const int elementary = found == physicals_.end() ? block.entity : 0;
+      const bool between = between_.contains(entity);
+      for (std::size_t k = 0; k < block.count; ++k) {
+        static_cast<void>(node_tag());  // of the element, which takes as many bytes
         if (between)
-          skip_element(type);
+          skip_element(block.kind);
         else
-          read_element(type, physical, elementary);
+          read_element(block.kind, physical, elementary);
       }
     }
   }
@@ -296,14 +296,20 @@ class MshReader {
     if (found == nodes.end() && (other == nullptr || other->shape == MshShape::tetrahedron))
       in_.fail("elements of type " + std::to_string(type) + " do not lie between parts");
     const std::size_t count = found != nodes.end() ? found->second : other->nodes;
-    for (std::size_t i = 0; i < count; ++i) static_cast<void>(in_.size("a node tag"));
+    for (std::size_t i = 0; i < count; ++i) static_cast<void>(node_tag());
+  }
+
+  [[nodiscard]] bool has_entities() const {
+    return version_ == MshVersion::v4_0 || version_ == MshVersion::v4_1;
+  }
+  std::int64_t node_tag() {
+    return version_ == MshVersion::v4_1 ? in_.size("a node tag") : in_.integer("a node tag");
   }
 
   template <std::size_t N>
   std::array<Index, N> corners() {
     std::array<Index, N> result{};
-    for (Index& corner : result)
-      corner = nodes_.index(in_, modern_ ? in_.size("a node tag") : in_.integer("a node tag"));
+    for (Index& corner : result) corner = nodes_.index(in_, node_tag());
     return result;
   }
 
@@ -351,8 +357,7 @@ class MshReader {
       in_.fail("elements of type " + std::to_string(type) +
                " are not read; only points, lines, triangles, quadrangles and tetrahedra are");
     std::vector<Index> n(found->nodes);
-    for (Index& node : n)
-      node = nodes_.index(in_, modern_ ? in_.size("a node tag") : in_.integer("a node tag"));
+    for (Index& node : n) node = nodes_.index(in_, node_tag());
     switch (found->shape) {
       case MshShape::line:
         mesh_.add_segment({n[0], n[1]}, segment);
@@ -379,7 +384,7 @@ class MshReader {
 
   MshNumbers in_;
   TextReader& text_;
-  bool modern_ = false;  ///< version 4.1
+  MshVersion version_ = MshVersion::v1;
   MshNodes nodes_;
   std::map<std::pair<std::size_t, std::int64_t>, int> physicals_;  ///< by dimension and entity tag
   std::set<std::pair<std::size_t, std::int64_t>> between_;         ///< entities between parts

@@ -83,6 +83,61 @@ TEST_F(Variants, BinaryMshInBothVersionsAndByteOrders) {
   EXPECT_NE(error(binary_msh(true, false).substr(0, 300), "a.msh").find("truncated"), std::string::npos);
 }
 
+/// Version 4.0 as text or as bytes: tags of entities come before their dimensions, and beside each node its
+/// tag.
+std::string msh_4_0(bool binary) {
+  const auto i = [&](std::int32_t value) {
+    return binary ? raw(value, false) : std::to_string(value) + "\n";
+  };
+  const auto n = [&](std::uint64_t value) {
+    return binary ? raw(value, false) : std::to_string(value) + "\n";
+  };
+  const auto point = [&](double x, double y, double z) {
+    return binary ? raw(x, false) + raw(y, false) + raw(z, false)
+                  : std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+  };
+  const std::string box = point(0, 0, 0) + point(1, 1, 1);
+  std::string text = std::string("$MeshFormat\n4 ") +
+                     (binary ? "1 8\n" + raw(std::int32_t{1}, false) + "\n" : "0 8\n") +
+                     "$EndMeshFormat\n$Entities\n";
+  text += n(1) + n(1) + n(1) + n(1) + i(1) + box + n(1) + i(6);
+  text +=
+      i(5) + box + n(0) + n(1) + i(-1) + i(6) + box + n(1) + i(7) + n(0) + i(8) + box + n(0) + n(1) + i(6);
+  text += "\n$EndEntities\n$Nodes\n" + n(2) + n(4);
+  text += i(8) + i(3) + i(0) + n(1) + i(40) + point(0, 0, 1);
+  text += i(6) + i(2) + i(1) + n(3);  // parametric: two more numbers behind each
+  const std::string parameters =
+      point(0.1, 0.2, 0).substr(0, binary ? 16 : std::string("0.100000 0.200000").size()) +
+      (binary ? "" : "\n");
+  text += i(10) + point(0, 0, 0) + parameters + i(20) + point(1, 0, 0) + parameters + i(30) + point(0, 1, 0) +
+          parameters;
+  text += "\n$EndNodes\n$Elements\n" + n(4) + n(4);
+  text += i(1) + i(0) + i(15) + n(1) + i(1) + i(20);
+  text += i(5) + i(1) + i(1) + n(1) + i(2) + i(10) + i(20);
+  text += i(6) + i(2) + i(2) + n(1) + i(3) + i(10) + i(30) + i(20);
+  text += i(8) + i(3) + i(4) + n(1) + i(4) + i(10) + i(20) + i(30) + i(40);
+  return text + "\n$EndElements\n";
+}
+
+TEST_F(Variants, OlderVersionsOfMsh) {
+  const std::string first =
+      "$NOD\n4\n10 0 0 0\n20 1 0 0\n40 0 0 1\n30 0 1 0\n$ENDNOD\n$ELM\n4\n1 15 6 1 1 20\n"
+      "2 1 0 5 2 10 20\n3 2 7 6 3 10 30 20\n4 4 0 8 4 10 20 30 40\n$ENDELM\n";
+  for (const std::string& bytes : {first, msh_4_0(false), msh_4_0(true)}) {
+    const Volume v = volume(bytes, "a.msh");
+    EXPECT_EQ(v.vertices, (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
+    EXPECT_EQ(v.tetrahedra, (std::vector<Tetrahedron>{{0, 1, 2, 3}}));
+    EXPECT_EQ(v.regions, (std::vector<int>{8}));
+    EXPECT_EQ(v.facets, (Facets{{0, 2, 1}}));
+    EXPECT_EQ(v.facet_markers, (std::vector<int>{7}));
+    EXPECT_EQ(v.segments, (Segments{{0, 1}}));
+    EXPECT_EQ(v.segment_markers, (std::vector<int>{5}));
+    EXPECT_EQ(v.vertex_markers, (std::vector<int>{0, 6, 0, 0}));
+    const std::string cut = bytes.substr(0, bytes.size() - 30);
+    EXPECT_NE(error(cut, "a.msh"), "read");
+  }
+}
+
 TEST_F(Variants, QuadranglesAreCutInEveryFormat) {
   const std::string points = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
   const Facets cut{{0, 1, 2}, {0, 2, 3}};
