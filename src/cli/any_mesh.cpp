@@ -22,7 +22,7 @@ bool is_one_of(const std::vector<std::string>& formats, const std::string& forma
 /// Points of a .node alone are a surface without triangles.
 bool may_be_volume(const fs::path& path, const std::string& format) {
   const std::string kind = format_of(path, format);
-  if (!is_one_of(volume_formats(), kind)) return false;
+  if (!is_one_of(readable_volume_formats(), kind)) return false;
   if (kind != ".node") return true;
   const std::vector<fs::path> files = files_of_volume(path, format);
   return std::any_of(files.begin(), files.end(), [](const fs::path& file) {

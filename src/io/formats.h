@@ -45,7 +45,11 @@ struct PointArray {
 void write_medit(AtomicWriter& out, const Volume& volume);
 void write_msh(AtomicWriter& out, const Volume& volume, const WriteOptions& options);
 [[nodiscard]] std::vector<Remark> not_in_msh(const Volume& volume, const WriteOptions& options);
+/// Abaqus's and CalculiX's, or UCD, which begins with a number.
 [[nodiscard]] MeshData read_inp(const Source& source);
+[[nodiscard]] MeshData read_avs(const Source& source);
+/// Whether the first word, after comments, is a number, as no keyword of an .inp file is.
+[[nodiscard]] bool is_avs(std::string_view bytes);
 void write_inp(AtomicWriter& out, const Volume& volume, const WriteOptions& options);
 [[nodiscard]] std::vector<Remark> not_in_inp(const Volume& volume, const WriteOptions& options);
 [[nodiscard]] MeshData read_unv(const Source& source);

@@ -91,6 +91,8 @@ class InpReader {
 
 }  // namespace
 
-MeshData read_inp(const Source& source) { return InpReader(source).read(); }
+MeshData read_inp(const Source& source) {
+  return is_avs(source.bytes) ? read_avs(source) : InpReader(source).read();
+}
 
 }  // namespace holdfast::io

@@ -62,6 +62,8 @@ constexpr Format kFormats[] = {
     {".vtk", read_vtk, read_vtk, write_file<write_vtk>},
     {".msh", read_msh, read_msh, write_file<write_msh>, not_in_msh},
     {".inp", read_inp, read_inp, write_file<write_inp>, not_in_inp},
+    {".avs", read_avs, read_avs, nullptr},
+    {".ucd", read_avs, read_avs, nullptr},
     {".unv", read_unv, read_unv, write_file<write_unv>, not_in_unv},
     {".bdf", read_bdf, read_bdf, write_file<write_bdf>, not_in_bdf},
     {".nas", read_bdf, read_bdf, write_file<write_bdf>, not_in_bdf},

@@ -12,6 +12,7 @@
 #include "io/mid_nodes.h"
 #include "io/polygon.h"
 #include "io/text_reader.h"
+#include "io/turn.h"
 
 namespace holdfast::io {
 namespace {
@@ -57,7 +58,7 @@ class MedReader {
     read_families(name);
     read_nodes(parts.at("NOE"), mesh);
     if (parts.contains("MAI")) read_elements(parts.at("MAI"));
-    turn_if_all_are_turned();
+    turn_if_all_are_turned(mesh_, "all tetrahedra are turned as in VTK and not as in MED, and are read so");
     mesh_.names = {facets_.take(), regions_.take(), segments_.take(), vertices_.take()};
     return std::move(mesh_);
   }
@@ -224,29 +225,6 @@ class MedReader {
         if (type.nodes != 3) return mesh_.add_segment({n[0], n[1]}, id);
         return add_second_order(mesh_, Segment{n[0], n[1]}, n[2], id);
     }
-  }
-
-  /// Some programs (meshio) write tetrahedra as VTK turns them: then all are negative as MED does.
-  void turn_if_all_are_turned() {
-    const auto volume = [&](const Tetrahedron& t) {
-      std::array<Point, 3> e{};
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t k = 0; k < 3; ++k) e[i][k] = mesh_.vertices[t[i + 1]][k] - mesh_.vertices[t[0]][k];
-      return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
-             e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
-             e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
-    };
-    const auto& all = mesh_.tetrahedra;
-    if (all.empty() ||
-        !std::all_of(all.begin(), all.end(), [&](const Tetrahedron& t) { return volume(t) < 0; }))
-      return;
-    for (Tetrahedron& t : mesh_.tetrahedra) std::swap(t[1], t[2]);
-    for (auto& nodes : mesh_.mids.tetrahedra) {  // of the edges 01 12 02 03 13 23
-      std::swap(nodes[0], nodes[2]);
-      std::swap(nodes[4], nodes[5]);
-    }
-    mesh_.remarks.push_back({RemarkKind::left_out, all.size(),
-                             "all tetrahedra are turned as in VTK and not as in MED, and are read so"});
   }
 
   const Hdf5File file_;

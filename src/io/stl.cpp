@@ -117,6 +117,11 @@ MeshData read_ascii(const Source& source) {
     expect(text, {"solid"});
     names.push_back(cleaned_name(text.rest_of_line()));
     for (;;) {
+      if (!mesh.facets.empty() && text.at_end()) {  // some programs leave it out
+        mesh.remarks.push_back(
+            {RemarkKind::left_out, 1, "the file ends without 'endsolid': triangles may be missing"});
+        break;
+      }
       const std::string keyword = lower(text.word("'facet' or 'endsolid'"));
       if (keyword == "endsolid") break;
       if (keyword != "facet") text.fail("expected 'facet' or 'endsolid', found " + in_quotes(keyword));

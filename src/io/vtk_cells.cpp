@@ -82,8 +82,25 @@ class CellReader {
       fail("has " + std::to_string(corners_.size()) + " corners instead of " + std::to_string(count));
   }
 
+  /// Gmsh writes elements of third order with the types of first order.
+  [[nodiscard]] bool is_of_third_order() const {
+    switch (static_cast<VtkCell>(grid_.types[cell_])) {
+      case VtkCell::line:
+        return corners_.size() == 4;
+      case VtkCell::triangle:
+        return corners_.size() == 10;
+      case VtkCell::quad:
+        return corners_.size() == 16;
+      case VtkCell::tetrahedron:
+        return corners_.size() == 20;
+      default:
+        return false;
+    }
+  }
+
   void add_cell() {
     const int marker = tag_of(grid_.markers, cell_);
+    if (is_of_third_order()) return add_by_corners(marker);
     switch (static_cast<VtkCell>(grid_.types[cell_])) {
       case VtkCell::vertex:
       case VtkCell::poly_vertex:
@@ -141,19 +158,23 @@ class CellReader {
       return std::span<const Index>(corners_).first(count);
     };
     switch (static_cast<VtkCell>(grid_.types[cell_])) {
+      case VtkCell::line:
       case VtkCell::lagrange_curve: {
         const auto c = corners(2);
         return mesh_.add_segment({c[0], c[1]}, marker);
       }
+      case VtkCell::triangle:
       case VtkCell::biquadratic_triangle:
       case VtkCell::lagrange_triangle: {
         const auto c = corners(3);
         return mesh_.add_facet({c[0], c[1], c[2]}, marker);
       }
+      case VtkCell::quad:
       case VtkCell::quadratic_quad:
       case VtkCell::biquadratic_quad:
       case VtkCell::lagrange_quad:
         return add_polygon(mesh_, corners(4), marker, [&](const std::string& reason) { fail(reason); });
+      case VtkCell::tetrahedron:
       case VtkCell::lagrange_tetrahedron: {
         const auto c = corners(4);
         return mesh_.add_tetrahedron({c[0], c[1], c[2], c[3]}, tag_of(grid_.regions, cell_));

@@ -138,6 +138,56 @@ TEST_F(Variants, OlderVersionsOfMsh) {
   }
 }
 
+TEST_F(Variants, UcdOfAvs) {
+  const std::string bytes =
+      "# made by hand\n4 4 1 0 0\n10 0 0 0\n20 1 0 0\n40 0 0 1\n30 0 1 0\n1 6 pt 20\n2 5 line 10 20\n"
+      "3 7 tri 10 30 20\n4 8 tet 10 20 30 40\n1 1\nt, K\n10 1\n20 2\n40 3\n30 4\n";
+  const std::string turned = bytes.substr(0, bytes.find("10 20 30 40")) + "10 30 20 40\n";
+  for (const auto& [file, text] :
+       {std::pair("a.inp", bytes), std::pair("a.avs", bytes), std::pair("a.ucd", turned)}) {
+    const Volume v = volume(text, file);
+    EXPECT_EQ(v.vertices, (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 1, 0}}));
+    EXPECT_EQ(v.tetrahedra, (std::vector<Tetrahedron>{{0, 1, 3, 2}}));
+    EXPECT_EQ(v.regions, (std::vector<int>{8}));
+    EXPECT_EQ(v.facets, (Facets{{0, 3, 1}}));
+    EXPECT_EQ(v.facet_markers, (std::vector<int>{7}));
+    EXPECT_EQ(v.segments, (Segments{{0, 1}}));
+    EXPECT_EQ(v.segment_markers, (std::vector<int>{5}));
+    EXPECT_EQ(v.vertex_markers, (std::vector<int>{0, 6, 0, 0}));
+  }
+  EXPECT_EQ(surface(bytes, "a.avs").remarks.size(), 2u);  // values at nodes, and a tetrahedron
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string changed = bytes;
+    return error(changed.replace(changed.find(from), from.size(), to), "a.avs");
+  };
+  EXPECT_EQ(with("3 7 tri", "3 7 hex"),
+            "line 9: cells of the kind 'hex' are not read; only pt, line, tri, quad and tet are");
+  EXPECT_EQ(with("tri 10 30 20", "tri 10 30 25"), "line 9: the node 25 does not exist");
+  EXPECT_EQ(with("4 4 1 0 0", "4 4000000 1 0 0").substr(0, 34), "line 2: the number of cells is 400");
+  EXPECT_EQ(with("20 1 0 0", "10 1 0 0"), "the node 10 occurs twice");
+}
+
+TEST_F(Variants, StlWithoutEndsolid) {
+  const std::string facet =
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+  const Surface s = surface("solid\n" + facet, "a.stl");
+  EXPECT_EQ(s.facets.size(), 1u);
+  ASSERT_EQ(s.remarks.size(), 1u);
+  EXPECT_NE(s.remarks[0].message.find("endsolid"), std::string::npos);
+  EXPECT_NE(error("solid\n" + facet.substr(0, 60), "a.stl"), "read");
+  EXPECT_NE(error("solid\n", "a.stl"), "read");
+}
+
+TEST_F(Variants, ElementsOfThirdOrderThatGmshWritesToVtk) {
+  const Surface s = surface(
+      "# vtk DataFile Version 2.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 10 double\n"
+      "0 0 0 3 0 0 0 3 0 1 0 0 2 0 0 2 1 0 1 2 0 0 2 0 0 1 0 1 1 0\nCELLS 2 16\n4 0 1 3 4\n"
+      "10 0 1 2 3 4 5 6 7 8 9\nCELL_TYPES 2\n3 5\n",
+      "a.vtk");
+  EXPECT_EQ(s.facets, (Facets{{0, 1, 2}}));
+  EXPECT_EQ(s.segments, (Segments{{0, 1}}));
+}
+
 TEST_F(Variants, QuadranglesAreCutInEveryFormat) {
   const std::string points = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
   const Facets cut{{0, 1, 2}, {0, 2, 3}};
