@@ -173,9 +173,10 @@ format:  ## clang-format on every source
 	@scripts/setup.sh lint
 	@git ls-files '*.cpp' '*.h' | xargs clang-format -i
 
-tidy: $(RELEASE)/build.ninja  ## clang-tidy on every source (FILES="..." for some)
+tidy:  ## clang-tidy on every source (FILES="..." for some)
 	@scripts/setup.sh build lint
-	@echo $(or $(FILES),$$(git ls-files 'src/*.cpp')) | xargs -n 1 -P $(JOBS) clang-tidy -p $(RELEASE) --quiet --extra-arg=-Wno-unknown-warning-option
+	@cmake --preset tidy >/dev/null
+	@echo $(or $(FILES),$$(git ls-files 'src/*.cpp')) | xargs -n 1 -P $(JOBS) clang-tidy -p build/tidy --quiet --extra-arg=-Wno-unknown-warning-option
 
 debug: setup  ## the tests with assertions and a mesh validated after every operation
 	@cmake --preset debug
