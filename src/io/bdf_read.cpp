@@ -46,8 +46,9 @@ class BdfReader {
   struct Element {
     std::string name;
     int property;
-    std::vector<std::int64_t> nodes;
+    std::vector<std::int64_t> nodes;  ///< corners, and behind them those nodes on edges that are there
     std::size_t position;
+    std::size_t corners;
   };
 
   /// The bulk data begins behind BEGIN BULK, or with the file.
@@ -158,9 +159,11 @@ class BdfReader {
       read_element(2, 3, 6);
     } else if (name == "cquad4" || name == "cquadr") {
       read_element(2, 4, 4);
+    } else if (name == "cquad8") {
+      read_element(2, 4, 8);
     } else if (name == "crod" || name == "cbar" || name == "cbeam" || name == "ctube") {
       read_element(2, 2, 2);
-    } else if (name == "chexa" || name == "cpenta" || name == "cpyram" || name == "cquad8") {
+    } else if (name == "chexa" || name == "cpenta" || name == "cpyram") {
       text_.fail("elements " + in_quotes(name) +
                  " are not read; only tetrahedra, triangles and quadrangles are");
     } else if (name.starts_with("include")) {
@@ -184,14 +187,12 @@ class BdfReader {
 
   void read_element(std::size_t first, std::size_t corners, std::size_t most) {
     Element element{
-        card_.name, field(1).empty() ? 0 : id_of(text_, field(1), "a property"), {}, card_.position};
+        card_.name, field(1).empty() ? 0 : id_of(text_, field(1), "a property"), {}, card_.position, corners};
     if (field(1).empty()) element.property = id_of(text_, field(0), "an element's number");
     for (std::size_t i = first; i < first + most; ++i) {
       if (field(i).empty() && i >= first + corners) continue;
       element.nodes.push_back(integer_of(text_, field(i), "a grid point's number"));
     }
-    if (element.nodes.size() != corners && element.nodes.size() != most)
-      text_.fail("an element with only some of the nodes on its edges is not read");
     elements_.push_back(std::move(element));
   }
 
@@ -218,14 +219,16 @@ class BdfReader {
       if (element.nodes.size() == 10)
         return add_second_order(mesh_, Tetrahedron{n[0], n[1], n[2], n[3]},
                                 {n[4], n[5], n[6], n[7], n[8], n[9]}, id);
-      return mesh_.add_tetrahedron({n[0], n[1], n[2], n[3]}, id);
+      mesh_.add_tetrahedron({n[0], n[1], n[2], n[3]}, id);
+      return add_no_corners(mesh_, std::span(n).first(element.nodes.size()).subspan(4));
     }
     if (element.nodes.size() == 2) return mesh_.add_segment({n[0], n[1]}, element.property);
     const int id = id_of_property(markers_, ids_of_markers_, element.property);
-    if (element.nodes.size() == 6)
+    if (element.nodes.size() == 6 && element.corners == 3)
       return add_second_order(mesh_, Triangle{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, id);
-    add_polygon(mesh_, std::span(n).first(element.nodes.size()), id,
+    add_polygon(mesh_, std::span(n).first(element.corners), id,
                 [&](const std::string& reason) { text_.fail_at(element.position, reason); });
+    add_no_corners(mesh_, std::span(n).first(element.nodes.size()).subspan(element.corners));
   }
 
   void tell_skipped() {

@@ -293,6 +293,21 @@ TEST(SolverFormats, BulkDataOfOtherPrograms) {
   EXPECT_EQ(volume.vertices[3], (Point{0, 0, 1}));
 }
 
+TEST(SolverFormats, BulkDataWithSomeNodesOnEdges) {
+  const TemporaryFolder folder;
+  put(folder / "a.bdf",
+      "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,0.,2.,0.\nGRID,4,,0.,0.,2.\nGRID,5,,1.,0.,0.\n"
+      "GRID,6,,2.,2.,0.\nGRID,7,,2.,1.,0.\nCTETRA,9,5,1,2,3,4,5\nCTRIA6,10,6,1,2,3,5\n"
+      "CQUAD8,11,7,1,2,6,3,5,7\n");
+  std::vector<Remark> remarks;
+  const Volume volume = read_volume(folder / "a.bdf", {}, &remarks);
+  EXPECT_EQ(volume.tetrahedra, (std::vector<Tetrahedron>{{0, 1, 2, 3}}));
+  EXPECT_EQ(volume.facets, (std::vector<Triangle>{{0, 1, 2}, {0, 1, 4}, {0, 4, 2}}));
+  EXPECT_EQ(volume.facet_markers, (std::vector<int>{6, 7, 7}));
+  EXPECT_EQ(volume.vertices.size(), 5u);  // without those on edges
+  EXPECT_FALSE(remarks.empty());
+}
+
 TEST(SolverFormats, OverlappingSetsOfAbaqus) {
   const TemporaryFolder folder;
   put(folder / "a.inp",
