@@ -138,6 +138,25 @@ TEST_F(Variants, OlderVersionsOfMsh) {
   }
 }
 
+TEST_F(Variants, MeshbOfTwoDimensions) {
+  for (const bool big : {false, true}) {
+    const auto i = [&](std::int32_t value) { return raw(value, big); };
+    const auto xy = [&](double x, double y, std::int32_t reference) {
+      return raw(x, big) + raw(y, big) + i(reference);
+    };
+    std::string bytes = i(1) + i(2) + i(3) + i(20) + i(2);  // version 2, two dimensions
+    bytes += i(4) + i(92) + i(3) + xy(0, 0, 0) + xy(2, 0, 6) + xy(0, 2, 0);
+    bytes += i(5) + i(116) + i(1) + i(1) + i(2) + i(5);
+    bytes += i(6) + i(144) + i(1) + i(1) + i(2) + i(3) + i(7) + i(54) + i(0);
+    const Surface s = surface(bytes, "a.meshb");
+    EXPECT_EQ(s.vertices, (std::vector<Point>{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}));
+    EXPECT_EQ(s.facets, (Facets{{0, 1, 2}}));
+    EXPECT_EQ(s.facet_markers, (std::vector<int>{7}));
+    EXPECT_EQ(s.segment_markers, (std::vector<int>{5}));
+    EXPECT_EQ(s.vertex_markers, (std::vector<int>{0, 6, 0}));
+  }
+}
+
 TEST_F(Variants, UcdOfAvs) {
   const std::string bytes =
       "# made by hand\n4 4 1 0 0\n10 0 0 0\n20 1 0 0\n40 0 0 1\n30 0 1 0\n1 6 pt 20\n2 5 line 10 20\n"
