@@ -30,8 +30,11 @@ namespace {
 constexpr std::size_t kMostAttempts = 5;
 
 // Where the worst element is so many times as bad as the facets ask for, other random orders may do better:
-// these, whatever the seed, so that runs with different seeds end with the same choice.
-constexpr double kFarFromTarget = 30;
+// these, whatever the seed, so that runs with different seeds end with the same choice. Where facets are few,
+// trying costs next to nothing. Where a mesh with field points is near what they ask for, only what is very
+// far without these counts.
+constexpr double kNearTarget = 3, kFarFromTarget = 10, kVeryFarFromTarget = 30;
+constexpr std::size_t kFewFacets = 1'000;
 constexpr std::size_t kOtherChoices = 8, kChoicesInVain = 4;
 constexpr std::uint64_t kFirstOtherSeed = 0x9E3779B97F4A7C15;
 constexpr std::size_t kMostFacetsForChoices = 5'000;  // larger ones take long
@@ -152,20 +155,30 @@ class Call {
   // are held.
   void try_other_choices() {
     const double worst = options_.sizes ? worst_without_field_ : result_.report.elements.worst;
+    const double far = far_from_target();
     if (!options_.optimise || !options_.add_points || !options_.flips || input_.parts() != nullptr ||
-        !(worst > kFarFromTarget * input_.target()) || input_.complex().facets.size() > kMostFacetsForChoices)
+        !(worst > far) || input_.complex().facets.size() > kMostFacetsForChoices)
       return;
     const HalfOfTheTime half(limits_);
     if (options_.sizes)
-      choose_for_field(worst);
+      choose_for_field(worst, far);
     else
-      choose_the_best();
+      choose_the_best(far);
   }
 
-  void choose_the_best() {
+  // The Q above which a mesh without field points is not left as it is. Where field points have made good
+  // what is bad without them, that matters less.
+  [[nodiscard]] double far_from_target() {
+    const double target = input_.target();
+    if (options_.sizes && result_.report.elements.worst <= kNearTarget * target)
+      return kVeryFarFromTarget * target;
+    return target * (input_.complex().facets.size() <= kFewFacets ? kNearTarget : kFarFromTarget);
+  }
+
+  void choose_the_best(double far) {
     std::size_t in_vain = 0;
     for (std::uint64_t k = 0;
-         k < kOtherChoices && in_vain < kChoicesInVain && is_far(result_.report.elements.worst); ++k) {
+         k < kOtherChoices && in_vain < kChoicesInVain && result_.report.elements.worst > far; ++k) {
       const double worst = result_.report.elements.worst;
       ++in_vain;
       const bool goes_on = try_instead(options_, kFirstOtherSeed + k, [&](const Result& other) {
@@ -176,12 +189,12 @@ class Call {
     }
   }
 
-  void choose_for_field(double worst) {
+  void choose_for_field(double worst, double far) {
     Options fill = options_;
     fill.sizes.reset();
     std::optional<std::uint64_t> best;
     std::size_t in_vain = 0;
-    for (std::uint64_t k = 0; k < kOtherChoices && in_vain < kChoicesInVain && is_far(worst); ++k) {
+    for (std::uint64_t k = 0; k < kOtherChoices && in_vain < kChoicesInVain && worst > far; ++k) {
       ++in_vain;
       const bool goes_on = try_instead(fill, kFirstOtherSeed + k, [&](const Result& other) {
         if (other.report.elements.worst < worst) {
@@ -197,7 +210,6 @@ class Call {
   }
 
   static bool is_much_better(double x, double y) { return x < 0.8 * y; }
-  [[nodiscard]] bool is_far(double worst) { return worst > kFarFromTarget * input_.target(); }
 
   // Another attempt in the place of the result, if it is done and `is_better`. Returns false where a limit or
   // an error has ended it.
