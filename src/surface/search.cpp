@@ -243,7 +243,7 @@ class Search {
         known_(known),
         visit_(visit),
         step_(step),
-        patience_(tuning.patience),
+        patience_(known.sheet.empty() ? tuning.patience : tuning.sheet_patience),
         threads_(tuning.threads),
         hubs_(complex, elements, tuning.hub_degree) {
     if (known.sheet.empty()) return;

@@ -50,6 +50,9 @@ struct SearchTuning {
   /// Tests of two nodes of the tree, an element, after which oriented boxes (oriented_box.h) come in. Good
   /// surfaces need about 5 to 10.
   std::size_t patience = 20;
+  /// The same where there are sheets (Known::sheet): their pairs are decided by fewer signs than two oriented
+  /// boxes, and where sheets cross there are some 30 an element.
+  std::size_t sheet_patience = 100;
   Threads threads = 1;
 };
 
