@@ -124,7 +124,8 @@ class ByPartition {
 };
 
 // After partition: a segment in pieces.
-void tell_chain(const Draft& draft, const Segment& segment, const Pieces& pieces, Intermediate& told) {
+void tell_chain(const Draft& draft, const Ends& ab, const Pieces& pieces, Intermediate& told) {
+  const Segment segment{draft.number(ab[0]), draft.number(ab[1])};
   told.missing_segments.push_back(segment);
   Intermediate::Chain chain{segment, {}};
   for (const Vertex v : pieces) chain.vertices.push_back(draft.number(v));
@@ -141,8 +142,7 @@ void constrain_hull(Triangles& mesh) {
 
 }  // namespace
 
-bool lay_segments(Draft& draft, const Plane& plane, const PlaneOptions& options, PlaneResult& result,
-                  const Poll& poll) {
+bool lay_segments(Draft& draft, const PlaneOptions& options, PlaneResult& result, const Poll& poll) {
   Triangles& mesh = draft.mesh;
   mesh.find_stars(draft.points.size());
   BySwaps by_swaps(draft, options, result.report);
@@ -162,7 +162,7 @@ bool lay_segments(Draft& draft, const Plane& plane, const PlaneOptions& options,
       ++result.report.missing_segments;
       if (options.method == PlaneMethod::partition) {
         const Pieces& pieces = by_partition.lay(ab, passage.crossed);
-        if (options.stop_after) tell_chain(draft, plane.segments[order[laid]], pieces, result.intermediate);
+        if (options.stop_after) tell_chain(draft, ab, pieces, result.intermediate);
         if (!options.partition_first) by_partition.remove_points();
         continue;
       }

@@ -10,7 +10,7 @@ namespace holdfast::plane {
 /// With swaps the triangles are constrained Delaunay in the end, if they are to be. Counts go to the report
 /// of `result`, and chains of pieces to what it tells of a run that stops. False where segments meet other
 /// than in common ends.
-[[nodiscard]] bool lay_segments(Draft& draft, const Plane& plane, const PlaneOptions& options,
-                                PlaneResult& result, const Poll& poll);
+[[nodiscard]] bool lay_segments(Draft& draft, const PlaneOptions& options, PlaneResult& result,
+                                const Poll& poll);
 
 }  // namespace holdfast::plane

@@ -170,12 +170,18 @@ std::vector<Vertex> curve_order(std::span<const Position> points) {
       });
 }
 
-std::vector<Vertex> order_from_left(std::span<const Position> points) {
+std::vector<Vertex> order_from_left(const GivenPoints& points) {
   if (points.empty()) return {};
-  const Grid grid(points, 1u << kCellBits);
-  return order_by_cells(
-      points.size(), 1, [&](Vertex v) { return grid.cell(points[v][0], 0); },
-      [&](Vertex v, Vertex w) { return points[v] != points[w] ? points[v] < points[w] : v < w; });
+  const Grid grid(points.positions(), 1u << kCellBits);
+  const auto cell = [&](Vertex v) { return grid.cell(points[v][0], 0); };
+  if (const Points* exact = points.exact())
+    return order_by_cells(points.size(), 1, cell, [=](Vertex v, Vertex w) {
+      const int sign = exact->compare(v, w);
+      return sign != 0 ? sign < 0 : v < w;
+    });
+  return order_by_cells(points.size(), 1, cell, [&](Vertex v, Vertex w) {
+    return points[v] != points[w] ? points[v] < points[w] : v < w;
+  });
 }
 
 }  // namespace holdfast::plane

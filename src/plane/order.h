@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "plane/points.h"
+#include "plane/given_points.h"
 
 namespace holdfast::plane {
 
@@ -17,6 +17,6 @@ namespace holdfast::plane {
 [[nodiscard]] std::vector<Vertex> curve_order(std::span<const Position> points);
 
 /// Indices of points in lexicographic order, and of those at one place in the order given.
-[[nodiscard]] std::vector<Vertex> order_from_left(std::span<const Position> points);
+[[nodiscard]] std::vector<Vertex> order_from_left(const GivenPoints& points);
 
 }  // namespace holdfast::plane

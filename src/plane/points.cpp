@@ -57,10 +57,18 @@ Vertex Points::add(exact::RationalPoint p) {
 }
 
 Vertex Points::add(exact::RationalPoint p, const Position& nearest) {
-  const Vertex v = add(nearest);
   const Position rest{exact::rest_of_quotient(p.x, p.w, nearest[0]),
                       exact::rest_of_quotient(p.y, p.w, nearest[1])};
-  store_.push_back({std::move(p), rest});
+  return add(ExactPoint{std::move(p), rest}, nearest);
+}
+
+Vertex Points::add(const Points& others, Vertex v) {
+  return others.is_exact(v) ? add(*others.exact_[v], others[v]) : add(others[v]);
+}
+
+Vertex Points::add(ExactPoint p, const Position& nearest) {
+  const Vertex v = add(nearest);
+  store_.push_back(std::move(p));
   exact_.resize(v);
   exact_.push_back(&store_.back());
   return v;

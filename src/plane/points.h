@@ -26,6 +26,8 @@ class Points {
   Points() = default;
   explicit Points(std::span<const Position> positions) : positions_(positions.begin(), positions.end()) {}
   explicit Points(Positions&& positions) : positions_(std::move(positions)) {}
+  Points(Points&&) = default;
+  Points& operator=(Points&&) = default;
 
   [[nodiscard]] std::size_t size() const { return positions_.size(); }
   [[nodiscard]] const Position& operator[](Vertex v) const { return positions_[v]; }
@@ -39,6 +41,8 @@ class Points {
   Vertex add(exact::RationalPoint p);
   /// The same for callers that know the doubles nearest to it.
   Vertex add(exact::RationalPoint p, const Position& nearest);
+  /// A point of others.
+  Vertex add(const Points& others, Vertex v);
   /// Takes back the points from number `count` on.
   void shrink(std::size_t count);
   [[nodiscard]] exact::RationalPoint rational(Vertex v) const;
@@ -85,11 +89,13 @@ class Points {
   [[nodiscard]] int mixed_incircle(Vertex a, Vertex b, Vertex c, Vertex d) const;
   [[nodiscard]] int mixed_compare(Vertex a, Vertex b) const;
 
-  Positions positions_;
   struct ExactPoint {
     exact::RationalPoint at;
     Position rest;  // what its position lacks, to 2^-100 of that, or NaN
   };
+  Vertex add(ExactPoint p, const Position& nearest);
+
+  Positions positions_;
   // Of exact points, by vertex; null for explicit ones, and too short where none follows.
   std::vector<const ExactPoint*> exact_;
   std::deque<ExactPoint> store_;  // which keeps its addresses

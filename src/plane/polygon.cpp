@@ -117,7 +117,7 @@ Corners3 corners_of(const Triangles& mesh, std::size_t t, const Sorted& sorted) 
 
 }  // namespace
 
-std::optional<std::vector<Corners3>> triangles_of_walk(const std::vector<Position>& points,
+std::optional<std::vector<Corners3>> triangles_of_walk(const GivenPoints& points,
                                                        std::span<const Vertex> walk, const Poll& poll) {
   const Sorted sorted(points);
   const std::vector<Side> sides = sides_of(walk, sorted.number);
@@ -141,10 +141,9 @@ std::optional<std::vector<Corners3>> triangles_of_walk(const std::vector<Positio
   return triangles;
 }
 
-std::optional<std::vector<Corners3>> triangles_of_outlines(const std::vector<Position>& points,
+std::optional<std::vector<Corners3>> triangles_of_outlines(const GivenPoints& points,
                                                            const std::vector<Ends>& edges,
-                                                           const std::vector<Position>& holes,
-                                                           const Poll& poll) {
+                                                           const GivenPoints& holes, const Poll& poll) {
   Sorted sorted(points);
   std::vector<Ends> segments;
   segments.reserve(edges.size());

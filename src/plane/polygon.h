@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "plane/given_points.h"
 #include "plane/sweep.h"
 
 namespace holdfast::plane {
@@ -16,16 +17,16 @@ using Corners3 = std::array<Vertex, 3>;
 /// Nothing where its sides cross or overlap otherwise, or where it winds round a place other than once in the
 /// one direction that it has. `points` are at distinct places, all of them on the walk, which never stays at
 /// one.
-[[nodiscard]] std::optional<std::vector<Corners3>> triangles_of_walk(const std::vector<Position>& points,
+[[nodiscard]] std::optional<std::vector<Corners3>> triangles_of_walk(const GivenPoints& points,
                                                                      std::span<const Vertex> walk,
                                                                      const Poll& poll);
 
 /// Constrained Delaunay triangles of all that edges enclose but the regions of holes, turned left, with
 /// points on no edge as corners, too. Nothing where points are at one place or edges meet other than in
 /// common ends, or where a hole lies on an edge. No edge may occur twice.
-[[nodiscard]] std::optional<std::vector<Corners3>> triangles_of_outlines(const std::vector<Position>& points,
+[[nodiscard]] std::optional<std::vector<Corners3>> triangles_of_outlines(const GivenPoints& points,
                                                                          const std::vector<Ends>& edges,
-                                                                         const std::vector<Position>& holes,
+                                                                         const GivenPoints& holes,
                                                                          const Poll& poll);
 
 }  // namespace holdfast::plane

@@ -39,12 +39,12 @@ Regions find_regions(const Triangles& mesh) {
   return regions;
 }
 
-std::vector<Found> find_triangles(const Triangles& mesh, Points& points, std::span<const Position> places) {
+std::vector<Found> find_triangles(const Triangles& mesh, Points& points, const GivenPoints& places) {
   std::vector<Found> found(places.size());
   if (places.empty()) return found;
   const std::size_t before = points.size();
   std::vector<Vertex> vertices;
-  for (const Position& p : places) vertices.push_back(points.add(p));
+  for (Vertex i = 0; i < places.size(); ++i) vertices.push_back(add(points, places, i));
   const PointTree tree(points, vertices);
   for (std::uint32_t t = 0; t < mesh.size(); ++t) {
     if (mesh.is_ghost(t)) continue;

@@ -1,9 +1,9 @@
 // The regions that constraints separate from each other and from the outside.
 #pragma once
 
-#include <span>
 #include <vector>
 
+#include "plane/given_points.h"
 #include "plane/triangles.h"
 
 namespace holdfast::plane {
@@ -24,6 +24,6 @@ struct Found {
   bool on_constraint = false;  ///< it lies on a constrained edge, or at a vertex of one
 };
 [[nodiscard]] std::vector<Found> find_triangles(const Triangles& mesh, Points& points,
-                                                std::span<const Position> places);
+                                                const GivenPoints& places);
 
 }  // namespace holdfast::plane

@@ -7,13 +7,9 @@ namespace holdfast::plane {
 
 /// `order` has the numbers that the points had before, `number` those that they have here.
 struct Sorted {
-  explicit Sorted(std::span<const Position> given) : order(order_from_left(given)), number(given.size()) {
-    Positions positions(given.size());
-    for (Vertex i = 0; i < order.size(); ++i) {
-      positions[i] = given[order[i]];
-      number[order[i]] = i;
-    }
-    points = Points(std::move(positions));
+  explicit Sorted(const GivenPoints& given)
+      : order(order_from_left(given)), number(given.size()), points(in_order(given, order)) {
+    for (Vertex i = 0; i < order.size(); ++i) number[order[i]] = i;
   }
 
   std::vector<Vertex> order, number;

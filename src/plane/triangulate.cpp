@@ -7,26 +7,18 @@
 
 #include "plane/chosen.h"
 #include "plane/defects.h"
-#include "plane/delaunay.h"
-#include "plane/ears.h"
-#include "plane/faces.h"
-#include "plane/hull.h"
 #include "plane/kept.h"
-#include "plane/lay_segments.h"
-#include "plane/order.h"
+#include "plane/methods.h"
 #include "plane/refine.h"
 #include "plane/sensible.h"
 #include "plane/shape.h"
-#include "plane/sorted.h"
-#include "plane/stages.h"
-#include "plane/swaps.h"
 
 namespace holdfast::plane {
 namespace {
 
 constexpr double kAngleOfSizes = 20;
-constexpr std::size_t kMostDefects = 100;         // of a kind
-constexpr double kLawson = 0.85, kRegions = 0.9;  // shares of the work when a stage ends
+constexpr std::size_t kMostDefects = 100;  // of a kind
+constexpr double kRegions = 0.9;           // share of the work when it ends
 
 /// What single entities need so that the stages can begin.
 bool is_sound(const Plane& plane) {
@@ -43,76 +35,6 @@ void encloses_nothing(const Plane& plane, PlaneResult& result) {
   result.message = plane.segments.empty() ? "all points lie on one line, so that there is no triangle"
                                           : "the segments enclose nothing, or nothing but holes";
   result.defects.push_back({DefectKind::encloses_nothing, {}, {}, {}, {}, result.message});
-}
-
-// --- Triangles of the whole
-// ---------------------------------------------------------------------------------
-
-std::vector<Ends> renumbered(const std::vector<Segment>& segments, const std::vector<Vertex>& number) {
-  std::vector<Ends> ends;
-  ends.reserve(segments.size());
-  for (const Segment& s : segments) ends.push_back({number[s[0]], number[s[1]]});
-  return ends;
-}
-
-/// Paper §2.1. The faces between segments and links, each cut into triangles. Nothing where the input is
-/// invalid.
-std::optional<Draft> make_by_ears(const Plane& plane, const PlaneOptions& options, PlaneReport& report,
-                                  Stages& stages) {
-  Draft draft;
-  std::optional<std::vector<Ends>> links = stages.run("sweep", 0.4, [&](const Poll& poll) {
-    Sorted sorted(plane.points);
-    draft.points = std::move(sorted.points);
-    draft.order = std::move(sorted.order);
-    draft.segments = renumbered(plane.segments, sorted.number);
-    if (options.hull || draft.segments.empty()) add_hull(draft.points, draft.segments);
-    return sweep(draft.points, draft.segments, poll);
-  });
-  if (!links) return std::nullopt;
-  report.links = links->size();
-  stages.run("ears", 0.75, [&](const Poll& poll) {
-    links->insert(links->end(), draft.segments.begin(), draft.segments.end());
-    const Walks faces = find_faces(draft.points, *links);
-    EarMesh ears = cut_ears(draft.points, faces, links->size(), options.ears, [&](std::size_t f) {
-      poll(static_cast<double>(f) / static_cast<double>(faces.count()));
-      return true;
-    });
-    report.ears = ears.counts.ears;
-    report.joined = ears.counts.joined;
-    draft.mesh = join_faces(std::move(ears), report.links);
-  });
-  return draft;
-}
-
-/// Points are numbered as they are inserted, so that those near each other are so in memory, too.
-Draft ordered(const Plane& plane) {
-  Draft draft;
-  draft.order = insertion_order(plane.points);
-  Positions positions(draft.order.size());
-  std::vector<Vertex> number(draft.order.size());
-  for (Vertex i = 0; i < draft.order.size(); ++i) {
-    positions[i] = plane.points[draft.order[i]];
-    number[draft.order[i]] = i;
-  }
-  draft.points = Points(std::move(positions));
-  draft.segments = renumbered(plane.segments, number);
-  return draft;
-}
-
-/// Paper §2.2 and §2.3. The Delaunay triangles of all points, in which the segments are laid; none where all
-/// points lie on one line. Nothing where the input is invalid.
-std::optional<Draft> make_by_delaunay(const Plane& plane, const PlaneOptions& options, PlaneResult& result,
-                                      Stages& stages) {
-  Draft draft = stages.run("order", 0.1, [&](const Poll&) { return ordered(plane); });
-  std::optional<Triangles> mesh =
-      stages.run("delaunay", 0.5, [&](const Poll& poll) { return delaunay(draft.points, poll); });
-  if (!mesh) return std::nullopt;
-  draft.mesh = std::move(*mesh);
-  if (draft.mesh.size() == 0 || options.stop_after == PlaneStage::delaunay) return draft;
-  const bool laid = stages.run(
-      "segments", 0.8, [&](const Poll& poll) { return lay_segments(draft, plane, options, result, poll); });
-  if (!laid) return std::nullopt;
-  return draft;
 }
 
 /// After Delaunay, and some swaps: segments that are no edges.
@@ -207,8 +129,7 @@ bool keep_regions(Draft& draft, const Plane& plane, const PlaneOptions& options,
 bool make(const Plane& plane, const PlaneOptions& options, PlaneResult& result, const Poll& poll) {
   Stages stages(poll, result.report.seconds);
   const bool by_ears = options.method == PlaneMethod::ears;
-  std::optional<Draft> draft = by_ears ? make_by_ears(plane, options, result.report, stages)
-                                       : make_by_delaunay(plane, options, result, stages);
+  std::optional<Draft> draft = triangles_by_method(plane.points, plane.segments, options, result, stages);
   if (!draft) return false;
   if (!by_ears && draft->mesh.size() == 0) {
     // Points on one line: there is nothing to make a triangle of, but they may be invalid all the same.
@@ -223,11 +144,6 @@ bool make(const Plane& plane, const PlaneOptions& options, PlaneResult& result, 
         *draft, plane, result, [](std::uint32_t) { return true; }, [](std::uint32_t) { return 1; });
     return true;
   }
-  // Swaps have made them so on the way.
-  if ((options.delaunay || refines(options)) && options.method != PlaneMethod::swaps)
-    stages.run("lawson", kLawson, [&](const Poll& share) {
-      result.report.delaunay_swaps = swap_to_delaunay(draft->mesh, draft->points, share);
-    });
   return keep_regions(*draft, plane, options, result, stages, poll);
 }
 

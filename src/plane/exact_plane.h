@@ -1,0 +1,26 @@
+// Triangles in the plane between points that may be exact: for callers within the library.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "holdfast/plane.h"
+#include "plane/polygon.h"
+
+namespace holdfast::plane {
+
+/// What holdfast::Plane is for doubles. The doubles nearest to points and holes are finite.
+struct ExactPlane {
+  Points points;
+  std::vector<Segment> segments;
+  Points holes;
+};
+
+/// The triangles of holdfast::triangulate, by the same code: by any method, turned left, by the numbers of
+/// the points. Nothing where the plane is not valid. Options that refine or end after a stage are not for it.
+[[nodiscard]] std::optional<std::vector<Corners3>> triangulate(const ExactPlane& plane,
+                                                               const PlaneOptions& options,
+                                                               PlaneReport& report, const Poll& poll);
+
+}  // namespace holdfast::plane

@@ -1,0 +1,36 @@
+// Points as a run gets them: doubles, or points some of which are exact. Nothing is copied.
+#pragma once
+
+#include "plane/points.h"
+
+namespace holdfast::plane {
+
+class GivenPoints {
+ public:
+  // NOLINTBEGIN(google-explicit-constructor): either stands for points that are given
+  GivenPoints(std::span<const Position> positions) : positions_(positions) {}
+  GivenPoints(const std::vector<Position>& positions) : positions_(positions) {}
+  GivenPoints(const Points& points)
+      : positions_(points.positions()), exact_(points.all_explicit() ? nullptr : &points) {}
+  // NOLINTEND(google-explicit-constructor)
+
+  [[nodiscard]] std::size_t size() const { return positions_.size(); }
+  [[nodiscard]] bool empty() const { return positions_.empty(); }
+  /// Doubles, or those nearest to exact points.
+  [[nodiscard]] std::span<const Position> positions() const { return positions_; }
+  [[nodiscard]] const Position& operator[](Vertex v) const { return positions_[v]; }
+  /// Points some of which are exact, or null where all are doubles.
+  [[nodiscard]] const Points* exact() const { return exact_; }
+
+ private:
+  std::span<const Position> positions_;
+  const Points* exact_ = nullptr;
+};
+
+/// Points in another order, which tells for each the number that it had before.
+[[nodiscard]] Points in_order(const GivenPoints& given, std::span<const Vertex> order);
+
+/// Adds a point that is given.
+Vertex add(Points& points, const GivenPoints& given, Vertex v);
+
+}  // namespace holdfast::plane
