@@ -5,7 +5,7 @@
 // neither: no edge can then enter it, as an edge that enters by ac would have to leave by ac. It is enough to
 // ask corners that are reflex or straight. For of the vertices in abc, the one furthest from ac has nothing
 // of the walk beyond it, and so its corner on that side is of 180 degrees or more. Vertices are numbered from
-// left to right, so that those between the ends of a triangle are found in a set of numbers.
+// left to right, so that a set of them tells which may lie between the ends of a triangle.
 #include "plane/ears.h"
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "plane/number_set.h"
 #include "plane/point_tree.h"
+#include "plane/vertex_set.h"
 
 namespace holdfast::plane {
 namespace {
@@ -40,7 +40,7 @@ class Beyond {
 class Clipper {
  public:
   Clipper(const Points& points, PlaneEars choice, EarMesh& ears)
-      : points_(points), choice_(choice), ears_(ears), reflex_(points.size()), first_at_(points.size()) {}
+      : points_(points), choice_(choice), ears_(ears), reflex_(points), first_at_(points.size()) {}
 
   void cut(std::span<const Vertex> walk, std::span<const std::uint32_t> sides) {
     sides_ = sides;
@@ -213,7 +213,7 @@ class Clipper {
   [[nodiscard]] const PointTree& tree() {
     if (!tree_) {
       planted_.clear();
-      for (std::size_t v = reflex_.from(0); v != NumberSet::none; v = reflex_.from(v + 1)) {
+      for (std::size_t v = reflex_.from(0); v != VertexSet::none; v = reflex_.from(v + 1)) {
         corners_[first_at_[v]].item = static_cast<std::uint32_t>(planted_.size());
         planted_.push_back(static_cast<Vertex>(v));
       }
@@ -248,27 +248,36 @@ class Clipper {
                      [&](std::uint32_t item) { return go_on_at(planted_[item], va, vb, vc, visit); });
   }
 
-  /// A reflex corner in the triangle, or kNone. The first few vertices from its left end on are looked at,
-  /// which are mostly all that there are up to its right end; else the tree tells. Nothing is returned for a
-  /// wide triangle that may wait: when the others are cut off, little may be left in its way.
+  /// A reflex corner in the triangle, or kNone. Where few vertices are numbered from its left end to its
+  /// right one, their heights tell. Else the first few of these that are reflex are looked at, which are
+  /// mostly all; and then the tree tells. Nothing is returned for a wide triangle that may wait: when the
+  /// others are cut off, little may be left in its way.
   [[nodiscard]] std::optional<Corner> blocker(Corner a, Corner b, Corner c) {
     constexpr int kFew = 2, kWide = 4;  // wide: from one end to the other a quarter of all vertices
+    constexpr std::size_t kShort = 256;
     const Vertex va = corners_[a].v, vb = corners_[b].v, vc = corners_[c].v;
     const Vertex left = std::min(std::min(va, vb), vc), right = std::max(std::max(va, vb), vc);
+    std::size_t i = reflex_.from(left + std::size_t{1});
+    if (i >= right) return kNone;
     const double ya = points_[va][1], yb = points_[vb][1], yc = points_[vc][1];
     const double low = std::min(std::min(ya, yb), yc), high = std::max(std::max(ya, yb), yc);
     Corner found = kNone;
-    const auto take_first = [&](Corner i) {
-      found = i;
+    const auto take_first = [&](Corner corner) {
+      found = corner;
       return false;
     };
-    std::size_t i = reflex_.from(left + std::size_t{1});
+    const bool may_wait = may_wait_ && right - left > points_.size() / kWide;
+    if (!may_wait && right - i <= kShort) {
+      reflex_.each_between(static_cast<Vertex>(i), right, low, high,
+                           [&](Vertex v) { return go_on_at(v, va, vb, vc, take_first); });
+      return found;
+    }
     for (int few = kFew; i < right && few-- > 0; i = reflex_.from(i + 1)) {
       const auto v = static_cast<Vertex>(i);
       if (points_[v][1] >= low && points_[v][1] <= high && !go_on_at(v, va, vb, vc, take_first)) return found;
     }
     if (i >= right) return kNone;
-    if (may_wait_ && right - left > points_.size() / kWide) return std::nullopt;
+    if (may_wait) return std::nullopt;
     each_inside(a, b, c, take_first);
     return found;
   }
@@ -389,7 +398,7 @@ class Clipper {
   const Points& points_;
   PlaneEars choice_;
   EarMesh& ears_;
-  NumberSet reflex_;              // vertices with a reflex corner
+  VertexSet reflex_;              // those with a reflex corner
   std::vector<Corner> first_at_;  // of these, the first one that is or was reflex
   // Of the face at hand:
   std::span<const std::uint32_t> sides_;  // of the graph, along the walk

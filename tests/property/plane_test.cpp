@@ -11,6 +11,7 @@
 #include "plane/order.h"
 #include "plane/point_tree.h"
 #include "plane/sequence.h"
+#include "plane/vertex_set.h"
 #include "plane_inputs.h"
 
 namespace holdfast {
@@ -180,6 +181,48 @@ TEST(NumberSet, FindsTheNextNumber) {
       EXPECT_EQ(set.contains(i), expected.contains(i));
       const auto next = expected.lower_bound(from);
       EXPECT_EQ(set.from(from), next == expected.end() ? plane::NumberSet::none : *next);
+    }
+  }
+}
+
+// Before the rows are asked for, and afterwards.
+TEST(VertexSet, FindsThoseBetweenTwoHeights) {
+  for (const Coordinates kind : {Coordinates::grid, Coordinates::random, Coordinates::tiny, Coordinates::huge,
+                                 Coordinates::at_2_52, Coordinates::clustered}) {
+    numbers::Random random(5);
+    plane::Points points;
+    for (int i = 0; i < 300; ++i) points.add(random_point(kind, 40, random));
+    plane::VertexSet set(points);
+    std::set<plane::Vertex> expected;
+    const auto any = [&] { return static_cast<plane::Vertex>(numbers::below(points.size(), random)); };
+    for (int round = 0; round < 600; ++round) {
+      const plane::Vertex v = any();
+      if (expected.insert(v).second) {
+        set.insert(v);
+      } else {
+        set.erase(v);
+        expected.erase(v);
+      }
+      EXPECT_EQ(set.contains(v), expected.contains(v));
+      if (round < 100) continue;
+      const plane::Vertex first = any(), last = any();
+      const auto [low, high] = std::minmax({points[any()][1], points[any()][1]});
+      std::vector<plane::Vertex> found;
+      set.each_between(first, last, low, high, [&](plane::Vertex w) {
+        found.push_back(w);
+        return true;
+      });
+      EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+      for (const plane::Vertex w : found) EXPECT_TRUE(w >= first && w < last && expected.contains(w)) << w;
+      for (const plane::Vertex w : expected)
+        if (w >= first && w < last && points[w][1] >= low && points[w][1] <= high) {
+          EXPECT_TRUE(std::binary_search(found.begin(), found.end(), w)) << w;
+        }
+      if (found.size() < 2) continue;
+      set.each_between(first, last, low, high, [&](plane::Vertex w) {
+        EXPECT_EQ(w, found[0]);
+        return false;
+      });
     }
   }
 }
