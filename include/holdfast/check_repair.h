@@ -21,7 +21,7 @@ struct RepairClaims {
   std::map<int, std::vector<int>> marker_sets;
   double max_displacement = 0;
   /// What was asked for, by which valid surfaces change, too. Nothing: not told.
-  std::optional<double> weld;
+  std::optional<double> weld, join;
   std::optional<bool> unite;
 };
 

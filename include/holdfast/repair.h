@@ -39,6 +39,10 @@ struct RepairOptions : Limits {
   /// Before anything else, vertices within this distance of each other become one, and vertices within it of
   /// a side or facet are put on it. No vertex moves further than this.
   double weld = 0;
+  /// After that, facets that overlap at most this far from each other come to have the same triangles where
+  /// they do. Vertices stay; new ones, where sides cross above each other, are put onto the larger facet.
+  /// Meant for some last bits: between sheets so near a mesh may have no doubles.
+  double join = 0;
   /// Closes holes whose border has at most so many sides, by facets without parents. Nothing: leaves them.
   std::optional<std::size_t> fill_holes = {};
   /// Facets that have material on both sides, or on none, go. Material is what `Keep::automatic` keeps of any
@@ -46,7 +50,7 @@ struct RepairOptions : Limits {
   bool unite = false;
   /// More points than this are refused with `Outcome::memory_limit`: an arrangement can be quadratic in size.
   std::size_t most_points = 100'000'000;
-  bool exact = false;    ///< fills `RepairResult::exact`
+  bool exact = false;    ///< fills `RepairResult::exact`; not with `join`, which rounds before
   unsigned threads = 1;  ///< 0: all there are; the result is the same
   ProgressFunction progress = {};
 };
@@ -142,8 +146,8 @@ struct RepairResult {
 /// A surface that is valid comes out bit for bit. Vertices at one place are one: facets name the first of
 /// them. Facets of zero area, or with corners that are not finite, are dropped, and repeated ones merged.
 /// Expected endings are outcomes. Throws std::invalid_argument for markers of a wrong number and for a
-/// tolerance that is negative or not finite, std::length_error beyond 2^28 vertices, and std::bad_alloc when
-/// memory runs out without a limit.
+/// tolerance that is negative or not finite, or for `exact` with `join`, std::length_error beyond 2^28
+/// vertices, and std::bad_alloc when memory runs out without a limit.
 [[nodiscard]] HOLDFAST_API RepairResult repair(const Complex& complex, const RepairOptions& options = {});
 
 /// The same for a surface that owns its arrays, be it a temporary.
@@ -151,5 +155,14 @@ template <std::same_as<Surface> Owner>
 [[nodiscard]] RepairResult repair(const Owner& surface, const RepairOptions& options = {}) {
   return repair(surface.view(), options);
 }
+
+/// Meshes what was repaired and has no mesh in doubles: `repaired` came of `given`, as `repairing` asks, and
+/// `result` of its surface, with Steiner points that have no doubles. That is where sheets are some last bits
+/// apart. So `given` is repaired again with a larger `join`, then also with a larger `weld`, some last bits
+/// of the largest coordinate each, and meshed with the same options, until there is a mesh. Then the answer
+/// is true, `repaired` and `result` are those of the mesh, and `repairing` has the distances. Else they stay,
+/// but that a limit or a cancel becomes the outcome of `result`; time limits count for all of it together.
+[[nodiscard]] HOLDFAST_API bool mesh_joined(const Complex& given, const Options& options,
+                                            RepairOptions& repairing, RepairResult& repaired, Result& result);
 
 }  // namespace holdfast

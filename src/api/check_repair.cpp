@@ -20,6 +20,7 @@ RepairClaims claims_of(const RepairResult& result, const RepairOptions& options)
   claims.marker_sets = result.marker_sets;
   claims.max_displacement = result.max_displacement;
   claims.weld = options.weld;
+  claims.join = options.join;
   claims.unite = options.unite;
   return claims;
 }

@@ -30,6 +30,10 @@ void require_sensible(const Complex& complex, const RepairOptions& options) {
     throw std::invalid_argument("as many vertex markers as vertices are needed, or none");
   if (!(options.weld >= 0) || !std::isfinite(options.weld))
     throw std::invalid_argument("the tolerance for welding must be finite and not negative");
+  if (!(options.join >= 0) || !std::isfinite(options.join))
+    throw std::invalid_argument("the distance at which facets are joined must be finite and not negative");
+  if (options.exact && options.join > 0)
+    throw std::invalid_argument("the exact arrangement is of facets as they are: leave out the join");
   constexpr std::size_t kMostVertices = std::size_t{1} << 28;
   if (complex.vertices.size() > kMostVertices)
     throw std::length_error("more than 2^28 vertices are too many");

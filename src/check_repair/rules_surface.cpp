@@ -42,8 +42,8 @@ RepairRule output_valid(RepairExamination& on) {
 /// Vertices are compared by another rule.
 RepairRule valid_unchanged(const RepairExamination& on) {
   Violations violations = on.violations(RepairRuleKind::valid_unchanged);
-  const bool asked =
-      on.claims.weld.value_or(on.claims.max_displacement) > 0 || on.claims.unite.value_or(false);
+  const bool asked = on.claims.weld.value_or(on.claims.max_displacement) > 0 ||
+                     on.claims.join.value_or(0) > 0 || on.claims.unite.value_or(false);
   if (asked) return violations.rule("a tolerance or a union changes valid surfaces, too");
   std::vector<Index> parents;
   std::size_t kept = on.output.facets.size();

@@ -149,7 +149,7 @@ void write_html(const MeshArguments& arguments, const Limits& limits, const Surf
 }
 
 Json report_of(const RepairResult& result, const RepairOptions& options) {
-  return to_json(result, {{"weld", options.weld}, {"union", options.unite}});
+  return to_json(result, {{"weld", options.weld}, {"join", options.join}, {"union", options.unite}});
 }
 
 /// Notes all files of the run before anything is read, so that one that cannot be is found at once.
@@ -247,7 +247,7 @@ int run(const MeshArguments& arguments) {
   std::optional<RepairResult> repaired;
   Surface unrepaired;  // if it may be repaired once more
   if (repairing) {
-    if (repairing->weld == 0 && arguments.exact.empty()) unrepaired = input.surface;
+    if (arguments.exact.empty()) unrepaired = input.surface;
     repaired = repair_before(input.surface, *repairing, progress);
     if (repaired->outcome != Outcome::done) {
       write_json(arguments.report, {{"outcome", name(repaired->outcome)},
@@ -259,11 +259,10 @@ int run(const MeshArguments& arguments) {
   }
   options.progress = std::ref(progress);
   if (!repaired) paste_parts(arguments, options, input);
-  const Options asked = options;
   Result result = mesh_or_refuse(arguments, input, options);
-  if (repaired && repairing->weld == 0 && arguments.exact.empty() && result.report.unrounded_points > 0 &&
+  if (repaired && arguments.exact.empty() && result.report.unrounded_points > 0 &&
       result.outcome == Outcome::not_representable)
-    mesh_joined(arguments, unrepaired, asked, progress, input, *repairing, *repaired, result);
+    mesh_joined_sheets(unrepaired, options, progress, arguments.quiet, input, *repairing, *repaired, result);
   tell_defects_of_files(arguments, input, result);
   const Surface& meshed = input.pasted && arguments.paste ? input.pasted->surface : input.surface;
   const Json order = result.outcome == Outcome::done ? set_order(result.volume, arguments.elements,

@@ -1,8 +1,5 @@
 #include "mesh_attempts.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -12,21 +9,6 @@
 #include "repair_result.h"
 
 namespace holdfast::cli {
-namespace {
-
-/// The tolerance that joins sheets which lie in each other but for some last bits: between such sheets points
-/// that the mesher adds have no doubles.
-double joining_tolerance(const Surface& surface) {
-  constexpr double kLastBits = 0x1p6;  // of the largest coordinate
-  double most = 0;
-  for (const Point& p : surface.vertices)
-    for (const double x : p)
-      if (std::isfinite(x)) most = std::max(most, std::fabs(x));
-  return kLastBits * (std::nextafter(most, std::numeric_limits<double>::infinity()) - most);
-}
-
-}  // namespace
-
 Result mesh_or_refuse(const MeshArguments& arguments, const MeshInput& input, Options& options) {
   try {
     if (input.pasted) {
@@ -50,30 +32,23 @@ Result mesh_or_refuse(const MeshArguments& arguments, const MeshInput& input, Op
   }
 }
 
-void mesh_joined(const MeshArguments& arguments, const Surface& given, const Options& options,
-                 ProgressView& progress, MeshInput& input, RepairOptions& repairing, RepairResult& repaired,
-                 Result& result) {
-  RepairOptions joining = repairing;
-  joining.weld = joining_tolerance(given);
-  RepairResult joined = repair_before(given, joining, progress);
-  if (joined.outcome != Outcome::done) return;
-  if (!arguments.quiet)
-    say("{} of {} added points have no doubles; repaired again, with --repair={:.2g}: {}\n",
-        result.report.unrounded_points, result.report.steiner_points, joining.weld, summary_of(joined));
-  MeshInput other;
-  other.surface = joined.surface;
-  Options meshing = options;
-  Result now;
-  try {
-    now = mesh_or_refuse(arguments, other, meshing);
-  } catch (const UsageError&) {  // a size a vertex, say, of which there are fewer now
-    return;
-  }
-  if (now.outcome != Outcome::done) return;
-  input.surface = std::move(other.surface);
-  repairing = joining;
-  repaired = std::move(joined);
-  result = std::move(now);
+void mesh_joined_sheets(const Surface& given, Options& options, ProgressView& progress, bool quiet,
+                        MeshInput& input, RepairOptions& repairing, RepairResult& repaired, Result& result) {
+  const std::size_t without_doubles = result.report.unrounded_points, added = result.report.steiner_points;
+  RepairOptions watched = repairing;
+  watched.progress = [&](double fraction) { return progress.repairing(fraction); };
+  const bool has_mesh = mesh_joined(given.view(), options, watched, repaired, result);
+  progress.finish();
+  if (!has_mesh) return;
+  repairing.join = watched.join;
+  repairing.weld = watched.weld;
+  take_seeds(given, repaired.surface);
+  input.surface = repaired.surface;
+  if (!quiet)
+    say("{} of {} added points had no doubles; repaired again, with sheets within {:.2g} of each other "
+        "joined{}: {}\n",
+        without_doubles, added, repairing.join, repairing.weld > 0 ? ", and vertices" : "",
+        summary_of(repaired));
 }
 
 }  // namespace holdfast::cli

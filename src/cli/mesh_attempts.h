@@ -13,10 +13,9 @@ namespace holdfast::cli {
 /// of the options.
 [[nodiscard]] Result mesh_or_refuse(const MeshArguments& arguments, const MeshInput& input, Options& options);
 
-/// A surface that was repaired without a tolerance, and then had no mesh in doubles, is repaired once more
-/// with the least that may help. If it has one then, this takes the place of all three.
-void mesh_joined(const MeshArguments& arguments, const Surface& given, const Options& options,
-                 ProgressView& progress, MeshInput& input, RepairOptions& repairing, RepairResult& repaired,
-                 Result& result);
+/// Where a repaired surface has no mesh in doubles, joins sheets that are some last bits apart, as the
+/// library does, and says so; `options` are those of the mesh there is none of.
+void mesh_joined_sheets(const Surface& given, Options& options, ProgressView& progress, bool quiet,
+                        MeshInput& input, RepairOptions& repairing, RepairResult& repaired, Result& result);
 
 }  // namespace holdfast::cli

@@ -24,7 +24,7 @@ struct RepairArguments {
   std::string input_format, format;
   double tolerance = 0;
   LimitArguments limits;
-  double weld = 0;
+  double weld = 0, join = 0;
   std::optional<std::size_t> fill_holes;
   bool fill_all = false;
   unsigned threads = 1;
@@ -35,6 +35,7 @@ RepairOptions to_options(const RepairArguments& arguments) {
   RepairOptions options;
   static_cast<Limits&>(options) = limits_of(arguments.limits);
   options.weld = arguments.weld;
+  options.join = arguments.join;
   options.fill_holes = arguments.fill_holes;
   options.unite = arguments.unite;
   options.exact = !arguments.exact.empty();
@@ -49,6 +50,7 @@ Json options_of(const RepairArguments& arguments) {
   return {{"surfaces", inputs},
           {"output", arguments.output.string()},
           {"weld", arguments.weld},
+          {"join", arguments.join},
           {"fill_holes", arguments.fill_holes ? Json(*arguments.fill_holes) : Json(nullptr)},
           {"union", arguments.unite},
           {"tolerance", arguments.tolerance},
@@ -154,6 +156,11 @@ void add_repair(CLI::App& app, Command& chosen) {
       ->add_option("--weld", arguments->weld,
                    "First make one of vertices that are this near to each other, and put vertices that are "
                    "this near to a side or facet on it (default 0)")
+      ->option_text("T");
+  command
+      ->add_option("--join", arguments->join,
+                   "Triangles that overlap at most T from each other, some last bits, become the same where "
+                   "they do (default 0)")
       ->option_text("T");
   command
       ->add_option_function<std::string>(

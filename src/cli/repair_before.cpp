@@ -10,11 +10,15 @@ namespace holdfast::cli {
 RepairResult repair_before(const Surface& given, RepairOptions options, ProgressView& progress) {
   options.progress = [&](double fraction) { return progress.repairing(fraction); };
   RepairResult result = repair(given.view(), options);
-  result.surface.regions = given.regions;
-  result.surface.holes = given.holes;
-  result.surface.remarks = given.remarks;
+  take_seeds(given, result.surface);
   progress.finish();
   return result;
+}
+
+void take_seeds(const Surface& given, Surface& repaired) {
+  repaired.regions = given.regions;
+  repaired.holes = given.holes;
+  repaired.remarks = given.remarks;
 }
 
 int conclude_repair(const RepairResult& result) {

@@ -12,6 +12,9 @@ namespace holdfast::cli {
 /// The surface of the result has the given one's seeds and remarks.
 [[nodiscard]] RepairResult repair_before(const Surface& given, RepairOptions options, ProgressView& progress);
 
+/// Seeds and remarks of a surface for what it was repaired to.
+void take_seeds(const Surface& given, Surface& repaired);
+
 /// Says why a repair ended without a surface; returns the exit code.
 [[nodiscard]] int conclude_repair(const RepairResult& result);
 

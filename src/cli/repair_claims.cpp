@@ -148,6 +148,7 @@ RepairClaims claims_of_report(const Json& report) {
   claims.max_displacement = report.at("max_displacement").get<double>();
   if (const auto options = report.find("options"); options != report.end()) {
     if (options->contains("weld")) claims.weld = options->at("weld").get<double>();
+    if (options->contains("join")) claims.join = options->at("join").get<double>();
     if (options->contains("union")) claims.unite = options->at("union").get<bool>();
   }
   return claims;
@@ -236,6 +237,7 @@ ReadClaims read_claims(const std::filesystem::path& parents, const std::filesyst
   claims.merged = std::move(told.merged);
   claims.filled = std::move(told.filled);
   claims.weld = told.weld;
+  claims.join = told.join;
   claims.unite = told.unite;
   return {std::move(claims), std::move(differences)};
 }

@@ -115,6 +115,7 @@ class Rounding {
   }
 
   Rounded run() {
+    if (options_.join > 0 && !is_plane_) flatten_all(rounded_.state, options_.join, rounded_.displacement);
     const State given = rounded_.state;
     cut(options_.most_points);
     if (!rounded_.is_valid) cut(std::min(options_.most_points, 1000 + 4 * report_.points));
@@ -212,6 +213,17 @@ class Rounding {
     return Rounding(std::move(plane), options, report, exact, here(), threads_, true).run();
   }
 
+  /// Makes sheets one that lie in each other, whether they are in trouble or not.
+  void flatten_all(State& state, double gap, double& displacement) {
+    const RoundPlane round = [&](State plane) { return round_plane(std::move(plane)); };
+    constexpr int kPasses = 4;
+    for (int pass = 0; pass < kPasses; ++pass) {
+      const double moved = flatten(state, gap, round, here());
+      if (moved == 0) return;
+      displacement = sum_above(displacement, moved);
+    }
+  }
+
   /// Makes sheets one that lie in each other by now and are in trouble.
   void flatten_again(const Plan& plan) {
     if (is_plane_ || trouble_.facets.empty()) return;
@@ -238,16 +250,10 @@ class Rounding {
   /// Begins again with sheets that lie in each other made one before anything is cut: their planes would
   /// cross in lines all over them. Counts if it leaves less in trouble.
   void begin_flat(const State& given, const Plan& plan) {
-    const RoundPlane round = [&](State plane) { return round_plane(std::move(plane)); };
     const double gap = plan.last_bits * last_bit(given);
     Attempt flat{given, {}, 0};
     if (plan.moves_input) flat.displacement = weld(flat.state, gap, here());
-    constexpr int kPasses = 4;
-    for (int pass = 0; pass < kPasses; ++pass) {
-      const double moved = flatten(flat.state, gap, round, here());
-      if (moved == 0) break;
-      flat.displacement = sum_above(flat.displacement, moved);
-    }
+    flatten_all(flat.state, gap, flat.displacement);
     if (flat.displacement == 0) return;
     if (flat.state.facets == flattened_.facets && flat.state.vertices == flattened_.vertices) return;
     flattened_ = flat.state;

@@ -410,23 +410,44 @@ class MeshAtOnce(Repaired):
         self.run_program("check", "out.off", "v.vtu")
         self.assertEqual(len(self.report()["repair"]["moved"]), 4)
 
-    def test_sheets_a_last_bit_apart_are_joined(self):
+    def stack(self, seed, count=8, turn=None):
         """Boxes stacked half in each other: sums of 0.05 make sheets that differ in their last bits, and no mesh in doubles."""
-        rng = random.Random(3)
+        rng = random.Random(seed)
         points, facets = [], []
         low = 0.0
-        for _ in range(8):
+        for _ in range(count):
             x, y = rng.uniform(0, 0.5), rng.uniform(0, 0.5)
             facets += shifted(CUBE_FACETS, len(points))
             points += [(x + a, y + b, low + 0.1 if c else low) for a, b, c in cube()]
             low += 0.05
-        self.write("in.off", off(points, facets))
-        said = self.run_program("mesh", "in.off", "-o", "v.vtu", "--fill", "--repair", "--repaired", "out.off", "--report",
-                                "r.json").stderr
-        self.assertIn("repaired again, with --repair=", said)
+        self.write("in.off", off([turn(p) if turn else p for p in points], facets))
+
+    def test_sheets_a_last_bit_apart_are_joined(self):
+        """No vertex moves for it. Welding does not help with the first: it has no vertices that near to each other."""
+        for seed in 1, 3:
+            self.stack(seed)
+            said = self.run_program("mesh", "in.off", "-o", "v.vtu", "--fill", "--repair", "--repaired", "out.off", "--report",
+                                    "r.json").stderr
+            self.assertIn("repaired again, with sheets within", said)
+            self.run_program("check", "out.off", "v.vtu")
+            self.check("in.off", files=("--report", "r.json"))
+            repair = self.report()["repair"]
+            self.assertGreater(repair["options"]["join"], 0)
+            self.assertEqual((repair["options"]["weld"], repair["moved"]), (0, []))
+            self.assertLess(repair["max_displacement"], 1e-14)
+
+    def test_repaired_with_joined_sheets_then_meshed(self):
+        self.stack(1)
+        self.repair("in.off", options=("--join", "1e-15"))
+        self.run_program("mesh", "out.off", "-o", "v.vtu", "--fill")
+        self.run_program("repair", "in.off", "-o", "out.off", "--join", "1e-15", "--exact", "e.jsonl", expect=2)
+        self.run_program("repair", "in.off", "-o", "out.off", "--join", "-1", expect=2)
+
+    def test_turned_sheets(self):
+        self.stack(2, turn=lambda p: (0.8 * p[0] - 0.6 * p[2], p[1], 0.6 * p[0] + 0.8 * p[2]))
+        self.run_program("mesh", "in.off", "-o", "v.vtu", "--fill", "--repair", "--repaired", "out.off", "--report", "r.json")
         self.run_program("check", "out.off", "v.vtu")
         self.check("in.off", files=("--report", "r.json"))
-        self.assertGreater(self.report()["repair"]["options"]["weld"], 0)
 
     def test_a_valid_surface(self):
         said = self.run_program("mesh", "cube.off", "-o", "v.vtu", "--fill", "--repair").stderr

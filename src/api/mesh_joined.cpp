@@ -1,0 +1,74 @@
+// A mesh of a repaired surface that had none: sheets that are some last bits apart become one.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "holdfast/repair.h"
+
+namespace holdfast {
+namespace {
+
+/// In last bits of the largest coordinate. Vertices stay where they are only joined.
+struct Attempt {
+  double join, weld;
+};
+constexpr std::array kAttempts{Attempt{0x1p3, 0}, Attempt{0x1p6, 0}, Attempt{0x1p6, 0x1p6}};
+
+double last_bit(std::span<const Point> points) {
+  double most = 0;
+  for (const Point& p : points)
+    for (const double x : p)
+      if (std::isfinite(x)) most = std::max(most, std::fabs(x));
+  return std::nextafter(most, std::numeric_limits<double>::infinity()) - most;
+}
+
+/// Whether a call ended because it had to; then the mesh has ended so, too.
+bool ends(Outcome outcome, const std::string& message, Result& result) {
+  if (outcome != Outcome::time_limit && outcome != Outcome::memory_limit && outcome != Outcome::cancelled)
+    return false;
+  result.outcome = outcome;
+  result.message = message;
+  return true;
+}
+
+}  // namespace
+
+bool mesh_joined(const Complex& given, const Options& options, RepairOptions& repairing,
+                 RepairResult& repaired, Result& result) {
+  if (result.outcome != Outcome::not_representable || result.report.unrounded_points == 0) return false;
+  const auto begin = std::chrono::steady_clock::now();
+  Options meshing = options;
+  meshing.started = options.started.value_or(begin);
+  const double bit = last_bit(given.vertices);
+  for (const Attempt& attempt : kAttempts) {
+    RepairOptions joining = repairing;
+    joining.exact = false;
+    joining.started = repairing.started.value_or(begin);
+    joining.join = std::max(repairing.join, attempt.join * bit);
+    joining.weld = std::max(repairing.weld, attempt.weld * bit);
+    RepairResult joined = repair(given, joining);
+    if (ends(joined.outcome, joined.message, result)) return false;
+    if (joined.outcome != Outcome::done) continue;
+    Result now;
+    try {
+      now = mesh(joined.surface.view(), meshing);
+    } catch (const std::invalid_argument&) {  // a size a vertex, say, of which there are others now
+      continue;
+    }
+    if (ends(now.outcome, now.message, result)) return false;
+    if (now.outcome != Outcome::done) continue;
+    repairing.join = joining.join;
+    repairing.weld = joining.weld;
+    repaired = std::move(joined);
+    result = std::move(now);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace holdfast
