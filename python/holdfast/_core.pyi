@@ -207,6 +207,15 @@ class RepairResult(metaclass=_Type):
     def report(self) -> str: ...
 
 def repair(surface: tuple[Any, ...], options: dict[str, Any], progress: _Progress) -> RepairResult: ...
+def mesh_joined(
+    surface: tuple[Any, ...],
+    repaired: RepairResult,
+    result: MeshResult,
+    options: dict[str, Any],
+    size: Any,
+    metric: Any,
+    progress: _Progress,
+) -> Optional[tuple[RepairResult, MeshResult]]: ...
 def check_repair(
     surface: tuple[Any, ...], repaired: RepairResult, options: dict[str, Any], progress: _Progress
 ) -> str: ...

@@ -12,6 +12,7 @@ import numpy.typing as npt
 from . import _core
 from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits
 from ._paste import Pasted
+from ._repair import Repair
 from ._repair import repair as repair_surface
 from ._size import Size, set_metric, set_size
 from ._surface import Array, points_of, surface_of
@@ -100,7 +101,8 @@ def mesh(
         Drop triangles outside every kept region instead of refusing them.
     repair
         Make the surface valid first, as `holdfast.repair` does: True, or the distance within which vertices are joined.
-        The result's `repair` tells what changed.
+        The result's `repair` tells what changed. Where the surface then has no mesh in doubles, it is repaired again with
+        sheets joined that are some last bits apart.
     without
         Steps to leave out: "flips", "optimise", "points".
     order
@@ -156,7 +158,7 @@ def mesh(
     )
     if pasted is not None and what is not pasted.surface:
         raise ValueError("a pasted surface is meshed as it is: leave out triangles, segments and markers")
-    repaired = None
+    repaired, given = None, what
     if pasted is not None and repair is not False:
         raise ValueError("a pasted surface is valid: leave out repair")
     if repair is not False:
@@ -190,6 +192,9 @@ def mesh(
             result = _core.mesh_pasted(pasted._result, options, asked_size, asked_metric, callback)
         else:
             result = _core.mesh(what._arrays(), options, asked_size, asked_metric, callback)
+        if repaired is not None and (joined := _core.mesh_joined(given._arrays(), repaired._result, result, options, asked_size,
+                                                                asked_metric, callback)):
+            repaired, result = Repair(given, joined[0]), joined[1]
     _raise_unless_done(result)
     meshed = TetMesh._of(result.volume, result.n_input_points, result)
     meshed.repair = repaired

@@ -75,6 +75,7 @@ def repair(
     triangle_markers: Optional[npt.ArrayLike] = None,
     segment_markers: Optional[npt.ArrayLike] = None,
     weld: float = 0.0,
+    join: float = 0.0,
     fill_holes: Union[bool, int] = False,
     union: bool = False,
     threads: int = 1,
@@ -91,6 +92,8 @@ def repair(
         As `mesh` takes them.
     weld
         First join points that are this near to each other, and put points that are this near to a side or triangle on it.
+    join
+        Then make triangles that overlap at most this far from each other, some last bits, the same where they do. Points stay.
     fill_holes
         Close holes: True, or the most sides that the border of one may have.
     union
@@ -120,7 +123,7 @@ def repair(
     sides = 2**62 if fill_holes is True else int(fill_holes)
     if sides < 0 or 0 < sides < 3:
         raise ValueError(f"fill_holes={fill_holes}: a hole has three sides at least")
-    options.update(weld=float(weld), fill_holes=sides, union=bool(union), threads=int(threads))
+    options.update(weld=float(weld), join=float(join), fill_holes=sides, union=bool(union), threads=int(threads))
     what = surface_of(surface, triangles, segments=segments, triangle_markers=triangle_markers,
                       segment_markers=segment_markers)
     with Shown(progress, "repair") as callback:

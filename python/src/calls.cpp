@@ -26,6 +26,7 @@
 #include "limits.h"
 #include "named.h"
 #include "register.h"
+#include "repaired.h"
 #include "reports.h"
 #include "watch.h"
 
@@ -172,6 +173,30 @@ std::shared_ptr<Result> mesh_pasted(const std::shared_ptr<PasteResult>& pasted, 
   return std::make_shared<Result>(mesh(*pasted, how));
 }
 
+/// (repair, mesh) where a repaired surface without a mesh in doubles has one once sheets are joined; or None.
+py::object mesh_joined_arrays(const py::tuple& surface, const Repair& before, const Result& without,
+                              const py::dict& options, const py::object& size, const py::object& metric,
+                              const py::object& progress) {
+  Arrays arrays;
+  const SurfaceArrays held = surface_from(surface);
+  set(arrays, held);
+  const Fields fields{size, metric};
+  Options how = mesh_options(options, fields);
+  const Watch watch(progress);
+  how.progress = [&watch](const Progress& at) { return watch.go_on(name(at.stage), at.overall); };
+  const auto repaired = std::make_shared<Repair>(before);
+  const auto result = std::make_shared<Result>(without);
+  repaired->options.progress = [&watch](double fraction) { return watch.go_on("repair", fraction); };
+  bool has_mesh = false;
+  {
+    const py::gil_scoped_release unlocked;
+    has_mesh = mesh_joined(arrays.view(), how, repaired->options, repaired->result, *result);
+  }
+  repaired->options.progress = {};
+  if (!has_mesh) return py::none();
+  return py::make_tuple(repaired, result);
+}
+
 py::tuple diagnose_arrays(const py::tuple& surface, const py::dict& options, const py::object& progress) {
   Arrays arrays;
   const SurfaceArrays held = surface_from(surface);
@@ -270,6 +295,7 @@ void register_calls(py::module_& module) {
 
   module.def("mesh", &mesh_arrays);
   module.def("mesh_pasted", &mesh_pasted);
+  module.def("mesh_joined", &mesh_joined_arrays);
   module.def("diagnose", &diagnose_arrays);
   module.def("check", &check_arrays);
   module.def("delaunay", &delaunay_points);

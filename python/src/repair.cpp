@@ -14,17 +14,12 @@
 #include "limits.h"
 #include "register.h"
 #include "repair_check.h"
+#include "repaired.h"
 #include "reports.h"
 #include "watch.h"
 
 namespace holdfast::python {
 namespace {
-
-/// A repair with what it was asked for, of which a check needs to know.
-struct Repair {
-  RepairResult result;
-  RepairOptions options;
-};
 
 SurfaceArrays surface_from(const py::tuple& arrays) {
   return {py::cast<py::array>(arrays[0]), arrays[1], arrays[2], arrays[3], arrays[4], arrays[5], arrays[6]};
@@ -39,6 +34,7 @@ std::shared_ptr<Repair> repair_arrays(const py::tuple& surface, const py::dict& 
   RepairOptions& how = repaired->options;
   take_limits(options, how);
   take(options, "weld", how.weld);
+  take(options, "join", how.join);
   std::size_t sides = 0;
   take(options, "fill_holes", sides);
   if (sides > 0) how.fill_holes = sides;
@@ -71,7 +67,8 @@ std::string check_repair_arrays(const py::tuple& surface, const Repair& repaired
 
 std::string report_of(const Repair& repaired) {
   const RepairOptions& options = repaired.options;
-  reports::Json asked{{"weld", options.weld}, {"union", options.unite}, {"threads", options.threads}};
+  reports::Json asked{
+      {"weld", options.weld}, {"join", options.join}, {"union", options.unite}, {"threads", options.threads}};
   return reports::text_of(reports::to_json(repaired.result, std::move(asked)));
 }
 
