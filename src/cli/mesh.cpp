@@ -100,6 +100,9 @@ int conclude(const MeshArguments& arguments, const Surface& surface, const Resul
             "nearer to the origin may have a mesh in doubles\n");
       else
         say("the mesh with exact coordinates is in {}\n", arguments.exact.string());
+      if (!arguments.repair)
+        say("if sheets of it lie some last bits apart, as those of z = 0.3 and z = 0.1 + 0.2, --repair joins "
+            "them\n");
       return exit_not_representable;
   }
   return exit_internal_error;
