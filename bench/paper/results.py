@@ -121,9 +121,9 @@ def why(told):
             "has what is missing after Delaunay alone, and the points that partition takes then.",
             f"* Fig. 15 lacks {number(touching['arper'])} edges after our flips, 12 after the paper's enforcement: our flips are given a bounded effort, since "
             "partition and the cavities of facets cost less than searching on. The points that are left in the end are fewer, and so is the time.",
-            f"* cami1: Target is the same. The lever is not cami1. With `--quality fast` Q is {number(lever['fast']['Q'])}, and the least dihedral angle "
-            f"{number(lever['fast']['angle'])} degrees; the default goes on from there, and its energy (`src/optimise/energy.h`), which counts dihedral "
-            f"angles and not Q, trades that for {number(lever['angle'])} degrees and Q {number(lever['Q'])}.",
+            f"* cami1: Target is the same. The lever is not cami1. Q is {number(lever['fill']['Q'])} with `--fill` and {number(lever['fast']['Q'])} with "
+            "`--quality fast`. The energy that the default lowers (`src/optimise/energy.h`) counts dihedral angles and not Q; the least one is "
+            f"{number(lever['fill']['angle'])}, {number(lever['fast']['angle'])} and {number(lever['angle'])} degrees with `--fill`, `fast` and by default.",
             "* try5.2: the transistor that stands in for it has 13,858 triangles for 13,482, since its cells along a side are a "
             "whole number, 13. Its worst elements are slivers of the thin layers, which are not forced: with `--fill` Q is "
             f"{number(layers['fill']['Q'])}, with `--quality fast` {number(layers['fast']['Q'])}. The least dihedral angle is {number(layers['angle'])} degrees by "
