@@ -17,6 +17,19 @@
 
 namespace holdfast::testing {
 
+/// The three methods, and what one of them has a choice of.
+struct Way {
+  PlaneMethod method;
+  PlaneEars ears = PlaneEars::first;
+  bool partition_first = false;
+};
+inline constexpr Way kWays[] = {{PlaneMethod::ears},
+                                {PlaneMethod::ears, PlaneEars::best},
+                                {PlaneMethod::ears, PlaneEars::join},
+                                {PlaneMethod::swaps},
+                                {PlaneMethod::partition},
+                                {PlaneMethod::partition, PlaneEars::first, true}};
+
 inline bool lies_between(const PlanePoint& a, const PlanePoint& b, const PlanePoint& p) {
   return exact::orient2d(a.data(), b.data(), p.data()) == 0 && p != a && p != b && std::min(a, b) < p &&
          p < std::max(a, b);

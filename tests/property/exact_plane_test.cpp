@@ -23,18 +23,8 @@ using plane::Corners3;
 using plane::ExactPlane;
 using plane::Points;
 using plane::Vertex;
-
-struct Way {
-  PlaneMethod method;
-  PlaneEars ears = PlaneEars::first;
-  bool partition_first = false;
-};
-constexpr Way kWays[] = {{PlaneMethod::ears},
-                         {PlaneMethod::ears, PlaneEars::best},
-                         {PlaneMethod::ears, PlaneEars::join},
-                         {PlaneMethod::swaps},
-                         {PlaneMethod::partition},
-                         {PlaneMethod::partition, PlaneEars::first, true}};
+using testing::kWays;
+using testing::Way;
 
 PlaneOptions options_of(const Way& way, bool delaunay) {
   PlaneOptions options;

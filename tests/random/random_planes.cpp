@@ -12,18 +12,8 @@
 namespace {
 
 using namespace holdfast;
-
-struct Way {
-  PlaneMethod method;
-  PlaneEars ears = PlaneEars::first;
-  bool partition_first = false;
-};
-constexpr Way kWays[] = {{PlaneMethod::ears},
-                         {PlaneMethod::ears, PlaneEars::best},
-                         {PlaneMethod::ears, PlaneEars::join},
-                         {PlaneMethod::swaps},
-                         {PlaneMethod::partition},
-                         {PlaneMethod::partition, PlaneEars::first, true}};
+using testing::kWays;
+using testing::Way;
 
 struct Counts {
   std::size_t spoilt = 0, solved = 0, empty = 0, triangles = 0, swaps = 0, partition_points = 0, ears = 0,
