@@ -69,8 +69,8 @@ struct ReadOptions : Limits {
                                                 const ReadOptions& options = {});
 [[nodiscard]] HOLDFAST_API Surface read_surface(const std::filesystem::path& path, std::string_view format);
 
-/// Reads a volume: .vtu, .vtk, .mesh, .meshb, .msh, and .node, .ele, .face, .edge (TetGen) beside one
-/// another; each also packed by gzip.
+/// Reads a volume: .vtu, .vtk, .mesh, .meshb, .msh, .node, .ele, .face, .edge (TetGen) beside one another,
+/// and what else `readable_volume_formats` names (docs/formats.md); each also packed by gzip.
 ///
 /// Region ids are references (.mesh, .meshb), the cell array "region" (.vtu, .vtk), physical or else
 /// elementary tags (.msh), the first attribute (.ele); 0 where there is none. Vertices of .msh are

@@ -149,51 +149,58 @@ py::tuple facet_regions(const std::vector<FacetRegions>& regions) {
   return py::make_tuple(ids, none);
 }
 
+/// What a call of `mesh` is asked for. It stays where it is: sizes and progress refer to it.
+struct MeshCall {
+  MeshCall(const py::dict& options, const py::object& size, const py::object& metric,
+           const py::object& progress)
+      : fields{size, metric}, watch(progress), how(mesh_options(options, fields)) {
+    how.progress = [this](const Progress& at) { return watch.go_on(name(at.stage), at.overall); };
+  }
+  MeshCall(const MeshCall&) = delete;
+  MeshCall& operator=(const MeshCall&) = delete;
+  ~MeshCall() = default;
+
+  const Fields fields;
+  const Watch watch;
+  Options how;
+};
+
 std::shared_ptr<Result> mesh_arrays(const py::tuple& surface, const py::dict& options, const py::object& size,
                                     const py::object& metric, const py::object& progress) {
   Arrays arrays;
   const SurfaceArrays held = surface_from(surface);
   set(arrays, held);
-  const Fields fields{size, metric};
-  Options how = mesh_options(options, fields);
-  const Watch watch(progress);
-  how.progress = [&watch](const Progress& at) { return watch.go_on(name(at.stage), at.overall); };
+  const MeshCall call(options, size, metric, progress);
   const py::gil_scoped_release unlocked;
-  return std::make_shared<Result>(mesh(arrays.view(), how));
+  return std::make_shared<Result>(mesh(arrays.view(), call.how));
 }
 
 std::shared_ptr<Result> mesh_pasted(const std::shared_ptr<PasteResult>& pasted, const py::dict& options,
                                     const py::object& size, const py::object& metric,
                                     const py::object& progress) {
-  const Fields fields{size, metric};
-  Options how = mesh_options(options, fields);
-  const Watch watch(progress);
-  how.progress = [&watch](const Progress& at) { return watch.go_on(name(at.stage), at.overall); };
+  const MeshCall call(options, size, metric, progress);
   const py::gil_scoped_release unlocked;
-  return std::make_shared<Result>(mesh(*pasted, how));
+  return std::make_shared<Result>(mesh(*pasted, call.how));
 }
 
-/// (repair, mesh) where a repaired surface without a mesh in doubles has one once sheets are joined; or None.
+/// Where a repaired surface has no mesh in doubles, (repair, mesh) after sheets were joined, or the same two
+/// with the limit that ended this; None where there is nothing to join.
 py::object mesh_joined_arrays(const py::tuple& surface, const Repair& before, const Result& without,
                               const py::dict& options, const py::object& size, const py::object& metric,
                               const py::object& progress) {
+  if (without.outcome != Outcome::not_representable) return py::none();
   Arrays arrays;
   const SurfaceArrays held = surface_from(surface);
   set(arrays, held);
-  const Fields fields{size, metric};
-  Options how = mesh_options(options, fields);
-  const Watch watch(progress);
-  how.progress = [&watch](const Progress& at) { return watch.go_on(name(at.stage), at.overall); };
+  const MeshCall call(options, size, metric, progress);
   const auto repaired = std::make_shared<Repair>(before);
   const auto result = std::make_shared<Result>(without);
-  repaired->options.progress = [&watch](double fraction) { return watch.go_on("repair", fraction); };
-  bool has_mesh = false;
+  repaired->options.progress = [&call](double fraction) { return call.watch.go_on("repair", fraction); };
   {
     const py::gil_scoped_release unlocked;
-    has_mesh = mesh_joined(arrays.view(), how, repaired->options, repaired->result, *result);
+    static_cast<void>(mesh_joined(arrays.view(), call.how, repaired->options, repaired->result, *result));
   }
   repaired->options.progress = {};
-  if (!has_mesh) return py::none();
   return py::make_tuple(repaired, result);
 }
 

@@ -51,17 +51,31 @@ def test_repair_and_mesh_at_once():
     assert np.array_equal(mesh.points[:16], points)
 
 
-def test_sheets_a_last_bit_apart_are_joined():
-    """Boxes stacked half in each other: sums of 0.05 make sheets that differ in their last bits, and no mesh in doubles."""
+def stacked_boxes():
+    """Half in each other: sums of 0.05 make sheets that differ in their last bits, and no mesh in doubles."""
     rng, points, low = random.Random(1), [], 0.0
     for _ in range(8):
         x, y = rng.uniform(0, 0.5), rng.uniform(0, 0.5)
         points += [(x + a, y + b, low + 0.1 if c else low) for a, b, c in CUBE]
         low += 0.05
-    triangles = np.vstack([FACES + 8 * i for i in range(8)])
-    mesh = holdfast.mesh(points, triangles, repair=True, fill=True)
+    return points, np.vstack([FACES + 8 * i for i in range(8)])
+
+
+def test_sheets_a_last_bit_apart_are_joined():
+    mesh = holdfast.mesh(*stacked_boxes(), repair=True, fill=True)
     assert holdfast.check(mesh.repair.surface, mesh) and mesh.repair.check()["holds"]
     assert mesh.repair.report["options"]["join"] > 0 and mesh.repair.moved == {} and mesh.repair.max_displacement < 1e-14
+
+
+def test_a_cancel_while_sheets_are_joined_is_told():
+    stages = []
+
+    def cancel_the_second_repair(stage, _):
+        stages.append(stage)
+        return stage != "repair" or set(stages) == {"repair"}
+
+    with pytest.raises(holdfast.Cancelled):
+        holdfast.mesh(*stacked_boxes(), repair=True, fill=True, progress=cancel_the_second_repair)
 
 
 def test_what_is_refused():

@@ -40,6 +40,7 @@ void mesh_joined_sheets(const Surface& given, Options& options, ProgressView& pr
   const bool has_mesh = mesh_joined(given.view(), options, watched, repaired, result);
   progress.finish();
   if (!has_mesh) return;
+  const bool has_welded = watched.weld > repairing.weld;
   repairing.join = watched.join;
   repairing.weld = watched.weld;
   take_seeds(given, repaired.surface);
@@ -47,8 +48,7 @@ void mesh_joined_sheets(const Surface& given, Options& options, ProgressView& pr
   if (!quiet)
     say("{} of {} added points had no doubles; repaired again, with sheets within {:.2g} of each other "
         "joined{}: {}\n",
-        without_doubles, added, repairing.join, repairing.weld > 0 ? ", and vertices" : "",
-        summary_of(repaired));
+        without_doubles, added, repairing.join, has_welded ? ", and vertices" : "", summary_of(repaired));
 }
 
 }  // namespace holdfast::cli
