@@ -147,7 +147,7 @@ def run(command, folder, cpu_limit=None):
 class Bench:
     def __init__(self, arguments):
         self.holdfast = Path(arguments.holdfast).resolve()
-        self.checker, self.exact_checker = build_checkers(Path(arguments.rows).parent)
+        self.checker, self.exact_checker = build_checkers(Path(arguments.rows).resolve().parent)
         if arguments.checker:
             self.checker = Path(arguments.checker).resolve()
         self.autorefine = arguments.autorefine and Path(arguments.autorefine).resolve()
