@@ -11,8 +11,8 @@
 namespace holdfast {
 
 double attempt(Input& input, const Options& options, std::uint64_t seed, const Threads& threads,
-               Monitor& monitor, Result& result) {
-  const Attempt attempt{input, options, seed, threads, monitor};
+               Monitor& monitor, const FillAnew* fill_anew, Result& result) {
+  const Attempt attempt{input, options, seed, threads, monitor, fill_anew};
   const Course course(options, monitor, result.report);
   Report& report = result.report;
 

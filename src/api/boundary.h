@@ -12,6 +12,7 @@
 #include "mesh/monitor.h"
 #include "mesh/parallel.h"
 #include "mesh/tet_mesh.h"
+#include "optimise/optimise.h"
 #include "recover/standing.h"
 
 namespace holdfast {
@@ -23,6 +24,7 @@ struct Attempt {
   std::uint64_t seed;  ///< of all random orders
   const Threads& threads;
   Monitor& monitor;
+  const FillAnew* fill_anew;  ///< null: the optimisation fills no polyhedron anew
 
   [[nodiscard]] const Complex& complex() const { return input.complex(); }
   [[nodiscard]] Stage last_stage() const { return options.stop_after.value_or(Stage::optimise); }

@@ -48,9 +48,12 @@ void optimise_worst_of(const Attempt& attempt, BoxMesh& box, Division& division,
                        PointsToRemove remove, Report& report) {
   const OptimiseStats stats =
       optimise(box.mesh, tets, box.first_free, attempt.input.target(), attempt.threads, attempt.monitor,
-               {.add_points = attempt.options.add_points, .remove = remove, .seed = attempt.seed});
-  report.optimised = {stats.exchanged + stats.unflattened + stats.reconnected, stats.relocated,
-                      stats.inserted};
+               {.add_points = attempt.options.add_points,
+                .remove = remove,
+                .seed = attempt.seed,
+                .fill_anew = attempt.fill_anew});
+  report.optimised = {stats.exchanged + stats.unflattened + stats.reconnected + stats.filled_anew,
+                      stats.relocated, stats.inserted};
   if (stats.changed > 0)
     find_regions_again(box.mesh, attempt.complex().facets, division.regions, attempt.threads);
 }

@@ -14,6 +14,7 @@
 #include "api/attempt.h"
 #include "api/bounds.h"
 #include "api/course.h"
+#include "api/fill_polyhedron.h"
 #include "api/input.h"
 #include "api/judge.h"
 #include "api/remote_components.h"
@@ -29,15 +30,18 @@ namespace {
 
 constexpr std::size_t kMostAttempts = 5;
 
-// Where the worst element is so many times as bad as the facets ask for, other random orders may do better:
-// these, whatever the seed, so that runs with different seeds end with the same choice. Where facets are few,
-// trying costs next to nothing. Where a mesh with field points is near what they ask for, only what is very
-// far without these counts.
-constexpr double kNearTarget = 3, kFarFromTarget = 10, kVeryFarFromTarget = 30;
+// Where the worst element is so many times as bad as the facets ask for, polyhedra round it are filled anew:
+// from fewer times on where facets are few, and that costs next to nothing.
 constexpr std::size_t kFewFacets = 1'000;
+constexpr double kNearTarget = 3, kFarFromTarget = 10;
+
+// Where it still is, other random orders of the whole may do better: these, whatever the seed, so that runs
+// with different seeds end with the same choice. With many facets that takes long, and has to be worth it.
+// Where a mesh with field points is near what the facets ask for, only what is very far without these counts.
+constexpr double kFarWithoutField = 30, kVeryFarFromTarget = 1'000;
 constexpr std::size_t kOtherChoices = 8, kChoicesInVain = 4;
 constexpr std::uint64_t kFirstOtherSeed = 0x9E3779B97F4A7C15;
-constexpr std::size_t kMostFacetsForChoices = 5'000;  // larger ones take long
+constexpr std::size_t kMostFacetsForChoices = 5'000;
 
 // The one of the overloads that is no template.
 Result mesh_complex(const Complex& complex, const Options& options) { return mesh(complex, options); }
@@ -125,7 +129,16 @@ class Call {
     Options options = options_;
     options.flips = options.flips && result_.report.attempts % 2 == 0;
     ++result_.report.attempts;
-    worst_without_field_ = attempt(input_, options, seed_++, threads_, monitor_, result_);
+    worst_without_field_ = attempt(input_, options, seed_++, threads_, monitor_, &fill_anew_, result_);
+  }
+
+  [[nodiscard]] std::optional<Filling> fill(const Complex& polyhedron) {
+    try {
+      return fill_polyhedron(polyhedron, limits_, monitor_);
+    } catch (const std::logic_error&) {
+      warn_of(std::current_exception());
+      return std::nullopt;
+    }
   }
 
   static Limits started(const Limits& limits) {
@@ -170,19 +183,20 @@ class Call {
   // what is bad without them, that matters less.
   [[nodiscard]] double far_from_target() {
     const double target = input_.target();
-    if (options_.sizes && result_.report.elements.worst <= kNearTarget * target)
-      return kVeryFarFromTarget * target;
-    return target * (input_.complex().facets.size() <= kFewFacets ? kNearTarget : kFarFromTarget);
+    if (!has_few_facets()) return kVeryFarFromTarget * target;
+    const bool is_near = options_.sizes && result_.report.elements.worst <= kNearTarget * target;
+    return (is_near ? kFarWithoutField : kNearTarget) * target;
   }
+
+  [[nodiscard]] bool has_few_facets() const { return input_.complex().facets.size() <= kFewFacets; }
 
   void choose_the_best(double far) {
     std::size_t in_vain = 0;
     for (std::uint64_t k = 0;
          k < kOtherChoices && in_vain < kChoicesInVain && result_.report.elements.worst > far; ++k) {
       const double worst = result_.report.elements.worst;
-      ++in_vain;
       const bool goes_on = try_instead(options_, kFirstOtherSeed + k, [&](const Result& other) {
-        if (is_much_better(other.report.elements.worst, worst)) in_vain = 0;
+        in_vain = in_vain_with(other, worst, in_vain);
         return other.report.elements.worst < worst;
       });
       if (!goes_on) return;
@@ -195,10 +209,9 @@ class Call {
     std::optional<std::uint64_t> best;
     std::size_t in_vain = 0;
     for (std::uint64_t k = 0; k < kOtherChoices && in_vain < kChoicesInVain && worst > far; ++k) {
-      ++in_vain;
       const bool goes_on = try_instead(fill, kFirstOtherSeed + k, [&](const Result& other) {
+        in_vain = in_vain_with(other, worst, in_vain);
         if (other.report.elements.worst < worst) {
-          if (is_much_better(other.report.elements.worst, worst)) in_vain = 0;
           worst = other.report.elements.worst;
           best = kFirstOtherSeed + k;
         }
@@ -209,7 +222,12 @@ class Call {
     if (best) try_instead(options_, *best, [](const Result&) { return true; });
   }
 
-  static bool is_much_better(double x, double y) { return x < 0.8 * y; }
+  // How many orders in a row have not gained a fifth. The same worst element says as much as two others: it
+  // is seldom there by chance.
+  static std::size_t in_vain_with(const Result& other, double worst, std::size_t in_vain) {
+    if (other.report.elements.worst < 0.8 * worst) return 0;
+    return in_vain + (other.report.elements.worst == worst ? 2 : 1);
+  }
 
   // Another attempt in the place of the result, if it is done and `is_better`. Returns false where a limit or
   // an error has ended it.
@@ -218,7 +236,7 @@ class Call {
     Result before = std::exchange(result_, {});
     try {
       result_.report = of_all_attempts(before.report);
-      attempt(input_, options, seed, threads_, monitor_, result_);
+      attempt(input_, options, seed, threads_, monitor_, &fill_anew_, result_);
     } catch (const Interrupted& interrupted) {
       if (interrupted.outcome() == Outcome::cancelled) throw;
       go_back_to(std::move(before));
@@ -318,6 +336,8 @@ class Call {
   Input input_;
   std::uint64_t seed_ = options_.seed;  // of the next attempt
   double worst_without_field_ = 0;      // of the last one
+  const FillAnew fill_anew_{[this](const Complex& polyhedron) { return fill(polyhedron); },
+                            has_few_facets() ? kNearTarget : kFarFromTarget};
   Result result_;
 };
 

@@ -40,10 +40,12 @@ bool WithoutField::is_better_somewhere(const Figures& with_field) {
     if (before_.elements() > kManyTets && with_field.below_10_deg() == 0 && before_.below_10_deg() > 0 &&
         before_.mean_quality() > 2 * with_field.mean_quality())
       return false;
-    optimise(
-        mesh_, division_.tets(mesh_), first_free_, attempt_.input.target(), attempt_.threads,
-        attempt_.monitor,
-        {.add_points = attempt_.options.add_points, .remove = PointsToRemove::all, .seed = attempt_.seed});
+    optimise(mesh_, division_.tets(mesh_), first_free_, attempt_.input.target(), attempt_.threads,
+             attempt_.monitor,
+             {.add_points = attempt_.options.add_points,
+              .remove = PointsToRemove::all,
+              .seed = attempt_.seed,
+              .fill_anew = attempt_.fill_anew});
     find_regions_again(mesh_, attempt_.complex().facets, division_.regions, attempt_.threads);
     optimised_ = figures_of(mesh_, division_.tets(mesh_), attempt_.threads);
   }

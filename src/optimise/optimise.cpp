@@ -1,5 +1,6 @@
 #include "optimise/optimise.h"
 
+#include "optimise/fill_anew.h"
 #include "optimise/search.h"
 #include "optimise/shaking.h"
 #include "optimise/walking.h"
@@ -20,6 +21,7 @@ OptimiseStats optimise(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first
   if (!saves_points || !try_with_points(search)) shake_the_worst(search);
   if (options.remove == PointsToRemove::all) walk_from_the_worst(search);
   remove_points(search, options.remove == PointsToRemove::all ? 0 : points_before);
+  if (options.fill_anew != nullptr && saves_points) fill_anew_round_the_worst(search, *options.fill_anew);
   return search.stats();
 }
 

@@ -2,8 +2,11 @@
 // (paper §8).
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
+#include "holdfast/types.h"
 #include "mesh/monitor.h"
 #include "mesh/parallel.h"
 #include "mesh/tet_mesh.h"
@@ -17,6 +20,7 @@ struct OptimiseStats {
   std::size_t reconnected = 0;  ///< small polyhedra filled another way
   std::size_t inserted = 0;     ///< points for flat tetrahedra
   std::size_t removed = 0;      ///< points, these or others, that the mesh could do without in the end
+  std::size_t filled_anew = 0;  ///< polyhedra
   std::size_t changed = 0;      ///< tetrahedra made, those of attempts that came to nothing included
 };
 
@@ -24,10 +28,25 @@ struct OptimiseStats {
 /// are there for a size.
 enum class PointsToRemove { all, added_here };
 
+/// Tetrahedra that fill a complex: its vertices come first, then those added.
+struct Filling {
+  std::vector<Point> added;
+  std::vector<Tetrahedron> tetrahedra;
+};
+/// Fills what the facets of a complex enclose; nothing where it cannot.
+using Filler = std::function<std::optional<Filling>(const Complex&)>;
+
+/// How polyhedra round the worst elements are filled anew.
+struct FillAnew {
+  Filler fill;
+  double from_target = 1;  ///< elements so many times as bad as the facets ask for are worth it
+};
+
 struct OptimiseOptions {
   bool add_points = true;  ///< a few, for tetrahedra that are flat otherwise
   PointsToRemove remove = PointsToRemove::all;
-  std::uint64_t seed = 1;  ///< of the random orders
+  std::uint64_t seed = 1;               ///< of the random orders
+  const FillAnew* fill_anew = nullptr;  ///< null: no polyhedron is
 };
 
 /// Improves the worst of `tets`; others of their regions may go for them, and all vertices of these are

@@ -132,13 +132,14 @@ Badness Search::badness() const {
   return all;
 }
 
-std::optional<WaitingElement> Search::worst() {
+std::optional<WaitingElement> Search::worst(std::span<const TetMesh::Corners> left_out) {
   std::optional<WaitingElement> found;
   double most = good_;
   for (Tet t = 0; t < mesh_.slot_count(); ++t) {
     if (!mesh_.alive(t) || !is_ours(t)) continue;
     const double q = qualities_.of(t);
-    if (!(q > most)) continue;
+    if (!(q > most) || std::find(left_out.begin(), left_out.end(), mesh_.corners(t)) != left_out.end())
+      continue;
     most = q;
     found = WaitingElement{q, t, mesh_.corners(t)};
   }

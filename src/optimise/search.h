@@ -65,6 +65,7 @@ class Search {
   [[nodiscard]] Budget& budget() { return budget_; }
   [[nodiscard]] OptimiseStats& stats() { return stats_; }
   [[nodiscard]] std::mt19937_64& random() { return ways_.random(); }
+  void poll() { monitor_.poll(Stage::optimise, budget_.fraction()); }
   /// All points that may move, and some that are gone.
   [[nodiscard]] const std::vector<Vertex>& points() const { return points_; }
   [[nodiscard]] std::size_t points_in_mesh() const;
@@ -74,7 +75,12 @@ class Search {
   [[nodiscard]] Badness badness() const;
   /// The worst of the elements that are to be better, whether it waits, was given up, or neither; nothing
   /// where none is worse than good.
-  [[nodiscard]] std::optional<WaitingElement> worst();
+  /// None of these elements that are left out.
+  [[nodiscard]] std::optional<WaitingElement> worst(std::span<const TetMesh::Corners> left_out = {});
+  /// Vertices that are free, and new in the mesh.
+  void add_points(std::span<const Vertex> points) {
+    points_.insert(points_.end(), points.begin(), points.end());
+  }
   void forget(std::span<const Tet> tets) { qualities_.forget(tets); }
 
  private:

@@ -1,0 +1,18 @@
+// Part of a volume filled by itself, for the optimisation of the whole (optimise/fill_anew.h).
+#pragma once
+
+#include <optional>
+
+#include "holdfast/holdfast.h"
+#include "mesh/monitor.h"
+#include "optimise/optimise.h"
+
+namespace holdfast {
+
+/// Fills a polyhedron without field points, in random orders that do not depend on those of the whole. The
+/// limits are those of the call, whose monitor is polled. Nothing where the polyhedron is no valid complex,
+/// or some point has no doubles.
+[[nodiscard]] std::optional<Filling> fill_polyhedron(const Complex& polyhedron, const Limits& limits,
+                                                     Monitor& whole);
+
+}  // namespace holdfast

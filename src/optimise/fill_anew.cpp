@@ -1,0 +1,81 @@
+#include "optimise/fill_anew.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "optimise/forced_apex.h"
+#include "optimise/polyhedron.h"
+#include "optimise/tuning.h"
+
+namespace holdfast {
+namespace {
+
+// The filling joins the rest of the mesh, which may allow more.
+void improve_what_changed(Search& search, const Search::Trial& trial) {
+  const std::vector<Tet> changed = trial.before().changed();
+  search.forget(changed);
+  search.push(changed);
+  search.budget().fix(tuning::kShakeWork);
+  search.work_off(Ways::Points::none);
+}
+
+// As many points more, as many times better, and ten times at least.
+bool are_points_worth_it(const Search& search, const Search::Trial& trial, double gain) {
+  const std::size_t points = search.points_in_mesh();
+  return points <= trial.points() ||
+         gain >= std::max(tuning::kLeastPointGain, static_cast<double>(points - trial.points()));
+}
+
+bool fill_anew(Search& search, const Polyhedron& polyhedron, const Filler& fill) {
+  const std::optional<Filling> filling = fill(polyhedron.surface());
+  search.poll();
+  if (!filling || !polyhedron.is_filled_by(*filling)) return false;
+  const double gain = polyhedron.worst() / polyhedron.worst(*filling);
+  if (gain < tuning::kLeastGainOfFilling) return false;
+  Search::Trial trial(search, Search::Trial::Agenda::set_aside);
+  if (const auto added = polyhedron.replace(*filling)) {
+    search.add_points(*added);
+    improve_what_changed(search, trial);
+    if (trial.has_paid() && are_points_worth_it(search, trial, gain)) {
+      ++search.stats().filled_anew;
+      ++search.stats().changed;
+      return true;
+    }
+  }
+  trial.take_back();
+  return false;
+}
+
+// What is near an element that stays is left out from then on.
+bool fill_anew_round(Search& search, const WaitingElement& worst, const Filler& fill,
+                     std::vector<TetMesh::Corners>& left_out) {
+  left_out.push_back(worst.corners);
+  if (!may_be_better(search.mesh(), worst)) return false;
+  for (const std::size_t most : tuning::kFilledAnew) {
+    const Polyhedron polyhedron(search, worst.tet, most);
+    if (fill_anew(search, polyhedron, fill)) return true;
+    if (most == tuning::kFilledAnew.front())
+      for (const Tet t : polyhedron.tets()) left_out.push_back(search.mesh().corners(t));
+  }
+  return false;
+}
+
+}  // namespace
+
+void fill_anew_round_the_worst(Search& search, const FillAnew& how) {
+  const auto bad_from = [&](double targets) {
+    return std::max(tuning::kLeastFilledAnew, targets * search.target());
+  };
+  // What is less bad may be in the way of what is worst.
+  double worth_it = bad_from(how.from_target);
+  std::vector<TetMesh::Corners> left_out;
+  int vain = 0;
+  for (int k = 0; k < tuning::kMostFilledAnew && vain < tuning::kFilledAnewInVain; ++k) {
+    const std::optional<WaitingElement> worst = search.worst(left_out);
+    if (!worst || worst->quality < worth_it) return;
+    worth_it = bad_from(tuning::kFilledAnewForTarget);
+    if (!fill_anew_round(search, *worst, how.fill, left_out)) ++vain;
+  }
+}
+
+}  // namespace holdfast

@@ -1,0 +1,41 @@
+#include "optimise/forced_apex.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "mesh/quality.h"
+#include "numbers/vector.h"
+#include "optimise/walk_tuning.h"
+
+namespace holdfast {
+namespace {
+
+// Whether some vertex makes an element on face f whose Q is below `limit`, be it that it does not see the
+// facet: unless one does, no exchange betters the element at a facet.
+bool has_better_apex(const TetMesh& mesh, Face f, double limit) {
+  const std::array<Vertex, 3> v = mesh.face_vertices(f);
+  const Point &a = mesh.position(v[0]), &b = mesh.position(v[1]), &c = mesh.position(v[2]);
+  const Vector u = b - a, w = c - a, normal = cross(u, w);
+  const double longest = std::max({length(u), length(w), length(c - b)});
+  const double side = dot(mesh.position(mesh.apex(f)) - a, normal) > 0 ? 1 : -1;
+  // The inradius is below half of the height, so that most vertices need no Q.
+  const double least_height = 2 * kQualityOfRegular * longest / limit;
+  const double least = least_height * length(normal);
+  const std::span<const Point> positions = mesh.positions();
+  return std::any_of(positions.begin(), positions.end(), [&](const Point& p) {
+    return side * dot(p - a, normal) > least && quality(a, b, c, p) < limit;
+  });
+}
+
+}  // namespace
+
+bool may_be_better(const TetMesh& mesh, const WaitingElement& e) {
+  for (int i = 0; i < 4; ++i) {
+    const Face f = face_code(e.tet, i);
+    if (mesh.is_facet(f) && !has_better_apex(mesh, f, tuning::kForcedFrom * e.quality)) return false;
+  }
+  return true;
+}
+
+}  // namespace holdfast

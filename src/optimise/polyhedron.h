@@ -1,0 +1,48 @@
+// A polyhedron of tetrahedra of the mesh, cut out as a complex of its own.
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include "mesh/keys.h"
+#include "mesh/tet_mesh.h"
+#include "optimise/optimise.h"
+
+namespace holdfast {
+
+class Search;
+
+/// Tetrahedra of one region round one of them, breadth first, none across a facet. Facets and segments among
+/// them are constraints of the complex, and vertices that stand are its vertices; free ones inside are not.
+class Polyhedron {
+ public:
+  /// Of at most so many tetrahedra that the search is about.
+  Polyhedron(Search& search, Tet from, std::size_t most);
+
+  [[nodiscard]] const std::vector<Tet>& tets() const { return tets_; }
+  /// Its facets look outwards.
+  [[nodiscard]] Complex surface() const { return surface_.view(); }
+  /// The worst Q of its tetrahedra, and that of other ones.
+  [[nodiscard]] double worst() const;
+  [[nodiscard]] double worst(const Filling& filling) const;
+  /// Whether a filling has the faces of the polyhedron, and its vertices.
+  [[nodiscard]] bool is_filled_by(const Filling& filling) const;
+  /// Puts a filling in its place, and returns the points that came with it. Nothing, and the mesh is as it
+  /// was, where the doubles of the mesh turn a tetrahedron over.
+  [[nodiscard]] std::optional<std::vector<Vertex>> replace(const Filling& filling) const;
+
+ private:
+  void gather(const Search& search, std::size_t most);
+  void cut_out(Vertex first_free);
+  void cut_out_faces(Tet t, std::set<FaceKey>& walls);
+  [[nodiscard]] Index local(Vertex v) const;
+
+  TetMesh& mesh_;
+  std::vector<Tet> tets_;
+  std::vector<Vertex> vertices_;               // of the surface, in ascending order
+  std::vector<std::array<Vertex, 3>> facets_;  // of the surface
+  std::set<FaceKey> faces_;                    // between the polyhedron and the rest of the mesh
+  Surface surface_;
+};
+
+}  // namespace holdfast
