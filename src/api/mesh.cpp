@@ -236,7 +236,7 @@ class Call {
     Result before = std::exchange(result_, {});
     try {
       result_.report = of_all_attempts(before.report);
-      attempt(input_, options, seed, threads_, monitor_, &fill_anew_, result_);
+      attempt(input_, options, seed, threads_, monitor_, nullptr, result_);
     } catch (const Interrupted& interrupted) {
       if (interrupted.outcome() == Outcome::cancelled) throw;
       go_back_to(std::move(before));
