@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
+#include "mesh/traverse.h"
 #include "optimise/forced_apex.h"
 #include "optimise/polyhedron.h"
 #include "optimise/tuning.h"
@@ -52,7 +54,7 @@ bool fill_anew_round(Search& search, const WaitingElement& worst, const Filler& 
   left_out.push_back(worst.corners);
   if (!may_be_better(search.mesh(), worst)) return false;
   for (const std::size_t most : tuning::kFilledAnew) {
-    const Polyhedron polyhedron(search, worst.tet, most);
+    const Polyhedron polyhedron(search, {worst.tet}, most);
     if (fill_anew(search, polyhedron, fill)) return true;
     if (most == tuning::kFilledAnew.front())
       for (const Tet t : polyhedron.tets()) left_out.push_back(search.mesh().corners(t));
@@ -60,7 +62,43 @@ bool fill_anew_round(Search& search, const WaitingElement& worst, const Filler& 
   return false;
 }
 
+// `limit` is the worst Q that the place of a point may have.
+bool fill_anew_without(Search& search, Vertex p, const Filler& fill, double limit) {
+  std::vector<Tet> tets;
+  ball(search.mesh(), p, tets);
+  if (tets.size() > tuning::kMostFilledBall) return false;
+  const Polyhedron polyhedron(search, std::move(tets), tuning::kFilledAnew.front());
+  const std::optional<Filling> filling = fill(polyhedron.surface());
+  search.poll();
+  if (!filling || !polyhedron.is_filled_by(*filling) ||
+      polyhedron.worst(*filling) > std::max(limit, polyhedron.worst()))
+    return false;
+  Search::Trial trial(search, Search::Trial::Agenda::set_aside);
+  if (const auto added = polyhedron.replace(*filling)) {
+    search.add_points(*added);
+    search.forget(trial.before().changed());
+    if (search.points_in_mesh() < trial.points()) {
+      ++search.stats().removed;
+      ++search.stats().changed;
+      return true;
+    }
+  }
+  trial.take_back();
+  return false;
+}
+
 }  // namespace
+
+void fill_anew_without_points(Search& search, const FillAnew& how) {
+  const double limit = search.worst_without_point();
+  const std::vector<Vertex> points = search.points();
+  int vain = 0;
+  for (const Vertex p : points) {
+    if (!search.mesh().in_mesh(p)) continue;
+    if (vain == tuning::kPointsInVain) return;
+    vain = fill_anew_without(search, p, how.fill, limit) ? 0 : vain + 1;
+  }
+}
 
 void fill_anew_round_the_worst(Search& search, const FillAnew& how) {
   const auto bad_from = [&](double targets) {

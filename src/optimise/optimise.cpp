@@ -21,7 +21,10 @@ OptimiseStats optimise(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first
   if (!saves_points || !try_with_points(search)) shake_the_worst(search);
   if (options.remove == PointsToRemove::all) walk_from_the_worst(search);
   remove_points(search, options.remove == PointsToRemove::all ? 0 : points_before);
-  if (options.fill_anew != nullptr && saves_points) fill_anew_round_the_worst(search, *options.fill_anew);
+  if (options.fill_anew != nullptr && saves_points) {
+    fill_anew_without_points(search, *options.fill_anew);
+    fill_anew_round_the_worst(search, *options.fill_anew);
+  }
   return search.stats();
 }
 

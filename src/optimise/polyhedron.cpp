@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "mesh/editor.h"
 #include "mesh/quality.h"
@@ -11,17 +12,18 @@
 
 namespace holdfast {
 
-Polyhedron::Polyhedron(Search& search, Tet from, std::size_t most) : mesh_(search.mesh()), tets_{from} {
+Polyhedron::Polyhedron(Search& search, std::vector<Tet> from, std::size_t most)
+    : mesh_(search.mesh()), tets_(std::move(from)) {
   gather(search, most);
   cut_out(search.first_free());
   for (const Tet t : tets_) mesh_.clear_visited(t);
 }
 
 void Polyhedron::gather(const Search& search, std::size_t most) {
-  mesh_.mark_visited(tets_.front());
+  for (const Tet t : tets_) mesh_.mark_visited(t);
   for (std::size_t k = 0; k < tets_.size(); ++k)
     for (const Face across : mesh_.neighbours(tets_[k])) {
-      if (tets_.size() == most) return;
+      if (tets_.size() >= most) return;
       const Tet next = tet_of(across);
       if (mesh_.is_facet(across) || mesh_.is_ghost(next) || !search.is_ours(next) ||
           (mesh_.flags(next) & kVisited) != 0)

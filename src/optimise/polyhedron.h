@@ -1,6 +1,7 @@
 // A polyhedron of tetrahedra of the mesh, cut out as a complex of its own.
 #pragma once
 
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -12,12 +13,12 @@ namespace holdfast {
 
 class Search;
 
-/// Tetrahedra of one region round one of them, breadth first, none across a facet. Facets and segments among
+/// Tetrahedra of one region round some of them, breadth first, none across a facet. Facets and segments among
 /// them are constraints of the complex, and vertices that stand are its vertices; free ones inside are not.
 class Polyhedron {
  public:
-  /// Of at most so many tetrahedra that the search is about.
-  Polyhedron(Search& search, Tet from, std::size_t most);
+  /// Of at most so many tetrahedra that the search is about, or as many as it begins with.
+  Polyhedron(Search& search, std::vector<Tet> from, std::size_t most);
 
   [[nodiscard]] const std::vector<Tet>& tets() const { return tets_; }
   /// Its facets look outwards.

@@ -1,6 +1,7 @@
 // The search of the optimisation: the worst element first, by the cheapest way that helps (paper §8).
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -73,6 +74,11 @@ class Search {
   [[nodiscard]] bool is_ours(Tet t) const { return t >= is_others_.size() || !is_others_[t]; }
   [[nodiscard]] bool is_current(const WaitingElement& e);
   [[nodiscard]] Badness badness() const;
+  /// How bad an element may be for a point to go: as long as a worse one stays, nothing is worth a point but
+  /// null elements.
+  [[nodiscard]] double worst_without_point() const {
+    return std::max(bad_from_.flat, std::min(badness().worst, bad_from_.null));
+  }
   /// The worst of the elements that are to be better, whether it waits, was given up, or neither; nothing
   /// where none is worse than good.
   /// None of these elements that are left out.

@@ -82,9 +82,7 @@ void remove_points(Search& search, std::size_t from) {
   const std::vector<Vertex>& points = search.points();
   if (from == points.size()) return;
   TetMesh& mesh = search.mesh();
-  // As long as a worse one stays, nothing is worth a point but null elements.
-  const double limit =
-      std::max(search.bad_from().flat, std::min(search.badness().worst, search.bad_from().null));
+  const double limit = search.worst_without_point();
   Growth growth{.attempts = tuning::kWithoutPoint.attempts,
                 .steps = tuning::kWithoutPoint.steps,
                 .search = {.most_vertices = tuning::kWithoutPoint.most_vertices,

@@ -49,10 +49,13 @@ inline constexpr int kShakenEdges = 30;         ///< a shake
 /// changes.)
 inline constexpr std::size_t kMostShakenSlots = 1'000'000;
 /// Polyhedra that are filled anew: tetrahedra of the first and of the second that is tried; the least Q for
-/// which, and the least gain; polyhedra a mesh, and of these in vain.
+/// which, and the least gain; polyhedra a mesh, and of these in vain. Tetrahedra at a point that is to go,
+/// and points in vain.
 inline constexpr std::array<std::size_t, 2> kFilledAnew{100, 200};
 inline constexpr double kLeastFilledAnew = 10, kFilledAnewForTarget = 3, kLeastGainOfFilling = 1.1;
 inline constexpr int kMostFilledAnew = 40, kFilledAnewInVain = 3;
+inline constexpr std::size_t kMostFilledBall = 60;
+inline constexpr int kPointsInVain = 2;
 /// Tetrahedra of a shell that is exchanged: larger ones hardly ever pay, and cost their cube. With field
 /// points the elements are many, so that the rest is not worth the time.
 inline constexpr std::size_t kMostShellForQ = 12, kMostShellForEnergy = 9;

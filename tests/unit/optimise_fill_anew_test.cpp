@@ -68,7 +68,7 @@ Filling as_it_is(const TetMesh& mesh, const Polyhedron& polyhedron) {
 TEST(Polyhedron, HasAClosedSurfaceThatLooksOutwards) {
   for (const std::size_t most : {1u, 2u, 5u, 20u, 1000u}) {
     Searched s(3);
-    const Polyhedron polyhedron(s.search, s.tets[s.tets.size() / 2], most);
+    const Polyhedron polyhedron(s.search, {s.tets[s.tets.size() / 2]}, most);
     EXPECT_EQ(polyhedron.tets().size(), std::min(most, s.tets.size()));
     const Complex surface = polyhedron.surface();
     std::map<std::array<Index, 2>, int> sides;
@@ -90,7 +90,7 @@ TEST(Polyhedron, HasAClosedSurfaceThatLooksOutwards) {
 
 TEST(Polyhedron, IsFilledByItsOwnFacesAndVerticesAlone) {
   Searched s(5);
-  const Polyhedron polyhedron(s.search, s.tets.front(), 30);
+  const Polyhedron polyhedron(s.search, {s.tets.front()}, 30);
   const Filling whole = as_it_is(s.mesh, polyhedron);
   EXPECT_TRUE(polyhedron.is_filled_by(whole));
   EXPECT_EQ(polyhedron.worst(whole), polyhedron.worst());
@@ -105,7 +105,7 @@ TEST(Polyhedron, IsFilledByItsOwnFacesAndVerticesAlone) {
 
 TEST(Polyhedron, TakesNothingThatIsTurnedOver) {
   Searched s(5);
-  const Polyhedron polyhedron(s.search, s.tets.front(), 30);
+  const Polyhedron polyhedron(s.search, {s.tets.front()}, 30);
   Filling filling = as_it_is(s.mesh, polyhedron);
   std::swap(filling.tetrahedra.back()[0], filling.tetrahedra.back()[1]);
   filling.added.push_back({0, 0, 0});
@@ -127,7 +127,7 @@ TEST(Polyhedron, KeepsConstraintsInside) {
   const Tet other = s.tets.front();
   const auto [a, b] = ends_of_edge(s.mesh.corners(other), 2);
   editor.set_segment(other, a, b);
-  const Polyhedron polyhedron(s.search, t, 1000);
+  const Polyhedron polyhedron(s.search, {t}, 1000);
   const Complex surface = polyhedron.surface();
   const std::optional<Filling> filling = filled(surface);
   ASSERT_TRUE(filling);
@@ -236,6 +236,44 @@ TEST(FillAnew, TakesNoPointForLittle) {
   }
   EXPECT_GT(offered, 5);
   EXPECT_GT(better, 0);
+}
+
+// Points that a Delaunay mesh of the rest does without, where elements may be bad.
+TEST(FillAnew, DoesWithoutPoints) {
+  std::size_t gone = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    TetMesh mesh = slivers(0.2, seed, 3);
+    const auto first_free = static_cast<Vertex>(mesh.vertex_count());
+    for (int k = 0; k < 6; ++k) {
+      MeshEditor editor(mesh);
+      const std::vector<Tet> tets = solid(mesh);
+      const Tet t = tets[(7 * seed + 11 * static_cast<std::size_t>(k)) % tets.size()];
+      const TetMesh::Corners c = mesh.corners(t);
+      Point middle{};
+      for (const Vertex v : c)
+        for (std::size_t i = 0; i < 3; ++i) middle[i] += mesh.position(v)[i] / 4;
+      const Vertex p = editor.add_vertex(middle);
+      std::vector<TetMesh::Corners> four(4, c);
+      for (std::size_t i = 0; i < 4; ++i) four[i][i] = p;
+      editor.replace({.old_tets = std::vector<Tet>{t}, .new_tets = four});
+    }
+    const exact::Dyadic volume = volume_of(mesh);
+    const Limits limits;
+    const std::function<bool(const Progress&)> progress;
+    Monitor monitor(limits, progress);
+    const std::vector<Tet> tets = solid(mesh);
+    Search search(mesh, tets, first_free, kTarget, seed, 1, monitor);
+    const double limit = search.worst_without_point();
+    const std::size_t before = search.points_in_mesh();
+    ASSERT_EQ(before, 6U);
+    fill_anew_without_points(search, {filled, 3});
+    gone += before - search.points_in_mesh();
+    EXPECT_LE(search.badness().worst, limit);
+    EXPECT_EQ(find_fault(mesh), "");
+    EXPECT_EQ((volume_of(mesh) - volume).sign(), 0);
+    for (Vertex v = 0; v < first_free; ++v) EXPECT_TRUE(mesh.in_mesh(v));
+  }
+  EXPECT_GT(gone, 10U);
 }
 
 TEST(FillAnew, EndsWhereTheCallIsCancelled) {
