@@ -76,7 +76,7 @@ Surface double_fan(Index n) {
 }
 
 // Each cavity between the fans has thousands of tetrahedra. It took 30 times as long as the flips, and takes
-// twice as long: in time of the processor, which other programs do not change.
+// four times as long, or ten with sanitizers: in time of the processor, which other programs do not change.
 TEST(FieldPoints, CavitiesOfThousandsAreNotTriedWithoutEnd) {
   std::map<Stage, std::clock_t> begun;
   Options options;
@@ -87,7 +87,7 @@ TEST(FieldPoints, CavitiesOfThousandsAreNotTriedWithoutEnd) {
   };
   const Result result = mesh_with(double_fan(1000), {}, options);
   const auto between = [&](Stage first, Stage next) { return begun.at(next) - begun.at(first); };
-  EXPECT_LT(between(Stage::field_points, Stage::optimise), 10 * between(Stage::flips, Stage::partition));
+  EXPECT_LT(between(Stage::field_points, Stage::optimise), 18 * between(Stage::flips, Stage::partition));
 }
 
 TEST(FieldPoints, SizeIsTheLengthOfEdges) {
