@@ -16,6 +16,7 @@ std::optional<Filling> fill_polyhedron(const Complex& polyhedron, const Limits& 
     return true;
   };
   Monitor monitor(options);
+  monitor.poll_again();
   const Threads one(1);
   Input input(polyhedron, SamePlace::defect, options, one, monitor);
   Result result;

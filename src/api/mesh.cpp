@@ -134,11 +134,16 @@ class Call {
 
   [[nodiscard]] std::optional<Filling> fill(const Complex& polyhedron) {
     try {
+      // All of them together.
+      if (!end_of_filling_) end_of_filling_ = half_of_the_time();
+      const LessTime half(limits_, *end_of_filling_);
       return fill_polyhedron(polyhedron, limits_, monitor_);
+    } catch (const Interrupted& interrupted) {
+      if (interrupted.outcome() != Outcome::time_limit) throw;
     } catch (const std::logic_error&) {
       warn_of(std::current_exception());
-      return std::nullopt;
     }
+    return std::nullopt;
   }
 
   static Limits started(const Limits& limits) {
@@ -147,22 +152,27 @@ class Call {
     return own;
   }
 
-  // As long as it lives, half of the time that was left is all there is: for what may be done without, when a
-  // result is there that has to be delivered, and written, within the limit.
-  class HalfOfTheTime {
+  // As long as it lives, this is all the time there is: for what may be done without, when a result is there
+  // that has to be delivered, and written, within the limit.
+  class LessTime {
    public:
-    explicit HalfOfTheTime(Limits& limits) : limits_(limits), whole_(limits.time_limit) {
-      const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - *limits.started;
-      if (whole_ > 0) limits.time_limit = std::min(whole_, (gone.count() + whole_) / 2);
+    LessTime(Limits& limits, double limit) : limits_(limits), whole_(limits.time_limit) {
+      if (whole_ > 0) limits.time_limit = std::min(whole_, limit);
     }
-    HalfOfTheTime(const HalfOfTheTime&) = delete;
-    HalfOfTheTime& operator=(const HalfOfTheTime&) = delete;
-    ~HalfOfTheTime() { limits_.time_limit = whole_; }
+    LessTime(const LessTime&) = delete;
+    LessTime& operator=(const LessTime&) = delete;
+    ~LessTime() { limits_.time_limit = whole_; }
 
    private:
     Limits& limits_;
     const double whole_;
   };
+
+  // Half of what is left, in the terms of the limit.
+  [[nodiscard]] double half_of_the_time() const {
+    const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - *limits_.started;
+    return (gone.count() + limits_.time_limit) / 2;
+  }
 
   // What is flat is seldom forced. With field points the choice is that of the mesh without, to which they
   // are held.
@@ -172,7 +182,7 @@ class Call {
     if (!options_.optimise || !options_.add_points || !options_.flips || input_.parts() != nullptr ||
         !(worst > far) || input_.complex().facets.size() > kMostFacetsForChoices)
       return;
-    const HalfOfTheTime half(limits_);
+    const LessTime half(limits_, half_of_the_time());
     if (options_.sizes)
       choose_for_field(worst, far);
     else
@@ -256,7 +266,7 @@ class Call {
   // counts, also where a limit or an error ends the next one: then returns false.
   bool try_again() {
     Result best = std::exchange(result_, {});
-    const HalfOfTheTime half(limits_);
+    const LessTime half(limits_, half_of_the_time());
     try {
       result_.report = of_all_attempts(best.report);
       try_once();
@@ -334,8 +344,9 @@ class Call {
   Monitor monitor_;
   const Threads threads_;
   Input input_;
-  std::uint64_t seed_ = options_.seed;  // of the next attempt
-  double worst_without_field_ = 0;      // of the last one
+  std::uint64_t seed_ = options_.seed;    // of the next attempt
+  double worst_without_field_ = 0;        // of the last one
+  std::optional<double> end_of_filling_;  // polyhedra, as a time limit
   const FillAnew fill_anew_{[this](const Complex& polyhedron) { return fill(polyhedron); },
                             has_few_facets() ? kNearTarget : kFarFromTarget};
   Result result_;
