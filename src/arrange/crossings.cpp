@@ -10,13 +10,14 @@ CrossingPoint& Crossings::of_facets(std::array<Index, 3> facets) {
   std::sort(facets.begin(), facets.end());
   Part& part = parts_[(facets[0] * 31u + facets[1] * 7u + facets[2]) % parts_.size()];
   const std::lock_guard lock(part.mutex);
-  const auto [at, is_new] = part.of_facets.try_emplace(facets);
-  if (is_new) {
+  const auto fresh = static_cast<Index>(part.all.size());
+  const Index number = part.of_facets.find_or_add(facets, fresh);
+  if (number == fresh) {
     exact::SpacePoint point = exact::crossing(planes_[facets[0]], planes_[facets[1]], planes_[facets[2]]);
     const Point nearest = exact::nearest(point);
-    at->second = &part.all.emplace_back(CrossingPoint{std::move(point), nearest});
+    part.all.push_back({std::move(point), nearest});
   }
-  return *at->second;
+  return part.all[number];
 }
 
 CrossingPoint& Crossings::add(exact::SpacePoint point) {

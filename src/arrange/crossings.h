@@ -4,10 +4,10 @@
 
 #include <array>
 #include <deque>
-#include <map>
 #include <mutex>
 
 #include "arrange/facet_planes.h"
+#include "arrange/index_table.h"
 #include "exact/space_point.h"
 #include "holdfast/types.h"
 
@@ -34,8 +34,8 @@ class Crossings {
   /// Points by the facets that make them, in parts that are locked one by one.
   struct Part {
     std::mutex mutex;
-    std::map<std::array<Index, 3>, CrossingPoint*> of_facets;
     std::deque<CrossingPoint> all;
+    IndexTable<3> of_facets;  // into `all`
   };
 
   const FacetPlanes& planes_;

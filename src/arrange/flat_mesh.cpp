@@ -131,10 +131,10 @@ void FlatMesh::split_edge(EdgeCode e, Vertex p) {
   if (!constrained) return;
   mesh_.constrain(code(t0, 2));
   mesh_.constrain(code(t1, 1));
-  if (const auto at = line_of_.find(key(u, w)); at != line_of_.end()) {
-    const std::uint32_t line = at->second;
-    line_of_.erase(at);
-    line_of_[key(u, p)] = line_of_[key(p, w)] = line;
+  // The whole edge, which never comes back, keeps its entry.
+  if (const std::uint32_t line = line_of_.find(key(u, w)); line != no_entity) {
+    line_of_.find_or_add(key(u, p), line);
+    line_of_.find_or_add(key(p, w), line);
   }
 }
 
@@ -217,7 +217,7 @@ FlatMesh::Departure FlatMesh::depart(Vertex from, Vertex to, Vertex behind) cons
 
 void FlatMesh::constrain(Vertex from, Vertex to, std::uint32_t line) {
   mesh_.constrain(edge_between(from, to));
-  line_of_.try_emplace(key(from, to), line);
+  line_of_.find_or_add(key(from, to), line);
 }
 
 void FlatMesh::lay(Vertex from, Vertex to, const std::vector<EdgeCode>& crossed, std::uint32_t line) {
@@ -243,7 +243,7 @@ void FlatMesh::insert_segment(Vertex a, Vertex b, std::uint32_t line, const Cros
     Vertex next = kNoVertex;
     while (next == kNoVertex) {
       if (mesh_.constrained(leave)) {
-        const Vertex p = crossing(line, line_of_.at(key(mesh_.from(leave), mesh_.to(leave))));
+        const Vertex p = crossing(line, line_of_.find(key(mesh_.from(leave), mesh_.to(leave))));
         mesh_.add_star(0);
         split_edge(leave, p);
         // The triangles at the edge have changed; the way to p crosses no segment.

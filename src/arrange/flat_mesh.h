@@ -1,13 +1,15 @@
 // A triangulation in the plane that grows by points and segments; segments that cross are cut where they do.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
+#include "arrange/index_table.h"
 #include "numbers/random.h"
+#include "numbers/sorted.h"
 #include "plane/triangles.h"
 
 namespace holdfast::arrange {
@@ -63,17 +65,15 @@ class FlatMesh {
   void constrain(Vertex from, Vertex to, std::uint32_t line);
   template <class Visit>
   void for_each_corner(Vertex v, Visit&& visit) const;
-  static std::uint64_t key(Vertex a, Vertex b) {
-    return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
-  }
+  static std::array<Index, 2> key(Vertex a, Vertex b) { return ascending(std::array<Index, 2>{a, b}); }
 
   plane::Points& points_;
   plane::Triangles mesh_;
   std::vector<std::uint8_t> sides_;  // by vertex, those that it is known to lie on; too short where none is
-  std::unordered_map<std::uint64_t, std::uint32_t> line_of_;  // of edges that are pieces of segments
-  mutable std::uint32_t last_ = 0;                            // where the search for a point begins
-  std::vector<EdgeCode> pending_;                             // edges that may have to be exchanged
-  std::optional<numbers::Random> random_;                     // once it is needed
+  IndexTable<2> line_of_;            // of edges that are pieces of segments, or were
+  mutable std::uint32_t last_ = 0;   // where the search for a point begins
+  std::vector<EdgeCode> pending_;    // edges that may have to be exchanged
+  std::optional<numbers::Random> random_;  // once it is needed
 };
 
 }  // namespace holdfast::arrange
