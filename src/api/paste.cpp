@@ -192,7 +192,7 @@ void compare_with_parents(const Complex& joined, std::span<const Index> part, Pa
 }
 
 /// A tolerance above the size of details makes far more facets than there were, most of which cross.
-bool is_hopeless(const repairing::State& state, const Step& step, const Threads& threads) {
+bool is_hopeless(repairing::State& state, const Step& step, const Threads& threads) {
   const std::size_t most = 1000 + 10 * state.input_vertices;
   return repairing::trouble_of(state, step, threads, most).size() > most;
 }

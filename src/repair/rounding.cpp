@@ -150,6 +150,7 @@ class Rounding {
     if (rounded_.state.known.empty() && rounded_.state.sheet.empty()) return true;
     rounded_.state.doubt_all();
     trouble_ = trouble_of(rounded_.state, here(), threads_);
+    if (trouble_.none()) rounded_.state.doubt_all();  // so that it is not looked at once more
     return trouble_.none();
   }
 

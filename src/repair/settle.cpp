@@ -188,7 +188,7 @@ class Settling {
 
 }  // namespace
 
-Trouble trouble_of(const State& state, const Step& step, const Threads& threads, std::size_t most) {
+Trouble trouble_of(State& state, const Step& step, const Threads& threads, std::size_t most) {
   const Complex complex = state.complex();
   const Elements elements = elements_of(complex, threads);
   Trouble trouble;
@@ -207,6 +207,11 @@ Trouble trouble_of(const State& state, const Step& step, const Threads& threads,
     if (flaw.kind == DefectKind::degenerate_facet) trouble.facets.push_back(flaw.id);
   sort_unique(trouble.facets);
   sort_unique(trouble.segments);
+  if (trouble.size() <= most) {
+    state.sheet.clear();
+    state.known.assign(state.facets.size(), 1);
+    for (const Index f : trouble.facets) state.known[f] = 0;
+  }
   return trouble;
 }
 

@@ -17,8 +17,8 @@ struct Trouble {
   [[nodiscard]] bool none() const { return size() == 0; }
 };
 
-/// Stops once there are more than `most` of them.
-[[nodiscard]] Trouble trouble_of(const State& state, const Step& step, const Threads& threads,
+/// Stops once there are more than `most` of them; else the state knows the other facets from then on.
+[[nodiscard]] Trouble trouble_of(State& state, const Step& step, const Threads& threads,
                                  std::size_t most = SIZE_MAX);
 
 struct Settle {

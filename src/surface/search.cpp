@@ -369,52 +369,55 @@ class Search {
   std::vector<exact::OrientFilter> sides_;  // of each facet's plane, where there are sheets
 };
 
-// The elements that are not known and those whose boxes overlap one of theirs, and which of them are known.
-std::pair<Elements, std::vector<std::uint8_t>> near_unknown(const Complex& complex, const Elements& elements,
-                                                            std::span<const std::uint8_t> known,
-                                                            const Threads& threads) {
-  std::vector<Box> boxes;
-  for (Index e = 0; e < elements.all.size(); ++e)
-    if (known[e] == 0) boxes.push_back(box_of(complex, elements.all[e]));
-  const AabbTree tree(boxes);
-  std::vector<std::uint8_t> is_near(elements.all.size());
-  parallel_ranges(threads, elements.all.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t e = first; e < last; ++e)
-      is_near[e] = known[e] == 0 || tree.overlaps_any(box_of(complex, elements.all[e]));
-  });
-  std::pair<Elements, std::vector<std::uint8_t>> near;
-  for (Index e = 0; e < elements.all.size(); ++e) {
-    if (is_near[e] == 0) continue;
-    near.first.all.push_back(elements.all[e]);
-    near.second.push_back(known[e]);
+// The elements that are not known and those whose boxes overlap one of theirs.
+struct NearUnknown {
+  Elements elements;
+  std::vector<std::uint8_t> known;
+  std::vector<Index> number;  // of each, among all elements
+
+  NearUnknown(const Complex& complex, const Elements& all, std::span<const std::uint8_t> known_of_all,
+              const Threads& threads) {
+    std::vector<Box> boxes;
+    for (Index e = 0; e < all.all.size(); ++e)
+      if (known_of_all[e] == 0) boxes.push_back(box_of(complex, all.all[e]));
+    const AabbTree tree(boxes);
+    std::vector<std::uint8_t> is_near(all.all.size());
+    parallel_ranges(threads, all.all.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t e = first; e < last; ++e)
+        is_near[e] = known_of_all[e] == 0 || tree.overlaps_any(box_of(complex, all.all[e]));
+    });
+    for (Index e = 0; e < all.all.size(); ++e) {
+      if (is_near[e] == 0) continue;
+      elements.all.push_back(all.all[e]);
+      known.push_back(known_of_all[e]);
+      number.push_back(e);
+    }
   }
-  return near;
-}
+};
 
 }  // namespace
 
 void for_each_offending_pair(const Complex& complex, const Elements& elements, const VisitPair& visit,
                              const Step& step, const SearchTuning& tuning, Known known) {
-  Search(complex, elements, known, visit, step, tuning).run();
+  constexpr std::size_t kFew = 4;  // a part of all
+  const auto unknown =
+      static_cast<std::size_t>(std::count(known.each.begin(), known.each.end(), std::uint8_t{0}));
+  if (known.each.empty() || !known.sheet.empty() || unknown >= elements.all.size() / kFew)
+    return Search(complex, elements, known, visit, step, tuning).run();
+  const NearUnknown near(complex, elements, known.each, tuning.threads);
+  const VisitPair visit_near = [&](Index i, Index j, const Contacts& contacts) {
+    return visit(near.number[i], near.number[j], contacts);
+  };
+  Search(complex, near.elements, near.known, visit_near, step, tuning).run();
 }
 
 bool all_fit(const Complex& complex, const Elements& elements, Known known, const Step& step,
              const Threads& threads) {
-  constexpr std::size_t kFew = 4;  // a part of all
-  Elements near;
-  std::vector<std::uint8_t> near_known;
-  const auto unknown =
-      static_cast<std::size_t>(std::count(known.each.begin(), known.each.end(), std::uint8_t{0}));
-  const bool reduced = !known.each.empty() && known.sheet.empty() && unknown < elements.all.size() / kFew;
-  if (reduced) std::tie(near, near_known) = near_unknown(complex, elements, known.each, threads);
   bool fit = true;
   const auto visit = [&](Index, Index, const Contacts&) { return fit = false; };
   SearchTuning tuning;
   tuning.threads = threads;
-  if (reduced)
-    for_each_offending_pair(complex, near, visit, step, tuning, near_known);
-  else
-    for_each_offending_pair(complex, elements, visit, step, tuning, known);
+  for_each_offending_pair(complex, elements, visit, step, tuning, known);
   return fit;
 }
 

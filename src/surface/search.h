@@ -72,11 +72,11 @@ struct Known {
 };
 
 /// Visits every pair of elements that do not meet in a common face or not at all, in no useful order; but
-/// for pairs of known ones.
+/// for pairs of known ones. Takes little more than a look at each element where few are not known.
 void for_each_offending_pair(const Complex& complex, const Elements& elements, const VisitPair& visit,
                              const Step& step, const SearchTuning& tuning = {}, Known known = {});
 
-/// Whether there is no such pair. Takes little more than a look at each element where few are not known.
+/// Whether there is no such pair.
 [[nodiscard]] bool all_fit(const Complex& complex, const Elements& elements, Known known, const Step& step,
                            const Threads& threads = 1);
 
