@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
+#include <tuple>
 
 #include "numbers/sorted.h"
 #include "repair/flatten.h"
@@ -206,12 +208,17 @@ class Rounding {
       best_ = Attempt{rounded_.state, trouble_, rounded_.displacement};
   }
 
+  /// The same sheets come again and again while others change.
   Rounded round_plane(State plane) {
-    RepairOptions options = options_;
-    options.exact = false;
-    RepairReport report;
-    ExactSurface exact;
-    return Rounding(std::move(plane), options, report, exact, here(), threads_, true).run();
+    const auto [at, is_new] = planes_.try_emplace({plane.vertices, plane.facets, plane.segments});
+    if (is_new) {
+      RepairOptions options = options_;
+      options.exact = false;
+      RepairReport report;
+      ExactSurface exact;
+      at->second = Rounding(std::move(plane), options, report, exact, here(), threads_, true).run();
+    }
+    return at->second;
   }
 
   /// Makes sheets one that lie in each other, whether they are in trouble or not.
@@ -350,6 +357,8 @@ class Rounding {
   Trouble trouble_;
   std::optional<Attempt> best_;  // of the plans so far
   State flattened_;              // by the last plan that began again
+  // What came of plane surfaces.
+  std::map<std::tuple<std::vector<Point>, std::vector<Triangle>, std::vector<Segment>>, Rounded> planes_;
 };
 
 }  // namespace
