@@ -13,22 +13,32 @@
 namespace holdfast::repairing {
 namespace {
 
-double height(const Point& p, const Point& a, const Vector& n) {
-  return std::fabs(dot(minus(p, a), n)) / length(n);
-}
+/// The plane of each facet, as often as it is asked for.
+struct Planes {
+  std::vector<Vector> normal;
+  std::vector<double> size;  // of each normal
 
-/// The coordinate axis that is steepest to the plane of a facet.
-unsigned axis_of(const State& state, Index f) {
-  const Vector n = normal_of(state, f);
+  explicit Planes(const State& state) {
+    for (Index f = 0; f < state.facets.size(); ++f) {
+      const Triangle& t = state.facets[f];
+      const bool is_facet =
+          std::all_of(t.begin(), t.end(), [&](Index v) { return v < state.vertices.size(); });
+      normal.push_back(is_facet ? normal_of(state, f) : Vector{});
+      size.push_back(length(normal.back()));
+    }
+  }
+};
+
+/// The coordinate axis that is steepest to a plane with this normal.
+unsigned axis_of(const Vector& n) {
   unsigned axis = 0;
   for (unsigned k = 1; k < 3; ++k)
     if (std::fabs(n[k]) > std::fabs(n[axis])) axis = k;
   return axis;
 }
 
-/// Whether two facets share area in the projection along the axis of the second.
-bool overlap(const State& state, Index f, Index g) {
-  const unsigned axis = axis_of(state, g);
+/// Whether two facets share area in the projection along an axis.
+bool overlap(const State& state, Index f, Index g, unsigned axis) {
   std::array<std::array<Point, 3>, 2> corners{};
   std::array<Simplex, 2> flat;
   for (std::size_t k = 0; k < 2; ++k) {
@@ -46,20 +56,21 @@ bool overlap(const State& state, Index f, Index g) {
 }
 
 /// Whether all of the first facet is near to the plane of the second.
-bool lies_in(const State& state, Index f, Index g, double gap) {
-  const Vector n = normal_of(state, g);
-  if (!(length(n) > 0)) return false;
+bool lies_in(const State& state, const Planes& planes, Index f, Index g, double gap) {
+  const Vector& n = planes.normal[g];
+  const double size = planes.size[g];
+  if (!(size > 0)) return false;
   const Point& origin = state.vertices[state.facets[g][0]];
-  return std::all_of(state.facets[f].begin(), state.facets[f].end(),
-                     [&](Index v) { return height(state.vertices[v], origin, n) <= gap; });
+  return std::all_of(state.facets[f].begin(), state.facets[f].end(), [&](Index v) {
+    return std::fabs(dot(minus(state.vertices[v], origin), n)) / size <= gap;
+  });
 }
 
 /// Takes the axis that is steepest to the largest facet, and leaves out what has no area along it.
-void keep_projected(const State& state, Cluster& cluster) {
-  const Index largest = *std::max_element(
-      cluster.facets.begin(), cluster.facets.end(),
-      [&](Index f, Index g) { return length(normal_of(state, f)) < length(normal_of(state, g)); });
-  cluster.axis = axis_of(state, largest);
+void keep_projected(const State& state, const Planes& planes, Cluster& cluster) {
+  const Index largest = *std::max_element(cluster.facets.begin(), cluster.facets.end(),
+                                          [&](Index f, Index g) { return planes.size[f] < planes.size[g]; });
+  cluster.axis = axis_of(planes.normal[largest]);
   std::erase_if(cluster.facets, [&](Index f) {
     std::array<std::array<double, 2>, 3> p{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -92,14 +103,17 @@ std::vector<Cluster> find_clusters(const State& state, double gap, std::span<con
     facet.push_back(f);
     boxes.push_back(box_round(state, t, gap));
   }
+  const Planes planes(state);
+  const auto share = [&](Index f, Index g) {
+    return lies_in(state, planes, f, g, gap) && overlap(state, f, g, axis_of(planes.normal[g]));
+  };
   DisjointSets sets(state.facets.size());
   std::set<Index> together;
   AabbTree(boxes).for_each_overlap(
       [&](Index i, Index j) {
         const Index f = facet[i], g = facet[j];
         if (is_some[f] + is_some[g] == 0) return true;
-        if ((lies_in(state, f, g, gap) && overlap(state, f, g)) ||
-            (lies_in(state, g, f, gap) && overlap(state, g, f))) {
+        if (sets.root(f) != sets.root(g) && (share(f, g) || share(g, f))) {
           sets.unite(f, g);
           together.insert(f);
           together.insert(g);
@@ -111,7 +125,7 @@ std::vector<Cluster> find_clusters(const State& state, double gap, std::span<con
   for (const Index f : together) by_first[sets.root(f)].facets.push_back(f);
   std::vector<Cluster> found;
   for (auto& [first, cluster] : by_first) {
-    keep_projected(state, cluster);
+    keep_projected(state, planes, cluster);
     if (cluster.facets.size() > 1) found.push_back(std::move(cluster));
   }
   return found;
