@@ -74,29 +74,39 @@ class Proposal {
     return result;
   }
 
-  /// A gap may need more than its width: where joining one brings two vertices into a new one.
+  /// A gap may need more than its width: where joining one brings two vertices into a new one, or leads a
+  /// side away from the next one. Where some are left whatever is tried, the least length counts that leaves
+  /// none as narrow as there were.
   RepairResult weld() {
     double widest = 0;
     for (const Gap& gap : summary_.gaps) widest = std::max(widest, gap.distance);
     if (!(widest > 0) || !std::isfinite(widest)) return {};
-    constexpr int kAttempts = 4;
-    double tolerance = one_digit_above(widest * (1 + 0x1p-19));
+    constexpr int kAttempts = 10;  // so that lengths go up to ten times as much
+    double tolerance = one_digit_above(widest * (1 + 0x1p-19)), fair_tolerance = 0;
+    RepairResult fair;
     for (int i = 0; i < kAttempts; ++i) {
       RepairResult result = attempt(tolerance);
-      const bool cured = result.outcome == Outcome::done && !has_gaps(result.surface, widest);
-      if (cured || !cures_.tried) {
-        cures_.cures.push_back({CureKind::weld, summary_.gaps.size(), widest, tolerance, 0, 0});
-        return result;
+      const double left =
+          result.outcome == Outcome::done ? narrowest_gap(result.surface) : 0;  // infinite: none is
+      if (left == HUGE_VAL || !cures_.tried) return propose_weld(widest, tolerance, std::move(result));
+      if (left > widest && fair_tolerance == 0) {
+        fair_tolerance = tolerance;
+        fair = std::move(result);
       }
       tolerance = one_digit_above(tolerance);
     }
-    return {};
+    return fair_tolerance > 0 ? propose_weld(widest, fair_tolerance, std::move(fair)) : RepairResult{};
   }
 
-  static bool has_gaps(const Surface& surface, double widest) {
-    const DefectSummary after = summarise(surface.view(), {});
-    return std::any_of(after.gaps.begin(), after.gaps.end(),
-                       [&](const Gap& gap) { return gap.distance <= widest; });
+  RepairResult propose_weld(double widest, double tolerance, RepairResult result) {
+    cures_.cures.push_back({CureKind::weld, summary_.gaps.size(), widest, tolerance, 0, 0});
+    return result;
+  }
+
+  static double narrowest_gap(const Surface& surface) {
+    double least = HUGE_VAL;
+    for (const Gap& gap : summarise(surface.view(), {}).gaps) least = std::min(least, gap.distance);
+    return least;
   }
 
   void fill(const Complex& valid) {

@@ -59,7 +59,8 @@ std::string open_holes_of(const RepairResult& result) {
 
 std::string summary_of(const RepairResult& result) {
   const RepairReport& report = result.report;
-  if (report.rung == Rung::none && report.rounds == 0 && result.filled.empty() && result.dropped.empty())
+  if (report.rung == Rung::none && report.rounds == 0 && report.changed_facets == 0 && result.moved.empty() &&
+      result.filled.empty() && result.dropped.empty())
     return "the surface is valid as it is" + open_holes_of(result);
   std::string text =
       fmt::format("{}, {} ({} cut or joined)", counted(result.surface.vertices.size(), "vertex", "vertices"),

@@ -363,11 +363,22 @@ class Proposals(Repaired):
         self.assertEqual(after["summary"]["gaps"], [])
         self.assertEqual(after["summary"]["encloses"], 1)
 
+        said = self.run_program("repair", "in.off", "-o", "out.off", "--weld", "3e-9").stderr
+        self.assertIn("moved", said)
+        self.assertNotIn("valid as it is", said)
+
     def test_a_length_to_weld_is_a_short_number(self):
         points = [(x - 1, y, z) for x, y, z in cube()] + [(x + 1.7e-16, y, z) for x, y, z in cube()]
         cures, after = self.cure(points, CUBE_FACETS[:10] + shifted(CUBE_FACETS[:8] + CUBE_FACETS[10:], 8))
         self.assertEqual(cures["options"], "--weld 2e-16")
         self.assertTrue(after["valid"])
+
+    def test_a_weld_may_need_more_than_the_gaps_are_wide(self):
+        # The side that is led through the vertex on its one side is then twice as far from the one on its other side.
+        points = [(0, 0, 0), (10, 0, 0), (5, -5, 0), (4.9, 0, 6.1e-6), (5.1, 0, -6.1e-6), (5, 5, 0)]
+        cures, after = self.cure(points, [(0, 1, 2), (0, 3, 5), (3, 4, 5), (4, 1, 5)])
+        self.assertEqual(cures["options"], "--weld 2e-05")
+        self.assertEqual((after["valid"], after["summary"]["gaps"]), (True, []))
 
     def test_a_hole(self):
         cures, after = self.cure(cube(), CUBE_FACETS[2:])
