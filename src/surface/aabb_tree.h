@@ -43,6 +43,8 @@ class AabbTree {
   /// their own (as a rule: groups with the same centre may mix). O(n log n) time, O(n) memory.
   explicit AabbTree(std::span<const Box> boxes, std::span<const Index> group = {},
                     const Threads& threads = 1);
+  /// Without items.
+  AabbTree() = default;
 
   /// Number of nodes.
   [[nodiscard]] std::size_t nodes() const { return nodes_.size(); }
@@ -58,6 +60,10 @@ class AabbTree {
   void for_each_overlap(Visit&& visit, Skip&& skip, Step&& step) const {
     if (!items_.empty()) for_each_overlap(NodePair{0, 0}, visit, skip, step);
   }
+
+  /// Calls visit(item) for each item, but for those for whose boxes, or boxes round them, skip(box) is true.
+  template <class Skip, class Visit>
+  void for_each_item(Skip&& skip, Visit&& visit) const;
 
   /// Whether the box of any item overlaps this one. O(log n) for small boxes of items that do not overlap.
   [[nodiscard]] bool overlaps_any(const Box& box) const;
@@ -104,6 +110,23 @@ inline void AabbTree::push_parts(std::vector<NodePair>& pairs, NodePair pair) co
     pairs.insert(pairs.end(), {{m.left + 1, b}, {m.left, b}});
   } else {
     pairs.insert(pairs.end(), {{a, n.left + 1}, {a, n.left}});
+  }
+}
+
+template <class Skip, class Visit>
+void AabbTree::for_each_item(Skip&& skip, Visit&& visit) const {
+  std::vector<Index> stack;
+  if (!nodes_.empty()) stack.push_back(0);
+  while (!stack.empty()) {
+    const Node& node = nodes_[stack.back()];
+    stack.pop_back();
+    if (skip(node.box)) continue;
+    if (node.left != 0) {
+      stack.insert(stack.end(), {node.left + 1, node.left});
+      continue;
+    }
+    for (Index i = node.first; i < node.first + node.count; ++i)
+      if (!skip(items_[i].box)) visit(items_[i]);
   }
 }
 

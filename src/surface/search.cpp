@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <map>
-#include <optional>
 #include <thread>
 #include <tuple>
 #include <utility>
@@ -14,7 +13,8 @@
 #include "surface/aabb_tree.h"
 #include "surface/complex.h"
 #include "surface/hubs.h"
-#include "surface/oriented_box.h"
+#include "surface/node_skip.h"
+#include "surface/sheet_pairs.h"
 
 namespace holdfast {
 namespace {
@@ -142,97 +142,6 @@ class RootCauses {
   std::map<Key, std::array<Index, 2>> causes_;
 };
 
-// Decides which pairs of nodes of the tree need not be looked at.
-class Skip {
- public:
-  Skip(const Complex& complex, const Elements& elements, Known known, const Hubs& hubs, const AabbTree& tree,
-       const Box& all, std::size_t patience)
-      : complex_(complex),
-        elements_(elements),
-        known_(known.each),
-        hubs_(hubs),
-        tree_(tree),
-        frame_(all),
-        patience_(patience * elements.all.size()),
-        common_(hubs.all().empty() ? 0 : tree.nodes()),
-        all_known_(known.each.empty() ? 0 : tree.nodes()) {}
-
-  // All elements of the nodes are known, all of node a share a hub with all of node b, or oriented boxes
-  // separate them.
-  bool operator()(Index a, Index b) {
-    if (!known_.empty() && is_known(a) && is_known(b)) return true;
-    if (!common_.empty() && share_hub(common_hubs(a), common_hubs(b))) return true;
-    if (a == b || ++calls_ <= patience_) return false;
-    boxes_.resize(tree_.nodes());
-    return surely_apart(oriented(a), oriented(b));
-  }
-
- private:
-  using HubSet = std::array<Index, 3>;
-
-  static bool share_hub(const HubSet& a, const HubSet& b) {
-    for (const Index hub : a) {
-      if (hub != no_index && std::find(b.begin(), b.end(), hub) != b.end()) return true;
-    }
-    return false;
-  }
-
-  const HubSet& common_hubs(Index node) {
-    std::optional<HubSet>& common = common_[node];
-    if (common) return *common;
-    const auto items = tree_.items(node);
-    common = hubs_.of(items[0].id);
-    for (const AabbTree::Item& item : items) {
-      const HubSet& hubs = hubs_.of(item.id);
-      bool none = true;
-      for (Index& hub : *common) {
-        if (std::find(hubs.begin(), hubs.end(), hub) == hubs.end()) hub = no_index;
-        none = none && hub == no_index;
-      }
-      if (none) break;
-    }
-    return *common;
-  }
-
-  bool is_known(Index node) {
-    std::optional<bool>& all = all_known_[node];
-    if (!all) {
-      const auto items = tree_.items(node);
-      all = std::all_of(items.begin(), items.end(),
-                        [&](const AabbTree::Item& item) { return known_[item.id] != 0; });
-    }
-    return *all;
-  }
-
-  const OrientedBox& oriented(Index node) {
-    std::optional<OrientedBox>& box = boxes_[node];
-    if (box) return *box;
-    corners_.clear();
-    for (const AabbTree::Item& item : tree_.items(node)) {
-      const Element& element = elements_.all[item.id];
-      std::array<Point, 3>& corners = corners_.emplace_back();
-      for (unsigned i = 0; i < 3; ++i) {
-        const Index v = element.vertex[std::min<unsigned>(i, element.corners - 1u)];
-        corners[i] = frame_(complex_.vertices[v].data());
-      }
-    }
-    box = oriented_box(corners_);
-    return *box;
-  }
-
-  const Complex& complex_;
-  const Elements& elements_;
-  const std::span<const std::uint8_t> known_;
-  const Hubs& hubs_;
-  const AabbTree& tree_;
-  UnitFrame frame_;
-  std::size_t patience_, calls_ = 0;
-  std::vector<std::optional<HubSet>> common_;
-  std::vector<std::optional<bool>> all_known_;
-  std::vector<std::optional<OrientedBox>> boxes_;
-  std::vector<std::array<Point, 3>> corners_;
-};
-
 // One search.
 class Search {
  public:
@@ -243,7 +152,7 @@ class Search {
         known_(known),
         visit_(visit),
         step_(step),
-        patience_(known.sheet.empty() ? tuning.patience : tuning.sheet_patience),
+        patience_((known.sheet.empty() ? tuning.patience : tuning.sheet_patience) * elements.all.size()),
         threads_(tuning.threads),
         hubs_(complex, elements, tuning.hub_degree) {
     if (known.sheet.empty()) return;
@@ -255,7 +164,16 @@ class Search {
   }
 
   void run() {
-    if (!elements_.all.empty() && search_space()) {
+    if (elements_.all.empty()) return;
+    if (!known_.sheet.empty()) {
+      const SheetPairs sheets(complex_, elements_, known_.sheet, known_.each, threads_);
+      if (!sheets.are_too_many()) {
+        if (!search_sheets(sheets)) return;
+        done_ = known_.sheet;
+        if (std::find(done_.begin(), done_.end(), no_index) == done_.end()) return;
+      }
+    }
+    if (search_space()) {
       for (Index hub = 0; hub < hubs_.all().size(); ++hub) {
         if (!search_hub(hub)) return;
       }
@@ -263,6 +181,38 @@ class Search {
   }
 
  private:
+  // Pairs of facets of sheets. False: stopped.
+  bool search_sheets(const SheetPairs& sheets) {
+    const std::size_t count = sheets.all().size();
+    if (threads_.count() > 1 && elements_.all.size() >= kWorthThreads && all_sheets_fit(sheets)) return true;
+    const SheetPairs::Visit visit = [&](Index i, Index j) { return test(i, j, visit_); };
+    for (std::size_t k = 0; k < count; ++k) {
+      if (k % 64 == 0) step_(static_cast<double>(k) / static_cast<double>(count));
+      if (!sheets.for_each(sheets.all()[k], visit)) return false;
+    }
+    return true;
+  }
+
+  // Whether no pair of facets of sheets is offending: on all threads, as all_fit_in.
+  [[nodiscard]] bool all_sheets_fit(const SheetPairs& sheets) const {
+    std::atomic<bool> stop = false;
+    const std::thread::id calling_thread = std::this_thread::get_id();
+    const VisitPair found = [&](Index, Index, const Contacts&) {
+      stop = true;
+      return false;
+    };
+    const SheetPairs::Visit visit = [&](Index i, Index j) { return !stop && test(i, j, found); };
+    const std::size_t count = sheets.all().size();
+    parallel_ranges(threads_, count, [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last && !stop; ++k) {
+        if (k % 64 == 0 && std::this_thread::get_id() == calling_thread)
+          step_(static_cast<double>(k) / static_cast<double>(count));
+        sheets.for_each(sheets.all()[k], visit);
+      }
+    });
+    return !stop;
+  }
+
   // Pairs that share no hub. False: stopped.
   bool search_space() {
     std::vector<Box> boxes = boxes_of(complex_, elements_.all);
@@ -271,7 +221,7 @@ class Search {
     for (const Box& box : boxes) all.extend(box);
     boxes = {};  // the tree has its own
     if (threads_.count() > 1 && elements_.all.size() >= kWorthThreads && all_fit_in(tree, all)) return true;
-    Skip skip(complex_, elements_, known_, hubs_, tree, all, patience_);
+    NodeSkip skip(complex_, elements_, known_.each, done_, hubs_, tree, all, patience_);
     bool go_on = true;
     tree.for_each_overlap(
         {0, 0}, [&](Index i, Index j) { return go_on = test_in_space(i, j, visit_); }, skip, step_);
@@ -295,7 +245,7 @@ class Search {
     };
     step(0);  // the other threads may leave nothing to do for this one
     parallel(threads_, threads_.count(), [&](std::size_t) {
-      Skip skip(complex_, elements_, known_, hubs_, tree, all, patience_ / threads_.count());
+      NodeSkip skip(complex_, elements_, known_.each, done_, hubs_, tree, all, patience_ / threads_.count());
       try {
         for (std::size_t k = next++; k < tops.size() && !stop; k = next++) {
           step(0);
@@ -311,7 +261,7 @@ class Search {
   }
 
   [[nodiscard]] bool test_in_space(Index i, Index j, const VisitPair& visit) const {
-    return (!hubs_.all().empty() && hubs_.shared(i, j) != no_index) || test(i, j, visit);
+    return (!hubs_.all().empty() && hubs_.shared(i, j) != no_index) || are_done(i, j) || test(i, j, visit);
   }
 
   // Pairs whose least common hub this is.
@@ -322,10 +272,15 @@ class Search {
     tree.for_each_overlap(
         [&](Index i, Index j) {
           const Index a = hub.elements[i], b = hub.elements[j];
-          return hubs_.shared(a, b) != index || (go_on = test(a, b, visit_));
+          return hubs_.shared(a, b) != index || are_done(a, b) || (go_on = test(a, b, visit_));
         },
         [](Index, Index) { return false; }, step_);
     return go_on;
+  }
+
+  // Pairs of facets of sheets that were searched by themselves.
+  [[nodiscard]] bool are_done(Index i, Index j) const {
+    return !done_.empty() && done_[i] != no_index && done_[j] != no_index;
   }
 
   [[nodiscard]] bool test(Index i, Index j, const VisitPair& visit) const {
@@ -367,6 +322,7 @@ class Search {
   Threads threads_;
   Hubs hubs_;
   std::vector<exact::OrientFilter> sides_;  // of each facet's plane, where there are sheets
+  std::span<const Index> done_;             // sheets, once their pairs are searched
 };
 
 // The elements that are not known and those whose boxes overlap one of theirs.

@@ -50,8 +50,8 @@ struct SearchTuning {
   /// Tests of two nodes of the tree, an element, after which oriented boxes (oriented_box.h) come in. Good
   /// surfaces need about 5 to 10.
   std::size_t patience = 20;
-  /// The same where there are sheets (Known::sheet): their pairs are decided by fewer signs than two oriented
-  /// boxes, and where sheets cross there are some 30 an element.
+  /// The same where there are sheets (Known::sheet) whose pairs are too many to go through them
+  /// (sheet_pairs.h): they are decided by fewer signs than two oriented boxes.
   std::size_t sheet_patience = 100;
   Threads threads = 1;
 };

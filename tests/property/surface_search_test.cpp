@@ -14,6 +14,7 @@
 #include "surface/hubs.h"
 #include "surface/oriented_box.h"
 #include "surface/search.h"
+#include "surface/sheet_pairs.h"
 
 namespace holdfast {
 namespace {
@@ -155,7 +156,10 @@ void check_with_sheets(const Complex& complex, const Elements& elements, const P
   for (const auto& [i, j] : expected)
     if (sheet[i] == sheet[j]) sheet[j] = no_index;
   Pairs pairs;
-  const auto visit = [&](Index i, Index j, const Contacts&) { return pairs.insert({i, j}).second; };
+  const auto visit = [&](Index i, Index j, const Contacts&) {
+    EXPECT_TRUE(pairs.insert({i, j}).second) << "visited twice";
+    return true;
+  };
   for_each_offending_pair(
       complex, elements, visit, [](double) {}, {3, 1000}, Known({}, sheet));
   ASSERT_EQ(pairs, expected);
@@ -235,6 +239,62 @@ TEST(AabbTree, FindsAllOverlaps) {
                                                     [&](const Box& other) { return other.overlaps(box); }));
     }
   }
+}
+
+// Facets on planes through nearly one point near the origin, of all sizes, or far from it.
+Surface crossing_sheets(Random& random, std::vector<Index>& sheet) {
+  Surface s;
+  const double far = below(random, 3) == 0 ? 100 : 0;
+  for (Index k = 0; k < 6; ++k) {
+    const Point u = rotated(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
+    const Point v = rotated(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
+    for (int f = 0; f < 12; ++f) {
+      const auto first = static_cast<Index>(s.vertices.size());
+      const double size = std::ldexp(1.0, -static_cast<int>(below(random, 60)));
+      for (int i = 0; i < 3; ++i) {
+        const double a = uniform(random, -1, 1) * size, b = uniform(random, -1, 1) * size;
+        s.vertices.push_back({far + a * u[0] + b * v[0], a * u[1] + b * v[1], a * u[2] + b * v[2]});
+      }
+      s.facets.push_back({first, first + 1, first + 2});
+      sheet.push_back(below(random, 12) == 0 ? no_index : k);
+    }
+  }
+  return s;
+}
+
+TEST(SheetPairs, LoseNoPairThatMeets) {
+  std::size_t visited = 0, boxes = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    std::vector<Index> sheet;
+    const Surface s = crossing_sheets(random, sheet);
+    const Complex complex = s.view();
+    const Elements elements = elements_of(complex);
+    ASSERT_EQ(elements.all.size(), sheet.size());
+    const SheetPairs sheets(complex, elements, sheet, {}, 1);
+    Pairs found;
+    for (const auto& parts : sheets.all())
+      sheets.for_each(parts, [&](Index i, Index j) {
+        EXPECT_NE(sheet[i], sheet[j]);
+        EXPECT_TRUE(found.insert({std::min(i, j), std::max(i, j)}).second) << "visited twice";
+        return true;
+      });
+    visited += found.size();
+    for (const auto& [i, j] : all_pairs(complex, elements)) {
+      const bool is_asked = sheet[i] != no_index && sheet[j] != no_index && sheet[i] != sheet[j];
+      EXPECT_TRUE(!is_asked || found.contains({i, j}));
+    }
+    const auto box = [&](Index e) {
+      const Triangle& t = elements.all[e].vertex;
+      Box round{s.vertices[t[0]], s.vertices[t[0]]};
+      for (const Index v : t) round.extend({s.vertices[v], s.vertices[v]});
+      return round;
+    };
+    for (Index i = 0; i < sheet.size(); ++i)
+      for (Index j = 0; j < i; ++j) boxes += sheet[i] != sheet[j] && box(i).overlaps(box(j));
+  }
+  EXPECT_LT(visited, boxes * 9 / 10) << "planes tell some apart that boxes do not";
 }
 
 TEST(OrientedBox, ApartMeansDisjoint) {

@@ -1,0 +1,82 @@
+// Surface layer: which pairs of nodes of a tree of boxes a search for elements that do not fit may pass over.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "surface/aabb_tree.h"
+#include "surface/complex.h"
+#include "surface/elements.h"
+#include "surface/hubs.h"
+#include "surface/oriented_box.h"
+
+namespace holdfast {
+
+class NodeSkip {
+ public:
+  /// `known`: for each element whether it is known to fit together with all others of which that is said;
+  /// `done`: for each its sheet, or `no_index`, where pairs of facets of sheets need no look. Both may be
+  /// empty. `all` is the box of all elements. Oriented boxes come in after `patience` pairs.
+  NodeSkip(const Complex& complex, const Elements& elements, std::span<const std::uint8_t> known,
+           std::span<const Index> done, const Hubs& hubs, const AabbTree& tree, const Box& all,
+           std::size_t patience);
+
+  /// All elements of the nodes are known, or of sheets that are done, all of node a share a hub with all of
+  /// node b, or oriented boxes separate them.
+  bool operator()(Index a, Index b) {
+    if (!known_.empty() && is_known(a) && is_known(b)) return true;
+    if (!done_.empty() && is_done(a) && is_done(b)) return true;
+    if (!common_.empty() && share_hub(common_hubs(a), common_hubs(b))) return true;
+    if (a == b || ++calls_ <= patience_) return false;
+    boxes_.resize(tree_.nodes());
+    return surely_apart(oriented(a), oriented(b));
+  }
+
+ private:
+  using HubSet = std::array<Index, 3>;
+
+  bool is_known(Index node) {
+    std::optional<bool>& all = all_known_[node];
+    if (!all) all = is_all_known(node);
+    return *all;
+  }
+  bool is_done(Index node) {
+    std::optional<bool>& all = all_done_[node];
+    if (!all) all = is_all_done(node);
+    return *all;
+  }
+  const HubSet& common_hubs(Index node) {
+    std::optional<HubSet>& common = common_[node];
+    if (!common) common = find_common_hubs(node);
+    return *common;
+  }
+  const OrientedBox& oriented(Index node) {
+    std::optional<OrientedBox>& box = boxes_[node];
+    if (!box) box = box_round(node);
+    return *box;
+  }
+
+  static bool share_hub(const HubSet& a, const HubSet& b);
+  [[nodiscard]] bool is_all_known(Index node) const;
+  [[nodiscard]] bool is_all_done(Index node) const;
+  [[nodiscard]] HubSet find_common_hubs(Index node) const;
+  [[nodiscard]] OrientedBox box_round(Index node);
+
+  const Complex& complex_;
+  const Elements& elements_;
+  const std::span<const std::uint8_t> known_;
+  const std::span<const Index> done_;
+  const Hubs& hubs_;
+  const AabbTree& tree_;
+  UnitFrame frame_;
+  std::size_t patience_, calls_ = 0;
+  std::vector<std::optional<HubSet>> common_;
+  std::vector<std::optional<bool>> all_known_, all_done_;
+  std::vector<std::optional<OrientedBox>> boxes_;
+  std::vector<std::array<Point, 3>> corners_;
+};
+
+}  // namespace holdfast
