@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "repair/borders.h"
 #include "text/parse.h"
@@ -86,10 +88,10 @@ class Proposal {
     RepairResult fair;
     for (int i = 0; i < kAttempts; ++i) {
       RepairResult result = attempt(tolerance);
-      const double left =
-          result.outcome == Outcome::done ? narrowest_gap(result.surface) : 0;  // infinite: none is
-      if (left == HUGE_VAL || !cures_.tried) return propose_weld(widest, tolerance, std::move(result));
-      if (left > widest && fair_tolerance == 0) {
+      const bool is_done = result.outcome == Outcome::done;
+      const auto [narrow, wide] = is_done ? gaps_left(result.surface, widest) : std::pair(true, true);
+      if ((!narrow && !wide) || !cures_.tried) return propose_weld(widest, tolerance, std::move(result));
+      if (!narrow && fair_tolerance == 0) {
         fair_tolerance = tolerance;
         fair = std::move(result);
       }
@@ -103,10 +105,18 @@ class Proposal {
     return result;
   }
 
-  static double narrowest_gap(const Surface& surface) {
-    double least = HUGE_VAL;
-    for (const Gap& gap : summarise(surface.view(), {}).gaps) least = std::min(least, gap.distance);
-    return least;
+  /// Whether some gap is no wider than those that there were, and whether one of their vertices has a gap.
+  std::pair<bool, bool> gaps_left(const Surface& surface, double widest) const {
+    const DefectSummary after = summarise(surface.view(), {});
+    const auto is_narrow = [&](const Gap& gap) { return gap.distance <= widest; };
+    std::vector<Index> vertices;
+    for (const Gap& gap : summary_.gaps) vertices.push_back(gap.vertex);
+    std::sort(vertices.begin(), vertices.end());
+    const auto had_one = [&](const Gap& gap) {
+      return std::binary_search(vertices.begin(), vertices.end(), gap.vertex);
+    };
+    return {std::any_of(after.gaps.begin(), after.gaps.end(), is_narrow),
+            std::any_of(after.gaps.begin(), after.gaps.end(), had_one)};
   }
 
   void fill(const Complex& valid) {
