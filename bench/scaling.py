@@ -63,6 +63,7 @@ def stages_of(program, surface, output, options):
             marks.append((line.split("]")[1].strip(), of_threads.look()))
         elif line.startswith("input"):  # the mesh is there
             marks.append(("write", of_threads.look()))
+    marks.append(("end", of_threads.look()))
     of_threads.over.set()
     if process.wait():
         raise SystemExit(f"{surface.name}: exit {process.returncode}")

@@ -133,17 +133,13 @@ Badness Search::badness() const {
 }
 
 std::optional<WaitingElement> Search::worst(std::span<const TetMesh::Corners> left_out) {
-  std::optional<WaitingElement> found;
-  double most = good_;
-  for (Tet t = 0; t < mesh_.slot_count(); ++t) {
-    if (!mesh_.alive(t) || !is_ours(t)) continue;
-    const double q = qualities_.of(t);
-    if (!(q > most) || std::find(left_out.begin(), left_out.end(), mesh_.corners(t)) != left_out.end())
-      continue;
-    most = q;
-    found = WaitingElement{q, t, mesh_.corners(t)};
-  }
-  return found;
+  const auto is_left_out = [&](Tet t) {
+    return std::find(left_out.begin(), left_out.end(), mesh_.corners(t)) != left_out.end();
+  };
+  const Tet t = qualities_.worst(
+      good_, [this](Tet other) { return is_ours(other); }, is_left_out, threads_);
+  if (t == kNone) return std::nullopt;
+  return WaitingElement{qualities_.of(t), t, mesh_.corners(t)};
 }
 
 Search::Trial::Trial(Search& search, Agenda agenda)

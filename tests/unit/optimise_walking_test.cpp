@@ -10,6 +10,7 @@
 #include "mesh_fixtures.h"
 #include "optimise/badness.h"
 #include "optimise/optimise.h"
+#include "optimise/qualities.h"
 #include "optimise/random_exchange.h"
 #include "optimise/search.h"
 #include "optimise/walking.h"
@@ -39,6 +40,34 @@ TEST(RandomExchange, MakesNothingAsBad) {
   EXPECT_GT(made, 500);
   EXPECT_EQ(find_fault(mesh), "");
   EXPECT_EQ((volume_of(mesh) - volume).sign(), 0);
+}
+
+// Blocks that have not changed are not looked at again.
+TEST(Qualities, TheWorstIsThatOfAScan) {
+  std::mt19937_64 random(3);
+  TetMesh mesh = slivers(0.3, 3, 8);
+  ASSERT_GT(mesh.slot_count(), 1500);  // more than a block
+  Qualities qualities(mesh);
+  RandomExchanger exchanger(mesh);
+  const auto counts = [](Tet t) { return t % 5 != 0; };
+  std::vector<Tet> created;
+  for (int k = 0; k < 300; ++k) {
+    Tet worst = kNone;
+    double most = 2;
+    const std::vector<Tet> tets = solid(mesh);
+    for (const Tet t : tets) {
+      const double q = quality_of(mesh, mesh.corners(t));
+      if (!counts(t) || !(q > most)) continue;
+      most = q;
+      worst = t;
+    }
+    ASSERT_EQ(qualities.worst(
+                  2, [&](Tet t) { return counts(t) && !mesh.is_ghost(t); }, 2),
+              worst);
+    created.clear();
+    exchanger.exchange(k % 2 == 0 ? worst : tets[random() % tets.size()], 1e10, random, created);
+    qualities.forget(created);
+  }
 }
 
 // What neither exchanges nor shakes take away may go after a walk; whatever comes of it is no worse.
