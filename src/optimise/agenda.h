@@ -24,19 +24,25 @@ struct WaitingElement {
 
 class Agenda {
  public:
+  /// From this Q on elements are flat.
+  explicit Agenda(double flat) : flat_(flat), floor_(flat) {}
+
   void push(const WaitingElement& e) {
-    if (takes_all_ || e.quality >= tuning::kBad)
+    if (e.quality >= floor_)
       queue_.push(e);
     else
-      rest_.push_back(e);
+      below_.push_back({e.quality, e.tet});
   }
-  /// Whether an element waits. Those that are not bad stand beside the heap, which would hold most of the
-  /// mesh with them, and mostly in vain: until the bad ones are done, and unless many have failed.
-  [[nodiscard]] bool has_next() {
-    if (!queue_.empty()) return true;
-    if (rest_.empty() || has_failed_often()) return false;
-    queue_ = std::priority_queue<WaitingElement>({}, std::exchange(rest_, {}));
-    takes_all_ = true;
+  /// Whether an element waits. What is not flat stands beside the heap until the flat ones are done, and what
+  /// is not bad until the bad ones are, and unless many have failed: the heap would hold most of the mesh,
+  /// and mostly in vain. `corners_of(quality, tet)` is nothing where the tetrahedron has changed.
+  template <typename CornersOf>
+  [[nodiscard]] bool has_next(CornersOf&& corners_of) {
+    while (queue_.empty()) {
+      if (floor_ == 0 || (floor_ == tuning::kBad && has_failed_often())) return false;
+      floor_ = floor_ > tuning::kBad ? tuning::kBad : 0;
+      lift(corners_of);
+    }
     return true;
   }
   [[nodiscard]] const WaitingElement& next() const { return queue_.top(); }
@@ -74,7 +80,7 @@ class Agenda {
   template <typename IsCurrent>
   void try_all_again(IsCurrent&& is_current) {
     for (const WaitingElement& e : std::exchange(stuck_, {}))
-      if (is_current(e)) queue_.push(e);
+      if (is_current(e)) push(e);
     worst_stuck_ = 0;
     round_ = failures_ = 0;
   }
@@ -83,7 +89,7 @@ class Agenda {
   /// agenda as it was.
   Agenda set_aside() {
     Agenda aside = std::move(*this);
-    *this = {};
+    *this = Agenda(aside.flat_);
     stuck_ = aside.stuck_;
     worst_stuck_ = aside.worst_stuck_;
     round_ = tuning::kRounds - 1;
@@ -91,9 +97,27 @@ class Agenda {
   }
 
  private:
+  // An element that is better than those in the heap.
+  struct Below {
+    double quality;
+    Tet tet;
+  };
+
+  // Puts what is no longer below into the heap.
+  template <typename CornersOf>
+  void lift(CornersOf&& corners_of) {
+    std::vector<WaitingElement> lifted;
+    std::erase_if(below_, [&](const Below& b) {
+      if (b.quality < floor_) return false;
+      if (const auto corners = corners_of(b.quality, b.tet)) lifted.push_back({b.quality, b.tet, *corners});
+      return true;
+    });
+    queue_ = std::priority_queue<WaitingElement>({}, std::move(lifted));
+  }
+
+  double flat_, floor_;  // of the Q in the heap
   std::priority_queue<WaitingElement> queue_;
-  std::vector<WaitingElement> rest_;
-  bool takes_all_ = false;
+  std::vector<Below> below_;
   std::vector<WaitingElement> stuck_;
   double worst_stuck_ = 0;
   int round_ = 0, failures_ = 0;

@@ -48,14 +48,14 @@ class Qualities {
     worst_.resize(blocks_before(mesh_.slot_count()), kUnknown);
     parallel_ranges(threads, mesh_.slot_count(), [&](std::size_t first, std::size_t last) {
       for (std::size_t block = blocks_before(first); block < blocks_before(last); ++block)
-        if (std::isnan(worst_[block])) worst_[block] = worst_in(block, counts).quality;
+        if (std::isnan(worst_[block]))
+          worst_[block] = worst_in(block, counts, [](Tet) { return false; }).quality;
     });
     std::vector<double> bounds = worst_;
     while (!bounds.empty()) {
       const auto worst = std::max_element(bounds.begin(), bounds.end());
       if (!(*worst > good)) return kNone;
-      const Worst found = worst_in(static_cast<std::size_t>(worst - bounds.begin()),
-                                   [&](Tet t) { return counts(t) && !is_left_out(t); });
+      const Worst found = worst_in(static_cast<std::size_t>(worst - bounds.begin()), counts, is_left_out);
       if (found.quality == *worst) return found.tet;
       *worst = found.quality;  // what was worse is gone, or left out
     }
@@ -84,12 +84,12 @@ class Qualities {
   // That begin before a slot.
   static std::size_t blocks_before(std::size_t slot) { return (slot + kBlock - 1) / kBlock; }
 
-  template <typename Counts>
-  [[nodiscard]] Worst worst_in(std::size_t block, Counts&& counts) {
+  template <typename Counts, typename IsLeftOut>
+  [[nodiscard]] Worst worst_in(std::size_t block, Counts&& counts, IsLeftOut&& is_left_out) {
     Worst worst;
     const std::size_t end = std::min(mesh_.slot_count(), (block + 1) * kBlock);
     for (auto t = static_cast<Tet>(block * kBlock); t < end; ++t)
-      if (mesh_.alive(t) && of(t) > worst.quality && counts(t)) worst = {of(t), t};
+      if (mesh_.alive(t) && counts(t) && of(t) > worst.quality && !is_left_out(t)) worst = {of(t), t};
     return worst;
   }
 

@@ -12,12 +12,6 @@
 namespace holdfast {
 namespace {
 
-BadFrom bad_from(double target) {
-  const double hopeless = std::max(tuning::kHopeless, tuning::kHopelessForTarget * target);
-  return {std::max(tuning::kFlat, tuning::kFlatForTarget * target), hopeless,
-          std::max(tuning::kNull, hopeless)};
-}
-
 std::vector<Vertex> free_vertices(const TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free) {
   std::vector<Vertex> points;
   for (const Tet t : tets)
@@ -46,22 +40,19 @@ Search::Search(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, d
                std::uint64_t seed, const Threads& threads, Monitor& monitor)
     : mesh_(mesh),
       target_(target),
-      good_(std::max(tuning::kGood, target)),
-      bad_from_(holdfast::bad_from(target)),
-      monitor_(monitor),
       threads_(threads),
       is_others_(slots_of_others(mesh, tets)),
       qualities_(mesh),
-      ways_(mesh, qualities_, first_free, bad_from_, seed),
-      log_(mesh),
-      budget_(tets.size()),
-      points_(free_vertices(mesh, tets, first_free)) {}
+      elements_(mesh, qualities_, first_free, target, seed, Budget(tets.size()), monitor),
+      log_(mesh) {
+  elements_.points() = free_vertices(mesh, tets, first_free);
+}
 
 void Search::move_points() {
   std::vector<Tet> changed;
-  for (const Vertex p : points_)
-    if (!budget_.is_half_spent() && ways_.move(p, budget_, changed)) ++stats_.relocated;
-  stats_.changed += changed.size();
+  for (const Vertex p : points())
+    if (!budget().is_half_spent() && elements_.ways().move(p, budget(), changed)) ++stats().relocated;
+  stats().changed += changed.size();
 }
 
 void Search::push_all(std::span<const Tet> tets) {
@@ -69,54 +60,9 @@ void Search::push_all(std::span<const Tet> tets) {
   push(tets);
 }
 
-void Search::push(std::span<const Tet> tets) {
-  for (const Tet t : tets) {
-    if (mesh_.alive(t)) push(t);
-    monitor_.poll(Stage::optimise, budget_.fraction());
-  }
-}
-
-void Search::push(Tet t) {
-  const double q = qualities_.of(t);
-  if (q > good_) agenda_.push({q, t, mesh_.corners(t)});
-}
-
-bool Search::is_current(const WaitingElement& e) {
-  return mesh_.alive(e.tet) && mesh_.corners(e.tet) == e.corners && qualities_.of(e.tet) == e.quality;
-}
-
-void Search::work_off(Ways::Points points) {
-  const auto is_spent = [&](const WaitingElement& e) {
-    if (e.quality < tuning::kBad && agenda_.has_failed_often()) return true;
-    return budget_.is_spent(e.quality >= bad_from_.hopeless, e.quality >= agenda_.worst_stuck());
-  };
-  while (agenda_.has_next() && !is_spent(agenda_.next())) {
-    const WaitingElement worst = agenda_.take();
-    if (is_current(worst)) improve(worst, points);
-    agenda_.try_flat_again(bad_from_.flat, [this](const WaitingElement& e) { return is_current(e); });
-  }
-}
-
-void Search::improve(const WaitingElement& e, Ways::Points points) {
-  monitor_.poll(Stage::optimise, budget_.fraction());
-  std::vector<Tet> changed;
-  Ways::Attempt attempt{e, agenda_.worst_stuck(), points, budget_, changed};
-  if (std::size_t OptimiseStats::*const way = ways_.try_all(attempt)) {
-    ++(stats_.*way);
-    budget_.note_gain();
-  } else {
-    agenda_.give_up(e);
-  }
-  if (attempt.added != kNone) points_.push_back(attempt.added);
-  // What did not help may have changed something, too.
-  stats_.changed += changed.size();
-  qualities_.forget(changed);
-  push(changed);
-}
-
 std::size_t Search::points_in_mesh() const {
   return static_cast<std::size_t>(
-      std::count_if(points_.begin(), points_.end(), [&](Vertex p) { return mesh_.in_mesh(p); }));
+      std::count_if(points().begin(), points().end(), [&](Vertex p) { return mesh_.in_mesh(p); }));
 }
 
 Badness Search::badness() const {
@@ -125,7 +71,7 @@ Badness Search::badness() const {
   parallel_ranges(threads_, mesh_.slot_count(), [&](std::size_t first, std::size_t last) {
     Badness own;
     for (auto t = static_cast<Tet>(first); t < last; ++t)
-      if (mesh_.alive(t) && is_ours(t)) own.add(quality_of(mesh_, mesh_.corners(t)), bad_from_);
+      if (mesh_.alive(t) && is_ours(t)) own.add(quality_of(mesh_, mesh_.corners(t)), bad_from());
     const std::scoped_lock lock(mutex);
     all = join(all, own);
   });
@@ -137,7 +83,7 @@ std::optional<WaitingElement> Search::worst(std::span<const TetMesh::Corners> le
     return std::find(left_out.begin(), left_out.end(), mesh_.corners(t)) != left_out.end();
   };
   const Tet t = qualities_.worst(
-      good_, [this](Tet other) { return is_ours(other); }, is_left_out, threads_);
+      elements_.good(), [this](Tet other) { return is_ours(other); }, is_left_out, threads_);
   if (t == kNone) return std::nullopt;
   return WaitingElement{qualities_.of(t), t, mesh_.corners(t)};
 }
@@ -145,15 +91,15 @@ std::optional<WaitingElement> Search::worst(std::span<const TetMesh::Corners> le
 Search::Trial::Trial(Search& search, Agenda agenda)
     : search_(search),
       mark_(search.log_.mark()),
-      agenda_(agenda == Agenda::kept ? search.agenda_ : search.agenda_.set_aside()),
-      budget_(search.budget_),
-      stats_(search.stats_),
-      points_(search.points_.size()),
+      agenda_(agenda == Agenda::kept ? search.agenda() : search.agenda().set_aside()),
+      budget_(search.budget()),
+      stats_(search.stats()),
+      points_(search.points().size()),
       points_in_mesh_(search.points_in_mesh()) {}
 
 bool Search::Trial::has_paid() const {
   const TetMesh& mesh = search_.mesh_;
-  const BadFrom& bad_from = search_.bad_from_;
+  const BadFrom& bad_from = search_.bad_from();
   const UndoLog::Before was_there = before();
   Badness was, is;
   // All that has changed is of our regions, whichever slots of them the search began with.
@@ -176,11 +122,11 @@ void Search::Trial::take_back() {
   for (const Vertex v : moved)
     if (v < mesh.vertex_count() && mesh.in_mesh(v)) ball(mesh, v, tets);
   search_.forget(tets);
-  search_.agenda_ = std::move(agenda_);
-  search_.budget_ = budget_;
-  search_.stats_ = stats_;
-  ++search_.stats_.changed;
-  search_.points_.resize(points_);
+  search_.agenda() = std::move(agenda_);
+  search_.budget() = budget_;
+  search_.stats() = stats_;
+  ++search_.stats().changed;
+  search_.elements_.points().resize(points_);
 }
 
 }  // namespace holdfast

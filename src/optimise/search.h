@@ -1,4 +1,5 @@
-// The search of the optimisation: the worst element first, by the cheapest way that helps (paper §8).
+// The search of the optimisation in a whole mesh: what goes on from element to element (element_search.h),
+// and trials of more that may be taken back.
 #pragma once
 
 #include <algorithm>
@@ -8,11 +9,7 @@
 #include "mesh/monitor.h"
 #include "mesh/parallel.h"
 #include "mesh/undo_log.h"
-#include "optimise/agenda.h"
-#include "optimise/budget.h"
-#include "optimise/optimise.h"
-#include "optimise/qualities.h"
-#include "optimise/ways_for_quality.h"
+#include "optimise/element_search.h"
 
 namespace holdfast {
 
@@ -28,9 +25,8 @@ class Search {
   void move_points();
   /// The same as `push`, for a whole mesh: their Q are computed by all threads.
   void push_all(std::span<const Tet> tets);
-  void push(std::span<const Tet> tets);
-  /// Until the agenda is empty or the budget spent. While points come later, other ways are tried less hard.
-  void work_off(Ways::Points points);
+  void push(std::span<const Tet> tets) { elements_.push(tets); }
+  void work_off(Ways::Points points) { elements_.work_off(points); }
 
   /// Part of the search that may be taken back.
   class Trial {
@@ -60,24 +56,24 @@ class Search {
   [[nodiscard]] TetMesh& mesh() { return mesh_; }
   /// The worst Q that the facets ask for.
   [[nodiscard]] double target() const { return target_; }
-  [[nodiscard]] const BadFrom& bad_from() const { return bad_from_; }
-  [[nodiscard]] Vertex first_free() const { return ways_.first_free(); }
-  [[nodiscard]] Agenda& agenda() { return agenda_; }
-  [[nodiscard]] Budget& budget() { return budget_; }
-  [[nodiscard]] OptimiseStats& stats() { return stats_; }
-  [[nodiscard]] std::mt19937_64& random() { return ways_.random(); }
-  void poll() { monitor_.poll(Stage::optimise, budget_.fraction()); }
+  [[nodiscard]] const BadFrom& bad_from() const { return elements_.bad_from(); }
+  [[nodiscard]] Vertex first_free() const { return elements_.ways().first_free(); }
+  [[nodiscard]] Agenda& agenda() { return elements_.agenda(); }
+  [[nodiscard]] Budget& budget() { return elements_.budget(); }
+  [[nodiscard]] OptimiseStats& stats() { return elements_.stats(); }
+  [[nodiscard]] std::mt19937_64& random() { return elements_.ways().random(); }
+  void poll() { elements_.poll(); }
   /// All points that may move, and some that are gone.
-  [[nodiscard]] const std::vector<Vertex>& points() const { return points_; }
+  [[nodiscard]] const std::vector<Vertex>& points() const { return elements_.points(); }
   [[nodiscard]] std::size_t points_in_mesh() const;
   /// Whether a slot was, to begin with, one of those that are to be better, or dead.
   [[nodiscard]] bool is_ours(Tet t) const { return t >= is_others_.size() || !is_others_[t]; }
-  [[nodiscard]] bool is_current(const WaitingElement& e);
+  [[nodiscard]] bool is_current(const WaitingElement& e) { return elements_.is_current(e); }
   [[nodiscard]] Badness badness() const;
   /// How bad an element may be for a point to go: as long as a worse one stays, nothing is worth a point but
   /// null elements.
   [[nodiscard]] double worst_without_point() const {
-    return std::max(bad_from_.flat, std::min(badness().worst, bad_from_.null));
+    return std::max(bad_from().flat, std::min(badness().worst, bad_from().null));
   }
   /// The worst of the elements that are to be better, whether it waits, was given up, or neither; nothing
   /// where none is worse than good.
@@ -85,27 +81,18 @@ class Search {
   [[nodiscard]] std::optional<WaitingElement> worst(std::span<const TetMesh::Corners> left_out = {});
   /// Vertices that are free, and new in the mesh.
   void add_points(std::span<const Vertex> points) {
-    points_.insert(points_.end(), points.begin(), points.end());
+    elements_.points().insert(elements_.points().end(), points.begin(), points.end());
   }
   void forget(std::span<const Tet> tets) { qualities_.forget(tets); }
 
  private:
-  void push(Tet t);
-  void improve(const WaitingElement& e, Ways::Points points);
-
   TetMesh& mesh_;
-  const double target_, good_;
-  const BadFrom bad_from_;
-  Monitor& monitor_;
+  const double target_;
   const Threads threads_;
   std::vector<bool> is_others_;  // by slot
   Qualities qualities_;
-  Ways ways_;
+  ElementSearch elements_;
   UndoLog log_;
-  Agenda agenda_;
-  Budget budget_;
-  std::vector<Vertex> points_;
-  OptimiseStats stats_;
 };
 
 }  // namespace holdfast
