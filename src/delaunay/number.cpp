@@ -194,11 +194,15 @@ class Numbering {
   std::vector<C> ghosts_;
 };
 
+// With room for what changes a mesh to add some slots without a copy of all.
 template <class T>
-std::vector<T> sized_vector(std::size_t size) {
+std::vector<T> sized_vector(std::size_t size, const Threads& threads) {
   std::vector<T> vector;
-  vector.reserve(size);
+  vector.reserve(size + size / 32);
   advise_huge_pages(vector.data(), size * sizeof(T));
+  parallel_ranges(threads, size, [&](std::size_t first, std::size_t last) {
+    populate(vector.data() + first, (last - first) * sizeof(T));
+  });
   vector.resize(size);
   return vector;
 }
@@ -207,7 +211,7 @@ std::vector<T> sized_vector(std::size_t size) {
 
 std::vector<Tetrahedron> finite_cells(Triangulation& triangulation, const Threads& threads) {
   Numbering<BareCell> numbering(triangulation, threads);
-  auto tets = sized_vector<Tetrahedron>(numbering.size());
+  auto tets = sized_vector<Tetrahedron>(numbering.size(), threads);
   const std::uint32_t* const point = triangulation.order().points.data();
   numbering.for_each([&](std::size_t place, const BareCell& v) {
     tets[place] = {point[v[0]], point[v[1]], point[v[2]], point[v[3]]};
@@ -222,7 +226,8 @@ NumberedCells all_cells(Triangulation& triangulation, const Threads& threads) {
   std::sort(ghosts.begin(), ghosts.end(), [](const FullCell& a, const FullCell& b) { return a.v < b.v; });
 
   const std::size_t size = numbering.size() + ghosts.size();
-  NumberedCells out{sized_vector<TetMesh::Corners>(size), sized_vector<TetMesh::Neighbours>(size)};
+  NumberedCells out{sized_vector<TetMesh::Corners>(size, threads),
+                    sized_vector<TetMesh::Neighbours>(size, threads)};
   const std::uint32_t* const point = triangulation.order().points.data();
   const Vertex ghost = triangulation.ghost();
   const auto put = [&](std::size_t place, const FullCell& cell) {

@@ -1,5 +1,8 @@
 #include "mesh/editor.h"
 
+#include <algorithm>
+#include <functional>
+
 #include "mesh/face_plan.h"
 #include "mesh/scratch.h"
 #include "mesh/shell_plan.h"
@@ -46,7 +49,8 @@ void MeshEditor::apply(const Change& change, std::vector<Tet>& created) {
 // Where the new tetrahedra come to stand goes to `slots`.
 void MeshEditor::put(const Change& change, std::span<Tet> slots) {
   for (const Tet t : change.old_tets) mesh_.remove_tet(t);
-  for (Tet& slot : slots) slot = mesh_.take_slot();
+  const Tet near = change.old_tets.empty() ? kNone : change.old_tets.front();
+  for (Tet& slot : slots) slot = mesh_.take_slot(near);
   for (std::size_t k = 0; k < slots.size(); ++k) {
     const NewTet& fresh = change.new_tets[k];
     TetMesh::Neighbours neighbours;
@@ -86,6 +90,48 @@ void MeshEditor::set_segment(Tet t, Vertex a, Vertex b) {
   shell(mesh_, t, a, b, tets);
   for (const Tet s : tets) mesh_.set_flags(s, segment_bit(mesh_.edge_of(s, a, b)));
   finish(tets);
+}
+
+void MeshEditor::release_facet(Face f) {
+  const Face g = mesh_.neighbour(f);
+  mesh_.clear_flags(tet_of(f), facet_bit(side_of(f)));
+  mesh_.clear_flags(tet_of(g), facet_bit(side_of(g)));
+  finish(std::array{tet_of(f), tet_of(g)});
+}
+
+void MeshEditor::release_segment(Tet t, Vertex a, Vertex b) {
+  std::vector<Tet> tets;
+  shell(mesh_, t, a, b, tets);
+  for (const Tet s : tets) mesh_.clear_flags(s, segment_bit(mesh_.edge_of(s, a, b)));
+  finish(tets);
+}
+
+// New slots come last in the pools, so that they are filled when no others are left.
+void MeshEditor::share_slots(SlotPools& pools, std::size_t count, std::size_t spare) {
+  assert(mesh_.attached_.log == nullptr && mesh_.attached_.pools == nullptr);
+  const std::size_t more = count * spare - std::min(count * spare, mesh_.free_.size());
+  const Tet first = mesh_.add_slots(more);
+  std::size_t next = 0;
+  const auto give = [&](Tet t) {
+    pools.assign(t, static_cast<SlotPools::Pool>(next++ % count));
+    pools.give(t);
+  };
+  for (auto t = static_cast<Tet>(mesh_.slot_count()); t > first; --t) {
+    mesh_.flags_[t - 1] = kDead;
+    give(t - 1);
+  }
+  for (const Tet t : mesh_.free_) give(t);
+  mesh_.free_.clear();
+  mesh_.attached_.pools = &pools;
+}
+
+void MeshEditor::unshare_slots() {
+  mesh_.free_ = std::exchange(mesh_.attached_.pools, nullptr)->all();
+  std::sort(mesh_.free_.begin(), mesh_.free_.end(), std::greater<>());
+  std::size_t at_end = 0;
+  while (at_end < mesh_.free_.size() && mesh_.free_[at_end] + at_end + 1 == mesh_.slot_count()) ++at_end;
+  mesh_.free_.erase(mesh_.free_.begin(), mesh_.free_.begin() + static_cast<std::ptrdiff_t>(at_end));
+  mesh_.drop_last_slots(at_end);
 }
 
 void MeshEditor::undo(UndoLog& log, const UndoLog::Mark& mark) {

@@ -25,6 +25,7 @@
 #include "mesh/cavity_plan.h"
 #include "mesh/change.h"
 #include "mesh/edge_removal.h"
+#include "mesh/slot_pools.h"
 #include "mesh/tet_mesh.h"
 #include "mesh/undo_log.h"
 
@@ -95,6 +96,9 @@ class MeshEditor {
   void set_facet(Face f);
   /// Marks edge ab of tetrahedron t in its whole shell as part of an input segment.
   void set_segment(Tet t, Vertex a, Vertex b);
+  /// Takes that back.
+  void release_facet(Face f);
+  void release_segment(Tet t, Vertex a, Vertex b);
   /// Marks constraints of one tetrahedron; threads may mark different ones at the same time. They are set
   /// from all sides when finish() is called.
   void mark_constraints(Tet t, Flags f) { mesh_.set_flags(t, f); }
@@ -116,11 +120,18 @@ class MeshEditor {
   // --- taking back
   /// Every change from now on is noted in a log, or in none: one at a time.
   void note_in(UndoLog* log) {
-    assert(log == nullptr || mesh_.log_.log == nullptr);
-    mesh_.log_.log = log;
+    assert(log == nullptr || mesh_.attached_.log == nullptr);
+    mesh_.attached_.log = log;
   }
   /// Takes back what the log has noted since a mark.
   void undo(UndoLog& log, const UndoLog::Mark& mark);
+
+  // --- parts that are changed at the same time (in_place_parts.h)
+  /// From now on free slots come from these pools, into which those that there are go, and `spare` a pool
+  /// more if need be. No log may note changes.
+  void share_slots(SlotPools& pools, std::size_t count, std::size_t spare);
+  /// The mesh has them again, and no more at the end.
+  void unshare_slots();
 
   // --- where the validator stands in builds with HOLDFAST_VALIDATE: it throws std::logic_error
   /// The operation is done, and these are the tetrahedra that it made or changed.

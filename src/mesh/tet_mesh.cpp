@@ -3,13 +3,14 @@
 #include <cassert>
 #include <utility>
 
+#include "mesh/slot_pools.h"
 #include "mesh/undo_log.h"
 
 namespace holdfast {
 
-void TetMesh::tell_slot(Tet t) { log_.log->note_slot(t); }
+void TetMesh::tell_slot(Tet t) { attached_.log->note_slot(t); }
 
-void TetMesh::tell_vertex(Vertex v) { log_.log->note_vertex(v); }
+void TetMesh::tell_vertex(Vertex v) { attached_.log->note_vertex(v); }
 
 Vertex TetMesh::add_vertex(const Point& p) {
   positions_.push_back(on_grid(p));
@@ -55,7 +56,7 @@ void TetMesh::release_exact(Vertex v) {
 }
 
 void TetMesh::move_vertex(Vertex v, const exact::ExactPoint& p) {
-  assert(log_.log == nullptr);
+  assert(attached_.log == nullptr);
   const exact::ExactPoint copy = p;  // p may live in exact_, which is about to change
   release_exact(v);
   positions_[v] = {copy.c[0].to_double(), copy.c[1].to_double(), copy.c[2].to_double()};
@@ -75,7 +76,9 @@ exact::ExactPoint TetMesh::exact_position(Vertex v) const {
   return is_explicit(v) ? exact::lift(positions_[v].data()) : exact_[exact_of_[v]];
 }
 
-Tet TetMesh::take_slot() {
+Tet TetMesh::take_slot(Tet near) {
+  if (attached_.pools != nullptr) [[unlikely]]
+    return attached_.pools->take(near);
   if (free_.empty()) {
     corners_.emplace_back();
     neighbours_.emplace_back();
@@ -83,8 +86,8 @@ Tet TetMesh::take_slot() {
     return static_cast<Tet>(corners_.size() - 1);
   }
   const Tet t = free_.back();
-  if (log_.log != nullptr) [[unlikely]]
-    log_.log->note_free(t, true);
+  if (attached_.log != nullptr) [[unlikely]]
+    attached_.log->note_free(t, true);
   free_.pop_back();
   return t;
 }
@@ -97,12 +100,20 @@ Tet TetMesh::add_slots(std::size_t count) {
   return first;
 }
 
+void TetMesh::drop_last_slots(std::size_t count) {
+  corners_.resize(corners_.size() - count);
+  neighbours_.resize(corners_.size());
+  flags_.resize(corners_.size());
+}
+
 void TetMesh::remove_tet(Tet t) {
   assert(alive(t));
   note_slot(t);
-  if (log_.log != nullptr) [[unlikely]]
-    log_.log->note_free(t, false);
+  if (attached_.log != nullptr) [[unlikely]]
+    attached_.log->note_free(t, false);
   flags_[t] = kDead;
+  if (attached_.pools != nullptr) [[unlikely]]
+    return attached_.pools->give(t);
   free_.push_back(t);
 }
 
@@ -110,6 +121,7 @@ void TetMesh::set_tets(std::vector<Corners> corners, std::vector<Neighbours> nei
   assert(tet_count() == 0 && corners.size() == neighbours.size());
   corners_ = std::move(corners);
   neighbours_ = std::move(neighbours);
+  flags_.reserve(corners_.capacity());
   flags_.assign(corners_.size(), 0);
   free_.clear();
   for (Tet t = 0; t < corners_.size(); ++t)
@@ -118,7 +130,7 @@ void TetMesh::set_tets(std::vector<Corners> corners, std::vector<Neighbours> nei
 }
 
 void TetMesh::renumber(std::span<const Tet> tets, Vertex first, std::span<const Vertex> vertices) {
-  assert(log_.log == nullptr && tets.size() == tet_count() && first + vertices.size() == vertex_count());
+  assert(attached_.log == nullptr && tets.size() == tet_count() && first + vertices.size() == vertex_count());
   std::vector<Tet> tet_now(slot_count(), kNone);
   for (std::size_t k = 0; k < tets.size(); ++k) tet_now[tets[k]] = static_cast<Tet>(k);
   std::vector<Vertex> vertex_now(vertices.size());

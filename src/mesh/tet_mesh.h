@@ -28,6 +28,7 @@
 namespace holdfast {
 
 class MeshEditor;
+class SlotPools;
 class UndoLog;
 
 /// Where a vertex goes: in doubles, or at an exact position that no double holds.
@@ -140,9 +141,11 @@ class TetMesh {
   void renumber(std::span<const Tet> tets, Vertex first, std::span<const Vertex> vertices);
   void set_tets(std::vector<Corners> corners, std::vector<Neighbours> neighbours);
 
-  // A free slot, or one more, for put_tet to fill; and `count` more, one after another.
-  Tet take_slot();
+  // A free slot, or one more, for put_tet to fill, from the pool of another where there are pools; and
+  // `count` more, one after another.
+  Tet take_slot(Tet near = kNone);
   Tet add_slots(std::size_t count);
+  void drop_last_slots(std::size_t count);
   void put_tet(Tet t, const Corners& v, const Neighbours& n, Flags f) {
     note_slot(t);
     corners_[t] = v;
@@ -164,21 +167,23 @@ class TetMesh {
     flags_[t] = static_cast<Flags>(flags_[t] & ~f);
   }
 
-  // The log of this object (undo_log.h): a copy has none.
-  struct Log {
+  // What this object notes its changes in (undo_log.h), and where its free slots are while parts are changed
+  // at the same time (slot_pools.h): a copy has neither.
+  struct Attached {
     UndoLog* log = nullptr;
-    Log() = default;
-    Log(const Log&) {}
-    Log& operator=(const Log&) { return *this; }
-    ~Log() = default;
+    SlotPools* pools = nullptr;
+    Attached() = default;
+    Attached(const Attached&) {}
+    Attached& operator=(const Attached&) { return *this; }
+    ~Attached() = default;
   };
   // Called before a slot or a vertex changes.
   void note_slot(Tet t) {
-    if (log_.log != nullptr) [[unlikely]]
+    if (attached_.log != nullptr) [[unlikely]]
       tell_slot(t);
   }
   void note_vertex(Vertex v) {
-    if (log_.log != nullptr) [[unlikely]]
+    if (attached_.log != nullptr) [[unlikely]]
       tell_vertex(v);
   }
   void tell_slot(Tet t);
@@ -197,7 +202,7 @@ class TetMesh {
   std::vector<exact::ExactPoint> exact_;
   std::vector<std::uint32_t> exact_free_;
   std::size_t exact_in_use_ = 0;
-  Log log_;
+  Attached attached_;
 };
 
 }  // namespace holdfast

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <queue>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -29,7 +28,7 @@ class Agenda {
 
   void push(const WaitingElement& e) {
     if (e.quality >= floor_)
-      queue_.push(e);
+      put(e);
     else
       below_.push_back({e.quality, e.tet});
   }
@@ -38,17 +37,18 @@ class Agenda {
   /// and mostly in vain. `corners_of(quality, tet)` is nothing where the tetrahedron has changed.
   template <typename CornersOf>
   [[nodiscard]] bool has_next(CornersOf&& corners_of) {
-    while (queue_.empty()) {
+    while (heap_.empty()) {
       if (floor_ == 0 || (floor_ == tuning::kBad && has_failed_often())) return false;
       floor_ = floor_ > tuning::kBad ? tuning::kBad : 0;
       lift(corners_of);
     }
     return true;
   }
-  [[nodiscard]] const WaitingElement& next() const { return queue_.top(); }
+  [[nodiscard]] const WaitingElement& next() const { return heap_.front(); }
   WaitingElement take() {
-    const WaitingElement worst = queue_.top();
-    queue_.pop();
+    std::pop_heap(heap_.begin(), heap_.end());
+    const WaitingElement worst = heap_.back();
+    heap_.pop_back();
     return worst;
   }
 
@@ -67,12 +67,12 @@ class Agenda {
   /// Flat elements that stayed are tried again once no other waits: changes next to them may have made a way.
   template <typename IsCurrent>
   void try_flat_again(double flat, IsCurrent&& is_current) {
-    if ((!queue_.empty() && queue_.top().quality >= flat) || round_ >= tuning::kRounds) return;
+    if ((!heap_.empty() && heap_.front().quality >= flat) || round_ >= tuning::kRounds) return;
     ++round_;
     worst_stuck_ = 0;
     std::erase_if(stuck_, [&](const WaitingElement& e) {
       if (e.quality < flat) return false;
-      if (is_current(e)) queue_.push(e);
+      if (is_current(e)) put(e);
       return true;
     });
   }
@@ -83,6 +83,25 @@ class Agenda {
       if (is_current(e)) push(e);
     worst_stuck_ = 0;
     round_ = failures_ = 0;
+  }
+
+  /// Drops what is not wanted of what waits and of what was given up.
+  template <typename IsWanted>
+  void keep(IsWanted&& is_wanted) {
+    std::erase_if(heap_, [&](const WaitingElement& e) { return !is_wanted(e.tet); });
+    std::make_heap(heap_.begin(), heap_.end());
+    std::erase_if(below_, [&](const Below& b) { return !is_wanted(b.tet); });
+    std::erase_if(stuck_, [&](const WaitingElement& e) { return !is_wanted(e.tet); });
+  }
+  /// Takes over what waits in another, and what was given up there.
+  void take_over(Agenda&& other) {
+    floor_ = flat_;
+    for (const std::vector<WaitingElement>& waiting : {std::exchange(heap_, {}), std::move(other.heap_)})
+      for (const WaitingElement& e : waiting) push(e);
+    below_.insert(below_.end(), other.below_.begin(), other.below_.end());
+    stuck_.insert(stuck_.end(), other.stuck_.begin(), other.stuck_.end());
+    worst_stuck_ = std::max(worst_stuck_, other.worst_stuck_);
+    failures_ += other.failures_;
   }
 
   /// Drops what waits, and gives flat elements one round more: what comes next is of one place. Returns the
@@ -103,6 +122,11 @@ class Agenda {
     Tet tet;
   };
 
+  void put(const WaitingElement& e) {
+    heap_.push_back(e);
+    std::push_heap(heap_.begin(), heap_.end());
+  }
+
   // Puts what is no longer below into the heap.
   template <typename CornersOf>
   void lift(CornersOf&& corners_of) {
@@ -112,11 +136,12 @@ class Agenda {
       if (const auto corners = corners_of(b.quality, b.tet)) lifted.push_back({b.quality, b.tet, *corners});
       return true;
     });
-    queue_ = std::priority_queue<WaitingElement>({}, std::move(lifted));
+    heap_ = std::move(lifted);
+    std::make_heap(heap_.begin(), heap_.end());
   }
 
-  double flat_, floor_;  // of the Q in the heap
-  std::priority_queue<WaitingElement> queue_;
+  double flat_, floor_;               // of the Q in the heap
+  std::vector<WaitingElement> heap_;  // the worst first
   std::vector<Below> below_;
   std::vector<WaitingElement> stuck_;
   double worst_stuck_ = 0;

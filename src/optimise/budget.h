@@ -11,9 +11,13 @@ namespace holdfast {
 /// Work is counted in exchanges tried, some 10 microseconds each.
 class Budget {
  public:
-  explicit Budget(std::size_t tets)
+  /// For a mesh of so many tetrahedra, or for so many of a mesh of `all`.
+  explicit Budget(std::size_t tets) : Budget(tets, tets) {}
+  Budget(std::size_t tets, std::size_t all)
       : most_(tuning::kLeastWork + tuning::kWorkPerTet * tets),
-        usual_(std::min(most_ / tuning::kUsualShare, tuning::kMostUsual)) {}
+        usual_(
+            std::min(most_ / tuning::kUsualShare,
+                     tuning::kMostUsual / std::max<std::size_t>(1, all / std::max<std::size_t>(1, tets)))) {}
 
   void spend(std::size_t work) { spent_ += work; }
   void note_gain() { at_gain_ = spent_; }

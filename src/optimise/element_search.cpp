@@ -43,7 +43,7 @@ bool ElementSearch::is_current(const WaitingElement& e) {
   return mesh_.alive(e.tet) && mesh_.corners(e.tet) == e.corners && qualities_.of(e.tet) == e.quality;
 }
 
-void ElementSearch::work_off(Ways::Points points) {
+void ElementSearch::work_off(Ways::Points points, const std::function<bool()>& may_go_on) {
   const auto corners_of = [this](double quality, Tet t) -> std::optional<TetMesh::Corners> {
     if (!mesh_.alive(t) || qualities_.of(t) != quality) return std::nullopt;
     return mesh_.corners(t);
@@ -52,7 +52,7 @@ void ElementSearch::work_off(Ways::Points points) {
     if (e.quality < tuning::kBad && agenda_.has_failed_often()) return true;
     return budget_.is_spent(e.quality >= bad_from_.hopeless, e.quality >= agenda_.worst_stuck());
   };
-  while (agenda_.has_next(corners_of) && !is_spent(agenda_.next())) {
+  while (agenda_.has_next(corners_of) && !is_spent(agenda_.next()) && (!may_go_on || may_go_on())) {
     const WaitingElement worst = agenda_.take();
     if (is_current(worst)) improve(worst, points);
     agenda_.try_flat_again(bad_from_.flat, [this](const WaitingElement& e) { return is_current(e); });

@@ -1,6 +1,7 @@
 // The worst element first, by the cheapest way that helps, as long as the budget allows it (paper §8).
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "mesh/monitor.h"
@@ -22,8 +23,9 @@ class ElementSearch {
   ElementSearch& operator=(const ElementSearch&) = delete;
 
   void push(std::span<const Tet> tets);
-  /// Until the agenda is empty or the budget spent. While points come later, other ways are tried less hard.
-  void work_off(Ways::Points points);
+  /// Until the agenda is empty or the budget spent, or as long as `may_go_on` is true. While points come
+  /// later, other ways are tried less hard.
+  void work_off(Ways::Points points, const std::function<bool()>& may_go_on = {});
   [[nodiscard]] bool is_current(const WaitingElement& e);
   void poll() { monitor_.poll(Stage::optimise, budget_.fraction()); }
 

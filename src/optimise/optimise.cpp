@@ -2,6 +2,7 @@
 
 #include "optimise/fill_anew.h"
 #include "optimise/search.h"
+#include "optimise/search_in_parts.h"
 #include "optimise/shaking.h"
 #include "optimise/walking.h"
 
@@ -12,12 +13,18 @@ OptimiseStats optimise(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first
   Search search(mesh, tets, first_free, target, options.seed, threads, monitor);
   const std::size_t points_before = search.points().size();
   search.move_points();
-  search.push_all(tets);
   // Where points stand for a size, some more do not matter.
   const bool saves_points = options.add_points && options.remove == PointsToRemove::all;
-  search.work_off(!options.add_points ? Ways::Points::none
-                  : saves_points      ? Ways::Points::later
-                                      : Ways::Points::now);
+  const Ways::Points points_wanted = !options.add_points ? Ways::Points::none
+                                     : saves_points      ? Ways::Points::later
+                                                         : Ways::Points::now;
+  search.compute(tets);
+  // Others of their regions, or points that it adds, are nothing that a part could keep to.
+  const bool is_whole = options.remove == PointsToRemove::all && points_wanted != Ways::Points::now;
+  if (!is_whole || !work_off_in_parts(search, tets, points_wanted, options.seed, threads, monitor)) {
+    search.push(tets);
+    search.work_off(points_wanted);
+  }
   if (!saves_points || !try_with_points(search)) shake_the_worst(search);
   if (options.remove == PointsToRemove::all) walk_from_the_worst(search);
   remove_points(search, options.remove == PointsToRemove::all ? 0 : points_before);

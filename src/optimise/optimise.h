@@ -22,6 +22,17 @@ struct OptimiseStats {
   std::size_t removed = 0;      ///< points, these or others, that the mesh could do without in the end
   std::size_t filled_anew = 0;  ///< polyhedra
   std::size_t changed = 0;      ///< tetrahedra made, those of attempts that came to nothing included
+
+  OptimiseStats& operator+=(const OptimiseStats& other) {
+    exchanged += other.exchanged;
+    relocated += other.relocated;
+    unflattened += other.unflattened;
+    reconnected += other.reconnected;
+    inserted += other.inserted;
+    removed += other.removed;
+    changed += other.changed;
+    return *this;
+  }
 };
 
 /// Points that go in the end where the mesh can do without: all, or those added here alone, where the others
@@ -52,8 +63,8 @@ struct OptimiseOptions {
 /// Improves the worst of `tets`; others of their regions may go for them, and all vertices of these are
 /// explicit. Facets and segments stand, and so do the vertices below `first_free`; the Steiner points, the
 /// vertices from there on, lie on no constraint: they may move, and go where they are in the way. `target` is
-/// the worst Q that the facets ask for (mesh/quality.h). The threads compute Q of the whole; the search
-/// itself runs on the calling one.
+/// the worst Q that the facets ask for (mesh/quality.h). Large meshes are searched in
+/// parts on several threads to begin with (search_in_parts.h), which make no difference to the result.
 OptimiseStats optimise(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, double target,
                        const Threads& threads, Monitor& monitor, const OptimiseOptions& options = {});
 

@@ -26,6 +26,9 @@ class Qualities {
     if (std::isnan(q)) q = quality_of(mesh_, mesh_.corners(t));
     return q;
   }
+  /// From now on different threads may ask for those of different tetrahedra, as long as there are no more
+  /// slots.
+  void make_room() { known_.resize(mesh_.slot_count(), kUnknown); }
   /// Computes those of different living tetrahedra.
   void compute(std::span<const Tet> tets, const Threads& threads) {
     make_room();
@@ -78,8 +81,6 @@ class Qualities {
     double quality = 0;
     Tet tet = kNone;
   };
-
-  void make_room() { known_.resize(mesh_.slot_count(), kUnknown); }
 
   // That begin before a slot.
   static std::size_t blocks_before(std::size_t slot) { return (slot + kBlock - 1) / kBlock; }

@@ -1,5 +1,6 @@
 #include "optimise/remove_flat.h"
 
+#include <algorithm>
 #include <array>
 
 #include "mesh/editor.h"
@@ -47,6 +48,22 @@ std::optional<ShellSpoke> FlatRemover::next_blocked(Level& level) const {
     if (at_b ? !is_good(p, q, r, shell.b) : !is_good(r, q, p, shell.a)) return ShellSpoke{i, at_b};
   }
   return std::nullopt;
+}
+
+// As holdfast::find_edge, but without marks, which threads that change parts of the mesh must not set
+// (mesh/in_place_parts.h). It is seldom asked for, and balls are small.
+Tet FlatRemover::find_edge(Vertex a, Vertex b) {
+  round_.assign(1, mesh_.incident(a));
+  for (std::size_t k = 0; k < round_.size(); ++k) {
+    const Tet t = round_[k];
+    if (mesh_.index_of(t, b) >= 0) return t;
+    for (int i = 0; i < 4; ++i) {
+      if (mesh_.corner(t, i) == a) continue;
+      const Tet next = tet_of(mesh_.neighbour(t, i));
+      if (std::find(round_.begin(), round_.end(), next) == round_.end()) round_.push_back(next);
+    }
+  }
+  return kNone;
 }
 
 bool FlatRemover::is_good(Vertex a, Vertex b, Vertex c, Vertex d) const {

@@ -8,7 +8,6 @@
 
 #include "mesh/clear_edge.h"
 #include "mesh/tet_mesh.h"
-#include "mesh/traverse.h"
 #include "optimise/tuning.h"
 
 namespace holdfast {
@@ -41,7 +40,7 @@ class FlatRemover {
   static void begin_spokes(Level& level) { level.next = 0; }
   std::optional<ShellSpoke> next_blocked(Level& level) const;
   [[nodiscard]] std::size_t edge_removals() const { return edge_removals_; }
-  [[nodiscard]] Tet find_edge(Vertex a, Vertex b) { return holdfast::find_edge(mesh_, a, b); }
+  [[nodiscard]] Tet find_edge(Vertex a, Vertex b);
 
   [[nodiscard]] bool is_good(Vertex a, Vertex b, Vertex c, Vertex d) const;
 
@@ -49,6 +48,7 @@ class FlatRemover {
   double bad_from_ = 0;
   std::array<Level, tuning::kFlatDepth + 1> levels_;  // by depth
   std::vector<LinkTriangle> triangles_;
+  std::vector<Tet> round_;
   LinkTriangulation<double> triangulation_;
   std::size_t work_ = 0, edge_removals_ = 0;
   std::vector<Tet>* created_ = nullptr;

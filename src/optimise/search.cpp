@@ -55,11 +55,6 @@ void Search::move_points() {
   stats().changed += changed.size();
 }
 
-void Search::push_all(std::span<const Tet> tets) {
-  qualities_.compute(tets, threads_);
-  push(tets);
-}
-
 std::size_t Search::points_in_mesh() const {
   return static_cast<std::size_t>(
       std::count_if(points().begin(), points().end(), [&](Vertex p) { return mesh_.in_mesh(p); }));

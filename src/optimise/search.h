@@ -23,8 +23,12 @@ class Search {
 
   /// Moves the points that were there, to begin with.
   void move_points();
-  /// The same as `push`, for a whole mesh: their Q are computed by all threads.
-  void push_all(std::span<const Tet> tets);
+  /// The Q of these, by all threads.
+  void compute(std::span<const Tet> tets) { qualities_.compute(tets, threads_); }
+  void push_all(std::span<const Tet> tets) {
+    compute(tets);
+    push(tets);
+  }
   void push(std::span<const Tet> tets) { elements_.push(tets); }
   void work_off(Ways::Points points) { elements_.work_off(points); }
 
@@ -58,6 +62,8 @@ class Search {
   [[nodiscard]] double target() const { return target_; }
   [[nodiscard]] const BadFrom& bad_from() const { return elements_.bad_from(); }
   [[nodiscard]] Vertex first_free() const { return elements_.ways().first_free(); }
+  [[nodiscard]] ElementSearch& elements() { return elements_; }
+  [[nodiscard]] Qualities& qualities() { return qualities_; }
   [[nodiscard]] Agenda& agenda() { return elements_.agenda(); }
   [[nodiscard]] Budget& budget() { return elements_.budget(); }
   [[nodiscard]] OptimiseStats& stats() { return elements_.stats(); }

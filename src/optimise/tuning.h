@@ -36,6 +36,13 @@ inline constexpr std::size_t kInsertWork = 20;      ///< of a point
 inline constexpr std::size_t kRemoveWork = 30;      ///< of an attempt to do without a point
 inline constexpr std::size_t kShakeWork = 200;      ///< for repairs after a shake
 
+// In parts, on several threads.
+inline constexpr std::size_t kWeightOfFlat = 50,
+                             kWeightOfBad = 10;   ///< of an element, others weigh 1: the work
+inline constexpr double kMostMixed = 0.25;        ///< share of the tetrahedra between parts: more is not cut
+inline constexpr std::size_t kSpareSlots = 2048;  ///< that the ways for an element may take
+inline constexpr std::size_t kTetsASpareSlot = 128;  ///< one slot more for so many tetrahedra of a part
+
 // Patience, in attempts in vain.
 inline constexpr int kRounds = 3;         ///< over flat elements: each opens ways for the next
 inline constexpr int kMostFailures = 12;  ///< of elements that are not bad, before they are left

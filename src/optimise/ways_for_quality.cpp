@@ -35,8 +35,10 @@ bool Ways::exchange(Attempt& attempt) {
 
 bool Ways::move_a_corner(Attempt& attempt) {
   const TetMesh::Corners corners = mesh_.corners(attempt.element.tet);
-  return std::any_of(corners.begin(), corners.end(),
-                     [&](Vertex p) { return p >= first_free_ && move(p, attempt.budget, attempt.changed); });
+  return std::any_of(corners.begin(), corners.end(), [&](Vertex p) {
+    if (p < first_free_ || (held_ != nullptr && (*held_)[p] != 0)) return false;
+    return move(p, attempt.budget, attempt.changed);
+  });
 }
 
 bool Ways::move(Vertex p, Budget& budget, std::vector<Tet>& changed) {

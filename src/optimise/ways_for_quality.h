@@ -44,6 +44,9 @@ class Ways {
   bool move(Vertex p, Budget& budget, std::vector<Tet>& changed);
 
   [[nodiscard]] std::mt19937_64& random() { return random_; }
+  /// These, by vertex, do not move: others must not look at what is round them while threads change parts of
+  /// the mesh (mesh/in_place_parts.h).
+  void hold(const std::vector<std::uint8_t>& held) { held_ = &held; }
   /// The vertices from here on may move and go.
   [[nodiscard]] Vertex first_free() const { return first_free_; }
 
@@ -60,6 +63,7 @@ class Ways {
 
   TetMesh& mesh_;
   const Vertex first_free_;
+  const std::vector<std::uint8_t>* held_ = nullptr;
   const BadFrom& bad_from_;
   Exchanger exchanger_;
   FlatRemover flat_remover_;
