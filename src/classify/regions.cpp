@@ -1,7 +1,9 @@
 #include "classify/regions.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <mutex>
 #include <stdexcept>
 
 #include "mesh/disjoint_sets.h"
@@ -11,44 +13,80 @@
 namespace holdfast {
 namespace {
 
-// Unites the tetrahedra that no facet separates, and all ghosts. Neighbours have slots close to each other,
-// so that one sweep over all slots stays in the caches, which a walk from neighbour to neighbour does not.
-DisjointSets unite_across_faces(const TetMesh& mesh, const Threads& threads) {
-  DisjointSets sets(mesh.slot_count());
-  Tet ghost = kNone;
-  const auto unite = [&](Tet t) {
-    if (!mesh.alive(t)) return;
-    for (int i = 0; i < 4; ++i) {
-      const Tet n = tet_of(mesh.neighbour(t, i));
-      if (n < t && !mesh.is_facet(face_code(t, i))) sets.unite(t, n);
+// The tetrahedra that no facet separates, united, and all ghosts. Neighbours have slots close to each other,
+// so that a sweep over slots stays in the caches, which a walk from neighbour to neighbour does not. Each
+// range of slots is united in itself first; what joins ranges is little.
+class Unification {
+ public:
+  Unification(const TetMesh& mesh, const Threads& threads) : mesh_(mesh), sets_(mesh.slot_count()) {
+    parallel_ranges(threads, mesh.slot_count(), [this](std::size_t first, std::size_t last) {
+      std::vector<std::array<Tet, 2>> across = unite_within(static_cast<Tet>(first), static_cast<Tet>(last));
+      const std::scoped_lock lock(mutex_);
+      across_.push_back(std::move(across));
+    });
+    for (const auto& pairs : across_)
+      for (const auto& [t, n] : pairs) sets_.unite(t, n);
+    for (const Tet ghost : ghosts_) sets_.unite(ghost, ghosts_.front());
+  }
+
+  [[nodiscard]] const DisjointSets& sets() const { return sets_; }
+  /// The lowest ghost, or kNone.
+  [[nodiscard]] Tet outside() const { return ghosts_.empty() ? kNone : sets_.root_of(ghosts_.front()); }
+
+ private:
+  // Returns the pairs that lead to lower ranges. Members of a range have their parents there.
+  std::vector<std::array<Tet, 2>> unite_within(Tet first, Tet last) {
+    std::vector<std::array<Tet, 2>> across;
+    Tet ghost = kNone;
+    for (Tet t = first; t < last; ++t) {
+      if (!mesh_.alive(t)) continue;
+      for (int i = 0; i < 4; ++i) {
+        const Tet n = tet_of(mesh_.neighbour(t, i));
+        if (n >= t || mesh_.is_facet(face_code(t, i))) continue;
+        if (n >= first)
+          sets_.unite(t, n);
+        else
+          across.push_back({t, n});
+      }
+      if (!mesh_.is_ghost(t)) continue;
+      if (ghost != kNone) sets_.unite(t, ghost);
+      ghost = t;
     }
-    if (!mesh.is_ghost(t)) return;
-    if (ghost != kNone) sets.unite(t, ghost);
-    ghost = t;
-  };
-  parallel_ranges(threads.at_most(1), mesh.slot_count(), [&](std::size_t first, std::size_t last) {
-    for (auto t = static_cast<Tet>(first); t < last; ++t) unite(t);
-  });
-  return sets;
-}
+    if (ghost == kNone) return across;
+    const std::scoped_lock lock(mutex_);
+    ghosts_.push_back(ghost);
+    return across;
+  }
+
+  const TetMesh& mesh_;
+  DisjointSets sets_;
+  std::mutex mutex_;
+  std::vector<std::vector<std::array<Tet, 2>>> across_;
+  std::vector<Tet> ghosts_;  // one a range that has some
+};
 
 // Numbers the regions, by slot: 0 is the outside, where ghosts are, others come in the order of their first
 // slots. Returns how many they are.
 RegionId number_regions(const TetMesh& mesh, std::vector<RegionId>& of_tet, const Threads& threads) {
-  DisjointSets sets = unite_across_faces(mesh, threads);
+  const Unification united(mesh, threads);
+  const DisjointSets& sets = united.sets();
+  std::mutex mutex;
+  std::map<std::size_t, std::vector<Tet>> first_slots;  // of the sets, by range
+  parallel_ranges(threads, mesh.slot_count(), [&](std::size_t first, std::size_t last) {
+    std::vector<Tet> own;
+    for (auto t = static_cast<Tet>(first); t < last; ++t)
+      if (sets.root_of(t) == t && mesh.alive(t)) own.push_back(t);
+    const std::scoped_lock lock(mutex);
+    first_slots[first] = std::move(own);
+  });
   of_tet.assign(mesh.slot_count(), kNone);
-  for (Tet t = 0; t < mesh.slot_count(); ++t)
-    if (mesh.alive(t) && mesh.is_ghost(t)) of_tet[sets.root(t)] = 0;
   RegionId count = 1;
-  for (Tet t = 0; t < mesh.slot_count(); ++t) {
-    if (!mesh.alive(t)) continue;
-    // Its root is no higher slot, which has its number.
-    const Tet root = sets.root(t);
-    if (root != t)
-      of_tet[t] = of_tet[root];
-    else if (of_tet[t] == kNone)
-      of_tet[t] = count++;
-  }
+  for (const auto& [first, slots] : first_slots)
+    for (const Tet t : slots) of_tet[t] = t == united.outside() ? 0 : count++;
+  parallel_ranges(threads, mesh.slot_count(), [&](std::size_t first, std::size_t last) {
+    for (auto t = static_cast<Tet>(first); t < last; ++t)
+      if (const Tet root = sets.root_of(t); root != t) of_tet[t] = of_tet[root];
+  });
   return count;
 }
 
@@ -82,15 +120,17 @@ void find_sides(const TetMesh& mesh, std::span<const Triangle> facets, Regions& 
     if (sides[0] == kNone || sides[1] == kNone) throw std::logic_error("holdfast: a facet is no mesh face");
 }
 
-void number_by_least_facet(Regions& regions) {
+void number_by_least_facet(Regions& regions, const Threads& threads) {
   std::vector<RegionId> rank(regions.count, kNone);
   rank[0] = 0;
   RegionId next = 1;
   for (const auto& sides : regions.of_facet)
     for (const RegionId r : sides)
       if (rank[r] == kNone) rank[r] = next++;
-  for (RegionId& r : regions.of_tet)
-    if (r != kNone) r = rank[r];
+  parallel_ranges(threads, regions.of_tet.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t)
+      if (regions.of_tet[t] != kNone) regions.of_tet[t] = rank[regions.of_tet[t]];
+  });
   for (auto& sides : regions.of_facet) sides = {rank[sides[0]], rank[sides[1]]};
 }
 
@@ -161,7 +201,7 @@ Regions find_regions(const TetMesh& mesh, std::span<const Triangle> facets, cons
   Regions regions;
   regions.count = number_regions(mesh, regions.of_tet, threads);
   find_sides(mesh, facets, regions, threads);
-  number_by_least_facet(regions);
+  number_by_least_facet(regions, threads);
   return regions;
 }
 
@@ -182,8 +222,10 @@ void find_regions_again(TetMesh& mesh, std::span<const Triangle> facets, Regions
     region_of[regions.of_tet[tet_of(mesh.neighbour(face))]] = turned ? front : back;
     done[front] = done[back] = true;
   }
-  for (RegionId& r : regions.of_tet)
-    if (r != kNone) r = region_of[r];
+  parallel_ranges(threads, regions.of_tet.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t)
+      if (RegionId& r = regions.of_tet[t]; r != kNone) r = region_of[r];
+  });
 }
 
 std::vector<Index> turned_facets(const Regions& regions) {

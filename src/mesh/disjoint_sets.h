@@ -19,6 +19,11 @@ class DisjointSets {
     while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
     return v;
   }
+  /// The same, which any number of threads may ask for.
+  [[nodiscard]] Index root_of(Index v) const {
+    while (parent_[v] != v) v = parent_[v];
+    return v;
+  }
   /// True if two sets became one.
   bool unite(Index a, Index b) {
     a = root(a);
