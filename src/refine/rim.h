@@ -64,17 +64,25 @@ class RimEdges {
     return vertices.size() <= tuning::kMostInTable;
   }
   void link_by_table(std::span<const RimFace> rim, std::size_t side, std::span<NewTet> new_tets) const;
-  void link_by_sorting(std::span<const RimFace> rim, std::span<NewTet> new_tets);
+  void link_by_ends(std::span<NewTet> new_tets);
+  void list_by_ends(std::span<const RimFace> rim, std::size_t vertex_count);
+  // The end of an edge, both given by their places, at which it is listed.
+  [[nodiscard]] std::uint32_t end_of(std::uint32_t u, std::uint32_t w) const {
+    return degree_[u] < degree_[w] || (degree_[u] == degree_[w] && u < w) ? u : w;
+  }
 
   // By the places of an edge's two vertices: 4 * face + side. Entries of other boundaries stay: who reads one
   // compares.
   std::vector<std::uint32_t> table_;
+  // Where there are too many vertices for the table: an edge is listed at the end that has fewer, so that no
+  // list is long, however many edges one vertex has.
   struct Side {
-    EdgeKey edge;
-    Face face;
+    std::uint32_t other;  // the end at which it is not listed
+    Face face;            // of a new tetrahedron, or kNone once it is linked
   };
-  std::vector<Side> sides_;     // where there are too many vertices for the table
-  std::vector<EdgeKey> edges_;  // sorted; likewise
+  std::vector<std::uint32_t> degree_, first_,
+      next_;  // by place: its edges, its first side, the one to be listed next
+  std::vector<Side> sides_;
 };
 
 }  // namespace holdfast
