@@ -93,6 +93,15 @@ class Agenda {
     std::erase_if(below_, [&](const Below& b) { return !is_wanted(b.tet); });
     std::erase_if(stuck_, [&](const WaitingElement& e) { return !is_wanted(e.tet); });
   }
+  /// The worst of those that were given up, so many, are tried once more.
+  void try_worst_again(std::size_t most) {
+    const auto count = static_cast<std::ptrdiff_t>(std::min(most, stuck_.size()));
+    std::partial_sort(stuck_.begin(), stuck_.begin() + count, stuck_.end(),
+                      [](const WaitingElement& x, const WaitingElement& y) { return y < x; });
+    for (std::ptrdiff_t k = 0; k < count; ++k) put(stuck_[static_cast<std::size_t>(k)]);
+    stuck_.erase(stuck_.begin(), stuck_.begin() + count);
+    worst_stuck_ = 0;
+  }
   /// Takes over what waits in another, and what was given up there.
   void take_over(Agenda&& other) {
     floor_ = flat_;

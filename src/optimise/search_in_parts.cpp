@@ -35,6 +35,7 @@ class SearchInParts {
       search_.agenda().take_over(std::move(*done.agenda));
       search_.budget().spend(done.spent);
     }
+    try_worst_again();
     return true;
   }
 
@@ -145,6 +146,18 @@ class SearchInParts {
     search_.push(near_);
     search_.work_off(points_);
     const std::size_t spent = search_.budget().spent();
+    search_.budget() = whole;
+    search_.budget().spend(spent);
+  }
+
+  // Those that would be a whole mesh's worst have had as much patience as those that are a part's.
+  void try_worst_again() {
+    const Budget whole = search_.budget();
+    const std::size_t before = whole.spent();
+    search_.agenda().try_worst_again(tuning::kWorstTriedAgain);
+    search_.budget().fix(tuning::kWorkOnWorst);
+    search_.work_off(points_);
+    const std::size_t spent = search_.budget().spent() - before;
     search_.budget() = whole;
     search_.budget().spend(spent);
   }

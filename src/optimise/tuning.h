@@ -38,7 +38,8 @@ inline constexpr std::size_t kShakeWork = 200;      ///< for repairs after a sha
 
 // In parts, on several threads.
 inline constexpr std::size_t kWeightOfFlat = 50,
-                             kWeightOfBad = 10;   ///< of an element, others weigh 1: the work
+                             kWeightOfBad = 10;  ///< of an element, others weigh 1: the work
+inline constexpr std::size_t kWorstTriedAgain = 64, kWorkOnWorst = 3000;  ///< once the parts are done
 inline constexpr double kMostMixed = 0.25;        ///< share of the tetrahedra between parts: more is not cut
 inline constexpr std::size_t kSpareSlots = 2048;  ///< that the ways for an element may take
 inline constexpr std::size_t kTetsASpareSlot = 128;  ///< one slot more for so many tetrahedra of a part

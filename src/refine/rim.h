@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "mesh/change.h"
-#include "mesh/keys.h"
 #include "mesh/tet_mesh.h"
 #include "refine/tuning.h"
 
