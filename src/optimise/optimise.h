@@ -30,6 +30,7 @@ struct OptimiseStats {
     reconnected += other.reconnected;
     inserted += other.inserted;
     removed += other.removed;
+    filled_anew += other.filled_anew;
     changed += other.changed;
     return *this;
   }

@@ -61,9 +61,13 @@ TEST(Qualities, TheWorstIsThatOfAScan) {
       most = q;
       worst = t;
     }
-    ASSERT_EQ(qualities.worst(
-                  2, [&](Tet t) { return counts(t) && !mesh.is_ghost(t); }, 2),
-              worst);
+    const auto is_solid = [&](Tet t) { return counts(t) && !mesh.is_ghost(t); };
+    const Tet found = qualities.worst(
+        2, is_solid, [](Tet) { return false; }, 2);
+    const Tet next = qualities.worst(
+        2, is_solid, [&](Tet t) { return t == found; }, 2);
+    ASSERT_EQ(found, worst);
+    EXPECT_NE(next, worst);
     created.clear();
     exchanger.exchange(k % 2 == 0 ? worst : tets[random() % tets.size()], 1e10, random, created);
     qualities.forget(created);
