@@ -21,7 +21,9 @@ std::span<const Tet> VertexContractor::contract(Vertex v, double longest) {
       if (w != v) link_.push_back(w);
   sort_unique(link_);
   work_ *= static_cast<double>(link_.size());
-  for (const Vertex w : link_) longest = std::max(longest, volume_.length(v, w));
+  double most = 0;
+  for (const Vertex w : link_) most = std::max(most, volume_.length(v, w));
+  if (most > longest) longest = tuning::kLongerContracted * most;
   const double before = volume_.energy(tets_);
   double best = before;
   fresh_.clear();

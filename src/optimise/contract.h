@@ -12,8 +12,9 @@ class VertexContractor {
   explicit VertexContractor(ImprovedVolume& volume) : volume_(volume) {}
 
   /// Contracts v onto the neighbour that makes the energy least, if that is less than before, and no edge
-  /// becomes longer than `longest` and than all at v: beside large facets sizes are not kept to anyway, and
-  /// points in the way there must be able to go. Returns the new tetrahedra, none where v stays.
+  /// becomes longer than `longest`. Where some edge at v is longer already, as beside large facets, sizes are
+  /// not kept to whatever is done, and points in the way must be able to go: there edges may be some times as
+  /// long. Returns the new tetrahedra, none where v stays.
   std::span<const Tet> contract(Vertex v, double longest);
   /// Of the last call, in tetrahedra looked at.
   [[nodiscard]] double work() const { return work_; }

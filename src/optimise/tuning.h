@@ -130,6 +130,7 @@ inline constexpr double kPatientShare = 0.1;       ///< of the work of a round f
 inline constexpr double kBeyondPatientAim = 0.02;  ///< so that what is just better gets the cheap ways, too
 inline constexpr double kSineWorthAPoint = 0.42;   ///< 25 degrees; no element above is worth a vertex
 inline constexpr double kLongestContracted = 1.6;  ///< sizes: longer edges would undo the sizes asked for
+inline constexpr double kLongerContracted = 2;     ///< times the longest edge before, where that is longer
 // Work, in elements tried, some three microseconds each, as timed.
 inline constexpr double kLeastElements = 1500;     ///< so that small meshes are done thoroughly
 inline constexpr double kRefillWork = 600;         ///< 1 to 4 ms
