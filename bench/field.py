@@ -1,9 +1,10 @@
 """Meshes to compute with, side by side: Holdfast, Gmsh (HXT, and Delaunay with optimisation), TetGen and Netgen.
 
-    field.py --build build/release --corpus DIR [--part good|cad|seeds] [--only NAME] [--cad-count N] [--seeds-count N] [--again GROUP] [--output docs/field.md]
+    field.py --build build/release --corpus DIR [--part good|cad|sizes|seeds] [--only NAME] [--cad-count N] [--sizes-count N]
+             [--seeds-count N] [--again GROUP] [--output docs/field.md]
 
-There are three parts: surfaces of good triangles, as told here, tessellated CAD parts, as told in bench/cad.py, and other seeds without
-field points, as told in bench/seeds.py. Each writes its part of the document and leaves the others' as they are.
+There are four parts: surfaces of good triangles, as told here, tessellated CAD parts, as told in bench/cad.py, sizes far from the surface's, as
+told in bench/sizes.py, and other seeds without field points, as told in bench/seeds.py. Each writes its part of the document and leaves the others' as they are.
 
 Every mesher gets the same triangles and keeps them: `holdfast mesh --no-growth --gradation 0.6` (sizes inside lie
 between those of the surface round, as Gmsh has them), `gmsh -3 -algo hxt`, `gmsh -3 -algo del3d` with Mesh.Optimize, `tetgen -pYq1.4`,
@@ -42,6 +43,7 @@ from meshers import Meshers, TookTooLong  # noqa: E402
 import process  # noqa: E402
 import sections  # noqa: E402
 import seeds  # noqa: E402
+import sizes  # noqa: E402
 
 SURFACES = ["iglt_3holes", "aj_fandisk", "iglt_arm", "aj_rocker-arm", "irmb_cactus25k", "tgt_armadillo",
             "irmb_fertility", "tcsg_golf-out", "igl_armadillo", "irmb_armadillo"]
@@ -125,11 +127,11 @@ class Bench(Meshers):
         return {"one": min(seconds[1]), "two": min(seconds[2]), "same": files[1] == files[2], "tetrahedra": tetrahedra}
 
 
-GROUPS = {"side by side": Bench.faster, "once": Bench.slower, "on two threads": Bench.threads, "edges": Bench.edges} | cad.GROUPS | seeds.GROUPS
-OF_HOLDFAST = ("side by side", "on two threads", *cad.OF_HOLDFAST, *seeds.OF_HOLDFAST)  # measured anew for another one
+GROUPS = {"side by side": Bench.faster, "once": Bench.slower, "on two threads": Bench.threads, "edges": Bench.edges} | cad.GROUPS | sizes.GROUPS | seeds.GROUPS
+OF_HOLDFAST = ("side by side", "on two threads", *cad.OF_HOLDFAST, *sizes.OF_HOLDFAST, *seeds.OF_HOLDFAST)  # measured anew for another one
 FASTER = ["Holdfast", "Holdfast fast", "Gmsh HXT", "TetGen"]
 SLOWER = ["Gmsh Delaunay", "Netgen"]
-HEADINGS = (cad.HEADING, seeds.HEADING)  # of the other parts, in the document's order
+HEADINGS = (cad.HEADING, sizes.HEADING, seeds.HEADING)  # of the other parts, in the document's order
 MESHERS = ["Holdfast", "Holdfast fast", "Gmsh HXT", "Gmsh Delaunay", "TetGen", "Netgen"]
 
 
@@ -244,9 +246,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=lambda p: Path(p).resolve(), required=True)
     parser.add_argument("--corpus", default="")
-    parser.add_argument("--part", choices=["good", "cad", "seeds", "all"], default="all")
+    parser.add_argument("--part", choices=["good", "cad", "sizes", "seeds", "all"], default="all")
     parser.add_argument("--only", action="append", help="surfaces of the first part")
     parser.add_argument("--cad-count", type=int, default=60)
+    parser.add_argument("--sizes-count", type=int, default=sizes.COUNT)
     parser.add_argument("--seeds-count", type=int, default=200)
     parser.add_argument("--again", action="append", choices=GROUPS, default=[])
     parser.add_argument("--timeout", type=float, default=300)
@@ -260,7 +263,7 @@ def main():
     with tempfile.TemporaryDirectory(prefix="holdfast-field-") as scratch:
         if options.part in ("good", "all"):
             measure_good(options, folder, rows, Path(scratch))
-        for part in (cad, seeds):
+        for part in (cad, sizes, seeds):
             if options.part in (part.__name__, "all"):
                 part.run(options, rows, folder, Path(scratch), lambda text, part=part: sections.replace(options.output, HEADINGS, part.HEADING, text))
 

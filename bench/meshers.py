@@ -19,6 +19,7 @@ Volume(1) = {{1}};
 Mesh.SaveAll = 1;
 Mesh.Optimize = 1;
 """
+LARGEST_SIZE = "Mesh.MeshSizeMax = {size!r};\n"
 
 
 class TookTooLong(Exception):
@@ -59,15 +60,17 @@ class Meshers:
         seconds = json.loads(report.read_text())["seconds"]
         return Made(volume, seconds["total"] - seconds["read"] - seconds["write"], told.cpu)
 
-    def gmsh(self, surface, algorithm):
+    def gmsh(self, surface, algorithm, size=None):
+        """With a largest size, or none."""
         write_msh(self.folder / "s.msh", *read_off(surface))
-        (self.folder / "s.geo").write_text(GEO.format(surface="s.msh"))
+        (self.folder / "s.geo").write_text(GEO.format(surface="s.msh") + (LARGEST_SIZE.format(size=size) if size else ""))
         told = self.run(["gmsh", "-nt", "1", "-3", "-format", "msh2", "-algo", algorithm, "-o", "g.msh", "s.geo"])
         if told is None or "Error" in told.output:
             return None
         return Made("g.msh", sum(map(float, re.findall(r"Done (?:meshing|optimizing) .*Wall ([0-9.e-]+)s", told.output))), told.cpu)
 
-    def tetgen(self, surface):
+    def tetgen(self, surface, most_volume=None):
+        """With a largest volume of elements, or none."""
         points, triangles = read_off(surface)
         with open(self.folder / "t.smesh", "w", encoding="ascii") as out:
             out.write(f"{len(points)} 3 0 0\n")
@@ -75,7 +78,7 @@ class Meshers:
             out.write(f"{len(triangles)} 0\n")
             out.writelines(f"3 {' '.join(t)}\n" for t in triangles)
             out.write("0\n0\n")
-        told = self.run(["tetgen", "-pYq1.4", "t.smesh"])
+        told = self.run(["tetgen", "-pYq1.4" + (f"a{most_volume:.15f}" if most_volume else ""), "t.smesh"])
         if told is None:
             return None
         total = re.search(r"Total running seconds:\s+([0-9.e-]+)", told.output)

@@ -1,4 +1,4 @@
-"""Whether other random orders do better without field points: the third group of field.py.
+"""Whether other random orders do better without field points: the fourth group of field.py.
 
 The sample is fixed by a rule: the valid, closed surfaces of the corpus of at most MOST_TRIANGLES triangles, in the order of the SHA-256
 of their names, the first of these. `holdfast mesh --fill` meshes each with its default seed and with OTHERS more. What is flat by chance
