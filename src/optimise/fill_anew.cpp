@@ -12,15 +12,6 @@
 namespace holdfast {
 namespace {
 
-// The filling joins the rest of the mesh, which may allow more.
-void improve_what_changed(Search& search, const Search::Trial& trial) {
-  const std::vector<Tet> changed = trial.before().changed();
-  search.forget(changed);
-  search.push(changed);
-  search.budget().fix(tuning::kShakeWork);
-  search.work_off(Ways::Points::none);
-}
-
 // As many points more, as many times better, and ten times at least.
 bool are_points_worth_it(const Search& search, const Search::Trial& trial, double gain) {
   const std::size_t points = search.points_in_mesh();
@@ -37,7 +28,7 @@ bool fill_anew(Search& search, const Polyhedron& polyhedron, const Filler& fill)
   Search::Trial trial(search, Search::Trial::Agenda::set_aside);
   if (const auto added = polyhedron.replace(*filling)) {
     search.add_points(*added);
-    improve_what_changed(search, trial);
+    trial.improve_what_changed();
     if (trial.has_paid() && are_points_worth_it(search, trial, gain)) {
       ++search.stats().filled_anew;
       ++search.stats().changed;

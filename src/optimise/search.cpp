@@ -92,6 +92,14 @@ Search::Trial::Trial(Search& search, Agenda agenda)
       points_(search.points().size()),
       points_in_mesh_(search.points_in_mesh()) {}
 
+void Search::Trial::improve_what_changed() {
+  const std::vector<Tet> changed = before().changed();
+  search_.forget(changed);
+  search_.push(changed);
+  search_.budget().fix(tuning::kShakeWork);
+  search_.work_off(Ways::Points::none);
+}
+
 bool Search::Trial::has_paid() const {
   const TetMesh& mesh = search_.mesh_;
   const BadFrom& bad_from = search_.bad_from();

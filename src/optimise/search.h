@@ -41,6 +41,8 @@ class Search {
     ~Trial() { search_.log_.release(); }
     Trial(const Trial&) = delete;
     Trial& operator=(const Trial&) = delete;
+    /// What has changed since it began is improved as any other part of the mesh, with a budget of its own.
+    void improve_what_changed();
     void take_back();
     /// No more hopeless elements than before, and the worst of all better; other flat ones are of less
     /// account.

@@ -10,16 +10,12 @@
 namespace holdfast {
 namespace {
 
-void shake_and_improve(Search& search, const WaitingElement& worst, const Search::Trial& trial) {
+void shake_and_improve(Search& search, const WaitingElement& worst, Search::Trial& trial) {
   Flipper flipper(search.mesh(), search.random());
   shake(
       search.mesh(), flipper, worst.corners, tuning::kShakenEdges, [&](Tet t) { return search.is_ours(t); },
       search.random());
-  const std::vector<Tet> changed = trial.before().changed();
-  search.forget(changed);
-  search.push(changed);
-  search.budget().fix(tuning::kShakeWork);
-  search.work_off(Ways::Points::none);
+  trial.improve_what_changed();
 }
 
 // Points take hopeless elements away, one or two each: so without null ones, the worst gets better as many

@@ -1,14 +1,11 @@
 #include "optimise/walking.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <optional>
 
 #include "mesh/edge_removal.h"
-#include "mesh/quality.h"
 #include "mesh/traverse.h"
-#include "numbers/vector.h"
 #include "optimise/forced_apex.h"
 #include "optimise/random_exchange.h"
 #include "optimise/reconnect.h"
@@ -96,17 +93,6 @@ class Walk {
   std::vector<Tet> tets_, created_;
 };
 
-// The neighbourhood of the walk may have got worse, up to the limit: it is improved as any other.
-bool walk_and_improve(Search& search, const WaitingElement& worst, const Search::Trial& trial) {
-  if (!Walk(search, worst).run()) return false;
-  const std::vector<Tet> changed = trial.before().changed();
-  search.forget(changed);
-  search.push(changed);
-  search.budget().fix(tuning::kShakeWork);
-  search.work_off(Ways::Points::none);
-  return true;
-}
-
 }  // namespace
 
 void walk_from_the_worst(Search& search) {
@@ -118,10 +104,14 @@ void walk_from_the_worst(Search& search) {
     if (vain == 0) worst = search.worst();
     if (!worst || worst->quality < worth_walking || !may_be_better(search.mesh(), *worst)) return;
     Search::Trial trial(search, Search::Trial::Agenda::set_aside);
-    if (walk_and_improve(search, *worst, trial) && trial.has_paid()) {
-      ++search.stats().changed;
-      vain = 0;
-      continue;
+    if (Walk(search, *worst).run()) {
+      // Its neighbourhood may have got worse, up to the limit.
+      trial.improve_what_changed();
+      if (trial.has_paid()) {
+        ++search.stats().changed;
+        vain = 0;
+        continue;
+      }
     }
     ++vain;
     trial.take_back();
