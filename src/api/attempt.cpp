@@ -3,18 +3,16 @@
 #include <memory>
 #include <utility>
 
-#include "api/boundary.h"
 #include "api/course.h"
 #include "api/deliver.h"
 #include "api/interior.h"
 
 namespace holdfast {
 
-double attempt(Input& input, const Options& options, std::uint64_t seed, const Threads& threads,
-               Monitor& monitor, const FillAnew* fill_anew, Result& result) {
-  const Attempt attempt{input, options, seed, threads, monitor, fill_anew};
-  const Course course(options, monitor, result.report);
+std::optional<Recovered> recover(const Attempt& attempt, Result& result) {
   Report& report = result.report;
+  Input& input = attempt.input;
+  const Course course(attempt.options, attempt.monitor, report);
 
   BoxMesh box = course.run(CallStep::delaunay, [&] { return delaunay_in_box(attempt); });
   if (course.reaches(CallStep::delaunay)) report.delaunay = box.missing();
@@ -22,11 +20,11 @@ double attempt(Input& input, const Options& options, std::uint64_t seed, const T
       course.run(CallStep::validate_missing, [&] { return input.validate_missing(box.mesh, box.standing); });
   if (!defects.empty()) {
     refuse(result, std::move(defects));
-    return 0;
+    return std::nullopt;
   }
 
   course.run(CallStep::flips, [&] {
-    if (options.flips) recover_by_flips(attempt, box);
+    if (attempt.options.flips) recover_by_flips(attempt, box);
     report.flips = box.missing();
   });
   const EnforceStats added = course.run(CallStep::partition, [&] { return enforce_missing(attempt, box); });
@@ -44,17 +42,24 @@ double attempt(Input& input, const Options& options, std::uint64_t seed, const T
   if (input.parts() != nullptr && input.parts()->refuses()) {
     result.outcome = Outcome::invalid_input;
     result.message = overlap_message(*input.parts());
-    return 0;
+    return std::nullopt;
   }
   if (!division.kept.defects.empty()) {
     refuse(result, std::move(division.kept.defects));
-    return 0;
+    return std::nullopt;
   }
   report.forced_points =
       course.run(CallStep::suppress, [&] { return suppress_points(attempt, box, division); });
+  return Recovered{std::move(box), std::move(division)};
+}
+
+double fill(const Attempt& attempt, Recovered& recovered, Result& result) {
+  auto& [box, division] = recovered;
+  Report& report = result.report;
+  const Course course(attempt.options, attempt.monitor, report);
 
   std::unique_ptr<Field> field;
-  if (options.sizes)
+  if (attempt.options.sizes)
     field =
         course.run(CallStep::field_points, [&] { return add_field_points(attempt, box, division, report); });
   course.run(CallStep::optimise, [&] { improve_elements(attempt, box, division, field.get(), report); });
@@ -62,6 +67,11 @@ double attempt(Input& input, const Options& options, std::uint64_t seed, const T
   course.begin(CallStep::deliver);
   deliver(attempt, box, division, field.get(), result);
   return field ? field->worst_without : 0;
+}
+
+double mesh_once(const Attempt& attempt, Result& result) {
+  std::optional<Recovered> recovered = recover(attempt, result);
+  return recovered ? fill(attempt, *recovered, result) : 0;
 }
 
 namespace {

@@ -1,22 +1,30 @@
 // One attempt at a mesh: all that comes after the input was looked at (docs/architecture.md).
 #pragma once
 
-#include <cstdint>
+#include <optional>
+#include <vector>
 
-#include "api/input.h"
+#include "api/boundary.h"
 #include "holdfast/holdfast.h"
-#include "mesh/monitor.h"
-#include "mesh/parallel.h"
-#include "optimise/optimise.h"
 
 namespace holdfast {
 
-/// Meshes with the random orders of one seed. `result` comes with the outcome `done` and a report of what was
-/// before, to which the attempt adds its own. Returns the worst Q of the same attempt without field points; 0
-/// where it was not asked for. `fill_anew` tells how polyhedra round bad elements are, and is null where none
-/// is.
-double attempt(Input& input, const Options& options, std::uint64_t seed, const Threads& threads,
-               Monitor& monitor, const FillAnew* fill_anew, Result& result);
+/// What recovery leaves: the regions in a mesh that has no points in them but those that no way takes out.
+struct Recovered {
+  BoxMesh box;
+  Division division;
+};
+
+/// The first half: a mesh that has every facet and segment (paper §3 to §6). `result` comes with the outcome
+/// `done` and a report of what was before, to which this adds its own. Nothing where the complex is refused.
+[[nodiscard]] std::optional<Recovered> recover(const Attempt& attempt, Result& result);
+
+/// The other half: points for the sizes, better elements (paper §8), and the mesh as it is delivered. Returns
+/// the worst Q of the same attempt without field points; 0 where it was not asked for.
+double fill(const Attempt& attempt, Recovered& recovered, Result& result);
+
+/// Both halves.
+double mesh_once(const Attempt& attempt, Result& result);
 
 /// For a result whose outcome is `invalid_input`: its defects, and how many.
 void refuse(Result& result, std::vector<Defect> defects);

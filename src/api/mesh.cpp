@@ -129,15 +129,15 @@ class Call {
     Options options = options_;
     options.flips = options.flips && result_.report.attempts % 2 == 0;
     ++result_.report.attempts;
-    worst_without_field_ = attempt(input_, options, seed_++, threads_, monitor_, &fill_anew_, result_);
+    worst_without_field_ = mesh_once({input_, options, seed_++, threads_, monitor_, &fill_anew_}, result_);
   }
 
-  [[nodiscard]] std::optional<Filling> fill(const Complex& polyhedron) {
+  [[nodiscard]] std::optional<Filling> fill(const Complex& polyhedron, PointsOfFilling points) {
     try {
       // All of them together.
       if (!end_of_filling_) end_of_filling_ = half_of_the_time();
       const LessTime half(limits_, *end_of_filling_);
-      return fill_polyhedron(polyhedron, limits_, monitor_);
+      return fill_polyhedron(polyhedron, points, limits_, monitor_);
     } catch (const Interrupted& interrupted) {
       if (interrupted.outcome() != Outcome::time_limit) throw;
     } catch (const std::logic_error&) {
@@ -246,7 +246,7 @@ class Call {
     Result before = std::exchange(result_, {});
     try {
       result_.report = of_all_attempts(before.report);
-      attempt(input_, options, seed, threads_, monitor_, nullptr, result_);
+      mesh_once({input_, options, seed, threads_, monitor_, nullptr}, result_);
     } catch (const Interrupted& interrupted) {
       if (interrupted.outcome() == Outcome::cancelled) throw;
       go_back_to(std::move(before));
@@ -347,8 +347,9 @@ class Call {
   std::uint64_t seed_ = options_.seed;    // of the next attempt
   double worst_without_field_ = 0;        // of the last one
   std::optional<double> end_of_filling_;  // polyhedra, as a time limit
-  const FillAnew fill_anew_{[this](const Complex& polyhedron) { return fill(polyhedron); },
-                            has_few_facets() ? kNearTarget : kFarFromTarget};
+  const FillAnew fill_anew_{
+      [this](const Complex& polyhedron, PointsOfFilling points) { return fill(polyhedron, points); },
+      has_few_facets() ? kNearTarget : kFarFromTarget};
   Result result_;
 };
 

@@ -20,7 +20,7 @@ bool are_points_worth_it(const Search& search, const Search::Trial& trial, doubl
 }
 
 bool fill_anew(Search& search, const Polyhedron& polyhedron, const Filler& fill) {
-  const std::optional<Filling> filling = fill(polyhedron.surface());
+  const std::optional<Filling> filling = fill(polyhedron.surface(), {});
   search.poll();
   if (!filling || !polyhedron.is_filled_by(*filling)) return false;
   const double gain = polyhedron.worst() / polyhedron.worst(*filling);
@@ -59,7 +59,10 @@ bool fill_anew_without(Search& search, Vertex p, const Filler& fill, double limi
   ball(search.mesh(), p, tets);
   if (tets.size() > tuning::kMostFilledBall) return false;
   const Polyhedron polyhedron(search, std::move(tets), tuning::kFilledAnew.front());
-  const std::optional<Filling> filling = fill(polyhedron.surface());
+  // What recovery leaves hardly ever goes afterwards, and a point for an element is one that was to go.
+  if (polyhedron.points() == 0) return false;
+  const std::optional<Filling> filling =
+      fill(polyhedron.surface(), {.most_recovered = polyhedron.points() - 1, .may_be_added = false});
   search.poll();
   if (!filling || !polyhedron.is_filled_by(*filling) ||
       polyhedron.worst(*filling) > std::max(limit, polyhedron.worst()))

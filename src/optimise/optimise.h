@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -45,8 +46,13 @@ struct Filling {
   std::vector<Point> added;
   std::vector<Tetrahedron> tetrahedra;
 };
+/// Which Steiner points a filling may have: so many that recovery leaves, and for bad elements some or none.
+struct PointsOfFilling {
+  std::size_t most_recovered = std::numeric_limits<std::size_t>::max();
+  bool may_be_added = true;
+};
 /// Fills what the facets of a complex enclose; nothing where it cannot.
-using Filler = std::function<std::optional<Filling>(const Complex&)>;
+using Filler = std::function<std::optional<Filling>(const Complex&, PointsOfFilling)>;
 
 /// How polyhedra round the worst elements are filled anew.
 struct FillAnew {

@@ -36,15 +36,19 @@ void Polyhedron::gather(const Search& search, std::size_t most) {
 void Polyhedron::cut_out(Vertex first_free) {
   std::set<FaceKey> walls;
   std::set<EdgeKey> segments;
+  std::vector<Vertex> free;
   for (const Tet t : tets_) {
     cut_out_faces(t, walls);
-    for (const Vertex v : mesh_.corners(t))
-      if (v < first_free) vertices_.push_back(v);
+    for (const Vertex v : mesh_.corners(t)) (v < first_free ? vertices_ : free).push_back(v);
     for (int k = 0; k < 6; ++k)
       if (mesh_.is_segment(t, k)) segments.insert(edge_key(mesh_.corners(t), k));
   }
   for (const auto& f : facets_) vertices_.insert(vertices_.end(), f.begin(), f.end());
   sort_unique(vertices_);
+  sort_unique(free);
+  points_ = static_cast<std::size_t>(std::count_if(free.begin(), free.end(), [&](Vertex v) {
+    return !std::binary_search(vertices_.begin(), vertices_.end(), v);
+  }));
   for (const Vertex v : vertices_) surface_.vertices.push_back(mesh_.position(v));
   for (const auto& f : facets_) {
     surface_.facets.push_back({local(f[0]), local(f[1]), local(f[2])});

@@ -21,6 +21,8 @@ class Polyhedron {
   Polyhedron(Search& search, std::vector<Tet> from, std::size_t most);
 
   [[nodiscard]] const std::vector<Tet>& tets() const { return tets_; }
+  /// How many vertices are free and inside.
+  [[nodiscard]] std::size_t points() const { return points_; }
   /// Its facets look outwards.
   [[nodiscard]] Complex surface() const { return surface_.view(); }
   /// The worst Q of its tetrahedra, and that of other ones.
@@ -43,6 +45,7 @@ class Polyhedron {
   std::vector<Vertex> vertices_;               // of the surface, in ascending order
   std::vector<std::array<Vertex, 3>> facets_;  // of the surface
   std::set<FaceKey> faces_;                    // between the polyhedron and the rest of the mesh
+  std::size_t points_ = 0;
   Surface surface_;
 };
 

@@ -40,7 +40,7 @@ struct Searched {
 };
 
 // By a call of its own.
-std::optional<Filling> filled(const Complex& complex) {
+std::optional<Filling> filled(const Complex& complex, PointsOfFilling = {}) {
   const Result result = mesh(complex, Options{});
   if (result.outcome != Outcome::done) return std::nullopt;
   const auto first_added =
@@ -169,9 +169,9 @@ TEST(FillAnew, ChangesNothingWhereNothingFits) {
     for (const Tet t : solid(mesh)) corners.push_back(mesh.corners(t));
     return corners;
   };
-  const std::vector<Filler> fillers{[](const Complex&) { return std::nullopt; },
-                                    [](const Complex&) { return Filling{}; },
-                                    [](const Complex& complex) {
+  const std::vector<Filler> fillers{[](const Complex&, PointsOfFilling) { return std::nullopt; },
+                                    [](const Complex&, PointsOfFilling) { return Filling{}; },
+                                    [](const Complex& complex, PointsOfFilling) {
                                       std::optional<Filling> filling = filled(complex);
                                       if (filling) filling->tetrahedra.pop_back();
                                       return filling;
@@ -180,9 +180,9 @@ TEST(FillAnew, ChangesNothingWhereNothingFits) {
     Searched s(2);
     const std::vector<TetMesh::Corners> before = corners_of(s.mesh);
     int calls = 0;
-    const Filler counting = [&](const Complex& complex) {
+    const Filler counting = [&](const Complex& complex, PointsOfFilling points) {
       ++calls;
-      return fill(complex);
+      return fill(complex, points);
     };
     fill_anew_round_the_worst(s.search, {counting, 3});
     EXPECT_GT(calls, 0);
@@ -220,7 +220,7 @@ TEST(FillAnew, TakesNoPointForLittle) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     Searched s(seed);
     const double before = badness_of(s.mesh, s.tets, kFrom).worst;
-    const Filler fill = [&](const Complex& complex) -> std::optional<Filling> {
+    const Filler fill = [&](const Complex& complex, PointsOfFilling) -> std::optional<Filling> {
       std::optional<Filling> filling = filled(complex);
       if (!filling || !filling->added.empty()) return std::nullopt;
       filling = with_a_point(*filling, complex);
@@ -266,7 +266,12 @@ TEST(FillAnew, DoesWithoutPoints) {
     const double limit = search.worst_without_point();
     const std::size_t before = search.points_in_mesh();
     ASSERT_EQ(before, 6U);
-    fill_anew_without_points(search, {filled, 3});
+    const Filler fill = [&](const Complex& complex, PointsOfFilling points) {
+      EXPECT_LT(points.most_recovered, search.points_in_mesh());
+      EXPECT_FALSE(points.may_be_added);
+      return filled(complex);
+    };
+    fill_anew_without_points(search, {fill, 3});
     gone += before - search.points_in_mesh();
     EXPECT_LE(search.badness().worst, limit);
     EXPECT_EQ(find_fault(mesh), "");
@@ -280,7 +285,7 @@ TEST(FillAnew, EndsWhereTheCallIsCancelled) {
   Limits limits;
   limits.cancel = CancelToken();
   Searched s(4, limits);
-  const Filler cancelling = [&](const Complex& complex) {
+  const Filler cancelling = [&](const Complex& complex, PointsOfFilling) {
     limits.cancel->cancel();
     return filled(complex);
   };
