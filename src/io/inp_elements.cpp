@@ -21,12 +21,21 @@ namespace {
                   "the " + std::string(what) + " " + std::to_string(number) + " is there twice");
 }
 
+// Elements that connect or load nodes, and fill nothing: springs, dashpots, gaps, masses, inertias, heat
+// capacities, connectors and couplings, and the branches of CalculiX's networks.
+bool has_no_shape(std::string_view type) {
+  static constexpr std::string_view kPrefixes[] = {"spring",  "dashpot", "gap",     "mass",   "rotaryi",
+                                                   "heatcap", "conn2d",  "conn3d2", "dcoup3d"};
+  return type == "d" || std::any_of(std::begin(kPrefixes), std::end(kPrefixes),
+                                    [&](std::string_view prefix) { return type.starts_with(prefix); });
+}
+
 }  // namespace
 
 void InpElements::read_nodes(InpText& text) {
   for (; text.is_data(); text.next()) {
     const std::vector<std::string_view> fields = text.fields();
-    if (fields.size() < 3) text.reader().fail("a node needs a number and its coordinates");
+    // Coordinates that are not there are zero (Abaqus and CalculiX, *NODE).
     nodes_.add(integer_of(text.reader(), fields[0], "a node's number"));
     Point point{};
     for (std::size_t axis = 0; axis < 3 && axis + 1 < fields.size(); ++axis)
@@ -35,7 +44,7 @@ void InpElements::read_nodes(InpText& text) {
   }
 }
 
-const InpElements::Type& InpElements::type_of(const TextReader& text, const InpKeyword& key) {
+const InpElements::Type& InpElements::type_of(const TextReader& text, const std::string& given) {
   // The longest prefix of a type's name counts.
   static constexpr Type kTypes[] = {
       {"c3d4", 3, 4},    {"c3d10", 3, 10}, {"dc3d4", 3, 4},  {"dc3d10", 3, 10}, {"ac3d4", 3, 4},
@@ -47,22 +56,23 @@ const InpElements::Type& InpElements::type_of(const TextReader& text, const InpK
       {"m3d8", 2, 8},    {"sfm3d8", 2, 8}, {"cax3", 2, 3},   {"cax4", 2, 4},    {"cax6", 2, 6},
       {"cax8", 2, 8},    {"t3d2", 1, 2},   {"b31", 1, 2},    {"b21", 1, 2},     {"t2d2", 1, 2},
       {"t3d3", 1, 3},    {"b32", 1, 3}};
-  const auto found = key.values.find("type");
-  if (found == key.values.end()) text.fail("*ELEMENT without TYPE");
-  const std::string name = lower(found->second);
+  const std::string name = lower(given);
   const Type* best = nullptr;
   for (const Type& type : kTypes)
     if (name.starts_with(type.prefix) && (best == nullptr || type.prefix.size() > best->prefix.size()))
       best = &type;
   const char behind = best == nullptr || name.size() == best->prefix.size() ? ' ' : name[best->prefix.size()];
   if (best == nullptr || (behind >= '0' && behind <= '9'))
-    text.fail("elements of type " + in_quotes(found->second) +
+    text.fail("elements of type " + in_quotes(given) +
               " are not read; only tetrahedra, triangles, quadrangles and lines are");
   return *best;
 }
 
 std::vector<std::int64_t> InpElements::read(InpText& text, const InpKeyword& key) {
-  const Type& type = type_of(text.reader(), key);
+  const auto given = key.values.find("type");
+  if (given == key.values.end()) text.reader().fail("*ELEMENT without TYPE");
+  if (has_no_shape(lower(given->second))) return read_shapeless(text, given->second);
+  const Type& type = type_of(text.reader(), given->second);
   if (const auto twice = nodes_.finish()) fail_twice(text.reader().source(), "node", *twice);
   std::vector<std::int64_t> read;
   while (text.is_data()) {
@@ -80,6 +90,18 @@ std::vector<std::int64_t> InpElements::read(InpText& text, const InpKeyword& key
     add(text.reader(), type, nodes, numbers[0]);
     read.push_back(numbers[0]);
   }
+  return read;
+}
+
+// A line each. Their numbers count, as sets may hold them.
+std::vector<std::int64_t> InpElements::read_shapeless(InpText& text, const std::string& type) {
+  std::vector<std::int64_t> read;
+  for (; text.is_data(); text.next()) {
+    read.push_back(integer_of(text.reader(), text.fields()[0], "a number of an element or node"));
+    numbers_.add(read.back());
+    elements_.push_back({0, 0, 0});
+  }
+  shapeless_[type] += read.size();
   return read;
 }
 

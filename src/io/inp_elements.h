@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,12 @@
 namespace holdfast::io {
 
 struct InpElement {
-  int dimension;
-  Index entity;  ///< of the mesh: its index among those of the dimension, the first of a polygon
-  Index count;   ///< of a polygon that is cut: how many facets
+  int dimension;  ///< 0: it has no shape, and is no entity
+  Index entity;   ///< of the mesh: its index among those of the dimension, the first of a polygon
+  Index count;    ///< of a polygon that is cut: how many facets
 };
 
-/// Every node is a vertex of the mesh, every element an entity of it, or a run of facets.
+/// Every node is a vertex of the mesh, every element with a shape an entity of it, or a run of facets.
 class InpElements {
  public:
   explicit InpElements(MeshData& mesh) : mesh_(mesh) {}
@@ -28,6 +29,8 @@ class InpElements {
   void finish(const Source& source);
 
   [[nodiscard]] std::size_t size() const { return elements_.size(); }
+  /// Springs, masses and the like: how many elements of a type.
+  [[nodiscard]] const std::map<std::string, std::size_t>& shapeless() const { return shapeless_; }
   /// The element of a number, or null.
   [[nodiscard]] const InpElement* find(std::int64_t number) const {
     const std::optional<Index> found = numbers_.find(number);
@@ -36,13 +39,15 @@ class InpElements {
 
  private:
   struct Type;
-  static const Type& type_of(const TextReader& text, const InpKeyword& key);
+  static const Type& type_of(const TextReader& text, const std::string& given);
+  std::vector<std::int64_t> read_shapeless(InpText& text, const std::string& type);
   [[nodiscard]] Index vertex(const TextReader& text, std::int64_t number) const;
   void add(const TextReader& text, const Type& type, const std::array<Index, 10>& nodes, std::int64_t number);
 
   MeshData& mesh_;
   Numbered nodes_, numbers_;
   std::vector<InpElement> elements_;
+  std::map<std::string, std::size_t> shapeless_;
 };
 
 }  // namespace holdfast::io

@@ -54,6 +54,7 @@ class InpReader {
           throw FileError(
               text_.reader().source().path, "",
               "the element " + std::to_string(number) + " of the set " + in_quotes(name) + " does not exist");
+        if (element->dimension == 0) continue;
         const auto d = static_cast<std::size_t>(element->dimension);
         NamedIds& ids = d == 3 ? names_.regions : d == 2 ? names_.markers : names_.segments;
         if (id[d] == 0) id[d] = ids.id_of(name);
@@ -71,13 +72,19 @@ class InpReader {
   }
 
   void tell_skipped() {
+    leave_out(skipped_, "block", "*");
+    leave_out(elements_.shapeless(), "element", "");
+  }
+
+  void leave_out(const std::map<std::string, std::size_t>& counts, const std::string& what,
+                 const char* before_names) {
     std::string names;
-    std::size_t count = 0;
-    for (const auto& [name, blocks] : skipped_) {
-      names += (names.empty() ? "*" : ", *") + name;
-      count += blocks;
+    std::size_t all = 0;
+    for (const auto& [name, count] : counts) {
+      names += (names.empty() ? "" : ", ") + (before_names + name);
+      all += count;
     }
-    mesh_.leave_out(count, "blocks (" + names + ")", "block (" + names + ")");
+    mesh_.leave_out(all, what + "s (" + names + ")", what + " (" + names + ")");
   }
 
   MeshData mesh_;

@@ -328,5 +328,26 @@ TEST(SolverFormats, OverlappingSetsOfAbaqus) {
   EXPECT_NE(remarks[0].message.find("*density"), std::string::npos);
 }
 
+TEST(SolverFormats, ElementsOfAbaqusWithoutAShape) {
+  const TemporaryFolder folder;
+  put(folder / "a.inp",
+      "*NODE\n1\n2, 1.\n3, 0., 1.\n4, 0., 0., 1.\n*ELEMENT, TYPE=C3D4, ELSET=solid\n1, 1, 2, 3, 4\n"
+      "*ELEMENT, TYPE=SPRINGA, ELSET=springs\n2, 1, 4\n3, 2, 4\n*ELEMENT, TYPE=MASS\n4, 1\n"
+      "*ELEMENT, TYPE=D\n5, 0, 2, 3\n*ELSET, ELSET=all\n1, 2, 3, 4, 5\n");
+  std::vector<Remark> remarks;
+  const Volume volume = read_volume(folder / "a.inp", {}, &remarks);
+  // Coordinates that are not there are zero.
+  EXPECT_EQ(volume.vertices, (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
+  EXPECT_EQ(volume.tetrahedra, (std::vector<Tetrahedron>{{0, 1, 2, 3}}));
+  EXPECT_TRUE(volume.segments.empty());
+  EXPECT_EQ(volume.names.regions.size(), 2u);
+  EXPECT_TRUE(volume.names.facets.empty());
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_EQ(remarks[0].count, 4u);
+  EXPECT_NE(remarks[0].message.find("4 elements (D, MASS, SPRINGA) are left out"), std::string::npos);
+  put(folder / "b.inp", "*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=MASS\n1, 1\n*ELEMENT, TYPE=SPRINGA\n1, 1, 1\n");
+  EXPECT_THROW((void)read_volume(folder / "b.inp"), FileError);  // the element 1 is there twice
+}
+
 }  // namespace
 }  // namespace holdfast
