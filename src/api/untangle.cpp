@@ -262,6 +262,9 @@ class Untangling {
   }
 
   void conclude_tangled(const RefillStats& refill) {
+    if (refill.outside)
+      return refuse(
+          "the boundary is a valid surface, but a segment or a vertex that is to stay lies outside it");
     if (refill.overlaps)
       return refuse(
           "the boundary is a valid surface, but not that of this mesh: parts of the mesh lie within one "

@@ -25,10 +25,12 @@ class CavityComplex {
 
   [[nodiscard]] Complex view() const { return surface_.view(); }
   [[nodiscard]] const std::vector<Triangle>& facets() const { return surface_.facets; }
+  /// Their ends ascending.
+  [[nodiscard]] const std::vector<Segment>& segments() const { return surface_.segments; }
   [[nodiscard]] const std::vector<Sides>& sides() const { return sides_; }
   /// The tangle's vertices, by number in the complex.
   [[nodiscard]] const std::vector<Vertex>& vertices() const { return vertex_; }
-  /// From here on vertices lie on no constraint and may go.
+  /// From here on vertices lie on no constraint and may go; those before are to stay.
   [[nodiscard]] std::size_t first_point() const { return first_point_; }
   [[nodiscard]] const std::vector<Tet>& tets() const { return tets_; }
   [[nodiscard]] Index part_of(Tet t) const {

@@ -68,7 +68,9 @@ RefillStats refill(Tangle& tangle, const Filler& filler, Watch& watch) {
     if (!tangle.alive(t) || tangle.sign(t) > 0) continue;
     const auto outcome = fill_round(tangle, t, filler, watch);
     if (outcome != RefillCavity::Outcome::filled) {
-      stats.overlaps = outcome != RefillCavity::Outcome::not_representable;
+      stats.outside = outcome == RefillCavity::Outcome::outside;
+      stats.overlaps =
+          outcome == RefillCavity::Outcome::overlaps || outcome == RefillCavity::Outcome::invalid;
       return stats;
     }
     ++stats.cavities;

@@ -28,9 +28,10 @@ using Filler = std::function<Filled(const Complex&)>;
 struct RefillStats {
   std::size_t cavities = 0;
   /// No tetrahedron is left that is not positive. Where some are, the boundary encloses no mesh (`overlaps`:
-  /// parts of the volume lie in one another, or inside out) or the filler found none in doubles.
+  /// parts of the volume lie in one another, or inside out; `outside`: a segment or a vertex that is to stay
+  /// lies there) or the filler found none in doubles.
   bool done = false;
-  bool overlaps = false;
+  bool overlaps = false, outside = false;
 };
 
 /// Empties and refills the smallest cavities that allow it. Free vertices in a cavity stay where they serve;

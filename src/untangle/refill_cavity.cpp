@@ -59,7 +59,8 @@ RefillCavity::Outcome RefillCavity::judge(Volume volume) {
   owner_.clear();
   for (const int region : volume_.regions)
     owner_.push_back((*owners)[static_cast<std::size_t>(region)].value_or(kOutside));
-  return joins_outside() ? Outcome::invalid : Outcome::filled;
+  if (joins_outside()) return Outcome::invalid;
+  return keeps_segments_and_vertices() ? Outcome::filled : Outcome::outside;
 }
 
 // Each facet says to whom the regions on its two sides belong; all facets of a region must say the same, and
@@ -125,6 +126,29 @@ bool RefillCavity::joins_outside() const {
       if (only_outside(corners_of_face(c, i))) return true;
   }
   return false;
+}
+
+// The filler drops what lies outside: free vertices may, what is to stay must not.
+bool RefillCavity::keeps_segments_and_vertices() const {
+  std::vector<bool> held(cavity_.vertices().size(), false);
+  std::vector<Segment> edges;
+  const std::vector<Segment>& segments = cavity_.segments();
+  for (std::size_t t = 0; t < volume_.tetrahedra.size(); ++t) {
+    if (owner_[t] == kOutside) continue;
+    const Tetrahedron& c = volume_.tetrahedra[t];
+    for (const Index v : c)
+      if (v < held.size()) held[v] = true;
+    if (segments.empty()) continue;
+    for (int edge = 0; edge < 6; ++edge) {
+      const auto [a, b] = ends_of_edge(c, edge);
+      edges.push_back(ascending(Segment{a, b}));
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  return std::all_of(held.begin(), held.begin() + static_cast<std::ptrdiff_t>(cavity_.first_point()),
+                     [](bool x) { return x; }) &&
+         std::all_of(segments.begin(), segments.end(),
+                     [&](const Segment& s) { return std::binary_search(edges.begin(), edges.end(), s); });
 }
 
 void RefillCavity::apply(Tangle& tangle) const {

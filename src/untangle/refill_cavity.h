@@ -17,6 +17,7 @@ class RefillCavity {
     filled,
     invalid,   ///< the boundary is no valid surface, or what it bounds does not fit the mesh around
     overlaps,  ///< it is, but does not bound what it should: sides lie within one another or inside out
+    outside,   ///< it is, but segments or vertices that are to stay lie outside
     not_representable,  ///< the filler has no mesh in doubles
   };
   /// Asks the filler for a mesh; the tangle is unchanged.
@@ -32,6 +33,7 @@ class RefillCavity {
   [[nodiscard]] std::optional<Owners> owners_in(const Volume& volume) const;
   [[nodiscard]] bool splits(const Owners& owners) const;
   [[nodiscard]] bool joins_outside() const;
+  [[nodiscard]] bool keeps_segments_and_vertices() const;
 
   const Tangle& tangle_;
   CavityComplex cavity_;

@@ -2,6 +2,7 @@
 // header says, or refused.
 #include "holdfast/untangle.h"
 
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 #include <vector>
@@ -48,6 +49,11 @@ Volume volume_from(Bytes& bytes) {
   return volume;
 }
 
+bool is_corner(const Volume& volume, Index v) {
+  return std::any_of(volume.tetrahedra.begin(), volume.tetrahedra.end(),
+                     [v](const Tetrahedron& t) { return std::find(t.begin(), t.end(), v) != t.end(); });
+}
+
 void require_positive(const Volume& volume) {
   for (const Tetrahedron& t : volume.tetrahedra) {
     const auto at = [&](std::size_t k) { return volume.vertices[t[k]].data(); };
@@ -80,6 +86,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   require_positive(result.volume);
   fuzz::require(result.volume.facets == volume.facets && result.volume.segments == volume.segments,
                 "other facets or segments");
+  for (const Index v : options.fixed)
+    fuzz::require(result.volume.vertices[v] == volume.vertices[v] &&
+                      is_corner(result.volume, v) == is_corner(volume, v),
+                  "a fixed vertex has moved or gone");
   for (const Triangle& f : volume.facets)
     for (const Index v : f)
       fuzz::require(result.volume.vertices[v] == volume.vertices[v], "a vertex of a facet has moved");

@@ -243,6 +243,25 @@ TEST(Untangle, ABoundaryInTheWrongPlaceIsRefused) {
   EXPECT_EQ(result.outcome, Outcome::invalid_input) << result.message;
 }
 
+// A segment, or a vertex that is to stay, lies outside the boundary, where no tetrahedron can be.
+TEST(Untangle, ConstraintsOutsideTheBoundaryAreRefused) {
+  const Surface surface = small::box();
+  Volume volume;
+  volume.vertices = surface.vertices;
+  volume.vertices.push_back({3, 0.4, 0.6});  // was in the middle, joined to all triangles
+  for (const Triangle& f : surface.facets) volume.tetrahedra.push_back({f[1], f[0], f[2], 8});
+  UntangleOptions options;
+  EXPECT_EQ(untangle(volume, options).outcome, Outcome::done);
+  options.fixed = {8};
+  const UntangleResult fixed = untangle(volume, options);
+  EXPECT_EQ(fixed.outcome, Outcome::invalid_input);
+  EXPECT_NE(fixed.message.find("outside"), std::string::npos) << fixed.message;
+  volume.segments = {{1, 8}};
+  const UntangleResult joined = untangle(volume);
+  EXPECT_EQ(joined.outcome, Outcome::invalid_input);
+  EXPECT_NE(joined.message.find("outside"), std::string::npos) << joined.message;
+}
+
 TEST(Untangle, ConnectivityThatIsNotAMeshIsRefused) {
   Random random(11);
   const Grid g = grid(2, 0.1, random);
