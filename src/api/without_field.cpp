@@ -11,9 +11,21 @@ namespace {
 // Larger ones take memory, and no optimisation makes them good.
 constexpr std::size_t kMostCompared = 300'000;  // tetrahedra
 // Of meshes of so many tetrahedra the optimisation changes a small part, so that the mean Q does not halve.
-constexpr std::size_t kManyTets = 10'000;
+// Of smaller ones it may change much, yet no such share of elements below 10 degrees goes.
+constexpr std::size_t kManyTets = 10'000, kTets = 500;
+constexpr double kManyBelow10 = 0.3;
 // More work takes off such a part of what the mean Q is above that of elements none of which is bad.
 constexpr double kMended = 0.3, kWithoutBad = 3;
+
+// Whether the optimisation will not make a mesh better somewhere than one with field points that has no
+// element below 10 degrees.
+bool is_plainly_worse(const Figures& before, const Figures& with_field) {
+  if (with_field.below_10_deg() > 0 || before.mean_quality() <= 2 * with_field.mean_quality()) return false;
+  const auto below = static_cast<double>(before.below_10_deg()),
+             elements = static_cast<double>(before.elements());
+  return (before.elements() > kManyTets && below > 0) ||
+         (before.elements() > kTets && below > kManyBelow10 * elements);
+}
 
 }  // namespace
 
@@ -37,9 +49,7 @@ WithoutField::WithoutField(const Attempt& attempt, const BoxMesh& box, const Div
 bool WithoutField::is_better_somewhere(const Figures& with_field) {
   if (before_.elements() == 0) return false;
   if (!optimised_) {
-    if (before_.elements() > kManyTets && with_field.below_10_deg() == 0 && before_.below_10_deg() > 0 &&
-        before_.mean_quality() > 2 * with_field.mean_quality())
-      return false;
+    if (is_plainly_worse(before_, with_field)) return false;
     optimise(mesh_, division_.tets(mesh_), first_free_, attempt_.input.target(), attempt_.threads,
              attempt_.monitor,
              {.add_points = attempt_.options.add_points,
