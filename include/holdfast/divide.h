@@ -100,8 +100,8 @@ class HOLDFAST_API Joiner {
 using PartLoader = std::function<Volume(std::size_t)>;
 
 /// Writes what `join_parts` would give as a .vtu file, whatever its name, one part in memory at a time;
-/// numbers of vertices have 64 bits where they need them, and nothing is compressed. Throws as `write_volume`
-/// does, and what `load` throws.
+/// numbers of vertices have 64 bits where they need them, and arrays are compressed as `options` says, but
+/// into a pipe. Throws as `write_volume` does, and what `load` throws.
 HOLDFAST_API void write_joined(const std::filesystem::path& path, const Complex& surface, std::size_t parts,
                                const PartLoader& load, int interface_marker,
                                const WriteOptions& options = {});

@@ -1,30 +1,28 @@
 // The joined volume as .vtu (see io/vtu_write.cpp), with one part in memory at a time: each array takes a
 // pass over the parts.
 #include <bit>
-#include <cstring>
 #include <string>
 
 #include "holdfast/divide.h"
 #include "io/atomic_writer.h"
 #include "io/vtk_cells.h"
+#include "io/vtu_blocks.h"
 #include "io/xml_reader.h"
 #include "numbers/float_environment.h"
 
 namespace holdfast {
 namespace {
 
-template <class T>
-void put(io::AtomicWriter& out, T value) {
-  char raw[sizeof value];
-  std::memcpy(raw, &value, sizeof value);
-  out.write({raw, sizeof raw});
-}
-
 class JoinedWriter {
  public:
   JoinedWriter(io::AtomicWriter& out, const Complex& surface, std::size_t parts, const PartLoader& load,
-               int interface_marker)
-      : out_(out), surface_(surface), parts_(parts), load_(load), marker_(interface_marker) {}
+               int interface_marker, const WriteOptions& options)
+      : out_(out),
+        surface_(surface),
+        parts_(parts),
+        load_(load),
+        marker_(interface_marker),
+        appended_(out, options.compress, Threads(options.threads).polling([&out] { step(out.watch()); })) {}
 
   void run() {
     count();
@@ -69,16 +67,18 @@ class JoinedWriter {
   void array(const char* type, const char* name, std::uint64_t components, std::uint64_t bytes) {
     out_ << "<DataArray type=\"" << type << "\" Name=\"" << name << '"';
     if (components != 1) out_ << " NumberOfComponents=\"" << components << '"';
-    out_ << " format=\"appended\" offset=\"" << offset_ << "\"/>\n";
-    offset_ += sizeof(std::uint64_t) + bytes;
-    sizes_.push_back(bytes);
+    out_ << " format=\"appended\" offset=";
+    appended_.write_offset(bytes);
+    out_ << "/>\n";
   }
 
   void write_header() {
     const bool wide = vertices_ > UINT32_MAX;
     out_ << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
          << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
-         << "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n";
+         << "\" header_type=\"UInt64\""
+         << (appended_.compresses() ? " compressor=\"vtkZLibDataCompressor\"" : "")
+         << ">\n<UnstructuredGrid>\n";
     write_names();
     out_ << "<Piece NumberOfPoints=\"" << vertices_ << "\" NumberOfCells=\"" << cells_ << "\">\n<Points>\n";
     array("Float64", "Points", 3, 3 * sizeof(double) * vertices_);
@@ -92,6 +92,7 @@ class JoinedWriter {
     array("Int64", "input_vertex", 1, 8 * vertices_);
     if (!common_.vertex_markers.empty()) array("Int32", "marker", 1, 4 * vertices_);
     out_ << "</PointData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+    appended_.begin();
   }
 
   void write_names() {
@@ -108,12 +109,9 @@ class JoinedWriter {
     out_ << "</FieldData>\n";
   }
 
-  void begin_array() { put(out_, sizes_[next_array_++]); }
-
   void write_points() {
-    begin_array();
     const auto write = [&](const Point& p) {
-      for (const double x : p) put(out_, x);
+      for (const double x : p) appended_.put(x);
     };
     for (const Point& p : common_.vertices) write(p);
     for_each_part([&](const Volume& part, const Joiner::Numbered& numbered) {
@@ -123,63 +121,56 @@ class JoinedWriter {
 
   template <class Number>
   void write_corners() {
-    begin_array();
     for_each_part([&](const Volume& part, const Joiner::Numbered& numbered) {
       for (const Tetrahedron& t : part.tetrahedra)
-        for (const Index v : t) put(out_, static_cast<Number>(numbered.vertices[v]));
+        for (const Index v : t) appended_.put(static_cast<Number>(numbered.vertices[v]));
     });
     for (const Triangle& t : common_.facets)
-      for (const Index v : t) put(out_, static_cast<Number>(v));
+      for (const Index v : t) appended_.put(static_cast<Number>(v));
     for (const Segment& s : common_.segments)
-      for (const Index v : s) put(out_, static_cast<Number>(v));
+      for (const Index v : s) appended_.put(static_cast<Number>(v));
   }
 
   void write_offsets() {
-    begin_array();
     std::int64_t end = 0;
-    for (std::uint64_t i = 0; i < tetrahedra_; ++i) put(out_, end += 4);
-    for (std::size_t i = 0; i < common_.facets.size(); ++i) put(out_, end += 3);
-    for (std::size_t i = 0; i < common_.segments.size(); ++i) put(out_, end += 2);
+    for (std::uint64_t i = 0; i < tetrahedra_; ++i) appended_.put(end += 4);
+    for (std::size_t i = 0; i < common_.facets.size(); ++i) appended_.put(end += 3);
+    for (std::size_t i = 0; i < common_.segments.size(); ++i) appended_.put(end += 2);
   }
 
   template <class T>
   void write_per_cell(T of_tetrahedron, T of_facet, T of_segment) {
-    begin_array();
-    for (std::uint64_t i = 0; i < tetrahedra_; ++i) put(out_, of_tetrahedron);
-    for (std::size_t i = 0; i < common_.facets.size(); ++i) put(out_, of_facet);
-    for (std::size_t i = 0; i < common_.segments.size(); ++i) put(out_, of_segment);
+    for (std::uint64_t i = 0; i < tetrahedra_; ++i) appended_.put(of_tetrahedron);
+    for (std::size_t i = 0; i < common_.facets.size(); ++i) appended_.put(of_facet);
+    for (std::size_t i = 0; i < common_.segments.size(); ++i) appended_.put(of_segment);
   }
 
   void write_regions() {
-    begin_array();
     for (std::size_t k = 0; k < parts_; ++k) {
       const Volume part = load_(k);
       for (std::size_t t = 0; t < part.tetrahedra.size(); ++t)
-        put(out_, std::int32_t{part.regions.empty() ? 0 : part.regions[t]});
+        appended_.put(std::int32_t{part.regions.empty() ? 0 : part.regions[t]});
     }
     for (std::size_t i = 0; i < common_.facets.size() + common_.segments.size(); ++i)
-      put(out_, std::int32_t{0});
+      appended_.put(std::int32_t{0});
   }
 
   void write_markers() {
-    begin_array();
-    for (std::uint64_t i = 0; i < tetrahedra_; ++i) put(out_, std::int32_t{0});
+    for (std::uint64_t i = 0; i < tetrahedra_; ++i) appended_.put(std::int32_t{0});
     for (std::size_t i = 0; i < common_.facets.size(); ++i)
-      put(out_, std::int32_t{common_.facet_markers.empty() ? 0 : common_.facet_markers[i]});
+      appended_.put(std::int32_t{common_.facet_markers.empty() ? 0 : common_.facet_markers[i]});
     for (std::size_t i = 0; i < common_.segments.size(); ++i)
-      put(out_, std::int32_t{common_.segment_markers.empty() ? 0 : common_.segment_markers[i]});
+      appended_.put(std::int32_t{common_.segment_markers.empty() ? 0 : common_.segment_markers[i]});
   }
 
   void write_input_vertices() {
-    begin_array();
-    for (const std::int64_t v : common_.input_vertices) put(out_, v);
-    for (std::uint64_t v = common_.input_vertices.size(); v < vertices_; ++v) put(out_, std::int64_t{-1});
+    for (const std::int64_t v : common_.input_vertices) appended_.put(v);
+    for (std::uint64_t v = common_.input_vertices.size(); v < vertices_; ++v) appended_.put(std::int64_t{-1});
   }
 
   void write_vertex_markers() {
-    begin_array();
-    for (const int marker : common_.vertex_markers) put(out_, std::int32_t{marker});
-    for (std::uint64_t v = common_.vertex_markers.size(); v < vertices_; ++v) put(out_, std::int32_t{0});
+    for (const int marker : common_.vertex_markers) appended_.put(std::int32_t{marker});
+    for (std::uint64_t v = common_.vertex_markers.size(); v < vertices_; ++v) appended_.put(std::int32_t{0});
   }
 
   io::AtomicWriter& out_;
@@ -188,9 +179,8 @@ class JoinedWriter {
   const PartLoader& load_;
   int marker_;
   Volume common_;
-  std::uint64_t vertices_ = 0, tetrahedra_ = 0, cells_ = 0, corners_ = 0, offset_ = 0;
-  std::vector<std::uint64_t> sizes_;  // of the arrays, in bytes
-  std::size_t next_array_ = 0;
+  std::uint64_t vertices_ = 0, tetrahedra_ = 0, cells_ = 0, corners_ = 0;
+  io::VtuAppended appended_;
 };
 
 }  // namespace
@@ -200,7 +190,7 @@ void write_joined(const std::filesystem::path& path, const Complex& surface, std
   const FloatEnvironment environment;
   io::Watch watch(options, options.progress);
   io::AtomicWriter out(path, &watch);
-  JoinedWriter(out, surface, parts, load, interface_marker).run();
+  JoinedWriter(out, surface, parts, load, interface_marker, options).run();
   out.commit();
 }
 

@@ -37,6 +37,13 @@ class AtomicWriter {
   AtomicWriter& operator<<(int value) { return *this << std::int64_t{value}; }
   AtomicWriter& operator<<(std::uint32_t value) { return *this << std::uint64_t{value}; }
 
+  /// How many bytes there are by now.
+  [[nodiscard]] std::uint64_t position() const { return written_through_ + used_; }
+  /// What is written directly may be a pipe.
+  [[nodiscard]] bool can_be_patched() const { return nameless_ || !temporary_.empty(); }
+  /// Puts bytes in the place of others that were written before.
+  void patch(std::uint64_t position, std::string_view bytes);
+
   [[nodiscard]] Watch* watch() const { return watch_; }
   /// Gives every byte to the system; after it only `commit` may follow. Files that belong together are
   /// all finished before the first is committed.
@@ -63,6 +70,7 @@ class AtomicWriter {
   int file_ = -1;
   std::unique_ptr<char[]> buffer_;
   std::size_t used_ = 0;
+  std::uint64_t written_through_ = 0;  ///< bytes that have left the buffer
 };
 
 }  // namespace holdfast::io

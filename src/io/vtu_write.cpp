@@ -1,7 +1,5 @@
 // Writes VTK's XML unstructured grids (https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html):
 // appended raw data, each array in zlib blocks with a header of 64-bit sizes.
-#include <zlib.h>
-
 #include <bit>
 #include <cstring>
 #include <limits>
@@ -9,44 +7,26 @@
 
 #include "io/vtk_cells.h"
 #include "io/vtu_arrays.h"
+#include "io/vtu_blocks.h"
 #include "io/xml_reader.h"
 #include "mesh/parallel.h"
 
 namespace holdfast::io {
 namespace {
 
-/// Large enough that block headers cost nothing, small enough for readers that fetch single blocks.
-constexpr std::size_t kBlock = std::size_t{1} << 18;
-
-void append(std::string& bytes, std::uint64_t value) {
-  char raw[sizeof value];
-  std::memcpy(raw, &value, sizeof value);
-  bytes.append(raw, sizeof raw);
-}
-
-std::string deflated(std::string_view block) {
-  std::string room(compressBound(kBlock), '\0');
-  uLongf size = room.size();
-  // Level 1: half the time of the default for 5 % more bytes. It cannot fail: the room suffices.
-  compress2(reinterpret_cast<Bytef*>(room.data()), &size, reinterpret_cast<const Bytef*>(block.data()),
-            block.size(), 1);
-  return room.substr(0, size);
-}
-
 /// One array as the appended section holds it: sizes, then the data.
 std::string encoded(std::string_view data, bool compress, const Threads& threads) {
   std::string result;
   if (!compress) {
-    append(result, data.size());
-    return result.append(data);
+    char size[sizeof(std::uint64_t)];
+    const std::uint64_t bytes = data.size();
+    std::memcpy(size, &bytes, sizeof size);
+    return result.append(size, sizeof size).append(data);
   }
-  std::vector<std::string> blocks((data.size() + kBlock - 1) / kBlock);
-  parallel(threads, blocks.size(),
-           [&](std::size_t k) { blocks[k] = deflated(data.substr(k * kBlock, kBlock)); });
-  append(result, blocks.size());
-  append(result, kBlock);
-  append(result, data.size() % kBlock);
-  for (const std::string& block : blocks) append(result, block.size());
+  const std::vector<std::string> blocks = deflated_blocks(data, threads);
+  std::vector<std::uint64_t> sizes;
+  for (const std::string& block : blocks) sizes.push_back(block.size());
+  result = vtu_block_header(data.size(), sizes);
   for (const std::string& block : blocks) result.append(block);
   return result;
 }

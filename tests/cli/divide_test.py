@@ -3,7 +3,11 @@
     divide_test.py PROGRAM [unittest options]
 """
 import json
+import re
 import shutil
+import struct
+import subprocess
+import zlib
 
 from cli_case import CUBE_FACETS, CUBE_POINTS, CliTest, cube, main, off, shifted
 
@@ -12,6 +16,29 @@ def copy_volume(source, target):
     """With what bounds it, in the file beside."""
     for end in (".vtu", "_surface.vtu"):
         shutil.copy(source.with_name(source.stem + end), target.with_name(target.stem + end))
+
+
+SIZES = {"Float64": 8, "Int64": 8, "UInt64": 8, "Int32": 4, "UInt32": 4, "UInt8": 1}
+
+
+def arrays_of(data):
+    """name -> its bytes, of an appended section in zlib blocks with headers of 64 bits."""
+    head, appended = data.split(b'<AppendedData encoding="raw">\n_', 1)
+    found = {}
+    for kind, name, offset in re.findall(rb'<DataArray type="(\w+)" Name="(\w+)".* offset="(\d+)" */>', head):
+        assert offset == b"%d" % int(offset)
+        at = int(offset)
+        blocks, size, last = struct.unpack_from("<3Q", appended, at)
+        lengths = struct.unpack_from(f"<{blocks}Q", appended, at + 24)
+        at += 24 + 8 * blocks
+        content = b""
+        for k, length in enumerate(lengths):
+            block = zlib.decompress(appended[at:at + length])
+            assert len(block) == (last or size if k == blocks - 1 else size)
+            content, at = content + block, at + length
+        assert len(content) % SIZES[kind.decode()] == 0
+        found[name.decode()] = content
+    return found
 
 
 class Divided(CliTest):
@@ -36,6 +63,26 @@ class Divided(CliTest):
         for ending in ("vtu", "mesh", "msh"):
             self.run_program("join", "d", "-o", f"whole.{ending}")
             self.run_program("check", "cube.off", f"whole.{ending}")
+
+    def test_the_joined_file_is_compressed_where_it_is_a_file(self):
+        self.split("--size", 0.05, parts=2)
+        self.mesh()
+        self.run_program("join", "d", "-o", "whole.vtu")
+        data = (self.folder / "whole.vtu").read_bytes()
+        arrays = arrays_of(data)
+        cells, points = (int(re.search(rb'%s="(\d+)"' % of, data)[1]) for of in (b"NumberOfCells", b"NumberOfPoints"))
+        self.assertGreater(len(arrays["connectivity"]), 1 << 18)  # several blocks
+        self.assertEqual({name: len(array) for name, array in arrays.items() if name != "connectivity"},
+                         {"Points": 24 * points, "offsets": 8 * cells, "types": cells, "region": 4 * cells, "marker": 4 * cells,
+                          "kind": 4 * cells, "input_vertex": 8 * points})
+        # A pipe cannot be written twice, and so holds the arrays as they are.
+        piped = subprocess.run([self.program, "join", "d", "-o", "-", "--format", "vtu"], cwd=self.folder, capture_output=True, check=True)
+        self.assertNotIn(b"compressor", piped.stdout[:500])
+        self.assertLess(2 * len(data), len(piped.stdout))
+        (self.folder / "piped.vtu").write_bytes(piped.stdout)
+        for name in ("whole", "piped"):
+            self.run_program("convert", f"{name}.vtu", "-o", f"{name}.mesh")
+        self.assertEqual((self.folder / "whole.mesh").read_bytes(), (self.folder / "piped.mesh").read_bytes())
 
     def test_sizes_of_regions_go_into_the_parts(self):
         self.split("--region", "0.5,0.5,0.5,8,0.1")
