@@ -54,7 +54,8 @@ std::optional<Recovered> recover(const Attempt& attempt, Result& result) {
 }
 
 double fill(const Attempt& attempt, Recovered& recovered, Result& result) {
-  auto& [box, division] = recovered;
+  BoxMesh& box = recovered.box;
+  Division& division = recovered.division;
   Report& report = result.report;
   const Course course(attempt.options, attempt.monitor, report);
 
