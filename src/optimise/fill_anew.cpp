@@ -43,7 +43,7 @@ bool fill_anew(Search& search, const Polyhedron& polyhedron, const Filler& fill)
 bool fill_anew_round(Search& search, const WaitingElement& worst, const Filler& fill,
                      std::vector<TetMesh::Corners>& left_out) {
   left_out.push_back(worst.corners);
-  if (!may_be_better(search.mesh(), worst)) return false;
+  if (!may_be_better(search.mesh(), worst, search.threads())) return false;
   for (const std::size_t most : tuning::kFilledAnew) {
     const Polyhedron polyhedron(search, {worst.tet}, most);
     if (fill_anew(search, polyhedron, fill)) return true;

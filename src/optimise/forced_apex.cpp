@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <span>
 
 #include "mesh/quality.h"
@@ -11,9 +12,11 @@
 namespace holdfast {
 namespace {
 
+constexpr std::size_t kBlock = 1024;  // vertices between two looks at what other threads have found
+
 // Whether some vertex makes an element on face f whose Q is below `limit`, be it that it does not see the
 // facet: unless one does, no exchange betters the element at a facet.
-bool has_better_apex(const TetMesh& mesh, Face f, double limit) {
+bool has_better_apex(const TetMesh& mesh, Face f, double limit, const Threads& threads) {
   const std::array<Vertex, 3> v = mesh.face_vertices(f);
   const Point &a = mesh.position(v[0]), &b = mesh.position(v[1]), &c = mesh.position(v[2]);
   const Vector u = b - a, w = c - a, normal = cross(u, w);
@@ -23,17 +26,25 @@ bool has_better_apex(const TetMesh& mesh, Face f, double limit) {
   const double least_height = 2 * kQualityOfRegular * longest / limit;
   const double least = least_height * length(normal);
   const std::span<const Point> positions = mesh.positions();
-  return std::any_of(positions.begin(), positions.end(), [&](const Point& p) {
+  const auto is_better = [&](const Point& p) {
     return side * dot(p - a, normal) > least && quality(a, b, c, p) < limit;
+  };
+  std::atomic<bool> found = false;
+  parallel_ranges(threads, positions.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t begin = first; begin < last && !found; begin += kBlock)
+      if (const auto block = positions.subspan(begin, std::min(kBlock, last - begin));
+          std::any_of(block.begin(), block.end(), is_better))
+        found = true;
   });
+  return found;
 }
 
 }  // namespace
 
-bool may_be_better(const TetMesh& mesh, const WaitingElement& e) {
+bool may_be_better(const TetMesh& mesh, const WaitingElement& e, const Threads& threads) {
   for (int i = 0; i < 4; ++i) {
     const Face f = face_code(e.tet, i);
-    if (mesh.is_facet(f) && !has_better_apex(mesh, f, tuning::kForcedFrom * e.quality)) return false;
+    if (mesh.is_facet(f) && !has_better_apex(mesh, f, tuning::kForcedFrom * e.quality, threads)) return false;
   }
   return true;
 }

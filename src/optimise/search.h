@@ -91,6 +91,7 @@ class Search {
   void add_points(std::span<const Vertex> points) {
     elements_.points().insert(elements_.points().end(), points.begin(), points.end());
   }
+  [[nodiscard]] const Threads& threads() const { return threads_; }
   void forget(std::span<const Tet> tets) { qualities_.forget(tets); }
 
  private:

@@ -101,8 +101,12 @@ void walk_from_the_worst(Search& search) {
   std::optional<WaitingElement> worst;
   int vain = 0;
   for (int k = 0; k < tuning::kMostWalks && vain < tuning::kWalksInVain; ++k) {
-    if (vain == 0) worst = search.worst();
-    if (!worst || worst->quality < worth_walking || !may_be_better(search.mesh(), *worst)) return;
+    // A walk in vain leaves the mesh as it was.
+    if (vain == 0) {
+      worst = search.worst();
+      if (!worst || worst->quality < worth_walking || !may_be_better(search.mesh(), *worst, search.threads()))
+        return;
+    }
     Search::Trial trial(search, Search::Trial::Agenda::set_aside);
     if (Walk(search, *worst).run()) {
       // Its neighbourhood may have got worse, up to the limit.
