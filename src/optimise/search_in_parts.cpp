@@ -61,7 +61,7 @@ class SearchInParts {
                                                               : 1;
       samples.push_back({centroid(mesh_, tets_[k]), static_cast<double>(weight)});
     }
-    return {std::move(samples), levels_for(static_cast<double>(tets_.size()))};
+    return {std::move(samples), levels_for(static_cast<double>(tets_.size()), tuning::kWorthCutting)};
   }
 
   [[nodiscard]] std::vector<InPlaceParts::PartNumber> parts_of_vertices(const Cuts& cuts) const {

@@ -10,11 +10,19 @@
 namespace holdfast {
 namespace {
 
-Cuts cuts_of(const TetMesh& mesh, const std::vector<Tet>& tets, double least_share = 0.5) {
+constexpr double kHalf = 0.5;
+
+Cuts cuts_of(const TetMesh& mesh, const std::vector<Tet>& tets, double worth_cutting, double least_share) {
   std::vector<Cuts::Sample> samples;
   for (std::size_t k = 0; k < tets.size(); k += 1 + tets.size() / tuning::kCutSamples)
     samples.push_back({centroid(mesh, tets[k]), 1});
-  return {std::move(samples), levels_for(static_cast<double>(tets.size())), least_share};
+  return {std::move(samples), levels_for(static_cast<double>(tets.size()), worth_cutting), least_share};
+}
+
+// To join parts once more takes sweeps over the whole mesh: a large one's are dear.
+double worth_cutting_again(const TetMesh& mesh) {
+  return std::clamp(tuning::kShareWorthCuttingAgain * static_cast<double>(mesh.tet_count()),
+                    tuning::kWorthCuttingAgain, tuning::kWorthCutting);
 }
 
 // The tetrahedra at these vertices and one ring more: cavities need room to grow. Two sweeps over all take
@@ -51,7 +59,7 @@ std::unique_ptr<Parts> cut_into_parts(const VolumeData& volume, const std::vecto
 
 std::unique_ptr<Parts> cut_evenly(const VolumeData& volume, const Threads& threads) {
   const std::vector<Tet> tets = tets_inside(volume, threads);
-  const Cuts cuts = cuts_of(volume.mesh, tets);
+  const Cuts cuts = cuts_of(volume.mesh, tets, tuning::kWorthCutting, kHalf);
   if (cuts.part_count() == 1) return {};
   return cut_into_parts(volume, tets, cuts, tuning::kMostAtCuts, threads);
 }
@@ -67,7 +75,8 @@ std::unique_ptr<Parts> join_and_cut_again(Parts& parts, const Threads& threads) 
   // all that lies along one would be left once more.
   std::unique_ptr<Parts> again;
   if (static_cast<double>(tets.size()) < tuning::kMostLeft * before)
-    if (const Cuts cuts = cuts_of(volume.mesh, tets, tuning::kLeastShare); cuts.part_count() > 1)
+    if (const Cuts cuts = cuts_of(volume.mesh, tets, worth_cutting_again(volume.mesh), tuning::kLeastShare);
+        cuts.part_count() > 1)
       again = cut_into_parts(volume, tets, cuts, tuning::kMostAtCuts, threads);
   if (!again) again = cut_into_parts(volume, tets, Cuts({}, 0), 1, threads);
   again->set_cut_before(between, threads);

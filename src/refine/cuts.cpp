@@ -88,10 +88,9 @@ std::uint32_t Cuts::part_of(const Point& p) const {
   return static_cast<std::uint32_t>(node - planes_.size());
 }
 
-int levels_for(double tets) {
+int levels_for(double tets, double worth_cutting) {
   int levels = 0;
-  for (double least = tuning::kWorthCutting; tets > least && levels < tuning::kMostLevels; least *= 4)
-    ++levels;
+  for (double least = worth_cutting; tets > least && levels < tuning::kMostLevels; least *= 4) ++levels;
   return levels;
 }
 

@@ -46,7 +46,7 @@ class Cuts {
   std::vector<Plane> planes_;  // a binary tree: below the k-th one are those at 2 k + 1 and 2 k + 2
 };
 
-/// Levels of cuts for this many tetrahedra.
-[[nodiscard]] int levels_for(double tets);
+/// Levels of cuts for this many tetrahedra: one from `worth_cutting` on.
+[[nodiscard]] int levels_for(double tets, double worth_cutting);
 
 }  // namespace holdfast

@@ -46,7 +46,7 @@ Cuts find_cuts(const VolumeData& volume, const SizeFunction& sizes, const std::v
     samples.push_back({middle, tets_in(volume, sizes, tets[k], middle)});
     expected += samples.back().weight * static_cast<double>(step);
   }
-  return {std::move(samples), levels_for(expected)};
+  return {std::move(samples), levels_for(expected, tuning::kWorthCutting)};
 }
 
 FieldPoints filled_parts(const VolumeData& volume, const SizeFunction& sizes, const Threads& threads,

@@ -39,7 +39,9 @@ inline constexpr double kLargestOnCut = 0.9, kHugeOnCut = 2;  ///< radii in size
 inline constexpr double kWorkOnCuts = 0.1;                    ///< share of the stage's work, for its progress
 
 // Cuts again, of what lies near those before.
-inline constexpr int kRings = 2;             ///< rings of tetrahedra round a cut: cavities need room
+inline constexpr int kRings = 2;                      ///< rings of tetrahedra round a cut: cavities need room
+inline constexpr double kWorthCuttingAgain = 20'000;  ///< tetrahedra, at least
+inline constexpr double kShareWorthCuttingAgain = 1.0 / 12;  ///< of the mesh
 inline constexpr double kMostLeft = 0.5;     ///< share of what was cut before: so there is an end
 inline constexpr double kLeastShare = 0.25;  ///< below a plane: one in the middle would be the plane before
 

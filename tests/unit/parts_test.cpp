@@ -298,6 +298,22 @@ TEST(Parts, WhatIsLeftAtCutsComesToAnEnd) {
   EXPECT_EQ(find_fault(mesh), "");
 }
 
+// So that the last of the work is not one thread's: what is left is small beside the mesh, but worth two
+// parts.
+TEST(Parts, WhatIsLeftIsCutAgainWhereItIsMuchOfTheMesh) {
+  Cube cube(25000, false);
+  std::unique_ptr<Parts> parts = cut_evenly(cube.data(), 1);
+  ASSERT_TRUE(parts);
+  ASSERT_GT(parts->parts().size(), 1u);
+  parts = join_and_cut_again(*parts, 1);
+  ASSERT_TRUE(parts);
+  EXPECT_LT(parts->tet_count(), 60'000u);
+  EXPECT_GT(parts->tet_count(), cube.mesh.tet_count() / 12);
+  EXPECT_GT(parts->parts().size(), 1u);
+  while (parts) parts = join_and_cut_again(*parts, 1);
+  EXPECT_EQ(find_fault(cube.mesh), "");
+}
+
 TEST(Parts, KnowWhichVerticesWereOnCutsBefore) {
   Cube cube(14000, false);
   std::unique_ptr<Parts> parts = cut_evenly(cube.data(), 2);
