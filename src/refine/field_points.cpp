@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "mesh/editor.h"
 #include "mesh/measure.h"
 #include "refine/cut_parts.h"
 #include "refine/front.h"
@@ -33,11 +34,17 @@ double tets_in(const VolumeData& volume, const SizeFunction& sizes, Tet t, const
   return 1 + det / 6 / (kRegular * size * size * size);
 }
 
+struct ExpectedWork {
+  Cuts cuts;
+  double tets;  // in the end
+};
+
 // From some of the tetrahedra. Sizes that do not grow are means of those round a point: in a mesh without
 // points inside, of the sizes of the whole surface; so there are no cuts then. With a metric neither: the
 // points on cuts are for spheres.
-Cuts find_cuts(const VolumeData& volume, const SizeFunction& sizes, const std::vector<Tet>& tets) {
-  if (!sizes.grows() || sizes.has_metric()) return {{}, 0};
+ExpectedWork expected_work(const VolumeData& volume, const SizeFunction& sizes,
+                           const std::vector<Tet>& tets) {
+  if (!sizes.grows() || sizes.has_metric()) return {{{}, 0}, 0};
   const std::size_t step = 1 + tets.size() / tuning::kCutSamples;
   std::vector<Cuts::Sample> samples;
   double expected = 0;
@@ -46,15 +53,28 @@ Cuts find_cuts(const VolumeData& volume, const SizeFunction& sizes, const std::v
     samples.push_back({middle, tets_in(volume, sizes, tets[k], middle)});
     expected += samples.back().weight * static_cast<double>(step);
   }
-  return {std::move(samples), levels_for(expected, tuning::kWorthCutting)};
+  return {{std::move(samples), levels_for(expected, tuning::kWorthCutting)}, expected};
+}
+
+// For as many tetrahedra more as are expected in all: so the mesh is copied once while it is small, and not
+// when the parts are joined. Memory that is not touched costs nothing.
+void make_room(const VolumeData& volume, double expected) {
+  const auto more = static_cast<std::size_t>(expected);
+  const std::size_t slots = volume.mesh.slot_count() + more;
+  const std::size_t vertices = volume.mesh.vertex_count() + more / tuning::kTetsAVertexInside;
+  MeshEditor(volume.mesh).reserve(vertices, slots);
+  volume.region_of.reserve(slots);
+  volume.sizes.reserve(vertices);
 }
 
 FieldPoints filled_parts(const VolumeData& volume, const SizeFunction& sizes, const Threads& threads,
                          Monitor& monitor) {
   // More than for the improvement: the first points inside are on the cuts, so that the surface is joined to
   // them from afar (half of the tetrahedra of a torus of a million triangles).
-  const Cuts cuts = find_cuts(volume, sizes, tets_inside(volume, threads));
+  const std::vector<Tet> tets = tets_inside(volume, threads);
+  const auto [cuts, expected] = expected_work(volume, sizes, tets);
   if (cuts.part_count() == 1) return {};
+  make_room(volume, expected);
   add_section_points(volume, cuts, sizes, threads, monitor);
   auto parts = cut_into_parts(volume, tets_inside(volume, threads), cuts, tuning::kMostAtFirstCuts, threads);
   if (!parts) return {};
