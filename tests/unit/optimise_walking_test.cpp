@@ -9,6 +9,7 @@
 #include "mesh/validate.h"
 #include "mesh_fixtures.h"
 #include "optimise/badness.h"
+#include "optimise/forced_apex.h"
 #include "optimise/optimise.h"
 #include "optimise/qualities.h"
 #include "optimise/random_exchange.h"
@@ -75,6 +76,31 @@ TEST(Qualities, TheWorstIsThatOfAScan) {
 }
 
 // What neither exchanges nor shakes take away may go after a walk; whatever comes of it is no worse.
+// A flat tetrahedron on a facet, alone, and many vertices below its plane; or one of them above it, wherever
+// among the others it stands.
+TEST(ForcedApex, IsFoundWhereverItIsOnAnyNumberOfThreads) {
+  constexpr int kOthers = 20'000;
+  for (const int good : {-1, 4, 9'000, kOthers - 1}) {
+    TetMesh mesh;
+    for (const Point& p : {Point{0, 0, 0}, Point{1, 0, 0}, Point{0, 1, 0}, Point{0.3, 0.3, 0.001}})
+      MeshEditor(mesh).add_vertex(p);
+    for (int k = 4; k < kOthers; ++k) MeshEditor(mesh).add_vertex(Point{0.3, 0.3, k == good ? 0.8 : -0.8});
+    const TetMesh::Corners inside{0, 1, 2, 3};
+    MeshAssembly assembly(mesh);
+    const Tet t = assembly.add_tet(inside);
+    for (int side = 0; side < 4; ++side) {
+      const auto v = corners_of_face(inside, side);
+      const Tet ghost = assembly.add_tet({v[0], v[2], v[1], kGhost});
+      assembly.link(face_code(t, side), face_code(ghost, 3));
+    }
+    assembly.set_flags(t, facet_bit(3));
+    const WaitingElement flat{quality_of(mesh, inside), t, inside};
+    ASSERT_GT(flat.quality, 100);
+    for (const unsigned threads : {1u, 2u, 4u})
+      EXPECT_EQ(may_be_better(mesh, flat, threads), good > 0) << good;
+  }
+}
+
 TEST(Walk, GoesOnWhereNothingElseHelps) {
   int better = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
