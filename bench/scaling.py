@@ -4,7 +4,8 @@
     scaling.py PROGRAM FOLDER [--triangles 100000 1000000] [--write docs/scaling.md]
 
 In each stage both threads share what is done at the same time, and the caller's does the rest alone. So its CPU time less that
-of the other is what is serial, and twice the other's is what is shared. The CPU times are those of the kernel, for each
+of the other is what is serial, and all else is what is shared. Where the other has more, the caller has waited for it, or for a
+core: which of them CPU times do not tell, and it is counted as shared. The CPU times are those of the kernel, for each
 thread, at the moments when the program tells that a stage begins. That needs Linux.
 """
 import argparse
@@ -72,7 +73,8 @@ def stages_of(program, surface, output, options):
         own = [end[t] - begin.get(t, 0) for t in sorted(end)]
         other = sum(own[1:])
         serial, shared = stages.get(name, (0, 0))
-        stages[name] = (serial + max(0, own[0] - other), shared + 2 * min(other, own[0]))
+        alone = max(0, own[0] - other)
+        stages[name] = (serial + alone, shared + sum(own) - alone)
     return stages
 
 
