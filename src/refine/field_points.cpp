@@ -57,9 +57,9 @@ ExpectedWork expected_work(const VolumeData& volume, const SizeFunction& sizes,
 }
 
 // For as many tetrahedra more as are expected in all: so the mesh is copied once while it is small, and not
-// when the parts are joined. Memory that is not touched costs nothing.
+// when the parts are joined. Memory that is not touched costs nothing, but there is an end to it, too.
 void make_room(const VolumeData& volume, double expected) {
-  const auto more = static_cast<std::size_t>(expected);
+  const auto more = static_cast<std::size_t>(expected < tuning::kMostRoom ? expected : tuning::kMostRoom);
   const std::size_t slots = volume.mesh.slot_count() + more;
   const std::size_t vertices = volume.mesh.vertex_count() + more / tuning::kTetsAVertexInside;
   MeshEditor(volume.mesh).reserve(vertices, slots);

@@ -38,7 +38,9 @@ inline constexpr double kLargestOnCut = 0.9, kHugeOnCut = 2;  ///< radii in size
                                                               ///< are refined; 0.58 is regular
 inline constexpr double kWorkOnCuts = 0.1;                    ///< share of the stage's work, for its progress
 
-inline constexpr std::size_t kTetsAVertexInside = 5;  ///< for room
+// Room for what is expected.
+inline constexpr std::size_t kTetsAVertexInside = 5;
+inline constexpr double kMostRoom = 1 << 26;  ///< tetrahedra: 5 GB of addresses
 
 // Cuts again, of what lies near those before.
 inline constexpr int kRings = 2;                      ///< rings of tetrahedra round a cut: cavities need room
