@@ -31,7 +31,7 @@ bool FieldInserter::fits(Vertex p, Tet start) {
   if (!is_far_from(p, vertices_round(base), region)) return false;
   const bool found = cavity_.find(p, base, frame_);
   if (found && !is_near_an_interface(p) && is_far_from(p, cavity_.ring(), region) && !is_near_a_facet(p) &&
-      !is_near_beyond(p) && !sizes_.of_facets().is_too_near(mesh_.position(p), asked_))
+      !is_near_beyond(p) && !sizes_.of_facets().is_too_near(mesh_.position(p), asked_, by_))
     return true;
   wasted_ += cavity_.work();
   if (found) cavity_.abandon();
@@ -80,7 +80,8 @@ bool FieldInserter::is_far_from(Vertex p, std::span<const Vertex> vertices, Regi
   }
   if (!sizes_.grows() && weights > 0) size_ = std::min(size_, mean / weights);
   asked_ = size_;
-  if (!sizes_.of_facets().empty()) size_ = sizes_.of_facets().bearable(x, size_);
+  by_ = sizes_.decider(size_, region);
+  if (!sizes_.of_facets().empty()) size_ = sizes_.of_facets().bearable(x, size_, by_);
   wanted_ = size_;
   if (volume_.metrics != nullptr) nearest = want_metric(p, vertices);
   return nearest >= tuning::kNearest * wanted_;

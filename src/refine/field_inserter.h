@@ -49,10 +49,11 @@ class FieldInserter {
   const SizeFunction& sizes_;
   PointCavity cavity_;
   std::array<Vertex, 8> round_{};
-  double size_ = 0;    // at the point
-  double asked_ = 0;   // the same before facets are heeded
-  double wanted_ = 0;  // the same in the frame there
-  Metric metric_{};    // at the point, if there are metrics
+  double size_ = 0;                           // at the point
+  double asked_ = 0;                          // the same before facets are heeded
+  FacetSizes::By by_ = FacetSizes::By::user;  // who decides on that
+  double wanted_ = 0;                         // the same in the frame there
+  Metric metric_{};                           // at the point, if there are metrics
   Frame frame_;
   std::size_t wasted_ = 0;  // tetrahedra of cavities that were not filled
 };

@@ -135,7 +135,8 @@ class Front {
   // Whether the radius of its sphere is larger than what is allowed, and what the facets near by can bear.
   [[nodiscard]] bool is_larger_than_bearable(Tet t, const ScaledCentre& sphere, double allowed) const {
     if (!is_larger(sphere, tuning::kLargeRadius * allowed)) return false;
-    const double bearable = sizes_.of_facets().bearable(centroid(mesh_, t), allowed);
+    const double bearable = sizes_.of_facets().bearable(centroid(mesh_, t), allowed,
+                                                        sizes_.decider(allowed, volume_.region_of[t]));
     return !(bearable > allowed) || is_larger(sphere, tuning::kLargeRadius * bearable);
   }
 
@@ -255,7 +256,7 @@ class Front {
 
   // Sizes at vertices may have been raised already, but not what a function of the user asks for.
   [[nodiscard]] double bearable_at(const Point& x, RegionId region, double size) const {
-    const double bearable = sizes_.of_facets().bearable(x, size);
+    const double bearable = sizes_.of_facets().bearable(x, size, sizes_.decider(size, region));
     if (!(bearable > size) || !sizes_.has_field()) return bearable;
     return sizes_.of_facets().bearable(x, std::min(size, sizes_.limit(x, region)));
   }

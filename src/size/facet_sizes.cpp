@@ -90,7 +90,7 @@ FacetSizes::FacetSizes(std::span<const Facet> facets, Wanted wanted, const Threa
     const bool is_asked = f.is_asked || wanted == Wanted::anywhere;
     const double need = (is_asked ? tuning::kNeedWhereAsked : tuning::kNeedOfFacet) * longest_side(f.corners);
     if (need > tuning::kFarBeyond * f.wanted || wanted == Wanted::anywhere)
-      facets_.push_back({f.corners, std::min(need, tuning::kMostNeed * f.wanted)});
+      facets_.push_back({f.corners, std::min(need, tuning::kMostNeed * f.wanted), f.is_asked});
   }
   threads.poll();
   if (facets_.empty()) return;
@@ -139,7 +139,7 @@ void FacetSizes::enclose(Node& node) const {
 }
 
 template <typename Act>
-void FacetSizes::for_each_near(const Point& x, double rate, const double& size, Act&& act) const {
+void FacetSizes::for_each_near(const Point& x, double rate, const double& size, By by, Act&& act) const {
   if (nodes_.empty()) return;
   std::array<std::uint32_t, 64> stack{};
   std::size_t depth = 0;
@@ -155,7 +155,7 @@ void FacetSizes::for_each_near(const Point& x, double rate, const double& size, 
     }
     for (std::uint32_t k = n.first; k < n.first + n.count; ++k) {
       const Held& f = facets_[k];
-      if (f.need > size && !act(f, distance_to(x, f.corners))) return;
+      if (f.need > size && !(f.is_asked && by == By::surface) && !act(f, distance_to(x, f.corners))) return;
     }
   }
 }
@@ -164,20 +164,20 @@ double FacetSizes::most_need(double size) const {
   return wanted_ == Wanted::anywhere ? tuning::kMostNeed * size : std::numeric_limits<double>::infinity();
 }
 
-double FacetSizes::bearable(const Point& x, double size) const {
+double FacetSizes::bearable(const Point& x, double size, By by) const {
   const double most = most_need(size), least = wanted_ == Wanted::anywhere ? tuning::kFarBeyond * size : 0;
-  for_each_near(x, tuning::kFallOfNeed, size, [&](const Held& f, double distance) {
+  for_each_near(x, tuning::kFallOfNeed, size, by, [&](const Held& f, double distance) {
     if (f.need > least) size = std::max(size, std::min(f.need, most) - tuning::kFallOfNeed * distance);
     return true;
   });
   return size;
 }
 
-bool FacetSizes::is_too_near(const Point& x, double size) const {
+bool FacetSizes::is_too_near(const Point& x, double size, By by) const {
   constexpr double part = tuning::kLeastClearance;
   const double most = most_need(size), least = wanted_ == Wanted::anywhere ? tuning::kFarBeyond * size : 0;
   bool is_near = false;
-  for_each_near(x, tuning::kFallOfNeed + 1 / part, 0, [&](const Held& f, double distance) {
+  for_each_near(x, tuning::kFallOfNeed + 1 / part, 0, by, [&](const Held& f, double distance) {
     const double need = f.need > least ? std::min(f.need, most) : 0;
     is_near = distance < part * (need - tuning::kFallOfNeed * distance);
     return !is_near;

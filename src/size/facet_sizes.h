@@ -28,6 +28,10 @@ class FacetSizes {
   /// Whether what is wanted is known at corners, or may be less at any place: then facets need no more than
   /// some times what is wanted at the place that is asked about.
   enum class Wanted { at_corners, anywhere };
+  /// Who decides on the size at a place. Where the surface does, being finer there than the user asks for,
+  /// facets that the user alone wants smaller elements on do not make it larger: else asking for a size would
+  /// make elements larger than not asking.
+  enum class By { surface, user };
   FacetSizes() = default;
   /// Facets that can bear what is wanted are left out, where that is known.
   explicit FacetSizes(std::span<const Facet> facets, Wanted wanted = Wanted::at_corners,
@@ -37,14 +41,15 @@ class FacetSizes {
   [[nodiscard]] std::size_t count() const { return facets_.size(); }
 
   /// The most that the facets need at x, if it is above the `size` that is wanted there; else `size`.
-  [[nodiscard]] double bearable(const Point& x, double size) const;
+  [[nodiscard]] double bearable(const Point& x, double size, By by = By::user) const;
   /// Whether x, where `size` is wanted, is nearer to a facet than a part of the size that it needs at x.
-  [[nodiscard]] bool is_too_near(const Point& x, double size) const;
+  [[nodiscard]] bool is_too_near(const Point& x, double size, By by = By::user) const;
 
  private:
   struct Held {
     std::array<Point, 3> corners;
     double need;
+    bool is_asked;
   };
   // A box round facets first .. first + count - 1; children are nodes `left` and left + 1, none if it is 0.
   struct Node {
@@ -57,7 +62,7 @@ class FacetSizes {
   // Calls act(facet, distance) for the facets that need more than `size` and `rate` a unit of length at x,
   // and some others, until it returns false; it may raise `size`.
   template <typename Act>
-  void for_each_near(const Point& x, double rate, const double& size, Act&& act) const;
+  void for_each_near(const Point& x, double rate, const double& size, By by, Act&& act) const;
 
   [[nodiscard]] double most_need(double size) const;
 

@@ -64,6 +64,10 @@ class SizeFunction {
   [[nodiscard]] double gradation() const { return gradation_; }
   /// What the facets near a point need, where that is more than the size wanted there.
   [[nodiscard]] const FacetSizes& of_facets() const { return of_facets_; }
+  /// Who decides on a size at a point in a region.
+  [[nodiscard]] FacetSizes::By decider(double size, RegionId region) const {
+    return field_ || !(size < limit_of_region(region)) ? FacetSizes::By::user : FacetSizes::By::surface;
+  }
   /// Inside, sizes do not grow beyond those of the surface round it.
   [[nodiscard]] bool grows() const { return grows_; }
 

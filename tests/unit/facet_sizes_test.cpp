@@ -64,6 +64,21 @@ TEST(FacetSizes, WhatIsWantedMayDifferFromPlaceToPlace) {
   EXPECT_FALSE(sizes.is_too_near({0.3, 0.3, 0.01}, 0.5));
 }
 
+// A facet that only the user wants smaller elements on does not count where the surface itself is finer.
+TEST(FacetSizes, WhatTheUserAsksForDoesNotMakeSizesOfTheSurfaceLarger) {
+  FacetSizes::Facet asked = right_triangle(1, 0.01);
+  asked.is_asked = true;
+  const Point x{0.2, 0.2, 0.001};
+  const double size = 0.005;
+  const FacetSizes of_user(std::array{asked}), of_surface(std::array{right_triangle(1, 0.01)});
+  EXPECT_GT(of_user.bearable(x, size, FacetSizes::By::user), size);
+  EXPECT_TRUE(of_user.is_too_near(x, size, FacetSizes::By::user));
+  EXPECT_EQ(of_user.bearable(x, size, FacetSizes::By::surface), size);
+  EXPECT_FALSE(of_user.is_too_near(x, size, FacetSizes::By::surface));
+  EXPECT_GT(of_surface.bearable(x, size, FacetSizes::By::surface), size);
+  EXPECT_TRUE(of_surface.is_too_near(x, size, FacetSizes::By::surface));
+}
+
 // The tree finds what looking at each facet alone does.
 TEST(FacetSizes, AllAreAsEachAlone) {
   std::mt19937_64 random(1);

@@ -121,6 +121,42 @@ TEST(FieldPoints, TrianglesMuchLargerThanTheSizeKeepPointsAway) {
       1.05, 0.15);
 }
 
+// A plate: two triangles on one side, a grid of n squares a side on the other.
+Surface half_fine_plate(Index n, double thickness) {
+  Surface plate;
+  for (Index i = 0; i <= n; ++i)
+    for (Index j = 0; j <= n; ++j) plate.vertices.push_back({i / double(n), j / double(n), 0});
+  const auto at = [n](Index i, Index j) { return i * (n + 1) + j; };
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < n; ++j) {
+      plate.facets.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
+      plate.facets.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
+    }
+  const auto top = static_cast<Index>(plate.vertices.size());
+  for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+    plate.vertices.push_back({double(x), double(y), thickness});
+  plate.facets.push_back({top, top + 1, top + 2});
+  plate.facets.push_back({top, top + 2, top + 3});
+  for (Index side = 0; side < 4; ++side) {
+    const auto along = [&](Index k) {
+      return std::array{at(k, 0), at(n, k), at(n - k, n), at(0, n - k)}[side];
+    };
+    for (Index k = 0; k < n; ++k) plate.facets.push_back({top + side, along(k), along(k + 1)});
+    plate.facets.push_back({top + side, along(n), top + (side + 1) % 4});
+  }
+  return plate;
+}
+
+// From the size on that made the large triangles much larger than it, sizes grew beside the fine ones, too:
+// 1,382 tetrahedra in the place of 1,635 without a size.
+TEST(FieldPoints, ASizeAskedForDoesNotMakeElementsLarger) {
+  const Surface plate = half_fine_plate(16, 0.2);
+  const auto count = [&](double size) {
+    return static_cast<double>(mesh_with(plate, {.size = size}).volume.tetrahedra.size());
+  };
+  EXPECT_GT(count(0.14), 0.93 * count(9));
+}
+
 // A box a few sizes wide is near to its large triangles everywhere. Regular tetrahedra of edges H would be
 // 8.49 V / H^3.
 TEST(FieldPoints, SmallBoxesGetTheNumberThatTheSizeAsksFor) {
