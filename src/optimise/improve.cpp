@@ -107,8 +107,26 @@ class Improver {
     return static_cast<double>(bad) > tuning::kManyBad * static_cast<double>(mesh_.tet_count());
   }
 
-  // One element after another, the worst first, each in every way, or in every one but the slowest. Returns
-  // whether any became better.
+  // Nothing forces elements that touch no constraint: where they are a good part of the volume and too many
+  // of them are bad, more work pays. Where most touch one, it hardly does.
+  [[nodiscard]] bool has_many_bad_inside() const {
+    std::size_t inside = 0, bad = 0;
+    for (Tet t = 0; t < mesh_.slot_count(); ++t) {
+      if (!volume_.is_inside(t) || touches_a_constraint(t)) continue;
+      ++inside;
+      if (is_worse(t, energy_of_sine(tuning::kSineOfBad))) ++bad;
+    }
+    const auto all = static_cast<double>(mesh_.tet_count());
+    return static_cast<double>(inside) > tuning::kMuchInside * all &&
+           static_cast<double>(bad) > tuning::kManyBadInside * all;
+  }
+  [[nodiscard]] bool touches_a_constraint(Tet t) const {
+    const TetMesh::Corners& c = mesh_.corners(t);
+    return std::any_of(c.begin(), c.end(), [&](Vertex v) { return !volume_.may_move(v); });
+  }
+
+  // One element after another, the worst first, each in every way, or in every one but the slowest, as long
+  // as there is work left to spend. Returns whether any became better.
   bool work_on_the_worst(double aim, double work_per_tet, bool refill) {
     const double from = energy_of_sine(aim);
     std::priority_queue<Entry> queue;
@@ -117,10 +135,14 @@ class Improver {
     };
     for (Tet t = 0; t < mesh_.slot_count(); ++t) push(t);
     const double count = 1 + static_cast<double>(queue.size());
-    const double budget = tuning::kLeastElements + work_per_tet * static_cast<double>(mesh_.tet_count());
-    double work = 0;
+    const double share = tuning::kLeastElements + work_per_tet * static_cast<double>(mesh_.tet_count());
+    double work = 0, budget = share;
     bool any = false;
-    while (!queue.empty() && work < budget) {
+    while (!queue.empty()) {
+      if (work >= budget) {
+        if (refill || budget >= tuning::kMostShares * share || !has_many_bad_inside()) break;
+        budget += share;
+      }
       const Entry worst = queue.top();
       queue.pop();
       if (!volume_.is_inside(worst.tet) || volume_.energy(worst.tet) != worst.energy) continue;

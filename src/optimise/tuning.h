@@ -131,6 +131,11 @@ inline constexpr double kBeyondPatientAim = 0.02;  ///< so that what is just bet
 inline constexpr double kSineWorthAPoint = 0.42;   ///< 25 degrees; no element above is worth a vertex
 inline constexpr double kLongestContracted = 1.6;  ///< sizes: longer edges would undo the sizes asked for
 inline constexpr double kLongerContracted = 2;     ///< times the longest edge before, where that is longer
+// Where so much touches no constraint, and so much of the whole is bad besides, rounds get their work again,
+// up to so many times.
+inline constexpr double kMuchInside = 0.15, kManyBadInside = 0.002;
+inline constexpr double kSineOfBad = 0.17364817766693033;  ///< 10 degrees
+inline constexpr double kMostShares = 5;
 // Work, in elements tried, some three microseconds each, as timed.
 inline constexpr double kLeastElements = 1500;     ///< so that small meshes are done thoroughly
 inline constexpr double kRefillWork = 600;         ///< 1 to 4 ms
