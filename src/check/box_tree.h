@@ -71,29 +71,13 @@ class BoxTree {
   /// Calls `visit(item, item)` once for each pair of different boxes that meet.
   template <class Visit>
   void self_pairs(Visit&& visit) const {
-    if (nodes_.empty()) return;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> open{{0, 0}};
-    while (!open.empty()) {
-      const auto [x, y] = open.back();
-      open.pop_back();
-      if (x != y && !nodes_[x].box.meets(nodes_[y].box)) continue;
-      const bool leaf_x = nodes_[x].right == 0;
-      const bool leaf_y = nodes_[y].right == 0;
-      if (leaf_x && leaf_y) {
-        pairs_of_leaves(x, y, visit);
-      } else if (x == y) {
-        open.emplace_back(x + 1, x + 1);
-        open.emplace_back(nodes_[x].right, nodes_[x].right);
-        open.emplace_back(x + 1, nodes_[x].right);
-      } else if (leaf_y ||
-                 (!leaf_x && nodes_[x].last - nodes_[x].first >= nodes_[y].last - nodes_[y].first)) {
-        open.emplace_back(x + 1, y);
-        open.emplace_back(nodes_[x].right, y);
-      } else {
-        open.emplace_back(x, y + 1);
-        open.emplace_back(x, nodes_[y].right);
-      }
-    }
+    pairs(*this, visit);
+  }
+
+  /// The same for each pair of a box of this tree and one of the other that meet.
+  template <class Visit>
+  void pairs_with(const BoxTree& other, Visit&& visit) const {
+    pairs(other, visit);
   }
 
  private:
@@ -108,10 +92,38 @@ class BoxTree {
   void build(std::uint32_t first, std::uint32_t last);
 
   template <class Visit>
-  void pairs_of_leaves(std::uint32_t x, std::uint32_t y, Visit&& visit) const {
-    for (std::uint32_t i = nodes_[x].first; i < nodes_[x].last; ++i)
-      for (std::uint32_t j = x == y ? i + 1 : nodes_[y].first; j < nodes_[y].last; ++j)
-        if (boxes_[items_[i]].meets(boxes_[items_[j]])) visit(items_[i], items_[j]);
+  void pairs(const BoxTree& other, Visit&& visit) const {
+    if (nodes_.empty() || other.nodes_.empty()) return;
+    const bool is_same = &other == this;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> open{{0, 0}};
+    while (!open.empty()) {
+      const auto [x, y] = open.back();
+      open.pop_back();
+      const Node &of_x = nodes_[x], &of_y = other.nodes_[y];
+      const bool is_one = is_same && x == y;
+      if (!is_one && !of_x.box.meets(of_y.box)) continue;
+      const bool leaf_x = of_x.right == 0, leaf_y = of_y.right == 0;
+      if (leaf_x && leaf_y) {
+        pairs_of_leaves(of_x, other, of_y, is_one, visit);
+      } else if (is_one) {
+        open.emplace_back(x + 1, x + 1);
+        open.emplace_back(of_x.right, of_x.right);
+        open.emplace_back(x + 1, of_x.right);
+      } else if (leaf_y || (!leaf_x && of_x.last - of_x.first >= of_y.last - of_y.first)) {
+        open.emplace_back(x + 1, y);
+        open.emplace_back(of_x.right, y);
+      } else {
+        open.emplace_back(x, y + 1);
+        open.emplace_back(x, of_y.right);
+      }
+    }
+  }
+
+  template <class Visit>
+  void pairs_of_leaves(const Node& x, const BoxTree& other, const Node& y, bool is_one, Visit&& visit) const {
+    for (std::uint32_t i = x.first; i < x.last; ++i)
+      for (std::uint32_t j = is_one ? i + 1 : y.first; j < y.last; ++j)
+        if (boxes_[items_[i]].meets(other.boxes_[other.items_[j]])) visit(items_[i], other.items_[j]);
   }
 
   std::vector<Box> boxes_;

@@ -11,8 +11,18 @@ namespace {
 bool is_complex(const Complex& surface, Pulse& pulse) {
   bool valid = true;
   examine_complex(
-      surface, true, [&](const auto&) { return valid = false; }, pulse);
+      surface, true, {}, [&](const auto&) { return valid = false; }, pulse);
   return valid;
+}
+
+/// By triangle of the output; what a parent was cut into lies near to its plane.
+std::vector<Index> first_parents(const IndexLists& parents) {
+  std::vector<Index> first;
+  if (parents.first.empty() || parents.first.back() > parents.all.size()) return first;  // another rule
+  first.reserve(parents.size());
+  for (std::size_t f = 0; f < parents.size(); ++f)
+    first.push_back(parents[f].empty() ? no_entity : parents[f][0]);
+  return first;
 }
 
 }  // namespace
@@ -20,7 +30,7 @@ bool is_complex(const Complex& surface, Pulse& pulse) {
 RepairRule output_valid(RepairExamination& on) {
   Violations violations = on.violations(RepairRuleKind::output_valid);
   examine_complex(
-      on.output, false,
+      on.output, false, first_parents(on.claims.parents),
       [&](const std::function<std::string()>& sentence) {
         violations.add(sentence);
         return true;

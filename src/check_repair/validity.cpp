@@ -5,21 +5,13 @@
 #include <numeric>
 #include <optional>
 
-#include "check/box_tree.h"
 #include "check/findings.h"
 #include "check/intersect.h"
+#include "check_repair/sheets.h"
 #include "exact/predicates.h"
 
 namespace holdfast::checking {
 namespace {
-
-/// A facet, segment or isolated vertex, by vertices that stand for places.
-struct Part {
-  std::array<Index, 3> corners;
-  std::size_t size;
-  std::size_t id;
-  [[nodiscard]] std::span<const Index> span() const { return std::span(corners).first(size); }
-};
 
 const char* kind_of(const Part& part) {
   return part.size == 3 ? "triangle" : part.size == 2 ? "segment" : "vertex";
@@ -27,8 +19,9 @@ const char* kind_of(const Part& part) {
 
 class ComplexTest {
  public:
-  ComplexTest(const Complex& surface, bool merges, const FoundInvalid& found, Pulse& pulse)
-      : surface_(surface), merges_(merges), found_(found), pulse_(pulse) {}
+  ComplexTest(const Complex& surface, bool merges, std::span<const Index> sheet, const FoundInvalid& found,
+              Pulse& pulse)
+      : surface_(surface), merges_(merges), sheet_(sheet), found_(found), pulse_(pulse) {}
 
   void run() {
     if (!find_parts()) return;
@@ -140,11 +133,11 @@ class ComplexTest {
   }
 
   void find_meetings() {
-    std::vector<Box> boxes;
-    boxes.reserve(parts_.size());
-    for (const Part& part : parts_) boxes.push_back(box_of(part.span(), surface_.vertices));
-    const BoxTree tree(std::move(boxes));
-    tree.self_pairs([&](std::uint32_t i, std::uint32_t j) {
+    std::vector<Index> sheets;
+    sheets.reserve(parts_.size());
+    for (const Part& part : parts_)
+      sheets.push_back(part.size == 3 && part.id < sheet_.size() ? sheet_[part.id] : no_entity);
+    for_each_near_pair(surface_.vertices, parts_, sheets, [&](Index i, Index j) {
       pulse_();
       if (!goes_on_) return;
       const Part &x = parts_[i].size >= parts_[j].size ? parts_[i] : parts_[j],
@@ -196,6 +189,7 @@ class ComplexTest {
 
   const Complex& surface_;
   const bool merges_;
+  const std::span<const Index> sheet_;
   const FoundInvalid& found_;
   Pulse& pulse_;
   bool goes_on_ = true;
@@ -206,8 +200,9 @@ class ComplexTest {
 
 }  // namespace
 
-void examine_complex(const Complex& surface, bool merges, const FoundInvalid& found, Pulse& pulse) {
-  ComplexTest(surface, merges, found, pulse).run();
+void examine_complex(const Complex& surface, bool merges, std::span<const Index> sheet,
+                     const FoundInvalid& found, Pulse& pulse) {
+  ComplexTest(surface, merges, sheet, found, pulse).run();
 }
 
 }  // namespace holdfast::checking
