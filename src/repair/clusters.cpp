@@ -8,7 +8,6 @@
 #include "exact/predicates.h"
 #include "mesh/disjoint_sets.h"
 #include "surface/aabb_tree.h"
-#include "surface/intersect.h"
 
 namespace holdfast::repairing {
 namespace {
@@ -37,22 +36,31 @@ unsigned axis_of(const Vector& n) {
   return axis;
 }
 
-/// Whether two facets share area in the projection along an axis.
+/// The sign of the area of a triangle in the projection along an axis.
+int turn_of(const Point& a, const Point& b, const Point& c, unsigned axis) {
+  const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
+  const std::array<double, 2> p{a[x], a[y]}, q{b[x], b[y]}, r{c[x], c[y]};
+  return exact::orient2d(p.data(), q.data(), r.data());
+}
+
+/// Whether two facets share area in the projection along an axis: if not, a side of one of them has the other
+/// one beyond it.
 bool overlap(const State& state, Index f, Index g, unsigned axis) {
-  std::array<std::array<Point, 3>, 2> corners{};
-  std::array<Simplex, 2> flat;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const Triangle& t = state.facets[k == 0 ? f : g];
-    flat[k].corners = 3;
-    for (std::size_t i = 0; i < 3; ++i) {
-      corners[k][i] = state.vertices[t[i]];
-      corners[k][i][axis] = 0;
-      flat[k].vertex[i] = t[i];
-      flat[k].point[i] = corners[k][i].data();
-    }
-    if (!set_projection(flat[k])) return false;
-  }
-  return facets_meet(flat[0], flat[1]) == Meet::area;
+  const auto corners = [&](Index k) {
+    const auto& [a, b, c] = state.facets[k];
+    return std::array{&state.vertices[a], &state.vertices[b], &state.vertices[c]};
+  };
+  const std::array of_f = corners(f), of_g = corners(g);
+  const auto is_parted = [&](const auto& t, int turn, const auto& other) {
+    for (std::size_t i = 0; i < 3; ++i)
+      if (std::all_of(other.begin(), other.end(),
+                      [&](const Point* p) { return turn_of(*t[i], *t[(i + 1) % 3], *p, axis) * turn <= 0; }))
+        return true;
+    return false;
+  };
+  const int turn_f = turn_of(*of_f[0], *of_f[1], *of_f[2], axis);
+  const int turn_g = turn_of(*of_g[0], *of_g[1], *of_g[2], axis);
+  return turn_f != 0 && turn_g != 0 && !is_parted(of_f, turn_f, of_g) && !is_parted(of_g, turn_g, of_f);
 }
 
 /// Whether all of the first facet is near to the plane of the second.
@@ -72,12 +80,8 @@ void keep_projected(const State& state, const Planes& planes, Cluster& cluster) 
                                           [&](Index f, Index g) { return planes.size[f] < planes.size[g]; });
   cluster.axis = axis_of(planes.normal[largest]);
   std::erase_if(cluster.facets, [&](Index f) {
-    std::array<std::array<double, 2>, 3> p{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Point& corner = state.vertices[state.facets[f][i]];
-      p[i] = {corner[(cluster.axis + 1) % 3], corner[(cluster.axis + 2) % 3]};
-    }
-    return exact::orient2d(p[0].data(), p[1].data(), p[2].data()) == 0;
+    const auto& [a, b, c] = state.facets[f];
+    return turn_of(state.vertices[a], state.vertices[b], state.vertices[c], cluster.axis) == 0;
   });
 }
 

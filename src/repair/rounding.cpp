@@ -270,7 +270,7 @@ class Rounding {
     cut(std::min(options_.most_points, 1000 + 4 * report_.points));
     if (!rounded_.is_valid) cut(std::min(options_.most_points, 1000 + 4 * report_.points));
     Trouble now;
-    if (!rounded_.is_valid) now = trouble_of(rounded_.state, here(), threads_);
+    if (!rounded_.is_valid) now = trouble_of(rounded_.state, here(), threads_, trouble_.size());
     if (now.size() < trouble_.size()) {
       trouble_ = std::move(now);
       report_.rung = plan.moves_input ? Rung::snapped : Rung::coarser;
