@@ -6,6 +6,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "api/scale.h"
 #include "api/unite.h"
 #include "mesh/memory.h"
 #include "mesh/plain_monitor.h"
@@ -50,13 +51,56 @@ const char* message_of(Outcome outcome) {
                                             : "cancelled";
 }
 
+/// The power of two that brings finite vertices near to one. The exact arrangement is that of the surface as
+/// it is.
+int scale_of(const Complex& complex, const RepairOptions& options) {
+  if (options.exact) return 0;
+  std::vector<Point> finite;
+  for (const Point& p : complex.vertices)
+    if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) finite.push_back(p);
+  return choose_scale(finite);
+}
+
+/// Undoes a scale. False where a point or distance is not the same number times a power of two then, since it
+/// is denormal.
+bool scale_back(repairing::Rounded& rounded, int k) {
+  for (Point& p : rounded.state.vertices) {
+    const Point before = p;
+    p = scaled(p, -k);
+    for (std::size_t i = 0; i < 3; ++i)
+      if (std::isfinite(before[i]) && std::ldexp(p[i], k) != before[i]) return false;
+  }
+  const double before = rounded.displacement;
+  rounded.displacement = std::ldexp(before, -k);
+  return std::ldexp(rounded.displacement, k) == before;
+}
+
+/// Filters of signs are for products that neither over- nor underflow; where they do, each sign would take
+/// exact arithmetic.
+repairing::Rounded round_scaled(const Complex& complex, repairing::State state, const RepairOptions& options,
+                                RepairResult& result, const Step& step, const Threads& threads) {
+  if (const int k = scale_of(complex, options); k != 0) {
+    repairing::State moved = state;
+    moved.vertices = scaled(state.vertices, k);
+    RepairOptions there = options;
+    there.join = std::ldexp(options.join, k);
+    RepairReport report = result.report;
+    repairing::Rounded rounded =
+        repairing::round_arranged(std::move(moved), there, report, result.exact, step, threads);
+    if (scale_back(rounded, k)) {
+      result.report = std::move(report);
+      return rounded;
+    }
+  }
+  return repairing::round_arranged(std::move(state), options, result.report, result.exact, step, threads);
+}
+
 void run(const Complex& complex, const RepairOptions& options, PlainMonitor& monitor, RepairResult& result) {
   const Threads threads = Threads(options.threads).polling([&] { monitor.poll_again(); });
   const Step step = [&](double fraction) { monitor.poll(fraction); };
   repairing::State state = repairing::state_of(complex);
   const double welded = options.weld > 0 ? repairing::weld(state, options.weld, step) : 0;
-  repairing::Rounded rounded =
-      repairing::round_arranged(std::move(state), options, result.report, result.exact, step, threads);
+  repairing::Rounded rounded = round_scaled(complex, std::move(state), options, result, step, threads);
   rounded.displacement += welded;
   if (!rounded.is_valid)
     return end(result, Outcome::not_representable,

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <set>
 
@@ -73,6 +74,30 @@ TEST(Repair, IsTheSameAtAnyScale) {
     EXPECT_EQ(other.surface.facets, usual.surface.facets) << by;
     EXPECT_EQ(other.max_displacement, std::ldexp(usual.max_displacement, by)) << by;
   }
+}
+
+/// Between denormals there are fewer doubles than there would be at a larger scale.
+TEST(Repair, IsValidInTheDoublesThatAreWritten) {
+  for (const int by : {-1074 + 12, -1074 + 20, -1074 + 40}) {
+    const Surface small = scaled(two_spheres(), by);
+    const RepairResult repaired = repair(small);
+    if (repaired.outcome == Outcome::not_representable) continue;
+    expect_valid(repaired);
+    EXPECT_GE(repaired.max_displacement, 0x1p-1074) << by;
+  }
+}
+
+TEST(Repair, VerticesThatAreNotFiniteHaveNoScale) {
+  Surface surface = scaled(two_spheres(), -332);
+  const RepairResult before = repair(surface);
+  const auto v = static_cast<Index>(surface.vertices.size());
+  surface.vertices.push_back({std::numeric_limits<double>::infinity(), 0, 0});
+  surface.facets.push_back({0, 1, v});
+  const RepairResult after = repair(surface);
+  ASSERT_EQ(after.outcome, Outcome::done);
+  EXPECT_EQ(after.surface.facets.size(), before.surface.facets.size());
+  EXPECT_EQ(after.max_displacement, before.max_displacement);
+  EXPECT_EQ(after.dropped.size(), 1U);
 }
 
 /// A sphere, and the same moved by the last bit.
