@@ -13,6 +13,8 @@
 #include "api/parts_apart.h"
 #include "api/repairing.h"
 #include "api/turned.h"
+#include "check_repair/examine.h"
+#include "holdfast/check_repair.h"
 #include "holdfast/io.h"
 #include "numbers/float_environment.h"
 #include "repair/deliver.h"
@@ -191,6 +193,21 @@ void compare_with_parents(const Complex& joined, std::span<const Index> part, Pa
   }
 }
 
+/// What is snapped first, then led and cut, may move by the tolerance each time; the sum of these bounds is
+/// up to three times of what moved in all. A smaller one is taken if it can be proved of the result.
+void prove_smaller_distance(const Complex& joined, double tolerance, const Step& step, PasteResult& result) {
+  constexpr double kRounding = 1 + 0x1p-20;
+  for (const double times : {1.0, 1.125, 1.25, 1.5, 1.75, 2.0, 2.5}) {
+    const double distance = times * tolerance * kRounding;
+    if (!(distance < result.max_displacement)) return;
+    RepairClaims claims = claims_of(result, {});
+    claims.max_displacement = distance;
+    if (!checking::is_within_distance(joined, result.surface.view(), claims, step)) continue;
+    result.max_displacement = distance;
+    return;
+  }
+}
+
 /// A tolerance above the size of details makes far more facets than there were, most of which cross.
 bool is_hopeless(repairing::State& state, const Step& step, const Threads& threads) {
   const std::size_t most = 1000 + 10 * state.input_vertices;
@@ -277,6 +294,7 @@ void run(const Surface& joined, const PasteOptions& options, PlainMonitor& monit
   }
   repairing::deliver(complex, std::move(rounded), result);
   compare_with_parents(complex, part, result);
+  if (options.cut && options.tolerance > 0) prove_smaller_distance(complex, options.tolerance, step, result);
   if (!options.judge) return;
   result.apart = find_apart(result, [&] { monitor.poll_again(); });
   judge(options, step, result);

@@ -66,6 +66,7 @@ struct RepairExamination {
 [[nodiscard]] RepairRule not_examined(RepairRuleKind kind, const std::string& reason);
 
 // rules_surface.cpp
+void find_whether_followed(RepairExamination& on);  ///< is a part of the next
 [[nodiscard]] RepairRule output_valid(RepairExamination& on);
 [[nodiscard]] RepairRule valid_unchanged(const RepairExamination& on);
 // rules_vertices.cpp

@@ -38,4 +38,15 @@ RepairCheckResult examine_repair(const Complex& input, const Complex& output, co
   return result;
 }
 
+bool is_within_distance(const Complex& input, const Complex& output, const RepairClaims& claims,
+                        const std::function<void(double)>& step) {
+  Pulse pulse(step);
+  RepairExamination on{input, output, claims, 0, pulse};
+  find_whether_followed(on);
+  if (!distances_right(on).holds() || !parents_named(on).holds()) return false;
+  find_places(on);
+  return children_near(on).holds() && parents_covered(on).holds() && segments_covered(on).holds() &&
+         losses_listed(on).holds();
+}
+
 }  // namespace holdfast::checking

@@ -12,4 +12,9 @@ namespace holdfast::checking {
                                                const RepairClaims& claims, std::size_t most,
                                                const std::function<void(double)>& step);
 
+/// Whether each of the two lies within the largest distance that is claimed of the other, by the rules that
+/// say so. `step` as above.
+[[nodiscard]] bool is_within_distance(const Complex& input, const Complex& output, const RepairClaims& claims,
+                                      const std::function<void(double)>& step);
+
 }  // namespace holdfast::checking

@@ -27,15 +27,7 @@ std::vector<Index> first_parents(const IndexLists& parents) {
 
 }  // namespace
 
-RepairRule output_valid(RepairExamination& on) {
-  Violations violations = on.violations(RepairRuleKind::output_valid);
-  examine_complex(
-      on.output, false, first_parents(on.claims.parents),
-      [&](const std::function<std::string()>& sentence) {
-        violations.add(sentence);
-        return true;
-      },
-      on.pulse);
+void find_whether_followed(RepairExamination& on) {
   const auto follows = [&](std::span<const Index> corners) {
     return std::all_of(corners.begin(), corners.end(), [&](Index v) {
       return v < on.output.vertices.size() && finite(on.output.vertices[v]);
@@ -45,6 +37,18 @@ RepairRule output_valid(RepairExamination& on) {
                               [&](const Triangle& t) { return follows(t); }) &&
                   std::all_of(on.output.segments.begin(), on.output.segments.end(),
                               [&](const Segment& s) { return follows(s); });
+}
+
+RepairRule output_valid(RepairExamination& on) {
+  Violations violations = on.violations(RepairRuleKind::output_valid);
+  examine_complex(
+      on.output, false, first_parents(on.claims.parents),
+      [&](const std::function<std::string()>& sentence) {
+        violations.add(sentence);
+        return true;
+      },
+      on.pulse);
+  find_whether_followed(on);
   return violations.rule(std::to_string(on.output.facets.size()) + " triangles, " +
                          std::to_string(on.output.vertices.size()) + " vertices: a simplicial complex");
 }

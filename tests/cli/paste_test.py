@@ -295,6 +295,15 @@ class PasteTest(CliTest):
             self.assertTrue(all(0.0099 < m["distance"] < 0.0101 for m in report["moved"]))
             self.assertTrue(all(m["vertex"] >= len(a[0]) for m in report["moved"]))
 
+    def test_what_snaps_and_is_led_is_told_by_a_distance_that_is_proved(self):
+        """The bounds of both steps add up to 0.54."""
+        names = self.parts(box((0, 0, 0), (2, 2, 2), 1), box((2.1, 0.3, 0.2), (4, 1.7, 1.9), 2))
+        self.run_program("paste", *names, "-o", "pasted.off", "--tolerance", "0.2", "--parents", "p.txt", "--report", "p.json")
+        report = json.loads((self.folder / "p.json").read_text())
+        self.assertAlmostEqual(report["max_displacement"], 0.2, places=6)
+        self.assertGreater(report["max_displacement"], 0.2)
+        self.run_program("check", "--repaired", *names, "pasted.off", "--parents", "p.txt", "--report", "p.json")
+
     def test_components_of_one_file(self):
         a, b = box((0, 0, 0), (1, 1, 1), 2), box((1, 0, 0), (2, 1, 1), 3)
         n = len(a[0])
