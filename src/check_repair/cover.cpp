@@ -242,6 +242,19 @@ Index CoverTest::within_reach(const Point& p, Index vertex) {
   return found;
 }
 
+Index CoverTest::corner_within_reach(const Point& p, std::span<const Index> chain) const {
+  Index found = no_entity;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Index f : chain)
+    for (const Index v : facets_[f])
+      if (const double distance = rough_distance(vertices_[v], p);
+          (distance < least || (distance == least && v < found)) && reach_.of_point(vertices_[v], p)) {
+        found = v;
+        least = distance;
+      }
+  return found;
+}
+
 std::optional<std::string> CoverTest::gap(const std::array<Point, 3>& triangle, std::array<Index, 3> places,
                                           std::span<const Index> chain) {
   for (std::size_t i = 0; i < 3; ++i) {
@@ -257,7 +270,14 @@ std::optional<std::string> CoverTest::gap(const std::array<Point, 3>& triangle, 
     std::sort(corners.begin(), corners.end());
     if (t == corners) return std::nullopt;
   }
-  return Cover(*this, triangle, places, chain).gap();
+  std::optional<std::string> gap = Cover(*this, triangle, places, chain).gap();
+  if (!gap) return gap;
+  // Any vertex within reach of a corner may stand for it: of the children's the nearest.
+  std::array<Index, 3> others = places;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (const Index v = corner_within_reach(triangle[i], chain); v != no_entity) others[i] = v;
+  if (others == places || Cover(*this, triangle, others, chain).gap()) return gap;
+  return std::nullopt;
 }
 
 std::optional<std::string> CoverTest::gap(const std::array<Point, 2>& segment, std::array<Index, 2> places,

@@ -52,6 +52,8 @@ class CoverTest {
   [[nodiscard]] const BoxTree& tree();
   /// A used vertex within reach of a point, the given one if it is.
   [[nodiscard]] Index within_reach(const Point& p, Index vertex);
+  /// The nearest corner of some facets that is.
+  [[nodiscard]] Index corner_within_reach(const Point& p, std::span<const Index> chain) const;
   /// The facets whose boxes come within reach of a box.
   template <class Visit>
   void near(Box box, Visit&& visit);

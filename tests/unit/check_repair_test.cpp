@@ -88,6 +88,21 @@ TEST(Cover, ATipThatBecameAnEdge) {
   EXPECT_TRUE(CoverTest(vertices, without, reach).gap(thin, {0, 2, 3}, std::vector<Index>{0}));
 }
 
+// Several vertices of the output are within reach of a corner, as those round the pole of a sphere, and the
+// children have not the first of them.
+TEST(Cover, ACornerThatBecameAnyOfSeveralVertices) {
+  Square s;
+  s.vertices.insert(s.vertices.begin(), {1 + 1e-12, 0, -1e-12});
+  for (Triangle& t : s.facets)
+    for (Index& v : t) ++v;
+  s.facets.push_back({0, 3, 4});
+  const Reach reach(1e-11);
+  CoverTest test(s.vertices, s.facets, reach);
+  EXPECT_FALSE(test.gap(s.lower, {1, no_entity, 3}, std::vector<Index>{0, 1}));
+  EXPECT_FALSE(test.gap(s.lower, {1, 0, 3}, std::vector<Index>{0, 1}));
+  EXPECT_TRUE(test.gap(s.lower, {1, no_entity, 3}, std::vector<Index>{0}));
+}
+
 TEST(Cover, Segments) {
   const std::vector<Point> vertices{{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}};
   const Reach reach(0);
