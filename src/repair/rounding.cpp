@@ -102,6 +102,8 @@ ExactSurface exact_surface(const State& valid) {
 constexpr std::array kFlatPlans{Plan{0x1p2, false}, Plan{0x1p6, false}};
 constexpr std::array kWeldedPlans{Plan{0x1p3, true}, Plan{0x1p6, true}};
 
+constexpr std::array kJoinedLastBits{0x1p3, 0x1p6};
+
 class Rounding {
  public:
   /// A plane surface has no sheets that lie in each other but for rounding.
@@ -142,7 +144,7 @@ class Rounding {
       if (!trouble_.none()) cut_if_better();
     }
     rounded_.is_valid = is_done();
-    return std::move(rounded_);
+    return rounded_.is_valid || is_plane_ || options_.join > 0 ? std::move(rounded_) : join_all(given);
   }
 
  private:
@@ -277,6 +279,19 @@ class Rounding {
     } else {
       rounded_ = std::move(before);
     }
+  }
+
+  /// Where all else fails: sheets that lie in each other are made one all over the surface, whether the cuts
+  /// beside them are in trouble or not, and are the start of all that was tried before.
+  Rounded join_all(const State& given) {
+    for (const double last_bits : kJoinedLastBits) {
+      RepairOptions options = options_;
+      options.join = last_bits * last_bit(given);
+      report_.rung = Rung::coarser;
+      Rounded joined = Rounding(given, options, report_, exact_, step_, threads_).run();
+      if (joined.is_valid) return joined;
+    }
+    return std::move(rounded_);
   }
 
   void stand(Attempt attempt) {

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <set>
+#include <tuple>
 
 #include "small_surfaces.h"
 
@@ -141,6 +144,52 @@ TEST(Repair, SheetsThatLieInEachOtherButForRounding) {
     expect_valid(repaired);
     EXPECT_LT(repaired.max_displacement, 0x1p-40) << turned;
   }
+}
+
+/// Cubes of a lattice, cut alike and turned.
+Surface turned_cubes(std::initializer_list<std::pair<std::array<int, 3>, int>> cubes) {
+  Surface surface;
+  const double a = std::cos(0.2), b = std::sin(0.2), c = std::cos(0.4), d = std::sin(0.4), e = std::cos(0.9),
+               f = std::sin(0.9);
+  for (const auto& [low, size] : cubes) {
+    std::map<std::array<int, 3>, Index> at;
+    const auto put = [&](const std::array<int, 3>& p) {
+      const auto [found, is_new] = at.try_emplace(p, static_cast<Index>(surface.vertices.size()));
+      if (!is_new) return found->second;
+      double x = p[0], y = p[1], z = p[2];
+      std::tie(x, y) = std::pair(x * a - y * b, x * b + y * a);
+      std::tie(y, z) = std::pair(y * c - z * d, y * d + z * c);
+      std::tie(z, x) = std::pair(z * e - x * f, z * f + x * e);
+      surface.vertices.push_back({x, y, z});
+      return found->second;
+    };
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const bool is_high : {false, true}) {
+        std::array<std::array<int, 3>, 4> corners;
+        corners.fill(low);
+        for (std::size_t k = 0; k < 4; ++k) {
+          corners[k][axis] += is_high ? size : 0;
+          corners[k][(axis + 1) % 3] += k == 1 || k == 2 ? size : 0;
+          corners[k][(axis + 2) % 3] += k >= 2 ? size : 0;
+        }
+        std::array<Index, 4> q{};
+        for (std::size_t k = 0; k < 4; ++k) q[k] = put(corners[k]);
+        if (!is_high) std::reverse(q.begin(), q.end());
+        surface.facets.push_back({q[0], q[1], q[2]});
+        surface.facets.push_back({q[0], q[2], q[3]});
+      }
+  }
+  return surface;
+}
+
+/// What is in trouble is little, and all that joins it alone leaves more.
+TEST(Repair, SheetsAreJoinedAllOverWhereNothingElseHelps) {
+  const Surface cubes =
+      turned_cubes({{{2, 3, 4}, 2}, {{4, 2, 3}, 2}, {{3, 1, 4}, 2}, {{4, 1, 4}, 1}, {{4, 2, 4}, 2}});
+  const RepairResult repaired = repair(cubes.view());
+  expect_valid(repaired);
+  EXPECT_LT(repaired.max_displacement, 1e-12);
+  EXPECT_TRUE(repaired.moved.empty());
 }
 
 TEST(Repair, DoublesNeedNoRounding) {
