@@ -12,6 +12,8 @@
 namespace holdfast {
 namespace {
 
+constexpr double kLeastRadius = 1e-14;  // of the kernel, in sizes of the cavity
+
 Point middle_of(const TetMesh& mesh, const Cavity& cavity) {
   Point sum{};
   for (const auto& f : cavity.faces())
@@ -34,7 +36,9 @@ Vertex insert_into(TetMesh& mesh, Cavity cavity, double most, std::vector<Tet>& 
     middle = middle_of(mesh, grown);
     return {middle.data(), nullptr};
   };
-  const auto place_in = [&](const Kernel& kernel, const Kernel::Centre& centre) {
+  const auto place_in = [&](const Kernel& kernel, const Kernel::Centre& centre) -> std::optional<Point> {
+    // Null elements would come: looking for a double there is long exact work for nothing.
+    if (!(centre.radius > kLeastRadius * centre.size)) return std::nullopt;
     std::optional<Point> place = kernel.double_at({middle.data(), nullptr}, centre);
     if (place && !(worst_from(mesh, *place, cavity) < most)) place.reset();
     return place;
