@@ -11,8 +11,7 @@ namespace holdfast {
 
 /// Fills a polyhedron without field points, in random orders that do not depend on those of the whole. The
 /// limits are those of the call, whose monitor is polled. Nothing where the polyhedron is no valid complex,
-/// or some point has no doubles, or it
-/// takes more points than it may.
+/// some point has no doubles, or it takes more points than it may.
 [[nodiscard]] std::optional<Filling> fill_polyhedron(const Complex& polyhedron, PointsOfFilling points,
                                                      const Limits& limits, Monitor& whole);
 

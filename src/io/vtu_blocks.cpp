@@ -2,16 +2,11 @@
 
 #include <zlib.h>
 
+#include <cstring>
 #include <utility>
 
 namespace holdfast::io {
 namespace {
-
-void append(std::string& bytes, std::uint64_t value) {
-  char raw[sizeof value];
-  std::memcpy(raw, &value, sizeof value);
-  bytes.append(raw, sizeof raw);
-}
 
 std::string deflated(std::string_view block) {
   std::string room(compressBound(kVtuBlock), '\0');
@@ -31,6 +26,12 @@ std::string in_quotes_padded(std::uint64_t offset) {
 
 }  // namespace
 
+void append_vtu_size(std::string& bytes, std::uint64_t size) {
+  char raw[sizeof size];
+  std::memcpy(raw, &size, sizeof size);
+  bytes.append(raw, sizeof raw);
+}
+
 std::vector<std::string> deflated_blocks(std::string_view bytes, const Threads& threads) {
   std::vector<std::string> blocks(vtu_blocks_of(bytes.size()));
   parallel(threads, blocks.size(),
@@ -40,10 +41,10 @@ std::vector<std::string> deflated_blocks(std::string_view bytes, const Threads& 
 
 std::string vtu_block_header(std::uint64_t bytes, const std::vector<std::uint64_t>& sizes) {
   std::string header;
-  append(header, sizes.size());
-  append(header, kVtuBlock);
-  append(header, bytes % kVtuBlock);
-  for (const std::uint64_t size : sizes) append(header, size);
+  append_vtu_size(header, sizes.size());
+  append_vtu_size(header, kVtuBlock);
+  append_vtu_size(header, bytes % kVtuBlock);
+  for (const std::uint64_t size : sizes) append_vtu_size(header, size);
   return header;
 }
 
@@ -73,7 +74,7 @@ void VtuAppended::begin_array() {
       out_ << vtu_block_header(array.bytes, std::vector<std::uint64_t>(vtu_blocks_of(array.bytes)));
     } else {
       std::string size;
-      append(size, array.bytes);
+      append_vtu_size(size, array.bytes);
       out_ << size;
     }
     if (missing_ > 0) return;

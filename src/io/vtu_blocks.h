@@ -21,6 +21,8 @@ inline constexpr std::size_t kVtuBlock = std::size_t{1} << 18;
 [[nodiscard]] constexpr std::uint64_t vtu_blocks_of(std::uint64_t bytes) {
   return (bytes + kVtuBlock - 1) / kVtuBlock;
 }
+/// Appends a number as headers of arrays have it.
+void append_vtu_size(std::string& bytes, std::uint64_t size);
 /// The blocks of some bytes, compressed.
 [[nodiscard]] std::vector<std::string> deflated_blocks(std::string_view bytes, const Threads& threads);
 /// What stands before the blocks of an array of so many bytes.

@@ -1,7 +1,6 @@
 // Writes VTK's XML unstructured grids (https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html):
 // appended raw data, each array in zlib blocks with a header of 64-bit sizes.
 #include <bit>
-#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -18,10 +17,8 @@ namespace {
 std::string encoded(std::string_view data, bool compress, const Threads& threads) {
   std::string result;
   if (!compress) {
-    char size[sizeof(std::uint64_t)];
-    const std::uint64_t bytes = data.size();
-    std::memcpy(size, &bytes, sizeof size);
-    return result.append(size, sizeof size).append(data);
+    append_vtu_size(result, data.size());
+    return result.append(data);
   }
   const std::vector<std::string> blocks = deflated_blocks(data, threads);
   std::vector<std::uint64_t> sizes;
