@@ -166,6 +166,18 @@ struct Report {
     /// whose corners all belong to the surface, which is thinner there than its triangles are long. Not
     /// looked for with a metric.
     std::size_t below_10_deg = 0, forced = 0, across = 0;
+    /// A facet that bears no elements as small as wanted near it, being much larger, or a needle.
+    struct Limiting {
+      Index facet;              ///< of the complex
+      double wanted, bearable;  ///< lengths of edges, where they differ most: at `place`
+      double volume;            ///< part of all, 0 to 1, on which this facet limits sizes more than others do
+      Point place;
+    };
+    /// The part of the volume, 0 to 1, where facets near by bear only larger elements than are wanted (see
+    /// docs/sizes.md), and that of it where the caller's sizes are the ones wanted. Zero with a metric or
+    /// bounds on volumes, which are kept to all the same.
+    double limited_volume = 0, limited_asked_volume = 0;
+    std::vector<Limiting> limiting;    ///< by volume, the most first, at most 100
     bool stopped_early = false;        ///< too much was tried in vain: edges may be longer than wanted
     std::vector<Forced> worst_forced;  ///< the worst of these, at most 100
   } field;
@@ -218,6 +230,7 @@ enum class WarningKind : int {
   field_points = 3,    ///< field points stopped early
   attempt_failed = 4,  ///< an attempt ended by an error; what an earlier one had is delivered
   parts_apart = 5,     ///< a part that touches no other (holdfast/paste.h)
+  sizes = 6,           ///< facets bear only larger elements than the caller asks for
 };
 
 /// What was decided, or may not be as it was meant, in a mesh that keeps the promise.

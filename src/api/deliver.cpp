@@ -1,6 +1,9 @@
 #include "api/deliver.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "api/extract.h"
@@ -11,6 +14,8 @@
 #include "mesh/shape_counts.h"
 #include "mesh/target_quality.h"
 #include "optimise/shape.h"
+#include "surface/describe.h"
+#include "text/decimal.h"
 
 namespace holdfast {
 namespace {
@@ -23,6 +28,23 @@ Warning warn_of_field_points() {
       {},
       "field points stopped early: too many were tried in vain, so that edges may be longer than was asked "
       "for; the sizes differ too much from those of the surface's triangles"};
+}
+
+// Where a good part of the volume does not get the caller's sizes.
+std::optional<Warning> warn_of_sizes(const Report::Field& field) {
+  constexpr double kWorthTelling = 0.1;
+  if (field.limited_asked_volume < kWorthTelling || field.limiting.empty()) return std::nullopt;
+  const Report::Field::Limiting& most = field.limiting.front();
+  return Warning{
+      WarningKind::sizes,
+      {most.facet},
+      {},
+      {most.place},
+      "on " + decimal(std::round(100 * field.limited_asked_volume)) +
+          " % of the volume triangles of the surface are too large, or too thin, for elements of the "
+          "size that was asked for: most near triangle " +
+          std::to_string(most.facet) + ", where the size is " + decimal(most.bearable, 3) + " in place of " +
+          decimal(most.wanted, 3) + ", at " + place(most.place) + "; smaller triangles there would bear it"};
 }
 
 // Which vertices of the result are which of the input, both ways.
@@ -79,6 +101,8 @@ void deliver(const Attempt& attempt, const BoxMesh& box, const Division& divisio
     volume.vertices = scaled(result.volume.vertices, box.scale);
     measure_volume(attempt, volume, field, report);
   }
+  if (std::optional<Warning> warning = warn_of_sizes(report.field))
+    result.warnings.push_back(std::move(*warning));
   if (report.field.stopped_early) result.warnings.push_back(warn_of_field_points());
   if (last >= Stage::suppress && !result.exact_vertices.empty()) {
     result.outcome = Outcome::not_representable;

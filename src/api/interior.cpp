@@ -1,9 +1,11 @@
 #include "api/interior.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "api/report.h"
+#include "api/scale.h"
 #include "mesh/shape_counts.h"
 #include "optimise/improve_parts.h"
 #include "optimise/optimise.h"
@@ -12,6 +14,7 @@
 #include "refine/field_points.h"
 #include "refine/front.h"
 #include "refine/layers.h"
+#include "refine/limited_sizes.h"
 
 namespace holdfast {
 namespace {
@@ -189,6 +192,19 @@ void keep_bounds(const Attempt& attempt, Field& field, bool improves, Report& re
   keep_layers(attempt, field.volume(), improves, report.layers);
 }
 
+void note_limited_sizes(const Attempt& attempt, Field& field, int scale, Report::Field& report) {
+  constexpr std::size_t kMostTold = 100;
+  const LimitedSizes limited = limited_sizes(field.volume(), field.size_function(), attempt.threads);
+  report.limited_volume = limited.volume;
+  report.limited_asked_volume = limited.asked_volume;
+  report.limiting.clear();
+  for (const LimitedSizes::AtFacet& f : limited.facets) {
+    if (report.limiting.size() == kMostTold) break;
+    report.limiting.push_back({f.facet, std::ldexp(f.wanted, -scale), std::ldexp(f.bearable, -scale),
+                               f.volume, scaled(f.place, -scale)});
+  }
+}
+
 }  // namespace
 
 Field::Field(const Attempt& attempt, BoxMesh& box, Division& division)
@@ -246,7 +262,10 @@ std::unique_ptr<Field> add_field_points(const Attempt& attempt, BoxMesh& box, Di
   if (!improves)
     report.stopped_early |= join_filled(std::move(field->parts), sizes, attempt.threads, attempt.monitor);
   report.points = box.mesh.vertex_count() - before + (field->parts ? field->parts->new_vertices() : 0);
-  if (!improves) keep_bounds(attempt, *field, false, all);
+  if (!improves) {
+    keep_bounds(attempt, *field, false, all);
+    note_limited_sizes(attempt, *field, box.scale, report);
+  }
   return field;
 }
 
@@ -261,6 +280,7 @@ void improve_elements(const Attempt& attempt, BoxMesh& box, Division& division, 
   }
   improve_with_field(attempt, box, division, *field, report);
   keep_bounds(attempt, *field, true, report);
+  note_limited_sizes(attempt, *field, box.scale, report.field);
 }
 
 }  // namespace holdfast

@@ -37,9 +37,9 @@ constexpr std::array kEfforts{Named{Effort::fast, "fast"}, Named{Effort::good, "
                               Named{Effort::best, "best"}};
 
 constexpr std::array kWarningKinds{
-    Named{WarningKind::orientation, "orientation"}, Named{WarningKind::open_interface, "open_interface"},
+    Named{WarningKind::orientation, "orientation"},   Named{WarningKind::open_interface, "open_interface"},
     Named{WarningKind::field_points, "field_points"}, Named{WarningKind::attempt_failed, "attempt_failed"},
-    Named{WarningKind::parts_apart, "parts_apart"}};
+    Named{WarningKind::parts_apart, "parts_apart"},   Named{WarningKind::sizes, "sizes"}};
 
 constexpr std::array kRemarkKinds{
     Named{RemarkKind::left_out, "left_out"}, Named{RemarkKind::polygons_cut, "polygons_cut"},

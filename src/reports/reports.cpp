@@ -43,6 +43,13 @@ Json to_json(const Report::Field& field) {
   for (const Report::Forced& f : field.worst_forced)
     forced.push_back(
         {{"tetrahedron", f.tetrahedron}, {"min_dihedral_deg", f.min_dihedral_deg}, {"facets", f.facets}});
+  Json limiting = Json::array();
+  for (const Report::Field::Limiting& f : field.limiting)
+    limiting.push_back({{"facet", f.facet},
+                        {"wanted", f.wanted},
+                        {"bearable", f.bearable},
+                        {"volume", f.volume},
+                        {"place", f.place}});
   return {{"gradation", field.gradation},
           {"before", to_json(field.before)},
           {"after", to_json(field.after)},
@@ -54,6 +61,9 @@ Json to_json(const Report::Field& field) {
           {"below_10_deg", field.below_10_deg},
           {"forced", field.forced},
           {"across", field.across},
+          {"limited_volume", field.limited_volume},
+          {"limited_asked_volume", field.limited_asked_volume},
+          {"limiting", limiting},
           {"stopped_early", field.stopped_early},
           {"worst_forced", forced}};
 }

@@ -86,11 +86,12 @@ void part_in_middle(std::span<Centre> centres) {
 
 FacetSizes::FacetSizes(std::span<const Facet> facets, Wanted wanted, const Threads& threads)
     : wanted_(wanted) {
-  for (const Facet& f : facets) {
+  for (Index k = 0; k < facets.size(); ++k) {
+    const Facet& f = facets[k];
     const bool is_asked = f.is_asked || wanted == Wanted::anywhere;
     const double need = (is_asked ? tuning::kNeedWhereAsked : tuning::kNeedOfFacet) * longest_side(f.corners);
     if (need > tuning::kFarBeyond * f.wanted || wanted == Wanted::anywhere)
-      facets_.push_back({f.corners, std::min(need, tuning::kMostNeed * f.wanted), f.is_asked});
+      facets_.push_back({f.corners, std::min(need, tuning::kMostNeed * f.wanted), k, f.is_asked});
   }
   threads.poll();
   if (facets_.empty()) return;
@@ -164,13 +165,28 @@ double FacetSizes::most_need(double size) const {
   return wanted_ == Wanted::anywhere ? tuning::kMostNeed * size : std::numeric_limits<double>::infinity();
 }
 
-double FacetSizes::bearable(const Point& x, double size, By by) const {
+template <typename Note>
+double FacetSizes::raised(const Point& x, double size, By by, Note&& note) const {
   const double most = most_need(size), least = wanted_ == Wanted::anywhere ? tuning::kFarBeyond * size : 0;
   for_each_near(x, tuning::kFallOfNeed, size, by, [&](const Held& f, double distance) {
-    if (f.need > least) size = std::max(size, std::min(f.need, most) - tuning::kFallOfNeed * distance);
+    const double need = std::min(f.need, most) - tuning::kFallOfNeed * distance;
+    if (f.need > least && need > size) {
+      size = need;
+      note(f);
+    }
     return true;
   });
   return size;
+}
+
+double FacetSizes::bearable(const Point& x, double size, By by) const {
+  return raised(x, size, by, [](const Held&) {});
+}
+
+FacetSizes::Limit FacetSizes::limit(const Point& x, double size, By by) const {
+  Index facet = no_entity;
+  const double most = raised(x, size, by, [&](const Held& f) { facet = f.facet; });
+  return {most, facet};
 }
 
 bool FacetSizes::is_too_near(const Point& x, double size, By by) const {

@@ -42,6 +42,12 @@ class FacetSizes {
 
   /// The most that the facets need at x, if it is above the `size` that is wanted there; else `size`.
   [[nodiscard]] double bearable(const Point& x, double size, By by = By::user) const;
+  struct Limit {
+    double size;
+    Index facet;  ///< the one that needs it, as numbered when given; no_entity where the wanted size is borne
+  };
+  /// The same with the facet.
+  [[nodiscard]] Limit limit(const Point& x, double size, By by = By::user) const;
   /// Whether x, where `size` is wanted, is nearer to a facet than a part of the size that it needs at x.
   [[nodiscard]] bool is_too_near(const Point& x, double size, By by = By::user) const;
 
@@ -49,6 +55,7 @@ class FacetSizes {
   struct Held {
     std::array<Point, 3> corners;
     double need;
+    Index facet;
     bool is_asked;
   };
   // A box round facets first .. first + count - 1; children are nodes `left` and left + 1, none if it is 0.
@@ -63,6 +70,9 @@ class FacetSizes {
   // and some others, until it returns false; it may raise `size`.
   template <typename Act>
   void for_each_near(const Point& x, double rate, const double& size, By by, Act&& act) const;
+  // What is bearable at x; calls note(facet) for each that raises it.
+  template <typename Note>
+  [[nodiscard]] double raised(const Point& x, double size, By by, Note&& note) const;
 
   [[nodiscard]] double most_need(double size) const;
 
