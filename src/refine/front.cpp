@@ -247,6 +247,7 @@ class Front {
       height = std::min(height, over);
     } else {
       for (std::size_t k = 0; k < 3; ++k) foot[k] = (u[k] + w[k]) / 3;
+      if (has_thin_wall_over(f, top, height)) height = top / 2;
       if (top < height) return false;
     }
     for (std::size_t k = 0; k < 3; ++k) p[k] = a[k] + foot[k] + height * n[k] / area;
@@ -264,6 +265,13 @@ class Front {
   [[nodiscard]] Point middle_of(const std::array<Vertex, 3>& face) const {
     const Point &a = mesh_.position(face[0]), &b = mesh_.position(face[1]), &c = mesh_.position(face[2]);
     return {(a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3, (a[2] + b[2] + c[2]) / 3};
+  }
+
+  // Whether a point of that height over a large facet would come close to the other side of a wall, and one
+  // in its middle would not: where the user asks for the size, the wall is to have points.
+  [[nodiscard]] bool has_thin_wall_over(Face f, double top, double height) const {
+    return sizes_.has_limit() && mesh_.is_facet(f) && top < 2 * height &&
+           top > tuning::kThinnestWall * height;
   }
 
   // Height over the plane of a face of the centre of the tetrahedron's sphere: of equal distance from the

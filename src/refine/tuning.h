@@ -15,6 +15,8 @@ inline constexpr double kLevel = 1.3;  ///< a size over the mean of those round 
 inline constexpr double kLongestPart = 0.65;  ///< of an edge that is to be split: the size over its length
 inline constexpr double kNearest = 0.7;       ///< least distance of a new point from others
 inline constexpr double kLeastHeight = 0.4;   ///< least height of a new point over a facet
+inline constexpr double kThinnestWall =
+    0.6;  ///< that gets points in its middle, in heights over a large facet
 inline constexpr std::size_t kFieldBlock =
     1'000;  ///< tetrahedra that a function of sizes is asked for at a time
 inline constexpr std::size_t kFrontBlock = 10'000;                 ///< tetrahedra that are shuffled together

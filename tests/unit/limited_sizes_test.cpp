@@ -58,6 +58,16 @@ TEST(LimitedSizes, NothingIsLimitedOnGoodTrianglesOfTheSize) {
   }
 }
 
+// A wall two sizes thick has points in its middle; the fewer, the thicker the sizes are.
+TEST(LimitedSizes, WallsBetweenLargeTrianglesFillAsSizesShrink) {
+  std::size_t before = 12;
+  for (const double part : {0.6, 0.55, 0.5, 0.45, 0.4, 0.35}) {
+    const std::size_t now = mesh(plate(), with_size(0.125 * part)).report.tetrahedra;
+    EXPECT_GT(now, before) << part;
+    before = now;
+  }
+}
+
 TEST(LimitedSizes, AreThoseOfTheSurfaceTimesAPowerOfTwo) {
   const Report::Field at_one = mesh(plate(), with_size(0.0625)).report.field;
   for (const int k : {-900, 800}) {
