@@ -4,6 +4,7 @@
 #include "optimise/search.h"
 #include "optimise/search_in_parts.h"
 #include "optimise/shaking.h"
+#include "optimise/tuning.h"
 #include "optimise/walking.h"
 
 namespace holdfast {
@@ -11,6 +12,9 @@ namespace holdfast {
 OptimiseStats optimise(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, double target,
                        const Threads& threads, Monitor& monitor, const OptimiseOptions& options) {
   Search search(mesh, tets, first_free, target, options.seed, threads, monitor);
+  // Where others of their regions are left alone, these are few, and flat.
+  if (options.remove == PointsToRemove::added_here)
+    search.budget() = Budget(tuning::kWorkOfFlatTimes * tets.size());
   const std::size_t points_before = search.points().size();
   search.move_points();
   // Where points stand for a size, some more do not matter.

@@ -25,7 +25,9 @@ inline constexpr double kCuredByOnePoint = 2;  ///< hopeless elements that one p
 // Work, in exchanges tried, some 10 microseconds each.
 inline constexpr std::size_t kLeastWork = 1200;  ///< so that small meshes are done thoroughly
 inline constexpr std::size_t kWorkPerTet = 4;    ///< so that the time stays proportional to the mesh
-inline constexpr std::size_t kUsualShare = 4;    ///< one part of so many is for what is not worth a point
+/// Times that for a flat element beside field points, where others are left alone.
+inline constexpr std::size_t kWorkOfFlatTimes = 5;
+inline constexpr std::size_t kUsualShare = 4;  ///< one part of so many is for what is not worth a point
 /// The most for that: millions of thin elements of a smooth surface would use up all in both searches.
 inline constexpr std::size_t kMostUsual = 1'000'000, kMostUsualAgain = 200'000;
 inline constexpr std::size_t kPromisingTimes = 10;  ///< as much for what would better the worst
