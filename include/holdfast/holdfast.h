@@ -52,7 +52,7 @@ struct Sizes {
   /// One a vertex of the complex, instead of what its edges ask for (0: keep that); or none. Of several
   /// vertices at one place the least counts.
   std::vector<double> vertex_sizes = {};
-  /// The most at a point; what is not positive is no limit. Called often, from the calling thread.
+  /// The most at a point; what is not positive is no limit. Called often.
   std::function<double(const Point&)> field = {};
   /// The same for many points at a time, into as many sizes: fewer calls. One of the two is enough; where
   /// there are both, they must agree.
@@ -62,6 +62,10 @@ struct Sizes {
   /// the metric in all directions; what `gradation` limits is the largest size at a point. Elements are
   /// judged as the metric sees them.
   std::function<Metric(const Point&)> metric = {};
+  /// Whether these functions may be called from several threads at the same time, as those of `size_function`
+  /// and `metric_function` may (holdfast/io.h). Else they are called from the calling thread alone, which
+  /// then adds field points by itself.
+  bool concurrent = false;
   /// The most that a tetrahedron may measure; 0: no limit. The bound is true, exactly, of every tetrahedron
   /// of the volume, even at the price of flat ones: those next to triangles that are large beside it. Regions
   /// may have bounds of their own. A mesh of more than 2^30 tetrahedra is refused by std::length_error.

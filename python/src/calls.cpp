@@ -98,6 +98,7 @@ Sizes sizes_from(const py::dict& options, const Fields& fields) {
   if (!fields.metric.is_none()) sizes.metric = metric_asked_of(fields.metric);
   if (options.contains("size_field") && !options["size_field"].is_none()) {
     const auto field = py::cast<std::shared_ptr<SizeField>>(options["size_field"]);
+    sizes.concurrent = fields.size.is_none() && fields.metric.is_none();
     if (field->metrics.empty())
       sizes.field = size_function(*field);
     else

@@ -26,8 +26,9 @@ bool is_explicit(const TetMesh& mesh, const std::vector<Tet>& tets) {
          });
 }
 
-// Functions of the caller may be slow, and are called from the calling thread alone.
+// Functions of the caller may be slow. Those that several threads call have no monitor to ask that all may.
 Sizes polling(Sizes sizes, Monitor& monitor) {
+  if (sizes.concurrent) return sizes;
   if (sizes.field)
     sizes.field = [&monitor, field = std::move(sizes.field)](const Point& p) {
       monitor.poll_again();

@@ -107,6 +107,7 @@ void read_size_field(const MeshArguments& arguments, Options& options) {
   if (arguments.size_field.empty()) return;
   SizeField field = holdfast::read_size_field(arguments.size_field, reading(options, {}));
   Sizes& sizes = *options.sizes;
+  sizes.concurrent = true;
   if (field.vertices.empty())
     sizes.vertex_sizes = std::move(field.sizes);
   else if (!field.metrics.empty())

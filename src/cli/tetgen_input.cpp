@@ -107,6 +107,7 @@ void read_input(TetgenInput& input, const TetgenSwitches& switches, const ReadOp
 
 void read_sizes(const TetgenInput& input, const ReadOptions& options, Sizes& sizes) {
   SizeField field = read_size_field(input.sizes(), options);
+  sizes.concurrent = true;
   if (!field.vertices.empty() && !field.metrics.empty()) {
     sizes.metric = metric_function(std::move(field));
   } else if (!field.vertices.empty()) {

@@ -168,6 +168,7 @@ class Divider {
   Result mesh_near(const WantedSize& wanted, const Bisection& cells) {
     Options options = options_of_mesh(0.25, 0.6);
     options.sizes->gradation = kCoarse;
+    options.sizes->concurrent = true;
     options.sizes->field = [&](const Point& p) {
       const double h = wanted(p), away = cells.distance_to_wall(p);
       return h + kCoarse * std::max(0.0, away - kLayers * h);

@@ -109,6 +109,7 @@ SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds
       field_(sizes.field),
       fields_(sizes.fields),
       metric_(sizes.metric),
+      is_concurrent_(sizes.concurrent),
       of_vertex_(edge_lengths(complex, table, scale)) {
   threads.poll();
   for (std::size_t v = 0; v < std::min(of_vertex_.size(), sizes.vertex_sizes.size()); ++v)

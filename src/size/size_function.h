@@ -54,9 +54,10 @@ class SizeFunction {
   [[nodiscard]] bool has_limit() const {
     return most_ < std::numeric_limits<double>::infinity() || !of_region_.empty() || field_;
   }
-  /// Those of the threads that may ask for sizes: a function of the user is called on the calling one alone.
+  /// Those of the threads that may ask for sizes: unless the user allows more, a function of his is called on
+  /// the calling one alone.
   [[nodiscard]] Threads threads_of(const Threads& all) const {
-    return field_ || metric_ ? all.at_most(1) : all;
+    return (field_ || metric_) && !is_concurrent_ ? all.at_most(1) : all;
   }
   /// By region, the most that a tetrahedron of the mesh may measure, infinite without a bound; none where no
   /// region has one.
@@ -90,6 +91,7 @@ class SizeFunction {
   std::function<double(const Point&)> field_;
   std::function<void(std::span<const Point>, std::span<double>)> fields_;
   std::function<Metric(const Point&)> metric_;
+  bool is_concurrent_;
   std::vector<double> of_vertex_;
   FacetSizes of_facets_;
 };

@@ -132,5 +132,26 @@ TEST(FieldThreadsMonitor, AFunctionOfTheUserIsCalledOnTheCallersThreadAlone) {
   EXPECT_EQ(elsewhere, 0);
 }
 
+TEST(FieldThreadsStop, AFunctionThatAllowsItIsCalledOnAllThreadsAndMakesNoDifference) {
+  const Surface sphere = hard::icosphere(4);
+  Options options = two_threads(0);
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<int> elsewhere = 0;
+  options.sizes->field = [&](const Point& p) {
+    if (std::this_thread::get_id() != caller) ++elsewhere;
+    return p[0] < 0 ? 0.045 : 0.055;
+  };
+  const Result alone = mesh(sphere.view(), options);
+  options.sizes->concurrent = true;
+  EXPECT_EQ(elsewhere, 0);
+  for (const unsigned threads : {1u, 2u, 3u}) {
+    options.threads = threads;
+    const Result result = mesh(sphere.view(), options);
+    EXPECT_EQ(result.volume.vertices, alone.volume.vertices);
+    EXPECT_EQ(result.volume.tetrahedra, alone.volume.tetrahedra);
+    EXPECT_EQ(elsewhere > 0, threads > 1);
+  }
+}
+
 }  // namespace
 }  // namespace holdfast
