@@ -27,6 +27,10 @@ const char* rule_of(Keep keep) {
 void print_field(const Report::Field& field) {
   say("field      {}, least dihedral angle {:.3g} degrees before optimisation, {:.3g} after\n",
       counted(field.points, "point"), field.before.min_dihedral_deg, field.after.min_dihedral_deg);
+  if (!field.limiting.empty())
+    say("           triangles limit sizes on {:.3g} % of the volume, {} most: {:.3g} in place of {:.3g}\n",
+        100 * field.limited_volume, field.limiting[0].facet, field.limiting[0].bearable,
+        field.limiting[0].wanted);
   if (field.below_10_deg == 0) return;
   say("           {} below 10 degrees, {} of them forced by the surface",
       counted(field.below_10_deg, "element"), field.forced);
