@@ -71,15 +71,14 @@ class WithGhosts {
       : tets_(tets) {
     for (const Tet t : tets) {
       const Tangle::Corners& c = tangle.corners(t);
-      corners_.push_back({in_mesh[c[0]], in_mesh[c[1]], in_mesh[c[2]], in_mesh[c[3]]});
+      cells_.push_back({{in_mesh[c[0]], in_mesh[c[1]], in_mesh[c[2]], in_mesh[c[3]]}, {}});
     }
-    neighbours_.resize(corners_.size());
     add_ghosts(tangle);
     link_ghosts();
   }
 
-  [[nodiscard]] std::size_t size() const { return corners_.size(); }
-  void move_to(TetMesh& mesh) { MeshEditor(mesh).load(std::move(corners_), std::move(neighbours_)); }
+  [[nodiscard]] std::size_t size() const { return cells_.size(); }
+  void move_to(TetMesh& mesh) { MeshEditor(mesh).load(std::move(cells_)); }
 
  private:
   void add_ghosts(const Tangle& tangle) {
@@ -88,47 +87,43 @@ class WithGhosts {
     for (Tet k = 0; k < tets_.size(); ++k)
       for (int i = 0; i < 4; ++i) {
         const Tet other = tangle.across(tets_[k], i);
-        Face& across = neighbours_[k][static_cast<std::size_t>(i)];
+        Face& across = cells_[k].neighbours[static_cast<std::size_t>(i)];
         if (other != kNone) {
-          across = face_of(slot[other], face_key(corners_[k], i));
+          across = face_of(slot[other], face_key(cells_[k].corners, i));
           continue;
         }
-        const auto ghost = static_cast<Tet>(corners_.size());
-        across = face_code(ghost, 3);
-        const auto v = corners_of_face(corners_[k], i);
-        corners_.push_back({v[0], v[2], v[1], kGhost});
-        neighbours_.push_back({kNone, kNone, kNone, face_code(k, i)});
+        across = face_code(static_cast<Tet>(cells_.size()), 3);
+        const auto v = corners_of_face(cells_[k].corners, i);
+        cells_.push_back({{v[0], v[2], v[1], kGhost}, {kNone, kNone, kNone, face_code(k, i)}});
       }
   }
 
   [[nodiscard]] Face face_of(Tet k, const FaceKey& key) const {
     int i = 0;
-    while (i < 3 && face_key(corners_[k], i) != key) ++i;
+    while (i < 3 && face_key(cells_[k].corners, i) != key) ++i;
     return face_code(k, i);
   }
 
-  [[nodiscard]] int index_of(Tet k, Vertex v) const {
-    return static_cast<int>(std::find(corners_[k].begin(), corners_[k].end(), v) - corners_[k].begin());
-  }
+  [[nodiscard]] int index_of(Tet k, Vertex v) const { return index_among(cells_[k].corners, v); }
 
   // Two are neighbours where turning round their edge, through the mesh, leads from one to the other.
   void link_ghosts() {
-    for (auto ghost = static_cast<Tet>(tets_.size()); ghost < corners_.size(); ++ghost)
+    for (auto ghost = static_cast<Tet>(tets_.size()); ghost < cells_.size(); ++ghost)
       for (int j = 0; j < 3; ++j) {
-        Face in = neighbours_[ghost][3];
-        Vertex across = corners_[ghost][static_cast<std::size_t>(j)];
+        Face in = cells_[ghost].neighbours[3];
+        Vertex across = cells_[ghost].corners[static_cast<std::size_t>(j)];
         while (tet_of(in) < tets_.size()) {
-          const Vertex apex = corners_[tet_of(in)][static_cast<std::size_t>(side_of(in))];
-          in = neighbours_[tet_of(in)][static_cast<std::size_t>(index_of(tet_of(in), across))];
+          const Vertex apex = cells_[tet_of(in)].corners[static_cast<std::size_t>(side_of(in))];
+          in = cells_[tet_of(in)].neighbours[static_cast<std::size_t>(index_of(tet_of(in), across))];
           across = apex;
         }
-        neighbours_[ghost][static_cast<std::size_t>(j)] = face_code(tet_of(in), index_of(tet_of(in), across));
+        cells_[ghost].neighbours[static_cast<std::size_t>(j)] =
+            face_code(tet_of(in), index_of(tet_of(in), across));
       }
   }
 
   std::span<const Tet> tets_;  // of the tangle, which come first
-  std::vector<TetMesh::Corners> corners_;
-  std::vector<TetMesh::Neighbours> neighbours_;
+  std::vector<TetMesh::Cell> cells_;
 };
 
 void mark_constraints(const Tangle& tangle, const std::vector<Vertex>& in_tangle, TetMesh& mesh) {

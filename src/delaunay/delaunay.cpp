@@ -35,8 +35,7 @@ bool build_delaunay(TetMesh& mesh, const DelaunayOrder& options, Monitor* monito
   InsertionProgress progress;
   if (monitor != nullptr) progress = [&](double fraction) { monitor->poll(Stage::delaunay, fraction); };
   const auto take = [&](Triangulation& triangulation) {
-    NumberedCells cells = all_cells(triangulation, options.threads);
-    MeshEditor(mesh).load(std::move(cells.corners), std::move(cells.neighbours));
+    MeshEditor(mesh).load(all_cells(triangulation, options.threads));
   };
   return triangulate(mesh.positions(), options.seed, options.threads, progress, take);
 }

@@ -219,21 +219,19 @@ std::vector<Tetrahedron> finite_cells(Triangulation& triangulation, const Thread
   return tets;
 }
 
-NumberedCells all_cells(Triangulation& triangulation, const Threads& threads) {
+std::vector<TetMesh::Cell> all_cells(Triangulation& triangulation, const Threads& threads) {
   LargeArray<std::uint32_t> placed(triangulation.cells().size());  // of a slot: 4 * place + turn
   Numbering<FullCell> numbering(triangulation, threads);
   std::vector<FullCell>& ghosts = numbering.ghosts();
   std::sort(ghosts.begin(), ghosts.end(), [](const FullCell& a, const FullCell& b) { return a.v < b.v; });
 
   const std::size_t size = numbering.size() + ghosts.size();
-  NumberedCells out{sized_vector<TetMesh::Corners>(size, threads),
-                    sized_vector<TetMesh::Neighbours>(size, threads)};
+  auto out = sized_vector<TetMesh::Cell>(size, threads);
   const std::uint32_t* const point = triangulation.order().points.data();
   const Vertex ghost = triangulation.ghost();
   const auto put = [&](std::size_t place, const FullCell& cell) {
     const auto& v = cell.v;
-    out.corners[place] = {point[v[0]], point[v[1]], point[v[2]], v[3] == ghost ? kGhost : point[v[3]]};
-    out.neighbours[place] = cell.n;
+    out[place] = {{point[v[0]], point[v[1]], point[v[2]], v[3] == ghost ? kGhost : point[v[3]]}, cell.n};
     placed[cell.origin >> 2] = static_cast<std::uint32_t>(place << 2) | (cell.origin & 3u);
   };
   numbering.for_each(put);
@@ -241,7 +239,7 @@ NumberedCells all_cells(Triangulation& triangulation, const Threads& threads) {
 
   parallel_ranges(threads, size, [&](std::size_t first, std::size_t last) {
     for (std::size_t t = first; t < last; ++t)
-      for (Face& f : out.neighbours[t]) {
+      for (Face& f : out[t].neighbours) {
         const std::uint32_t where = placed[tet_of(f)];
         f = (where & ~3u) | kTurnedFrom[where & 3u][f & 3u];
       }

@@ -21,11 +21,7 @@ namespace holdfast {
 /// Corners, as points, of all cells without the ghost. The triangulation's cells are freed on the way.
 [[nodiscard]] std::vector<Tetrahedron> finite_cells(Triangulation& triangulation, const Threads& threads);
 
-struct NumberedCells {
-  std::vector<TetMesh::Corners> corners;  ///< points, or kGhost
-  std::vector<TetMesh::Neighbours> neighbours;
-};
-/// All cells. Those of the triangulation are freed on the way.
-[[nodiscard]] NumberedCells all_cells(Triangulation& triangulation, const Threads& threads);
+/// All cells; corners are points, or kGhost. Those of the triangulation are freed on the way.
+[[nodiscard]] std::vector<TetMesh::Cell> all_cells(Triangulation& triangulation, const Threads& threads);
 
 }  // namespace holdfast

@@ -51,6 +51,13 @@ inline constexpr int edge_between(int i, int j) {
   return kEdgeOf[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
 }
 
+/// Where a vertex is among four that differ, or -1. Without branches: it is anywhere, so that every other one
+/// would be mispredicted.
+inline constexpr int index_among(const std::array<Vertex, 4>& corners, Vertex v) {
+  return static_cast<int>(corners[0] == v) + 2 * static_cast<int>(corners[1] == v) +
+         3 * static_cast<int>(corners[2] == v) + 4 * static_cast<int>(corners[3] == v) - 1;
+}
+
 /// What an array of four, one a corner, holds at the corners of face i, and at the ends of edge k.
 template <typename T>
 constexpr std::array<T, 3> corners_of_face(const std::array<T, 4>& at, int i) {

@@ -139,14 +139,12 @@ void MeshEditor::undo(UndoLog& log, const UndoLog::Mark& mark) {
   // The newest first, so that the oldest note of a slot, which is that of the mark, decides.
   while (log.slots_.size() > mark.slots) {
     const UndoLog::Slot& old = log.slots_.back();
-    mesh_.corners_[old.tet] = old.corners;
-    mesh_.neighbours_[old.tet] = old.neighbours;
+    mesh_.cells_[old.tet] = {old.corners, old.neighbours};
     mesh_.flags_[old.tet] = old.flags;
     if constexpr (kValidates) restored.push_back(old.tet);
     log.slots_.pop_back();
   }
-  mesh_.corners_.resize(mark.slot_count);
-  mesh_.neighbours_.resize(mark.slot_count);
+  mesh_.cells_.resize(mark.slot_count);
   mesh_.flags_.resize(mark.slot_count);
   for (; log.free_moves_.size() > mark.free_moves; log.free_moves_.pop_back()) {
     if (log.free_moves_.back().taken)

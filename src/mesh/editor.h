@@ -104,10 +104,9 @@ class MeshEditor {
   void mark_constraints(Tet t, Flags f) { mesh_.set_flags(t, f); }
 
   // --- the whole mesh
-  /// All tetrahedra of a mesh that had none, at once. The two arrays are as long as each other; flags are
-  /// cleared and incident tetrahedra set here.
-  void load(std::vector<TetMesh::Corners> corners, std::vector<TetMesh::Neighbours> neighbours) {
-    set_tets(std::move(corners), std::move(neighbours));
+  /// All tetrahedra of a mesh that had none, at once. Flags are cleared and incident tetrahedra set here.
+  void load(std::vector<TetMesh::Cell> cells) {
+    set_tets(std::move(cells));
     finish();
   }
   /// New numbers for all tetrahedra and for the vertices from `first` on: `tets` lists the living ones, and
@@ -145,9 +144,7 @@ class MeshEditor {
 
  protected:
   // Single steps, during which the mesh need not be whole. MeshAssembly has them.
-  void set_tets(std::vector<TetMesh::Corners> corners, std::vector<TetMesh::Neighbours> neighbours) {
-    mesh_.set_tets(std::move(corners), std::move(neighbours));
-  }
+  void set_tets(std::vector<TetMesh::Cell> cells) { mesh_.set_tets(std::move(cells)); }
   void link(Face f, Face g) {
     mesh_.set_neighbour(f, g);
     mesh_.set_neighbour(g, f);

@@ -80,10 +80,9 @@ Tet TetMesh::take_slot(Tet near) {
   if (attached_.pools != nullptr) [[unlikely]]
     return attached_.pools->take(near);
   if (free_.empty()) {
-    corners_.emplace_back();
-    neighbours_.emplace_back();
+    cells_.emplace_back();
     flags_.push_back(0);
-    return static_cast<Tet>(corners_.size() - 1);
+    return static_cast<Tet>(cells_.size() - 1);
   }
   const Tet t = free_.back();
   if (attached_.log != nullptr) [[unlikely]]
@@ -93,17 +92,15 @@ Tet TetMesh::take_slot(Tet near) {
 }
 
 Tet TetMesh::add_slots(std::size_t count) {
-  const auto first = static_cast<Tet>(corners_.size());
-  corners_.resize(first + count);
-  neighbours_.resize(first + count);
+  const auto first = static_cast<Tet>(cells_.size());
+  cells_.resize(first + count);
   flags_.resize(first + count);
   return first;
 }
 
 void TetMesh::drop_last_slots(std::size_t count) {
-  corners_.resize(corners_.size() - count);
-  neighbours_.resize(corners_.size());
-  flags_.resize(corners_.size());
+  cells_.resize(cells_.size() - count);
+  flags_.resize(cells_.size());
 }
 
 void TetMesh::remove_tet(Tet t) {
@@ -117,15 +114,14 @@ void TetMesh::remove_tet(Tet t) {
   free_.push_back(t);
 }
 
-void TetMesh::set_tets(std::vector<Corners> corners, std::vector<Neighbours> neighbours) {
-  assert(tet_count() == 0 && corners.size() == neighbours.size());
-  corners_ = std::move(corners);
-  neighbours_ = std::move(neighbours);
-  flags_.reserve(corners_.capacity());
-  flags_.assign(corners_.size(), 0);
+void TetMesh::set_tets(std::vector<Cell> cells) {
+  assert(tet_count() == 0);
+  cells_ = std::move(cells);
+  flags_.reserve(cells_.capacity());
+  flags_.assign(cells_.size(), 0);
   free_.clear();
-  for (Tet t = 0; t < corners_.size(); ++t)
-    for (const Vertex v : corners_[t])
+  for (Tet t = 0; t < cells_.size(); ++t)
+    for (const Vertex v : corners(t))
       if (v != kGhost) incident_[v] = t;
 }
 
@@ -136,19 +132,16 @@ void TetMesh::renumber(std::span<const Tet> tets, Vertex first, std::span<const 
   std::vector<Vertex> vertex_now(vertices.size());
   for (std::size_t k = 0; k < vertices.size(); ++k)
     vertex_now[vertices[k] - first] = first + static_cast<Vertex>(k);
-  std::vector<Corners> corners(tets.size());
-  std::vector<Neighbours> neighbours(tets.size());
+  std::vector<Cell> cells(tets.size());
   std::vector<Flags> flags(tets.size());
   for (std::size_t k = 0; k < tets.size(); ++k) {
-    corners[k] = corners_[tets[k]];
-    for (Vertex& v : corners[k])
+    cells[k] = cells_[tets[k]];
+    for (Vertex& v : cells[k].corners)
       if (v >= first && v != kGhost) v = vertex_now[v - first];
-    neighbours[k] = neighbours_[tets[k]];
-    for (Face& f : neighbours[k]) f = face_code(tet_now[tet_of(f)], side_of(f));
+    for (Face& f : cells[k].neighbours) f = face_code(tet_now[tet_of(f)], side_of(f));
     flags[k] = flags_[tets[k]];
   }
-  corners_ = std::move(corners);
-  neighbours_ = std::move(neighbours);
+  cells_ = std::move(cells);
   flags_ = std::move(flags);
   free_.clear();
   const std::vector<Point> positions(positions_.begin() + first, positions_.end());
@@ -164,8 +157,7 @@ void TetMesh::renumber(std::span<const Tet> tets, Vertex first, std::span<const 
 }
 
 std::size_t TetMesh::memory_bytes() const {
-  return corners_.capacity() * (sizeof(Corners) + sizeof(Neighbours) + sizeof(Flags)) +
-         free_.capacity() * sizeof(Tet) +
+  return cells_.capacity() * (sizeof(Cell) + sizeof(Flags)) + free_.capacity() * sizeof(Tet) +
          positions_.capacity() * (sizeof(Point) + 2 * sizeof(std::uint32_t)) +
          exact_.capacity() * sizeof(exact::ExactPoint);
 }
@@ -174,8 +166,7 @@ void TetMesh::reserve(std::size_t vertices, std::size_t tets) {
   positions_.reserve(vertices);
   exact_of_.reserve(vertices);
   incident_.reserve(vertices);
-  corners_.reserve(tets);
-  neighbours_.reserve(tets);
+  cells_.reserve(tets);
   flags_.reserve(tets);
 }
 

@@ -1,8 +1,9 @@
-// The tetrahedral mesh: struct of arrays, four vertices and four neighbours a tetrahedron.
+// The tetrahedral mesh: flat arrays, four vertices and four neighbours a tetrahedron.
 //
 // The shape follows the kernel of HXT (Marot, Pellerin, Remacle 2019): flat arrays indexed by
 // tetrahedron, neighbour codes that name the shared face, ghost tetrahedra on the hull so that every
-// face has a neighbour. 34 bytes a tetrahedron and 32 a vertex.
+// face has a neighbour. 34 bytes a tetrahedron and 32 a vertex. Corners and neighbours of one lie together,
+// so that a walk, which asks for both, waits for memory once a step.
 //
 // Invariants (validate.h checks them):
 //   1. neighbour(neighbour(f)) == f, and both tetrahedra hold the same three vertices there;
@@ -38,6 +39,12 @@ class TetMesh {
  public:
   using Corners = std::array<Vertex, 4>;
   using Neighbours = std::array<Face, 4>;
+  /// Half a cache line.
+  struct alignas(32) Cell {
+    Corners corners;
+    Neighbours neighbours;
+    friend bool operator==(const Cell&, const Cell&) = default;
+  };
 
   // --- vertices
   /// Vertices get no doubles but those of this grid.
@@ -60,24 +67,21 @@ class TetMesh {
   [[nodiscard]] bool in_mesh(Vertex v) const { return incident_[v] != kNone; }
 
   // --- tetrahedra
-  [[nodiscard]] std::size_t slot_count() const { return corners_.size(); }
-  [[nodiscard]] std::size_t tet_count() const { return corners_.size() - free_.size(); }
+  [[nodiscard]] std::size_t slot_count() const { return cells_.size(); }
+  [[nodiscard]] std::size_t tet_count() const { return cells_.size() - free_.size(); }
   [[nodiscard]] bool alive(Tet t) const { return (flags_[t] & kDead) == 0; }
-  [[nodiscard]] bool is_ghost(Tet t) const { return corners_[t][3] == kGhost; }
-  [[nodiscard]] const Corners& corners(Tet t) const { return corners_[t]; }
-  [[nodiscard]] const Neighbours& neighbours(Tet t) const { return neighbours_[t]; }
-  [[nodiscard]] Vertex corner(Tet t, int i) const { return corners_[t][static_cast<std::size_t>(i)]; }
-  [[nodiscard]] Face neighbour(Tet t, int i) const { return neighbours_[t][static_cast<std::size_t>(i)]; }
+  [[nodiscard]] bool is_ghost(Tet t) const { return corners(t)[3] == kGhost; }
+  [[nodiscard]] const Corners& corners(Tet t) const { return cells_[t].corners; }
+  [[nodiscard]] const Neighbours& neighbours(Tet t) const { return cells_[t].neighbours; }
+  [[nodiscard]] Vertex corner(Tet t, int i) const { return corners(t)[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] Face neighbour(Tet t, int i) const { return neighbours(t)[static_cast<std::size_t>(i)]; }
   [[nodiscard]] Face neighbour(Face f) const { return neighbour(tet_of(f), side_of(f)); }
   /// Tells the machine that t, or its neighbours, will soon be looked at.
-  void prefetch(Tet t) const {
-    __builtin_prefetch(&corners_[t]);
-    __builtin_prefetch(&neighbours_[t]);
-  }
+  void prefetch(Tet t) const { __builtin_prefetch(&cells_[t]); }
   void prefetch_vertex(Vertex v) const { __builtin_prefetch(&positions_[v]); }
   void prefetch_neighbours(Tet t) const {
-    for (const Face f : neighbours_[t]) {
-      __builtin_prefetch(&corners_[tet_of(f)]);
+    for (const Face f : neighbours(t)) {
+      __builtin_prefetch(&cells_[tet_of(f)]);
       __builtin_prefetch(&flags_[tet_of(f)]);
     }
   }
@@ -90,13 +94,10 @@ class TetMesh {
 
   [[nodiscard]] Vertex apex(Face f) const { return corner(tet_of(f), side_of(f)); }
   [[nodiscard]] std::array<Vertex, 3> face_vertices(Face f) const {
-    return corners_of_face(corners_[tet_of(f)], side_of(f));
+    return corners_of_face(corners(tet_of(f)), side_of(f));
   }
   /// Local index of v in t, or -1.
-  [[nodiscard]] int index_of(Tet t, Vertex v) const {
-    const Corners& c = corners_[t];
-    return c[0] == v ? 0 : c[1] == v ? 1 : c[2] == v ? 2 : c[3] == v ? 3 : -1;
-  }
+  [[nodiscard]] int index_of(Tet t, Vertex v) const { return index_among(corners(t), v); }
   /// Local number of the edge between two corners of t.
   [[nodiscard]] int edge_of(Tet t, Vertex a, Vertex b) const {
     return edge_between(index_of(t, a), index_of(t, b));
@@ -139,7 +140,7 @@ class TetMesh {
   }
   void reserve(std::size_t vertices, std::size_t tets);
   void renumber(std::span<const Tet> tets, Vertex first, std::span<const Vertex> vertices);
-  void set_tets(std::vector<Corners> corners, std::vector<Neighbours> neighbours);
+  void set_tets(std::vector<Cell> cells);
 
   // A free slot, or one more, for put_tet to fill, from the pool of another where there are pools; and
   // `count` more, one after another.
@@ -148,15 +149,14 @@ class TetMesh {
   void drop_last_slots(std::size_t count);
   void put_tet(Tet t, const Corners& v, const Neighbours& n, Flags f) {
     note_slot(t);
-    corners_[t] = v;
-    neighbours_[t] = n;
+    cells_[t] = {v, n};
     flags_[t] = f;
   }
   void remove_tet(Tet t);
   // What f sees; not what sees f.
   void set_neighbour(Face f, Face g) {
     note_slot(tet_of(f));
-    neighbours_[tet_of(f)][f & 3u] = g;
+    cells_[tet_of(f)].neighbours[f & 3u] = g;
   }
   void set_flags(Tet t, Flags f) {
     note_slot(t);
@@ -190,8 +190,7 @@ class TetMesh {
   void tell_vertex(Vertex v);
   void release_exact(Vertex v);
 
-  std::vector<Corners> corners_;
-  std::vector<Neighbours> neighbours_;
+  std::vector<Cell> cells_;
   std::vector<Flags> flags_;
   std::vector<Tet> free_;  // slots; the last is filled first
 

@@ -41,17 +41,17 @@ class PartMaker {
     const auto count = static_cast<Tet>(tets_.size());
     const std::uint32_t own = part_of_[tets_.front()];
     part_.first_ghost_ = count;
-    neighbours_.resize(count);
+    cells_.resize(count);
     for (Tet k = 0; k < count; ++k)
       for (int i = 0; i < 4; ++i) {
         const Face f = face_code(tets_[k], i), g = mesh.neighbour(f);
         const std::uint32_t next = part_of_[tet_of(g)];
         if (next == own) {
-          neighbours_[k][static_cast<std::size_t>(i)] = face_code(local_of_[tet_of(g)], side_of(g));
+          cells_[k].neighbours[static_cast<std::size_t>(i)] = face_code(local_of_[tet_of(g)], side_of(g));
           continue;
         }
         const auto ghost = count + static_cast<Tet>(part_.bounds_.size());
-        neighbours_[k][static_cast<std::size_t>(i)] = face_code(ghost, 3);
+        cells_[k].neighbours[static_cast<std::size_t>(i)] = face_code(ghost, 3);
         const bool is_interface = !mesh.is_facet(f) && !mesh.is_ghost(tet_of(g));
         part_.bounds_.push_back({f, g, is_interface, next != kNone});
       }
@@ -97,21 +97,20 @@ class PartMaker {
   void copy_tets() {
     const TetMesh& mesh = whole_.mesh;
     const std::size_t tets = tets_.size(), all = tets + part_.bounds_.size();
-    std::vector<TetMesh::Corners> corners(all);
     part_.region_of.assign(all, 0);
     for (std::size_t k = 0; k < tets; ++k) {
       const TetMesh::Corners& c = mesh.corners(tets_[k]);
-      corners[k] = {place_[c[0]], place_[c[1]], place_[c[2]], place_[c[3]]};
+      cells_[k].corners = {place_[c[0]], place_[c[1]], place_[c[2]], place_[c[3]]};
       part_.region_of[k] = whole_.region_of[tets_[k]];
     }
-    neighbours_.reserve(all);
+    cells_.reserve(all);
     for (std::size_t k = tets; k < all; ++k) {
       const Face inner = part_.bounds_[k - tets].inner;
       const auto v = mesh.face_vertices(inner);
-      corners[k] = {place_[v[0]], place_[v[2]], place_[v[1]], kGhost};
-      neighbours_.push_back({kNone, kNone, kNone, face_code(local_of_[tet_of(inner)], side_of(inner))});
+      cells_.push_back({{place_[v[0]], place_[v[2]], place_[v[1]], kGhost},
+                        {kNone, kNone, kNone, face_code(local_of_[tet_of(inner)], side_of(inner))}});
     }
-    MeshAssembly(part_.mesh).set_tets(std::move(corners), std::move(neighbours_));
+    MeshAssembly(part_.mesh).set_tets(std::move(cells_));
   }
 
   void copy_flags() {
@@ -139,7 +138,7 @@ class PartMaker {
   const std::vector<Tet>& local_of_;
   const std::vector<Tet>& tets_;
   Part& part_;
-  std::vector<TetMesh::Neighbours> neighbours_;
+  std::vector<TetMesh::Cell> cells_;
   std::vector<Vertex> place_;  // in the part, by vertex of the whole that is there
 };
 

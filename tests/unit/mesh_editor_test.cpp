@@ -26,7 +26,7 @@ concept Writable = requires(Mesh& m) {
 || requires(Mesh& m) { m.set_neighbour(0, 0); }
 || requires(Mesh& m) { m.set_flags(0, 0); }
 || requires(Mesh& m) { m.set_incident(0, 0); }
-|| requires(Mesh& m) { m.set_tets({}, {}); }
+|| requires(Mesh& m) { m.set_tets({}); }
 || requires(Mesh& m) { m.renumber({}, 0, {}); };
 static_assert(!Writable<TetMesh>);
 
@@ -81,16 +81,13 @@ TEST(MeshEditor, LoadsAndRenumbersAWholeMesh) {
   const TetMesh from = delaunay_in_box(random_points(40, 3));
   TetMesh mesh;
   for (const Point& p : from.positions()) MeshEditor(mesh).add_vertex(p);
-  std::vector<TetMesh::Corners> corners;
-  std::vector<TetMesh::Neighbours> neighbours;
+  std::vector<TetMesh::Cell> cells;
   for (Tet t = 0; t < from.slot_count(); ++t) {
     ASSERT_TRUE(from.alive(t));
-    corners.push_back(from.corners(t));
-    neighbours.push_back(
-        {from.neighbour(t, 0), from.neighbour(t, 1), from.neighbour(t, 2), from.neighbour(t, 3)});
+    cells.push_back({from.corners(t), from.neighbours(t)});
   }
   MeshEditor editor(mesh);
-  editor.load(corners, neighbours);
+  editor.load(cells);
   EXPECT_EQ(find_fault(mesh), "");
 
   const std::vector<Tet> all = living(mesh);
