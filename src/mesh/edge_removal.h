@@ -44,16 +44,21 @@ bool gather_round(const Mesh& mesh, Tet t, Vertex a, Vertex b, EdgeShell& out, s
   out.tets.clear();
   out.link.clear();
   const Tet start = t;
-  do {
+  int c = kOpposite[static_cast<std::size_t>(mesh.index_of(t, a))]
+                   [static_cast<std::size_t>(mesh.index_of(t, b))][0];
+  Vertex p = mesh.corners(t)[static_cast<std::size_t>(c)];
+  while (true) {
     if (out.tets.size() == most) return false;
-    const int c = kOpposite[static_cast<std::size_t>(mesh.index_of(t, a))]
-                           [static_cast<std::size_t>(mesh.index_of(t, b))][0];
     out.tets.push_back(t);
-    out.link.push_back(mesh.corners(t)[static_cast<std::size_t>(c)]);
+    out.link.push_back(p);
+    // The fourth corner, of the face that comes next.
+    const auto& v = mesh.corners(t);
+    p ^= v[0] ^ v[1] ^ v[2] ^ v[3] ^ a ^ b;
     t = across(t, c);
     if (t == kNone) return false;
-  } while (t != start);
-  return true;
+    if (t == start) return true;
+    c = mesh.index_of(t, p);
+  }
 }
 
 /// Gathers the shell of edge ab of tetrahedron t. Returns false, with `out` unspecified, where the edge

@@ -17,7 +17,12 @@ class Flipper::ForTarget {
 
   ForTarget(const TetMesh& mesh, const EdgeShell& shell, const std::vector<Ear>& ears, const Target& target,
             Vertex avoided)
-      : mesh_(mesh), shell_(shell), ears_(ears), target_(target), avoided_(avoided) {}
+      : mesh_(mesh),
+        shell_(shell),
+        ears_(ears),
+        target_(target),
+        is_near_(target.may_meet(mesh, shell)),
+        avoided_(avoided) {}
 
   [[nodiscard]] Cost none() const { return 0; }
   [[nodiscard]] Cost join(Cost x, Cost y) const { return x + y; }
@@ -26,15 +31,18 @@ class Flipper::ForTarget {
   std::optional<Cost> triangle(std::size_t i, std::size_t k, std::size_t j) {
     ++tests;
     if (!is_positive(i, k, j)) return std::nullopt;
-    return kWeight * target_.face(mesh_, shell_.link[i], shell_.link[k], shell_.link[j]);
+    return is_near_ ? kWeight * target_.face(mesh_, shell_.link[i], shell_.link[k], shell_.link[j]) : 0;
   }
   Cost diagonal(std::size_t i, std::size_t j) {
     const Vertex u = shell_.link[i], v = shell_.link[j];
+    const int avoided = u == avoided_ || v == avoided_ ? 1 : 0;
+    if (!is_near_) return avoided;
     const int crossings =
         target_.edge(mesh_, u, v) + target_.face(mesh_, shell_.a, u, v) + target_.face(mesh_, shell_.b, u, v);
-    return kWeight * crossings + (u == avoided_ || v == avoided_ ? 1 : 0);
+    return kWeight * crossings + avoided;
   }
   [[nodiscard]] int cost_now() const {
+    if (!is_near_) return 0;
     int cost = target_.edge(mesh_, shell_.a, shell_.b);
     for (const Vertex p : shell_.link) cost += target_.face(mesh_, shell_.a, shell_.b, p);
     return cost;
@@ -56,6 +64,7 @@ class Flipper::ForTarget {
   const EdgeShell& shell_;
   const std::vector<Ear>& ears_;
   const Target& target_;
+  const bool is_near_;  // else all of these cost nothing
   Vertex avoided_;
 };
 
@@ -123,32 +132,34 @@ bool Flipper::may_try(Tet t, Vertex a, Vertex b, int depth) {
 
 bool Flipper::gather(Tet t, Vertex a, Vertex b, Vertex avoided, Level& level) {
   EdgeShell& shell = level.shell;
-  if (!gather_shell(mesh_, t, a, b, shell, avoided == kNone ? tuning::kMostClipped : kMostLink)) return false;
-  if (lies_in_facet(shell)) return false;
+  // Edges inside a facet that is cut into pieces are no segments.
+  const auto beyond = [&](Tet s, int i) {
+    const Tet next = tet_of(mesh_.neighbour(s, i));
+    mesh_.prefetch_vertex(mesh_.corner(s, i));
+    return mesh_.is_facet(face_code(s, i)) || mesh_.is_ghost(next) ? kNone : next;
+  };
+  if (mesh_.is_ghost(t) ||
+      !gather_round(mesh_, t, a, b, shell, avoided == kNone ? tuning::kMostClipped : kMostLink, beyond))
+    return false;
   if (shell.size() > kMostLink && !clip_ears(shell)) return false;
   list_ears(level);
   return true;
-}
-
-// Edges inside a facet that is cut into pieces are no segments.
-bool Flipper::lies_in_facet(const EdgeShell& shell) const {
-  for (std::size_t i = 0; i < shell.size(); ++i) {
-    const Tet t = shell.tets[i];
-    if ((mesh_.flags(t) & kFacetBits) == 0) continue;
-    if (mesh_.is_facet(face_code(t, mesh_.index_of(t, shell.link[(i + 1) % shell.size()])))) return true;
-  }
-  return false;
 }
 
 // How the corners of a link, cut off one at a time, see the ends of the edge.
 void Flipper::list_ears(Level& level) {
   const EdgeShell& shell = level.shell;
   const std::size_t n = shell.size();
-  level.ears.clear();
+  level.ears.resize(n);
+  level.good_ears = 0;
+  Vertex before = shell.link[n - 1], p = shell.link[0];
   for (std::size_t i = 0; i < n; ++i) {
-    const Vertex before = shell.link[(i + n - 1) % n], p = shell.link[i], after = shell.link[(i + 1) % n];
+    const Vertex after = shell.link[i + 1 == n ? 0 : i + 1];
     const auto [of_a, of_b] = mesh_.orient_both(before, p, after, shell.a, shell.b);
-    level.ears.push_back({of_a<0, of_b> 0});
+    level.ears[i] = {of_a<0, of_b> 0};
+    level.good_ears += static_cast<std::size_t>(level.ears[i].sees_both());
+    before = p;
+    p = after;
   }
 }
 
@@ -157,7 +168,7 @@ bool Flipper::remove_now(const Level& level, Vertex avoided) {
   const EdgeShell& shell = level.shell;
   work_.add(shell.size());
   // Every triangulation of a polygon has two ears (Meisters 1975).
-  if (std::count_if(level.ears.begin(), level.ears.end(), [](const Ear& e) { return e.sees_both(); }) < 2) {
+  if (level.good_ears < 2) {
     work_.add(2 * shell.size());
     return false;
   }
@@ -221,7 +232,15 @@ void Flipper::begin_spokes(Level& level) {
     if (!sees_a) spokes.push_back({{i, false}, !sees_b});
   }
   numbers::shuffle(spokes.begin(), spokes.end(), random_);
-  std::stable_partition(spokes.begin(), spokes.end(), [](const BlockedSpoke& s) { return !s.blocked_twice; });
+  blocked_twice_.clear();
+  auto end = spokes.begin();
+  for (const BlockedSpoke& s : spokes) {
+    if (s.blocked_twice)
+      blocked_twice_.push_back(s);
+    else
+      *end++ = s;
+  }
+  std::copy(blocked_twice_.begin(), blocked_twice_.end(), end);
   work_.add(2 * level.ears.size());
 }
 

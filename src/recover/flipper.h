@@ -100,6 +100,7 @@ class Flipper {
   struct Level {
     EdgeShell shell;
     std::vector<Ear> ears;  // of its link
+    std::size_t good_ears = 0;
     std::vector<BlockedSpoke> spokes;
     std::size_t next = 0;
   };
@@ -121,7 +122,6 @@ class Flipper {
   [[nodiscard]] std::size_t edge_removals() const { return counts_.edge_removals; }
   [[nodiscard]] Tet find_edge(Vertex a, Vertex b) { return piercing_.find_edge(a, b); }
 
-  [[nodiscard]] bool lies_in_facet(const EdgeShell& shell) const;
   void list_ears(Level& level);
   bool clip_ears(EdgeShell& shell);
   bool clip_ear(EdgeShell& shell, std::size_t i);
@@ -139,6 +139,7 @@ class Flipper {
   std::vector<Level> levels_;  // by depth
   LinkTriangulation<int> triangulation_;
   std::vector<LinkTriangle> triangles_;
+  std::vector<BlockedSpoke> blocked_twice_;
   std::vector<Tet> created_;
 };
 

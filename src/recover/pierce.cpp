@@ -34,7 +34,20 @@ Face code_of(const TetMesh& mesh, const Crossing& face) {
 // Signs of b against the three planes through a of the cone (f0 f1 f2 a): all >= 0 where the ray ab is in
 // the cone, and those that are 0 name the cone's sides that it lies in.
 std::array<int, 3> Piercing::cone_signs(const std::array<Vertex, 3>& f, Vertex a, Vertex b) const {
-  return {mesh_.orient(b, f[1], f[2], a), mesh_.orient(f[0], b, f[2], a), mesh_.orient(f[0], f[1], b, a)};
+  const auto [of_1, of_2] = mesh_.orient_both(a, b, f[0], f[1], f[2]);
+  return {-mesh_.orient(a, b, f[1], f[2]), of_2, -of_1};
+}
+
+// The same where b is known to lie beyond the plane of the cone's side opposite d, a corner of f.
+std::array<int, 3> Piercing::cone_signs_beyond(const std::array<Vertex, 3>& f, Vertex d, Vertex a,
+                                               Vertex b) const {
+  const std::size_t k = f[0] == d ? 0 : f[1] == d ? 1 : 2, l = next3(k), m = next3(l);
+  const auto [of_l, of_m] = mesh_.orient_both(a, b, d, f[l], f[m]);
+  std::array<int, 3> signs{};
+  signs[k] = 1;
+  signs[l] = of_m;
+  signs[m] = -of_l;
+  return signs;
 }
 
 Piercing::Exit Piercing::leave_by_face(Tet t, Vertex a, const std::array<int, 3>& signs) const {
@@ -51,17 +64,20 @@ Piercing::Exit Piercing::leave_by_face(Tet t, Vertex a, const std::array<int, 3>
 Piercing::Exit Piercing::leave_vertex(Vertex a, Vertex b) {
   Tet t = mesh_.incident(a);
   if (t == kNone) return {};
+  Vertex d = kNone;  // the corner that the last step brought
   for (int step = 0; step < tuning::kMostWalk && !mesh_.is_ghost(t); ++step) {
     const int i = mesh_.index_of(t, a);
     const auto f = mesh_.face_vertices(face_code(t, i));
-    const auto signs = cone_signs(f, a, b);
+    const auto signs = d == kNone ? cone_signs(f, a, b) : cone_signs_beyond(f, d, a, b);
     std::array<std::size_t, 3> beyond{};
     std::size_t count = 0;
     for (std::size_t k = 0; k < 3; ++k)
       if (signs[k] < 0) beyond[count++] = k;
     if (count == 0) return leave_by_face(t, a, signs);
     const std::size_t k = count == 1 ? beyond[0] : beyond[random_() % count];
-    t = tet_of(mesh_.neighbour(t, mesh_.index_of(t, f[k])));
+    const Face across = mesh_.neighbour(t, mesh_.index_of(t, f[k]));
+    t = tet_of(across);
+    d = mesh_.apex(across);
   }
   tets_.clear();
   ball(mesh_, a, tets_);
@@ -81,8 +97,9 @@ Piercing::Exit Piercing::pass_face(const Exit& in, Vertex a, Vertex b) const {
   const auto v = mesh_.face_vertices(f);
   const Vertex d = mesh_.apex(f);
   if (d == b) return {t, {b}, 1};
-  std::array<int, 3> s{};
-  for (std::size_t k = 0; k < 3; ++k) s[k] = mesh_.orient(a, b, v[k], d);
+  const auto [of_0, of_1] = mesh_.orient_both(a, b, d, v[0], v[1]);
+  if (of_0 > 0 && of_1 < 0) return face_opposite(mesh_, t, v[2]);
+  const std::array<int, 3> s{-of_0, -of_1, mesh_.orient(a, b, v[2], d)};
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t l = next3(k), m = next3(l);
     if (s[k] < 0 && s[l] > 0) return face_opposite(mesh_, t, v[m]);

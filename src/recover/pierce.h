@@ -59,6 +59,8 @@ class Piercing {
 
   [[nodiscard]] Exit leave_vertex(Vertex a, Vertex b);
   [[nodiscard]] std::array<int, 3> cone_signs(const std::array<Vertex, 3>& f, Vertex a, Vertex b) const;
+  [[nodiscard]] std::array<int, 3> cone_signs_beyond(const std::array<Vertex, 3>& f, Vertex d, Vertex a,
+                                                     Vertex b) const;
   [[nodiscard]] Exit leave_by_face(Tet t, Vertex a, const std::array<int, 3>& signs) const;
   [[nodiscard]] Exit pass_face(const Exit& in, Vertex a, Vertex b) const;
   [[nodiscard]] Exit pass_edge(const Exit& in, Vertex a, Vertex b) const;

@@ -1,5 +1,7 @@
 #include "recover/target.h"
 
+#include <algorithm>
+
 namespace holdfast {
 namespace {
 
@@ -16,6 +18,27 @@ bool coplanar_edges_cross(const TetMesh& mesh, Vertex a, Vertex b, Vertex u, Ver
 }
 
 }  // namespace
+
+// Rounding never changes the order of two numbers, so what is apart in the doubles nearest to exact positions
+// is apart.
+bool Target::may_meet(const TetMesh& mesh, const EdgeShell& shell) const {
+  if (kind_ == Kind::none) return false;
+  Point low = mesh.position(shell.a), high = low;
+  const auto take = [&](Vertex v) {
+    const Point& p = mesh.position(v);
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], p[i]);
+      high[i] = std::max(high[i], p[i]);
+    }
+  };
+  take(shell.b);
+  for (const Vertex v : shell.link) take(v);
+  const Point &a = mesh.position(v_[0]), &b = mesh.position(v_[1]);
+  const Point& c = kind_ == Kind::facet ? mesh.position(v_[2]) : b;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (std::max({a[i], b[i], c[i]}) < low[i] || high[i] < std::min({a[i], b[i], c[i]})) return false;
+  return true;
+}
 
 int Target::face(const TetMesh& mesh, Vertex u, Vertex v, Vertex w) const {
   if (kind_ != Kind::segment) return 0;

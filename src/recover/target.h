@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "mesh/edge_removal.h"
 #include "mesh/tet_mesh.h"
 
 namespace holdfast {
@@ -21,6 +22,8 @@ class Target {
   static Target facet(const std::array<Vertex, 3>& abc) { return {abc, Kind::facet}; }
 
   [[nodiscard]] bool is_segment() const { return kind_ == Kind::segment; }
+  /// False only where nothing among the vertices of a shell costs anything: their box is apart.
+  [[nodiscard]] bool may_meet(const TetMesh& mesh, const EdgeShell& shell) const;
   /// Cost of the face uvw: its inside crossed by the segment. Facets: 0.
   [[nodiscard]] int face(const TetMesh& mesh, Vertex u, Vertex v, Vertex w) const;
   /// Cost of the edge uv: its inside crosses that of the segment or facet.

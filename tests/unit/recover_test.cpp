@@ -126,6 +126,37 @@ TEST(EdgeShell, TurnsPositivelyAndStopsAtTheHull) {
   EXPECT_FALSE(gather_shell(mesh, s, corner, corner + 1, shell));
 }
 
+// Neither a segment nor a facet finds a cost among vertices that it is said not to meet.
+TEST(Target, CostsNothingWhereItMayNotBeMet) {
+  std::mt19937_64 random(7);
+  std::vector<Point> points;
+  for (int k = 0; k < 60; ++k)
+    points.push_back({static_cast<double>(random() % 9) - 4, static_cast<double>(random() % 9) - 4,
+                      static_cast<double>(random() % 9) - 4});
+  TetMesh mesh;
+  for (const Point& p : points) MeshEditor(mesh).add_vertex(p);
+  const auto any = [&] { return static_cast<Vertex>(random() % points.size()); };
+  int met = 0, costly = 0, kept_off = 0;
+  for (int k = 0; k < 4000; ++k) {
+    EdgeShell shell;
+    shell.a = any();
+    shell.b = any();
+    for (int i = 0; i < 3; ++i) shell.link.push_back(any());
+    const Target target = k % 2 == 0 ? Target::segment(any(), any()) : Target::facet({any(), any(), any()});
+    const int cost = target.edge(mesh, shell.a, shell.b) + target.edge(mesh, shell.link[0], shell.link[1]) +
+                     target.face(mesh, shell.a, shell.b, shell.link[2]) +
+                     target.face(mesh, shell.link[0], shell.link[1], shell.link[2]);
+    const bool may_meet = target.may_meet(mesh, shell);
+    EXPECT_TRUE(may_meet || cost == 0);
+    ++(may_meet ? met : kept_off);
+    costly += cost > 0 ? 1 : 0;
+  }
+  EXPECT_GT(met, 0);
+  EXPECT_GT(costly, 0);
+  EXPECT_GT(kept_off, 0);
+  EXPECT_FALSE(Target::none().may_meet(mesh, {.a = 0, .b = 1, .tets = {}, .link = {2, 3, 4}}));
+}
+
 // Removing the axis must recover a facet of its link: every facet between three of seven ring vertices.
 TEST(Recover, FacetsThatOneEdgePierces) {
   const std::vector<Point> points = spindle(7, 0.2);
