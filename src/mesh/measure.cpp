@@ -49,10 +49,7 @@ double fatness(const TetMesh& mesh, Vertex a, Vertex b, Vertex c, exact::PointRe
 }
 
 Vertex best_apex(const TetMesh& mesh, const Kernel& kernel) {
-  std::vector<Vertex> candidates;
-  for (const auto& f : kernel.faces()) candidates.insert(candidates.end(), f.begin(), f.end());
-  sort_unique(candidates);
-  return best_apex(mesh, kernel, candidates);
+  return best_apex(mesh, kernel, corners_of_all(kernel.faces()));
 }
 
 Vertex best_apex(const TetMesh& mesh, const Kernel& kernel, std::span<const Vertex> candidates) {

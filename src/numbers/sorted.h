@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace holdfast {
 
@@ -13,6 +16,22 @@ template <typename List>
 void sort_unique(List& list) {
   std::sort(list.begin(), list.end());
   list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+/// The corners of some faces in ascending order, each once. What came last of those with the same lowest bits
+/// is remembered, so that little is sorted that goes again.
+[[nodiscard]] inline std::vector<std::uint32_t> corners_of_all(
+    std::span<const std::array<std::uint32_t, 3>> faces) {
+  constexpr std::size_t kRemembered = 64;
+  std::array<std::uint64_t, kRemembered> last{};  // one more than the number
+  std::vector<std::uint32_t> corners;
+  corners.reserve(faces.size());
+  for (const auto& f : faces)
+    for (const std::uint32_t v : f)
+      if (std::exchange(last[v % kRemembered], std::uint64_t{v} + 1) != std::uint64_t{v} + 1)
+        corners.push_back(v);
+  sort_unique(corners);
+  return corners;
 }
 
 /// Two ends, or three corners, in ascending order: the same for any order in which they come.

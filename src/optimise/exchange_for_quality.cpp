@@ -19,6 +19,7 @@ std::optional<Badness> LeastBadness::Link::triangle(std::size_t i, std::size_t k
   if (!sees_both_ends(mesh_, shell_, i, k, j)) return std::nullopt;
   Badness both;
   both.add(quality_of(mesh_, {pi, pk, pj, shell_.b}), bad_from_);
+  if (!both.is_worthwhile_after(before_)) return std::nullopt;
   both.add(quality_of(mesh_, {pj, pk, pi, shell_.a}), bad_from_);
   if (!both.is_worthwhile_after(before_)) return std::nullopt;
   return both;

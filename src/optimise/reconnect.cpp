@@ -20,6 +20,8 @@ class Reconnection {
   bool from(std::span<const Tet> seed, const tuning::Reconnecting& effort) {
     for (int attempt = 0; attempt < effort.attempts; ++attempt) {
       Cavity cavity(mesh_, seed, first_free_);
+      known_ = 0;
+      worst_ = 0;
       for (int step = 0; step < effort.steps; ++step) {
         if (cavity.vertex_count() > effort.most_vertices) break;
         if (cavity.tets().size() >= tuning::kLeastTets && step % effort.every == 0 &&
@@ -33,7 +35,9 @@ class Reconnection {
 
  private:
   bool fill(const Cavity& cavity, PolyhedronOptions search) {
-    search.worst_quality = bad_from_.limit_for(badness_of(mesh_, cavity.tets(), bad_from_).worst);
+    for (; known_ < cavity.tets().size(); ++known_)
+      worst_ = std::max(worst_, quality_of(mesh_, mesh_.corners(cavity.tets()[known_])));
+    search.worst_quality = bad_from_.limit_for(worst_);
     return holdfast::fill(mesh_, cavity, search, &created_);
   }
 
@@ -42,6 +46,9 @@ class Reconnection {
   const BadFrom& bad_from_;
   std::mt19937_64& random_;
   std::vector<Tet>& created_;
+  // Of the cavity's tetrahedra that were there at the last search.
+  std::size_t known_ = 0;
+  double worst_ = 0;
 };
 
 }  // namespace

@@ -57,11 +57,21 @@ bool Cavity::swallow(std::span<const Tet> ball) {
 
 bool Cavity::add(Tet t) {
   if (!may_add(t)) return false;
-  const std::size_t before = tets_.size();
+  std::swap(faces_, faces_before_);
+  std::swap(across_, across_before_);
+  faces_.clear();
+  across_.clear();
+  for (std::size_t k = 0; k < faces_before_.size(); ++k) {
+    if (across_before_[k] == t) continue;
+    faces_.push_back(faces_before_[k]);
+    across_.push_back(across_before_[k]);
+  }
   tets_.push_back(t);
-  collect_faces();
+  collect_faces_of(t);
   if (!encloses_a_constraint(t)) return true;
-  drop_from(before);
+  tets_.pop_back();
+  std::swap(faces_, faces_before_);
+  std::swap(across_, across_before_);
   return false;
 }
 
@@ -82,12 +92,7 @@ bool Cavity::encloses_a_constraint(Tet t) const {
   return false;
 }
 
-std::size_t Cavity::vertex_count() const {
-  std::vector<Vertex> vertices;
-  for (const auto& f : faces_) vertices.insert(vertices.end(), f.begin(), f.end());
-  sort_unique(vertices);
-  return vertices.size();
-}
+std::size_t Cavity::vertex_count() const { return corners_of_all(faces_).size(); }
 
 std::vector<Vertex> Cavity::inner() const {
   std::vector<Vertex> out;
@@ -121,13 +126,16 @@ std::vector<Tet> Cavity::neighbours(std::mt19937_64& random) const {
 void Cavity::collect_faces() {
   faces_.clear();
   across_.clear();
-  for (const Tet t : tets_)
-    for (int i = 0; i < 4; ++i) {
-      const Tet s = tet_of(mesh_.neighbour(t, i));
-      if (holds(s)) continue;
-      faces_.push_back(mesh_.face_vertices(face_code(t, i)));
-      across_.push_back(s);
-    }
+  for (const Tet t : tets_) collect_faces_of(t);
+}
+
+void Cavity::collect_faces_of(Tet t) {
+  for (int i = 0; i < 4; ++i) {
+    const Tet s = tet_of(mesh_.neighbour(t, i));
+    if (holds(s)) continue;
+    faces_.push_back(mesh_.face_vertices(face_code(t, i)));
+    across_.push_back(s);
+  }
 }
 
 }  // namespace holdfast

@@ -49,12 +49,16 @@ class Cavity {
   [[nodiscard]] bool on_boundary(Vertex u, Vertex v) const { return any_holds(faces_, u, v); }
   [[nodiscard]] std::vector<Tet> neighbours(std::mt19937_64& random) const;
   void collect_faces();
+  void collect_faces_of(Tet t);
 
   const TetMesh& mesh_;
   const Vertex first_free_;
   std::vector<Tet> tets_;
   std::vector<std::array<Vertex, 3>> faces_;
   std::vector<Tet> across_;  // by face
+  // Before the last tetrahedron was added; kept to allocate nothing.
+  std::vector<std::array<Vertex, 3>> faces_before_;
+  std::vector<Tet> across_before_;
 };
 
 }  // namespace holdfast

@@ -17,13 +17,6 @@ using LocalFace = std::array<Local, 3>;
 
 constexpr std::size_t kMostVertices = 31;
 
-// Rotated so that the least corner comes first: equal faces of equal orientation are equal.
-LocalFace canonical(LocalFace f) {
-  if (f[1] < f[0] && f[1] < f[2]) return {f[1], f[2], f[0]};
-  if (f[2] < f[0] && f[2] < f[1]) return {f[2], f[0], f[1]};
-  return f;
-}
-
 // Numbers the sets of four: a < b < c < d is the binomial sum (a 1) + (b 2) + (c 3) + (d 4). Without d, those
 // of three.
 constexpr std::array<std::array<std::uint16_t, 5>, kMostVertices + 1> kBinomial = [] {
@@ -35,6 +28,41 @@ constexpr std::array<std::array<std::uint16_t, 5>, kMostVertices + 1> kBinomial 
   }
   return table;
 }();
+
+// By number, the sets of three; the least comes first.
+constexpr std::array<LocalFace, kBinomial[kMostVertices][3]> kTriangles = [] {
+  std::array<LocalFace, kBinomial[kMostVertices][3]> table{};
+  std::size_t number = 0;
+  for (Local c = 2; c < kMostVertices; ++c)
+    for (Local b = 1; b < c; ++b)
+      for (Local a = 0; a < b; ++a) table[number++] = {a, b, c};
+  return table;
+}();
+
+// Numbers faces with their orientations: twice that of the three corners, and one more where they take an odd
+// permutation to come by size.
+using FaceNumber = std::uint16_t;
+
+FaceNumber number_of(LocalFace f) {
+  std::uint32_t odd = 0;
+  const auto order = [&](std::size_t i, std::size_t j) {
+    const bool swaps = f[j] < f[i];
+    const Local lower = swaps ? f[j] : f[i], upper = swaps ? f[i] : f[j];
+    f[i] = lower;
+    f[j] = upper;
+    odd ^= static_cast<std::uint32_t>(swaps);
+  };
+  order(0, 1);
+  order(1, 2);
+  order(0, 1);
+  return static_cast<FaceNumber>(2 * (f[0] + kBinomial[f[1]][2] + kBinomial[f[2]][3]) + odd);
+}
+// The least corner comes first.
+LocalFace corners_of(FaceNumber number) {
+  const LocalFace f = kTriangles[number / 2];
+  return number % 2 == 0 ? f : LocalFace{f[0], f[2], f[1]};
+}
+constexpr std::size_t face_numbers(std::size_t vertices) { return 2 * std::size_t{kBinomial[vertices][3]}; }
 
 // A set of vertices, one bit each.
 using Mask = std::uint32_t;
@@ -48,7 +76,6 @@ class Sides {
         vertices_(std::move(vertices)),
         all_are_explicit_(
             std::all_of(vertices_.begin(), vertices_.end(), [&](Vertex v) { return mesh.is_explicit(v); })),
-        sign_(kBinomial[vertices_.size()][4], kUnknown),
         of_triangle_(kBinomial[vertices_.size()][3], {kUnknownMask, 0}) {
     for (std::size_t i = 0; i < vertices_.size(); ++i) {
       const Point& p = mesh.position(vertices_[i]);
@@ -60,15 +87,13 @@ class Sides {
 
   [[nodiscard]] const std::vector<Vertex>& vertices() const { return vertices_; }
 
-  Mask above(const LocalFace& f) {
-    const auto [sorted, odd] = in_order(f);
-    const Pair& sides = of(sorted);
-    return odd ? sides.below : sides.above;
+  Mask above(FaceNumber f) {
+    const Pair& sides = of(f / 2);
+    return f % 2 != 0 ? sides.below : sides.above;
   }
-  Mask not_below(const LocalFace& f) {
-    const auto [sorted, odd] = in_order(f);
-    const Pair& sides = of(sorted);
-    return ~(odd ? sides.above : sides.below);
+  Mask not_below(FaceNumber f) {
+    const Pair& sides = of(f / 2);
+    return ~(f % 2 != 0 ? sides.above : sides.below);
   }
 
  private:
@@ -78,26 +103,16 @@ class Sides {
   static constexpr std::int8_t kUnknown = 2;
   static constexpr Mask kUnknownMask = 0x80000000u;  // no vertex has this bit
 
-  // The corners by size, and whether that takes an odd permutation.
-  static std::pair<LocalFace, bool> in_order(LocalFace f) {
-    bool odd = false;
-    const auto order = [&](std::size_t i, std::size_t j) {
-      if (f[i] < f[j]) return;
-      std::swap(f[i], f[j]);
-      odd = !odd;
-    };
-    order(0, 1);
-    order(1, 2);
-    order(0, 1);
-    return {f, odd};
+  const Pair& of(std::size_t triangle) {
+    Pair& sides = of_triangle_[triangle];
+    if (sides.above == kUnknownMask) sides = compute(kTriangles[triangle]);
+    return sides;
   }
 
-  const Pair& of(const LocalFace& f) {
-    Pair& sides = of_triangle_[std::size_t{f[0]} + kBinomial[f[1]][2] + kBinomial[f[2]][3]];
-    if (sides.above != kUnknownMask) return sides;
+  Pair compute(const LocalFace& f) {
     const Mask corners = Mask{1} << f[0] | Mask{1} << f[1] | Mask{1} << f[2];
     Mask open = ~corners & ((Mask{1} << vertices_.size()) - 1);
-    sides = {0, 0};
+    Pair sides{0, 0};
     if (all_are_explicit_) {
       const exact::OrientFilter filter(at(f[0]), at(f[1]), at(f[2]));
       const auto signs = filter.of_all(x_.data(), y_.data(), z_.data(), vertices_.size());
@@ -116,6 +131,7 @@ class Sides {
   [[nodiscard]] const double* at(Local v) const { return mesh_.position(vertices_[v]).data(); }
 
   int sign(const LocalFace& f, Local d) {
+    if (sign_.empty()) sign_.assign(kBinomial[vertices_.size()][4], kUnknown);
     std::array<Local, 4> k{f[0], f[1], f[2], d};
     bool odd = false;
     for (std::size_t i = 3; i > 0 && k[i - 1] > k[i]; --i) {
@@ -133,7 +149,7 @@ class Sides {
   const std::vector<Vertex> vertices_;
   const bool all_are_explicit_;
   std::array<double, kMostVertices> x_, y_, z_;
-  std::vector<std::int8_t> sign_;  // by the number of the four corners
+  std::vector<std::int8_t> sign_;  // by the number of the four corners; empty until one is asked for
   std::vector<Pair> of_triangle_;  // by the number of the three corners
 };
 
@@ -141,17 +157,10 @@ class Sides {
 // place of each in the list, so that all is constant time.
 class OpenFaces {
  public:
-  using Number = std::uint16_t;
+  using Number = FaceNumber;
 
-  explicit OpenFaces(std::size_t vertices) : n_(vertices), place_(n_ * n_ * n_, kNowhere) {}
+  explicit OpenFaces(std::size_t vertices) : place_(face_numbers(vertices), kNowhere) {}
 
-  [[nodiscard]] Number number(const LocalFace& face) const {
-    const LocalFace f = canonical(face);
-    return static_cast<Number>((f[0] * n_ + f[1]) * n_ + f[2]);
-  }
-  [[nodiscard]] LocalFace corners(Number f) const {
-    return {static_cast<Local>(f / (n_ * n_)), static_cast<Local>(f / n_ % n_), static_cast<Local>(f % n_)};
-  }
   [[nodiscard]] bool holds(Number f) const { return place_[f] != kNowhere; }
   [[nodiscard]] const std::vector<Number>& list() const { return list_; }
   void add(Number f) {
@@ -167,7 +176,6 @@ class OpenFaces {
 
  private:
   static constexpr Number kNowhere = 0xFFFF;
-  std::size_t n_;
   std::vector<Number> list_, place_;
 };
 
@@ -181,9 +189,9 @@ class Search {
         measure_(options.measure),
         n_(vertices.size()),
         sides_(mesh, std::move(vertices)),
-        apexes_(n_ * n_ * n_, kUnknownApexes),
+        apexes_(face_numbers(n_), kUnknownApexes),
         open_(n_) {
-    for (const auto& f : faces) open_.add(open_.number({local(f[0]), local(f[1]), local(f[2])}));
+    for (const auto& f : faces) open_.add(number_of({local(f[0]), local(f[1]), local(f[2])}));
   }
 
   [[nodiscard]] bool is_unfillable() { return !fill() && budget_ > 0; }
@@ -210,10 +218,12 @@ class Search {
   }
 
   // A tetrahedron that holds another vertex of the polyhedron in its closure cannot be part of a filling.
-  bool is_empty(const LocalFace& f, Local d) {
-    Mask inside = sides_.not_below(f) & ((Mask{1} << n_) - 1);
+  bool is_empty(FaceNumber number, Local d) {
+    const LocalFace f = corners_of(number);
+    Mask inside = sides_.not_below(number) & ((Mask{1} << n_) - 1);
     for (const Local v : {f[0], f[1], f[2], d}) inside &= ~(Mask{1} << v);
-    for (std::size_t k = 0; k < 3 && inside != 0; ++k) inside &= sides_.not_below({f[k], d, f[(k + 1) % 3]});
+    for (std::size_t k = 0; k < 3 && inside != 0; ++k)
+      inside &= sides_.not_below(number_of({f[k], d, f[(k + 1) % 3]}));
     return inside == 0;
   }
 
@@ -228,10 +238,10 @@ class Search {
     Apexes& found = apexes_[number];
     if (found.count >= 0) return found;
     found = {0, 0};
-    const LocalFace f = open_.corners(number);
-    for (Mask rest = sides_.above(f); rest != 0; rest &= rest - 1) {
+    const LocalFace f = corners_of(number);
+    for (Mask rest = sides_.above(number); rest != 0; rest &= rest - 1) {
       const auto d = static_cast<Local>(std::countr_zero(rest));
-      if (!is_good(f, d) || !is_empty(f, d)) continue;
+      if (!is_good(f, d) || !is_empty(number, d)) continue;
       found.mask |= Mask{1} << d;
       ++found.count;
     }
@@ -274,12 +284,12 @@ class Search {
     if (budget_ == 0) return false;
     --budget_;
     const auto [number, mask] = tightest();
-    const LocalFace face = open_.corners(number);
+    const LocalFace face = corners_of(number);
     const Ranking order = ranked(face, mask);
     for (std::size_t k = 0; k < order.count; ++k) {
       const Local apex = order.list[k].second;
       Changes changes;
-      if (place(face, apex, changes)) {
+      if (place(number, apex, changes)) {
         tets_.push_back({face[0], face[1], face[2], apex});
         if (fill()) return true;
         tets_.pop_back();
@@ -306,12 +316,13 @@ class Search {
       changes.list[k].added ? open_.remove(changes.list[k].face) : open_.add(changes.list[k].face);
   }
 
-  // Covers `f` with the tetrahedron (f, d): its other faces close open ones or open new ones.
-  bool place(const LocalFace& f, Local d, Changes& changes) {
-    change(open_.number(f), false, changes);
+  // Covers a face with the tetrahedron (f, d): its other faces close open ones or open new ones.
+  bool place(FaceNumber number, Local d, Changes& changes) {
+    const LocalFace f = corners_of(number);
+    change(number, false, changes);
     for (std::size_t k = 0; k < 3; ++k) {
-      const Number own = open_.number({f[(k + 1) % 3], f[k], d});   // as the tetrahedron's inside sees it
-      const Number rest = open_.number({f[k], f[(k + 1) % 3], d});  // as what is left to fill sees it
+      const Number own = number_of({f[(k + 1) % 3], f[k], d});  // as the tetrahedron's inside sees it
+      const Number rest = own ^ Number { 1 };                   // as what is left to fill sees it
       if (open_.holds(own)) {
         change(own, false, changes);
       } else {
@@ -333,21 +344,13 @@ class Search {
   std::vector<std::array<Local, 4>> tets_;
 };
 
-// Sorted, each once.
-std::vector<Vertex> vertices_of(std::span<const std::array<Vertex, 3>> faces) {
-  std::vector<Vertex> vertices;
-  for (const auto& f : faces) vertices.insert(vertices.end(), f.begin(), f.end());
-  sort_unique(vertices);
-  return vertices;
-}
-
 // Nothing where the polyhedron is too large.
 std::optional<Search> search_of(const TetMesh& mesh, std::span<const std::array<Vertex, 3>> faces,
                                 const PolyhedronOptions& options) {
   const std::size_t most = std::min(options.most_vertices, kMostVertices);
   if (faces.empty() || faces.size() > 2 * most)
     return std::nullopt;  // Euler: a sphere on n vertices has 2 n - 4
-  std::vector<Vertex> vertices = vertices_of(faces);
+  std::vector<Vertex> vertices = corners_of_all(faces);
   if (vertices.size() > most) return std::nullopt;
   return std::optional<Search>(std::in_place, mesh, faces, std::move(vertices), options);
 }

@@ -224,6 +224,13 @@ TEST(Sorted, ListsHoldEachEntryOnce) {
   EXPECT_TRUE(list.empty());
 }
 
+TEST(Sorted, CornersOfFacesAreHeldOnce) {
+  // 5, 69 and 133 have the same lowest bits.
+  const std::vector<std::array<std::uint32_t, 3>> faces{{5, 69, 133}, {69, 5, 0}, {133, 0, 5}, {7, 5, 69}};
+  EXPECT_EQ(corners_of_all(faces), (std::vector<std::uint32_t>{0, 5, 7, 69, 133}));
+  EXPECT_TRUE(corners_of_all({}).empty());
+}
+
 TEST(Halving, BeginsInTheMiddleOfEveryPart) {
   using numbers::halved;
   EXPECT_EQ(halved(std::vector<int>{1, 2, 3, 4, 5, 6, 7}), (std::vector<int>{4, 2, 6, 1, 3, 5, 7}));
