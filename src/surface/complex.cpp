@@ -97,8 +97,11 @@ Index SegmentTable::find(Index a, Index b) const {
   if (low + std::size_t{1} >= first_of_vertex.size()) return no_index;
   const auto begin = segments.begin() + first_of_vertex[low];
   const auto end = segments.begin() + first_of_vertex[low + std::size_t{1}];
-  const auto at =
-      std::lower_bound(begin, end, high, [](const Segment& s, Index wanted) { return s[1] < wanted; });
+  const auto is_below = [high = high](const Segment& s) { return s[1] < high; };
+  // Mostly there are three, and a search by halves would be mispredicted.
+  constexpr std::ptrdiff_t kFew = 8;
+  const auto at = end - begin <= kFew ? begin + std::count_if(begin, end, is_below)
+                                      : std::partition_point(begin, end, is_below);
   return at != end && (*at)[1] == high ? static_cast<Index>(at - segments.begin()) : no_index;
 }
 
