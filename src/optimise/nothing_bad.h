@@ -31,8 +31,9 @@ class NothingBad {
     };
     if (is_new_at_avoided(i, k) || is_new_at_avoided(k, j) || is_new_at_avoided(i, j)) return std::nullopt;
     if (!sees_both_ends(mesh_, shell_, i, k, j)) return std::nullopt;
-    const double worst =
-        std::max(quality_of(mesh_, {pi, pk, pj, shell_.b}), quality_of(mesh_, {pj, pk, pi, shell_.a}));
+    const double at_b = quality_of(mesh_, {pi, pk, pj, shell_.b});
+    if (!(at_b < bad_from_)) return std::nullopt;
+    const double worst = std::max(at_b, quality_of(mesh_, {pj, pk, pi, shell_.a}));
     return worst < bad_from_ ? std::optional(worst) : std::nullopt;
   }
 
