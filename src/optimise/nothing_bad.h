@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "mesh/edge_removal.h"
+#include "mesh/quality_below.h"
 #include "mesh/tet_mesh.h"
 #include "optimise/badness.h"
 
@@ -31,10 +32,14 @@ class NothingBad {
     };
     if (is_new_at_avoided(i, k) || is_new_at_avoided(k, j) || is_new_at_avoided(i, j)) return std::nullopt;
     if (!sees_both_ends(mesh_, shell_, i, k, j)) return std::nullopt;
-    const double at_b = quality_of(mesh_, {pi, pk, pj, shell_.b});
-    if (!(at_b < bad_from_)) return std::nullopt;
-    const double worst = std::max(at_b, quality_of(mesh_, {pj, pk, pi, shell_.a}));
-    return worst < bad_from_ ? std::optional(worst) : std::nullopt;
+    const auto below = [&](Vertex u, Vertex v, Vertex w, Vertex end) {
+      return quality_below(mesh_.position(u), mesh_.position(v), mesh_.position(w), mesh_.position(end),
+                           bad_from_);
+    };
+    const std::optional<Cost> at_b = below(pi, pk, pj, shell_.b);
+    if (!at_b) return std::nullopt;
+    const std::optional<Cost> at_a = below(pj, pk, pi, shell_.a);
+    return at_a ? std::optional(std::max(*at_b, *at_a)) : std::nullopt;
   }
 
  private:

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <random>
 
+#include "mesh/quality_below.h"
 #include "mesh/shape_counts.h"
 #include "mesh/target_quality.h"
 
@@ -92,6 +94,28 @@ TEST(Quality, SliversKeepTheirDigits) {
   const double height = six_volumes / twice_area({1, 2, 3}, {2, 1, 5});
   const double distance = twice_area({1, 2, 3}, {1, 1.25, 2.75}) / std::sqrt(14.0);
   EXPECT_NEAR(dihedral_angles(a, b, c, d)[0] / (height / distance * 180 / std::numbers::pi), 1, 1e-6);
+}
+
+// From regular to flat, with the fourth corner over the middle, over an edge and over a corner, and needles.
+TEST(Quality, BelowALimitIsTheSame) {
+  std::mt19937_64 random(3);
+  const auto any = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  int told = 0, withheld = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const double height = std::ldexp(any(), -static_cast<int>(random() % 60)),
+                 width = std::ldexp(1.0, -static_cast<int>(random() % 20));
+    const Point a{any(), any(), any()}, b{a[0] + 1, a[1] + any(), a[2]}, c{a[0] + any(), a[1] + width, a[2]},
+        d{a[0] + any(), a[1] + width * any(), a[2] + height};
+    const double q = quality(a, b, c, d);
+    for (const double limit : {30.0, q * 0.9999, q, q * 1.0001, 1e6, kInfinity}) {
+      const std::optional<double> below = quality_below(a, b, c, d, limit);
+      ASSERT_EQ(below.has_value(), q < limit) << q << " " << limit;
+      ASSERT_EQ(below.value_or(q), q);
+      ++(below ? told : withheld);
+    }
+  }
+  EXPECT_GT(told, 1000);
+  EXPECT_GT(withheld, 1000);
 }
 
 TEST(Target, OfAnEquilateralTriangleIsOne) { EXPECT_NEAR(best_quality_on(kA, kB, kC), 1, 1e-12); }
