@@ -116,9 +116,11 @@ std::vector<Tet> Cavity::neighbours(std::mt19937_64& random) const {
   std::vector<Tet> out = across_;
   sort_unique(out);
   numbers::shuffle(out.begin(), out.end(), random);
+  const std::vector<Vertex> boundary = corners_of_all(faces_);
   std::stable_partition(out.begin(), out.end(), [&](Tet t) {
     const auto& v = mesh_.corners(t);
-    return std::all_of(v.begin(), v.end(), [&](Vertex x) { return on_boundary(x); });
+    return std::all_of(v.begin(), v.end(),
+                       [&](Vertex x) { return std::binary_search(boundary.begin(), boundary.end(), x); });
   });
   return out;
 }
