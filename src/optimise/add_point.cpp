@@ -9,12 +9,17 @@ namespace holdfast {
 
 bool PointAdder::add(Tet t, bool patient) {
   const TetMesh& mesh = volume_.mesh();
+  InVain& in_vain = volume_.in_vain();
+  const auto way = patient ? InVain::AtEdge::point_with_patience : InVain::AtEdge::point;
   work_ = 0;
   for (int edge = 0; edge < 6; ++edge) {
     const auto [a, b] = ends_of_edge(mesh.corners(t), edge);
     if (mesh.is_segment(t, edge) || !gather_shell(mesh, t, a, b, shell_)) continue;
+    if (in_vain.has(mesh, shell_, way)) continue;
     const Point middle = middle_of_shell();
     if (add_at(middle, t, shell_.tets) || (patient && add_at(middle, t, {}))) return true;
+    in_vain.add(mesh, shell_, way);
+    if (patient) in_vain.add(mesh, shell_, InVain::AtEdge::point);
   }
   return false;
 }

@@ -45,9 +45,20 @@ std::span<const Tet> VertexContractor::contract(Vertex v, double longest) {
 // The energy of the ball of v with w in its place, and the tetrahedra in candidate_; infinite, or at least
 // `limit`, where that does not pay.
 double VertexContractor::energy_with(Vertex v, Vertex w, double longest, double limit) {
+  if (!list_with(v, w, longest) || candidate_.empty()) return kNoEnergy;
+  double sum = 0;
+  for (std::size_t k = 0; k + 1 < candidate_.size() && sum < limit; k += 2) {
+    const Pair both = volume_.energies_of(candidate_[k], candidate_[k + 1]);
+    sum += both[0] + both[1];
+  }
+  if (candidate_.size() % 2 == 1 && sum < limit) sum += volume_.energy_of(candidate_.back());
+  return sum;
+}
+
+// The tetrahedra of the ball of v with w in its place, in candidate_; false where an edge would be too long.
+bool VertexContractor::list_with(Vertex v, Vertex w, double longest) {
   const TetMesh& mesh = volume_.mesh();
   candidate_.clear();
-  double sum = 0;
   for (const Tet t : tets_) {
     TetMesh::Corners c = mesh.corners(t);
     if (std::find(c.begin(), c.end(), w) != c.end()) continue;
@@ -56,13 +67,11 @@ double VertexContractor::energy_with(Vertex v, Vertex w, double longest, double 
         x = w;
         continue;
       }
-      if (volume_.length(x, w) > longest) return kNoEnergy;
+      if (volume_.length(x, w) > longest) return false;
     }
-    sum += volume_.energy_of(c);
-    if (!(sum < limit)) return kNoEnergy;
     candidate_.push_back(c);
   }
-  return candidate_.empty() ? kNoEnergy : sum;
+  return true;
 }
 
 }  // namespace holdfast

@@ -21,6 +21,7 @@ class VertexContractor {
 
  private:
   [[nodiscard]] double energy_with(Vertex v, Vertex w, double longest, double limit);
+  [[nodiscard]] bool list_with(Vertex v, Vertex w, double longest);
 
   ImprovedVolume& volume_;
   std::vector<Tet> tets_;

@@ -123,7 +123,7 @@ struct Passes {
 }
 /// Of what goes on where less effort ended, with whatever that has left undone.
 [[nodiscard]] constexpr Passes further_passes_of(Effort effort) {
-  return effort == Effort::good ? Passes{0, 0.45, 0.50, 0.36, 0.24, 1, 4, 0.015} : passes_of(effort);
+  return effort == Effort::good ? Passes{0, 0.45, 0.50, 0.36, 0.24, 1, 2, 0.015} : passes_of(effort);
 }
 inline constexpr int kMostPasses = 6;     ///< while many elements are bad, which passes help faster
 inline constexpr double kManyBad = 0.1;   ///< of the elements: as many are many
@@ -153,8 +153,8 @@ inline constexpr double kSineOfFlat = 0.035;  ///< 2 degrees: what is worse gets
 inline constexpr double kEnergyRounding = 1e-9, kLeastEnergyGain = 0.02;
 
 // Where a vertex is best: the place that its faces would have it at, then down the gradient.
-inline constexpr int kIdealTrials = 3;              ///< each goes half as far
-inline constexpr double kLeastPatientGain = 0.997;  ///< part of the energy that a patient move leaves at most
+inline constexpr int kIdealTrials = 3;             ///< each goes half as far
+inline constexpr double kLeastPatientGain = 0.98;  ///< part of the energy that a patient move leaves at most
 inline constexpr int kDescentSteps = 6, kDescentTrials = 4;  ///< trials a step
 inline constexpr double kDifference = 1e-5;     ///< sizes of the star, for the gradient by differences
 inline constexpr double kDescentStep = 0.15;    ///< sizes of the star, in the first trial

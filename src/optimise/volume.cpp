@@ -20,6 +20,7 @@ ImprovedVolume::ImprovedVolume(const VolumeData& data, std::span<const std::uint
   }
   touched_.assign(fresh.begin(), fresh.end());
   touched_.resize(mesh_.vertex_count(), 1);
+  in_vain_.make_room(slots, mesh_.vertex_count());
   changed_.assign(slots, fresh.empty() ? 1 : 0);
   if (fresh.empty()) return;
   for (Tet t = 0; t < slots; ++t) {

@@ -11,6 +11,7 @@
 #include "mesh/parallel.h"
 #include "optimise/energy.h"
 #include "optimise/figures.h"
+#include "optimise/in_vain.h"
 #include "optimise/tuning.h"
 #include "refine/levels.h"
 #include "refine/volume_data.h"
@@ -140,9 +141,13 @@ class ImprovedVolume {
     if (energy_.size() < mesh_.slot_count()) {
       energy_.resize(mesh_.slot_count(), 0);
       changed_.resize(mesh_.slot_count(), 1);
+      in_vain_.make_room(mesh_.slot_count(), mesh_.vertex_count());
       region_of_.resize(mesh_.slot_count(), kNone);
     }
-    if (touched_.size() < mesh_.vertex_count()) touched_.resize(mesh_.vertex_count(), 1);
+    if (touched_.size() < mesh_.vertex_count()) {
+      touched_.resize(mesh_.vertex_count(), 1);
+      in_vain_.make_room(energy_.size(), mesh_.vertex_count());
+    }
     turn_to_region(region);
     for (const Tet t : tets) {
       region_of_[t] = region;
@@ -153,8 +158,10 @@ class ImprovedVolume {
   void note(Tet t, double energy) {
     energy_[t] = energy;
     changed_[t] = 1;
+    in_vain_.forget(t, mesh_.corners(t));
     for (const Vertex v : mesh_.corners(t)) touched_[v] = 1;
   }
+  [[nodiscard]] InVain& in_vain() { return in_vain_; }
   [[nodiscard]] RegionId region_of(Tet t) const { return region_of_[t]; }
 
  private:
@@ -174,6 +181,7 @@ class ImprovedVolume {
   double most_ = kNoEnergy;
   std::optional<Standard> standard_;
   std::vector<std::uint8_t> changed_, touched_;
+  InVain in_vain_;
   std::vector<Tet> created_;
 };
 

@@ -42,22 +42,28 @@ void EnergyWays::swap(Tet t, Outcome& out, double&) { out.changed = swapper_.imp
 void EnergyWays::smooth_a_corner(Tet t, Outcome& out, double& work) {
   const TetMesh::Corners corners = volume_.mesh().corners(t);
   for (const Vertex v : corners) {
-    if (!volume_.may_move(v)) continue;
+    if (!volume_.may_move(v) || volume_.in_vain().has(v, InVain::AtVertex::smoothing)) continue;
     const bool moved = smoother_.smooth(v, true);
     work += static_cast<double>(smoother_.ball().size()) / tuning::kSmoothTetsAWork;
-    if (!moved) continue;
+    if (!moved) {
+      volume_.in_vain().add(v, InVain::AtVertex::smoothing);
+      continue;
+    }
     out.changed = smoother_.ball();
     return;
   }
 }
 
+// No way helps as seldom for the time it takes.
 void EnergyWays::contract_a_corner(Tet t, Outcome& out, double& work) {
+  if (!(volume_.energy(t) > very_bad_)) return;
   const TetMesh::Corners corners = volume_.mesh().corners(t);
   for (const Vertex v : corners) {
-    if (!volume_.may_move(v)) continue;
+    if (!volume_.may_move(v) || volume_.in_vain().has(v, InVain::AtVertex::contraction)) continue;
     out.changed = contractor_.contract(v, tuning::kLongestContracted * volume_.size(v));
     work += contractor_.work() / tuning::kContractTetsAWork;
     if (!out.changed.empty()) return;
+    volume_.in_vain().add(v, InVain::AtVertex::contraction);
   }
 }
 
