@@ -103,10 +103,10 @@ class Bending {
 
   /// The longest sides first: a facet that is thinner than the gap vanishes into its longest side. Ends early
   /// where far more facets come of it than there were: what is left then is a surface, too.
-  void run(const Step& step) {
+  void run(std::size_t most_facets, const Step& step) {
     constexpr std::size_t kGrowth = 8, kRoom = 200;
     const std::size_t most_steps = 1000 + 60 * surface_.facets().size();
-    const std::size_t most_facets = surface_.living() + kGrowth * near_.size() + kRoom;
+    most_facets = std::min(most_facets, surface_.living() + kGrowth * near_.size() + kRoom);
     for (std::size_t steps = 0; steps < most_steps && surface_.living() <= most_facets; ++steps) {
       if ((steps & 63) == 0) step(0.5);
       if (const std::optional<Side> side = surface_.next_side())
@@ -279,10 +279,10 @@ void deliver_segments(const BentSurface& bent, State& state) {
 }  // namespace
 
 double bend(State& state, const Trouble& trouble, std::span<const Index> vertices, double gap, double room,
-            const Step& step) {
+            std::size_t most_facets, const Step& step) {
   BentSurface bent(state.vertices);
   begin(state, trouble, vertices, bent);
-  Bending(state, list_near(state, trouble, vertices, gap, step), bent, gap, room).run(step);
+  Bending(state, list_near(state, trouble, vertices, gap, step), bent, gap, room).run(most_facets, step);
   deliver_facets(bent, state);
   deliver_segments(bent, state);
   return bent.most();

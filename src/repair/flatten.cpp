@@ -81,7 +81,7 @@ class Flattening {
     std::vector<Point> places(before.state.vertices);
     std::sort(places.begin(), places.end());
     if (std::adjacent_find(places.begin(), places.end()) != places.end()) return false;  // one above another
-    const Rounded rounded = round_(before.state);
+    const Rounded rounded = round_(before.state, kMostGaps * gap_);
     const State& after = rounded.state;
     if (!rounded.is_valid || !(rounded.displacement <= kMostGaps * gap_) ||
         !std::equal(before.state.vertices.begin(), before.state.vertices.end(), after.vertices.begin()))

@@ -10,8 +10,9 @@
 
 namespace holdfast::repairing {
 
-/// Arranges a plane surface, and rounds it.
-using RoundPlane = std::function<Rounded(State)>;
+/// Arranges a plane surface, and rounds it. Where that moves anything further than `most`, the result may be
+/// one that is not valid.
+using RoundPlane = std::function<Rounded(State, double most)>;
 
 /// Facets that overlap at a distance of at most `gap` are arranged in a projection along an axis, where they
 /// overlap exactly: so sheets come to have the same triangles wherever both are, with the parents of both.

@@ -62,6 +62,9 @@ constexpr std::array kPlans{Plan{0x1p2, false},  Plan{0x1p3, false}, Plan{0x1p4,
 /// to give up.
 constexpr double kMostInPlane = 0x1p6;
 
+/// How many facets joining may make of so many in a plane. Where it makes more, it does not end well.
+constexpr std::size_t most_in_plane(std::size_t facets) { return 64 + 2 * facets; }
+
 /// The quotient in lowest terms.
 std::string quotient_text(const exact::BigInt& numerator, const exact::BigInt& denominator) {
   const exact::BigInt divisor = gcd(numerator, denominator);
@@ -106,24 +109,28 @@ constexpr std::array kJoinedLastBits{0x1p3, 0x1p6};
 
 class Rounding {
  public:
-  /// A plane surface has no sheets that lie in each other but for rounding.
   Rounding(State state, const RepairOptions& options, RepairReport& report, ExactSurface& exact,
-           const Step& step, const Threads& threads, bool is_plane = false)
-      : options_(options),
-        report_(report),
-        exact_(exact),
-        step_(step),
-        threads_(threads),
-        is_plane_(is_plane) {
+           const Step& step, const Threads& threads)
+      : options_(options), report_(report), exact_(exact), step_(step), threads_(threads) {
     rounded_.state = std::move(state);
+  }
+
+  /// A plane surface has no sheets that lie in each other but for rounding. What moves further than `most` is
+  /// of no use.
+  [[nodiscard]] Rounded run_in_plane(double most) {
+    is_plane_ = true;
+    most_displacement_ = most;
+    return run();
   }
 
   Rounded run() {
     if (options_.join > 0 && !is_plane_) flatten_all(rounded_.state, options_.join, rounded_.displacement);
     const State given = rounded_.state;
-    cut(options_.most_points);
-    if (!rounded_.is_valid) cut(std::min(options_.most_points, 1000 + 4 * report_.points));
-    if (rounded_.is_valid) return std::move(rounded_);
+    new_points_[0] = cut(options_.most_points).value_or(0);
+    if (!rounded_.is_valid)
+      new_points_[1] = cut(std::min(options_.most_points, 1000 + 4 * report_.points)).value_or(SIZE_MAX);
+    if (rounded_.is_valid || is_hopeless()) return std::move(rounded_);
+    most_facets_ = is_plane_ ? most_in_plane(rounded_.state.facets.size()) : SIZE_MAX;
     trouble_ = trouble_of(rounded_.state, here(), threads_);
     // Joining what is near costs less than to move the input, but takes long where sheets lie in each other.
     constexpr std::size_t kFew = 100, kMany = 400;
@@ -133,7 +140,7 @@ class Rounding {
     if (is_welded) begin_flat(given, kWeldedPlans);
     begin_flat(given, kFlatPlans);
     for (const Plan& plan : kPlans) {
-      if (is_plane_ && (plan.moves_input || plan.last_bits > kMostInPlane)) break;
+      if (is_plane_ && (plan.moves_input || plan.last_bits > kMostInPlane || is_hopeless())) break;
       if (!is_welded && (plan.moves_input || trouble_.size() > kFew)) {
         begin_flat(given, kWeldedPlans);
         is_welded = true;
@@ -158,6 +165,12 @@ class Rounding {
     return trouble_.none();
   }
 
+  /// All that may come to stand is of no use, since nothing moves back.
+  [[nodiscard]] bool is_hopeless() const {
+    const auto is_far = [&](double displacement) { return displacement > most_displacement_; };
+    return grows_ || (is_far(rounded_.displacement) && (!best_ || is_far(best_->displacement)));
+  }
+
   [[nodiscard]] Step here() const {
     return [this](double fraction) { step_(1 - 1 / (1 + static_cast<double>(report_.rounds) + fraction)); };
   }
@@ -173,7 +186,7 @@ class Rounding {
   /// Where joining does not help by itself, vertices are put where sides pass each other. That may take some
   /// passes: sheets that lie in each other agree only when the diagonals of what they share do, too.
   void join(const Plan& plan) {
-    Settle how{plan.last_bits * last_bit(rounded_.state), 0, plan.moves_input, false};
+    Settle how{plan.last_bits * last_bit(rounded_.state), 0, plan.moves_input, false, most_facets_};
     report_.rung = plan.moves_input ? Rung::snapped : Rung::coarser;
     constexpr int kPasses = 8, kPassesInVain = 4;
     constexpr std::size_t kTooMuch = 4;
@@ -181,6 +194,8 @@ class Rounding {
     int in_vain = 0;
     for (int pass = 0; pass < kPasses && in_vain < kPassesInVain && !trouble_.none(); ++pass) {
       const double moved = settle(now.state, now.trouble, how, here());
+      grows_ |= now.state.facets.size() > most_facets_;
+      if (grows_) break;
       const std::size_t too_much = kTooMuch * (trouble_.size() + 16);
       now.trouble = trouble_of(now.state, here(), threads_, too_much);
       now.displacement = sum_above(now.displacement, moved);
@@ -203,6 +218,7 @@ class Rounding {
       best_ = Attempt{rounded_.state, trouble_, rounded_.displacement};
       return;
     }
+    if (grows_) return;
     stand(*best_);
     join(plan);
     if (trouble_.size() == best_->trouble.size()) flatten_again(plan);
@@ -211,21 +227,23 @@ class Rounding {
   }
 
   /// The same sheets come again and again while others change.
-  Rounded round_plane(State plane) {
+  Rounded round_plane(State plane, double most) {
     const auto [at, is_new] = planes_.try_emplace({plane.vertices, plane.facets, plane.segments});
-    if (is_new) {
+    RoundedPlane& known = at->second;
+    if (is_new || (!known.rounded.is_valid && known.most < most)) {
       RepairOptions options = options_;
       options.exact = false;
       RepairReport report;
       ExactSurface exact;
-      at->second = Rounding(std::move(plane), options, report, exact, here(), threads_, true).run();
+      known.most = most;
+      known.rounded = Rounding(std::move(plane), options, report, exact, here(), threads_).run_in_plane(most);
     }
-    return at->second;
+    return known.rounded;
   }
 
   /// Makes sheets one that lie in each other, whether they are in trouble or not.
   void flatten_all(State& state, double gap, double& displacement) {
-    const RoundPlane round = [&](State plane) { return round_plane(std::move(plane)); };
+    const RoundPlane round = [&](State plane, double most) { return round_plane(std::move(plane), most); };
     constexpr int kPasses = 4;
     for (int pass = 0; pass < kPasses; ++pass) {
       const double moved = flatten(state, gap, round, here());
@@ -242,7 +260,8 @@ class Rounding {
     for (int pass = 0; pass < kPasses && !flat.trouble.none(); ++pass) {
       const double moved = flatten(
           flat.state, plan.last_bits * last_bit(flat.state),
-          [&](State plane) { return round_plane(std::move(plane)); }, here(), flat.trouble.facets);
+          [&](State plane, double most) { return round_plane(std::move(plane), most); }, here(),
+          flat.trouble.facets);
       if (moved == 0) return;
       flat.displacement = sum_above(flat.displacement, moved);
       flat.trouble = trouble_of(flat.state, here(), threads_, 4 * trouble_.size());
@@ -269,16 +288,24 @@ class Rounding {
     flattened_ = flat.state;
     Rounded before = std::move(rounded_);
     rounded_ = {false, std::move(flat.state), flat.displacement, false};
-    cut(std::min(options_.most_points, 1000 + 4 * report_.points));
-    if (!rounded_.is_valid) cut(std::min(options_.most_points, 1000 + 4 * report_.points));
     Trouble now;
-    if (!rounded_.is_valid) now = trouble_of(rounded_.state, here(), threads_, trouble_.size());
-    if (now.size() < trouble_.size()) {
+    const bool is_cut = cut_flat();
+    if (is_cut && !rounded_.is_valid) now = trouble_of(rounded_.state, here(), threads_, trouble_.size());
+    if (is_cut && now.size() < trouble_.size()) {
       trouble_ = std::move(now);
       report_.rung = plan.moves_input ? Rung::snapped : Rung::coarser;
     } else {
       rounded_ = std::move(before);
     }
+  }
+
+  /// Cuts and rounds twice; false where that takes more new points than it did before sheets were made one:
+  /// then more would be in trouble, too. The first time a few more are no such sign. Where it takes several
+  /// times as many, cutting is no way at all, and the sheets are a start without it.
+  bool cut_flat() {
+    const auto [first, second] = new_points_;
+    if (!cut(std::min(options_.most_points, 100 + first + first / 8))) return too_many_ > 1000 + 4 * first;
+    return rounded_.is_valid || cut(std::min(options_.most_points, second));
   }
 
   /// Where all else fails: sheets that lie in each other are made one all over the surface, whether the cuts
@@ -311,24 +338,27 @@ class Rounding {
     return arrange::arrange(complex, elements, here(), arranging);
   }
 
-  void cut(std::size_t most_points) {
+  /// How many new points that took; none where it takes more than so many, and is left undone.
+  std::optional<std::size_t> cut(std::size_t most_points) {
     arrange::Arrangement arrangement;
     try {
       arrangement = arrangement_of(most_points);
-    } catch (const arrange::TooManyPoints&) {
+    } catch (const arrange::TooManyPoints& many) {
       if (report_.rounds == 0) throw;
-      return;
+      too_many_ = many.count();
+      return std::nullopt;
     }
     if (arrangement.is_same) {
       rounded_.is_valid = true;
       if (report_.rounds == 0 && options_.exact) exact_ = exact_surface(rounded_.state);
-      return;
+      return 0;
     }
     if (report_.rounds == 0 && options_.exact) exact_ = exact_surface(rounded_.state, arrangement);
     tell(arrangement);
     const std::vector<double> distances = rounded_by(arrangement, threads_);
     rounded_.displacement = sum_above(rounded_.displacement, largest(distances));
     rounded_.state = arranged(rounded_.state, arrangement, distances);
+    return distances.size();
   }
 
   /// Where little is in trouble, many new points are a sign of facets that lie in each other: rather than cut
@@ -367,13 +397,22 @@ class Rounding {
   ExactSurface& exact_;
   const Step& step_;
   const Threads& threads_;
-  const bool is_plane_;
+  bool is_plane_ = false;
+  double most_displacement_ = std::numeric_limits<double>::infinity();
+  std::size_t most_facets_ = SIZE_MAX;       // that joining may make
+  bool grows_ = false;                       // it has made more
+  std::array<std::size_t, 2> new_points_{};  // of the two cuts that come first
+  std::size_t too_many_ = 0;                 // that a cut would have taken
   Rounded rounded_;
   Trouble trouble_;
   std::optional<Attempt> best_;  // of the plans so far
   State flattened_;              // by the last plan that began again
-  // What came of plane surfaces.
-  std::map<std::tuple<std::vector<Point>, std::vector<Triangle>, std::vector<Segment>>, Rounded> planes_;
+  // What came of plane surfaces where points may move so far.
+  struct RoundedPlane {
+    Rounded rounded;
+    double most = 0;
+  };
+  std::map<std::tuple<std::vector<Point>, std::vector<Triangle>, std::vector<Segment>>, RoundedPlane> planes_;
 };
 
 }  // namespace

@@ -32,7 +32,7 @@ class Settling {
     const double merged = merge_vertices();
     if (how_.passings) add_passings();
     const double room = how_.most > 0 ? how_.most - merged : kMostGaps * gap_;
-    const double bent = bend(state_, trouble_, vertices_, gap_, room, step_);
+    const double bent = bend(state_, trouble_, vertices_, gap_, room, how_.most_facets, step_);
     drop_unused(state_);
     return merged + bent;
   }

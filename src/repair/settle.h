@@ -26,6 +26,8 @@ struct Settle {
   double most = 0;           ///< nothing is moved or bent further in all; 0: no limit but some gaps
   bool moves_input = false;  ///< vertices of the input may move, too
   bool passings = true;      ///< see 2
+  /// Ends early where there are more facets than that.
+  std::size_t most_facets = SIZE_MAX;
 };
 
 /// Round the facets and segments in trouble,

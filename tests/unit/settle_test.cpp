@@ -1,0 +1,40 @@
+// What lies too near to each other is joined by bending: how much may come of it.
+#include "repair/settle.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "small_surfaces.h"
+
+namespace holdfast::repairing {
+namespace {
+
+/// Needles of a plane that cross each other within the gap, all in trouble.
+State needles(int n) {
+  Surface surface;
+  for (int k = 0; k < n; ++k)
+    small::add_triangle(surface, {0.0 - k, 1e-3 * k, 0}, {10.0 + k, 1e-3 * (n - k), 0},
+                        {5, 1e-3 * (k + 1), 0});
+  return state_of(surface.view());
+}
+
+std::size_t facets_settled(State state, std::size_t most) {
+  Trouble all;
+  all.facets.resize(state.facets.size());
+  std::iota(all.facets.begin(), all.facets.end(), Index{0});
+  settle(state, all, {1e-2, 0, false, true, most}, [](double) {});
+  return state.facets.size();
+}
+
+TEST(Settle, EndsWhereTooManyFacetsComeOfIt) {
+  const State state = needles(12);
+  const std::size_t without_limit = facets_settled(state, SIZE_MAX), most = 2 * state.facets.size();
+  ASSERT_GT(without_limit, 2 * most);
+  const std::size_t ended = facets_settled(state, most);
+  EXPECT_GT(ended, most);
+  EXPECT_LT(ended, without_limit / 2);
+}
+
+}  // namespace
+}  // namespace holdfast::repairing
