@@ -31,6 +31,8 @@ struct Cures {
   std::vector<Cure> cures;  ///< in the order in which a repair does them
   /// Whether they were applied, all but `unite` together, and gave a valid surface without the gaps.
   bool tried = false;
+  /// Whether the surface is valid as it is, so that what is proposed closes it.
+  bool was_valid = false;
   /// Holes that no option closes: their fillings would meet the surface.
   std::size_t left_open = 0;
 };

@@ -7,7 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/plain_monitor.h"
 #include "repair/borders.h"
+#include "repair/state.h"
+#include "repair/weld.h"
 #include "text/parse.h"
 
 namespace holdfast {
@@ -43,12 +46,17 @@ class Proposal {
  public:
   Proposal(const Complex& complex, std::span<const Defect> defects, const DefectSummary& summary,
            const RepairOptions& options)
-      : complex_(complex), defects_(defects), summary_(summary), options_(options) {}
+      : complex_(complex),
+        defects_(defects),
+        summary_(summary),
+        options_(options),
+        monitor_(options_, options_.progress) {}
 
   Cures run() {
     const auto broken =
         static_cast<std::size_t>(std::count_if(defects_.begin(), defects_.end(), breaks_validity));
     cures_.tried = true;
+    cures_.was_valid = broken == 0;
     RepairResult result;
     if (!summary_.gaps.empty()) result = weld();
     if (broken > 0) cures_.cures.push_back({CureKind::cut, broken, 0, 0, 0, 0});
@@ -78,26 +86,32 @@ class Proposal {
 
   /// A gap may need more than its width: where joining one brings two vertices into a new one, or leads a
   /// side away from the next one. Where some are left whatever is tried, the least length counts that leaves
-  /// none as narrow as there were.
+  /// none as narrow as there were. Most lengths are ruled out by what welding alone leaves, without the cuts.
   RepairResult weld() {
     double widest = 0;
     for (const Gap& gap : summary_.gaps) widest = std::max(widest, gap.distance);
     if (!(widest > 0) || !std::isfinite(widest)) return {};
     constexpr int kAttempts = 10;  // so that lengths go up to ten times as much
     double tolerance = one_digit_above(widest * (1 + 0x1p-19)), fair_tolerance = 0;
-    RepairResult fair;
-    for (int i = 0; i < kAttempts; ++i) {
+    for (int i = 0; i < kAttempts; ++i, tolerance = one_digit_above(tolerance)) {
+      const auto [narrow, wide] = gaps_welded(tolerance, widest);
+      if (!narrow && fair_tolerance == 0) fair_tolerance = tolerance;
+      if (narrow || wide) continue;
       RepairResult result = attempt(tolerance);
-      const bool is_done = result.outcome == Outcome::done;
-      const auto [narrow, wide] = is_done ? gaps_left(result.surface, widest) : std::pair(true, true);
-      if ((!narrow && !wide) || !cures_.tried) return propose_weld(widest, tolerance, std::move(result));
-      if (!narrow && fair_tolerance == 0) {
-        fair_tolerance = tolerance;
-        fair = std::move(result);
-      }
-      tolerance = one_digit_above(tolerance);
+      if (!cures_.tried || gaps_left(result.surface.view(), widest) == std::pair(false, false))
+        return propose_weld(widest, tolerance, std::move(result));
     }
-    return fair_tolerance > 0 ? propose_weld(widest, fair_tolerance, std::move(fair)) : RepairResult{};
+    if (fair_tolerance == 0) return {};
+    RepairResult fair = attempt(fair_tolerance);
+    if (cures_.tried && gaps_left(fair.surface.view(), widest).first) return {};
+    return propose_weld(widest, fair_tolerance, std::move(fair));
+  }
+
+  /// The gaps that welding alone leaves.
+  std::pair<bool, bool> gaps_welded(double tolerance, double widest) {
+    repairing::State state = repairing::state_of(complex_);
+    repairing::weld(state, tolerance, [&](double fraction) { monitor_.poll(fraction); });
+    return gaps_left(state.complex(), widest);
   }
 
   RepairResult propose_weld(double widest, double tolerance, RepairResult result) {
@@ -106,8 +120,8 @@ class Proposal {
   }
 
   /// Whether some gap is no wider than those that there were, and whether one of their vertices has a gap.
-  std::pair<bool, bool> gaps_left(const Surface& surface, double widest) const {
-    const DefectSummary after = summarise(surface.view(), {});
+  std::pair<bool, bool> gaps_left(const Complex& surface, double widest) const {
+    const DefectSummary after = summarise(surface, {});
     const auto is_narrow = [&](const Gap& gap) { return gap.distance <= widest; };
     std::vector<Index> vertices;
     for (const Gap& gap : summary_.gaps) vertices.push_back(gap.vertex);
@@ -129,7 +143,10 @@ class Proposal {
     options.fill_holes = sides;
     options.unite = options.exact = false;
     const RepairResult result = repair(valid, options);
-    if (result.outcome != Outcome::done) return;
+    if (result.outcome == Outcome::time_limit || result.outcome == Outcome::cancelled)
+      throw Interrupted(result.outcome);
+    cures_.tried = result.outcome == Outcome::done;
+    if (!cures_.tried) return;
     const std::size_t left = result.left_open.size();
     cures_.left_open = left;
     if (result.filled.empty()) return;
@@ -145,6 +162,7 @@ class Proposal {
   std::span<const Defect> defects_;
   const DefectSummary& summary_;
   const RepairOptions& options_;
+  PlainMonitor monitor_;
   Cures cures_;
 };
 

@@ -60,6 +60,17 @@ std::string left_open_text(const Cures& cures) {
                      counted(cures.left_open, "hole"));
 }
 
+/// What comes of all proposals together.
+std::string effect_of(const Cures& cures) {
+  if (!cures.tried)
+    return fmt::format("may {} (not tried: too much meets)", cures.was_valid ? "close it" : "make it valid");
+  const std::string left =
+      cures.left_open == 0 ? ""
+                           : fmt::format(", but for {} that stay{} open", counted(cures.left_open, "hole"),
+                                         cures.left_open == 1 ? "s" : "");
+  return (cures.was_valid ? "closes it" : "makes it valid") + left;
+}
+
 }  // namespace
 
 std::string cures_text(const Cures& cures) {
@@ -69,7 +80,7 @@ std::string cures_text(const Cures& cures) {
   const std::string options = options_of(cures);
   return text + left_open_text(cures) +
          fmt::format("cure: `holdfast repair IN -o OUT{}{}` {}\n", options.empty() ? "" : " ", options,
-                     cures.tried ? "makes it valid" : "may make it valid (not tried: too much meets)");
+                     effect_of(cures));
 }
 
 Json to_json(const Cures& cures) {

@@ -386,6 +386,18 @@ class Proposals(Repaired):
         self.assertEqual(after["summary"]["encloses"], 1)
         self.assertEqual(after["cures"]["proposals"], [])
 
+    def test_a_valid_surface_of_which_a_hole_stays_open(self):
+        # Of two cubes without their tops, a spike stands out of one.
+        points = cube() + [(x + 3, y, z) for x, y, z in cube()]
+        points += [(0.4, 0.4, 0.5), (0.6, 0.4, 0.5), (0.5, 0.6, 0.5), (0.5, 0.5, 1.5)]
+        spike = [(16, 18, 17), (16, 17, 19), (17, 18, 19), (18, 16, 19)]
+        open_cube = [f for f in CUBE_FACETS if not all(points[v][2] == 1 for v in f)]
+        cures, after = self.cure(points, open_cube + shifted(open_cube, 8) + spike)
+        self.assertEqual((cures["options"], cures["left_open"], after["cures"]["left_open"]), ("--fill-holes 4", 1, 1))
+        said = self.run_anyhow("diagnose", "in.off").stdout
+        self.assertIn("closes it, but for 1 hole that stays open", said)
+        self.assertNotIn("makes it valid", said)
+
     def test_a_crack_and_a_hole(self):
         points = cube() + [(1 + 1e-7, 1, 0.0)]
         facets = [tuple(8 if v == 3 and i == 1 else v for v in f) for i, f in enumerate(CUBE_FACETS) if i not in (4, 5)]
