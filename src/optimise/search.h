@@ -93,6 +93,7 @@ class Search {
   }
   [[nodiscard]] const Threads& threads() const { return threads_; }
   void forget(std::span<const Tet> tets) { qualities_.forget(tets); }
+  void forget_all() { qualities_.forget_all(); }
 
  private:
   TetMesh& mesh_;

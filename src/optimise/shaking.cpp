@@ -84,10 +84,11 @@ void remove_points(Search& search, std::size_t from) {
                 .search = {.most_vertices = tuning::kWithoutPoint.most_vertices,
                            .most_nodes = tuning::kWithoutPoint.most_nodes}};
   const std::size_t most_work = search.budget().end_with(tuning::kLeastWork);
+  const std::size_t removed_before = search.stats().removed;
   for (std::size_t k = from; k < points.size(); ++k) {
     const Vertex p = points[k];
     if (!mesh.in_mesh(p)) continue;
-    if (search.budget().spent() > most_work) return;
+    if (search.budget().spent() > most_work) break;
     search.budget().spend(tuning::kRemoveWork);
     std::vector<Tet> tets;
     ball(mesh, p, tets);
@@ -96,6 +97,8 @@ void remove_points(Search& search, std::size_t from) {
     ++search.stats().removed;
     ++search.stats().changed;
   }
+  // Cavities grow, so that there is no list of what is new.
+  if (search.stats().removed > removed_before) search.forget_all();
 }
 
 }  // namespace holdfast

@@ -348,6 +348,38 @@ TEST(Shake, IsNotAtTheCostOfOthers) {
   }
 }
 
+// Its corners come first.
+TetMesh cube_with_points(std::size_t n, std::uint64_t seed) {
+  TetMesh mesh;
+  for (unsigned k = 0; k < 8; ++k)
+    MeshEditor(mesh).add_vertex(
+        Point{(k & 1u) != 0 ? 1.0 : -1.0, (k & 2u) != 0 ? 1.0 : -1.0, (k & 4u) != 0 ? 1.0 : -1.0});
+  for (const Point& p : random_points(n, seed)) MeshEditor(mesh).add_vertex(p);
+  EXPECT_TRUE(build_delaunay(mesh, {}, nullptr));
+  return mesh;
+}
+
+// What stands where a point was is no worse than it is said to be, and no better.
+TEST(RemovePoints, LeavesNoQualityOfWhatIsGone) {
+  std::size_t removed = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    TetMesh mesh = cube_with_points(20, seed);
+    const Options options;
+    Monitor monitor(options);
+    Search search(mesh, solid(mesh), 8, 2, seed, 1, monitor);
+    ASSERT_TRUE(search.worst());
+    remove_points(search, 0);
+    removed += search.stats().removed;
+    const std::optional<WaitingElement> worst = search.worst();
+    const double stands = badness_of(mesh, solid(mesh), {100, 1000, 1e10}).worst;
+    EXPECT_EQ(worst.has_value(), stands > tuning::kGood) << seed;
+    if (worst) {
+      EXPECT_EQ(worst->quality, stands) << seed;
+    }
+  }
+  EXPECT_GT(removed, 0u);
+}
+
 TEST(Quality, PlainArithmeticAgreesWithTheCarefulOne) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> u(-1, 1);
