@@ -49,6 +49,7 @@ bool fill_anew_round(Search& search, const WaitingElement& worst, const Filler& 
     if (fill_anew(search, polyhedron, fill)) return true;
     if (most == tuning::kFilledAnew.front())
       for (const Tet t : polyhedron.tets()) left_out.push_back(search.mesh().corners(t));
+    if (polyhedron.tets().size() < most) return false;  // more would be the same: these are all there are
   }
   return false;
 }
