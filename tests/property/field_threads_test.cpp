@@ -117,16 +117,20 @@ TEST(FieldThreadsMonitor, HearsTheTimeLimit) {
   EXPECT_EQ(mesh(sphere.view(), options).outcome, Outcome::time_limit);
 }
 
-TEST(FieldThreadsMonitor, AFunctionOfTheUserIsCalledOnTheCallersThreadAlone) {
-  const Surface sphere = hard::icosphere(4);
+// On two threads; the function counts calls from other threads than this one.
+Options with_counting_field(std::atomic<int>& elsewhere) {
   Options options = two_threads(0);
-  const std::thread::id caller = std::this_thread::get_id();
-  std::atomic<int> elsewhere = 0;
-  options.sizes->field = [&](const Point& p) {
+  options.sizes->field = [&elsewhere, caller = std::this_thread::get_id()](const Point& p) {
     if (std::this_thread::get_id() != caller) ++elsewhere;
     return p[0] < 0 ? 0.045 : 0.055;
   };
-  const Result result = mesh(sphere.view(), options);
+  return options;
+}
+
+TEST(FieldThreadsMonitor, AFunctionOfTheUserIsCalledOnTheCallersThreadAlone) {
+  const Surface sphere = hard::icosphere(4);
+  std::atomic<int> elsewhere = 0;
+  const Result result = mesh(sphere.view(), with_counting_field(elsewhere));
   EXPECT_EQ(result.outcome, Outcome::done);
   EXPECT_GT(result.volume.tetrahedra.size(), 60'000u);
   EXPECT_EQ(elsewhere, 0);
@@ -134,16 +138,11 @@ TEST(FieldThreadsMonitor, AFunctionOfTheUserIsCalledOnTheCallersThreadAlone) {
 
 TEST(FieldThreadsStop, AFunctionThatAllowsItIsCalledOnAllThreadsAndMakesNoDifference) {
   const Surface sphere = hard::icosphere(4);
-  Options options = two_threads(0);
-  const std::thread::id caller = std::this_thread::get_id();
   std::atomic<int> elsewhere = 0;
-  options.sizes->field = [&](const Point& p) {
-    if (std::this_thread::get_id() != caller) ++elsewhere;
-    return p[0] < 0 ? 0.045 : 0.055;
-  };
+  Options options = with_counting_field(elsewhere);
   const Result alone = mesh(sphere.view(), options);
-  options.sizes->concurrent = true;
   EXPECT_EQ(elsewhere, 0);
+  options.sizes->concurrent = true;
   for (const unsigned threads : {1u, 2u, 3u}) {
     options.threads = threads;
     const Result result = mesh(sphere.view(), options);
