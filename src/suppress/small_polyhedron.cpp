@@ -4,9 +4,9 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 
+#include "exact/predicates.h"
 #include "mesh/measure.h"
 #include "mesh/quality_below.h"
 #include "numbers/sorted.h"
@@ -78,15 +78,8 @@ class Sides {
         vertices_(std::move(vertices)),
         all_are_explicit_(
             std::all_of(vertices_.begin(), vertices_.end(), [&](Vertex v) { return mesh.is_explicit(v); })),
-        of_triangle_(kBinomial[vertices_.size()][3], {kUnknownMask, 0}) {
-    for (std::size_t i = 0; i < vertices_.size(); ++i) {
-      const Point& p = mesh.position(vertices_[i]);
-      x_[i] = p[0];
-      y_[i] = p[1];
-      z_[i] = p[2];
-    }
-    bound_ = bound_of_all();
-  }
+        filter_(vertices_.size(), [&](std::size_t i) { return mesh.position(vertices_[i]).data(); }),
+        of_triangle_(kBinomial[vertices_.size()][3], {kUnknownMask, 0}) {}
 
   [[nodiscard]] const std::vector<Vertex>& vertices() const { return vertices_; }
 
@@ -117,8 +110,8 @@ class Sides {
     Mask open = ~corners & ((Mask{1} << vertices_.size()) - 1);
     Pair sides{0, 0};
     if (all_are_explicit_) {
-      const Pair known = compute_filtered(f);
-      sides = {known.above & open, known.below & open};
+      const exact::OrientAmong::Signs known = filter_.of_all(f[0], f[1], f[2]);
+      sides = {known.positive & open, known.negative & open};
       open &= ~(sides.above | sides.below);
     }
     for (; open != 0; open &= open - 1) {
@@ -128,38 +121,6 @@ class Sides {
       if (s < 0) sides.below |= Mask{1} << d;
     }
     return sides;
-  }
-
-  // The error of a determinant has 6 terms of at most V, the product of the extents along the axes, each of
-  // which passes 8 roundings, differences included: in all less than 50 eps V, and 2^-600 for all that
-  // underflows.
-  [[nodiscard]] double bound_of_all() const {
-    const auto extent = [&](const auto& of) {
-      const auto [least, most] =
-          std::minmax_element(of.begin(), of.begin() + static_cast<std::ptrdiff_t>(vertices_.size()));
-      return *most - *least;
-    };
-    if (vertices_.empty()) return 0;
-    const double x = extent(x_), y = extent(y_), z = extent(z_);
-    if (!(std::max({x, y, z}) < 0x1p250)) return std::numeric_limits<double>::infinity();
-    return 50 * exact::detail::kEpsilon * (x * y * z) + 0x1p-600;
-  }
-
-  // As far as one bound for all decides.
-  [[nodiscard]] Pair compute_filtered(const LocalFace& f) const {
-    const std::size_t i = f[0], j = f[1], k = f[2], n = vertices_.size();
-    const double ux = x_[j] - x_[i], uy = y_[j] - y_[i], uz = z_[j] - z_[i];
-    const double vx = x_[k] - x_[i], vy = y_[k] - y_[i], vz = z_[k] - z_[i];
-    const double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
-    std::array<double, kMostVertices> determinant;
-    for (std::size_t d = 0; d < n; ++d)
-      determinant[d] = nx * (x_[d] - x_[i]) + ny * (y_[d] - y_[i]) + nz * (z_[d] - z_[i]);
-    Pair known{0, 0};
-    for (std::size_t d = 0; d < n; ++d) {
-      known.above |= static_cast<Mask>(determinant[d] > bound_) << d;
-      known.below |= static_cast<Mask>(determinant[d] < -bound_) << d;
-    }
-    return known;
   }
 
   int sign(const LocalFace& f, Local d) {
@@ -180,10 +141,9 @@ class Sides {
   const TetMesh& mesh_;
   const std::vector<Vertex> vertices_;
   const bool all_are_explicit_;
-  std::array<double, kMostVertices> x_, y_, z_;
-  double bound_;
-  std::vector<std::int8_t> sign_;  // by the number of the four corners; empty until one is asked for
-  std::vector<Pair> of_triangle_;  // by the number of the three corners
+  const exact::OrientAmong filter_;  // of positions
+  std::vector<std::int8_t> sign_;    // by the number of the four corners; empty until one is asked for
+  std::vector<Pair> of_triangle_;    // by the number of the three corners
 };
 
 // The faces that are still to be covered, seen positively from what is left to fill: by number, with the

@@ -37,27 +37,48 @@ void expect_sound(int answer, int truth, const char* filter, const Case& c) {
   }
 }
 
-TEST(PredicateLaw, TheFilterDecidesManyPointsAsItDoesOne) {
+/// Signs of the first three of some points with each of all, where the filter tells: no wrong one. Returns
+/// how many it leaves open of those that are not coplanar.
+std::size_t left_open(const std::vector<Point3>& points, const Case& c) {
+  const OrientAmong filter(points.size(), [&](std::size_t k) { return points[k].data(); });
+  const OrientAmong::Signs signs = filter.of_all(0, 1, 2);
+  std::size_t open = 0;
+  for (std::size_t k = 0; k < OrientAmong::kMost; ++k) {
+    const int answer = static_cast<int>(signs.positive >> k & 1) - static_cast<int>(signs.negative >> k & 1);
+    const int truth = k < points.size()
+                          ? orient3d(points[0].data(), points[1].data(), points[2].data(), points[k].data())
+                          : 0;
+    EXPECT_EQ(signs.positive >> k & signs.negative >> k & 1, 0U);
+    expect_sound(answer, truth, "filter among many", c);
+    if (answer == 0 && truth != 0) ++open;
+  }
+  return open;
+}
+
+TEST(PredicateLaw, TheFilterAmongManyPointsIsSound) {
   Random random(22);
   for (int i = 0; i < 2000; ++i) {
-    std::vector<Case> cases;
-    const std::size_t count = 1 + random() % OrientFilter::kMost;
-    while (cases.size() < count) cases.push_back(random_case(random));
-    std::vector<double> x, y, z;
-    for (const Case& c : cases) {
-      x.push_back(c.p[3][0]);
-      y.push_back(c.p[3][1]);
-      z.push_back(c.p[3][2]);
+    // Of one case, and of several of unlike sizes.
+    std::vector<Case> cases(1 + random() % (OrientAmong::kMost / 5));
+    std::vector<Point3> points;
+    for (Case& c : cases) {
+      c = random_case(random);
+      points.insert(points.end(), c.p.begin(), c.p.end());
     }
-    const Case& c = cases.front();
-    const OrientFilter filter(c.p[0].data(), c.p[1].data(), c.p[2].data());
-    const OrientFilter::Signs signs = filter.of_all(x.data(), y.data(), z.data(), x.size());
-    for (std::size_t k = 0; k < 32; ++k) {
-      const int one = k < cases.size() ? filter(cases[k].p[3].data()) : 0;
-      ASSERT_EQ((signs.positive >> k & 1) == 1, one > 0) << describe(cases[k]);
-      ASSERT_EQ((signs.negative >> k & 1) == 1, one < 0) << describe(cases[k]);
-    }
+    left_open(points, cases.front());
   }
+}
+
+TEST(PredicateLaw, TheFilterAmongManyPointsLeavesLittleOpen) {
+  Random random(23);
+  std::size_t open = 0;
+  for (int i = 0; i < 1000; ++i) {
+    std::vector<Point3> points(OrientAmong::kMost);
+    for (Point3& p : points)
+      for (double& x : p) x = uniform(random, -1, 1);
+    open += left_open(points, {"uniform", {}});
+  }
+  EXPECT_LT(open, 10u);
 }
 
 TEST(PredicateLaw, Orient3dTiersAgreeWithRationals) {
