@@ -1,6 +1,7 @@
 #include "refine/limited_sizes.h"
 
 #include <algorithm>
+#include <limits>
 #include <span>
 
 #include "mesh/measure.h"
@@ -10,12 +11,10 @@
 namespace holdfast {
 namespace {
 
-struct Sample {
-  Point place;
-  double volume;  // six times it
-  double wanted;
-  bool is_asked = false;
-  FacetSizes::Limit limit{0, no_entity};
+// What is found in some of the tetrahedra; volumes are six times as large.
+struct Found {
+  double all = 0, limited = 0, asked = 0;
+  std::vector<LimitedSizes::AtFacet> facets;  // ascending
 };
 
 // What the corners of t hand on to its centroid.
@@ -28,74 +27,75 @@ double handed_on(const VolumeData& volume, const SizeFunction& sizes, Tet t, con
   return sizes.grows() ? size : std::min(size, sum / 4);
 }
 
-std::vector<Sample> samples_of(const VolumeData& volume, const SizeFunction& sizes,
-                               const std::vector<Tet>& tets, const Threads& threads) {
-  std::vector<Sample> samples(tets.size());
-  parallel_ranges(sizes.threads_of(threads), tets.size(), [&](std::size_t first, std::size_t last) {
-    std::vector<Point> places;
-    std::vector<RegionId> regions;
-    std::vector<double> limits;
-    while (first < last) {
-      const auto block = std::span(tets).subspan(first, std::min(tuning::kFieldBlock, last - first));
-      places.clear();
-      regions.clear();
-      for (const Tet t : block) {
-        places.push_back(centroid(volume.mesh, t));
-        regions.push_back(volume.region_of[t]);
-      }
-      limits.resize(block.size());
-      sizes.limits(places, regions, limits);
-      for (std::size_t k = 0; k < block.size(); ++k) {
-        const Tet t = block[k];
-        const Point& x = places[k];
-        const double wanted = std::min(limits[k], handed_on(volume, sizes, t, x));
-        const FacetSizes::By by = sizes.decider(wanted, regions[k]);
-        samples[first + k] = {x, six_volumes(volume.mesh, volume.mesh.corners(t)), wanted,
-                              by == FacetSizes::By::user, sizes.of_facets().limit(x, wanted, by)};
-      }
-      first += block.size();
+// The facets of some samples, each once.
+std::vector<LimitedSizes::AtFacet> joined(std::vector<LimitedSizes::AtFacet> samples) {
+  std::stable_sort(samples.begin(), samples.end(),
+                   [](const auto& f, const auto& g) { return f.facet < g.facet; });
+  std::vector<LimitedSizes::AtFacet> facets;
+  for (const LimitedSizes::AtFacet& s : samples) {
+    if (facets.empty() || facets.back().facet != s.facet) {
+      facets.push_back(s);
+      continue;
     }
-  });
-  return samples;
+    LimitedSizes::AtFacet& f = facets.back();
+    const double volume = f.volume + s.volume;
+    if (s.bearable * f.wanted > f.bearable * s.wanted) f = s;
+    f.volume = volume;
+  }
+  return facets;
 }
 
-std::vector<LimitedSizes::AtFacet> by_facet(std::vector<Sample>& limited) {
-  // Sums do not depend on the order in which the facets' samples come.
-  std::stable_sort(limited.begin(), limited.end(),
-                   [](const Sample& x, const Sample& y) { return x.limit.facet < y.limit.facet; });
-  std::vector<LimitedSizes::AtFacet> facets;
-  for (const Sample& s : limited) {
-    if (facets.empty() || facets.back().facet != s.limit.facet)
-      facets.push_back({s.limit.facet, s.wanted, s.limit.size, s.place, 0});
-    LimitedSizes::AtFacet& f = facets.back();
-    f.volume += s.volume;
-    if (s.limit.size * f.wanted > f.bearable * s.wanted)
-      f = {f.facet, s.wanted, s.limit.size, s.place, f.volume};
+// A block is small, so that a function of the user is asked about all of it at once.
+Found found_in(const VolumeData& volume, const SizeFunction& sizes, std::span<const Tet> block) {
+  std::vector<Point> places;
+  std::vector<RegionId> regions;
+  for (const Tet t : block) {
+    places.push_back(centroid(volume.mesh, t));
+    regions.push_back(volume.region_of[t]);
   }
-  std::stable_sort(facets.begin(), facets.end(),
-                   [](const auto& f, const auto& g) { return f.volume > g.volume; });
-  return facets;
+  std::vector<double> limits(block.size());
+  sizes.limits(places, regions, limits);
+  Found found;
+  for (std::size_t k = 0; k < block.size(); ++k) {
+    const double six = six_volumes(volume.mesh, volume.mesh.corners(block[k]));
+    const double wanted = std::min(limits[k], handed_on(volume, sizes, block[k], places[k]));
+    const FacetSizes::By by = sizes.decider(wanted, regions[k]);
+    const FacetSizes::Limit limit = sizes.of_facets().limit(places[k], wanted, by);
+    found.all += six;
+    if (limit.facet == no_entity) continue;
+    found.limited += six;
+    if (by == FacetSizes::By::user) found.asked += six;
+    found.facets.push_back({limit.facet, wanted, limit.size, places[k], six});
+  }
+  found.facets = joined(std::move(found.facets));
+  return found;
 }
 
 }  // namespace
 
 LimitedSizes limited_sizes(const VolumeData& volume, const SizeFunction& sizes, const Threads& threads) {
-  LimitedSizes found;
-  if (sizes.of_facets().empty()) return found;
-  std::vector<Sample> samples = samples_of(volume, sizes, tets_inside(volume, threads), threads);
-  double all = 0;
-  for (const Sample& s : samples) all += s.volume;
-  std::erase_if(samples, [](const Sample& s) { return s.limit.facet == no_entity; });
-  for (const Sample& s : samples) {
-    found.volume += s.volume;
-    if (s.is_asked) found.asked_volume += s.volume;
+  if (sizes.of_facets().empty()) return {};
+  const std::vector<Tet> tets = tets_inside(volume, threads);
+  // Blocks are summed up in their order: the last bits do not depend on the threads.
+  std::vector<Found> blocks((tets.size() + tuning::kFieldBlock - 1) / tuning::kFieldBlock);
+  parallel(sizes.threads_of(threads), blocks.size(), [&](std::size_t b) {
+    const std::size_t first = b * tuning::kFieldBlock;
+    const std::size_t count = std::min(tuning::kFieldBlock, tets.size() - first);
+    blocks[b] = found_in(volume, sizes, std::span(tets).subspan(first, count));
+  });
+  Found found;
+  for (const Found& b : blocks) {
+    found.all += b.all;
+    found.limited += b.limited;
+    found.asked += b.asked;
+    found.facets.insert(found.facets.end(), b.facets.begin(), b.facets.end());
   }
-  found.facets = by_facet(samples);
-  if (!(all > 0)) return found;
-  found.volume /= all;
-  found.asked_volume /= all;
-  for (LimitedSizes::AtFacet& f : found.facets) f.volume /= all;
-  return found;
+  if (!(found.all > 0)) return {};
+  LimitedSizes limited{found.limited / found.all, found.asked / found.all, joined(std::move(found.facets))};
+  for (LimitedSizes::AtFacet& f : limited.facets) f.volume /= found.all;
+  std::stable_sort(limited.facets.begin(), limited.facets.end(),
+                   [](const auto& f, const auto& g) { return f.volume > g.volume; });
+  return limited;
 }
 
 }  // namespace holdfast

@@ -54,8 +54,8 @@ class SizeFunction {
   [[nodiscard]] bool has_limit() const {
     return most_ < std::numeric_limits<double>::infinity() || !of_region_.empty() || field_;
   }
-  /// Those of the threads that may ask for sizes: unless the user allows more, a function of his is called on
-  /// the calling one alone.
+  /// Those of the threads that may ask for sizes: a function of the user is called on the calling one alone,
+  /// unless it may be called on several.
   [[nodiscard]] Threads threads_of(const Threads& all) const {
     return (field_ || metric_) && !is_concurrent_ ? all.at_most(1) : all;
   }
