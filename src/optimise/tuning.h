@@ -49,9 +49,9 @@ inline constexpr std::size_t kTetsASpareSlot = 128;  ///< one slot more for so m
 // Patience, in attempts in vain.
 inline constexpr int kRounds = 3;         ///< over flat elements: each opens ways for the next
 inline constexpr int kMostFailures = 12;  ///< of elements that are not bad, before they are left
-inline constexpr int kReconnectionsInVain = 3, kReconnectionsInVainForFlat = 12;
+inline constexpr int kReconnectionsInVain = 3, kReconnectionsInVainForFlat = 8;
 inline constexpr int kMostPatient = 2;  ///< patient searches a mesh: each takes milliseconds
-inline constexpr int kShakesInVain = 2, kShakesInVainForFlat = 8;
+inline constexpr int kShakesInVain = 2, kShakesInVainForFlat = 4;
 
 inline constexpr std::size_t kMostShakes = 40;  ///< a mesh
 inline constexpr int kShakenEdges = 30;         ///< a shake
@@ -63,7 +63,7 @@ inline constexpr std::size_t kMostShakenSlots = 1'000'000;
 /// and points in vain.
 inline constexpr std::array<std::size_t, 2> kFilledAnew{100, 200};
 inline constexpr double kLeastFilledAnew = 10, kFilledAnewForTarget = 3, kLeastGainOfFilling = 1.1;
-inline constexpr int kMostFilledAnew = 40, kFilledAnewInVain = 3;
+inline constexpr int kMostFilledAnew = 40, kFilledAnewInVain = 2;
 inline constexpr std::size_t kMostFilledBall = 60;
 inline constexpr int kPointsInVain = 2;
 /// Tetrahedra of a shell that is exchanged: larger ones hardly ever pay, and cost their cube. With field
@@ -80,7 +80,7 @@ struct Reconnecting {
   std::size_t most_nodes;     ///< of the search tree
 };
 inline constexpr Reconnecting kUsual{1, 10, 4, 14, 100};
-inline constexpr Reconnecting kForFlat{1, 20, 4, 20, 100};     ///< a flat element is worth larger cavities
+inline constexpr Reconnecting kForFlat{1, 20, 8, 20, 200};     ///< a flat element is worth larger cavities
 inline constexpr Reconnecting kPatient{2, 20, 2, 20, 300};     ///< for an element that would get a point
 inline constexpr Reconnecting kWithoutPoint{2, 6, 1, 18, 60};  ///< to do without a point in the end
 inline constexpr std::size_t kLeastTets = 3;  ///< fewer tetrahedra cannot be filled another way

@@ -121,7 +121,7 @@ TEST(SearchInParts, LeavesAsLittleOnAnyNumberOfThreads) {
   const Badness before = badness_of(mesh, solid(mesh), kFrom);
   const TetMesh one = optimised(mesh, 1), two = optimised(mesh, 2);
   const Badness after = badness_of(one, solid(one), kFrom);
-  EXPECT_LT(after.flat, before.flat / 20);
+  EXPECT_LT(after.flat, before.flat / 15);
   EXPECT_EQ(find_fault(one), "");
   EXPECT_EQ((volume_of(one) - volume_of(mesh)).sign(), 0);
   ASSERT_EQ(one.slot_count(), two.slot_count());
