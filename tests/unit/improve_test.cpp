@@ -1,0 +1,164 @@
+// What makes the elements of a field mesh better, from the inside: energies, shapes, cavities of points, the
+// improvement of a volume.
+#include "optimise/improve.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "delaunay/delaunay.h"
+#include "mesh/editor.h"
+#include "mesh/quality.h"
+#include "mesh/validate.h"
+#include "optimise/energy.h"
+#include "optimise/refill.h"
+#include "optimise/shape.h"
+#include "refine/order.h"
+#include "refine/point_cavity.h"
+
+namespace holdfast {
+namespace {
+
+TEST(Energy, IsOfTheLeastAngle) {
+  const Point a{0, 0, 0}, b{1, 0, 0}, c{0.5, std::sqrt(0.75), 0},
+      d{0.5, std::sqrt(1.0 / 12), std::sqrt(2.0 / 3)};
+  EXPECT_NEAR(energy(a, b, c, d), energy_of_sine(std::sin(std::acos(1.0 / 3))), 1e-9);
+  EXPECT_EQ(energy(a, b, c, c), kNoEnergy);
+  EXPECT_EQ(energy(a, c, b, d), kNoEnergy);
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int k = 0; k < 1000; ++k) {
+    std::array<Point, 4> p;
+    for (Point& x : p)
+      for (double& y : x) y = any(random);
+    const double e = energy(p[0], p[1], p[2], p[3]);
+    if (e == kNoEnergy) continue;
+    double least = 2;
+    for (const double angle : dihedral_angles(p[0], p[1], p[2], p[3])) {
+      const double sine = std::sin(angle * 3.14159265358979 / 180);
+      least = std::min(least, angle > 90 ? sine * std::sqrt(1.5) : sine);
+    }
+    EXPECT_NEAR(e / energy_of_sine(least), 1, 1e-5);
+  }
+}
+
+TEST(Shape, ANeedleIsNotFlat) {
+  const double h = std::sqrt(0.75);
+  const Point a{0, 0, 0}, b{1, 0, 0}, c{0.5, h, 0};
+  const auto apex = [&](double height) { return Point{0.5, h / 3, height}; };
+  EXPECT_GT(quality(a, b, c, apex(100)), 30);
+  EXPECT_FALSE(is_flat(a, b, c, apex(100)));
+  EXPECT_FALSE(is_flat(a, b, c, apex(0.8)));
+  EXPECT_TRUE(is_flat(a, b, c, apex(0.005)));                                      // a cap
+  EXPECT_TRUE(is_flat({0, 0, 0}, {1, 0, 0.01}, {1, 1, 0}, {0, 1, 0.01}));          // a sliver
+  EXPECT_FALSE(is_flat({0, 0, 0}, {1, 0, 0}, {0, 0.01, 0.01}, {0, -0.01, 0.02}));  // a splinter
+}
+
+/// The Delaunay triangulation of random points in the unit cube and the corners of a cube round it, `margin`
+/// away. It has slivers in plenty.
+TetMesh random_mesh(int points, std::uint64_t seed, double margin = 0) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> any(0, 1);
+  TetMesh mesh;
+  const auto side = [&](bool high) { return high ? 1 + margin : -margin; };
+  for (int k = 0; k < 8; ++k)
+    MeshEditor(mesh).add_vertex(Point{side((k & 1) != 0), side((k & 2) != 0), side((k & 4) != 0)});
+  for (int k = 0; k < points; ++k) MeshEditor(mesh).add_vertex(Point{any(random), any(random), any(random)});
+  EXPECT_TRUE(build_delaunay(mesh, {1}, nullptr));
+  return mesh;
+}
+
+Tet any_solid(const TetMesh& mesh) {
+  Tet t = 0;
+  while (!mesh.alive(t) || mesh.is_ghost(t)) ++t;
+  return t;
+}
+
+TEST(PointCavity, InsertsPointAfterPointAndKeepsTheMeshValid) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> any(0, 1);
+  TetMesh mesh = random_mesh(0, 3, 0.5);
+  PointCavity cavity(mesh);
+  for (int k = 0; k < 300; ++k) {
+    const Vertex p = MeshEditor(mesh).add_vertex(Point{any(random), any(random), any(random)});
+    const Tet base = cavity.locate(p, any_solid(mesh));
+    ASSERT_NE(base, kNone);
+    ASSERT_TRUE(cavity.find(p, base, {}));
+    if (k % 3 == 0) {
+      cavity.abandon();
+      MeshEditor(mesh).remove_last_vertex();
+    } else {
+      cavity.insert();
+    }
+  }
+  EXPECT_EQ(find_fault(mesh), "");
+}
+
+TEST(Energy, OfTwoAtOnceIsThatOfEach) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int k = 0; k < 100; ++k) {
+    std::array<std::array<Point, 4>, 2> p;
+    std::array<PointOf<Pair>, 4> both;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = 0; j < 3; ++j)
+        for (std::size_t lane = 0; lane < 2; ++lane) both[i][j][lane] = p[lane][i][j] = any(random);
+    const Pair e = energy<Pair>(both[0], both[1], both[2], both[3]);
+    for (std::size_t lane = 0; lane < 2; ++lane)
+      EXPECT_EQ(e[lane], energy(p[lane][0], p[lane][1], p[lane][2], p[lane][3]));
+  }
+}
+
+TEST(Improve, LeavesAValidMeshWithBetterElements) {
+  TetMesh mesh = random_mesh(2000, 5);
+  std::vector<RegionId> region_of(mesh.slot_count(), 0);
+  const std::vector<bool> kept{true};
+  std::vector<double> sizes(mesh.vertex_count(), 0.1);
+  const VolumeData volume{mesh, region_of, sizes, kept, 8};
+  order_along_curve(volume);
+  ASSERT_EQ(find_fault(mesh), "");
+  const auto below_10 = [&] {
+    const ShapeCounts shape = shape_of(volume);
+    return shape.least_dihedral[0] + shape.least_dihedral[1];
+  };
+  const std::size_t before = below_10();
+  const Options options;
+  Monitor monitor(options);
+  const ImproveStats stats = improve(volume, Effort::good, monitor);
+  EXPECT_EQ(find_fault(mesh), "");
+  EXPECT_GT(stats.moved, 0u);
+  EXPECT_GT(stats.swapped, 0u);
+  EXPECT_LT(4 * below_10(), before);
+}
+
+TEST(CavityRefiller, LessensTheEnergyAndLeavesAValidMesh) {
+  TetMesh mesh = random_mesh(200, 6);
+  std::vector<RegionId> region_of(mesh.slot_count(), 0);
+  const std::vector<bool> kept{true};
+  std::vector<double> sizes(mesh.vertex_count(), 1);
+  ImprovedVolume volume({mesh, region_of, sizes, kept, 8});
+  const auto total = [&] {
+    double sum = 0;
+    for (Tet t = 0; t < mesh.slot_count(); ++t)
+      if (volume.is_inside(t)) sum += volume.energy(t);
+    return sum;
+  };
+  CavityRefiller refiller(volume);
+  double energy = total();
+  std::size_t refilled = 0, with_point = 0;
+  for (Tet t = 0; t < mesh.slot_count(); ++t) {
+    if (!volume.is_inside(t) || volume.energy(t) < energy_of_sine(0.2)) continue;
+    if (refiller.refill(t).empty()) continue;
+    ++refilled;
+    if (refiller.point() != kNone) ++with_point;
+    ASSERT_LT(total(), energy);
+    energy = total();
+  }
+  EXPECT_EQ(find_fault(mesh), "");
+  EXPECT_GT(with_point, 0u);
+  EXPECT_GT(refilled, with_point);
+}
+
+}  // namespace
+}  // namespace holdfast
