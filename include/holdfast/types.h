@@ -63,6 +63,7 @@ enum class RemarkKind : int {
   size_limits = 3,   ///< limits on volumes, taken as sizes
   not_held = 4,      ///< something that a format has no place for, when a file is written
   renumbered = 5,    ///< ids that a file has as other numbers, since its format takes theirs for none
+  cells_split = 6,   ///< hexahedra, prisms and pyramids, split into tetrahedra
 };
 
 /// Something that a reader or a writer did not carry over as it was.

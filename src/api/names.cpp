@@ -42,9 +42,9 @@ constexpr std::array kWarningKinds{
     Named{WarningKind::parts_apart, "parts_apart"},   Named{WarningKind::sizes, "sizes"}};
 
 constexpr std::array kRemarkKinds{
-    Named{RemarkKind::left_out, "left_out"}, Named{RemarkKind::polygons_cut, "polygons_cut"},
-    Named{RemarkKind::size_limits, "size_limits"}, Named{RemarkKind::not_held, "not_held"},
-    Named{RemarkKind::renumbered, "renumbered"}};
+    Named{RemarkKind::left_out, "left_out"},       Named{RemarkKind::polygons_cut, "polygons_cut"},
+    Named{RemarkKind::cells_split, "cells_split"}, Named{RemarkKind::size_limits, "size_limits"},
+    Named{RemarkKind::not_held, "not_held"},       Named{RemarkKind::renumbered, "renumbered"}};
 
 constexpr std::array kDefectKinds{Named{DefectKind::non_finite_coordinate, "non-finite coordinate"},
                                   Named{DefectKind::index_out_of_range, "index out of range"},

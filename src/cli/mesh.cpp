@@ -63,7 +63,9 @@ void print_refusal(const MeshArguments& arguments, const Surface& surface, const
     // The defects say what and where themselves; what may be the reason is that the borders do not meet.
     say("holdfast: the surface is valid, but cannot be filled so\n{}",
         list_text(summary, result.defects, shown_in_passing, "--report FILE.json has them"));
-    if (is_open(result.defects))
+    if (surface.facets.empty())
+      say("--surface-of takes the surface of a volume, where the file holds one\n");
+    else if (is_open(result.defects))
       say("`holdfast diagnose` lists the open borders and proposes what closes them\n");
     return;
   }

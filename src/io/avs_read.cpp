@@ -5,6 +5,7 @@
 #include <array>
 #include <span>
 
+#include "io/cells.h"
 #include "io/formats.h"
 #include "io/numbered.h"
 #include "io/polygon.h"
@@ -18,8 +19,8 @@ struct AvsCell {
   std::string_view name;
   std::size_t corners;
 };
-constexpr std::array kCells{AvsCell{"pt", 1}, AvsCell{"line", 2}, AvsCell{"tri", 3}, AvsCell{"quad", 4},
-                            AvsCell{"tet", 4}};
+constexpr std::array kCells{AvsCell{"pt", 1},  AvsCell{"line", 2}, AvsCell{"tri", 3},   AvsCell{"quad", 4},
+                            AvsCell{"tet", 4}, AvsCell{"pyr", 5},  AvsCell{"prism", 6}, AvsCell{"hex", 8}};
 
 class AvsReader {
  public:
@@ -62,8 +63,8 @@ class AvsReader {
         std::find_if(kCells.begin(), kCells.end(), [&](const AvsCell& c) { return c.name == kind; });
     if (cell == kCells.end())
       text_.fail("cells of the kind " + in_quotes(kind) +
-                 " are not read; only pt, line, tri, quad and tet are");
-    std::array<Index, 4> n{};
+                 " are not read; only pt, line, tri, quad, tet, pyr, prism and hex are");
+    std::array<Index, 8> n{};
     for (std::size_t k = 0; k < cell->corners; ++k) n[k] = node();
     text_.skip_line();
     step(text_.source().watch);
@@ -72,10 +73,17 @@ class AvsReader {
     else if (kind == "line")
       mesh_.add_segment({n[0], n[1]}, material);
     else if (kind == "tet")
-      mesh_.add_tetrahedron(n, material);
+      mesh_.add_tetrahedron({n[0], n[1], n[2], n[3]}, material);
+    else if (cell->corners > 4)
+      add(std::span(n).first(cell->corners), material);
     else
       add_polygon(mesh_, std::span(n).first(cell->corners), material,
                   [&](const std::string& reason) { text_.fail(reason); });
+  }
+
+  void add(std::span<Index> cell, int material) {
+    if (cell.size() == 5) std::rotate(cell.begin(), cell.begin() + 1, cell.end());  // the apex comes first
+    add_cell(mesh_, cell, cell.size(), material);
   }
 
   Index node() {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "io/cells.h"
 #include "io/fields.h"
 #include "io/formats.h"
 #include "io/labels.h"
@@ -163,9 +164,12 @@ class BdfReader {
       read_element(2, 4, 8);
     } else if (name == "crod" || name == "cbar" || name == "cbeam" || name == "ctube") {
       read_element(2, 2, 2);
-    } else if (name == "chexa" || name == "cpenta" || name == "cpyram") {
-      text_.fail("elements " + in_quotes(name) +
-                 " are not read; only tetrahedra, triangles and quadrangles are");
+    } else if (name == "chexa") {
+      read_element(2, 8, 20);
+    } else if (name == "cpenta") {
+      read_element(2, 6, 15);
+    } else if (name == "cpyram") {
+      read_element(2, 5, 13);
     } else if (name.starts_with("include")) {
       text_.fail("INCLUDE is not followed; read the file that it names");
     } else if (name == "enddata") {
@@ -206,7 +210,7 @@ class BdfReader {
   }
 
   void add(const Element& element) {
-    std::array<Index, 10> n{};
+    std::array<Index, 20> n{};
     for (std::size_t i = 0; i < element.nodes.size(); ++i) {
       const std::optional<Index> found = nodes_.find(element.nodes[i]);
       if (!found)
@@ -222,6 +226,9 @@ class BdfReader {
       mesh_.add_tetrahedron({n[0], n[1], n[2], n[3]}, id);
       return add_no_corners(mesh_, std::span(n).first(element.nodes.size()).subspan(4));
     }
+    if (element.name == "chexa" || element.name == "cpenta" || element.name == "cpyram")
+      return add_cell(mesh_, std::span(n).first(element.nodes.size()), element.corners,
+                      id_of_property(regions_, ids_of_regions_, element.property));
     if (element.nodes.size() == 2) return mesh_.add_segment({n[0], n[1]}, element.property);
     const int id = id_of_property(markers_, ids_of_markers_, element.property);
     if (element.nodes.size() == 6 && element.corners == 3)

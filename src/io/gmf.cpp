@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "io/byte_reader.h"
+#include "io/cells.h"
 #include "io/formats.h"
 #include "io/mid_nodes.h"
 #include "io/polygon.h"
@@ -142,10 +143,14 @@ class GmfReader {
           add_polygon(mesh_, c, tag, [&](const std::string& reason) { bytes_.fail(reason); });
         });
       case kPrisms:
+        return read_entities<6>("prisms",
+                                [&](const std::array<Index, 6>& c, int tag) { add_cell(mesh_, c, 6, tag); });
       case kHexahedra:
+        return read_entities<8>("hexahedra",
+                                [&](const std::array<Index, 8>& c, int tag) { add_cell(mesh_, c, 8, tag); });
       case kPyramids:
-        if (integer() != 0) bytes_.fail("prisms, hexahedra or pyramids; split them first");
-        return;
+        return read_entities<5>("pyramids",
+                                [&](const std::array<Index, 5>& c, int tag) { add_cell(mesh_, c, 5, tag); });
       case kSolAtVertices:
         if (solution_) read_values();
         return;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "io/cells.h"
 #include "io/mid_nodes.h"
 #include "io/polygon.h"
 
@@ -47,15 +48,19 @@ void InpElements::read_nodes(InpText& text) {
 const InpElements::Type& InpElements::type_of(const TextReader& text, const std::string& given) {
   // The longest prefix of a type's name counts.
   static constexpr Type kTypes[] = {
-      {"c3d4", 3, 4},    {"c3d10", 3, 10}, {"dc3d4", 3, 4},  {"dc3d10", 3, 10}, {"ac3d4", 3, 4},
-      {"ac3d10", 3, 10}, {"s3", 2, 3},     {"ds3", 2, 3},    {"stri3", 2, 3},   {"cps3", 2, 3},
-      {"cpe3", 2, 3},    {"m3d3", 2, 3},   {"sfm3d3", 2, 3}, {"r3d3", 2, 3},    {"s6", 2, 6},
-      {"ds6", 2, 6},     {"stri65", 2, 6}, {"cps6", 2, 6},   {"cpe6", 2, 6},    {"m3d6", 2, 6},
-      {"sfm3d6", 2, 6},  {"s4", 2, 4},     {"cps4", 2, 4},   {"cpe4", 2, 4},    {"m3d4", 2, 4},
-      {"sfm3d4", 2, 4},  {"r3d4", 2, 4},   {"s8", 2, 8},     {"cps8", 2, 8},    {"cpe8", 2, 8},
-      {"m3d8", 2, 8},    {"sfm3d8", 2, 8}, {"cax3", 2, 3},   {"cax4", 2, 4},    {"cax6", 2, 6},
-      {"cax8", 2, 8},    {"t3d2", 1, 2},   {"b31", 1, 2},    {"b21", 1, 2},     {"t2d2", 1, 2},
-      {"t3d3", 1, 3},    {"b32", 1, 3}};
+      {"c3d5", 3, 5},    {"c3d6", 3, 6},    {"c3d8", 3, 8},   {"c3d13", 3, 13}, {"c3d15", 3, 15},
+      {"c3d20", 3, 20},  {"c3d27", 3, 27},  {"dc3d5", 3, 5},  {"dc3d6", 3, 6},  {"dc3d8", 3, 8},
+      {"dc3d15", 3, 15}, {"dc3d20", 3, 20}, {"ac3d5", 3, 5},  {"ac3d6", 3, 6},  {"ac3d8", 3, 8},
+      {"ac3d15", 3, 15}, {"ac3d20", 3, 20}, {"sc6", 3, 6},    {"sc8", 3, 8},    {"f3d6", 3, 6},
+      {"f3d8", 3, 8},    {"c3d4", 3, 4},    {"c3d10", 3, 10}, {"dc3d4", 3, 4},  {"dc3d10", 3, 10},
+      {"ac3d4", 3, 4},   {"ac3d10", 3, 10}, {"s3", 2, 3},     {"ds3", 2, 3},    {"stri3", 2, 3},
+      {"cps3", 2, 3},    {"cpe3", 2, 3},    {"m3d3", 2, 3},   {"sfm3d3", 2, 3}, {"r3d3", 2, 3},
+      {"s6", 2, 6},      {"ds6", 2, 6},     {"stri65", 2, 6}, {"cps6", 2, 6},   {"cpe6", 2, 6},
+      {"m3d6", 2, 6},    {"sfm3d6", 2, 6},  {"s4", 2, 4},     {"cps4", 2, 4},   {"cpe4", 2, 4},
+      {"m3d4", 2, 4},    {"sfm3d4", 2, 4},  {"r3d4", 2, 4},   {"s8", 2, 8},     {"cps8", 2, 8},
+      {"cpe8", 2, 8},    {"m3d8", 2, 8},    {"m3d9", 2, 9},   {"sfm3d8", 2, 8}, {"cax3", 2, 3},
+      {"cax4", 2, 4},    {"cax6", 2, 6},    {"cax8", 2, 8},   {"t3d2", 1, 2},   {"b31", 1, 2},
+      {"b21", 1, 2},     {"t2d2", 1, 2},    {"t3d3", 1, 3},   {"b32", 1, 3}};
   const std::string name = lower(given);
   const Type* best = nullptr;
   for (const Type& type : kTypes)
@@ -63,8 +68,9 @@ const InpElements::Type& InpElements::type_of(const TextReader& text, const std:
       best = &type;
   const char behind = best == nullptr || name.size() == best->prefix.size() ? ' ' : name[best->prefix.size()];
   if (best == nullptr || (behind >= '0' && behind <= '9'))
-    text.fail("elements of type " + in_quotes(given) +
-              " are not read; only tetrahedra, triangles, quadrangles and lines are");
+    text.fail(
+        "elements of type " + in_quotes(given) +
+        " are not read; only tetrahedra, hexahedra, prisms, pyramids, triangles, quadrangles and lines are");
   return *best;
 }
 
@@ -85,7 +91,7 @@ std::vector<std::int64_t> InpElements::read(InpText& text, const InpKeyword& key
     if (numbers.size() != type.nodes + 1)
       text.reader().fail("an element of " + std::to_string(type.nodes) + " nodes has " +
                          std::to_string(numbers.empty() ? 0 : numbers.size() - 1));
-    std::array<Index, 10> nodes{};
+    Nodes nodes{};
     for (std::size_t i = 0; i < type.nodes; ++i) nodes[i] = vertex(text.reader(), numbers[i + 1]);
     add(text.reader(), type, nodes, numbers[0]);
     read.push_back(numbers[0]);
@@ -111,20 +117,21 @@ Index InpElements::vertex(const TextReader& text, std::int64_t number) const {
   return *found;
 }
 
-void InpElements::add(const TextReader& text, const Type& type, const std::array<Index, 10>& n,
-                      std::int64_t number) {
+void InpElements::add(const TextReader& text, const Type& type, const Nodes& n, std::int64_t number) {
   const std::size_t before[] = {0, mesh_.segments.size(), mesh_.facets.size(), mesh_.tetrahedra.size()};
   const auto dimension = static_cast<std::size_t>(type.dimension);
   if (type.nodes == 10)
     add_second_order(mesh_, Tetrahedron{n[0], n[1], n[2], n[3]}, {n[4], n[5], n[6], n[7], n[8], n[9]}, 0);
-  else if (type.dimension == 3)
+  else if (type.dimension == 3 && type.nodes == 4)
     mesh_.add_tetrahedron({n[0], n[1], n[2], n[3]});
+  else if (type.dimension == 3)
+    add_cell(mesh_, std::span(n).first(type.nodes), corners_of_cell(type.nodes), 0);
   else if (type.nodes == 6)
     add_second_order(mesh_, Triangle{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, 0);
   else if (type.dimension == 2) {
     add_polygon(mesh_, std::span(n).first(std::min<std::size_t>(type.nodes, 4)), 0,
                 [&](const std::string& reason) { text.fail(reason); });
-    if (type.nodes == 8) add_no_corners(mesh_, std::span(n).subspan(4, 4));
+    if (type.nodes > 6) add_no_corners(mesh_, std::span(n).first(type.nodes).subspan(4));
   } else if (type.nodes == 3)  // Abaqus has the middle node between the ends
     add_second_order(mesh_, Segment{n[0], n[2]}, n[1], 0);
   else

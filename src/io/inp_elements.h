@@ -42,7 +42,8 @@ class InpElements {
   static const Type& type_of(const TextReader& text, const std::string& given);
   std::vector<std::int64_t> read_shapeless(InpText& text, const std::string& type);
   [[nodiscard]] Index vertex(const TextReader& text, std::int64_t number) const;
-  void add(const TextReader& text, const Type& type, const std::array<Index, 10>& nodes, std::int64_t number);
+  using Nodes = std::array<Index, 27>;
+  void add(const TextReader& text, const Type& type, const Nodes& nodes, std::int64_t number);
 
   MeshData& mesh_;
   Numbered nodes_, numbers_;

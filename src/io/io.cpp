@@ -5,6 +5,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "io/cells.h"
 #include "io/file_bytes.h"
 #include "io/formats.h"
 #include "io/mid_nodes.h"
@@ -153,6 +154,12 @@ void tell_polygons(MeshData& mesh) {
                                  : "")});
 }
 
+void tell_cells(MeshData& mesh, RemarkKind kind, const char* what) {
+  const std::size_t count = mesh.cells.hexahedra + mesh.cells.prisms + mesh.cells.pyramids;
+  if (count > 0)
+    mesh.remarks.push_back({kind, count, words_of(mesh.cells) + (count == 1 ? " is " : " are ") + what});
+}
+
 double tolerance_of(const ReadOptions& options) {
   if (!(options.tolerance >= 0) || std::isinf(options.tolerance))
     throw std::invalid_argument("the tolerance for polygons must be finite and not negative");
@@ -164,16 +171,20 @@ double tolerance_of(const ReadOptions& options) {
 MeshData parse_surface(const Source& source, std::string_view format) {
   MeshData mesh = surface_format(source.path, format).surface(source);
   if (mesh.vertices.empty()) throw FileError(source.path, "", "the file holds no vertices");
+  settle_quadrangles(mesh);
   settle_mid_nodes(mesh, false);
   tell_polygons(mesh);
-  mesh.leave_out(mesh.tetrahedra.size(), "tetrahedra", "tetrahedron");
+  mesh.leave_out(mesh.tetrahedra.size() - mesh.cells.tetrahedra, "tetrahedra", "tetrahedron");
+  tell_cells(mesh, RemarkKind::left_out, "left out");
   return mesh;
 }
 
 MeshData parse_volume(const Source& source, std::string_view format) {
   MeshData mesh = volume_format(source.path, format).volume(source);
+  settle_quadrangles(mesh);
   settle_mid_nodes(mesh, true);
   tell_polygons(mesh);
+  tell_cells(mesh, RemarkKind::cells_split, "split into tetrahedra");
   return mesh;
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 
+#include "io/cells.h"
 #include "io/hdf5_read.h"
 #include "io/labels.h"
 #include "io/med.h"
@@ -26,7 +27,7 @@ struct Family {
 struct ElementType {
   std::string_view name;
   std::size_t nodes;
-  enum class Kind { tetrahedron, triangle, quadrangle, segment } kind;
+  enum class Kind { tetrahedron, cell, triangle, quadrangle, segment } kind;
 };
 constexpr ElementType kTypes[] = {
     {"TE4", 4, ElementType::Kind::tetrahedron}, {"T10", 10, ElementType::Kind::tetrahedron},
@@ -34,7 +35,11 @@ constexpr ElementType kTypes[] = {
     {"TR7", 7, ElementType::Kind::triangle},    {"QU4", 4, ElementType::Kind::quadrangle},
     {"QU8", 8, ElementType::Kind::quadrangle},  {"QU9", 9, ElementType::Kind::quadrangle},
     {"SE2", 2, ElementType::Kind::segment},     {"SE3", 3, ElementType::Kind::segment},
-    {"SE4", 4, ElementType::Kind::segment},
+    {"SE4", 4, ElementType::Kind::segment},     {"HE8", 8, ElementType::Kind::cell},
+    {"H20", 20, ElementType::Kind::cell},       {"H27", 27, ElementType::Kind::cell},
+    {"PE6", 6, ElementType::Kind::cell},        {"P15", 15, ElementType::Kind::cell},
+    {"P18", 18, ElementType::Kind::cell},       {"PY5", 5, ElementType::Kind::cell},
+    {"P13", 13, ElementType::Kind::cell},
 };
 
 class MedReader {
@@ -183,9 +188,9 @@ class MedReader {
     if (nodes.size() % type.nodes != 0) fail("the last element is not whole", name);
     const std::size_t count = nodes.size() / type.nodes;
     const std::vector<std::int64_t> families = families_of(arrays, count, name);
-    NamedIds& ids = type.kind == Kind::tetrahedron ? regions_
-                    : type.kind == Kind::segment   ? segments_
-                                                   : facets_;
+    NamedIds& ids = type.kind == Kind::tetrahedron || type.kind == Kind::cell ? regions_
+                    : type.kind == Kind::segment                              ? segments_
+                                                                              : facets_;
     const std::map<std::int64_t, int> id_of_family = ids_of(families, ids);
     std::vector<Index> n(type.nodes);
     for (std::size_t i = 0; i < count; ++i) {
@@ -211,6 +216,8 @@ class MedReader {
         if (type.nodes == 4) return mesh_.add_tetrahedron(corners, id);
         return add_second_order(mesh_, corners, {at(4), at(5), at(6), at(7), at(8), at(9)}, id);
       }
+      case Kind::cell:
+        return add_cell(mesh_, n, corners_of_cell(type.nodes), id);
       case Kind::triangle:
         if (type.nodes == 7) add_no_corners(mesh_, std::span(n).subspan(3));
         if (type.nodes != 6) return mesh_.add_facet({n[0], n[1], n[2]}, id);

@@ -1,5 +1,6 @@
 // Medit's .mesh, the ASCII form of GMF (Frey, Medit: an interactive mesh visualization software,
 // INRIA RT-0253, 2001).
+#include "io/cells.h"
 #include "io/formats.h"
 #include "io/mid_nodes.h"
 #include "io/polygon.h"
@@ -17,6 +18,12 @@ void read_entities(TextReader& text, const char* what, std::size_t vertices, Add
     for (Index& corner : corners) corner = text.index("a vertex index", 1, vertices);
     add(corners, text.tag("a reference"));
   }
+}
+
+template <std::size_t N>
+void read_cells(TextReader& text, const char* what, std::size_t vertices, MeshData& mesh) {
+  read_entities<N>(text, what, vertices,
+                   [&](const std::array<Index, N>& corners, int tag) { add_cell(mesh, corners, N, tag); });
 }
 
 void read_vertices(TextReader& text, bool plane, MeshData& mesh) {
@@ -90,8 +97,13 @@ bool read_section(TextReader& text, const std::string& keyword, bool& plane, Mes
                      [&](const std::array<Index, 4>& corners, int tag) {
                        add_polygon(mesh, corners, tag, [&](const std::string& reason) { text.fail(reason); });
                      });
-  } else if (keyword == "hexahedra" || keyword == "hexaedra" || keyword == "prisms" ||
-             keyword == "pyramids" || keyword.ends_with("p2")) {
+  } else if (keyword == "hexahedra" || keyword == "hexaedra") {
+    read_cells<8>(text, "the number of hexahedra", vertices, mesh);
+  } else if (keyword == "prisms") {
+    read_cells<6>(text, "the number of prisms", vertices, mesh);
+  } else if (keyword == "pyramids") {
+    read_cells<5>(text, "the number of pyramids", vertices, mesh);
+  } else if (keyword.ends_with("p2") || keyword.ends_with("q2")) {
     refuse_elements(text, keyword);
   } else {
     skip_section(text, keyword, mesh);

@@ -64,10 +64,16 @@ struct MeshData {
   std::vector<Point> holes;
   std::vector<Remark> remarks;
   Names names;
-  std::size_t polygons_cut = 0;  ///< polygons of more than three corners, which became triangles
-  double deviation = 0;          ///< of these, the largest distance of a corner from the polygon's mean plane
-  double tolerance = 0;          ///< on that distance, for polygons that are not convex
-  bool keeps_polygons = false;   ///< polygons are kept as they are
+  /// Cells that became tetrahedra (cells.h).
+  struct Cells {
+    std::size_t hexahedra = 0, prisms = 0, pyramids = 0;
+    std::size_t tetrahedra = 0;  ///< of all of these
+  } cells;
+  std::vector<Index> quadrangles;  ///< the first of the two facets of each polygon of four corners
+  std::size_t polygons_cut = 0;    ///< polygons of more than three corners, which became triangles
+  double deviation = 0;         ///< of these, the largest distance of a corner from the polygon's mean plane
+  double tolerance = 0;         ///< on that distance, for polygons that are not convex
+  bool keeps_polygons = false;  ///< polygons are kept as they are
   std::vector<plane::PolygonFacet> polygons = {};
   Watch* watch = nullptr;
   /// Nodes on edges, as vertices of the file: of elements of second order, empty where there are none. The
@@ -98,6 +104,7 @@ struct MeshData {
   }
   /// The triangles of a polygon.
   void add_cut(const std::vector<Triangle>& triangles, double off, int marker) {
+    if (triangles.size() == 2) quadrangles.push_back(static_cast<Index>(facets.size()));
     for (const Triangle& triangle : triangles) add_facet(triangle, marker);
     ++polygons_cut;
     deviation = std::max(deviation, off);

@@ -1,6 +1,7 @@
 // MFEM's meshes (mfem.org, "Mesh formats"): version 1.0, and 1.3 where attributes have names.
 #include <algorithm>
 
+#include "io/cells.h"
 #include "io/fields.h"
 #include "io/polygon.h"
 #include "io/solver_text.h"
@@ -10,7 +11,7 @@ namespace {
 
 constexpr NameRule kNames{255, "!#$%&'()*+,-./:;<=>?@[]^_`{|}~", true, true, false, true};
 constexpr IdRule kIds{};
-constexpr int kSegment = 1, kTriangle = 2, kTetrahedron = 4;  // 3 are squares
+constexpr int kSegment = 1, kTriangle = 2, kTetrahedron = 4, kPyramid = 7;  // 3 squares, 5 cubes, 6 prisms
 
 class MfemReader {
  public:
@@ -29,7 +30,7 @@ class MfemReader {
   struct Entity {
     int attribute;
     std::int64_t type;
-    std::array<std::int64_t, 4> corners;
+    std::array<std::int64_t, 8> corners;
     std::size_t position;
   };
 
@@ -57,9 +58,8 @@ class MfemReader {
     for (std::size_t i = 0; i < count; ++i) {
       Entity entity{text_.tag("an attribute"), text_.integer("a geometry type"), {}, 0};
       entity.position = text_.last();
-      if (entity.type < kSegment || entity.type > kTetrahedron)
-        text_.fail("elements of geometry " + std::to_string(entity.type) +
-                   " are not read; only segments, triangles, squares and tetrahedra are");
+      if (entity.type < kSegment || entity.type > kPyramid)
+        text_.fail("elements of geometry " + std::to_string(entity.type) + " are not read");
       for (std::size_t k = 0; k < corners_of(entity.type); ++k)
         entity.corners[k] = text_.integer("a vertex index");
       entities_.push_back(entity);
@@ -67,7 +67,8 @@ class MfemReader {
   }
 
   static std::size_t corners_of(std::int64_t type) {
-    return type == kSegment ? 2 : type == kTriangle ? 3 : 4;
+    constexpr std::size_t kCorners[] = {2, 3, 4, 4, 8, 6, 5};
+    return kCorners[static_cast<std::size_t>(type - kSegment)];
   }
 
   /// Lines of a name in quotes, a number of attributes and these. A set of one attribute names it.
@@ -102,7 +103,7 @@ class MfemReader {
 
   void add_entities() {
     for (const Entity& entity : entities_) {
-      std::array<Index, 4> n{};
+      std::array<Index, 8> n{};
       const std::size_t corners = corners_of(entity.type);
       for (std::size_t k = 0; k < corners; ++k) {
         if (entity.corners[k] < 0 || static_cast<std::uint64_t>(entity.corners[k]) >= mesh_.vertices.size())
@@ -112,7 +113,9 @@ class MfemReader {
         n[k] = static_cast<Index>(entity.corners[k]);
       }
       if (entity.type == kTetrahedron)
-        mesh_.add_tetrahedron(n, regions_.resolve(entity.attribute));
+        mesh_.add_tetrahedron({n[0], n[1], n[2], n[3]}, regions_.resolve(entity.attribute));
+      else if (entity.type > kTetrahedron)
+        add_cell(mesh_, std::span(n).first(corners), corners, regions_.resolve(entity.attribute));
       else if (entity.type == kSegment)
         mesh_.add_segment({n[0], n[1]}, entity.attribute);
       else

@@ -9,6 +9,7 @@
 #include <set>
 #include <span>
 
+#include "io/cells.h"
 #include "io/formats.h"
 #include "io/labels.h"
 #include "io/mid_nodes.h"
@@ -293,7 +294,7 @@ class MshReader {
     static const std::map<std::int64_t, std::size_t> nodes{{1, 2}, {2, 3}, {3, 4}, {8, 3}, {9, 6}, {15, 1}};
     const auto found = nodes.find(type);
     const MshByCorners* const other = by_corners(type);
-    if (found == nodes.end() && (other == nullptr || other->shape == MshShape::tetrahedron))
+    if (found == nodes.end() && (other == nullptr || other->shape >= MshShape::tetrahedron))
       in_.fail("elements of type " + std::to_string(type) + " do not lie between parts");
     const std::size_t count = found != nodes.end() ? found->second : other->nodes;
     for (std::size_t i = 0; i < count; ++i) static_cast<void>(node_tag());
@@ -350,12 +351,11 @@ class MshReader {
     }
   }
 
-  /// An element of higher order, or a quadrangle of second order: its corners come first.
+  /// An element of higher order, a quadrangle of second order, or a cell that is split: its corners come
+  /// first.
   void read_by_corners(std::int64_t type, int segment, int facet, int region) {
     const MshByCorners* const found = by_corners(type);
-    if (found == nullptr)
-      in_.fail("elements of type " + std::to_string(type) +
-               " are not read; only points, lines, triangles, quadrangles and tetrahedra are");
+    if (found == nullptr) in_.fail("elements of type " + std::to_string(type) + " are not read");
     std::vector<Index> n(found->nodes);
     for (Index& node : n) node = nodes_.index(in_, node_tag());
     switch (found->shape) {
@@ -372,6 +372,10 @@ class MshReader {
       case MshShape::tetrahedron:
         mesh_.add_tetrahedron({n[0], n[1], n[2], n[3]}, region);
         break;
+      case MshShape::hexahedron:
+      case MshShape::prism:
+      case MshShape::pyramid:
+        return add_cell(mesh_, n, corners_of(found->shape), region);
     }
     add_no_corners(mesh_, std::span(n).subspan(corners_of(found->shape)));
   }

@@ -8,10 +8,10 @@
 
 namespace holdfast::io {
 
-enum class MshShape : std::size_t { line, triangle, quadrangle, tetrahedron };
+enum class MshShape : std::size_t { line, triangle, quadrangle, tetrahedron, hexahedron, prism, pyramid };
 
 [[nodiscard]] inline std::size_t corners_of(MshShape shape) {
-  constexpr std::size_t kCorners[] = {2, 3, 4, 4};
+  constexpr std::size_t kCorners[] = {2, 3, 4, 4, 8, 6, 5};
   return kCorners[static_cast<std::size_t>(shape)];
 }
 
@@ -25,7 +25,11 @@ struct MshByCorners {
 [[nodiscard]] inline const MshByCorners* by_corners(std::int64_t type) {
   using enum MshShape;
   static constexpr MshByCorners kTypes[] = {
-      {10, quadrangle, 9},    {16, quadrangle, 8},                            // second order
+      {5, hexahedron, 8},     {6, prism, 6},          {7, pyramid, 5},        // first order
+      {10, quadrangle, 9},    {16, quadrangle, 8},    {12, hexahedron, 27},   // second
+      {17, hexahedron, 20},   {13, prism, 18},        {18, prism, 15},        //
+      {14, pyramid, 14},      {19, pyramid, 13},      {92, hexahedron, 64},   // and third
+      {90, prism, 40},        {118, pyramid, 30},                             //
       {26, line, 4},          {21, triangle, 10},     {20, triangle, 9},      // third
       {36, quadrangle, 16},   {39, quadrangle, 12},   {29, tetrahedron, 20},  //
       {27, line, 5},          {23, triangle, 15},     {22, triangle, 12},     // fourth

@@ -2,6 +2,7 @@
 // corner the other way round.
 #include <algorithm>
 
+#include "io/cells.h"
 #include "io/fields.h"
 #include "io/mid_nodes.h"
 #include "io/polygon.h"
@@ -115,14 +116,20 @@ class VolReader {
   template <std::size_t N>
   std::array<Index, N> indices(const Entity& entity) const {
     std::array<Index, N> result{};
-    for (std::size_t k = 0; k < N; ++k) {
-      const std::int64_t v = entity.nodes[k];
-      if (v < 1 || static_cast<std::uint64_t>(v) > mesh_.vertices.size())
-        text_.fail_at(entity.position, "the point " + std::to_string(v) + " does not exist; there are " +
-                                           std::to_string(mesh_.vertices.size()));
-      result[k] = static_cast<Index>(v - 1);
-    }
+    for (std::size_t k = 0; k < N; ++k) result[k] = index(entity, k);
     return result;
+  }
+  [[nodiscard]] std::vector<Index> all_indices(const Entity& entity) const {
+    std::vector<Index> result;
+    for (std::size_t k = 0; k < entity.nodes.size(); ++k) result.push_back(index(entity, k));
+    return result;
+  }
+  [[nodiscard]] Index index(const Entity& entity, std::size_t k) const {
+    const std::int64_t v = entity.nodes[k];
+    if (v < 1 || static_cast<std::uint64_t>(v) > mesh_.vertices.size())
+      text_.fail_at(entity.position, "the point " + std::to_string(v) + " does not exist; there are " +
+                                         std::to_string(mesh_.vertices.size()));
+    return static_cast<Index>(v - 1);
   }
 
   void add_entities() {
@@ -137,9 +144,11 @@ class VolReader {
       const auto n = indices<4>(entity);
       return mesh_.add_tetrahedron({n[0], n[2], n[1], n[3]}, id);
     }
+    if (const std::size_t corners = corners_of_cell(entity.nodes.size()); corners != 0)
+      return add_cell(mesh_, all_indices(entity), corners, id);
     if (entity.nodes.size() != 10)
-      text_.fail_at(entity.position, "elements of " + std::to_string(entity.nodes.size()) +
-                                         " nodes are not read; only tetrahedra are");
+      text_.fail_at(entity.position,
+                    "elements of " + std::to_string(entity.nodes.size()) + " nodes are not read");
     const auto n = indices<10>(entity);
     add_second_order(mesh_, Tetrahedron{n[0], n[2], n[1], n[3]}, {n[5], n[7], n[4], n[6], n[9], n[8]}, id);
   }

@@ -1,6 +1,7 @@
 // SU2's native meshes (SU2 documentation, "Mesh file"): tetrahedra, and triangles of the boundary by markers.
 #include <algorithm>
 
+#include "io/cells.h"
 #include "io/fields.h"
 #include "io/polygon.h"
 #include "io/solver_text.h"
@@ -10,7 +11,8 @@ namespace {
 
 constexpr NameRule kNames{128, "_-."};
 constexpr IdRule kAnyId{false};
-constexpr int kLine = 3, kTriangle = 5, kQuadrangle = 9, kTetrahedron = 10;
+constexpr int kLine = 3, kTriangle = 5, kQuadrangle = 9, kTetrahedron = 10, kHexahedron = 12, kPrism = 13,
+              kPyramid = 14;
 
 class Su2Reader {
  public:
@@ -22,6 +24,7 @@ class Su2Reader {
     while (next()) read_section();
     if (!has_dimension_) text_.fail("there is no NDIME=, so this is no SU2 mesh");
     if (mesh_.vertices.size() != points_) text_.fail("there are other than NPOIN= points");
+    add_what_is_cut();
     mesh_.leave_out(skipped_, "sections of other kinds", "section of another kind");
     mesh_.names.facets = names_.take();
     return std::move(mesh_);
@@ -111,12 +114,10 @@ class Su2Reader {
   void read_element(int marker) {
     const std::vector<std::string_view> f = fields();
     const std::int64_t type = integer_of(text_, f[0], "an element's type");
-    const std::size_t corners = type == kLine ? 2 : type == kTriangle ? 3 : 4;
-    if (type != kLine && type != kTriangle && type != kQuadrangle && type != kTetrahedron)
-      text_.fail("elements of type " + std::to_string(type) +
-                 " are not read; only tetrahedra, triangles, quadrangles and lines are");
+    const std::size_t corners = corners_of(type);
+    if (corners == 0) text_.fail("elements of type " + std::to_string(type) + " are not read");
     if (f.size() < corners + 1) text_.fail("an element of fewer corners than its type has");
-    std::array<Index, 4> n{};
+    std::array<Index, 8> n{};
     for (std::size_t i = 0; i < corners; ++i) {
       const std::int64_t v = integer_of(text_, f[i + 1], "a point's index");
       if (v < 0 || static_cast<std::uint64_t>(v) >= points_)
@@ -125,24 +126,57 @@ class Su2Reader {
       n[i] = static_cast<Index>(v);
     }
     if (type == kTetrahedron)
-      mesh_.add_tetrahedron(n);
+      mesh_.add_tetrahedron({n[0], n[1], n[2], n[3]});
     else if (type == kLine)
       mesh_.add_segment({n[0], n[1]}, marker);
     else if (type == kTriangle)
       mesh_.add_facet({n[0], n[1], n[2]}, marker);
     else
-      add_quadrangle(n, marker);
+      cuts_.push_back({n, corners, marker, text_.last()});
   }
 
-  /// Its points may not be read yet, which the cut of a quadrangle depends on; SU2 itself has any order.
-  void add_quadrangle(const std::array<Index, 4>& n, int marker) {
-    if (mesh_.vertices.size() != points_) text_.fail("quadrangles before the points are not read");
-    add_polygon(mesh_, n, marker, [&](const std::string& reason) { text_.fail(reason); });
+  static std::size_t corners_of(std::int64_t type) {
+    switch (type) {
+      case kLine:
+        return 2;
+      case kTriangle:
+        return 3;
+      case kQuadrangle:
+      case kTetrahedron:
+        return 4;
+      case kPyramid:
+        return 5;
+      case kPrism:
+        return 6;
+      case kHexahedron:
+        return 8;
+      default:
+        return 0;
+    }
   }
 
+  /// What is cut depends on the points, which may follow.
+  void add_what_is_cut() {
+    for (const Cut& cut : cuts_) {
+      const std::span<const Index> n = std::span(cut.corners).first(cut.count);
+      if (cut.count > 4)
+        add_cell(mesh_, n, cut.count, 0);
+      else
+        add_polygon(mesh_, n, cut.marker,
+                    [&](const std::string& reason) { text_.fail_at(cut.position, reason); });
+    }
+  }
+
+  struct Cut {
+    std::array<Index, 8> corners;
+    std::size_t count;
+    int marker;
+    std::size_t position;
+  };
   TextReader text_;
   std::string_view line_;
   MeshData mesh_;
+  std::vector<Cut> cuts_;
   std::size_t points_ = 0, skipped_ = 0;
   bool has_dimension_ = false;
   int marker_ = 0;

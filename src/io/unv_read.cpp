@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "io/cells.h"
 #include "io/fields.h"
 #include "io/formats.h"
 #include "io/labels.h"
@@ -131,6 +132,12 @@ class UnvReader {
     return *found;
   }
 
+  static std::vector<Index> in_order(const std::vector<Index>& n, std::initializer_list<std::size_t> places) {
+    std::vector<Index> ordered;
+    for (const std::size_t k : places) ordered.push_back(n[k]);
+    return ordered;
+  }
+
   void add(std::int64_t type, const std::vector<Index>& n, std::int64_t number, int property) {
     const auto has = [&](std::size_t count) {
       if (n.size() != count)
@@ -149,6 +156,23 @@ class UnvReader {
         has(10);
         dimension = 3;
         add_second_order(mesh_, Tetrahedron{n[0], n[2], n[4], n[9]}, {n[1], n[3], n[5], n[6], n[7], n[8]}, 0);
+        break;
+      case 112:
+      case 115:
+        has(type == 112 ? 6 : 8);
+        dimension = 3;
+        add_cell(mesh_, n, n.size(), 0);
+        break;
+      case 113:  // a ring with the nodes on its edges, those on the edges across, the other ring
+        has(15);
+        dimension = 3;
+        add_cell(mesh_, in_order(n, {0, 2, 4, 9, 11, 13, 1, 3, 5, 6, 7, 8, 10, 12, 14}), 6, 0);
+        break;
+      case 116:
+        has(20);
+        dimension = 3;
+        add_cell(mesh_, in_order(n, {0, 2, 4, 6, 12, 14, 16, 18, 1, 3, 5, 7, 8, 9, 10, 11, 13, 15, 17, 19}),
+                 8, 0);
         break;
       case 41:
       case 51:
@@ -174,6 +198,17 @@ class UnvReader {
         has(4);
         add_polygon(mesh_, n, 0, [&](const std::string& reason) { text_.fail(reason); });
         break;
+      case 45:
+      case 55:
+      case 65:
+      case 75:
+      case 95: {
+        has(8);
+        const std::vector<Index> corners = in_order(n, {0, 2, 4, 6});
+        add_no_corners(mesh_, in_order(n, {1, 3, 5, 7}));
+        add_polygon(mesh_, corners, 0, [&](const std::string& reason) { text_.fail(reason); });
+        break;
+      }
       case 11:
       case 21:
       case 22:
@@ -188,7 +223,7 @@ class UnvReader {
         break;
       default:
         text_.fail("elements of type " + std::to_string(type) +
-                   " are not read; only tetrahedra, triangles, quadrangles and beams are");
+                   " are not read; only tetrahedra, hexahedra, prisms, triangles, quadrangles and beams are");
     }
     const std::size_t after[] = {0, mesh_.segments.size(), mesh_.facets.size(), mesh_.tetrahedra.size()};
     numbers_.add(number);

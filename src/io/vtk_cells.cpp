@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "io/cells.h"
 #include "io/mid_nodes.h"
 #include "io/polygon.h"
 #include "io/text_reader.h"
@@ -132,6 +133,11 @@ class CellReader {
         require_corners(4);
         return mesh_.add_tetrahedron({corners_[0], corners_[1], corners_[2], corners_[3]},
                                      tag_of(grid_.regions, cell_));
+      case VtkCell::voxel:
+        require_corners(8);
+        std::swap(corners_[2], corners_[3]);  // row by row, not round
+        std::swap(corners_[6], corners_[7]);
+        return add_cell_of(8);
       case VtkCell::quadratic_edge:
         require_corners(3);
         return add_second_order(mesh_, Segment{corners_[0], corners_[1]}, corners_[2], marker);
@@ -179,10 +185,32 @@ class CellReader {
         const auto c = corners(4);
         return mesh_.add_tetrahedron({c[0], c[1], c[2], c[3]}, tag_of(grid_.regions, cell_));
       }
+      case VtkCell::hexahedron:
+      case VtkCell::quadratic_hexahedron:
+      case VtkCell::triquadratic_hexahedron:
+      case VtkCell::biquadratic_quadratic_hexahedron:
+      case VtkCell::lagrange_hexahedron:
+        return add_cell_of(8);
+      case VtkCell::wedge:
+      case VtkCell::quadratic_wedge:
+      case VtkCell::quadratic_linear_wedge:
+      case VtkCell::biquadratic_wedge:
+      case VtkCell::lagrange_wedge:
+        return add_cell_of(6);
+      case VtkCell::pyramid:
+      case VtkCell::quadratic_pyramid:
+      case VtkCell::triquadratic_pyramid:
+      case VtkCell::lagrange_pyramid:
+        return add_cell_of(5);
       default:
         fail("is of type " + std::to_string(grid_.types[cell_]) +
              ", which is not read; split it into triangles or tetrahedra");
     }
+  }
+
+  void add_cell_of(std::size_t corners) {
+    if (corners_.size() < corners) fail("has fewer than " + std::to_string(corners) + " corners");
+    io::add_cell(mesh_, corners_, corners, tag_of(grid_.regions, cell_));
   }
 
   const std::filesystem::path& path_;

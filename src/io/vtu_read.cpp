@@ -36,6 +36,8 @@ void append(MeshData& mesh, MeshData&& part, const std::vector<Index>& number) {
     else
       mesh.add_tetrahedron(tetrahedra[i], tag_of(regions, i));
   }
+  for (const Index first : part.quadrangles)
+    mesh.quadrangles.push_back(static_cast<Index>(mesh.facets.size()) + first);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     if (i < mids_of_facets.size() && mids_of_facets[i][0] != no_entity)
       add_second_order(mesh, triangles[i], mids_of_facets[i], tag_of(facets, i));
@@ -49,6 +51,10 @@ void append(MeshData& mesh, MeshData&& part, const std::vector<Index>& number) {
       mesh.add_segment(lines[i], tag_of(segments, i));
   }
   mesh.polygons_cut += part.polygons_cut;
+  mesh.cells.hexahedra += part.cells.hexahedra;
+  mesh.cells.prisms += part.cells.prisms;
+  mesh.cells.pyramids += part.cells.pyramids;
+  mesh.cells.tetrahedra += part.cells.tetrahedra;
   mesh.remarks.insert(mesh.remarks.end(), part.remarks.begin(), part.remarks.end());
   mesh.names.facets.merge(part.names.facets);
   mesh.names.regions.merge(part.names.regions);

@@ -32,11 +32,35 @@ constexpr Shape kShapes[] = {
     {"edge_3", "", 34, VtkCell::quadratic_edge, 3},
     {"triangle_6", "tri_6", 36, VtkCell::quadratic_triangle, 6},
     {"tetrahedron_10", "tet_10", 38, VtkCell::quadratic_tetrahedron, 10},
+    {"pyramid", "", 7, VtkCell::pyramid, 5},
+    {"wedge", "", 8, VtkCell::wedge, 6},
+    {"hexahedron", "", 9, VtkCell::hexahedron, 8},
+    {"pyramid_13", "", 39, VtkCell::quadratic_pyramid, 13},
+    {"wedge_15", "", 40, VtkCell::quadratic_wedge, 15},
+    {"wedge_18", "", 41, VtkCell::biquadratic_wedge, 18},
+    {"hexahedron_20", "hex_20", 48, VtkCell::quadratic_hexahedron, 20},
+    {"hexahedron_24", "hex_24", 49, VtkCell::biquadratic_quadratic_hexahedron, 24},
+    {"hexahedron_27", "hex_27", 50, VtkCell::triquadratic_hexahedron, 27},
 };
 
 bool is_volume(std::uint8_t type) {
-  return type == static_cast<std::uint8_t>(VtkCell::tetrahedron) ||
-         type == static_cast<std::uint8_t>(VtkCell::quadratic_tetrahedron);
+  using enum VtkCell;
+  switch (static_cast<VtkCell>(type)) {
+    case tetrahedron:
+    case quadratic_tetrahedron:
+    case pyramid:
+    case wedge:
+    case hexahedron:
+    case quadratic_pyramid:
+    case quadratic_wedge:
+    case biquadratic_wedge:
+    case quadratic_hexahedron:
+    case biquadratic_quadratic_hexahedron:
+    case triquadratic_hexahedron:
+      return true;
+    default:
+      return false;
+  }
 }
 
 class XdmfReader {

@@ -179,8 +179,9 @@ TEST_F(Variants, UcdOfAvs) {
     std::string changed = bytes;
     return error(changed.replace(changed.find(from), from.size(), to), "a.avs");
   };
-  EXPECT_EQ(with("3 7 tri", "3 7 hex"),
-            "line 9: cells of the kind 'hex' are not read; only pt, line, tri, quad and tet are");
+  EXPECT_EQ(
+      with("3 7 tri", "3 7 oct"),
+      "line 9: cells of the kind 'oct' are not read; only pt, line, tri, quad, tet, pyr, prism and hex are");
   EXPECT_EQ(with("tri 10 30 20", "tri 10 30 25"), "line 9: the node 25 does not exist");
   EXPECT_EQ(with("4 4 1 0 0", "4 4000000 1 0 0").substr(0, 34), "line 2: the number of cells is 400");
   EXPECT_EQ(with("20 1 0 0", "10 1 0 0"), "the node 10 occurs twice");

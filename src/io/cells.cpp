@@ -1,0 +1,112 @@
+#include "io/cells.h"
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <stdexcept>
+#include <utility>
+
+#include "exact/predicates.h"
+#include "io/mid_nodes.h"
+
+namespace holdfast::io {
+namespace {
+
+using Faces = std::initializer_list<std::initializer_list<std::size_t>>;
+
+constexpr Faces kHexahedron{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                            {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+constexpr Faces kPrism{{0, 2, 1}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
+constexpr Faces kPyramid{{0, 3, 2, 1}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+
+Faces faces_of(std::size_t corners, MeshData::Cells& cells) {
+  switch (corners) {
+    case 8:
+      ++cells.hexahedra;
+      return kHexahedron;
+    case 6:
+      ++cells.prisms;
+      return kPrism;
+    case 5:
+      ++cells.pyramids;
+      return kPyramid;
+    default:
+      throw std::logic_error("a cell of neither 5, 6 nor 8 corners");
+  }
+}
+
+// A face without what is there twice.
+struct Ring {
+  std::array<Index, 4> corners;
+  std::size_t count = 0;
+
+  Ring(std::span<const Index> nodes, std::initializer_list<std::size_t> face) {
+    for (const std::size_t k : face)
+      if (!holds(nodes[k])) corners[count++] = nodes[k];
+  }
+  [[nodiscard]] bool holds(Index v) const {
+    return std::find(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(count), v) !=
+           corners.begin() + static_cast<std::ptrdiff_t>(count);
+  }
+  [[nodiscard]] std::size_t lowest() const {
+    return static_cast<std::size_t>(
+        std::min_element(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(count)) -
+        corners.begin());
+  }
+};
+
+bool is_turned(const MeshData& mesh, const Tetrahedron& t) {
+  const auto at = [&](std::size_t k) { return mesh.vertices[t[k]].data(); };
+  return exact::orient3d(at(0), at(1), at(2), at(3)) < 0;
+}
+
+bool holds(const Triangle& t, Index v) { return t[0] == v || t[1] == v || t[2] == v; }
+
+}  // namespace
+
+void add_cell(MeshData& mesh, std::span<const Index> nodes, std::size_t corners, int region) {
+  const Faces faces = faces_of(corners, mesh.cells);
+  add_no_corners(mesh, nodes.subspan(corners));
+  const Index apex = *std::min_element(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(corners));
+  for (const auto& face : faces) {
+    const Ring ring(nodes, face);
+    if (ring.holds(apex)) continue;
+    const std::size_t first = ring.lowest();
+    const auto at = [&](std::size_t k) { return ring.corners[(first + k) % ring.count]; };
+    for (std::size_t k = 2; k < ring.count; ++k) {
+      Tetrahedron tet{apex, at(0), at(k - 1), at(k)};
+      if (is_turned(mesh, tet)) std::swap(tet[2], tet[3]);
+      mesh.add_tetrahedron(tet, region);
+      ++mesh.cells.tetrahedra;
+    }
+  }
+}
+
+void settle_quadrangles(MeshData& mesh) {
+  if (mesh.cells.tetrahedra == 0) return;
+  for (const Index first : mesh.quadrangles) {
+    Triangle &one = mesh.facets[first], &other = mesh.facets[first + 1];
+    std::size_t i = 0, j = 0;  // of the corners that are not on the diagonal
+    while (i < 3 && holds(other, one[i])) ++i;
+    while (j < 3 && holds(one, other[j])) ++j;
+    if (i == 3 || j == 3) continue;
+    const Index p = one[i], q = other[j], a = one[(i + 1) % 3], b = one[(i + 2) % 3];
+    if (std::min(a, b) < std::min(p, q)) continue;
+    one = {p, a, q};
+    other = {q, b, p};
+  }
+}
+
+std::string words_of(const MeshData::Cells& cells) {
+  std::string words;
+  const auto add = [&](std::size_t count, const char* one, const char* several) {
+    if (count == 0) return;
+    words += (words.empty() ? "" : " and ") + std::to_string(count) + ' ' + (count == 1 ? one : several);
+  };
+  add(cells.hexahedra, "hexahedron", "hexahedra");
+  add(cells.prisms, "prism", "prisms");
+  add(cells.pyramids, "pyramid", "pyramids");
+  return words;
+}
+
+}  // namespace holdfast::io
