@@ -98,14 +98,16 @@ void settle_quadrangles(MeshData& mesh) {
 }
 
 std::string words_of(const MeshData::Cells& cells) {
-  std::string words;
+  std::vector<std::string> all;
   const auto add = [&](std::size_t count, const char* one, const char* several) {
-    if (count == 0) return;
-    words += (words.empty() ? "" : " and ") + std::to_string(count) + ' ' + (count == 1 ? one : several);
+    if (count > 0) all.push_back(std::to_string(count) + ' ' + (count == 1 ? one : several));
   };
   add(cells.hexahedra, "hexahedron", "hexahedra");
   add(cells.prisms, "prism", "prisms");
   add(cells.pyramids, "pyramid", "pyramids");
+  std::string words;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    words += (i == 0 ? "" : i + 1 == all.size() ? " and " : ", ") + all[i];
   return words;
 }
 

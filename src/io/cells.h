@@ -42,7 +42,7 @@ void add_cell(MeshData& mesh, std::span<const Index> nodes, std::size_t corners,
 /// Gives the quadrangles that became facets the diagonals that the cells beside them have, if there are any.
 void settle_quadrangles(MeshData& mesh);
 
-/// "2 hexahedra and 1 pyramid", of those that were added.
+/// "2 hexahedra, 1 prism and 1 pyramid", of those that were added.
 [[nodiscard]] std::string words_of(const MeshData::Cells& cells);
 
 }  // namespace holdfast::io

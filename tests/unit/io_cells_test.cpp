@@ -251,7 +251,7 @@ TEST_F(Cells, OfEveryFormatFitTogether) {
                                      [](const Remark& r) { return r.kind == RemarkKind::cells_split; });
       ASSERT_NE(told, remarks_.end());
       EXPECT_EQ(told->count, 3u);
-      EXPECT_EQ(told->message, "1 hexahedron and 1 prism and 1 pyramid are split into tetrahedra");
+      EXPECT_EQ(told->message, "1 hexahedron, 1 prism and 1 pyramid are split into tetrahedra");
     }
   }
 }
@@ -266,7 +266,7 @@ TEST_F(Cells, ReadAsASurfaceAreLeftOut) {
   put(folder_ / "a.msh", msh(Block()));
   const Surface surface = read_surface(folder_ / "a.msh");
   EXPECT_EQ(surface.facets.size(), 6u);
-  EXPECT_EQ(surface.remarks.back().message, "1 hexahedron and 1 prism and 1 pyramid are left out");
+  EXPECT_EQ(surface.remarks.back().message, "1 hexahedron, 1 prism and 1 pyramid are left out");
 }
 
 /// A prism written as a hexahedron, as programs do that know no others.
