@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "exact/predicates.h"
 #include "io/mid_nodes.h"
+#include "io/turn.h"
 
 namespace holdfast::io {
 namespace {
@@ -55,11 +55,6 @@ struct Ring {
   }
 };
 
-bool is_turned(const MeshData& mesh, const Tetrahedron& t) {
-  const auto at = [&](std::size_t k) { return mesh.vertices[t[k]].data(); };
-  return exact::orient3d(at(0), at(1), at(2), at(3)) < 0;
-}
-
 bool holds(const Triangle& t, Index v) { return t[0] == v || t[1] == v || t[2] == v; }
 
 }  // namespace
@@ -75,7 +70,7 @@ void add_cell(MeshData& mesh, std::span<const Index> nodes, std::size_t corners,
     const auto at = [&](std::size_t k) { return ring.corners[(first + k) % ring.count]; };
     for (std::size_t k = 2; k < ring.count; ++k) {
       Tetrahedron tet{apex, at(0), at(k - 1), at(k)};
-      if (is_turned(mesh, tet)) std::swap(tet[2], tet[3]);
+      if (is_turned(tet, mesh.vertices)) std::swap(tet[2], tet[3]);
       mesh.add_tetrahedron(tet, region);
       ++mesh.cells.tetrahedra;
     }

@@ -15,8 +15,9 @@ namespace holdfast::io {
 ///
 /// Each quadrangle gets the diagonal at its vertex of the lowest index, so that cells fit together whatever
 /// their kinds and order (Dompierre, Labbé, Vallet, Camarero 1999), and the tetrahedra join the cell's lowest
-/// vertex to the triangles of the faces that it is not in. They are positive as far as the cell allows:
-/// which way round a file lists its corners does not matter. The vertices must be known.
+/// vertex to the triangles of the faces that it is not in. They are positive as far as the cell allows and
+/// plain arithmetic tells: which way round a file lists its corners does not matter. The vertices must be
+/// known.
 void add_cell(MeshData& mesh, std::span<const Index> nodes, std::size_t corners, int region);
 
 /// Of a cell of first or second order, by the number of its nodes: 5 or 13, 6 or 15 or 18, 8 or 20 or 27;

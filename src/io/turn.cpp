@@ -7,7 +7,7 @@
 namespace holdfast::io {
 namespace {
 
-double volume_of(const Tetrahedron& t, const std::vector<Point>& vertices) {
+double volume_in_plain_arithmetic(const Tetrahedron& t, const std::vector<Point>& vertices) {
   std::array<Point, 3> e{};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t k = 0; k < 3; ++k) e[i][k] = vertices[t[i + 1]][k] - vertices[t[0]][k];
@@ -18,10 +18,15 @@ double volume_of(const Tetrahedron& t, const std::vector<Point>& vertices) {
 
 }  // namespace
 
+bool is_turned(const Tetrahedron& t, const std::vector<Point>& vertices) {
+  return volume_in_plain_arithmetic(t, vertices) < 0;
+}
+
 void turn_if_all_are_turned(MeshData& mesh, const std::string& remark) {
   std::vector<Tetrahedron>& all = mesh.tetrahedra;
-  const auto is_turned = [&](const Tetrahedron& t) { return volume_of(t, mesh.vertices) < 0; };
-  if (all.empty() || !std::all_of(all.begin(), all.end(), is_turned)) return;
+  if (all.empty() ||
+      !std::all_of(all.begin(), all.end(), [&](const Tetrahedron& t) { return is_turned(t, mesh.vertices); }))
+    return;
   for (Tetrahedron& t : all) std::swap(t[1], t[2]);
   for (auto& nodes : mesh.mids.tetrahedra) {  // of the edges 01 12 02 03 13 23
     std::swap(nodes[0], nodes[2]);

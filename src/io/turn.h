@@ -11,4 +11,8 @@ namespace holdfast::io {
 /// so. Where only some are, the file is as wrong as it stands.
 void turn_if_all_are_turned(MeshData& mesh, const std::string& remark);
 
+/// Whether the volume of a tetrahedron is negative in plain arithmetic: nothing of the topology depends on
+/// it.
+[[nodiscard]] bool is_turned(const Tetrahedron& t, const std::vector<Point>& vertices);
+
 }  // namespace holdfast::io
