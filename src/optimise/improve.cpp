@@ -37,14 +37,14 @@ class Improver {
     for (int round = 0; round < passes_.rounds; ++round) {
       stage_ = {static_cast<double>(passes_.passes + round) / steps, 1.0 / steps};
       volume_.touch_all();
-      if (!work_on_the_worst(passes_.aim, passes_.work_per_tet, false)) break;
+      if (!work_on_single_ones(passes_.aim, passes_.work_per_tet, Patience::usual)) break;
     }
     // The very worst are few: they get as many rounds as help.
     const double aim = passes_.patient_aim + tuning::kBeyondPatientAim;
     volume_.touch_all();
     for (int round = 0; round < tuning::kPatientRounds * passes_.rounds; ++round) {
       volume_.touch_beside_touched();
-      if (!work_on_the_worst(aim, tuning::kPatientShare * passes_.work_per_tet, true)) break;
+      if (!work_on_single_ones(aim, tuning::kPatientShare * passes_.work_per_tet, Patience::all_ways)) break;
     }
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
       if (is_worse(t, stats_.worst)) stats_.worst = volume_.energy(t);
@@ -52,11 +52,13 @@ class Improver {
   }
 
  private:
+  using Patience = EnergyWays::Patience;
+
   struct Entry {
-    double energy;
+    double rank;
     Tet tet;
     friend bool operator<(const Entry& x, const Entry& y) {
-      return x.energy != y.energy ? x.energy < y.energy : x.tet > y.tet;
+      return x.rank != y.rank ? x.rank < y.rank : x.tet > y.tet;
     }
   };
 
@@ -125,13 +127,14 @@ class Improver {
     return std::any_of(c.begin(), c.end(), [&](Vertex v) { return !volume_.may_move(v); });
   }
 
-  // One element after another, the worst first, each in every way, or in every one but the slowest, as long
-  // as there is work left to spend. Returns whether any became better.
-  bool work_on_the_worst(double aim, double work_per_tet, bool refill) {
+  // One element after another, as long as there is work left to spend. Returns whether any became better.
+  bool work_on_single_ones(double aim, double work_per_tet, Patience patience) {
     const double from = energy_of_sine(aim);
     std::priority_queue<Entry> queue;
+    const bool worst_first = patience == Patience::all_ways || passes_.first == tuning::First::the_worst;
+    const auto rank = [&](Tet t) { return worst_first ? volume_.energy(t) : -volume_.energy(t); };
     const auto push = [&](Tet t) {
-      if (is_worse(t, from)) queue.push({volume_.energy(t), t});
+      if (is_worse(t, from)) queue.push({rank(t), t});
     };
     for (Tet t = 0; t < mesh_.slot_count(); ++t) push(t);
     const double count = 1 + static_cast<double>(queue.size());
@@ -140,16 +143,17 @@ class Improver {
     bool any = false;
     while (!queue.empty()) {
       if (work >= budget) {
-        if (refill || budget >= tuning::kMostShares * share || !has_many_bad_inside()) break;
+        if (patience == Patience::all_ways || budget >= tuning::kMostShares * share || !has_many_bad_inside())
+          break;
         budget += share;
       }
-      const Entry worst = queue.top();
+      const Entry next = queue.top();
       queue.pop();
-      if (!volume_.is_inside(worst.tet) || volume_.energy(worst.tet) != worst.energy) continue;
-      if (!volume_.take_changed(worst.tet)) continue;
+      if (!volume_.is_inside(next.tet) || rank(next.tet) != next.rank) continue;
+      if (!volume_.take_changed(next.tet)) continue;
       poll(std::max(work / budget, 1 - std::min(1.0, static_cast<double>(queue.size()) / count)));
       ways_.allow_points(volume_.may_add() && stats_.inserted < most_inserted_);
-      const EnergyWays::Outcome outcome = ways_.try_all(worst.tet, refill, work);
+      const EnergyWays::Outcome outcome = ways_.try_all(next.tet, patience, work);
       if (outcome.changed.empty()) continue;
       any = true;
       ++(stats_.*outcome.count);

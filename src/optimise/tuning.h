@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "holdfast/holdfast.h"
 
@@ -95,6 +96,10 @@ inline constexpr std::size_t kMostShellForFlat = 14;  ///< tetrahedra of a shell
 inline constexpr std::size_t kFlatShells = 200;       ///< shells looked at for one element
 
 // --- With field points. Angles are told by their sines.
+/// Which of the bad elements comes first. On surfaces full of needles the facets force most of the worst, so
+/// that what is nearest to being good is helped the soonest. But where the least is spent, and the result is
+/// held to that of --fill, the worst must not be left over.
+enum class First : std::uint8_t { the_worst, the_mildest };
 /// Passes over the whole volume, then work on single elements.
 struct Passes {
   int passes;
@@ -103,6 +108,7 @@ struct Passes {
   double aim;          ///< of the angle below which single elements are worked on
   double patient_aim;  ///< of that below which everything is tried on them
   int rounds;
+  First first;  ///< in a round
   /// For a round, in elements tried, some three microseconds each. Most volumes take a small part of it: it
   /// is for those full of elements that the surface forces, which nothing helps.
   double work_per_tet;
@@ -113,17 +119,18 @@ struct Passes {
 [[nodiscard]] constexpr Passes passes_of(Effort effort) {
   switch (effort) {
     case Effort::fast:
-      return {1, 0.45, 0.50, 0.26, 0.24, 1, 0.2, 0.04};
+      return {1, 0.45, 0.50, 0.26, 0.24, 1, First::the_worst, 0.2, 0.04};
     case Effort::good:
-      return {1, 0.45, 0.50, 0.36, 0.24, 1, 8, 0.04};
+      return {1, 0.45, 0.50, 0.36, 0.24, 1, First::the_mildest, 8, 0.04};
     case Effort::best:
       break;
   }
-  return {6, 0.65, 0.80, 0.60, 0.34, 6, 10, 0.08};
+  return {6, 0.65, 0.80, 0.60, 0.34, 6, First::the_worst, 10, 0.08};
 }
 /// Of what goes on where less effort ended, with whatever that has left undone.
 [[nodiscard]] constexpr Passes further_passes_of(Effort effort) {
-  return effort == Effort::good ? Passes{0, 0.45, 0.50, 0.36, 0.24, 1, 2, 0.015} : passes_of(effort);
+  return effort == Effort::good ? Passes{0, 0.45, 0.50, 0.36, 0.24, 1, First::the_mildest, 1.5, 0.02}
+                                : passes_of(effort);
 }
 inline constexpr int kMostPasses = 6;     ///< while many elements are bad, which passes help faster
 inline constexpr double kManyBad = 0.1;   ///< of the elements: as many are many

@@ -18,18 +18,22 @@ EnergyWays::EnergyWays(ImprovedVolume& volume, double very_bad)
 struct EnergyWays::Way {
   void (EnergyWays::*attempt)(Tet, Outcome&, double&);
   std::size_t ImproveStats::*count;
+  Patience least;
 };
 
-EnergyWays::Outcome EnergyWays::try_all(Tet t, bool with_refill, double& work) {
-  static constexpr std::array<Way, 5> kWays{{{&EnergyWays::swap, &ImproveStats::swapped},
-                                             {&EnergyWays::smooth_a_corner, &ImproveStats::moved},
-                                             {&EnergyWays::contract_a_corner, &ImproveStats::contracted},
-                                             {&EnergyWays::add_point, &ImproveStats::inserted},
-                                             {&EnergyWays::refill, &ImproveStats::swapped}}};
+// Of contractions, one of sixty helps on CAD parts; of exchanges and of points, one of eight.
+EnergyWays::Outcome EnergyWays::try_all(Tet t, Patience patience, double& work) {
+  static constexpr std::array<Way, 5> kWays{
+      {{&EnergyWays::swap, &ImproveStats::swapped, Patience::usual},
+       {&EnergyWays::smooth_a_corner, &ImproveStats::moved, Patience::usual},
+       {&EnergyWays::contract_a_corner, &ImproveStats::contracted, Patience::all_ways},
+       {&EnergyWays::add_point, &ImproveStats::inserted, Patience::usual},
+       {&EnergyWays::refill, &ImproveStats::swapped, Patience::all_ways}}};
   Outcome out;
   work += 1;
   volume_.turn_to(t);
-  for (const Way& way : std::span(kWays).first(with_refill ? kWays.size() : kWays.size() - 1)) {
+  for (const Way& way : kWays) {
+    if (patience < way.least) continue;
     out.count = way.count;
     (this->*way.attempt)(t, out, work);
     if (!out.changed.empty()) return out;
@@ -54,7 +58,6 @@ void EnergyWays::smooth_a_corner(Tet t, Outcome& out, double& work) {
   }
 }
 
-// No way helps as seldom for the time it takes.
 void EnergyWays::contract_a_corner(Tet t, Outcome& out, double& work) {
   if (!(volume_.energy(t) > very_bad_)) return;
   const TetMesh::Corners corners = volume_.mesh().corners(t);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "optimise/add_point.h"
@@ -25,8 +26,10 @@ class EnergyWays {
     std::span<const Tet> changed;  // until the next call; none where no way helped
     std::size_t ImproveStats::*count = nullptr;
   };
-  /// Every way on one element, or all but the slowest. `work` grows, in elements tried.
-  Outcome try_all(Tet t, bool with_refill, double& work);
+  enum class Patience : std::uint8_t { usual, all_ways };
+  /// One way after the other on one element, until one helps; usually without those that seldom do for the
+  /// time they take. `work` grows, in elements tried.
+  Outcome try_all(Tet t, Patience patience, double& work);
 
   /// From now on, whether points may be added.
   void allow_points(bool may) { may_add_ = may; }
