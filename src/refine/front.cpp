@@ -15,6 +15,12 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// Circumradius, in sizes, of a tetrahedron to be refined.
+double large_radius(const SizeFunction& sizes) {
+  const double steepness = sizes.has_limit() ? 0 : sizes.steepness();
+  return tuning::kLargeRadius + (tuning::kLargeRadiusOfSteep - tuning::kLargeRadius) * steepness;
+}
+
 class Front {
  public:
   Front(const VolumeData& volume, const SizeFunction& sizes, Stage stage, Monitor& monitor)
@@ -23,7 +29,8 @@ class Front {
         sizes_(sizes),
         stage_(stage),
         monitor_(monitor),
-        inserter_(volume, sizes, monitor) {}
+        inserter_(volume, sizes, monitor),
+        large_radius_(large_radius(sizes)) {}
 
   bool run() {
     state_.assign(mesh_.slot_count(), 0);
@@ -108,7 +115,7 @@ class Front {
     middles_.clear();
     regions_.clear();
     for (const Tet t : tets) {
-      if (is_larger(sphere_of(t), tuning::kLargeRadius * radius_of_corners(t))) continue;
+      if (is_larger(sphere_of(t), large_radius_ * radius_of_corners(t))) continue;
       middles_.push_back(centroid(mesh_, t));
       regions_.push_back(volume_.region_of[t]);
     }
@@ -118,7 +125,7 @@ class Front {
     for (const Tet t : tets) {
       const ScaledCentre sphere = sphere_of(t);
       double allowed = radius_of_corners(t);
-      if (!is_larger(sphere, tuning::kLargeRadius * allowed)) allowed = std::min(allowed, *limit++);
+      if (!is_larger(sphere, large_radius_ * allowed)) allowed = std::min(allowed, *limit++);
       if (is_larger_than_bearable(t, sphere, allowed)) queue(t, kIsLarge);
     }
   }
@@ -134,10 +141,10 @@ class Front {
 
   // Whether the radius of its sphere is larger than what is allowed, and what the facets near by can bear.
   [[nodiscard]] bool is_larger_than_bearable(Tet t, const ScaledCentre& sphere, double allowed) const {
-    if (!is_larger(sphere, tuning::kLargeRadius * allowed)) return false;
+    if (!is_larger(sphere, large_radius_ * allowed)) return false;
     const double bearable = sizes_.of_facets().bearable(centroid(mesh_, t), allowed,
                                                         sizes_.decider(allowed, volume_.region_of[t]));
-    return !(bearable > allowed) || is_larger(sphere, tuning::kLargeRadius * bearable);
+    return !(bearable > allowed) || is_larger(sphere, large_radius_ * bearable);
   }
 
   [[nodiscard]] ScaledCentre sphere_of(Tet t) const {
@@ -163,13 +170,13 @@ class Front {
     return is_larger(sphere_centre(q[0], q[1], q[2], q[3]), tuning::kLargeRadius);
   }
 
-  // What the sizes at the corners allow, over tuning::kLargeRadius. Sizes grow with the distance:
-  // r = tuning::kLargeRadius (h + gradation r).
+  // What the sizes at the corners allow, over large_radius_. Sizes grow with the distance:
+  // r = large_radius_ (h + gradation r).
   [[nodiscard]] double radius_of_corners(Tet t) const {
     const TetMesh::Corners& c = mesh_.corners(t);
     const std::vector<double>& size = volume_.sizes;
     const std::array<double, 4> h{size[c[0]], size[c[1]], size[c[2]], size[c[3]]};
-    double allowed = *std::min_element(h.begin(), h.end()) / (1 - tuning::kLargeRadius * sizes_.gradation());
+    double allowed = *std::min_element(h.begin(), h.end()) / (1 - large_radius_ * sizes_.gradation());
     if (!sizes_.grows()) allowed = std::min(allowed, tuning::kLevel * 0.25 * (h[0] + h[1] + h[2] + h[3]));
     return allowed;
   }
@@ -302,6 +309,7 @@ class Front {
   const Stage stage_;
   Monitor& monitor_;
   FieldInserter inserter_;
+  const double large_radius_;
   std::vector<std::uint8_t> state_;  // by slot
   std::vector<Point> middles_;       // where limits are asked for
   std::vector<RegionId> regions_;

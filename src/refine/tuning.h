@@ -10,7 +10,10 @@ inline constexpr std::size_t kMostShellForDelaunay = 8;
 
 // The front. Lengths are in the sizes that are wanted there.
 inline constexpr double kLargeRadius =
-    0.85;                              ///< circumradius of a tetrahedron to be refined; 0.61 is regular
+    0.85;  ///< circumradius of a tetrahedron to be refined; 0.61 is regular
+/// The same where the surface's own sizes jump, and nobody asks for others: fewer points, which the
+/// improvement adds where they help.
+inline constexpr double kLargeRadiusOfSteep = 1;
 inline constexpr double kLevel = 1.3;  ///< a size over the mean of those round it, if sizes do not grow
 inline constexpr double kLongestPart = 0.65;  ///< of an edge that is to be split: the size over its length
 inline constexpr double kNearest = 0.7;       ///< least distance of a new point from others

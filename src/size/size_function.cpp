@@ -80,9 +80,8 @@ double share_of_steep(std::span<const double> of_vertex, const Complex& complex,
 
 // Where the sizes of the surface grow much faster than those inside, as they do where it is full of needles,
 // slow growth fills the volume with small elements and makes few of them better.
-double default_gradation(double share_of_steep) {
-  const double part = (share_of_steep - tuning::kFewSteep) / (tuning::kManySteep - tuning::kFewSteep);
-  return tuning::kGradation + (tuning::kGradationOfSteep - tuning::kGradation) * std::clamp(part, 0.0, 1.0);
+double default_gradation(double steepness) {
+  return tuning::kGradation + (tuning::kGradationOfSteep - tuning::kGradation) * steepness;
 }
 
 void require_regions_of_bounds(std::span<const RegionSeed> seeds, const Kept& kept) {
@@ -114,8 +113,11 @@ SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds
   threads.poll();
   for (std::size_t v = 0; v < std::min(of_vertex_.size(), sizes.vertex_sizes.size()); ++v)
     if (sizes.vertex_sizes[v] > 0) of_vertex_[v] = std::ldexp(sizes.vertex_sizes[v], scale);
-  if (!sizes.gradation && sizes.vertex_sizes.empty() && !metric_)
-    gradation_ = default_gradation(share_of_steep(of_vertex_, complex, table, scale));
+  if (sizes.vertex_sizes.empty() && !metric_) {
+    const double share = share_of_steep(of_vertex_, complex, table, scale);
+    steepness_ = std::clamp((share - tuning::kFewSteep) / (tuning::kManySteep - tuning::kFewSteep), 0.0, 1.0);
+    if (!sizes.gradation) gradation_ = default_gradation(steepness_);
+  }
   if (fields_ && !field_)
     field_ = [fields = fields_](const Point& p) {
       double h = 0;

@@ -63,6 +63,9 @@ class SizeFunction {
   /// region has one.
   [[nodiscard]] const std::vector<double>& most_volumes() const { return most_volumes_; }
   [[nodiscard]] double gradation() const { return gradation_; }
+  /// How far the surface's own sizes jump from vertex to vertex: 0 where they hardly do, as on surfaces of
+  /// good triangles, to 1. It is 0 where sizes are given at vertices, or with a metric.
+  [[nodiscard]] double steepness() const { return steepness_; }
   /// What the facets near a point need, where that is more than the size wanted there.
   [[nodiscard]] const FacetSizes& of_facets() const { return of_facets_; }
   /// Who decides on a size at a point in a region.
@@ -82,7 +85,7 @@ class SizeFunction {
   [[nodiscard]] double scaled(double h) const;
   [[nodiscard]] double field_at(const Point& p) const;
 
-  double gradation_;
+  double gradation_, steepness_ = 0;
   bool grows_;
   double most_;
   int scale_;
