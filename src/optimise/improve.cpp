@@ -37,14 +37,19 @@ class Improver {
     for (int round = 0; round < passes_.rounds; ++round) {
       stage_ = {static_cast<double>(passes_.passes + round) / steps, 1.0 / steps};
       volume_.touch_all();
-      if (!work_on_single_ones(passes_.aim, passes_.work_per_tet, Patience::usual)) break;
+      if (!work_on_single_ones(passes_.aim, passes_.work_per_tet, passes_.first, Patience::usual)) break;
     }
+    if (passes_.first == First::the_mildest)
+      work_on_single_ones(passes_.aim, tuning::kShareOfTheWorst * passes_.work_per_tet, First::the_worst,
+                          Patience::usual);
     // The very worst are few: they get as many rounds as help.
     const double aim = passes_.patient_aim + tuning::kBeyondPatientAim;
     volume_.touch_all();
     for (int round = 0; round < tuning::kPatientRounds * passes_.rounds; ++round) {
       volume_.touch_beside_touched();
-      if (!work_on_single_ones(aim, tuning::kPatientShare * passes_.work_per_tet, Patience::all_ways)) break;
+      if (!work_on_single_ones(aim, tuning::kPatientShare * passes_.work_per_tet, First::the_worst,
+                               Patience::all_ways))
+        break;
     }
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
       if (is_worse(t, stats_.worst)) stats_.worst = volume_.energy(t);
@@ -53,6 +58,7 @@ class Improver {
 
  private:
   using Patience = EnergyWays::Patience;
+  using First = tuning::First;
 
   struct Entry {
     double rank;
@@ -128,11 +134,12 @@ class Improver {
   }
 
   // One element after another, as long as there is work left to spend. Returns whether any became better.
-  bool work_on_single_ones(double aim, double work_per_tet, Patience patience) {
+  bool work_on_single_ones(double aim, double work_per_tet, First first, Patience patience) {
     const double from = energy_of_sine(aim);
     std::priority_queue<Entry> queue;
-    const bool worst_first = patience == Patience::all_ways || passes_.first == tuning::First::the_worst;
-    const auto rank = [&](Tet t) { return worst_first ? volume_.energy(t) : -volume_.energy(t); };
+    const auto rank = [&](Tet t) {
+      return first == First::the_worst ? volume_.energy(t) : -volume_.energy(t);
+    };
     const auto push = [&](Tet t) {
       if (is_worse(t, from)) queue.push({rank(t), t});
     };

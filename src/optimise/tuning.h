@@ -129,11 +129,12 @@ struct Passes {
 }
 /// Of what goes on where less effort ended, with whatever that has left undone.
 [[nodiscard]] constexpr Passes further_passes_of(Effort effort) {
-  return effort == Effort::good ? Passes{0, 0.45, 0.50, 0.36, 0.24, 1, First::the_mildest, 1.5, 0.02}
+  return effort == Effort::good ? Passes{0, 0.45, 0.50, 0.36, 0.24, 1, First::the_mildest, 1, 0.02}
                                 : passes_of(effort);
 }
-inline constexpr int kMostPasses = 6;     ///< while many elements are bad, which passes help faster
-inline constexpr double kManyBad = 0.1;   ///< of the elements: as many are many
+inline constexpr double kShareOfTheWorst = 0.3;  ///< of the work of a round, after the mildest
+inline constexpr int kMostPasses = 6;            ///< while many elements are bad, which passes help faster
+inline constexpr double kManyBad = 0.1;          ///< of the elements: as many are many
 inline constexpr int kPatientRounds = 3;  ///< times the rounds: the very worst are few and get all that help
 inline constexpr double kPatientShare = 0.1;       ///< of the work of a round for each of these
 inline constexpr double kBeyondPatientAim = 0.02;  ///< so that what is just better gets the cheap ways, too
