@@ -147,6 +147,7 @@ class Improver {
     const double count = 1 + static_cast<double>(queue.size());
     const double share = tuning::kLeastElements + work_per_tet * static_cast<double>(mesh_.tet_count());
     double work = 0, budget = share;
+    if (patience == Patience::usual && has_many_bad_inside()) patience = Patience::contractions;
     bool any = false;
     while (!queue.empty()) {
       if (work >= budget) {

@@ -145,7 +145,7 @@ inline constexpr double kLongerContracted = 2;     ///< times the longest edge b
 // up to so many times.
 inline constexpr double kMuchInside = 0.15, kManyBadInside = 0.002;
 inline constexpr double kSineOfBad = 0.17364817766693033;  ///< 10 degrees
-inline constexpr double kMostShares = 5;
+inline constexpr double kMostShares = 10;
 // Work, in elements tried, some three microseconds each, as timed.
 inline constexpr double kLeastElements = 1500;     ///< so that small meshes are done thoroughly
 inline constexpr double kRefillWork = 600;         ///< 1 to 4 ms

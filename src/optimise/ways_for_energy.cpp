@@ -21,12 +21,13 @@ struct EnergyWays::Way {
   Patience least;
 };
 
-// Of contractions, one of sixty helps on CAD parts; of exchanges and of points, one of eight.
+// Of contractions, one of sixty helps on CAD parts with sizes of their own; of exchanges and of points, one
+// of eight. Where a size far below the triangles' is asked for, they take points out of the way.
 EnergyWays::Outcome EnergyWays::try_all(Tet t, Patience patience, double& work) {
   static constexpr std::array<Way, 5> kWays{
       {{&EnergyWays::swap, &ImproveStats::swapped, Patience::usual},
        {&EnergyWays::smooth_a_corner, &ImproveStats::moved, Patience::usual},
-       {&EnergyWays::contract_a_corner, &ImproveStats::contracted, Patience::all_ways},
+       {&EnergyWays::contract_a_corner, &ImproveStats::contracted, Patience::contractions},
        {&EnergyWays::add_point, &ImproveStats::inserted, Patience::usual},
        {&EnergyWays::refill, &ImproveStats::swapped, Patience::all_ways}}};
   Outcome out;

@@ -26,7 +26,7 @@ class EnergyWays {
     std::span<const Tet> changed;  // until the next call; none where no way helped
     std::size_t ImproveStats::*count = nullptr;
   };
-  enum class Patience : std::uint8_t { usual, all_ways };
+  enum class Patience : std::uint8_t { usual, contractions, all_ways };
   /// One way after the other on one element, until one helps; usually without those that seldom do for the
   /// time they take. `work` grows, in elements tried.
   Outcome try_all(Tet t, Patience patience, double& work);
