@@ -130,6 +130,8 @@ Surface with_insets(Surface surface, std::size_t count, double part) {
 }
 
 // Each innermost triangle, with 60 of the 132 vertices, is a twentieth of the triangle that it is in.
+Surface with_jumps() { return with_insets(with_insets(hard::icosphere(0), 20, 0.1), 20, 0.5); }
+
 TEST(Gradation, SizesGrowFasterWhereThoseOfTheSurfaceJump) {
   // The mesh of the gradation that the surface asks for over that of the least such.
   const auto part = [](const Surface& surface) {
@@ -138,8 +140,23 @@ TEST(Gradation, SizesGrowFasterWhereThoseOfTheSurfaceJump) {
     };
     return count({}) / count(0.3);
   };
-  EXPECT_LT(part(with_insets(with_insets(hard::icosphere(0), 20, 0.1), 20, 0.5)), 0.9);
+  EXPECT_LT(part(with_jumps()), 0.9);
   EXPECT_NEAR(part(hard::icosphere(2)), 1, 0.05);
+}
+
+TEST(Front, PutsFewerPointsWhereSizesOfTheSurfaceJumpAndNobodyAsksForOthers) {
+  // Those of the front over the same with a size that is asked for, but larger than any.
+  const auto part = [](const Surface& surface) {
+    const auto count = [&](double size) {
+      Options options;
+      options.stop_after = Stage::field_points;
+      return static_cast<double>(
+          mesh_with(surface, {.size = size, .gradation = 0.5}, options).report.field.points);
+    };
+    return count(0) / count(1000);
+  };
+  EXPECT_LT(part(with_jumps()), 0.95);
+  EXPECT_EQ(part(hard::icosphere(2)), 1);
 }
 
 }  // namespace
