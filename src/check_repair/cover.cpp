@@ -86,8 +86,7 @@ class Cover {
       if (!take_side(side))
         return "no edges of the output lead along its side from vertex " + std::to_string(places_[side]) +
                " to vertex " + std::to_string(places_[(side + 1) % 3]) + told_cover();
-    if (!is_rest_on_sides()) fill_rest();
-    if (is_rest_on_sides()) return std::nullopt;
+    if (is_rest_on_sides() || fill_rest()) return std::nullopt;
     return words("its children end at edge", *first_astray_, test_.vertices_) + ", away from its sides" +
            told_cover();
   }
@@ -154,18 +153,34 @@ class Cover {
     return astray_.empty();
   }
 
+  using AtEdge = std::map<Segment, std::vector<Index>>;
+
   /// Takes children off the chain, or adds thin facets near to the triangle, while that leaves less astray.
-  void fill_rest() {
-    std::map<Segment, std::vector<Index>> at_edge;
+  /// All thin ones come first: a large child that goes opens a side that nothing else closes.
+  bool fill_rest() {
+    AtEdge thin, all;
     Box box(triangle_[0]);
     box.extend(triangle_[1]);
     box.extend(triangle_[2]);
     const std::set<Index> children(chain_.begin(), chain_.end());
     test_.near(box, [&](Index f) {
       const Triangle& t = test_.facets_[f];
-      if (!children.contains(f) && !is_thin_and_near(t)) return;
-      for (std::size_t i = 0; i < 3; ++i) at_edge[edge_of(t[i], t[(i + 1) % 3])].push_back(f);
+      const bool is_thin = is_thin_and_near(t);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Segment edge = edge_of(t[i], t[(i + 1) % 3]);
+        if (is_thin) thin[edge].push_back(f);
+        if (is_thin || children.contains(f)) all[edge].push_back(f);
+      }
     });
+    for (const AtEdge* facets : {&thin, &all}) {
+      flip_at_astray(*facets);
+      if (is_rest_on_sides()) return true;
+    }
+    return false;
+  }
+
+  /// Adds or takes off facets of which two sides or three are odd, from what is astray on.
+  void flip_at_astray(const AtEdge& at_edge) {
     std::vector<Segment> open(astray_.begin(), astray_.end());
     while (!open.empty()) {
       const Segment edge = open.back();

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -101,6 +102,24 @@ TEST(Cover, ACornerThatBecameAnyOfSeveralVertices) {
   EXPECT_FALSE(test.gap(s.lower, {1, no_entity, 3}, std::vector<Index>{0, 1}));
   EXPECT_FALSE(test.gap(s.lower, {1, 0, 3}, std::vector<Index>{0, 1}));
   EXPECT_TRUE(test.gap(s.lower, {1, no_entity, 3}, std::vector<Index>{0}));
+}
+
+// A triangle of which two corners are there twice, and its children lead to the one or to the other: large
+// children must not go before all thin facets are looked at.
+TEST(Cover, CornersThatAreThereTwice) {
+  const double e = 1e-12;
+  const std::vector<Point> vertices{{-e, 1, 0}, {-e, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}};
+  const std::vector<Triangle> facets{{4, 2, 3}, {1, 4, 3}, {1, 2, 4}, {1, 3, 0}};
+  const std::array<Point, 3> triangle{vertices[4], vertices[2], vertices[3]};
+  const Reach reach(2e-12);
+  const std::vector<Index> children{0, 1, 2, 3};
+  EXPECT_FALSE(CoverTest(vertices, facets, reach).gap(triangle, {4, 2, 3}, children));
+  for (Index k = 0; k < 3; ++k) {
+    std::vector<Index> turned = children;
+    std::rotate(turned.begin(), turned.begin() + k, turned.end());
+    EXPECT_FALSE(CoverTest(vertices, facets, reach).gap(triangle, {4, 2, 3}, turned));
+  }
+  EXPECT_TRUE(CoverTest(vertices, facets, reach).gap(triangle, {4, 2, 3}, std::vector<Index>{1, 2, 3}));
 }
 
 TEST(Cover, Segments) {
