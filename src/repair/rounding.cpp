@@ -11,6 +11,7 @@
 
 #include "numbers/sorted.h"
 #include "repair/flatten.h"
+#include "repair/restore.h"
 #include "repair/settle.h"
 #include "repair/weld.h"
 #include "surface/elements.h"
@@ -419,7 +420,13 @@ class Rounding {
 
 Rounded round_arranged(State state, const RepairOptions& options, RepairReport& report, ExactSurface& exact,
                        const Step& step, const Threads& threads) {
-  return Rounding(std::move(state), options, report, exact, step, threads).run();
+  const std::vector<Point> before = state.vertices;
+  Rounded rounded = Rounding(std::move(state), options, report, exact, step, threads).run();
+  if (rounded.is_valid)
+    rounded.displacement = sum_above(
+        rounded.displacement,
+        restore(rounded.state, std::span(before).first(rounded.state.input_vertices), step, threads));
+  return rounded;
 }
 
 }  // namespace holdfast::repairing

@@ -1,0 +1,402 @@
+#include "repair/restore.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "numbers/sorted.h"
+#include "repair/near.h"
+#include "surface/aabb_tree.h"
+#include "surface/complex.h"
+#include "surface/elements.h"
+
+namespace holdfast::repairing {
+namespace {
+
+using Side = std::array<Index, 2>;
+
+/// What takes a vertex in: facets and segments that go, and what comes in their places.
+struct Change {
+  struct Part {
+    Triangle corners;
+    Index from;  // the facet in whose place it comes
+  };
+  Index vertex;
+  std::vector<Index> facets;
+  std::vector<Part> parts;
+  std::optional<Side> side;       // ascending: segments that are led through the vertex
+  double distance = 0, bent = 0;  // of the vertex from them, and the same rounded up
+};
+
+class Restoring {
+ public:
+  Restoring(State& state, std::span<const Point> before, const Step& step, const Threads& threads)
+      : state_(state), before_(before), step_(step), threads_(threads) {}
+
+  double run() {
+    list_lost();
+    if (lost_.empty()) return 0;
+    state_.doubt_all();
+    bent_.assign(state_.facets.size(), 0);
+    constexpr int kMostRounds = 64;
+    for (int round = 0; round < kMostRounds && !lost_.empty(); ++round)
+      if (!take_round()) break;
+    state_.doubt_all();
+    return most_;
+  }
+
+ private:
+  /// A vertex, and others that were at its place.
+  struct Lost {
+    Index vertex;
+    std::vector<Index> same;
+    std::set<std::vector<Index>> tried;  // by the corners of the parts
+  };
+
+  void list_lost() {
+    std::set<Point> taken;
+    for (const Triangle& t : state_.facets)
+      for (const Index v : t) taken.insert(state_.vertices[v]);
+    for (const Segment& s : state_.segments)
+      for (const Index v : s) taken.insert(state_.vertices[v]);
+    std::map<Point, std::size_t> number;
+    for (Index v = 0; v < state_.input_vertices; ++v) {
+      const Point& p = before_[v];
+      if (p == state_.vertices[v] || !is_finite(p)) continue;
+      if (taken.count(p) != 0) {
+        state_.vertices[v] = p;
+        continue;
+      }
+      const auto [at, is_new] = number.try_emplace(p, lost_.size());
+      if (is_new)
+        lost_.push_back({v, {}, {}});
+      else
+        lost_[at->second].same.push_back(v);
+    }
+  }
+
+  [[nodiscard]] const Point& at(Index v) const { return state_.vertices[v]; }
+
+  /// One change for each vertex, as far as they have no facet in common; those that fit are made. False where
+  /// there is none left to try.
+  bool take_round() {
+    std::vector<Box> boxes;
+    for (const Triangle& t : state_.facets) boxes.push_back(box_round(state_, t, 0));
+    const AabbTree tree(boxes);
+    std::vector<Change> changes;
+    std::vector<std::uint8_t> is_used(state_.facets.size(), 0);
+    bool any = false;
+    for (Lost& lost : lost_) {
+      std::optional<Change> change = next_change(lost, tree);
+      if (!change) continue;
+      any = true;
+      if (std::any_of(change->facets.begin(), change->facets.end(), [&](Index f) { return is_used[f] != 0; }))
+        continue;
+      for (const Index f : change->facets) is_used[f] = 1;
+      changes.push_back(std::move(*change));
+    }
+    make(std::move(changes));
+    return any;
+  }
+
+  [[nodiscard]] static std::vector<Index> key_of(const Change& change) {
+    std::vector<Index> key;
+    for (const Change::Part& part : change.parts)
+      key.insert(key.end(), part.corners.begin(), part.corners.end());
+    return key;
+  }
+
+  std::optional<Change> next_change(const Lost& lost, const AabbTree& tree) const {
+    for (Change& change : changes_for(lost, tree))
+      if (lost.tried.count(key_of(change)) == 0) return std::move(change);
+    return std::nullopt;
+  }
+
+  /// Nearest first.
+  [[nodiscard]] std::vector<Change> changes_for(const Lost& lost, const AabbTree& tree) const {
+    const Point& p = before_[lost.vertex];
+    constexpr double kWider = 2;
+    const double far = kWider * length(minus(p, at(lost.vertex)));
+    Box box{p, p};
+    for (std::size_t k = 0; k < 3; ++k) {
+      box.low[k] -= far;
+      box.high[k] += far;
+    }
+    std::vector<Index> near;
+    tree.for_each_item([&](const Box& other) { return !box.overlaps(other); },
+                       [&](const AabbTree::Item& item) { near.push_back(item.id); });
+    std::sort(near.begin(), near.end());
+    std::vector<Change> changes;
+    for (const Index f : near)
+      if (std::optional<Change> change = through_facet(lost.vertex, f); change && change->distance <= far)
+        changes.push_back(std::move(*change));
+    for (const Side& side : sides_of(near))
+      if (std::optional<Change> change = through_side(lost.vertex, side, near);
+          change && change->distance <= far)
+        changes.push_back(std::move(*change));
+    const std::size_t beside = changes.size();
+    through_star(lost.vertex, near, changes);
+    constexpr auto is_nearer = [](const Change& a, const Change& b) { return a.distance < b.distance; };
+    std::stable_sort(changes.begin(), changes.begin() + static_cast<std::ptrdiff_t>(beside), is_nearer);
+    std::stable_sort(changes.begin() + static_cast<std::ptrdiff_t>(beside), changes.end(), is_nearer);
+    return changes;
+  }
+
+  [[nodiscard]] std::vector<Side> sides_of(std::span<const Index> facets) const {
+    std::vector<Side> sides;
+    for (const Index f : facets)
+      for (std::size_t i = 0; i < 3; ++i)
+        sides.push_back(ascending(Side{state_.facets[f][i], state_.facets[f][(i + 1) % 3]}));
+    sort_unique(sides);
+    return sides;
+  }
+
+  /// A facet is led through a vertex beside it.
+  [[nodiscard]] std::optional<Change> through_facet(Index v, Index f) const {
+    const Triangle& t = state_.facets[f];
+    const Nearness near = beside_any(before_[v], {at(t[0]), at(t[1]), at(t[2])});
+    if (!std::isfinite(near.distance)) return std::nullopt;
+    Change change{v, {f}, {}, {}, near.distance, near.bound()};
+    add_fan(v, t, f, change);
+    return change;
+  }
+
+  static void add_fan(Index v, const Triangle& t, Index from, Change& change) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      Triangle part = t;
+      part[i] = v;
+      change.parts.push_back({part, from});
+    }
+  }
+
+  /// Differences to what is near are nearly exact, so the nearest corner comes first.
+  [[nodiscard]] static Nearness beside_any(const Point& p, std::array<Point, 3> corners) {
+    const auto nearest = std::min_element(
+        corners.begin(), corners.end(),
+        [&](const Point& a, const Point& b) { return length(minus(p, a)) < length(minus(p, b)); });
+    std::rotate(corners.begin(), nearest, corners.end());
+    return beside_facet(p, corners[0], corners[1], corners[2]);
+  }
+  [[nodiscard]] static Nearness beside_any(const Point& p, const std::array<Point, 2>& ends) {
+    const bool is_first = length(minus(p, ends[0])) <= length(minus(p, ends[1]));
+    return beside_side(p, ends[is_first ? 0 : 1], ends[is_first ? 1 : 0]);
+  }
+
+  /// A side is led through a vertex beside it, in all facets that have it.
+  [[nodiscard]] std::optional<Change> through_side(Index v, const Side& side,
+                                                   std::span<const Index> near_facets) const {
+    const Nearness near = beside_any(before_[v], std::array{at(side[0]), at(side[1])});
+    if (!std::isfinite(near.distance)) return std::nullopt;
+    Change change{v, {}, {}, side, near.distance, near.bound()};
+    for (const Index f : near_facets) {
+      if (!has(f, side[0]) || !has(f, side[1])) continue;
+      change.facets.push_back(f);
+      add_halves(v, side, state_.facets[f], f, change);
+    }
+    return change;
+  }
+
+  static void add_halves(Index v, const Side& side, const Triangle& t, Index from, Change& change) {
+    for (const Index end : side) {
+      Triangle part = t;
+      std::replace(part.begin(), part.end(), end, v);
+      change.parts.push_back({part, from});
+    }
+  }
+
+  [[nodiscard]] bool has(Index f, Index v) const {
+    const Triangle& t = state_.facets[f];
+    return t[0] == v || t[1] == v || t[2] == v;
+  }
+
+  /// The vertex takes the place of the one that it became in all facets, and one of these, or of their sides,
+  /// is led through the other: so where it stands out further. One that is no vertex of the input is not
+  /// needed.
+  void through_star(Index v, std::span<const Index> near_facets, std::vector<Change>& changes) const {
+    const Index w = standing_at(at(v), near_facets);
+    if (w == no_index || std::any_of(state_.segments.begin(), state_.segments.end(),
+                                     [&](const Segment& s) { return s[0] == w || s[1] == w; }))
+      return;
+    Change star{v, {}, {}, {}, length(minus(before_[v], at(w))), 0};
+    star.bent = star.distance * (1 + 0x1p-48);
+    std::vector<Triangle> facets;
+    std::vector<Index> ends;
+    for (const Index f : near_facets) {
+      if (!has(f, w)) continue;
+      star.facets.push_back(f);
+      facets.push_back(state_.facets[f]);
+      std::replace(facets.back().begin(), facets.back().end(), w, v);
+      for (const Index x : facets.back())
+        if (x != v) ends.push_back(x);
+    }
+    sort_unique(ends);
+    const auto place = [&](Index x) { return x == v ? before_[v] : at(x); };
+    const auto add = [&](const Nearness& near, auto&& put) {
+      if (!std::isfinite(near.distance)) return;
+      Change change = star;
+      change.distance += near.distance;
+      change.bent += near.bound();
+      for (std::size_t k = 0; k < facets.size(); ++k)
+        if (!put(facets[k], star.facets[k], change)) change.parts.push_back({facets[k], star.facets[k]});
+      changes.push_back(std::move(change));
+    };
+    if (w >= state_.input_vertices) add({0}, [](const Triangle&, Index, Change&) { return false; });
+    for (const Triangle& t : facets)
+      add(beside_any(at(w), {place(t[0]), place(t[1]), place(t[2])}),
+          [&](const Triangle& u, Index from, Change& change) {
+            if (u == t) add_fan(w, t, from, change);
+            return u == t;
+          });
+    for (const Index x : ends)
+      add(beside_any(at(w), std::array{before_[v], at(x)}),
+          [&](const Triangle& u, Index from, Change& change) {
+            const bool has_side = std::count(u.begin(), u.end(), x) != 0;
+            if (has_side) add_halves(w, {v, x}, u, from, change);
+            return has_side;
+          });
+  }
+
+  /// The corner of facets that is at a place.
+  [[nodiscard]] Index standing_at(const Point& place, std::span<const Index> facets) const {
+    for (const Index f : facets)
+      for (const Index v : state_.facets[f])
+        if (at(v) == place) return v;
+    return no_index;
+  }
+
+  // --- Changes made -----------------------------------------------------------------------------------
+
+  static constexpr Index kNone = no_index;
+
+  /// A surface with changes, and for each facet and segment which of them it comes from.
+  struct Changed {
+    State state;
+    std::vector<double> bent;
+    std::vector<Index> facet_change, segment_change;
+  };
+
+  [[nodiscard]] Changed changed(const std::vector<Change>& changes) const {
+    Changed now;
+    now.state.input_vertices = state_.input_vertices;
+    now.state.vertices = state_.vertices;
+    std::vector<Index> change_of(state_.facets.size(), kNone);
+    std::map<Side, Index> at_side;
+    for (Index c = 0; c < changes.size(); ++c) {
+      now.state.vertices[changes[c].vertex] = before_[changes[c].vertex];
+      for (const Index f : changes[c].facets) change_of[f] = c;
+      if (changes[c].side) at_side.emplace(*changes[c].side, c);
+    }
+    const auto add = [&](const Triangle& t, Index f, Index change, double bent) {
+      now.state.facets.push_back(t);
+      now.state.facet_parents.add(state_.facet_parents.of(f));
+      now.state.known.push_back(change == kNone ? 1 : 0);
+      now.bent.push_back(bent);
+      now.facet_change.push_back(change);
+    };
+    for (Index f = 0; f < state_.facets.size(); ++f) {
+      const Index c = change_of[f];
+      if (c == kNone)
+        add(state_.facets[f], f, kNone, bent_[f]);
+      else
+        for (const Change::Part& part : changes[c].parts)
+          if (part.from == f) add(part.corners, f, c, bent_[f] + changes[c].bent);
+    }
+    for (Index s = 0; s < state_.segments.size(); ++s) {
+      const auto [a, b] = state_.segments[s];
+      const auto found = at_side.find(ascending(Side{a, b}));
+      const Index c = found == at_side.end() ? kNone : found->second;
+      const auto add_segment = [&](const Segment& segment) {
+        now.state.segments.push_back(segment);
+        now.state.segment_parents.add(state_.segment_parents.of(s));
+        now.segment_change.push_back(c);
+      };
+      if (c == kNone) {
+        add_segment({a, b});
+      } else {
+        add_segment({a, changes[c].vertex});
+        add_segment({changes[c].vertex, b});
+      }
+    }
+    return now;
+  }
+
+  /// Changes that do not fit are left out until all do. Where two do not fit together, the latter may be
+  /// tried once more.
+  void make(std::vector<Change> changes) {
+    while (!changes.empty()) {
+      Changed now = changed(changes);
+      const auto [refused, postponed] = in_trouble(now);
+      if (refused.empty() && postponed.empty()) {
+        stand(changes, std::move(now));
+        return;
+      }
+      for (const Index c : refused) lost_with(changes[c].vertex).tried.insert(key_of(changes[c]));
+      std::vector<Change> kept;
+      for (Index c = 0; c < changes.size(); ++c)
+        if (refused.count(c) == 0 && (refused.empty() ? postponed.count(c) == 0 : true))
+          kept.push_back(std::move(changes[c]));
+      changes = std::move(kept);
+    }
+  }
+
+  Lost& lost_with(Index vertex) {
+    return *std::lower_bound(lost_.begin(), lost_.end(), vertex,
+                             [](const Lost& lost, Index v) { return lost.vertex < v; });
+  }
+
+  void stand(const std::vector<Change>& changes, Changed now) {
+    for (const Change& change : changes)
+      for (const Index v : lost_with(change.vertex).same) now.state.vertices[v] = before_[v];
+    std::set<Index> done;
+    for (const Change& change : changes) done.insert(change.vertex);
+    std::erase_if(lost_, [&](const Lost& lost) { return done.count(lost.vertex) != 0; });
+    for (const double bent : now.bent) most_ = std::max(most_, bent);
+    state_ = std::move(now.state);
+    bent_ = std::move(now.bent);
+  }
+
+  /// Changes that break the surface by themselves, and such that do not fit together with one before.
+  [[nodiscard]] std::pair<std::set<Index>, std::set<Index>> in_trouble(const Changed& now) const {
+    std::pair<std::set<Index>, std::set<Index>> found;
+    const Complex complex = now.state.complex();
+    const Elements elements = elements_of(complex, threads_);
+    const auto change_of = [&](Index element) {
+      const Element& e = elements.all[element];
+      return e.corners == 3 ? now.facet_change[e.id] : e.corners == 2 ? now.segment_change[e.id] : kNone;
+    };
+    const VisitPair visit = [&](Index i, Index j, const Contacts&) {
+      const Index a = change_of(i), b = change_of(j);
+      if (a == kNone || b == kNone || a == b)
+        found.first.insert(a == kNone ? b : a);
+      else
+        found.second.insert(std::max(a, b));
+      return true;
+    };
+    for_each_offending_pair(complex, elements, visit, step_, {}, KnownElements(now.state, elements).known());
+    for (const Flaw& flaw : elements.flaws)
+      if (flaw.kind == DefectKind::degenerate_facet && now.facet_change[flaw.id] != kNone)
+        found.first.insert(now.facet_change[flaw.id]);
+    found.first.erase(kNone);
+    return found;
+  }
+
+  State& state_;
+  const std::span<const Point> before_;
+  const Step& step_;
+  const Threads& threads_;
+  std::vector<Lost> lost_;    // by vertex
+  std::vector<double> bent_;  // by facet
+  double most_ = 0;
+};
+
+}  // namespace
+
+double restore(State& state, std::span<const Point> before, const Step& step, const Threads& threads) {
+  return Restoring(state, before, step, threads).run();
+}
+
+}  // namespace holdfast::repairing
