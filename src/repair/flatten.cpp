@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "numbers/sorted.h"
 #include "repair/clusters.h"
 #include "repair/near.h"
+#include "repair/shared_sides.h"
 #include "surface/complex.h"
 
 namespace holdfast::repairing {
@@ -20,16 +23,26 @@ constexpr double kMostGaps = 64;
 
 class Flattening {
  public:
-  Flattening(State& state, double gap, const RoundPlane& round)
-      : state_(state), gap_(gap), round_(round), in_cluster_(state.facets.size(), 0) {}
+  Flattening(State& state, double gap, const RoundPlane& round, SidesOf sides)
+      : state_(state),
+        gap_(gap),
+        round_(round),
+        vertices_(state.vertices.size()),
+        sides_of_(sides),
+        sides_(state.vertices, gap),
+        in_cluster_(state.facets.size(), 0) {}
 
   double run(const std::vector<Cluster>& clusters) {
     bool any = false;
     for (const Cluster& cluster : clusters) any |= arrange_cluster(cluster);
-    if (!any) return 0;
+    if (!any && !sides_.has_united()) return 0;
+    if (!sides_.finish()) {
+      state_.vertices.resize(vertices_);
+      return 0;
+    }
     deliver();
     drop_unused(state_);
-    return most_;
+    return std::max(most_, sides_.most());
   }
 
  private:
@@ -75,14 +88,13 @@ class Flattening {
 
   bool arrange_cluster(const Cluster& cluster) {
     const Flat before = flat(cluster);
-    if (std::any_of(before.sides.begin(), before.sides.end(),
-                    [&](const Side& s) { return cut_.contains(s); }))
-      return false;  // another cluster has cut it: in the next pass
-    std::vector<Point> places(before.state.vertices);
-    std::sort(places.begin(), places.end());
-    if (std::adjacent_find(places.begin(), places.end()) != places.end()) return false;  // one above another
-    const Rounded rounded = round_(before.state, kMostGaps * gap_);
-    const State& after = rounded.state;
+    const bool waits = sides_of_ == SidesOf::one_sheet;
+    if (waits && std::any_of(before.sides.begin(), before.sides.end(),
+                             [&](const Side& s) { return !sides_.chain(s[0], s[1]).empty(); }))
+      return false;
+    if (has_tiny_numbers(before) || has_one_above_another(before)) return false;
+    Rounded rounded = round_(before.state, kMostGaps * gap_);
+    State& after = rounded.state;
     if (!rounded.is_valid || !(rounded.displacement <= kMostGaps * gap_) ||
         !std::equal(before.state.vertices.begin(), before.state.vertices.end(), after.vertices.begin()))
       return false;
@@ -93,8 +105,9 @@ class Flattening {
     std::vector<std::vector<Index>> chains(before.sides.size());
     for (std::size_t k = 0; k < chains.size(); ++k)
       if (!chain_of(pieces[k], before.state.segments[k], chains[k]) ||
-          (!chains[k].empty() && taken_.contains(before.sides[k])))
+          (waits && !chains[k].empty() && sides_.is_told(before.sides[k])))
         return false;
+    if (!make_whole(cluster, before, after, chains)) return false;
 
     const std::size_t vertices = state_.vertices.size();
     std::vector<Index> name(after.vertices.size());
@@ -113,18 +126,114 @@ class Flattening {
       lifted_.erase(v);
     }
     below_.clear();
-    if (!is_near(cluster, after, before, chains, name)) {
+    const auto undo = [&] {
       lifted_.erase(lifted_.lower_bound(static_cast<Index>(vertices)), lifted_.end());
       state_.vertices.resize(vertices);
       return false;
-    }
-    taken_.insert(before.sides.begin(), before.sides.end());
+    };
+    if (!is_near(cluster, after, before, chains, name)) return undo();
+    for (std::size_t k = 0; k < chains.size(); ++k)
+      if (!chains[k].empty()) put_on_side(cluster, before.sides[k], chains[k], name);
+    for (std::vector<Index>& chain : chains)
+      for (Index& v : chain) v = name[v];
+    for (std::size_t k = 0; k < chains.size(); ++k)
+      if (!sides_.fits(before.sides[k][0], before.sides[k][1], chains[k])) return undo();
     for (std::size_t f = 0; f < after.facets.size(); ++f) take(cluster, after, f, name);
     for (std::size_t k = 0; k < chains.size(); ++k)
-      if (!chains[k].empty()) cut_side(cluster, before.sides[k], chains[k], name);
+      sides_.add(before.sides[k][0], before.sides[k][1], chains[k]);
     for (const Index f : cluster.facets) in_cluster_[f] = 1;
     most_ = std::max(most_, rounded.displacement);
     return true;
+  }
+
+  /// Whether products of coordinates would underflow, as they do beside a vertex that is a denormal number
+  /// from zero.
+  static bool has_tiny_numbers(const Flat& flat) {
+    constexpr double kLeast = 0x1p-500;
+    return std::any_of(flat.state.vertices.begin(), flat.state.vertices.end(), [](const Point& p) {
+      return std::any_of(p.begin(), p.end(), [](double x) { return x != 0 && std::fabs(x) < kLeast; });
+    });
+  }
+
+  /// New vertices that stand above another one become it, if they are no more than the gap away: for the next
+  /// pass. They are points of several planes, of which each has put its own there.
+  bool has_one_above_another(const Flat& flat) {
+    std::vector<std::pair<Point, Index>> places;
+    for (std::size_t k = 0; k < flat.vertices.size(); ++k)
+      places.emplace_back(flat.state.vertices[k], flat.vertices[k]);
+    std::sort(places.begin(), places.end());
+    bool any = false;
+    Index first = 0;  // at the place
+    for (std::size_t k = 1; k < places.size(); ++k) {
+      if (places[k].first != places[first].first) {
+        first = static_cast<Index>(k);
+        continue;
+      }
+      any = true;
+      const Index v = places[first].second, w = places[k].second;
+      if (length(minus(at(v), at(w))) <= gap_) sides_.unite(v, w, state_.input_vertices);
+    }
+    return any;
+  }
+
+  using Edges = std::map<Index, std::set<Side>>;  // by facet of a cluster
+
+  /// Where the parts of a facet do not have the chains of its sides as their boundary, modulo 2.
+  [[nodiscard]] static Edges odd_edges(const Cluster& cluster, const Flat& before, const State& after,
+                                       std::span<const std::vector<Index>> chains) {
+    std::vector<std::pair<Index, Side>> edges;
+    const auto add = [&](Index k, Index a, Index b) {
+      if (a != b) edges.emplace_back(k, ascending(Side{a, b}));
+    };
+    for (std::size_t f = 0; f < after.facets.size(); ++f)
+      for (const Index k : after.facet_parents.of(f))
+        for (std::size_t i = 0; i < 3; ++i) add(k, after.facets[f][i], after.facets[f][(i + 1) % 3]);
+    for (Index k = 0; k < cluster.facets.size(); ++k)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Triangle& t = before.state.facets[k];
+        const Side side = ascending(Side{before.vertices[t[i]], before.vertices[t[(i + 1) % 3]]});
+        const auto at = static_cast<std::size_t>(
+            std::lower_bound(before.sides.begin(), before.sides.end(), side) - before.sides.begin());
+        Index last = before.state.segments[at][0];
+        for (const Index v : chains[at]) add(k, std::exchange(last, v), v);
+        add(k, last, before.state.segments[at][1]);
+      }
+    std::sort(edges.begin(), edges.end());
+    Edges odd;
+    for (std::size_t k = 0, next = 0; k < edges.size(); k = next) {
+      while (next < edges.size() && edges[next] == edges[k]) ++next;
+      if ((next - k) % 2 != 0) odd[edges[k].first].insert(edges[k].second);
+    }
+    return odd;
+  }
+
+  /// Where a facet was folded by rounding, triangles of which it has two parts have become one, and there is
+  /// a gap. Such are no parts of it. False where gaps stay.
+  [[nodiscard]] static bool make_whole(const Cluster& cluster, const Flat& before, State& after,
+                                       std::span<const std::vector<Index>> chains) {
+    Edges odd = odd_edges(cluster, before, after, chains);
+    if (odd.empty()) return true;
+    std::vector<Triangle> facets;
+    Parents parents;
+    for (std::size_t f = 0; f < after.facets.size(); ++f) {
+      const Triangle& t = after.facets[f];
+      std::set<Index> of(after.facet_parents.of(f).begin(), after.facet_parents.of(f).end());
+      const std::array sides{ascending(Side{t[0], t[1]}), ascending(Side{t[1], t[2]}),
+                             ascending(Side{t[2], t[0]})};
+      for (auto& [k, edges] : odd) {
+        if (!std::all_of(sides.begin(), sides.end(),
+                         [&, &e = edges](const Side& s) { return e.contains(s); }))
+          continue;
+        for (const Side& side : sides) edges.erase(side);
+        if (of.erase(k) == 0) of.insert(k);
+      }
+      if (of.empty()) continue;
+      facets.push_back(t);
+      parents.add(std::vector<Index>(of.begin(), of.end()));
+    }
+    after.facets = std::move(facets);
+    after.facet_parents = std::move(parents);
+    return std::all_of(odd.begin(), odd.end(), [](const auto& of) { return of.second.empty(); });
   }
 
   /// Whether what comes of a cluster is near to it. Facets that stand steep on the plane are not, since their
@@ -142,14 +251,12 @@ class Flattening {
     return true;
   }
 
-  /// A side becomes a chain. What was on the facet that the side bounds only gets its third coordinate here.
-  void cut_side(const Cluster& cluster, const Side& side, std::span<const Index> chain,
-                std::span<const Index> name) {
-    std::vector<Index>& cut = cut_[side];
+  /// What was on the facet that a side bounds only gets its third coordinate where it is on the side.
+  void put_on_side(const Cluster& cluster, const Side& side, std::span<const Index> chain,
+                   std::span<const Index> name) {
     const Point &a = at(side[0]), &b = at(side[1]);
     for (const Index k : chain) {
       const Index v = name[k];
-      cut.push_back(v);
       Point flat_a = a, flat_b = b, flat_v = at(v);
       flat_a[cluster.axis] = flat_b[cluster.axis] = flat_v[cluster.axis] = 0;
       const double share =
@@ -164,6 +271,7 @@ class Flattening {
   static bool chain_of(const std::vector<Segment>& pieces, const Segment& side, std::vector<Index>& chain) {
     std::map<Index, std::vector<Index>> next;
     for (const auto& [a, b] : pieces) {
+      if (a == b) continue;  // its ends have become one
       next[a].push_back(b);
       next[b].push_back(a);
     }
@@ -228,11 +336,12 @@ class Flattening {
   /// parent is a convex function: corners decide.
   void take(const Cluster& cluster, const State& after, std::size_t f, std::span<const Index> name) {
     const auto& [a, b, c] = after.facets[f];
-    Piece piece{{name[a], name[b], name[c]}, {}};
+    Piece piece{{name[a], name[b], name[c]}, {}, {}};
     Index first = no_index;
     for (const Index k : after.facet_parents.of(f)) {
       const Index parent = cluster.facets[k];
       first = std::min(first, parent);
+      piece.facets.push_back(parent);
       const auto of = state_.facet_parents.of(parent);
       piece.parents.insert(piece.parents.end(), of.begin(), of.end());
       for (const Index v : piece.corners) most_ = std::max(most_, distance(v, state_.facets[parent]));
@@ -249,57 +358,92 @@ class Flattening {
     std::vector<std::uint8_t> known;
     for (Index f = 0; f < in_cluster_.size(); ++f) {
       if (const auto found = pieces_.find(f); found != pieces_.end())
-        for (const Piece& piece : found->second) {
-          facets.push_back(piece.corners);
-          parents.add(piece.parents);
-          known.push_back(0);
+        for (Piece& piece : found->second) {
+          const std::vector<Triangle> parts = cut(piece.corners);
+          for (const Triangle& t : parts) {
+            facets.push_back(t);
+            parents.add(piece.parents);
+            known.push_back(0);
+            if (parts.size() == 1 && parts[0] == piece.corners) continue;
+            for (const Index parent : piece.facets)
+              for (const Index v : t) most_ = std::max(most_, distance(v, state_.facets[parent]));
+          }
         }
       if (in_cluster_[f] != 0) continue;
       const std::vector<Triangle> parts = cut(state_.facets[f]);
       for (const Triangle& t : parts) {
         facets.push_back(t);
         parents.add(state_.facet_parents.of(f));
-        known.push_back(parts.size() > 1 || state_.known.empty() ? 0 : state_.known[f]);
+        known.push_back(t != state_.facets[f] || state_.known.empty() ? 0 : state_.known[f]);
       }
     }
-    state_.facets = std::move(facets);
-    state_.facet_parents = std::move(parents);
-    if (!state_.known.empty()) state_.known = std::move(known);
+    if (state_.known.empty()) known.clear();
+    deliver_facets(facets, parents, known);
     state_.sheet.clear();
     deliver_segments();
+  }
+
+  /// Facets with the same corners are one, whose parents are those of which they are an odd number of parts:
+  /// a sheet that was folded would end at its folds else.
+  void deliver_facets(std::span<const Triangle> facets, const Parents& parents,
+                      std::span<const std::uint8_t> known) {
+    std::map<Triangle, std::vector<Index>> with;  // by their corners, ascending
+    for (Index f = 0; f < facets.size(); ++f) {
+      Triangle corners = facets[f];
+      std::sort(corners.begin(), corners.end());
+      with[corners].push_back(f);
+    }
+    std::vector<std::vector<Index>> of(facets.size());  // the first of each
+    for (const auto& [corners, same] : with) {
+      std::vector<Index>& list = of[same[0]];
+      for (const Index f : same) list.insert(list.end(), parents.of(f).begin(), parents.of(f).end());
+      if (same.size() == 1) continue;
+      std::sort(list.begin(), list.end());
+      std::vector<Index> odd;
+      for (const Index p : list)
+        if (odd.empty() || odd.back() != p)
+          odd.push_back(p);
+        else
+          odd.pop_back();
+      list = std::move(odd);
+    }
+    state_.facets.clear();
+    state_.facet_parents = {};
+    state_.known.clear();
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+      if (of[f].empty()) continue;
+      state_.facets.push_back(facets[f]);
+      state_.facet_parents.add(of[f]);
+      if (!known.empty()) state_.known.push_back(known[f]);
+    }
   }
 
   void deliver_segments() {
     std::vector<Segment> segments;
     Parents parents;
     for (std::size_t s = 0; s < state_.segments.size(); ++s) {
-      Index before = state_.segments[s][0];
-      for (const Index v : chain_from(state_.segments[s][0], state_.segments[s][1])) {
+      const Index end = sides_.root(state_.segments[s][1]);
+      Index before = sides_.root(state_.segments[s][0]);
+      std::vector<Index> chain = sides_.chain(before, end);
+      chain.push_back(end);
+      for (const Index v : chain) {
+        if (before == v) continue;
         segments.push_back({before, v});
         parents.add(state_.segment_parents.of(s));
         before = v;
       }
-      segments.push_back({before, state_.segments[s][1]});
-      parents.add(state_.segment_parents.of(s));
     }
     state_.segments = std::move(segments);
     state_.segment_parents = std::move(parents);
   }
 
-  [[nodiscard]] std::vector<Index> chain_from(Index a, Index b) const {
-    const auto found = cut_.find(ascending(Side{a, b}));
-    if (found == cut_.end()) return {};
-    std::vector<Index> chain = found->second;
-    if (a > b) std::reverse(chain.begin(), chain.end());
-    return chain;
-  }
-
   /// One side after the other: each fan leaves the other two sides whole.
-  [[nodiscard]] std::vector<Triangle> cut(const Triangle& facet) const {
+  [[nodiscard]] std::vector<Triangle> cut(Triangle facet) const {
+    for (Index& v : facet) v = sides_.root(v);
     std::vector<Triangle> parts{facet};
     for (std::size_t i = 0; i < 3; ++i) {
       const Index a = facet[i], b = facet[(i + 1) % 3];
-      const std::vector<Index> chain = chain_from(a, b);
+      const std::vector<Index> chain = sides_.chain(a, b);
       if (chain.empty()) continue;
       std::vector<Triangle> now;
       for (const Triangle& t : parts) {
@@ -325,15 +469,17 @@ class Flattening {
   struct Piece {
     Triangle corners;
     std::vector<Index> parents;
+    std::vector<Index> facets;  // of the state, that it is a part of
   };
 
   State& state_;
   const double gap_;
   const RoundPlane& round_;
+  const std::size_t vertices_;  // before
+  const SidesOf sides_of_;
+  SharedSides sides_;
   std::vector<std::uint8_t> in_cluster_;             // by facet
   std::map<Index, std::vector<Piece>> pieces_;       // by first facet
-  std::set<Side> taken_;                             // of clusters that were arranged
-  std::map<Side, std::vector<Index>> cut_;           // by side, ascending: what it is led through
   std::set<Index> lifted_;                           // new vertices that have no third coordinate yet
   std::map<Index, std::pair<double, Index>> below_;  // of these, the area and the index of the largest facet
   double most_ = 0;
@@ -341,9 +487,9 @@ class Flattening {
 
 }  // namespace
 
-double flatten(State& state, double gap, const RoundPlane& round, const Step& step,
+double flatten(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step,
                std::span<const Index> some) {
-  return Flattening(state, gap, round).run(find_clusters(state, gap, some, step));
+  return Flattening(state, gap, round, sides).run(find_clusters(state, gap, some, step));
 }
 
 }  // namespace holdfast::repairing

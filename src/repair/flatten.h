@@ -14,6 +14,12 @@ namespace holdfast::repairing {
 /// one that is not valid.
 using RoundPlane = std::function<Rounded(State, double most)>;
 
+/// Which sheets may lead a side through vertices of theirs.
+enum class SidesOf {
+  all_sheets,  ///< together: see SharedSides
+  one_sheet,   ///< the first; others wait for the next call
+};
+
 /// Facets that overlap at a distance of at most `gap` are arranged in a projection along an axis, where they
 /// overlap exactly: so sheets come to have the same triangles wherever both are, with the parents of both.
 /// Vertices stay; new ones, where sides cross in the projection, get their third coordinate from a facet
@@ -22,7 +28,7 @@ using RoundPlane = std::function<Rounded(State, double most)>;
 /// The result is a graph over a triangulation of the plane and cannot cross itself; what is round it may.
 /// Returns the largest distance by which anything was moved or bent, rounded up; 0 where there was nothing to
 /// do.
-double flatten(State& state, double gap, const RoundPlane& round, const Step& step,
+double flatten(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step,
                std::span<const Index> some = {});
 
 }  // namespace holdfast::repairing

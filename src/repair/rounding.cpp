@@ -15,6 +15,7 @@
 #include "repair/settle.h"
 #include "repair/weld.h"
 #include "surface/elements.h"
+#include "surface/places.h"
 
 namespace holdfast::repairing {
 namespace {
@@ -66,6 +67,26 @@ constexpr double kMostInPlane = 0x1p6;
 /// How many facets joining may make of so many in a plane. Where it makes more, it does not end well.
 constexpr std::size_t most_in_plane(std::size_t facets) { return 64 + 2 * facets; }
 
+/// Sides that one facet has.
+std::size_t open_sides(const State& state) {
+  const std::vector<Index> first = first_at_places(state.vertices);
+  std::vector<Segment> sides;
+  for (const Triangle& t : state.facets) {
+    if (std::any_of(t.begin(), t.end(), [&](Index v) { return v >= first.size(); })) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [a, b] = std::minmax(first[t[i]], first[t[(i + 1) % 3]]);
+      sides.push_back({a, b});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  std::size_t open = 0;
+  for (std::size_t k = 0, next = 0; k < sides.size(); k = next) {
+    while (next < sides.size() && sides[next] == sides[k]) ++next;
+    open += next - k == 1 ? 1 : 0;
+  }
+  return open;
+}
+
 /// The quotient in lowest terms.
 std::string quotient_text(const exact::BigInt& numerator, const exact::BigInt& denominator) {
   const exact::BigInt divisor = gcd(numerator, denominator);
@@ -111,8 +132,8 @@ constexpr std::array kJoinedLastBits{0x1p3, 0x1p6};
 class Rounding {
  public:
   Rounding(State state, const RepairOptions& options, RepairReport& report, ExactSurface& exact,
-           const Step& step, const Threads& threads)
-      : options_(options), report_(report), exact_(exact), step_(step), threads_(threads) {
+           const Step& step, const Threads& threads, SidesOf sides)
+      : options_(options), report_(report), exact_(exact), step_(step), threads_(threads), sides_(sides) {
     rounded_.state = std::move(state);
   }
 
@@ -128,8 +149,7 @@ class Rounding {
     if (options_.join > 0 && !is_plane_) flatten_all(rounded_.state, options_.join, rounded_.displacement);
     const State given = rounded_.state;
     new_points_[0] = cut(options_.most_points).value_or(0);
-    if (!rounded_.is_valid)
-      new_points_[1] = cut(std::min(options_.most_points, 1000 + 4 * report_.points)).value_or(SIZE_MAX);
+    if (!rounded_.is_valid) cut_again();
     if (rounded_.is_valid || is_hopeless()) return std::move(rounded_);
     most_facets_ = is_plane_ ? most_in_plane(rounded_.state.facets.size()) : SIZE_MAX;
     trouble_ = trouble_of(rounded_.state, here(), threads_);
@@ -149,13 +169,21 @@ class Rounding {
       }
       if (is_done()) break;
       join_from_best(plan);
-      if (!trouble_.none()) cut_if_better();
+      if (!is_done()) cut_if_better();
     }
     rounded_.is_valid = is_done();
     return rounded_.is_valid || is_plane_ || options_.join > 0 ? std::move(rounded_) : join_all(given);
   }
 
  private:
+  /// In a plane, more new points than the first time lead nowhere.
+  void cut_again() {
+    const std::size_t most = is_plane_ ? 64 + new_points_[0] : 1000 + 4 * report_.points;
+    const std::optional<std::size_t> points = cut(std::min(options_.most_points, most));
+    new_points_[1] = points.value_or(SIZE_MAX);
+    grows_ = is_plane_ && !points;
+  }
+
   /// Nothing is in trouble, and nothing that is said to be known is taken for granted.
   bool is_done() {
     if (!trouble_.none()) return false;
@@ -215,6 +243,7 @@ class Rounding {
   /// far, from this.
   void join_from_best(const Plan& plan) {
     join(plan);
+    if (is_done()) return;
     if (!best_ || trouble_.size() < best_->trouble.size()) {
       best_ = Attempt{rounded_.state, trouble_, rounded_.displacement};
       return;
@@ -237,7 +266,8 @@ class Rounding {
       RepairReport report;
       ExactSurface exact;
       known.most = most;
-      known.rounded = Rounding(std::move(plane), options, report, exact, here(), threads_).run_in_plane(most);
+      known.rounded =
+          Rounding(std::move(plane), options, report, exact, here(), threads_, sides_).run_in_plane(most);
     }
     return known.rounded;
   }
@@ -247,7 +277,7 @@ class Rounding {
     const RoundPlane round = [&](State plane, double most) { return round_plane(std::move(plane), most); };
     constexpr int kPasses = 4;
     for (int pass = 0; pass < kPasses; ++pass) {
-      const double moved = flatten(state, gap, round, here());
+      const double moved = flatten(state, gap, round, sides_, here());
       if (moved == 0) return;
       displacement = sum_above(displacement, moved);
     }
@@ -261,7 +291,7 @@ class Rounding {
     for (int pass = 0; pass < kPasses && !flat.trouble.none(); ++pass) {
       const double moved = flatten(
           flat.state, plan.last_bits * last_bit(flat.state),
-          [&](State plane, double most) { return round_plane(std::move(plane), most); }, here(),
+          [&](State plane, double most) { return round_plane(std::move(plane), most); }, sides_, here(),
           flat.trouble.facets);
       if (moved == 0) return;
       flat.displacement = sum_above(flat.displacement, moved);
@@ -300,13 +330,14 @@ class Rounding {
     }
   }
 
-  /// Cuts and rounds twice; false where that takes more new points than it did before sheets were made one:
-  /// then more would be in trouble, too. The first time a few more are no such sign. Where it takes several
-  /// times as many, cutting is no way at all, and the sheets are a start without it.
+  /// Cuts and rounds twice; false where that takes more new points than it did before sheets were made one,
+  /// or the second time more than the first: then more would be in trouble, too. A few more are no such sign.
+  /// Where it takes several times as many, cutting is no way at all, and the sheets are a start without it.
   bool cut_flat() {
     const auto [first, second] = new_points_;
-    if (!cut(std::min(options_.most_points, 100 + first + first / 8))) return too_many_ > 1000 + 4 * first;
-    return rounded_.is_valid || cut(std::min(options_.most_points, second));
+    const std::optional<std::size_t> now = cut(std::min(options_.most_points, 100 + first + first / 8));
+    if (!now) return too_many_ > 1000 + 4 * first;
+    return rounded_.is_valid || cut(std::min({options_.most_points, second, 100 + *now}));
   }
 
   /// Where all else fails: sheets that lie in each other are made one all over the surface, whether the cuts
@@ -316,7 +347,7 @@ class Rounding {
       RepairOptions options = options_;
       options.join = last_bits * last_bit(given);
       report_.rung = Rung::coarser;
-      Rounded joined = Rounding(given, options, report_, exact_, step_, threads_).run();
+      Rounded joined = Rounding(given, options, report_, exact_, step_, threads_, sides_).run();
       if (joined.is_valid) return joined;
     }
     return std::move(rounded_);
@@ -398,6 +429,7 @@ class Rounding {
   ExactSurface& exact_;
   const Step& step_;
   const Threads& threads_;
+  const SidesOf sides_;
   bool is_plane_ = false;
   double most_displacement_ = std::numeric_limits<double>::infinity();
   std::size_t most_facets_ = SIZE_MAX;       // that joining may make
@@ -418,14 +450,29 @@ class Rounding {
 
 }  // namespace
 
+/// Sheets that share their sides may leave thin facets between them, which hang on the surface by a side.
+/// Then they are tried one after the other.
 Rounded round_arranged(State state, const RepairOptions& options, RepairReport& report, ExactSurface& exact,
                        const Step& step, const Threads& threads) {
-  const std::vector<Point> before = state.vertices;
-  Rounded rounded = Rounding(std::move(state), options, report, exact, step, threads).run();
+  const State given = state;
+  const RepairReport told = report;
+  Rounded rounded =
+      Rounding(std::move(state), options, report, exact, step, threads, SidesOf::all_sheets).run();
+  if (rounded.is_valid && report.rung >= Rung::coarser) {
+    const std::size_t open = open_sides(rounded.state);
+    if (open > open_sides(given)) {
+      RepairReport other_report = told;
+      Rounded other = Rounding(given, options, other_report, exact, step, threads, SidesOf::one_sheet).run();
+      if (other.is_valid && open_sides(other.state) < open) {
+        rounded = std::move(other);
+        report = other_report;
+      }
+    }
+  }
   if (rounded.is_valid)
     rounded.displacement = sum_above(
         rounded.displacement,
-        restore(rounded.state, std::span(before).first(rounded.state.input_vertices), step, threads));
+        restore(rounded.state, std::span(given.vertices).first(given.input_vertices), step, threads));
   return rounded;
 }
 

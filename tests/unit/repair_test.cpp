@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <span>
 #include <tuple>
 
 #include "small_surfaces.h"
@@ -148,17 +149,19 @@ TEST(Repair, SheetsThatLieInEachOtherButForRounding) {
   }
 }
 
-/// Cubes of a lattice, cut alike and turned.
-Surface turned_cubes(std::initializer_list<std::pair<std::array<int, 3>, int>> cubes) {
+/// Boxes of a lattice, cut alike.
+Surface turned_boxes(std::span<const std::pair<std::array<int, 3>, std::array<int, 3>>> boxes,
+                     bool is_turned) {
   Surface surface;
   const double a = std::cos(0.2), b = std::sin(0.2), c = std::cos(0.4), d = std::sin(0.4), e = std::cos(0.9),
                f = std::sin(0.9);
-  for (const auto& [low, size] : cubes) {
+  for (const auto& [low, size] : boxes) {
     std::map<std::array<int, 3>, Index> at;
     const auto put = [&](const std::array<int, 3>& p) {
       const auto [found, is_new] = at.try_emplace(p, static_cast<Index>(surface.vertices.size()));
       if (!is_new) return found->second;
       double x = p[0], y = p[1], z = p[2];
+      if (!is_turned) return surface.vertices.push_back({x, y, z}), found->second;
       std::tie(x, y) = std::pair(x * a - y * b, x * b + y * a);
       std::tie(y, z) = std::pair(y * c - z * d, y * d + z * c);
       std::tie(z, x) = std::pair(z * e - x * f, z * f + x * e);
@@ -170,9 +173,9 @@ Surface turned_cubes(std::initializer_list<std::pair<std::array<int, 3>, int>> c
         std::array<std::array<int, 3>, 4> corners;
         corners.fill(low);
         for (std::size_t k = 0; k < 4; ++k) {
-          corners[k][axis] += is_high ? size : 0;
-          corners[k][(axis + 1) % 3] += k == 1 || k == 2 ? size : 0;
-          corners[k][(axis + 2) % 3] += k >= 2 ? size : 0;
+          corners[k][axis] += is_high ? size[axis] : 0;
+          corners[k][(axis + 1) % 3] += k == 1 || k == 2 ? size[(axis + 1) % 3] : 0;
+          corners[k][(axis + 2) % 3] += k >= 2 ? size[(axis + 2) % 3] : 0;
         }
         std::array<Index, 4> q{};
         for (std::size_t k = 0; k < 4; ++k) q[k] = put(corners[k]);
@@ -184,6 +187,12 @@ Surface turned_cubes(std::initializer_list<std::pair<std::array<int, 3>, int>> c
   return surface;
 }
 
+Surface turned_cubes(std::initializer_list<std::pair<std::array<int, 3>, int>> cubes) {
+  std::vector<std::pair<std::array<int, 3>, std::array<int, 3>>> boxes;
+  for (const auto& [low, size] : cubes) boxes.push_back({low, {size, size, size}});
+  return turned_boxes(boxes, true);
+}
+
 /// What is in trouble is little, and all that joins it alone leaves more.
 TEST(Repair, SheetsAreJoinedAllOverWhereNothingElseHelps) {
   const Surface cubes =
@@ -192,6 +201,31 @@ TEST(Repair, SheetsAreJoinedAllOverWhereNothingElseHelps) {
   expect_valid(repaired);
   EXPECT_LT(repaired.max_displacement, 1e-12);
   EXPECT_TRUE(repaired.moved.empty());
+}
+
+/// A side of a strut is in two planes, and in each of them others cross it, at places that are the same but
+/// for rounding. Turned, the lattice has as few new points as it has where it is not.
+TEST(Repair, SheetsLeadTheSidesThatTheyShareTogether) {
+  std::vector<std::pair<std::array<int, 3>, std::array<int, 3>>> struts;
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::array<int, 3> low{}, size{};
+        low[axis] = -5;
+        size[axis] = 21;
+        low[(axis + 1) % 3] = 10 * i;
+        low[(axis + 2) % 3] = 10 * j;
+        size[(axis + 1) % 3] = size[(axis + 2) % 3] = 1;
+        struts.emplace_back(low, size);
+      }
+  const auto vertices_of = [&](bool is_turned) {
+    const Surface lattice = turned_boxes(struts, is_turned);
+    const RepairResult repaired = repair(lattice);
+    expect_valid(repaired);
+    EXPECT_TRUE(repaired.moved.empty());
+    return repaired.surface.vertices.size();
+  };
+  EXPECT_LE(vertices_of(true), 2 * vertices_of(false));
 }
 
 TEST(Repair, DoublesNeedNoRounding) {
