@@ -459,8 +459,9 @@ Rounded round_arranged(State state, const RepairOptions& options, RepairReport& 
   Rounded rounded =
       Rounding(std::move(state), options, report, exact, step, threads, SidesOf::all_sheets).run();
   if (rounded.is_valid && report.rung >= Rung::coarser) {
-    const std::size_t open = open_sides(rounded.state);
-    if (open > open_sides(given)) {
+    constexpr std::size_t kFew = 16;  // where there are more, nearly as many are left
+    const std::size_t open = open_sides(rounded.state), before = open_sides(given);
+    if (open > before && open <= before + kFew) {
       RepairReport other_report = told;
       Rounded other = Rounding(given, options, other_report, exact, step, threads, SidesOf::one_sheet).run();
       if (other.is_valid && open_sides(other.state) < open) {
