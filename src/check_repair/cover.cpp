@@ -278,11 +278,11 @@ std::optional<std::string> CoverTest::gap(const std::array<Point, 3>& triangle, 
       return "no vertex of the output is within " + decimal(reach_.distance()) + " of its corner at " +
              words(triangle[i]);
   }
-  if (chain.size() == 1) {
-    Triangle t = facets_[chain[0]];
-    std::array<Index, 3> corners = places;
+  std::array<Index, 3> corners = places;
+  std::sort(corners.begin(), corners.end());
+  for (const Index f : chain) {
+    Triangle t = facets_[f];
     std::sort(t.begin(), t.end());
-    std::sort(corners.begin(), corners.end());
     if (t == corners) return std::nullopt;
   }
   std::optional<std::string> gap = Cover(*this, triangle, places, chain).gap();

@@ -122,6 +122,16 @@ TEST(Cover, CornersThatAreThereTwice) {
   EXPECT_TRUE(CoverTest(vertices, facets, reach).gap(triangle, {4, 2, 3}, std::vector<Index>{1, 2, 3}));
 }
 
+// A child that is all of the triangle covers it, whatever others there are.
+TEST(Cover, AChildThatIsAllOfIt) {
+  const std::vector<Point> vertices{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.2, 0.2, 0}, {0.3, 0.2, 0}};
+  const std::vector<Triangle> facets{{2, 0, 1}, {0, 3, 4}};
+  const std::array<Point, 3> triangle{vertices[0], vertices[1], vertices[2]};
+  const Reach reach(0);
+  EXPECT_FALSE(CoverTest(vertices, facets, reach).gap(triangle, {0, 1, 2}, std::vector<Index>{1, 0}));
+  EXPECT_TRUE(CoverTest(vertices, facets, reach).gap(triangle, {0, 1, 2}, std::vector<Index>{1}));
+}
+
 TEST(Cover, Segments) {
   const std::vector<Point> vertices{{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}};
   const Reach reach(0);
