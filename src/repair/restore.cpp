@@ -39,7 +39,7 @@ class Restoring {
 
   double run() {
     list_lost();
-    if (lost_.empty()) return 0;
+    if (lost_.empty() || is_there_twice()) return 0;
     state_.doubt_all();
     bent_.assign(state_.facets.size(), 0);
     constexpr int kMostRounds = 64;
@@ -77,6 +77,15 @@ class Restoring {
       else
         lost_[at->second].same.push_back(v);
     }
+  }
+
+  /// Two sheets between which no double lies are one: with the vertices of both, the surface would be full of
+  /// sides of some last bits, and no element beside them fit to compute with.
+  [[nodiscard]] bool is_there_twice() const {
+    constexpr std::size_t kShare = 4;
+    std::size_t count = 0;
+    for (const Lost& lost : lost_) count += 1 + lost.same.size();
+    return kShare * count > state_.input_vertices;
   }
 
   [[nodiscard]] const Point& at(Index v) const { return state_.vertices[v]; }
