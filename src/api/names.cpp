@@ -43,8 +43,8 @@ constexpr std::array kWarningKinds{
 
 constexpr std::array kRemarkKinds{
     Named{RemarkKind::left_out, "left_out"},       Named{RemarkKind::polygons_cut, "polygons_cut"},
-    Named{RemarkKind::cells_split, "cells_split"}, Named{RemarkKind::size_limits, "size_limits"},
-    Named{RemarkKind::not_held, "not_held"},       Named{RemarkKind::renumbered, "renumbered"}};
+    Named{RemarkKind::size_limits, "size_limits"}, Named{RemarkKind::not_held, "not_held"},
+    Named{RemarkKind::renumbered, "renumbered"},   Named{RemarkKind::cells_split, "cells_split"}};
 
 constexpr std::array kDefectKinds{Named{DefectKind::non_finite_coordinate, "non-finite coordinate"},
                                   Named{DefectKind::index_out_of_range, "index out of range"},

@@ -237,7 +237,7 @@ TEST(Names, OfEveryEnumerationAndBack) {
   expect_names<Keep>(4);
   expect_names<Effort>(3);
   expect_names<WarningKind>(6);
-  expect_names<RemarkKind>(5);
+  expect_names<RemarkKind>(6);
   expect_names<DefectKind>(16);
   expect_names<RuleKind>(15);
   expect_names<UntangleStep>(7);

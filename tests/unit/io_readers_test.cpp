@@ -238,8 +238,9 @@ TEST(Medit, ReadsBoth) {
 }
 
 TEST(Medit, Errors) {
-  EXPECT_EQ(error(replaced(kMesh, "Ridges\n1\n1", "Prisms\n1\n1 2 3 4 1 2 0"), "a.mesh"),
-            "line 21: the section 'prisms' is not read; split its elements into triangles or tetrahedra");
+  EXPECT_EQ(
+      error(replaced(kMesh, "Ridges\n1\n1", "HexahedraQ2\n1\n1 2 3 4 1 2 0"), "a.mesh"),
+      "line 21: the section 'hexahedraq2' is not read; split its elements into triangles or tetrahedra");
   EXPECT_EQ(error(replaced(kMesh, "Ridges\n1\n1", "Prisms\n0"), "a.mesh"), "read");
   EXPECT_EQ(error(replaced(kMesh, "1 2 4 20", "1 2 5 20"), "a.mesh"),
             "line 17: a vertex index is out of range: 5 (they run from 1 to 4)");
@@ -392,8 +393,8 @@ TEST(Msh, Errors) {
             "line 19: the node 25 does not exist");
   EXPECT_EQ(error(replaced(kMsh2, "20 1 0 0", "10 1 0 0"), "a.msh").substr(9),
             "the node tag 10 occurs twice");
-  EXPECT_EQ(error(replaced(kMsh2, "4 4 2 9", "4 5 2 9"), "a.msh").substr(9, 29),
-            "elements of type 5 are not re");
+  EXPECT_EQ(error(replaced(kMsh2, "4 4 2 9", "4 32 2 9"), "a.msh").substr(9, 29),
+            "elements of type 32 are not r");
 }
 
 TEST(Vtk, AsciiAndBinary) {
@@ -440,7 +441,7 @@ TEST(Vtu, Base64) {
 TEST(Vtu, Errors) {
   EXPECT_EQ(error(replaced(kVtu, "0 2 1 0 1<", "0 2 1 0 4<"), "a.vtu"),
             "cell 2: names vertex 4, but there are 4");
-  EXPECT_EQ(error(replaced(kVtu, ">10 5 3<", ">10 12 3<"), "a.vtu").substr(0, 20), "cell 1: is of type 1");
+  EXPECT_EQ(error(replaced(kVtu, ">10 5 3<", ">10 42 3<"), "a.vtu").substr(0, 20), "cell 1: is of type 4");
   EXPECT_EQ(error(replaced(kVtu, "NumberOfPoints='4'", "NumberOfPoints='5'"), "a.vtu"),
             "line 8: the array has 12 values instead of 15");
   EXPECT_EQ(error(replaced(kVtu, "byte_order", "compressor=\"vtkLZ4DataCompressor\" byte_order"), "a.vtu"),

@@ -240,8 +240,8 @@ TEST(SolverFormats, BadFilesAreToldByTheirLines) {
   EXPECT_EQ(error("a.inp", "*NODE\n1, 0, 0, 0\n2, 1, x, 0\n"), "line 3: expected a coordinate, found 'x'");
   EXPECT_EQ(error("a.inp", "*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=C3D4\n1, 1, 1, 1, 9\n"),
             "line 4: the node 9 does not exist");
-  EXPECT_EQ(error("a.inp", "*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=C3D8\n").substr(0, 32),
-            "line 3: elements of type 'C3D8' ");
+  EXPECT_EQ(error("a.inp", "*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=C3D9\n").substr(0, 32),
+            "line 3: elements of type 'C3D9' ");
   EXPECT_EQ(error("a.inp", "*NODE\n1, 0, 0, 0\n1, 0, 0, 0\n"), "the node 1 is there twice");
   EXPECT_EQ(error("a.inp", "*NODE\n1, 0, 0, 0\n*SURFACE, NAME=s\n5, S1\n"),
             "line 4: the element 5 does not exist");
