@@ -133,9 +133,10 @@ FlatMesh begin_beyond(const Given& given, SheetPoints& points) {
         largest = std::max(largest, std::fabs(p[k]));
       }
     }
-  // Far enough that roundings do not matter; as integers where doubles end.
+  // Far enough that roundings do not matter; as integers where doubles end. Halves of denormals may be zero.
   const double margin =
-      std::max(largest * 0x1p-20, std::max(high[0] / 2 - low[0] / 2, high[1] / 2 - low[1] / 2) * 2);
+      std::max({largest * 0x1p-20, std::max(high[0] / 2 - low[0] / 2, high[1] / 2 - low[1] / 2) * 2,
+                std::numeric_limits<double>::min()});
   const auto far = [&](double x, double y) {
     exact::RationalPoint p = exact::rational_point(low.data());
     const Position step{margin, margin};

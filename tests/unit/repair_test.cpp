@@ -91,6 +91,17 @@ TEST(Repair, IsValidInTheDoublesThatAreWritten) {
   }
 }
 
+/// Half of the least double is none, so that the triangle round a sheet of such a size had no size.
+TEST(Repair, SheetsOfTheLeastDoublesBesideLargeTriangles) {
+  constexpr double d = 0x1p-1074;
+  Surface surface;
+  surface.vertices = {{0, 0, 0}, {d, 0, 0}, {d, d, 0}, {0, d, 0}, {1, 1, 1}, {1, 2, 1}, {2, 1, 1}};
+  surface.facets = {{0, 2, 3}, {3, 2, 1}, {3, 1, 0}, {4, 5, 6}};
+  const RepairResult repaired = repair(surface);
+  if (repaired.outcome == Outcome::not_representable) return;
+  expect_valid(repaired);
+}
+
 TEST(Repair, VerticesThatAreNotFiniteHaveNoScale) {
   Surface surface = scaled(two_spheres(), -332);
   const RepairResult before = repair(surface);
