@@ -92,7 +92,7 @@ class Flattening {
     if (waits && std::any_of(before.sides.begin(), before.sides.end(),
                              [&](const Side& s) { return !sides_.chain(s[0], s[1]).empty(); }))
       return false;
-    if (has_tiny_numbers(before) || has_one_above_another(before)) return false;
+    if (has_one_above_another(before)) return false;
     Rounded rounded = round_(before.state, kMostGaps * gap_);
     State& after = rounded.state;
     if (!rounded.is_valid || !(rounded.displacement <= kMostGaps * gap_) ||
@@ -144,15 +144,6 @@ class Flattening {
     for (const Index f : cluster.facets) in_cluster_[f] = 1;
     most_ = std::max(most_, rounded.displacement);
     return true;
-  }
-
-  /// Whether products of coordinates would underflow, as they do beside a vertex that is a denormal number
-  /// from zero.
-  static bool has_tiny_numbers(const Flat& flat) {
-    constexpr double kLeast = 0x1p-500;
-    return std::any_of(flat.state.vertices.begin(), flat.state.vertices.end(), [](const Point& p) {
-      return std::any_of(p.begin(), p.end(), [](double x) { return x != 0 && std::fabs(x) < kLeast; });
-    });
   }
 
   /// New vertices that stand above another one become it, if they are no more than the gap away: for the next
