@@ -9,14 +9,13 @@
 
 #include "numbers/sorted.h"
 #include "repair/clusters.h"
+#include "repair/flat_cluster.h"
 #include "repair/near.h"
 #include "repair/shared_sides.h"
 #include "surface/complex.h"
 
 namespace holdfast::repairing {
 namespace {
-
-using Side = std::array<Index, 2>;
 
 /// How many gaps the sheets that are made of a cluster may be away from its facets.
 constexpr double kMostGaps = 64;
@@ -48,46 +47,8 @@ class Flattening {
  private:
   [[nodiscard]] const Point& at(Index v) const { return state_.vertices[v]; }
 
-  /// The facets of a cluster in the plane, with their sides as segments.
-  struct Flat {
-    State state;
-    std::vector<Index> vertices;  // of the state
-    std::vector<Side> sides;      // ascending
-  };
-
-  [[nodiscard]] Flat flat(const Cluster& cluster) const {
-    Flat flat;
-    for (const Index f : cluster.facets) {
-      const Triangle& t = state_.facets[f];
-      flat.vertices.insert(flat.vertices.end(), t.begin(), t.end());
-      for (std::size_t i = 0; i < 3; ++i) flat.sides.push_back(ascending(Side{t[i], t[(i + 1) % 3]}));
-    }
-    sort_unique(flat.vertices);
-    sort_unique(flat.sides);
-    const auto number = [&](Index v) {
-      return static_cast<Index>(std::lower_bound(flat.vertices.begin(), flat.vertices.end(), v) -
-                                flat.vertices.begin());
-    };
-    for (const Index v : flat.vertices) {
-      Point p = at(v);
-      p[cluster.axis] = 0;
-      flat.state.vertices.push_back(p);
-    }
-    flat.state.input_vertices = flat.vertices.size();
-    for (Index k = 0; k < cluster.facets.size(); ++k) {
-      const Triangle& t = state_.facets[cluster.facets[k]];
-      flat.state.facets.push_back({number(t[0]), number(t[1]), number(t[2])});
-      flat.state.facet_parents.add(std::array{k});
-    }
-    for (Index k = 0; k < flat.sides.size(); ++k) {
-      flat.state.segments.push_back({number(flat.sides[k][0]), number(flat.sides[k][1])});
-      flat.state.segment_parents.add(std::array{k});
-    }
-    return flat;
-  }
-
   bool arrange_cluster(const Cluster& cluster) {
-    const Flat before = flat(cluster);
+    const Flat before = flat_of(state_, cluster);
     const bool waits = sides_of_ == SidesOf::one_sheet;
     if (waits && std::any_of(before.sides.begin(), before.sides.end(),
                              [&](const Side& s) { return !sides_.chain(s[0], s[1]).empty(); }))
@@ -167,66 +128,6 @@ class Flattening {
     return any;
   }
 
-  using Edges = std::map<Index, std::set<Side>>;  // by facet of a cluster
-
-  /// Where the parts of a facet do not have the chains of its sides as their boundary, modulo 2.
-  [[nodiscard]] static Edges odd_edges(const Cluster& cluster, const Flat& before, const State& after,
-                                       std::span<const std::vector<Index>> chains) {
-    std::vector<std::pair<Index, Side>> edges;
-    const auto add = [&](Index k, Index a, Index b) {
-      if (a != b) edges.emplace_back(k, ascending(Side{a, b}));
-    };
-    for (std::size_t f = 0; f < after.facets.size(); ++f)
-      for (const Index k : after.facet_parents.of(f))
-        for (std::size_t i = 0; i < 3; ++i) add(k, after.facets[f][i], after.facets[f][(i + 1) % 3]);
-    for (Index k = 0; k < cluster.facets.size(); ++k)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Triangle& t = before.state.facets[k];
-        const Side side = ascending(Side{before.vertices[t[i]], before.vertices[t[(i + 1) % 3]]});
-        const auto at = static_cast<std::size_t>(
-            std::lower_bound(before.sides.begin(), before.sides.end(), side) - before.sides.begin());
-        Index last = before.state.segments[at][0];
-        for (const Index v : chains[at]) add(k, std::exchange(last, v), v);
-        add(k, last, before.state.segments[at][1]);
-      }
-    std::sort(edges.begin(), edges.end());
-    Edges odd;
-    for (std::size_t k = 0, next = 0; k < edges.size(); k = next) {
-      while (next < edges.size() && edges[next] == edges[k]) ++next;
-      if ((next - k) % 2 != 0) odd[edges[k].first].insert(edges[k].second);
-    }
-    return odd;
-  }
-
-  /// Where a facet was folded by rounding, triangles of which it has two parts have become one, and there is
-  /// a gap. Such are no parts of it. False where gaps stay.
-  [[nodiscard]] static bool make_whole(const Cluster& cluster, const Flat& before, State& after,
-                                       std::span<const std::vector<Index>> chains) {
-    Edges odd = odd_edges(cluster, before, after, chains);
-    if (odd.empty()) return true;
-    std::vector<Triangle> facets;
-    Parents parents;
-    for (std::size_t f = 0; f < after.facets.size(); ++f) {
-      const Triangle& t = after.facets[f];
-      std::set<Index> of(after.facet_parents.of(f).begin(), after.facet_parents.of(f).end());
-      const std::array sides{ascending(Side{t[0], t[1]}), ascending(Side{t[1], t[2]}),
-                             ascending(Side{t[2], t[0]})};
-      for (auto& [k, edges] : odd) {
-        if (!std::all_of(sides.begin(), sides.end(),
-                         [&, &e = edges](const Side& s) { return e.contains(s); }))
-          continue;
-        for (const Side& side : sides) edges.erase(side);
-        if (of.erase(k) == 0) of.insert(k);
-      }
-      if (of.empty()) continue;
-      facets.push_back(t);
-      parents.add(std::vector<Index>(of.begin(), of.end()));
-    }
-    after.facets = std::move(facets);
-    after.facet_parents = std::move(parents);
-    return std::all_of(odd.begin(), odd.end(), [](const auto& of) { return of.second.empty(); });
-  }
-
   /// Whether what comes of a cluster is near to it. Facets that stand steep on the plane are not, since their
   /// points come down on others far from them.
   [[nodiscard]] bool is_near(const Cluster& cluster, const State& after, const Flat& before,
@@ -256,28 +157,6 @@ class Flattening {
         state_.vertices[v][cluster.axis] = a[cluster.axis] + share * (b[cluster.axis] - a[cluster.axis]);
       most_ = std::max(most_, distance(v, side));
     }
-  }
-
-  /// The vertices of a path between the ends of a side, without the ends; false where the pieces are none.
-  static bool chain_of(const std::vector<Segment>& pieces, const Segment& side, std::vector<Index>& chain) {
-    std::map<Index, std::vector<Index>> next;
-    for (const auto& [a, b] : pieces) {
-      if (a == b) continue;  // its ends have become one
-      next[a].push_back(b);
-      next[b].push_back(a);
-    }
-    Index before = no_index, at = side[0];
-    for (std::size_t steps = 0; at != side[1]; ++steps) {
-      const auto found = next.find(at);
-      if (found == next.end() || steps > pieces.size()) return false;
-      const auto onward =
-          std::find_if(found->second.begin(), found->second.end(), [&](Index v) { return v != before; });
-      if (onward == found->second.end()) return false;
-      before = at;
-      at = *onward;
-      if (at != side[1]) chain.push_back(at);
-    }
-    return true;
   }
 
   /// Puts new corners onto the plane of the largest facet that they are a corner of a part of.
