@@ -226,7 +226,7 @@ class BdfReader {
       mesh_.add_tetrahedron({n[0], n[1], n[2], n[3]}, id);
       return add_no_corners(mesh_, std::span(n).first(element.nodes.size()).subspan(4));
     }
-    if (element.name == "chexa" || element.name == "cpenta" || element.name == "cpyram")
+    if (element.corners > 4)
       return add_cell(mesh_, std::span(n).first(element.nodes.size()), element.corners,
                       id_of_property(regions_, ids_of_regions_, element.property));
     if (element.nodes.size() == 2) return mesh_.add_segment({n[0], n[1]}, element.property);

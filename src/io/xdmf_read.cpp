@@ -184,7 +184,7 @@ class XdmfReader {
     }
   }
 
-  // Ids of the cells: of tetrahedra the region, of what else there is the marker.
+  // Ids of the cells: of volumes the region, of what else there is the marker.
   void read_attributes(const XdmfGrid& grid, const std::vector<std::size_t>& cells) {
     const auto is_ids = [&](const XdmfAttribute& a) {
       const std::string center = lower(a.tag.attribute("Center"));
