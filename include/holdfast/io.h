@@ -44,9 +44,9 @@ struct ReadOptions : Limits {
 
 /// Reads a surface; the format follows the extension unless `format` (".stl", ...) is given.
 ///
-/// .off, .stl, .obj, .ply, .mesh, .meshb (GMF), .poly, .smesh, .node (TetGen), .vtu, .vtp, .vtk, .msh
-/// (1, 2.x, 4.0 and 4.1), ASCII and binary where the format has both; each also packed by gzip (.stl.gz).
-/// Lengths are in the file's own unit.
+/// .off, .stl, .obj, .ply, .3mf, .amf, .mesh, .meshb (GMF), .poly, .smesh, .node (TetGen), .vtu, .vtp, .vtk,
+/// .msh (1, 2.x, 4.0 and 4.1), ASCII and binary where the format has both; each also packed by gzip
+/// (.stl.gz). Lengths are in the file's own unit.
 /// - Coordinates keep their bits, -0 and numbers that are not finite included (`diagnose` reports them).
 /// - Vertices keep their indices, those with identical coordinates too (`mesh` and all else take them as one,
 ///   see Complex); but .stl has no indices, and numbers its distinct vertices as they come.
@@ -56,7 +56,8 @@ struct ReadOptions : Limits {
 ///   ReadOptions::tolerance), and their sides must not cross. Corners that repeat the place of the one before
 ///   do not count. A facet of several polygons or with holes (.poly) becomes triangles of what they enclose.
 /// - Markers: references (.mesh, .meshb), boundary markers (.poly, .smesh), physical or else elementary
-///   tags (.msh), the cell array "marker" (.vtu, .vtp, .vtk), solids (.stl), and more (docs/formats.md).
+///   tags (.msh), the cell array "marker" (.vtu, .vtp, .vtk), solids (.stl), copies of objects (.3mf, .amf),
+///   and more (docs/formats.md).
 ///   Of vertices: references, boundary markers, physical tags of point elements, the point array "marker".
 ///   Marker vectors are empty if all markers are 0.
 /// - The largest volume V of a region (.poly, .smesh) becomes its size H = (6 sqrt(2) V)^(1/3), the edge of a

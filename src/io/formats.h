@@ -12,6 +12,8 @@ namespace holdfast::io {
 [[nodiscard]] MeshData read_stl(const Source& source);
 [[nodiscard]] MeshData read_obj(const Source& source);
 [[nodiscard]] MeshData read_ply(const Source& source);
+[[nodiscard]] MeshData read_3mf(const Source& source);
+[[nodiscard]] MeshData read_amf(const Source& source);
 [[nodiscard]] MeshData read_poly(const Source& source);
 [[nodiscard]] MeshData read_smesh(const Source& source);
 /// The vertices of a .node file alone.

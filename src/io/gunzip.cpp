@@ -1,4 +1,5 @@
-// Files compressed by gzip: one member or several, behind one another (RFC 1952).
+// What zlib unpacks: gzip's files of one member or several, behind one another (RFC 1952), and deflated
+// bytes.
 #include "io/gunzip.h"
 
 #include <zlib.h>
@@ -12,16 +13,17 @@ namespace {
 
 class Inflater {
  public:
-  explicit Inflater(const Source& source) : source_(source) {
-    constexpr int kGzip = 16;  // zlib: read the gzip header and trailer
-    if (inflateInit2(&stream_, MAX_WBITS + kGzip) != Z_OK) throw std::bad_alloc();
+  /// `window_bits` as zlib's inflateInit2 takes them, which tell the format, too.
+  Inflater(const Source& source, std::size_t begin, std::size_t end, int window_bits)
+      : source_(source), used_(begin), begin_(begin), end_(end) {
+    if (inflateInit2(&stream_, window_bits) != Z_OK) throw std::bad_alloc();
   }
   ~Inflater() { inflateEnd(&stream_); }
   Inflater(const Inflater&) = delete;
   Inflater& operator=(const Inflater&) = delete;
 
   std::string run() {
-    std::string unpacked(std::max<std::size_t>(4 * source_.bytes.size(), 1 << 16), '\0');
+    std::string unpacked(std::max<std::size_t>(4 * (end_ - begin_), 1 << 16), '\0');
     std::size_t size = 0;
     for (;;) {
       if (size == unpacked.size()) grow(unpacked);
@@ -29,11 +31,11 @@ class Inflater {
       const int status = step(unpacked, size);
       if (status == Z_STREAM_END) {
         // What follows the last member, as zeros that pad a tape, is not data.
-        if (!is_gzip(source_.bytes.substr(used_))) break;
+        if (!is_gzip(source_.bytes.substr(used_, end_ - used_))) break;
         inflateReset(&stream_);
       } else if (status != Z_OK && !(status == Z_BUF_ERROR && size == unpacked.size())) {
-        fail(used_ == source_.bytes.size() ? "the compressed data ends too early; the file is truncated"
-                                           : "the compressed data is damaged");
+        fail(used_ == end_ ? "the compressed data ends too early; the file is truncated"
+                           : "the compressed data is damaged");
       }
     }
     unpacked.resize(size);
@@ -43,7 +45,7 @@ class Inflater {
  private:
   int step(std::string& unpacked, std::size_t& size) {
     constexpr std::size_t kMost = std::numeric_limits<uInt>::max(), kChunk = std::size_t{1} << 20;
-    const std::size_t in = std::min(source_.bytes.size() - used_, kMost);
+    const std::size_t in = std::min(end_ - used_, kMost);
     const std::size_t out = std::min(unpacked.size() - size, kChunk);
     stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(source_.bytes.data() + used_));
     stream_.avail_in = static_cast<uInt>(in);
@@ -59,7 +61,7 @@ class Inflater {
   /// memory with nothing.
   void grow(std::string& unpacked) const {
     constexpr std::size_t kHarmless = std::size_t{64} << 20, kBestRatio = 200;
-    if (unpacked.size() >= kHarmless && unpacked.size() / kBestRatio > source_.bytes.size())
+    if (unpacked.size() >= kHarmless && unpacked.size() / kBestRatio > end_ - begin_)
       fail("unpacks to more than " + std::to_string(unpacked.size()) + " bytes, " +
            std::to_string(kBestRatio) +
            " times its size; no mesh is packed as tightly. Unpack it first if it is one");
@@ -76,11 +78,18 @@ class Inflater {
 
   Source source_;
   z_stream stream_{};
-  std::size_t used_ = 0;
+  std::size_t used_, begin_, end_;
 };
 
 }  // namespace
 
-std::string gunzipped(const Source& source) { return Inflater(source).run(); }
+std::string gunzipped(const Source& source) {
+  constexpr int kGzip = 16;  // read the gzip header and trailer
+  return Inflater(source, 0, source.bytes.size(), MAX_WBITS + kGzip).run();
+}
+
+std::string inflated(const Source& source, std::size_t begin, std::size_t end) {
+  return Inflater(source, begin, end, -MAX_WBITS).run();  // negative: neither header nor trailer
+}
 
 }  // namespace holdfast::io

@@ -1,4 +1,4 @@
-// Files compressed by gzip.
+// What zlib unpacks: files compressed by gzip, and the deflated files of an archive.
 #pragma once
 
 #include <string>
@@ -14,5 +14,8 @@ namespace holdfast::io {
 /// What is in a gzip file. Throws FileError with the byte for one that is damaged, or packed more tightly
 /// than meshes are.
 [[nodiscard]] std::string gunzipped(const Source& source);
+
+/// What the bytes of a file from `begin` to `end` unpack to by deflate (RFC 1951). Throws likewise.
+[[nodiscard]] std::string inflated(const Source& source, std::size_t begin, std::size_t end);
 
 }  // namespace holdfast::io

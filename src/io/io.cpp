@@ -53,6 +53,8 @@ constexpr Format kFormats[] = {
     {".stl", read_stl, nullptr, nullptr},
     {".obj", read_obj, nullptr, nullptr},
     {".ply", read_ply, nullptr, nullptr},
+    {".3mf", read_3mf, nullptr, nullptr},
+    {".amf", read_amf, nullptr, nullptr},
     {".mesh", read_medit, read_medit, write_file<write_medit>},
     {".meshb", read_gmf, read_gmf, write_file<write_gmf>},
     {".poly", read_poly, nullptr, nullptr},

@@ -25,26 +25,6 @@ std::size_t line_of(std::string_view text, std::size_t position) {
   return line;
 }
 
-/// Whether a number that overflows or underflows is below 1 in absolute value.
-bool is_tiny(std::string_view number) {
-  const std::size_t mark = number.find_first_of("eE");
-  const std::string_view mantissa = number.substr(0, mark);
-  const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
-  const std::size_t leading = mantissa.find_first_of("123456789");
-  if (leading == std::string_view::npos) return true;
-  std::int64_t exponent = 0;
-  if (mark != std::string_view::npos) {
-    std::string_view digits = number.substr(mark + 1);
-    if (digits.starts_with('+')) digits.remove_prefix(1);
-    const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
-    if (result.ec == std::errc::result_out_of_range) return digits.starts_with('-');
-  }
-  const auto places = static_cast<std::int64_t>(point) - static_cast<std::int64_t>(leading);
-  // The bound keeps the sum from overflowing; no file is that long.
-  constexpr std::int64_t kBound = std::int64_t{1} << 62;
-  return std::clamp(exponent, -kBound, kBound) + places <= 0;
-}
-
 }  // namespace
 
 TextReader::TextReader(const Source& source, char comment) : source_(source), comment_(comment) {
@@ -122,18 +102,14 @@ double TextReader::real(std::string_view what) {
   start(what);
   const char* const begin = source_.bytes.data();
   const char* const end = begin + source_.bytes.size();
-  const char* first = begin + position_;
-  if (*first == '+' && first + 1 != end && first[1] != '-') ++first;
   double value = 0;
-  const auto result = parse_double(first, end, value);
+  const auto result = parse_real(begin + position_, end, value);
   if (result.ec == std::errc::result_out_of_range) {
-    const std::string_view number(first, static_cast<std::size_t>(result.ptr - first));
-    // The nearest double is the zero of that sign; beyond the largest there is none.
-    if (!is_tiny(number)) fail(in_quotes(number) + " is too large for a double");
-    value = *first == '-' ? -0.0 : 0.0;
-  } else if (result.ec != std::errc()) {
-    fail_expected(what);
+    const std::string_view number(begin + position_,
+                                  static_cast<std::size_t>(result.ptr - begin) - position_);
+    fail(in_quotes(number) + " is too large for a double");
   }
+  if (result.ec != std::errc()) fail_expected(what);
   position_ = static_cast<std::size_t>(result.ptr - begin);
   if (!delimiter_at(position_)) fail_expected(what);
   if (source_.finite && !std::isfinite(value)) fail(std::string(what) + " is not finite");

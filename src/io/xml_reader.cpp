@@ -1,14 +1,27 @@
-// The tags of an XML text one after the other: as much of XML as VTK's files use.
+// The tags of an XML text one after the other: as much of XML as files of meshes use.
 #include "io/xml_reader.h"
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <iterator>
 
 #include "io/text_reader.h"
 #include "text/markup.h"
+#include "text/parse.h"
 
 namespace holdfast::io {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n";
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = std::min(text.find_first_not_of(kBlanks), text.size());
+  text.remove_prefix(begin);
+  return text.substr(0, text.find_last_not_of(kBlanks) + 1);
+}
+
+}  // namespace
 
 std::string unescaped(std::string_view text) {
   constexpr std::pair<std::string_view, char> kEntities[] = {
@@ -49,7 +62,7 @@ std::optional<XmlTag> XmlReader::next() {
       return std::nullopt;
     }
     if (!starts_with("<?") && !starts_with("<!")) break;
-    const std::string_view end = starts_with("<!--") ? "-->" : ">";
+    const std::string_view end = starts_with("<!--") ? "-->" : starts_with("<![CDATA[") ? "]]>" : ">";
     position_ = std::min(source_.bytes.find(end, position_), source_.bytes.size());
   }
   XmlTag tag;
@@ -64,7 +77,7 @@ std::optional<XmlTag> XmlReader::next() {
 }
 
 void XmlReader::skip_blanks() {
-  position_ = std::min(source_.bytes.find_first_not_of(" \t\r\n", position_), source_.bytes.size());
+  position_ = std::min(source_.bytes.find_first_not_of(kBlanks, position_), source_.bytes.size());
 }
 
 std::string XmlReader::read_name() {
@@ -101,13 +114,57 @@ void XmlReader::read_attributes(XmlTag& tag) {
   }
 }
 
-std::uint64_t XmlReader::number(const XmlTag& tag, std::string_view key) const {
-  const std::string text = tag.attribute(key);
+std::uint64_t XmlReader::to_number(const XmlTag& tag, const std::string& what, std::string_view text) const {
   std::uint64_t value = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
   if (result.ec != std::errc() || result.ptr != text.data() + text.size())
-    fail(tag, "the attribute " + std::string(key) + " is no number: " + in_quotes(text));
+    fail(tag, what + " is no number: " + in_quotes(text));
   return value;
+}
+
+double XmlReader::to_real(const XmlTag& tag, const std::string& what, std::string_view text) const {
+  double value = 0;
+  const auto result = parse_real(text.data(), text.data() + text.size(), value);
+  if (result.ec == std::errc::result_out_of_range) fail(tag, in_quotes(text) + " is too large for a double");
+  if (result.ec != std::errc() || result.ptr != text.data() + text.size())
+    fail(tag, what + " is no number: " + in_quotes(text));
+  if (source_.finite && !std::isfinite(value)) fail(tag, what + " is not finite");
+  return value;
+}
+
+std::uint64_t XmlReader::number(const XmlTag& tag, std::string_view key) const {
+  return to_number(tag, "the attribute " + std::string(key), tag.attribute(key));
+}
+
+double XmlReader::real(const XmlTag& tag, std::string_view key) const {
+  return to_real(tag, "the attribute " + std::string(key), trimmed(tag.attribute(key)));
+}
+
+std::string_view XmlReader::text() const {
+  const std::size_t end = std::min(source_.bytes.find('<', position_), source_.bytes.size());
+  return trimmed(source_.bytes.substr(position_, end - position_));
+}
+
+std::uint64_t XmlReader::number_in_text(const XmlTag& tag) const {
+  return to_number(tag, "the text of <" + tag.name + ">", text());
+}
+
+double XmlReader::real_in_text(const XmlTag& tag) const {
+  return to_real(tag, "the text of <" + tag.name + ">", text());
+}
+
+std::vector<double> XmlReader::reals(const XmlTag& tag, std::string_view key, std::size_t count) const {
+  const std::string list = tag.attribute(key);
+  std::vector<double> values;
+  for (std::string_view left = trimmed(list); !left.empty(); left = trimmed(left)) {
+    const std::size_t end = std::min(left.find_first_of(kBlanks), left.size());
+    values.push_back(to_real(tag, "the attribute " + std::string(key), left.substr(0, end)));
+    left.remove_prefix(end);
+  }
+  if (values.size() != count)
+    fail(tag, "the attribute " + std::string(key) + " has " + std::to_string(values.size()) +
+                  " numbers instead of " + std::to_string(count));
+  return values;
 }
 
 void XmlReader::fail(const XmlTag& tag, const std::string& reason) const {

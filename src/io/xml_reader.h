@@ -1,4 +1,4 @@
-// The tags of an XML text one after the other: as much of XML as VTK's files use.
+// The tags of an XML text one after the other: as much of XML as files of meshes use.
 #pragma once
 
 #include <cstdint>
@@ -36,10 +36,22 @@ class XmlReader {
   [[nodiscard]] std::size_t position() const { return position_; }
   /// An attribute that must be a count. Throws FileError.
   [[nodiscard]] std::uint64_t number(const XmlTag& tag, std::string_view key) const;
+  /// An attribute that must be a real number. Throws FileError.
+  [[nodiscard]] double real(const XmlTag& tag, std::string_view key) const;
+  /// The text behind the last tag, up to the next one, without blanks at its ends.
+  [[nodiscard]] std::string_view text() const;
+  /// The same, which must be a count, or a real number. Throws FileError for the line of `tag`.
+  [[nodiscard]] std::uint64_t number_in_text(const XmlTag& tag) const;
+  [[nodiscard]] double real_in_text(const XmlTag& tag) const;
+  /// A list of real numbers between blanks. Throws FileError unless there are `count`.
+  [[nodiscard]] std::vector<double> reals(const XmlTag& tag, std::string_view key, std::size_t count) const;
   /// Throws a FileError for the line of a tag.
   [[noreturn]] void fail(const XmlTag& tag, const std::string& reason) const;
 
  private:
+  [[nodiscard]] std::uint64_t to_number(const XmlTag& tag, const std::string& what,
+                                        std::string_view text) const;
+  [[nodiscard]] double to_real(const XmlTag& tag, const std::string& what, std::string_view text) const;
   void read_attributes(XmlTag& tag);
   void skip_blanks();
   std::string read_name();

@@ -1,5 +1,8 @@
 #include "text/parse.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <string_view>
 #include <version>
 
 #if !defined(__cpp_lib_to_chars)
@@ -79,5 +82,40 @@ std::from_chars_result parse_double(const char* first, const char* last, double&
 }
 
 #endif
+
+namespace {
+
+/// Whether a number that overflows or underflows is below 1 in absolute value.
+bool is_tiny(std::string_view number) {
+  const std::size_t mark = number.find_first_of("eE");
+  const std::string_view mantissa = number.substr(0, mark);
+  const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
+  const std::size_t leading = mantissa.find_first_of("123456789");
+  if (leading == std::string_view::npos) return true;
+  std::int64_t exponent = 0;
+  if (mark != std::string_view::npos) {
+    std::string_view digits = number.substr(mark + 1);
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
+    if (result.ec == std::errc::result_out_of_range) return digits.starts_with('-');
+  }
+  const auto places = static_cast<std::int64_t>(point) - static_cast<std::int64_t>(leading);
+  // The bound keeps the sum from overflowing; no file is that long.
+  constexpr std::int64_t kBound = std::int64_t{1} << 62;
+  return std::clamp(exponent, -kBound, kBound) + places <= 0;
+}
+
+}  // namespace
+
+std::from_chars_result parse_real(const char* first, const char* last, double& value) {
+  if (last - first > 1 && *first == '+' && first[1] != '-') ++first;
+  std::from_chars_result result = parse_double(first, last, value);
+  if (result.ec == std::errc::result_out_of_range &&
+      is_tiny(std::string_view(first, static_cast<std::size_t>(result.ptr - first)))) {
+    value = *first == '-' ? -0.0 : 0.0;
+    result.ec = std::errc();
+  }
+  return result;
+}
 
 }  // namespace holdfast

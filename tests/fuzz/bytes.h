@@ -98,7 +98,8 @@ class Folder {
   /// Files "a.EXTENSION", one for each part of `text`; parts are separated by the byte 28 ("file separator").
   void write_parts(std::string_view text, std::span<const char* const> extensions) const {
     for (const char* const extension : extensions) {
-      const std::size_t end = std::min(text.find('\x1c'), text.size());
+      const bool last = extension == extensions.back();
+      const std::size_t end = last ? text.size() : std::min(text.find('\x1c'), text.size());
       std::ofstream(path_ / (std::string("a") + extension), std::ios::binary) << text.substr(0, end);
       if (end == text.size()) return;
       text.remove_prefix(end + 1);

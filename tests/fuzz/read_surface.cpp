@@ -12,7 +12,7 @@ namespace {
 
 using namespace holdfast;
 
-constexpr std::array<std::array<const char*, 2>, 14> kFormats{{{".off"},
+constexpr std::array<std::array<const char*, 2>, 16> kFormats{{{".off"},
                                                                {".stl"},
                                                                {".obj"},
                                                                {".ply"},
@@ -25,7 +25,9 @@ constexpr std::array<std::array<const char*, 2>, 14> kFormats{{{".off"},
                                                                {".vtp"},
                                                                {".vtk"},
                                                                {".msh"},
-                                                               {".stl.gz"}}};
+                                                               {".stl.gz"},
+                                                               {".3mf"},
+                                                               {".amf"}}};
 
 void require_in_range(const Surface& surface) {
   for (const Triangle& f : surface.facets)

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "io/formats.h"
+#include "io_archive_samples.h"
 #include "io_samples.h"
 
 namespace holdfast {
@@ -38,7 +39,10 @@ std::vector<Sample> valid_files() {
                                {".msh", binary_msh(false, true)},
                                {".msh", binary_msh(true, false)},
                                {".msh", binary_msh(true, true, 4)},
-                               {".vtk", kStrips}};
+                               {".vtk", kStrips},
+                               {".3mf", small_3mf(Packing::stored)},
+                               {".3mf", small_3mf(Packing::wide)},
+                               {".amf", kSmallAmf}};
   files.push_back({".stl", binary_stl("solid", {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1}})});
   for (const std::int32_t version : {1, 2, 3, 4})
     files.push_back({".meshb", binary_gmf(version, version == 2)});

@@ -42,12 +42,6 @@ std::string error(const std::string& bytes, const std::string& name) {
   return "read";
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-    text.replace(at, from.size(), to);
-  return text;
-}
-
 TEST(Off, FacesSegmentsAndPoints) {
   const Surface s = surface(kOff, "a.off");
   EXPECT_EQ(s.vertices.size(), 5u);

@@ -36,6 +36,12 @@ inline WriteOptions as_format(const std::string& format) {
   return options;
 }
 
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+  return text;
+}
+
 /// A folder that is removed with all that is in it.
 class TemporaryFolder {
  public:

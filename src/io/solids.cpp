@@ -1,0 +1,98 @@
+#include "io/solids.h"
+
+#include <map>
+#include <utility>
+
+#include "io/labels.h"
+
+namespace holdfast::io {
+namespace {
+
+// Copies of copies grow exponentially with the length of a file.
+constexpr std::size_t kMostCopies = 1 << 20, kHarmless = std::size_t{1} << 22, kMostTimes = 1000;
+
+}  // namespace
+
+Point Placement::of(const Point& p) const {
+  if (*this == Placement{}) return p;
+  Point moved;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    moved[axis] = p[0] * m[axis] + p[1] * m[3 + axis] + p[2] * m[6 + axis] + m[9 + axis];
+  return moved;
+}
+
+Placement Placement::after(const Placement& inner) const {
+  Placement both;
+  for (std::size_t row = 0; row < 4; ++row)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      both.m[3 * row + axis] = inner.m[3 * row] * m[axis] + inner.m[3 * row + 1] * m[3 + axis] +
+                               inner.m[3 * row + 2] * m[6 + axis] + (row == 3 ? m[9 + axis] : 0);
+  return both;
+}
+
+bool Placement::mirrors() const {
+  return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) +
+             m[2] * (m[3] * m[7] - m[4] * m[6]) <
+         0;
+}
+
+void Solids::refuse_a_trap(const Solid& solid) const {
+  const std::size_t size =
+      mesh_.vertices.size() + solid.vertices.size() + mesh_.facets.size() + solid.facets.size();
+  if (copies_ == kMostCopies || (size > kHarmless && size / kMostTimes > source_.bytes.size()))
+    throw FileError(source_.path, "",
+                    "holds more than " + std::to_string(copies_) + " copies of its objects, " +
+                        std::to_string(mesh_.facets.size()) +
+                        " triangles in all; that is no mesh but a trap");
+  if (mesh_.vertices.size() + solid.vertices.size() >= no_entity)
+    throw FileError(source_.path, "", "has more vertices than 32 bits count");
+}
+
+void Solids::add_geometry(const Solid& solid, const Placement& placement) {
+  const auto first = static_cast<Index>(mesh_.vertices.size());
+  for (const Point& vertex : solid.vertices) {
+    beat(source_.watch);
+    mesh_.vertices.push_back(placement.of(vertex));
+  }
+  const bool mirrors = placement.mirrors();
+  for (Triangle facet : solid.facets) {
+    beat(source_.watch);
+    for (Index& corner : facet) corner += first;
+    if (mirrors) std::swap(facet[1], facet[2]);
+    mesh_.facets.push_back(facet);
+  }
+}
+
+void Solids::add(const Solid& solid, const std::string& name, const Placement& placement) {
+  step(source_.watch);
+  refuse_a_trap(solid);
+  add_geometry(solid, placement);
+  std::map<std::size_t, std::size_t> group_of;  // by material
+  for (std::size_t f = 0; f < solid.facets.size(); ++f) {
+    const std::size_t material = solid.facet_material.empty() ? 0 : solid.facet_material[f];
+    const auto [there, fresh] = group_of.try_emplace(material, groups_.size());
+    if (fresh)
+      groups_.push_back(
+          {cleaned_name(name), material == 0 ? "" : cleaned_name(solid.materials[material - 1])});
+    facet_group_.push_back(there->second);
+  }
+  if (group_of.size() == 1) groups_.back().alone = true;
+  ++copies_;
+}
+
+MeshData Solids::take() {
+  const bool several = groups_.size() > 1;
+  for (std::size_t f = 0; several && f < facet_group_.size(); ++f)
+    mesh_.facet_markers.add(f, static_cast<int>(facet_group_[f]) + 1);
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const auto& [copy, material, alone] = groups_[g];
+    const bool copy_says_it = !copy.empty() && (alone || material.empty());
+    const std::string name = copy_says_it                   ? copy
+                             : copies_ == 1 || copy.empty() ? material
+                                                            : copy + " " + material;
+    if (!name.empty()) mesh_.names.facets[several ? static_cast<int>(g) + 1 : 0] = name;
+  }
+  return std::move(mesh_);
+}
+
+}  // namespace holdfast::io
