@@ -376,12 +376,15 @@ inline void squeeze(Random& random, Sample& sample) {
   try_moving(sample, [&](Point& p) { p[2] = thickness * p[2] + tilt * p[0] + p[1] / 3; });
 }
 
+// The doubles next to 0 have none between them.
 inline void move_by_ulps(Random& random, Sample& sample) {
   try_moving(sample, [&](Point& p) {
     for (double& x : p)
       for (int k = integer(random, 0, 3); k > 0; --k)
         x = std::nextafter(x, one_in(random, 2) ? -1e300 : 1e300);
   });
+  for (const Point& p : sample.surface.vertices)
+    for (const double x : p) sample.coarse |= x != 0 && std::abs(x) < 0x1p-1000;
 }
 
 struct Map {
