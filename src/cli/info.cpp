@@ -69,7 +69,7 @@ std::string histogram_of(const Statistics& s) {
 }
 
 std::string text_of(const std::filesystem::path& file, bool is_volume, const Statistics& s) {
-  std::string text = fmt::format("{:<18}{} of {} order\n", file.string(), is_volume ? "volume" : "surface",
+  std::string text = fmt::format("{:<17} {} of {} order\n", file.string(), is_volume ? "volume" : "surface",
                                  s.mid_nodes > 0 ? "second" : "first");
   const auto line = [&](const char* title, const std::string& values) {
     text += fmt::format("{:<18}{}\n", title, values);
