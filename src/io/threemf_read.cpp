@@ -26,6 +26,7 @@ struct Object {
   Solid solid;
   std::vector<Use> components;
   bool used = false;  ///< by another object
+  bool part = true;   ///< of what is made: no support, and nothing else that is not (section 4.1)
 };
 
 using Key = std::pair<std::string, std::uint64_t>;  ///< part and number
@@ -84,6 +85,8 @@ class Model {
     if (!fresh) xml_.fail(tag, "a second object " + std::to_string(id));
     object_ = tag.empty ? nullptr : &there->second;
     there->second.solid.name = tag.attribute("name");
+    const std::string type = tag.attribute("type");
+    there->second.part = type.empty() || type == "model" || type == "surface";
     object_material_ = material_of(tag.attribute("pid"), tag.attribute("pindex"), there->second.solid);
   }
 
@@ -169,6 +172,8 @@ class Package {
     MeshData mesh = solids_.take();
     for (const auto& [what, count] : left_out_)
       mesh.leave_out(count, what + "s of a lattice", what + " of a lattice");
+    mesh.leave_out(no_parts_, "supports and other objects that are no part of the model",
+                   "support or other object that is no part of the model");
     mesh.leave_out(no_material_, "volumes that modify the print", "volume that modifies the print");
     return mesh;
   }
@@ -295,7 +300,8 @@ class Package {
     const Object& object = found->second;
     const Placement placement = outer == Placement{} ? use.placement : outer.after(use.placement);
     const std::string& name = object.solid.name.empty() ? outer_name : object.solid.name;
-    if (!object.solid.facets.empty()) solids_.add(object.solid, name, placement);
+    if (!object.part) ++no_parts_;
+    if (object.part && !object.solid.facets.empty()) solids_.add(object.solid, name, placement);
     for (const Use& component : object.components) put(component, placement, name);
     open_.pop_back();
   }
@@ -306,6 +312,7 @@ class Package {
   std::map<Key, Object> objects_;
   std::map<std::string, std::size_t> left_out_;
   std::size_t no_material_ = 0;  ///< volumes that are none
+  std::size_t no_parts_ = 0;     ///< copies of objects that are none
   std::string root_;             ///< the part of the build
   Solids solids_;
   std::vector<Key> open_;  ///< objects whose components are being put

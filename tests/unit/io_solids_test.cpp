@@ -98,6 +98,15 @@ TEST_F(SolidsOfFiles, ObjectsWithoutABuildAreAllShown) {
   EXPECT_EQ(s.names.facets, (FacetNames{{0, "outer"}}));
 }
 
+TEST_F(SolidsOfFiles, SupportsAreLeftOut) {
+  const Surface s = of_3mf(
+      object(1, kTetrahedronOf3mf, "type=\"model\"") + object(2, kTetrahedronOf3mf, "type=\"support\""),
+      "<item objectid=\"1\"/><item objectid=\"2\"/>");
+  EXPECT_EQ(s.facets, kFacets);
+  ASSERT_EQ(s.remarks.size(), 1u);
+  EXPECT_EQ(s.remarks[0].message, "1 support or other object that is no part of the model is left out");
+}
+
 TEST_F(SolidsOfFiles, PartsInOtherFilesOfThePackage) {
   const std::string root = model_3mf(
       object(1, "<components><component p:path=\"/3D/Objects/part_1.model\" objectid=\"1\"/></components>"),
