@@ -186,7 +186,7 @@ void add_diagnose(CLI::App& app, Command& chosen) {
   command
       ->add_option(
           "SURFACE", arguments->surfaces,
-          "Surface files (.stl .off .obj .ply .3mf .amf .mesh .meshb .poly .smesh .node .msh .vtu .vtp .vtk, "
+          "Surface files (.stl .off .obj .ply .3mf .amf .ts .mesh .meshb .poly .smesh .node .msh .vtu .vtp .vtk, "
           "each also .gz); "
           "several count on from "
           "one another; vertices with identical coordinates are one")

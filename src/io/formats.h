@@ -14,6 +14,8 @@ namespace holdfast::io {
 [[nodiscard]] MeshData read_ply(const Source& source);
 [[nodiscard]] MeshData read_3mf(const Source& source);
 [[nodiscard]] MeshData read_amf(const Source& source);
+/// GOCAD's TSurf, PLine and VSet.
+[[nodiscard]] MeshData read_gocad(const Source& source);
 [[nodiscard]] MeshData read_poly(const Source& source);
 [[nodiscard]] MeshData read_smesh(const Source& source);
 /// The vertices of a .node file alone.

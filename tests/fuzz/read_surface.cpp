@@ -12,7 +12,7 @@ namespace {
 
 using namespace holdfast;
 
-constexpr std::array<std::array<const char*, 2>, 16> kFormats{{{".off"},
+constexpr std::array<std::array<const char*, 2>, 17> kFormats{{{".off"},
                                                                {".stl"},
                                                                {".obj"},
                                                                {".ply"},
@@ -27,7 +27,8 @@ constexpr std::array<std::array<const char*, 2>, 16> kFormats{{{".off"},
                                                                {".msh"},
                                                                {".stl.gz"},
                                                                {".3mf"},
-                                                               {".amf"}}};
+                                                               {".amf"},
+                                                               {".ts"}}};
 
 void require_in_range(const Surface& surface) {
   for (const Triangle& f : surface.facets)

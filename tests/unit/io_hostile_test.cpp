@@ -42,7 +42,8 @@ std::vector<Sample> valid_files() {
                                {".vtk", kStrips},
                                {".3mf", small_3mf(Packing::stored)},
                                {".3mf", small_3mf(Packing::wide)},
-                               {".amf", kSmallAmf}};
+                               {".amf", kSmallAmf},
+                               {".ts", kGocad}};
   files.push_back({".stl", binary_stl("solid", {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1}})});
   for (const std::int32_t version : {1, 2, 3, 4})
     files.push_back({".meshb", binary_gmf(version, version == 2)});

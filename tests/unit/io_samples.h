@@ -42,6 +42,51 @@ inline std::string replaced(std::string text, const std::string& from, const std
   return text;
 }
 
+/// Two surfaces of GOCAD that close a tetrahedron, and a line.
+inline const char* const kGocad = R"(GOCAD TSurf 1
+HEADER {
+name:Top horizon
+*solid*color:#ffff00
+}
+GOCAD_ORIGINAL_COORDINATE_SYSTEM
+NAME Default
+AXIS_NAME "X" "Y" "Z"
+AXIS_UNIT "m" "m" "m"
+ZPOSITIVE Elevation
+END_ORIGINAL_COORDINATE_SYSTEM
+PROPERTIES T
+TFACE
+VRTX 1 0 0 0 CNXYZ
+PVRTX 2 1 0 0 12.5
+VRTX 3 0 1 0
+TRGL 1 3 2
+BSTONE 1
+BORDER 4 1 2
+END
+GOCAD TSurf 1
+HEADER {
+name: sides
+}
+TFACE
+VRTX 1 0 0 0
+VRTX 2 1 0 0
+VRTX 3 0 1 0
+VRTX 4 0 0 1
+ATOM 5 4
+TRGL 1 2 4
+TRGL 2 3 4
+TRGL 1 5 3
+END
+GOCAD PLine 1
+HEADER {
+}
+ILINE
+VRTX 7 0 0 0
+VRTX 8 1 0 0
+SEG 7 8
+END
+)";
+
 /// A folder that is removed with all that is in it.
 class TemporaryFolder {
  public:
