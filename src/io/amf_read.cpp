@@ -2,14 +2,12 @@
 // Coordinates stay in the unit of the file.
 #include <algorithm>
 #include <array>
-#include <numbers>
 
 #include "io/formats.h"
 #include "io/solids.h"
 #include "io/text_reader.h"
 #include "io/xml_reader.h"
 #include "io/zip_archive.h"
-#include "numbers/elementary.h"
 
 namespace holdfast::io {
 namespace {
@@ -25,28 +23,15 @@ struct Instance {
   std::array<double, 3> shift{}, degrees{};
 };
 
-/// Of right angles exactly.
-double sin_of_degrees(double degrees) {
-  const double quarters = degrees / 90;
-  if (const auto whole = static_cast<long long>(quarters); static_cast<double>(whole) == quarters)
-    return std::array{0.0, 1.0, 0.0, -1.0}[static_cast<std::size_t>((whole % 4 + 4) % 4)];
-  return numbers::sin(degrees * std::numbers::pi / 180);
-}
-
 /// Turned about x, then y, then z, then moved.
 Placement placement_of(const Instance& instance) {
   Placement result;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double s = sin_of_degrees(instance.degrees[axis]), c = sin_of_degrees(instance.degrees[axis] + 90);
-    const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-    Placement turn;
-    turn.m[3 * u + u] = turn.m[3 * v + v] = c;
-    turn.m[3 * u + v] = s;
-    turn.m[3 * v + u] = -s;
-    result = turn.after(result);
+  for (std::size_t i = 0; i < 3; ++i) {
+    Point axis{};
+    axis[i] = 1;
+    result = Placement::turned({}, axis, instance.degrees[i]).after(result);
   }
-  std::copy(instance.shift.begin(), instance.shift.end(), result.m.begin() + 9);
-  return result;
+  return Placement::moved_by(instance.shift).after(result);
 }
 
 class AmfReader {

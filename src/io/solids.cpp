@@ -13,29 +13,6 @@ constexpr std::size_t kMostCopies = 1 << 20, kHarmless = std::size_t{1} << 22, k
 
 }  // namespace
 
-Point Placement::of(const Point& p) const {
-  if (*this == Placement{}) return p;
-  Point moved;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    moved[axis] = p[0] * m[axis] + p[1] * m[3 + axis] + p[2] * m[6 + axis] + m[9 + axis];
-  return moved;
-}
-
-Placement Placement::after(const Placement& inner) const {
-  Placement both;
-  for (std::size_t row = 0; row < 4; ++row)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      both.m[3 * row + axis] = inner.m[3 * row] * m[axis] + inner.m[3 * row + 1] * m[3 + axis] +
-                               inner.m[3 * row + 2] * m[6 + axis] + (row == 3 ? m[9 + axis] : 0);
-  return both;
-}
-
-bool Placement::mirrors() const {
-  return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) +
-             m[2] * (m[3] * m[7] - m[4] * m[6]) <
-         0;
-}
-
 void Solids::refuse_a_trap(const Solid& solid) const {
   const std::size_t size =
       mesh_.vertices.size() + solid.vertices.size() + mesh_.facets.size() + solid.facets.size();

@@ -2,25 +2,13 @@
 // within each, its materials.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
 #include "io/mesh_data.h"
+#include "io/placement.h"
 
 namespace holdfast::io {
-
-/// x' = x m[0] + y m[3] + z m[6] + m[9], and so on: the rows of 3MF's transforms.
-struct Placement {
-  std::array<double, 12> m = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
-
-  [[nodiscard]] Point of(const Point& p) const;
-  /// This placement of what `inner` has placed.
-  [[nodiscard]] Placement after(const Placement& inner) const;
-  /// Whether it turns what is seen from outside inside out.
-  [[nodiscard]] bool mirrors() const;
-  bool operator==(const Placement&) const = default;
-};
 
 /// What an object of the file holds itself.
 struct Solid {
