@@ -18,8 +18,9 @@ struct InpElements::Type {
 namespace {
 
 [[noreturn]] void fail_twice(const Source& source, const char* what, std::int64_t number) {
-  throw FileError(source.path, "",
-                  "the " + std::string(what) + " " + std::to_string(number) + " is there twice");
+  throw FileError(
+      source.path, "",
+      "the " + std::string(what) + " " + std::to_string(number_in_file(number)) + " is there twice");
 }
 
 // Elements that connect or load nodes, and fill nothing: springs, dashpots, gaps, masses, inertias, heat
@@ -37,15 +38,15 @@ void InpElements::read_nodes(InpText& text) {
   for (; text.is_data(); text.next()) {
     const std::vector<std::string_view> fields = text.fields();
     // Coordinates that are not there are zero (Abaqus and CalculiX, *NODE).
-    nodes_.add(integer_of(text.reader(), fields[0], "a node's number"));
+    nodes_.add(text.number(fields[0], "a node's number"));
     Point point{};
     for (std::size_t axis = 0; axis < 3 && axis + 1 < fields.size(); ++axis)
       if (!fields[axis + 1].empty()) point[axis] = real_of(text.reader(), fields[axis + 1], "a coordinate");
-    mesh_.vertices.push_back(point);
+    mesh_.vertices.push_back(text.scope().placement.of(point));
   }
 }
 
-const InpElements::Type& InpElements::type_of(const TextReader& text, const std::string& given) {
+const InpElements::Type& InpElements::type_of(const TextReader& text, const InpKeyword& key) {
   // The longest prefix of a type's name counts.
   static constexpr Type kTypes[] = {
       {"c3d5", 3, 5},    {"c3d6", 3, 6},    {"c3d8", 3, 8},   {"c3d13", 3, 13}, {"c3d15", 3, 15},
@@ -61,6 +62,7 @@ const InpElements::Type& InpElements::type_of(const TextReader& text, const std:
       {"cpe8", 2, 8},    {"m3d8", 2, 8},    {"m3d9", 2, 9},   {"sfm3d8", 2, 8}, {"cax3", 2, 3},
       {"cax4", 2, 4},    {"cax6", 2, 6},    {"cax8", 2, 8},   {"t3d2", 1, 2},   {"b31", 1, 2},
       {"b21", 1, 2},     {"t2d2", 1, 2},    {"t3d3", 1, 3},   {"b32", 1, 3}};
+  const std::string& given = key.values.at("type");
   const std::string name = lower(given);
   const Type* best = nullptr;
   for (const Type& type : kTypes)
@@ -68,32 +70,32 @@ const InpElements::Type& InpElements::type_of(const TextReader& text, const std:
       best = &type;
   const char behind = best == nullptr || name.size() == best->prefix.size() ? ' ' : name[best->prefix.size()];
   if (best == nullptr || (behind >= '0' && behind <= '9'))
-    text.fail(
-        "elements of type " + in_quotes(given) +
-        " are not read; only tetrahedra, hexahedra, prisms, pyramids, triangles, quadrangles and lines are");
+    text.fail_at(key.place, "elements of type " + in_quotes(given) +
+                                " are not read; only tetrahedra, hexahedra, prisms, pyramids, triangles, "
+                                "quadrangles and lines are");
   return *best;
 }
 
 std::vector<std::int64_t> InpElements::read(InpText& text, const InpKeyword& key) {
   const auto given = key.values.find("type");
-  if (given == key.values.end()) text.reader().fail("*ELEMENT without TYPE");
+  if (given == key.values.end()) text.reader().fail_at(key.place, "*ELEMENT without TYPE");
   if (has_no_shape(lower(given->second))) return read_shapeless(text, given->second);
-  const Type& type = type_of(text.reader(), given->second);
+  const Type& type = type_of(text.reader(), key);
   if (const auto twice = nodes_.finish()) fail_twice(text.reader().source(), "node", *twice);
   std::vector<std::int64_t> read;
   while (text.is_data()) {
     // An element may take several lines.
+    const std::size_t place = text.place();
     std::vector<std::int64_t> numbers;
     for (; text.is_data() && numbers.size() < type.nodes + 1; text.next())
       for (const std::string_view field : text.fields())
-        if (!field.empty())
-          numbers.push_back(integer_of(text.reader(), field, "a number of an element or node"));
+        if (!field.empty()) numbers.push_back(text.number(field, "a number of an element or node"));
     if (numbers.size() != type.nodes + 1)
-      text.reader().fail("an element of " + std::to_string(type.nodes) + " nodes has " +
-                         std::to_string(numbers.empty() ? 0 : numbers.size() - 1));
+      text.reader().fail_at(place, "an element of " + std::to_string(type.nodes) + " nodes has " +
+                                       std::to_string(numbers.empty() ? 0 : numbers.size() - 1));
     Nodes nodes{};
-    for (std::size_t i = 0; i < type.nodes; ++i) nodes[i] = vertex(text.reader(), numbers[i + 1]);
-    add(text.reader(), type, nodes, numbers[0]);
+    for (std::size_t i = 0; i < type.nodes; ++i) nodes[i] = vertex(text.reader(), place, numbers[i + 1]);
+    add(text.reader(), place, type, nodes, numbers[0]);
     read.push_back(numbers[0]);
   }
   return read;
@@ -103,7 +105,7 @@ std::vector<std::int64_t> InpElements::read(InpText& text, const InpKeyword& key
 std::vector<std::int64_t> InpElements::read_shapeless(InpText& text, const std::string& type) {
   std::vector<std::int64_t> read;
   for (; text.is_data(); text.next()) {
-    read.push_back(integer_of(text.reader(), text.fields()[0], "a number of an element or node"));
+    read.push_back(text.number(text.fields()[0], "a number of an element or node"));
     numbers_.add(read.back());
     elements_.push_back({0, 0, 0});
   }
@@ -111,13 +113,14 @@ std::vector<std::int64_t> InpElements::read_shapeless(InpText& text, const std::
   return read;
 }
 
-Index InpElements::vertex(const TextReader& text, std::int64_t number) const {
+Index InpElements::vertex(const TextReader& text, std::size_t place, std::int64_t number) const {
   const std::optional<Index> found = nodes_.find(number);
-  if (!found) text.fail("the node " + std::to_string(number) + " does not exist");
+  if (!found) text.fail_at(place, "the node " + std::to_string(number_in_file(number)) + " does not exist");
   return *found;
 }
 
-void InpElements::add(const TextReader& text, const Type& type, const Nodes& n, std::int64_t number) {
+void InpElements::add(const TextReader& text, std::size_t place, const Type& type, const Nodes& n,
+                      std::int64_t number) {
   const std::size_t before[] = {0, mesh_.segments.size(), mesh_.facets.size(), mesh_.tetrahedra.size()};
   const auto dimension = static_cast<std::size_t>(type.dimension);
   if (type.nodes == 10)
@@ -130,7 +133,7 @@ void InpElements::add(const TextReader& text, const Type& type, const Nodes& n, 
     add_second_order(mesh_, Triangle{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, 0);
   else if (type.dimension == 2) {
     add_polygon(mesh_, std::span(n).first(std::min<std::size_t>(type.nodes, 4)), 0,
-                [&](const std::string& reason) { text.fail(reason); });
+                [&](const std::string& reason) { text.fail_at(place, reason); });
     if (type.nodes > 6) add_no_corners(mesh_, std::span(n).first(type.nodes).subspan(4));
   } else if (type.nodes == 3)  // Abaqus has the middle node between the ends
     add_second_order(mesh_, Segment{n[0], n[2]}, n[1], 0);

@@ -39,11 +39,13 @@ class InpElements {
 
  private:
   struct Type;
-  static const Type& type_of(const TextReader& text, const std::string& given);
+  static const Type& type_of(const TextReader& text, const InpKeyword& key);
   std::vector<std::int64_t> read_shapeless(InpText& text, const std::string& type);
-  [[nodiscard]] Index vertex(const TextReader& text, std::int64_t number) const;
+  /// Errors are those of the element's first line, at `place`.
+  [[nodiscard]] Index vertex(const TextReader& text, std::size_t place, std::int64_t number) const;
   using Nodes = std::array<Index, 27>;
-  void add(const TextReader& text, const Type& type, const Nodes& nodes, std::int64_t number);
+  void add(const TextReader& text, std::size_t place, const Type& type, const Nodes& nodes,
+           std::int64_t number);
 
   MeshData& mesh_;
   Numbered nodes_, numbers_;

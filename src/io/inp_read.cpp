@@ -2,8 +2,9 @@
 // elements and sides (CalculiX CrunchiX user's manual, "Input deck format").
 //
 // Sets of tetrahedra are regions, those of triangles and surfaces markers. Where sets overlap, the smaller
-// one counts.
+// one counts. An instance of a part reads the part's lines once more, with numbers and names of its own.
 #include "io/formats.h"
+#include "io/inp_parts.h"
 #include "io/inp_sets.h"
 
 namespace holdfast::io {
@@ -15,8 +16,10 @@ class InpReader {
 
   MeshData read() {
     while (!text_.at_end()) read_block(text_.keyword());
+    read_unused_parts();
     elements_.finish(text_.reader().source());
-    const std::vector<int> markers = surfaces_.apply(mesh_, text_, elements_, sets_, names_.markers);
+    const InpShownName shown = [&](const std::string& name) { return parts_.shown(name); };
+    const std::vector<int> markers = surfaces_.apply(mesh_, text_, elements_, sets_, shown, names_.markers);
     apply_sets(markers);
     tell_skipped();
     return std::move(mesh_);
@@ -28,18 +31,64 @@ class InpReader {
       elements_.read_nodes(text_);
     } else if (key.name == "element") {
       const std::vector<std::int64_t> numbers = elements_.read(text_, key);
-      if (key.has("elset")) sets_.add_listed(key.values.at("elset"), numbers);
+      if (key.has("elset")) sets_.add_listed(text_.scope().given(key.values.at("elset")), numbers);
+    } else if (key.name == "part") {
+      parts_.skip(text_, key);
+    } else if (key.name == "instance") {
+      read_instance(key);
     } else if (key.name == "elset" && key.has("elset")) {
+      const InpScope scope = text_.scope();
+      if (key.has("instance")) text_.set_scope(parts_.scope_of(text_, key));
       sets_.read(text_, key, elements_.size());
+      text_.set_scope(scope);
     } else if (key.name == "surface" && key.has("name") &&
                (!key.has("type") || lower(key.values.at("type")) == "element")) {
-      surfaces_.read(text_, key.values.at("name"));
+      surfaces_.read(text_, text_.scope().given(key.values.at("name")));
     } else if (key.name == "include") {
-      text_.reader().fail("*INCLUDE is not followed; read the file that it names");
+      text_.reader().fail_at(key.place, "*INCLUDE is not followed; read the file that it names");
     } else {
       if (text_.is_data()) ++skipped_[key.name];
       while (text_.is_data()) text_.next();
     }
+  }
+
+  /// The lines of its part, then its own.
+  void read_instance(const InpKeyword& key) {
+    const std::optional<std::size_t> part = parts_.begin_instance(text_, key);
+    require_a_mesh();
+    const std::size_t own = text_.place();
+    if (part) read_part(*part);
+    text_.go_to(own);
+    while (!text_.at_end() && !text_.is_keyword("endinstance")) read_block(text_.keyword());
+    if (!text_.at_end()) text_.next();
+    text_.set_scope({});
+  }
+
+  void read_part(std::size_t place) {
+    text_.go_to(place);
+    while (!text_.is_keyword("endpart")) read_block(text_.keyword());
+  }
+
+  /// Without an assembly each part is there once; with one, those that it does not have are left out.
+  void read_unused_parts() {
+    const std::vector<std::string> unused = parts_.unused();
+    if (parts_.instances() > 0) {
+      mesh_.leave_out(unused.size(), "parts without an instance", "part without an instance");
+      return;
+    }
+    for (const std::string& name : unused) {
+      read_part(parts_.begin_instance_of_part(text_, name));
+      text_.set_scope({});
+    }
+  }
+
+  /// A short file may have many instances of a large part.
+  void require_a_mesh() const {
+    constexpr std::size_t kHarmless = std::size_t{1} << 22, kMostTimes = 1000;
+    const std::size_t size = mesh_.vertices.size() + elements_.size();
+    if (size > kHarmless && size / kMostTimes > text_.reader().source().bytes.size())
+      text_.reader().fail("the instances of the parts have more than " + std::to_string(size) +
+                          " nodes and elements; that is no mesh but a trap");
   }
 
   /// The ids of the sets' entities; `markers` are those of facets by surfaces, which come before.
@@ -51,13 +100,13 @@ class InpReader {
       for (const std::int64_t number : *members) {
         const InpElement* element = elements_.find(number);
         if (element == nullptr)
-          throw FileError(
-              text_.reader().source().path, "",
-              "the element " + std::to_string(number) + " of the set " + in_quotes(name) + " does not exist");
+          throw FileError(text_.reader().source().path, "",
+                          "the element " + std::to_string(number_in_file(number)) + " of the set " +
+                              in_quotes(name) + " does not exist");
         if (element->dimension == 0) continue;
         const auto d = static_cast<std::size_t>(element->dimension);
         NamedIds& ids = d == 3 ? names_.regions : d == 2 ? names_.markers : names_.segments;
-        if (id[d] == 0) id[d] = ids.id_of(name);
+        if (id[d] == 0) id[d] = ids.id_of(parts_.shown(name));
         std::vector<int>& of = d == 3 ? regions : d == 2 ? shells : segments;
         for (Index k = 0; k < element->count; ++k) of[element->entity + k] = id[d];
       }
@@ -93,6 +142,7 @@ class InpReader {
   InpElements elements_;
   InpSets sets_;
   InpSurfaces surfaces_;
+  InpParts parts_;
   std::map<std::string, std::size_t> skipped_;  ///< blocks by keyword
 };
 

@@ -39,31 +39,32 @@ void InpSets::add_listed(const std::string& name, const Members& members) {
 }
 
 void InpSets::read(InpText& text, const InpKeyword& key, std::size_t elements) {
-  const std::string& name = key.values.at("elset");
+  const std::string name = text.scope().given(key.values.at("elset"));
   const bool range = key.has("generate");
-  if (!sets_.contains(name)) order_.push_back(name);
+  if (!sets_.contains(name) && !key.has("internal")) order_.push_back(name);
   Members& members = sets_[name];
   for (; text.is_data(); text.next()) {
     const std::vector<std::string_view> fields = text.fields();
     if (range) {
-      add_range(text.reader(), fields, elements, members);
+      add_range(text, fields, elements, members);
       continue;
     }
     for (const std::string_view field : fields) {
       if (field.empty()) continue;
       if (is_number(field))
-        members.push_back(integer_of(text.reader(), field, "an element's number"));
+        members.push_back(text.number(field, "an element's number"));
       else
-        add_other(text.reader(), std::string(field), elements, members);
+        add_other(text, std::string(field), elements, members);
     }
   }
 }
 
-void InpSets::add_range(const TextReader& text, const std::vector<std::string_view>& fields,
+void InpSets::add_range(const InpText& lines, const std::vector<std::string_view>& fields,
                         std::size_t elements, Members& members) const {
+  const TextReader& text = lines.reader();
   if (fields.size() < 2) text.fail("GENERATE needs a first and a last element");
-  const std::int64_t first = integer_of(text, fields[0], "the first element"),
-                     last = integer_of(text, fields[1], "the last element");
+  const std::int64_t first = lines.number(fields[0], "the first element"),
+                     last = lines.number(fields[1], "the last element");
   const std::int64_t step =
       fields.size() > 2 && !fields[2].empty() ? integer_of(text, fields[2], "a step") : 1;
   if (step < 1 || first < 0 || last < first) text.fail("a range that does not go up");
@@ -73,14 +74,19 @@ void InpSets::add_range(const TextReader& text, const std::vector<std::string_vi
   for (std::int64_t number = first; number <= last; number += step) members.push_back(number);
 }
 
-void InpSets::add_other(const TextReader& text, const std::string& name, std::size_t elements,
+void InpSets::add_other(const InpText& text, const std::string& name, std::size_t elements,
                         Members& members) const {
-  const Members* other = find(name);
-  if (other == nullptr) text.fail("the set " + in_quotes(name) + " does not exist");
+  const Members* other = find(name, text.scope());
+  if (other == nullptr) text.reader().fail("the set " + in_quotes(name) + " does not exist");
   if (members.size() + other->size() > kMostPerElement * (elements + 1))
-    text.fail("sets of more elements than there are");
+    text.reader().fail("sets of more elements than there are");
   const Members copy = *other;  // a set may name itself
   members.insert(members.end(), copy.begin(), copy.end());
+}
+
+const InpSets::Members* InpSets::find(const std::string& name, const InpScope& scope) const {
+  const Members* const own = scope.prefix.empty() ? nullptr : find(scope.prefix + name);
+  return own != nullptr ? own : find(name);
 }
 
 const InpSets::Members* InpSets::find(const std::string& name) const {
@@ -108,11 +114,13 @@ std::vector<std::pair<std::string, const InpSets::Members*>> InpSets::largest_fi
 }
 
 void InpSurfaces::read(InpText& text, const std::string& name) {
+  if (scopes_.empty() || scopes_.back().prefix != text.scope().prefix) scopes_.push_back(text.scope());
   auto& sides = surfaces_[name];
   if (sides.empty()) order_.push_back(name);
   for (; text.is_data(); text.next()) {
     const std::vector<std::string_view> fields = text.fields();
-    sides.push_back({fields[0], fields.size() > 1 ? fields[1] : std::string_view(), text.reader().last()});
+    sides.push_back({fields[0], fields.size() > 1 ? fields[1] : std::string_view(), text.reader().last(),
+                     scopes_.size() - 1});
   }
 }
 
@@ -153,24 +161,26 @@ class InpSurfaces::Facets {
 };
 
 std::vector<int> InpSurfaces::apply(MeshData& mesh, InpText& text, const InpElements& elements,
-                                    const InpSets& sets, NamedIds& names) const {
+                                    const InpSets& sets, const InpShownName& shown, NamedIds& names) const {
   if (order_.empty()) return std::vector<int>(mesh.facets.size(), 0);
   Facets facets(mesh);
   const auto mark = [&](std::int64_t number, const Side& side, int id) {
     const InpElement* element = elements.find(number);
     if (element == nullptr)
-      text.reader().fail_at(side.position, "the element " + std::to_string(number) + " does not exist");
+      text.reader().fail_at(side.position,
+                            "the element " + std::to_string(number_in_file(number)) + " does not exist");
     facets.mark(text.reader(), *element, side, id);
   };
   for (const std::string& name : order_) {
-    const int id = names.id_of(name);
+    const int id = names.id_of(shown(name));
     for (const Side& side : surfaces_.at(name)) {
+      text.set_scope(scopes_[side.scope]);
       if (is_number(side.element)) {
         text.seek(side.position);
-        mark(integer_of(text.reader(), side.element, "an element's number"), side, id);
+        mark(text.number(side.element, "an element's number"), side, id);
         continue;
       }
-      const InpSets::Members* set = sets.find(std::string(side.element));
+      const InpSets::Members* set = sets.find(std::string(side.element), text.scope());
       if (set == nullptr)
         text.reader().fail_at(side.position, "the set " + in_quotes(side.element) + " does not exist");
       for (const std::int64_t number : *set) mark(number, side, id);

@@ -2,6 +2,7 @@
 // elements and their sides.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -20,21 +21,25 @@ class InpSets {
   /// The lines behind *ELSET, where there are `elements` elements.
   void read(InpText& text, const InpKeyword& key, std::size_t elements);
 
-  /// By a name in upper or lower case, or null.
-  [[nodiscard]] const Members* find(const std::string& name) const;
-  /// The largest set first, so that the smaller ones count; at last those that elements are listed in.
+  /// By a name in upper or lower case, first among those of the scope; or null.
+  [[nodiscard]] const Members* find(const std::string& name, const InpScope& scope) const;
+  /// But for those that are marked as internal, which surfaces are made of; the largest set first, so that
+  /// the smaller ones count; at last those that elements are listed in.
   [[nodiscard]] std::vector<std::pair<std::string, const Members*>> largest_first() const;
 
  private:
+  [[nodiscard]] const Members* find(const std::string& name) const;
   [[nodiscard]] std::size_t size_of(const std::string& name) const;
-  void add_range(const TextReader& text, const std::vector<std::string_view>& fields, std::size_t elements,
+  void add_range(const InpText& text, const std::vector<std::string_view>& fields, std::size_t elements,
                  Members& members) const;
-  void add_other(const TextReader& text, const std::string& name, std::size_t elements,
-                 Members& members) const;
+  void add_other(const InpText& text, const std::string& name, std::size_t elements, Members& members) const;
 
   std::map<std::string, Members> sets_, listed_;
   std::vector<std::string> order_;  ///< in which their names come first
 };
+
+/// The name of a set as users see it.
+using InpShownName = std::function<std::string(const std::string&)>;
 
 /// Surfaces: sides of tetrahedra become facets, and those of shells give these their marker.
 class InpSurfaces {
@@ -42,15 +47,17 @@ class InpSurfaces {
   void read(InpText& text, const std::string& name);
   /// Adds facets to the mesh; the marker of each facet, or 0.
   [[nodiscard]] std::vector<int> apply(MeshData& mesh, InpText& text, const InpElements& elements,
-                                       const InpSets& sets, NamedIds& names) const;
+                                       const InpSets& sets, const InpShownName& shown, NamedIds& names) const;
 
  private:
   struct Side {
     std::string_view element, side;
     std::size_t position;
+    std::size_t scope;  ///< of scopes_
   };
   class Facets;
 
+  std::vector<InpScope> scopes_;
   std::map<std::string, std::vector<Side>> surfaces_;
   std::vector<std::string> order_;
 };

@@ -15,12 +15,27 @@ bool InpText::next() {
   return false;
 }
 
+bool InpText::is_keyword(std::string_view name) const {
+  std::string word = lower(line_.substr(0, line_.find(',')));
+  std::erase_if(word, [](char c) { return c == ' ' || c == '\t'; });
+  return word.starts_with('*') && std::string_view(word).substr(1) == name;
+}
+
+std::int64_t InpText::number(std::string_view field, std::string_view what) const {
+  const std::int64_t number = integer_of(text_, field, what);
+  if (scope_.offset == 0) return number;
+  if (number < 0 || number >= kNumbersOfAnInstance)
+    text_.fail(std::string(what) + " of an instance is out of range: " + std::to_string(number));
+  return scope_.offset + number;
+}
+
 InpKeyword InpText::keyword() {
   if (line_[0] != '*') text_.fail("expected a keyword, found " + in_quotes(line_));
+  const std::size_t begin = place();
   std::string all(line_.substr(1));
   while (all.ends_with(',') && next()) all += line_;
   const std::vector<std::string_view> fields = split(all, ',');
-  InpKeyword result{lower(fields[0]), {}};
+  InpKeyword result{lower(fields[0]), {}, begin};
   for (const std::string_view field : std::span(fields).subspan(1)) {
     const std::size_t equals = field.find('=');
     std::string_view value = equals == std::string_view::npos ? "" : trimmed(field.substr(equals + 1));

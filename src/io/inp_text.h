@@ -9,12 +9,14 @@
 
 #include "io/fields.h"
 #include "io/labels.h"
+#include "io/placement.h"
 
 namespace holdfast::io {
 
 struct InpKeyword {
   std::string name;                           ///< in lower case
   std::map<std::string, std::string> values;  ///< by parameter in lower case
+  std::size_t place = 0;                      ///< of its line, for errors
 
   [[nodiscard]] bool has(const char* parameter) const { return values.contains(parameter); }
 };
@@ -23,6 +25,24 @@ struct InpKeyword {
 struct InpNames {
   NamedIds regions{kRegionStem}, markers{kFacetStem}, segments{kSegmentStem};
 };
+
+/// What the lines of an instance of a part, or of sets of one, speak of: numbers and names that other
+/// instances have, too.
+struct InpScope {
+  std::int64_t offset = 0;  ///< of numbers of nodes and elements
+  std::string prefix;       ///< of names of sets, as Abaqus writes it: "NAME."
+  bool names_too = false;   ///< names that are given have the prefix, as those within the instance
+  Placement placement;
+
+  [[nodiscard]] std::string given(const std::string& name) const { return names_too ? prefix + name : name; }
+};
+
+/// Numbers that each instance has for itself; those of a file without instances are not bounded.
+inline constexpr std::int64_t kNumbersOfAnInstance = std::int64_t{1} << 40;
+/// A number as the file has it.
+[[nodiscard]] inline std::int64_t number_in_file(std::int64_t number) {
+  return number < kNumbersOfAnInstance ? number : number % kNumbersOfAnInstance;
+}
 
 /// Stands at a line that is no comment, or at the end.
 class InpText {
@@ -40,6 +60,20 @@ class InpText {
   [[nodiscard]] std::vector<std::string_view> fields() const { return split(line_, ','); }
   /// Reads the keyword of this line and goes behind it. Throws if it has none.
   InpKeyword keyword();
+  /// Whether the line is this keyword, blanks and case apart.
+  [[nodiscard]] bool is_keyword(std::string_view name) const;
+
+  /// Where the line begins, and back there.
+  [[nodiscard]] std::size_t place() const { return at_end() ? text_.source().bytes.size() : text_.last(); }
+  void go_to(std::size_t place) {
+    text_.seek(place);
+    next();
+  }
+
+  [[nodiscard]] const InpScope& scope() const { return scope_; }
+  void set_scope(InpScope scope) { scope_ = std::move(scope); }
+  /// A field as the number of a node or an element, in the scope. Throws for the line.
+  [[nodiscard]] std::int64_t number(std::string_view field, std::string_view what) const;
 
   /// For what is wrong with the line.
   [[nodiscard]] const TextReader& reader() const { return text_; }
@@ -50,6 +84,7 @@ class InpText {
   TextReader text_;
   InpNames& names_;
   std::string_view line_;
+  InpScope scope_;
 };
 
 }  // namespace holdfast::io

@@ -43,7 +43,8 @@ std::vector<Sample> valid_files() {
                                {".3mf", small_3mf(Packing::stored)},
                                {".3mf", small_3mf(Packing::wide)},
                                {".amf", kSmallAmf},
-                               {".ts", kGocad}};
+                               {".ts", kGocad},
+                               {".inp", kAssembly}};
   files.push_back({".stl", binary_stl("solid", {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1}})});
   for (const std::int32_t version : {1, 2, 3, 4})
     files.push_back({".meshb", binary_gmf(version, version == 2)});

@@ -87,6 +87,71 @@ SEG 7 8
 END
 )";
 
+/// Two parts and three instances, as Abaqus/CAE writes them.
+inline const char* const kAssembly = R"(*Heading
+** Job name: Job-1 Model name: Model-1
+*Preprint, echo=NO, model=NO, history=NO, contact=NO
+**
+** PARTS
+**
+*Part, name=Block
+*Node
+      1,           0.,           0.,           0.
+      2,           1.,           0.,           0.
+      3,           0.,           1.,           0.
+      4,           0.,           0.,           1.
+*Element, type=C3D4
+1, 1, 2, 3, 4
+*Nset, nset=Set-1, generate
+ 1,  4,  1
+*Elset, elset=Set-1
+ 1,
+** Section: Section-1
+*Solid Section, elset=Set-1, material=Steel
+,
+*End Part
+**
+*Part, name=Lid
+*Node
+      1,           0.,           0.,           0.
+      2,           1.,           0.,           0.
+      3,           0.,           1.,           0.
+      4,           0.,           0.,           -1.
+*Element, type=C3D4
+1, 1, 3, 2, 4
+*Elset, elset=Set-1
+ 1,
+*End Part
+**
+** ASSEMBLY
+**
+*Assembly, name=Assembly
+**
+*Instance, name=Block-1, part=Block
+*End Instance
+**
+*Instance, name=Lid-1, part=Lid
+          0.,           0.,          -2.
+*End Instance
+**
+*Instance, name=Lid-2, part=Lid
+          5.,           0.,          0.
+          5.,           0.,          0.,           5.,           0.,          1.,    90.
+*End Instance
+**
+*Elset, elset=_top_S1, internal, instance=Block-1
+ 1,
+*Surface, type=ELEMENT, name=top
+_top_S1, S1
+*End Assembly
+*Material, name=Steel
+*Elastic
+210000., 0.3
+*Step, name=Step-1
+*Static
+*End Step
+)";
+
 /// A folder that is removed with all that is in it.
 class TemporaryFolder {
  public:

@@ -1,0 +1,45 @@
+// The parts of an .inp file and their instances in the assembly (Abaqus Keywords Guide, *PART, *INSTANCE).
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "io/inp_text.h"
+
+namespace holdfast::io {
+
+class InpParts {
+ public:
+  /// Stands behind the keyword *PART: remembers where the part's lines are, and goes behind them.
+  void skip(InpText& text, const InpKeyword& key);
+
+  /// Stands behind the keyword *INSTANCE, at what places it: sets its scope, and goes behind that. The
+  /// place of the part's lines, if it has a part.
+  std::optional<std::size_t> begin_instance(InpText& text, const InpKeyword& key);
+  /// The scope of one more instance; a part's own where nothing places it.
+  std::size_t begin_instance_of_part(InpText& text, const std::string& part);
+
+  /// The scope of lines of the assembly whose keyword names an instance. Throws if there is none.
+  [[nodiscard]] InpScope scope_of(const InpText& text, const InpKeyword& key) const;
+
+  [[nodiscard]] std::size_t instances() const { return scopes_.size(); }
+  /// Parts that no instance has, in order.
+  [[nodiscard]] std::vector<std::string> unused() const;
+  /// Of the only instance the names of sets need no prefix.
+  [[nodiscard]] std::string shown(const std::string& name) const;
+
+ private:
+  struct Part {
+    std::string name;
+    std::size_t place = 0;
+    bool used = false;
+  };
+  InpScope& add_instance(const std::string& name);
+  Part* find(const std::string& name);
+
+  std::vector<Part> parts_;
+  std::vector<InpScope> scopes_;
+};
+
+}  // namespace holdfast::io
