@@ -153,14 +153,19 @@ struct Format {
   std::string_view extension;
   void (*write)(AtomicWriter&, const Surface&);  ///< null: as a volume without tetrahedra
   bool markers, segments, seeds;                 ///< what it holds
+  bool vertex_markers, segment_markers;          ///< with a null writer, that one tells
 };
 
-constexpr std::array kFormats{
-    Format{".off", write_off, false, true, false}, Format{".obj", write_obj, true, true, false},
-    Format{".stl", write_stl, true, false, false}, Format{".ply", write_ply, true, false, false},
-    Format{".poly", write_poly, true, true, true}, Format{".mesh", nullptr, true, true, false},
-    Format{".meshb", nullptr, true, true, false},  Format{".msh", nullptr, true, true, false},
-    Format{".vtk", nullptr, true, true, false},    Format{".vtu", nullptr, true, true, false}};
+constexpr std::array kFormats{Format{".off", write_off, false, true, false, false, false},
+                              Format{".obj", write_obj, true, true, false, false, false},
+                              Format{".stl", write_stl, true, false, false, false, false},
+                              Format{".ply", write_ply, true, false, false, true, false},
+                              Format{".poly", write_poly, true, true, true, true, true},
+                              Format{".mesh", nullptr, true, true, false, true, true},
+                              Format{".meshb", nullptr, true, true, false, true, true},
+                              Format{".msh", nullptr, true, true, false, true, true},
+                              Format{".vtk", nullptr, true, true, false, true, true},
+                              Format{".vtu", nullptr, true, true, false, true, true}};
 
 const Format& format_of(const std::filesystem::path& path, std::string_view name) {
   const std::string extension = extension_of(path, name);
@@ -195,6 +200,11 @@ Volume as_volume(const Surface& surface) {
   return volume;
 }
 
+std::size_t marked(const std::vector<int>& markers) {
+  return static_cast<std::size_t>(
+      std::count_if(markers.begin(), markers.end(), [](int marker) { return marker != 0; }));
+}
+
 std::string counted(std::size_t count, const char* one, const char* many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
@@ -225,6 +235,9 @@ std::vector<Remark> not_held(const std::filesystem::path& path, const Surface& s
   };
   if (!format.markers) say(surface.facet_markers.size(), "marker", "markers");
   if (!format.segments) say(surface.segments.size(), "segment", "segments");
+  if (!format.vertex_markers) say(io::marked(surface.vertex_markers), "vertex's marker", "vertices' markers");
+  if (format.segments && !format.segment_markers)
+    say(io::marked(surface.segment_markers), "segment's marker", "segments' markers");
   if (!format.seeds) say(surface.regions.size() + surface.holes.size(), "seed", "seeds");
   if (format.write == nullptr)
     for (Remark& remark : not_held(path, io::as_volume(surface), options))

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "holdfast/surface_io.h"
 #include "io_samples.h"
 
 namespace holdfast {
@@ -128,6 +129,22 @@ TEST_F(Remarks, SayWhatAFormatDoesNotHold) {
   EXPECT_TRUE(not_held(folder_ / "b.msh", turned, legacy_msh()).empty());
   write_volume(folder_ / "b.msh", turned, legacy_msh());
   EXPECT_EQ(read_volume(folder_ / "b.msh").tetrahedra, turned.tetrahedra);
+}
+
+TEST_F(Remarks, SayWhichMarkersAreLostWithASurface) {
+  Surface surface;
+  surface.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  surface.vertex_markers = {5, 0, 6, 7};
+  surface.facets = {{0, 1, 2}};
+  surface.segments = {{0, 3}, {1, 3}};
+  surface.segment_markers = {0, 9};
+  const auto lost = [&](const char* name) { return messages(not_held(folder_ / name, surface)); };
+  for (const char* name : {"a.off", "a.obj"})
+    EXPECT_EQ(lost(name), "3 vertices' markers have no place in " + std::string(name + 1) +
+                              "\n1 segment's marker has no place in " + std::string(name + 1) + "\n");
+  EXPECT_EQ(lost("a.stl"), "2 segments have no place in .stl\n3 vertices' markers have no place in .stl\n");
+  EXPECT_EQ(lost("a.ply"), "2 segments have no place in .ply\n");
+  for (const char* name : {"a.poly", "a.mesh", "a.vtu"}) EXPECT_EQ(lost(name), "") << name;
 }
 
 TEST_F(Remarks, AVolumeWithAnotherNumberOfVertexMarkersIsRefused) {
