@@ -60,7 +60,9 @@ bool is_far_outside(const Point& p, const Complex& complex, double margin) {
   return false;
 }
 
-// A vertex of an open border in the region of `seed`: facets that end there may once have divided it.
+// A vertex of an open border in the region of `seed`: facets that end there may once have divided it. Where
+// little is missing, both ends of an edge of the border lie on the surface; only what is between them does
+// not.
 std::optional<Index> open_border_beside(const Complex& complex, const SegmentTable& table, const Point& seed,
                                         const std::function<void()>& step) {
   const std::vector<char> gone = peeled_from_borders(table);
@@ -71,10 +73,10 @@ std::optional<Index> open_border_beside(const Complex& complex, const SegmentTab
   std::vector<Index> border{no_index};
   for (Index s = 0; s < table.segments.size(); ++s) {
     if (table.facets_of(s).size() != 1) continue;
-    for (const Index v : table.segments[s]) {
-      border.push_back(v);
-      points.push_back(complex.vertices[v]);
-    }
+    const auto [a, b] = table.segments[s];
+    const Point &p = complex.vertices[a], &q = complex.vertices[b];
+    border.insert(border.end(), {a, b, a});
+    points.insert(points.end(), {p, q, {p[0] / 2 + q[0] / 2, p[1] / 2 + q[1] / 2, p[2] / 2 + q[2] / 2}});
   }
   const Complex rest{complex.vertices, closed, {}, {}, {}};
   const std::vector<Whereabouts> where = whereabouts(rest, Separation(segment_table(rest)), points, step);

@@ -202,6 +202,36 @@ TEST(Whereabouts, SeedsBesideAnOpenBorder) {
   }
 }
 
+// Both ends of the border's only edge lie on the rest of the surface.
+TEST(Whereabouts, SeedsBesideAMissingTriangle) {
+  Surface surface;
+  for (const double x : {0.0, 1.0, 2.0})
+    for (const double y : {0.0, 1.0})
+      for (const double z : {0.0, 1.0}) surface.vertices.push_back({x, y, z});
+  surface.facets = {{0, 1, 3}, {0, 3, 2}, {8, 10, 11}, {8, 11, 9}, {4, 5, 7}};
+  for (const Index a : {Index{0}, Index{4}}) {
+    const auto side = [&](Index p, Index q) {
+      surface.facets.push_back({a + p, a + q, a + q + 4});
+      surface.facets.push_back({a + p, a + q + 4, a + p + 4});
+    };
+    side(0, 1);
+    side(1, 3);
+    side(3, 2);
+    side(2, 0);
+  }
+  Options options;
+  options.regions = {{{0.5, 0.5, 0.5}, 1}, {{1.5, 0.5, 0.5}, 2}};
+  try {
+    static_cast<void>(mesh(surface.view(), options));
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("close the open border of the triangles inside this region, at vertex 4 (1, 0, 0)"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 // Regions of a surface that crosses itself are none: its defects are what to mend.
 TEST(Whereabouts, DefectsComeBeforeSeeds) {
   Surface crossing = small::box();
