@@ -204,8 +204,10 @@ VolumeTarget FilesOfRun::write_volume(std::string_view option, const fs::path& p
         fmt::join(known, " "), path == standard_output ? "" : "as the file's ending or "));
   const std::vector<fs::path> files = files_of_volume(path, target.options.format);
   struct stat status {};
-  const bool is_stream = descriptor_of(linked(path)) || (status_of(path, status) && !S_ISREG(status.st_mode));
-  if (files.size() > 1 && kind != ".openfoam" && is_stream)
+  const bool is_stream =
+      descriptor_of(linked(path)) || (status_of(path, status) && !S_ISREG(status.st_mode) &&
+                                      !(kind == ".openfoam" && S_ISDIR(status.st_mode)));
+  if (files.size() > 1 && is_stream)
     throw UsageError(fmt::format("{}: the format {} is of {} files beside one another, which need a name",
                                  called(path), kind, files.size()));
   // A case of OpenFOAM need not have the folders of its mesh yet.

@@ -167,6 +167,7 @@ class StandardStreams(CliTest):
             (["mesh", "cube.off", "-o", "-", "--format", "vtu", "--report", "-"], ["-o", "--report"]),
             (["mesh", "cube.off", "-o", "-", "--format", "vtu", "--report", "/dev/stdout"], ["-o", "--report"]),
             (["mesh", "cube.off", "-o", "-", "--format", "node"], ["node", "4 files"]),
+            (["mesh", "cube.off", "-o", "-", "--format", "openfoam"], ["openfoam", "files", "need a name"]),
             (["mesh", "cube.off", "-o", "a.vtu", "--size-field", "/dev/stdin"], ["--size-field"]),
             (["diagnose", "cube.off", "--json", "--report", "-"], ["--json", "--report"]),
             (["check", "-", "-", "--format", "vtu", "--input-format", "off"], ["once"]),
