@@ -19,18 +19,6 @@ bool is_one_of(const std::vector<std::string>& formats, const std::string& forma
   return std::find(formats.begin(), formats.end(), format) != formats.end();
 }
 
-/// Points of a .node alone are a surface without triangles.
-bool may_be_volume(const fs::path& path, const std::string& format) {
-  const std::string kind = format_of(path, format);
-  if (!is_one_of(readable_volume_formats(), kind)) return false;
-  if (kind != ".node") return true;
-  const std::vector<fs::path> files = files_of_volume(path, format);
-  return std::any_of(files.begin(), files.end(), [](const fs::path& file) {
-    std::error_code error;
-    return format_of(file, {}) == ".ele" && fs::exists(file, error);
-  });
-}
-
 bool can_be_read_again(const fs::path& path) {
   std::error_code error;
   return !descriptor_of(path) && fs::is_regular_file(path, error);
@@ -49,6 +37,17 @@ Surface surface_in(Volume&& volume) {
 }
 
 }  // namespace
+
+bool may_be_volume(const fs::path& path, const std::string& format) {
+  const std::string kind = format_of(path, format);
+  if (!is_one_of(readable_volume_formats(), kind)) return false;
+  if (kind != ".node") return true;
+  const std::vector<fs::path> files = files_of_volume(path, format);
+  return std::any_of(files.begin(), files.end(), [](const fs::path& file) {
+    std::error_code error;
+    return format_of(file, {}) == ".ele" && fs::exists(file, error);
+  });
+}
 
 void read_any(FilesOfRun& files, const fs::path& path, const std::string& format) {
   if (may_be_volume(path, format))

@@ -19,6 +19,9 @@ struct AnyMesh {
   [[nodiscard]] Names& names() { return is_volume ? volume.names : surface.names; }
 };
 
+/// Whether the format holds volumes; points of a .node alone are a surface without triangles.
+[[nodiscard]] bool may_be_volume(const std::filesystem::path& path, const std::string& format);
+
 /// The files that `read_any` reads, for `files`. Throws UsageError.
 void read_any(FilesOfRun& files, const std::filesystem::path& path, const std::string& format);
 

@@ -45,10 +45,13 @@ class Stopwatch {
 };
 
 /// Facets whose borders do not meet enclose nothing, or lie outside.
-bool is_open(const std::vector<Defect>& defects) {
-  return std::any_of(defects.begin(), defects.end(), [](const Defect& defect) {
+bool is_open(const DefectSummary& summary, const std::vector<Defect>& defects) {
+  const auto has_border = [](const DefectGroup& group) { return group.cause == Cause::open_border; };
+  const auto may_come_of_it = [](const Defect& defect) {
     return defect.kind == DefectKind::encloses_nothing || defect.kind == DefectKind::outside_region;
-  });
+  };
+  return std::any_of(summary.groups.begin(), summary.groups.end(), has_border) &&
+         std::any_of(defects.begin(), defects.end(), may_come_of_it);
 }
 
 /// The surface is not valid, or valid and nothing to fill.
@@ -65,7 +68,7 @@ void print_refusal(const MeshArguments& arguments, const Surface& surface, const
         list_text(summary, result.defects, shown_in_passing, "--report FILE.json has them"));
     if (surface.facets.empty())
       say("--surface-of takes the surface of a volume, where the file holds one\n");
-    else if (is_open(result.defects))
+    else if (is_open(summary, result.defects))
       say("`holdfast diagnose` lists the open borders and proposes what closes them\n");
     return;
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "any_mesh.h"
 #include "command.h"
 #include "defects.h"
 #include "files.h"
@@ -74,14 +75,23 @@ void tell_of_lone_vertices(const MeshArguments& arguments, const Surface& surfac
   };
   for (const Triangle& t : surface.facets) std::for_each(t.begin(), t.end(), use);
   for (const Segment& s : surface.segments) std::for_each(s.begin(), s.end(), use);
-  const auto lone = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
+  std::size_t lone = 0;
+  if (std::find(used.begin(), used.end(), false) != used.end()) {
+    // Those that are left out, since another is at their place or they have none, are told of elsewhere.
+    const std::vector<std::int64_t> map = vertex_map(surface.view());
+    for (std::size_t v = 0; v < used.size(); ++v)
+      if (!used[v] && (map.empty() || map[v] >= 0)) ++lone;
+  }
   if (lone == 0) return;
+  const bool from_volume = std::any_of(
+      arguments.surfaces.begin(), arguments.surfaces.end(),
+      [&](const std::filesystem::path& path) { return may_be_volume(path, arguments.input_format); });
   progress.finish();
   say("holdfast: {} in {} on no triangle and no segment {} as the mesh's, too{}\n",
       counted(lone, "vertex", "vertices"),
       arguments.surfaces.size() == 1 ? arguments.surfaces[0].string() : "the files",
       lone == 1 ? "is kept" : "are kept",
-      arguments.surface_of ? "" : "; --surface-of takes the surface of a volume alone");
+      arguments.surface_of || !from_volume ? "" : "; --surface-of takes the surface of a volume alone");
 }
 
 void tell_unused_sizes(const MeshArguments& arguments, const Surface& surface) {

@@ -103,6 +103,22 @@ class Decisions(CliTest):
         self.assertNotIn("no triangle", said)
         self.assertNotIn("no triangle", self.mesh("cube.off")[0])
 
+    def test_open_borders_are_named_where_there_are_some(self):
+        """A hole that takes everything, and a vertex outside, are no matter of borders."""
+        said = self.run_program("mesh", "cube.off", "-o", "a.vtu", "--hole", "0.4,0.5,0.6", expect=4).stderr
+        self.assertNotIn("open borders", said)
+        self.write("apart.off", off(CUBE_POINTS + [(9, 9, 9)], CUBE_FACETS))
+        self.assertNotIn("open borders", self.run_program("mesh", "apart.off", "-o", "a.vtu", expect=4).stderr)
+        self.write("open.off", off(CUBE_POINTS, CUBE_FACETS[1:]))
+        self.assertIn("open borders", self.run_program("mesh", "open.off", "-o", "a.vtu", expect=4).stderr)
+
+    def test_lone_vertices_that_are_left_out_are_not_kept(self):
+        self.write("lone.off", off(CUBE_POINTS + [CUBE_POINTS[0], (0.4, 0.5, 0.6), (float("nan"), 0, 0)], CUBE_FACETS))
+        said, report = self.mesh("lone.off", "--fill")
+        self.assertEqual(report["input"]["vertices"], 9)
+        self.assertIn("1 vertex in lone.off on no triangle and no segment is kept", said)
+        self.assertNotIn("--surface-of", said)  # there is no volume in the file
+
 
 if __name__ == "__main__":
     main()
