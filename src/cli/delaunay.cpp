@@ -105,12 +105,12 @@ void add_delaunay(CLI::App& app, Command& chosen) {
   command
       ->add_option(
           "-o,--output", arguments->output,
-          "Volume file (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol .xdmf .node, "
+          "Volume file (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol .xdmf .med .node, "
           "or OpenFOAM's constant/polyMesh), -: standard output")
       ->transform(or_standard_output)
       ->required()
       ->option_text("VOLUME");
-  command->add_option("--seed", arguments->seed, "Seed of the random order (default 1)")->option_text("N");
+  add_seed(*command, arguments->seed, "Seed of the random order (default 1)");
   command->add_option("--threads", arguments->threads, threads_help)
       ->check(CLI::Range(0u, 4096u))
       ->option_text("N");

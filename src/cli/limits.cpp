@@ -1,5 +1,6 @@
 #include "limits.h"
 
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 
@@ -31,6 +32,18 @@ int tell_limit(Outcome outcome, const std::string& message) {
     say("holdfast: {}; nothing was written; give a {}\n", message,
         outcome == Outcome::time_limit ? "longer --time-limit" : "larger --memory-limit");
   return exit_limit;
+}
+
+void add_seed(CLI::App& command, std::uint64_t& seed, const char* help) {
+  command.add_option("--seed", seed, help)
+      ->check([](const std::string& text) {
+        errno = 0;
+        static_cast<void>(std::strtoull(text.c_str(), nullptr, 0));
+        return errno == 0 && text.find('-') == std::string::npos
+                   ? std::string()
+                   : std::string("a number, not negative and below 2^64, is expected");
+      })
+      ->option_text("N");
 }
 
 void add_tolerance(CLI::App& command, double& tolerance) {

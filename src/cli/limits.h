@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -23,6 +24,10 @@ void add_limits(CLI::App& command, LimitArguments& arguments);
 
 /// For reading. A signal ends the program at once then, as reading may wait for a pipe.
 [[nodiscard]] ReadOptions reading(const Limits& limits, const std::string& format, double tolerance = 0);
+
+/// --seed. Numbers that are no std::uint64_t would become others without a word.
+void add_seed(CLI::App& command, std::uint64_t& seed,
+              const char* help = "Seed of the random orders (default 1)");
 
 /// --tolerance, for polygons.
 void add_tolerance(CLI::App& command, double& tolerance);

@@ -396,7 +396,7 @@ void add_mesh(CLI::App& app, Command& chosen) {
           "in, where halving takes the middle one, then those in the middle of both halves")
       ->allow_extra_args(false)
       ->option_text("1|2|random|given|halving");
-  command->add_option("--seed", arguments->seed, "Seed of the random orders (default 1)")->option_text("N");
+  add_seed(*command, arguments->seed);
   command->add_option("--threads", arguments->threads, threads_help)
       ->check(CLI::Range(0u, 4096u))
       ->option_text("N");

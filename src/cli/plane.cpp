@@ -237,7 +237,7 @@ void add_method(CLI::App& command, PlaneArguments& arguments) {
                   "one, then "
                   "those in the middle of both halves (default: one near the last)")
       ->option_text("ORDER");
-  command.add_option("--seed", arguments.seed, "Seed of the random orders (default 1)")->option_text("N");
+  add_seed(command, arguments.seed);
 }
 
 }  // namespace

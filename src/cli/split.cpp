@@ -201,7 +201,7 @@ void add_split(CLI::App& app, Command& chosen) {
   add_name_option(*command, mesh.names);
   command->add_flag("--drop-outside", mesh.drop_outside,
                     "Drop facets outside every kept region instead of refusing them");
-  command->add_option("--seed", mesh.seed, "Seed of the random orders (default 1)")->option_text("N");
+  add_seed(*command, mesh.seed);
   command->add_option("--threads", mesh.threads, threads_help)
       ->check(CLI::Range(0u, 4096u))
       ->option_text("N");

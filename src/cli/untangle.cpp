@@ -156,15 +156,16 @@ void add_untangle(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand(
       "untangle", "Make every tetrahedron of a tangled volume positive, with its boundary as it is");
   command
-      ->add_option(
-          "VOLUME", arguments->input,
-          "Tangled volume file (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol .node)")
+      ->add_option("VOLUME", arguments->input,
+                   "Tangled volume file (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol "
+                   ".xdmf .med .avs .node, "
+                   "or OpenFOAM's constant/polyMesh)")
       ->transform(or_standard_input)
       ->required();
   command
       ->add_option(
           "-o,--output", arguments->output,
-          "Volume file (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol .xdmf .node, "
+          "Volume file (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol .xdmf .med .node, "
           "or OpenFOAM's constant/polyMesh), -: standard output")
       ->transform(or_standard_output)
       ->required()
@@ -176,7 +177,7 @@ void add_untangle(CLI::App& app, Command& chosen) {
       ->add_flag("--improve", arguments->improve,
                  "Then make elements better, with the boundary as it is; adds and removes inner vertices")
       ->excludes(no_refill);
-  command->add_option("--seed", arguments->seed, "Seed of the random orders (default 1)")->option_text("N");
+  add_seed(*command, arguments->seed);
   command->add_option("--time-limit", arguments->time_limit, "Give up after so many seconds (exit 5)")
       ->option_text("S");
   command->add_option("--memory-limit", arguments->memory_limit, "Give up beyond so much memory (exit 5)")

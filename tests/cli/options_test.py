@@ -33,6 +33,7 @@ IDLE = [
 SENSELESS = [
     ("--size", ["--size", "0"]), ("--size", ["--size", "inf"]), ("--size", ["--size", "nan"]),
     ("--gradation", ["--gradation", "nan"]),
+    ("--seed", ["--seed", "-1"]), ("--seed", ["--seed", "1.5"]), ("--seed", ["--seed", "18446744073709551616"]),
     ("--time-limit", ["--time-limit", "0"]), ("--time-limit", ["--time-limit", "nan"]),
     ("--time-limit", ["--time-limit", "inf"]),
     ("--memory-limit", ["--memory-limit", "0"]), ("--memory-limit", ["--memory-limit", "-1"]),
