@@ -24,6 +24,22 @@ class Usage(CliTest):
         for command in ("mesh", "check", "diagnose", "delaunay", "untangle"):
             self.assertIn("Exit codes", self.run_program(command, "--help").stdout)
 
+    def test_help_names_the_formats(self):
+        """Those of volumes that messages list, but for other endings of the same."""
+        self.run_program("mesh", "cube.off", "-o", "a.vtu")
+        known = {
+            "written": self.run_program("mesh", "cube.off", "-o", "a.none", expect=2).stderr,
+            "read": self.run_program("check", "cube.off", "a.vtu", "--format", "none", expect=3).stderr,
+        }
+        for command, option, use in [("mesh", "--output", "written"), ("delaunay", "--output", "written"),
+                                     ("untangle", "--output", "written"), ("check", "SURFACE VOLUME", "read"),
+                                     ("untangle", "VOLUME TEXT", "read")]:
+            described = self.run_program(command, "--help").stdout.split(option, 1)[1].split(" or OpenFOAM", 1)[0]
+            for ending in set(re.findall(r"\.[a-z]\w*", known[use].split("formats are" if use == "read" else "use ", 1)[1])):
+                if ending not in (".nas", ".ucd", ".ele", ".face", ".openfoam", ".msh2"):
+                    with self.subTest([command, option, ending]):
+                        self.assertIn(ending, described)
+
     def test_wrong_usage_is_2_and_says_what_is_wrong(self):
         for arguments, word in [
             ([], "subcommand"),
