@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -42,6 +43,14 @@ void require_sensible_sizes(const Complex& complex, const Sizes& sizes) {
           "as many sizes as vertices are needed, or none");
   require(std::all_of(sizes.vertex_sizes.begin(), sizes.vertex_sizes.end(), is_length_or_none),
           "sizes of vertices must be finite and not negative");
+}
+
+// A box has corners beyond all vertices.
+bool has_room_for_box(const Complex& complex) {
+  constexpr double kMost = std::numeric_limits<double>::max();
+  return std::none_of(complex.vertices.begin(), complex.vertices.end(), [](const Point& p) {
+    return std::any_of(p.begin(), p.end(), [](double x) { return std::abs(x) == kMost; });
+  });
 }
 
 // Corners of the box that is kept lie within this one, however they are rounded.
@@ -121,6 +130,8 @@ void require_sensible(const Complex& complex, const Options& options) {
   if (options.sizes) require_sensible_sizes(complex, *options.sizes);
   require(options.keep != Keep::box || (options.box_margin > 0 && options.box_margin < 1e6),
           "the margin of the box must be positive and below a million");
+  require(options.keep != Keep::box || has_room_for_box(complex),
+          "no box is larger than a surface that reaches to the largest double");
   require(options.time_limit >= 0, "the time limit must not be negative");
 }
 

@@ -13,6 +13,7 @@
 #include "page.h"
 #include "report.h"
 #include "signals.h"
+#include "summary.h"
 
 namespace holdfast::cli {
 namespace {
@@ -51,10 +52,6 @@ Json report_of(const Surface& surface, const Report::Input& input, const Finding
           {"defects", to_json(found.defects)}};
 }
 
-std::string counted(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 constexpr const char* listed_elsewhere = "--all lists them, --report FILE.json, too";
 
 std::string outside_text(const std::vector<Defect>& outside, std::size_t most) {
@@ -69,8 +66,9 @@ std::string outside_text(const std::vector<Defect>& outside, std::size_t most) {
 /// The summary, then the list.
 std::string listing_of(const Report::Input& counts, const Findings& found, std::size_t most) {
   const auto& [defects, outside, summary, cures] = found;
-  const std::string input = fmt::format("{} vertices, {} segments, {} facets in {}", counts.vertices,
-                                        counts.segments, counts.facets, counted(summary.parts, "part"));
+  const std::string input = fmt::format("{}, {}, {} in {}", counted(counts.vertices, "vertex", "vertices"),
+                                        counted(counts.segments, "segment"), counted(counts.facets, "facet"),
+                                        counted(summary.parts, "part"));
   std::string text;
   if (!defects.empty())
     text = fmt::format("not valid: {}; {}\n", input, counted(defects.size(), "defect"));
@@ -184,12 +182,12 @@ void add_diagnose(CLI::App& app, Command& chosen) {
       "diagnose",
       "Tell what is wrong with a surface (exit 4), by cause and one by one, and what it encloses");
   command
-      ->add_option(
-          "SURFACE", arguments->surfaces,
-          "Surface files (.stl .off .obj .ply .3mf .amf .ts .mesh .meshb .poly .smesh .node .msh .vtu .vtp .vtk, "
-          "each also .gz); "
-          "several count on from "
-          "one another; vertices with identical coordinates are one")
+      ->add_option("SURFACE", arguments->surfaces,
+                   "Surface files (.stl .off .obj .ply .3mf .amf .ts .mesh .meshb .poly .smesh .node .msh "
+                   ".vtu .vtp .vtk, "
+                   "each also .gz); "
+                   "several count on from "
+                   "one another; vertices with identical coordinates are one")
       ->transform(or_standard_input)
       ->required();
   command->add_option("--marks", arguments->marks, "Write the places of the defects for a viewer")

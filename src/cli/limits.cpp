@@ -34,16 +34,16 @@ int tell_limit(Outcome outcome, const std::string& message) {
   return exit_limit;
 }
 
+std::string not_a_count(const std::string& text) {
+  errno = 0;
+  static_cast<void>(std::strtoull(text.c_str(), nullptr, 0));
+  return errno == 0 && text.find('-') == std::string::npos
+             ? std::string()
+             : std::string("a number, not negative and below 2^64, is expected");
+}
+
 void add_seed(CLI::App& command, std::uint64_t& seed, const char* help) {
-  command.add_option("--seed", seed, help)
-      ->check([](const std::string& text) {
-        errno = 0;
-        static_cast<void>(std::strtoull(text.c_str(), nullptr, 0));
-        return errno == 0 && text.find('-') == std::string::npos
-                   ? std::string()
-                   : std::string("a number, not negative and below 2^64, is expected");
-      })
-      ->option_text("N");
+  command.add_option("--seed", seed, help)->check(not_a_count)->option_text("N");
 }
 
 void add_tolerance(CLI::App& command, double& tolerance) {

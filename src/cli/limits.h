@@ -25,7 +25,10 @@ void add_limits(CLI::App& command, LimitArguments& arguments);
 /// For reading. A signal ends the program at once then, as reading may wait for a pipe.
 [[nodiscard]] ReadOptions reading(const Limits& limits, const std::string& format, double tolerance = 0);
 
-/// --seed. Numbers that are no std::uint64_t would become others without a word.
+/// Why text is no number of 64 bits without a sign, which would become another one without a word; else "".
+[[nodiscard]] std::string not_a_count(const std::string& text);
+
+/// --seed.
 void add_seed(CLI::App& command, std::uint64_t& seed,
               const char* help = "Seed of the random orders (default 1)");
 

@@ -93,7 +93,8 @@ int conclude(const MeshArguments& arguments, const Surface& surface, const Resul
     case Outcome::cancelled:
       return tell_limit(result.outcome, message);
     case Outcome::not_representable:
-      if (result.report.steiner_points == 0) {  // the parts could not be pasted
+      if (result.report.steiner_points == 0 &&
+          arguments.surfaces.size() > 1) {  // the parts could not be pasted
         say("holdfast: {}; {} was not written; another --paste=T may help\n", message,
             arguments.output.path.string());
         return exit_not_representable;
@@ -302,11 +303,11 @@ void add_mesh(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<MeshArguments>();
   CLI::App* command = app.add_subcommand("mesh", "Fill surfaces with tetrahedra, keeping every triangle");
   command
-      ->add_option(
-          "SURFACE", arguments->surfaces,
-          "Surface files (.stl .off .obj .ply .3mf .amf .ts .mesh .meshb .poly .smesh .node .msh .vtu .vtp .vtk, "
-          "each also .gz, and whatever else `convert` reads); several count on from "
-          "one another; vertices with identical coordinates are one")
+      ->add_option("SURFACE", arguments->surfaces,
+                   "Surface files (.stl .off .obj .ply .3mf .amf .ts .mesh .meshb .poly .smesh .node .msh "
+                   ".vtu .vtp .vtk, "
+                   "each also .gz, and whatever else `convert` reads); several count on from "
+                   "one another; vertices with identical coordinates are one")
       ->transform(or_standard_input)
       ->required();
   command

@@ -155,7 +155,7 @@ Options to_options(const MeshArguments& arguments) {
     const std::vector<double> x = numbers("--region ", region, with_size ? 5 : 4,
                                           "three numbers and an id x,y,z,ID, and perhaps a size ,H, are");
     if (x[3] != std::floor(x[3]) || std::abs(x[3]) > INT32_MAX)
-      throw UsageError("--region " + region + ": the region id must be an integer");
+      throw UsageError("--region " + region + ": the region id must be an integer of at most 2147483647");
     if (with_size && !is_positive(x[4]))
       throw UsageError("--region " + region + ": the size must be positive");
     options.regions.push_back({{x[0], x[1], x[2]}, static_cast<int>(x[3]), with_size ? x[4] : 0});

@@ -224,6 +224,7 @@ void add_method(CLI::App& command, PlaneArguments& arguments) {
       ->option_text("A");
   command.add_flag("--keep-boundary", arguments.keep_boundary, "Add points inside alone, none on segments");
   command.add_option("--max-points", arguments.max_points, "Most points to add (default 10000000)")
+      ->check(not_a_count)
       ->option_text("N");
   command.add_flag("--hull", arguments.hull,
                    "Keep all within the convex hull, not what segments enclose alone");

@@ -171,7 +171,7 @@ void add_repair(CLI::App& app, Command& chosen) {
               return;
             }
             std::size_t most = 0;
-            if (!CLI::detail::lexical_cast(text, most) || most < 3)
+            if (!not_a_count(text).empty() || !CLI::detail::lexical_cast(text, most) || most < 3)
               throw CLI::ValidationError("--fill-holes", "'" + text + "' is no number of sides from 3 on");
             arguments->fill_holes = most;
           },

@@ -184,6 +184,7 @@ void add_split(CLI::App& app, Command& chosen) {
       ->required()
       ->option_text("DIR");
   command->add_option("--parts", arguments->parts, "How many parts, of about equal work")
+      ->check(not_a_count)
       ->required()
       ->option_text("N");
   command->add_option("--size", mesh.size, "No edge inside much longer than this, in all parts")

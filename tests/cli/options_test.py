@@ -37,7 +37,7 @@ SENSELESS = [
     ("--time-limit", ["--time-limit", "0"]), ("--time-limit", ["--time-limit", "nan"]),
     ("--time-limit", ["--time-limit", "inf"]),
     ("--memory-limit", ["--memory-limit", "0"]), ("--memory-limit", ["--memory-limit", "-1"]),
-    ("--region", ["--region", "0,0,0,1,0"]), ("--order", ["--order", "reverse"]),
+    ("--region", ["--region", "0,0,0,1,0"]), ("2147483647", ["--region", "0,0,0,99999999999"]), ("--order", ["--order", "reverse"]),
     ("--max-volume", ["--max-volume", "0"]), ("--max-volume", ["--max-volume", "core="]),
     ("--max-volume", ["--max-volume", "=1"]), ("--max-volume", ["--max-volume", "2=inf"]),
     ("--max-ratio", ["--max-ratio", "0.5"]), ("--max-ratio", ["--max-ratio", "nan"]),
@@ -66,6 +66,19 @@ class Options(CliTest):
             with self.subTest(arguments):
                 said = self.run_program("mesh", "missing.off", "-o", "out.vtu", *arguments, expect=2).stderr
                 self.assertIn(option, said)
+
+    def test_counts_of_other_commands_do_not_wrap(self):
+        for arguments in (["split", "cube.off", "--parts", "-3", "-o", "parts"], ["plane", "cube.off", "-o", "out.off", "--max-points", "-1"],
+                          ["repair", "cube.off", "-o", "out.off", "--fill-holes", "-1"]):
+            with self.subTest(arguments):
+                self.assertIn("--", self.run_program(*arguments, expect=2).stderr)
+
+    def test_no_box_beyond_the_largest_double(self):
+        most = "1.7976931348623157e308"
+        with open(self.folder / "most.off", "w", encoding="ascii") as file:
+            file.write(f"OFF\n4 4 0\n0 0 0\n{most} 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n")
+        said = self.run_program("mesh", "most.off", "-o", "out.vtu", "--keep", "box", expect=2).stderr
+        self.assertIn("largest double", said)
 
     def test_others_are_accepted(self):
         for arguments in SENSIBLE:
