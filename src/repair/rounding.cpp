@@ -11,11 +11,11 @@
 
 #include "numbers/sorted.h"
 #include "repair/flatten.h"
+#include "repair/open_sides.h"
 #include "repair/restore.h"
 #include "repair/settle.h"
 #include "repair/weld.h"
 #include "surface/elements.h"
-#include "surface/places.h"
 
 namespace holdfast::repairing {
 namespace {
@@ -66,26 +66,6 @@ constexpr double kMostInPlane = 0x1p6;
 
 /// How many facets joining may make of so many in a plane. Where it makes more, it does not end well.
 constexpr std::size_t most_in_plane(std::size_t facets) { return 64 + 2 * facets; }
-
-/// Sides that one facet has.
-std::size_t open_sides(const State& state) {
-  const std::vector<Index> first = first_at_places(state.vertices);
-  std::vector<Segment> sides;
-  for (const Triangle& t : state.facets) {
-    if (std::any_of(t.begin(), t.end(), [&](Index v) { return v >= first.size(); })) continue;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto [a, b] = std::minmax(first[t[i]], first[t[(i + 1) % 3]]);
-      sides.push_back({a, b});
-    }
-  }
-  std::sort(sides.begin(), sides.end());
-  std::size_t open = 0;
-  for (std::size_t k = 0, next = 0; k < sides.size(); k = next) {
-    while (next < sides.size() && sides[next] == sides[k]) ++next;
-    open += next - k == 1 ? 1 : 0;
-  }
-  return open;
-}
 
 /// The quotient in lowest terms.
 std::string quotient_text(const exact::BigInt& numerator, const exact::BigInt& denominator) {
