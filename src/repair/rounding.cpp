@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "numbers/sorted.h"
+#include "repair/fins.h"
 #include "repair/flatten.h"
 #include "repair/open_sides.h"
 #include "repair/restore.h"
@@ -449,6 +450,8 @@ Rounded round_arranged(State state, const RepairOptions& options, RepairReport& 
         report = other_report;
       }
     }
+    if (open > before)
+      rounded.displacement = sum_above(rounded.displacement, drop_fins(rounded.state, rounded.displacement));
   }
   if (rounded.is_valid)
     rounded.displacement = sum_above(

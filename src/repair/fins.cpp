@@ -1,0 +1,187 @@
+#include "repair/fins.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "numbers/sorted.h"
+#include "repair/near.h"
+#include "surface/places.h"
+
+namespace holdfast::repairing {
+namespace {
+
+using Side = std::array<Index, 2>;  // ascending, the first vertices at their places
+
+class Fins {
+ public:
+  Fins(State& state, double most)
+      : state_(state), most_(most), first_(first_at_places(state.vertices)), fin_(state.facets.size()) {
+    std::iota(fin_.begin(), fin_.end(), Index{0});
+    is_gone_.assign(state.facets.size(), 0);
+    for (Index f = 0; f < state.facets.size(); ++f)
+      for (const Side& side : sides_of(f)) at_[side].push_back(f);
+    for (const Segment& s : state.segments) held_.insert(ascending(Side{first_[s[0]], first_[s[1]]}));
+  }
+
+  double run() {
+    peel();
+    if (order_.empty()) return 0;
+    put_back_bad();
+    double largest = 0;
+    for (const auto& [f, sum] : sums())
+      if (is_gone_[f] != 0) largest = std::max(largest, sum);
+    if (largest > 0) deliver();
+    return largest;
+  }
+
+ private:
+  [[nodiscard]] std::array<Side, 3> sides_of(Index f) const {
+    const Triangle& t = state_.facets[f];
+    return {ascending(Side{first_[t[0]], first_[t[1]]}), ascending(Side{first_[t[1]], first_[t[2]]}),
+            ascending(Side{first_[t[2]], first_[t[0]]})};
+  }
+
+  /// Facets with the side that are still there.
+  [[nodiscard]] std::size_t left(const Side& side) const {
+    const std::vector<Index>& all = at_.at(side);
+    return static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end(), [&](Index f) { return is_gone_[f] == 0; }));
+  }
+
+  void peel() {
+    std::vector<Index> next;
+    for (const auto& [side, facets] : at_)
+      if (facets.size() == 1) next.push_back(facets[0]);
+    while (!next.empty()) {
+      const Index f = next.back();
+      next.pop_back();
+      if (is_gone_[f] != 0) continue;
+      const double distance = thickness(f);
+      if (!(distance <= most_)) continue;
+      is_gone_[f] = 1;
+      order_.emplace_back(f, distance);
+      for (const Side& side : sides_of(f))
+        for (const Index g : at_[side]) {
+          if (is_gone_[g] != 0)
+            fin_[root(g)] = root(f);
+          else if (left(side) == 1)
+            next.push_back(g);
+        }
+    }
+  }
+
+  /// What went first may be beside what went later: the distances of each fin, by one of its facets, add up.
+  [[nodiscard]] std::map<Index, double> sums() const {
+    std::map<Index, double> sums;
+    for (const auto& [f, distance] : order_) {
+      double& sum = sums[root(f)];
+      sum = std::nextafter(sum + distance, std::numeric_limits<double>::infinity());
+    }
+    return sums;
+  }
+
+  /// How far points of a facet are from its sides that others have. The distance from a side is convex, so
+  /// that corners decide; from two sides it is so on either part that the foot of their corner divides.
+  [[nodiscard]] double thickness(Index f) const {
+    const std::array<Side, 3> sides = sides_of(f);
+    std::array<bool, 3> is_free{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      is_free[i] = left(sides[i]) == 1;
+      if (is_free[i] && held_.contains(sides[i])) return std::numeric_limits<double>::infinity();
+    }
+    const Triangle& t = state_.facets[f];
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];
+      if (!is_free[i]) least = std::min(least, distance(c, a, b));
+      if (is_free[i] && !is_free[(i + 1) % 3] && !is_free[(i + 2) % 3])
+        least = std::min(least, distance(c, a, b));
+    }
+    return least;
+  }
+
+  /// Of a vertex and a side, rounded up.
+  [[nodiscard]] double distance(Index v, Index a, Index b) const {
+    const double to_ends = std::min(length(minus(at(v), at(a))), length(minus(at(v), at(b)))) * (1 + 0x1p-48);
+    return std::min(beside_side(at(v), at(a), at(b)).bound(), to_ends);
+  }
+
+  /// Fins that leave a free side, are too thick, or take the last part of a facet or the last facet of a
+  /// vertex of the input.
+  void put_back_bad() {
+    std::map<Index, std::size_t> parts, uses;  // of facets and vertices of the input that fins have
+    const auto each = [&](Index f, auto&& part, auto&& use) {
+      for (const Index p : state_.facet_parents.of(f)) part(p);
+      for (const Index v : state_.facets[f])
+        if (v < state_.input_vertices) use(v);
+    };
+    for (const auto& [f, distance] : order_)
+      each(
+          f, [&](Index p) { parts[p] = 0; }, [&](Index v) { uses[v] = 0; });
+    for (Index f = 0; f < is_gone_.size(); ++f) {
+      if (is_gone_[f] != 0) continue;
+      each(
+          f,
+          [&](Index p) {
+            if (const auto found = parts.find(p); found != parts.end()) ++found->second;
+          },
+          [&](Index v) {
+            if (const auto found = uses.find(v); found != uses.end()) ++found->second;
+          });
+    }
+    std::set<Index> bad;
+    for (const auto& [f, sum] : sums())
+      if (!(sum <= most_)) bad.insert(f);
+    for (const auto& [f, distance] : order_) {
+      bool is_bad = false;
+      for (const Side& side : sides_of(f)) is_bad |= left(side) == 1;
+      each(
+          f, [&](Index p) { is_bad |= parts[p] == 0; }, [&](Index v) { is_bad |= uses[v] == 0; });
+      if (is_bad) bad.insert(root(f));
+    }
+    for (const auto& [f, distance] : order_)
+      if (bad.contains(root(f))) is_gone_[f] = 0;
+  }
+
+  void deliver() {
+    std::vector<Triangle> facets;
+    Parents parents;
+    for (Index f = 0; f < is_gone_.size(); ++f) {
+      if (is_gone_[f] != 0) continue;
+      facets.push_back(state_.facets[f]);
+      parents.add(state_.facet_parents.of(f));
+    }
+    state_.facets = std::move(facets);
+    state_.facet_parents = std::move(parents);
+    state_.doubt_all();
+    drop_unused(state_);
+  }
+
+  [[nodiscard]] const Point& at(Index v) const { return state_.vertices[v]; }
+  [[nodiscard]] Index root(Index f) const {
+    while (fin_[f] != f) f = fin_[f];
+    return f;
+  }
+
+  State& state_;
+  const double most_;
+  const std::vector<Index> first_;
+  std::map<Side, std::vector<Index>> at_;  // the facets of each side
+  std::set<Side> held_;                    // sides that are segments
+  std::vector<std::uint8_t> is_gone_;
+  std::vector<Index> fin_;                       // of facets that are gone, one that is of the same fin
+  std::vector<std::pair<Index, double>> order_;  // facets that went, and how far they are from what stays
+};
+
+}  // namespace
+
+double drop_fins(State& state, double most) { return Fins(state, most).run(); }
+
+}  // namespace holdfast::repairing
