@@ -62,7 +62,7 @@ std::optional<XmlTag> XmlReader::next() {
       return std::nullopt;
     }
     if (!starts_with("<?") && !starts_with("<!")) break;
-    const std::string_view end = starts_with("<!--") ? "-->" : starts_with("<![CDATA[") ? "]]>" : ">";
+    const std::string_view end = starts_with("<!--") ? "-->" : ">";  // tags in CDATA count, as XDMF's do
     position_ = std::min(source_.bytes.find(end, position_), source_.bytes.size());
   }
   XmlTag tag;
