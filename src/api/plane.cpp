@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "mesh/limit_message.h"
 #include "mesh/plain_monitor.h"
 #include "numbers/float_environment.h"
 #include "plane/defects.h"
@@ -16,12 +17,10 @@
 namespace holdfast {
 namespace {
 
-PlaneResult ended(Outcome outcome) {
+PlaneResult ended(Outcome outcome, const Limits& limits) {
   PlaneResult result;
   result.outcome = outcome;
-  result.message = outcome == Outcome::time_limit     ? "the time limit ran out"
-                   : outcome == Outcome::memory_limit ? "the memory limit was reached"
-                                                      : "cancelled";
+  result.message = limit_message(outcome, limits);
   return result;
 }
 
@@ -35,10 +34,10 @@ PlaneResult within_limits(const Input& input, const PlaneOptions& options) {
     monitor.tell(1);
     return result;
   } catch (const Interrupted& interrupted) {
-    return ended(interrupted.outcome());
+    return ended(interrupted.outcome(), options);
   } catch (const std::bad_alloc&) {
     if (options.memory_limit == 0) throw;
-    return ended(Outcome::memory_limit);
+    return ended(Outcome::memory_limit, options);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "api/scale.h"
 #include "api/unite.h"
+#include "mesh/limit_message.h"
 #include "mesh/memory.h"
 #include "mesh/plain_monitor.h"
 #include "numbers/float_environment.h"
@@ -43,12 +44,6 @@ void require_sensible(const Complex& complex, const RepairOptions& options) {
 void end(RepairResult& result, Outcome outcome, std::string message) {
   result.outcome = outcome;
   result.message = std::move(message);
-}
-
-const char* message_of(Outcome outcome) {
-  return outcome == Outcome::time_limit     ? "the time limit ran out"
-         : outcome == Outcome::memory_limit ? "the memory limit was reached"
-                                            : "cancelled";
 }
 
 /// The power of two that brings finite vertices near to one. The exact arrangement is that of the surface as
@@ -113,7 +108,7 @@ void run(const Complex& complex, const RepairOptions& options, PlainMonitor& mon
   if (options.unite) {
     const std::size_t before = rounded.state.facets.size();
     if (const Outcome outcome = unite(complex, rounded.state, options, step); outcome != Outcome::done)
-      return end(result, outcome, message_of(outcome));
+      return end(result, outcome, limit_message(outcome, options));
     rounded.has_united = rounded.state.facets.size() < before;
   }
   repairing::deliver(complex, std::move(rounded), result);
@@ -135,14 +130,14 @@ RepairResult repair(const Complex& complex, const RepairOptions& options) {
     run(complex, options, monitor, result);
     monitor.tell(1);
   } catch (const Interrupted& interrupted) {
-    end(result, interrupted.outcome(), message_of(interrupted.outcome()));
+    end(result, interrupted.outcome(), limit_message(interrupted.outcome(), options));
   } catch (const arrange::TooManyPoints& many) {
     end(result, Outcome::memory_limit,
         "the arrangement has more than " + std::to_string(options.most_points) + " new points (" +
             std::to_string(many.count()) + " so far)");
   } catch (const std::bad_alloc&) {
     if (options.memory_limit == 0) throw;
-    end(result, Outcome::memory_limit, message_of(Outcome::memory_limit));
+    end(result, Outcome::memory_limit, limit_message(Outcome::memory_limit, options));
   }
   result.report.seconds["total"] =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

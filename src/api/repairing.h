@@ -7,16 +7,11 @@
 
 #include "arrange/arrange.h"
 #include "holdfast/repair.h"
+#include "mesh/limit_message.h"
 #include "mesh/memory.h"
 #include "mesh/plain_monitor.h"
 
 namespace holdfast {
-
-[[nodiscard]] inline const char* interruption(Outcome outcome) {
-  return outcome == Outcome::time_limit     ? "the time limit ran out"
-         : outcome == Outcome::memory_limit ? "the memory limit was reached"
-                                            : "cancelled";
-}
 
 /// Calls work(monitor) and fills in what the report has of any call.
 template <class Work>
@@ -32,13 +27,13 @@ void run_within(const Limits& limits, const ProgressFunction& progress, RepairRe
     work(monitor);
     monitor.tell(1);
   } catch (const Interrupted& interrupted) {
-    end(interrupted.outcome(), interruption(interrupted.outcome()));
+    end(interrupted.outcome(), limit_message(interrupted.outcome(), limits));
   } catch (const arrange::TooManyPoints& many) {
     end(Outcome::memory_limit,
         "the arrangement has too many new points (" + std::to_string(many.count()) + " so far)");
   } catch (const std::bad_alloc&) {
     if (limits.memory_limit == 0) throw;
-    end(Outcome::memory_limit, interruption(Outcome::memory_limit));
+    end(Outcome::memory_limit, limit_message(Outcome::memory_limit, limits));
   }
   result.report.seconds["total"] =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -2,7 +2,7 @@
 
 #include <new>
 
-#include "text/decimal.h"
+#include "mesh/limit_message.h"
 
 namespace holdfast {
 
@@ -43,15 +43,7 @@ Stopwatch::~Stopwatch() {
 }
 
 std::string interruption_message(Outcome outcome, Stage stage, const Options& options) {
-  constexpr int kDigits = 6;
-  std::string what = "cancelled";
-  if (outcome == Outcome::time_limit) {
-    what = "the time limit of " + decimal(options.time_limit, kDigits) + " s ran out";
-  } else if (outcome == Outcome::memory_limit) {
-    const double gigabytes = static_cast<double>(options.memory_limit) * 1e-9;
-    what = "the memory limit of " + decimal(gigabytes, kDigits) + " GB was reached";
-  }
-  return what + " in stage " + name(stage);
+  return limit_message(outcome, options) + " in stage " + name(stage);
 }
 
 }  // namespace holdfast

@@ -10,6 +10,7 @@
 #include "api/mesh.h"
 #include "api/scale.h"
 #include "holdfast/check.h"
+#include "mesh/limit_message.h"
 #include "mesh/memory.h"
 #include "mesh/monitor.h"
 #include "numbers/float_environment.h"
@@ -255,10 +256,7 @@ class Untangling {
   void give_up(Outcome outcome) {
     result_.outcome = outcome;
     result_.volume = {};
-    result_.message = std::string(outcome == Outcome::time_limit     ? "the time limit ran out"
-                                  : outcome == Outcome::memory_limit ? "the memory limit was reached"
-                                                                     : "cancelled") +
-                      " in step " + name(watch_.step());
+    result_.message = limit_message(outcome, options_) + " in step " + name(watch_.step());
   }
 
   void conclude_tangled(const RefillStats& refill) {
