@@ -105,6 +105,10 @@ std::string sol(const std::string& type, const std::string& last) {
          (type == "1" ? "1\n1\n1\n" : "1 0 1 0 0 1\n1 0 1 0 0 1\n1 0 1 0 0 1\n") + last + "\nEnd\n";
 }
 
+TEST_F(SizeFiles, OfAFlatMeshAreRefused) {
+  expect_refused({{"a.mesh", mesh("0")}, {"a.sol", sol("1", "1")}}, "", "has sizes nowhere");
+}
+
 TEST_F(SizeFiles, InTextAreRefusedWithTheLine) {
   for (const std::string x : {"inf", "-inf", "nan"}) {
     expect_refused({{"a.mesh", mesh(x)}, {"a.sol", sol("1", "1")}}, "line 5", "a coordinate is not finite");
