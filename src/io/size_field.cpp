@@ -105,8 +105,13 @@ SizeField read_solb(const Source& source, std::size_t vertices) {
 
 /// The file beside `path` with one of two endings, the first if both are there.
 std::filesystem::path beside(const std::filesystem::path& path, const char* ending, const char* other) {
-  const std::filesystem::path first = sibling(path, ending);
-  return is_there(first) ? first : sibling(path, other);
+  const std::filesystem::path first = sibling(path, ending), second = sibling(path, other);
+  if (is_there(first)) return first;
+  if (!is_there(second))
+    throw FileError(path, "",
+                    "sizes need a mesh and a solution; there is neither " + first.filename().string() +
+                        " nor " + second.filename().string() + " beside the file");
+  return second;
 }
 
 /// A mesh and the values at its vertices in another file, of which `path` is either.
@@ -129,6 +134,9 @@ SizeField read_mtr(const Source& source) {
   if (columns != 1 && columns != kTensor) text.fail("1 column (sizes) or 6 (metric tensors) are read");
   SizeField field;
   for (std::size_t k = 0; k < count; ++k) read_value(text, static_cast<std::size_t>(columns), field);
+  if (!text.at_end())
+    text.fail_at(text.position(),
+                 "more follows than sizes for the " + std::to_string(count) + " vertices announced");
   return field;
 }
 

@@ -105,6 +105,10 @@ std::string sol(const std::string& type, const std::string& last) {
          (type == "1" ? "1\n1\n1\n" : "1 0 1 0 0 1\n1 0 1 0 0 1\n1 0 1 0 0 1\n") + last + "\nEnd\n";
 }
 
+TEST_F(SizeFiles, OfAMeshAloneAreRefused) {
+  expect_refused({{"alone.mesh", mesh("1")}}, "", "neither alone.sol nor alone.solb");
+}
+
 TEST_F(SizeFiles, OfAFlatMeshAreRefused) {
   expect_refused({{"a.mesh", mesh("0")}, {"a.sol", sol("1", "1")}}, "", "has sizes nowhere");
 }
@@ -126,6 +130,7 @@ TEST_F(SizeFiles, InTextAreRefusedWithTheLine) {
                    "line 3", "a coordinate is not finite");
   }
   expect_refused({{"c.mtr", "4 1\n1\n1\n0\n1\n"}}, "line 4", "the size is not positive");
+  expect_refused({{"c.mtr", "4 1\n1\n1\n1\n1\n\n1 # a fifth\n"}}, "line 7", "more follows");
 }
 
 TEST_F(SizeFiles, InBinaryAreRefusedWithTheirPlace) {
