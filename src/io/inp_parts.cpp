@@ -64,6 +64,7 @@ std::optional<std::size_t> InpParts::begin_instance(InpText& text, const InpKeyw
   constexpr std::size_t kMostInstances = 1 << 20;
   const auto name = key.values.find("name"), part = key.values.find("part");
   if (name == key.values.end()) text.reader().fail_at(key.place, "*INSTANCE without NAME");
+  if (text.scope().offset != 0) text.reader().fail_at(key.place, "an instance within a part or an instance");
   if (scopes_.size() == kMostInstances) text.reader().fail_at(key.place, "more than a million instances");
   add_instance(name->second).placement = read_placement(text);
   text.set_scope(scopes_.back());

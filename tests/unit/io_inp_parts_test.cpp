@@ -94,6 +94,9 @@ TEST_F(InpParts, ErrorsSpeakOfTheFile) {
   EXPECT_EQ(
       error(replaced(text, "5.,           0.,          1.,    90.", "5.,           0.,          0.,    90.")),
       "line 49: an instance is turned about two points that are the same");
+  EXPECT_EQ(error(replaced(text, "*End Part\n**\n** ASSEMBLY",
+                           "*Instance, name=Lid-3, part=Lid\n*End Instance\n*End Part\n** ASSEMBLY")),
+            "line 34: an instance within a part or an instance");
   EXPECT_EQ(error(text.substr(0, text.find("*End Part"))),
             "line 7: the part 'Block' does not end with *END PART");
   EXPECT_EQ(error(replaced(text, "      4,           0.,           0.,           -1.",
