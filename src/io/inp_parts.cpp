@@ -45,10 +45,11 @@ void InpParts::skip(InpText& text, const InpKeyword& key) {
   if (name == key.values.end()) text.reader().fail_at(key.place, "*PART without NAME");
   if (find(name->second) != nullptr)
     text.reader().fail_at(key.place, "a second part " + in_quotes(name->second));
-  parts_.push_back({name->second, text.place()});
+  const std::size_t begin = text.place();
   while (!text.at_end() && !text.is_keyword("endpart")) text.next();
   if (text.at_end())
     text.reader().fail_at(key.place, "the part " + in_quotes(name->second) + " does not end with *END PART");
+  parts_.push_back({name->second, {begin, text.place()}});
   text.next();
 }
 
@@ -60,7 +61,7 @@ InpScope& InpParts::add_instance(const std::string& name) {
   return scopes_.emplace_back(std::move(scope));
 }
 
-std::optional<std::size_t> InpParts::begin_instance(InpText& text, const InpKeyword& key) {
+std::optional<InpParts::Lines> InpParts::begin_instance(InpText& text, const InpKeyword& key) {
   constexpr std::size_t kMostInstances = 1 << 20;
   const auto name = key.values.find("name"), part = key.values.find("part");
   if (name == key.values.end()) text.reader().fail_at(key.place, "*INSTANCE without NAME");
@@ -73,12 +74,12 @@ std::optional<std::size_t> InpParts::begin_instance(InpText& text, const InpKeyw
   if (found == nullptr)
     text.reader().fail_at(key.place, "the part " + in_quotes(part->second) + " does not exist");
   found->used = true;
-  return found->place;
+  return found->lines;
 }
 
-std::size_t InpParts::begin_instance_of_part(InpText& text, const std::string& part) {
+InpParts::Lines InpParts::begin_instance_of_part(InpText& text, const std::string& part) {
   text.set_scope(add_instance(part));
-  return find(part)->place;
+  return find(part)->lines;
 }
 
 InpScope InpParts::scope_of(const InpText& text, const InpKeyword& key) const {

@@ -14,11 +14,15 @@ class InpParts {
   /// Stands behind the keyword *PART: remembers where the part's lines are, and goes behind them.
   void skip(InpText& text, const InpKeyword& key);
 
+  /// Where the lines of a part begin, and its *END PART.
+  struct Lines {
+    std::size_t begin = 0, end = 0;
+  };
   /// Stands behind the keyword *INSTANCE, at what places it: sets its scope, and goes behind that. The
-  /// place of the part's lines, if it has a part.
-  std::optional<std::size_t> begin_instance(InpText& text, const InpKeyword& key);
+  /// lines of its part, if it has one.
+  std::optional<Lines> begin_instance(InpText& text, const InpKeyword& key);
   /// The scope of one more instance; a part's own where nothing places it.
-  std::size_t begin_instance_of_part(InpText& text, const std::string& part);
+  Lines begin_instance_of_part(InpText& text, const std::string& part);
 
   /// The scope of lines of the assembly whose keyword names an instance. Throws if there is none.
   [[nodiscard]] InpScope scope_of(const InpText& text, const InpKeyword& key) const;
@@ -32,7 +36,7 @@ class InpParts {
  private:
   struct Part {
     std::string name;
-    std::size_t place = 0;
+    Lines lines;
     bool used = false;
   };
   InpScope& add_instance(const std::string& name);

@@ -54,7 +54,7 @@ class InpReader {
 
   /// The lines of its part, then its own.
   void read_instance(const InpKeyword& key) {
-    const std::optional<std::size_t> part = parts_.begin_instance(text_, key);
+    const std::optional<InpParts::Lines> part = parts_.begin_instance(text_, key);
     require_a_mesh();
     const std::size_t own = text_.place();
     if (part) read_part(*part);
@@ -64,9 +64,10 @@ class InpReader {
     text_.set_scope({});
   }
 
-  void read_part(std::size_t place) {
-    text_.go_to(place);
-    while (!text_.is_keyword("endpart")) read_block(text_.keyword());
+  /// The last keyword of the part may go on in the line that ends it.
+  void read_part(const InpParts::Lines& lines) {
+    text_.go_to(lines.begin);
+    while (!text_.at_end() && text_.place() < lines.end) read_block(text_.keyword());
   }
 
   /// Without an assembly each part is there once; with one, those that it does not have are left out.

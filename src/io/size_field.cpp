@@ -5,7 +5,6 @@
 #include <optional>
 #include <system_error>
 
-#include "exact/predicates.h"
 #include "io/file_bytes.h"
 #include "io/formats.h"
 #include "io/text_reader.h"
@@ -233,17 +232,6 @@ SizeField read_by_extension(const std::filesystem::path& path, Watch& watch) {
 
 namespace holdfast {
 
-namespace {
-
-bool encloses_nothing(const SizeField& field) {
-  const auto at = [&](Index v) { return field.vertices[v].data(); };
-  return std::all_of(field.tetrahedra.begin(), field.tetrahedra.end(), [&](const Tetrahedron& t) {
-    return exact::orient3d(at(t[0]), at(t[1]), at(t[2]), at(t[3])) == 0;
-  });
-}
-
-}  // namespace
-
 SizeField read_size_field(const std::filesystem::path& path, const ReadOptions& options) {
   const FloatEnvironment environment;
   io::Watch watch(options, options.progress);
@@ -259,9 +247,6 @@ SizeField read_size_field(const std::filesystem::path& path, const ReadOptions& 
         throw FileError(path, "vertex " + std::to_string(v), "a coordinate is not finite");
   if (!field.vertices.empty() && field.tetrahedra.empty())
     throw FileError(path, "", "the background mesh has no tetrahedra");
-  if (!field.tetrahedra.empty() && encloses_nothing(field))
-    throw FileError(path, "",
-                    "every tetrahedron of the background mesh is flat, so that it has sizes nowhere");
   for (std::size_t v = 0; v < field.sizes.size(); ++v)
     if (!(field.sizes[v] > 0 && std::isfinite(field.sizes[v])))
       throw FileError(path, "vertex " + std::to_string(v), "the size is not a positive number");

@@ -85,6 +85,10 @@ TEST_F(InpParts, WithoutAnAssemblyEachPartIsThereOnce) {
   EXPECT_EQ(v.names.regions.at(v.regions[1]), "Lid.Set-1");
 }
 
+TEST_F(InpParts, AKeywordThatGoesOnInTheLastLine) {
+  EXPECT_EQ(volume("*Part, name=P\n*Solid Section,\n*End Part\n*Node\n1, 0, 0, 0").vertices.size(), 1u);
+}
+
 TEST_F(InpParts, ErrorsSpeakOfTheFile) {
   const std::string text = kAssembly;
   EXPECT_EQ(error(replaced(text, "1, 1, 3, 2, 4", "1, 1, 3, 2, 9")), "line 31: the node 9 does not exist");
