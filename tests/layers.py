@@ -17,7 +17,7 @@ ONLY = {"check": {"text", "numbers", "exact"}, "check_repair": {"text", "numbers
 # Threads and limits are no part of the mesh that they lie beside, the table of places and that of isolated vertices ask for
 # nothing but the surface, and polygons become triangles by one header.
 BESIDES = {"io": {"mesh/parallel.h", "mesh/plain_monitor.h", "surface/weld.h", "surface/isolated.h", "plane/facets.h",
-                 "second_order/edge_numbers.h", "second_order/edges_of.h"}}
+                 "second_order/edge_numbers.h", "second_order/edges_of.h", "size/flat_field.h"}}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]', re.M)
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|R"\((?:.*?)\)"|"(?:\\.|[^"\\\n])*"', re.S)

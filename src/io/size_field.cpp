@@ -10,6 +10,7 @@
 #include "io/text_reader.h"
 #include "metric/metric.h"
 #include "numbers/float_environment.h"
+#include "size/flat_field.h"
 
 namespace holdfast::io {
 namespace {
@@ -247,6 +248,9 @@ SizeField read_size_field(const std::filesystem::path& path, const ReadOptions& 
         throw FileError(path, "vertex " + std::to_string(v), "a coordinate is not finite");
   if (!field.vertices.empty() && field.tetrahedra.empty())
     throw FileError(path, "", "the background mesh has no tetrahedra");
+  if (is_flat(field))
+    throw FileError(path, "",
+                    "every tetrahedron of the background mesh is flat, so that it has sizes nowhere");
   for (std::size_t v = 0; v < field.sizes.size(); ++v)
     if (!(field.sizes[v] > 0 && std::isfinite(field.sizes[v])))
       throw FileError(path, "vertex " + std::to_string(v), "the size is not a positive number");

@@ -6,11 +6,11 @@
 #include <memory>
 #include <stdexcept>
 
-#include "exact/predicates.h"
 #include "metric/metric.h"
 #include "numbers/elementary.h"
 #include "numbers/float_environment.h"
 #include "numbers/vector.h"
+#include "size/flat_field.h"
 
 namespace holdfast {
 namespace {
@@ -138,11 +138,7 @@ std::shared_ptr<const Background> background_of(SizeField field) {
     for (const Index v : t)
       if (v >= field.vertices.size())
         throw std::invalid_argument("a size field names a vertex it does not have");
-  const auto is_flat = [&](const Tetrahedron& t) {
-    const auto at = [&](std::size_t i) { return field.vertices[t[i]].data(); };
-    return exact::orient3d(at(0), at(1), at(2), at(3)) == 0;
-  };
-  if (!field.tetrahedra.empty() && std::all_of(field.tetrahedra.begin(), field.tetrahedra.end(), is_flat))
+  if (is_flat(field))
     throw std::invalid_argument("every tetrahedron of the size field is flat, so that it has sizes nowhere");
   return std::make_shared<const Background>(std::move(field));
 }

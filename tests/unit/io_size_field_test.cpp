@@ -114,6 +114,10 @@ TEST_F(SizeFiles, OfAMeshAloneAreRefused) {
   expect_refused({{"alone.mesh", mesh("1")}}, "", "neither alone.sol nor alone.solb");
 }
 
+TEST_F(SizeFiles, OfAFlatMeshAreRefused) {
+  expect_refused({{"a.mesh", mesh("0")}, {"a.sol", sol("1", "1")}}, "", "has sizes nowhere");
+}
+
 TEST_F(SizeFiles, InTextAreRefusedWithTheLine) {
   for (const std::string x : {"inf", "-inf", "nan"}) {
     expect_refused({{"a.mesh", mesh(x)}, {"a.sol", sol("1", "1")}}, "line 5", "a coordinate is not finite");
