@@ -25,8 +25,8 @@ struct Use {
 struct Object {
   Solid solid;
   std::vector<Use> components;
-  bool used = false;  ///< by another object
-  bool part = true;   ///< of what is made: no support, and nothing else that is not (section 4.1)
+  bool used = false;     ///< by another object
+  bool is_model = true;  ///< no support, and nothing else that is not to be made (section 4.1)
 };
 
 using Key = std::pair<std::string, std::uint64_t>;  ///< part and number
@@ -86,8 +86,9 @@ class Model {
     object_ = tag.empty ? nullptr : &there->second;
     there->second.solid.name = tag.attribute("name");
     const std::string type = tag.attribute("type");
-    there->second.part = type.empty() || type == "model" || type == "surface";
-    object_material_ = material_of(tag.attribute("pid"), tag.attribute("pindex"), there->second.solid);
+    there->second.is_model = type.empty() || type == "model" || type == "surface";
+    object_group_ = tag.attribute("pid");
+    object_material_ = material_of(object_group_, tag.attribute("pindex"), there->second.solid);
   }
 
   void read_triangle(const XmlTag& tag) {
@@ -103,7 +104,7 @@ class Model {
     }
     const std::string group = tag.attribute("pid"), first = tag.attribute("p1");
     const std::size_t own =
-        group.empty() && first.empty() ? 0 : material_of(group.empty() ? group_ : group, first, solid);
+        group.empty() && first.empty() ? 0 : material_of(group.empty() ? object_group_ : group, first, solid);
     const std::size_t material = own != 0 ? own : object_material_;
     if (material != 0) {
       solid.facet_material.resize(solid.facets.size(), 0);
@@ -119,7 +120,6 @@ class Model {
   std::size_t material_of(const std::string& group, const std::string& index, Solid& solid) {
     const auto found = material_groups_.find(group);
     if (found == material_groups_.end()) return 0;
-    group_ = group;
     const std::vector<std::string>& names = found->second;
     const std::string digits = index.empty() ? "0" : index;
     if (digits.size() > 9 || digits.find_first_not_of("0123456789") != std::string::npos) return 0;
@@ -136,8 +136,7 @@ class Model {
     use.object = xml_.number(tag, "objectid");
     use.part = part_;
     for (const auto& [name, value] : tag.attributes)
-      if (name.ends_with(":path")) use.part = lower(value);
-    while (use.part.starts_with('/')) use.part.erase(0, 1);
+      if (name.ends_with(":path")) use.part = ZipArchive::key_of(value);
     if (use.part != part_) parts_.insert(use.part);
     if (!tag.attribute("transform").empty()) {
       const std::vector<double> values = xml_.reals(tag, "transform", 12);
@@ -153,7 +152,7 @@ class Model {
   Object* object_ = nullptr;
   std::map<std::string, std::vector<std::string>> material_groups_;
   std::vector<std::string>* materials_ = nullptr;
-  std::string group_;  ///< of the object, or the last triangle that named one
+  std::string object_group_;  ///< of materials, where a triangle names none
   std::size_t object_material_ = 0;
   std::vector<Use> items_;
   std::set<std::string> parts_;
@@ -172,7 +171,7 @@ class Package {
     MeshData mesh = solids_.take();
     for (const auto& [what, count] : left_out_)
       mesh.leave_out(count, what + "s of a lattice", what + " of a lattice");
-    mesh.leave_out(no_parts_, "supports and other objects that are no part of the model",
+    mesh.leave_out(no_models_, "supports and other objects that are no part of the model",
                    "support or other object that is no part of the model");
     mesh.leave_out(no_material_, "volumes that modify the print", "volume that modifies the print");
     return mesh;
@@ -239,7 +238,7 @@ class Package {
       const std::filesystem::path path = source_.path / relations->name;
       XmlReader xml({path, text, false, source_.watch});
       while (const std::optional<XmlTag> tag = xml.next())
-        if (tag->attribute("Type") == kModelRelation) return lower(tag->attribute("Target"));
+        if (tag->attribute("Type") == kModelRelation) return ZipArchive::key_of(tag->attribute("Target"));
     }
     for (const auto& [name, entry] : archive_.entries())
       if (name.ends_with(".model")) return name;
@@ -252,9 +251,8 @@ class Package {
     std::vector<std::string> waiting{root_part()};
     std::set<std::string> read;
     while (!waiting.empty()) {
-      std::string part = waiting.back();
+      const std::string part = waiting.back();
       waiting.pop_back();
-      while (part.starts_with('/')) part.erase(0, 1);
       if (!read.insert(part).second) continue;
       const ZipArchive::Entry* const entry = archive_.find(part);
       if (entry == nullptr)
@@ -296,12 +294,15 @@ class Package {
       throw FileError(source_.path, "", what + " is a component of itself");
     if (open_.size() > kDeepest || ++uses_ > kMostUses)
       throw FileError(source_.path, "", "components of components without end, as " + what);
-    open_.push_back(key);
     const Object& object = found->second;
+    if (!object.is_model) {
+      ++no_models_;
+      return;
+    }
+    open_.push_back(key);
     const Placement placement = outer == Placement{} ? use.placement : outer.after(use.placement);
     const std::string& name = object.solid.name.empty() ? outer_name : object.solid.name;
-    if (!object.part) ++no_parts_;
-    if (object.part && !object.solid.facets.empty()) solids_.add(object.solid, name, placement);
+    if (!object.solid.facets.empty()) solids_.add(object.solid, name, placement);
     for (const Use& component : object.components) put(component, placement, name);
     open_.pop_back();
   }
@@ -312,7 +313,7 @@ class Package {
   std::map<Key, Object> objects_;
   std::map<std::string, std::size_t> left_out_;
   std::size_t no_material_ = 0;  ///< volumes that are none
-  std::size_t no_parts_ = 0;     ///< copies of objects that are none
+  std::size_t no_models_ = 0;    ///< copies of objects that are none
   std::string root_;             ///< the part of the build
   Solids solids_;
   std::vector<Key> open_;  ///< objects whose components are being put

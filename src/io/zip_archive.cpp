@@ -89,12 +89,12 @@ ZipArchive::Entry read_entry(ByteReader& bytes) {
   return entry;
 }
 
-std::string key_of(std::string_view name) {
+}  // namespace
+
+std::string ZipArchive::key_of(std::string_view name) {
   while (name.starts_with('/')) name.remove_prefix(1);
   return lower(name);
 }
-
-}  // namespace
 
 ZipArchive::ZipArchive(const Source& source) : source_(source) {
   const Directory directory = directory_of(source);

@@ -26,6 +26,8 @@ class ZipArchive {
     std::uint16_t flags = 0, method = 0;
   };
   [[nodiscard]] const std::map<std::string, Entry>& entries() const { return entries_; }
+  /// A name as the keys of `entries` are: in lower case, without "/" before it.
+  [[nodiscard]] static std::string key_of(std::string_view name);
   /// The entry of a name in any case, with or without "/" before it; null without one.
   [[nodiscard]] const Entry* find(std::string_view name) const;
   /// The bytes of a file. Throws FileError where they are damaged, encrypted, or packed otherwise than by

@@ -16,12 +16,7 @@ class Gocad : public ::testing::Test {
     return read_surface(folder_ / "a.ts");
   }
   std::string error(const std::string& text) {
-    try {
-      static_cast<void>(surface(text));
-    } catch (const FileError& failure) {
-      return std::string(failure.what()).substr(failure.path().string().size() + 2);
-    }
-    return "read";
+    return refusal_of([&] { return surface(text); });
   }
   TemporaryFolder folder_;
 };

@@ -15,12 +15,7 @@ class InpParts : public ::testing::Test {
     return read_volume(folder_ / "a.inp");
   }
   std::string error(const std::string& text) {
-    try {
-      static_cast<void>(volume(text));
-    } catch (const FileError& failure) {
-      return std::string(failure.what()).substr(failure.path().string().size() + 2);
-    }
-    return "read";
+    return refusal_of([&] { return volume(text); });
   }
   static std::string without(std::string text, const std::string& from, const std::string& to) {
     const std::size_t begin = text.find(from);

@@ -152,6 +152,17 @@ _top_S1, S1
 *End Step
 )";
 
+/// What the FileError of a call says behind the path; "read" where there is none.
+template <typename Read>
+std::string refusal_of(Read&& read) {
+  try {
+    static_cast<void>(read());
+  } catch (const FileError& failure) {
+    return std::string(failure.what()).substr(failure.path().string().size() + 2);
+  }
+  return "read";
+}
+
 /// A folder that is removed with all that is in it.
 class TemporaryFolder {
  public:

@@ -105,6 +105,11 @@ TEST_F(SolidsOfFiles, SupportsAreLeftOut) {
   EXPECT_EQ(s.facets, kFacets);
   ASSERT_EQ(s.remarks.size(), 1u);
   EXPECT_EQ(s.remarks[0].message, "1 support or other object that is no part of the model is left out");
+  const std::string component = "<components><component objectid=\"1\"/></components>";
+  EXPECT_EQ(of_3mf(object(1, kTetrahedronOf3mf) + object(2, component, "type=\"other\""),
+                   "<item objectid=\"1\"/><item objectid=\"2\"/>")
+                .facets,
+            kFacets);
 }
 
 TEST_F(SolidsOfFiles, PartsInOtherFilesOfThePackage) {
@@ -131,6 +136,21 @@ TEST_F(SolidsOfFiles, MaterialsOfOneObjectAreMarkers) {
   EXPECT_TRUE(of_3mf("<m:colorgroup id=\"6\"><m:color color=\"#F00\"/></m:colorgroup>" + object(1, mesh),
                      "<item objectid=\"1\"/>")
                   .facet_markers.empty());
+}
+
+TEST_F(SolidsOfFiles, ATriangleWithoutAGroupHasThatOfItsObject) {
+  const std::string mesh = replaced(replaced(kTetrahedronOf3mf, "v1=\"0\" v2=\"2\" v3=\"1\"",
+                                             "v1=\"0\" v2=\"2\" v3=\"1\" pid=\"6\" p1=\"0\""),
+                                    "v1=\"0\" v2=\"1\" v3=\"3\"", "v1=\"0\" v2=\"1\" v3=\"3\" p1=\"1\"");
+  const Surface s = of_3mf(
+      "<basematerials id=\"5\"><base name=\"a\"/><base name=\"b\"/></basematerials><basematerials "
+      "id=\"6\"><base name=\"c\"/></basematerials>" +
+          object(1, mesh, "pid=\"5\" pindex=\"0\""),
+      "<item objectid=\"1\"/>");
+  ASSERT_EQ(s.facet_markers.size(), 4u);
+  EXPECT_EQ(s.names.facets.at(s.facet_markers[0]), "c");
+  EXPECT_EQ(s.names.facets.at(s.facet_markers[1]), "b");
+  EXPECT_EQ(s.names.facets.at(s.facet_markers[2]), "a");
 }
 
 TEST_F(SolidsOfFiles, VolumesOfASlicer) {
