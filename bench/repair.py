@@ -27,6 +27,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "scripts"))
 import corpus  # noqa: E402  (where the independent checker is)
 
 LIMIT = 120  # seconds a program of ours
+INDEPENDENT = 100  # seconds of CPU for the independent checker
 OTHERS = 10  # seconds of CPU for one of another project: admesh does not end on some surfaces with T-junctions
 
 
@@ -207,13 +208,13 @@ class Bench:
     def check_independently(self, path, folder, row):
         """That checker looks at triangles alone: whether a surface with segments or isolated vertices was valid, it cannot tell."""
         command = [path, "out.off", "r.json", "--parents", "p.txt", *(["--no-identity"] if has_more_than_triangles(path) else [])]
-        code, said, _ = run([self.checker, *command], folder)
+        code, said, _ = run([self.checker, *command], folder, INDEPENDENT)
         if code is not None:  # else it took too long
             row["independent"] = code == 0
         if code != 0:
             row["independent_said"] = said[:1500]
         if code == 1 and self.exact_checker:
-            code, said, _ = run([self.exact_checker, *command], folder)
+            code, said, _ = run([self.exact_checker, *command], folder, INDEPENDENT)
             row["in_rationals"] = code == 0
             if code != 0:
                 row["in_rationals_said"] = said[:1500]
