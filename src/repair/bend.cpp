@@ -126,7 +126,7 @@ class Bending {
     if (at_side == nullptr) return;
     const BentSurface::AtSide here = *at_side;
     const auto [through, nearest] = vertex_beside(side, here);
-    if (through == no_index) return;
+    if (through == no_index || comes_back(side, here, through)) return;
     surface_.forget(side);
     for (const Index f : here.facets) {
       if (!surface_.facet(f).lives) continue;
@@ -147,6 +147,21 @@ class Bending {
       part.ends = {through, ends[1]};
       surface_.add(part);
     }
+  }
+
+  /// Whether a facet would come back that was taken out before. Two vertices near a side may each pass the
+  /// side that ends in the other: the two ways to part the facet between them would follow each other for
+  /// ever.
+  [[nodiscard]] bool comes_back(const Side& side, const BentSurface::AtSide& here, Index through) const {
+    return std::any_of(here.facets.begin(), here.facets.end(), [&](Index f) {
+      const Triangle& corners = surface_.facet(f).corners;
+      if (!surface_.facet(f).lives || std::count(corners.begin(), corners.end(), through) != 0) return false;
+      return std::any_of(side.begin(), side.end(), [&](Index end) {
+        Triangle half = corners;
+        std::replace(half.begin(), half.end(), end, through);
+        return surface_.had(half);
+      });
+    });
   }
 
   /// The nearest of the vertices that a side passes and may be led through.

@@ -50,6 +50,11 @@ void BentSurface::add(const BentSegment& segment) {
   note(ends).segments.push_back(fresh);
 }
 
+bool BentSurface::had(const Triangle& corners) const {
+  const auto found = facet_with_.find(ascending(corners));
+  return found != facet_with_.end() && !facets_[found->second].lives;
+}
+
 BentFacet BentSurface::take(Index facet, double more) {
   facets_[facet].lives = false;
   --living_;

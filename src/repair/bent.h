@@ -48,6 +48,8 @@ class BentSurface {
   [[nodiscard]] double most() const { return most_; }
 
   void add(BentFacet facet);
+  /// Whether a facet with these corners was there and was taken out.
+  [[nodiscard]] bool had(const Triangle& corners) const;
   void add(const BentSegment& segment);
   /// Takes out what lives, for its parts to be added: it comes back, bent by some more.
   [[nodiscard]] BentFacet take(Index facet, double more);

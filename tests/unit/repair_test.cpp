@@ -238,6 +238,27 @@ TEST(Repair, SheetsLeadTheSidesThatTheyShareTogether) {
   EXPECT_LE(vertices_of(true), 2 * vertices_of(false));
 }
 
+/// A line on which facets cross comes within 1e-11 of a side, and its points are 1e-10 apart: two of them
+/// pass each the side that ends in the other by less than a last bit. Led to and fro through them, the sides
+/// would only end in joining what is 10,000 last bits apart.
+TEST(Repair, SidesAreNotLedToAndFro) {
+  Surface surface;
+  surface.vertices = {{0.058976713567972183, 0.018437961116433144, -1.0458670854568481},
+                      {0.11398078501224518, -0.0111279571428895, -1.0432866811752319},
+                      {0.031898517161607742, -0.033781502395868301, -1.0669893026351929},
+                      {0.098089665174484253, 0.093866072595119476, -1.0153572559356689},
+                      {0.049950648099184036, 0.0010314729297533631, -1.0529078245162964},
+                      {0.0018116285791620612, -0.091803126037120819, -1.0904585123062134},
+                      {0.11968608200550079, 0.12492554634809494, -1.1198301315307617},
+                      {0.071547061204910278, 0.032090947031974792, -1.1573807001113892},
+                      {0.023408040404319763, -0.060743652284145355, -1.1949313879013062}};
+  surface.facets = {{0, 1, 2}, {3, 6, 4}, {4, 8, 5}, {4, 7, 8}};
+  const RepairResult repaired = repair(surface);
+  expect_valid(repaired);
+  EXPECT_LT(repaired.max_displacement, 1e-14);
+  EXPECT_TRUE(repaired.moved.empty());
+}
+
 TEST(Repair, DoublesNeedNoRounding) {
   // Pages of a book, whose spines are of different lengths.
   Surface book;
