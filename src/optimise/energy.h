@@ -32,12 +32,13 @@ inline constexpr double kNoEnergy = std::numeric_limits<double>::infinity();
 template <typename Number>
 using PointOf = std::array<Number, 3>;
 
-/// Infinite for a tetrahedron that is not positive, or of more than `most` sixths of a unit of volume, in
-/// floating point.
+/// Puts into `result` the energy of each tetrahedron: infinite where it is not positive, or of more than
+/// `most` sixths of a unit of volume, in floating point. No vector is handed over by value: how that is done
+/// depends on what the processor is known to have.
 template <typename Number>
-[[nodiscard]] inline Number energy(const PointOf<Number>& a, const PointOf<Number>& b,
-                                   const PointOf<Number>& c, const PointOf<Number>& d,
-                                   double most = kNoEnergy) {
+[[gnu::always_inline]] inline void put_energy(const PointOf<Number>& a, const PointOf<Number>& b,
+                                              const PointOf<Number>& c, const PointOf<Number>& d, double most,
+                                              Number& result) {
   const Number ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
   const Number vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
   const Number wx = d[0] - a[0], wy = d[1] - a[1], wz = d[2] - a[2];
@@ -56,23 +57,38 @@ template <typename Number>
   const Number iab = 1 / (na * nb), icd = 1 / (nc * nd);
   const Number ia = nb * iab, ib = na * iab, ic = nd * icd, id = nc * icd;
   // Inward normals at an obtuse edge have a positive product.
-  const auto sine2 = [](Number length2, Number i, Number product) {
+  const auto put_sine2 = [](const Number& length2, const Number& i, const Number& product, Number& sine2) {
     const Number s = length2 * i, obtuse = s * tuning::kObtuse;
-    return product > 0 ? obtuse : s;
+    sine2 = product > 0 ? obtuse : s;
   };
-  const auto less = [](Number p, Number q) { return p < q ? p : q; };
-  const Number ab = sine2(ux * ux + uy * uy + uz * uz, icd, cx * dx + cy * dy + cz * dz);
-  const Number ac = sine2(vx * vx + vy * vy + vz * vz, ib * id, bx * dx + by * dy + bz * dz);
-  const Number ad = sine2(wx * wx + wy * wy + wz * wz, ib * ic, bx * cx + by * cy + bz * cz);
-  const Number bc = sine2(xx * xx + xy * xy + xz * xz, ia * id, ax * dx + ay * dy + az * dz);
-  const Number bd = sine2(yx * yx + yy * yy + yz * yz, ia * ic, ax * cx + ay * cy + az * cz);
-  const Number cd = sine2(zx * zx + zy * zy + zz * zz, iab, ax * bx + ay * by + az * bz);
-  const Number least = less(less(less(ab, ac), less(ad, bc)), less(bd, cd));
+  Number ab, ac, ad, bc, bd, cd;
+  put_sine2(ux * ux + uy * uy + uz * uz, icd, cx * dx + cy * dy + cz * dz, ab);
+  put_sine2(vx * vx + vy * vy + vz * vz, ib * id, bx * dx + by * dy + bz * dz, ac);
+  put_sine2(wx * wx + wy * wy + wz * wz, ib * ic, bx * cx + by * cy + bz * cz, ad);
+  put_sine2(xx * xx + xy * xy + xz * xz, ia * id, ax * dx + ay * dy + az * dz, bc);
+  put_sine2(yx * yx + yy * yy + yz * yz, ia * ic, ax * cx + ay * cy + az * cz, bd);
+  put_sine2(zx * zx + zy * zy + zz * zz, iab, ax * bx + ay * by + az * bz, cd);
+  const auto lessen = [](Number& p, const Number& q) { p = p < q ? p : q; };
+  lessen(ab, ac);
+  lessen(ad, bc);
+  lessen(ab, ad);
+  lessen(bd, cd);
+  lessen(ab, bd);
+  const Number& least = ab;
   const Number q2 = volume * volume * least, infinite = Number{} + kNoEnergy;
   const Number least_q2 = Number{} + tuning::kHopelessSine * tuning::kHopelessSine;
   const Number e = 1 / (q2 * (q2 < least_q2 ? least_q2 : q2)), of_positive = e < infinite ? e : infinite;
   const Number of_small = volume > most ? infinite : of_positive;
-  return volume > 0 ? of_small : infinite;
+  result = volume > 0 ? of_small : infinite;
+}
+
+template <typename Number>
+[[nodiscard]] inline Number energy(const PointOf<Number>& a, const PointOf<Number>& b,
+                                   const PointOf<Number>& c, const PointOf<Number>& d,
+                                   double most = kNoEnergy) {
+  Number result{};
+  put_energy<Number>(a, b, c, d, most, result);
+  return result;
 }
 [[nodiscard]] inline double energy(const Point& a, const Point& b, const Point& c, const Point& d) {
   return energy<double>(a, b, c, d);

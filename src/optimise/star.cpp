@@ -1,5 +1,7 @@
 #include "optimise/star.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -36,16 +38,48 @@ void Star::add(const Point& a, const Point& b, const Point& c, double weight) {
   two.count = i + 1;
 }
 
-// Infinite, or at least `limit`, where it is not below that.
+// Infinite, or at least `limit`, where it is not below that. Both ways add up the same numbers in the same
+// order.
 double Star::energy_at(const Point& x, double limit) {
+  static const bool by_fours = has_fours();
+  return by_fours ? energy_by_fours(x, limit) : energy_by_pairs(x, limit);
+}
+
+// Adds the energies on the k-th faces. What decides comes sooner next time.
+bool Star::reaches(double limit, std::size_t k, const double* energies, double& sum) {
+  sum += faces_[k].count == 2 ? energies[0] + energies[1] : energies[0];
+  if (!(sum >= limit)) return false;
+  if (k > 0) std::swap(faces_[k], faces_[k / 2]);
+  return true;
+}
+
+double Star::energy_by_pairs(const Point& x, double limit) {
   double sum = 0;
   for (std::size_t k = 0; k < faces_.size(); ++k) {
     const Pair e = energies_at(faces_[k], x);
-    sum += faces_[k].count == 2 ? e[0] + e[1] : e[0];
-    if (sum >= limit) {
-      if (k > 0) std::swap(faces_[k], faces_[k / 2]);  // what decides comes sooner next time
-      return sum;
+    const std::array<double, 2> energies{e[0], e[1]};
+    if (reaches(limit, k, energies.data(), sum)) return sum;
+  }
+  return sum;
+}
+
+HOLDFAST_WITH_FOURS double Star::energy_by_fours(const Point& x, double limit) {
+  double sum = 0;
+  const std::size_t count = faces_.size();
+  for (std::size_t k = 0; k < count; k += 2) {
+    const TwoFaces &one = faces_[k], &other = faces_[std::min(k + 1, count - 1)];
+    PointOf<Four> a, b, c, d;
+    for (std::size_t i = 0; i < 3; ++i) {
+      a[i] = Four{one.a[i][0], one.a[i][1], other.a[i][0], other.a[i][1]};
+      b[i] = Four{one.b[i][0], one.b[i][1], other.b[i][0], other.b[i][1]};
+      c[i] = Four{one.c[i][0], one.c[i][1], other.c[i][0], other.c[i][1]};
+      d[i] = Four{} + x[i];
     }
+    Four e{};
+    put_energy<Four>(a, b, c, d, most_, e);
+    const std::array<double, 4> energies{e[0], e[1], e[2], e[3]};
+    if (reaches(limit, k, energies.data(), sum)) return sum;
+    if (k + 1 < count && reaches(limit, k + 1, energies.data() + 2, sum)) return sum;
   }
   return sum;
 }

@@ -54,6 +54,9 @@ class Star {
     return holdfast::energy<Pair>(two.a, two.b, two.c, {Pair{} + x[0], Pair{} + x[1], Pair{} + x[2]}, most_);
   }
   [[nodiscard]] double energy_at(const Point& x, double limit);
+  [[nodiscard]] double energy_by_pairs(const Point& x, double limit);
+  HOLDFAST_WITH_FOURS [[nodiscard]] double energy_by_fours(const Point& x, double limit);
+  [[nodiscard]] bool reaches(double limit, std::size_t k, const double* energies, double& sum);
   [[nodiscard]] Point ideal_place() const;
   [[nodiscard]] double size() const;
   bool step_to(const Point& x);
