@@ -19,6 +19,12 @@ namespace {
 
 bool has_repeated_corners(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
+/// The corners with one vertex in the place of another.
+Triangle with(Index fresh, Index old, Triangle corners) {
+  std::replace(corners.begin(), corners.end(), old, fresh);
+  return corners;
+}
+
 bool holds(const Box& box, const Point& p) {
   for (std::size_t k = 0; k < 3; ++k)
     if (p[k] < box.low[k] || p[k] > box.high[k]) return false;
@@ -134,7 +140,7 @@ class Bending {
       if (std::count(part.corners.begin(), part.corners.end(), through) != 0) continue;
       for (const Index end : side) {
         BentFacet half = part;
-        std::replace(half.corners.begin(), half.corners.end(), end, through);
+        half.corners = with(through, end, part.corners);
         surface_.add(std::move(half));
       }
     }
@@ -156,11 +162,8 @@ class Bending {
     return std::any_of(here.facets.begin(), here.facets.end(), [&](Index f) {
       const Triangle& corners = surface_.facet(f).corners;
       if (!surface_.facet(f).lives || std::count(corners.begin(), corners.end(), through) != 0) return false;
-      return std::any_of(side.begin(), side.end(), [&](Index end) {
-        Triangle half = corners;
-        std::replace(half.begin(), half.end(), end, through);
-        return surface_.had(half);
-      });
+      return std::any_of(side.begin(), side.end(),
+                         [&](Index end) { return surface_.had(with(through, end, corners)); });
     });
   }
 

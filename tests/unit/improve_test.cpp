@@ -110,6 +110,27 @@ TEST(Energy, OfTwoAtOnceIsThatOfEach) {
   }
 }
 
+HOLDFAST_WITH_FOURS void expect_four_to_be_those_of_each(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> any(-1, 1);
+  std::array<std::array<Point, 4>, 4> p;
+  std::array<PointOf<Four>, 4> all;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t lane = 0; lane < 4; ++lane) all[i][j][lane] = p[lane][i][j] = any(random);
+  Four e{};
+  put_energy<Four>(all[0], all[1], all[2], all[3], kNoEnergy, e);
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    const double of_lane = e[lane];
+    EXPECT_EQ(of_lane, energy(p[lane][0], p[lane][1], p[lane][2], p[lane][3]));
+  }
+}
+
+TEST(Energy, OfFourAtOnceIsThatOfEach) {
+  if (!has_fours()) GTEST_SKIP() << "the processor has no four at once";
+  std::mt19937_64 random(3);
+  for (int k = 0; k < 100; ++k) expect_four_to_be_those_of_each(random);
+}
+
 TEST(Improve, LeavesAValidMeshWithBetterElements) {
   TetMesh mesh = random_mesh(2000, 5);
   std::vector<RegionId> region_of(mesh.slot_count(), 0);
