@@ -5,15 +5,15 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
-#include <tuple>
 
-#include "numbers/sorted.h"
+#include "repair/exact_surface.h"
 #include "repair/fins.h"
 #include "repair/flatten.h"
 #include "repair/open_sides.h"
+#include "repair/plans.h"
 #include "repair/restore.h"
+#include "repair/rounded_planes.h"
 #include "repair/settle.h"
 #include "repair/weld.h"
 #include "surface/elements.h"
@@ -50,110 +50,75 @@ double last_bit(const State& state) {
   return std::nextafter(most, std::numeric_limits<double>::infinity()) - most;
 }
 
-/// What is joined where a surface is still not valid after it was cut and rounded twice: what is nearer to
-/// each other than some last bits of the largest coordinate.
-struct Plan {
-  double last_bits = 0;
-  bool moves_input = false;
-};
-constexpr std::array kPlans{Plan{0x1p2, false},  Plan{0x1p3, false}, Plan{0x1p4, false}, Plan{0x1p5, false},
-                            Plan{0x1p6, false},  Plan{0x1p7, false}, Plan{0x1p8, false}, Plan{0x1p9, false},
-                            Plan{0x1p10, false}, Plan{0x1p8, true},  Plan{0x1p10, true}, Plan{0x1p12, true},
-                            Plan{0x1p14, true},  Plan{0x1p17, true}, Plan{0x1p20, true}, Plan{0x1p24, true}};
-
-/// In a plane that is projected for `flatten`, where vertices of the input must stay, and where it is no loss
-/// to give up.
-constexpr double kMostInPlane = 0x1p6;
-
-/// How many facets joining may make of so many in a plane. Where it makes more, it does not end well.
-constexpr std::size_t most_in_plane(std::size_t facets) { return 64 + 2 * facets; }
-
-/// The quotient in lowest terms.
-std::string quotient_text(const exact::BigInt& numerator, const exact::BigInt& denominator) {
-  const exact::BigInt divisor = gcd(numerator, denominator);
-  const exact::BigInt n = numerator / divisor, d = denominator / divisor;
-  return n.str() + "/" + d.str();
-}
-
-/// The arrangement of a state whose vertices are still the input's.
-ExactSurface exact_surface(const State& before, const arrange::Arrangement& arrangement) {
-  ExactSurface surface;
-  for (const exact::SpacePoint& p : arrangement.points)
-    surface.points.push_back({quotient_text(p.x, p.w), quotient_text(p.y, p.w), quotient_text(p.z, p.w)});
-  surface.facets = arrangement.facets;
-  std::vector<Index> list;
-  for (std::size_t f = 0; f < arrangement.facet_parents.size(); ++f) {
-    list.clear();
-    for (const Index p : arrangement.facet_parents.of(f)) {
-      const auto of = before.facet_parents.of(p);
-      list.insert(list.end(), of.begin(), of.end());
-    }
-    sort_unique(list);
-    surface.parents.all.insert(surface.parents.all.end(), list.begin(), list.end());
-    surface.parents.first.push_back(surface.parents.all.size());
-  }
-  return surface;
-}
-
-ExactSurface exact_surface(const State& valid) {
-  ExactSurface surface;
-  surface.facets = valid.facets;
-  surface.parents.first.assign(valid.facet_parents.first.begin(), valid.facet_parents.first.end());
-  surface.parents.all = valid.facet_parents.all;
-  return surface;
-}
-
-/// Last bits by which sheets that are made one may be apart. In the latter plans vertices of the input that
-/// are as near to each other become one before.
-constexpr std::array kFlatPlans{Plan{0x1p2, false}, Plan{0x1p6, false}};
-constexpr std::array kWeldedPlans{Plan{0x1p3, true}, Plan{0x1p6, true}};
-
-constexpr std::array kJoinedLastBits{0x1p3, 0x1p6};
-
 class Rounding {
  public:
-  Rounding(State state, const RepairOptions& options, RepairReport& report, ExactSurface& exact,
-           const Step& step, const Threads& threads, SidesOf sides)
-      : options_(options), report_(report), exact_(exact), step_(step), threads_(threads), sides_(sides) {
+  Rounding(State state, const RepairOptions& options, const RepairReport& report, ExactSurface& exact,
+           RoundedPlanes& planes, const Step& step, const Threads& threads)
+      : options_(options), report_(report), exact_(exact), planes_(planes), step_(step), threads_(threads) {
     rounded_.state = std::move(state);
   }
+
+  [[nodiscard]] const RepairReport& report() const { return report_; }
+  [[nodiscard]] bool is_valid() const { return rounded_.is_valid; }
 
   /// A plane surface has no sheets that lie in each other but for rounding. What moves further than `most` is
   /// of no use.
   [[nodiscard]] Rounded run_in_plane(double most) {
     is_plane_ = true;
     most_displacement_ = most;
+    begin();
     return run();
   }
 
-  Rounded run() {
-    if (options_.join > 0 && !is_plane_) flatten_all(rounded_.state, options_.join, rounded_.displacement);
-    const State given = rounded_.state;
+  /// Cuts and rounds, twice unless so much is in trouble then that a second time would make more of it: this
+  /// comes late, if at all.
+  void begin() {
+    given_ = rounded_.state;
     new_points_[0] = cut(options_.most_points).value_or(0);
-    if (!rounded_.is_valid) cut_again();
+    if (rounded_.is_valid) return;
+    if (!is_plane_) {
+      const std::size_t much = kMany + new_points_[0];
+      trouble_ = trouble_of(rounded_.state, here(), threads_, much);
+      if (!trouble_.is_all) {
+        once_cut_ = rounded_;
+        return;
+      }
+    }
+    cut_again();
+    if (!rounded_.is_valid && !is_hopeless()) trouble_ = trouble_of(rounded_.state, here(), threads_);
+  }
+
+  /// Goes on from there.
+  Rounded run(SidesOf sides = SidesOf::all_sheets) {
+    sides_ = sides;
     if (rounded_.is_valid || is_hopeless()) return std::move(rounded_);
     most_facets_ = is_plane_ ? most_in_plane(rounded_.state.facets.size()) : SIZE_MAX;
-    trouble_ = trouble_of(rounded_.state, here(), threads_);
     // Joining what is near costs less than to move the input, but takes long where sheets lie in each other.
-    constexpr std::size_t kFew = 100, kMany = 400;
-    const double twin_gap = kWeldedPlans[0].last_bits * last_bit(given);
+    const double twin_gap = kWeldedPlans[0].last_bits * last_bit(given_);
     bool is_welded =
         !is_plane_ && trouble_.size() > kMany && most_have_twins(rounded_.state, trouble_, twin_gap, here());
-    if (is_welded) begin_flat(given, kWeldedPlans);
-    begin_flat(given, kFlatPlans);
+    if (is_welded) begin_flat(kWeldedPlans);
+    begin_flat(kFlatPlans);
     for (const Plan& plan : kPlans) {
       if (is_plane_ && (plan.moves_input || plan.last_bits > kMostInPlane || is_hopeless())) break;
       if (!is_welded && (plan.moves_input || trouble_.size() > kFew)) {
-        begin_flat(given, kWeldedPlans);
+        begin_flat(kWeldedPlans);
         is_welded = true;
         if (best_ && trouble_.size() < best_->trouble.size()) best_.reset();
       }
+      if (!is_done()) cut_late();
       if (is_done()) break;
       join_from_best(plan);
       if (!is_done()) cut_if_better();
     }
     rounded_.is_valid = is_done();
-    return rounded_.is_valid || is_plane_ || options_.join > 0 ? std::move(rounded_) : join_all(given);
+    return rounded_.is_valid || is_plane_ || options_.join > 0 ? std::move(rounded_) : join_all();
+  }
+
+  /// Makes sheets one that lie in each other within the gap, whether they are in trouble or not.
+  void flatten_all(double gap, SidesOf sides) {
+    sides_ = sides;
+    flatten_all(rounded_.state, gap, rounded_.displacement);
   }
 
  private:
@@ -163,6 +128,22 @@ class Rounding {
     const std::optional<std::size_t> points = cut(std::min(options_.most_points, most));
     new_points_[1] = points.value_or(SIZE_MAX);
     grows_ = is_plane_ && !points;
+  }
+
+  /// The second time, where it was left out. Counts if it leaves less in trouble than what was tried since.
+  void cut_late() {
+    if (!once_cut_) return;
+    if (!trouble_.is_all) trouble_ = trouble_of(rounded_.state, here(), threads_);
+    Rounded before = std::exchange(rounded_, std::move(*once_cut_));
+    once_cut_.reset();
+    cut_again();
+    Trouble now;
+    if (!rounded_.is_valid) now = trouble_of(rounded_.state, here(), threads_, trouble_.size());
+    rounded_.is_valid = false;
+    if (now.size() < trouble_.size())
+      trouble_ = std::move(now);
+    else
+      rounded_ = std::move(before);
   }
 
   /// Nothing is in trouble, and nothing that is said to be known is taken for granted.
@@ -237,25 +218,18 @@ class Rounding {
       best_ = Attempt{rounded_.state, trouble_, rounded_.displacement};
   }
 
-  /// The same sheets come again and again while others change.
-  Rounded round_plane(State plane, double most) {
-    const auto [at, is_new] = planes_.try_emplace({plane.vertices, plane.facets, plane.segments});
-    RoundedPlane& known = at->second;
-    if (is_new || (!known.rounded.is_valid && known.most < most)) {
+  [[nodiscard]] RoundPlane round_plane() {
+    return planes_.rounding([this](State plane, double most) {
       RepairOptions options = options_;
       options.exact = false;
-      RepairReport report;
       ExactSurface exact;
-      known.most = most;
-      known.rounded =
-          Rounding(std::move(plane), options, report, exact, here(), threads_, sides_).run_in_plane(most);
-    }
-    return known.rounded;
+      RoundedPlanes none;
+      return Rounding(std::move(plane), options, {}, exact, none, here(), threads_).run_in_plane(most);
+    });
   }
 
-  /// Makes sheets one that lie in each other, whether they are in trouble or not.
   void flatten_all(State& state, double gap, double& displacement) {
-    const RoundPlane round = [&](State plane, double most) { return round_plane(std::move(plane), most); };
+    const RoundPlane round = round_plane();
     constexpr int kPasses = 4;
     for (int pass = 0; pass < kPasses; ++pass) {
       const double moved = flatten(state, gap, round, sides_, here());
@@ -268,12 +242,11 @@ class Rounding {
   void flatten_again(const Plan& plan) {
     if (is_plane_ || trouble_.facets.empty()) return;
     Attempt flat{rounded_.state, trouble_, rounded_.displacement};
+    const RoundPlane round = round_plane();
     constexpr int kPasses = 4;
     for (int pass = 0; pass < kPasses && !flat.trouble.none(); ++pass) {
-      const double moved = flatten(
-          flat.state, plan.last_bits * last_bit(flat.state),
-          [&](State plane, double most) { return round_plane(std::move(plane), most); }, sides_, here(),
-          flat.trouble.facets);
+      const double gap = plan.last_bits * last_bit(flat.state);
+      const double moved = flatten(flat.state, gap, round, sides_, here(), flat.trouble.facets);
       if (moved == 0) return;
       flat.displacement = sum_above(flat.displacement, moved);
       flat.trouble = trouble_of(flat.state, here(), threads_, 4 * trouble_.size());
@@ -282,17 +255,17 @@ class Rounding {
     }
   }
 
-  void begin_flat(const State& given, std::span<const Plan> plans) {
+  void begin_flat(std::span<const Plan> plans) {
     if (is_plane_) return;
     for (const Plan& plan : plans)
-      if (!is_done()) begin_flat(given, plan);
+      if (!is_done()) begin_flat(plan);
   }
 
   /// Begins again with sheets that lie in each other made one before anything is cut: their planes would
   /// cross in lines all over them. Counts if it leaves less in trouble.
-  void begin_flat(const State& given, const Plan& plan) {
-    const double gap = plan.last_bits * last_bit(given);
-    Attempt flat{given, {}, 0};
+  void begin_flat(const Plan& plan) {
+    const double gap = plan.last_bits * last_bit(given_);
+    Attempt flat{given_, {}, 0};
     if (plan.moves_input) flat.displacement = weld(flat.state, gap, here());
     flatten_all(flat.state, gap, flat.displacement);
     if (flat.displacement == 0) return;
@@ -302,7 +275,13 @@ class Rounding {
     rounded_ = {false, std::move(flat.state), flat.displacement, false};
     Trouble now;
     const bool is_cut = cut_flat();
-    if (is_cut && !rounded_.is_valid) now = trouble_of(rounded_.state, here(), threads_, trouble_.size());
+    if (is_cut && !rounded_.is_valid) {
+      now = trouble_of(rounded_.state, here(), threads_, trouble_.size());
+      if (!now.is_all && !trouble_.is_all) {
+        trouble_ = trouble_of(before.state, here(), threads_);
+        now = trouble_of(rounded_.state, here(), threads_, trouble_.size());
+      }
+    }
     if (is_cut && now.size() < trouble_.size()) {
       trouble_ = std::move(now);
       report_.rung = plan.moves_input ? Rung::snapped : Rung::coarser;
@@ -323,12 +302,16 @@ class Rounding {
 
   /// Where all else fails: sheets that lie in each other are made one all over the surface, whether the cuts
   /// beside them are in trouble or not, and are the start of all that was tried before.
-  Rounded join_all(const State& given) {
+  Rounded join_all() {
     for (const double last_bits : kJoinedLastBits) {
       RepairOptions options = options_;
-      options.join = last_bits * last_bit(given);
+      options.join = last_bits * last_bit(given_);
       report_.rung = Rung::coarser;
-      Rounded joined = Rounding(given, options, report_, exact_, step_, threads_, sides_).run();
+      Rounding joining(given_, options, report_, exact_, planes_, step_, threads_);
+      joining.flatten_all(options.join, sides_);
+      joining.begin();
+      Rounded joined = joining.run(sides_);
+      report_ = joining.report();
       if (joined.is_valid) return joined;
     }
     return std::move(rounded_);
@@ -406,27 +389,25 @@ class Rounding {
   }
 
   const RepairOptions& options_;
-  RepairReport& report_;
+  RepairReport report_;
   ExactSurface& exact_;
+  RoundedPlanes& planes_;
   const Step& step_;
   const Threads& threads_;
-  const SidesOf sides_;
+  SidesOf sides_ = SidesOf::all_sheets;
   bool is_plane_ = false;
   double most_displacement_ = std::numeric_limits<double>::infinity();
-  std::size_t most_facets_ = SIZE_MAX;       // that joining may make
-  bool grows_ = false;                       // it has made more
-  std::array<std::size_t, 2> new_points_{};  // of the two cuts that come first
-  std::size_t too_many_ = 0;                 // that a cut would have taken
+  std::size_t most_facets_ = SIZE_MAX;  // that joining may make
+  bool grows_ = false;                  // it has made more
+  std::array<std::size_t, 2> new_points_{0,
+                                         SIZE_MAX};  // of the two cuts that come first, where they were made
+  std::size_t too_many_ = 0;                         // that a cut would have taken
+  State given_;
   Rounded rounded_;
   Trouble trouble_;
-  std::optional<Attempt> best_;  // of the plans so far
-  State flattened_;              // by the last plan that began again
-  // What came of plane surfaces where points may move so far.
-  struct RoundedPlane {
-    Rounded rounded;
-    double most = 0;
-  };
-  std::map<std::tuple<std::vector<Point>, std::vector<Triangle>, std::vector<Segment>>, RoundedPlane> planes_;
+  std::optional<Rounded> once_cut_;  // and not twice yet
+  std::optional<Attempt> best_;      // of the plans so far
+  State flattened_;                  // by the last plan that began again
 };
 
 }  // namespace
@@ -436,18 +417,28 @@ class Rounding {
 Rounded round_arranged(State state, const RepairOptions& options, RepairReport& report, ExactSurface& exact,
                        const Step& step, const Threads& threads) {
   const State given = state;
+  RoundedPlanes planes;
+  const auto begun = [&](const RepairReport& told, SidesOf sides) {
+    Rounding rounding(given, options, told, exact, planes, step, threads);
+    if (options.join > 0) rounding.flatten_all(options.join, sides);
+    rounding.begin();
+    return rounding;
+  };
   const RepairReport told = report;
-  Rounded rounded =
-      Rounding(std::move(state), options, report, exact, step, threads, SidesOf::all_sheets).run();
+  Rounding together = begun(told, SidesOf::all_sheets);
+  std::optional<Rounding> one_by_one;
+  if (options.join == 0 && !together.is_valid()) one_by_one.emplace(together);
+  Rounded rounded = together.run(SidesOf::all_sheets);
+  report = together.report();
   if (rounded.is_valid && report.rung >= Rung::coarser) {
-    constexpr std::size_t kFew = 16;  // where there are more, nearly as many are left
+    constexpr std::size_t kFewSides = 16;  // where there are more, nearly as many are left
     const std::size_t open = open_sides(rounded.state), before = open_sides(given);
-    if (open > before && open <= before + kFew) {
-      RepairReport other_report = told;
-      Rounded other = Rounding(given, options, other_report, exact, step, threads, SidesOf::one_sheet).run();
+    if (open > before && open <= before + kFewSides) {
+      if (!one_by_one) one_by_one.emplace(begun(told, SidesOf::one_sheet));
+      Rounded other = one_by_one->run(SidesOf::one_sheet);
       if (other.is_valid && open_sides(other.state) < open) {
         rounded = std::move(other);
-        report = other_report;
+        report = one_by_one->report();
       }
     }
     if (open > before)

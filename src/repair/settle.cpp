@@ -207,7 +207,8 @@ Trouble trouble_of(State& state, const Step& step, const Threads& threads, std::
     if (flaw.kind == DefectKind::degenerate_facet) trouble.facets.push_back(flaw.id);
   sort_unique(trouble.facets);
   sort_unique(trouble.segments);
-  if (trouble.size() <= most) {
+  trouble.is_all = trouble.size() <= most;
+  if (trouble.is_all) {
     state.sheet.clear();
     state.known.assign(state.facets.size(), 1);
     for (const Index f : trouble.facets) state.known[f] = 0;

@@ -13,6 +13,7 @@ namespace holdfast::repairing {
 /// What the elements of a state that do not fit together are made of.
 struct Trouble {
   std::vector<Index> facets, segments;  ///< ascending
+  bool is_all = true;                   ///< else the search has stopped, and there may be more
   [[nodiscard]] std::size_t size() const { return facets.size() + segments.size(); }
   [[nodiscard]] bool none() const { return size() == 0; }
 };

@@ -1,0 +1,38 @@
+// What is tried where a surface is not valid after it was cut and rounded. Found by experiment.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace holdfast::repairing {
+
+/// What is joined where a surface is still not valid after it was cut and rounded twice: what is nearer to
+/// each other than some last bits of the largest coordinate.
+struct Plan {
+  double last_bits = 0;
+  bool moves_input = false;
+};
+inline constexpr std::array kPlans{
+    Plan{0x1p2, false},  Plan{0x1p3, false}, Plan{0x1p4, false}, Plan{0x1p5, false},
+    Plan{0x1p6, false},  Plan{0x1p7, false}, Plan{0x1p8, false}, Plan{0x1p9, false},
+    Plan{0x1p10, false}, Plan{0x1p8, true},  Plan{0x1p10, true}, Plan{0x1p12, true},
+    Plan{0x1p14, true},  Plan{0x1p17, true}, Plan{0x1p20, true}, Plan{0x1p24, true}};
+
+/// In a plane that is projected for `flatten`, where vertices of the input must stay, and where it is no loss
+/// to give up.
+inline constexpr double kMostInPlane = 0x1p6;
+
+/// How many facets joining may make of so many in a plane. Where it makes more, it does not end well.
+constexpr std::size_t most_in_plane(std::size_t facets) { return 64 + 2 * facets; }
+
+/// Last bits by which sheets that are made one may be apart. In the latter plans vertices of the input that
+/// are as near to each other become one before.
+inline constexpr std::array kFlatPlans{Plan{0x1p2, false}, Plan{0x1p6, false}};
+inline constexpr std::array kWeldedPlans{Plan{0x1p3, true}, Plan{0x1p6, true}};
+
+inline constexpr std::array kJoinedLastBits{0x1p3, 0x1p6};
+
+/// How much in trouble is little, and much.
+inline constexpr std::size_t kFew = 100, kMany = 400;
+
+}  // namespace holdfast::repairing
