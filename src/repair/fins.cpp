@@ -21,8 +21,12 @@ using Side = std::array<Index, 2>;  // ascending, the first vertices at their pl
 
 class Fins {
  public:
-  Fins(State& state, double most)
-      : state_(state), most_(most), first_(first_at_places(state.vertices)), fin_(state.facets.size()) {
+  Fins(State& state, const State& given, double most)
+      : state_(state),
+        given_(given),
+        most_(most),
+        first_(first_at_places(state.vertices)),
+        fin_(state.facets.size()) {
     std::iota(fin_.begin(), fin_.end(), Index{0});
     is_gone_.assign(state.facets.size(), 0);
     for (Index f = 0; f < state.facets.size(); ++f)
@@ -113,8 +117,37 @@ class Fins {
     return std::min(beside_side(at(v), at(a), at(b)).bound(), to_ends);
   }
 
-  /// Fins that leave a free side, are too thick, or take the last part of a facet or the last facet of a
-  /// vertex of the input.
+  /// For each fin and each facet of the input that it has parts of, where these end: sides modulo 2.
+  [[nodiscard]] std::map<std::array<Index, 2>, std::set<Side>> ends() const {
+    std::map<std::array<Index, 2>, std::set<Side>> ends;
+    for (const auto& [f, distance] : order_)
+      for (const Index p : state_.facet_parents.of(f)) {
+        std::set<Side>& sides = ends[{root(f), p}];
+        for (const Side& side : sides_of(f))
+          if (!sides.insert(side).second) sides.erase(side);
+      }
+    return ends;
+  }
+
+  /// Fins on which a side of a facet of the input begins, at its corner.
+  [[nodiscard]] std::set<Index> at_corners() const {
+    const auto all = ends();
+    std::set<std::array<Index, 2>> corners;  // of such facets
+    for (const auto& [of, sides] : all) corners.insert({of[1], no_index});
+    for (Index g = 0; g < given_.facets.size(); ++g)
+      for (const Index p : given_.facet_parents.of(g))
+        if (corners.contains({p, no_index}))
+          for (const Index v : given_.facets[g]) corners.insert({p, first_[v]});
+    std::set<Index> found;
+    for (const auto& [of, sides] : all)
+      for (const Side& side : sides)
+        for (const Index v : side)
+          if (corners.contains({of[1], v})) found.insert(of[0]);
+    return found;
+  }
+
+  /// Fins that leave a free side, are too thick, take the last part of a facet or the last facet of a vertex
+  /// of the input, or what a side begins with.
   void put_back_bad() {
     std::map<Index, std::size_t> parts, uses;  // of facets and vertices of the input that fins have
     const auto each = [&](Index f, auto&& part, auto&& use) {
@@ -136,7 +169,7 @@ class Fins {
             if (const auto found = uses.find(v); found != uses.end()) ++found->second;
           });
     }
-    std::set<Index> bad;
+    std::set<Index> bad = at_corners();
     for (const auto& [f, sum] : sums())
       if (!(sum <= most_)) bad.insert(f);
     for (const auto& [f, distance] : order_) {
@@ -171,6 +204,7 @@ class Fins {
   }
 
   State& state_;
+  const State& given_;
   const double most_;
   const std::vector<Index> first_;
   std::map<Side, std::vector<Index>> at_;  // the facets of each side
@@ -182,6 +216,6 @@ class Fins {
 
 }  // namespace
 
-double drop_fins(State& state, double most) { return Fins(state, most).run(); }
+double drop_fins(State& state, const State& given, double most) { return Fins(state, given, most).run(); }
 
 }  // namespace holdfast::repairing

@@ -442,7 +442,8 @@ Rounded round_arranged(State state, const RepairOptions& options, RepairReport& 
       }
     }
     if (open > before)
-      rounded.displacement = sum_above(rounded.displacement, drop_fins(rounded.state, rounded.displacement));
+      rounded.displacement =
+          sum_above(rounded.displacement, drop_fins(rounded.state, given, rounded.displacement));
   }
   if (rounded.is_valid)
     rounded.displacement = sum_above(

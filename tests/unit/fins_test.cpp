@@ -26,7 +26,7 @@ State tetrahedron(std::vector<Triangle> fins) {
 TEST(Fins, GoWithTheirVertices) {
   State state = tetrahedron({{4, 1, 5}});
   ASSERT_EQ(open_sides(state), 2u);
-  const double moved = drop_fins(state, 4 * e);
+  const double moved = drop_fins(state, {}, 4 * e);
   EXPECT_GT(moved, 0);
   EXPECT_LE(moved, 2 * e);
   EXPECT_EQ(open_sides(state), 0u);
@@ -37,7 +37,7 @@ TEST(Fins, GoWithTheirVertices) {
 
 TEST(Fins, GoFromTheirFreeSidesInwards) {
   State state = tetrahedron({{4, 1, 5}, {1, 5, 6}});
-  const double moved = drop_fins(state, 8 * e);
+  const double moved = drop_fins(state, {}, 8 * e);
   EXPECT_GE(moved, 1.4 * e);
   EXPECT_LE(moved, 8 * e);
   EXPECT_EQ(open_sides(state), 0u);
@@ -46,11 +46,11 @@ TEST(Fins, GoFromTheirFreeSidesInwards) {
 
 TEST(Fins, ThickOnesStay) {
   State state = tetrahedron({{4, 1, 5}});
-  EXPECT_EQ(drop_fins(state, e / 2), 0);
+  EXPECT_EQ(drop_fins(state, {}, e / 2), 0);
   EXPECT_EQ(state.facets.size(), 7u);
   // A thin end of a thick one.
   state = tetrahedron({{4, 1, 5}, {1, 5, 7}});
-  EXPECT_EQ(drop_fins(state, 8 * e), 0);
+  EXPECT_EQ(drop_fins(state, {}, 8 * e), 0);
   EXPECT_EQ(state.facets.size(), 8u);
 }
 
@@ -58,22 +58,34 @@ TEST(Fins, TheLastPartOfAFacetStays) {
   State state = tetrahedron({{4, 1, 5}});
   state.facet_parents = {};
   for (Index f = 0; f < 7; ++f) state.facet_parents.add(std::array{f});
-  EXPECT_EQ(drop_fins(state, 4 * e), 0);
+  EXPECT_EQ(drop_fins(state, {}, 4 * e), 0);
   EXPECT_EQ(state.facets.size(), 7u);
 }
 
 TEST(Fins, TheLastFacetOfAVertexOfTheInputStays) {
   State state = tetrahedron({{4, 1, 5}});
   state.input_vertices = 6;
-  EXPECT_EQ(drop_fins(state, 4 * e), 0);
+  EXPECT_EQ(drop_fins(state, {}, 4 * e), 0);
   EXPECT_EQ(state.facets.size(), 7u);
+}
+
+TEST(Fins, SidesBeginAtTheirCorners) {
+  State state = tetrahedron({{4, 1, 5}});
+  // The fin is a part of the second facet: of one with a corner there, and of one without.
+  const auto given = [&](Index corner) {
+    return state_of({state.vertices, std::array{Triangle{0, 2, 3}, Triangle{0, 3, corner}}, {}, {}, {}});
+  };
+  EXPECT_EQ(drop_fins(state, given(1), 4 * e), 0);
+  EXPECT_EQ(state.facets.size(), 7u);
+  EXPECT_GT(drop_fins(state, given(2), 4 * e), 0);
+  EXPECT_EQ(state.facets.size(), 6u);
 }
 
 TEST(Fins, SegmentsStayOnFacets) {
   State state = tetrahedron({{4, 1, 5}});
   state.segments.push_back({4, 5});
   state.segment_parents.add(std::array{Index{0}});
-  EXPECT_EQ(drop_fins(state, 4 * e), 0);
+  EXPECT_EQ(drop_fins(state, {}, 4 * e), 0);
   EXPECT_EQ(state.facets.size(), 7u);
 }
 
