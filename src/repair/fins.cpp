@@ -129,20 +129,65 @@ class Fins {
     return ends;
   }
 
-  /// Fins on which a side of a facet of the input begins, at its corner.
+  /// Fins that take what a side of a facet of the input begins with, at its corner, where nothing else that
+  /// stays leads along it.
   [[nodiscard]] std::set<Index> at_corners() const {
     const auto all = ends();
-    std::set<std::array<Index, 2>> corners;  // of such facets
-    for (const auto& [of, sides] : all) corners.insert({of[1], no_index});
-    for (Index g = 0; g < given_.facets.size(); ++g)
-      for (const Index p : given_.facet_parents.of(g))
-        if (corners.contains({p, no_index}))
-          for (const Index v : given_.facets[g]) corners.insert({p, first_[v]});
+    std::map<Index, std::vector<Index>> fins_of;  // by facet of the input
+    for (const auto& [of, sides] : all) fins_of[of[1]].push_back(of[0]);
     std::set<Index> found;
-    for (const auto& [of, sides] : all)
-      for (const Side& side : sides)
-        for (const Index v : side)
-          if (corners.contains({of[1], v})) found.insert(of[0]);
+    for (Index g = 0; g < given_.facets.size(); ++g)
+      for (const Index p : given_.facet_parents.of(g)) {
+        const auto fins = fins_of.find(p);
+        if (fins == fins_of.end()) continue;
+        for (const Index fin : fins->second)
+          if (takes_corner(all.at({fin, p}), given_.facets[g])) found.insert(fin);
+      }
+    return found;
+  }
+
+  /// Whether one of the sides of a facet of the input loses its beginning to a fin that ends so.
+  [[nodiscard]] bool takes_corner(const std::set<Side>& ends, const Triangle& facet) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index corner = first_[facet[i]];
+      const bool is_there = std::any_of(ends.begin(), ends.end(),
+                                        [&](const Side& s) { return s[0] == corner || s[1] == corner; });
+      if (is_there && !(is_led(facet[i], facet[(i + 1) % 3]) && is_led(facet[i], facet[(i + 2) % 3])))
+        return true;
+    }
+    return false;
+  }
+
+  /// Whether sides of facets that stay lead from a vertex of the input to another one, no further than `most`
+  /// from the straight way between them.
+  [[nodiscard]] bool is_led(Index from, Index to) const {
+    const Point &a = given_.vertices[from], &b = given_.vertices[to];
+    const auto is_near = [&](Index v) {
+      const double to_ends = std::min(length(minus(at(v), a)), length(minus(at(v), b))) * (1 + 0x1p-48);
+      return std::min(beside_side(at(v), a, b).bound(), to_ends) <= most_;
+    };
+    std::vector<Index> open{first_[from]};
+    std::set<Index> seen{first_[from]};
+    while (!open.empty()) {
+      const Index v = open.back();
+      open.pop_back();
+      if (v == first_[to]) return true;
+      for (const Index w : neighbours(v))
+        if ((w == first_[to] || is_near(w)) && seen.insert(w).second) open.push_back(w);
+    }
+    return false;
+  }
+
+  /// Other ends of sides of facets that stay.
+  [[nodiscard]] std::vector<Index> neighbours(Index v) const {
+    std::vector<Index> found;
+    if (sides_at_.empty()) {
+      sides_at_.resize(state_.vertices.size());
+      for (const auto& [side, facets] : at_)
+        for (const Index w : side) sides_at_[w].push_back(side);
+    }
+    for (const Side& side : sides_at_[v])
+      if (left(side) > 0) found.push_back(side[0] == v ? side[1] : side[0]);
     return found;
   }
 
@@ -207,8 +252,9 @@ class Fins {
   const State& given_;
   const double most_;
   const std::vector<Index> first_;
-  std::map<Side, std::vector<Index>> at_;  // the facets of each side
-  std::set<Side> held_;                    // sides that are segments
+  std::map<Side, std::vector<Index>> at_;            // the facets of each side
+  mutable std::vector<std::vector<Side>> sides_at_;  // each vertex, once asked for
+  std::set<Side> held_;                              // sides that are segments
   std::vector<std::uint8_t> is_gone_;
   std::vector<Index> fin_;                       // of facets that are gone, one that is of the same fin
   std::vector<std::pair<Index, double>> order_;  // facets that went, and how far they are from what stays

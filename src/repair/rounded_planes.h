@@ -1,6 +1,7 @@
 // What came of plane surfaces.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <tuple>
 #include <vector>
@@ -18,8 +19,10 @@ class RoundedPlanes {
       const auto [at, is_new] = all_.try_emplace({plane.vertices, plane.facets, plane.segments});
       Known& known = at->second;
       if (is_new || (!known.rounded.is_valid && known.most < most)) {
-        known.most = most;
         known.rounded = round(std::move(plane), most);
+        // What did not move further is not valid for another reason.
+        constexpr double kAny = std::numeric_limits<double>::infinity();
+        known.most = known.rounded.displacement > most ? most : kAny;
       }
       return known.rounded;
     };

@@ -99,8 +99,12 @@ class Rounding {
         !is_plane_ && trouble_.size() > kMany && most_have_twins(rounded_.state, trouble_, twin_gap, here());
     if (is_welded) begin_flat(kWeldedPlans);
     begin_flat(kFlatPlans);
+    // In a plane, what the first plan does not make much less the others do not, either.
+    std::size_t most_in_trouble = SIZE_MAX;
     for (const Plan& plan : kPlans) {
       if (is_plane_ && (plan.moves_input || plan.last_bits > kMostInPlane || is_hopeless())) break;
+      if (is_plane_ && trouble_.size() > most_in_trouble) break;
+      most_in_trouble = std::max(2 * kFew, trouble_.size() / 2);
       if (!is_welded && (plan.moves_input || trouble_.size() > kFew)) {
         begin_flat(kWeldedPlans);
         is_welded = true;
