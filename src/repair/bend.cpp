@@ -286,6 +286,7 @@ void deliver_segments(const BentSurface& bent, State& state) {
   for (Index s = 0; s < state.segments.size(); ++s) {
     if (is_bent.count(s) == 0) parts[s] = {state.segments[s]};
     for (const Segment& part : parts[s]) {
+      if (part[0] == part[1]) continue;
       segments.push_back(part);
       parents.add(state.segment_parents.of(s));
     }

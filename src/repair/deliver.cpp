@@ -93,10 +93,17 @@ double distance_above(const Point& p, const Point& q) {
   }
 }
 
+/// A vertex that is where it was keeps its bits: it may have become one with another whose zeros have other
+/// signs.
 void list_moved(const Complex& input, RepairResult& result) {
   for (Index v = 0; v < input.vertices.size(); ++v) {
-    const Point &before = input.vertices[v], &after = result.surface.vertices[v];
-    if (before == after || !finite(before)) continue;
+    const Point& before = input.vertices[v];
+    Point& after = result.surface.vertices[v];
+    if (!finite(before)) continue;
+    if (before == after) {
+      after = before;
+      continue;
+    }
     const double distance = distance_above(before, after);
     result.moved.push_back({v, distance});
     result.max_displacement = std::max(result.max_displacement, distance);

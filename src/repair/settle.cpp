@@ -203,8 +203,10 @@ Trouble trouble_of(State& state, const Step& step, const Threads& threads, std::
     return trouble.size() <= most;
   };
   for_each_offending_pair(complex, elements, visit, step, {}, KnownElements(state, elements).known());
-  for (const Flaw& flaw : elements.flaws)
+  for (const Flaw& flaw : elements.flaws) {
     if (flaw.kind == DefectKind::degenerate_facet) trouble.facets.push_back(flaw.id);
+    if (flaw.kind == DefectKind::degenerate_segment) trouble.segments.push_back(flaw.id);
+  }
   sort_unique(trouble.facets);
   sort_unique(trouble.segments);
   trouble.is_all = trouble.size() <= most;
