@@ -111,7 +111,9 @@ FileBytes::FileBytes(const std::filesystem::path& path, Watch* watch) {
   }
   if (std::ferror(file.get())) fail(path, "cannot be read");
   if (!is_gzip(view())) return;
-  unpacked_ = gunzipped({path, view(), false, watch});
+  Unpacked unpacked = gunzipped({path, view(), false, watch});
+  unpacked_ = std::move(unpacked.bytes);
+  behind_ = unpacked.behind;
   bytes_.reset();
 }
 

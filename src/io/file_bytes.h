@@ -27,10 +27,14 @@ class FileBytes {
     return unpacked_ ? std::string_view(*unpacked_) : std::string_view(bytes_.get(), size_);
   }
 
+  /// How many bytes, not all zero, stand behind what gzip has packed, and are no data.
+  [[nodiscard]] std::size_t behind() const { return behind_; }
+
  private:
   std::unique_ptr<char[]> bytes_;
   std::size_t size_ = 0;
   std::optional<std::string> unpacked_;  ///< instead, of a packed file
+  std::size_t behind_ = 0;
 };
 
 }  // namespace holdfast::io

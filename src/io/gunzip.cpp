@@ -30,7 +30,6 @@ class Inflater {
       holdfast::io::step(source_.watch);
       const int status = step(unpacked, size);
       if (status == Z_STREAM_END) {
-        // What follows the last member, as zeros that pad a tape, is not data.
         if (!is_gzip(source_.bytes.substr(used_, end_ - used_))) break;
         inflateReset(&stream_);
       } else if (status != Z_OK && !(status == Z_BUF_ERROR && size == unpacked.size())) {
@@ -41,6 +40,8 @@ class Inflater {
     unpacked.resize(size);
     return unpacked;
   }
+  /// The first byte that was not used.
+  [[nodiscard]] std::size_t used() const { return used_; }
 
  private:
   int step(std::string& unpacked, std::size_t& size) {
@@ -83,9 +84,13 @@ class Inflater {
 
 }  // namespace
 
-std::string gunzipped(const Source& source) {
+Unpacked gunzipped(const Source& source) {
   constexpr int kGzip = 16;  // read the gzip header and trailer
-  return Inflater(source, 0, source.bytes.size(), MAX_WBITS + kGzip).run();
+  Inflater inflater(source, 0, source.bytes.size(), MAX_WBITS + kGzip);
+  Unpacked unpacked{inflater.run()};
+  const std::string_view behind = source.bytes.substr(inflater.used());
+  if (behind.find_first_not_of('\0') != std::string_view::npos) unpacked.behind = behind.size();
+  return unpacked;
 }
 
 std::string inflated(const Source& source, std::size_t begin, std::size_t end) {

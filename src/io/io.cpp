@@ -93,6 +93,11 @@ std::string_view view_of(const std::optional<FileBytes>& bytes) {
   return bytes ? bytes->view() : std::string_view();
 }
 
+void tell_behind(const std::optional<FileBytes>& bytes, MeshData& mesh) {
+  if (bytes)
+    mesh.leave_out(bytes->behind(), "bytes behind the compressed data", "byte behind the compressed data");
+}
+
 /// The format's name as the table spells it: in lower case, with a dot.
 std::string extension_of(const std::filesystem::path& path, std::string_view format) {
   std::string extension = lower(format.empty() ? path.extension().string() : std::string(format));
@@ -200,6 +205,7 @@ Surface read_surface(const std::filesystem::path& path, const ReadOptions& optio
   const auto bytes = io::bytes_of(path, format, watch);
   io::MeshData mesh =
       io::parse_surface({path, io::view_of(bytes), false, &watch, io::tolerance_of(options)}, options.format);
+  io::tell_behind(bytes, mesh);
   Surface surface;
   surface.vertex_markers = mesh.vertex_markers.take(mesh.vertices.size());
   surface.facet_markers = mesh.facet_markers.take(mesh.facets.size());
@@ -224,6 +230,7 @@ Volume read_volume(const std::filesystem::path& path, const ReadOptions& options
   const auto bytes = io::bytes_of(path, format, watch);
   io::MeshData mesh =
       io::parse_volume({path, io::view_of(bytes), false, &watch, io::tolerance_of(options)}, options.format);
+  io::tell_behind(bytes, mesh);
   Volume volume;
   volume.regions = mesh.regions.take(mesh.tetrahedra.size());
   volume.regions.resize(mesh.tetrahedra.size(), 0);

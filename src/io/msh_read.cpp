@@ -1,4 +1,4 @@
-// Reads Gmsh's .msh, versions 1 (which has no version), 2.x, 4.0 and 4.1, ASCII and binary (Gmsh reference
+// Reads Gmsh's .msh, versions 1 (which has no version), 2.x, 3, 4.0 and 4.1, ASCII and binary (Gmsh reference
 // manual, "File formats" and "Legacy formats").
 //
 // A marker or region is the first physical tag, or the elementary entity's tag where there is none; the
@@ -6,6 +6,7 @@
 // are ordered by node tag, which is the order in which Holdfast numbers them.
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 
@@ -21,7 +22,7 @@
 namespace holdfast::io {
 namespace {
 
-enum class MshVersion { v1, v2, v4_0, v4_1 };
+enum class MshVersion { v1, v2, v3, v4_0, v4_1 };
 
 class MshReader {
  public:
@@ -46,6 +47,8 @@ class MshReader {
     const std::string version(text_.word("the version"));
     if (version == "2" || version.starts_with("2."))
       version_ = MshVersion::v2;
+    else if (version == "3" || version == "3.0")
+      version_ = MshVersion::v3;
     else if (version == "4" || version == "4.0")
       version_ = MshVersion::v4_0;
     else if (version == "4.1")
@@ -89,13 +92,13 @@ class MshReader {
       read_elements_1();
       expect_end("$ENDELM");
     } else if (name == "$Elements") {
-      has_entities() ? read_elements_4() : read_elements_2();
+      has_entities() ? read_elements_4() : version_ == MshVersion::v3 ? read_elements_3() : read_elements_2();
       expect_end("$EndElements");
     } else if (name == "$PhysicalNames") {
       read_names();
       expect_end("$EndPhysicalNames");
-    } else if (name == "$Entities" && has_entities()) {
-      read_entities();
+    } else if (name == "$Entities" && (has_entities() || version_ == MshVersion::v3)) {
+      has_entities() ? read_entities() : read_entities_3();
       expect_end("$EndEntities");
     } else if (name == "$PartitionedEntities" && has_entities()) {
       read_partitioned_entities();
@@ -144,7 +147,15 @@ class MshReader {
     for (std::size_t i = 0; i < count; ++i) {
       nodes_.add_tag(in_.integer("a node tag"));
       nodes_.add_point(in_.point());
+      if (version_ == MshVersion::v3 && in_.integer("an entity tag, or 0") != 0)
+        skip_parameters(in_.integer("a dimension"));
     }
+  }
+
+  /// Where a node is on its entity.
+  void skip_parameters(std::int64_t dimension) {
+    for (std::int64_t axis = 0; axis < std::min<std::int64_t>(dimension, 3); ++axis)
+      static_cast<void>(in_.real("a parametric coordinate"));
   }
 
   /// Elements of physical and elementary tags, which count their nodes.
@@ -180,6 +191,43 @@ class MshReader {
         read_element(type, physical, elementary);
       }
     }
+  }
+
+  /// Elements of version 3, each with its entity, and with its parts behind its nodes.
+  void read_elements_3() {
+    const std::size_t count = in_.text_count("the number of elements", 8, 16);
+    in_.begin();
+    for (std::size_t i = 0; i < count; ++i) {
+      static_cast<void>(in_.integer("an element tag"));
+      const std::int64_t type = in_.integer("an element type");
+      const int entity = in_.tag("an entity tag");
+      const std::size_t numbers = in_.short_count("the number of nodes and parts", 2, 4);
+      const std::optional<MshKind> kind = kind_of(type);
+      if (!kind) in_.fail("elements of type " + std::to_string(type) + " are not read");
+      if (numbers < kind->nodes)
+        in_.fail("an element of type " + std::to_string(type) + " with " + std::to_string(numbers) +
+                 " nodes; it has " + std::to_string(kind->nodes));
+      const auto found = physicals_.find({kind->dimension, entity});
+      read_element(type, found == physicals_.end() ? 0 : found->second, entity);
+      for (std::size_t k = kind->nodes; k < numbers; ++k) static_cast<void>(in_.integer("a part"));
+    }
+  }
+
+  /// Entities of version 3, which are text, too, where numbers are bytes.
+  void read_entities_3() {
+    std::array<std::size_t, 4> counts{};
+    for (std::size_t& count : counts) count = text_.count("the number of entities", 2);
+    for (std::size_t dimension = 0; dimension < 4; ++dimension)
+      for (std::size_t i = 0; i < counts[dimension]; ++i) {
+        const std::int64_t tag = text_.integer("an entity tag");
+        const std::size_t borders = dimension == 0 ? 0 : text_.count("the number of bounding entities", 2);
+        for (std::size_t k = 0; k < borders; ++k) static_cast<void>(text_.integer("an entity tag"));
+        const std::size_t physicals = text_.count("the number of physical tags", 2);
+        for (std::size_t k = 0; k < physicals; ++k) {
+          const int physical = text_.tag("a physical tag");
+          if (k == 0) physicals_[{dimension, tag}] = physical;
+        }
+      }
   }
 
   /// Reads the physical tags of the entities of each dimension.
@@ -261,9 +309,7 @@ class MshReader {
       for (std::size_t k = 0; k < block.count; ++k) {
         if (!tags_first) nodes_.add_tag(node_tag());
         nodes_.add_point(in_.point());
-        for (std::int64_t axis = 0; block.kind != 0 && axis < std::min<std::int64_t>(block.dimension, 3);
-             ++axis)
-          static_cast<void>(in_.real("a parametric coordinate"));
+        if (block.kind != 0) skip_parameters(block.dimension);
       }
     }
   }
@@ -291,13 +337,10 @@ class MshReader {
   }
 
   void skip_element(std::int64_t type) {
-    static const std::map<std::int64_t, std::size_t> nodes{{1, 2}, {2, 3}, {3, 4}, {8, 3}, {9, 6}, {15, 1}};
-    const auto found = nodes.find(type);
-    const MshByCorners* const other = by_corners(type);
-    if (found == nodes.end() && (other == nullptr || other->shape >= MshShape::tetrahedron))
+    const std::optional<MshKind> kind = kind_of(type);
+    if (!kind || kind->dimension > 2)
       in_.fail("elements of type " + std::to_string(type) + " do not lie between parts");
-    const std::size_t count = found != nodes.end() ? found->second : other->nodes;
-    for (std::size_t i = 0; i < count; ++i) static_cast<void>(node_tag());
+    for (std::size_t i = 0; i < kind->nodes; ++i) static_cast<void>(node_tag());
   }
 
   [[nodiscard]] bool has_entities() const {

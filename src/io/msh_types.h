@@ -4,7 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
+#include <optional>
 
 namespace holdfast::io {
 
@@ -47,6 +47,40 @@ struct MshByCorners {
   for (const MshByCorners& entry : kTypes)
     if (entry.type == type) return &entry;
   return nullptr;
+}
+
+struct MshKind {
+  std::size_t dimension, nodes;
+};
+
+/// The same of all types that are read.
+[[nodiscard]] inline std::optional<MshKind> kind_of(std::int64_t type) {
+  switch (type) {
+    case 1:
+      return MshKind{1, 2};
+    case 2:
+      return MshKind{2, 3};
+    case 3:
+      return MshKind{2, 4};
+    case 4:
+      return MshKind{3, 4};
+    case 8:
+      return MshKind{1, 3};
+    case 9:
+      return MshKind{2, 6};
+    case 11:
+      return MshKind{3, 10};
+    case 15:
+      return MshKind{0, 1};
+    default:
+      break;
+  }
+  const MshByCorners* const other = by_corners(type);
+  if (other == nullptr) return std::nullopt;
+  const std::size_t dimension = other->shape == MshShape::line         ? 1
+                                : other->shape < MshShape::tetrahedron ? 2
+                                                                       : 3;
+  return MshKind{dimension, other->nodes};
 }
 
 }  // namespace holdfast::io

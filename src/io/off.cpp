@@ -16,6 +16,29 @@ struct Header {
   std::size_t floats_behind = 0;  ///< numbers behind the coordinates of a vertex
 };
 
+/// Skips what may stand before the header: "appearance" with how to draw the surface, in braces.
+bool skip_appearance(TextReader& text) {
+  const std::size_t start = text.position();
+  constexpr std::string_view kKeyword = "appearance";
+  if (text.at_end() || lower(text.remaining().substr(0, kKeyword.size())) != kKeyword) {
+    text.seek(start);
+    return false;
+  }
+  text.seek(text.position() + kKeyword.size());
+  const std::size_t word = text.position();
+  if (text.at_end() || text.remaining()[0] != '{') {
+    text.seek(word);
+    text.fail("expected an opening brace, found " + in_quotes(text.word("an opening brace")));
+  }
+  for (int depth = 0; !text.at_end();) {
+    const char c = text.remaining()[0];
+    text.seek(text.position() + 1);
+    depth += c == '{' ? 1 : c == '}' ? -1 : 0;
+    if (depth == 0) return true;
+  }
+  text.fail_at(start, "the appearance has no closing brace");
+}
+
 /// Reads "[ST][C][N][4][n]OFF [BINARY]", which may be missing, and refuses other than three dimensions.
 Header read_header(TextReader& text) {
   Header header;
@@ -49,6 +72,7 @@ class OffReader {
   explicit OffReader(const Source& source) : source_(source), text_(source), mesh_(source) {}
 
   MeshData read() {
+    mesh_.leave_out(skip_appearance(text_) ? 1 : 0, "appearances", "appearance");
     const Header header = read_header(text_);
     header.binary ? read_bytes(header) : read_text();
     mesh_.leave_out(decorated_, "vertices' and faces' normals, colours or texture coordinates",

@@ -1,7 +1,8 @@
 // PLY, ASCII and binary (Turk, The PLY polygon file format, 1994).
 //
 // Read are vertex {x, y, z}, face {vertex_indices or vertex_index} and edge {vertex1, vertex2}, of each also
-// an integer "marker", and names in comments; other elements and properties are skipped.
+// an integer "marker", tristrips {vertex_indices}, and names in comments; other elements and properties are
+// skipped.
 #include <algorithm>
 #include <iterator>
 #include <optional>
@@ -36,6 +37,7 @@ struct Header {
   bool binary = false;
   std::endian order = std::endian::little;
   std::vector<Element> elements;
+  std::vector<std::string> others;  ///< words of lines that are none of PLY's
 };
 
 std::size_t size_of(PlyType type) {
@@ -112,6 +114,9 @@ Header read_header(TextReader& text) {
       const std::string_view rest = text.remaining();
       read_id_comment(rest.substr(0, rest.find_first_of("\r\n")),
                       std::array{&header.facets, &header.vertices, &header.segments});
+    } else if (header.elements.empty() && keyword != "obj_info") {
+      // Blender 2.47 tells there who made the file. Behind an element it could be a misspelt one.
+      header.others.emplace_back(keyword);
     } else if (keyword != "obj_info") {
       text.fail("unknown keyword " + in_quotes(keyword) + " in the header");
     }
@@ -201,7 +206,7 @@ class PlyReader {
       else if (element.name == "edge")
         read_edges(element);
       else if (element.name == "tristrips")
-        values_.fail("triangle strips are not read; save triangles");
+        read_strips(element);
       else
         skip(element);
     }
@@ -214,11 +219,16 @@ class PlyReader {
  private:
   /// Says which properties of what is read, and which elements, have no place in a mesh.
   void tell_skipped() {
+    std::string words;
+    for (const std::string& word : header_.others) words += (words.empty() ? "" : ", ") + in_quotes(word);
+    mesh_.leave_out(header_.others.size(), "lines of the header that PLY does not have (" + words + ")",
+                    "line of the header that PLY does not have (" + words + ")");
     constexpr std::string_view kRead[] = {"x",       "y",       "z",     "vertex_indices", "vertex_index",
                                           "vertex1", "vertex2", "marker"};
     for (const Element& element : header_.elements) {
       if (element.count == 0) continue;
-      const bool is_read = element.name == "vertex" || element.name == "face" || element.name == "edge";
+      const bool is_read = element.name == "vertex" || element.name == "face" || element.name == "edge" ||
+                           element.name == "tristrips";
       std::string names;
       for (const Property& property : element.properties)
         if (std::find(std::begin(kRead), std::end(kRead), property.name) == std::end(kRead))
@@ -281,8 +291,9 @@ class PlyReader {
       for (const Property& property : element.properties) skip(property);
   }
 
-  Index index(PlyType type) {
-    const std::int64_t value = values_.integer(type);
+  Index index(PlyType type) { return in_range(values_.integer(type)); }
+
+  Index in_range(std::int64_t value) {
     if (value < 0 || static_cast<std::uint64_t>(value) >= mesh_.vertices.size())
       values_.fail("the vertex index " + std::to_string(value) + " is out of range; there are " +
                    std::to_string(mesh_.vertices.size()) + " vertices and the first is 0");
@@ -334,6 +345,32 @@ class PlyReader {
         for (Index& corner : corners) corner = index(property.type);
       }
       add_polygon(mesh_, corners, id, [&](const std::string& reason) { values_.fail(reason); });
+    }
+  }
+
+  /// Each list holds strips, which end with negative numbers.
+  void read_strips(const Element& element) {
+    const std::size_t list = find(element, "vertex_indices", "vertex_index");
+    if (!element.properties[list].count_type)
+      text_.fail_at(element.position, "vertex indices that are no list");
+    std::vector<Index> corners;
+    for (std::size_t i = 0; i < element.count; ++i) {
+      values_.begin_entity();
+      for (std::size_t p = 0; p < element.properties.size(); ++p) {
+        const Property& property = element.properties[p];
+        if (p != list) {
+          skip(property);
+          continue;
+        }
+        corners.clear();
+        for (std::size_t left = list_length(property); left > 0; --left) {
+          const std::int64_t corner = values_.integer(property.type);
+          if (corner >= 0) corners.push_back(in_range(corner));
+          if (corner >= 0 && left > 1) continue;
+          add_strip(mesh_, corners, 0);
+          corners.clear();
+        }
+      }
     }
   }
 

@@ -36,6 +36,23 @@ std::string_view local(std::string_view name) {
   return name.substr(name.rfind(':') == std::string_view::npos ? 0 : name.rfind(':') + 1);
 }
 
+/// What a surface has no place for: elements of the file, and the paint of slicers, which stands in
+/// attributes of triangles.
+struct LeftOut {
+  std::string_view element, many, one;
+};
+constexpr std::string_view kPaint = "paint";
+constexpr LeftOut kLeftOut[] = {
+    {"ball", "balls of a lattice", "ball of a lattice"},
+    {"beam", "beams of a lattice", "beam of a lattice"},
+    {"color", "colours", "colour"},
+    {"composite", "mixtures of materials", "mixture of materials"},
+    {"multi", "combinations of materials, colours or textures",
+     "combination of materials, colours or textures"},
+    {kPaint, "painted triangles' paint", "painted triangle's paint"},
+    {"texture2d", "textures", "texture"},
+};
+
 /// What one file of the package holds.
 class Model {
  public:
@@ -55,8 +72,8 @@ class Model {
   [[nodiscard]] const std::vector<Use>& items() const { return items_; }
   /// Other parts that components and items name.
   [[nodiscard]] const std::set<std::string>& parts() const { return parts_; }
-  /// Elements that say more of the shape than triangles do.
-  [[nodiscard]] const std::map<std::string, std::size_t>& left_out() const { return left_out_; }
+  /// Elements that say more of the shape than triangles do, or of its looks.
+  [[nodiscard]] const std::map<std::string_view, std::size_t>& left_out() const { return left_out_; }
 
  private:
   void read_tag(const XmlTag& tag) {
@@ -75,8 +92,14 @@ class Model {
       materials_ = &material_groups_[tag.attribute("id")];
     else if (name == "base" && materials_ != nullptr)
       materials_->push_back(tag.attribute("name"));
-    else if (name == "beam" || name == "ball")
-      ++left_out_[std::string(name)];
+    else
+      leave_out(name);
+  }
+
+  void leave_out(std::string_view element) {
+    const auto found = std::find_if(std::begin(kLeftOut), std::end(kLeftOut),
+                                    [&](const LeftOut& l) { return l.element == element; });
+    if (found != std::end(kLeftOut)) ++left_out_[found->element];
   }
 
   void begin_object(const XmlTag& tag) {
@@ -113,6 +136,11 @@ class Model {
       solid.facet_material.push_back(0);
     }
     solid.facets.push_back(facet);
+    if (std::any_of(tag.attributes.begin(), tag.attributes.end(), [](const auto& attribute) {
+          const std::string_view name = local(attribute.first);
+          return name == "mmu_segmentation" || name == "paint_color";
+        }))
+      ++left_out_[kPaint];
   }
 
   /// The number, from 1, that a material of a group has in a solid; 0 where the group is of colours or the
@@ -156,7 +184,7 @@ class Model {
   std::size_t object_material_ = 0;
   std::vector<Use> items_;
   std::set<std::string> parts_;
-  std::map<std::string, std::size_t> left_out_;
+  std::map<std::string_view, std::size_t> left_out_;
 };
 
 class Package {
@@ -169,8 +197,7 @@ class Package {
     if (items.empty()) items = what_no_object_uses();
     for (const Use& item : items) put(item, {}, "");
     MeshData mesh = solids_.take();
-    for (const auto& [what, count] : left_out_)
-      mesh.leave_out(count, what + "s of a lattice", what + " of a lattice");
+    for (const LeftOut& l : kLeftOut) mesh.leave_out(left_out_[l.element], l.many, l.one);
     mesh.leave_out(no_models_, "supports and other objects that are no part of the model",
                    "support or other object that is no part of the model");
     mesh.leave_out(no_material_, "volumes that modify the print", "volume that modifies the print");
@@ -311,7 +338,7 @@ class Package {
   Source source_;
   ZipArchive archive_;
   std::map<Key, Object> objects_;
-  std::map<std::string, std::size_t> left_out_;
+  std::map<std::string_view, std::size_t> left_out_;
   std::size_t no_material_ = 0;  ///< volumes that are none
   std::size_t no_models_ = 0;    ///< copies of objects that are none
   std::string root_;             ///< the part of the build

@@ -381,8 +381,8 @@ TEST(Msh, Version4) {
 TEST(Msh, Errors) {
   EXPECT_EQ(error(replaced(kMsh2, "2.2 0 8", "2.2 1 8"), "a.msh"),
             "line 2: the number 1, which tells the order of bytes, is missing");
-  EXPECT_EQ(error(replaced(kMsh2, "2.2 0 8", "3 0 8"), "a.msh"),
-            "line 2: version '3' is not read; save it as 4.1 or 2.2");
+  EXPECT_EQ(error(replaced(kMsh2, "2.2 0 8", "5 0 8"), "a.msh"),
+            "line 2: version '5' is not read; save it as 4.1 or 2.2");
   EXPECT_EQ(error(replaced(kMsh2, "1 10 30 20", "1 10 30 25"), "a.msh"),
             "line 19: the node 25 does not exist");
   EXPECT_EQ(error(replaced(kMsh2, "20 1 0 0", "10 1 0 0"), "a.msh").substr(9),

@@ -57,6 +57,11 @@ TEST_F(Remarks, SayWhatASurfaceHasNoPlaceFor) {
   EXPECT_EQ(said(stl, "a.stl"), "1 attribute of a triangle (its colour, perhaps) is left out\n");
 }
 
+TEST_F(Remarks, OfAppearance) {
+  EXPECT_EQ(said("appearance { +edge }\nOFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a.off"),
+            "1 appearance is left out\n");
+}
+
 TEST_F(Remarks, HaveKindsAndCounts) {
   const Surface s = surface(kObj, "a.obj");
   ASSERT_EQ(s.remarks.size(), 2u);

@@ -138,6 +138,20 @@ TEST_F(SolidsOfFiles, MaterialsOfOneObjectAreMarkers) {
                   .facet_markers.empty());
 }
 
+TEST_F(SolidsOfFiles, ColoursAreLeftOutAndTold) {
+  const std::string painted = replaced(kTetrahedronOf3mf, "v1=\"1\" v2=\"2\" v3=\"3\"",
+                                       "v1=\"1\" v2=\"2\" v3=\"3\" slic3rpe:mmu_segmentation=\"4\"");
+  const Surface s = of_3mf(
+      "<m:colorgroup id=\"6\"><m:color color=\"#F00\"/><m:color color=\"#0F0\"/></m:colorgroup>"
+      "<m:texture2d id=\"7\" path=\"/3D/a.png\"/><m:texture2dgroup id=\"8\" texid=\"7\"><m:tex2coord u=\"0\" "
+      "v=\"0\"/></m:texture2dgroup>" +
+          object(1, painted, "pid=\"6\" pindex=\"0\""),
+      "<item objectid=\"1\"/>");
+  std::string said;
+  for (const Remark& remark : s.remarks) said += remark.message + "\n";
+  EXPECT_EQ(said, "2 colours are left out\n1 painted triangle's paint is left out\n1 texture is left out\n");
+}
+
 TEST_F(SolidsOfFiles, ATriangleWithoutAGroupHasThatOfItsObject) {
   const std::string mesh = replaced(replaced(kTetrahedronOf3mf, "v1=\"0\" v2=\"2\" v3=\"1\"",
                                              "v1=\"0\" v2=\"2\" v3=\"1\" pid=\"6\" p1=\"0\""),

@@ -119,11 +119,31 @@ std::string msh_4_0(bool binary) {
   return text + "\n$EndElements\n";
 }
 
+/// Entities are text, also where numbers are bytes. The second node has parameters on a curve, the third on
+/// a surface; the tetrahedron is in a part.
+std::string msh_3(bool binary) {
+  const auto i = [&](std::int32_t v) { return binary ? raw(v, false) : std::to_string(v) + " "; };
+  const auto x = [&](double v) { return binary ? raw(v, false) : std::to_string(v) + " "; };
+  std::string text = "$MeshFormat\n3 " + std::string(binary ? "1 8\n" + raw(std::int32_t{1}, false) : "0 8") +
+                     "\n$EndMeshFormat\n";
+  text += "$Entities\n1 1 1 1\n1 1 6 \n1 2 1 1 1 5 \n2 1 1 1 7 \n4 1 2 1 8 \n$EndEntities\n$Nodes\n4\n";
+  text += i(10) + x(0) + x(0) + x(0) + i(0);
+  text += i(20) + x(1) + x(0) + x(0) + i(1) + i(1) + x(0.5);
+  text += i(40) + x(0) + x(0) + x(1) + i(2) + i(2) + x(0.25) + x(0.75);
+  text += i(30) + x(0) + x(1) + x(0) + i(1) + i(0);
+  text += "\n$EndNodes\n$Elements\n4\n";
+  text += i(1) + i(15) + i(1) + i(1) + i(20);
+  text += i(2) + i(1) + i(1) + i(2) + i(10) + i(20);
+  text += i(3) + i(2) + i(2) + i(3) + i(10) + i(30) + i(20);
+  text += i(4) + i(4) + i(4) + i(6) + i(10) + i(20) + i(30) + i(40) + i(1) + i(1);
+  return text + "\n$EndElements\n";
+}
+
 TEST_F(Variants, OlderVersionsOfMsh) {
   const std::string first =
       "$NOD\n4\n10 0 0 0\n20 1 0 0\n40 0 0 1\n30 0 1 0\n$ENDNOD\n$ELM\n4\n1 15 6 1 1 20\n"
       "2 1 0 5 2 10 20\n3 2 7 6 3 10 30 20\n4 4 0 8 4 10 20 30 40\n$ENDELM\n";
-  for (const std::string& bytes : {first, msh_4_0(false), msh_4_0(true)}) {
+  for (const std::string& bytes : {first, msh_3(false), msh_3(true), msh_4_0(false), msh_4_0(true)}) {
     const Volume v = volume(bytes, "a.msh");
     EXPECT_EQ(v.vertices, (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
     EXPECT_EQ(v.tetrahedra, (std::vector<Tetrahedron>{{0, 1, 2, 3}}));
@@ -279,6 +299,40 @@ TEST_F(Variants, LegacyVtkSectionsWithoutArrays) {
   }
 }
 
+// Geomview's files may begin with how to draw them.
+TEST_F(Variants, OffWithAnAppearance) {
+  const Facets facets = surface(kOff, "a.off").facets;
+  for (const char* before :
+       {"appearance {\n  +edge # }\n  material { kd 0.5 }\n}\n", "appearance{linewidth 2} "})
+    EXPECT_EQ(surface(before + std::string(kOff), "a.off").facets, facets) << before;
+  EXPECT_EQ(error("appearance {\n material {\n}\nOFF\n3 1 0\n", "a.off"),
+            "line 1: the appearance has no closing brace");
+  EXPECT_EQ(error("appearance off\n", "a.off"), "line 1: expected an opening brace, found 'off'");
+}
+
+// Blender 2.47 writes such a line.
+TEST_F(Variants, PlyWithLinesOfOtherWordsBeforeTheFirstElement) {
+  const std::string made =
+      "format ascii 1.0\nCreated by Blender3D 2.47 - www.blender.org, source file: a.blend\n";
+  const Surface s = surface(replaced(kPly, "format ascii 1.0\n", made), "a.ply");
+  EXPECT_EQ(s.facets, surface(kPly, "a.ply").facets);
+  ASSERT_FALSE(s.remarks.empty());
+  EXPECT_EQ(s.remarks[0].message, "1 line of the header that PLY does not have ('Created') is left out");
+  EXPECT_EQ(error(replaced(kPly, "element face", "elemnt face"), "a.ply"),
+            "line 9: unknown keyword 'elemnt' in the header");
+}
+
+TEST_F(Variants, TriangleStripsInPly) {
+  const std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+      "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n9 0 1 2 3 -1 0 2 4 -1\n";
+  EXPECT_EQ(surface(text, "a.ply").facets, (Facets{{0, 1, 2}, {2, 1, 3}, {0, 2, 4}}));
+  EXPECT_TRUE(surface(text, "a.ply").remarks.empty());
+  EXPECT_EQ(error(replaced(text, "2 4 -1", "2 5 -1"), "a.ply"),
+            "line 15: the vertex index 5 is out of range; there are 5 vertices and the first is 0");
+}
+
 TEST_F(Variants, PackedFiles) {
   put(folder_ / "plain.off", kOff);
   const Surface plain = read_surface(folder_ / "plain.off");
@@ -298,6 +352,22 @@ TEST_F(Variants, PackedFiles) {
   put(folder_ / "b.mtr.gz", gzip("4 1\n1\n2\n3\n4\n"));
   EXPECT_EQ(read_volume(folder_ / "b.node.gz").tetrahedra.size(), 1u);
   EXPECT_EQ(read_size_field(folder_ / "b.mtr.gz").tetrahedra.size(), 1u);
+}
+
+TEST_F(Variants, WhatStandsBehindAPackedFileIsTold) {
+  const std::string said = "12 bytes behind the compressed data are left out";
+  const Surface s = surface(gzip(kOff) + "and not more", "a.off.gz");
+  ASSERT_FALSE(s.remarks.empty());
+  EXPECT_EQ(s.remarks.back().message, said);
+  EXPECT_EQ(s.remarks.back().count, 12u);
+  // Zeros pad tapes.
+  const Surface padded = surface(gzip(kOff) + std::string(512, '\0'), "a.off.gz");
+  EXPECT_EQ(padded.remarks.size() + 1, s.remarks.size());
+  put(folder_ / "a.vtu.gz", gzip(kVtu) + "and not more");
+  std::vector<Remark> remarks;
+  static_cast<void>(read_volume(folder_ / "a.vtu.gz", {}, &remarks));
+  ASSERT_FALSE(remarks.empty());
+  EXPECT_EQ(remarks.back().message, said);
 }
 
 TEST_F(Variants, DamagedPackedFiles) {
