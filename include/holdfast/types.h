@@ -62,7 +62,8 @@ enum class RemarkKind : int {
   polygons_cut = 2,  ///< polygons of more than three corners, cut into triangles
   size_limits = 3,   ///< limits on volumes, taken as sizes
   not_held = 4,      ///< something that a format has no place for, when a file is written
-  renumbered = 5,    ///< ids that a file has as other numbers, since its format takes theirs for none
+  renumbered = 5,    ///< ids that are other numbers in the file, since its format takes theirs for none, or
+                     ///< since several things in it have one number
   cells_split = 6,   ///< hexahedra, prisms and pyramids, split into tetrahedra
 };
 

@@ -35,6 +35,9 @@ class Tags {
     values_.resize(before, 0);
     values_.push_back(tag);
   }
+  [[nodiscard]] int of(std::size_t i) const { return i < values_.size() ? values_[i] : 0; }
+  /// Another tag for an entity that has one.
+  void set(std::size_t i, int tag) { values_[i] = tag; }
   /// The tags, one an entity, or empty if all are 0.
   [[nodiscard]] std::vector<int> take(std::size_t count) {
     if (!values_.empty()) values_.resize(count, 0);

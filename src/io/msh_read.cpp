@@ -11,6 +11,7 @@
 #include <span>
 
 #include "io/cells.h"
+#include "io/entity_ids.h"
 #include "io/formats.h"
 #include "io/labels.h"
 #include "io/mid_nodes.h"
@@ -39,6 +40,7 @@ class MshReader {
     while (!text_.at_end()) read_section(std::string(text_.word("a section")));
     for (std::size_t i = 0; i < point_markers_.size(); ++i) mesh_.vertex_markers.add(i, point_markers_[i]);
     mesh_.names = {names_[2].take(), names_[3].take(), names_[1].take(), names_[0].take()};
+    ids_.part(mesh_);
     return std::move(mesh_);
   }
 
@@ -357,14 +359,15 @@ class MshReader {
     return result;
   }
 
-  /// A physical tag as an id of the volume.
-  [[nodiscard]] int id_of(std::size_t dimension, int physical, int elementary) const {
-    return physical != 0 ? names_[dimension].resolve(physical) : elementary;
+  void read_element(std::int64_t type, int physical, int elementary) {
+    EntityIds::Ids ids{names_[0].resolve(physical)};
+    for (std::size_t d = 1; d < 4; ++d) ids[d] = physical != 0 ? names_[d].resolve(physical) : elementary;
+    add_element(type, ids);
+    ids_.note(mesh_, physical != 0, ids);
   }
 
-  void read_element(std::int64_t type, int physical, int elementary) {
-    const int segment = id_of(1, physical, elementary), facet = id_of(2, physical, elementary),
-              region = id_of(3, physical, elementary);
+  void add_element(std::int64_t type, const EntityIds::Ids& ids) {
+    const auto [point, segment, facet, region] = ids;
     switch (type) {
       case 1:
         return mesh_.add_segment(corners<2>(), segment);
@@ -388,45 +391,41 @@ class MshReader {
                                 {n[4], n[5], n[6], n[7], n[9], n[8]}, region);
       }
       case 15:
-        return mark_vertex(corners<1>()[0], names_[0].resolve(physical));
+        point_markers_.resize(mesh_.vertices.size(), 0);
+        point_markers_[corners<1>()[0]] = point;
+        return;
       default:
-        read_by_corners(type, segment, facet, region);
+        read_by_corners(type, ids);
     }
   }
 
   /// An element of higher order, a quadrangle of second order, or a cell that is split: its corners come
   /// first.
-  void read_by_corners(std::int64_t type, int segment, int facet, int region) {
+  void read_by_corners(std::int64_t type, const EntityIds::Ids& ids) {
     const MshByCorners* const found = by_corners(type);
     if (found == nullptr) in_.fail("elements of type " + std::to_string(type) + " are not read");
     std::vector<Index> n(found->nodes);
     for (Index& node : n) node = nodes_.index(in_, node_tag());
     switch (found->shape) {
       case MshShape::line:
-        mesh_.add_segment({n[0], n[1]}, segment);
+        mesh_.add_segment({n[0], n[1]}, ids[1]);
         break;
       case MshShape::triangle:
-        mesh_.add_facet({n[0], n[1], n[2]}, facet);
+        mesh_.add_facet({n[0], n[1], n[2]}, ids[2]);
         break;
       case MshShape::quadrangle:
-        add_polygon(mesh_, std::span(n).first(4), facet,
+        add_polygon(mesh_, std::span(n).first(4), ids[2],
                     [&](const std::string& reason) { in_.fail(reason); });
         break;
       case MshShape::tetrahedron:
-        mesh_.add_tetrahedron({n[0], n[1], n[2], n[3]}, region);
+        mesh_.add_tetrahedron({n[0], n[1], n[2], n[3]}, ids[3]);
         break;
       case MshShape::hexahedron:
       case MshShape::prism:
       case MshShape::pyramid:
-        return add_cell(mesh_, n, corners_of(found->shape), region);
+        return add_cell(mesh_, n, corners_of(found->shape), ids[3]);
     }
     add_no_corners(mesh_, std::span(n).subspan(corners_of(found->shape)));
-  }
-
-  void mark_vertex(Index vertex, int physical) {
-    if (physical == 0) return;
-    point_markers_.resize(mesh_.vertices.size(), 0);
-    point_markers_[vertex] = physical;
   }
 
   MshNumbers in_;
@@ -438,6 +437,7 @@ class MshReader {
   std::vector<int> point_markers_;                                 ///< by vertex, where any is marked
   std::array<NamedIds, 4> names_{NamedIds(kVertexStem), NamedIds(kSegmentStem), NamedIds(kFacetStem),
                                  NamedIds(kRegionStem)};  ///< by dimension
+  EntityIds ids_;
   MeshData mesh_;
 };
 

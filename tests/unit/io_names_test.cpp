@@ -137,5 +137,29 @@ TEST(Patches, GoRoundMarkersThatAreThere) {
   EXPECT_EQ(std::count(box.facet_markers.begin(), box.facet_markers.end(), 2), 1);
 }
 
+// As Gmsh writes them with Mesh.SaveAll: what is in no group has its entity's number, which may be a group's.
+TEST_F(NamesOfFiles, OfGroupsAreNotThoseOfEntitiesWithTheirNumber) {
+  const std::string nodes = "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n";
+  const std::string head =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 3 \"inlet\"\n$EndPhysicalNames\n";
+  const auto read = [&](const std::string& groups) {
+    put(folder_ / "a.msh", head + nodes + "$Elements\n4\n1 2 2 " + groups + " 1 1 3 2\n2 2 2 0 3 1 2 4\n" +
+                               "3 2 2 0 2 2 3 4\n4 2 2 0 3 1 4 3\n$EndElements\n");
+    return read_surface(folder_ / "a.msh");
+  };
+  const Surface one = read("3");
+  EXPECT_EQ(one.facet_markers, (std::vector<int>{3, 1, 2, 1}));
+  EXPECT_EQ(one.names.facets, (std::map<int, std::string>{{3, "inlet"}}));
+  ASSERT_EQ(one.remarks.size(), 1u);
+  EXPECT_EQ(one.remarks[0].kind, RemarkKind::renumbered);
+  EXPECT_EQ(one.remarks[0].message,
+            "the triangles of the entity 3, which is in no group, get the id 1, since a group is 3");
+  const Surface none = read("0");
+  EXPECT_EQ(none.facet_markers, (std::vector<int>{1, 3, 2, 3}));
+  EXPECT_TRUE(none.names.facets.empty());
+  ASSERT_EQ(none.remarks.size(), 1u);
+  EXPECT_EQ(none.remarks[0].message, "the name of the group 3, which has no triangles, is left out");
+}
+
 }  // namespace
 }  // namespace holdfast
