@@ -345,7 +345,8 @@ def read_surface(
     cancel: Optional[CancelToken] = None,
     progress: Progress = None,
 ) -> Surface:
-    """Reads a surface from .stl, .off, .obj, .ply, .3mf, .amf, .ts (GOCAD), .mesh, .meshb, .poly, .smesh, .node, .msh, .vtu, .vtp or .vtk.
+    """Reads a surface from .stl, .off, .obj, .ply, .3mf, .amf, .gltf, .glb, .ts (GOCAD), .mesh, .meshb,
+    .poly, .smesh, .node, .msh, .vtu, .vtp or .vtk.
 
     Parameters
     ----------

@@ -182,12 +182,13 @@ void add_diagnose(CLI::App& app, Command& chosen) {
       "diagnose",
       "Tell what is wrong with a surface (exit 4), by cause and one by one, and what it encloses");
   command
-      ->add_option("SURFACE", arguments->surfaces,
-                   "Surface files (.stl .off .obj .ply .3mf .amf .ts .mesh .meshb .poly .smesh .node .msh "
-                   ".vtu .vtp .vtk, "
-                   "each also .gz); "
-                   "several count on from "
-                   "one another; vertices with identical coordinates are one")
+      ->add_option(
+          "SURFACE", arguments->surfaces,
+          "Surface files (.stl .off .obj .ply .3mf .amf .gltf .glb .ts .mesh .meshb .poly .smesh .node .msh "
+          ".vtu .vtp .vtk, "
+          "each also .gz); "
+          "several count on from "
+          "one another; vertices with identical coordinates are one")
       ->transform(or_standard_input)
       ->required();
   command->add_option("--marks", arguments->marks, "Write the places of the defects for a viewer")

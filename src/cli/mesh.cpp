@@ -303,11 +303,12 @@ void add_mesh(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<MeshArguments>();
   CLI::App* command = app.add_subcommand("mesh", "Fill surfaces with tetrahedra, keeping every triangle");
   command
-      ->add_option("SURFACE", arguments->surfaces,
-                   "Surface files (.stl .off .obj .ply .3mf .amf .ts .mesh .meshb .poly .smesh .node .msh "
-                   ".vtu .vtp .vtk, "
-                   "each also .gz, and whatever else `convert` reads); several count on from "
-                   "one another; vertices with identical coordinates are one")
+      ->add_option(
+          "SURFACE", arguments->surfaces,
+          "Surface files (.stl .off .obj .ply .3mf .amf .gltf .glb .ts .mesh .meshb .poly .smesh .node .msh "
+          ".vtu .vtp .vtk, "
+          "each also .gz, and whatever else `convert` reads); several count on from "
+          "one another; vertices with identical coordinates are one")
       ->transform(or_standard_input)
       ->required();
   command

@@ -14,6 +14,8 @@ namespace holdfast::io {
 [[nodiscard]] MeshData read_ply(const Source& source);
 [[nodiscard]] MeshData read_3mf(const Source& source);
 [[nodiscard]] MeshData read_amf(const Source& source);
+/// glTF and its binary form, with the buffers that it names.
+[[nodiscard]] MeshData read_gltf(const Source& source);
 /// GOCAD's TSurf, PLine and VSet.
 [[nodiscard]] MeshData read_gocad(const Source& source);
 [[nodiscard]] MeshData read_poly(const Source& source);

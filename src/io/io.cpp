@@ -55,6 +55,8 @@ constexpr Format kFormats[] = {
     {".ply", read_ply, nullptr, nullptr},
     {".3mf", read_3mf, nullptr, nullptr},
     {".amf", read_amf, nullptr, nullptr},
+    {".gltf", read_gltf, nullptr, nullptr},
+    {".glb", read_gltf, nullptr, nullptr},
     {".ts", read_gocad, nullptr, nullptr},
     {".mesh", read_medit, read_medit, write_file<write_medit>},
     {".meshb", read_gmf, read_gmf, write_file<write_gmf>},

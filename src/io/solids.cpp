@@ -16,7 +16,7 @@ constexpr std::size_t kMostCopies = 1 << 20, kHarmless = std::size_t{1} << 22, k
 void Solids::refuse_a_trap(const Solid& solid) const {
   const std::size_t size =
       mesh_.vertices.size() + solid.vertices.size() + mesh_.facets.size() + solid.facets.size();
-  if (copies_ == kMostCopies || (size > kHarmless && size / kMostTimes > source_.bytes.size()))
+  if (copies_ == kMostCopies || (size > kHarmless && size / kMostTimes > bytes_))
     throw FileError(source_.path, "",
                     "holds more than " + std::to_string(copies_) + " copies of its objects, " +
                         std::to_string(mesh_.facets.size()) +

@@ -21,7 +21,10 @@ struct Solid {
 
 class Solids {
  public:
-  explicit Solids(const Source& source) : source_(source), mesh_(source) {}
+  explicit Solids(const Source& source) : source_(source), bytes_(source.bytes.size()), mesh_(source) {}
+
+  /// What the files of the source have together, where it is not the source's own length.
+  void set_bytes(std::size_t bytes) { bytes_ = bytes; }
 
   /// Puts a copy of a solid. Throws FileError where copies of copies grow beyond what a mesh is.
   void add(const Solid& solid, const std::string& name, const Placement& placement);
@@ -39,6 +42,7 @@ class Solids {
   };
 
   Source source_;
+  std::size_t bytes_;
   MeshData mesh_;
   std::size_t copies_ = 0;
   std::vector<Group> groups_;

@@ -9,20 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "io/base64.h"
 #include "io/byte_reader.h"
 
 namespace holdfast::io {
 namespace {
-
-/// Values of the characters of base64 (RFC 4648), -1 for others.
-constexpr std::array<std::int8_t, 256> base64_values() {
-  std::array<std::int8_t, 256> values{};
-  for (std::int8_t& value : values) value = -1;
-  constexpr std::string_view kAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  for (std::size_t i = 0; i < kAlphabet.size(); ++i)
-    values[static_cast<unsigned char>(kAlphabet[i])] = static_cast<std::int8_t>(i);
-  return values;
-}
 
 /// The bytes of an array, whose encoding is undone as they are asked for.
 class Stream {

@@ -12,7 +12,7 @@ namespace {
 
 using namespace holdfast;
 
-constexpr std::array<std::array<const char*, 2>, 17> kFormats{{{".off"},
+constexpr std::array<std::array<const char*, 2>, 19> kFormats{{{".off"},
                                                                {".stl"},
                                                                {".obj"},
                                                                {".ply"},
@@ -28,7 +28,9 @@ constexpr std::array<std::array<const char*, 2>, 17> kFormats{{{".off"},
                                                                {".stl.gz"},
                                                                {".3mf"},
                                                                {".amf"},
-                                                               {".ts"}}};
+                                                               {".ts"},
+                                                               {".gltf"},
+                                                               {".glb"}}};
 
 void require_in_range(const Surface& surface) {
   for (const Triangle& f : surface.facets)

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "gltf_samples.h"
 #include "io/formats.h"
 #include "io_archive_samples.h"
 #include "io_samples.h"
@@ -44,7 +45,9 @@ std::vector<Sample> valid_files() {
                                {".3mf", small_3mf(Packing::wide)},
                                {".amf", kSmallAmf},
                                {".ts", kGocad},
-                               {".inp", kAssembly}};
+                               {".inp", kAssembly},
+                               {".gltf", gltf()},
+                               {".glb", glb(gltf_json(""), gltf_buffer())}};
   files.push_back({".stl", binary_stl("solid", {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1}})});
   for (const std::int32_t version : {1, 2, 3, 4})
     files.push_back({".meshb", binary_gmf(version, version == 2)});
