@@ -51,6 +51,7 @@ std::string unescaped_uri(const std::string& uri) {
 }  // namespace
 
 GltfFile::GltfFile(const Source& source) : source_(source), json_end_(source.bytes.size()) {
+  if (source.bytes.empty()) throw FileError(source.path, "", "the file is empty");
   if (source.bytes.starts_with(kMagic))
     read_chunks();
   else if (source.bytes.starts_with("\xEF\xBB\xBF"))

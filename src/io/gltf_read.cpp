@@ -1,12 +1,14 @@
 // glTF (Khronos, glTF 2.0), as JSON with its buffers beside or in it, and binary: the meshes of the scene,
 // each where its node places it. Axes and the unit are the file's.
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "io/formats.h"
 #include "io/gltf_file.h"
 #include "io/solids.h"
 #include "io/text_reader.h"
+#include "text/decimal.h"
 
 namespace holdfast::io {
 namespace {
@@ -210,10 +212,9 @@ class GltfReader {
       const std::vector<double> values = file_.values(*indices, 1);
       corners.reserve(values.size());
       for (const double value : values) {
-        if (!(value >= 0 && value < static_cast<double>(vertices)))
-          file_.fail(primitive, "the vertex " + std::to_string(static_cast<std::int64_t>(value)) +
-                                    " is out of range; the primitive has " + std::to_string(vertices) +
-                                    ", and the first is 0");
+        if (!(value >= 0 && value < static_cast<double>(vertices)) || value != std::floor(value))
+          file_.fail(primitive, "the vertex " + decimal(value) + " is out of range; the primitive has " +
+                                    std::to_string(vertices) + ", and the first is 0");
         corners.push_back(first + static_cast<Index>(value));
       }
     } else {

@@ -125,6 +125,7 @@ TEST_F(Gltf, IntegersAndSparseValues) {
 }
 
 TEST_F(Gltf, Errors) {
+  EXPECT_EQ(error("", "a.glb"), "the file is empty");
   EXPECT_EQ(error("{\"asset\":{\"version\":\"1.0\"}}"),
             "byte 20: glTF of version '1.0' is not read; save it as 2.0");
   EXPECT_EQ(error("{}"), "byte 0: not a glTF file: it has no asset with a version");
@@ -137,6 +138,8 @@ TEST_F(Gltf, Errors) {
             "line 5: 15 elements of 2 bytes do not fit into the 24 bytes of their view");
   EXPECT_EQ(error(replaced(gltf(), "\"count\":4,", "\"count\":3,")),
             "line 6: the vertex 3 is out of range; the primitive has 3, and the first is 0");
+  EXPECT_EQ(error(replaced(gltf(), "5123,\"count\":12", "5126,\"count\":6")).substr(0, 29),
+            "line 6: the vertex 1.83670992");
   EXPECT_EQ(error(replaced(gltf(), "\"nodes\":[0]", "\"nodes\":[1]")),
             "line 7: '1' is the number of none of the 1 nodes");
   EXPECT_EQ(error(gltf(R"("nodes":[{"mesh":0},{"children":[1]}],"scenes":[{"nodes":[1]}])")),
