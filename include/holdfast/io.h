@@ -20,7 +20,8 @@ class HOLDFAST_API FileError : public std::runtime_error {
         path_(std::move(path)),
         where_(std::move(where)) {}
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// Place in the file: "line 12", "byte 84", "cell 3", or empty where it concerns the whole file.
+  /// Place in the file: "line 12", "byte 84", "cell 3", in JSON "/meshes/0/name", or empty where it concerns
+  /// the whole file.
   [[nodiscard]] const std::string& where() const { return where_; }
 
  private:

@@ -16,6 +16,8 @@ namespace holdfast::io {
 [[nodiscard]] MeshData read_amf(const Source& source);
 /// glTF and its binary form, with the buffers that it names.
 [[nodiscard]] MeshData read_gltf(const Source& source);
+/// The file and those beside it that its buffers are in; it alone if it cannot be read.
+[[nodiscard]] std::vector<std::filesystem::path> gltf_files(const std::filesystem::path& path);
 /// GOCAD's TSurf, PLine and VSet.
 [[nodiscard]] MeshData read_gocad(const Source& source);
 [[nodiscard]] MeshData read_poly(const Source& source);

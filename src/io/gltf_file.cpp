@@ -13,6 +13,8 @@ namespace holdfast::io {
 namespace {
 
 constexpr std::string_view kMagic = "glTF";
+constexpr std::string_view kInText = "data:";  ///< starts the URI of a buffer in the JSON
+constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 
 struct Component {
@@ -52,17 +54,14 @@ std::string unescaped_uri(const std::string& uri) {
 
 GltfFile::GltfFile(const Source& source) : source_(source), json_end_(source.bytes.size()) {
   if (source.bytes.empty()) throw FileError(source.path, "", "the file is empty");
-  if (source.bytes.starts_with(kMagic))
-    read_chunks();
-  else if (source.bytes.starts_with("\xEF\xBB\xBF"))
-    json_begin_ = 3;
+  if (source.bytes.starts_with(kMagic)) read_chunks();
   root_ = read_json(source_, json_begin_, json_end_);
-  if (root_.kind != JsonValue::Kind::object) fail(root_, "not a glTF file: it is no JSON object");
-  const JsonValue* const asset = root_.find("asset");
-  const JsonValue* const version = asset == nullptr ? nullptr : asset->find("version");
+  if (!root_.is_object()) fail(root_, "not a glTF file: it is no JSON object");
+  const Json* const asset = member(root_, "asset");
+  const Json* const version = asset == nullptr ? nullptr : member(*asset, "version");
   if (version == nullptr) fail(root_, "not a glTF file: it has no asset with a version");
-  if (!version->text.starts_with("2."))
-    fail(*version, "glTF of version " + in_quotes(version->text) + " is not read; save it as 2.0");
+  if (!shown(*version).starts_with("2."))
+    fail(*version, "glTF of version " + in_quotes(shown(*version)) + " is not read; save it as 2.0");
 }
 
 /// The binary form: a header, JSON, and a buffer.
@@ -94,53 +93,46 @@ void GltfFile::read_chunks() {
   if (!has_json) bytes.fail("the file has no JSON; it is truncated");
 }
 
-std::span<const JsonValue> GltfFile::list(const JsonValue& object, std::string_view key) const {
-  const JsonValue* const found = object.find(key);
+std::span<const Json> GltfFile::list(const Json& object, std::string_view key) const {
+  const Json* const found = member(object, key);
   if (found == nullptr) return {};
-  if (found->kind != JsonValue::Kind::array) fail(*found, in_quotes(key) + " is no array");
-  return found->items;
+  if (!found->is_array()) fail(*found, "expected an array");
+  return found->get_ref<const Json::array_t&>();
 }
 
-std::optional<std::uint64_t> GltfFile::number(const JsonValue& object, std::string_view key) const {
-  const JsonValue* const found = object.find(key);
+std::optional<std::uint64_t> GltfFile::number(const Json& object, std::string_view key) const {
+  const Json* const found = member(object, key);
   if (found == nullptr) return std::nullopt;
-  std::uint64_t value = 0;
-  const char* const end = found->text.data() + found->text.size();
-  const auto result = std::from_chars(found->text.data(), end, value);
-  if (found->kind != JsonValue::Kind::number || result.ec != std::errc() || result.ptr != end ||
-      value > std::numeric_limits<std::uint32_t>::max() * std::uint64_t{1024})
-    fail(*found, in_quotes(key) + " is no count or index: " + in_quotes(found->text.substr(0, 40)));
+  const std::uint64_t value = found->is_number_unsigned() ? found->get<std::uint64_t>() : kNone;
+  if (value > std::numeric_limits<std::uint32_t>::max() * std::uint64_t{1024})
+    fail(*found, in_quotes(key) + " is no count or index: " + in_quotes(shown(*found)));
   return value;
 }
 
-std::optional<std::size_t> GltfFile::entry(const JsonValue& object, std::string_view key,
+std::optional<std::size_t> GltfFile::entry(const Json& object, std::string_view key,
                                            std::string_view array) const {
-  const JsonValue* const found = object.find(key);
+  const Json* const found = member(object, key);
   if (found == nullptr) return std::nullopt;
   return entry_of(*found, array);
 }
 
-std::size_t GltfFile::entry_of(const JsonValue& value, std::string_view array) const {
+std::size_t GltfFile::entry_of(const Json& value, std::string_view array) const {
   const std::size_t size = list(root_, array).size();
-  std::size_t index = 0;
-  const char* const end = value.text.data() + value.text.size();
-  const auto result = std::from_chars(value.text.data(), end, index);
-  if (value.kind != JsonValue::Kind::number || result.ec != std::errc() || result.ptr != end || index >= size)
-    fail(value, in_quotes(value.text.substr(0, 40)) + " is the number of none of the " +
-                    std::to_string(size) + " " + std::string(array));
+  const std::uint64_t index = value.is_number_unsigned() ? value.get<std::uint64_t>() : kNone;
+  if (index >= size)
+    fail(value, in_quotes(shown(value)) + " is the number of none of the " + std::to_string(size) + " " +
+                    std::string(array));
   return index;
 }
 
-std::optional<std::vector<double>> GltfFile::reals(const JsonValue& object, std::string_view key,
+std::optional<std::vector<double>> GltfFile::reals(const Json& object, std::string_view key,
                                                    std::size_t count) const {
-  const JsonValue* const found = object.find(key);
+  const Json* const found = member(object, key);
   if (found == nullptr) return std::nullopt;
   std::vector<double> values;
-  for (const JsonValue& item : list(object, key)) {
-    double value = 0;
-    if (item.kind != JsonValue::Kind::number) fail(item, "expected a number in " + in_quotes(key));
-    std::from_chars(item.text.data(), item.text.data() + item.text.size(), value);
-    values.push_back(value);
+  for (const Json& item : list(object, key)) {
+    if (!item.is_number()) fail(item, "expected a number");
+    values.push_back(item.get<double>());
   }
   if (values.size() != count)
     fail(*found,
@@ -148,21 +140,21 @@ std::optional<std::vector<double>> GltfFile::reals(const JsonValue& object, std:
   return values;
 }
 
-std::string GltfFile::name(const JsonValue& object) {
-  const JsonValue* const found = object.find("name");
-  return found != nullptr && found->kind == JsonValue::Kind::string ? found->string() : "";
+std::string GltfFile::name(const Json& object) {
+  const Json* const found = member(object, "name");
+  return found != nullptr && found->is_string() ? found->get<std::string>() : "";
 }
 
 bool GltfFile::has_values(std::size_t accessor) const {
-  const JsonValue& object = list(root_, "accessors")[accessor];
-  return object.find("bufferView") != nullptr || object.find("sparse") != nullptr;
+  const Json& object = list(root_, "accessors")[accessor];
+  return member(object, "bufferView") != nullptr || member(object, "sparse") != nullptr;
 }
 
 std::vector<double> GltfFile::values(std::size_t index, std::size_t components) {
-  const JsonValue& accessor = list(root_, "accessors")[index];
-  const JsonValue* const type = accessor.find("type");
+  const Json& accessor = list(root_, "accessors")[index];
+  const Json* const type = member(accessor, "type");
   const std::string_view wanted = components == 3 ? "VEC3" : "SCALAR";
-  if (type == nullptr || type->text != wanted)
+  if (type == nullptr || *type != wanted)
     fail(accessor, "expected an accessor of the type " + in_quotes(wanted));
   const std::uint64_t code = number(accessor, "componentType").value_or(0);
   const auto component = std::find_if(std::begin(kComponents), std::end(kComponents),
@@ -171,7 +163,7 @@ std::vector<double> GltfFile::values(std::size_t index, std::size_t components) 
     fail(accessor, "numbers of the component type " + std::to_string(code) + " are not read");
   const std::size_t count = number(accessor, "count").value_or(0);
   std::vector<double> values;
-  if (accessor.find("bufferView") != nullptr) {
+  if (member(accessor, "bufferView") != nullptr) {
     const std::size_t bytes = components * component->bytes;
     const View from = view(accessor, count, bytes);
     values.reserve(components * count);
@@ -186,21 +178,21 @@ std::vector<double> GltfFile::values(std::size_t index, std::size_t components) 
   } else {
     values.resize(components * count);
   }
-  if (const JsonValue* const sparse = accessor.find("sparse"))
+  if (const Json* const sparse = member(accessor, "sparse"))
     read_sparse(accessor, *sparse, count, components, values);
-  const JsonValue* const normalized = accessor.find("normalized");
-  if (normalized != nullptr && normalized->text == "true" && component->code != 5126)
+  const Json* const normalized = member(accessor, "normalized");
+  if (normalized != nullptr && *normalized == true && component->code != 5126)
     for (double& value : values) value = std::max(value / component->largest, -1.0);
   return values;
 }
 
 /// Values that replace some of the others.
-void GltfFile::read_sparse(const JsonValue& accessor, const JsonValue& sparse, std::size_t count,
+void GltfFile::read_sparse(const Json& accessor, const Json& sparse, std::size_t count,
                            std::size_t components, std::vector<double>& values) {
-  const JsonValue* const places = sparse.find("indices");
-  const JsonValue* const others = sparse.find("values");
+  const Json* const places = member(sparse, "indices");
+  const Json* const others = member(sparse, "values");
   if (places == nullptr || others == nullptr) fail(sparse, "expected indices and values");
-  const auto component_of = [&](const JsonValue& object) {
+  const auto component_of = [&](const Json& object) {
     const std::uint64_t code = number(object, "componentType").value_or(0);
     const auto found = std::find_if(std::begin(kComponents), std::end(kComponents),
                                     [&](const Component& c) { return c.code == code; });
@@ -220,10 +212,10 @@ void GltfFile::read_sparse(const JsonValue& accessor, const JsonValue& sparse, s
 }
 
 /// `count` elements of so many bytes in the view of a buffer that `user` names.
-GltfFile::View GltfFile::view(const JsonValue& user, std::size_t count, std::size_t bytes) {
+GltfFile::View GltfFile::view(const Json& user, std::size_t count, std::size_t bytes) {
   const std::optional<std::size_t> index = entry(user, "bufferView", "bufferViews");
   if (!index) fail(user, "expected a bufferView");
-  const JsonValue& object = list(root_, "bufferViews")[*index];
+  const Json& object = list(root_, "bufferViews")[*index];
   const std::optional<std::size_t> of = entry(object, "buffer", "buffers");
   if (!of) fail(object, "the view names no buffer");
   const std::string_view all = buffer(*of);
@@ -244,28 +236,46 @@ GltfFile::View GltfFile::view(const JsonValue& user, std::size_t count, std::siz
 }
 
 std::string_view GltfFile::buffer(std::size_t b) {
-  const JsonValue& object = list(root_, "buffers")[b];
-  const JsonValue* const uri = object.find("uri");
+  const Json& object = list(root_, "buffers")[b];
+  const Json* const uri = member(object, "uri");
   if (uri == nullptr) {
     if (b != 0 || !chunk_)
       fail(object, "the buffer is not in the file (it may be compressed: save the file without compression)");
     return *chunk_;
   }
-  if (!uri->text.starts_with("data:")) return external(*uri);
+  if (!uri->is_string()) fail(*uri, "expected a string");
+  if (!uri->get_ref<const std::string&>().starts_with(kInText)) return external(*uri);
   const auto [found, is_new] = decoded_.try_emplace(b);
   if (is_new) found->second = decoded(*uri);
   return found->second;
 }
 
-std::string_view GltfFile::external(const JsonValue& uri) {
-  const std::string name = unescaped_uri(uri.string());
-  const std::filesystem::path relative(name);
-  if (name.empty() || name.find("://") != std::string::npos || relative.is_absolute())
-    fail(uri, "the buffer " + in_quotes(name) + " is no file beside this one");
-  const std::filesystem::path path = source_.path.parent_path() / relative;
+std::string_view GltfFile::external(const Json& uri) {
+  const auto named = path_of(uri.get_ref<const std::string&>());
+  if (!named) fail(uri, "the buffer " + in_quotes(shown(uri)) + " is no file beside this one");
+  const std::filesystem::path& path = *named;
   const auto known = external_.find(path);
   if (known != external_.end()) return known->second->view();
   return external_.emplace(path, std::make_unique<FileBytes>(path, source_.watch)).first->second->view();
+}
+
+/// Nothing where it names no file beside this one.
+std::optional<std::filesystem::path> GltfFile::path_of(const std::string& uri) const {
+  const std::filesystem::path relative(unescaped_uri(uri));
+  if (relative.empty() || uri.starts_with(kInText) || relative.is_absolute() ||
+      relative.string().find("://") != std::string::npos)
+    return std::nullopt;
+  return source_.path.parent_path() / relative;
+}
+
+std::vector<std::filesystem::path> GltfFile::files_beside() const {
+  std::vector<std::filesystem::path> files;
+  for (const Json& buffer : list(root_, "buffers")) {
+    const Json* const uri = member(buffer, "uri");
+    if (uri == nullptr || !uri->is_string()) continue;
+    if (const auto path = path_of(uri->get_ref<const std::string&>())) files.push_back(*path);
+  }
+  return files;
 }
 
 std::size_t GltfFile::bytes() const {
@@ -274,16 +284,17 @@ std::size_t GltfFile::bytes() const {
   return all;
 }
 
-std::string GltfFile::decoded(const JsonValue& uri) const {
+std::string GltfFile::decoded(const Json& uri) const {
   static constexpr std::array<std::int8_t, 256> kValues = base64_values();
   constexpr std::string_view kMark = ";base64,";
-  const std::size_t mark = uri.text.find(kMark);
+  const std::string_view text = uri.get_ref<const std::string&>();
+  const std::size_t mark = text.find(kMark);
   if (mark == std::string_view::npos) fail(uri, "a buffer in the text that is not base64");
   std::string bytes;
-  bytes.reserve((uri.text.size() - mark) / 4 * 3);
+  bytes.reserve((text.size() - mark) / 4 * 3);
   std::uint32_t bits = 0;
   unsigned held = 0;
-  for (const char c : uri.text.substr(mark + kMark.size())) {
+  for (const char c : text.substr(mark + kMark.size())) {
     if (c == '=') break;
     beat(source_.watch);
     const int value = kValues[static_cast<unsigned char>(c)];

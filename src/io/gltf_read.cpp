@@ -2,6 +2,7 @@
 // each where its node places it. Axes and the unit are the file's.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 #include "io/formats.h"
@@ -52,8 +53,8 @@ class GltfReader {
 
  private:
   void require_known_extensions() const {
-    for (const JsonValue& extension : file_.list(file_.root(), "extensionsRequired")) {
-      const std::string name = extension.string();
+    for (const Json& extension : file_.list(file_.root(), "extensionsRequired")) {
+      const std::string name = shown(extension);
       if (std::none_of(std::begin(kHarmless), std::end(kHarmless),
                        [&](std::string_view known) { return name.starts_with(known); }))
         file_.fail(extension, "the file needs the extension " + in_quotes(name) +
@@ -80,7 +81,7 @@ class GltfReader {
       const auto [n, outer] = waiting.back();
       waiting.pop_back();
       step(source_.watch);
-      const JsonValue& node = nodes[n];
+      const Json& node = nodes[n];
       if (std::exchange(is_put[n], std::uint8_t{1}) != 0)
         file_.fail(node, "node " + std::to_string(n) + " is a child of two nodes, or of itself");
       const Placement own = placement(node);
@@ -100,32 +101,31 @@ class GltfReader {
     std::vector<std::size_t> roots;
     if (!scenes.empty()) {
       const std::size_t shown = file_.entry(file_.root(), "scene", "scenes").value_or(0);
-      for (const JsonValue& node : file_.list(scenes[shown], "nodes"))
+      for (const Json& node : file_.list(scenes[shown], "nodes"))
         roots.push_back(file_.entry_of(node, "nodes"));
       return roots;
     }
     const auto nodes = file_.list(file_.root(), "nodes");
     std::vector<std::uint8_t> is_child(nodes.size(), 0);
-    for (const JsonValue& node : nodes)
-      for (const JsonValue& child : file_.list(node, "children"))
-        is_child[file_.entry_of(child, "nodes")] = 1;
+    for (const Json& node : nodes)
+      for (const Json& child : file_.list(node, "children")) is_child[file_.entry_of(child, "nodes")] = 1;
     for (std::size_t n = 0; n < nodes.size(); ++n)
       if (is_child[n] == 0) roots.push_back(n);
     return roots;
   }
 
-  [[nodiscard]] Placement placement(const JsonValue& node) const {
+  [[nodiscard]] Placement placement(const Json& node) const {
     if (const auto matrix = file_.reals(node, "matrix", 16)) return placement_of(*matrix);
     return placement_of(file_.reals(node, "translation", 3).value_or(std::vector<double>{0, 0, 0}),
                         file_.reals(node, "rotation", 4).value_or(std::vector<double>{0, 0, 0, 1}),
                         file_.reals(node, "scale", 3).value_or(std::vector<double>{1, 1, 1}));
   }
 
-  void put_mesh(const JsonValue& node, const Placement& here) {
+  void put_mesh(const Json& node, const Placement& here) {
     const std::optional<std::size_t> m = file_.entry(node, "mesh", "meshes");
     if (!m) return;
-    if (const JsonValue* extensions = node.find("extensions"))
-      instances_ += extensions->find(kInstances) != nullptr ? 1 : 0;
+    if (const Json* extensions = member(node, "extensions"))
+      instances_ += member(*extensions, kInstances) != nullptr ? 1 : 0;
     put(*m, GltfFile::name(node), here);
   }
 
@@ -139,12 +139,12 @@ class GltfReader {
   // --- Meshes ------------------------------------------------------------------------------------------
 
   Solid solid_of(std::size_t m) {
-    const JsonValue& mesh = file_.list(file_.root(), "meshes")[m];
+    const Json& mesh = file_.list(file_.root(), "meshes")[m];
     Solid solid;
     solid.name = GltfFile::name(mesh);
     std::map<std::size_t, Index> first_of;  // by accessor of positions
     std::map<std::size_t, std::size_t> material_of;
-    for (const JsonValue& primitive : file_.list(mesh, "primitives")) {
+    for (const Json& primitive : file_.list(mesh, "primitives")) {
       step(source_.watch);
       read_primitive(primitive, first_of, solid);
       const std::optional<std::size_t> material = file_.entry(primitive, "material", "materials");
@@ -166,7 +166,7 @@ class GltfReader {
 
   /// Primitives may share their numbers, so that what is read grows with the square of the file's length. A
   /// vertex or a corner takes a byte at least.
-  void refuse_a_trap(const JsonValue& primitive, std::size_t more) {
+  void refuse_a_trap(const Json& primitive, std::size_t more) {
     constexpr std::size_t kHarmless = std::size_t{1} << 22, kMostTimes = 4;
     read_ += more;
     if (read_ > kHarmless && read_ / kMostTimes > file_.bytes())
@@ -174,11 +174,12 @@ class GltfReader {
                                 " vertices and corners of the same numbers; that is no mesh but a trap");
   }
 
-  void read_primitive(const JsonValue& primitive, std::map<std::size_t, Index>& first_of, Solid& solid) {
-    const JsonValue* const attributes = primitive.find("attributes");
-    if (attributes == nullptr) file_.fail(primitive, "the primitive has no attributes");
-    for (const std::string_view key : attributes->keys)
-      if (key != "POSITION") attributes_.insert(std::string(key));
+  void read_primitive(const Json& primitive, std::map<std::size_t, Index>& first_of, Solid& solid) {
+    const Json* const attributes = member(primitive, "attributes");
+    if (attributes == nullptr || !attributes->is_object())
+      file_.fail(primitive, "the primitive has no attributes");
+    for (const auto& [key, accessor] : attributes->items())
+      if (key != "POSITION") attributes_.insert(key);
     const std::optional<Mode> mode = mode_of(primitive);
     if (!mode) return;
     targets_ += file_.list(primitive, "targets").size();
@@ -187,8 +188,8 @@ class GltfReader {
       ++without_positions_;
       return;
     }
-    if (const JsonValue* extensions = primitive.find("extensions");
-        extensions != nullptr && extensions->find(kDraco) != nullptr && !file_.has_values(*positions))
+    if (const Json* extensions = member(primitive, "extensions");
+        extensions != nullptr && member(*extensions, kDraco) != nullptr && !file_.has_values(*positions))
       file_.fail(primitive, "the mesh is compressed by " + std::string(kDraco) +
                                 ", which is not read; save it without compression");
     const auto [found, is_new] = first_of.try_emplace(*positions, static_cast<Index>(solid.vertices.size()));
@@ -196,7 +197,7 @@ class GltfReader {
     add_triangles(primitive, *mode, corners(primitive, count_of_[*positions], found->second), solid);
   }
 
-  void add_vertices(std::size_t accessor, const JsonValue& primitive, Solid& solid) {
+  void add_vertices(std::size_t accessor, const Json& primitive, Solid& solid) {
     const std::vector<double> values = file_.values(accessor, 3);
     if (solid.vertices.size() + values.size() / 3 >= no_entity)
       file_.fail(primitive, "the mesh has more vertices than 32 bits count");
@@ -206,7 +207,7 @@ class GltfReader {
     refuse_a_trap(primitive, values.size() / 3);
   }
 
-  std::vector<Index> corners(const JsonValue& primitive, std::size_t vertices, Index first) {
+  std::vector<Index> corners(const Json& primitive, std::size_t vertices, Index first) {
     std::vector<Index> corners;
     if (const auto indices = file_.entry(primitive, "indices", "accessors")) {
       const std::vector<double> values = file_.values(*indices, 1);
@@ -226,7 +227,7 @@ class GltfReader {
   }
 
   /// Nothing where the primitive has no triangles, which is counted.
-  std::optional<Mode> mode_of(const JsonValue& primitive) {
+  std::optional<Mode> mode_of(const Json& primitive) {
     const std::uint64_t number = file_.number(primitive, "mode").value_or(4);
     if (number > 6) file_.fail(primitive, "the mode " + std::to_string(number) + " is none");
     const Mode mode = static_cast<Mode>(number);
@@ -235,7 +236,7 @@ class GltfReader {
     return std::nullopt;
   }
 
-  void add_triangles(const JsonValue& primitive, Mode mode, std::span<const Index> v, Solid& solid) {
+  void add_triangles(const Json& primitive, Mode mode, std::span<const Index> v, Solid& solid) {
     if (v.size() < 3 || (mode == Mode::triangles && v.size() % 3 != 0))
       file_.fail(primitive, std::to_string(v.size()) + " corners, which make no triangles");
     const std::size_t next = mode == Mode::triangles ? 3 : 1;
@@ -285,5 +286,19 @@ class GltfReader {
 }  // namespace
 
 MeshData read_gltf(const Source& source) { return GltfReader(source).read(); }
+
+std::vector<std::filesystem::path> gltf_files(const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> files{path};
+  std::error_code error;
+  // A pipe is read only once.
+  if (!std::filesystem::is_regular_file(path, error)) return files;
+  try {
+    const FileBytes bytes(path);
+    for (auto& file : GltfFile({path, bytes.view()}).files_beside()) files.push_back(std::move(file));
+  } catch (const FileError&) {
+    // The reader says so.
+  }
+  return files;
+}
 
 }  // namespace holdfast::io

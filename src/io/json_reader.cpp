@@ -2,224 +2,172 @@
 #include "io/json_reader.h"
 
 #include <algorithm>
-#include <charconv>
+#include <iterator>
+#include <vector>
 
-#include "io/text_reader.h"
+#include "text/parse.h"
 
 namespace holdfast::io {
 namespace {
 
 constexpr std::size_t kDeepest = 128;
-/// A value takes forty times the memory of its text; files of meshes have far fewer.
+/// A value takes thirty times the memory of its text; files of meshes have far fewer.
 constexpr std::size_t kMostValues = std::size_t{1} << 23;
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+/// Bytes on their way to the parser, which asks for nothing else while it reads a long string.
+struct WatchedByte {
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = char;
 
-class JsonReader {
+  const char* at;
+  Watch* watch;
+  const char** reached;  ///< the end of what was read
+
+  char operator*() const { return *at; }
+  WatchedByte& operator++() {
+    beat(watch);
+    *reached = ++at;
+    return *this;
+  }
+  bool operator==(const WatchedByte& other) const { return at == other.at; }
+  bool operator!=(const WatchedByte& other) const { return at != other.at; }
+};
+
+/// Makes the tree, within limits. nlohmann's own parser has none, and with a callback takes a time that grows
+/// with the square of the number of objects in an array.
+class TreeMaker final : public nlohmann::json_sax<Json> {
  public:
-  JsonReader(const Source& source, std::size_t begin, std::size_t end)
-      : source_(source), text_(source.bytes.substr(0, end)), begin_(begin), at_(begin) {}
+  TreeMaker(const Source& source, std::size_t begin, std::size_t end)
+      : source_(source), begin_(begin), text_(source.bytes.substr(begin, end - begin)) {}
 
-  JsonValue read() {
-    JsonValue value = read_value(0);
-    skip_blanks();
-    if (at_ < text_.size()) fail("expected the end of the text");
-    return value;
+  Json read() {
+    const char* const end = text_.data() + text_.size();
+    Json::sax_parse(WatchedByte{text_.data(), source_.watch, &reached_},
+                    WatchedByte{end, source_.watch, &reached_}, this);
+    // A zero byte ends the text for the parser.
+    if (std::any_of(reached_, end, [](char c) { return c != '\0'; })) fail("expected the end of the text");
+    return std::move(root_);
+  }
+
+  bool null() override { return put(nullptr); }
+  bool boolean(bool value) override { return put(value); }
+  bool number_integer(std::int64_t value) override { return put(value); }
+  bool number_unsigned(std::uint64_t value) override { return put(value); }
+  bool number_float(double value, const std::string& spelled) override {
+    // By the locale of the program round us the parser may have read a part of it only.
+    std::string text = spelled;
+    const auto is_point = [](char c) {
+      return std::string_view("0123456789+-eE").find(c) == std::string::npos;
+    };
+    std::replace_if(text.begin(), text.end(), is_point, '.');
+    parse_double(text.data(), text.data() + text.size(), value);
+    return put(value);
+  }
+  bool string(std::string& value) override { return put(std::move(value)); }
+  bool binary(Json::binary_t&) override { return false; }
+  bool start_object(std::size_t) override { return open(Json::object()); }
+  bool start_array(std::size_t) override { return open(Json::array()); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool key(std::string& value) override {
+    key_ = std::move(value);
+    return true;
+  }
+  bool parse_error(std::size_t bytes, const std::string&, const nlohmann::detail::exception& error) override {
+    constexpr int kOverflow = 406;
+    if (error.id == kOverflow) fail_at(bytes, "a number that is beyond those of double precision");
+    // Before the reason are the exception's name and the place, behind it all of a token.
+    std::string_view reason = error.what();
+    if (const auto place = reason.find(": "); place != std::string_view::npos)
+      reason.remove_prefix(place + 2);
+    fail_at(bytes, std::string(reason.substr(0, reason.find("; last read"))));
   }
 
  private:
-  JsonValue read_value(std::size_t depth) {
-    beat(source_.watch);
-    skip_blanks();
+  Json& place() {
+    if (open_.empty()) return root_;
+    if (open_.back()->is_object()) return (*open_.back())[key_];
+    return open_.back()->emplace_back();
+  }
+  Json& placed(Json&& value) {
     if (++values_ > kMostValues) fail("more than " + std::to_string(kMostValues) + " values");
-    if (depth > kDeepest) fail("values in values without end");
-    JsonValue value;
-    value.position = at_;
-    const char c = next("a value");
-    if (c == '{')
-      read_object(value, depth);
-    else if (c == '[')
-      read_array(value, depth);
-    else if (c == '"')
-      read_string(value);
-    else if (c == '-' || is_digit(c))
-      read_number(value);
-    else
-      read_word(value);
-    return value;
+    return place() = std::move(value);
   }
-
-  void read_object(JsonValue& value, std::size_t depth) {
-    value.kind = JsonValue::Kind::object;
-    ++at_;
-    if (ends_with('}')) return;
-    do {
-      skip_blanks();
-      JsonValue key;
-      if (next("a name") != '"') fail("expected a name in quotes");
-      read_string(key);
-      skip_blanks();
-      if (next("a colon") != ':') fail("expected a colon");
-      ++at_;
-      value.keys.push_back(key.text);
-      value.items.push_back(read_value(depth + 1));
-    } while (goes_on('}'));
+  bool put(Json&& value) {
+    placed(std::move(value));
+    return true;
   }
-
-  void read_array(JsonValue& value, std::size_t depth) {
-    value.kind = JsonValue::Kind::array;
-    ++at_;
-    if (ends_with(']')) return;
-    do value.items.push_back(read_value(depth + 1));
-    while (goes_on(']'));
+  bool open(Json&& value) {
+    if (open_.size() > kDeepest) fail("values in values without end");
+    open_.push_back(&placed(std::move(value)));
+    return true;
   }
-
-  bool ends_with(char end) {
-    skip_blanks();
-    if (at_ == text_.size() || text_[at_] != end) return false;
-    ++at_;
+  bool close() {
+    open_.pop_back();
     return true;
   }
 
-  bool goes_on(char end) {
-    skip_blanks();
-    const char c = next("a comma");
-    if (c != ',' && c != end) fail(std::string("expected a comma or ") + end);
-    ++at_;
-    return c == ',';
+  [[noreturn]] void fail(const std::string& reason) const {
+    fail_at(static_cast<std::size_t>(reached_ - text_.data()), reason);
   }
-
-  void read_string(JsonValue& value) {
-    value.kind = JsonValue::Kind::string;
-    const std::size_t first = ++at_;
-    while (next("a closing quote") != '"') at_ += text_[at_] == '\\' ? 2 : 1;
-    value.text = text_.substr(first, at_ - first);
-    ++at_;
+  /// At the last of so many bytes of the text.
+  [[noreturn]] void fail_at(std::size_t bytes, const std::string& reason) const {
+    const std::size_t position = begin_ + std::max<std::size_t>(bytes, 1) - 1;
+    const std::string_view before = source_.bytes.substr(0, position);
+    const bool has_lines = begin_ == 0 && source_.bytes.find('\n') != std::string_view::npos;
+    throw FileError(source_.path,
+                    has_lines ? "line " + std::to_string(1 + std::count(before.begin(), before.end(), '\n'))
+                              : "byte " + std::to_string(position),
+                    reason);
   }
-
-  void read_number(JsonValue& value) {
-    value.kind = JsonValue::Kind::number;
-    std::size_t end = at_;
-    while (end < text_.size() &&
-           (is_digit(text_[end]) || std::string_view("+-.eE").find(text_[end]) != std::string_view::npos))
-      ++end;
-    value.text = text_.substr(at_, end - at_);
-    double number = 0;
-    const auto result = std::from_chars(value.text.data(), value.text.data() + value.text.size(), number);
-    if (result.ec != std::errc() || result.ptr != value.text.data() + value.text.size())
-      fail("expected a number, found " + in_quotes(value.text));
-    at_ = end;
-  }
-
-  void read_word(JsonValue& value) {
-    for (const std::string_view word : {"true", "false", "null"}) {
-      if (!text_.substr(at_).starts_with(word)) continue;
-      value.kind = word == "null" ? JsonValue::Kind::null : JsonValue::Kind::boolean;
-      value.text = word;
-      at_ += word.size();
-      return;
-    }
-    fail("expected a value, found " + in_quotes(text_.substr(at_, 1)));
-  }
-
-  void skip_blanks() {
-    while (at_ < text_.size() && std::string_view(" \t\r\n").find(text_[at_]) != std::string_view::npos)
-      ++at_;
-  }
-
-  char next(const char* what) {
-    if (at_ >= text_.size()) {
-      at_ = text_.size();
-      fail(std::string("the text ends where ") + what + " is expected; it is truncated");
-    }
-    return text_[at_];
-  }
-
-  [[noreturn]] void fail(const std::string& reason) const { fail_in_json(source_, begin_, at_, reason); }
 
   Source source_;
-  std::string_view text_;  ///< from the start of the file
-  std::size_t begin_, at_;
+  std::size_t begin_;
+  std::string_view text_;
+  const char* reached_ = text_.data();
+  Json root_;
+  std::vector<Json*> open_;  ///< what the next value is in, from outside to inside
+  std::string key_;
   std::size_t values_ = 0;
 };
 
-void append_utf8(std::string& text, std::uint32_t code) {
-  const auto put = [&](std::uint32_t byte) { text += static_cast<char>(static_cast<unsigned char>(byte)); };
-  if (code < 0x80) return put(code);
-  if (code < 0x800) {
-    put(0xC0 | code >> 6);
-  } else {
-    if (code < 0x10000) {
-      put(0xE0 | code >> 12);
-    } else {
-      put(0xF0 | code >> 18);
-      put(0x80 | (code >> 12 & 0x3F));
-    }
-    put(0x80 | (code >> 6 & 0x3F));
+/// Whether `value` is in `tree`; then the way to it is behind `way`.
+bool find_way(const Json& tree, const Json& value, std::vector<std::string>& way) {
+  if (&tree == &value) return true;
+  for (const auto& [key, item] : tree.items()) {
+    if (!item.is_structured() && &item != &value) continue;
+    way.push_back(key);
+    if (find_way(item, value, way)) return true;
+    way.pop_back();
   }
-  put(0x80 | (code & 0x3F));
-}
-
-/// The number of four hexadecimal digits at the start; beyond 16 bits where there are none.
-std::uint32_t hexadecimal(std::string_view text) {
-  std::uint32_t code = 0;
-  const auto result =
-      std::from_chars(text.data(), text.data() + std::min<std::size_t>(text.size(), 4), code, 16);
-  return result.ec == std::errc() && result.ptr == text.data() + 4 ? code : 0x10000;
-}
-
-/// What "\uXXXX" at the start stands for, or two of them, and how long it is.
-std::pair<std::uint32_t, std::size_t> code_point(std::string_view text) {
-  const std::uint32_t first = hexadecimal(text.substr(2));
-  if (first > 0xFFFF) return {'?', 2};
-  if (first < 0xD800 || first > 0xDFFF) return {first, 6};
-  if (first < 0xDC00 && text.substr(6).starts_with("\\u")) {
-    const std::uint32_t second = hexadecimal(text.substr(8));
-    if (second >= 0xDC00 && second <= 0xDFFF)
-      return {0x10000 + ((first - 0xD800) << 10) + (second - 0xDC00), 12};
-  }
-  return {'?', 6};
+  return false;
 }
 
 }  // namespace
 
-const JsonValue* JsonValue::find(std::string_view key) const {
-  const auto found = std::find(keys.begin(), keys.end(), key);
-  return found == keys.end() ? nullptr : &items[static_cast<std::size_t>(found - keys.begin())];
+Json read_json(const Source& source, std::size_t begin, std::size_t end) {
+  return TreeMaker(source, begin, end).read();
 }
 
-std::string JsonValue::string() const {
-  std::string result;
-  for (std::size_t i = 0; i < text.size();) {
-    if (text[i] != '\\' || i + 1 == text.size()) {
-      result += text[i++];
-      continue;
-    }
-    constexpr std::string_view kNames = "bfnrt", kCharacters = "\b\f\n\r\t";
-    if (text[i + 1] == 'u') {
-      const auto [code, length] = code_point(text.substr(i));
-      append_utf8(result, code);
-      i += length;
-      continue;
-    }
-    const std::size_t name = kNames.find(text[i + 1]);
-    result += name == std::string_view::npos ? text[i + 1] : kCharacters[name];
-    i += 2;
-  }
-  return result;
+const Json* member(const Json& object, std::string_view key) {
+  const auto found = object.find(key);
+  return found == object.end() ? nullptr : &*found;
 }
 
-JsonValue read_json(const Source& source, std::size_t begin, std::size_t end) {
-  return JsonReader(source, begin, end).read();
+std::string shown(const Json& value) {
+  if (value.is_string()) return value.get_ref<const std::string&>();
+  return value.is_structured() ? value.type_name() : value.dump();
 }
 
-void fail_in_json(const Source& source, std::size_t begin, std::size_t position, const std::string& reason) {
-  const std::string_view before = source.bytes.substr(begin, position - begin);
-  const auto lines = std::count(before.begin(), before.end(), '\n');
-  const bool has_lines = begin == 0 && source.bytes.find('\n') != std::string_view::npos;
-  throw FileError(source.path,
-                  has_lines ? "line " + std::to_string(lines + 1) : "byte " + std::to_string(position),
-                  reason);
+void fail_in_json(const Source& source, const Json& root, const Json& value, const std::string& reason) {
+  std::vector<std::string> way;
+  Json::json_pointer place;
+  if (find_way(root, value, way))
+    for (const std::string& key : way) place /= key;
+  throw FileError(source.path, place.to_string(), reason);
 }
 
 }  // namespace holdfast::io

@@ -1,35 +1,28 @@
-// A JSON text as a tree (RFC 8259): as much as files of meshes need, which hold their numbers elsewhere.
+// A JSON text (RFC 8259) as a tree of nlohmann's values, with what a file of meshes asks of one.
 #pragma once
 
-#include <cstdint>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "io/mesh_data.h"
 
 namespace holdfast::io {
 
-struct JsonValue {
-  enum class Kind { null, boolean, number, string, array, object };
-  Kind kind = Kind::null;
-  std::size_t position = 0;            ///< in the source's bytes
-  std::string_view text;               ///< of a number or a boolean; of a string what is between its quotes
-  std::vector<std::string_view> keys;  ///< of an object, as they stand in the text
-  std::vector<JsonValue> items;        ///< of an array, or of an object
-
-  /// The member of an object; null if there is none.
-  [[nodiscard]] const JsonValue* find(std::string_view key) const;
-  /// A string without its escapes, in UTF-8.
-  [[nodiscard]] std::string string() const;
-};
+using Json = nlohmann::json;
 
 /// The value that is the text from `begin` to `end`. Throws FileError: with the line, or in a text of a
 /// single line with the byte.
-[[nodiscard]] JsonValue read_json(const Source& source, std::size_t begin, std::size_t end);
+[[nodiscard]] Json read_json(const Source& source, std::size_t begin, std::size_t end);
 
-/// Throws a FileError for a place in such a text.
-[[noreturn]] void fail_in_json(const Source& source, std::size_t begin, std::size_t position,
+/// The member of an object; null if there is none.
+[[nodiscard]] const Json* member(const Json& object, std::string_view key);
+
+/// What a string says, or how a number or a word is spelled, or what else the value is.
+[[nodiscard]] std::string shown(const Json& value);
+
+/// Throws a FileError whose place is the JSON pointer (RFC 6901) of a value in a tree.
+[[noreturn]] void fail_in_json(const Source& source, const Json& root, const Json& value,
                                const std::string& reason);
 
 }  // namespace holdfast::io

@@ -74,6 +74,15 @@ class Usage(CliTest):
         self.run_program("mesh", "cube.mesh", "-o", "./cube.mesh", expect=2)
         self.assertEqual((self.folder / "cube.mesh").read_text(), text)
 
+    def test_an_output_never_overwrites_a_buffer_of_the_input(self):
+        self.write("a.gltf", '{"asset":{"version":"2.0"},"buffers":[{"uri":"a%20b.bin","byteLength":4}]}')
+        self.write("a b.bin", "kept")
+        for arguments in (["mesh", "a.gltf", "-o", "./a b.bin", "--format", "vtk"],
+                          ["diagnose", "a.gltf", "--report", "a b.bin"]):
+            with self.subTest(arguments):
+                self.assertIn("a b.bin", self.run_program(*arguments, expect=2).stderr)
+                self.assertEqual((self.folder / "a b.bin").read_text(), "kept")
+
 
 class Files(CliTest):
     def test_unreadable_input_is_3_and_names_the_file(self):

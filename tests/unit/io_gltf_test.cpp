@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gltf_samples.h"
+#include "io/formats.h"
 
 namespace holdfast {
 namespace {
@@ -127,34 +128,126 @@ TEST_F(Gltf, IntegersAndSparseValues) {
 TEST_F(Gltf, Errors) {
   EXPECT_EQ(error("", "a.glb"), "the file is empty");
   EXPECT_EQ(error("{\"asset\":{\"version\":\"1.0\"}}"),
-            "byte 20: glTF of version '1.0' is not read; save it as 2.0");
-  EXPECT_EQ(error("{}"), "byte 0: not a glTF file: it has no asset with a version");
-  EXPECT_EQ(error("{\"asset\":{\"version\":\"2.0\"},\n\"a\" 1}"), "line 2: expected a colon");
+            "/asset/version: glTF of version '1.0' is not read; save it as 2.0");
+  EXPECT_EQ(error("{}"), "not a glTF file: it has no asset with a version");
+  EXPECT_EQ(error("{\"asset\":{\"version\":\"2.0\"},\n\"a\" 1}"),
+            "line 2: syntax error while parsing object separator - unexpected number literal; expected ':'");
   EXPECT_EQ(error(gltf_json("none.bin")), "no such file");
   EXPECT_NE(error(gltf_json("https://a.org/a.bin")).find("is no file beside this one"), std::string::npos);
   EXPECT_NE(error(gltf_json("/etc/passwd")).find("is no file beside this one"), std::string::npos);
-  EXPECT_EQ(error(gltf_json("")).substr(0, 43), "line 2: the buffer is not in the file (it m");
+  EXPECT_EQ(error(gltf_json("")).substr(0, 47), "/buffers/0: the buffer is not in the file (it m");
   EXPECT_EQ(error(replaced(gltf(), "\"count\":12", "\"count\":15")),
-            "line 5: 15 elements of 2 bytes do not fit into the 24 bytes of their view");
+            "/accessors/1: 15 elements of 2 bytes do not fit into the 24 bytes of their view");
   EXPECT_EQ(error(replaced(gltf(), "\"count\":4,", "\"count\":3,")),
-            "line 6: the vertex 3 is out of range; the primitive has 3, and the first is 0");
-  EXPECT_EQ(error(replaced(gltf(), "5123,\"count\":12", "5126,\"count\":6")).substr(0, 29),
-            "line 6: the vertex 1.83670992");
+            "/meshes/0/primitives/0: the vertex 3 is out of range; the primitive has 3, and the first is 0");
+  EXPECT_EQ(error(replaced(gltf(), "5123,\"count\":12", "5126,\"count\":6")).substr(0, 45),
+            "/meshes/0/primitives/0: the vertex 1.83670992");
   EXPECT_EQ(error(replaced(gltf(), "\"nodes\":[0]", "\"nodes\":[1]")),
-            "line 7: '1' is the number of none of the 1 nodes");
+            "/scenes/0/nodes/0: '1' is the number of none of the 1 nodes");
   EXPECT_EQ(error(gltf(R"("nodes":[{"mesh":0},{"children":[1]}],"scenes":[{"nodes":[1]}])")),
-            "line 7: node 1 is a child of two nodes, or of itself");
-  EXPECT_EQ(
-      error(gltf(R"("extensionsRequired":["KHR_draco_mesh_compression"])")),
-      "line 7: the file needs the extension 'KHR_draco_mesh_compression', which is not read; save it without "
-      "compression");
+            "/nodes/1: node 1 is a child of two nodes, or of itself");
+  EXPECT_EQ(error(gltf(R"("extensionsRequired":["KHR_draco_mesh_compression"])")),
+            "/extensionsRequired/0: the file needs the extension 'KHR_draco_mesh_compression', which is not "
+            "read; save it without "
+            "compression");
   EXPECT_EQ(
       surface(gltf(std::string(kGltfScene) + R"(,"extensionsRequired":["KHR_materials_unlit"])")).facets,
       kFacets);
   const std::string binary = glb(gltf_json(""), gltf_buffer());
   EXPECT_EQ(error(binary.substr(0, binary.size() - 1), "a.glb").substr(0, 8), "byte 12:");
-  EXPECT_EQ(error(replaced(binary, "\"count\":12", "\"count\":15"), "a.glb").substr(0, 5), "byte ");
+  EXPECT_EQ(error(replaced(binary, "\"count\":12", "\"count\":15"), "a.glb").substr(0, 15),
+            "/accessors/1: 1");
   EXPECT_EQ(error(std::string(100000, '[')), "byte 129: values in values without end");
+}
+
+TEST_F(Gltf, FaultsOfItsJson) {
+  const std::string start = "{\"asset\":{\"version\":\"2.0\"},\n";
+  const std::string where = "line 2: syntax error while parsing ";
+  EXPECT_EQ(
+      error(start),
+      "line 2: syntax error while parsing object key - unexpected end of input; expected string literal");
+  EXPECT_EQ(error(start + "\"a\":\""), where + "value - invalid string: missing closing quote");
+  EXPECT_EQ(error(start + "\"a\":\"" + std::string(1000, 'a') + "\xFF\"}"),
+            where + "value - invalid string: ill-formed UTF-8 byte");
+  EXPECT_EQ(error(start + "\"a\":1" + std::string(400, '0') + "}"),
+            "line 2: a number that is beyond those of double precision");
+  EXPECT_EQ(error(gltf() + "\n{"),
+            "line 9: syntax error while parsing value - unexpected '{'; expected end of input");
+  EXPECT_EQ(error(gltf() + std::string("\0{", 2)), "line 8: expected the end of the text");
+  EXPECT_EQ(surface(gltf() + std::string(3, '\0')).facets, kFacets);
+  EXPECT_EQ(error("\xEF\xBB\xBF{\n]").substr(0, 8), "line 2: ");
+  EXPECT_EQ(error(replaced(gltf(), "\"nodes\":[0]", "\"nodes\":[]]")).substr(0, 8), "line 7: ");
+  std::string many = "[0";
+  for (int i = 0; i < 23; ++i) many += "," + many.substr(1);
+  EXPECT_EQ(error(many + "]"), "byte 16777216: more than 8388608 values");
+}
+
+TEST_F(Gltf, ALongStringOfItsJsonCanBeStopped) {
+  const std::filesystem::path path = "a.gltf";
+  const std::string bytes = "{\"a\":\"" + std::string(4'000'000, 'a');
+  Limits limits;
+  limits.cancel = CancelToken();
+  io::Watch watch(limits, {});
+  limits.cancel->cancel();
+  EXPECT_THROW(static_cast<void>(io::parse_surface({path, bytes, false, &watch}, ".gltf")), Interrupted);
+}
+
+// These would take an hour if with each of them all before it were looked at.
+TEST_F(Gltf, TheTimeGrowsWithTheNumberOfValues) {
+  std::string extras = "\"extras\":[{}";
+  for (int i = 0; i < 2000000; ++i) extras += ",{}";
+  EXPECT_EQ(surface(gltf(std::string(kGltfScene) + "," + extras + "]")).facets, kFacets);
+}
+
+TEST_F(Gltf, CountsAndIndicesAreWholeNumbers) {
+  const auto with_node = [&](const std::string& index) {
+    return error(replaced(gltf(), "\"nodes\":[0]", "\"nodes\":[" + index + "]"));
+  };
+  for (const auto& [index, is_shown] :
+       std::map<std::string, std::string>{{"0.0", "0.0"},
+                                          {"-0.5", "-0.5"},
+                                          {"-1", "-1"},
+                                          {"\"0\"", "0"},
+                                          {"null", "null"},
+                                          {"[0]", "array"},
+                                          {"18446744073709551615", "18446744073709551615"}})
+    EXPECT_EQ(with_node(index), "/scenes/0/nodes/0: '" + is_shown + "' is the number of none of the 1 nodes");
+  for (const std::string count : {"4.0", "-4", "\"4\"", "1e400", "99999999999999", "true"})
+    EXPECT_NE(error(replaced(gltf(), "\"count\":4,", "\"count\":" + count + ",")), "read") << count;
+}
+
+TEST_F(Gltf, MembersOfOtherKinds) {
+  for (const auto& [from, to] :
+       std::vector<std::array<std::string, 2>>{{"\"buffer\":0", "\"buffer\":{}"},
+                                               {"\"type\":\"VEC3\"", "\"type\":3"},
+                                               {"{\"POSITION\":0}", "[0]"},
+                                               {"\"nodes\":[{", "\"nodes\":{\"a\":{"},
+                                               {"\"uri\":\"", "\"uri\":0,\"extras\":\""},
+                                               {"\"2.0\"", "[2]"}})
+    EXPECT_NE(error(replaced(gltf(), from, to)), "read") << to;
+  EXPECT_EQ(error(replaced(gltf(), "\"uri\":\"", "\"uri\":0,\"extras\":\"")),
+            "/buffers/0/uri: expected a string");
+  EXPECT_EQ(surface(replaced(gltf(), "\"name\":\"n\"", "\"name\":5")).names.facets,
+            (std::map<int, std::string>{{0, "m"}}));
+}
+
+TEST_F(Gltf, FilesThatItIs) {
+  const std::filesystem::path path = folder_ / "a.gltf", binary = folder_ / "c.glb";
+  const std::vector<std::filesystem::path> both{path, folder_ / "a b.bin"};
+  EXPECT_EQ(files_of_surface(path), (std::vector{path}));
+  put(path, gltf());
+  EXPECT_EQ(files_of_surface(path), (std::vector{path}));
+  put(path, gltf_json("https://a.org/a.bin"));
+  EXPECT_EQ(files_of_surface(path), (std::vector{path}));
+  put(path, "{");
+  EXPECT_EQ(files_of_surface(path), (std::vector{path}));
+  put(path, gltf_json("a%20b.bin"));
+  EXPECT_EQ(files_of_surface(path), both);
+  EXPECT_EQ(files_of_surface(path, "stl"), (std::vector{path}));
+  put(binary,
+      glb(replaced(gltf_json(""), "\"buffers\":[", "\"buffers\":[{\"byteLength\":1,\"uri\":\"d.bin\"},"),
+          ""));
+  EXPECT_EQ(files_of_surface(binary), (std::vector{binary, folder_ / "d.bin"}));
 }
 
 // A small file with a large buffer beside it is none.

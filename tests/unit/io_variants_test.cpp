@@ -5,6 +5,7 @@
 
 #include <chrono>
 
+#include "gltf_samples.h"
 #include "io_samples.h"
 
 namespace holdfast {
@@ -352,6 +353,9 @@ TEST_F(Variants, PackedFiles) {
   put(folder_ / "b.mtr.gz", gzip("4 1\n1\n2\n3\n4\n"));
   EXPECT_EQ(read_volume(folder_ / "b.node.gz").tetrahedra.size(), 1u);
   EXPECT_EQ(read_size_field(folder_ / "b.mtr.gz").tetrahedra.size(), 1u);
+  put(folder_ / "c.GLTF.gz", gzip(gltf_json("sub/a.bin")));
+  EXPECT_EQ(files_of_surface(folder_ / "c.GLTF.gz"),
+            (std::vector{folder_ / "c.GLTF.gz", folder_ / "sub/a.bin"}));
 }
 
 TEST_F(Variants, WhatStandsBehindAPackedFileIsTold) {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "gltf_samples.h"
 #include "holdfast/check.h"
 #include "holdfast/holdfast.h"
 #include "io_samples.h"
@@ -140,6 +141,14 @@ TEST_F(Locale, ValuesOfFiles) {
   put(path, bytes);
   const std::string text = same([&] { return message_of(path); });
   EXPECT_NE(text.find("a value that is not an integer, or out of range: 0.0625"), std::string::npos) << text;
+}
+
+TEST_F(Locale, NumbersOfJson) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "a.gltf";
+  put(path, gltf(R"("nodes":[{"mesh":0,"translation":[1.5,2.25e-1,-0.1]}])"));
+  use_comma();
+  EXPECT_EQ(read_surface(path).vertices[0], (Point{1.5, 0.225, -0.1}));
 }
 
 }  // namespace
