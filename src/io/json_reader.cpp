@@ -54,7 +54,7 @@ class TreeMaker final : public nlohmann::json_sax<Json> {
 
   bool null() override { return put(nullptr); }
   bool boolean(bool value) override { return put(value); }
-  bool number_integer(std::int64_t value) override { return put(value); }
+  bool number_integer(std::int64_t value) override { return value == 0 ? put(-0.0) : put(value); }
   bool number_unsigned(std::uint64_t value) override { return put(value); }
   bool number_float(double value, const std::string& spelled) override {
     // By the locale of the program round us the parser may have read a part of it only.

@@ -216,6 +216,13 @@ TEST_F(Gltf, CountsAndIndicesAreWholeNumbers) {
     EXPECT_NE(error(replaced(gltf(), "\"count\":4,", "\"count\":" + count + ",")), "read") << count;
 }
 
+TEST_F(Gltf, ZerosKeepTheirSigns) {
+  const Surface s =
+      surface(gltf(R"("nodes":[{"mesh":0,"matrix":[-0,0,0,0, -0,1,0,0, -0,0,1,0, -0,0,0,1]}])"));
+  EXPECT_TRUE(std::signbit(s.vertices[0][0]));
+  EXPECT_FALSE(std::signbit(s.vertices[0][1]));
+}
+
 TEST_F(Gltf, MembersOfOtherKinds) {
   for (const auto& [from, to] :
        std::vector<std::array<std::string, 2>>{{"\"buffer\":0", "\"buffer\":{}"},
