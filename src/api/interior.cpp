@@ -74,17 +74,19 @@ void note(const ImproveStats& stats, Report::Field& report) {
 // The part of the stage's work that every effort takes.
 constexpr double kCommonWork = 0.6;
 
-// What every effort begins with. Returns the worst energy that is left.
-double improve_as_fast(const Attempt& attempt, Field& field, Report::Field& report) {
+// What every effort begins with. It is brief where it may go on for falling behind the mesh without field
+// points.
+ImproveStats improve_as_fast(const Attempt& attempt, Field& field, Report::Field& report) {
   const Threads& threads = attempt.threads;
   report.before =
       describe_shape(field.parts ? shape_of(*field.parts, threads) : shape_of(field.volume(), threads));
   std::optional<FilledParts> filled;
   if (field.parts) filled.emplace(FilledParts{std::move(field.parts), field.size_function()});
-  const ImproveStats stats =
-      improve_in_parts(field.volume(), std::move(filled), Effort::fast, threads, attempt.monitor);
+  const bool may_be_brief = field.without && field.without->is_given();
+  const ImproveStats stats = improve_in_parts(field.volume(), std::move(filled), {Effort::fast, may_be_brief},
+                                              threads, attempt.monitor);
   note(stats, report);
-  return stats.worst;
+  return stats;
 }
 
 // Long thin facets may leave flat elements: what the other optimisation is made for.
@@ -99,45 +101,54 @@ void improve_flat(const Attempt& attempt, BoxMesh& box, Division& division, Repo
   if (!flat.empty()) optimise_worst_of(attempt, box, division, flat, PointsToRemove::added_here, report);
 }
 
-// Field points must not make any figure worse than it is without. Where little is missing, more work may
-// help; if it does not, only points that better their surroundings are put into the mesh without.
-void keep_what_pays(const Attempt& attempt, BoxMesh& box, Division& division, Field& field, Report& report) {
+// Field points must not make any figure worse than it is without. What was brief goes on. Where little is
+// missing, more work may help; if it does not, only points that better their surroundings are put into the
+// mesh without. Returns whether what was brief was enough.
+bool keep_what_pays(const Attempt& attempt, BoxMesh& box, Division& division, Field& field, bool was_brief,
+                    Report& report) {
   constexpr std::array<double, 2> kNoProgress{kCommonWork, kCommonWork};
   WithoutField& without = *field.without;
-  const Figures now = figures_of(field.volume(), attempt.threads);
-  if (!without.is_better_somewhere(now)) return;
+  Figures now = figures_of(field.volume(), attempt.threads);
+  if (!without.is_better_somewhere(now)) return was_brief;
+  if (was_brief) {
+    note(improve_in_parts(field.volume(), {}, Effort::fast, attempt.threads, attempt.monitor), report.field);
+    now = figures_of(field.volume(), attempt.threads);
+    if (!without.is_better_somewhere(now)) return false;
+  }
   if (without.is_within_reach(now)) {
     note(
         improve_further_in_parts(field.volume(), Effort::good, kNoProgress, attempt.threads, attempt.monitor),
         report.field);
-    if (!without.is_better_somewhere(figures_of(field.volume(), attempt.threads))) return;
+    if (!without.is_better_somewhere(figures_of(field.volume(), attempt.threads))) return false;
   }
   without.take(box, division);
   field.set_sizes(attempt);
   report.field.points = 0;
   note(improve_further_in_parts(field.volume(), Effort::fast, kNoProgress, attempt.threads, attempt.monitor),
        report.field);
+  return false;
 }
 
 // More effort goes on where less has ended, and makes no figure worse: so it never pays to spend less.
 void improve_with_field(const Attempt& attempt, BoxMesh& box, Division& division, Field& field,
                         Report& report) {
   const Threads& threads = attempt.threads;
-  const double worst = improve_as_fast(attempt, field, report.field);
+  const ImproveStats begun = improve_as_fast(attempt, field, report.field);
   // Flat ones are told from others in space; in a metric they may be as they should be.
-  if (worst > kEnergyOfFlat && !field.has_metric()) {
+  if (begun.worst > kEnergyOfFlat && !field.has_metric()) {
     improve_flat(attempt, box, division, report);
     field.give_sizes_to_new_vertices();
   }
+  bool was_brief = begun.was_brief;
   if (field.without) {
-    keep_what_pays(attempt, box, division, field, report);
+    was_brief = keep_what_pays(attempt, box, division, field, was_brief, report);
     field.worst_without = field.without->worst_quality();
   }
   field.without.reset();
   const Effort effort = attempt.options.effort;
   constexpr double kUpToGood = 0.75;
   if (effort != Effort::fast)
-    note(improve_further_in_parts(field.volume(), Effort::good,
+    note(improve_further_in_parts(field.volume(), {Effort::good, was_brief},
                                   {kCommonWork, effort == Effort::good ? 1 : kUpToGood}, threads,
                                   attempt.monitor),
          report.field);

@@ -47,7 +47,7 @@ WithoutField::WithoutField(const Attempt& attempt, const BoxMesh& box, const Div
 }
 
 bool WithoutField::is_better_somewhere(const Figures& with_field) {
-  if (before_.elements() == 0) return false;
+  if (!is_given()) return false;
   if (!optimised_) {
     if (is_plainly_worse(before_, with_field)) return false;
     optimise(mesh_, division_.tets(mesh_), first_free_, attempt_.input.target(), attempt_.threads,

@@ -24,33 +24,23 @@ class Improver {
 
   /// From now on, no figure may become worse.
   void keep(const Figures& figures) { volume_.keep(figures); }
+  /// From now on, what is bad may be left where it is much.
+  void be_brief() { is_brief_ = true; }
   /// Progress is that part of the stage's.
   void tell_as(std::array<double, 2> work) { work_ = work; }
 
   ImproveStats run() {
     const int steps = passes_.passes + passes_.rounds;
-    for (int pass = 0; pass < passes_.passes || (pass < tuning::kMostPasses && has_many_bad()); ++pass) {
+    for (int pass = 0; pass < passes_.passes || (pass < most_passes() && has_many_bad()); ++pass) {
       stage_ = {static_cast<double>(pass) / steps, 1.0 / steps};
       swap_pass();
       smooth_pass();
     }
-    for (int round = 0; round < passes_.rounds; ++round) {
-      stage_ = {static_cast<double>(passes_.passes + round) / steps, 1.0 / steps};
-      volume_.touch_all();
-      if (!work_on_single_ones(passes_.aim, passes_.work_per_tet, passes_.first, Patience::usual)) break;
-    }
-    if (passes_.first == First::the_mildest)
-      work_on_single_ones(passes_.aim, tuning::kShareOfTheWorst * passes_.work_per_tet, First::the_worst,
-                          Patience::usual);
-    // The very worst are few: they get as many rounds as help.
-    const double aim = passes_.patient_aim + tuning::kBeyondPatientAim;
-    volume_.touch_all();
-    for (int round = 0; round < tuning::kPatientRounds * passes_.rounds; ++round) {
-      volume_.touch_beside_touched();
-      if (!work_on_single_ones(aim, tuning::kPatientShare * passes_.work_per_tet, First::the_worst,
-                               Patience::all_ways))
-        break;
-    }
+    stats_.was_brief = is_brief_ && share_of_bad() > tuning::kBrief.many_bad;
+    if (stats_.was_brief)
+      work_briefly();
+    else
+      work_in_rounds(steps);
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
       if (is_worse(t, stats_.worst)) stats_.worst = volume_.energy(t);
     return stats_;
@@ -59,6 +49,42 @@ class Improver {
  private:
   using Patience = EnergyWays::Patience;
   using First = tuning::First;
+
+  void work_in_rounds(int steps) {
+    for (int round = 0; round < passes_.rounds; ++round) {
+      stage_ = {static_cast<double>(passes_.passes + round) / steps, 1.0 / steps};
+      volume_.touch_all();
+      if (!work_on_single_ones(passes_.aim, work(1), passes_.first, Patience::usual)) break;
+    }
+    if (passes_.first == First::the_mildest)
+      work_on_single_ones(passes_.aim, work(passes_.share_of_the_worst), First::the_worst, Patience::usual);
+    // The very worst are few: they get as many rounds as help.
+    volume_.touch_all();
+    for (int round = 0; round < tuning::kPatientRounds * passes_.rounds; ++round) {
+      volume_.touch_beside_touched();
+      if (!work_on_single_ones(patient_aim(), work(tuning::kPatientShare), First::the_worst,
+                               Patience::all_ways))
+        break;
+    }
+  }
+
+  // Facets force most of what is bad: no more than what shows in figures, and the very worst.
+  void work_briefly() {
+    const tuning::Brief& brief = tuning::kBrief;
+    volume_.touch_all();
+    work_on_single_ones(patient_aim(), brief.least_patient_work + brief.patient_work_per_tet * tets(),
+                        First::the_worst, Patience::all_ways);
+  }
+
+  [[nodiscard]] int most_passes() const {
+    return is_brief_ ? tuning::kBrief.most_passes : tuning::kMostPasses;
+  }
+  [[nodiscard]] double tets() const { return static_cast<double>(mesh_.tet_count()); }
+  /// Of a round that has such a part of the usual work.
+  [[nodiscard]] double work(double part) const {
+    return passes_.least_work + part * passes_.work_per_tet * tets();
+  }
+  [[nodiscard]] double patient_aim() const { return passes_.patient_aim + tuning::kBeyondPatientAim; }
 
   struct Entry {
     double rank;
@@ -107,12 +133,13 @@ class Improver {
   }
 
   // So many that passes are the faster way.
-  [[nodiscard]] bool has_many_bad() const {
+  [[nodiscard]] bool has_many_bad() const { return share_of_bad() > tuning::kManyBad; }
+  [[nodiscard]] double share_of_bad() const {
     const double from = energy_of_sine(passes_.aim);
     std::size_t bad = 0;
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
       if (is_worse(t, from)) ++bad;
-    return static_cast<double>(bad) > tuning::kManyBad * static_cast<double>(mesh_.tet_count());
+    return static_cast<double>(bad) / tets();
   }
 
   // Nothing forces elements that touch no constraint: where they are a good part of the volume and too many
@@ -134,7 +161,7 @@ class Improver {
   }
 
   // One element after another, as long as there is work left to spend. Returns whether any became better.
-  bool work_on_single_ones(double aim, double work_per_tet, First first, Patience patience) {
+  bool work_on_single_ones(double aim, double share, First first, Patience patience) {
     const double from = energy_of_sine(aim);
     std::priority_queue<Entry> queue;
     const auto rank = [&](Tet t) {
@@ -145,13 +172,12 @@ class Improver {
     };
     for (Tet t = 0; t < mesh_.slot_count(); ++t) push(t);
     const double count = 1 + static_cast<double>(queue.size());
-    const double share = tuning::kLeastElements + work_per_tet * static_cast<double>(mesh_.tet_count());
     double work = 0, budget = share;
     if (patience == Patience::usual && has_many_bad_inside()) patience = Patience::contractions;
     bool any = false;
     while (!queue.empty()) {
       if (work >= budget) {
-        if (patience == Patience::all_ways || budget >= tuning::kMostShares * share || !has_many_bad_inside())
+        if (patience == Patience::all_ways || budget >= passes_.most_shares * share || !has_many_bad_inside())
           break;
         budget += share;
       }
@@ -178,20 +204,24 @@ class Improver {
   EnergyWays ways_;
   const std::size_t most_inserted_;
   std::array<double, 2> stage_{}, work_{0, 1};
+  bool is_brief_ = false;
   ImproveStats stats_;
 };
 
 }  // namespace
 
-ImproveStats improve(const VolumeData& volume, Effort effort, Monitor& monitor,
+ImproveStats improve(const VolumeData& volume, Extent extent, Monitor& monitor,
                      std::span<const std::uint8_t> spared, std::span<const std::uint8_t> fresh) {
-  return Improver(volume, tuning::passes_of(effort), spared, fresh, monitor).run();
+  Improver improver(volume, tuning::passes_of(extent.effort), spared, fresh, monitor);
+  if (extent.is_brief) improver.be_brief();
+  return improver.run();
 }
 
-ImproveStats improve_further(const VolumeData& volume, Effort effort, const std::optional<Figures>& figures,
+ImproveStats improve_further(const VolumeData& volume, Extent extent, const std::optional<Figures>& figures,
                              std::array<double, 2> work, Monitor& monitor,
                              std::span<const std::uint8_t> spared, std::span<const std::uint8_t> fresh) {
-  Improver improver(volume, tuning::further_passes_of(effort), spared, fresh, monitor);
+  Improver improver(volume, tuning::further_passes_of(extent.effort, extent.is_brief), spared, fresh,
+                    monitor);
   improver.tell_as(work);
   if (figures) improver.keep(*figures);
   return improver.run();

@@ -14,11 +14,23 @@
 
 namespace holdfast {
 
+/// How far improvement goes.
+struct Extent {
+  Extent(Effort of, bool brief = false)
+      : effort(of), is_brief(brief) {}  // NOLINT(google-explicit-constructor)
+
+  Effort effort;
+  /// Where many elements are bad after a pass, most are left: for a result that is compared with another, and
+  /// goes on where it is worse. Of what goes on: that this is where it begins.
+  bool is_brief;
+};
+
 struct ImproveStats {
   std::size_t moved = 0, swapped = 0, contracted = 0, inserted = 0;
   std::size_t filled_in = 0;  ///< field points that were missing (improve_parts.h)
   bool filling_stopped_early = false;
-  double worst = 0;  ///< energy (energy.h): of what is not spared, nothing worse is left
+  bool was_brief = false;  ///< as it was allowed to be
+  double worst = 0;        ///< energy (energy.h): of what is not spared, nothing worse is left
 
   ImproveStats& operator+=(const ImproveStats& other) {
     moved += other.moved;
@@ -27,6 +39,7 @@ struct ImproveStats {
     inserted += other.inserted;
     filled_in += other.filled_in;
     filling_stopped_early |= other.filling_stopped_early;
+    was_brief |= other.was_brief;
     worst = std::max(worst, other.worst);
     return *this;
   }
@@ -37,13 +50,13 @@ struct ImproveStats {
 /// vertices that `spared` marks, by vertex, are left alone unless they are in the way of others. Passes begin
 /// with those at vertices that `fresh` marks, or that are higher than it tells of, and go on where something
 /// changed.
-ImproveStats improve(const VolumeData& volume, Effort effort, Monitor& monitor,
+ImproveStats improve(const VolumeData& volume, Extent extent, Monitor& monitor,
                      std::span<const std::uint8_t> spared = {}, std::span<const std::uint8_t> fresh = {});
 
-/// Goes on with what less effort has left, as far as `effort` goes. Changes keep `figures`, those of the
+/// Goes on with what less effort has left, as far as `extent` goes. Changes keep `figures`, those of the
 /// whole that the volume is, or is a part of, if they are given. Progress is told as that part of the stage's
 /// work.
-ImproveStats improve_further(const VolumeData& volume, Effort effort, const std::optional<Figures>& figures,
+ImproveStats improve_further(const VolumeData& volume, Extent extent, const std::optional<Figures>& figures,
                              std::array<double, 2> work, Monitor& monitor,
                              std::span<const std::uint8_t> spared = {},
                              std::span<const std::uint8_t> fresh = {});

@@ -29,7 +29,7 @@ ImproveStats improve_each(Parts& parts, const ImprovePart& improve_part, std::ar
 
 }  // namespace
 
-ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledParts> filled, Effort effort,
+ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledParts> filled, Extent extent,
                               const Threads& threads, Monitor& monitor) {
   constexpr double kMost = tuning::kWorkOfFirstParts;
   std::unique_ptr<Parts> parts;
@@ -37,11 +37,11 @@ ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledPart
     parts = std::move(filled->parts);
   else
     parts = cut_evenly(volume, threads);
-  if (!parts) return improve(volume, effort, monitor);
+  if (!parts) return improve(volume, extent, monitor);
   ImproveStats stats;
   for (std::array<double, 2> work{0, kMost}; parts; work = {kMost, 1}) {
     const auto improve_part = [&](Part& part, Monitor& own) {
-      return improve(part.data(parts->whole()), effort, own, part.on_cut(), part.was_on_cut());
+      return improve(part.data(parts->whole()), extent, own, part.on_cut(), part.was_on_cut());
     };
     stats += improve_each(*parts, improve_part, work, threads, monitor);
     parts = join_and_cut_again(*parts, threads);
@@ -54,16 +54,16 @@ ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledPart
   return stats;
 }
 
-ImproveStats improve_further_in_parts(const VolumeData& volume, Effort effort, std::array<double, 2> work,
+ImproveStats improve_further_in_parts(const VolumeData& volume, Extent extent, std::array<double, 2> work,
                                       const Threads& threads, Monitor& monitor) {
   std::unique_ptr<Parts> parts = cut_evenly(volume, threads);
-  if (!parts) return improve_further(volume, effort, figures_to_keep(volume, threads), work, monitor);
+  if (!parts) return improve_further(volume, extent, figures_to_keep(volume, threads), work, monitor);
   ImproveStats stats;
   const double most = work[0] + tuning::kWorkOfFirstParts * (work[1] - work[0]);
   for (std::array<double, 2> now{work[0], most}; parts; now = {most, work[1]}) {
     const std::optional<Figures> kept = figures_to_keep(volume, threads);
     const auto improve_part = [&](Part& part, Monitor& own) {
-      return improve_further(part.data(parts->whole()), effort, kept, {0, 1}, own, part.on_cut(),
+      return improve_further(part.data(parts->whole()), extent, kept, {0, 1}, own, part.on_cut(),
                              part.was_on_cut());
     };
     stats += improve_each(*parts, improve_part, now, threads, monitor);

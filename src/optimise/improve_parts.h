@@ -20,14 +20,14 @@ struct FilledParts {
 /// As `improve`, but a large mesh is cut into parts, unless it comes in parts. When these are joined, what
 /// the cuts forbade is made up for: what lies near them is filled and improved in the same way, as long as it
 /// has to be cut again. The threads make no difference to the result.
-ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledParts> filled, Effort effort,
+ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledParts> filled, Extent extent,
                               const Threads& threads, Monitor& monitor);
 
-/// Goes on with what less effort has left, as far as `effort` goes, and makes none of the figures of the
+/// Goes on with what less effort has left, as far as `extent` goes, and makes none of the figures of the
 /// volume (figures.h) worse than they are. Progress is told as that part of the stage's work. A large mesh is
 /// cut into parts. Each keeps the figures of the whole as if the others stayed as they are; as all but the
 /// least angle are means, the parts keep them together.
-ImproveStats improve_further_in_parts(const VolumeData& volume, Effort effort, std::array<double, 2> work,
+ImproveStats improve_further_in_parts(const VolumeData& volume, Extent extent, std::array<double, 2> work,
                                       const Threads& threads, Monitor& monitor);
 
 }  // namespace holdfast

@@ -115,7 +115,20 @@ struct Passes {
   /// The most points for single elements: of good surfaces few take any, but needles would take them without
   /// end.
   double inserted_per_tet;
+  double least_work = 1500;  ///< of a round, in elements tried, so that small meshes are done thoroughly
+  double share_of_the_worst = 0.3;  ///< of the work of a round, after the mildest
+  /// Where so much touches no constraint, and so much of the whole is bad besides, rounds get their work
+  /// again, up to so many times.
+  double most_shares = 10;
 };
+/// What is left of fast effort on results that are compared with others, where so large a share of the
+/// elements is below its aim after so many passes: one patient round.
+struct Brief {
+  double many_bad = 0.05;  ///< of smooth surfaces with a fine mesh 0.00001 to 0.012 are
+  int most_passes = 2;
+  double patient_work_per_tet = 0.06, least_patient_work = 600;
+};
+inline constexpr Brief kBrief;
 [[nodiscard]] constexpr Passes passes_of(Effort effort) {
   switch (effort) {
     case Effort::fast:
@@ -127,27 +140,31 @@ struct Passes {
   }
   return {6, 0.65, 0.80, 0.60, 0.34, 6, First::the_worst, 10, 0.08};
 }
-/// Of what goes on where less effort ended, with whatever that has left undone.
-[[nodiscard]] constexpr Passes further_passes_of(Effort effort) {
-  return effort == Effort::good ? Passes{0, 0.45, 0.50, 0.36, 0.24, 1, First::the_mildest, 1, 0.02}
-                                : passes_of(effort);
+/// Of what goes on where less effort ended, with whatever that has left undone: more of it where that was
+/// brief.
+[[nodiscard]] constexpr Passes further_passes_of(Effort effort, bool after_brief) {
+  if (effort != Effort::good) return passes_of(effort);
+  Passes passes{0, 0.45, 0.50, 0.36, 0.24, 1, First::the_mildest, 1, 0.02};
+  if (!after_brief) return passes;
+  passes.work_per_tet = 1.15;
+  passes.inserted_per_tet = 0.042;
+  passes.least_work = 3200;
+  passes.share_of_the_worst = 0.7;
+  passes.most_shares = 1;  // what was left need not be inside for want of work
+  return passes;
 }
-inline constexpr double kShareOfTheWorst = 0.3;  ///< of the work of a round, after the mildest
-inline constexpr int kMostPasses = 6;            ///< while many elements are bad, which passes help faster
-inline constexpr double kManyBad = 0.1;          ///< of the elements: as many are many
+inline constexpr int kMostPasses = 6;     ///< while many elements are bad, which passes help faster
+inline constexpr double kManyBad = 0.1;   ///< of the elements: as many are many
 inline constexpr int kPatientRounds = 3;  ///< times the rounds: the very worst are few and get all that help
 inline constexpr double kPatientShare = 0.1;       ///< of the work of a round for each of these
 inline constexpr double kBeyondPatientAim = 0.02;  ///< so that what is just better gets the cheap ways, too
 inline constexpr double kSineWorthAPoint = 0.42;   ///< 25 degrees; no element above is worth a vertex
 inline constexpr double kLongestContracted = 1.6;  ///< sizes: longer edges would undo the sizes asked for
 inline constexpr double kLongerContracted = 2;     ///< times the longest edge before, where that is longer
-// Where so much touches no constraint, and so much of the whole is bad besides, rounds get their work again,
-// up to so many times.
+// What asks for more shares of the work: of the elements.
 inline constexpr double kMuchInside = 0.15, kManyBadInside = 0.002;
 inline constexpr double kSineOfBad = 0.17364817766693033;  ///< 10 degrees
-inline constexpr double kMostShares = 10;
 // Work, in elements tried, some three microseconds each, as timed.
-inline constexpr double kLeastElements = 1500;     ///< so that small meshes are done thoroughly
 inline constexpr double kRefillWork = 600;         ///< 1 to 4 ms
 inline constexpr double kAddWork = 6;              ///< the shells of a point
 inline constexpr double kAddTetsAWork = 60;        ///< tetrahedra of its cavities

@@ -153,6 +153,27 @@ TEST(Improve, LeavesAValidMeshWithBetterElements) {
   EXPECT_LT(4 * below_10(), before);
 }
 
+// How much of a mesh of slivers is left for a comparison to tell whether it matters.
+TEST(Improve, IsBriefWhereManyElementsAreBadAndOnlyIfItMay) {
+  const auto improved = [](bool may_be_brief) {
+    TetMesh mesh = random_mesh(2000, 5);
+    std::vector<RegionId> region_of(mesh.slot_count(), 0);
+    std::vector<double> sizes(mesh.vertex_count(), 0.1);
+    // All vertices stand, so that bad elements stay.
+    const std::vector<bool> kept{true};
+    const VolumeData volume{mesh, region_of, sizes, kept, static_cast<Vertex>(mesh.vertex_count())};
+    const Options options;
+    Monitor monitor(options);
+    const ImproveStats stats = improve(volume, {Effort::fast, may_be_brief}, monitor);
+    EXPECT_EQ(find_fault(mesh), "");
+    return stats;
+  };
+  const ImproveStats whole = improved(false), brief = improved(true);
+  EXPECT_FALSE(whole.was_brief);
+  EXPECT_TRUE(brief.was_brief);
+  EXPECT_LT(brief.inserted, whole.inserted);
+}
+
 TEST(CavityRefiller, LessensTheEnergyAndLeavesAValidMesh) {
   TetMesh mesh = random_mesh(200, 6);
   std::vector<RegionId> region_of(mesh.slot_count(), 0);
