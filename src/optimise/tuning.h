@@ -146,7 +146,9 @@ inline constexpr Brief kBrief;
   if (effort != Effort::good) return passes_of(effort);
   Passes passes{0, 0.45, 0.50, 0.36, 0.24, 1, First::the_mildest, 1, 0.02};
   if (!after_brief) return passes;
-  passes.work_per_tet = 1.15;
+  passes.aim = 0.46;  // 27 degrees
+  passes.rounds = 2;
+  passes.work_per_tet = 1;
   passes.inserted_per_tet = 0.042;
   passes.least_work = 3200;
   passes.share_of_the_worst = 0.7;
