@@ -208,7 +208,9 @@ class Bending {
       for (const Index v : near_[list]) {
         if (v == a || v == b || v == c) continue;
         const Nearness near = beside_facet(at(v), at(a), at(b), at(c));
-        if (!(near.distance <= gap_) || !(surface_.facet(f).bent + near.bound() <= room_)) continue;
+        // A sliver has its points beside its sides, which are led through what is near.
+        if (!(near.distance <= gap_) || near.tilt > gap_) continue;
+        if (!(surface_.facet(f).bent + near.bound() <= room_)) continue;
         const BentFacet facet = surface_.take(f, near.bound());
         for (std::size_t i = 0; i < 3; ++i) {
           BentFacet part = facet;

@@ -29,6 +29,7 @@ Nearness beside_facet(const Point& p, const Point& a, const Point& b, const Poin
   const double t = dot(cross(ws, vs), n) / nn, s = dot(cross(us, ws), n) / nn;
   if (!(t > 0) || !(s > 0) || !(t + s < 1)) return near;
   near.distance = std::fabs(dot(ws, n)) / std::sqrt(nn) * size;
+  near.tilt = size / std::sqrt(nn) * 0x1p-50;
   for (std::size_t k = 0; k < 3; ++k) near.foot[k] = a[k] + t * u[k] + s * v[k];
   return near;
 }

@@ -33,6 +33,8 @@ struct Nearness {
   double t = 0;     ///< along the side
   Point foot{};     ///< the point below
   double size = 0;  ///< of the numbers that the distance was computed from
+  double tilt =
+      0;  ///< error of the distance from a sliver, whose normal is as uncertain as its area is small
 
   /// Of the distance, whose error is some last bits of these.
   [[nodiscard]] double bound() const { return distance + size * 0x1p-49; }

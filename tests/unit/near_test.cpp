@@ -1,0 +1,61 @@
+// Where points stand beside sides and facets.
+#include "repair/near.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <random>
+
+namespace holdfast::repairing {
+namespace {
+
+using Rational = boost::multiprecision::cpp_rational;
+using Exact = std::array<Rational, 3>;
+
+Exact minus_exactly(const Point& a, const Point& b) {
+  return {Rational(a[0]) - Rational(b[0]), Rational(a[1]) - Rational(b[1]), Rational(a[2]) - Rational(b[2])};
+}
+Exact cross_exactly(const Exact& a, const Exact& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Rational dot_exactly(const Exact& a, const Exact& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Of a point and the plane of a facet.
+double distance_exactly(const Point& p, const Point& a, const Point& b, const Point& c) {
+  const Exact n = cross_exactly(minus_exactly(b, a), minus_exactly(c, a));
+  const Rational along = dot_exactly(n, minus_exactly(p, a));
+  return std::sqrt(static_cast<double>(Rational(along * along / dot_exactly(n, n))));
+}
+
+TEST(Near, TheDistanceFromASliverIsAsUncertainAsItIsTold) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto vector = [&](double size) {
+    return Point{size * unit(random), size * unit(random), size * unit(random)};
+  };
+  int counted = 0, beyond_rounding = 0;
+  for (int k = 0; k < 20'000; ++k) {
+    const double height = std::exp2(-52 * std::fabs(unit(random))),
+                 above = std::exp2(-52 * std::fabs(unit(random)));
+    const Point a = vector(1), b = vector(1), aside = vector(height), up = vector(above);
+    Point c{}, p{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      c[i] = (a[i] + b[i]) / 2 + aside[i];
+      p[i] = (a[i] + b[i] + c[i]) / 3 + up[i];
+    }
+    const Nearness near = beside_facet(p, a, b, c);
+    if (!(near.distance < 1)) continue;
+    ++counted;
+    const double error = std::fabs(near.distance - distance_exactly(p, a, b, c)),
+                 rounding = near.bound() - near.distance;
+    EXPECT_LE(error, rounding + near.tilt);
+    beyond_rounding += error > rounding;
+  }
+  EXPECT_GT(counted, 1000);
+  EXPECT_GT(beyond_rounding, 10);
+}
+
+}  // namespace
+}  // namespace holdfast::repairing
