@@ -6,8 +6,8 @@
 
 namespace holdfast::repairing {
 
-/// What is joined where a surface is still not valid after it was cut and rounded twice: what is nearer to
-/// each other than some last bits of the largest coordinate.
+/// What is joined where a surface is still not valid after it was cut and rounded: what is nearer to each
+/// other than some last bits of the largest coordinate.
 struct Plan {
   double last_bits = 0;
   bool moves_input = false;
