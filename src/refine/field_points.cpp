@@ -75,7 +75,7 @@ FieldPoints filled_parts(const VolumeData& volume, const SizeFunction& sizes, co
   const auto [cuts, expected] = expected_work(volume, sizes, tets);
   if (cuts.part_count() == 1) return {};
   make_room(volume, expected);
-  add_section_points(volume, cuts, sizes, threads, monitor);
+  if (add_section_points(volume, cuts, sizes, threads, monitor) > tuning::kMostHugeOnCuts) return {};
   auto parts = cut_into_parts(volume, tets_inside(volume, threads), cuts, tuning::kMostAtFirstCuts, threads);
   if (!parts) return {};
   const FilledIn filled =

@@ -9,6 +9,7 @@
 #include <deque>
 #include <optional>
 
+#include "mesh/measure.h"
 #include "refine/field_inserter.h"
 #include "refine/tets_inside.h"
 #include "refine/tuning.h"
@@ -58,6 +59,19 @@ class SectionRefiner {
     }
   }
 
+  [[nodiscard]] double share_of_huge(const Threads& threads) const {
+    const std::vector<Tet> across = tets_inside(volume_, threads, [&](Tet t) {
+      return cuts_.any_across(corners_of(t), [](const Cuts::Plane&) { return true; });
+    });
+    double huge = 0, all = 0;
+    for (const Tet t : across) {
+      const double volume = six_volumes(mesh_, mesh_.corners(t));
+      all += volume;
+      if (const auto circle = large_circle(t); circle && circle->is_huge) huge += volume;
+    }
+    return all > 0 ? huge / all : 0;
+  }
+
  private:
   // In which the sphere of a tetrahedron meets a plane.
   struct Circle {
@@ -83,8 +97,7 @@ class SectionRefiner {
 
   [[nodiscard]] std::optional<Circle> large_circle(Tet t) const {
     if (!volume_.is_inside(t)) return {};
-    std::array<Point, 4> corners;
-    for (std::size_t i = 0; i < 4; ++i) corners[i] = mesh_.position(mesh_.corners(t)[i]);
+    const std::array<Point, 4> corners = corners_of(t);
     std::optional<Circle> found;
     cuts_.any_across(corners, [&](const Cuts::Plane& plane) {
       const ScaledCentre scaled = sphere_centre(corners[0], corners[1], corners[2], corners[3]);
@@ -102,6 +115,12 @@ class SectionRefiner {
       return found.has_value();
     });
     return found;
+  }
+
+  [[nodiscard]] std::array<Point, 4> corners_of(Tet t) const {
+    std::array<Point, 4> corners;
+    for (std::size_t i = 0; i < 4; ++i) corners[i] = mesh_.position(mesh_.corners(t)[i]);
+    return corners;
   }
 
   [[nodiscard]] double size_at(const Point& p, Tet t) const {
@@ -122,9 +141,11 @@ class SectionRefiner {
 
 }  // namespace
 
-void add_section_points(const VolumeData& volume, const Cuts& cuts, const SizeFunction& sizes,
-                        const Threads& threads, Monitor& monitor) {
-  SectionRefiner(volume, cuts, sizes, monitor).run(sizes.threads_of(threads));
+double add_section_points(const VolumeData& volume, const Cuts& cuts, const SizeFunction& sizes,
+                          const Threads& threads, Monitor& monitor) {
+  SectionRefiner refiner(volume, cuts, sizes, monitor);
+  refiner.run(sizes.threads_of(threads));
+  return refiner.share_of_huge(threads);
 }
 
 }  // namespace holdfast

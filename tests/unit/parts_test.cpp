@@ -21,6 +21,8 @@
 #include "optimise/volume.h"
 #include "refine/cut_parts.h"
 #include "refine/cuts.h"
+#include "refine/field_points.h"
+#include "refine/front.h"
 #include "refine/point_cavity.h"
 #include "refine/section_points.h"
 #include "refine/vector.h"
@@ -363,7 +365,7 @@ TEST(SectionPoints, MakeTheCirclesSmallInWhichSpheresMeetTheCuts) {
   const Sizes sizes{.size = 0.1};
   const SizeFunction size_function(sizes, {}, {}, SegmentTable{}, {}, 0);
   Monitor monitor(options);
-  add_section_points(cube.data(), cuts, size_function, 2, monitor);
+  EXPECT_LT(add_section_points(cube.data(), cuts, size_function, 2, monitor), 0.25);
   EXPECT_EQ(find_fault(cube.mesh), "");
   const std::size_t points = cube.mesh.vertex_count() - 8;
   EXPECT_GT(points, 120u);  // two unit squares and a half, in triangles of this size or larger ones
@@ -385,6 +387,33 @@ TEST(SectionPoints, MakeTheCirclesSmallInWhichSpheresMeetTheCuts) {
   }
   EXPECT_GT(all, 200u);
   EXPECT_LT(large, all / 4);  // next to the sides of the cube, which have no points
+}
+
+// A plate that is too thin for a point between its sides: circles stay as large as its triangles.
+TEST(SectionPoints, APlateOfTrianglesMuchLargerThanTheSizeIsNotCut) {
+  constexpr double kThickness = 0.004, kSize = 0.006;
+  constexpr int kColumns = 20;
+  Cube plate(0, false);
+  plate.mesh = TetMesh{};
+  for (int k = 0; k < 2 * kColumns * kColumns; ++k)
+    MeshEditor(plate.mesh)
+        .add_vertex(Point{k / 2 % kColumns / (kColumns - 1.0), k / 2 / kColumns / (kColumns - 1.0),
+                          k % 2 * kThickness});
+  ASSERT_TRUE(build_delaunay(plate.mesh, {1}, nullptr));
+  plate.region_of.assign(plate.mesh.slot_count(), 0);
+  for (Tet t = 0; t < plate.mesh.slot_count(); ++t)
+    if (plate.mesh.alive(t) && plate.mesh.is_ghost(t))
+      MeshEditor(plate.mesh).set_facet(plate.mesh.neighbour(t, 3));
+  plate.first_free = static_cast<Vertex>(plate.mesh.vertex_count());
+  const Options options;
+  const Sizes sizes{.size = kSize};
+  const SizeFunction size_function(sizes, {}, {}, SegmentTable{}, {}, 0);
+  Monitor monitor(options);
+  const Cuts cuts({{{0.5, 0.5, 0}, 1}, {{0.52, 0.5, 0}, 1}}, 1);
+  set_sizes_at_vertices(plate.data(), size_function, 1, monitor);
+  EXPECT_GT(add_section_points(plate.data(), cuts, size_function, 2, monitor), 0.9);
+  EXPECT_EQ(add_field_points(plate.data(), size_function, 2, monitor).parts, nullptr);
+  EXPECT_EQ(find_fault(plate.mesh), "");
 }
 
 // What a thread has computed, however little of the processor it gets.
