@@ -285,7 +285,7 @@ std::size_t GltfFile::bytes() const {
 }
 
 std::string GltfFile::decoded(const Json& uri) const {
-  static constexpr std::array<std::int8_t, 256> kValues = base64_values();
+  static constexpr std::array<int, 256> kValues = base64_values();
   constexpr std::string_view kMark = ";base64,";
   const std::string_view text = uri.get_ref<const std::string&>();
   const std::size_t mark = text.find(kMark);

@@ -56,7 +56,7 @@ class Stream {
  private:
   void decode_group(std::string& bytes) {
     beat(source_.watch);
-    static constexpr std::array<std::int8_t, 256> kValues = base64_values();
+    static constexpr std::array<int, 256> kValues = base64_values();
     const std::string_view group = source_.bytes.substr(position_, 4);
     if (group.size() < 4) fail("the base64 data ends too early; the file is truncated");
     const std::size_t padding = group[3] != '=' ? 0 : group[2] != '=' ? 1 : 2;

@@ -13,6 +13,8 @@ namespace holdfast {
 /// Hands out pieces of a buffer, and takes none back: what does not fit comes from the heap.
 class Scratch {
  public:
+  static constexpr std::size_t kBytes = 6144;
+
   Scratch() = default;
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
@@ -31,7 +33,7 @@ class Scratch {
   }
 
  private:
-  alignas(std::max_align_t) std::array<std::byte, 6144> buffer_;
+  alignas(std::max_align_t) std::array<std::byte, kBytes> buffer_;
   std::size_t used_ = 0;
 };
 
@@ -44,7 +46,7 @@ struct ScratchAllocator {
   ScratchAllocator(const ScratchAllocator<U>& other) : scratch(other.scratch) {}  // NOLINT
 
   T* allocate(std::size_t n) {
-    if (void* const piece = n <= sizeof(Scratch) / sizeof(T) ? scratch->take(n * sizeof(T)) : nullptr)
+    if (void* const piece = n <= Scratch::kBytes / sizeof(T) ? scratch->take(n * sizeof(T)) : nullptr)
       return static_cast<T*>(piece);
     return std::allocator<T>().allocate(n);
   }

@@ -174,7 +174,7 @@ class TetMesh {
     SlotPools* pools = nullptr;
     Attached() = default;
     Attached(const Attached&) {}
-    Attached& operator=(const Attached&) { return *this; }
+    Attached& operator=(const Attached&) { return *this; }  // NOLINT(bugprone-unhandled-self-assignment)
     ~Attached() = default;
   };
   // Called before a slot or a vertex changes.
