@@ -19,11 +19,20 @@ constexpr std::array<std::array<std::size_t, 2>, 6> kFacesAt{
 // Normals of the faces opposite a, b, c, d, all inward or all outward.
 using Normals = std::array<Vector, 4>;
 
-// Calls use(Q, normals) in plain arithmetic, and returns what it does; nothing for a tetrahedron too small or
-// too large for that, or whose six volumes are below `thin` times the cube of its longest edge.
-template <typename Use>
-auto plainly(const Point& a, const Point& b, const Point& c, const Point& d, double thin, Use&& use)
-    -> std::optional<decltype(use(0.0, Normals{}))> {
+// What Q stands on, in plain arithmetic.
+struct Plain {
+  Normals normals;
+  double longest, six_volumes, twice_area;
+
+  [[nodiscard]] bool is_thinner_than(double thin) const {
+    return !(six_volumes >= thin * longest * longest * longest);
+  }
+  // The inradius is three volumes over the area.
+  [[nodiscard]] double quality() const { return kQualityOfRegular * longest * twice_area / six_volumes; }
+};
+
+// Nothing for a tetrahedron too small or too large for that.
+std::optional<Plain> plain_of(const Point& a, const Point& b, const Point& c, const Point& d) {
   constexpr double kSmall = 1e-50, kLarge = 1e50;
   const Vector u = b - a, v = c - a, w = d - a;
   const Vector x = c - b, y = d - b, z = d - c;
@@ -31,12 +40,9 @@ auto plainly(const Point& a, const Point& b, const Point& c, const Point& d, dou
       std::sqrt(std::max({dot(u, u), dot(v, v), dot(w, w), dot(x, x), dot(y, y), dot(z, z)}));
   if (!(longest > kSmall && longest < kLarge)) return std::nullopt;
   const Vector n = cross(u, v);
-  const double six_volumes = std::abs(dot(n, w));
-  if (!(six_volumes >= thin * longest * longest * longest)) return std::nullopt;
   const Normals normals{cross(y, x), cross(v, w), cross(w, u), n};
   const double twice_area = length(normals[3]) + length(normals[1]) + length(normals[2]) + length(normals[0]);
-  // The inradius is three volumes over the area.
-  return use(kQualityOfRegular * longest * twice_area / six_volumes, normals);
+  return Plain{normals, longest, std::abs(dot(n, w)), twice_area};
 }
 
 // The same with care for what cancels.
@@ -83,22 +89,21 @@ Careful careful_of(const Point& a, const Point& b, const Point& c, const Point& 
 // Six volumes from here on, in cubes of the longest edge, leave ten digits in plain arithmetic.
 constexpr double kThin = 1e-5;
 
-// Less than Q, whatever is rounded; 0 where plain arithmetic does not tell. The length of each normal errs by
-// less than 10 eps times the square of the longest edge, the volume by less than 30 eps times its cube, and
-// what is computed with care errs by a millionth.
-double below_quality(const Point& a, const Point& b, const Point& c, const Point& d) {
-  constexpr double kRounding = 1e-14, kOfCareful = 0.999;
-  const auto plain = plainly(a, b, c, d, 0, [](double, const Normals& n) { return n; });
-  if (!plain) return 0;
-  const Normals& n = *plain;
-  const Vector u = b - a, v = c - a, w = d - a;
-  const Vector x = c - b, y = d - b, z = d - c;
-  const double square = std::max({dot(u, u), dot(v, v), dot(w, w), dot(x, x), dot(y, y), dot(z, z)});
-  const double longest = std::sqrt(square);
-  const double twice_area = length(n[0]) + length(n[1]) + length(n[2]) + length(n[3]);
-  const double six_volumes = std::abs(dot(n[3], w));
-  return kOfCareful * kQualityOfRegular * longest * (twice_area - kRounding * square) /
-         (six_volumes + kRounding * square * longest);
+// Q lies between these, whatever is rounded. The length of each normal errs by less than 10 eps times the
+// square of the longest edge, the volume by less than 30 eps times its cube, and what is computed with care
+// errs by a millionth.
+struct Bounds {
+  double lower, upper;
+};
+Bounds bounds_of_quality(const Plain& plain) {
+  constexpr double kRounding = 1e-14, kCare = 0.001;
+  const double square = plain.longest * plain.longest;
+  const double of_area = kRounding * square, of_volume = kRounding * square * plain.longest;
+  const double times = kQualityOfRegular * plain.longest;
+  const double least_volume = plain.six_volumes - of_volume;
+  return {(1 - kCare) * times * (plain.twice_area - of_area) / (plain.six_volumes + of_volume),
+          least_volume > 0 ? (1 + kCare) * times * (plain.twice_area + of_area) / least_volume
+                           : std::numeric_limits<double>::infinity()};
 }
 
 }  // namespace
@@ -109,15 +114,32 @@ double Angle::degrees() const {
 }
 
 double quality(const Point& a, const Point& b, const Point& c, const Point& d) {
-  if (const auto q = plainly(a, b, c, d, kThin, [](double x, const Normals&) { return x; })) return *q;
+  const std::optional<Plain> plain = plain_of(a, b, c, d);
+  if (plain && !plain->is_thinner_than(kThin)) return plain->quality();
   return careful_of(a, b, c, d).quality();
 }
 
 std::optional<double> quality_below(const Point& a, const Point& b, const Point& c, const Point& d,
                                     double limit) {
-  std::optional<double> q = plainly(a, b, c, d, kThin, [](double x, const Normals&) { return x; });
-  if (!q && below_quality(a, b, c, d) < limit) q = careful_of(a, b, c, d).quality();
-  return q && *q < limit ? q : std::nullopt;
+  const std::optional<Plain> plain = plain_of(a, b, c, d);
+  double q = 0;
+  if (plain && !plain->is_thinner_than(kThin)) {
+    q = plain->quality();
+  } else {
+    if (plain && bounds_of_quality(*plain).lower >= limit) return std::nullopt;
+    q = careful_of(a, b, c, d).quality();
+  }
+  return q < limit ? std::optional<double>(q) : std::nullopt;
+}
+
+bool is_quality_below(const Point& a, const Point& b, const Point& c, const Point& d, double limit) {
+  if (const std::optional<Plain> plain = plain_of(a, b, c, d)) {
+    if (!plain->is_thinner_than(kThin)) return plain->quality() < limit;
+    const Bounds bounds = bounds_of_quality(*plain);
+    if (bounds.lower >= limit) return false;
+    if (bounds.upper < limit) return true;
+  }
+  return careful_of(a, b, c, d).quality() < limit;
 }
 
 std::array<double, 6> dihedral_angles(const Point& a, const Point& b, const Point& c, const Point& d) {
@@ -128,17 +150,18 @@ std::array<double, 6> dihedral_angles(const Point& a, const Point& b, const Poin
 }
 
 std::optional<PlainShape> plain_shape(const Point& a, const Point& b, const Point& c, const Point& d) {
-  constexpr double kThin = 1e-3;  // of a cosine nine digits are left
-  return plainly(a, b, c, d, kThin, [](double q, const Normals& n) {
-    PlainShape shape{q, {}};
-    std::array<double, 4> inverse{};
-    for (std::size_t i = 0; i < 4; ++i) inverse[i] = 1 / length(n[i]);
-    for (std::size_t k = 0; k < 6; ++k) {
-      const auto [i, j] = kFacesAt[k];
-      shape.cosines[k] = -dot(n[i], n[j]) * inverse[i] * inverse[j];
-    }
-    return shape;
-  });
+  constexpr double kThinForAngles = 1e-3;  // of a cosine nine digits are left
+  const std::optional<Plain> plain = plain_of(a, b, c, d);
+  if (!plain || plain->is_thinner_than(kThinForAngles)) return std::nullopt;
+  const Normals& n = plain->normals;
+  PlainShape shape{plain->quality(), {}};
+  std::array<double, 4> inverse{};
+  for (std::size_t i = 0; i < 4; ++i) inverse[i] = 1 / length(n[i]);
+  for (std::size_t k = 0; k < 6; ++k) {
+    const auto [i, j] = kFacesAt[k];
+    shape.cosines[k] = -dot(n[i], n[j]) * inverse[i] * inverse[j];
+  }
+  return shape;
 }
 
 CarefulShape careful_shape(const Point& a, const Point& b, const Point& c, const Point& d) {

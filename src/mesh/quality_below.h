@@ -12,4 +12,8 @@ namespace holdfast {
 [[nodiscard]] std::optional<double> quality_below(const Point& a, const Point& b, const Point& c,
                                                   const Point& d, double limit);
 
+/// The same for whom Q itself does not matter, which takes no exact quality unless it is near the limit.
+[[nodiscard]] bool is_quality_below(const Point& a, const Point& b, const Point& c, const Point& d,
+                                    double limit);
+
 }  // namespace holdfast

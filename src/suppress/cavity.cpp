@@ -25,7 +25,24 @@ Cavity::Cavity(const TetMesh& mesh, std::span<const Tet> ball, Vertex first_free
 }
 
 bool Cavity::grow(std::mt19937_64& random) {
-  const std::vector<Tet> candidates = neighbours(random);
+  std::vector<Tet> candidates = across_;
+  sort_unique(candidates);
+  numbers::shuffle(candidates.begin(), candidates.end(), random);
+  // Those without a new vertex first.
+  const std::vector<Vertex> boundary = corners_of_all(faces_);
+  const auto brings_a_vertex = [&](Tet t) {
+    const auto& v = mesh_.corners(t);
+    return std::any_of(v.begin(), v.end(),
+                       [&](Vertex x) { return !std::binary_search(boundary.begin(), boundary.end(), x); });
+  };
+  std::size_t others = 0;
+  for (const Tet t : candidates) {
+    if (brings_a_vertex(t))
+      candidates[others++] = t;
+    else if (add(t))
+      return true;
+  }
+  candidates.resize(others);
   return std::any_of(candidates.begin(), candidates.end(), [&](Tet t) { return add(t); });
 }
 
@@ -109,20 +126,6 @@ bool Cavity::may_add(Tet t) const {
   for (int i = 0; i < 4; ++i)
     if (mesh_.is_facet(face_code(t, i)) && holds(tet_of(mesh_.neighbour(t, i)))) return false;
   return !mesh_.is_ghost(t);
-}
-
-// Across the faces, each once, in random order but those without a new vertex first.
-std::vector<Tet> Cavity::neighbours(std::mt19937_64& random) const {
-  std::vector<Tet> out = across_;
-  sort_unique(out);
-  numbers::shuffle(out.begin(), out.end(), random);
-  const std::vector<Vertex> boundary = corners_of_all(faces_);
-  std::stable_partition(out.begin(), out.end(), [&](Tet t) {
-    const auto& v = mesh_.corners(t);
-    return std::all_of(v.begin(), v.end(),
-                       [&](Vertex x) { return std::binary_search(boundary.begin(), boundary.end(), x); });
-  });
-  return out;
 }
 
 void Cavity::collect_faces() {

@@ -47,7 +47,6 @@ class Cavity {
   void drop_from(std::size_t size);
   [[nodiscard]] bool on_boundary(Vertex v) const { return any_holds(faces_, v); }
   [[nodiscard]] bool on_boundary(Vertex u, Vertex v) const { return any_holds(faces_, u, v); }
-  [[nodiscard]] std::vector<Tet> neighbours(std::mt19937_64& random) const;
   void collect_faces();
   void collect_faces_of(Tet t);
 

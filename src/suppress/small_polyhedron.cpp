@@ -64,6 +64,14 @@ LocalFace corners_of(FaceNumber number) {
   const LocalFace f = kTriangles[number / 2];
   return number % 2 == 0 ? f : LocalFace{f[0], f[2], f[1]};
 }
+// Of a face and another vertex, which may be anywhere in their order.
+std::size_t number_of_four(const LocalFace& triangle, Local d) {
+  const auto [a, b, c] = triangle;
+  if (d > c) return std::size_t{a} + kBinomial[b][2] + kBinomial[c][3] + kBinomial[d][4];
+  if (d > b) return std::size_t{a} + kBinomial[b][2] + kBinomial[d][3] + kBinomial[c][4];
+  if (d > a) return std::size_t{a} + kBinomial[d][2] + kBinomial[b][3] + kBinomial[c][4];
+  return std::size_t{d} + kBinomial[a][2] + kBinomial[b][3] + kBinomial[c][4];
+}
 constexpr std::size_t face_numbers(std::size_t vertices) { return 2 * std::size_t{kBinomial[vertices][3]}; }
 
 // A set of vertices, one bit each.
@@ -183,6 +191,7 @@ class Search {
         n_(vertices.size()),
         sides_(mesh, std::move(vertices)),
         apexes_(face_numbers(n_), kUnknownApexes),
+        fits_(kBinomial[n_][4], Fits::unknown),
         open_(n_) {
     for (const auto& f : faces) open_.add(number_of({local(f[0]), local(f[1]), local(f[2])}));
   }
@@ -203,6 +212,7 @@ class Search {
     int count;
   };
   static constexpr Apexes kUnknownApexes{0, -1};
+  enum class Fits : std::uint8_t { unknown, no, yes };
 
   [[nodiscard]] Vertex vertex(Local v) const { return sides_.vertices()[v]; }
   [[nodiscard]] Local local(Vertex v) const {
@@ -223,9 +233,16 @@ class Search {
   [[nodiscard]] bool is_good(const LocalFace& f, Local d) const {
     if (std::isinf(worst_quality_)) return true;
     const auto at = [&](Local v) -> const Point& { return mesh_.position(vertex(v)); };
-    if (measure_ == quality)
-      return quality_below(at(f[0]), at(f[1]), at(f[2]), at(d), worst_quality_).has_value();
+    if (measure_ == quality) return is_quality_below(at(f[0]), at(f[1]), at(f[2]), at(d), worst_quality_);
     return measure_(at(f[0]), at(f[1]), at(f[2]), at(d)) < worst_quality_;
+  }
+
+  // Each of the four faces asks.
+  bool fits(FaceNumber number, Local d) {
+    Fits& known = fits_[number_of_four(kTriangles[number / 2], d)];
+    if (known == Fits::unknown)
+      known = is_good(corners_of(number), d) && is_empty(number, d) ? Fits::yes : Fits::no;
+    return known == Fits::yes;
   }
 
   // The vertices that make a positive, good, empty tetrahedron with the face.
@@ -233,10 +250,9 @@ class Search {
     Apexes& found = apexes_[number];
     if (found.count >= 0) return found;
     found = {0, 0};
-    const LocalFace f = corners_of(number);
     for (Mask rest = sides_.above(number); rest != 0; rest &= rest - 1) {
       const auto d = static_cast<Local>(std::countr_zero(rest));
-      if (!is_good(f, d) || !is_empty(number, d)) continue;
+      if (!fits(number, d)) continue;
       found.mask |= Mask{1} << d;
       ++found.count;
     }
@@ -335,6 +351,7 @@ class Search {
   const std::size_t n_;
   Sides sides_;
   std::vector<Apexes> apexes_;  // by face
+  std::vector<Fits> fits_;      // by the number of the four corners
   OpenFaces open_;
   std::vector<std::array<Local, 4>> tets_;
 };

@@ -111,6 +111,7 @@ TEST(Quality, BelowALimitIsTheSame) {
       const std::optional<double> below = quality_below(a, b, c, d, limit);
       ASSERT_EQ(below.has_value(), q < limit) << q << " " << limit;
       ASSERT_EQ(below.value_or(q), q);
+      ASSERT_EQ(is_quality_below(a, b, c, d, limit), q < limit) << q << " " << limit;
       ++(below ? told : withheld);
     }
   }
