@@ -106,6 +106,18 @@ Bounds bounds_of_quality(const Plain& plain) {
                            : std::numeric_limits<double>::infinity()};
 }
 
+// No face is larger than an equilateral triangle on the longest edge l, so that Q <= sqrt(1/2) l^3 / 6V: for
+// most tetrahedra that will do.
+bool is_surely_below(const Point& a, const Point& b, const Point& c, const Point& d, double limit) {
+  constexpr double kSmall = 1e-100, kLarge = 1e100, kCare = 1 + 1e-6;
+  const Vector u = b - a, v = c - a, w = d - a;
+  const Vector x = c - b, y = d - b, z = d - c;
+  const double square = std::max({dot(u, u), dot(v, v), dot(w, w), dot(x, x), dot(y, y), dot(z, z)});
+  if (!(square > kSmall && square < kLarge)) return false;
+  const double six_volumes = dot(cross(u, v), w), cubed = square * square * square;
+  return six_volumes * six_volumes > std::max(kThin * kThin, kCare / 2 / (limit * limit)) * cubed;
+}
+
 }  // namespace
 
 double Angle::degrees() const {
@@ -133,6 +145,7 @@ std::optional<double> quality_below(const Point& a, const Point& b, const Point&
 }
 
 bool is_quality_below(const Point& a, const Point& b, const Point& c, const Point& d, double limit) {
+  if (is_surely_below(a, b, c, d, limit)) return true;
   if (const std::optional<Plain> plain = plain_of(a, b, c, d)) {
     if (!plain->is_thinner_than(kThin)) return plain->quality() < limit;
     const Bounds bounds = bounds_of_quality(*plain);

@@ -29,7 +29,7 @@ bool Cavity::grow(std::mt19937_64& random) {
   sort_unique(candidates);
   numbers::shuffle(candidates.begin(), candidates.end(), random);
   // Those without a new vertex first.
-  const std::vector<Vertex> boundary = corners_of_all(faces_);
+  const std::vector<Vertex> boundary = corners();
   const auto brings_a_vertex = [&](Tet t) {
     const auto& v = mesh_.corners(t);
     return std::any_of(v.begin(), v.end(),
@@ -83,6 +83,7 @@ bool Cavity::add(Tet t) {
     faces_.push_back(faces_before_[k]);
     across_.push_back(across_before_[k]);
   }
+  corners_.clear();
   tets_.push_back(t);
   collect_faces_of(t);
   if (!encloses_a_constraint(t)) return true;
@@ -109,7 +110,10 @@ bool Cavity::encloses_a_constraint(Tet t) const {
   return false;
 }
 
-std::size_t Cavity::vertex_count() const { return corners_of_all(faces_).size(); }
+const std::vector<Vertex>& Cavity::corners() const {
+  if (corners_.empty()) corners_ = corners_of_all(faces_);
+  return corners_;
+}
 
 std::vector<Vertex> Cavity::inner() const {
   std::vector<Vertex> out;
@@ -129,6 +133,7 @@ bool Cavity::may_add(Tet t) const {
 }
 
 void Cavity::collect_faces() {
+  corners_.clear();
   faces_.clear();
   across_.clear();
   for (const Tet t : tets_) collect_faces_of(t);

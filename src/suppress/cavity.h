@@ -35,11 +35,13 @@ class Cavity {
   [[nodiscard]] const std::vector<Tet>& tets() const { return tets_; }
   /// Faces, such that a point x inside sees them with orient(f0, f1, f2, x) > 0.
   [[nodiscard]] const std::vector<std::array<Vertex, 3>>& faces() const { return faces_; }
-  [[nodiscard]] std::size_t vertex_count() const;
+  [[nodiscard]] std::size_t vertex_count() const { return corners().size(); }
   /// The Steiner points strictly inside.
   [[nodiscard]] std::vector<Vertex> inner() const;
 
  private:
+  /// Of the faces, in ascending order.
+  [[nodiscard]] const std::vector<Vertex>& corners() const;
   [[nodiscard]] bool holds(Tet t) const;
   bool add(Tet t);
   [[nodiscard]] bool may_add(Tet t) const;
@@ -54,7 +56,8 @@ class Cavity {
   const Vertex first_free_;
   std::vector<Tet> tets_;
   std::vector<std::array<Vertex, 3>> faces_;
-  std::vector<Tet> across_;  // by face
+  std::vector<Tet> across_;              // by face
+  mutable std::vector<Vertex> corners_;  // empty until they are asked for
   // Before the last tetrahedron was added; kept to allocate nothing.
   std::vector<std::array<Vertex, 3>> faces_before_;
   std::vector<Tet> across_before_;
