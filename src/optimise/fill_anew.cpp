@@ -54,6 +54,12 @@ bool fill_anew_round(Search& search, const WaitingElement& worst, const Filler& 
   return false;
 }
 
+// What is less bad may be in the way of what is worst. Where it was not, more of it would better nothing.
+bool is_left(Search& search, double quality) {
+  const std::optional<WaitingElement> worst = search.worst();
+  return worst && worst->quality >= quality;
+}
+
 // `limit` is the worst Q that the place of a point may have.
 bool fill_anew_without(Search& search, Vertex p, const Filler& fill, double limit) {
   std::vector<Tet> tets;
@@ -99,15 +105,19 @@ void fill_anew_round_the_worst(Search& search, const FillAnew& how) {
   const auto bad_from = [&](double targets) {
     return std::max(tuning::kLeastFilledAnew, targets * search.target());
   };
-  // What is less bad may be in the way of what is worst.
-  double worth_it = bad_from(how.from_target);
+  double worth_it = bad_from(how.from_target), left = 0;
   std::vector<TetMesh::Corners> left_out;
   int vain = 0;
   for (int k = 0; k < tuning::kMostFilledAnew && vain < tuning::kFilledAnewInVain; ++k) {
     const std::optional<WaitingElement> worst = search.worst(left_out);
     if (!worst || worst->quality < worth_it) return;
     worth_it = bad_from(tuning::kFilledAnewForTarget);
-    if (!fill_anew_round(search, *worst, how.fill, left_out)) ++vain;
+    if (!fill_anew_round(search, *worst, how.fill, left_out)) {
+      ++vain;
+      left = std::max(left, worst->quality);
+    } else if (vain > 0 && is_left(search, left)) {
+      return;
+    }
   }
 }
 
