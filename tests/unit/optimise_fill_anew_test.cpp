@@ -163,6 +163,28 @@ TEST(FillAnew, MakesNothingWorse) {
   EXPECT_GT(better, 5);
 }
 
+// Once the worst is in vain, others are worth it where it goes with them.
+TEST(FillAnew, EndsWithOneBesideTheWorst) {
+  std::size_t beside = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Searched s(seed);
+    const auto worst = s.search.worst();
+    ASSERT_TRUE(worst);
+    const Filler not_round_the_worst = [&](const Complex& complex, PointsOfFilling) {
+      const auto has = [&](Vertex v) {
+        return std::count(complex.vertices.begin(), complex.vertices.end(), s.mesh.position(v)) > 0;
+      };
+      const bool has_all = std::all_of(worst->corners.begin(), worst->corners.end(), has);
+      return has_all ? std::nullopt : filled(complex);
+    };
+    fill_anew_round_the_worst(s.search, {not_round_the_worst, 3});
+    EXPECT_EQ(s.search.badness().worst, worst->quality);
+    EXPECT_LE(s.search.stats().filled_anew, 1U) << seed;
+    beside += s.search.stats().filled_anew;
+  }
+  EXPECT_GT(beside, 0U);
+}
+
 TEST(FillAnew, ChangesNothingWhereNothingFits) {
   const auto corners_of = [](const TetMesh& mesh) {
     std::vector<TetMesh::Corners> corners;
