@@ -1,6 +1,7 @@
 #include "check_repair/cover.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -8,6 +9,7 @@
 #include <set>
 
 #include "check/findings.h"
+#include "check_repair/closed_chains.h"
 #include "text/decimal.h"
 
 namespace holdfast::checking {
@@ -101,7 +103,23 @@ class Cover {
           at->second |= 1U << i;
     return at->second;
   }
-  unsigned sides_of(const Segment& edge) { return sides_of(edge[0]) & sides_of(edge[1]); }
+  unsigned sides_of(const Segment& edge) {
+    const unsigned sides = sides_of(edge[0]) & sides_of(edge[1]);
+    const auto at_corner = at_corners_.find(edge);
+    return at_corner == at_corners_.end() ? sides : sides | at_corner->second;
+  }
+
+  /// Makes edges of corners with all vertices within reach of them. (c)
+  void join_corners() {
+    if (are_corners_joined_) return;
+    are_corners_joined_ = true;
+    for (std::size_t i = 0; i < 3; ++i)
+      test_.near(Box(triangle_[i]), [&](Index f) {
+        for (const Index v : test_.facets_[f])
+          if (v != places_[i] && test_.reach_.of_point(test_.vertices_[v], triangle_[i]))
+            at_corners_[edge_of(places_[i], v)] |= 1U << i | 1U << (i + 2) % 3;
+      });
+  }
 
   /// Takes a chain (b) for a side off what is odd.
   bool take_side(std::size_t side) {
@@ -111,23 +129,34 @@ class Cover {
     for (const Segment& edge : odd_)
       if ((sides_of(edge) >> side & 1U) != 0) usable.insert(edge);
     std::vector<Segment> found = path(neighbours_of(usable), usable, a, b);
+    std::set<Segment> wider = usable;
     if (found.empty()) {
-      std::set<Segment> wider = usable;
       Box box(triangle_[side]);
       box.extend(triangle_[(side + 1) % 3]);
-      test_.near(box, [&](Index f) {
-        const Triangle& t = test_.facets_[f];
-        for (std::size_t i = 0; i < 3; ++i)
-          if (const Segment edge = edge_of(t[i], t[(i + 1) % 3]); (sides_of(edge) >> side & 1U) != 0)
-            wider.insert(edge);
+      for_each_edge_near(box, [&](const Segment& edge) {
+        if ((sides_of(edge) >> side & 1U) != 0) wider.insert(edge);
       });
+      found = path(neighbours_of(wider), usable, a, b);
+    }
+    if (found.empty()) {
+      join_corners();
+      for (const auto& [edge, sides] : at_corners_)
+        if ((sides >> side & 1U) != 0) wider.insert(edge);
       found = path(neighbours_of(wider), usable, a, b);
     }
     for (const Segment& edge : found) flip(odd_, edge);
     return !found.empty();
   }
 
-  /// What is odd still must fall into parts of which each belongs to the chain of one side.
+  template <class Visit>
+  void for_each_edge_near(const Box& box, Visit&& visit) {
+    test_.near(box, [&](Index f) {
+      const Triangle& t = test_.facets_[f];
+      for (std::size_t i = 0; i < 3; ++i) visit(edge_of(t[i], t[(i + 1) % 3]));
+    });
+  }
+
+  /// What is odd still must fall into parts of which each is a sum of closed chains of sides.
   bool is_rest_on_sides() {
     const Neighbours neighbours = neighbours_of(odd_);
     std::set<Index> seen;
@@ -142,8 +171,10 @@ class Cover {
           if (seen.insert(w).second) part.push_back(w);
       }
       if (sides != 0) continue;
+      std::set<Segment> edges;
       for (const Index v : part)
-        for (const Index w : neighbours.at(v)) astray_.insert(edge_of(v, w));
+        for (const Index w : neighbours.at(v)) edges.insert(edge_of(v, w));
+      if (!is_of_closed_chains(edges)) astray_.merge(edges);
     }
     if (!astray_.empty()) {
       const auto away =
@@ -151,6 +182,27 @@ class Cover {
       first_astray_ = away != astray_.end() ? *away : *astray_.begin();
     }
     return astray_.empty();
+  }
+
+  /// Of several sides: where these meet, edges of the output that lie on two of them may be in both chains.
+  bool is_of_closed_chains(const std::set<Segment>& odd) {
+    join_corners();
+    if (std::any_of(odd.begin(), odd.end(), [&](const Segment& e) { return sides_of(e) == 0; })) return false;
+    std::vector<SidedEdge> edges;
+    std::set<Segment> told;
+    const auto tell = [&](const Segment& edge, bool is_odd) {
+      const unsigned sides = sides_of(edge);
+      if ((is_odd || std::popcount(sides) > 1) && told.insert(edge).second)
+        edges.push_back({edge, sides, is_odd});
+    };
+    Box box(test_.vertices_[(*odd.begin())[0]]);
+    for (const Segment& edge : odd) {
+      tell(edge, true);
+      for (const Index v : edge) box.extend(test_.vertices_[v]);
+    }
+    for (const auto& [edge, unused] : at_corners_) tell(edge, false);
+    for_each_edge_near(box, [&](const Segment& edge) { tell(edge, false); });
+    return are_closed_chains(edges);
   }
 
   using AtEdge = std::map<Segment, std::vector<Index>>;
@@ -222,6 +274,8 @@ class Cover {
   std::span<const Index> chain_;
   std::set<Segment> odd_;
   std::map<Index, unsigned> sides_;
+  std::map<Segment, unsigned> at_corners_;
+  bool are_corners_joined_ = false;
   std::set<Segment> astray_;
   std::optional<Segment> first_astray_;
 };
@@ -257,19 +311,6 @@ Index CoverTest::within_reach(const Point& p, Index vertex) {
   return found;
 }
 
-Index CoverTest::corner_within_reach(const Point& p, std::span<const Index> chain) const {
-  Index found = no_entity;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Index f : chain)
-    for (const Index v : facets_[f])
-      if (const double distance = rough_distance(vertices_[v], p);
-          (distance < least || (distance == least && v < found)) && reach_.of_point(vertices_[v], p)) {
-        found = v;
-        least = distance;
-      }
-  return found;
-}
-
 std::optional<std::string> CoverTest::gap(const std::array<Point, 3>& triangle, std::array<Index, 3> places,
                                           std::span<const Index> chain) {
   for (std::size_t i = 0; i < 3; ++i) {
@@ -285,14 +326,7 @@ std::optional<std::string> CoverTest::gap(const std::array<Point, 3>& triangle, 
     std::sort(t.begin(), t.end());
     if (t == corners) return std::nullopt;
   }
-  std::optional<std::string> gap = Cover(*this, triangle, places, chain).gap();
-  if (!gap) return gap;
-  // Any vertex within reach of a corner may stand for it: of the children's the nearest.
-  std::array<Index, 3> others = places;
-  for (std::size_t i = 0; i < 3; ++i)
-    if (const Index v = corner_within_reach(triangle[i], chain); v != no_entity) others[i] = v;
-  if (others == places || Cover(*this, triangle, others, chain).gap()) return gap;
-  return std::nullopt;
+  return Cover(*this, triangle, places, chain).gap();
 }
 
 std::optional<std::string> CoverTest::gap(const std::array<Point, 2>& segment, std::array<Index, 2> places,

@@ -5,7 +5,11 @@
 // triangles have) be the sum of three chains of edges of the output, one for each side of t, such that
 //   (a) both ends of every edge of the chain of AB lie within D of AB, and
 //   (b) the boundary of that chain is A' + B', where A' is a vertex of the output within D of A, and so on.
-// Then every point of t lies within D of a point of K, of these edges, or of A', B', C'.
+//   (c) The chains of AB and BC may have edges from B' to other vertices within D of B that are no edges of
+//   the
+//       output, and likewise at A and C.
+// Then every point of t lies within D of a point of K, of edges of the output in the chains, or of an end of
+// one as in (c), A', B' and C' among them.
 //
 // Proof. Give each vertex of K its nearest point in t, and extend this linearly over K: f moves no point by
 // more than D, since x - f(x) is a convex combination of such differences at corners. Do the same for the
@@ -52,8 +56,6 @@ class CoverTest {
   [[nodiscard]] const BoxTree& tree();
   /// A used vertex within reach of a point, the given one if it is.
   [[nodiscard]] Index within_reach(const Point& p, Index vertex);
-  /// The nearest corner of some facets that is.
-  [[nodiscard]] Index corner_within_reach(const Point& p, std::span<const Index> chain) const;
   /// The facets whose boxes come within reach of a box.
   template <class Visit>
   void near(Box box, Visit&& visit);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "check_repair/cover.h"
 #include "check_repair/reach.h"
@@ -130,6 +131,78 @@ TEST(Cover, AChildThatIsAllOfIt) {
   const Reach reach(0);
   EXPECT_FALSE(CoverTest(vertices, facets, reach).gap(triangle, {0, 1, 2}, std::vector<Index>{1, 0}));
   EXPECT_TRUE(CoverTest(vertices, facets, reach).gap(triangle, {0, 1, 2}, std::vector<Index>{1}));
+}
+
+// Two gaps, each along one side and no wider than the distance, that share the corner between the sides.
+TEST(Cover, GapsAlongTwoSidesThatShareACorner) {
+  const double e = 1e-9;
+  const std::array<Point, 3> triangle{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}};
+  const std::vector<Point> vertices{triangle[0],     triangle[1],     triangle[2],        {0.6, e, 0},
+                                    {0.6, 2 * e, 0}, {1 - e, 0.5, 0}, {1 - 2 * e, 0.5, 0}};
+  std::vector<Triangle> facets{{0, 1, 3}, {0, 3, 4}, {0, 4, 2}, {4, 1, 6}, {4, 6, 2}, {6, 5, 2}, {5, 1, 2}};
+  const std::vector<Index> children{0, 1, 2, 3, 4, 5, 6};
+  const Reach reach(2.5 * e), nearer(1.5 * e);
+  EXPECT_FALSE(CoverTest(vertices, facets, reach).gap(triangle, {0, 1, 2}, children));
+  EXPECT_TRUE(CoverTest(vertices, facets, nearer).gap(triangle, {0, 1, 2}, children));
+  // A gap between the sides is none along them.
+  const std::vector<Index> without{0, 1, 2, 4, 5, 6};
+  EXPECT_TRUE(CoverTest(vertices, facets, reach).gap(triangle, {0, 1, 2}, without));
+}
+
+// A gap with a corner of the triangle, of which one side goes to another vertex near to it than the other:
+// the two are the two ends of a side that is odd, and of none.
+TEST(Cover, AGapWithTwoVerticesNearToACorner) {
+  const double e = 1e-9;
+  const std::array<Point, 3> triangle{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}};
+  const std::vector<Point> vertices{triangle[0],   triangle[1],       triangle[2],
+                                    {1 - e, e, 0}, {0.6, 1.5 * e, 0}, {1 - 1.5 * e, 0.5, 0}};
+  // What is missing are the triangles 1 3 4 and 1 3 5, or the one quadrilateral of both.
+  const std::vector<Triangle> facets{{0, 1, 4}, {0, 4, 2}, {4, 3, 5}, {4, 5, 2}, {5, 1, 2}};
+  const std::vector<Index> children{0, 1, 2, 3, 4};
+  const Reach reach(2 * e), nearer(1.2 * e);
+  EXPECT_FALSE(CoverTest(vertices, facets, reach).gap(triangle, {0, 1, 2}, children));
+  EXPECT_TRUE(CoverTest(vertices, facets, nearer).gap(triangle, {0, 1, 2}, children));
+}
+
+// Whatever is taken for a cover is one: points of the triangle are within the distance of some facet.
+TEST(Cover, IsTakenForNoneWhereAPointIsTooFar) {
+  const std::array<Point, 3> triangle{{{0, 0, 0}, {6, 0, 0}, {1, 5, 0}}};
+  const double distance = 1.25;
+  const Reach reach(distance);
+  std::mt19937 random(7);
+  const auto below = [&](std::size_t n) { return static_cast<Index>(random() % n); };
+  std::vector<Point> vertices;
+  for (double x = -1; x <= 7; x += 1)
+    for (double y = -1; y <= 6; y += 1)
+      for (const double z : {0.0, 0.5})
+        if (const Point p{x, y, z}; reach.of_triangle(p, triangle)) vertices.push_back(p);
+  std::size_t covers = 0;
+  for (int round = 0; round < 4000; ++round) {
+    // A coarse choice of vertices, so that facets share sides.
+    std::vector<Index> some(7);
+    for (Index& v : some) v = below(vertices.size());
+    std::vector<Triangle> facets;
+    std::vector<Index> children;
+    for (int k = 0; k < 14; ++k)
+      if (const Triangle t{some[below(7)], some[below(7)], some[below(7)]};
+          t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) {
+        if (k < 7) children.push_back(static_cast<Index>(facets.size()));
+        facets.push_back(t);
+      }
+    if (CoverTest(vertices, facets, reach).gap(triangle, {no_entity, no_entity, no_entity}, children))
+      continue;
+    ++covers;
+    constexpr int kParts = 24;
+    for (int i = 0; i <= kParts; ++i)
+      for (int j = 0; i + j <= kParts; ++j) {
+        const double s = static_cast<double>(i) / kParts, t = static_cast<double>(j) / kParts;
+        const Point p{6 * s + t, 5 * t, 0};
+        EXPECT_TRUE(std::any_of(facets.begin(), facets.end(), [&](const Triangle& f) {
+          return Reach(distance + 1e-12).of_triangle(p, {vertices[f[0]], vertices[f[1]], vertices[f[2]]});
+        }));
+      }
+  }
+  EXPECT_GT(covers, 100U);
 }
 
 TEST(Cover, Segments) {
