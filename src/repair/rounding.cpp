@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "repair/bounds.h"
 #include "repair/exact_surface.h"
 #include "repair/fins.h"
 #include "repair/flatten.h"
@@ -15,40 +16,12 @@
 #include "repair/restore.h"
 #include "repair/rounded_planes.h"
 #include "repair/settle.h"
+#include "repair/strips.h"
 #include "repair/weld.h"
 #include "surface/elements.h"
 
 namespace holdfast::repairing {
 namespace {
-
-/// Sums of numbers that are rounded up.
-double sum_above(double a, double b) {
-  if (a == 0 || b == 0) return a + b;
-  return std::nextafter(a + b, std::numeric_limits<double>::infinity());
-}
-
-/// How far each new point is from the doubles nearest to it.
-std::vector<double> rounded_by(const arrange::Arrangement& arrangement, const Threads& threads) {
-  std::vector<double> all(arrangement.points.size());
-  parallel_ranges(threads, all.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k)
-      all[k] = exact::distance_bound(arrangement.points[k], arrangement.nearest[k].data());
-  });
-  return all;
-}
-
-double largest(const std::vector<double>& distances) {
-  return distances.empty() ? 0 : *std::max_element(distances.begin(), distances.end());
-}
-
-/// The last bit of the largest coordinate.
-double last_bit(const State& state) {
-  double most = 0;
-  for (const Point& p : state.vertices)
-    for (const double x : p)
-      if (std::isfinite(x)) most = std::max(most, std::fabs(x));
-  return std::nextafter(most, std::numeric_limits<double>::infinity()) - most;
-}
 
 class Rounding {
  public:
@@ -74,6 +47,7 @@ class Rounding {
   /// comes late, if at all.
   void begin() {
     given_ = rounded_.state;
+    given_displacement_ = rounded_.displacement;
     new_points_[0] = cut(options_.most_points).value_or(0);
     if (rounded_.is_valid) return;
     if (!is_plane_) {
@@ -269,10 +243,10 @@ class Rounding {
   /// cross in lines all over them. Counts if it leaves less in trouble.
   void begin_flat(const Plan& plan) {
     const double gap = plan.last_bits * last_bit(given_);
-    Attempt flat{given_, {}, 0};
-    if (plan.moves_input) flat.displacement = weld(flat.state, gap, here());
+    Attempt flat{given_, {}, given_displacement_};
+    if (plan.moves_input) flat.displacement = sum_above(flat.displacement, weld(flat.state, gap, here()));
     flatten_all(flat.state, gap, flat.displacement);
-    if (flat.displacement == 0) return;
+    if (flat.displacement == given_displacement_) return;
     if (flat.state.facets == flattened_.facets && flat.state.vertices == flattened_.vertices) return;
     flattened_ = flat.state;
     Rounded before = std::move(rounded_);
@@ -407,6 +381,7 @@ class Rounding {
                                          SIZE_MAX};  // of the two cuts that come first, where they were made
   std::size_t too_many_ = 0;                         // that a cut would have taken
   State given_;
+  double given_displacement_ = 0;  // by sheets that were made one before
   Rounded rounded_;
   Trouble trouble_;
   std::optional<Rounded> once_cut_;  // and not twice yet
@@ -449,10 +424,12 @@ Rounded round_arranged(State state, const RepairOptions& options, RepairReport& 
       rounded.displacement =
           sum_above(rounded.displacement, drop_fins(rounded.state, given, rounded.displacement));
   }
-  if (rounded.is_valid)
+  if (rounded.is_valid) {
     rounded.displacement = sum_above(
         rounded.displacement,
         restore(rounded.state, std::span(given.vertices).first(given.input_vertices), step, threads));
+    rounded.displacement = keep_strips(rounded.state, given, rounded.displacement, step, threads);
+  }
   return rounded;
 }
 

@@ -1,0 +1,23 @@
+// Bounds on how far things were moved, in doubles that are rounded up, and what these depend on.
+#pragma once
+
+#include <vector>
+
+#include "arrange/arrange.h"
+#include "mesh/parallel.h"
+#include "repair/state.h"
+
+namespace holdfast::repairing {
+
+/// Sums of numbers that are rounded up.
+[[nodiscard]] double sum_above(double a, double b);
+
+/// How far each new point is from the doubles nearest to it.
+[[nodiscard]] std::vector<double> rounded_by(const arrange::Arrangement& arrangement, const Threads& threads);
+
+[[nodiscard]] double largest(const std::vector<double>& distances);
+
+/// The last bit of the largest coordinate.
+[[nodiscard]] double last_bit(const State& state);
+
+}  // namespace holdfast::repairing
