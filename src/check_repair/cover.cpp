@@ -83,6 +83,19 @@ class Cover {
     for (const Index f : chain) flip(odd_, test_.facets_[f]);
   }
 
+  /// Adds triangles between two odd edges of which the third side is short: what was so thin became a line.
+  /// (d)
+  void close_thin_gaps() {
+    constexpr std::size_t kMost = 16;
+    for (const auto& [tip, ends] : neighbours_of(odd_)) {
+      if (ends.size() > kMost) continue;
+      for (std::size_t i = 0; i < ends.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+          if (odd_.contains(edge_of(tip, ends[i])) && odd_.contains(edge_of(tip, ends[j])))
+            close_thin_gap({tip, ends[i], ends[j]});
+    }
+  }
+
   std::optional<std::string> gap() {
     for (std::size_t side = 0; side < 3; ++side)
       if (!take_side(side))
@@ -104,9 +117,29 @@ class Cover {
     return at->second;
   }
   unsigned sides_of(const Segment& edge) {
+    if (const auto at_gap = at_gaps_.find(edge); at_gap != at_gaps_.end()) return at_gap->second;
     const unsigned sides = sides_of(edge[0]) & sides_of(edge[1]);
     const auto at_corner = at_corners_.find(edge);
     return at_corner == at_corners_.end() ? sides : sides | at_corner->second;
+  }
+
+  /// `t`: its tip comes first.
+  void close_thin_gap(const Triangle& t) {
+    const std::array<Point, 3> points{test_.vertices_[t[0]], test_.vertices_[t[1]], test_.vertices_[t[2]]};
+    const double width = rough_distance(points[1], points[2]) * (1 + 0x1p-48) / 2;
+    if (!(width < test_.reach_.distance())) return;
+    const Reach left(std::nextafter(test_.reach_.distance() - width, 0.0));
+    if (!std::all_of(points.begin(), points.end(),
+                     [&](const Point& p) { return left.of_triangle(p, triangle_); }))
+      return;
+    unsigned sides = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (left.of_segment(points[1], triangle_[i], triangle_[(i + 1) % 3]) &&
+          left.of_segment(points[2], triangle_[i], triangle_[(i + 1) % 3]))
+        sides |= 1U << i;
+    if (sides == 0) return;
+    flip(odd_, t);
+    at_gaps_[edge_of(t[1], t[2])] = sides;
   }
 
   /// Makes edges of corners with all vertices within reach of them. (c)
@@ -274,7 +307,7 @@ class Cover {
   std::span<const Index> chain_;
   std::set<Segment> odd_;
   std::map<Index, unsigned> sides_;
-  std::map<Segment, unsigned> at_corners_;
+  std::map<Segment, unsigned> at_corners_, at_gaps_;
   bool are_corners_joined_ = false;
   std::set<Segment> astray_;
   std::optional<Segment> first_astray_;
@@ -326,7 +359,11 @@ std::optional<std::string> CoverTest::gap(const std::array<Point, 3>& triangle, 
     std::sort(t.begin(), t.end());
     if (t == corners) return std::nullopt;
   }
-  return Cover(*this, triangle, places, chain).gap();
+  std::optional<std::string> gap = Cover(*this, triangle, places, chain).gap();
+  if (!gap) return gap;
+  Cover closed(*this, triangle, places, chain);
+  closed.close_thin_gaps();
+  return closed.gap() ? gap : std::nullopt;
 }
 
 std::optional<std::string> CoverTest::gap(const std::array<Point, 2>& segment, std::array<Index, 2> places,

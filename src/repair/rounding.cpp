@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "repair/bounds.h"
+#include "repair/covered.h"
 #include "repair/exact_surface.h"
 #include "repair/fins.h"
 #include "repair/flatten.h"
@@ -429,6 +430,7 @@ Rounded round_arranged(State state, const RepairOptions& options, RepairReport& 
         rounded.displacement,
         restore(rounded.state, std::span(given.vertices).first(given.input_vertices), step, threads));
     rounded.displacement = keep_strips(rounded.state, given, rounded.displacement, step, threads);
+    rounded.displacement = covered_within(rounded.state, given, rounded.displacement, step);
   }
   return rounded;
 }

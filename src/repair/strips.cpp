@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "check_repair/reach.h"
 #include "repair/near.h"
 #include "surface/aabb_tree.h"
 #include "surface/complex.h"
@@ -99,7 +100,6 @@ class Strips {
     if (children.empty()) return true;
     const Triangle corners = corners_of(g);
     if (std::any_of(corners.begin(), corners.end(), [&](Index v) { return used_[v] == 0; })) return false;
-    if (children.size() == 1) return true;
     groups_.clear();
     join_sides(children, [](Index) { return true; });
     return are_joined(corners);
@@ -135,21 +135,13 @@ class Strips {
       for (const Index v : state_.facets[f]) near.vertices.emplace(first_[v], before_);
     for (const Index v : t)
       if (at(v) == given_.vertices[v]) near.vertices[first_[v]] = 0;
+    const checking::Reach reach(before_);
+    const std::array<Point, 3> facet{given_.vertices[t[0]], given_.vertices[t[1]], given_.vertices[t[2]]};
     for (const Index f : near.facets)
-      for (const Index v : state_.facets[f]) {
-        if (near.vertices.contains(first_[v])) continue;
-        const double distance =
-            distance_to(at(v), given_.vertices[t[0]], given_.vertices[t[1]], given_.vertices[t[2]]);
-        if (distance <= before_) near.vertices.emplace(first_[v], bound(distance, at(v), g));
-      }
+      for (const Index v : state_.facets[f])
+        if (!near.vertices.contains(first_[v]) && reach.of_triangle(at(v), facet))
+          near.vertices.emplace(first_[v], before_);
     return near;
-  }
-
-  /// Of a distance, whose error is some last bits of what it was computed from.
-  [[nodiscard]] double bound(double distance, const Point& p, Index g) const {
-    double size = 0;
-    for (const Index v : given_.facets[g]) size = std::max(size, length(minus(p, given_.vertices[v])));
-    return distance + size * 0x1p-48;
   }
 
   /// Leads from a corner that is not connected with the others to what is nearest, and on from there.

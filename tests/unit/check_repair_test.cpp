@@ -164,6 +164,20 @@ TEST(Cover, AGapWithTwoVerticesNearToACorner) {
   EXPECT_TRUE(CoverTest(vertices, facets, nearer).gap(triangle, {0, 1, 2}, children));
 }
 
+// A part from a side to a vertex in the middle, which is thinner than the distance, is gone: two edges that
+// lie in each other but for that.
+TEST(Cover, AThinPartThatBecameALine) {
+  const double e = 1e-9;
+  const std::array<Point, 3> triangle{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}};
+  const std::vector<Point> vertices{triangle[0], triangle[1],     triangle[2],
+                                    {0.5, 0, 0}, {0.5 + e, 0, 0}, {0.6, 0.3, 0}};
+  const std::vector<Triangle> facets{{0, 3, 5}, {4, 1, 5}, {1, 2, 5}, {2, 0, 5}};
+  const std::vector<Index> children{0, 1, 2, 3};
+  const Reach reach(e), nearer(0.4 * e);
+  EXPECT_FALSE(CoverTest(vertices, facets, reach).gap(triangle, {0, 1, 2}, children));
+  EXPECT_TRUE(CoverTest(vertices, facets, nearer).gap(triangle, {0, 1, 2}, children));
+}
+
 // Whatever is taken for a cover is one: points of the triangle are within the distance of some facet.
 TEST(Cover, IsTakenForNoneWhereAPointIsTooFar) {
   const std::array<Point, 3> triangle{{{0, 0, 0}, {6, 0, 0}, {1, 5, 0}}};

@@ -1,0 +1,148 @@
+#include "repair/covered.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "check_repair/cover.h"
+#include "check_repair/reach.h"
+#include "surface/complex.h"
+#include "surface/places.h"
+
+namespace holdfast::repairing {
+namespace {
+
+using Side = std::array<Index, 2>;  // ascending
+
+class Covers {
+ public:
+  Covers(const State& state, const State& given, const Step& step)
+      : state_(state), given_(given), step_(step), place_(state.vertices.size(), no_index) {
+    const std::vector<Index> first = first_at_places(state.vertices);
+    for (const Triangle& t : state.facets)
+      for (const Index v : t) place_[first[v]] = std::min(place_[first[v]], v);
+    for (Index v = 0; v < place_.size(); ++v) place_[v] = place_[first[v]];
+    list_children();
+  }
+
+  double run(double most) {
+    std::vector<Index> open;
+    const checking::Reach near(most);
+    for (Index g = 0; g < given_.facets.size(); ++g)
+      if (!children_of(g).empty() && !has_its_sides_round_it(g, near)) open.push_back(g);
+    constexpr int kDoublings = 8;
+    double distance = most;
+    for (int k = 0; k <= kDoublings; ++k, distance *= 2) {
+      const checking::Reach reach(distance);
+      checking::CoverTest test(state_.vertices, state_.facets, reach);
+      std::erase_if(open, [&](Index g) {
+        step_(0);
+        return is_covered(g, test);
+      });
+      if (open.empty()) return distance;
+    }
+    return most;
+  }
+
+ private:
+  void list_children() {
+    Index parents = 0;
+    for (const Index p : state_.facet_parents.all) parents = std::max(parents, p + 1);
+    children_.resize(parents);
+    for (Index f = 0; f < state_.facets.size(); ++f)
+      for (const Index p : state_.facet_parents.of(f)) children_[p].push_back(f);
+  }
+
+  /// Those of facets of the input that were the same are the same.
+  [[nodiscard]] std::span<const Index> children_of(Index g) const {
+    const auto parents = given_.facet_parents.of(g);
+    if (parents.empty() || parents[0] >= children_.size()) return {};
+    return children_[parents[0]];
+  }
+
+  /// The sides that an odd number of the parts of a facet have, once from each of their ends.
+  void list_odd_sides(Index g) {
+    sides_.clear();
+    for (const Index f : children_of(g)) {
+      const Triangle& t = state_.facets[f];
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Index a = place_[t[i]], b = place_[t[(i + 1) % 3]];
+        sides_.push_back({a, b});
+        sides_.push_back({b, a});
+      }
+    }
+    std::sort(sides_.begin(), sides_.end());
+    std::size_t odd = 0;
+    for (std::size_t k = 0, next = 0; k < sides_.size(); k = next) {
+      while (next < sides_.size() && sides_[next] == sides_[k]) ++next;
+      if ((next - k) % 2 != 0) sides_[odd++] = sides_[k];
+    }
+    sides_.resize(odd);
+  }
+
+  /// The two ways on along them; none where there are others, or fewer.
+  [[nodiscard]] std::optional<std::array<Index, 2>> ways_from(Index v) const {
+    const auto from = std::lower_bound(sides_.begin(), sides_.end(), Side{v, 0});
+    const auto left = sides_.end() - from;
+    if (left < 2 || (*from)[0] != v || from[1][0] != v || (left > 2 && from[2][0] == v)) return std::nullopt;
+    return std::array{(*from)[1], from[1][1]};
+  }
+
+  /// Whether one line goes round the parts of a facet, through its corners, and as near to each of its sides.
+  [[nodiscard]] bool has_its_sides_round_it(Index g, const checking::Reach& reach) {
+    list_odd_sides(g);
+    const Triangle& t = given_.facets[g];
+    std::size_t steps = 0;
+    Index before = no_index;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index end = place_[t[(i + 1) % 3]];
+      for (Index v = place_[t[i]]; v != end || v == no_index; ++steps) {
+        const auto ways = v == no_index || steps > sides_.size() ? std::nullopt : ways_from(v);
+        if (!ways) return false;
+        Index next = (*ways)[(*ways)[0] == before ? 1 : 0];
+        // The first step goes the way on which the second corner comes before the third.
+        if (before == no_index && !leads_to(v, next, end, place_[t[2]])) next = (*ways)[1];
+        before = std::exchange(v, next);
+        if (v != end && !reach.of_segment(at(v), given_.vertices[t[i]], given_.vertices[t[(i + 1) % 3]]))
+          return false;
+      }
+    }
+    return 2 * steps == sides_.size();
+  }
+
+  /// Whether the line from v by way of `next` comes to one vertex before another.
+  [[nodiscard]] bool leads_to(Index v, Index next, Index first, Index second) const {
+    for (std::size_t steps = 0; next != first && next != second && steps < sides_.size(); ++steps) {
+      const auto ways = ways_from(next);
+      if (!ways) return false;
+      const Index on = (*ways)[(*ways)[0] == v ? 1 : 0];
+      v = std::exchange(next, on);
+    }
+    return next == first;
+  }
+
+  [[nodiscard]] bool is_covered(Index g, checking::CoverTest& test) const {
+    const Triangle& t = given_.facets[g];
+    return !test.gap({given_.vertices[t[0]], given_.vertices[t[1]], given_.vertices[t[2]]},
+                     {place_[t[0]], place_[t[1]], place_[t[2]]}, children_of(g));
+  }
+
+  [[nodiscard]] const Point& at(Index v) const { return state_.vertices[v]; }
+
+  const State& state_;
+  const State& given_;
+  const Step& step_;
+  std::vector<Index> place_;  // by vertex a used one at its place, or none
+  std::vector<std::vector<Index>> children_;
+  std::vector<Side> sides_;
+};
+
+}  // namespace
+
+double covered_within(const State& state, const State& given, double most, const Step& step) {
+  return most == 0 ? most : Covers(state, given, step).run(most);
+}
+
+}  // namespace holdfast::repairing
