@@ -83,6 +83,33 @@ bool is_surely_near(const Point& p, const std::array<Point, 3>& t, double distan
   return found * (1 + 8 * kEpsilon) + 8 * kEpsilon * scale + Real{0x1p-1000} <= Real{distance};
 }
 
+template <class Real>
+Rounded<Real> cross(const Rounded<Real>& a, const Rounded<Real>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// Products of lengths so large do not underflow, and so errors are relative to them.
+constexpr long double kSurelyNormal = 0x1p-900L;
+
+/// Whether the line through a and b is further away, if rounding lets it be seen: each coordinate of the
+/// cross product has an error of some units of the product of both lengths.
+bool is_surely_far(const Point& p, const Point& a, const Point& b, double distance) {
+  constexpr long double kError = 64 * std::numeric_limits<long double>::epsilon();
+  const Rounded<long double> d = minus<long double>(b, a), w = minus<long double>(p, a);
+  const long double size = length(d) * length(w), found = length(cross(w, d));
+  return size > kSurelyNormal && found - kError * size > distance * length(d) * (1 + kError);
+}
+
+/// Likewise the plane.
+bool is_surely_far(const Point& p, const std::array<Point, 3>& t, double distance) {
+  constexpr long double kError = 64 * std::numeric_limits<long double>::epsilon();
+  const Rounded<long double> u = minus<long double>(t[1], t[0]), v = minus<long double>(t[2], t[0]),
+                             w = minus<long double>(p, t[0]), n = cross(u, v);
+  const long double area = length(u) * length(v), size = area * length(w), found = std::fabs(dot(w, n));
+  return size > kSurelyNormal && area > kSurelyNormal &&
+         found - kError * size > distance * (length(n) + kError * area) * (1 + kError);
+}
+
 }  // namespace
 
 Reach::Reach(double distance) : distance_(distance), square_(Dyadic(distance) * Dyadic(distance)) {}
@@ -95,6 +122,7 @@ bool Reach::of_segment(const Point& p, const Point& a, const Point& b) const {
   if (p == a || p == b) return true;
   if (distance_ == 0) return on_segment(p.data(), a.data(), b.data());
   if (surely_of_triangle(p, {a, b, a})) return true;
+  if (is_surely_far(p, a, b, distance_)) return false;
   const Vector d = difference(b, a), w = difference(p, a);
   const Dyadic along = dot(w, d), dd = dot(d, d);
   if (along.sign() <= 0) return dot(w, w) <= square_;
@@ -106,6 +134,7 @@ bool Reach::of_triangle(const Point& p, const std::array<Point, 3>& t) const {
   if (p == t[0] || p == t[1] || p == t[2]) return true;
   if (distance_ == 0) return on_triangle(p.data(), {t[0].data(), t[1].data(), t[2].data()});
   if (surely_of_triangle(p, t)) return true;
+  if (is_surely_far(p, t, distance_)) return false;
   const Vector n = cross(difference(t[1], t[0]), difference(t[2], t[0]));
   bool above = dot(n, n).sign() > 0;
   for (std::size_t i = 0; above && i < 3; ++i) {

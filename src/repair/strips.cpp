@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "check_repair/reach.h"
+#include "numbers/sorted.h"
 #include "repair/near.h"
 #include "surface/aabb_tree.h"
 #include "surface/complex.h"
@@ -130,17 +131,21 @@ class Strips {
   [[nodiscard]] Near near_to(Index g) {
     const Triangle& t = given_.facets[g];
     Near near;
-    near.facets = facets_near(box_round(given_, t, 2 * most_));
+    const Box box = box_round(given_, t, 2 * most_);
+    near.facets = facets_near(box);
     for (const Index f : children_of(g))
       for (const Index v : state_.facets[f]) near.vertices.emplace(first_[v], before_);
     for (const Index v : t)
       if (at(v) == given_.vertices[v]) near.vertices[first_[v]] = 0;
     const checking::Reach reach(before_);
     const std::array<Point, 3> facet{given_.vertices[t[0]], given_.vertices[t[1]], given_.vertices[t[2]]};
+    std::vector<Index> others;
     for (const Index f : near.facets)
       for (const Index v : state_.facets[f])
-        if (!near.vertices.contains(first_[v]) && reach.of_triangle(at(v), facet))
-          near.vertices.emplace(first_[v], before_);
+        if (box.overlaps({at(v), at(v)})) others.push_back(first_[v]);
+    sort_unique(others);
+    for (const Index v : others)
+      if (!near.vertices.contains(v) && reach.of_triangle(at(v), facet)) near.vertices.emplace(v, before_);
     return near;
   }
 

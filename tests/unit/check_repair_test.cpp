@@ -46,6 +46,35 @@ TEST(Reach, OfASegmentAndOfAFlatTriangle) {
   EXPECT_FALSE(Reach(1.999).of_triangle({1.5, 2, 2}, flat));
 }
 
+// What rounding lets be seen is what the exact test says: points at all distances round a segment and a
+// triangle.
+TEST(Reach, IsTheSameHoweverItIsDecided) {
+  std::mt19937 random(5);
+  const auto small = [&] { return static_cast<double>(static_cast<int>(random() % 9) - 4); };
+  for (int k = 0; k < 2000; ++k) {
+    const int by = k % 2 == 0 ? 0 : static_cast<int>(random() % 900) - 450;
+    const auto point = [&] {
+      return Point{std::ldexp(small(), by), std::ldexp(small(), by), std::ldexp(small(), by)};
+    };
+    const Point a = point(), b = point(), p = point();
+    // In integers: the square of the distance times that of the length, or of what is beyond an end.
+    double along = 0, dd = 0, ww = 0, vv = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double d = std::ldexp(b[i] - a[i], -by), w = std::ldexp(p[i] - a[i], -by), v = w - d;
+      along += d * w, dd += d * d, ww += w * w, vv += v * v;
+    }
+    for (double distance = 0.25; distance < 16; distance += 0.25) {
+      const double square = distance * distance;
+      const bool is_near = along <= 0    ? ww <= square
+                           : along >= dd ? vv <= square
+                                         : ww * dd - along * along <= square * dd;
+      EXPECT_EQ(Reach(std::ldexp(distance, by)).of_segment(p, a, b), is_near);
+      const bool is_near_more = Reach(std::ldexp(distance, by)).of_triangle(p, {a, b, point()});
+      EXPECT_TRUE(is_near_more || !is_near);
+    }
+  }
+}
+
 TEST(Reach, InscribedCircle) {
   // Sides 3, 4, 5: radius 1.
   const std::array<Point, 3> t{{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}};
