@@ -14,25 +14,27 @@ namespace {
 
 using Faces = std::initializer_list<std::initializer_list<std::size_t>>;
 
+// In the order of Abaqus's and CalculiX's sides, from S1.
 constexpr Faces kHexahedron{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
                             {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 constexpr Faces kPrism{{0, 2, 1}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
 constexpr Faces kPyramid{{0, 3, 2, 1}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
 
-Faces faces_of(std::size_t corners, MeshData::Cells& cells) {
+Faces faces_of(std::size_t corners) {
   switch (corners) {
     case 8:
-      ++cells.hexahedra;
       return kHexahedron;
     case 6:
-      ++cells.prisms;
       return kPrism;
     case 5:
-      ++cells.pyramids;
       return kPyramid;
     default:
       throw std::logic_error("a cell of neither 5, 6 nor 8 corners");
   }
+}
+
+std::size_t& count_of(MeshData::Cells& cells, std::size_t corners) {
+  return corners == 8 ? cells.hexahedra : corners == 6 ? cells.prisms : cells.pyramids;
 }
 
 // A face without what is there twice.
@@ -55,26 +57,43 @@ struct Ring {
   }
 };
 
+// The triangles of a ring from its vertex of the lowest index.
+template <typename Use>
+void for_each_triangle(const Ring& ring, const Use& use) {
+  if (ring.count < 3) return;
+  const std::size_t first = ring.lowest();
+  const auto at = [&](std::size_t k) { return ring.corners[(first + k) % ring.count]; };
+  for (std::size_t k = 2; k < ring.count; ++k) use(Triangle{at(0), at(k - 1), at(k)});
+}
+
 bool holds(const Triangle& t, Index v) { return t[0] == v || t[1] == v || t[2] == v; }
 
 }  // namespace
 
 void add_cell(MeshData& mesh, std::span<const Index> nodes, std::size_t corners, int region) {
-  const Faces faces = faces_of(corners, mesh.cells);
+  const Faces faces = faces_of(corners);
+  ++count_of(mesh.cells, corners);
   add_no_corners(mesh, nodes.subspan(corners));
   const Index apex = *std::min_element(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(corners));
   for (const auto& face : faces) {
     const Ring ring(nodes, face);
     if (ring.holds(apex)) continue;
-    const std::size_t first = ring.lowest();
-    const auto at = [&](std::size_t k) { return ring.corners[(first + k) % ring.count]; };
-    for (std::size_t k = 2; k < ring.count; ++k) {
-      Tetrahedron tet{apex, at(0), at(k - 1), at(k)};
+    for_each_triangle(ring, [&](const Triangle& triangle) {
+      Tetrahedron tet{apex, triangle[0], triangle[1], triangle[2]};
       if (is_turned(tet, mesh.vertices)) std::swap(tet[2], tet[3]);
       mesh.add_tetrahedron(tet, region);
       ++mesh.cells.tetrahedra;
-    }
+    });
   }
+}
+
+std::vector<Triangle> side_of_cell(std::span<const Index> corners, std::size_t side) {
+  const Faces faces = faces_of(corners.size());
+  std::vector<Triangle> triangles;
+  if (side < faces.size())
+    for_each_triangle(Ring(corners, faces.begin()[side]),
+                      [&](const Triangle& triangle) { triangles.push_back(triangle); });
+  return triangles;
 }
 
 void settle_quadrangles(MeshData& mesh) {

@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "io/mesh_data.h"
 
@@ -39,6 +40,10 @@ void add_cell(MeshData& mesh, std::span<const Index> nodes, std::size_t corners,
       return 0;
   }
 }
+
+/// The triangles of a side of such a cell, by the rule of `add_cell`, or none for a side that there is not.
+/// Sides count from 0 as Abaqus and CalculiX number them from 1.
+[[nodiscard]] std::vector<Triangle> side_of_cell(std::span<const Index> corners, std::size_t side);
 
 /// Gives the quadrangles that became facets the diagonals that the cells beside them have, if there are any.
 void settle_quadrangles(MeshData& mesh);

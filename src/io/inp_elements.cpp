@@ -107,7 +107,7 @@ std::vector<std::int64_t> InpElements::read_shapeless(InpText& text, const std::
   for (; text.is_data(); text.next()) {
     read.push_back(text.number(text.fields()[0], "a number of an element or node"));
     numbers_.add(read.back());
-    elements_.push_back({0, 0, 0});
+    elements_.push_back({0, 0, 0, no_entity});
   }
   shapeless_[type] += read.size();
   return read;
@@ -123,12 +123,13 @@ void InpElements::add(const TextReader& text, std::size_t place, const Type& typ
                       std::int64_t number) {
   const std::size_t before[] = {0, mesh_.segments.size(), mesh_.facets.size(), mesh_.tetrahedra.size()};
   const auto dimension = static_cast<std::size_t>(type.dimension);
+  Index cell = no_entity;
   if (type.nodes == 10)
     add_second_order(mesh_, Tetrahedron{n[0], n[1], n[2], n[3]}, {n[4], n[5], n[6], n[7], n[8], n[9]}, 0);
   else if (type.dimension == 3 && type.nodes == 4)
     mesh_.add_tetrahedron({n[0], n[1], n[2], n[3]});
   else if (type.dimension == 3)
-    add_cell(mesh_, std::span(n).first(type.nodes), corners_of_cell(type.nodes), 0);
+    cell = add_cell_of(type, n);
   else if (type.nodes == 6)
     add_second_order(mesh_, Triangle{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, 0);
   else if (type.dimension == 2) {
@@ -142,7 +143,16 @@ void InpElements::add(const TextReader& text, std::size_t place, const Type& typ
   const std::size_t after[] = {0, mesh_.segments.size(), mesh_.facets.size(), mesh_.tetrahedra.size()};
   numbers_.add(number);
   elements_.push_back({type.dimension, static_cast<Index>(before[dimension]),
-                       static_cast<Index>(after[dimension] - before[dimension])});
+                       static_cast<Index>(after[dimension] - before[dimension]), cell});
+}
+
+Index InpElements::add_cell_of(const Type& type, const Nodes& n) {
+  const std::size_t corners = corners_of_cell(type.nodes);
+  add_cell(mesh_, std::span(n).first(type.nodes), corners, 0);
+  Cell cell{.count = corners};
+  std::copy_n(n.begin(), corners, cell.corners.begin());
+  cells_.push_back(cell);
+  return static_cast<Index>(cells_.size() - 1);
 }
 
 void InpElements::finish(const Source& source) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace holdfast::io {
 struct InpElement {
   int dimension;  ///< 0: it has no shape, and is no entity
   Index entity;   ///< of the mesh: its index among those of the dimension, the first of a polygon
-  Index count;    ///< of a polygon that is cut: how many facets
+  Index count;    ///< of a polygon or cell that is cut: how many facets or tetrahedra
+  Index cell;     ///< of a hexahedron, prism or pyramid: its index among the cells; else no_entity
 };
 
 /// Every node is a vertex of the mesh, every element with a shape an entity of it, or a run of facets.
@@ -36,8 +38,17 @@ class InpElements {
     const std::optional<Index> found = numbers_.find(number);
     return found ? &elements_[*found] : nullptr;
   }
+  /// The corners of a hexahedron, prism or pyramid.
+  [[nodiscard]] std::span<const Index> corners_of(const InpElement& element) const {
+    const Cell& cell = cells_[element.cell];
+    return std::span(cell.corners).first(cell.count);
+  }
 
  private:
+  struct Cell {
+    std::array<Index, 8> corners{};
+    std::size_t count;
+  };
   struct Type;
   static const Type& type_of(const TextReader& text, const InpKeyword& key);
   std::vector<std::int64_t> read_shapeless(InpText& text, const std::string& type);
@@ -46,10 +57,12 @@ class InpElements {
   using Nodes = std::array<Index, 27>;
   void add(const TextReader& text, std::size_t place, const Type& type, const Nodes& nodes,
            std::int64_t number);
+  Index add_cell_of(const Type& type, const Nodes& nodes);
 
   MeshData& mesh_;
   Numbered nodes_, numbers_;
   std::vector<InpElement> elements_;
+  std::vector<Cell> cells_;
   std::map<std::string, std::size_t> shapeless_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/cells.h"
 #include "io/mesh_sets.h"
 #include "io/mid_nodes.h"
 #include "numbers/sorted.h"
@@ -127,7 +128,9 @@ void InpSurfaces::read(InpText& text, const std::string& name) {
 /// The facets of a mesh with their markers, each found by its corners.
 class InpSurfaces::Facets {
  public:
-  explicit Facets(MeshData& mesh) : mesh_(mesh), markers_(mesh.facets.size(), 0) {
+  Facets(MeshData& mesh, const InpElements& elements)
+      : mesh_(mesh), elements_(elements), markers_(mesh.facets.size(), 0) {
+    settle_quadrangles(mesh);  // so that they are found by the triangles of a cell's side
     for (Index f = 0; f < mesh.facets.size(); ++f) facet_of_.emplace(ascending(mesh.facets[f]), f);
   }
 
@@ -137,33 +140,62 @@ class InpSurfaces::Facets {
       for (Index k = 0; k < element.count; ++k) markers_[element.entity + k] = id;
       return;
     }
-    const std::string name = lower(side.side);
-    if (element.dimension != 3 || name.size() != 2 || name[0] != 's' || name[1] < '1' || name[1] > '4')
-      text.fail_at(side.position, "expected a side S1 to S4 of a tetrahedron, found " + in_quotes(side.side));
-    const std::size_t opposite = kOpposite[static_cast<std::size_t>(name[1] - '1')];
-    const Tetrahedron& corners = mesh_.tetrahedra[element.entity];
-    const auto& outward = kOutwardFaces[opposite];
-    const Triangle facet{corners[outward[0]], corners[outward[1]], corners[outward[2]]};
-    const auto [there, fresh] = facet_of_.emplace(ascending(facet), static_cast<Index>(mesh_.facets.size()));
-    if (fresh) {
-      add_facet(mesh_, element.entity, outward, facet);
-      markers_.push_back(0);
+    if (element.dimension != 3) {
+      ++without_area_;
+      return;
     }
-    markers_[there->second] = id;
+    if (element.cell != no_entity) {
+      const std::span<const Index> corners = elements_.corners_of(element);
+      for (const Triangle& facet : side_of_cell(corners, number_of(text, side, corners.size()))) {
+        if (add_once(facet)) mesh_.add_facet(facet);
+        markers_[facet_of_.at(ascending(facet))] = id;
+      }
+      return;
+    }
+    const auto& outward = kOutwardFaces[kOpposite[number_of(text, side, 4)]];
+    const Tetrahedron& corners = mesh_.tetrahedra[element.entity];
+    const Triangle facet{corners[outward[0]], corners[outward[1]], corners[outward[2]]};
+    if (add_once(facet)) add_facet(mesh_, element.entity, outward, facet);
+    markers_[facet_of_.at(ascending(facet))] = id;
   }
 
+  /// Sides of elements that have none.
+  [[nodiscard]] std::size_t without_area() const { return without_area_; }
   [[nodiscard]] std::vector<int> take_markers() { return std::move(markers_); }
 
  private:
+  /// The index behind the S of a side, from 0, of an element by the number of its corners.
+  static std::size_t number_of(const TextReader& text, const Side& side, std::size_t corners) {
+    const char last = corners == 4 ? '4' : corners == 8 ? '6' : '5';
+    const std::string name = lower(side.side);
+    if (name.size() != 2 || name[0] != 's' || name[1] < '1' || name[1] > last)
+      text.fail_at(side.position, std::string("expected a side S1 to S") + last + " of a " +
+                                      (corners == 4   ? "tetrahedron"
+                                       : corners == 5 ? "pyramid"
+                                       : corners == 6 ? "prism"
+                                                      : "hexahedron") +
+                                      ", found " + in_quotes(side.side));
+    return static_cast<std::size_t>(name[1] - '1');
+  }
+
+  /// Whether the facet is a new one, which is to be added to the mesh.
+  bool add_once(const Triangle& facet) {
+    const bool fresh = facet_of_.emplace(ascending(facet), static_cast<Index>(mesh_.facets.size())).second;
+    if (fresh) markers_.push_back(0);
+    return fresh;
+  }
+
   MeshData& mesh_;
+  const InpElements& elements_;
   std::map<Triangle, Index> facet_of_;
   std::vector<int> markers_;
+  std::size_t without_area_ = 0;
 };
 
 std::vector<int> InpSurfaces::apply(MeshData& mesh, InpText& text, const InpElements& elements,
                                     const InpSets& sets, const InpShownName& shown, NamedIds& names) const {
   if (order_.empty()) return std::vector<int>(mesh.facets.size(), 0);
-  Facets facets(mesh);
+  Facets facets(mesh, elements);
   const auto mark = [&](std::int64_t number, const Side& side, int id) {
     const InpElement* element = elements.find(number);
     if (element == nullptr)
@@ -186,6 +218,8 @@ std::vector<int> InpSurfaces::apply(MeshData& mesh, InpText& text, const InpElem
       for (const std::int64_t number : *set) mark(number, side, id);
     }
   }
+  mesh.leave_out(facets.without_area(), "sides of elements that are lines or have no shape",
+                 "side of an element that is a line or has no shape");
   return facets.take_markers();
 }
 

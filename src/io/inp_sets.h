@@ -41,7 +41,7 @@ class InpSets {
 /// The name of a set as users see it.
 using InpShownName = std::function<std::string(const std::string&)>;
 
-/// Surfaces: sides of tetrahedra become facets, and those of shells give these their marker.
+/// Surfaces: sides of tetrahedra and other cells become facets, and those of shells give these their marker.
 class InpSurfaces {
  public:
   void read(InpText& text, const std::string& name);

@@ -256,6 +256,53 @@ TEST_F(Cells, OfEveryFormatFitTogether) {
   }
 }
 
+/// Without the quadrangles, which surfaces of an .inp make instead.
+std::string inp_of_sides(const Block& b, const std::string& sides) {
+  std::string text = inp(b);
+  const std::size_t skin = text.find("*ELEMENT"), cells = text.find("*ELEMENT, TYPE=C3D8R");
+  return text.erase(skin, cells - skin) + "*SURFACE, NAME=SKIN\n" + sides;
+}
+
+TEST_F(Cells, SidesOfThemInSurfacesOfInpAreFacets) {
+  std::mt19937_64 random(1);
+  for (int k = 0; k < 20; ++k) {
+    SCOPED_TRACE(k);
+    Block block;
+    if (k > 0) block.shuffle(random);
+    expect_block(read(inp_of_sides(block, "4, S1\n4, S3\n5, S3\n"), "a.inp"), true);
+  }
+  const Volume block = read(inp_of_sides(Block(), "CUBE, S1\n6, S2\n"), "a.inp");
+  EXPECT_EQ(block.facets, (std::vector<Triangle>{{0, 3, 2}, {0, 2, 1}, {4, 5, 10}}));
+  EXPECT_EQ(block.facet_markers, (std::vector<int>{1, 1, 1}));
+  // The side of a hexahedron that is a prism is no side, or a triangle.
+  Block prism;
+  prism.cube = {{1, 8, 8, 5, 2, 9, 9, 6}, 3};
+  EXPECT_EQ(read(inp_of_sides(prism, "4, S1\n4, S4\n"), "a.inp").facets, (std::vector<Triangle>{{1, 5, 8}}));
+}
+
+TEST_F(Cells, SidesThatAreNotThereAreTold) {
+  const auto error = [&](const std::string& sides) {
+    try {
+      static_cast<void>(read(inp_of_sides(Block(), sides), "a.inp"));
+    } catch (const FileError& e) {
+      return std::string(e.what()).substr((folder_ / "a.inp").string().size() + 2);
+    }
+    return std::string("read");
+  };
+  EXPECT_EQ(error("4, S7\n"), "line 20: expected a side S1 to S6 of a hexahedron, found 'S7'");
+  EXPECT_EQ(error("5, S6\n"), "line 20: expected a side S1 to S5 of a prism, found 'S6'");
+  EXPECT_EQ(error("6, S0\n"), "line 20: expected a side S1 to S5 of a pyramid, found 'S0'");
+  EXPECT_EQ(error("4\n"), "line 20: expected a side S1 to S6 of a hexahedron, found ''");
+}
+
+TEST_F(Cells, SidesOfBeamsAreLeftOut) {
+  const Volume volume = read(inp_of_sides(Block(), "4, S1\n7, S3\n*ELEMENT, TYPE=B31\n7, 1, 2\n"), "a.inp");
+  EXPECT_EQ(volume.facets.size(), 2u);
+  EXPECT_TRUE(std::any_of(remarks_.begin(), remarks_.end(), [](const Remark& r) {
+    return r.message == "1 side of an element that is a line or has no shape is left out";
+  }));
+}
+
 TEST_F(Cells, TheirSurfaceIsMeshed) {
   const Surface surface = surface_of(read(msh(Block()), "a.msh"));
   EXPECT_EQ(surface.facets.size(), 18u + 4);  // two quadrangles lie between the regions
