@@ -36,7 +36,7 @@ class MshReader {
     else if (first == "$NOD")
       read_section("$NOD");
     else
-      text_.fail("not a Gmsh mesh: it does not start with $MeshFormat");
+      fail_as_no_gmsh_mesh(first);
     while (!text_.at_end()) read_section(std::string(text_.word("a section")));
     for (std::size_t i = 0; i < point_markers_.size(); ++i) mesh_.vertex_markers.add(i, point_markers_[i]);
     mesh_.names = {names_[2].take(), names_[3].take(), names_[1].take(), names_[0].take()};
@@ -45,6 +45,15 @@ class MshReader {
   }
 
  private:
+  /// Others use the ending, too.
+  [[noreturn]] void fail_as_no_gmsh_mesh(std::string_view first) const {
+    if (first.starts_with('('))
+      text_.fail("a mesh of Ansys Fluent, not of Gmsh; save it in another format, such as Gmsh's");
+    if (!first.empty() && first.find_first_not_of("0123456789") == std::string_view::npos)
+      text_.fail("a mesh of FreeFEM, not of Gmsh; save it as .mesh");
+    text_.fail("not a Gmsh mesh: it does not start with $MeshFormat");
+  }
+
   void read_format() {
     const std::string version(text_.word("the version"));
     if (version == "2" || version.starts_with("2."))

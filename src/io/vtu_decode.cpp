@@ -1,4 +1,4 @@
-// Decodes the arrays of VTK's XML files: base64, size headers, zlib blocks.
+// Decodes the arrays of VTK's XML files: base64, size headers, blocks packed by zlib or LZ4.
 #include "io/vtu_decode.h"
 
 #include <zlib.h>
@@ -11,6 +11,7 @@
 
 #include "io/base64.h"
 #include "io/byte_reader.h"
+#include "io/lz4_block.h"
 
 namespace holdfast::io {
 namespace {
@@ -77,13 +78,26 @@ class Stream {
   std::string pending_;
 };
 
+// At most so many bytes are packed in one (zlib, "Technical Details").
+constexpr std::uint64_t kBestRatioOfDeflate = 1032;
+
+/// Appends what a block of zlib's holds; whether that is so many bytes.
+bool append_deflated(std::string& bytes, const std::string& packed, std::size_t size) {
+  const std::size_t start = bytes.size();
+  bytes.resize(start + size);
+  uLongf unpacked = size;
+  const int status = uncompress(reinterpret_cast<Bytef*>(bytes.data() + start), &unpacked,
+                                reinterpret_cast<const Bytef*>(packed.data()), packed.size());
+  return status == Z_OK && unpacked == size;
+}
+
 class ArrayDecoder {
  public:
   ArrayDecoder(const Source& source, const VtuEncoding& encoding, bool base64, std::size_t position)
       : encoding_(encoding), stream_(source, base64, position) {}
 
   std::uint64_t size() {
-    if (!encoding_.zlib) return size_word();
+    if (encoding_.compressor == VtuCompressor::none) return size_word();
     const std::uint64_t blocks = size_word();
     if (blocks == 0) return 0;
     const std::uint64_t block = size_word(), last = size_word();
@@ -93,7 +107,7 @@ class ArrayDecoder {
   }
 
   std::string decode() {
-    if (encoding_.zlib) return decode_blocks();
+    if (encoding_.compressor != VtuCompressor::none) return decode_blocks();
     const std::uint64_t size = size_word();
     return stream_.take(size);
   }
@@ -117,23 +131,19 @@ class ArrayDecoder {
     for (std::uint64_t i = 0; i < blocks; ++i) {
       stream_.step();
       const bool partial = i + 1 == blocks && last != 0;
-      inflate_block(result, sizes[i], partial ? last : block);
+      unpack_block(result, sizes[i], partial ? last : block);
     }
     return result;
   }
 
-  void inflate_block(std::string& result, std::uint64_t packed_size, std::uint64_t size) {
-    // Deflate packs at most 1032 bytes in one (zlib, "Technical Details"), which bounds the memory.
-    constexpr std::uint64_t kBestRatio = 1032;
+  void unpack_block(std::string& result, std::uint64_t packed_size, std::uint64_t size) {
+    const bool lz4 = encoding_.compressor == VtuCompressor::lz4;
+    // Which bounds the memory.
+    const std::uint64_t best_ratio = lz4 ? kBestRatioOfLz4 : kBestRatioOfDeflate;
     const std::string packed = stream_.take(packed_size);
-    if (size / kBestRatio > packed_size) stream_.fail("a block of impossible size; the file is damaged");
-    const std::size_t start = result.size();
-    if (size > result.max_size() - start) throw std::bad_alloc();  // where sizes have 32 bits
-    result.resize(start + size);
-    uLongf unpacked = size;
-    const int status = uncompress(reinterpret_cast<Bytef*>(result.data() + start), &unpacked,
-                                  reinterpret_cast<const Bytef*>(packed.data()), packed.size());
-    if (status != Z_OK || unpacked != size)
+    if (size / best_ratio > packed_size) stream_.fail("a block of impossible size; the file is damaged");
+    if (size > result.max_size() - result.size()) throw std::bad_alloc();  // where sizes have 32 bits
+    if (!(lz4 ? append_lz4_block(result, packed, size) : append_deflated(result, packed, size)))
       stream_.fail("a block that cannot be decompressed; the file is damaged");
   }
 

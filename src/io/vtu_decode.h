@@ -1,4 +1,4 @@
-// Decodes the arrays of VTK's XML files: base64, size headers, zlib blocks.
+// Decodes the arrays of VTK's XML files: base64, size headers, blocks packed by zlib or LZ4.
 #pragma once
 
 #include <bit>
@@ -9,11 +9,13 @@
 
 namespace holdfast::io {
 
+enum class VtuCompressor : std::uint8_t { none, zlib, lz4 };
+
 /// How a file encodes all of its arrays.
 struct VtuEncoding {
   std::endian order = std::endian::little;
   bool wide_header = false;  ///< sizes have 64 bits instead of 32
-  bool zlib = false;
+  VtuCompressor compressor = VtuCompressor::none;
 };
 
 /// How many bytes the array whose header starts at `position` says it has, before it is unpacked. Throws

@@ -54,10 +54,13 @@ void VtuFile::read_file_attributes(const XmlTag& tag, Seen& seen) {
   encoding_.order = tag.attribute("byte_order") == "BigEndian" ? std::endian::big : std::endian::little;
   encoding_.wide_header = tag.attribute("header_type") == "UInt64";
   const std::string compressor = tag.attribute("compressor");
-  encoding_.zlib = compressor == "vtkZLibDataCompressor";
-  if (!compressor.empty() && !encoding_.zlib)
-    xml_.fail(tag,
-              "data compressed by " + in_quotes(compressor) + " is not read; save it with zlib or without");
+  if (compressor == "vtkZLibDataCompressor")
+    encoding_.compressor = VtuCompressor::zlib;
+  else if (compressor == "vtkLZ4DataCompressor")
+    encoding_.compressor = VtuCompressor::lz4;
+  else if (!compressor.empty())
+    xml_.fail(tag, "data compressed by " + in_quotes(compressor) +
+                       " is not read; save it with zlib or LZ4, or without");
 }
 
 void VtuFile::read_piece(const XmlTag& tag, Seen& seen) {
