@@ -7,6 +7,21 @@
 #include "io/text_reader.h"
 
 namespace holdfast::io {
+namespace {
+
+std::string type_attribute(const XdmfItem& item) {
+  const std::string type = item.tag.attribute("NumberType");
+  return type.empty() ? item.tag.attribute("DataType") : type;
+}
+
+std::string_view name_in(const XdmfItem& item) {
+  constexpr const char* kBlank = " \t\r\n";
+  const std::size_t begin = item.text.find_first_not_of(kBlank);
+  if (begin == std::string_view::npos) return {};
+  return item.text.substr(begin, item.text.find_last_not_of(kBlank) + 1 - begin);
+}
+
+}  // namespace
 
 XdmfFile::XdmfFile(const Source& source) : source_(source), xml_(source) { read_grids(); }
 
@@ -78,10 +93,8 @@ void XdmfFile::read_name(const XmlTag& tag) {
 
 /// The file of an HDF5 item, which stays open, and the array in it.
 std::pair<const Hdf5File*, Hdf5File::Object> XdmfFile::array_of(const XdmfItem& item) const {
-  std::string_view text = item.text;
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
-  if (begin == std::string_view::npos) xml_.fail(item.tag, "the item names no array");
-  text = text.substr(begin, text.find_last_not_of(" \t\r\n") + 1 - begin);
+  const std::string_view text = name_in(item);
+  if (text.empty()) xml_.fail(item.tag, "the item names no array");
   const std::size_t colon = text.rfind(':');
   if (colon == std::string_view::npos || colon == 0) xml_.fail(item.tag, "FILE.h5:/ARRAY is expected");
   const std::string name = unescaped(text.substr(0, colon));
@@ -95,6 +108,56 @@ std::pair<const Hdf5File*, Hdf5File::Object> XdmfFile::array_of(const XdmfItem& 
   const std::optional<Hdf5File::Object> array = file.find(file.root(), text.substr(colon + 1));
   if (!array) xml_.fail(item.tag, "there is no array " + in_quotes(text.substr(colon + 1)) + " in " + name);
   return {&file, *array};
+}
+
+// The file that an item's text names, relative to this one.
+std::filesystem::path XdmfFile::path_of(const XdmfItem& item) const {
+  const std::string_view name = name_in(item);
+  if (name.empty()) xml_.fail(item.tag, "the item names no file");
+  return source_.path.parent_path() / unescaped(name);
+}
+
+/// Values of a raw file from the byte Seek on.
+template <typename T>
+std::vector<T> XdmfFile::raw_values_of(const XdmfItem& item, std::uint64_t count) const {
+  const std::string packed = lower(item.tag.attribute("Compression"));
+  if (!packed.empty() && packed != "raw")
+    xml_.fail(item.tag, "values packed by " + in_quotes(packed) + " are not read");
+  const VtkType type = raw_type_of(item);
+  const std::endian order = lower(item.tag.attribute("Endian")) == "big"      ? std::endian::big
+                            : lower(item.tag.attribute("Endian")) == "little" ? std::endian::little
+                                                                              : std::endian::native;
+  const std::uint64_t begin = item.tag.attribute("Seek").empty() ? 0 : xml_.number(item.tag, "Seek");
+  const std::filesystem::path path = path_of(item);
+  const FileBytes file(path, source_.watch);
+  const std::string_view bytes = file.view();
+  if (begin > bytes.size() || count > (bytes.size() - begin) / size_of(type))
+    throw FileError(path, "",
+                    "has " + std::to_string(bytes.size()) + " bytes, too few for " + std::to_string(count) +
+                        " values of " + std::to_string(size_of(type)) + " bytes from byte " +
+                        std::to_string(begin) + " on");
+  return binary_values<T>(type, bytes.substr(begin, count * size_of(type)), order, source_.watch,
+                          [&](const std::string& reason) { xml_.fail(item.tag, reason); });
+}
+
+/// By NumberType, in XDMF 2 also DataType, and Precision: the bytes of a value.
+VtkType XdmfFile::raw_type_of(const XdmfItem& item) const {
+  struct Known {
+    std::string_view name, precision;
+    VtkType type;
+  };
+  static constexpr Known kKnown[] = {
+      {"float", "4", VtkType::float32}, {"float", "8", VtkType::float64}, {"int", "1", VtkType::int8},
+      {"int", "2", VtkType::int16},     {"int", "4", VtkType::int32},     {"int", "8", VtkType::int64},
+      {"uint", "1", VtkType::uint8},    {"uint", "2", VtkType::uint16},   {"uint", "4", VtkType::uint32},
+      {"uint", "8", VtkType::uint64},   {"short", "2", VtkType::int16},   {"ushort", "2", VtkType::uint16},
+      {"char", "1", VtkType::int8},     {"uchar", "1", VtkType::uint8}};
+  std::string name = lower(type_attribute(item)), precision = item.tag.attribute("Precision");
+  if (name.empty()) name = "float";
+  if (precision.empty()) precision = name.ends_with("char") ? "1" : name.ends_with("short") ? "2" : "4";
+  for (const Known& known : kKnown)
+    if (known.name == name && known.precision == precision) return known.type;
+  xml_.fail(item.tag, "values of the type " + in_quotes(name) + " of " + precision + " bytes are not read");
 }
 
 std::uint64_t XdmfFile::dimensions_of(const XdmfItem& item) const {
@@ -148,8 +211,11 @@ std::vector<T> XdmfFile::values_of(const std::vector<XdmfItem>& items, const Xml
       else
         values.push_back(text.integer("an integer"));
     }
+  } else if (format == "binary") {
+    values = raw_values_of<T>(*real, count);
   } else {
-    xml_.fail(real->tag, "values of the format " + in_quotes(format) + " are not read; HDF and XML are");
+    xml_.fail(real->tag,
+              "values of the format " + in_quotes(format) + " are not read; HDF, XML and Binary are");
   }
   if (values.size() != count)
     xml_.fail(real->tag, "there are " + std::to_string(values.size()) + " values, but Dimensions say " +
@@ -158,8 +224,7 @@ std::vector<T> XdmfFile::values_of(const std::vector<XdmfItem>& items, const Xml
 }
 
 bool XdmfFile::holds_integers(const XdmfItem& item) const {
-  std::string type = item.tag.attribute("NumberType");
-  if (type.empty()) type = item.tag.attribute("DataType");
+  std::string type = type_attribute(item);
   if (type.empty() && lower(item.tag.attribute("Format")) == "hdf") {
     const auto [file, array] = array_of(item);
     return file->holds_integers(array);

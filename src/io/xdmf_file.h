@@ -1,4 +1,4 @@
-// An XDMF file as its grids, whose arrays are in HDF5 files or in the text.
+// An XDMF file as its grids, whose arrays are in HDF5 files, in raw ones or in the text.
 #pragma once
 
 #include <map>
@@ -12,6 +12,7 @@
 #include "io/file_bytes.h"
 #include "io/hdf5_read.h"
 #include "io/vtk_cells.h"
+#include "io/vtk_values.h"
 #include "io/xml_reader.h"
 
 namespace holdfast::io {
@@ -74,6 +75,10 @@ class XdmfFile {
   void read_name(const XmlTag& tag);
   [[nodiscard]] std::string_view text_behind() const;
   [[nodiscard]] std::pair<const Hdf5File*, Hdf5File::Object> array_of(const XdmfItem& item) const;
+  [[nodiscard]] std::filesystem::path path_of(const XdmfItem& item) const;
+  template <typename T>
+  [[nodiscard]] std::vector<T> raw_values_of(const XdmfItem& item, std::uint64_t count) const;
+  [[nodiscard]] VtkType raw_type_of(const XdmfItem& item) const;
   [[nodiscard]] std::uint64_t dimensions_of(const XdmfItem& item) const;
 
   Source source_;

@@ -1,5 +1,6 @@
-// Reads XDMF 2 and 3 (xdmf.org, "XDMF model and format"): grids with their arrays in HDF5 or in the text, as
-// Holdfast, DOLFINx, meshio and ParaView write them. Of a collection in time the first grid counts.
+// Reads XDMF 2 and 3 (xdmf.org, "XDMF model and format"): grids with their arrays in HDF5, in raw files or in
+// the text, as Holdfast, DOLFINx, meshio and ParaView write them. Of a collection in time the first grid
+// counts.
 #include <algorithm>
 #include <cmath>
 #include <map>
