@@ -34,6 +34,7 @@ struct Findings {
   std::vector<Defect> outside;  ///< of a valid one: what `mesh` refuses unless it is asked to keep or drop it
   DefectSummary summary;
   Cures cures;
+  bool in_time = true;  ///< else the time limit ended the search for cures, or for what lies outside
 };
 
 Json report_of(const Surface& surface, const Report::Input& input, const Findings& found) {
@@ -47,6 +48,7 @@ Json report_of(const Surface& surface, const Report::Input& input, const Finding
           {"version", version()},
           {"summary", to_json(found.summary)},
           {"cures", to_json(found.cures)},
+          {"in_time", found.in_time},
           {"remarks", to_json(surface.remarks)},
           {"outside", to_json(found.outside)},
           {"defects", to_json(found.defects)}};
@@ -65,7 +67,7 @@ std::string outside_text(const std::vector<Defect>& outside, std::size_t most) {
 
 /// The summary, then the list.
 std::string listing_of(const Report::Input& counts, const Findings& found, std::size_t most) {
-  const auto& [defects, outside, summary, cures] = found;
+  const auto& [defects, outside, summary, cures, in_time] = found;
   const std::string input = fmt::format("{}, {}, {} in {}", counted(counts.vertices, "vertex", "vertices"),
                                         counted(counts.segments, "segment"), counted(counts.facets, "facet"),
                                         counted(summary.parts, "part"));
@@ -77,6 +79,7 @@ std::string listing_of(const Report::Input& counts, const Findings& found, std::
   else
     text = fmt::format("valid: {}; encloses {}\n", input, counted(summary.enclosed.value_or(0), "region"));
   text += summary_text(summary) + cures_text(cures);
+  if (!in_time) text += "the time limit ended the search for cures, and for what lies outside every region\n";
   if (!outside.empty()) text += outside_text(outside, most);
   const std::string list = list_text(summary, defects, most, listed_elsewhere);
   return list.empty() ? text : text + "\n" + list;
@@ -129,12 +132,18 @@ std::vector<Defect> find_outside(const Surface& surface, const DefectSummary& su
   return std::move(result.defects);
 }
 
+/// Cures are tried, which takes many times as long as the diagnosis: the time limit ends the search alone.
 Findings examine(const Surface& surface, const DiagnoseOptions& options) {
   Findings found;
   found.defects = diagnose(surface.view(), options);
   found.summary = summarise(surface.view(), found.defects);
-  found.cures = propose_cures(surface.view(), found.defects, found.summary, trials(options));
-  if (found.defects.empty()) found.outside = find_outside(surface, found.summary, options);
+  try {
+    found.cures = propose_cures(surface.view(), found.defects, found.summary, trials(options));
+    if (found.defects.empty()) found.outside = find_outside(surface, found.summary, options);
+  } catch (const Interrupted& limit) {
+    if (limit.outcome() != Outcome::time_limit) throw;
+    found.in_time = false;
+  }
   return found;
 }
 
@@ -154,6 +163,7 @@ int run(const DiagnoseArguments& arguments) {
       read_surfaces(arguments.surfaces, reading(options, arguments.input_format, arguments.tolerance));
   if (!arguments.quiet) tell(surface.remarks);
   const Findings found = examine(surface, options);
+  if (!found.in_time) options.time_limit = 0;  // for what is written of it
   const std::vector<Defect>& defects = found.defects;
 
   cancel_by_flag();  // from here on files are open

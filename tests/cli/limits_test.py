@@ -2,6 +2,7 @@
 
     limits_test.py PROGRAM [unittest options]
 """
+import json
 import random
 import signal
 import subprocess
@@ -27,6 +28,33 @@ class Limits(CliTest):
                 self.assertIn(option, told.stderr)
             self.assertIn("--time-limit", self.run_program(*command, "--time-limit", "-1", expect=2).stderr)
         self.assertEqual(self.files(), before)
+
+    def test_a_diagnosis_without_time_for_cures(self):
+        # Triangles of a square, apart from each other: cures take about twenty times as long as the diagnosis.
+        chance, side, vertices = random.Random(1), 60, []
+        for i in range(side):
+            for j in range(side):
+                for x, y in ((0, 0), (1, 0), (1, 1), (0, 0), (1, 1), (0, 1)):
+                    vertices.append([i + x + chance.uniform(-.1, .1), j + y + chance.uniform(-.1, .1),
+                                     chance.uniform(-.1, .1)])
+        lines = [" ".join(map(str, v)) for v in vertices]
+        lines += [f"3 {v} {v + 1} {v + 2}" for v in range(0, len(vertices), 3)]
+        self.write("soup.off", f"OFF\n{len(vertices)} {2 * side * side} 0\n" + "\n".join(lines) + "\n")
+        limit, code = 0.01, 5
+        while code == 5:
+            limit *= 2
+            told = subprocess.run([self.program, "diagnose", "soup.off", "--report", "r.json", "--html", "r.html",
+                                   "--time-limit", str(limit)], cwd=self.folder, capture_output=True, text=True,
+                                  timeout=240, check=False)
+            code = told.returncode
+        self.assertEqual(code, 4, told.stderr)
+        causes = told.stdout[:told.stdout.find("\n\n")]
+        self.assertIn("crossings of separate parts", causes)
+        self.assertIn("the time limit ended the search for cures", causes)
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertFalse(report["in_time"])
+        self.assertEqual(report["cures"]["proposals"], [])
+        self.assertGreater(len(report["defects"]), 1000)
 
     def test_a_signal_ends_the_writing(self):
         # A reader that does not read: the program waits in the middle of the file until it is told to end.
