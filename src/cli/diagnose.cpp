@@ -79,7 +79,9 @@ std::string listing_of(const Report::Input& counts, const Findings& found, std::
   else
     text = fmt::format("valid: {}; encloses {}\n", input, counted(summary.enclosed.value_or(0), "region"));
   text += summary_text(summary) + cures_text(cures);
-  if (!in_time) text += "the time limit ended the search for cures, and for what lies outside every region\n";
+  if (!in_time)
+    text += fmt::format("the time limit ended the search for cures{}\n",
+                        defects.empty() ? ", and for what lies outside every region" : "");
   if (!outside.empty()) text += outside_text(outside, most);
   const std::string list = list_text(summary, defects, most, listed_elsewhere);
   return list.empty() ? text : text + "\n" + list;

@@ -108,10 +108,28 @@ std::string extension_of(const std::filesystem::path& path, std::string_view for
   return extension;
 }
 
+/// What makes a file that can be read out of one that cannot; or "".
+std::string_view way_out_of(std::string_view extension) {
+  struct Way {
+    std::string_view extension, text;
+  };
+  static constexpr std::string_view kOfCad =
+      "; it describes shapes, without triangles: export it as STL, or `gmsh -2 IN -o OUT.stl` makes some";
+  static constexpr std::string_view kOfScenes = "; Blender, MeshLab or assimp save it as .obj";
+  static constexpr Way kWays[] = {{".step", kOfCad},   {".stp", kOfCad},    {".iges", kOfCad},
+                                  {".igs", kOfCad},    {".brep", kOfCad},   {".geo", kOfCad},
+                                  {".dae", kOfScenes}, {".wrl", kOfScenes}, {".x3d", kOfScenes},
+                                  {".3ds", kOfScenes}, {".fbx", kOfScenes}, {".blend", kOfScenes}};
+  for (const Way& way : kWays)
+    if (way.extension == extension) return way.text;
+  return {};
+}
+
 /// The entry of an extension that `suits`; else throws, with the ones that would do.
 template <typename Suits>
-const Format& find_format(const std::filesystem::path& path, std::string_view extension, const char* use,
+const Format& find_format(const std::filesystem::path& path, std::string_view extension, std::string_view use,
                           Suits&& suits) {
+  const bool reads = use.starts_with("read");
   std::string known;
   for (const Format& format : kFormats) {
     if (!suits(format)) continue;
@@ -120,7 +138,9 @@ const Format& find_format(const std::filesystem::path& path, std::string_view ex
   }
   const std::string name =
       extension.empty() ? "a name without extension" : "the format " + in_quotes(extension);
-  throw FileError(path, "", name + " cannot be " + use + "; the formats are " + known);
+  throw FileError(path, "",
+                  name + " cannot be " + std::string(use) +
+                      (reads ? std::string(way_out_of(extension)) : "") + "; the formats are " + known);
 }
 
 const Format& surface_format(const std::filesystem::path& path, std::string_view format) {

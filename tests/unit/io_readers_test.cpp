@@ -483,6 +483,12 @@ TEST(Files, PathsThatAreNoFiles) {
   put(folder / "a.xyz", kOff);
   EXPECT_NE(reason("a.xyz").find("the format '.xyz' cannot be read as a surface; the formats are .off, .stl"),
             std::string::npos);
+  for (const char* of_cad : {"a.step", "a.STP", "a.iges", "a.brep"})
+    EXPECT_NE(reason(of_cad).find("without triangles: export it as STL, or `gmsh -2 IN"), std::string::npos)
+        << of_cad;
+  EXPECT_NE(reason("a.dae").find(
+                "cannot be read as a surface; Blender, MeshLab or assimp save it as .obj; the formats are"),
+            std::string::npos);
   EXPECT_EQ(reason("a.xyz", ".off"), "read");
   EXPECT_EQ(reason("a.xyz", "OFF"), "read");
   EXPECT_THROW(static_cast<void>(read_volume(folder / "a.xyz", ".off")), FileError);
