@@ -17,6 +17,7 @@
 #include "io/mid_nodes.h"
 #include "io/msh_nodes.h"
 #include "io/msh_numbers.h"
+#include "io/msh_of_others.h"
 #include "io/msh_types.h"
 #include "io/polygon.h"
 
@@ -31,12 +32,8 @@ class MshReader {
 
   MeshData read() {
     const std::string_view first = text_.word("$MeshFormat");
-    if (first == "$MeshFormat")
-      read_format();
-    else if (first == "$NOD")
-      read_section("$NOD");
-    else
-      fail_as_no_gmsh_mesh(first);
+    if (first != "$MeshFormat" && first != "$NOD") text_.fail(why_no_gmsh_mesh(first));
+    first == "$NOD" ? read_section("$NOD") : read_format();
     while (!text_.at_end()) read_section(std::string(text_.word("a section")));
     for (std::size_t i = 0; i < point_markers_.size(); ++i) mesh_.vertex_markers.add(i, point_markers_[i]);
     mesh_.names = {names_[2].take(), names_[3].take(), names_[1].take(), names_[0].take()};
@@ -45,15 +42,6 @@ class MshReader {
   }
 
  private:
-  /// Others use the ending, too.
-  [[noreturn]] void fail_as_no_gmsh_mesh(std::string_view first) const {
-    if (first.starts_with('('))
-      text_.fail("a mesh of Ansys Fluent, not of Gmsh; save it in another format, such as Gmsh's");
-    if (!first.empty() && first.find_first_not_of("0123456789") == std::string_view::npos)
-      text_.fail("a mesh of FreeFEM, not of Gmsh; save it as .mesh");
-    text_.fail("not a Gmsh mesh: it does not start with $MeshFormat");
-  }
-
   void read_format() {
     const std::string version(text_.word("the version"));
     if (version == "2" || version.starts_with("2."))
@@ -452,6 +440,8 @@ class MshReader {
 
 }  // namespace
 
-MeshData read_msh(const Source& source) { return MshReader(source).read(); }
+MeshData read_msh(const Source& source) {
+  return is_inp(source.bytes) ? read_inp(source) : MshReader(source).read();
+}
 
 }  // namespace holdfast::io

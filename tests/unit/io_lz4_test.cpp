@@ -1,12 +1,31 @@
-// Blocks of LZ4.
+// Blocks of LZ4, and VTK's files that are packed by it.
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "io/lz4_block.h"
+#include "io_samples.h"
 
 namespace holdfast {
 namespace {
+
+using namespace samples;
+
+Volume volume(const std::string& bytes, const std::string& name) {
+  const TemporaryFolder folder;
+  put(folder / name, bytes);
+  return read_volume(folder / name);
+}
+
+/// The place and reason of the error that reading gives, without the path.
+std::string error(const std::string& bytes, const std::string& name) {
+  try {
+    static_cast<void>(volume(bytes, name));
+  } catch (const FileError& failure) {
+    return std::string(failure.what()).substr(failure.path().string().size() + 2);
+  }
+  return "read";
+}
 
 /// What the block holds, or "damaged".
 std::string unpacked(const std::string& block, std::size_t size) {
@@ -85,6 +104,17 @@ TEST(Lz4, ArbitraryBytesDoNoHarm) {
     EXPECT_TRUE(!whole || bytes.size() == size);
     EXPECT_LE(bytes.size(), size);
   }
+}
+
+TEST(Lz4, PacksArraysOfVtu) {
+  // One block of 12 bytes, which are literals.
+  const std::string text = replaced(
+      replaced(kVtu, "Name=\"offsets\" format=\"ascii\">4 7 9",
+               "Name=\"offsets\" format=\"binary\">\nAQAAAAwAAAAAAAAADQAAAA==wAQAAAAHAAAACQAAAA==\n"),
+      "byte_order", "compressor=\"vtkLZ4DataCompressor\" byte_order");
+  EXPECT_EQ(volume(text, "a.vtu").segments, (std::vector<Segment>{{0, 1}}));
+  EXPECT_EQ(error(replaced(text, "wAQAAAAHAAAACQAAAA==", "sAQAAAAHAAAACQAAAA=="), "a.vtu"),
+            "byte 789: a block that cannot be decompressed; the file is damaged");
 }
 
 }  // namespace

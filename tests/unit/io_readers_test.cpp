@@ -378,15 +378,6 @@ TEST(Msh, Version4) {
   EXPECT_EQ(v.segment_markers, (std::vector<int>{1}));  // its physical tags: none
 }
 
-TEST(Msh, FilesOfOthersWithItsEnding) {
-  EXPECT_EQ(error("(1 \"TGrid 2D\")\n(2 2)\n", "a.msh"),
-            "line 1: a mesh of Ansys Fluent, not of Gmsh; save it in another format, such as Gmsh's");
-  EXPECT_EQ(error("(0 \"by Fluent\")\n(2 3)\n", "a.msh").substr(0, 30), "line 1: a mesh of Ansys Fluent");
-  EXPECT_EQ(error(" 112 184 40\n 4.0 0.8 1\n", "a.msh"),
-            "line 1: a mesh of FreeFEM, not of Gmsh; save it as .mesh");
-  EXPECT_EQ(error("hello\n", "a.msh"), "line 1: not a Gmsh mesh: it does not start with $MeshFormat");
-}
-
 TEST(Msh, Errors) {
   EXPECT_EQ(error(replaced(kMsh2, "2.2 0 8", "2.2 1 8"), "a.msh"),
             "line 2: the number 1, which tells the order of bytes, is missing");
@@ -439,17 +430,6 @@ TEST(Vtu, Base64) {
                                       std::string("Name=\"offsets\" format=\"binary\">\n ") + offsets + "\n");
     EXPECT_EQ(volume(text, "a.vtu").segments, (Segments{{0, 1}})) << offsets;
   }
-}
-
-TEST(Vtu, PackedByLz4) {
-  // One block of 12 bytes, which are literals.
-  const std::string text = replaced(
-      replaced(kVtu, "Name=\"offsets\" format=\"ascii\">4 7 9",
-               "Name=\"offsets\" format=\"binary\">\nAQAAAAwAAAAAAAAADQAAAA==wAQAAAAHAAAACQAAAA==\n"),
-      "byte_order", "compressor=\"vtkLZ4DataCompressor\" byte_order");
-  EXPECT_EQ(volume(text, "a.vtu").segments, (Segments{{0, 1}}));
-  EXPECT_EQ(error(replaced(text, "wAQAAAAHAAAACQAAAA==", "sAQAAAAHAAAACQAAAA=="), "a.vtu"),
-            "byte 789: a block that cannot be decompressed; the file is damaged");
 }
 
 TEST(Vtu, Errors) {
