@@ -142,6 +142,7 @@ void FilesOfRun::read_points(const fs::path& path, std::string_view format) { re
 void FilesOfRun::read_volume(const fs::path& path, std::string_view format) {
   require_format(path, format);
   read("the input", files_of_volume(path, format));
+  read("the input", files_of_surface(path, format));  // what an .inp includes, too
 }
 
 void FilesOfRun::read_file(std::string_view option, const fs::path& path) {

@@ -1,4 +1,4 @@
-// Which files a name stands for: those of TetGen, glTF, and a mesh with its sizes, come in several.
+// Which files a name stands for: those of TetGen, glTF, Abaqus, and a mesh with its sizes, come in several.
 #include <algorithm>
 #include <fstream>
 #include <string>
@@ -50,6 +50,7 @@ Paths files_of_surface(const std::filesystem::path& path, std::string_view forma
   if ((extension == ".poly" || extension == ".smesh") && has_nodes_beside(path))
     return {path, io::sibling(path, ".node")};
   if (extension == ".gltf" || extension == ".glb") return io::gltf_files(path);
+  if (extension == ".inp") return io::inp_files(path);
   return {path};
 }
 

@@ -55,6 +55,8 @@ void write_msh(AtomicWriter& out, const Volume& volume, const WriteOptions& opti
 [[nodiscard]] std::vector<Remark> not_in_msh(const Volume& volume, const WriteOptions& options);
 /// Abaqus's and CalculiX's, or UCD, which begins with a number.
 [[nodiscard]] MeshData read_inp(const Source& source);
+/// The file and those that it includes; it alone if they cannot be read.
+[[nodiscard]] std::vector<std::filesystem::path> inp_files(const std::filesystem::path& path);
 [[nodiscard]] MeshData read_avs(const Source& source);
 /// Whether the first word, after comments, is a number, as no keyword of an .inp file is.
 [[nodiscard]] bool is_avs(std::string_view bytes);

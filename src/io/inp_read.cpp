@@ -4,6 +4,7 @@
 // Sets of tetrahedra are regions, those of triangles and surfaces markers. Where sets overlap, the smaller
 // one counts. An instance of a part reads the part's lines once more, with numbers and names of its own.
 #include "io/formats.h"
+#include "io/inp_include.h"
 #include "io/inp_parts.h"
 #include "io/inp_sets.h"
 
@@ -44,8 +45,6 @@ class InpReader {
     } else if (key.name == "surface" && key.has("name") &&
                (!key.has("type") || lower(key.values.at("type")) == "element")) {
       surfaces_.read(text_, text_.scope().given(key.values.at("name")));
-    } else if (key.name == "include") {
-      text_.reader().fail_at(key.place, "*INCLUDE is not followed; read the file that it names");
     } else {
       if (text_.is_data()) ++skipped_[key.name];
       while (text_.is_data()) text_.next();
@@ -150,7 +149,9 @@ class InpReader {
 }  // namespace
 
 MeshData read_inp(const Source& source) {
-  return is_avs(source.bytes) ? read_avs(source) : InpReader(source).read();
+  if (is_avs(source.bytes)) return read_avs(source);
+  const InpIncludes whole(source);
+  return InpReader(whole.source()).read();
 }
 
 }  // namespace holdfast::io

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +16,13 @@
 
 namespace holdfast::io {
 
+/// From a byte of a text on, it is that of another file, from a line on. The path must outlive it.
+struct Origin {
+  std::size_t begin;
+  std::reference_wrapper<const std::filesystem::path> path;
+  std::size_t line;
+};
+
 /// A file's bytes and the name that errors give it.
 struct Source {
   const std::filesystem::path& path;
@@ -22,6 +31,7 @@ struct Source {
   Watch* watch = nullptr;
   double tolerance = 0;  ///< how far corners of a polygon may lie from its plane; see ReadOptions
   bool keeps_polygons = false;
+  std::span<const Origin> origins = {};  ///< of a text of several files, ascending, from its begin on
 };
 
 /// Tags of entities of one kind that stay empty as long as every tag is 0.

@@ -16,6 +16,8 @@ namespace {
 bool blank(char c) { return static_cast<unsigned char>(c) <= ' ' && c != '\0'; }
 bool line_end(char c) { return c == '\n' || c == '\r'; }
 
+}  // namespace
+
 std::size_t line_of(std::string_view text, std::size_t position) {
   std::size_t line = 1;
   for (std::size_t i = 0; i < position && i < text.size(); ++i) {
@@ -24,8 +26,6 @@ std::size_t line_of(std::string_view text, std::size_t position) {
   }
   return line;
 }
-
-}  // namespace
 
 TextReader::TextReader(const Source& source, char comment) : source_(source), comment_(comment) {
   const std::string_view bytes = source.bytes;
@@ -186,7 +186,14 @@ bool TextReader::number_follows() {
 void TextReader::fail(const std::string& reason) const { fail_at(last_, reason); }
 
 void TextReader::fail_at(std::size_t position, const std::string& reason) const {
-  throw FileError(source_.path, "line " + std::to_string(line_of(source_.bytes, position)), reason);
+  const auto behind =
+      std::upper_bound(source_.origins.begin(), source_.origins.end(), position,
+                       [](std::size_t at, const Origin& origin) { return at < origin.begin; });
+  const Origin whole{0, source_.path, 1};
+  const Origin& origin = behind == source_.origins.begin() ? whole : behind[-1];
+  const std::size_t line =
+      origin.line + line_of(source_.bytes.substr(origin.begin), position - origin.begin) - 1;
+  throw FileError(origin.path, "line " + std::to_string(line), reason);
 }
 
 void TextReader::fail_truncated(std::string_view what) const {

@@ -77,6 +77,9 @@ class TextReader {
   std::size_t last_ = 0;
 };
 
+/// The line that a position is in, from 1.
+[[nodiscard]] std::size_t line_of(std::string_view text, std::size_t position);
+
 /// `word` in lower case (ASCII).
 [[nodiscard]] std::string lower(std::string_view word);
 
