@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <utility>
 
 #include "io/base64.h"
 #include "io/byte_reader.h"
@@ -100,13 +101,15 @@ std::span<const Json> GltfFile::list(const Json& object, std::string_view key) c
   return found->get_ref<const Json::array_t&>();
 }
 
-std::optional<std::uint64_t> GltfFile::number(const Json& object, std::string_view key) const {
+std::optional<std::size_t> GltfFile::number(const Json& object, std::string_view key) const {
   const Json* const found = member(object, key);
   if (found == nullptr) return std::nullopt;
   const std::uint64_t value = found->is_number_unsigned() ? found->get<std::uint64_t>() : kNone;
-  if (value > std::numeric_limits<std::uint32_t>::max() * std::uint64_t{1024})
+  // In a browser sizes have 32 bits.
+  if (value > std::numeric_limits<std::uint32_t>::max() * std::uint64_t{1024} ||
+      !std::in_range<std::size_t>(value))
     fail(*found, in_quotes(key) + " is no count or index: " + in_quotes(shown(*found)));
-  return value;
+  return static_cast<std::size_t>(value);
 }
 
 std::optional<std::size_t> GltfFile::entry(const Json& object, std::string_view key,
@@ -122,7 +125,7 @@ std::size_t GltfFile::entry_of(const Json& value, std::string_view array) const 
   if (index >= size)
     fail(value, in_quotes(shown(value)) + " is the number of none of the " + std::to_string(size) + " " +
                     std::string(array));
-  return index;
+  return static_cast<std::size_t>(index);
 }
 
 std::optional<std::vector<double>> GltfFile::reals(const Json& object, std::string_view key,

@@ -24,7 +24,7 @@ class GltfFile {
   /// What an array of an object holds; nothing where it is missing.
   [[nodiscard]] std::span<const Json> list(const Json& object, std::string_view key) const;
   /// A member that is a count or the like.
-  [[nodiscard]] std::optional<std::uint64_t> number(const Json& object, std::string_view key) const;
+  [[nodiscard]] std::optional<std::size_t> number(const Json& object, std::string_view key) const;
   /// A member that is the number of an entry of an array of the file.
   [[nodiscard]] std::optional<std::size_t> entry(const Json& object, std::string_view key,
                                                  std::string_view array) const;

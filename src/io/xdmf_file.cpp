@@ -136,7 +136,8 @@ std::vector<T> XdmfFile::raw_values_of(const XdmfItem& item, std::uint64_t count
                     "has " + std::to_string(bytes.size()) + " bytes, too few for " + std::to_string(count) +
                         " values of " + std::to_string(size_of(type)) + " bytes from byte " +
                         std::to_string(begin) + " on");
-  return binary_values<T>(type, bytes.substr(begin, count * size_of(type)), order, source_.watch,
+  const auto from = static_cast<std::size_t>(begin), length = static_cast<std::size_t>(count) * size_of(type);
+  return binary_values<T>(type, bytes.substr(from, length), order, source_.watch,
                           [&](const std::string& reason) { xml_.fail(item.tag, reason); });
 }
 
