@@ -141,8 +141,11 @@ void FilesOfRun::read_points(const fs::path& path, std::string_view format) { re
 
 void FilesOfRun::read_volume(const fs::path& path, std::string_view format) {
   require_format(path, format);
-  read("the input", files_of_volume(path, format));
-  read("the input", files_of_surface(path, format));  // what an .inp includes, too
+  std::vector<fs::path> files = files_of_volume(path, format);
+  // Those that an .inp includes.
+  for (const fs::path& file : files_of_surface(path, format))
+    if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+  read("the input", files);
 }
 
 void FilesOfRun::read_file(std::string_view option, const fs::path& path) {

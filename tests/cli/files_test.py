@@ -87,6 +87,15 @@ class NothingIsOverwritten(CliTest):
         for _ in range(2):
             self.run_program("mesh", "own.poly", "-o", "own.node", "--fill")
 
+    def test_included_files(self):
+        self.write("job.inp", "*INCLUDE, INPUT=all.inp\n")
+        self.write("all.inp", "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT, TYPE=C3D4\n1,1,2,3,4\n")
+        for command in (["mesh", "--surface-of", "job.inp", "-o"], ["convert", "job.inp"]):
+            self.assertIn("would overwrite the input", self.run_program(*command, "all.inp", expect=2).stderr)
+            self.run_program(*command, "other.inp")
+        # What an output is to replace is no input.
+        self.run_program("convert", "all.inp", "job.inp")
+
     def test_size_fields(self):
         self.write("background.mesh", MEDIT)
         self.write("background.sol", SOL)

@@ -238,7 +238,7 @@ class RoundTrips(CliTest):
         self.mesh("a.xdmf")
         before = (self.folder / "a.xdmf").read_text()
         for old, new in (('Dimensions="', 'Dimensions="9'), ("a.h5:/points", "a.h5:/paints"), ("a.h5:", "b.h5:"),
-                         ("Tetrahedron", "Hexahedron"), ("</Xdmf>", ""), ('Format="HDF"', 'Format="Binary"'),
+                         ("Tetrahedron", "Hexahedron"), ("</Xdmf>", ""), ('Format="HDF"', 'Format="TIFF"'),
                          ("NumberOfElements=\"", "NumberOfElements=\"1"), ("a.h5:/tetrahedra", "a.h5"),
                          ("<Geometry", "<Geometrie"), ("XYZ", "VXVYVZ")):
             self.write("a.xdmf", before.replace(old, new))
