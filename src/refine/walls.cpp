@@ -37,7 +37,8 @@ void Walls::note_facet(const TetMesh& mesh, Face f) {
 std::span<const Walls::Edge> Walls::joined_to(Vertex v) const {
   const auto first = std::lower_bound(edges_.begin(), edges_.end(), Edge{v, 0});
   const auto last = std::find_if(first, edges_.end(), [v](const Edge& e) { return e[0] != v; });
-  return {first, last};
+  // By pointer and length: libc++ 13, of the package for browsers, has no other constructor.
+  return {edges_.data() + (first - edges_.begin()), static_cast<std::size_t>(last - first)};
 }
 
 namespace {
