@@ -125,13 +125,29 @@ void turn_outward(Volume& volume) {
   }
 }
 
+/// The first few, each with its name.
+std::string listed(const std::set<int>& regions, const Names& names) {
+  constexpr std::size_t kMost = 10;
+  std::string list;
+  std::size_t count = 0;
+  for (const int id : regions) {
+    if (count++ == kMost) return list + fmt::format(" and {} more", regions.size() - kMost);
+    const auto name = names.regions.find(id);
+    list += (list.empty() ? "" : ", ") + std::to_string(id);
+    if (name != names.regions.end()) list += fmt::format(" ({})", name->second);
+  }
+  return list;
+}
+
 void take_regions(Volume& volume, const std::vector<std::string>& regions) {
   std::set<int> ids;
   const std::set<int> present(volume.regions.begin(), volume.regions.end());
   for (const std::string& region : regions) {
     const std::vector<int> named = region_ids(region, volume.names);
     const bool found = std::any_of(named.begin(), named.end(), [&](int id) { return present.count(id) > 0; });
-    if (!found) throw UsageError(fmt::format("--only region={}: there is no such region", region));
+    if (!found)
+      throw UsageError(fmt::format("--only region={}: there is no such region; there are {}", region,
+                                   listed(present, volume.names)));
     ids.insert(named.begin(), named.end());
   }
   const std::vector<int> region_of = volume.regions;
