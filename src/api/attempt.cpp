@@ -81,7 +81,7 @@ std::string message_of(const std::vector<Defect>& defects) {
   // The last rules are not of the surface alone, but of what is to be kept of it.
   switch (defects[0].kind) {
     case DefectKind::encloses_nothing:
-      return "nothing to fill: the surface encloses nothing";
+      return "there is nothing to fill";
     case DefectKind::outside_region:
       return defects.size() == 1
                  ? "a piece of the surface borders on no kept region"
