@@ -1,7 +1,8 @@
 """Fails when a layer of src/ includes a header of a layer above it, or when library code prints, exits, names
 options of the command line, changes the mesh by single steps (mesh/assembly.h), converts numbers by functions that heed
 the locale of the program round it (src/text/decimal.h is for that), or uses what the standard leaves to each library,
-so that meshes would differ between platforms (src/numbers is for that).
+so that meshes would differ between platforms (src/numbers is for that). Nor may what the package for browsers is made of include
+what web/CMakeLists.txt leaves out of it: it would not link.
 
     layers.py ROOT LAYER...      LAYER... from the lowest to the highest (HOLDFAST_LAYERS of CMakeLists.txt)
     layers.py --selftest
@@ -84,6 +85,22 @@ def broken_rules(root, layers):
                 yield f"{path}:{line}: not the same on all platforms, see src/numbers: {match.group().strip()}"
 
 
+def missing_in_web(root, layers):
+    """One line for every header of a layer that web/CMakeLists.txt leaves out, in a source that it compiles."""
+    recipe = (root / "web/CMakeLists.txt").read_text()
+    left_out = set(re.search(r"^list\(REMOVE_ITEM layers (.*)\)$", recipe, re.M).group(1).split())
+    sources = re.compile(re.search(r'EXCLUDE REGEX "(/api/.*)"\)$', recipe, re.M).group(1).replace("\\\\", "\\"))
+    for path in sorted(root.glob("src/*/*.cpp")):
+        layer = path.parent.name
+        if layer not in layers or layer in left_out or sources.search(path.as_posix()):
+            continue
+        text = path.read_text()
+        for match in INCLUDE.finditer(text):
+            if match.group(1).split("/")[0] in left_out:
+                line = text.count("\n", 0, match.start(1)) + 1
+                yield f"{path}:{line}: web/CMakeLists.txt leaves out {match.group(1)}"
+
+
 def selftest():
     layers = ["text", "exact", "mesh", "surface", "refine", "check", "io", "api"]
     cases = [  # file, text, number of broken rules
@@ -118,13 +135,23 @@ def selftest():
             path.write_text(text)
             found = list(broken_rules(Path(folder), layers))
             assert len(found) == expected, (name, text, found)
-    print(f"{len(cases)} cases")
+    with tempfile.TemporaryDirectory() as folder:
+        root = Path(folder)
+        for name, text in {"web/CMakeLists.txt": 'list(REMOVE_ITEM layers c check)\n  list(FILTER of_layer EXCLUDE REGEX "/api/(a|b)\\\\.cpp$")\n',
+                           "src/api/a.cpp": '#include "check/a.h"\n', "src/check/b.cpp": '#include "check/a.h"\n',
+                           "src/api/c.cpp": '#include "mesh/a.h"\n#include "check/a.h"\n'}.items():
+            (root / name).parent.mkdir(parents=True, exist_ok=True)
+            (root / name).write_text(text)
+        found = list(missing_in_web(root, layers))
+        assert len(found) == 1 and "src/api/c.cpp:2" in found[0], found
+    print(f"{len(cases) + 1} cases")
 
 
 if __name__ == "__main__":
     if sys.argv[1:] == ["--selftest"]:
         selftest()
         sys.exit(0)
-    problems = list(broken_rules(Path(sys.argv[1]).resolve(), sys.argv[2:]))
+    root = Path(sys.argv[1]).resolve()
+    problems = [*broken_rules(root, sys.argv[2:]), *missing_in_web(root, sys.argv[2:])]
     print("\n".join(problems) or "every layer includes only what lies below it")
     sys.exit(1 if problems else 0)
