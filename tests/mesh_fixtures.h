@@ -38,6 +38,19 @@ inline std::vector<Point> random_points(std::size_t n, std::uint64_t seed) {
   return points;
 }
 
+inline Point point_in_unit_cube(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> any(0, 1);
+  const double x = any(random), y = any(random);
+  return {x, y, any(random)};
+}
+
+inline std::vector<Point> corners_of_unit_cube() {
+  std::vector<Point> points;
+  for (unsigned k = 0; k < 8; ++k)
+    points.push_back({(k & 1u) != 0 ? 1.0 : 0.0, (k & 2u) != 0 ? 1.0 : 0.0, (k & 4u) != 0 ? 1.0 : 0.0});
+  return points;
+}
+
 // The Delaunay mesh of points and of the corners of a box round them, which come after the points.
 inline TetMesh delaunay_in_box(const std::vector<Point>& points, double half_extent = 10) {
   TetMesh mesh;

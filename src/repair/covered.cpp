@@ -8,6 +8,7 @@
 
 #include "check_repair/cover.h"
 #include "check_repair/reach.h"
+#include "repair/children.h"
 #include "surface/complex.h"
 #include "surface/places.h"
 
@@ -19,19 +20,22 @@ using Side = std::array<Index, 2>;  // ascending
 class Covers {
  public:
   Covers(const State& state, const State& given, const Step& step)
-      : state_(state), given_(given), step_(step), place_(state.vertices.size(), no_index) {
+      : state_(state),
+        given_(given),
+        step_(step),
+        place_(state.vertices.size(), no_index),
+        children_(state, given) {
     const std::vector<Index> first = first_at_places(state.vertices);
     for (const Triangle& t : state.facets)
       for (const Index v : t) place_[first[v]] = std::min(place_[first[v]], v);
     for (Index v = 0; v < place_.size(); ++v) place_[v] = place_[first[v]];
-    list_children();
   }
 
   double run(double most) {
     std::vector<Index> open;
     const checking::Reach near(most);
     for (Index g = 0; g < given_.facets.size(); ++g)
-      if (!children_of(g).empty() && !has_its_sides_round_it(g, near)) open.push_back(g);
+      if (!children_.of(g).empty() && !has_its_sides_round_it(g, near)) open.push_back(g);
     constexpr int kDoublings = 8;
     double distance = most;
     for (int k = 0; k <= kDoublings; ++k, distance *= 2) {
@@ -47,25 +51,10 @@ class Covers {
   }
 
  private:
-  void list_children() {
-    Index parents = 0;
-    for (const Index p : state_.facet_parents.all) parents = std::max(parents, p + 1);
-    children_.resize(parents);
-    for (Index f = 0; f < state_.facets.size(); ++f)
-      for (const Index p : state_.facet_parents.of(f)) children_[p].push_back(f);
-  }
-
-  /// Those of facets of the input that were the same are the same.
-  [[nodiscard]] std::span<const Index> children_of(Index g) const {
-    const auto parents = given_.facet_parents.of(g);
-    if (parents.empty() || parents[0] >= children_.size()) return {};
-    return children_[parents[0]];
-  }
-
   /// The sides that an odd number of the parts of a facet have, once from each of their ends.
   void list_odd_sides(Index g) {
     sides_.clear();
-    for (const Index f : children_of(g)) {
+    for (const Index f : children_.of(g)) {
       const Triangle& t = state_.facets[f];
       for (std::size_t i = 0; i < 3; ++i) {
         const Index a = place_[t[i]], b = place_[t[(i + 1) % 3]];
@@ -126,7 +115,7 @@ class Covers {
   [[nodiscard]] bool is_covered(Index g, checking::CoverTest& test) const {
     const Triangle& t = given_.facets[g];
     return !test.gap({given_.vertices[t[0]], given_.vertices[t[1]], given_.vertices[t[2]]},
-                     {place_[t[0]], place_[t[1]], place_[t[2]]}, children_of(g));
+                     {place_[t[0]], place_[t[1]], place_[t[2]]}, children_.of(g));
   }
 
   [[nodiscard]] const Point& at(Index v) const { return state_.vertices[v]; }
@@ -135,7 +124,7 @@ class Covers {
   const State& given_;
   const Step& step_;
   std::vector<Index> place_;  // by vertex a used one at its place, or none
-  std::vector<std::vector<Index>> children_;
+  const Children children_;
   std::vector<Side> sides_;
 };
 

@@ -12,6 +12,7 @@
 
 #include "check_repair/reach.h"
 #include "numbers/sorted.h"
+#include "repair/children.h"
 #include "repair/near.h"
 #include "surface/aabb_tree.h"
 #include "surface/complex.h"
@@ -59,13 +60,13 @@ class Strips {
         before_(most),
         most_(most),
         first_(first_at_places(state.vertices)),
-        used_(state.vertices.size(), 0) {
+        used_(state.vertices.size(), 0),
+        children_(state, given) {
     for (const Triangle& t : state.facets)
       for (const Index v : t) used_[first_[v]] = 1;
   }
 
   double run() {
-    list_children();
     for (Index g = 0; g < given_.facets.size(); ++g)
       if (!is_whole(g)) mend(g);
     if (!added_.empty()) state_.doubt_all();
@@ -75,21 +76,6 @@ class Strips {
  private:
   [[nodiscard]] const Point& at(Index v) const { return state_.vertices[v]; }
 
-  void list_children() {
-    Index parents = 0;
-    for (const Index p : state_.facet_parents.all) parents = std::max(parents, p + 1);
-    children_.resize(parents);
-    for (Index f = 0; f < state_.facets.size(); ++f)
-      for (const Index p : state_.facet_parents.of(f)) children_[p].push_back(f);
-  }
-
-  /// Those of facets of the input that were the same are the same.
-  [[nodiscard]] std::span<const Index> children_of(Index g) const {
-    const auto parents = given_.facet_parents.of(g);
-    if (parents.empty() || parents[0] >= children_.size()) return {};
-    return children_[parents[0]];
-  }
-
   [[nodiscard]] Triangle corners_of(Index g) const {
     const Triangle& t = given_.facets[g];
     return {first_[t[0]], first_[t[1]], first_[t[2]]};
@@ -97,7 +83,7 @@ class Strips {
 
   /// Whether the parts of a facet hang together and have its corners; also where it has none.
   [[nodiscard]] bool is_whole(Index g) {
-    const std::span<const Index> children = children_of(g);
+    const std::span<const Index> children = children_.of(g);
     if (children.empty()) return true;
     const Triangle corners = corners_of(g);
     if (std::any_of(corners.begin(), corners.end(), [&](Index v) { return used_[v] == 0; })) return false;
@@ -133,7 +119,7 @@ class Strips {
     Near near;
     const Box box = box_round(given_, t, 2 * most_);
     near.facets = facets_near(box);
-    for (const Index f : children_of(g))
+    for (const Index f : children_.of(g))
       for (const Index v : state_.facets[f]) near.vertices.emplace(first_[v], before_);
     for (const Index v : t)
       if (at(v) == given_.vertices[v]) near.vertices[first_[v]] = 0;
@@ -273,8 +259,8 @@ class Strips {
   const double before_;  // how far the surface was from the input
   double most_;          // and is by now
   std::vector<Index> first_;
-  std::vector<std::uint8_t> used_;            // at its place
-  std::vector<std::vector<Index>> children_;  // by facet of the input
+  std::vector<std::uint8_t> used_;  // at its place
+  const Children children_;
   AabbTree tree_;
   bool has_tree_ = false;
   std::vector<Index> added_;  // facets that are not in the tree

@@ -10,6 +10,7 @@
 #include "delaunay/delaunay.h"
 #include "mesh/editor.h"
 #include "mesh/validate.h"
+#include "mesh_fixtures.h"
 #include "refine/field_points.h"
 #include "refine/front.h"
 #include "refine/section_points.h"
@@ -18,11 +19,8 @@
 namespace holdfast {
 namespace {
 
-Point random_point(std::mt19937_64& random) {
-  std::uniform_real_distribution<double> any(0, 1);
-  const double x = any(random), y = any(random);
-  return {x, y, any(random)};
-}
+using testing::corners_of_unit_cube;
+using testing::point_in_unit_cube;
 
 /// One region, the convex hull of points, without constraints.
 struct DelaunayVolume {
@@ -42,17 +40,11 @@ struct DelaunayVolume {
   }
 };
 
-std::vector<Point> corners_of_cube() {
-  std::vector<Point> points;
-  for (int k = 0; k < 8; ++k) points.push_back({k & 1 ? 1.0 : 0.0, k & 2 ? 1.0 : 0.0, k & 4 ? 1.0 : 0.0});
-  return points;
-}
-
 TEST(Cuts, HaveEquallyMuchOnBothSides) {
   std::mt19937_64 random(1);
   std::vector<Cuts::Sample> samples;
   for (int k = 0; k < 20000; ++k) {
-    const Point p = random_point(random);
+    const Point p = point_in_unit_cube(random);
     samples.push_back({p, p[0] < 0.25 ? 3.0 : 1.0});
   }
   const Cuts cuts(samples, 3);
@@ -69,13 +61,13 @@ TEST(Cuts, HaveEquallyMuchOnBothSides) {
 TEST(Cuts, AreAcrossWhatHasPartsOnBothSides) {
   std::mt19937_64 random(2);
   std::vector<Cuts::Sample> samples;
-  for (int k = 0; k < 1000; ++k) samples.push_back({random_point(random), 1});
+  for (int k = 0; k < 1000; ++k) samples.push_back({point_in_unit_cube(random), 1});
   const Cuts cuts(samples, 2);
   std::size_t across = 0;
   for (int k = 0; k < 1000; ++k) {
     std::array<Point, 4> corners;
     for (Point& p : corners) {
-      p = random_point(random);
+      p = point_in_unit_cube(random);
       for (double& x : p) x = 0.25 * x + 0.001 * (k % 700);
     }
     const auto is_elsewhere = [&](const Point& p) { return cuts.part_of(p) != cuts.part_of(corners[0]); };
@@ -92,7 +84,7 @@ TEST(Cuts, GoThroughTheWaist) {
   std::mt19937_64 random(3);
   std::vector<Cuts::Sample> samples;  // a slab whose middle is thin
   while (samples.size() < 4000) {
-    const Point p = random_point(random);
+    const Point p = point_in_unit_cube(random);
     if (std::abs(p[1] - 0.5) < 0.05 + 0.5 * std::abs(p[0] - 0.5)) samples.push_back({p, 1});
   }
   const Cuts cuts(samples, 1);
@@ -104,7 +96,7 @@ TEST(Cuts, AwayFromTheMiddleLeaveAloneWhatLiesAlongIt) {
   std::mt19937_64 random(4);
   std::vector<Cuts::Sample> samples;
   while (samples.size() < 4000) {
-    const Point p = random_point(random);
+    const Point p = point_in_unit_cube(random);
     const double x = std::abs(p[0] - 0.5), y = std::abs(p[1] - 0.5), z = std::abs(p[2] - 0.5);
     if (std::min({x, y, z}) < 0.02) samples.push_back({p, 1});
   }
@@ -138,10 +130,10 @@ TEST(Cuts, OfNothingOrOfOnePlaceAreNoTrouble) {
 }
 
 TEST(SectionPoints, MakeTheCirclesSmallInWhichSpheresMeetTheCuts) {
-  DelaunayVolume cube(corners_of_cube());
+  DelaunayVolume cube(corners_of_unit_cube());
   std::mt19937_64 random(4);
   std::vector<Cuts::Sample> samples;
-  for (int k = 0; k < 1000; ++k) samples.push_back({random_point(random), 1});
+  for (int k = 0; k < 1000; ++k) samples.push_back({point_in_unit_cube(random), 1});
   const Cuts cuts(samples, 2);
   const Options options;
   const Sizes sizes{.size = 0.1};

@@ -4,28 +4,12 @@
 #include <random>
 
 #include "io/lz4_block.h"
-#include "io_samples.h"
+#include "io_volumes.h"
 
 namespace holdfast {
 namespace {
 
 using namespace samples;
-
-Volume volume(const std::string& bytes, const std::string& name) {
-  const TemporaryFolder folder;
-  put(folder / name, bytes);
-  return read_volume(folder / name);
-}
-
-/// The place and reason of the error that reading gives, without the path.
-std::string error(const std::string& bytes, const std::string& name) {
-  try {
-    static_cast<void>(volume(bytes, name));
-  } catch (const FileError& failure) {
-    return std::string(failure.what()).substr(failure.path().string().size() + 2);
-  }
-  return "read";
-}
 
 /// What the block holds, or "damaged".
 std::string unpacked(const std::string& block, std::size_t size) {

@@ -1,28 +1,12 @@
 // Files of other programs that end in .msh.
 #include <gtest/gtest.h>
 
-#include "io_samples.h"
+#include "io_volumes.h"
 
 namespace holdfast {
 namespace {
 
 using namespace samples;
-
-Volume volume(const std::string& bytes, const std::string& name) {
-  const TemporaryFolder folder;
-  put(folder / name, bytes);
-  return read_volume(folder / name);
-}
-
-/// The place and reason of the error that reading gives, without the path.
-std::string error(const std::string& bytes, const std::string& name) {
-  try {
-    static_cast<void>(volume(bytes, name));
-  } catch (const FileError& failure) {
-    return std::string(failure.what()).substr(failure.path().string().size() + 2);
-  }
-  return "read";
-}
 
 /// As CalculiX's cgx writes "all.msh".
 TEST(Msh, OfCalculixIsReadAsInp) {

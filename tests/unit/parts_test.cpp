@@ -16,6 +16,7 @@
 #include "mesh/measure.h"
 #include "mesh/traverse.h"
 #include "mesh/validate.h"
+#include "mesh_fixtures.h"
 #include "optimise/energy.h"
 #include "optimise/improve_parts.h"
 #include "optimise/volume.h"
@@ -26,11 +27,8 @@
 namespace holdfast {
 namespace {
 
-Point random_point(std::mt19937_64& random) {
-  std::uniform_real_distribution<double> any(0, 1);
-  const double x = any(random), y = any(random);
-  return {x, y, any(random)};
-}
+using testing::corners_of_unit_cube;
+using testing::point_in_unit_cube;
 
 /// The Delaunay triangulation of a cube and random points in it; with a wall, two regions and facets between
 /// them.
@@ -43,9 +41,8 @@ struct Cube {
 
   explicit Cube(int points, bool with_wall) {
     std::mt19937_64 random(7);
-    for (int k = 0; k < 8; ++k)
-      MeshEditor(mesh).add_vertex(Point{k & 1 ? 1.0 : 0.0, k & 2 ? 1.0 : 0.0, k & 4 ? 1.0 : 0.0});
-    for (int k = 0; k < points; ++k) MeshEditor(mesh).add_vertex(random_point(random));
+    for (const Point& p : corners_of_unit_cube()) MeshEditor(mesh).add_vertex(p);
+    for (int k = 0; k < points; ++k) MeshEditor(mesh).add_vertex(point_in_unit_cube(random));
     EXPECT_TRUE(build_delaunay(mesh, {1}, nullptr));
     sizes.assign(mesh.vertex_count(), 0.1);
     region_of.assign(mesh.slot_count(), 0);
@@ -190,7 +187,7 @@ TEST(Parts, WhatIsLeftAtCutsComesToAnEnd) {
   MeshEditor(mesh).add_vertex(Point{0.5, 0.5, 1});
   MeshEditor(mesh).add_vertex(Point{0.5, 0.5, -1});
   for (int k = 0; k < 15000; ++k) {
-    const Point p = random_point(random);
+    const Point p = point_in_unit_cube(random);
     MeshEditor(mesh).add_vertex(Point{p[0], p[1], 0.01 * p[2]});
   }
   ASSERT_TRUE(build_delaunay(mesh, {1}, nullptr));
