@@ -57,9 +57,8 @@ class Covers {
     for (const Index f : children_.of(g)) {
       const Triangle& t = state_.facets[f];
       for (std::size_t i = 0; i < 3; ++i) {
-        const Index a = place_[t[i]], b = place_[t[(i + 1) % 3]];
+        const auto [a, b] = std::minmax(place_[t[i]], place_[t[(i + 1) % 3]]);
         sides_.push_back({a, b});
-        sides_.push_back({b, a});
       }
     }
     std::sort(sides_.begin(), sides_.end());
@@ -68,7 +67,9 @@ class Covers {
       while (next < sides_.size() && sides_[next] == sides_[k]) ++next;
       if ((next - k) % 2 != 0) sides_[odd++] = sides_[k];
     }
-    sides_.resize(odd);
+    sides_.resize(2 * odd);
+    for (std::size_t k = 0; k < odd; ++k) sides_[odd + k] = {sides_[k][1], sides_[k][0]};
+    std::sort(sides_.begin(), sides_.end());
   }
 
   /// The two ways on along them; none where there are others, or fewer.

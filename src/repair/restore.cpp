@@ -58,15 +58,23 @@ class Restoring {
   };
 
   void list_lost() {
+    std::set<Point> places;
+    std::vector<Index> gone;
+    for (Index v = 0; v < state_.input_vertices; ++v)
+      if (before_[v] != state_.vertices[v] && is_finite(before_[v])) {
+        gone.push_back(v);
+        places.insert(before_[v]);
+      }
+    if (gone.empty()) return;
     std::set<Point> taken;
-    for (const Triangle& t : state_.facets)
-      for (const Index v : t) taken.insert(state_.vertices[v]);
-    for (const Segment& s : state_.segments)
-      for (const Index v : s) taken.insert(state_.vertices[v]);
+    const auto take = [&](Index v) {
+      if (const auto at = places.find(state_.vertices[v]); at != places.end()) taken.insert(*at);
+    };
+    for (const Triangle& t : state_.facets) std::for_each(t.begin(), t.end(), take);
+    for (const Segment& s : state_.segments) std::for_each(s.begin(), s.end(), take);
     std::map<Point, std::size_t> number;
-    for (Index v = 0; v < state_.input_vertices; ++v) {
+    for (const Index v : gone) {
       const Point& p = before_[v];
-      if (p == state_.vertices[v] || !is_finite(p)) continue;
       if (taken.count(p) != 0) {
         state_.vertices[v] = p;
         continue;

@@ -91,6 +91,8 @@ class AabbTree {
   void build(Nodes& nodes, Index node);
   Index partition(Node& node);
   void push_parts(std::vector<NodePair>& pairs, NodePair pair) const;
+  template <class Skip, class Visit>
+  void for_each_item_below(const Node& node, Skip& skip, Visit& visit) const;
   [[nodiscard]] double centre(const Node& node, const Item& item, std::size_t k) const;
 
   std::vector<Item> items_;
@@ -115,19 +117,19 @@ inline void AabbTree::push_parts(std::vector<NodePair>& pairs, NodePair pair) co
 
 template <class Skip, class Visit>
 void AabbTree::for_each_item(Skip&& skip, Visit&& visit) const {
-  std::vector<Index> stack;
-  if (!nodes_.empty()) stack.push_back(0);
-  while (!stack.empty()) {
-    const Node& node = nodes_[stack.back()];
-    stack.pop_back();
-    if (skip(node.box)) continue;
-    if (node.left != 0) {
-      stack.insert(stack.end(), {node.left + 1, node.left});
-      continue;
-    }
-    for (Index i = node.first; i < node.first + node.count; ++i)
-      if (!skip(items_[i].box)) visit(items_[i]);
+  if (!nodes_.empty()) for_each_item_below(nodes_[0], skip, visit);
+}
+
+template <class Skip, class Visit>
+void AabbTree::for_each_item_below(const Node& node, Skip& skip, Visit& visit) const {
+  if (skip(node.box)) return;
+  if (node.left != 0) {
+    for_each_item_below(nodes_[node.left], skip, visit);
+    for_each_item_below(nodes_[node.left + 1], skip, visit);
+    return;
   }
+  for (Index i = node.first; i < node.first + node.count; ++i)
+    if (!skip(items_[i].box)) visit(items_[i]);
 }
 
 template <class Visit, class Skip, class Step>

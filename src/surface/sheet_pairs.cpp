@@ -137,6 +137,11 @@ void SheetPairs::measure(Part& part) const {
     part.normal = normal;
   }
   part.tree = AabbTree(boxes);
+  for (const AabbTree::Item& item : part.tree.items(0)) {
+    const Triangle& corners = elements_.all[part.facets[item.id]].vertex;
+    part.corners.push_back(
+        {complex_.vertices[corners[0]], complex_.vertices[corners[1]], complex_.vertices[corners[2]]});
+  }
   // Components of at most 1/8, so that products do not overflow.
   for (double& x : part.normal) x = largest > 0 ? x / largest / 8 : 0;
   for (const Index e : part.facets)
@@ -168,28 +173,29 @@ void SheetPairs::measure(Part& part) const {
 SheetPairs::Items SheetPairs::touching(const Part& part, const Part& plane) const {
   const Box& box = plane.box;
   const Point& n = plane.normal;
+  const AabbTree::Item* const first = part.tree.items(0).data();
   Items found;
   part.tree.for_each_item(
       [&](const Box& node) {
         if (!node.overlaps(box)) return true;
-        Point low{}, high{}, far{};
+        Point least{}, most{}, far{};
         for (std::size_t k = 0; k < 3; ++k) {
-          low[k] = n[k] > 0 ? node.low[k] : node.high[k];
-          high[k] = n[k] > 0 ? node.high[k] : node.low[k];
+          const double low = n[k] * node.low[k], high = n[k] * node.high[k];
+          least[k] = std::min(low, high);
+          most[k] = std::max(low, high);
           far[k] = std::max(std::fabs(node.low[k]), std::fabs(node.high[k]));
         }
         const double bound = plane.most + plane.most_share * size_of(far);
-        return product(n, low) - plane.offset > bound || product(n, high) - plane.offset < -bound;
+        return least[0] + least[1] + least[2] - plane.offset > bound ||
+               most[0] + most[1] + most[2] - plane.offset < -bound;
       },
       [&](const AabbTree::Item& item) {
-        const Triangle& corners = elements_.all[part.facets[item.id]].vertex;
-        std::array<double, 3> h{};
-        for (std::size_t i = 0; i < 3; ++i) h[i] = product(n, complex_.vertices[corners[i]]) - plane.offset;
         unsigned above = 0, below = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-          const double bound = plane.most + plane.most_share * size_of(complex_.vertices[corners[i]]);
-          above += static_cast<unsigned>(h[i] > bound);
-          below += static_cast<unsigned>(h[i] < -bound);
+        for (const Point& corner : part.corners[static_cast<std::size_t>(&item - first)]) {
+          const double h = product(n, corner) - plane.offset;
+          const double bound = plane.most + plane.most_share * size_of(corner);
+          above += static_cast<unsigned>(h > bound);
+          below += static_cast<unsigned>(h < -bound);
         }
         if (above < 3 && below < 3) found.push_back({item.box, part.facets[item.id]});
       });

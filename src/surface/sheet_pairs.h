@@ -51,7 +51,8 @@ class SheetPairs {
     bool is_round_origin = false, is_known = false;
     std::vector<Index> facets;
     Box box{};
-    AabbTree tree;  // of the facets' boxes
+    AabbTree tree;                              // of the facets' boxes
+    std::vector<std::array<Point, 3>> corners;  // of its items, side by side in memory
     Point normal{};
     double offset = 0;
     double most = 0, most_share = 0;  // |h(x)| <= most + most_share |x| on all facets
