@@ -53,7 +53,7 @@ std::optional<Recovered> recover(const Attempt& attempt, Result& result) {
   return Recovered{std::move(box), std::move(division)};
 }
 
-double fill(const Attempt& attempt, Recovered& recovered, Result& result) {
+WorstOfField fill(const Attempt& attempt, Recovered& recovered, Result& result) {
   BoxMesh& box = recovered.box;
   Division& division = recovered.division;
   Report& report = result.report;
@@ -67,12 +67,12 @@ double fill(const Attempt& attempt, Recovered& recovered, Result& result) {
 
   course.begin(CallStep::deliver);
   deliver(attempt, box, division, field.get(), result);
-  return field ? field->worst_without : 0;
+  return field ? field->worst : WorstOfField{};
 }
 
-double mesh_once(const Attempt& attempt, Result& result) {
+WorstOfField mesh_once(const Attempt& attempt, Result& result) {
   std::optional<Recovered> recovered = recover(attempt, result);
-  return recovered ? fill(attempt, *recovered, result) : 0;
+  return recovered ? fill(attempt, *recovered, result) : WorstOfField{};
 }
 
 namespace {

@@ -129,7 +129,7 @@ class Call {
     Options options = options_;
     options.flips = options.flips && result_.report.attempts % 2 == 0;
     ++result_.report.attempts;
-    worst_without_field_ = mesh_once({input_, options, seed_++, threads_, monitor_, &fill_anew_}, result_);
+    worst_of_field_ = mesh_once({input_, options, seed_++, threads_, monitor_, &fill_anew_}, result_);
   }
 
   [[nodiscard]] std::optional<Filling> fill(const Complex& polyhedron, PointsOfFilling points) {
@@ -175,9 +175,9 @@ class Call {
   }
 
   // What is flat is seldom forced. With field points the choice is that of the mesh without, to which they
-  // are held.
+  // are held. It is the same for every effort, since more effort goes on where less has ended.
   void try_other_choices() {
-    const double worst = options_.sizes ? worst_without_field_ : result_.report.elements.worst;
+    const double worst = options_.sizes ? worst_of_field_.without : result_.report.elements.worst;
     const double far = far_from_target();
     if (!options_.optimise || !options_.add_points || !options_.flips || input_.parts() != nullptr ||
         !(worst > far) || input_.complex().facets.size() > kMostFacetsForChoices)
@@ -194,7 +194,7 @@ class Call {
   [[nodiscard]] double far_from_target() {
     const double target = input_.target();
     if (!has_few_facets()) return kVeryFarFromTarget * target;
-    const bool is_near = options_.sizes && result_.report.elements.worst <= kNearTarget * target;
+    const bool is_near = options_.sizes && worst_of_field_.begun <= kNearTarget * target;
     return (is_near ? kFarWithoutField : kNearTarget) * target;
   }
 
@@ -345,7 +345,7 @@ class Call {
   const Threads threads_;
   Input input_;
   std::uint64_t seed_ = options_.seed;    // of the next attempt
-  double worst_without_field_ = 0;        // of the last one
+  WorstOfField worst_of_field_;           // of the last one
   std::optional<double> end_of_filling_;  // polyhedra, as a time limit
   const FillAnew fill_anew_{
       [this](const Complex& polyhedron, PointsOfFilling points) { return fill(polyhedron, points); },
