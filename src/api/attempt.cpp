@@ -53,7 +53,7 @@ std::optional<Recovered> recover(const Attempt& attempt, Result& result) {
   return Recovered{std::move(box), std::move(division)};
 }
 
-WorstOfField fill(const Attempt& attempt, Recovered& recovered, Result& result) {
+double fill(const Attempt& attempt, Recovered& recovered, Result& result) {
   BoxMesh& box = recovered.box;
   Division& division = recovered.division;
   Report& report = result.report;
@@ -67,12 +67,12 @@ WorstOfField fill(const Attempt& attempt, Recovered& recovered, Result& result) 
 
   course.begin(CallStep::deliver);
   deliver(attempt, box, division, field.get(), result);
-  return field ? field->worst : WorstOfField{};
+  return field ? field->worst_without : 0;
 }
 
-WorstOfField mesh_once(const Attempt& attempt, Result& result) {
+double mesh_once(const Attempt& attempt, Result& result) {
   std::optional<Recovered> recovered = recover(attempt, result);
-  return recovered ? fill(attempt, *recovered, result) : WorstOfField{};
+  return recovered ? fill(attempt, *recovered, result) : 0;
 }
 
 namespace {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "api/boundary.h"
-#include "api/without_field.h"
 #include "holdfast/holdfast.h"
 
 namespace holdfast {
@@ -20,11 +19,12 @@ struct Recovered {
 /// `done` and a report of what was before, to which this adds its own. Nothing where the complex is refused.
 [[nodiscard]] std::optional<Recovered> recover(const Attempt& attempt, Result& result);
 
-/// The other half: points for the sizes, better elements (paper §8), and the mesh as it is delivered.
-WorstOfField fill(const Attempt& attempt, Recovered& recovered, Result& result);
+/// The other half: points for the sizes, better elements (paper §8), and the mesh as it is delivered. Returns
+/// the worst Q of the same attempt without field points; 0 where it was not asked for.
+double fill(const Attempt& attempt, Recovered& recovered, Result& result);
 
 /// Both halves.
-WorstOfField mesh_once(const Attempt& attempt, Result& result);
+double mesh_once(const Attempt& attempt, Result& result);
 
 /// For a result whose outcome is `invalid_input`: its defects, and how many.
 void refuse(Result& result, std::vector<Defect> defects);

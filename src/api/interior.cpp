@@ -101,39 +101,32 @@ void improve_flat(const Attempt& attempt, BoxMesh& box, Division& division, Repo
   if (!flat.empty()) optimise_worst_of(attempt, box, division, flat, PointsToRemove::added_here, report);
 }
 
-// What every effort has in common.
-struct Begun {
-  bool was_brief;  // as it was allowed to be, and that was enough
-  Figures figures;
-};
-
 // Field points must not make any figure worse than it is without. What was brief goes on. Where little is
 // missing, more work may help; if it does not, only points that better their surroundings are put into the
-// mesh without.
-Begun keep_what_pays(const Attempt& attempt, BoxMesh& box, Division& division, Field& field, bool was_brief,
-                     Report& report) {
+// mesh without. Returns whether what was brief was enough.
+bool keep_what_pays(const Attempt& attempt, BoxMesh& box, Division& division, Field& field, bool was_brief,
+                    Report& report) {
   constexpr std::array<double, 2> kNoProgress{kCommonWork, kCommonWork};
   WithoutField& without = *field.without;
   Figures now = figures_of(field.volume(), attempt.threads);
-  if (!without.is_better_somewhere(now)) return {was_brief, now};
+  if (!without.is_better_somewhere(now)) return was_brief;
   if (was_brief) {
     note(improve_in_parts(field.volume(), {}, Effort::fast, attempt.threads, attempt.monitor), report.field);
     now = figures_of(field.volume(), attempt.threads);
-    if (!without.is_better_somewhere(now)) return {false, now};
+    if (!without.is_better_somewhere(now)) return false;
   }
   if (without.is_within_reach(now)) {
     note(
         improve_further_in_parts(field.volume(), Effort::good, kNoProgress, attempt.threads, attempt.monitor),
         report.field);
-    now = figures_of(field.volume(), attempt.threads);
-    if (!without.is_better_somewhere(now)) return {false, now};
+    if (!without.is_better_somewhere(figures_of(field.volume(), attempt.threads))) return false;
   }
   without.take(box, division);
   field.set_sizes(attempt);
   report.field.points = 0;
   note(improve_further_in_parts(field.volume(), Effort::fast, kNoProgress, attempt.threads, attempt.monitor),
        report.field);
-  return {false, figures_of(field.volume(), attempt.threads)};
+  return false;
 }
 
 // More effort goes on where less has ended, and makes no figure worse: so it never pays to spend less.
@@ -148,9 +141,8 @@ void improve_with_field(const Attempt& attempt, BoxMesh& box, Division& division
   }
   bool was_brief = begun.was_brief;
   if (field.without) {
-    const Begun kept = keep_what_pays(attempt, box, division, field, was_brief, report);
-    was_brief = kept.was_brief;
-    field.worst = {field.without->worst_quality(), kept.figures.worst_quality()};
+    was_brief = keep_what_pays(attempt, box, division, field, was_brief, report);
+    field.worst_without = field.without->worst_quality();
   }
   field.without.reset();
   const Effort effort = attempt.options.effort;

@@ -31,7 +31,7 @@ class Field {
   [[nodiscard]] bool has_metric() const { return !metrics_.empty(); }
   /// To compare with, where the surface alone decides on sizes; else null.
   std::unique_ptr<WithoutField> without;
-  WorstOfField worst;
+  double worst_without = 0;  ///< its worst Q, once it is optimised
 
  private:
   BoxMesh& box_;

@@ -37,8 +37,7 @@ constexpr double kNearTarget = 3, kFarFromTarget = 10;
 
 // Where it still is, other random orders of the whole may do better: these, whatever the seed, so that runs
 // with different seeds end with the same choice. With many facets that takes long, and has to be worth it.
-// Where a mesh with field points is near what the facets ask for, only what is very far without these counts.
-constexpr double kFarWithoutField = 30, kVeryFarFromTarget = 1'000;
+constexpr double kVeryFarFromTarget = 1'000;
 constexpr std::size_t kOtherChoices = 8, kChoicesInVain = 4;
 constexpr std::uint64_t kFirstOtherSeed = 0x9E3779B97F4A7C15;
 constexpr std::size_t kMostFacetsForChoices = 5'000;
@@ -129,7 +128,7 @@ class Call {
     Options options = options_;
     options.flips = options.flips && result_.report.attempts % 2 == 0;
     ++result_.report.attempts;
-    worst_of_field_ = mesh_once({input_, options, seed_++, threads_, monitor_, &fill_anew_}, result_);
+    worst_without_field_ = mesh_once({input_, options, seed_++, threads_, monitor_, &fill_anew_}, result_);
   }
 
   [[nodiscard]] std::optional<Filling> fill(const Complex& polyhedron, PointsOfFilling points) {
@@ -175,9 +174,9 @@ class Call {
   }
 
   // What is flat is seldom forced. With field points the choice is that of the mesh without, to which they
-  // are held. It is the same for every effort, since more effort goes on where less has ended.
+  // are held, whatever they and the effort have made of it.
   void try_other_choices() {
-    const double worst = options_.sizes ? worst_of_field_.without : result_.report.elements.worst;
+    const double worst = options_.sizes ? worst_without_field_ : result_.report.elements.worst;
     const double far = far_from_target();
     if (!options_.optimise || !options_.add_points || !options_.flips || input_.parts() != nullptr ||
         !(worst > far) || input_.complex().facets.size() > kMostFacetsForChoices)
@@ -189,13 +188,9 @@ class Call {
       choose_the_best(far);
   }
 
-  // The Q above which a mesh without field points is not left as it is. Where field points have made good
-  // what is bad without them, that matters less.
+  // The Q above which a mesh without field points is not left as it is.
   [[nodiscard]] double far_from_target() {
-    const double target = input_.target();
-    if (!has_few_facets()) return kVeryFarFromTarget * target;
-    const bool is_near = options_.sizes && worst_of_field_.begun <= kNearTarget * target;
-    return (is_near ? kFarWithoutField : kNearTarget) * target;
+    return (has_few_facets() ? kNearTarget : kVeryFarFromTarget) * input_.target();
   }
 
   [[nodiscard]] bool has_few_facets() const { return input_.complex().facets.size() <= kFewFacets; }
@@ -345,7 +340,7 @@ class Call {
   const Threads threads_;
   Input input_;
   std::uint64_t seed_ = options_.seed;    // of the next attempt
-  WorstOfField worst_of_field_;           // of the last one
+  double worst_without_field_ = 0;        // of the last one
   std::optional<double> end_of_filling_;  // polyhedra, as a time limit
   const FillAnew fill_anew_{
       [this](const Complex& polyhedron, PointsOfFilling points) { return fill(polyhedron, points); },

@@ -9,12 +9,6 @@
 
 namespace holdfast {
 
-/// The worst Q of an attempt with field points whose sizes are left to the surface; 0 where they are not.
-struct WorstOfField {
-  double without = 0;  ///< of the same attempt without them; 0 where they were not compared
-  double begun = 0;    ///< with them, and with the work that every effort begins with
-};
-
 class WithoutField {
  public:
   /// Whether the user leaves sizes to the surface, so that there is something to compare.
