@@ -17,13 +17,6 @@
 namespace holdfast::repairing {
 namespace {
 
-IndexLists lists_of(const Parents& parents) {
-  IndexLists lists;
-  lists.first.assign(parents.first.begin(), parents.first.end());
-  lists.all = parents.all;
-  return lists;
-}
-
 /// One marker for each set of parents' markers: itself if there is one, else the next free number.
 class MarkerSets {
  public:

@@ -1,8 +1,6 @@
 // The exact arrangement as it is told to the caller.
 #include "repair/exact_surface.h"
 
-#include "numbers/sorted.h"
-
 namespace holdfast::repairing {
 namespace {
 
@@ -15,30 +13,19 @@ std::string quotient_text(const exact::BigInt& numerator, const exact::BigInt& d
 
 }  // namespace
 
-ExactSurface exact_surface(const State& before, const arrange::Arrangement& arrangement) {
+ExactSurface exact_surface(const arrange::Arrangement& arrangement, const Parents& of_state) {
   ExactSurface surface;
   for (const exact::SpacePoint& p : arrangement.points)
     surface.points.push_back({quotient_text(p.x, p.w), quotient_text(p.y, p.w), quotient_text(p.z, p.w)});
   surface.facets = arrangement.facets;
-  std::vector<Index> list;
-  for (std::size_t f = 0; f < arrangement.facet_parents.size(); ++f) {
-    list.clear();
-    for (const Index p : arrangement.facet_parents.of(f)) {
-      const auto of = before.facet_parents.of(p);
-      list.insert(list.end(), of.begin(), of.end());
-    }
-    sort_unique(list);
-    surface.parents.all.insert(surface.parents.all.end(), list.begin(), list.end());
-    surface.parents.first.push_back(surface.parents.all.size());
-  }
+  surface.parents = lists_of(composed(of_state, arrangement.facet_parents));
   return surface;
 }
 
-ExactSurface exact_surface(const State& valid) {
+ExactSurface exact_surface(const State& valid, const Parents& of_state) {
   ExactSurface surface;
   surface.facets = valid.facets;
-  surface.parents.first.assign(valid.facet_parents.first.begin(), valid.facet_parents.first.end());
-  surface.parents.all = valid.facet_parents.all;
+  surface.parents = lists_of(of_state);
   return surface;
 }
 

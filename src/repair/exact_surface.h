@@ -7,10 +7,10 @@
 
 namespace holdfast::repairing {
 
-/// The arrangement of a state whose vertices are still the input's.
-[[nodiscard]] ExactSurface exact_surface(const State& before, const arrange::Arrangement& arrangement);
+/// The arrangement of a state whose vertices are still the input's, and whose facets have these parents.
+[[nodiscard]] ExactSurface exact_surface(const arrange::Arrangement& arrangement, const Parents& of_state);
 
 /// Of a valid surface, which is its own arrangement.
-[[nodiscard]] ExactSurface exact_surface(const State& valid);
+[[nodiscard]] ExactSurface exact_surface(const State& valid, const Parents& of_state);
 
 }  // namespace holdfast::repairing

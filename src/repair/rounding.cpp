@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "repair/bounds.h"
 #include "repair/covered.h"
@@ -24,9 +25,15 @@
 namespace holdfast::repairing {
 namespace {
 
+/// Where the exact arrangement is told, and the parents of the facets that are arranged.
+struct Exact {
+  ExactSurface& surface;
+  const Parents& of_given;
+};
+
 class Rounding {
  public:
-  Rounding(State state, const RepairOptions& options, const RepairReport& report, ExactSurface& exact,
+  Rounding(State state, const RepairOptions& options, const RepairReport& report, const Exact& exact,
            RoundedPlanes& planes, const Step& step, const Threads& threads)
       : options_(options), report_(report), exact_(exact), planes_(planes), step_(step), threads_(threads) {
     rounded_.state = std::move(state);
@@ -203,7 +210,9 @@ class Rounding {
       options.exact = false;
       ExactSurface exact;
       RoundedPlanes none;
-      return Rounding(std::move(plane), options, {}, exact, none, here(), threads_).run_in_plane(most);
+      const Parents of_plane;  // asked for with the exact surface alone
+      return Rounding(std::move(plane), options, {}, {exact, of_plane}, none, here(), threads_)
+          .run_in_plane(most);
     });
   }
 
@@ -325,10 +334,11 @@ class Rounding {
     }
     if (arrangement.is_same) {
       rounded_.is_valid = true;
-      if (report_.rounds == 0 && options_.exact) exact_ = exact_surface(rounded_.state);
+      if (report_.rounds == 0 && options_.exact)
+        exact_.surface = exact_surface(rounded_.state, exact_.of_given);
       return 0;
     }
-    if (report_.rounds == 0 && options_.exact) exact_ = exact_surface(rounded_.state, arrangement);
+    if (report_.rounds == 0 && options_.exact) exact_.surface = exact_surface(arrangement, exact_.of_given);
     tell(arrangement);
     const std::vector<double> distances = rounded_by(arrangement, threads_);
     rounded_.displacement = sum_above(rounded_.displacement, largest(distances));
@@ -369,7 +379,7 @@ class Rounding {
 
   const RepairOptions& options_;
   RepairReport report_;
-  ExactSurface& exact_;
+  Exact exact_;
   RoundedPlanes& planes_;
   const Step& step_;
   const Threads& threads_;
@@ -396,10 +406,12 @@ class Rounding {
 /// Then they are tried one after the other.
 Rounded round_arranged(State state, const RepairOptions& options, RepairReport& report, ExactSurface& exact,
                        const Step& step, const Threads& threads) {
+  // Facets are compared with those that they were, which after welding are parts of the input's.
+  const Parents of_given = std::exchange(state.facet_parents, identity(state.facets.size()));
   const State given = state;
   RoundedPlanes planes;
   const auto begun = [&](const RepairReport& told, SidesOf sides) {
-    Rounding rounding(given, options, told, exact, planes, step, threads);
+    Rounding rounding(given, options, told, {exact, of_given}, planes, step, threads);
     if (options.join > 0) rounding.flatten_all(options.join, sides);
     rounding.begin();
     return rounding;
@@ -432,6 +444,7 @@ Rounded round_arranged(State state, const RepairOptions& options, RepairReport& 
     rounded.displacement = keep_strips(rounded.state, given, rounded.displacement, step, threads);
     rounded.displacement = covered_within(rounded.state, given, rounded.displacement, step);
   }
+  rounded.state.facet_parents = composed(of_given, rounded.state.facet_parents);
   return rounded;
 }
 

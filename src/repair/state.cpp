@@ -8,7 +8,6 @@
 #include "surface/complex.h"
 
 namespace holdfast::repairing {
-namespace {
 
 Parents identity(std::size_t count) {
   Parents parents;
@@ -19,7 +18,6 @@ Parents identity(std::size_t count) {
   return parents;
 }
 
-/// Parents of parents.
 Parents composed(const Parents& before, const Parents& now) {
   Parents parents;
   std::vector<Index> list;
@@ -32,7 +30,12 @@ Parents composed(const Parents& before, const Parents& now) {
   return parents;
 }
 
-}  // namespace
+IndexLists lists_of(const Parents& parents) {
+  IndexLists lists;
+  lists.first.assign(parents.first.begin(), parents.first.end());
+  lists.all = parents.all;
+  return lists;
+}
 
 Box box_round(const State& state, std::span<const Index> corners, double margin) {
   Box box{state.vertices[corners[0]], state.vertices[corners[0]]};

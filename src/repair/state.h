@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "arrange/arrange.h"
+#include "holdfast/repair.h"
 #include "holdfast/types.h"
 #include "surface/aabb_tree.h"
 #include "surface/elements.h"
@@ -12,6 +13,13 @@
 namespace holdfast::repairing {
 
 using arrange::Parents;
+
+/// Each its own parent.
+[[nodiscard]] Parents identity(std::size_t count);
+/// Parents of parents, each once, ascending.
+[[nodiscard]] Parents composed(const Parents& before, const Parents& now);
+/// As they are told to the caller.
+[[nodiscard]] IndexLists lists_of(const Parents& parents);
 
 struct State {
   std::size_t input_vertices = 0;  ///< the first vertices are the input's
