@@ -1,7 +1,6 @@
 // Arrays of other programs as a complex: taken as they lie in memory where that is possible, else converted.
 #include "holdfast/arrays.h"
 
-#include <bit>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
@@ -71,7 +70,7 @@ bool lies_as(const ArrayView& array) {
                          : std::is_same_v<Number, int>  ? array.type == Scalar::int32
                                                         : array.type == Scalar::uint32;
   return same_type && array.column_stride == sizeof(Number) && array.row_stride == sizeof(Row) &&
-         std::bit_cast<std::uintptr_t>(array.data) % alignof(Row) == 0;
+         reinterpret_cast<std::uintptr_t>(array.data) % alignof(Row) == 0;
 }
 
 /// The rows, in `owned` where they had to be converted.
