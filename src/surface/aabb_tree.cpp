@@ -161,9 +161,11 @@ Index AabbTree::partition(Node& node) {
     node.one_group = true;
     bound_centres();
   }
+  const auto half = [&](std::size_t k) { return centres.high[k] / 2 - centres.low[k] / 2; };
   std::size_t axis = 0;
   for (std::size_t k = 1; k < 3; ++k) {
-    if (centres.high[k] / 2 - centres.low[k] / 2 > centres.high[axis] / 2 - centres.low[axis] / 2) axis = k;
+    // Half of the least double is 0.
+    if (half(k) > half(axis) || centres.low[axis] == centres.high[axis]) axis = k;
   }
   const double cut = centres.centre(axis);
   auto middle = std::partition(begin, end, [&](const Item& item) { return centre(node, item, axis) < cut; });
