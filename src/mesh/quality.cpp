@@ -106,16 +106,28 @@ Bounds bounds_of_quality(const Plain& plain) {
                            : std::numeric_limits<double>::infinity()};
 }
 
-// No face is larger than an equilateral triangle on the longest edge l, so that Q <= sqrt(1/2) l^3 / 6V: for
-// most tetrahedra that will do.
-bool is_surely_below(const Point& a, const Point& b, const Point& c, const Point& d, double limit) {
-  constexpr double kSmall = 1e-100, kLarge = 1e100, kCare = 1 + 1e-6;
+// What products alone tell of Q, which for most tetrahedra will do: no face is larger than an equilateral
+// triangle on the longest edge l, and two faces are as large as any other, so that with n, twice the area of
+// abc, 2 n l <= Q 6V / (sqrt(6)/12) and Q <= sqrt(1/2) l^3 / 6V.
+enum class Told { below, not_below, neither };
+Told compared_by_products(const Point& a, const Point& b, const Point& c, const Point& d, double limit) {
+  constexpr double kSmall = 1e-60, kLarge = 1e100;
+  // Six volumes and n err by less than 30 and 10 eps times a cube and a square of l: below these parts of l^6
+  // and l^4 their squares may tell nothing.
+  constexpr double kRoundedVolume = 1e-20, kRoundedArea = 1e-8;
+  constexpr double kCare = 1.01, kTwoAreas = 4 * kQualityOfRegular * kQualityOfRegular / kCare;
   const Vector u = b - a, v = c - a, w = d - a;
   const Vector x = c - b, y = d - b, z = d - c;
   const double square = std::max({dot(u, u), dot(v, v), dot(w, w), dot(x, x), dot(y, y), dot(z, z)});
-  if (!(square > kSmall && square < kLarge)) return false;
-  const double six_volumes = dot(cross(u, v), w), cubed = square * square * square;
-  return six_volumes * six_volumes > std::max(kThin * kThin, kCare / 2 / (limit * limit)) * cubed;
+  if (!(square > kSmall && square < kLarge)) return Told::neither;
+  const Vector n = cross(u, v);
+  const double six_volumes = dot(n, w), cubed = square * square * square, area = dot(n, n);
+  const double of_volume = six_volumes * six_volumes;
+  if (of_volume > std::max(kRoundedVolume, kCare / 2 / (limit * limit)) * cubed) return Told::below;
+  if (area > kRoundedArea * (square * square) &&
+      kTwoAreas * square * area > limit * limit * std::max(of_volume, kRoundedVolume * cubed))
+    return Told::not_below;
+  return Told::neither;
 }
 
 }  // namespace
@@ -133,6 +145,7 @@ double quality(const Point& a, const Point& b, const Point& c, const Point& d) {
 
 std::optional<double> quality_below(const Point& a, const Point& b, const Point& c, const Point& d,
                                     double limit) {
+  if (compared_by_products(a, b, c, d, limit) == Told::not_below) return std::nullopt;
   const std::optional<Plain> plain = plain_of(a, b, c, d);
   double q = 0;
   if (plain && !plain->is_thinner_than(kThin)) {
@@ -145,7 +158,8 @@ std::optional<double> quality_below(const Point& a, const Point& b, const Point&
 }
 
 bool is_quality_below(const Point& a, const Point& b, const Point& c, const Point& d, double limit) {
-  if (is_surely_below(a, b, c, d, limit)) return true;
+  const Told told = compared_by_products(a, b, c, d, limit);
+  if (told != Told::neither) return told == Told::below;
   if (const std::optional<Plain> plain = plain_of(a, b, c, d)) {
     if (!plain->is_thinner_than(kThin)) return plain->quality() < limit;
     const Bounds bounds = bounds_of_quality(*plain);

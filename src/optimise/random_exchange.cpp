@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesh/quality_below.h"
 #include "optimise/tuning.h"
 
 namespace holdfast {
@@ -10,13 +11,12 @@ AnyExchange::AnyExchange(const TetMesh& mesh, double bad_from, std::mt19937_64& 
     : ExchangesInMesh(mesh, tuning::kMostShellForQ), bad_from_(bad_from), random_(random) {}
 
 std::optional<double> AnyExchange::after(const std::array<TetMesh::Corners, 3>& three, double) const {
-  double worst = 0;
-  for (const TetMesh::Corners& c : three) {
-    if (mesh_.orient(c[0], c[1], c[2], c[3]) <= 0) return std::nullopt;
-    worst = std::max(worst, quality_of(mesh_, c));
-    if (!(worst < bad_from_)) return std::nullopt;
-  }
-  return worst;
+  const auto is_bad = [&](const TetMesh::Corners& c) {
+    return mesh_.orient(c[0], c[1], c[2], c[3]) <= 0 ||
+           !is_quality_below(mesh_.position(c[0]), mesh_.position(c[1]), mesh_.position(c[2]),
+                             mesh_.position(c[3]), bad_from_);
+  };
+  return std::any_of(three.begin(), three.end(), is_bad) ? std::nullopt : std::optional<double>(0);
 }
 
 bool RandomExchanger::exchange(Tet t, double bad_from, std::mt19937_64& random, std::vector<Tet>& created) {

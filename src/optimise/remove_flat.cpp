@@ -4,6 +4,7 @@
 #include <array>
 
 #include "mesh/editor.h"
+#include "mesh/quality_below.h"
 #include "optimise/badness.h"
 #include "optimise/nothing_bad.h"
 
@@ -67,7 +68,8 @@ Tet FlatRemover::find_edge(Vertex a, Vertex b) {
 }
 
 bool FlatRemover::is_good(Vertex a, Vertex b, Vertex c, Vertex d) const {
-  return mesh_.orient(a, b, c, d) > 0 && quality_of(mesh_, {a, b, c, d}) < bad_from_;
+  return mesh_.orient(a, b, c, d) > 0 && is_quality_below(mesh_.position(a), mesh_.position(b),
+                                                          mesh_.position(c), mesh_.position(d), bad_from_);
 }
 
 }  // namespace holdfast
