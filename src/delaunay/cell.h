@@ -36,7 +36,7 @@
 #include <limits>
 
 #include "mesh/anatomy.h"
-#include "mesh/pair.h"
+#include "numbers/pair.h"
 
 namespace holdfast {
 

@@ -148,63 +148,6 @@ class OrientFilter {
   std::array<double, 3> a_, normal_, permanent_;
 };
 
-/// orient3d among the points of a set in floating point, with one bound for all: less arithmetic than
-/// OrientFilter's, several points at once, and little is left open where the set is small.
-///
-/// The determinant's six terms are at most V each, the product of the set's extents along the axes, and pass
-/// 8 roundings, those of the differences included: the error is at most (48 + O(eps)) eps V, and 50 eps V
-/// leaves 4 % for the rounding of the bound itself. Underflow: extents are below 2^250, so that all
-/// underflowing roundings together err by less than 2^-800.
-class OrientAmong {
- public:
-  static constexpr std::size_t kMost = 32;
-  struct Signs {
-    std::uint32_t positive, negative;  ///< bit i: of point i
-  };
-
-  /// Of `count` <= kMost points; at(i) points to the coordinates of the i-th.
-  template <typename At>
-  OrientAmong(std::size_t count, At&& at) : count_(count) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const double* const p = at(i);
-      x_[i] = p[0];
-      y_[i] = p[1];
-      z_[i] = p[2];
-    }
-    if (count == 0) return;
-    const double x = extent(x_), y = extent(y_), z = extent(z_);
-    bound_ = x < 0x1p250 && y < 0x1p250 && z < 0x1p250 ? 50 * detail::kEpsilon * (x * y * z) + 0x1p-600
-                                                       : std::numeric_limits<double>::infinity();
-  }
-
-  /// orient3d(a, b, c, d) for each d of the set, as far as it can tell.
-  [[nodiscard]] Signs of_all(std::size_t a, std::size_t b, std::size_t c) const {
-    const double ux = x_[b] - x_[a], uy = y_[b] - y_[a], uz = z_[b] - z_[a];
-    const double vx = x_[c] - x_[a], vy = y_[c] - y_[a], vz = z_[c] - z_[a];
-    const double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
-    std::array<double, kMost> determinant;
-    for (std::size_t d = 0; d < count_; ++d)
-      determinant[d] = nx * (x_[d] - x_[a]) + ny * (y_[d] - y_[a]) + nz * (z_[d] - z_[a]);
-    Signs signs{0, 0};
-    for (std::size_t d = 0; d < count_; ++d) {
-      signs.positive |= static_cast<std::uint32_t>(determinant[d] > bound_) << d;
-      signs.negative |= static_cast<std::uint32_t>(determinant[d] < -bound_) << d;
-    }
-    return signs;
-  }
-
- private:
-  [[nodiscard]] double extent(const std::array<double, kMost>& of) const {
-    const auto [least, most] =
-        std::minmax_element(of.begin(), of.begin() + static_cast<std::ptrdiff_t>(count_));
-    return *most - *least;
-  }
-
-  std::size_t count_;
-  std::array<double, kMost> x_, y_, z_;
-  double bound_ = 0;
-};
-
 /// The same for points that may be exact. Law (6): equals the double version where both apply.
 [[nodiscard]] inline int orient3d(PointRef a, PointRef b, PointRef c, PointRef d) {
   if (a.exact == nullptr && b.exact == nullptr && c.exact == nullptr && d.exact == nullptr) [[likely]] {

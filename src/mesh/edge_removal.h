@@ -13,7 +13,9 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -84,10 +86,14 @@ class LinkTriangulation {
   /// The cost of the best triangulation, or nothing where there is none.
   template <typename Objective>
   std::optional<Cost> find(std::size_t n, Objective& objective) {
-    for (std::size_t i = 0; i + 1 < n; ++i) best_[i][i + 1] = {objective.none(), 0, true};
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+      best_[i][i + 1] = {objective.none(), 0};
+      to_[i] = bit(i + 1);
+      from_[i + 1] = bit(i);
+    }
     for (std::size_t gap = 2; gap < n; ++gap)
       for (std::size_t i = 0; i + gap < n; ++i) fill(i, i + gap, i != 0 || gap + 1 != n, objective);
-    if (!best_[0][n - 1].exists) return std::nullopt;
+    if ((to_[0] & bit(n - 1)) == 0) return std::nullopt;
     return best_[0][n - 1].cost;
   }
 
@@ -98,27 +104,31 @@ class LinkTriangulation {
   struct Entry {
     Cost cost{};
     std::uint8_t apex = 0;
-    bool exists = false;
   };
+  using Corners = std::uint32_t;  // one bit each
+  static constexpr Corners bit(std::size_t i) { return Corners{1} << i; }
 
   // The best triangulation of the polygon p_i .. p_j, diagonal (i, j) included unless it is a side.
   template <typename Objective>
   void fill(std::size_t i, std::size_t j, bool is_diagonal, Objective& objective) {
     Entry found;
-    for (std::size_t k = i + 1; k < j; ++k) {
-      const Entry& left = best_[i][k];
-      const Entry& right = best_[k][j];
-      if (!left.exists || !right.exists) continue;
-      const Cost parts = objective.join(left.cost, right.cost);
-      if (found.exists && !objective.better(parts, found.cost)) continue;
+    bool exists = false;
+    for (Corners apexes = to_[i] & from_[j]; apexes != 0; apexes &= apexes - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(apexes));
+      const Cost parts = objective.join(best_[i][k].cost, best_[k][j].cost);
+      if (exists && !objective.better(parts, found.cost)) continue;
       const std::optional<Cost> triangle = objective.triangle(i, k, j);
       if (!triangle) continue;
       const Cost cost = objective.join(parts, *triangle);
-      if (!found.exists || objective.better(cost, found.cost))
-        found = {cost, static_cast<std::uint8_t>(k), true};
+      if (exists && !objective.better(cost, found.cost)) continue;
+      found = {cost, static_cast<std::uint8_t>(k)};
+      exists = true;
     }
-    if (found.exists && is_diagonal) found.cost = objective.join(found.cost, objective.diagonal(i, j));
+    if (!exists) return;
+    if (is_diagonal) found.cost = objective.join(found.cost, objective.diagonal(i, j));
     best_[i][j] = found;
+    to_[i] |= bit(j);
+    from_[j] |= bit(i);
   }
 
   void collect(std::size_t i, std::size_t j, std::vector<LinkTriangle>& out) const {
@@ -130,6 +140,8 @@ class LinkTriangulation {
   }
 
   std::array<std::array<Entry, kMostLink>, kMostLink> best_;
+  // By corner i, the corners k for which there is a triangulation of p_i .. p_k, or of p_k .. p_i.
+  std::array<Corners, kMostLink> to_, from_;
 };
 
 /// Whether a link triangle's two tetrahedra are strictly positive.

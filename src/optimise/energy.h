@@ -15,7 +15,7 @@
 #include <limits>
 
 #include "holdfast/types.h"
-#include "mesh/pair.h"
+#include "numbers/pair.h"
 #include "optimise/tuning.h"
 
 namespace holdfast {

@@ -248,9 +248,9 @@ class Cavity {
 };
 
 // The two cavities of a facet, above (where its corners turn counterclockwise) and below.
-class Pair {
+class TwoCavities {
  public:
-  Pair(const TetMesh& mesh, const FaceCorners& facet, const std::vector<Tet>& crossing)
+  TwoCavities(const TetMesh& mesh, const FaceCorners& facet, const std::vector<Tet>& crossing)
       : mesh_(mesh),
         facet_(facet),
         halves_{Cavity(mesh, facet), Cavity(mesh, {facet[0], facet[2], facet[1]})},
@@ -359,17 +359,17 @@ bool FacetCavities::recover(const FaceCorners& facet, const Tell& tell, const Fi
     return true;
   }
   if (tets_.empty()) return list_coplanar(facet);
-  Pair pair(mesh_, facet, tets_);
-  in_the_way_ = pair.split(tets_);
+  TwoCavities cavities(mesh_, facet, tets_);
+  in_the_way_ = cavities.split(tets_);
   if (!in_the_way_.empty()) return false;
-  std::optional<Filling> filling = pair.fill(random_(), finish, tell);
+  std::optional<Filling> filling = cavities.fill(random_(), finish, tell);
   if (!filling) return false;
   for (const exact::ExactPoint& p : filling->points) added_.push_back(MeshEditor(mesh_).add_vertex(p));
   for (TetMesh::Corners& t : filling->tets)
     for (Vertex& v : t)
       if (v >= Filling::kAdded) v = added_[v - Filling::kAdded];
   MeshEditor(mesh_).replace(
-      {.old_tets = pair.tets(), .new_tets = filling->tets, .facets = std::span(&facet, 1)});
+      {.old_tets = cavities.tets(), .new_tets = filling->tets, .facets = std::span(&facet, 1)});
   return true;
 }
 

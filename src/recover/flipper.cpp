@@ -1,9 +1,12 @@
 #include "recover/flipper.h"
 
 #include <algorithm>
+#include <bit>
+#include <optional>
 
 #include "mesh/editor.h"
 #include "numbers/random.h"
+#include "recover/shell_costs.h"
 #include "recover/tuning.h"
 
 namespace holdfast {
@@ -15,14 +18,15 @@ class Flipper::ForTarget {
   using Cost = int;
   static constexpr int kWeight = 64;
 
-  ForTarget(const TetMesh& mesh, const EdgeShell& shell, const std::vector<Ear>& ears, const Target& target,
-            Vertex avoided)
-      : mesh_(mesh),
-        shell_(shell),
+  ForTarget(const TetMesh& mesh, const EdgeShell& shell, const ShellEars& ears, const ShellSigns& signs,
+            const Target& target, Vertex avoided)
+      : shell_(shell),
         ears_(ears),
-        target_(target),
-        is_near_(target.may_meet(mesh, shell)),
-        avoided_(avoided) {}
+        signs_(signs),
+        is_near_(target.may_meet(mesh, signs.low(), signs.high())),
+        avoided_(avoided) {
+    if (is_near_) costs_.emplace(mesh, shell, target);
+  }
 
   [[nodiscard]] Cost none() const { return 0; }
   [[nodiscard]] Cost join(Cost x, Cost y) const { return x + y; }
@@ -31,20 +35,19 @@ class Flipper::ForTarget {
   std::optional<Cost> triangle(std::size_t i, std::size_t k, std::size_t j) {
     ++tests;
     if (!is_positive(i, k, j)) return std::nullopt;
-    return is_near_ ? kWeight * target_.face(mesh_, shell_.link[i], shell_.link[k], shell_.link[j]) : 0;
+    return is_near_ ? kWeight * costs_->face(i, k, j) : 0;
   }
   Cost diagonal(std::size_t i, std::size_t j) {
-    const Vertex u = shell_.link[i], v = shell_.link[j];
-    const int avoided = u == avoided_ || v == avoided_ ? 1 : 0;
+    const int avoided = shell_.link[i] == avoided_ || shell_.link[j] == avoided_ ? 1 : 0;
     if (!is_near_) return avoided;
     const int crossings =
-        target_.edge(mesh_, u, v) + target_.face(mesh_, shell_.a, u, v) + target_.face(mesh_, shell_.b, u, v);
+        costs_->edge(i, j) + costs_->face(costs_->a(), i, j) + costs_->face(costs_->b(), i, j);
     return kWeight * crossings + avoided;
   }
-  [[nodiscard]] int cost_now() const {
+  [[nodiscard]] int cost_now() {
     if (!is_near_) return 0;
-    int cost = target_.edge(mesh_, shell_.a, shell_.b);
-    for (const Vertex p : shell_.link) cost += target_.face(mesh_, shell_.a, shell_.b, p);
+    int cost = costs_->edge(costs_->a(), costs_->b());
+    for (std::size_t i = 0; i < shell_.size(); ++i) cost += costs_->face(costs_->a(), costs_->b(), i);
     return cost;
   }
 
@@ -52,20 +55,20 @@ class Flipper::ForTarget {
 
  private:
   [[nodiscard]] bool is_positive(std::size_t i, std::size_t k, std::size_t j) const {
-    if (k == i + 1 && j == i + 2) return ears_[k].sees_both();
+    if (k == i + 1 && j == i + 2) return ears_.sees_both(k);
     if (i == 0 && j + 1 == shell_.size()) {
-      if (k == 1) return ears_[0].sees_both();
-      if (k + 1 == j) return ears_[j].sees_both();
+      if (k == 1) return ears_.sees_both(0);
+      if (k + 1 == j) return ears_.sees_both(j);
     }
-    return sees_both_ends(mesh_, shell_, i, k, j);
+    return signs_.sees_both(i, k, j);
   }
 
-  const TetMesh& mesh_;
   const EdgeShell& shell_;
-  const std::vector<Ear>& ears_;
-  const Target& target_;
+  const ShellEars& ears_;
+  const ShellSigns& signs_;
   const bool is_near_;  // else all of these cost nothing
   Vertex avoided_;
+  std::optional<ShellCosts> costs_;
 };
 
 bool Flipper::holds(Tet t, Vertex a, Vertex b) const {
@@ -142,25 +145,9 @@ bool Flipper::gather(Tet t, Vertex a, Vertex b, Vertex avoided, Level& level) {
       !gather_round(mesh_, t, a, b, shell, avoided == kNone ? tuning::kMostClipped : kMostLink, beyond))
     return false;
   if (shell.size() > kMostLink && !clip_ears(shell)) return false;
-  list_ears(level);
+  signs_.set(shell);
+  level.ears = signs_.ears();
   return true;
-}
-
-// How the corners of a link, cut off one at a time, see the ends of the edge.
-void Flipper::list_ears(Level& level) {
-  const EdgeShell& shell = level.shell;
-  const std::size_t n = shell.size();
-  level.ears.resize(n);
-  level.good_ears = 0;
-  Vertex before = shell.link[n - 1], p = shell.link[0];
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vertex after = shell.link[i + 1 == n ? 0 : i + 1];
-    const auto [of_a, of_b] = mesh_.orient_both(before, p, after, shell.a, shell.b);
-    level.ears[i] = {of_a<0, of_b> 0};
-    level.good_ears += static_cast<std::size_t>(level.ears[i].sees_both());
-    before = p;
-    p = after;
-  }
 }
 
 // An edge that the target crosses (nothing is avoided) is to lessen the crossings.
@@ -168,11 +155,11 @@ bool Flipper::remove_now(const Level& level, Vertex avoided) {
   const EdgeShell& shell = level.shell;
   work_.add(shell.size());
   // Every triangulation of a polygon has two ears (Meisters 1975).
-  if (level.good_ears < 2) {
+  if (std::popcount(level.ears.see_both()) < 2) {
     work_.add(2 * shell.size());
     return false;
   }
-  ForTarget objective(mesh_, shell, level.ears, target_, avoided);
+  ForTarget objective(mesh_, shell, level.ears, signs_, target_, avoided);
   const auto cost = triangulation_.find(shell.size(), objective);
   work_.add(2 * objective.tests);
   if (!cost || *cost % ForTarget::kWeight != 0) return false;
@@ -226,8 +213,9 @@ void Flipper::begin_spokes(Level& level) {
   auto& spokes = level.spokes;
   spokes.clear();
   level.next = 0;
-  for (std::uint32_t i = 0; i < level.ears.size(); ++i) {
-    const auto [sees_a, sees_b] = level.ears[i];
+  for (std::uint32_t i = 0; i < level.shell.size(); ++i) {
+    const LinkCorners bit = LinkCorners{1} << i;
+    const bool sees_a = (level.ears.see_a & bit) != 0, sees_b = (level.ears.see_b & bit) != 0;
     if (!sees_b) spokes.push_back({{i, true}, !sees_a});
     if (!sees_a) spokes.push_back({{i, false}, !sees_b});
   }
@@ -241,7 +229,7 @@ void Flipper::begin_spokes(Level& level) {
       *end++ = s;
   }
   std::copy(blocked_twice_.begin(), blocked_twice_.end(), end);
-  work_.add(2 * level.ears.size());
+  work_.add(2 * level.shell.size());
 }
 
 std::optional<ShellSpoke> Flipper::next_blocked(Level& level) {

@@ -12,6 +12,7 @@
 #include "mesh/clear_edge.h"
 #include "mesh/tet_mesh.h"
 #include "recover/pierce.h"
+#include "recover/shell_signs.h"
 #include "recover/target.h"
 #include "recover/tried_edges.h"
 
@@ -58,7 +59,8 @@ class CostChange {
 
 class Flipper {
  public:
-  Flipper(TetMesh& mesh, Random& random) : mesh_(mesh), piercing_(mesh, random), random_(random) {}
+  Flipper(TetMesh& mesh, Random& random)
+      : mesh_(mesh), piercing_(mesh, random), random_(random), signs_(mesh) {}
 
   /// So many levels that the budget ends an attempt and not their number. In strips of prisms one flip makes
   /// way for the next over dozens of them.
@@ -87,11 +89,6 @@ class Flipper {
 
  private:
   [[nodiscard]] bool holds(Tet t, Vertex a, Vertex b) const;
-  // Whether the triangle at a corner of a shell's link sees the ends of the edge from the right side.
-  struct Ear {
-    bool sees_a, sees_b;
-    [[nodiscard]] bool sees_both() const { return sees_a && sees_b; }
-  };
   struct BlockedSpoke {
     ShellSpoke spoke;
     bool blocked_twice;
@@ -99,8 +96,7 @@ class Flipper {
   // An edge that is to go while `depth` more levels may clear its way; kept to allocate nothing.
   struct Level {
     EdgeShell shell;
-    std::vector<Ear> ears;  // of its link
-    std::size_t good_ears = 0;
+    ShellEars ears;
     std::vector<BlockedSpoke> spokes;
     std::size_t next = 0;
   };
@@ -122,7 +118,6 @@ class Flipper {
   [[nodiscard]] std::size_t edge_removals() const { return counts_.edge_removals; }
   [[nodiscard]] Tet find_edge(Vertex a, Vertex b) { return piercing_.find_edge(a, b); }
 
-  void list_ears(Level& level);
   bool clip_ears(EdgeShell& shell);
   bool clip_ear(EdgeShell& shell, std::size_t i);
   void note_flip(std::size_t old_tets, int change);
@@ -137,6 +132,7 @@ class Flipper {
   TriedEdges tried_;  // in this attempt, since the last flip
 
   std::vector<Level> levels_;  // by depth
+  ShellSigns signs_;           // of the shell gathered last
   LinkTriangulation<int> triangulation_;
   std::vector<LinkTriangle> triangles_;
   std::vector<BlockedSpoke> blocked_twice_;

@@ -21,18 +21,8 @@ bool coplanar_edges_cross(const TetMesh& mesh, Vertex a, Vertex b, Vertex u, Ver
 
 // Rounding never changes the order of two numbers, so what is apart in the doubles nearest to exact positions
 // is apart.
-bool Target::may_meet(const TetMesh& mesh, const EdgeShell& shell) const {
+bool Target::may_meet(const TetMesh& mesh, const Point& low, const Point& high) const {
   if (kind_ == Kind::none) return false;
-  Point low = mesh.position(shell.a), high = low;
-  const auto take = [&](Vertex v) {
-    const Point& p = mesh.position(v);
-    for (std::size_t i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], p[i]);
-      high[i] = std::max(high[i], p[i]);
-    }
-  };
-  take(shell.b);
-  for (const Vertex v : shell.link) take(v);
   const Point &a = mesh.position(v_[0]), &b = mesh.position(v_[1]);
   const Point& c = kind_ == Kind::facet ? mesh.position(v_[2]) : b;
   for (std::size_t i = 0; i < 3; ++i)
@@ -46,7 +36,7 @@ int Target::face(const TetMesh& mesh, Vertex u, Vertex v, Vertex w) const {
   if (u == a || v == a || w == a || u == b || v == b || w == b) return 0;
   const int s = mesh.orient(a, b, u, v);
   if (s == 0 || mesh.orient(a, b, v, w) != s || mesh.orient(a, b, w, u) != s) return 0;
-  return mesh.orient(u, v, w, a) * mesh.orient(u, v, w, b) < 0 ? kFaceCost : 0;
+  return face_round(mesh, u, v, w);
 }
 
 int Target::edge(const TetMesh& mesh, Vertex u, Vertex v) const {

@@ -3,7 +3,6 @@
 
 #include <array>
 
-#include "mesh/edge_removal.h"
 #include "mesh/tet_mesh.h"
 
 namespace holdfast {
@@ -22,10 +21,20 @@ class Target {
   static Target facet(const std::array<Vertex, 3>& abc) { return {abc, Kind::facet}; }
 
   [[nodiscard]] bool is_segment() const { return kind_ == Kind::segment; }
-  /// False only where nothing among the vertices of a shell costs anything: their box is apart.
-  [[nodiscard]] bool may_meet(const TetMesh& mesh, const EdgeShell& shell) const;
+  /// False only where nothing among vertices in this box of their doubles costs anything: it is apart.
+  [[nodiscard]] bool may_meet(const TetMesh& mesh, const Point& low, const Point& high) const;
   /// Cost of the face uvw: its inside crossed by the segment. Facets: 0.
   [[nodiscard]] int face(const TetMesh& mesh, Vertex u, Vertex v, Vertex w) const;
+  /// Of a segment: on which side of it the edge uv passes; 0 where they meet if they are long enough.
+  [[nodiscard]] int side(const TetMesh& mesh, Vertex u, Vertex v) const {
+    const auto [a, b, none] = v_;
+    return u == a || v == a || u == b || v == b ? 0 : mesh.orient(a, b, u, v);
+  }
+  /// Cost of a face whose three edges pass the segment on the same side, not 0.
+  [[nodiscard]] int face_round(const TetMesh& mesh, Vertex u, Vertex v, Vertex w) const {
+    const auto [of_a, of_b] = mesh.orient_both(u, v, w, v_[0], v_[1]);
+    return of_a * of_b < 0 ? kFaceCost : 0;
+  }
   /// Cost of the edge uv: its inside crosses that of the segment or facet.
   [[nodiscard]] int edge(const TetMesh& mesh, Vertex u, Vertex v) const;
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "exact/predicates.h"
+#include "exact/orient_among.h"
 #include "mesh/measure.h"
 #include "mesh/quality_below.h"
 #include "numbers/sorted.h"
@@ -264,9 +264,13 @@ class Search {
     std::size_t count = 0;
   };
 
-  // The fattest tetrahedron first.
+  // The fattest tetrahedron first. Mostly there is only one.
   [[nodiscard]] Ranking ranked(const LocalFace& f, Mask mask) const {
     Ranking order;
+    if (std::has_single_bit(mask)) {
+      order.list[order.count++] = {0, static_cast<Local>(std::countr_zero(mask))};
+      return order;
+    }
     for (; mask != 0; mask &= mask - 1) {
       const auto d = static_cast<Local>(std::countr_zero(mask));
       order.list[order.count++] = {

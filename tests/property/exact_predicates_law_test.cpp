@@ -4,6 +4,8 @@
 #include <map>
 #include <optional>
 
+#include "exact/orient_among.h"
+#include "exact/orient_ring.h"
 #include "exact/predicates.h"
 #include "exact/tiers.h"
 #include "exact_reference.h"
@@ -77,6 +79,63 @@ TEST(PredicateLaw, TheFilterAmongManyPointsLeavesLittleOpen) {
     for (Point3& p : points)
       for (double& x : p) x = uniform(random, -1, 1);
     open += left_open(points, {"uniform", {}});
+  }
+  EXPECT_LT(open, 10u);
+}
+
+// Of a ring and its two ends, all triangles of the ring. Returns how many signs of those that are not 0 the
+// filter leaves open.
+std::size_t left_open_in_ring(const std::vector<Point3>& points, const Case& c) {
+  const double *a = points.front().data(), *b = points.back().data();
+  const std::size_t n = points.size() - 2;
+  const auto at = [&](std::size_t i) { return points[1 + i % n].data(); };
+  OrientRing ring;
+  ring.set(n, at, a, b);
+  std::size_t open = 0;
+  const auto expect = [&](const OrientRing::Signs& signs, std::size_t bit, int truth) {
+    const int answer =
+        static_cast<int>(signs.positive >> bit & 1) - static_cast<int>(signs.negative >> bit & 1);
+    EXPECT_EQ(signs.positive >> bit & signs.negative >> bit & 1, 0U);
+    expect_sound(answer, truth, "filter in a ring", c);
+    if (answer == 0 && truth != 0) ++open;
+  };
+  for (const OrientRing::OfBoth& ears : {ring.ears(), ring.ears_by_pairs()}) {
+    for (std::size_t i = 0; i < n; ++i) {
+      expect(ears.a, i, orient3d(at(i + n - 1), at(i), at(i + 1), a));
+      expect(ears.b, i, orient3d(at(i + n - 1), at(i), at(i + 1), b));
+    }
+    EXPECT_EQ((ears.a.positive | ears.a.negative | ears.b.positive | ears.b.negative) >> n, 0U);
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < n; ++k) {
+      const OrientRing::Signs signs = ring.triangle(i, k, (i + k + 1) % n);
+      expect(signs, 0, orient3d(at(i), at(k), at(i + k + 1), a));
+      expect(signs, 1, orient3d(at(i), at(k), at(i + k + 1), b));
+    }
+  return open;
+}
+
+TEST(PredicateLaw, TheFilterInARingIsSound) {
+  Random random(24);
+  for (int i = 0; i < 2000; ++i) {
+    std::vector<Case> cases(1 + random() % (OrientRing::kMost / 5));
+    std::vector<Point3> points;
+    for (Case& c : cases) {
+      c = random_case(random);
+      points.insert(points.end(), c.p.begin(), c.p.end());
+    }
+    left_open_in_ring(points, cases.front());
+  }
+}
+
+TEST(PredicateLaw, TheFilterInARingLeavesLittleOpen) {
+  Random random(25);
+  std::size_t open = 0;
+  for (int i = 0; i < 1000; ++i) {
+    std::vector<Point3> points(5 + random() % (OrientRing::kMost - 2));
+    for (Point3& p : points)
+      for (double& x : p) x = uniform(random, -1, 1);
+    open += left_open_in_ring(points, {"uniform", {}});
   }
   EXPECT_LT(open, 10u);
 }

@@ -19,6 +19,7 @@
 #include "recover/flipper.h"
 #include "recover/insert_vertex.h"
 #include "recover/pierce.h"
+#include "recover/shell_signs.h"
 #include "recover/target.h"
 #include "recover/tried_edges.h"
 
@@ -146,7 +147,9 @@ TEST(Target, CostsNothingWhereItMayNotBeMet) {
     const int cost = target.edge(mesh, shell.a, shell.b) + target.edge(mesh, shell.link[0], shell.link[1]) +
                      target.face(mesh, shell.a, shell.b, shell.link[2]) +
                      target.face(mesh, shell.link[0], shell.link[1], shell.link[2]);
-    const bool may_meet = target.may_meet(mesh, shell);
+    ShellSigns signs(mesh);
+    signs.set(shell);
+    const bool may_meet = target.may_meet(mesh, signs.low(), signs.high());
     EXPECT_TRUE(may_meet || cost == 0);
     ++(may_meet ? met : kept_off);
     costly += cost > 0 ? 1 : 0;
@@ -154,7 +157,7 @@ TEST(Target, CostsNothingWhereItMayNotBeMet) {
   EXPECT_GT(met, 0);
   EXPECT_GT(costly, 0);
   EXPECT_GT(kept_off, 0);
-  EXPECT_FALSE(Target::none().may_meet(mesh, {.a = 0, .b = 1, .tets = {}, .link = {2, 3, 4}}));
+  EXPECT_FALSE(Target::none().may_meet(mesh, {-10, -10, -10}, {10, 10, 10}));
 }
 
 // Removing the axis must recover a facet of its link: every facet between three of seven ring vertices.

@@ -1,11 +1,34 @@
 // Some numbers that the machine computes at once.
 #pragma once
 
+#include <cstdint>
+#include <cstring>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 namespace holdfast {
 
 /// Two doubles in one register, on every processor that the compiler knows how to do it for. Elementwise
 /// arithmetic and comparisons as for one number, so that one and two take the same code.
 using Pair = double __attribute__((vector_size(16)));
+
+[[nodiscard]] inline Pair load_pair(const double* from) {
+  Pair pair;
+  std::memcpy(&pair, from, sizeof(pair));
+  return pair;
+}
+
+/// What a comparison of pairs gives, as bits 0 and 1.
+using PairOfBools = decltype(Pair{} < Pair{});
+[[nodiscard]] inline std::uint32_t bits(PairOfBools pair) {
+#if defined(__SSE2__)
+  return static_cast<std::uint32_t>(_mm_movemask_pd(reinterpret_cast<__m128d>(pair)));
+#else
+  return static_cast<std::uint32_t>((pair[0] & 1) | (pair[1] & 2));
+#endif
+}
 
 /// Four, where `has_fours` says so, in functions that HOLDFAST_WITH_FOURS marks. Each of them is what it
 /// would be by itself, bit for bit.
