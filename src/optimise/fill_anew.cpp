@@ -20,6 +20,7 @@ bool are_points_worth_it(const Search& search, const Search::Trial& trial, doubl
 }
 
 bool fill_anew(Search& search, const Polyhedron& polyhedron, const Filler& fill) {
+  if (!polyhedron.may_be_filled_below(polyhedron.worst() / tuning::kLeastGainOfFilling)) return false;
   const std::optional<Filling> filling = fill(polyhedron.surface(), {});
   search.poll();
   if (!filling || !polyhedron.is_filled_by(*filling)) return false;

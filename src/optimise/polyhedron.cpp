@@ -6,7 +6,9 @@
 
 #include "mesh/editor.h"
 #include "mesh/quality.h"
+#include "mesh/quality_below.h"
 #include "numbers/sorted.h"
+#include "numbers/vector.h"
 #include "optimise/badness.h"
 #include "optimise/search.h"
 
@@ -71,11 +73,25 @@ void Polyhedron::cut_out_faces(Tet t, std::set<FaceKey>& walls) {
       continue;
     const auto [a, b, c] = mesh_.face_vertices(f);
     facets_.push_back({a, c, b});
+    apexes_.push_back(mesh_.apex(f));
   }
 }
 
 Index Polyhedron::local(Vertex v) const {
   return static_cast<Index>(std::lower_bound(vertices_.begin(), vertices_.end(), v) - vertices_.begin());
+}
+
+bool Polyhedron::may_be_filled_below(double limit) const {
+  for (std::size_t k = 0; k < facets_.size(); ++k) {
+    const auto [a, b, c] = surface_.facets[k];
+    const Point &p = surface_.vertices[a], &q = surface_.vertices[b], &r = surface_.vertices[c];
+    const auto suits = [&](const Point& apex) { return is_quality_below(p, q, r, apex, limit); };
+    if (suits(mesh_.position(apexes_[k]))) continue;
+    const Vector outward = cross(q - p, r - p);
+    const auto suits_inside = [&](const Point& apex) { return !(dot(outward, apex - p) > 0) && suits(apex); };
+    if (std::none_of(surface_.vertices.begin(), surface_.vertices.end(), suits_inside)) return false;
+  }
+  return true;
 }
 
 double Polyhedron::worst() const {

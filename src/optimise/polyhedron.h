@@ -25,6 +25,8 @@ class Polyhedron {
   [[nodiscard]] std::size_t points() const { return points_; }
   /// Its facets look outwards.
   [[nodiscard]] Complex surface() const { return surface_.view(); }
+  /// Whether without further points each of its faces may have a tetrahedron whose Q is below the limit.
+  [[nodiscard]] bool may_be_filled_below(double limit) const;
   /// The worst Q of its tetrahedra, and that of other ones.
   [[nodiscard]] double worst() const;
   [[nodiscard]] double worst(const Filling& filling) const;
@@ -44,6 +46,7 @@ class Polyhedron {
   std::vector<Tet> tets_;
   std::vector<Vertex> vertices_;               // of the surface, in ascending order
   std::vector<std::array<Vertex, 3>> facets_;  // of the surface
+  std::vector<Vertex> apexes_;                 // by facet: of the tetrahedron behind it
   std::set<FaceKey> faces_;                    // between the polyhedron and the rest of the mesh
   std::size_t points_ = 0;
   Surface surface_;

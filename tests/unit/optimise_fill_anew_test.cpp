@@ -103,6 +103,32 @@ TEST(Polyhedron, IsFilledByItsOwnFacesAndVerticesAlone) {
   EXPECT_FALSE(polyhedron.is_filled_by(Filling{}));
 }
 
+// One of its faces may have none but worse tetrahedra.
+TEST(Polyhedron, KnowsWhatItsFacesForce) {
+  std::size_t yes = 0, no = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Searched s(seed);
+    const Polyhedron polyhedron(s.search, {s.tets[s.tets.size() / 2]}, 12);
+    const Complex surface = polyhedron.surface();
+    double forced = 0;
+    for (const auto& [a, b, c] : surface.facets) {
+      double best = std::numeric_limits<double>::infinity();
+      for (const Point& p : surface.vertices) {
+        const Point &q = surface.vertices[a], &r = surface.vertices[b], &t = surface.vertices[c];
+        if (exact::orient3d(q.data(), r.data(), t.data(), p.data()) < 0)
+          best = std::min(best, quality(q, r, t, p));
+      }
+      forced = std::max(forced, best);
+    }
+    EXPECT_LE(forced, 1.001 * polyhedron.worst());
+    EXPECT_TRUE(polyhedron.may_be_filled_below(1.001 * forced));
+    EXPECT_FALSE(polyhedron.may_be_filled_below(0.999 * forced));
+    ++(polyhedron.may_be_filled_below(polyhedron.worst() / 1.1) ? yes : no);
+  }
+  EXPECT_GT(yes, 0U);
+  EXPECT_GT(no, 0U);
+}
+
 TEST(Polyhedron, TakesNothingThatIsTurnedOver) {
   Searched s(5);
   const Polyhedron polyhedron(s.search, {s.tets.front()}, 30);
@@ -183,6 +209,21 @@ TEST(FillAnew, EndsWithOneBesideTheWorst) {
     beside += s.search.stats().filled_anew;
   }
   EXPECT_GT(beside, 0U);
+}
+
+// A tetrahedron by itself is as it is.
+TEST(FillAnew, LeavesWhatIsForced) {
+  Searched s(2);
+  const auto worst = s.search.worst();
+  ASSERT_TRUE(worst && worst->quality > 10);
+  Search search(s.mesh, {worst->tet}, static_cast<Vertex>(s.mesh.vertex_count()), kTarget, 1, 1, s.monitor);
+  int calls = 0;
+  const Filler counting = [&](const Complex&, PointsOfFilling) {
+    ++calls;
+    return std::nullopt;
+  };
+  fill_anew_round_the_worst(search, {counting, 3});
+  EXPECT_EQ(calls, 0);
 }
 
 TEST(FillAnew, ChangesNothingWhereNothingFits) {
