@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <limits>
 
 #include "numbers/elementary.h"
@@ -156,7 +157,7 @@ bool Reach::surely_of_triangle(const Point& p, const std::array<Point, 3>& t) co
 int compare_distance(const Point& p, const Point& q, double distance) {
   const Vector d = difference(p, q);
   const auto order = dot(d, d) <=> Dyadic(distance) * Dyadic(distance);
-  return order < 0 ? -1 : order > 0 ? 1 : 0;
+  return std::is_lt(order) ? -1 : std::is_gt(order) ? 1 : 0;
 }
 
 /// With the area A and the sides a, b, c the radius is 2 A / (a + b + c). Lengths are rounded up, so what is
