@@ -96,6 +96,22 @@ class Cover {
     }
   }
 
+  /// Adds two triangles between two odd edges that are near to each other along their length, like the sides
+  /// of a slit, of which an odd edge joins the far ends: what was so thin there became a line. (d)
+  void close_thin_slits() {
+    constexpr std::size_t kMost = 16;
+    const Neighbours neighbours = neighbours_of(odd_);
+    const std::set<Segment> edges = odd_;
+    for (const auto& [v, w] : edges) {
+      const std::vector<Index>&of_v = neighbours.at(v), &of_w = neighbours.at(w);
+      if (of_v.size() > kMost || of_w.size() > kMost || !(width_of(v, w) < test_.reach_.distance())) continue;
+      for (const Index u : of_v)
+        for (const Index x : of_w)
+          if (u != w && x != v && u != x && is_odd_edge(v, w) && is_odd_edge(u, v) && is_odd_edge(w, x))
+            close_thin_slit(u, v, w, x);
+    }
+  }
+
   std::optional<std::string> gap() {
     for (std::size_t side = 0; side < 3; ++side)
       if (!take_side(side))
@@ -123,23 +139,53 @@ class Cover {
     return at_corner == at_corners_.end() ? sides : sides | at_corner->second;
   }
 
-  /// `t`: its tip comes first.
-  void close_thin_gap(const Triangle& t) {
-    const std::array<Point, 3> points{test_.vertices_[t[0]], test_.vertices_[t[1]], test_.vertices_[t[2]]};
-    const double width = rough_distance(points[1], points[2]) * (1 + 0x1p-48) / 2;
-    if (!(width < test_.reach_.distance())) return;
-    const Reach left(std::nextafter(test_.reach_.distance() - width, 0.0));
-    if (!std::all_of(points.begin(), points.end(),
-                     [&](const Point& p) { return left.of_triangle(p, triangle_); }))
-      return;
+  /// |vw|, rounded up.
+  [[nodiscard]] double width_of(Index v, Index w) const {
+    return rough_distance(test_.vertices_[v], test_.vertices_[w]) * (1 + 0x1p-48);
+  }
+  /// Of the output.
+  [[nodiscard]] bool is_odd_edge(Index v, Index w) const {
+    return odd_.contains(edge_of(v, w)) && !at_gaps_.contains(edge_of(v, w));
+  }
+  /// What is left of the distance where a part of it is used up; nothing where that is all.
+  [[nodiscard]] std::optional<Reach> reach_without(double part) const {
+    if (!(part < test_.reach_.distance())) return std::nullopt;
+    return Reach(std::nextafter(test_.reach_.distance() - part, 0.0));
+  }
+  [[nodiscard]] bool all_within(const Reach& reach, std::initializer_list<Index> vertices) const {
+    return std::all_of(vertices.begin(), vertices.end(),
+                       [&](Index v) { return reach.of_triangle(test_.vertices_[v], triangle_); });
+  }
+  /// The sides that both are within reach of.
+  [[nodiscard]] unsigned sides_near(const Reach& reach, Index v, Index w) const {
     unsigned sides = 0;
     for (std::size_t i = 0; i < 3; ++i)
-      if (left.of_segment(points[1], triangle_[i], triangle_[(i + 1) % 3]) &&
-          left.of_segment(points[2], triangle_[i], triangle_[(i + 1) % 3]))
+      if (reach.of_segment(test_.vertices_[v], triangle_[i], triangle_[(i + 1) % 3]) &&
+          reach.of_segment(test_.vertices_[w], triangle_[i], triangle_[(i + 1) % 3]))
         sides |= 1U << i;
+    return sides;
+  }
+
+  /// `t`: its tip comes first.
+  void close_thin_gap(const Triangle& t) {
+    const std::optional<Reach> left = reach_without(width_of(t[1], t[2]) / 2);
+    if (!left || !all_within(*left, {t[0], t[1], t[2]})) return;
+    const unsigned sides = sides_near(*left, t[1], t[2]);
     if (sides == 0) return;
     flip(odd_, t);
     at_gaps_[edge_of(t[1], t[2])] = sides;
+  }
+
+  /// Between uv and xw, which vw joins.
+  void close_thin_slit(Index u, Index v, Index w, Index x) {
+    const std::optional<Reach> inside = reach_without(width_of(v, w)),
+                               at_side = reach_without(width_of(u, x));
+    if (!inside || !at_side || !all_within(*inside, {u, v, w}) || !all_within(*at_side, {u, w, x})) return;
+    const unsigned sides = sides_near(*at_side, u, x);
+    if (sides == 0) return;
+    flip(odd_, Triangle{u, v, w});
+    flip(odd_, Triangle{u, w, x});
+    at_gaps_[edge_of(u, x)] = sides;
   }
 
   /// Makes edges of corners with all vertices within reach of them. (c)
@@ -363,6 +409,7 @@ std::optional<std::string> CoverTest::gap(const std::array<Point, 3>& triangle, 
   if (!gap) return gap;
   Cover closed(*this, triangle, places, chain);
   closed.close_thin_gaps();
+  closed.close_thin_slits();
   return closed.gap() ? gap : std::nullopt;
 }
 

@@ -207,6 +207,19 @@ TEST(Cover, AThinPartThatBecameALine) {
   EXPECT_TRUE(CoverTest(vertices, facets, nearer).gap(triangle, {0, 1, 2}, children));
 }
 
+// A part from a side that is as thin all along, and ends at a short edge: a slit.
+TEST(Cover, AThinPartThatBecameASlit) {
+  const double e = 1e-9;
+  const std::array<Point, 3> triangle{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}};
+  const std::vector<Point> vertices{triangle[0],     triangle[1],   triangle[2],      {0.5, 0, 0},
+                                    {0.5 + e, 0, 0}, {0.6, 0.3, 0}, {0.6 + e, 0.3, 0}};
+  const std::vector<Triangle> facets{{0, 3, 5}, {4, 1, 6}, {1, 2, 6}, {6, 2, 5}, {2, 0, 5}};
+  const std::vector<Index> children{0, 1, 2, 3, 4};
+  const Reach reach(1.5 * e), nearer(0.9 * e);
+  EXPECT_FALSE(CoverTest(vertices, facets, reach).gap(triangle, {0, 1, 2}, children));
+  EXPECT_TRUE(CoverTest(vertices, facets, nearer).gap(triangle, {0, 1, 2}, children));
+}
+
 // Whatever is taken for a cover is one: points of the triangle are within the distance of some facet.
 TEST(Cover, IsTakenForNoneWhereAPointIsTooFar) {
   const std::array<Point, 3> triangle{{{0, 0, 0}, {6, 0, 0}, {1, 5, 0}}};
