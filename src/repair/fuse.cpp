@@ -56,8 +56,8 @@ void deliver(const PartFacets& facets_of_parts, const LedSides& sides, const Pat
         for (const Pasted* p : own->second) take(p->corners, p->facets);
       continue;
     }
-    pieces.clear();
-    if (!facets_of_parts.plane(f) || !sides.split(state.facets[f], pieces)) pieces.assign(1, state.facets[f]);
+    pieces.assign(1, state.facets[f]);
+    if (facets_of_parts.plane(f)) pieces = sides.split(state.facets[f]);
     for (const Triangle& t : pieces) take(t, std::array{f});
   }
   state.facets = std::move(facets);
@@ -71,7 +71,7 @@ void deliver(const PartFacets& facets_of_parts, const LedSides& sides, const Pat
 double fuse(State& state, std::span<const Index> part, double gap, double rounding, const Step& step) {
   name_places(state);
   const PartFacets facets(state, part);
-  Patches patches = find_patches(facets, gap, rounding, step);
+  const Patches patches = find_patches(facets, gap, rounding, step);
   if (patches.close.empty()) return 0;
   const LedSides sides(facets, patches.close, gap, state.vertices, step);
   double most = sides.most();

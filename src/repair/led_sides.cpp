@@ -172,16 +172,60 @@ void LedSides::part_from_itself(const Side& side, OnSide& on) {
 
 std::vector<Index> LedSides::chain(Index from, Index to) const {
   std::vector<Index> chain{from};
-  const auto found = sides_.find(ascending(Side{from, to}));
-  if (found != sides_.end()) {
-    for (const auto& [t, v] : found->second.points) chain.push_back(v);
-    if (from > to) std::reverse(chain.begin() + 1, chain.end());
-  }
-  chain.push_back(to);
+  append(from, to, chain);
   return chain;
 }
 
-bool LedSides::split(const Triangle& t, std::vector<Triangle>& pieces, int depth) const {
+std::vector<LedSides::Side> LedSides::round(const Triangle& t) const {
+  std::vector<Side> round;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::vector<Index> along = chain(t[i], t[(i + 1) % 3]);
+    for (std::size_t k = 0; k + 1 < along.size(); ++k) round.push_back({along[k], along[k + 1]});
+  }
+  return round;
+}
+
+// Pieces that are sides, too, are led as these are.
+void LedSides::append(Index from, Index to, std::vector<Index>& chain, int depth) const {
+  constexpr int kDeepest = 24;
+  const auto found = sides_.find(ascending(Side{from, to}));
+  if (found == sides_.end() || found->second.points.empty() || depth > kDeepest) {
+    chain.push_back(to);
+    return;
+  }
+  std::vector<Index> on;
+  for (const auto& [t, v] : found->second.points) on.push_back(v);
+  if (from > to) std::reverse(on.begin(), on.end());
+  on.push_back(to);
+  for (const Index v : on) append(chain.back(), v, chain, depth + 1);
+}
+
+std::vector<Triangle> LedSides::split(const Triangle& t) const {
+  std::vector<Triangle> pieces;
+  if (!split_deeper(t, pieces, 0)) pieces = fan(t);
+  // Two pieces with the same corners, one folded onto the other, bound nothing.
+  std::sort(pieces.begin(), pieces.end(),
+            [](const Triangle& a, const Triangle& b) { return ascending(a) < ascending(b); });
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    if (kept > 0 && ascending(pieces[kept - 1]) == ascending(pieces[k]))
+      --kept;
+    else
+      pieces[kept++] = pieces[k];
+  }
+  pieces.resize(kept);
+  return pieces;
+}
+
+// Triangles between a corner and all pieces of sides. They may be folded, but leave no crack.
+std::vector<Triangle> LedSides::fan(const Triangle& t) const {
+  std::vector<Triangle> fan;
+  for (const Side& side : round(t))
+    if (side[0] != t[0] && side[1] != t[0]) fan.push_back({t[0], side[0], side[1]});
+  return fan;
+}
+
+bool LedSides::split_deeper(const Triangle& t, std::vector<Triangle>& pieces, int depth) const {
   constexpr int kDeepest = 24;  // each level is done with a side
   if (depth > kDeepest) return false;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -189,7 +233,7 @@ bool LedSides::split(const Triangle& t, std::vector<Triangle>& pieces, int depth
     const std::vector<Index> along = chain(a, b);
     if (along.size() == 2) continue;
     for (std::size_t k = 0; k + 1 < along.size(); ++k)
-      if (along[k] != c && along[k + 1] != c && !split({along[k], along[k + 1], c}, pieces, depth + 1))
+      if (along[k] != c && along[k + 1] != c && !split_deeper({along[k], along[k + 1], c}, pieces, depth + 1))
         return false;
     return true;
   }

@@ -23,11 +23,12 @@ class LedSides {
 
   /// The vertices of a side from one end to the other.
   [[nodiscard]] std::vector<Index> chain(Index from, Index to) const;
+  /// The steps from vertex to vertex round a facet, along its sides.
+  [[nodiscard]] std::vector<std::array<Index, 2>> round(const Triangle& t) const;
   /// Whether a vertex is on a side of a part that is led through it.
   [[nodiscard]] bool is_on_side(Index v, Index part) const { return on_side_.count({v, part}) != 0; }
-  /// A facet that is in no patch, cut with its sides. False where that leads back to itself, as it may in
-  /// facets that are thinner than the gap.
-  [[nodiscard]] bool split(const Triangle& t, std::vector<Triangle>& pieces, int depth = 0) const;
+  /// A facet that is in no patch, cut with its sides: exactly these are sides of an odd number of the pieces.
+  [[nodiscard]] std::vector<Triangle> split(const Triangle& t) const;
   /// The furthest that a side passes what it is led through.
   [[nodiscard]] double most() const { return most_; }
 
@@ -42,6 +43,10 @@ class LedSides {
   };
   using Sides = std::map<Side, OnSide>;
 
+  /// False where that leads back to itself, as it may in facets that are thinner than the gap.
+  [[nodiscard]] bool split_deeper(const Triangle& t, std::vector<Triangle>& pieces, int depth) const;
+  [[nodiscard]] std::vector<Triangle> fan(const Triangle& t) const;
+  void append(Index from, Index to, std::vector<Index>& chain, int depth = 0) const;
   [[nodiscard]] const Point& at(Index v) const { return facets_.at(v); }
   void list(std::span<const Index> close);
   void put_vertices(std::span<const Index> close, const Step& step);

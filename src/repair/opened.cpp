@@ -10,7 +10,8 @@
 namespace holdfast::repairing {
 namespace {
 
-/// Parts with a facet that is the only one at one of its sides, in ascending order.
+/// Parts with a facet that is the only one at one of its sides, in ascending order. One that stands for two
+/// of a part, as where a thin place was pressed flat, leaves no crack in it.
 std::vector<Index> open_parts(const State& state, std::span<const Index> part) {
   const std::vector<Index> first = first_at_places(state.vertices);
   std::vector<std::array<Index, 3>> sides;  // ends and facet
@@ -29,7 +30,13 @@ std::vector<Index> open_parts(const State& state, std::span<const Index> part) {
   std::vector<Index> open;
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if ((i > 0 && same(i, i - 1)) || (i + 1 < sides.size() && same(i, i + 1))) continue;
-    for (const Index parent : state.facet_parents.of(sides[i][2])) open.push_back(part[parent]);
+    const auto parents = state.facet_parents.of(sides[i][2]);
+    for (const Index parent : parents)
+      if (std::count_if(parents.begin(), parents.end(),
+                        [&](Index other) { return part[other] == part[parent]; }) %
+              2 !=
+          0)
+        open.push_back(part[parent]);
   }
   sort_unique(open);
   return open;

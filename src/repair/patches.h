@@ -25,10 +25,11 @@ struct Pasted {
   std::vector<Index> facets;  ///< ascending
 };
 
-/// The common triangles of all patches, with the pieces of their sides. Patches that have none, since what
-/// they are led through makes no triangulation, are dissolved. The furthest distance of a triangle's corner
-/// from a facet that it stands for is noted in `most`.
-[[nodiscard]] std::vector<Pasted> paste(const PartFacets& facets, const LedSides& sides, Patches& patches,
-                                        double gap, double rounding, const Step& step, double& most);
+/// The common triangles of all patches, with the pieces of their sides. Of each facet exactly these are sides
+/// of an odd number of its triangles. The furthest distance of a triangle's corner from a facet that it
+/// stands for is noted in `most`.
+[[nodiscard]] std::vector<Pasted> paste(const PartFacets& facets, const LedSides& sides,
+                                        const Patches& patches, double gap, double rounding, const Step& step,
+                                        double& most);
 
 }  // namespace holdfast::repairing

@@ -1,0 +1,27 @@
+// A facet that other parts lie on, cut in its own plane.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "repair/led_sides.h"
+#include "repair/part_facets.h"
+
+namespace holdfast::repairing {
+
+/// A piece of a facet that no side of another part divides.
+struct Cell {
+  Index facet = 0;
+  std::vector<Triangle> triangles;           // turned as the facet is
+  std::vector<std::array<Index, 2>> border;  // ascending: exactly these are sides of an odd number of them
+};
+
+/// Cuts a facet with its sides, as they are led, and with what may be of the vertices `inside` it and of the
+/// `pieces` of other parts' sides between vertices on it. Those that cross others do not count. The borders
+/// of all cells together are the facet's sides. `step` is called now and then.
+[[nodiscard]] std::vector<Cell> cut_facet(const PartFacets& facets, const LedSides& sides, Index f,
+                                          std::span<const Index> inside,
+                                          std::span<const std::array<Index, 2>> pieces, const Step& step);
+
+}  // namespace holdfast::repairing
