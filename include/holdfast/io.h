@@ -93,7 +93,8 @@ struct ReadOptions : Limits {
 
 /// Surfaces behind one another as one: indices count on. Facets of a surface without facet markers get the
 /// next free number, from 1, and the name `names[i]` if there is one. A marker that an earlier surface has
-/// under another name gets the next free number, too, which `remarks` say. Of region names the first counts.
+/// under another name gets the next free number, too, which `remarks` say. A name that surfaces have for
+/// different markers gets `names[i]` and a dot before it. Of region names the first counts.
 [[nodiscard]] HOLDFAST_API Surface join(std::span<const Surface> parts,
                                         std::span<const std::string> names = {});
 

@@ -4,6 +4,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "io/part_names.h"
 #include "numbers/sorted.h"
 
 namespace holdfast {
@@ -90,7 +91,11 @@ Surface surface_of(const Volume& volume, const Boundary& boundary) {
   return surface;
 }
 
-void number_regions(std::span<const Volume> volumes, std::span<Boundary> boundaries, PasteResult& pasted) {
+void number_regions(std::span<const Volume> volumes, std::span<Boundary> boundaries,
+                    std::span<const std::string> part_names, PasteResult& pasted) {
+  std::vector<std::map<int, std::string>> of_volumes;
+  for (const Volume& volume : volumes) of_volumes.push_back(volume.names.regions);
+  of_volumes = io::names_apart(std::move(of_volumes), part_names);
   std::map<int, std::string>& names = pasted.surface.names.regions;
   const std::map<int, std::string> of_parts = std::move(names);
   names.clear();
@@ -106,8 +111,8 @@ void number_regions(std::span<const Volume> volumes, std::span<Boundary> boundar
     const Volume& volume = volumes[k];
     if (!has_ids(volume)) continue;
     for (const int id : std::set<int>(volume.regions.begin(), volume.regions.end())) {
-      const auto named = volume.names.regions.find(id);
-      const std::string name = named == volume.names.regions.end() ? "" : named->second;
+      const auto named = of_volumes[k].find(id);
+      const std::string name = named == of_volumes[k].end() ? "" : named->second;
       const auto [there, is_new] = meaning.try_emplace(id, name);
       int number = id;
       if (!is_new && there->second != name) meaning[number = next_free(1)] = name;

@@ -33,6 +33,7 @@ struct Boundary {
 [[nodiscard]] Surface surface_of(const Volume& volume, const Boundary& boundary);
 
 /// Fills `id_of`, and the names of the regions in the surface: a volume whose tetrahedra have ids keeps them.
-void number_regions(std::span<const Volume> volumes, std::span<Boundary> boundaries, PasteResult& pasted);
+void number_regions(std::span<const Volume> volumes, std::span<Boundary> boundaries,
+                    std::span<const std::string> part_names, PasteResult& pasted);
 
 }  // namespace holdfast

@@ -338,7 +338,7 @@ PastedVolumes paste(std::span<const Volume> volumes, const PasteOptions& options
   result.outcome = result.boundary.outcome;
   result.message = result.boundary.message;
   if (result.outcome != Outcome::done) return result;
-  number_regions(volumes, boundaries, result.boundary);
+  number_regions(volumes, boundaries, names, result.boundary);
   Pasting(volumes, boundaries, options, result).run();
   if (result.outcome != Outcome::done) result.volume = {};
   return result;

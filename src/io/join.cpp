@@ -5,6 +5,7 @@
 
 #include "holdfast/io.h"
 #include "io/mesh_data.h"
+#include "io/part_names.h"
 
 namespace holdfast {
 namespace {
@@ -91,6 +92,14 @@ Surface join(std::span<const Surface> parts, std::span<const std::string> names)
     segments.reserve(part.segment_markers);
     vertices.reserve(part.vertex_markers);
   }
+  const auto names_of = [&](NamesOfIds Names::*kind) {
+    std::vector<NamesOfIds> of_parts;
+    for (const Surface& part : parts) of_parts.push_back(part.names.*kind);
+    return io::names_apart(std::move(of_parts), names);
+  };
+  const std::vector<NamesOfIds> of_facets = names_of(&Names::facets),
+                                of_segments = names_of(&Names::segments),
+                                of_vertices = names_of(&Names::vertices);
   Surface whole;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Surface& part = parts[i];
@@ -100,14 +109,14 @@ Surface join(std::span<const Surface> parts, std::span<const std::string> names)
       whole.facet_markers.insert(whole.facet_markers.end(), part.facets.size(), marker);
       facets.name(marker, i < names.size() ? names[i] : name_of(part.names.facets, 0));
     } else {
-      append(whole.facet_markers, part.facet_markers, part.facets.size(), part.names.facets, facets,
+      append(whole.facet_markers, part.facet_markers, part.facets.size(), of_facets[i], facets,
              whole.remarks);
     }
     if (segments_marked)
-      append(whole.segment_markers, part.segment_markers, part.segments.size(), part.names.segments, segments,
+      append(whole.segment_markers, part.segment_markers, part.segments.size(), of_segments[i], segments,
              whole.remarks);
     if (vertices_marked)
-      append(whole.vertex_markers, part.vertex_markers, part.vertices.size(), part.names.vertices, vertices,
+      append(whole.vertex_markers, part.vertex_markers, part.vertices.size(), of_vertices[i], vertices,
              whole.remarks);
     whole.names.regions.insert(part.names.regions.begin(), part.names.regions.end());
   }
