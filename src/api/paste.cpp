@@ -16,6 +16,7 @@
 #include "check_repair/examine.h"
 #include "holdfast/check_repair.h"
 #include "holdfast/io.h"
+#include "io/part_names.h"
 #include "numbers/float_environment.h"
 #include "repair/deliver.h"
 #include "repair/fuse.h"
@@ -99,6 +100,9 @@ std::vector<PastedPart> describe(std::span<const Surface> parts, std::span<const
     const auto found = of.find(id);
     return found == of.end() ? std::string() : found->second;
   };
+  std::vector<std::map<int, std::string>> of_parts;
+  for (const Surface& part : parts) of_parts.push_back(part.names.regions);
+  of_parts = io::names_apart(std::move(of_parts), names);
   std::vector<PastedPart> described;
   std::size_t vertices = 0, facets = 0;
   for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -113,14 +117,14 @@ std::vector<PastedPart> describe(std::span<const Surface> parts, std::span<const
     std::map<int, int> number;
     for (RegionSeed seed : part.regions) {
       const auto [at, is_new] = number.try_emplace(seed.id, 0);
-      if (is_new) at->second = ids.number(seed.id, name_of(part.names.regions, seed.id));
+      if (is_new) at->second = ids.number(seed.id, name_of(of_parts[k], seed.id));
       seed.id = at->second;
       pasted.seeds.push_back(seed);
     }
     if (!pasted.seeds.empty())
       pasted.id = pasted.seeds[0].id;
     else if (RegionIds::names_one(part))
-      pasted.id = ids.number(part.names.regions.begin()->first, part.names.regions.begin()->second);
+      pasted.id = ids.number(of_parts[k].begin()->first, of_parts[k].begin()->second);
     described.push_back(std::move(pasted));
     vertices += part.vertices.size();
     facets += part.facets.size();
@@ -132,20 +136,26 @@ std::vector<PastedPart> describe(std::span<const Surface> parts, std::span<const
   return described;
 }
 
+double largest_coordinate(const Complex& complex) {
+  double most = 0;
+  for (const Point& p : complex.vertices)
+    for (const double x : p)
+      if (std::isfinite(x)) most = std::max(most, std::fabs(x));
+  return most;
+}
+
 /// How near to each other parts may be that are meant to touch: what is left when coordinates are rounded, to
 /// floats if all of them are floats.
 double rounding_of(const Complex& complex) {
-  double most = 0;
-  bool are_floats = true;
-  for (const Point& p : complex.vertices)
-    for (const double x : p) {
-      if (!std::isfinite(x)) continue;
-      most = std::max(most, std::fabs(x));
-      are_floats = are_floats && std::fabs(x) <= std::numeric_limits<float>::max() &&
-                   static_cast<double>(static_cast<float>(x)) == x;
-    }
+  const auto is_float = [](double x) {
+    return !std::isfinite(x) || (std::fabs(x) <= std::numeric_limits<float>::max() &&
+                                 static_cast<double>(static_cast<float>(x)) == x);
+  };
+  const bool are_floats = std::all_of(complex.vertices.begin(), complex.vertices.end(), [&](const Point& p) {
+    return std::all_of(p.begin(), p.end(), is_float);
+  });
   constexpr double kDoubles = 0x1p-50, kFloats = 0x1p-21;
-  return most * (are_floats ? kFloats : kDoubles);
+  return largest_coordinate(complex) * (are_floats ? kFloats : kDoubles);
 }
 
 /// By facet of all parts in turn.
@@ -193,16 +203,30 @@ void compare_with_parents(const Complex& joined, std::span<const Index> part, Pa
   }
 }
 
+bool is_within(const Complex& joined, double distance, const Step& step, const PasteResult& result) {
+  RepairClaims claims = claims_of(result, {});
+  claims.max_displacement = distance;
+  return checking::is_within_distance(joined, result.surface.view(), claims, step);
+}
+
 /// What is snapped first, then led and cut, may move by the tolerance each time; the sum of these bounds is
-/// up to three times of what moved in all. A smaller one is taken if it can be proved of the result.
-void prove_smaller_distance(const Complex& joined, double tolerance, const Step& step, PasteResult& result) {
+/// up to three times of what moved in all. A smaller one is taken if it can be proved of the result. The sum
+/// is in floating point: where it proves too small, which some last bits make it, larger ones are tried.
+void prove_distance(const Complex& joined, double tolerance, const Step& step, PasteResult& result) {
   constexpr double kRounding = 1 + 0x1p-20;
+  const double claimed = result.max_displacement;
   for (const double times : {1.0, 1.125, 1.25, 1.5, 1.75, 2.0, 2.5}) {
     const double distance = times * tolerance * kRounding;
-    if (!(distance < result.max_displacement)) return;
-    RepairClaims claims = claims_of(result, {});
-    claims.max_displacement = distance;
-    if (!checking::is_within_distance(joined, result.surface.view(), claims, step)) continue;
+    if (!(tolerance > 0) || !(distance < claimed)) break;
+    if (!is_within(joined, distance, step, result)) continue;
+    result.max_displacement = distance;
+    return;
+  }
+  if (is_within(joined, claimed, step, result)) return;
+  double distance = std::max(claimed, largest_coordinate(joined) * 0x1p-53);
+  constexpr int kDoublings = 6;
+  for (int k = 0; k < kDoublings; ++k, distance *= 2) {
+    if (!is_within(joined, distance, step, result)) continue;
     result.max_displacement = distance;
     return;
   }
@@ -218,6 +242,7 @@ PartsOfComplex parts_of(const PasteResult& pasted) {
   PartsOfComplex parts;
   parts.parts = pasted.parts;
   parts.overlap = pasted.overlap;
+  parts.gap = pasted.gap;
   parts.first = pasted.parents.first;
   for (std::size_t k = 0; k < pasted.parents.all.size(); ++k)
     parts.walls.push_back({pasted.part_of_facet[pasted.parents.all[k]], pasted.turned[k] != 0});
@@ -257,6 +282,7 @@ void run(const Surface& joined, const PasteOptions& options, PlainMonitor& monit
     const bool has_tolerance = options.tolerance > 0;
     if (has_tolerance) require_smaller_than_parts(complex, result, options.tolerance);
     const double rounding = rounding_of(complex), gap = std::max(options.tolerance, rounding);
+    result.gap = gap;
     const auto to = has_tolerance ? repairing::SnapTo::all : repairing::SnapTo::vertices;
     double moved = repairing::snap(state, part, to, gap, step, threads);
     repairing::glue(state, part);
@@ -294,7 +320,7 @@ void run(const Surface& joined, const PasteOptions& options, PlainMonitor& monit
   }
   repairing::deliver(complex, std::move(rounded), result);
   compare_with_parents(complex, part, result);
-  if (options.cut && options.tolerance > 0) prove_smaller_distance(complex, options.tolerance, step, result);
+  if (options.cut) prove_distance(complex, options.tolerance, step, result);
   if (!options.judge) return;
   result.apart = find_apart(result, [&] { monitor.poll_again(); });
   judge(options, step, result);

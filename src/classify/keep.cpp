@@ -1,6 +1,7 @@
 #include "classify/keep.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -90,9 +91,8 @@ class Chooser {
   void apply_parts() {
     const PartsOfComplex& parts = *wanted_.parts;
     const bool box = wanted_.keep == Keep::box;
-    const Holders holders =
-        find_holders(regions_, parts, box ? Keep::automatic : wanted_.keep,
-                     [&](const Point& p, const char* what) { return region_at(p, what); });
+    Holders holders = find_holders(regions_, parts, box ? Keep::automatic : wanted_.keep,
+                                   [&](const Point& p, const char* what) { return region_at(p, what); });
     if (holders.conflict && wanted_.keep == Keep::winding) {
       kept_.defects.push_back(not_oriented(complex_, *holders.conflict));
       return;
@@ -100,6 +100,7 @@ class Chooser {
     kept_.rule = box ? Keep::box : holders.conflict ? Keep::bounded : Keep::winding;
     kept_.conflict = holders.conflict;
     kept_.turned = holders.turned;
+    if (parts.gap > 0) settle_thin_regions(regions_, parts, complex_, std::ldexp(parts.gap, scale_), holders);
     kept_.overlaps = find_overlaps(regions_, holders, complex_);
     of_parts_ = ids_of_held(holders, parts);
     kept_.region.assign(regions_.count, box);

@@ -1,6 +1,7 @@
 #include "classify/parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <set>
@@ -123,6 +124,40 @@ Holders find_holders(const Regions& regions, const PartsOfComplex& parts, Keep k
   }
   sort_unique(holders.turned);
   return holders;
+}
+
+void settle_thin_regions(const Regions& regions, const PartsOfComplex& parts, const Complex& complex,
+                         double gap, Holders& holders) {
+  struct Measures {
+    std::optional<Point> origin;
+    double volume = 0, area = 0;
+  };
+  std::vector<Measures> measures(regions.count);
+  for (std::size_t f = 0; f < regions.of_facet.size(); ++f) {
+    const auto& [front, back] = regions.of_facet[f];
+    if (front == back) continue;
+    const auto& [a, b, c] = complex.facets[f];
+    for (const RegionId r : {front, back}) {
+      if (holders.of_region[r].size() < 2) continue;
+      Measures& of = measures[r];
+      if (!of.origin) of.origin = complex.vertices[a];
+      const auto from = [&](const Point& p, const Point& q) {
+        return Point{q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+      };
+      const Point u = from(complex.vertices[a], complex.vertices[b]);
+      const Point v = from(complex.vertices[a], complex.vertices[c]);
+      const Point w = from(*of.origin, complex.vertices[a]);
+      const Point n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+      const double six_volumes = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
+      of.volume += (r == front ? six_volumes : -six_volumes) / 6;
+      of.area += std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) / 2;
+    }
+  }
+  for (RegionId r = 0; r < regions.count; ++r) {
+    auto& claims = holders.of_region[r];
+    if (claims.size() < 2 || !(2 * std::fabs(measures[r].volume) <= gap * measures[r].area)) continue;
+    claims = {parts.overlap == Overlap::last ? claims.back() : claims.front()};
+  }
 }
 
 std::vector<PartOverlap> find_overlaps(const Regions& regions, const Holders& holders,

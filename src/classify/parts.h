@@ -30,6 +30,7 @@ struct PartsOfComplex {
   std::vector<PartWall> walls;
   std::span<const PastedPart> parts;
   Overlap overlap = Overlap::refuse;
+  double gap = 0;  ///< what parts have in common that is no thicker than this is no overlap
   /// How many of the seeds in the options are the caller's; those after them are the parts', for their sizes.
   std::size_t seeds = 0;
   std::vector<PartOverlap> overlaps;  ///< that were found
@@ -58,6 +59,11 @@ using FindRegion = std::function<RegionId(const Point& where, const char* what)>
 /// `keep` is the rule for each part: automatic, bounded or winding.
 [[nodiscard]] Holders find_holders(const Regions& regions, const PartsOfComplex& parts, Keep keep,
                                    const FindRegion& find);
+
+/// Leaves one claim, of the first part (or of the last, if `parts.overlap` says so), on regions whose mean
+/// thickness is at most `gap`, which is in the complex's units.
+void settle_thin_regions(const Regions& regions, const PartsOfComplex& parts, const Complex& complex,
+                         double gap, Holders& holders);
 
 /// The pairs of parts that hold regions in common, and how deep these are.
 [[nodiscard]] std::vector<PartOverlap> find_overlaps(const Regions& regions, const Holders& holders,

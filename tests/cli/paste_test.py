@@ -333,12 +333,93 @@ class PasteTest(CliTest):
         self.assertFalse((self.folder / "x.mesh").exists())
 
     def test_a_tolerance_that_opens_a_part(self):
-        names = self.parts(box((0, 0, 0), (1, 1, 1), 1), box((1.1, -0.3, 0.2), (2.1, 0.7, 1.2), 1))
-        for ended in (self.run_program("mesh", *names, "-o", "x.mesh", "--paste=0.3", expect=7),
-                      self.run_program("paste", *names, "-o", "x.mesh", "--tolerance", "0.3", expect=7)):
-            self.assertIn("b.off was closed, and is not once it is brought together within 0.3 of the others: the tolerance is too "
+        names = self.parts(box((0, 0, 0), (1, 1, 1), 3), box((1.1, -0.3, 0.2), (2.1, 0.7, 1.2), 3))
+        for ended in (self.run_program("mesh", *names, "-o", "x.mesh", "--paste=0.45", expect=7),
+                      self.run_program("paste", *names, "-o", "x.mesh", "--tolerance", "0.45", expect=7)):
+            self.assertIn("b.off was closed, and is not once it is brought together within 0.45 of the others: the tolerance is too "
                           "large for the parts' details", ended.stderr)
         self.assertFalse((self.folder / "x.mesh").exists())
+
+    def box_and_edge(self, x, d):
+        """A box, and a prism with a side that runs d above it."""
+        turned, triangles = cylinder(0.5, 0.2, 0.8, 3, turn=0.1)
+        up = 1 - min(p[1] for p in turned)
+        prism = [(a + x, b + up - d, c + d) for a, b, c in turned], triangles
+        return rotated(box((0, 0, 0), (1, 1, 1), 2)), rotated(prism)
+
+    def test_side_near_a_face_leaves_no_part_open(self):
+        """Sides led twice left the prism open: the pieces of one of its facets were folded onto each other."""
+        parts = self.box_and_edge(0.7, -0.0002)
+        points, _, tets, _, _ = self.mesh(self.parts(*parts), "--paste=0.001")
+        found = volumes(points, tets)
+        for k, part in enumerate(parts):
+            self.assertAlmostEqual(found[k + 1], volume(part), delta=0.003)
+
+    def test_what_parts_share_within_the_tolerance_is_no_overlap(self):
+        parts = self.box_and_edge(0.7, 0.0003)
+        names = self.parts(*parts)
+        for option, expected in (("first", volume(parts[0])), ("last", volume(parts[0])), (None, volume(parts[0]))):
+            points, _, tets, _, _ = self.mesh(names, "--paste=0.001", *(["--overlap", option] if option else []))
+            found = volumes(points, tets)
+            self.assertEqual(set(found), {1, 2})
+            self.assertAlmostEqual(found[1], expected, delta=0.003)
+        # One that is thicker is refused as ever.
+        names = self.parts(*self.box_and_edge(0.7, 0.1))
+        self.assertIn("overlap by", self.mesh(names, "--paste=0.001", expect=4).stderr)
+
+    def test_the_distance_that_is_told_holds_where_only_last_bits_are_moved(self):
+        """A round face as a fan, and in two rings: points of one lie some last bits beside the sides of the other."""
+        rim = [(25.4 * math.cos(2 * math.pi * k / 8), 25.4 * math.sin(2 * math.pi * k / 8), 0.0) for k in range(8)]
+        rings = [[(s * x, s * y, 0.0) for x, y, _ in rim] for s in (2 / 3, 1 / 3)]
+        fan = rim + [(0.0, 0.0, 0.0), (0.0, 0.0, 20.0)], [t for k in range(8) for t in ((k, 8, (k + 1) % 8), (k, (k + 1) % 8, 9))]
+        points = rim + rings[0] + rings[1] + [(0.0, 0.0, 0.0), (0.0, 0.0, -20.0)]
+        triangles = []
+        for k in range(8):
+            a, b = k, (k + 1) % 8
+            triangles += [(a, b, b + 8), (a, b + 8, a + 8), (a + 8, b + 8, b + 16), (a + 8, b + 16, a + 16),
+                          (a + 16, b + 16, 24), (b, a, 25)]
+        names = self.parts(fan, (points, triangles))
+        self.run_program("paste", *names, "-o", "pasted.off", "--parents", "p.txt", "--report", "p.json")
+        self.run_program("check", "--repaired", *names, "pasted.off", "--parents", "p.txt", "--report", "p.json")
+        self.assertLess(json.loads((self.folder / "p.json").read_text())["max_displacement"], 1e-14)
+
+    def write_patches(self, name, part, order):
+        """Solids minX and so on of an STL file, in an order."""
+        points, triangles = part
+        text = ""
+        for patch in order:
+            axis = "XYZ".index(patch[3])
+            at = (min if patch[:3] == "min" else max)(p[axis] for p in points)
+            text += f"solid {patch}\n"
+            for t in triangles:
+                if all(points[v][axis] == at for v in t):
+                    text += "facet normal 0 0 0\nouter loop\n" + "".join("vertex {!r} {!r} {!r}\n".format(*points[v]) for v in t)
+                    text += "endloop\nendfacet\n"
+            text += f"endsolid {patch}\n"
+        self.write(name, text)
+
+    def test_patches_of_one_name_are_told_apart_by_the_part(self):
+        order = ["minX", "maxX", "minY", "maxY", "minZ", "maxZ"]
+        self.write_patches("a.stl", box((0, 0, 0), (1, 1, 1), 2), order)
+        self.write_patches("b.stl", box((1, 0, 0), (2, 1, 1), 2), order[:4] + order[:3:-1])
+        *_, report, _ = self.mesh(["a.stl", "b.stl"])
+        named = report["names"]["facets"]
+        self.assertEqual({named[k] for k in "1234"}, {"minX", "maxX", "minY", "maxY"})  # numbers and names agree
+        self.assertEqual([named["5"], named["6"]], ["a.minZ", "a.maxZ"])
+        self.assertEqual(sorted(n for k, n in named.items() if int(k) > 6), ["b.maxZ", "b.minZ"])
+        self.run_program("check", "a.stl", "b.stl", "out.mesh")
+
+    def test_regions_of_one_name_are_told_apart_by_the_part(self):
+        for k, name in enumerate("ab"):
+            points, triangles = box((k, 0, 0), (k + 1, 1, 1), 2)
+            self.write(name + ".msh", f'$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 {7 + k} "fluid"\n$EndPhysicalNames\n'
+                       f"$Nodes\n{len(points)}\n" + "".join(f"{i + 1} {x!r} {y!r} {z!r}\n" for i, (x, y, z) in enumerate(points))
+                       + f"$EndNodes\n$Elements\n{len(triangles)}\n"
+                       + "".join(f"{i + 1} 2 2 0 1 {a + 1} {b + 1} {c + 1}\n" for i, (a, b, c) in enumerate(triangles))
+                       + "$EndElements\n")
+        _, _, tets, report, _ = self.mesh(["a.msh", "b.msh"])
+        self.assertEqual({r for _, r in tets}, {7, 8})
+        self.assertEqual(report["names"]["regions"], {"7": "a.fluid", "8": "b.fluid"})
 
     def test_corners_within_rounding_become_the_first(self):
         up = math.nextafter(1, 2)
