@@ -45,7 +45,8 @@ bool is_near(const State& state, Index v, const Triangle& facet, double distance
 
 /// For each facet, and then each segment, in trouble the vertices near it, with room for bending.
 std::vector<std::vector<Index>> list_near(const State& state, const Trouble& trouble,
-                                          std::span<const Index> vertices, double gap, const Step& step) {
+                                          std::span<const Index> vertices, double gap, Work& work,
+                                          const Step& step) {
   constexpr double kRoom = 4;
   std::vector<Box> boxes;
   for (const Index v : vertices) boxes.push_back(box_round(state, std::array{v}, 0));
@@ -55,12 +56,13 @@ std::vector<std::vector<Index>> list_near(const State& state, const Trouble& tro
   const auto first = static_cast<Index>(vertices.size());
   AabbTree(boxes).for_each_overlap(
       [&](Index i, Index j) {
+        ++work.done;
         if (i > j) std::swap(i, j);
-        if (i >= first || j < first) return true;
+        if (i >= first || j < first) return !work.is_spent();
         const Index v = vertices[i], k = j - first;
         if (k >= trouble.facets.size() || is_near(state, v, state.facets[trouble.facets[k]], kRoom * gap))
           near[k].push_back(v);
-        return true;
+        return !work.is_spent();
       },
       [](Index, Index) { return false; }, step);
   for (std::vector<Index>& list : near) std::sort(list.begin(), list.end());
@@ -98,22 +100,26 @@ void begin(const State& state, const Trouble& trouble, std::span<const Index> ve
 class Bending {
  public:
   /// `near` has the vertices near to each facet and segment, by the numbers in their `lists`.
-  Bending(const State& state, std::vector<std::vector<Index>> near, BentSurface& surface, double gap,
-          double room)
+  Bending(const State& state, std::vector<std::vector<Index>> near, BentSurface& surface, const Bend& how,
+          Work& work)
       : state_(state),
         near_(std::move(near)),
         looked_at_(near_.size(), 0),
         surface_(surface),
-        gap_(gap),
-        room_(room) {}
+        how_(how),
+        gap_(how.gap),
+        room_(how.room),
+        work_(work) {}
 
   /// The longest sides first: a facet that is thinner than the gap vanishes into its longest side. Ends early
   /// where far more facets come of it than there were: what is left then is a surface, too.
-  void run(std::size_t most_facets, const Step& step) {
+  void run(const Step& step) {
     constexpr std::size_t kGrowth = 8, kRoom = 200;
     const std::size_t most_steps = 1000 + 60 * surface_.facets().size();
-    most_facets = std::min(most_facets, surface_.living() + kGrowth * near_.size() + kRoom);
+    const std::size_t most_facets =
+        std::min(how_.most_facets, surface_.living() + kGrowth * near_.size() + kRoom);
     for (std::size_t steps = 0; steps < most_steps && surface_.living() <= most_facets; ++steps) {
+      if (work_.is_spent()) return;
       if ((steps & 63) == 0) step(0.5);
       if (const std::optional<Side> side = surface_.next_side())
         bend_side(*side);
@@ -176,6 +182,7 @@ class Bending {
     const auto look = [&](const std::vector<Index>& lists) {
       for (const Index list : lists) {
         if (std::exchange(looked_at_[list], looked_) == looked_) continue;
+        work_.done += near_[list].size();
         for (const Index v : near_[list]) {
           if (v == side[0] || v == side[1] || v == best || !holds(box, at(v))) continue;
           const Nearness near = beside_side(at(v), at(side[0]), at(side[1]));
@@ -204,7 +211,8 @@ class Bending {
   void bend_facet(Index f) {
     if (!surface_.facet(f).lives) return;
     const auto [a, b, c] = surface_.facet(f).corners;
-    for (const Index list : surface_.facet(f).lists)
+    for (const Index list : surface_.facet(f).lists) {
+      work_.done += near_[list].size();
       for (const Index v : near_[list]) {
         if (v == a || v == b || v == c) continue;
         const Nearness near = beside_facet(at(v), at(a), at(b), at(c));
@@ -219,6 +227,7 @@ class Bending {
         }
         return;
       }
+    }
   }
 
   const State& state_;
@@ -226,7 +235,9 @@ class Bending {
   std::vector<std::size_t> looked_at_;  // by lists: the last side for which they were looked at
   std::size_t looked_ = 0;              // sides
   BentSurface& surface_;
+  const Bend how_;
   const double gap_, room_;
+  Work& work_;
 };
 
 // --- The result
@@ -299,11 +310,11 @@ void deliver_segments(const BentSurface& bent, State& state) {
 
 }  // namespace
 
-double bend(State& state, const Trouble& trouble, std::span<const Index> vertices, double gap, double room,
-            std::size_t most_facets, const Step& step) {
+double bend(State& state, const Trouble& trouble, std::span<const Index> vertices, const Bend& how,
+            Work& work, const Step& step) {
   BentSurface bent(state.vertices);
   begin(state, trouble, vertices, bent);
-  Bending(state, list_near(state, trouble, vertices, gap, step), bent, gap, room).run(most_facets, step);
+  Bending(state, list_near(state, trouble, vertices, how.gap, work, step), bent, how, work).run(step);
   deliver_facets(bent, state);
   deliver_segments(bent, state);
   return bent.most();

@@ -9,11 +9,16 @@
 
 namespace holdfast::repairing {
 
+struct Bend {
+  double gap = 0;
+  double room = 0;  ///< no facet is bent by more than that in all
+  std::size_t most_facets = SIZE_MAX;
+};
+
 /// Leads the sides and facets of what is in trouble through those of `vertices` (ascending) that they pass at
-/// most `gap` away, unless a facet would be bent by more than `room` in all. Ends early where there are more
-/// than `most_facets`. Returns the largest distance by
-/// which anything was bent, rounded up.
-double bend(State& state, const Trouble& trouble, std::span<const Index> vertices, double gap, double room,
-            std::size_t most_facets, const Step& step);
+/// most `gap` away. Ends early where there are more facets than that, or the work is spent. Returns the
+/// largest distance by which anything was bent, rounded up.
+double bend(State& state, const Trouble& trouble, std::span<const Index> vertices, const Bend& how,
+            Work& work, const Step& step);
 
 }  // namespace holdfast::repairing

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "numbers/sorted.h"
+#include "repair/bounds.h"
 #include "repair/clusters.h"
 #include "repair/flat_cluster.h"
 #include "repair/near.h"
@@ -360,6 +361,17 @@ class Flattening {
 double flatten(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step,
                std::span<const Index> some) {
   return Flattening(state, gap, round, sides).run(find_clusters(state, gap, some, step));
+}
+
+double flatten_all(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step) {
+  constexpr int kPasses = 4;
+  double most = 0;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const double moved = flatten(state, gap, round, sides, step);
+    if (moved == 0) break;
+    most = sum_above(most, moved);
+  }
+  return most;
 }
 
 }  // namespace holdfast::repairing

@@ -31,4 +31,7 @@ enum class SidesOf {
 double flatten(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step,
                std::span<const Index> some = {});
 
+/// The same again, as long as there is something to do, but a few times at most.
+double flatten_all(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step);
+
 }  // namespace holdfast::repairing

@@ -31,6 +31,16 @@ inline constexpr std::array kFlatPlans{Plan{0x1p2, false}, Plan{0x1p6, false}};
 inline constexpr std::array kWeldedPlans{Plan{0x1p3, true}, Plan{0x1p6, true}};
 
 inline constexpr std::array kJoinedLastBits{0x1p3, 0x1p6};
+inline constexpr std::array kWeldedLastBits{0x1p6,  0x1p8,  0x1p10, 0x1p12, 0x1p14, 0x1p16, 0x1p18,
+                                            0x1p20, 0x1p22, 0x1p24, 0x1p26, 0x1p28, 0x1p30, 0x1p32};
+
+/// How many vertices joining may compare with sides and facets, on a surface of so many facets. The most that
+/// a surface of `make repair` takes is 3 million, where it has 1,456 facets.
+struct MostWork {
+  std::size_t once, for_each_facet;
+  [[nodiscard]] constexpr std::size_t of(std::size_t facets) const { return once + for_each_facet * facets; }
+};
+inline constexpr MostWork kMuchWork{8'000'000, 1000}, kLittleWork{1'000'000, 250};
 
 /// How much in trouble is little, and much.
 inline constexpr std::size_t kFew = 100, kMany = 400;

@@ -19,6 +19,7 @@
 #include "repair/rounded_planes.h"
 #include "repair/settle.h"
 #include "repair/strips.h"
+#include "repair/tell_round.h"
 #include "repair/weld.h"
 #include "surface/elements.h"
 
@@ -37,10 +38,13 @@ class Rounding {
            RoundedPlanes& planes, const Step& step, const Threads& threads)
       : options_(options), report_(report), exact_(exact), planes_(planes), step_(step), threads_(threads) {
     rounded_.state = std::move(state);
+    work_.most = kMuchWork.of(rounded_.state.facets.size());
   }
 
   [[nodiscard]] const RepairReport& report() const { return report_; }
   [[nodiscard]] bool is_valid() const { return rounded_.is_valid; }
+  /// Whether vertices all over the surface became others first.
+  [[nodiscard]] bool starts_welded() const { return welded_last_bits_ > 0; }
 
   /// A plane surface has no sheets that lie in each other but for rounding. What moves further than `most` is
   /// of no use.
@@ -85,6 +89,8 @@ class Rounding {
     std::size_t most_in_trouble = SIZE_MAX;
     for (const Plan& plan : kPlans) {
       if (is_plane_ && (plan.moves_input || plan.last_bits > kMostInPlane || is_hopeless())) break;
+      if (work_.is_spent() || (starts_welded() && (plan.moves_input || plan.last_bits > welded_last_bits_)))
+        break;
       if (is_plane_ && trouble_.size() > most_in_trouble) break;
       most_in_trouble = std::max(2 * kFew, trouble_.size() / 2);
       if (!is_welded && (plan.moves_input || trouble_.size() > kFew)) {
@@ -98,7 +104,9 @@ class Rounding {
       if (!is_done()) cut_if_better();
     }
     rounded_.is_valid = is_done();
-    return rounded_.is_valid || is_plane_ || options_.join > 0 ? std::move(rounded_) : join_all();
+    if (rounded_.is_valid || is_plane_ || is_part_) return std::move(rounded_);
+    (void)(join_all() || weld_all());
+    return std::move(rounded_);
   }
 
   /// Makes sheets one that lie in each other within the gap, whether they are in trouble or not.
@@ -170,7 +178,8 @@ class Rounding {
     Attempt now{rounded_.state, trouble_, rounded_.displacement};
     int in_vain = 0;
     for (int pass = 0; pass < kPasses && in_vain < kPassesInVain && !trouble_.none(); ++pass) {
-      const double moved = settle(now.state, now.trouble, how, here());
+      if (work_.is_spent()) break;
+      const double moved = settle(now.state, now.trouble, how, work_, here());
       grows_ |= now.state.facets.size() > most_facets_;
       if (grows_) break;
       const std::size_t too_much = kTooMuch * (trouble_.size() + 16);
@@ -217,13 +226,7 @@ class Rounding {
   }
 
   void flatten_all(State& state, double gap, double& displacement) {
-    const RoundPlane round = round_plane();
-    constexpr int kPasses = 4;
-    for (int pass = 0; pass < kPasses; ++pass) {
-      const double moved = flatten(state, gap, round, sides_, here());
-      if (moved == 0) return;
-      displacement = sum_above(displacement, moved);
-    }
+    displacement = sum_above(displacement, repairing::flatten_all(state, gap, round_plane(), sides_, here()));
   }
 
   /// Makes sheets one that lie in each other by now and are in trouble.
@@ -288,21 +291,49 @@ class Rounding {
     return rounded_.is_valid || cut(std::min({options_.most_points, second, 100 + *now}));
   }
 
-  /// Where all else fails: sheets that lie in each other are made one all over the surface, whether the cuts
-  /// beside them are in trouble or not, and are the start of all that was tried before.
-  Rounded join_all() {
+  /// Where all of this fails: sheets that lie in each other are made one all over the surface, whether the
+  /// cuts beside them are in trouble or not, and are the start of all that was tried before.
+  bool join_all() {
+    if (options_.join > 0) return false;
     for (const double last_bits : kJoinedLastBits) {
       RepairOptions options = options_;
       options.join = last_bits * last_bit(given_);
-      report_.rung = Rung::coarser;
       Rounding joining(given_, options, report_, exact_, planes_, step_, threads_);
+      joining.is_part_ = true;
       joining.flatten_all(options.join, sides_);
-      joining.begin();
-      Rounded joined = joining.run(sides_);
-      report_ = joining.report();
-      if (joined.is_valid) return joined;
+      if (joining.rounded_.displacement == 0) continue;
+      if (take_if_valid(joining, Rung::coarser)) return true;
     }
-    return std::move(rounded_);
+    return false;
+  }
+
+  /// Where that fails, too: vertices that are near to each other become one, and sides are led through what
+  /// is near, all over the surface, before anything is cut.
+  bool weld_all() {
+    for (const double last_bits : kWeldedLastBits) {
+      State welded = given_;
+      const double moved = weld(welded, last_bits * last_bit(given_), here());
+      if (moved == 0) continue;
+      Rounding welding(std::move(welded), options_, report_, exact_, planes_, step_, threads_);
+      welding.is_part_ = true;
+      welding.welded_last_bits_ = last_bits;
+      welding.work_.most = kLittleWork.of(given_.facets.size());
+      welding.rounded_.displacement = sum_above(given_displacement_, moved);
+      if (take_if_valid(welding, Rung::snapped)) return true;
+    }
+    return false;
+  }
+
+  bool take_if_valid(Rounding& other, Rung rung) {
+    other.report_.rung = rung;
+    other.begin();
+    Rounded rounded = other.run(sides_);
+    report_.rounds = other.report_.rounds;
+    if (!rounded.is_valid) return false;
+    report_ = other.report_;
+    welded_last_bits_ = other.welded_last_bits_;
+    rounded_ = std::move(rounded);
+    return true;
   }
 
   void stand(Attempt attempt) {
@@ -311,22 +342,11 @@ class Rounding {
     trouble_ = std::move(attempt.trouble);
   }
 
-  arrange::Arrangement arrangement_of(std::size_t most_points) const {
-    const Complex complex = rounded_.state.complex();
-    const Elements elements = elements_of(complex, threads_);
-    const KnownElements known(rounded_.state, elements);
-    arrange::ArrangeOptions arranging;
-    arranging.threads = threads_;
-    arranging.known = known.known();
-    arranging.most_points = most_points;
-    return arrange::arrange(complex, elements, here(), arranging);
-  }
-
   /// How many new points that took; none where it takes more than so many, and is left undone.
   std::optional<std::size_t> cut(std::size_t most_points) {
     arrange::Arrangement arrangement;
     try {
-      arrangement = arrangement_of(most_points);
+      arrangement = arrangement_of(rounded_.state, most_points, here(), threads_);
     } catch (const arrange::TooManyPoints& many) {
       if (report_.rounds == 0) throw;
       too_many_ = many.count();
@@ -339,7 +359,7 @@ class Rounding {
       return 0;
     }
     if (report_.rounds == 0 && options_.exact) exact_.surface = exact_surface(arrangement, exact_.of_given);
-    tell(arrangement);
+    tell_round(report_, arrangement);
     const std::vector<double> distances = rounded_by(arrangement, threads_);
     rounded_.displacement = sum_above(rounded_.displacement, largest(distances));
     rounded_.state = arranged(rounded_.state, arrangement, distances);
@@ -351,30 +371,19 @@ class Rounding {
   void cut_if_better() {
     arrange::Arrangement arrangement;
     try {
-      arrangement = arrangement_of(std::min(options_.most_points, 200 + 4 * trouble_.size()));
+      const std::size_t most = std::min(options_.most_points, 200 + 4 * trouble_.size());
+      arrangement = arrangement_of(rounded_.state, most, here(), threads_);
     } catch (const arrange::TooManyPoints&) {
       return;
     }
-    constexpr std::size_t kMore = 24;
     const std::vector<double> distances = rounded_by(arrangement, threads_);
     Attempt cut{arranged(rounded_.state, arrangement, distances), {}, 0};
-    const std::size_t too_much = 2 * trouble_.size() + kMore;
+    const std::size_t too_much = 2 * trouble_.size() + 24;
     cut.trouble = trouble_of(cut.state, here(), threads_, too_much);
     if (cut.trouble.size() > too_much) return;
     cut.displacement = sum_above(rounded_.displacement, largest(distances));
     stand(std::move(cut));
-    tell(arrangement);
-  }
-
-  void tell(const arrange::Arrangement& arrangement) {
-    if (++report_.rounds == 1) {
-      report_.pairs = arrangement.pairs;
-      report_.sheets = arrangement.sheets;
-      report_.points = arrangement.points.size();
-      if (!arrangement.points.empty()) report_.rung = Rung::nearest;
-    } else if (report_.rung < Rung::again) {
-      report_.rung = Rung::again;
-    }
+    tell_round(report_, arrangement);
   }
 
   const RepairOptions& options_;
@@ -385,6 +394,9 @@ class Rounding {
   const Threads& threads_;
   SidesOf sides_ = SidesOf::all_sheets;
   bool is_plane_ = false;
+  bool is_part_ = false;  // of another one, which goes on if this one fails
+  double welded_last_bits_ = 0;
+  Work work_;  // of joining
   double most_displacement_ = std::numeric_limits<double>::infinity();
   std::size_t most_facets_ = SIZE_MAX;  // that joining may make
   bool grows_ = false;                  // it has made more
@@ -422,7 +434,7 @@ Rounded round_arranged(State state, const RepairOptions& options, RepairReport& 
   if (options.join == 0 && !together.is_valid()) one_by_one.emplace(together);
   Rounded rounded = together.run(SidesOf::all_sheets);
   report = together.report();
-  if (rounded.is_valid && report.rung >= Rung::coarser) {
+  if (rounded.is_valid && report.rung >= Rung::coarser && !together.starts_welded()) {
     constexpr std::size_t kFewSides = 16;  // where there are more, nearly as many are left
     const std::size_t open = open_sides(rounded.state), before = open_sides(given);
     if (open > before && open <= before + kFewSides) {
@@ -438,11 +450,11 @@ Rounded round_arranged(State state, const RepairOptions& options, RepairReport& 
           sum_above(rounded.displacement, drop_fins(rounded.state, given, rounded.displacement));
   }
   if (rounded.is_valid) {
-    rounded.displacement = sum_above(
-        rounded.displacement,
-        restore(rounded.state, std::span(given.vertices).first(given.input_vertices), step, threads));
-    rounded.displacement = keep_strips(rounded.state, given, rounded.displacement, step, threads);
-    rounded.displacement = covered_within(rounded.state, given, rounded.displacement, step);
+    double& most = rounded.displacement;
+    const std::span places = std::span(given.vertices).first(given.input_vertices);
+    most = sum_above(most, restore(rounded.state, places, step, threads));
+    most = keep_strips(rounded.state, given, most, step, threads);
+    most = covered_within(rounded.state, given, most, step);
   }
   rounded.state.facet_parents = composed(of_given, rounded.state.facet_parents);
   return rounded;

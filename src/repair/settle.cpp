@@ -24,15 +24,15 @@ constexpr double kMostGaps = 64;
 
 class Settling {
  public:
-  Settling(State& state, const Trouble& trouble, const Settle& how, const Step& step)
-      : state_(state), trouble_(trouble), how_(how), gap_(how.gap), step_(step) {}
+  Settling(State& state, const Trouble& trouble, const Settle& how, Work& work, const Step& step)
+      : state_(state), trouble_(trouble), how_(how), gap_(how.gap), work_(work), step_(step) {}
 
   double run() {
     list_vertices();
     const double merged = merge_vertices();
     if (how_.passings) add_passings();
     const double room = how_.most > 0 ? how_.most - merged : kMostGaps * gap_;
-    const double bent = bend(state_, trouble_, vertices_, gap_, room, how_.most_facets, step_);
+    const double bent = bend(state_, trouble_, vertices_, {gap_, room, how_.most_facets}, work_, step_);
     drop_unused(state_);
     return merged + bent;
   }
@@ -131,6 +131,8 @@ class Settling {
         [&](Index i, Index j) {
           const auto [a, b] = sides[i];
           const auto [c, d] = sides[j];
+          ++work_.done;
+          if (work_.is_spent()) return false;
           if (a == c || a == d || b == c || b == d) return true;
           const Passing passing = pass(at(a), at(b), at(c), at(d));
           if (!(passing.distance <= gap_)) return true;
@@ -182,6 +184,7 @@ class Settling {
   const Trouble& trouble_;
   const Settle& how_;
   const double gap_;
+  Work& work_;
   const Step& step_;
   std::vector<Index> vertices_;
 };
@@ -218,8 +221,8 @@ Trouble trouble_of(State& state, const Step& step, const Threads& threads, std::
   return trouble;
 }
 
-double settle(State& state, const Trouble& trouble, const Settle& how, const Step& step) {
-  return Settling(state, trouble, how, step).run();
+double settle(State& state, const Trouble& trouble, const Settle& how, Work& work, const Step& step) {
+  return Settling(state, trouble, how, work, step).run();
 }
 
 }  // namespace holdfast::repairing

@@ -22,6 +22,14 @@ struct Trouble {
 [[nodiscard]] Trouble trouble_of(State& state, const Step& step, const Threads& threads,
                                  std::size_t most = SIZE_MAX);
 
+/// Vertices that were compared with a side or a facet, and how many of them may be. A few facets may be led
+/// to and fro through each other's vertices for minutes.
+struct Work {
+  std::size_t most = SIZE_MAX;
+  std::size_t done = 0;
+  [[nodiscard]] bool is_spent() const { return done >= most; }
+};
+
 struct Settle {
   double gap = 0;
   double most = 0;           ///< nothing is moved or bent further in all; 0: no limit but some gaps
@@ -37,7 +45,7 @@ struct Settle {
 ///   3. sides that pass a vertex at most `gap` away are led through it, in all facets that have them;
 ///   4. facets that pass a vertex so are led through it.
 /// Afterwards facets may still cross, or be of no area. Returns the largest distance by which anything was
-/// moved or bent, rounded up.
-double settle(State& state, const Trouble& trouble, const Settle& how, const Step& step);
+/// moved or bent, rounded up. Bending ends early when the work is spent.
+double settle(State& state, const Trouble& trouble, const Settle& how, Work& work, const Step& step);
 
 }  // namespace holdfast::repairing

@@ -90,6 +90,18 @@ State state_of(const Complex& complex) {
   return state;
 }
 
+arrange::Arrangement arrangement_of(const State& state, std::size_t most_points, const Step& step,
+                                    const Threads& threads) {
+  const Complex complex = state.complex();
+  const Elements elements = elements_of(complex, threads);
+  const KnownElements known(state, elements);
+  arrange::ArrangeOptions arranging;
+  arranging.threads = threads;
+  arranging.known = known.known();
+  arranging.most_points = most_points;
+  return arrange::arrange(complex, elements, step, arranging);
+}
+
 State arranged(const State& before, const arrange::Arrangement& arrangement,
                std::span<const double> distances) {
   State state;

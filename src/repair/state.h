@@ -66,6 +66,10 @@ void drop_unused(State& state);
 /// The input as it came.
 [[nodiscard]] State state_of(const Complex& complex);
 
+/// The exact arrangement of a state.
+[[nodiscard]] arrange::Arrangement arrangement_of(const State& state, std::size_t most_points,
+                                                  const Step& step, const Threads& threads);
+
 /// What an arrangement makes of a state; vertices that nothing uses go, but for the input's. New points stand
 /// at their nearest doubles, which are `distances` away, one each. An arrangement is a complex, so facets
 /// whose corners are not rounded fit together.

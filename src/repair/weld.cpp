@@ -27,7 +27,8 @@ double weld(State& state, double tolerance, const Step& step) {
     if (is_usable(state, state.segments[s])) all.segments.push_back(s);
   constexpr double kRoomForRounding = 0x1p-20;  // of the tolerance
   const double gap = tolerance * (1 - kRoomForRounding);
-  return settle(state, all, {gap, gap, true, false}, step);
+  Work work;
+  return settle(state, all, {gap, gap, true, false}, work, step);
 }
 
 bool most_have_twins(const State& state, const Trouble& trouble, double gap, const Step& step) {

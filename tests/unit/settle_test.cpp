@@ -19,11 +19,11 @@ State needles(int n) {
   return state_of(surface.view());
 }
 
-std::size_t facets_settled(State state, std::size_t most) {
+std::size_t facets_settled(State state, std::size_t most, Work work = {}) {
   Trouble all;
   all.facets.resize(state.facets.size());
   std::iota(all.facets.begin(), all.facets.end(), Index{0});
-  settle(state, all, {1e-2, 0, false, true, most}, [](double) {});
+  settle(state, all, {1e-2, 0, false, true, most}, work, [](double) {});
   return state.facets.size();
 }
 
@@ -34,6 +34,11 @@ TEST(Settle, EndsWhereTooManyFacetsComeOfIt) {
   const std::size_t ended = facets_settled(state, most);
   EXPECT_GT(ended, most);
   EXPECT_LT(ended, without_limit / 2);
+}
+
+TEST(Settle, EndsWhenItsWorkIsSpent) {
+  const State state = needles(12);
+  EXPECT_LT(facets_settled(state, SIZE_MAX, {1000}), facets_settled(state, SIZE_MAX) / 2);
 }
 
 }  // namespace
