@@ -66,8 +66,8 @@ struct PasteResult : RepairResult {
   std::vector<PartOverlap> overlaps;  ///< deepest first; with `PasteOptions::judge` only
   std::vector<PartApart> apart;       ///< the same
   Overlap overlap = Overlap::refuse;  ///< that was asked for
-  double gap =
-      0;  ///< so near to each other parts touch: the tolerance, or as near as coordinates are rounded
+  /// So near to each other parts touch: the tolerance, or as near as coordinates are rounded.
+  double gap = 0;
   std::size_t shared_facets = 0;  ///< of the surface, those of several parts
   /// For each entry of `parents.all` whether the facet is turned against this parent.
   std::vector<std::uint8_t> turned;

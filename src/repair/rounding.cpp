@@ -105,7 +105,7 @@ class Rounding {
     }
     rounded_.is_valid = is_done();
     if (rounded_.is_valid || is_plane_ || is_part_) return std::move(rounded_);
-    (void)(join_all() || weld_all());
+    if (!join_all()) weld_all();
     return std::move(rounded_);
   }
 
@@ -309,7 +309,7 @@ class Rounding {
 
   /// Where that fails, too: vertices that are near to each other become one, and sides are led through what
   /// is near, all over the surface, before anything is cut.
-  bool weld_all() {
+  void weld_all() {
     for (const double last_bits : kWeldedLastBits) {
       State welded = given_;
       const double moved = weld(welded, last_bits * last_bit(given_), here());
@@ -319,9 +319,8 @@ class Rounding {
       welding.welded_last_bits_ = last_bits;
       welding.work_.most = kLittleWork.of(given_.facets.size());
       welding.rounded_.displacement = sum_above(given_displacement_, moved);
-      if (take_if_valid(welding, Rung::snapped)) return true;
+      if (take_if_valid(welding, Rung::snapped)) return;
     }
-    return false;
   }
 
   bool take_if_valid(Rounding& other, Rung rung) {
