@@ -42,4 +42,16 @@ template <typename T, std::size_t N>
   return of;
 }
 
+/// Leaves one of each value that is there an odd number of times, in ascending order: a sum modulo 2.
+template <typename T>
+void sort_odd(std::vector<T>& values) {
+  std::sort(values.begin(), values.end());
+  std::size_t odd = 0;
+  for (std::size_t k = 0, next = 0; k < values.size(); k = next) {
+    while (next < values.size() && values[next] == values[k]) ++next;
+    if ((next - k) % 2 != 0) values[odd++] = values[k];
+  }
+  values.resize(odd);
+}
+
 }  // namespace holdfast

@@ -8,6 +8,7 @@
 
 #include "check_repair/cover.h"
 #include "check_repair/reach.h"
+#include "numbers/sorted.h"
 #include "repair/children.h"
 #include "surface/complex.h"
 #include "surface/places.h"
@@ -61,12 +62,8 @@ class Covers {
         sides_.push_back({a, b});
       }
     }
-    std::sort(sides_.begin(), sides_.end());
-    std::size_t odd = 0;
-    for (std::size_t k = 0, next = 0; k < sides_.size(); k = next) {
-      while (next < sides_.size() && sides_[next] == sides_[k]) ++next;
-      if ((next - k) % 2 != 0) sides_[odd++] = sides_[k];
-    }
+    sort_odd(sides_);
+    const std::size_t odd = sides_.size();
     sides_.resize(2 * odd);
     for (std::size_t k = 0; k < odd; ++k) sides_[odd + k] = {sides_[k][1], sides_[k][0]};
     std::sort(sides_.begin(), sides_.end());

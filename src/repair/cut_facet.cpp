@@ -16,17 +16,6 @@ namespace {
 
 using Side = std::array<Index, 2>;
 
-/// Leaves one of each side that is there an odd number of times, in ascending order.
-void keep_odd(std::vector<Side>& sides) {
-  std::sort(sides.begin(), sides.end());
-  std::size_t kept = 0;
-  for (std::size_t k = 0, next = 0; k < sides.size(); k = next) {
-    while (next < sides.size() && sides[next] == sides[k]) ++next;
-    if ((next - k) % 2 != 0) sides[kept++] = sides[k];
-  }
-  sides.resize(kept);
-}
-
 void take(const Triangle& corners, Cell& cell) {
   cell.triangles.push_back(corners);
   for (std::size_t i = 0; i < 3; ++i)
@@ -133,7 +122,7 @@ class FacetCut {
   [[nodiscard]] std::vector<Cell> finished(std::vector<Cell> cells) const {
     for (Cell& cell : cells) {
       cell.facet = f_;
-      keep_odd(cell.border);
+      sort_odd(cell.border);
     }
     std::erase_if(cells, [](const Cell& cell) { return cell.triangles.empty(); });
     return cells;
