@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "api/report.h"
@@ -69,6 +70,17 @@ void note(const ImproveStats& stats, Report::Field& report) {
   report.insertions += stats.inserted;
   report.points += stats.filled_in;
   report.stopped_early |= stats.filling_stopped_early;
+}
+
+// Where facets force most of what is bad, no mesher has many more elements than the volume takes without
+// field points, and more of them hardly help. As a part of the elements there are.
+constexpr double kAnyGrowth = std::numeric_limits<double>::infinity();
+double growth_that_pays(Field& field, const Threads& threads) {
+  constexpr double kMostOfThoseWithout = 1.35;
+  if (!field.without || !field.without->is_given()) return kAnyGrowth;
+  const auto without = static_cast<double>(field.without->elements()),
+             now = static_cast<double>(figures_of(field.volume(), threads).elements());
+  return kMostOfThoseWithout * without / now - 1;
 }
 
 // The part of the stage's work that every effort takes.
@@ -144,11 +156,12 @@ void improve_with_field(const Attempt& attempt, BoxMesh& box, Division& division
     was_brief = keep_what_pays(attempt, box, division, field, was_brief, report);
     field.worst_without = field.without->worst_quality();
   }
+  const double growth = was_brief ? growth_that_pays(field, threads) : kAnyGrowth;
   field.without.reset();
   const Effort effort = attempt.options.effort;
   constexpr double kUpToGood = 0.75;
   if (effort != Effort::fast)
-    note(improve_further_in_parts(field.volume(), {Effort::good, was_brief},
+    note(improve_further_in_parts(field.volume(), {Effort::good, was_brief, growth},
                                   {kCommonWork, effort == Effort::good ? 1 : kUpToGood}, threads,
                                   attempt.monitor),
          report.field);

@@ -17,7 +17,8 @@ class WithoutField {
   WithoutField(const Attempt& attempt, const BoxMesh& box, const Division& division);
 
   /// Whether there is anything to compare with.
-  [[nodiscard]] bool is_given() const { return before_.elements() > 0; }
+  [[nodiscard]] bool is_given() const { return elements() > 0; }
+  [[nodiscard]] std::size_t elements() const { return before_.elements(); }
   /// Whether some figure of the mesh with field points is worse than of this one. The first call optimises
   /// this one, unless it is plain that nothing will be.
   [[nodiscard]] bool is_better_somewhere(const Figures& with_field);

@@ -6,6 +6,18 @@
 #include "optimise/tuning.h"
 
 namespace holdfast {
+namespace {
+
+// What an element adds to the weighted shares of those with an angle below 10, 20 and 30 degrees, over what
+// each may.
+double burden(double energy) {
+  double sum = -tuning::kBurdenThatPays;
+  for (const auto& [sine, weight] : tuning::kBurdens)
+    if (energy > energy_of_sine(sine)) sum += weight;
+  return sum;
+}
+
+}  // namespace
 
 bool PointAdder::add(Tet t, bool patient) {
   const TetMesh& mesh = volume_.mesh();
@@ -81,7 +93,17 @@ bool PointAdder::improves(Vertex p) {
   if (!frame_.is_plain() && !is_less(energy_of_ball(p), before)) return false;
   return std::all_of(cavity_.rim().begin(), cavity_.rim().end(),
                      [&](const RimFace& rim) { return mesh.orient(rim.v[0], rim.v[1], rim.v[2], p) > 0; }) &&
-         is_allowed(p);
+         (!must_pay_ || pays(p)) && is_allowed(p);
+}
+
+// The elements of the cavity are fewer than those of the ball, mostly: so their sum may become larger, by as
+// much as new elements of a good mesh would add.
+bool PointAdder::pays(Vertex p) const {
+  double before = 0, after = 0;
+  for (const Tet t : cavity_.tets()) before += burden(volume_.energy(t));
+  for (const RimFace& rim : cavity_.rim())
+    after += burden(volume_.energy_of({rim.v[0], rim.v[1], rim.v[2], p}));
+  return after <= before;
 }
 
 bool PointAdder::is_allowed(Vertex p) {

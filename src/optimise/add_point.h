@@ -19,6 +19,9 @@ class PointAdder {
   /// point. The new tetrahedra are its ball, in ball().
   bool add(Tet t, bool patient);
   [[nodiscard]] std::span<const Tet> ball() const { return cavity_.created(); }
+  /// From now on, points must make the shares of elements with small angles less, too: energies fall the most
+  /// where one hopeless element becomes several bad ones.
+  void must_pay() { must_pay_ = true; }
   /// Of the last call, in tetrahedra looked at.
   [[nodiscard]] double work() const { return work_; }
 
@@ -28,6 +31,7 @@ class PointAdder {
   [[nodiscard]] bool find_cavity(Vertex p, Tet t, std::span<const Tet> tets);
   [[nodiscard]] bool improves(Vertex p);
   [[nodiscard]] bool is_allowed(Vertex p);
+  [[nodiscard]] bool pays(Vertex p) const;
   [[nodiscard]] double energy_of_ball(Vertex p) const;
 
   ImprovedVolume& volume_;
@@ -35,6 +39,7 @@ class PointAdder {
   EdgeShell shell_;
   Frame frame_;
   Star star_;  // in the frame
+  bool must_pay_ = false;
   double work_ = 0;
 };
 

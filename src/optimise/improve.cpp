@@ -20,12 +20,22 @@ class Improver {
         monitor_(monitor),
         ways_(volume_, energy_of_sine(passes_.patient_aim)),
         most_inserted_(
-            static_cast<std::size_t>(passes_.inserted_per_tet * static_cast<double>(mesh_.tet_count()))) {}
+            static_cast<std::size_t>(passes_.inserted_per_tet * static_cast<double>(mesh_.tet_count()))) {
+    if (passes_.points_must_pay) ways_.points_must_pay();
+  }
 
   /// From now on, no figure may become worse.
   void keep(const Figures& figures) { volume_.keep(figures); }
   /// From now on, what is bad may be left where it is much.
   void be_brief() { is_brief_ = true; }
+  /// From now on, points are added as long as there are less than that many elements more, of those there
+  /// are.
+  void grow_at_most(double part) {
+    std::size_t inside = 0;
+    for (Tet t = 0; t < mesh_.slot_count(); ++t)
+      if (volume_.is_inside(t)) ++inside;
+    most_tets_ = tets() + part * static_cast<double>(inside);
+  }
   /// Progress is that part of the stage's.
   void tell_as(std::array<double, 2> work) { work_ = work; }
 
@@ -186,7 +196,7 @@ class Improver {
       if (!volume_.is_inside(next.tet) || rank(next.tet) != next.rank) continue;
       if (!volume_.take_changed(next.tet)) continue;
       poll(std::max(work / budget, 1 - std::min(1.0, static_cast<double>(queue.size()) / count)));
-      ways_.allow_points(volume_.may_add() && stats_.inserted < most_inserted_);
+      ways_.allow_points(volume_.may_add() && stats_.inserted < most_inserted_ && tets() < most_tets_);
       const EnergyWays::Outcome outcome = ways_.try_all(next.tet, patience, work);
       if (outcome.changed.empty()) continue;
       any = true;
@@ -203,6 +213,7 @@ class Improver {
   Monitor& monitor_;
   EnergyWays ways_;
   const std::size_t most_inserted_;
+  double most_tets_ = std::numeric_limits<double>::infinity();
   std::array<double, 2> stage_{}, work_{0, 1};
   bool is_brief_ = false;
   ImproveStats stats_;
@@ -223,6 +234,7 @@ ImproveStats improve_further(const VolumeData& volume, Extent extent, const std:
   Improver improver(volume, tuning::further_passes_of(extent.effort, extent.is_brief), spared, fresh,
                     monitor);
   improver.tell_as(work);
+  improver.grow_at_most(extent.most_growth);
   if (figures) improver.keep(*figures);
   return improver.run();
 }

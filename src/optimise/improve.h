@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -16,13 +17,17 @@ namespace holdfast {
 
 /// How far improvement goes.
 struct Extent {
-  Extent(Effort of, bool brief = false)
-      : effort(of), is_brief(brief) {}  // NOLINT(google-explicit-constructor)
+  Extent(Effort of, bool brief = false,  // NOLINT(google-explicit-constructor)
+         double growth = std::numeric_limits<double>::infinity())
+      : effort(of), is_brief(brief), most_growth(growth) {}
 
   Effort effort;
   /// Where many elements are bad after a pass, most are left: for a result that is compared with another, and
   /// goes on where it is worse. Of what goes on: that this is where it begins.
   bool is_brief;
+  /// Points are added as long as there are less than so many elements more, of those there are. Below 0,
+  /// there must be so many less first.
+  double most_growth;
 };
 
 struct ImproveStats {

@@ -120,6 +120,7 @@ struct Passes {
   /// Where so much touches no constraint, and so much of the whole is bad besides, rounds get their work
   /// again, up to so many times.
   double most_shares = 10;
+  bool points_must_pay = false;  ///< by the shares of elements with small angles
 };
 /// What is left of fast effort on results that are compared with others, where so large a share of the
 /// elements is below its aim after so many passes: one patient round.
@@ -153,6 +154,7 @@ inline constexpr Brief kBrief;
   passes.least_work = 3200;
   passes.share_of_the_worst = 0.7;
   passes.most_shares = 1;  // what was left need not be inside for want of work
+  passes.points_must_pay = true;
   return passes;
 }
 inline constexpr int kMostPasses = 6;     ///< while many elements are bad, which passes help faster
@@ -161,6 +163,13 @@ inline constexpr int kPatientRounds = 3;  ///< times the rounds: the very worst 
 inline constexpr double kPatientShare = 0.1;       ///< of the work of a round for each of these
 inline constexpr double kBeyondPatientAim = 0.02;  ///< so that what is just better gets the cheap ways, too
 inline constexpr double kSineWorthAPoint = 0.42;   ///< 25 degrees; no element above is worth a vertex
+/// Sines of 10, 20 and 30 degrees, and what an element with a smaller angle weighs where points must pay; and
+/// what a new element may weigh.
+struct Burden {
+  double sine, weight;
+};
+inline constexpr std::array<Burden, 3> kBurdens{{{0.1736, 0.5}, {0.342, 1}, {0.5, 1}}};
+inline constexpr double kBurdenThatPays = 0.5;
 inline constexpr double kLongestContracted = 1.6;  ///< sizes: longer edges would undo the sizes asked for
 inline constexpr double kLongerContracted = 2;     ///< times the longest edge before, where that is longer
 // What asks for more shares of the work: of the elements.
