@@ -3,19 +3,25 @@
 #include <algorithm>
 
 #include "mesh/editor.h"
+#include "mesh/measure.h"
 #include "optimise/tuning.h"
 
 namespace holdfast {
 namespace {
 
-// What an element adds to the weighted shares of those with an angle below 10, 20 and 30 degrees, over what
-// each may.
-double burden(double energy) {
-  double sum = -tuning::kBurdenThatPays;
-  for (const auto& [sine, weight] : tuning::kBurdens)
-    if (energy > energy_of_sine(sine)) sum += weight;
-  return sum;
-}
+// What elements with small angles weigh, those with an angle below 10, 20 and 30 degrees.
+struct Burden {
+  double by_number = 0;  // over what new elements may
+  double by_volume = 0;
+
+  void add(double energy, double volume) {
+    double weight = 0;
+    for (const auto& [sine, more] : tuning::kWeightBelow)
+      if (energy > energy_of_sine(sine)) weight += more;
+    by_number += weight - tuning::kWeightThatPays;
+    by_volume += weight * volume;
+  }
+};
 
 }  // namespace
 
@@ -96,14 +102,18 @@ bool PointAdder::improves(Vertex p) {
          (!must_pay_ || pays(p)) && is_allowed(p);
 }
 
-// The elements of the cavity are fewer than those of the ball, mostly: so their sum may become larger, by as
-// much as new elements of a good mesh would add.
+// The ball has more elements than the cavity, mostly. So it may weigh more, by as much as new elements of a
+// good mesh would; or less of the volume is bad.
 bool PointAdder::pays(Vertex p) const {
-  double before = 0, after = 0;
-  for (const Tet t : cavity_.tets()) before += burden(volume_.energy(t));
-  for (const RimFace& rim : cavity_.rim())
-    after += burden(volume_.energy_of({rim.v[0], rim.v[1], rim.v[2], p}));
-  return after <= before;
+  const TetMesh& mesh = volume_.mesh();
+  Burden before, after;
+  for (const Tet t : cavity_.tets()) before.add(volume_.energy(t), six_volumes(mesh, mesh.corners(t)));
+  for (const RimFace& rim : cavity_.rim()) {
+    const TetMesh::Corners corners{rim.v[0], rim.v[1], rim.v[2], p};
+    after.add(volume_.energy_of(corners), six_volumes(mesh, corners));
+  }
+  return after.by_number <= before.by_number ||
+         after.by_volume <= tuning::kPartOfVolumeThatPays * before.by_volume;
 }
 
 bool PointAdder::is_allowed(Vertex p) {

@@ -1,8 +1,11 @@
 #include "optimise/improve.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <queue>
 
+#include "mesh/measure.h"
 #include "optimise/tuning.h"
 #include "optimise/ways_for_energy.h"
 
@@ -66,7 +69,7 @@ class Improver {
       volume_.touch_all();
       if (!work_on_single_ones(passes_.aim, work(1), passes_.first, Patience::usual)) break;
     }
-    if (passes_.first == First::the_mildest)
+    if (passes_.first != First::the_worst)
       work_on_single_ones(passes_.aim, work(passes_.share_of_the_worst), First::the_worst, Patience::usual);
     // The very worst are few: they get as many rounds as help.
     volume_.touch_all();
@@ -170,13 +173,17 @@ class Improver {
     return std::any_of(c.begin(), c.end(), [&](Vertex v) { return !volume_.may_move(v); });
   }
 
+  [[nodiscard]] double rank_of(Tet t, First first) const {
+    if (first == First::the_worst) return volume_.energy(t);
+    if (first == First::the_mildest) return -volume_.energy(t);
+    return std::sqrt(six_volumes(mesh_, mesh_.corners(t))) / volume_.energy(t);
+  }
+
   // One element after another, as long as there is work left to spend. Returns whether any became better.
   bool work_on_single_ones(double aim, double share, First first, Patience patience) {
     const double from = energy_of_sine(aim);
     std::priority_queue<Entry> queue;
-    const auto rank = [&](Tet t) {
-      return first == First::the_worst ? volume_.energy(t) : -volume_.energy(t);
-    };
+    const auto rank = [&](Tet t) { return rank_of(t, first); };
     const auto push = [&](Tet t) {
       if (is_worse(t, from)) queue.push({rank(t), t});
     };

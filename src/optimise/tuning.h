@@ -96,10 +96,11 @@ inline constexpr std::size_t kMostShellForFlat = 14;  ///< tetrahedra of a shell
 inline constexpr std::size_t kFlatShells = 200;       ///< shells looked at for one element
 
 // --- With field points. Angles are told by their sines.
-/// Which of the bad elements comes first. On surfaces full of needles the facets force most of the worst, so
-/// that what is nearest to being good is helped the soonest. But where the least is spent, and the result is
-/// held to that of --fill, the worst must not be left over.
-enum class First : std::uint8_t { the_worst, the_mildest };
+/// Which of the bad elements comes first; the largest are those with much volume for their energy. On
+/// surfaces full of needles the facets force most of the worst, so that what is nearest to being good is
+/// helped the soonest. But where the least is spent, and the result is held to that of --fill, the worst must
+/// not be left over.
+enum class First : std::uint8_t { the_worst, the_mildest, the_largest };
 /// Passes over the whole volume, then work on single elements.
 struct Passes {
   int passes;
@@ -152,9 +153,10 @@ inline constexpr Brief kBrief;
   passes.work_per_tet = 1;
   passes.inserted_per_tet = 0.042;
   passes.least_work = 3200;
-  passes.share_of_the_worst = 0.7;
+  passes.share_of_the_worst = 0.4;
   passes.most_shares = 1;  // what was left need not be inside for want of work
   passes.points_must_pay = true;
+  passes.first = First::the_largest;
   return passes;
 }
 inline constexpr int kMostPasses = 6;     ///< while many elements are bad, which passes help faster
@@ -163,15 +165,16 @@ inline constexpr int kPatientRounds = 3;  ///< times the rounds: the very worst 
 inline constexpr double kPatientShare = 0.1;       ///< of the work of a round for each of these
 inline constexpr double kBeyondPatientAim = 0.02;  ///< so that what is just better gets the cheap ways, too
 inline constexpr double kSineWorthAPoint = 0.42;   ///< 25 degrees; no element above is worth a vertex
-/// Sines of 10, 20 and 30 degrees, and what an element with a smaller angle weighs where points must pay; and
-/// what a new element may weigh.
-struct Burden {
+// Points that must pay.
+/// Sines of 10, 20 and 30 degrees, and what an element with a smaller angle weighs.
+struct WeightBelow {
   double sine, weight;
 };
-inline constexpr std::array<Burden, 3> kBurdens{{{0.1736, 0.5}, {0.342, 1}, {0.5, 1}}};
-inline constexpr double kBurdenThatPays = 0.5;
-inline constexpr double kLongestContracted = 1.6;  ///< sizes: longer edges would undo the sizes asked for
-inline constexpr double kLongerContracted = 2;     ///< times the longest edge before, where that is longer
+inline constexpr std::array<WeightBelow, 3> kWeightBelow{{{0.1736, 0.5}, {0.342, 1}, {0.5, 1}}};
+inline constexpr double kWeightThatPays = 0.5;        ///< of an element more
+inline constexpr double kPartOfVolumeThatPays = 0.7;  ///< part of what weighs, by volume, that may stay
+inline constexpr double kLongestContracted = 1.6;     ///< sizes: longer edges would undo the sizes asked for
+inline constexpr double kLongerContracted = 2;        ///< times the longest edge before, where that is longer
 // What asks for more shares of the work: of the elements.
 inline constexpr double kMuchInside = 0.15, kManyBadInside = 0.002;
 inline constexpr double kSineOfBad = 0.17364817766693033;  ///< 10 degrees
