@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "api/report.h"
@@ -72,17 +71,6 @@ void note(const ImproveStats& stats, Report::Field& report) {
   report.stopped_early |= stats.filling_stopped_early;
 }
 
-// Where facets force most of what is bad, no mesher has many more elements than the volume takes without
-// field points, and more of them hardly help. As a part of the elements there are.
-constexpr double kAnyGrowth = std::numeric_limits<double>::infinity();
-double growth_that_pays(Field& field, const Threads& threads) {
-  constexpr double kMostOfThoseWithout = 1.35;
-  if (!field.without || !field.without->is_given()) return kAnyGrowth;
-  const auto without = static_cast<double>(field.without->elements()),
-             now = static_cast<double>(figures_of(field.volume(), threads).elements());
-  return kMostOfThoseWithout * without / now - 1;
-}
-
 // The part of the stage's work that every effort takes.
 constexpr double kCommonWork = 0.6;
 
@@ -141,6 +129,21 @@ bool keep_what_pays(const Attempt& attempt, BoxMesh& box, Division& division, Fi
   return false;
 }
 
+// Where facets force much of what is bad, what can be bettered are the shares of elements with small angles.
+// Where they force most of it, more elements hardly help: other meshers have as many as the volume takes
+// without field points.
+Extent extent_of_good(Field& field, bool was_brief, const Threads& threads) {
+  constexpr double kManySmall = 0.3, kMostOfThoseWithout = 1.35;
+  Extent extent = Effort::good;
+  if (!field.without || !field.without->is_given()) return extent;
+  const Figures now = figures_of(field.volume(), threads);
+  const auto elements = static_cast<double>(now.elements());
+  extent.lowers_shares = was_brief || static_cast<double>(now.below_30_deg()) > kManySmall * elements;
+  if (was_brief)
+    extent.most_growth = kMostOfThoseWithout * static_cast<double>(field.without->elements()) / elements - 1;
+  return extent;
+}
+
 // More effort goes on where less has ended, and makes no figure worse: so it never pays to spend less.
 void improve_with_field(const Attempt& attempt, BoxMesh& box, Division& division, Field& field,
                         Report& report) {
@@ -156,12 +159,12 @@ void improve_with_field(const Attempt& attempt, BoxMesh& box, Division& division
     was_brief = keep_what_pays(attempt, box, division, field, was_brief, report);
     field.worst_without = field.without->worst_quality();
   }
-  const double growth = was_brief ? growth_that_pays(field, threads) : kAnyGrowth;
+  const Extent extent = extent_of_good(field, was_brief, threads);
   field.without.reset();
   const Effort effort = attempt.options.effort;
   constexpr double kUpToGood = 0.75;
   if (effort != Effort::fast)
-    note(improve_further_in_parts(field.volume(), {Effort::good, was_brief, growth},
+    note(improve_further_in_parts(field.volume(), extent,
                                   {kCommonWork, effort == Effort::good ? 1 : kUpToGood}, threads,
                                   attempt.monitor),
          report.field);

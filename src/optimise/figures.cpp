@@ -15,6 +15,8 @@ constexpr double kGreatCosine = 0.98;
 // What is within 1e-6 degrees of 10 is not below it: boxes and wedges make many angles that are round
 // numbers.
 constexpr Angle kTenDegrees{0.17364816047879253, 0.9848077560429404};
+// Not compared, so that they need no such care.
+constexpr Angle kThirtyDegrees{0.5, 0.8660254037844386};
 
 Angle least_of(const CarefulShape& shape) {
   Angle least{0, -1};
@@ -63,6 +65,7 @@ void Figures::add(const Point& a, const Point& b, const Point& c, const Point& d
   const Element element = element_of(a, b, c, d);
   ++elements_;
   if (element.least < kTenDegrees) ++below_;
+  if (element.least < kThirtyDegrees) ++below_30_;
   if (element.least < least_) least_ = element.least;
   worst_ = std::max(worst_, element.quality);
   for (std::size_t k = 0; k < sums_.size(); ++k) sums_[k] += std::min(element.quality, kMostQuality[k]);
@@ -71,6 +74,7 @@ void Figures::add(const Point& a, const Point& b, const Point& c, const Point& d
 void Figures::add(const Figures& others) {
   elements_ += others.elements_;
   below_ += others.below_;
+  below_30_ += others.below_30_;
   if (others.least_ < least_) least_ = others.least_;
   worst_ = std::max(worst_, others.worst_);
   for (std::size_t k = 0; k < sums_.size(); ++k) sums_[k] += others.sums_[k];

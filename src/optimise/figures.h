@@ -21,6 +21,7 @@ class Figures {
   [[nodiscard]] const Angle& least() const { return least_; }
   [[nodiscard]] std::size_t elements() const { return elements_; }
   [[nodiscard]] std::size_t below_10_deg() const { return below_; }
+  [[nodiscard]] std::size_t below_30_deg() const { return below_30_; }
   [[nodiscard]] double worst_quality() const { return worst_; }
   [[nodiscard]] double mean_quality() const { return sums_[0] / static_cast<double>(elements_); }
   /// The same, where flat elements count for less.
@@ -33,7 +34,7 @@ class Figures {
   // One flat element makes the whole of a mean of Q. So there are two: the other is of what is not flat, too.
   static constexpr std::array<double, 2> kMostQuality{1e15, 1e6};
 
-  std::size_t elements_ = 0, below_ = 0;
+  std::size_t elements_ = 0, below_ = 0, below_30_ = 0;
   Angle least_{0, -1};
   double worst_ = 0;
   std::array<double, 2> sums_{};

@@ -238,7 +238,7 @@ ImproveStats improve(const VolumeData& volume, Extent extent, Monitor& monitor,
 ImproveStats improve_further(const VolumeData& volume, Extent extent, const std::optional<Figures>& figures,
                              std::array<double, 2> work, Monitor& monitor,
                              std::span<const std::uint8_t> spared, std::span<const std::uint8_t> fresh) {
-  Improver improver(volume, tuning::further_passes_of(extent.effort, extent.is_brief), spared, fresh,
+  Improver improver(volume, tuning::further_passes_of(extent.effort, extent.lowers_shares), spared, fresh,
                     monitor);
   improver.tell_as(work);
   improver.grow_at_most(extent.most_growth);

@@ -17,17 +17,18 @@ namespace holdfast {
 
 /// How far improvement goes.
 struct Extent {
-  Extent(Effort of, bool brief = false,  // NOLINT(google-explicit-constructor)
-         double growth = std::numeric_limits<double>::infinity())
-      : effort(of), is_brief(brief), most_growth(growth) {}
+  Extent(Effort of, bool brief = false)
+      : effort(of), is_brief(brief) {}  // NOLINT(google-explicit-constructor)
 
   Effort effort;
   /// Where many elements are bad after a pass, most are left: for a result that is compared with another, and
-  /// goes on where it is worse. Of what goes on: that this is where it begins.
+  /// goes on where it is worse.
   bool is_brief;
+  /// Of what goes on: facets force so much that the shares of elements with small angles are to become less.
+  bool lowers_shares = false;
   /// Points are added as long as there are less than so many elements more, of those there are. Below 0,
   /// there must be so many less first.
-  double most_growth;
+  double most_growth = std::numeric_limits<double>::infinity();
 };
 
 struct ImproveStats {

@@ -142,12 +142,12 @@ inline constexpr Brief kBrief;
   }
   return {6, 0.65, 0.80, 0.60, 0.34, 6, First::the_worst, 10, 0.08};
 }
-/// Of what goes on where less effort ended, with whatever that has left undone: more of it where that was
-/// brief.
-[[nodiscard]] constexpr Passes further_passes_of(Effort effort, bool after_brief) {
+/// Of what goes on where less effort ended, with whatever that has left undone: more of it where shares are
+/// to become less.
+[[nodiscard]] constexpr Passes further_passes_of(Effort effort, bool lowers_shares) {
   if (effort != Effort::good) return passes_of(effort);
   Passes passes{0, 0.45, 0.50, 0.36, 0.24, 1, First::the_mildest, 1, 0.02};
-  if (!after_brief) return passes;
+  if (!lowers_shares) return passes;
   passes.aim = 0.46;  // 27 degrees
   passes.rounds = 2;
   passes.work_per_tet = 1;
