@@ -133,14 +133,15 @@ bool keep_what_pays(const Attempt& attempt, BoxMesh& box, Division& division, Fi
 // Where they force most of it, more elements hardly help: other meshers have as many as the volume takes
 // without field points.
 Extent extent_of_good(Field& field, bool was_brief, const Threads& threads) {
-  constexpr double kManySmall = 0.3, kMostOfThoseWithout = 1.35;
+  constexpr double kManySmall = 0.3, kMostOfThoseWithout = 1.35, kLeastGrowth = 0.06;
   Extent extent = Effort::good;
   if (!field.without || !field.without->is_given()) return extent;
   const Figures now = figures_of(field.volume(), threads);
   const auto elements = static_cast<double>(now.elements());
   extent.lowers_shares = was_brief || static_cast<double>(now.below_30_deg()) > kManySmall * elements;
   if (was_brief)
-    extent.most_growth = kMostOfThoseWithout * static_cast<double>(field.without->elements()) / elements - 1;
+    extent.most_growth = std::max(
+        kLeastGrowth, kMostOfThoseWithout * static_cast<double>(field.without->elements()) / elements - 1);
   return extent;
 }
 

@@ -19,9 +19,9 @@ class PointAdder {
   /// point. The new tetrahedra are its ball, in ball().
   bool add(Tet t, bool patient);
   [[nodiscard]] std::span<const Tet> ball() const { return cavity_.created(); }
-  /// From now on, points must make the shares of elements with small angles less, too: energies fall the most
-  /// where one hopeless element becomes several bad ones.
-  void must_pay() { must_pay_ = true; }
+  /// From now on, whether points must make the shares of elements with small angles less, too: energies fall
+  /// the most where one hopeless element becomes several bad ones.
+  void must_pay(bool must) { must_pay_ = must; }
   /// Of the last call, in tetrahedra looked at.
   [[nodiscard]] double work() const { return work_; }
 

@@ -24,7 +24,6 @@ class Improver {
         ways_(volume_, energy_of_sine(passes_.patient_aim)),
         most_inserted_(
             static_cast<std::size_t>(passes_.inserted_per_tet * static_cast<double>(mesh_.tet_count()))) {
-    if (passes_.points_must_pay) ways_.points_must_pay();
   }
 
   /// From now on, no figure may become worse.
@@ -190,6 +189,7 @@ class Improver {
     for (Tet t = 0; t < mesh_.slot_count(); ++t) push(t);
     const double count = 1 + static_cast<double>(queue.size());
     double work = 0, budget = share;
+    ways_.points_must_pay(passes_.points_must_pay && patience != Patience::all_ways);
     if (patience == Patience::usual && has_many_bad_inside()) patience = Patience::contractions;
     bool any = false;
     while (!queue.empty()) {

@@ -26,8 +26,7 @@ struct Extent {
   bool is_brief;
   /// Of what goes on: facets force so much that the shares of elements with small angles are to become less.
   bool lowers_shares = false;
-  /// Points are added as long as there are less than so many elements more, of those there are. Below 0,
-  /// there must be so many less first.
+  /// Points are added as long as there are less than so many elements more, of those there are.
   double most_growth = std::numeric_limits<double>::infinity();
 };
 

@@ -33,8 +33,8 @@ class EnergyWays {
 
   /// From now on, whether points may be added.
   void allow_points(bool may) { may_add_ = may; }
-  /// From now on, points for single elements must pay (add_point.h).
-  void points_must_pay() { adder_.must_pay(); }
+  /// From now on, whether points for single elements must pay (add_point.h).
+  void points_must_pay(bool must) { adder_.must_pay(must); }
 
   /// One way alone, for passes over the volume: whether it helped.
   bool swap_as_worst(Tet t) {

@@ -9,8 +9,10 @@
 
 #include "delaunay/delaunay.h"
 #include "mesh/editor.h"
+#include "mesh/measure.h"
 #include "mesh/quality.h"
 #include "mesh/validate.h"
+#include "optimise/add_point.h"
 #include "optimise/energy.h"
 #include "optimise/refill.h"
 #include "optimise/shape.h"
@@ -172,6 +174,75 @@ TEST(Improve, IsBriefWhereManyElementsAreBadAndOnlyIfItMay) {
   EXPECT_FALSE(whole.was_brief);
   EXPECT_TRUE(brief.was_brief);
   EXPECT_LT(brief.inserted, whole.inserted);
+}
+
+// Points that nobody limits are added without end where all vertices stand.
+TEST(Improve, AddsNoPointsBeyondTheGrowthThatIsAllowed) {
+  const auto improved = [](double most_growth) {
+    TetMesh mesh = random_mesh(1000, 5);
+    std::vector<RegionId> region_of(mesh.slot_count(), 0);
+    std::vector<double> sizes(mesh.vertex_count(), 0.1);
+    const std::vector<bool> kept{true};
+    const VolumeData volume{mesh, region_of, sizes, kept, static_cast<Vertex>(mesh.vertex_count())};
+    const Options options;
+    Monitor monitor(options);
+    Extent extent = Effort::good;
+    extent.lowers_shares = true;
+    extent.most_growth = most_growth;
+    const auto before = static_cast<double>(mesh.tet_count());
+    const ImproveStats stats = improve_further(volume, extent, figures_of(volume), {0, 1}, monitor);
+    EXPECT_EQ(find_fault(mesh), "");
+    return std::pair(stats.inserted, static_cast<double>(mesh.tet_count()) / before);
+  };
+  const auto [some, little] = improved(0.01);
+  const auto [many, much] = improved(0.5);
+  EXPECT_EQ(improved(-0.9).first, 0u);
+  EXPECT_GT(some, 0u);
+  EXPECT_GT(many, some);
+  EXPECT_GT(much, 1.02);
+  EXPECT_LT(little, much);
+}
+
+// Over all elements: their number below 10, 20 and 30 degrees, weighted, over what elements may weigh; and
+// the same by volume.
+std::array<double, 2> burden_of(const TetMesh& mesh, const ImprovedVolume& volume) {
+  std::array<double, 2> sum{};
+  for (Tet t = 0; t < mesh.slot_count(); ++t) {
+    if (!volume.is_inside(t)) continue;
+    const double e = volume.energy(t);
+    const double weight = 0.5 * (e > energy_of_sine(0.1736)) + (e > energy_of_sine(0.342)) + (e > 16);
+    sum[0] += weight - 0.5;
+    sum[1] += weight * six_volumes(mesh, mesh.corners(t));
+  }
+  return sum;
+}
+
+TEST(PointAdder, LowersSharesOfSmallAnglesWhereItMust) {
+  for (const bool must : {false, true}) {
+    TetMesh mesh = random_mesh(300, 7);
+    std::vector<RegionId> region_of(mesh.slot_count(), 0);
+    const std::vector<bool> kept{true};
+    std::vector<double> sizes(mesh.vertex_count(), 1);
+    ImprovedVolume volume({mesh, region_of, sizes, kept, 8});
+    PointAdder adder(volume);
+    adder.must_pay(must);
+    std::size_t added = 0, dear = 0;
+    const std::size_t slots = mesh.slot_count();
+    for (Tet t = 0; t < slots; ++t) {
+      if (!volume.is_inside(t) || volume.energy(t) < energy_of_sine(0.42)) continue;
+      const std::array<double, 2> before = burden_of(mesh, volume);
+      if (!adder.add(t, false)) continue;
+      ++added;
+      const std::array<double, 2> after = burden_of(mesh, volume);
+      if (after[0] > before[0] && after[1] > before[1]) ++dear;
+    }
+    EXPECT_GT(added, 10u);
+    EXPECT_EQ(find_fault(mesh), "");
+    if (must)
+      EXPECT_EQ(dear, 0u);
+    else
+      EXPECT_GT(dear, 0u);
+  }
 }
 
 TEST(CavityRefiller, LessensTheEnergyAndLeavesAValidMesh) {
