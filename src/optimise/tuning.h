@@ -152,8 +152,7 @@ inline constexpr Brief kBrief;
   passes.rounds = 2;
   passes.work_per_tet = 1;
   passes.inserted_per_tet = 0.042;
-  passes.least_work = 3200;
-  passes.share_of_the_worst = 0.4;
+  passes.least_work = 2400;
   passes.most_shares = 1;  // what was left need not be inside for want of work
   passes.points_must_pay = true;
   passes.first = First::the_largest;
