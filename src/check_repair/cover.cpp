@@ -3,68 +3,17 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <deque>
 #include <limits>
 #include <map>
 #include <set>
 
 #include "check/findings.h"
 #include "check_repair/closed_chains.h"
+#include "check_repair/edge_sums.h"
 #include "text/decimal.h"
 
 namespace holdfast::checking {
 namespace {
-
-Segment edge_of(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
-
-/// Adds an edge to a sum modulo 2.
-void flip(std::set<Segment>& sum, const Segment& edge) {
-  if (const auto [at, is_new] = sum.insert(edge); !is_new) sum.erase(at);
-}
-
-void flip(std::set<Segment>& sum, const Triangle& t) {
-  for (std::size_t i = 0; i < 3; ++i) flip(sum, edge_of(t[i], t[(i + 1) % 3]));
-}
-
-using Neighbours = std::map<Index, std::vector<Index>>;
-
-template <class Edges>
-Neighbours neighbours_of(const Edges& edges) {
-  Neighbours of;
-  for (const auto& [a, b] : edges) {
-    of[a].push_back(b);
-    of[b].push_back(a);
-  }
-  return of;
-}
-
-/// The edges of a path from a to b with the fewest edges that are not in `cheap`; empty where there is none.
-std::vector<Segment> path(const Neighbours& neighbours, const std::set<Segment>& cheap, Index a, Index b) {
-  std::map<Index, std::pair<std::size_t, Index>> reached{{a, {0, a}}};  // by vertex the cost, and from where
-  std::deque<std::pair<Index, std::size_t>> open{{a, 0}};
-  while (!open.empty()) {
-    const auto [v, cost] = open.front();
-    open.pop_front();
-    if (v == b) break;
-    const auto at = neighbours.find(v);
-    if (at == neighbours.end() || reached[v].first < cost) continue;
-    for (const Index w : at->second) {
-      const bool is_cheap = cheap.contains(edge_of(v, w));
-      const std::size_t more = cost + (is_cheap ? 0 : 1);
-      const auto [known, is_new] = reached.try_emplace(w, more, v);
-      if (!is_new && known->second.first <= more) continue;
-      known->second = {more, v};
-      if (is_cheap)
-        open.emplace_front(w, more);
-      else
-        open.emplace_back(w, more);
-    }
-  }
-  std::vector<Segment> edges;
-  if (!reached.contains(b)) return edges;
-  for (Index v = b; v != a; v = reached[v].second) edges.push_back(edge_of(v, reached[v].second));
-  return edges;
-}
 
 double rough_area(const Point& a, const Point& b, const Point& c) {
   const Point u{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
@@ -104,11 +53,12 @@ class Cover {
     const std::set<Segment> edges = odd_;
     for (const auto& [v, w] : edges) {
       const std::vector<Index>&of_v = neighbours.at(v), &of_w = neighbours.at(w);
-      if (of_v.size() > kMost || of_w.size() > kMost || !(width_of(v, w) < test_.reach_.distance())) continue;
+      if (of_v.size() > kMost || of_w.size() > kMost) continue;
       for (const Index u : of_v)
         for (const Index x : of_w)
-          if (u != w && x != v && u != x && is_odd_edge(v, w) && is_odd_edge(u, v) && is_odd_edge(w, x))
-            close_thin_slit(u, v, w, x);
+          if (u != w && x != v && u != x && is_odd_edge(v, w) && is_odd_edge(u, v) && is_odd_edge(w, x) &&
+              !close_thin_slit(u, v, w, x))
+            close_thin_slit(x, w, v, u);
     }
   }
 
@@ -143,6 +93,31 @@ class Cover {
   [[nodiscard]] double width_of(Index v, Index w) const {
     return rough_distance(test_.vertices_[v], test_.vertices_[w]) * (1 + 0x1p-48);
   }
+  /// A distance from an edge within which all corners surely lie, less than that of the test.
+  [[nodiscard]] std::optional<double> height_above(const Segment& edge, const Triangle& corners) const {
+    const Point &a = test_.vertices_[edge[0]], &b = test_.vertices_[edge[1]];
+    constexpr double kLeast = 0x1p-10;  // of the distance of the test
+    double height = kLeast * test_.reach_.distance();
+    for (const Index v : corners) height = std::max(height, rough_distance(test_.vertices_[v], {a, b, a}));
+    for (; height < test_.reach_.distance(); height *= 1.125) {
+      const Reach reach(height);
+      if (std::all_of(corners.begin(), corners.end(),
+                      [&](Index v) { return reach.of_segment(test_.vertices_[v], a, b); }))
+        return height;
+    }
+    return std::nullopt;
+  }
+  /// What is left of the distance for a triangle that is no facet, near to one of two edges. (d)
+  [[nodiscard]] std::optional<Reach> reach_beside(const std::array<Segment, 2>& edges,
+                                                  const Triangle& corners) const {
+    std::optional<double> least;
+    for (const Segment& edge : edges)
+      if (const std::optional<double> height = height_above(edge, corners);
+          height && (!least || *height < *least))
+        least = height;
+    const std::optional<Reach> left = least ? reach_without(*least) : std::nullopt;
+    return left && all_within(*left, corners) ? left : std::nullopt;
+  }
   /// Of the output.
   [[nodiscard]] bool is_odd_edge(Index v, Index w) const {
     return odd_.contains(edge_of(v, w)) && !at_gaps_.contains(edge_of(v, w));
@@ -152,7 +127,7 @@ class Cover {
     if (!(part < test_.reach_.distance())) return std::nullopt;
     return Reach(std::nextafter(test_.reach_.distance() - part, 0.0));
   }
-  [[nodiscard]] bool all_within(const Reach& reach, std::initializer_list<Index> vertices) const {
+  [[nodiscard]] bool all_within(const Reach& reach, std::span<const Index> vertices) const {
     return std::all_of(vertices.begin(), vertices.end(),
                        [&](Index v) { return reach.of_triangle(test_.vertices_[v], triangle_); });
   }
@@ -169,23 +144,25 @@ class Cover {
   /// `t`: its tip comes first.
   void close_thin_gap(const Triangle& t) {
     const std::optional<Reach> left = reach_without(width_of(t[1], t[2]) / 2);
-    if (!left || !all_within(*left, {t[0], t[1], t[2]})) return;
+    if (!left || !all_within(*left, t)) return;
     const unsigned sides = sides_near(*left, t[1], t[2]);
     if (sides == 0) return;
     flip(odd_, t);
     at_gaps_[edge_of(t[1], t[2])] = sides;
   }
 
-  /// Between uv and xw, which vw joins.
-  void close_thin_slit(Index u, Index v, Index w, Index x) {
-    const std::optional<Reach> inside = reach_without(width_of(v, w)),
-                               at_side = reach_without(width_of(u, x));
-    if (!inside || !at_side || !all_within(*inside, {u, v, w}) || !all_within(*at_side, {u, w, x})) return;
-    const unsigned sides = sides_near(*at_side, u, x);
-    if (sides == 0) return;
-    flip(odd_, Triangle{u, v, w});
-    flip(odd_, Triangle{u, w, x});
+  /// Between uv and xw, which vw joins, with the diagonal uw.
+  bool close_thin_slit(Index u, Index v, Index w, Index x) {
+    const std::array<Segment, 2> edges{edge_of(u, v), edge_of(x, w)};
+    const Triangle inner{u, v, w}, outer{u, w, x};
+    if (!reach_beside(edges, inner)) return false;
+    const std::optional<Reach> left = reach_beside(edges, outer);
+    const unsigned sides = left ? sides_near(*left, u, x) : 0;
+    if (sides == 0) return false;
+    flip(odd_, inner);
+    flip(odd_, outer);
     at_gaps_[edge_of(u, x)] = sides;
+    return true;
   }
 
   /// Makes edges of corners with all vertices within reach of them. (c)

@@ -8,8 +8,8 @@
 //   (c) The chains of AB and BC may have edges from B' to other vertices within D of B that are no edges of
 //       the output, and likewise at A and C.
 //   (d) K may have triangles uvw that are none of the output, if uv and uw are edges of it and u, v and w lie
-//       within D - |vw| / 2 of t; or if uv is one and they lie within D - |vw| of t. Where v and w lie as
-//       near to AB, its chain may have the edge vw.
+//       within D - |vw| / 2 of t; or if they lie within h of one edge of the output, and within D - h of t.
+//       Where v and w lie as near to AB, its chain may have the edge vw.
 // Then every point of t lies within D of a point of K, of edges of the output in the chains, or of an end of
 // one as in (c), A', B' and C' among them.
 //
@@ -22,8 +22,9 @@
 // there is a chain in t, made of images that lie within D of what they are images of, with the boundary AB +
 // BC + CA. The only such chain modulo 2 is t itself, so it covers t.
 //
-// Points of a triangle of (d), and of its edge vw, lie within |vw| / 2 of uv or uw, or within |vw| of uv, so
-// that their images lie within D of these.
+// Points of a triangle of (d), and of its edges, lie within |vw| / 2 of uv or uw, or within h of the one edge,
+// since the distance to that is a convex function, too. Their images under f and g lie within D - |vw| / 2 or
+// D - h of them, as above, and so within D of points of these edges.
 //
 // The argument holds for any K. So the search below may leave out some of the children that are named, where
 // t was folded, add triangles of the output that are as thin as D, and use edges that are sides of no

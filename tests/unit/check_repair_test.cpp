@@ -220,6 +220,22 @@ TEST(Cover, AThinPartThatBecameASlit) {
   EXPECT_TRUE(CoverTest(vertices, facets, nearer).gap(triangle, {0, 1, 2}, children));
 }
 
+// The same where its ends are longer than it is thick, since it runs almost along the side that it comes
+// from: once both of its sides begin and end beside each other, once one of them is shorter at both ends.
+TEST(Cover, ASlitWithEndsLongerThanItsThickness) {
+  const std::array<Point, 3> triangle{{{0, 0, 0}, {1, 0, 0}, {0.5, 1e-10, 0}}};
+  const std::vector<Triangle> facets{{0, 3, 2}, {3, 5, 2}, {5, 6, 2}, {6, 1, 2}, {6, 4, 1}};
+  const std::vector<Index> children{0, 1, 2, 3, 4};
+  const double e = 1e-5, thickness = e * 1e-11 / 0.25;
+  const Reach reach(1.5 * thickness), nearer(0.9 * thickness);
+  for (const double x : {0.5 + e, 0.5 - e}) {
+    const std::vector<Point> vertices{triangle[0],      triangle[1],     triangle[2],  {0.25, 0, 0},
+                                      {0.25 + e, 0, 0}, {0.5, 1e-11, 0}, {x, 1e-11, 0}};
+    EXPECT_FALSE(CoverTest(vertices, facets, reach).gap(triangle, {0, 1, 2}, children)) << x;
+    EXPECT_TRUE(CoverTest(vertices, facets, nearer).gap(triangle, {0, 1, 2}, children)) << x;
+  }
+}
+
 // Whatever is taken for a cover is one: points of the triangle are within the distance of some facet.
 TEST(Cover, IsTakenForNoneWhereAPointIsTooFar) {
   const std::array<Point, 3> triangle{{{0, 0, 0}, {6, 0, 0}, {1, 5, 0}}};
