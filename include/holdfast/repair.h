@@ -106,13 +106,14 @@ struct RepairResult {
     Index facet;  ///< of the input
     Index into;   ///< the first facet with the same corners
   };
+  /// With a union, what it leaves of a filling, in connected parts.
   struct Filled {
     std::vector<Index> border;  ///< vertices of the output
     std::vector<Index> facets;  ///< of the output
     bool is_plane;
   };
   struct LeftOpen {
-    std::vector<Index> border;  ///< vertices of the output
+    std::vector<Index> border;  ///< vertices of the output; a union takes what is open, and may take some
     OpenReason reason;
   };
 

@@ -100,17 +100,16 @@ void run(const Complex& complex, const RepairOptions& options, PlainMonitor& mon
   if (!rounded.is_valid)
     return end(result, Outcome::not_representable,
                "no doubles were found for the new points with which the surface is valid");
-  if (options.fill_holes) {
-    auto [filled, left_open] = repairing::fill_holes(rounded.state, *options.fill_holes, step, threads);
-    result.filled = std::move(filled);
-    result.left_open = std::move(left_open);
-  }
+  repairing::Holes holes;
+  if (options.fill_holes) holes = repairing::fill_holes(rounded.state, *options.fill_holes, step, threads);
   if (options.unite) {
     const std::size_t before = rounded.state.facets.size();
-    if (const Outcome outcome = unite(complex, rounded.state, options, step); outcome != Outcome::done)
+    if (const Outcome outcome = unite(complex, rounded.state, holes, options, step); outcome != Outcome::done)
       return end(result, outcome, limit_message(outcome, options));
     rounded.has_united = rounded.state.facets.size() < before;
   }
+  result.filled = std::move(holes.filled);
+  result.left_open = std::move(holes.left_open);
   repairing::deliver(complex, std::move(rounded), result);
 }
 

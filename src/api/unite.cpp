@@ -114,23 +114,26 @@ std::vector<std::uint8_t> material_of(std::size_t regions, const std::vector<Wal
   return material;
 }
 
-void keep_only(repairing::State& state, const std::vector<std::uint8_t>& keep) {
+void keep_only(repairing::State& state, repairing::Holes& holes, const std::vector<std::uint8_t>& keep) {
   std::vector<Triangle> facets;
+  std::vector<Index> number(keep.size(), no_index);
   repairing::Parents parents;
   for (std::size_t f = 0; f < keep.size(); ++f) {
     if (keep[f] == 0) continue;
+    number[f] = static_cast<Index>(facets.size());
     facets.push_back(state.facets[f]);
     parents.add(state.facet_parents.of(f));
   }
   state.facets = std::move(facets);
   state.facet_parents = std::move(parents);
   state.doubt_all();
-  repairing::drop_unused(state);
+  repairing::renumber(holes, state, number, repairing::drop_unused(state));
 }
 
 }  // namespace
 
-Outcome unite(const Complex& input, repairing::State& state, const RepairOptions& options, const Step& step) {
+Outcome unite(const Complex& input, repairing::State& state, repairing::Holes& holes,
+              const RepairOptions& options, const Step& step) {
   if (state.facets.empty()) return Outcome::done;
   Options meshing;
   static_cast<Limits&>(meshing) = options;
@@ -191,7 +194,7 @@ Outcome unite(const Complex& input, repairing::State& state, const RepairOptions
   std::vector<std::uint8_t> keep(state.facets.size());
   for (std::size_t f = 0; f < keep.size(); ++f)
     keep[f] = material[division.sides[f][0]] != material[division.sides[f][1]];
-  keep_only(state, keep);
+  keep_only(state, holes, keep);
   return Outcome::done;
 }
 

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 
 #include "exact/predicates.h"
+#include "mesh/disjoint_sets.h"
 #include "numbers/sorted.h"
 #include "plane/triangulate.h"
 #include "repair/borders.h"
@@ -160,6 +162,31 @@ std::set<std::size_t> unfit(const State& state, std::size_t before,
   return found;
 }
 
+/// Facets in parts of which each is connected by sides.
+std::vector<std::vector<Index>> connected_parts(const State& state, std::span<const Index> facets) {
+  DisjointSets sets(facets.size());
+  std::map<Segment, Index> with_side;
+  for (Index k = 0; k < facets.size(); ++k) {
+    const Triangle& t = state.facets[facets[k]];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [a, b] = std::minmax(t[i], t[(i + 1) % 3]);
+      sets.unite(k, with_side.try_emplace({a, b}, k).first->second);
+    }
+  }
+  std::map<Index, std::vector<Index>> parts;
+  for (Index k = 0; k < facets.size(); ++k) parts[sets.root(k)].push_back(facets[k]);
+  std::vector<std::vector<Index>> list;
+  for (auto& [unused, part] : parts) list.push_back(std::move(part));
+  return list;
+}
+
+std::vector<Index> numbers_of(std::span<const Index> of, std::span<const Index> number) {
+  std::vector<Index> numbers;
+  for (const Index i : of)
+    if (number[i] != no_index) numbers.push_back(number[i]);
+  return numbers;
+}
+
 }  // namespace
 
 Holes fill_holes(State& state, std::size_t most_sides, const Step& step, const Threads& threads) {
@@ -202,6 +229,26 @@ Holes fill_holes(State& state, std::size_t most_sides, const Step& step, const T
     }
   }
   return holes;
+}
+
+void renumber(Holes& holes, const State& state, std::span<const Index> facet_number,
+              std::span<const Index> vertex_number) {
+  std::vector<RepairResult::Filled> left;
+  for (const auto& [border, facets, is_plane] : holes.filled) {
+    std::vector<Index> kept = numbers_of(facets, facet_number);
+    if (kept.size() == facets.size()) {
+      left.push_back({numbers_of(border, vertex_number), std::move(kept), is_plane});
+      continue;
+    }
+    for (std::vector<Index>& part : connected_parts(state, kept)) {
+      std::vector<Triangle> triangles;
+      for (const Index f : part) triangles.push_back(state.facets[f]);
+      std::vector<Loop> loops = border_loops(Complex{state.vertices, triangles, {}, {}, {}});
+      left.push_back({std::move(loops.at(0)), std::move(part), is_plane});
+    }
+  }
+  holes.filled = std::move(left);
+  for (RepairResult::LeftOpen& hole : holes.left_open) hole.border = numbers_of(hole.border, vertex_number);
 }
 
 }  // namespace holdfast::repairing

@@ -47,7 +47,7 @@ Box box_round(const State& state, std::span<const Index> corners, double margin)
   return box;
 }
 
-void drop_unused(State& state) {
+std::vector<Index> drop_unused(State& state) {
   std::vector<Index> number(state.vertices.size(), no_index);
   for (Index v = 0; v < state.input_vertices; ++v) number[v] = v;
   const auto use = [&](const auto& entities) {
@@ -70,6 +70,7 @@ void drop_unused(State& state) {
   };
   renumber(state.facets);
   renumber(state.segments);
+  return number;
 }
 
 KnownElements::KnownElements(const State& state, const Elements& elements) {

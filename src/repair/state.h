@@ -60,8 +60,9 @@ struct KnownElements {
 /// The box of some vertices, wider by a margin on all sides.
 [[nodiscard]] Box box_round(const State& state, std::span<const Index> corners, double margin);
 
-/// Takes out vertices that are not the input's and that nothing uses.
-void drop_unused(State& state);
+/// Takes out vertices that are not the input's and that nothing uses. Returns the new numbers, `no_index` of
+/// what went.
+std::vector<Index> drop_unused(State& state);
 
 /// The input as it came.
 [[nodiscard]] State state_of(const Complex& complex);

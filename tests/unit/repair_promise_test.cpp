@@ -6,6 +6,7 @@
 
 #include "holdfast/check_repair.h"
 #include "holdfast/repair.h"
+#include "small_surfaces.h"
 
 namespace holdfast {
 namespace {
@@ -67,6 +68,48 @@ TEST(RepairPromise, TheTipOfANeedleStays) {
                                {-0.30908247440936598, -0.25587319789163737, -0.64879117766771932}},
                               {{6, 7, 2}, {3, 1, 2}, {4, 0, 5}})),
             "");
+}
+
+/// A box without its side at the top.
+void add_open_box(Surface& surface, const Point& low, const Point& high) {
+  small::add_box(surface, low, high);
+  const auto side = surface.facets.end() - 10;
+  surface.facets.erase(side, side + 2);
+}
+
+// A union takes fillings, or a part of one, and moves what comes behind.
+TEST(RepairPromise, FillingsThatAUnionLeavesAreToldByTheirNumbers) {
+  RepairOptions options;
+  options.unite = true;
+  options.fill_holes = 100;
+  Surface surface = small::box({0, 0, 0}, {4, 4, 4});
+  add_open_box(surface, {1, 1, 1}, {2, 2, 2});    // inside
+  add_open_box(surface, {3, 3, 3}, {6, 5, 3.5});  // in part
+  add_open_box(surface, {7, 7, 7}, {8, 8, 8});    // outside
+  EXPECT_EQ(broken(surface, options), "");
+  EXPECT_EQ(repair(surface, options).filled.size(), 1u);
+
+  // The filling of a square, whose diagonal is an edge of a prism round one half.
+  Surface half = small::surface_of(
+      {{-1, -1, 0.5}, {2, 2, 0.5}, {2, 2, 2}, {-1, -1, 2}, {2, -1, 0.5}, {2, -1, 2}, {0, 0, 1}, {1, 1, 1}},
+      {{0, 6, 1},
+       {1, 6, 7},
+       {1, 7, 2},
+       {2, 7, 6},
+       {2, 6, 3},
+       {3, 6, 0},
+       {0, 5, 3},
+       {0, 4, 5},
+       {1, 5, 4},
+       {1, 2, 5},
+       {0, 1, 4},
+       {2, 3, 5}});
+  add_open_box(half, {0, 0, 0}, {1, 1, 1});
+  EXPECT_EQ(broken(half, options), "");
+  const RepairResult united = repair(half, options);
+  ASSERT_EQ(united.filled.size(), 1u);
+  EXPECT_EQ(united.filled[0].facets.size(), 1u);
+  EXPECT_EQ(united.filled[0].border.size(), 3u);
 }
 
 // Sheets that are made one come first: how far that moved them counts in whatever begins again from there.
