@@ -119,6 +119,10 @@ class Arranging {
     cut_.resize(sheets_.size());
     const std::thread::id caller = std::this_thread::get_id();
     std::size_t done = 0;
+    // Points of one sheet may be counted again by others; so many are too many without them.
+    constexpr std::size_t kFar = 16;
+    const std::size_t far_too_many =
+        options_.most_points < SIZE_MAX / kFar ? kFar * options_.most_points : SIZE_MAX;
     parallel_ranges(options_.threads, sheets_.size(), [&](std::size_t first, std::size_t last) {
       const bool tells = std::this_thread::get_id() == caller;
       std::size_t polls = 0;
@@ -128,8 +132,8 @@ class Arranging {
       };
       for (std::size_t k = first; k < last; ++k) {
         const Gathered& sheet = sheets_[k];
-        cut_[k] = triangulate({sheet.facets, sheet.points, sheet.traces, sheet.on_sides}, complex_, elements_,
-                              pool_, crossings, poll);
+        cut_[k] = triangulate({sheet.facets, sheet.points, sheet.traces, sheet.on_sides, far_too_many},
+                              complex_, elements_, pool_, crossings, poll);
         if (tells) done = k;
       }
     });

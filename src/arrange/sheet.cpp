@@ -6,6 +6,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "arrange/arrange.h"
 #include "arrange/fits_rounded.h"
 #include "arrange/flat_mesh.h"
 #include "exact/predicates.h"
@@ -74,6 +75,7 @@ class SheetPoints {
     crossings_.push_back(&crossing);
     return points_.add(exact::projected(crossing.point, given_.axis), given_.flat(crossing.nearest));
   }
+  [[nodiscard]] std::size_t crossings() const { return crossings_.size(); }
   std::vector<CrossingPoint*> take_crossings() { return std::move(crossings_); }
 
  private:
@@ -211,6 +213,7 @@ void insert_traces(const Given& given, SheetPoints& points, FlatMesh& mesh, Cros
                    const plane::Poll& poll) {
   SheetLines lines(given, crossings);
   const FlatMesh::Crossing cross = [&](std::uint32_t a, std::uint32_t b) {
+    if (points.crossings() >= given.input.most_crossings) throw TooManyPoints(points.crossings() + 1);
     return points.add_crossing(lines.crossing(a, b));
   };
   const auto insert = [&](const std::array<Index, 2>& ends, const Line& line) {

@@ -41,6 +41,7 @@ struct SheetInput {
   std::span<const Index> points;
   std::span<const Trace> traces;
   std::span<const PointOnSide> on_sides;  ///< of points and ends of traces; need not be all
+  std::size_t most_crossings = SIZE_MAX;  ///< of traces; more of them throw TooManyPoints
 };
 
 struct SheetTriangles {

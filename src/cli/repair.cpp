@@ -11,6 +11,7 @@
 #include "holdfast/surface_io.h"
 #include "limits.h"
 #include "page.h"
+#include "repair_hints.h"
 #include "repair_result.h"
 #include "report.h"
 #include "signals.h"
@@ -60,7 +61,7 @@ Json options_of(const RepairArguments& arguments) {
 }
 
 /// Says how the run ended and what the user can do; returns the exit code.
-int conclude(const RepairArguments& arguments, const RepairResult& result) {
+int conclude(const RepairArguments& arguments, const Surface& given, const RepairResult& result) {
   switch (result.outcome) {
     case Outcome::done:
       if (!arguments.quiet) say("{}: {}\n", arguments.output.string(), summary_of(result));
@@ -71,10 +72,11 @@ int conclude(const RepairArguments& arguments, const RepairResult& result) {
       return tell_limit(result.outcome, result.message);
     case Outcome::not_representable:
       say("holdfast: {}; {} was not written\n", result.message, arguments.output.string());
-      if (arguments.exact.empty())
-        say("--exact FILE writes the exact arrangement; a larger --weld may help\n");
-      else
+      say("{}\n", what_may_help(given, to_options(arguments)));
+      if (!arguments.exact.empty())
         say("the exact arrangement is in {}\n", arguments.exact.string());
+      else if (arguments.join == 0)
+        say("--exact FILE writes the exact arrangement\n");
       return exit_not_representable;
     case Outcome::invalid_input:
       break;
@@ -113,7 +115,11 @@ int run(const RepairArguments& arguments) {
   cancel_at_once();
   const Surface surface =
       read_surfaces(arguments.surfaces, reading(options, arguments.input_format, arguments.tolerance));
-  if (!arguments.quiet) tell(surface.remarks);
+  if (!arguments.quiet) {
+    tell(surface.remarks);
+    if (const std::string told = told_below_last_bit(surface, arguments.weld); !told.empty())
+      say("note: {}\n", told);
+  }
 
   cancel_by_flag();  // from here on files are open
   watch_writing(writing, options);
@@ -131,7 +137,7 @@ int run(const RepairArguments& arguments) {
     write_json(arguments.report, report);
     write_html(arguments, options, surface, result, report);
   }
-  return conclude(arguments, result);
+  return conclude(arguments, surface, result);
 }
 
 }  // namespace

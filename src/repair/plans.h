@@ -25,6 +25,10 @@ inline constexpr double kMostInPlane = 0x1p6;
 /// How many facets joining may make of so many in a plane. Where it makes more, it does not end well.
 constexpr std::size_t most_in_plane(std::size_t facets) { return 64 + 2 * facets; }
 
+/// How many new points so many facets in a plane may have. Those that lie in each other have some for each;
+/// many times as many come of facets all of which lie across each other along a line, and take long.
+constexpr std::size_t most_points_in_plane(std::size_t facets) { return 64 + 32 * facets; }
+
 /// Last bits by which sheets that are made one may be apart. In the latter plans vertices of the input that
 /// are as near to each other become one before.
 inline constexpr std::array kFlatPlans{Plan{0x1p2, false}, Plan{0x1p6, false}};

@@ -60,8 +60,12 @@ class Rounding {
   void begin() {
     given_ = rounded_.state;
     given_displacement_ = rounded_.displacement;
-    new_points_[0] = cut(options_.most_points).value_or(0);
-    if (rounded_.is_valid) return;
+    const std::optional<std::size_t> points =
+        cut(is_plane_ ? std::min(options_.most_points, most_points_in_plane(given_.facets.size()))
+                      : options_.most_points);
+    grows_ = is_plane_ && !points;
+    new_points_[0] = points.value_or(0);
+    if (rounded_.is_valid || grows_) return;
     if (!is_plane_) {
       const std::size_t much = kMany + new_points_[0];
       trouble_ = trouble_of(rounded_.state, here(), threads_, much);
@@ -347,7 +351,7 @@ class Rounding {
     try {
       arrangement = arrangement_of(rounded_.state, most_points, here(), threads_);
     } catch (const arrange::TooManyPoints& many) {
-      if (report_.rounds == 0) throw;
+      if (report_.rounds == 0 && !is_plane_) throw;
       too_many_ = many.count();
       return std::nullopt;
     }

@@ -119,6 +119,15 @@ class WhatIsMade(Repaired):
         self.check("in.off")
         self.assertEqual(len(self.report()["moved"]), 4)
 
+    def test_a_length_to_weld_below_the_last_bit_is_told(self):
+        """Far from the origin, where places are 4.7e-10 apart."""
+        self.write("in.off", off([(x + 3e6, y, z) for x, y, z in cube()], CUBE_FACETS))
+        def told(length):
+            return self.run_program("repair", "in.off", "-o", "out.off", "--weld", length).stderr
+        self.assertIn("--weld 1e-10 is less than the last bit of the largest coordinate, 4.7e-10", told("1e-10"))
+        self.assertNotIn("last bit", told("1e-9"))
+        self.assertNotIn("last bit", told("0"))
+
     def test_holes(self):
         self.write("in.off", off(cube(), CUBE_FACETS[1:]))
         self.repair("in.off", options=["--fill-holes"])

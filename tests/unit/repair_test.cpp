@@ -436,5 +436,21 @@ TEST(Repair, LimitsEndIt) {
   EXPECT_NE(many.message.find("more than 10 new points"), std::string::npos) << many.message;
 }
 
+// Two combs across each other in one plane: the points are counted while they are made.
+TEST(Repair, ASheetWithFarTooManyPointsEndsEarly) {
+  Surface combs;
+  constexpr int kTeeth = 40;
+  for (int k = 0; k < kTeeth; ++k) {
+    const double at = k, beside = k + 0.3;
+    small::add_triangle(combs, {at, -1, 0}, {beside, -1, 0}, {at, kTeeth, 0});
+    small::add_triangle(combs, {-1, at, 0}, {-1, beside, 0}, {kTeeth, at, 0});
+  }
+  RepairOptions options;
+  options.most_points = 10;
+  const RepairResult many = repair(combs, options);
+  EXPECT_EQ(many.outcome, Outcome::memory_limit);
+  EXPECT_NE(many.message.find("(161 so far)"), std::string::npos) << many.message;
+}
+
 }  // namespace
 }  // namespace holdfast

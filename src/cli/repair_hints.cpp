@@ -1,0 +1,62 @@
+#include "repair_hints.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace holdfast::cli {
+namespace {
+
+/// The last bit of the largest coordinate.
+double last_bit(const Surface& surface) {
+  double most = 0;
+  for (const Point& p : surface.vertices)
+    for (const double x : p)
+      if (std::isfinite(x)) most = std::max(most, std::fabs(x));
+  return std::nextafter(most, std::numeric_limits<double>::infinity()) - most;
+}
+
+/// How many of the sides of triangles are no longer than that, in parts of all.
+double share_of_sides(const Surface& surface, double length) {
+  std::size_t sides = 0, shorter = 0;
+  for (const Triangle& t : surface.facets)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index v = t[i], w = t[(i + 1) % 3];
+      if (v >= surface.vertices.size() || w >= surface.vertices.size()) continue;
+      const Point &p = surface.vertices[v], &q = surface.vertices[w];
+      ++sides;
+      shorter += std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) <= length ? 1 : 0;
+    }
+  return sides == 0 ? 0 : static_cast<double>(shorter) / static_cast<double>(sides);
+}
+
+/// The least power of ten that is not below.
+double power_of_ten_above(double length) { return std::pow(10, std::ceil(std::log10(length))); }
+
+}  // namespace
+
+std::string what_may_help(const Surface& given, const RepairOptions& options) {
+  if (options.join > 0) return fmt::format("less than --join {}, or none, may help", options.join);
+  constexpr double kMany = 0.1;
+  if (const double share = share_of_sides(given, options.weld); options.weld > 0 && share >= kMany)
+    return fmt::format("{:.0f} % of all sides are no longer than --weld {}: less may help", 100 * share,
+                       options.weld);
+  // Where nothing else helps, `repair` makes one of vertices that are so near.
+  constexpr double kTried = 0x1p32;
+  const double tried = std::max(kTried * last_bit(given), options.weld);
+  return fmt::format(
+      "vertices that are within {:.2g} of each other were made one to no avail: --weld {:g} may help", tried,
+      power_of_ten_above(2 * tried));
+}
+
+std::string told_below_last_bit(const Surface& given, double weld) {
+  const double bit = last_bit(given);
+  if (weld == 0 || weld >= bit) return {};
+  return fmt::format(
+      "--weld {} is less than the last bit of the largest coordinate, {:.2g}: vertices are not that near",
+      weld, bit);
+}
+
+}  // namespace holdfast::cli
