@@ -39,13 +39,17 @@ double power_of_ten_above(double length) { return std::pow(10, std::ceil(std::lo
 
 std::string what_may_help(const Surface& given, const RepairOptions& options) {
   if (options.join > 0) return fmt::format("less than --join {}, or none, may help", options.join);
-  constexpr double kMany = 0.1;
-  if (const double share = share_of_sides(given, options.weld); options.weld > 0 && share >= kMany)
-    return fmt::format("{:.0f} % of all sides are no longer than --weld {}: less may help", 100 * share,
-                       options.weld);
+  if (options.weld > 0) {
+    constexpr double kMany = 0.1;
+    const double share = share_of_sides(given, options.weld);
+    if (share >= kMany)
+      return fmt::format("{:.0f} % of all sides are no longer than --weld {}: less, or none, may help",
+                         100 * share, options.weld);
+    return fmt::format("another length than --weld {}, or none, may help", options.weld);
+  }
   // Where nothing else helps, `repair` makes one of vertices that are so near.
   constexpr double kTried = 0x1p32;
-  const double tried = std::max(kTried * last_bit(given), options.weld);
+  const double tried = kTried * last_bit(given);
   return fmt::format(
       "vertices that are within {:.2g} of each other were made one to no avail: --weld {:g} may help", tried,
       power_of_ten_above(2 * tried));
