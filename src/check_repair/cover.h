@@ -22,9 +22,9 @@
 // there is a chain in t, made of images that lie within D of what they are images of, with the boundary AB +
 // BC + CA. The only such chain modulo 2 is t itself, so it covers t.
 //
-// Points of a triangle of (d), and of its edges, lie within |vw| / 2 of uv or uw, or within h of the one edge,
-// since the distance to that is a convex function, too. Their images under f and g lie within D - |vw| / 2 or
-// D - h of them, as above, and so within D of points of these edges.
+// Points of a triangle of (d), and of its edges, lie within |vw| / 2 of uv or uw, or within h of the one
+// edge, since the distance to that is a convex function, too. Their images under f and g lie within D - |vw|
+// / 2 or D - h of them, as above, and so within D of points of these edges.
 //
 // The argument holds for any K. So the search below may leave out some of the children that are named, where
 // t was folded, add triangles of the output that are as thin as D, and use edges that are sides of no

@@ -22,8 +22,9 @@ struct Holes {
 [[nodiscard]] Holes fill_holes(State& state, std::size_t most_sides, const Step& step,
                                const Threads& threads);
 
-/// What is left of them once facets and vertices have these numbers in `state`, or `no_index` where they went.
-/// Fillings without a facet are none; where some facets of one went, each connected part of the rest is one.
+/// What is left of them once facets and vertices have these numbers in `state`, or `no_index` where they
+/// went. Fillings without a facet are none; where some facets of one went, each connected part of the rest is
+/// one.
 void renumber(Holes& holes, const State& state, std::span<const Index> facet_number,
               std::span<const Index> vertex_number);
 
