@@ -17,8 +17,8 @@ namespace holdfast {
 
 /// How far improvement goes.
 struct Extent {
-  Extent(Effort of, bool brief = false)
-      : effort(of), is_brief(brief) {}  // NOLINT(google-explicit-constructor)
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  Extent(Effort of, bool brief = false) : effort(of), is_brief(brief) {}
 
   Effort effort;
   /// Where many elements are bad after a pass, most are left: for a result that is compared with another, and
