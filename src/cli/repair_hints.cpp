@@ -59,7 +59,8 @@ std::string told_below_last_bit(const Surface& given, double weld) {
   const double bit = last_bit(given);
   if (weld == 0 || weld >= bit) return {};
   return fmt::format(
-      "--weld {} is less than the last bit of the largest coordinate, {:.2g}: vertices are not that near",
+      "--weld {} is less than the last bit of the largest coordinate, {:.2g}: vertices with such coordinates "
+      "are not that near",
       weld, bit);
 }
 
