@@ -1,9 +1,10 @@
 // Reads Nastran's bulk data, .bdf, .nas and .fem: GRID, CTETRA, CTRIA3, CTRIA6, CTRIAR, CQUAD4 and rods, in
-// fields of 8 or 16 characters or between commas (MSC Nastran quick reference guide, "Bulk data entries").
-// Properties are regions and markers; names are those that HyperMesh and ANSA write into comments.
+// fields that bdf_card.h cuts. Properties are regions and markers; names are those that HyperMesh and ANSA
+// write into comments.
 #include <algorithm>
 #include <map>
 
+#include "io/bdf_card.h"
 #include "io/cells.h"
 #include "io/fields.h"
 #include "io/formats.h"
@@ -15,13 +16,6 @@
 namespace holdfast::io {
 namespace {
 
-/// A card and the fields of its lines, without their first and last, which join them.
-struct Card {
-  std::string name;  ///< in lower case, without the * of wide fields
-  std::vector<std::string_view> fields;
-  std::size_t position = 0;
-};
-
 class BdfReader {
  public:
   explicit BdfReader(const Source& source) : text_(source, '\0') {}
@@ -29,7 +23,7 @@ class BdfReader {
   MeshData read() {
     skip_to_bulk();
     while (read_card()) {
-      text_.seek(card_.position);
+      text_.seek(place_);
       use_card();
       text_.seek(behind_);
     }
@@ -98,57 +92,25 @@ class BdfReader {
     return false;
   }
 
-  static bool continues(std::string_view line) {
-    return line[0] == '+' || line[0] == '*' || line[0] == ' ' || line[0] == ',' || line[0] == '\t';
-  }
-
   bool read_card() {
     std::string_view line;
     if (!next_line(line)) return false;
     card_ = {};
-    card_.position = text_.last();
-    add_fields(line, true);
+    place_ = text_.last();
+    card_.add(line);
     for (;;) {
       behind_ = text_.position();
-      if (!next_line(line)) break;
-      if (!continues(line)) break;
-      add_fields(line, false);
+      if (!next_line(line) || !BdfCard::continues(line)) break;
+      card_.add(line);
     }
     text_.seek(behind_);
     return true;
   }
 
-  void add_fields(std::string_view line, bool first) {
-    if (line.find(',') != std::string_view::npos) {
-      std::vector<std::string_view> fields = split(line, ',');
-      if (first) set_name(fields[0]);
-      for (std::size_t i = 1; i < fields.size() && i < 9; ++i) card_.fields.push_back(fields[i]);
-      pad(card_.fields.size() % 8 == 0 ? 0 : 8 - card_.fields.size() % 8);
-      return;
-    }
-    const std::string_view head = trimmed(line.substr(0, 8));
-    const bool wide = head.find('*') != std::string_view::npos;
-    if (first) set_name(head);
-    const std::size_t width = wide ? 16 : 8, count = wide ? 4 : 8;
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t begin = 8 + i * width;
-      card_.fields.push_back(begin < line.size() ? trimmed(line.substr(begin, width)) : std::string_view());
-    }
-  }
-
-  void pad(std::size_t count) { card_.fields.insert(card_.fields.end(), count, std::string_view()); }
-
-  void set_name(std::string_view head) {
-    card_.name = lower(trimmed(head));
-    while (card_.name.ends_with('*') || card_.name.ends_with(' ')) card_.name.pop_back();
-  }
-
-  [[nodiscard]] std::string_view field(std::size_t i) const {
-    return i < card_.fields.size() ? card_.fields[i] : std::string_view();
-  }
+  [[nodiscard]] std::string_view field(std::size_t i) const { return card_.field(i); }
 
   void use_card() {
-    const std::string& name = card_.name;
+    const std::string& name = card_.name();
     static_cast<void>(text_.rest_of_line());  // errors are of the card's line
     if (name == "grid") {
       read_grid();
@@ -191,7 +153,7 @@ class BdfReader {
 
   void read_element(std::size_t first, std::size_t corners, std::size_t most) {
     Element element{
-        card_.name, field(1).empty() ? 0 : id_of(text_, field(1), "a property"), {}, card_.position, corners};
+        card_.name(), field(1).empty() ? 0 : id_of(text_, field(1), "a property"), {}, place_, corners};
     if (field(1).empty()) element.property = id_of(text_, field(0), "an element's number");
     for (std::size_t i = first; i < first + most; ++i) {
       if (field(i).empty() && i >= first + corners) continue;
@@ -249,8 +211,8 @@ class BdfReader {
   }
 
   TextReader text_;
-  Card card_;
-  std::size_t behind_ = 0;
+  BdfCard card_;
+  std::size_t place_ = 0, behind_ = 0;  ///< where it begins and ends
   MeshData mesh_;
   Numbered nodes_;
   std::vector<Element> elements_;

@@ -1,4 +1,5 @@
-// *INCLUDE of .inp files: the text of the files that are named, in place of the lines that name them.
+// *INCLUDE of .inp files: the text of the files that are named, in place of the lines that name them; and
+// files that INPUT of *NODE and *ELEMENT names, behind these.
 #pragma once
 
 #include <deque>

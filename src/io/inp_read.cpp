@@ -29,6 +29,7 @@ class InpReader {
  private:
   void read_block(const InpKeyword& key) {
     if (key.name == "node") {
+      require_global(key);
       elements_.read_nodes(text_);
     } else if (key.name == "element") {
       const std::vector<std::int64_t> numbers = elements_.read(text_, key);
@@ -46,9 +47,24 @@ class InpReader {
                (!key.has("type") || lower(key.values.at("type")) == "element")) {
       surfaces_.read(text_, text_.scope().given(key.values.at("name")));
     } else {
+      require_global(key);
       if (text_.is_data()) ++skipped_[key.name];
       while (text_.is_data()) text_.next();
     }
+  }
+
+  /// Coordinates that are not those of the file would make another shape.
+  void require_global(const InpKeyword& key) {
+    const auto fail = [&](const std::string& what) {
+      text_.reader().fail_at(key.place,
+                             "nodes in " + what + " are not read; save them in global coordinates");
+    };
+    if (key.name == "system" && text_.is_data()) fail("coordinates of their own (*SYSTEM)");
+    const auto system = key.values.find("system");
+    if (key.name != "node" || system == key.values.end()) return;
+    const std::string kind = lower(system->second);
+    if (kind == "c") fail("cylindrical coordinates (SYSTEM=C)");
+    if (kind == "s") fail("spherical coordinates (SYSTEM=S)");
   }
 
   /// The lines of its part, then its own.

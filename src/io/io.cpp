@@ -73,6 +73,7 @@ constexpr Format kFormats[] = {
     {".unv", read_unv, read_unv, write_file<write_unv>, not_in_unv},
     {".bdf", read_bdf, read_bdf, write_file<write_bdf>, not_in_bdf},
     {".nas", read_bdf, read_bdf, write_file<write_bdf>, not_in_bdf},
+    {".fem", read_bdf, read_bdf, nullptr},
     {".su2", read_su2, read_su2, write_file<write_su2>, not_in_su2},
     {".mfem", read_mfem, read_mfem, write_file<write_mfem>, not_in_mfem},
     {".vol", read_vol, read_vol, write_file<write_vol>, not_in_vol},

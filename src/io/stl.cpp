@@ -28,17 +28,18 @@ bool is_binary(std::string_view bytes) {
   if (bytes.size() == kHeader + 4 + kRecord * std::uint64_t{announced(bytes)}) return true;
   const std::size_t first = std::min(bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF"), bytes.size());
   if (lower(bytes.substr(first, 5)) != "solid") return true;
-  // Text holds no zero byte; a binary file's numbers do.
-  return bytes.find('\0') != std::string_view::npos;
+  // Text holds no zero byte, but perhaps at its end; a binary file's numbers do.
+  return bytes.find('\0') <= bytes.find_last_not_of('\0') && bytes.find('\0') != std::string_view::npos;
 }
 
 MeshData read_binary(const Source& source) {
   ByteReader bytes(source, std::endian::little, kHeader);
   const auto count = bytes.read<std::uint32_t>();
   bytes.require_items(count, kRecord, "triangles");
-  if (bytes.left() != kRecord * std::uint64_t{count})
-    bytes.fail("the header announces " + std::to_string(count) + " triangles, but " +
-               std::to_string(bytes.left() - kRecord * std::uint64_t{count}) + " more bytes follow them");
+  const std::uint64_t behind = bytes.left() - kRecord * std::uint64_t{count};
+  if (behind >= kRecord)
+    bytes.fail("the header announces " + std::to_string(count) + " triangles, but " + std::to_string(behind) +
+               " more bytes follow them");
   MeshData mesh;
   mesh.facets.reserve(count);
   mesh.vertices.reserve(count / 2);
@@ -68,6 +69,7 @@ MeshData read_binary(const Source& source) {
     set += load<std::uint16_t>(attributes + kRecord * i, std::endian::little) != 0 ? 1 : 0;
   mesh.leave_out(set, "attributes of triangles (colours, perhaps)",
                  "attribute of a triangle (its colour, perhaps)");
+  mesh.leave_out(behind, "bytes behind the triangles", "byte behind the triangles");
   return mesh;
 }
 
@@ -147,7 +149,10 @@ MeshData read_ascii(const Source& source) {
 
 MeshData read_stl(const Source& source) {
   if (source.bytes.empty()) throw FileError(source.path, "", "the file is empty");
-  return is_binary(source.bytes) ? read_binary(source) : read_ascii(source);
+  if (is_binary(source.bytes)) return read_binary(source);
+  Source text = source;
+  text.bytes = source.bytes.substr(0, source.bytes.find_last_not_of('\0') + 1);
+  return read_ascii(text);
 }
 
 }  // namespace holdfast::io

@@ -103,12 +103,18 @@ double TextReader::real(std::string_view what) {
   const char* const begin = source_.bytes.data();
   const char* const end = begin + source_.bytes.size();
   double value = 0;
-  const auto result = parse_real(begin + position_, end, value);
-  if (result.ec == std::errc::result_out_of_range) {
-    const std::string_view number(begin + position_,
-                                  static_cast<std::size_t>(result.ptr - begin) - position_);
-    fail(in_quotes(number) + " is too large for a double");
+  auto result = parse_real(begin + position_, end, value);
+  std::string number;  // where it has to be spelled otherwise
+  if (result.ptr != end && (*result.ptr == 'D' || *result.ptr == 'd')) {  // Fortran's exponent, 1.5D+3
+    number = source_.bytes.substr(position_, word_end(position_) - position_);
+    number[static_cast<std::size_t>(result.ptr - begin) - position_] = 'e';
+    result = parse_real(number.data(), number.data() + number.size(), value);
+    result.ptr = begin + position_ + (result.ptr - number.data());
   }
+  if (result.ec == std::errc::result_out_of_range)
+    fail(
+        in_quotes(source_.bytes.substr(position_, static_cast<std::size_t>(result.ptr - begin) - position_)) +
+        " is too large for a double");
   if (result.ec != std::errc()) fail_expected(what);
   position_ = static_cast<std::size_t>(result.ptr - begin);
   if (!delimiter_at(position_)) fail_expected(what);

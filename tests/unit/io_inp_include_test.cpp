@@ -44,6 +44,22 @@ TEST_F(InpInclude, FilesStandForTheirLines) {
   }
 }
 
+TEST_F(InpInclude, FilesOfNodesAndElementsStandBehindTheirKeywords) {
+  put(folder_ / "nodes.txt", "1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1");
+  put(folder_ / "elements.txt", "1, 1, 2, 3, 4\n");
+  for (const char* text : {"*NODE, INPUT=nodes.txt\n*ELEMENT, TYPE=C3D4, INPUT=elements.txt\n",
+                           "*Node, nset=all,\r\n Input = \"nodes.txt\"\r\n*Element,\r\ntype=C3D4,\r\n"
+                           "input=elements.txt\r\n*STEP"}) {
+    const Volume volume = read(text);
+    EXPECT_EQ(volume.vertices.size(), 4u) << text;
+    EXPECT_EQ(volume.tetrahedra, (std::vector<Tetrahedron>{{0, 1, 2, 3}})) << text;
+  }
+  put(folder_ / "bad.txt", "2, 1, 2, 3, 4\n3, 1, 2, 3, 9\n");
+  EXPECT_EQ(error("*NODE, INPUT=nodes.txt\n*ELEMENT, TYPE=C3D4, INPUT=bad.txt\n"),
+            "bad.txt: line 2: the node 9 does not exist");
+  EXPECT_EQ(error("*NODE, INPUT=none.txt\n"), "none.txt: no such file");
+}
+
 TEST_F(InpInclude, ErrorsNameTheFileAndItsLine) {
   put(folder_ / "bad.inp", "** a comment\n*ELEMENT, TYPE=C3D4\n2, 1, 2, 3, 9\n");
   EXPECT_EQ(error("*INCLUDE, INPUT=all.msh\n*INCLUDE, INPUT=bad.inp\n"),

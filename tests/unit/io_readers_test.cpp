@@ -134,14 +134,23 @@ TEST(Stl, BinaryMayStartWithSolid) {
   EXPECT_EQ(surface(binary_stl("solid", triangles), "a.stl").vertices.size(), 4u);
 }
 
+TEST(Stl, BytesBehindTheTrianglesThatAreNoneAreLeftOut) {
+  const std::string bytes = binary_stl("solid x", {{0, 0, 0, 1, 0, 0, 0, 1, 0}});
+  const Surface s = surface(bytes + "\r\n", "a.stl");
+  EXPECT_EQ(s.facets.size(), 1u);
+  ASSERT_EQ(s.remarks.size(), 1u);
+  EXPECT_EQ(s.remarks[0].message, "2 bytes behind the triangles are left out");
+  EXPECT_EQ(surface(kStl + std::string(100, '\0'), "a.stl").facets, surface(kStl, "a.stl").facets);
+}
+
 TEST(Stl, Errors) {
   const std::vector<std::array<float, 9>> triangles(3, {0, 0, 0, 1, 0, 0, 0, 1, 0});
   const std::string bytes = binary_stl("solid x", triangles);
   EXPECT_EQ(
       error(bytes.substr(0, 200), "a.stl"),
       "byte 84: 3 triangles are announced, but only 116 bytes follow; the file is truncated or damaged");
-  EXPECT_EQ(error(bytes + "xy", "a.stl"),
-            "byte 84: the header announces 3 triangles, but 2 more bytes follow them");
+  EXPECT_EQ(error(bytes + std::string(50, 'x'), "a.stl"),
+            "byte 84: the header announces 3 triangles, but 50 more bytes follow them");
   EXPECT_EQ(error("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n", "a.stl"),
             "line 6: expected 'vertex', found 'endloop'");
   EXPECT_EQ(error("solid x\n", "a.stl"),

@@ -245,6 +245,12 @@ TEST(SolverFormats, BadFilesAreToldByTheirLines) {
   EXPECT_EQ(error("a.inp", "*NODE\n1, 0, 0, 0\n1, 0, 0, 0\n"), "the node 1 is there twice");
   EXPECT_EQ(error("a.inp", "*NODE\n1, 0, 0, 0\n*SURFACE, NAME=s\n5, S1\n"),
             "line 4: the element 5 does not exist");
+  EXPECT_EQ(
+      error("a.inp", "*SYSTEM\n1, 0, 0\n*NODE\n1, 0, 0, 0\n"),
+      "line 1: nodes in coordinates of their own (*SYSTEM) are not read; save them in global coordinates");
+  EXPECT_EQ(
+      error("a.inp", "*NODE, SYSTEM=C\n1, 1, 90, 0\n"),
+      "line 1: nodes in cylindrical coordinates (SYSTEM=C) are not read; save them in global coordinates");
   EXPECT_EQ(error("a.unv", "    -1\n  2411\n         1\n"),
             "line 4: the file ends where -1, which ends a dataset, is expected; it is truncated");
   EXPECT_EQ(error("a.unv", "-1\n2411\n1 1 1 1\n0 0 0\n-1\n-1\n2412\n1 117 1 1 7 1\n1\n-1\n").substr(0, 32),
@@ -289,6 +295,40 @@ TEST(SolverFormats, BulkDataOfOtherPrograms) {
   EXPECT_EQ(volume.tetrahedra.size(), 1u);
   EXPECT_EQ(volume.regions, (std::vector<int>{5}));
   EXPECT_EQ(volume.vertices[3], (Point{0, 0, 1}));
+}
+
+TEST(SolverFormats, FieldsOfBulkData) {
+  const std::string tetrahedron = "CTETRA         9       5       1       2       3       4\n";
+  const std::vector<std::string> variants = {
+      // Four wide fields a line, also between commas, with and without what joins the lines.
+      "GRID*,1,,0.,0.\n*,0.\nGRID*,2,,1.,0.,*\n*,0.\nGRID*,3,,0.,1.,*N\n*N,0.\nGRID*,4,,0.,0.\n*,1.\n" +
+          tetrahedron,
+      // Tabs go to columns of eight.
+      "GRID\t1\t\t0.\t0.\t0.\nGRID\t2\t0\t1.\t0.\t0.\nGRID\t       3\t0.\t1.\t0.\n"
+      "GRID*\t4\t\t\t\t0.\t\t0.\n*\t1.\nCTETRA\t9\t5\t1\t2\t3\t4\n",
+      // Between blanks, and in no columns.
+      "GRID 1 0 0. 0. 0.\nGRID    2   0  1. 0. 0.\nGRID 3 0 0. 1. 0.\nGRID* 4 0 0. 0. *\n* 1.\n"
+      "CTETRA 9 5 1 2 3 4\n",
+      "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID   *               4                "
+      "              0.              0.\n*                     1.\n" +
+          tetrahedron};
+  const TemporaryFolder folder;
+  for (const std::string& text : variants) {
+    put(folder / "a.fem", text);
+    const Volume volume = read_volume(folder / "a.fem");
+    EXPECT_EQ(volume.vertices, (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}})) << text;
+    EXPECT_EQ(volume.tetrahedra, (std::vector<Tetrahedron>{{0, 1, 2, 3}})) << text;
+    EXPECT_EQ(volume.regions, (std::vector<int>{5})) << text;
+  }
+}
+
+TEST(SolverFormats, ALongLineOfBulkDataKeepsItsNodes) {
+  const TemporaryFolder folder;
+  put(folder / "a.bdf",
+      "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,0.,2.,0.\nGRID,4,,0.,0.,2.\nGRID,5,,1.,0.,0.\n"
+      "GRID,6,,1.,1.,0.\nGRID,7,,0.,1.,0.\nGRID,8,,0.,0.,1.\nGRID,9,,1.,0.,1.\nGRID,10,,0.,1.,1.\n"
+      "CTETRA,9,5,1,2,3,4,5,6,7,8,9,10\n");
+  EXPECT_EQ(read_volume(folder / "a.bdf").mid_nodes.points.size(), 6u);
 }
 
 TEST(SolverFormats, BulkDataWithSomeNodesOnEdges) {

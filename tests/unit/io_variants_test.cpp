@@ -53,6 +53,15 @@ std::string gzip(const std::string& bytes) {
   return packed;
 }
 
+TEST_F(Variants, ExponentsOfFortran) {
+  const std::string head = "MeshVersionFormatted 1\nDimension 3\nVertices 3\n0.0D+00 0 0 0\n",
+                    tail = " 0 0\n0 1d+1 0 0\nTriangles 1\n1 2 3 0\nEnd\n";
+  const Surface s = surface(head + "-1.5D-01 0" + tail, "a.mesh");
+  EXPECT_EQ(s.vertices, (std::vector<Point>{{0, 0, 0}, {-0.15, 0, 0}, {0, 10, 0}}));
+  EXPECT_EQ(error(head + "1.5D+999 0" + tail, "a.mesh"), "line 5: '1.5D+999' is too large for a double");
+  EXPECT_EQ(error(head + "1.5D 0" + tail, "a.mesh"), "line 5: expected a coordinate, found '1.5D'");
+}
+
 TEST_F(Variants, BinaryOff) {
   for (const bool normals : {false, true}) {
     const Surface s = surface(binary_off(normals), "a.off");
