@@ -142,7 +142,7 @@ void write_html(const MeshArguments& arguments, const Limits& limits, const Surf
   const bool done = result.outcome == Outcome::done;
   if (!done && result.outcome != Outcome::invalid_input && result.outcome != Outcome::not_representable)
     return;
-  PageOfRun page(arguments.html, limits);
+  PageOfRun page(arguments.html, limits_of_page(limits, result.outcome));
   const std::string input = arguments.surfaces.front().filename().string();
   page.set_title(input);
   if (done) page.add(arguments.output.path.filename().string(), result.volume);

@@ -13,6 +13,10 @@ void add_html_option(CLI::App& command, std::filesystem::path& page) {
       ->option_text("FILE.html");
 }
 
+Limits limits_of_page(const Limits& limits, Outcome outcome) {
+  return outcome == Outcome::done ? Limits{} : limits;
+}
+
 PageOfRun::PageOfRun(std::filesystem::path path, const Limits& limits) : path_(std::move(path)) {
   static_cast<Limits&>(options_) = limits;
   options_.progress = goes_on;

@@ -15,6 +15,9 @@ namespace holdfast::cli {
 /// Adds --html.
 void add_html_option(CLI::App& command, std::filesystem::path& page);
 
+/// Those of the page of a run that ended so: none where what it has made is there under its name.
+Limits limits_of_page(const Limits& limits, Outcome outcome);
+
 /// Collects the parts of a page and writes it. What it is given must outlive it.
 class PageOfRun {
  public:

@@ -91,9 +91,9 @@ void write_html(const RepairArguments& arguments, const Limits& limits, const Su
   const bool done = result.outcome == Outcome::done;
   if (!done && result.outcome != Outcome::not_representable) return;
   DiagnoseOptions options;
-  static_cast<Limits&>(options) = limits;
+  static_cast<Limits&>(options) = limits_of_page(limits, result.outcome);
   options.progress = goes_on;
-  PageOfRun page(arguments.html, limits);
+  PageOfRun page(arguments.html, limits_of_page(limits, result.outcome));
   const std::string name = arguments.surfaces.front().filename().string();
   page.set_title(name);
   page.add(name + ", before", before, diagnose(before.view(), options));

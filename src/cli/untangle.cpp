@@ -99,7 +99,7 @@ void write_html(const UntangleArguments& arguments, const Limits& limits, const 
   const bool done = result.outcome == Outcome::done;
   if (!done && result.outcome != Outcome::not_representable && result.outcome != Outcome::invalid_input)
     return;
-  PageOfRun page(arguments.html, limits);
+  PageOfRun page(arguments.html, limits_of_page(limits, result.outcome));
   const std::string name = arguments.input.filename().string();
   page.set_title(name);
   if (done) page.add(arguments.output.filename().string() + ", after", result.volume);

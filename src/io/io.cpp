@@ -330,7 +330,7 @@ void write_volume(const std::filesystem::path& path, const Volume& volume, const
   io::require_consistent(volume);
   io::Watch watch(options, options.progress);
   writer.write(path, volume, options, watch);
-  watch.finish();
+  watch.finish_written();
 }
 
 void write_bytes(const std::filesystem::path& path, std::string_view bytes) {

@@ -62,7 +62,7 @@ void write_pieces(const std::filesystem::path& path, std::size_t parts, const Pi
     throw FileError(path, "", "the format " + io::in_quotes(extension) + " is not written in pieces");
   io::Watch watch(options, options.progress);
   format->write(path, parts, load, options, watch);
-  watch.finish();
+  watch.finish_written();
 }
 
 }  // namespace holdfast

@@ -118,7 +118,7 @@ void write_plane(const std::filesystem::path& path, const PlaneMesh& mesh, const
     extension == ".off" ? io::write_off(out, mesh) : io::write_grid(out, mesh, options);
     out.commit();
   }
-  watch.finish();
+  watch.finish_written();
 }
 
 }  // namespace holdfast

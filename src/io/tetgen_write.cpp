@@ -61,7 +61,7 @@ class Writer {
       file->finish();
     }
     for (const auto& file : open_) file->commit();
-    watch_.finish();
+    watch_.finish_written();
   }
 
  private:

@@ -19,6 +19,13 @@ class Watch {
   void step() { monitor_.poll(share_); }
   void step(double share) { monitor_.poll(share_ = share); }
   void finish() { monitor_.tell(1); }
+  /// Files that were written have their names by now: it is too late for limits.
+  void finish_written() {
+    try {
+      finish();
+    } catch (const Interrupted&) {
+    }
+  }
 
  private:
   static constexpr unsigned kBeatsAStep = 512;

@@ -76,7 +76,7 @@ void write_page(const std::filesystem::path& path, const Page& page, const PageO
   fill("@DATA@", data);
   out << rest;
   out.commit();
-  watch.finish();
+  watch.finish_written();
 }
 
 std::string page_data(const Page& page, const PageOptions& options) {

@@ -72,6 +72,16 @@ TEST(AtomicWriter, ReplacesAFileAndKeepsItsPermissions) {
   EXPECT_EQ(status.st_mode & 0777, 0640u);
 }
 
+TEST(AtomicWriter, WhatHasItsNameIsNoLongerCancelled) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.vtu", "a.node"}) {
+    WriteOptions options;
+    options.progress = [](double share) { return share < 1; };
+    EXPECT_NO_THROW(write_volume(folder / name, sample_volume(), options)) << name;
+    EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+  }
+}
+
 TEST(AtomicWriter, FollowsALink) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "sub");
