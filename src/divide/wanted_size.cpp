@@ -9,6 +9,9 @@ namespace holdfast::division {
 namespace {
 
 constexpr std::size_t kLeaf = 8;
+/// Of the size: what is told may be larger by this much. In the middle of a ball all of its surface is about
+/// as near, and would have to be looked at to find the very least.
+constexpr double kSlack = 0.9;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -76,7 +79,7 @@ double WantedSize::operator()(const Point& p) const {
     const std::size_t at = open.back();
     const Box& box = boxes_[at];
     open.pop_back();
-    if (bound(box, p) >= least) continue;
+    if (bound(box, p) >= kSlack * least) continue;
     if (box.second == 0) {
       for (std::size_t i = box.begin; i < box.end; ++i)
         least = std::min(least, sources_[i].size + gradation_ * distance(sources_[i].where, p));

@@ -11,7 +11,7 @@
 namespace holdfast::division {
 
 /// The least of h(v) + gradation * |p - v| over all vertices v, where h(v) is the mean length of the edges of
-/// facets and segments at v; at most what `limit` says.
+/// facets and segments at v, or up to a ninth more; at most what `limit` says.
 class WantedSize {
  public:
   /// Indices must be in range. `limit` may give 0 for none; so may be empty.
