@@ -116,7 +116,7 @@ def partition(runs):
     """A triangle with many partition points, as a union of mesh faces and as one face."""
     most = 60  # points that can be told apart in the figure
     surface = runs.surface("hard", "chazelle", "-n", "3")
-    (vertices, _, tets), _ = runs.mesh(surface, "--fill", "--stop-after", "partition", "--without", "flips")
+    (vertices, _, tets), _ = runs.mesh(surface, "--stop-after", "partition", "--without", "flips")
     lines = surface.read_text().split("\n")
     count, facet_count = map(int, lines[1].split()[:2])
     facets = [tuple(map(int, line.split()[1:4])) for line in lines[2 + count: 2 + count + facet_count]]

@@ -131,7 +131,7 @@ def figure_9(options, folder, path):
     """The facet that most edges pierce: before, its plane with the mesh's section; after partition, its sub-facets."""
     surface = space.made(folder, "make_paper.py", "worst", "-n", "6", "-m", "1", "--height", "0.35")
     _, triangles = space.read_off(surface)
-    points, _, _, _, report = space.mesh(options, surface, "--fill", "--without", "flips", "--stop-after", "partition")
+    points, _, _, _, report = space.mesh(options, surface, "--without", "flips", "--stop-after", "partition")
     state = report["intermediate"]
     pierced = [p.get("facet") for p in state["added"]]
     pieces = max(state["sub_facets"], key=lambda p: pierced.count(p["facet"]))

@@ -68,7 +68,10 @@ void refuse_after_end(const MeshArguments& a) {
             {"--overlap", a.overlap.has_value()}},
            beside, reason);
   if (last < Stage::suppress) refuse({{"--exact", !a.exact.empty()}}, beside, reason);
-  if (last < Stage::field_points) refuse(for_field_points(a), beside, reason);
+  if (last < Stage::field_points) {
+    refuse({{"--fill", a.fill}}, beside, "field points, which it leaves out, come later");
+    refuse(for_field_points(a), beside, reason);
+  }
   if (last < Stage::optimise)
     refuse({{"--quality", a.quality.has_value()},
             {"--without optimise", leaves_out(a, "optimise")},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -241,7 +242,12 @@ void drop_interfaces(Volume& volume) {
 std::size_t scale(AnyMesh& mesh, double factor) {
   const auto multiply = [&](std::vector<Point>& points) {
     for (Point& p : points)
-      for (double& x : p) x *= factor;
+      for (double& x : p) {
+        if (std::isfinite(x) && !std::isfinite(x * factor))
+          throw UsageError(
+              fmt::format("--scale {}: the coordinate {} becomes too large for a double", factor, x));
+        x *= factor;
+      }
   };
   if (!mesh.is_volume) {
     multiply(mesh.surface.vertices);
@@ -258,7 +264,14 @@ std::size_t scale(AnyMesh& mesh, double factor) {
     return counts.negative + counts.null;
   };
   int exponent = 0;
-  const bool rounds = std::frexp(factor, &exponent) != 0.5;
+  const auto underflows = [&](const Point& p) {
+    return std::any_of(p.begin(), p.end(), [&](double x) {
+      return x != 0 && std::abs(x * factor) < std::numeric_limits<double>::min();
+    });
+  };
+  const std::vector<Point>& vertices = mesh.volume.vertices;
+  const bool rounds =
+      std::frexp(factor, &exponent) != 0.5 || std::any_of(vertices.begin(), vertices.end(), underflows);
   const std::size_t before = rounds ? bad() : 0;
   multiply(mesh.volume.vertices);
   multiply(mesh.volume.mid_nodes.points);

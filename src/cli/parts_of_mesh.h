@@ -29,7 +29,8 @@ void take_part(AnyMesh& mesh, const Part& part);
 /// Leaves out the facets with tetrahedra on both sides.
 void drop_interfaces(Volume& volume);
 
-/// Multiplies all lengths. Returns how many tetrahedra are turned or flat only now, by rounding.
+/// Multiplies all lengths. Returns how many tetrahedra are turned or flat only now, by rounding. Throws
+/// UsageError where a coordinate becomes too large.
 [[nodiscard]] std::size_t scale(AnyMesh& mesh, double factor);
 
 }  // namespace holdfast::cli

@@ -36,7 +36,7 @@ class Usage(CliTest):
                                      ("untangle", "VOLUME TEXT", "read")]:
             described = self.run_program(command, "--help").stdout.split(option, 1)[1].split(" or OpenFOAM", 1)[0]
             for ending in set(re.findall(r"\.[a-z]\w*", known[use].split("formats are" if use == "read" else "use ", 1)[1])):
-                if ending not in (".nas", ".ucd", ".ele", ".face", ".openfoam", ".msh2"):
+                if ending not in (".nas", ".fem", ".ucd", ".ele", ".face", ".openfoam", ".msh2"):
                     with self.subTest([command, option, ending]):
                         self.assertIn(ending, described)
 
@@ -280,8 +280,7 @@ class Mesh(CliTest):
         self.make("schonhardt", "prism.off", "--twist", "50")
         for stage in "validate delaunay flips partition eliminate classify suppress field_points".split():
             with self.subTest(stage):
-                fill = [] if stage == "field_points" else ["--fill"]
-                self.run_program("mesh", "prism.off", "-o", "a.vtu", *fill, "--stop-after", stage)
+                self.run_program("mesh", "prism.off", "-o", "a.vtu", "--stop-after", stage)
 
     def test_what_stands_after_partition_is_told(self):
         self.make("chazelle", "notches.off", "-n", "2")
@@ -289,7 +288,7 @@ class Mesh(CliTest):
                   if row.startswith("3 ")]
         told = {}
         for order in ("given", "random", "halving"):
-            self.run_program("mesh", "notches.off", "-o", "a.node", "--fill", "--without", "flips", "--stop-after", "partition",
+            self.run_program("mesh", "notches.off", "-o", "a.node", "--without", "flips", "--stop-after", "partition",
                              "--order", order, "--report", "r.json")
             report = json.loads((self.folder / "r.json").read_text())
             told[order] = state = report["intermediate"]
@@ -312,7 +311,7 @@ class Mesh(CliTest):
                 corners = {v for face in pieces["faces"] for v in face}
                 self.assertTrue(corners.issuperset(facets[pieces["facet"]]))
         self.assertNotEqual(told["given"], told["halving"])
-        self.run_program("mesh", "notches.off", "-o", "a.node", "--fill", "--stop-after", "delaunay", "--report", "r.json")
+        self.run_program("mesh", "notches.off", "-o", "a.node", "--stop-after", "delaunay", "--report", "r.json")
         report = json.loads((self.folder / "r.json").read_text())
         self.assertEqual(len(report["intermediate"]["missing_facets"]), report["delaunay"]["missing_facets"])
         self.run_program("mesh", "notches.off", "-o", "a.node", "--fill", "--report", "r.json", "--order", "given")

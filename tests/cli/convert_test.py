@@ -124,6 +124,12 @@ class Convert(CliTest):
         self.assertAlmostEqual(self.info("mm.off")["volume"], 1e9, delta=1)
         for factor in ("0", "-1", "nan", "inf"):
             self.run_program("convert", "cube.off", "bad.off", "--scale", factor, expect=2)
+        for name, factor in (("mm.off", "1e306"), ("boxes.vtu", "1e308")):
+            told = self.run_program("convert", name, "bad.vtu", "--scale", factor, expect=2).stderr
+            self.assertIn("too large for a double", told)
+            self.assertNotIn("bad.vtu", self.files())
+        told = self.run_program("convert", "half.vtu", "bad.vtu", "--scale", "5e-324").stderr  # a power of two
+        self.assertIn("rounding turns or flattens", told)
 
     def test_pipes(self):
         self.boxes()

@@ -28,7 +28,7 @@ IDLE = [
     ("--size", ["--stop-after", "suppress", "--size", "0.5"]),
     ("--quality", ["--stop-after", "field_points", "--quality", "fast"]),
     ("--without points", ["--stop-after", "suppress", "--without", "points"]),
-    ("field_points", ["--stop-after", "field_points", "--fill"]),
+    ("field_points", ["--stop-after", "field_points", "--fill"]), ("--fill", ["--stop-after", "delaunay", "--fill"]),
 ]
 SENSELESS = [
     ("--size", ["--size", "0"]), ("--size", ["--size", "inf"]), ("--size", ["--size", "nan"]),
