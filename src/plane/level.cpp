@@ -100,6 +100,12 @@ void Level::measure(const Sides& sides) {
     local.push_back(scaled(places_.at(v)) - origin);
     for (const double x : local.back()) size = std::max(size, std::abs(x));
   }
+  // A few units in the last place of the largest coordinate: of a double, and of six digits.
+  constexpr int kRounding = -50, kRoundingInFile = -16;
+  const double unit = std::scalbn(most, -exponent);
+  rounding_ = std::scalbn(unit, exponent + kRounding);
+  rounding_in_file_ = std::scalbn(unit, exponent + kRoundingInFile);
+  if (size == 0) return;  // so near to each other that doubles hold no normal
   Point middle{};
   for (Point& p : local)
     for (std::size_t k = 0; k < 3; ++k) middle[k] += (p[k] /= size) / static_cast<double>(local.size());
@@ -113,11 +119,6 @@ void Level::measure(const Sides& sides) {
   double furthest = 0;
   for (const Point& p : local) furthest = std::max(furthest, std::abs(dot(normal_, p - middle)));
   deviation_ = std::scalbn(norm > 0 ? furthest / norm * size : size, exponent);
-  // A few units in the last place of the largest coordinate: of a double, and of six digits.
-  constexpr int kRounding = -50, kRoundingInFile = -16;
-  const double unit = std::scalbn(most, -exponent);
-  rounding_ = std::scalbn(unit, exponent + kRounding);
-  rounding_in_file_ = std::scalbn(unit, exponent + kRoundingInFile);
 }
 
 // Onto it no two places of a plane fall together, if the three of the base do not fall on a line.
@@ -129,8 +130,11 @@ void Level::choose_axis() {
   for (const std::size_t axis : axes) {
     if (turn(places_.at(0), places_.at(1), places_.at(third_), axis) == 0) continue;
     axis_ = axis;
-    return;
+    break;
   }
+  if (normal_[axis_] != 0) return;  // by which what is put back into space is divided
+  normal_ = {};
+  normal_[axis_] = 1;
 }
 
 }  // namespace holdfast::plane

@@ -312,6 +312,11 @@ class InSpace(CliTest):
         said = self.run_program("diagnose", "in.off", expect=3).stderr
         self.assertIn("line 7", said)
 
+    def test_points_apart_by_the_least_double_have_a_place(self):
+        self.off([(1e300, 0, 0), (1e300, 5e-324, 5e-324), (1e300, 5e-324, 0), (1e300, 0, 5e-324)], [[0, 1, 2, 3]])
+        told = self.run_program("plane", "in.off", "-o", "out.off", expect=4).stderr
+        self.assertIn("the sides 0-1 and 3-2 cross at (1e+300, 0, 0)", told)
+
 
 class Refused(CliTest):
     def refused(self, points, segments, message, **more):
