@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import operator
 import re
 import sys
 import typing
@@ -32,6 +33,14 @@ def bytes_of(amount: Optional[MemoryAmount]) -> Optional[int]:
     if not 0 < size < 2.0**63:
         raise ValueError(f"memory_limit={amount!r}: a positive amount that a machine can have is expected, in gigabytes")
     return int(size)
+
+
+def whole(value: Any, name: str) -> int:
+    """An option that is an integer: 1.5 is none."""
+    try:
+        return operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name}={value!r}: an integer is expected") from None
 
 
 def limits(

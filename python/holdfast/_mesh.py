@@ -10,7 +10,7 @@ from typing import Any, Optional, Union
 import numpy.typing as npt
 
 from . import _core
-from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits
+from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits, whole
 from ._paste import Pasted
 from ._repair import Repair
 from ._repair import repair as repair_surface
@@ -162,7 +162,7 @@ def mesh(
     if pasted is not None and repair is not False:
         raise ValueError("a pasted surface is valid: leave out repair")
     if repair is not False:
-        repaired = repair_surface(what, weld=0.0 if repair is True else float(repair), threads=int(threads),
+        repaired = repair_surface(what, weld=0.0 if repair is True else float(repair), threads=whole(threads, "threads"),
                                   time_limit=time_limit, memory_limit=memory_limit, cancel=cancel, progress=progress)
         what = repaired.surface
     options.update(
@@ -182,8 +182,8 @@ def mesh(
         optimise="optimise" not in steps,
         add_points="points" not in steps,
         order=order,
-        seed=int(seed),
-        threads=int(threads),
+        seed=whole(seed, "seed"),
+        threads=whole(threads, "threads"),
     )
     asked_size = set_size(size, options, len(what.points))
     asked_metric = set_metric(metric, options)
@@ -269,6 +269,6 @@ def delaunay(
     (1, 4)
     """
     options = limits(time_limit, memory_limit, cancel)
-    options.update(seed=int(seed), threads=int(threads))
+    options.update(seed=whole(seed, "seed"), threads=whole(threads, "threads"))
     with Shown(progress, "delaunay") as callback:
         return _core.delaunay(points_of(points), options, callback)

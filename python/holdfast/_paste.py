@@ -8,7 +8,7 @@ import typing
 from typing import Any, Optional
 
 from . import _core
-from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits
+from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits, whole
 from ._surface import Surface, _of_data, _stem, surface_of
 from .errors import _raise_unless_done
 
@@ -96,7 +96,7 @@ def paste(
     ([1, 2], 22)
     """
     options = limits(time_limit, memory_limit, cancel)
-    options.update(tolerance=float(tolerance), overlap=overlap, threads=int(threads))
+    options.update(tolerance=float(tolerance), overlap=overlap, threads=whole(threads, "threads"))
     surfaces = [surface_of(part) for part in parts]
     if names is None:
         names = [_stem(p) if isinstance(p, (str, os.PathLike)) else f"part {k}" for k, p in enumerate(parts, 1)]

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits
+from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits, whole
 from ._surface import Array, PathLike, indices_of, markers_of
 from .errors import _raise_unless_done
 
@@ -208,11 +208,11 @@ def plane(
         size=0.0 if size is None else _positive(size),
         angle=None if angle is None else float(angle),
         keep_boundary=bool(keep_boundary),
-        max_points=_MOST_POINTS if max_points is None else int(max_points),
+        max_points=_MOST_POINTS if max_points is None else whole(max_points, "max_points"),
         stop_after=stop_after,
         stop_after_swaps=swaps,
         order=order,
-        seed=int(seed),
+        seed=whole(seed, "seed"),
     )
     if isinstance(points, (str, os.PathLike)):
         if segments is not None or point_markers is not None or segment_markers is not None or list(holes) or list(regions):

@@ -8,7 +8,7 @@ from typing import Any, Optional, Union
 import numpy.typing as npt
 
 from . import _core
-from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits
+from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits, whole
 from ._surface import Array, Surface, _of_data, surface_of
 from .errors import _raise_unless_done
 
@@ -123,7 +123,7 @@ def repair(
     sides = 2**62 if fill_holes is True else int(fill_holes)
     if sides < 0 or 0 < sides < 3:
         raise ValueError(f"fill_holes={fill_holes}: a hole has three sides at least")
-    options.update(weld=float(weld), join=float(join), fill_holes=sides, union=bool(union), threads=int(threads))
+    options.update(weld=float(weld), join=float(join), fill_holes=sides, union=bool(union), threads=whole(threads, "threads"))
     what = surface_of(surface, triangles, segments=segments, triangle_markers=triangle_markers,
                       segment_markers=segment_markers)
     with Shown(progress, "repair") as callback:

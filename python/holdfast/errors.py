@@ -95,6 +95,9 @@ class FileError(HoldfastError, OSError):
         self.filename = filename
         self.where = where
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (type(self), (*self.args, self.filename, self.where))
+
     def __str__(self) -> str:
         return str(self.args[0])
 

@@ -35,7 +35,7 @@ namespace {
 
 template <class Enum>
 Enum named(const py::dict& options, const char* key) {
-  return python::named<Enum>(py::cast<std::string>(options[key]), key);
+  return python::named<Enum>(value_of<std::string>(options, key), key);
 }
 
 // A function of the user takes an array of points (m, 3) and gives m sizes, or m metrics of six numbers, or

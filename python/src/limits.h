@@ -4,16 +4,33 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <string>
+#include <type_traits>
+
 #include "holdfast/limits.h"
 
 namespace holdfast::python {
 
 namespace py = pybind11;
 
+/// The value of an option. Throws what becomes a TypeError or ValueError that names it.
+template <class Value>
+Value value_of(const py::dict& options, const char* name) {
+  const py::object value = options[name];
+  try {
+    return py::cast<Value>(value);
+  } catch (const py::cast_error&) {
+    const std::string given = std::string(name) + "=" + std::string(py::repr(value));
+    if (std::is_arithmetic_v<Value> && PyNumber_Check(value.ptr()) != 0)
+      throw py::value_error(given + " is out of range");
+    throw py::type_error(given + " has a wrong type");
+  }
+}
+
 /// Sets `to` where the dictionary has a value that is not None.
 template <class Value>
 void take(const py::dict& options, const char* name, Value& to) {
-  if (options.contains(name) && !options[name].is_none()) to = py::cast<Value>(options[name]);
+  if (options.contains(name) && !options[name].is_none()) to = value_of<Value>(options, name);
 }
 
 inline void take_limits(const py::dict& options, Limits& limits) {

@@ -53,7 +53,7 @@ std::shared_ptr<PasteResult> paste_parts(const py::list& parts, const std::vecto
   PasteOptions how;
   take_limits(options, how);
   take(options, "tolerance", how.tolerance);
-  how.overlap = named<Overlap>(py::cast<std::string>(options["overlap"]), "overlap");
+  how.overlap = named<Overlap>(value_of<std::string>(options, "overlap"), "overlap");
   take(options, "threads", how.threads);
   const Watch watch(progress);
   how.progress = [&watch](double fraction) { return watch.go_on("paste", fraction); };

@@ -26,6 +26,7 @@ struct PlaneRun {
   std::vector<Remark> remarks;
   bool stopped = false;
   std::size_t input_points = 0;
+  std::string report;  ///< of one that was pickled
 };
 
 using Seeds = std::vector<std::tuple<double, double, int, double>>;
@@ -33,7 +34,7 @@ using Seeds = std::vector<std::tuple<double, double, int, double>>;
 template <typename Enum, typename To>
 void take_named(const py::dict& options, const char* option, To& to) {
   if (!options.contains(option) || options[option].is_none()) return;
-  to = named<Enum>(py::cast<std::string>(options[option]), option);
+  to = named<Enum>(value_of<std::string>(options, option), option);
 }
 
 PlaneOptions options_from(const py::dict& options) {
@@ -130,6 +131,42 @@ void save(const PlaneRun& run, const std::string& path, const std::string& forma
   write_plane(path, run.result.mesh, how);
 }
 
+std::string report_of(const PlaneRun& run) {
+  if (!run.report.empty()) return run.report;
+  return reports::text_of(reports::to_json(run.result, reports::Json::object(), run.stopped));
+}
+
+py::tuple pickled(const py::object& self) {
+  const auto& run = self.cast<const PlaneRun&>();
+  return py::make_tuple(self.attr("points"), self.attr("triangles"), self.attr("regions"),
+                        self.attr("segments"), self.attr("point_markers"), self.attr("segment_markers"),
+                        run.result.mesh.base, run.input_points, self.attr("remarks"), report_of(run));
+}
+
+std::shared_ptr<PlaneRun> unpickled(const py::tuple& state) {
+  auto run = std::make_shared<PlaneRun>();
+  PlaneMesh& mesh = run->result.mesh;
+  const auto points = py::array_t<double, py::array::c_style | py::array::forcecast>(state[0]);
+  const auto at = points.unchecked<2>();
+  for (py::ssize_t i = 0; i < at.shape(0); ++i) {
+    if (at.shape(1) == 3)
+      mesh.in_space.push_back({at(i, 0), at(i, 1), at(i, 2)});
+    else
+      mesh.points.push_back({at(i, 0), at(i, 1)});
+  }
+  mesh.triangles = rows_from<Triangle>(state[1], "triangles");
+  mesh.regions = markers_from(state[2], "regions");
+  mesh.segments = rows_from<Segment>(state[3], "segments");
+  mesh.point_markers = markers_from(state[4], "point_markers");
+  mesh.segment_markers = markers_from(state[5], "segment_markers");
+  mesh.base = state[6].cast<int>();
+  run->input_points = state[7].cast<std::size_t>();
+  for (const auto& message : state[8].cast<std::vector<std::string>>())
+    run->remarks.push_back({RemarkKind::left_out, 1, message});
+  run->report = state[9].cast<std::string>();
+  return run;
+}
+
 template <typename See>
 auto seen(See see) {
   return [see](py::object self) { return see(self.cast<const PlaneRun&>().result.mesh, self); };
@@ -170,10 +207,8 @@ void register_plane(py::module_& module) {
                                for (const Remark& remark : r.remarks) messages.push_back(remark.message);
                                return messages;
                              })
-      .def("report",
-           [](const PlaneRun& r) {
-             return reports::text_of(reports::to_json(r.result, reports::Json::object(), r.stopped));
-           })
+      .def("report", &report_of)
+      .def(py::pickle(&pickled, &unpickled))
       .def("save", &save);
   module.def("plane", &plane_arrays);
   module.def("plane_in_space", &plane_in_space_arrays);

@@ -298,3 +298,29 @@ def test_a_large_surface_is_not_copied_in(tmp_path):
     finally:
         tracemalloc.stop()
     assert peak < 200_000, "numpy's own copies would be counted"
+
+
+@pytest.mark.parametrize(
+    "option, value, error",
+    [
+        ("threads", -1, ValueError),
+        ("threads", 10**20, ValueError),
+        ("threads", 1.5, TypeError),
+        ("seed", -1, ValueError),
+        ("seed", 2**64, ValueError),
+        ("seed", 1.5, TypeError),
+        ("keep", 5, TypeError),
+        ("quality", 3, TypeError),
+        ("cancel", 5, TypeError),
+    ],
+)
+def test_options_of_a_wrong_kind_are_named(option, value, error):
+    with pytest.raises(error, match=option):
+        holdfast.mesh(*box(), **{option: value})
+
+
+def test_file_errors_keep_their_file_when_they_are_pickled():
+    with pytest.raises(holdfast.FileError) as caught:
+        holdfast.mesh("none.stl")
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert (str(again), again.filename, again.where) == (str(caught.value), "none.stl", caught.value.where)

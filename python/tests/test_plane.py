@@ -1,6 +1,7 @@
 """Triangles in the plane: arrays and files in, read-only arrays out, and what is refused."""
 
 import json
+import pickle
 import subprocess
 from pathlib import Path
 
@@ -193,3 +194,16 @@ def test_surfaces_are_read_with_a_tolerance(tmp_path):
     for wrong in (-1, np.inf, np.nan):
         with pytest.raises(ValueError, match="tolerance"):
             holdfast.read_surface(path, tolerance=wrong)
+
+
+@pytest.mark.parametrize("points", [SQUARE, np.c_[SQUARE, SQUARE.sum(axis=1)]])
+def test_pickling(points, tmp_path):
+    mesh = holdfast.plane(points, SIDES, holes=[(1.5, 1.5, 3.0)[:points.shape[1]]])
+    again = pickle.loads(pickle.dumps(mesh))
+    for name in ("points", "triangles", "regions", "segments"):
+        assert np.array_equal(getattr(again, name), getattr(mesh, name))
+    assert again.report == mesh.report and again.n_input_points == mesh.n_input_points
+    assert again.point_markers is None and again.remarks == mesh.remarks
+    for which, name in ((mesh, "a.off"), (again, "b.off")):
+        which.save(tmp_path / name)
+    assert (tmp_path / "a.off").read_bytes() == (tmp_path / "b.off").read_bytes()
