@@ -156,6 +156,20 @@ void find_wrong_vertex_markers(const Examination& on, Findings& findings) {
       });
 }
 
+/// Faces in the sides of an enclosing box, which formats list that want every face of the boundary.
+std::vector<Triangle> faces_of_box(const Examination& on) {
+  std::vector<Triangle> found;
+  if (!on.options.box || !on.well_formed || on.volume.facets.empty()) return found;
+  on.faces.for_each([&](std::size_t begin, Triangle face, std::span<const HalfFace> halves) {
+    on.pulse();
+    if (halves.size() != 1 || on.input_face[begin]) return;
+    std::sort(face.begin(), face.end());
+    found.push_back(face);
+  });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 }  // namespace
 
 Rule regions_numbered(const Examination& on) {
@@ -198,8 +212,9 @@ Rule markers_kept(const Examination& on) {
   const Volume& volume = on.volume;
   Findings findings;
   find_wrong_vertex_markers(on, findings);
+  const std::vector<Triangle> of_box = faces_of_box(on);
   find_wrong_markers<Triangle>({"facet", on.input.facets, surface.facets, surface.facet_markers,
-                                volume.facets, volume.facet_markers, on.facets},
+                                volume.facets, volume.facet_markers, on.facets, of_box},
                                on, findings);
   // Sides of facets are kept with them, and TetGen's .edge lists them.
   std::vector<Segment> sides;

@@ -99,6 +99,28 @@ TEST(GoodMesh, BoxHoldsOnlyWhenAllowed) {
   EXPECT_EQ(broken(c), (Names{"boundary is input"})) << "a piece of the box is missing";
 }
 
+// As OpenFOAM's format wants them, which has a patch for each face of the boundary.
+TEST(GoodMesh, FacesOfTheBoxMayBeListed) {
+  Case c = in_box();
+  std::map<Triangle, int> tetrahedra_at;
+  for (const Tetrahedron& t : c.volume.tetrahedra)
+    for (std::size_t k = 0; k < 4; ++k) {
+      Triangle face{t[(k + 1) % 4], t[(k + 2) % 4], t[(k + 3) % 4]};
+      std::sort(face.begin(), face.end());
+      ++tetrahedra_at[face];
+    }
+  for (const auto& [face, count] : tetrahedra_at)
+    if (count == 1) c.volume.facets.push_back({face[1], face[0], face[2]});
+  c.volume.facet_markers.assign(c.volume.facets.size(), 0);
+  c.options.box = true;
+  EXPECT_EQ(broken(c), Names{});
+  const auto inside = std::find_if(tetrahedra_at.begin(), tetrahedra_at.end(),
+                                   [](const auto& face) { return face.second == 2; });
+  c.volume.facets.push_back(inside->first);
+  c.volume.facet_markers.push_back(0);
+  EXPECT_EQ(broken(c), (Names{"markers kept"}));
+}
+
 TEST(GoodMesh, BoxMayHaveSteinerPointsOnItsSides) {
   Case c = in_box();
   for (int i = 0; i < 8; ++i)  // input vertices first
