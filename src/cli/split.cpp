@@ -70,6 +70,9 @@ Json json_of_part(const SurfacePart& part, const fs::path& folder, std::size_t k
 void write_division(const SplitArguments& arguments, const Surface& surface, const SurfaceDivision& division,
                     const Limits& limits) {
   const fs::path& folder = arguments.folder;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw FileError(folder, "", "the folder cannot be made: " + error.message());
   WriteOptions writing;
   watch_writing(writing, limits);
   const fs::path whole = "surface.vtu";
@@ -146,10 +149,7 @@ int run(const SplitArguments& arguments) {
   const Names names = names_of(arguments.mesh.names);
   FilesOfRun files;
   files.read_surfaces(arguments.mesh.surfaces, arguments.mesh.input_format);
-  std::error_code error;
-  fs::create_directories(arguments.folder, error);
-  if (error) throw FileError(arguments.folder, "", "the folder cannot be made: " + error.message());
-  files.write("-o", arguments.folder / manifest_name);
+  files.write("-o", arguments.folder / manifest_name, true);
   cancel_at_once();
   Surface surface = read_surfaces(arguments.mesh.surfaces,
                                   reading(limits, arguments.mesh.input_format, arguments.mesh.tolerance));

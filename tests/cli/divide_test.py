@@ -126,6 +126,16 @@ class Divided(CliTest):
         (d / parts[1]["surface"]).write_text((d / parts[1]["surface"]).read_text() + "\n")
         self.assertIn("checksum", self.run_program("check", "d", expect=6).stdout)
 
+    def test_no_folder_is_left_where_nothing_is_written(self):
+        lines = (self.folder / "cube.off").read_text().splitlines()
+        self.write("open.off", "\n".join(["OFF", f"{len(CUBE_POINTS)} {len(CUBE_FACETS) - 1} 0", *lines[2:-1]]) + "\n")
+        before = self.files()
+        self.run_program("split", "open.off", "--parts", "2", "-o", "new/d", expect=4)
+        self.run_program("split", "none.off", "--parts", "2", "-o", "new/d", expect=3)
+        self.run_program("split", "cube.off", "--parts", "2", "-o", "cube.off", expect=3)
+        self.assertEqual(self.files(), before)
+        self.assertFalse((self.folder / "new").exists())
+
     def test_report_of_a_check(self):
         self.split("--size", 0.3, parts=2)
         self.mesh()
@@ -142,8 +152,9 @@ class Divided(CliTest):
         self.run_program("split", "two.off", "--parts", 2, "-o", "d", expect=4)
         self.run_program("split", "cube.off", "--parts", 0, "-o", "d", expect=2)
         self.run_program("split", "cube.off", "-o", "d", expect=2)
-        self.run_program("split", "cube.off", "--parts", 2, "-o", "cube.off", expect=3)
+        self.run_program("split", "cube.off", "--parts", "2", "-o", "cube.off", expect=3)
         self.run_program("join", "nowhere", "-o", "x.vtu", expect=3)
+        (self.folder / "d").mkdir(exist_ok=True)
         self.write("d/manifest.json", '{"format": "other"}')
         self.run_program("check", "d", expect=3)
         self.write("d/manifest.json", "{")
