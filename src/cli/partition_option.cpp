@@ -9,6 +9,7 @@
 #include "command.h"
 #include "files.h"
 #include "holdfast/partition.h"
+#include "limits.h"
 
 namespace holdfast::cli {
 namespace {
@@ -28,6 +29,7 @@ void add_partition(CLI::App& command, PartitionArguments& arguments) {
           "--partition", arguments.parts,
           "Write K pieces of equal size for K processes, each with its interfaces and a layer of ghosts "
           "(.pvtu .msh .xdmf, or OpenFOAM's processorN; by METIS)")
+      ->check(not_a_count)
       ->option_text("K");
 }
 
