@@ -12,6 +12,7 @@
 #include "io/mid_nodes.h"
 #include "io/numbered.h"
 #include "io/polygon.h"
+#include "numbers/sorted.h"
 
 namespace holdfast::io {
 namespace {
@@ -41,7 +42,6 @@ class UnvReader {
     int property;
   };
   struct Group {
-    std::string name;
     std::vector<std::int64_t> members;
   };
 
@@ -231,15 +231,17 @@ class UnvReader {
                          static_cast<Index>(after[dimension] - before[dimension]), property});
   }
 
+  // Groups of one name in a dataset are one, as where tetrahedra and triangles are both called so. The same
+  // group may stand in another dataset, with some of its elements.
   void read_groups() {
+    std::map<std::string, Group> here;
     while (next_in_dataset()) {
       const std::vector<std::string_view> head = words();
       if (head.size() < 2) text_.fail("a group's first line has eight numbers");
       const std::int64_t count = integer_of(text_, head.back(), "the number of a group's entities");
       if (count < 0) text_.fail("a group of a negative number of entities");
-      Group group;
       line_ = trimmed(text_.rest_of_line());
-      group.name = std::string(line_);
+      Group& group = here[std::string(line_)];
       for (std::int64_t read = 0; read < count;) {
         if (!next_in_dataset()) text_.fail("a group of fewer entities than it announces");
         const std::vector<std::string_view> fields = words();
@@ -249,8 +251,10 @@ class UnvReader {
           if (integer_of(text_, fields[i], "an entity's type") == 8)
             group.members.push_back(integer_of(text_, fields[i + 1], "an entity's number"));
       }
-      // The same group may stand in another dataset, with some of its elements.
-      Group& known = groups_[group.name];
+    }
+    for (auto& [name, group] : here) {
+      sort_unique(group.members);
+      Group& known = groups_[name];
       if (known.members.size() < group.members.size()) known = std::move(group);
     }
   }
