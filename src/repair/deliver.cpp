@@ -6,6 +6,9 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
+#include <set>
+#include <string>
 
 #include "exact/dyadic.h"
 #include "exact/space_point.h"
@@ -20,15 +23,16 @@ namespace {
 /// One marker for each set of parents' markers: itself if there is one, else the next free number.
 class MarkerSets {
  public:
-  explicit MarkerSets(std::span<const int> markers) {
-    for (const int m : markers) next_ = std::max(next_, std::int64_t{m} + 1);
+  MarkerSets(std::span<const int> markers, const std::map<int, std::string>& names)
+      : used_(markers.begin(), markers.end()) {
+    for (const auto& [id, name] : names) used_.insert(id);
   }
 
   int marker_of(std::vector<int> set) {
     sort_unique(set);
     if (set.size() == 1) return set[0];
     const auto [at, is_new] = number_.try_emplace(std::move(set), 0);
-    if (is_new) at->second = static_cast<int>(next_++);
+    if (is_new) used_.insert(at->second = next_free());
     return at->second;
   }
 
@@ -38,14 +42,38 @@ class MarkerSets {
     return sets;
   }
 
+  /// A set is called as all of its markers are, `rim+root`, if all have names.
+  void name(std::map<int, std::string>& names) const {
+    for (const auto& [set, number] : number_) {
+      std::string name;
+      for (const int marker : set) {
+        const auto of = names.find(marker);
+        if (of == names.end()) {
+          name.clear();
+          break;
+        }
+        name += (name.empty() ? "" : "+") + of->second;
+      }
+      if (!name.empty()) names[number] = name;
+    }
+  }
+
  private:
-  std::int64_t next_ = 1;
+  [[nodiscard]] int next_free() const {
+    int id = std::max(0, *used_.rbegin());
+    if (id == std::numeric_limits<int>::max())  // the first gap, then
+      for (id = 0; used_.contains(id + 1);) ++id;
+    return id + 1;
+  }
+
+  std::set<int> used_;
   std::map<std::vector<int>, int> number_;
 };
 
 void mark_facets(std::span<const int> markers, RepairResult& result) {
   if (markers.empty()) return;
-  MarkerSets sets(markers);
+  std::map<int, std::string>& names = result.surface.names.facets;
+  MarkerSets sets(markers, names);
   std::vector<int> set;
   for (std::size_t f = 0; f < result.surface.facets.size(); ++f) {
     set.clear();
@@ -54,6 +82,7 @@ void mark_facets(std::span<const int> markers, RepairResult& result) {
     result.surface.facet_markers.push_back(sets.marker_of(set));
   }
   result.marker_sets = sets.sets();
+  sets.name(names);
 }
 
 /// Segments carry the marker of their first parent.
@@ -149,10 +178,10 @@ void deliver(const Complex& input, Rounded rounded, RepairResult& result) {
   result.parents = lists_of(rounded.state.facet_parents);
   result.segment_parents = lists_of(rounded.state.segment_parents);
   result.max_displacement = rounded.displacement;
+  if (input.names != nullptr) result.surface.names = *input.names;
   mark_facets(input.facet_markers, result);
   mark_segments(input.segment_markers, result);
   mark_vertices(input.vertex_markers, result);
-  if (input.names != nullptr) result.surface.names = *input.names;
   list_moved(input, result);
   list_dropped(input, rounded.has_united, result);
   list_merged(input, result);
