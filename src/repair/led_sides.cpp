@@ -130,8 +130,8 @@ void LedSides::cross_sides(std::vector<Point>& vertices, const Step& step) {
     auto& [s, on_s] = *sides[crossing.first];
     auto& [t, on_t] = *sides[crossing.second];
     // Where three sides meet in a point, two of them found it first.
-    Index v = near_on(s, on_s, crossing.where);
-    if (v == no_index) v = near_on(t, on_t, crossing.where);
+    Index v = near_on(s, on_s, crossing.where, t);
+    if (v == no_index) v = near_on(t, on_t, crossing.where, s);
     if (v == no_index) {
       v = static_cast<Index>(vertices.size());
       vertices.push_back(crossing.where);
@@ -141,12 +141,20 @@ void LedSides::cross_sides(std::vector<Point>& vertices, const Step& step) {
   }
 }
 
-Index LedSides::near_on(const Side& side, const OnSide& on, const Point& p) const {
+// A vertex of one side that is near to where it passes another may still be too far from that one.
+Index LedSides::near_on(const Side& side, const OnSide& on, const Point& p, const Side& other) const {
+  const auto is_near = [&](Index v) { return length(minus(at(v), p)) <= gap_ && distance(v, other) <= gap_; };
   for (const Index v : side)
-    if (length(minus(at(v), p)) <= gap_) return v;
+    if (is_near(v)) return v;
   for (const auto& [t, v] : on.points)
-    if (length(minus(at(v), p)) <= gap_) return v;
+    if (is_near(v)) return v;
   return no_index;
+}
+
+double LedSides::distance(Index v, const Side& side) const {
+  const auto [a, b] = side;
+  return std::min(
+      {beside_side(at(v), at(a), at(b)).distance, length(minus(at(v), at(a))), length(minus(at(v), at(b)))});
 }
 
 // A piece of a side may be a side, which is led through vertices in its turn. Where that would lead back to

@@ -52,7 +52,8 @@ class LedSides {
   void put_vertices(std::span<const Index> close, const Step& step);
   void cross_sides(std::vector<Point>& vertices, const Step& step);
   [[nodiscard]] bool is_led_back(Index v, Index end) const;
-  [[nodiscard]] Index near_on(const Side& side, const OnSide& on, const Point& p) const;
+  [[nodiscard]] Index near_on(const Side& side, const OnSide& on, const Point& p, const Side& other) const;
+  [[nodiscard]] double distance(Index v, const Side& side) const;
   void part_from_itself(const Side& side, OnSide& on);
 
   [[nodiscard]] static bool meet(const std::vector<Index>& a, const std::vector<Index>& b);
