@@ -10,6 +10,7 @@
 
 #include "api/mesh.h"
 #include "api/part_components.h"
+#include "api/part_details.h"
 #include "api/parts_apart.h"
 #include "api/repairing.h"
 #include "api/turned.h"
@@ -31,6 +32,18 @@
 namespace holdfast {
 namespace {
 
+/// What names no vertex of its own part would name one of the next.
+template <class Entity>
+void require_vertices(const char* what, const std::vector<Entity>& entities, const Surface& part,
+                      std::size_t number) {
+  for (std::size_t i = 0; i < entities.size(); ++i)
+    for (const Index v : entities[i])
+      if (v >= part.vertices.size())
+        throw std::invalid_argument(what + (" " + std::to_string(i)) + " of part " +
+                                    std::to_string(number + 1) + " names vertex " + std::to_string(v) +
+                                    ", of " + std::to_string(part.vertices.size()));
+}
+
 void require_sensible(std::span<const Surface> parts, const PasteOptions& options) {
   if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
     throw std::invalid_argument("the tolerance for pasting must be finite and not negative");
@@ -43,6 +56,10 @@ void require_sensible(std::span<const Surface> parts, const PasteOptions& option
     if (!fits(part.facet_markers, part.facets) || !fits(part.segment_markers, part.segments) ||
         !fits(part.vertex_markers, part.vertices))
       throw std::invalid_argument("as many markers as entities are needed, or none");
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    require_vertices("triangle", parts[k].facets, parts[k], k);
+    require_vertices("segment", parts[k].segments, parts[k], k);
+  }
 }
 
 /// Ids of regions that mean the same in all parts.
@@ -147,12 +164,16 @@ double largest_coordinate(const Complex& complex) {
 /// How near to each other parts may be that are meant to touch: what is left when coordinates are rounded, to
 /// floats if all of them are floats.
 double rounding_of(const Complex& complex) {
+  constexpr double kMost = std::numeric_limits<float>::max();
   const auto is_float = [](double x) {
-    return !std::isfinite(x) || (std::fabs(x) <= std::numeric_limits<float>::max() &&
-                                 static_cast<double>(static_cast<float>(x)) == x);
+    return !std::isfinite(x) || (std::fabs(x) <= kMost && static_cast<double>(static_cast<float>(x)) == x);
   };
-  const bool are_floats = std::all_of(complex.vertices.begin(), complex.vertices.end(), [&](const Point& p) {
-    return std::all_of(p.begin(), p.end(), is_float);
+  // Vertices inside a volume, whose surface a part is, say nothing of that.
+  const bool are_floats = std::all_of(complex.facets.begin(), complex.facets.end(), [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](Index v) {
+      const Point& p = complex.vertices[v];
+      return std::all_of(p.begin(), p.end(), is_float);
+    });
   });
   constexpr double kDoubles = 0x1p-50, kFloats = 0x1p-21;
   return largest_coordinate(complex) * (are_floats ? kFloats : kDoubles);
@@ -250,7 +271,7 @@ PartsOfComplex parts_of(const PasteResult& pasted) {
 }
 
 /// Finds out whether parts overlap, by the regions of a mesh.
-void judge(const PasteOptions& options, const Step& step, PasteResult& result) {
+void judge(const PasteOptions& options, const std::string& advice, const Step& step, PasteResult& result) {
   Options meshing;
   static_cast<Limits&>(meshing) = options;
   meshing.keep = options.keep;
@@ -269,61 +290,83 @@ void judge(const PasteOptions& options, const Step& step, PasteResult& result) {
   if (!is_limit && !parts.refuses()) return;  // what encloses nothing is pasted, too
   result.outcome = found.outcome;
   result.message = found.message;
+  if (!is_limit && !advice.empty()) result.message += "; " + advice;
+}
+
+void end_without_surface(const PasteOptions& options, const std::string& message, const std::string& advice,
+                         PasteResult& result) {
+  result.outcome = Outcome::not_representable;
+  result.message = message;
+  if (!advice.empty())
+    result.message += "; " + advice;
+  else if (options.tolerance > 0)
+    result.message += ": the tolerance is too large for the parts' details";
+}
+
+/// Cuts what touches or crosses so that it fits; nothing where no such surface is found.
+std::optional<repairing::Rounded> fit(repairing::State state, const Complex& complex,
+                                      const PasteOptions& options, const std::string& advice,
+                                      const Step& step, const Threads& threads, PasteResult& result) {
+  const std::vector<Index>& part = result.part_of_facet;
+  const bool has_tolerance = options.tolerance > 0;
+  const double rounding = rounding_of(complex), gap = std::max(options.tolerance, rounding);
+  result.gap = gap;
+  const auto to = has_tolerance ? repairing::SnapTo::all : repairing::SnapTo::vertices;
+  double moved = repairing::snap(state, part, to, gap, step, threads);
+  repairing::glue(state, part);
+  moved += repairing::fuse(state, part, gap, rounding, step);
+  repairing::glue(state, part);
+  const auto end = [&](const std::string& message) {
+    end_without_surface(options, message, advice, result);
+    return std::nullopt;
+  };
+  const std::string within = " within " + decimal(options.tolerance) + " of ";
+  if (has_tolerance && is_hopeless(state, step, threads))
+    return end("what was brought together" + within + "each other crosses nearly everywhere");
+  ExactSurface exact;
+  RepairOptions arranging;
+  static_cast<Limits&>(arranging) = options;
+  // Details below the tolerance are what is in the way, then; that is better told than tried for long.
+  const auto trials = advice.empty() ? repairing::Trials::all : repairing::Trials::near_trouble;
+  repairing::Rounded rounded =
+      repairing::round_arranged(std::move(state), arranging, result.report, exact, step, threads, trials);
+  rounded.displacement += moved;
+  if (!rounded.is_valid)
+    return end("no doubles were found for the new points with which the surface is valid");
+  const Index opened =
+      has_tolerance ? repairing::opened_part(repairing::state_of(complex), rounded.state, part) : no_index;
+  if (opened != no_index)
+    return end(result.parts[opened].name + " was closed, and is not once it is brought together" + within +
+               "the others");
+  return rounded;
 }
 
 void run(const Surface& joined, const PasteOptions& options, PlainMonitor& monitor, PasteResult& result) {
   const Threads threads = Threads(options.threads).polling([&] { monitor.poll_again(); });
   const Step step = [&](double fraction) { monitor.poll(fraction); };
   const Complex complex = joined.view();
-  const std::vector<Index>& part = result.part_of_facet;
+  std::string advice;
+  if (options.cut && options.tolerance > 0) {
+    require_smaller_than_parts(complex, result, options.tolerance);
+    advice = advice_on_tolerance(complex, result, options.tolerance, step);
+  }
   repairing::State state = repairing::state_of(complex);
   repairing::Rounded rounded;
   if (options.cut) {
-    const bool has_tolerance = options.tolerance > 0;
-    if (has_tolerance) require_smaller_than_parts(complex, result, options.tolerance);
-    const double rounding = rounding_of(complex), gap = std::max(options.tolerance, rounding);
-    result.gap = gap;
-    const auto to = has_tolerance ? repairing::SnapTo::all : repairing::SnapTo::vertices;
-    double moved = repairing::snap(state, part, to, gap, step, threads);
-    repairing::glue(state, part);
-    moved += repairing::fuse(state, part, gap, rounding, step);
-    repairing::glue(state, part);
-    if (has_tolerance && is_hopeless(state, step, threads)) {
-      result.outcome = Outcome::not_representable;
-      result.message =
-          "what was brought together within " + decimal(options.tolerance) +
-          " of each other crosses nearly everywhere: the tolerance is too large for the parts' details";
-      return;
-    }
-    ExactSurface exact;
-    RepairOptions arranging;
-    static_cast<Limits&>(arranging) = options;
-    rounded = repairing::round_arranged(std::move(state), arranging, result.report, exact, step, threads);
-    rounded.displacement += moved;
-    if (!rounded.is_valid) {
-      result.outcome = Outcome::not_representable;
-      result.message = "no doubles were found for the new points with which the surface is valid";
-      return;
-    }
-    const Index opened =
-        has_tolerance ? repairing::opened_part(repairing::state_of(complex), rounded.state, part) : no_index;
-    if (opened != no_index) {
-      result.outcome = Outcome::not_representable;
-      result.message =
-          result.parts[opened].name + " was closed, and is not once it is brought together within " +
-          decimal(options.tolerance) + " of the others: the tolerance is too large for the parts' details";
-      return;
-    }
+    std::optional<repairing::Rounded> fitted =
+        fit(std::move(state), complex, options, advice, step, threads, result);
+    if (!fitted) return;
+    rounded = *std::move(fitted);
   } else {
-    repairing::glue(state, part);
+    repairing::glue(state, result.part_of_facet);
     rounded.state = std::move(state);
   }
   repairing::deliver(complex, std::move(rounded), result);
-  compare_with_parents(complex, part, result);
+  compare_with_parents(complex, result.part_of_facet, result);
   if (options.cut) prove_distance(complex, options.tolerance, step, result);
   if (!options.judge) return;
   result.apart = find_apart(result, [&] { monitor.poll_again(); });
-  judge(options, step, result);
+  judge(options, advice, step, result);
 }
 
 bool overlap(std::span<const PartOverlap> overlaps, const PartApart& apart) {

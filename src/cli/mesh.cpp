@@ -54,6 +54,15 @@ bool is_open(const DefectSummary& summary, const std::vector<Defect>& defects) {
          std::any_of(defects.begin(), defects.end(), may_come_of_it);
 }
 
+/// A tolerance for pasting that is above the size of details.
+void print_advice_on_tolerance(const MeshArguments& arguments) {
+  if (arguments.paste && !arguments.paste->empty())
+    say("--paste={} may be above the size of the parts' details, which are lost then: a smaller tolerance "
+        "may "
+        "help\n",
+        *arguments.paste);
+}
+
 /// The surface is not valid, or valid and nothing to fill.
 void print_refusal(const MeshArguments& arguments, const Surface& surface, const Result& result) {
   if (result.defects.empty()) {
@@ -66,6 +75,7 @@ void print_refusal(const MeshArguments& arguments, const Surface& surface, const
     // The defects say what and where themselves; what may be the reason is that the borders do not meet.
     say("holdfast: the surface is valid, but cannot be filled so\n{}",
         list_text(summary, result.defects, shown_in_passing, "--report FILE.json has them"));
+    print_advice_on_tolerance(arguments);
     if (surface.facets.empty())
       say("--surface-of takes the surface of a volume, where the file holds one\n");
     else if (is_open(summary, result.defects))

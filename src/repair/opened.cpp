@@ -4,6 +4,7 @@
 #include <array>
 
 #include "numbers/sorted.h"
+#include "repair/near.h"
 #include "surface/complex.h"
 #include "surface/places.h"
 
@@ -17,7 +18,9 @@ std::vector<Index> open_parts(const State& state, std::span<const Index> part) {
   std::vector<std::array<Index, 3>> sides;  // ends and facet
   for (Index f = 0; f < state.facets.size(); ++f) {
     const Triangle& t = state.facets[f];
-    if (std::any_of(t.begin(), t.end(), [&](Index v) { return v >= first.size(); })) continue;
+    if (std::any_of(t.begin(), t.end(),
+                    [&](Index v) { return v >= first.size() || !is_finite(state.vertices[v]); }))
+      continue;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto [a, b] = ascending(std::array{first[t[i]], first[t[(i + 1) % 3]]});
       sides.push_back({a, b, f});

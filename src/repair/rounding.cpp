@@ -46,6 +46,8 @@ class Rounding {
   /// Whether vertices all over the surface became others first.
   [[nodiscard]] bool starts_welded() const { return welded_last_bits_ > 0; }
 
+  void leave_out_joining_all() { joins_all_ = false; }
+
   /// A plane surface has no sheets that lie in each other but for rounding. What moves further than `most` is
   /// of no use.
   [[nodiscard]] Rounded run_in_plane(double most) {
@@ -108,7 +110,7 @@ class Rounding {
       if (!is_done()) cut_if_better();
     }
     rounded_.is_valid = is_done();
-    if (rounded_.is_valid || is_plane_ || is_part_) return std::move(rounded_);
+    if (rounded_.is_valid || is_plane_ || is_part_ || !joins_all_) return std::move(rounded_);
     if (!join_all()) weld_all();
     return std::move(rounded_);
   }
@@ -398,6 +400,7 @@ class Rounding {
   SidesOf sides_ = SidesOf::all_sheets;
   bool is_plane_ = false;
   bool is_part_ = false;  // of another one, which goes on if this one fails
+  bool joins_all_ = true;
   double welded_last_bits_ = 0;
   Work work_;  // of joining
   double most_displacement_ = std::numeric_limits<double>::infinity();
@@ -420,13 +423,14 @@ class Rounding {
 /// Sheets that share their sides may leave thin facets between them, which hang on the surface by a side.
 /// Then they are tried one after the other.
 Rounded round_arranged(State state, const RepairOptions& options, RepairReport& report, ExactSurface& exact,
-                       const Step& step, const Threads& threads) {
+                       const Step& step, const Threads& threads, Trials trials) {
   // Facets are compared with those that they were, which after welding are parts of the input's.
   const Parents of_given = std::exchange(state.facet_parents, identity(state.facets.size()));
   const State given = state;
   RoundedPlanes planes;
   const auto begun = [&](const RepairReport& told, SidesOf sides) {
     Rounding rounding(given, options, told, {exact, of_given}, planes, step, threads);
+    if (trials == Trials::near_trouble) rounding.leave_out_joining_all();
     if (options.join > 0) rounding.flatten_all(options.join, sides);
     rounding.begin();
     return rounding;

@@ -14,8 +14,15 @@ struct Rounded {
   bool has_united = false;  ///< facets went since: see RepairOptions::unite
 };
 
+/// How much is tried.
+enum class Trials {
+  all,
+  near_trouble,  ///< nothing that joins sheets or vertices all over the surface
+};
+
 /// Arranges and rounds until nothing is left to arrange. What stands in `report` and `exact` is filled in.
 [[nodiscard]] Rounded round_arranged(State state, const RepairOptions& options, RepairReport& report,
-                                     ExactSurface& exact, const Step& step, const Threads& threads);
+                                     ExactSurface& exact, const Step& step, const Threads& threads,
+                                     Trials trials = Trials::all);
 
 }  // namespace holdfast::repairing

@@ -246,6 +246,15 @@ class PasteTest(CliTest):
         parts = [as_float32(rotated(p)) for p in (box((0, 0, 0), (1, 1, 1), 4), box((1, 0, 0), (2, 1, 1), 7))]
         self.require_pasted(parts, "--paste", interfaces={(1, 2): 1}, places=6)
 
+    def test_points_inside_a_volume_do_not_tell_how_its_surface_is_rounded(self):
+        a = as_float32(rotated(box((0, 0, 0), (1, 1, 1), 3)))
+        b = as_float32(rotated(box((1, 0, 0), (2, 1, 1), 4)))
+        self.parts(a, b)
+        self.run_program("mesh", "b.off", "-o", "b.vtu", "--size", "0.2")
+        points, _, tets, _, _ = self.mesh(["a.off", "b.vtu"], "--paste")
+        for region in (1, 2):
+            self.assertAlmostEqual(volumes(points, tets)[region], 1, places=5)
+
     def test_interfaces_that_cover_each_other_in_part(self):
         a, b = rotated(box((0, 0, 0), (1, 1, 1), 5)), rotated(box((1, 0.23, 0.17), (2, 0.81, 1.3), 4))
         self.require_pasted([a, b], "--paste", interfaces={(1, 2): 0.58 * 0.83})
@@ -336,9 +345,22 @@ class PasteTest(CliTest):
         names = self.parts(box((0, 0, 0), (1, 1, 1), 3), box((1.1, -0.3, 0.2), (2.1, 0.7, 1.2), 3))
         for ended in (self.run_program("mesh", *names, "-o", "x.mesh", "--paste=0.45", expect=7),
                       self.run_program("paste", *names, "-o", "x.mesh", "--tolerance", "0.45", expect=7)):
-            self.assertIn("b.off was closed, and is not once it is brought together within 0.45 of the others: the tolerance is too "
-                          "large for the parts' details", ended.stderr)
+            self.assertRegex(ended.stderr, r"[ab]\.off was closed, and is not once it is brought together within 0\.45 of the others; [ab]\.off "
+                             r"has details smaller than the tolerance, which take one below 0\.236: so far is its vertex \d+, at \(")
         self.assertFalse((self.folder / "x.mesh").exists())
+
+    def test_a_corner_near_to_a_crossing_may_be_far_from_a_side(self):
+        """A side was led through a corner 0.04 away from it, since the other that it crossed there ended in it."""
+        parts = box((0.2, 0.8, 0), (1, 1, 0.6), (4, 1, 3)), box((0.76, 0, 0), (1, 0.8, 0.48), (2, 1, 3))
+        points, _, tets, _, _ = self.mesh(self.parts(*parts), "--paste=0.03")
+        for k, part in enumerate(parts):
+            self.assertAlmostEqual(volumes(points, tets)[k + 1], volume(part), delta=0.01)
+
+    def test_a_tolerance_that_leaves_a_triangle_outside(self):
+        names = self.parts(box((0, 0, 0), (1, 1, 1), 2), box((1.02, -0.3, 0.2), (2, 0.7, 1.2), 3))
+        ended = self.mesh(names, "--paste=0.3", expect=4)
+        self.assertIn("--paste=0.3 may be above the size of the parts' details, which are lost then: a smaller tolerance may help\n",
+                      ended.stderr)
 
     def box_and_edge(self, x, d):
         """A box, and a prism with a side that runs d above it."""
@@ -406,8 +428,36 @@ class PasteTest(CliTest):
         named = report["names"]["facets"]
         self.assertEqual({named[k] for k in "1234"}, {"minX", "maxX", "minY", "maxY"})  # numbers and names agree
         self.assertEqual([named["5"], named["6"]], ["a.minZ", "a.maxZ"])
-        self.assertEqual(sorted(n for k, n in named.items() if int(k) > 6), ["b.maxZ", "b.minZ"])
+        self.assertEqual(sorted(n for k, n in named.items() if int(k) > 6), ["b.maxZ", "b.minZ", "minX+maxX"])
         self.run_program("check", "a.stl", "b.stl", "out.mesh")
+
+    def test_what_patches_share_has_their_names(self):
+        order = ["minX", "maxX", "minY", "maxY", "minZ", "maxZ"]
+        self.write_patches("a.stl", box((0, 0, 0), (1, 1, 1), 2), order)
+        points, triangles = box((1, 0, 0), (2, 1, 1), 3)
+        self.write_patches("b.stl", (points, triangles), order)
+        text = (self.folder / "b.stl").read_text().replace("minX", "left")
+        self.write("b.stl", text)
+        *_, report, _ = self.mesh(["a.stl", "b.stl"], "--paste")
+        (shared, of), = report["marker_sets"].items()
+        named = report["names"]["facets"]
+        self.assertEqual([named[str(k)] for k in of], ["maxX", "left"])
+        self.assertEqual(named[shared], "maxX+left")
+        for ending, name in (".msh", '"maxX+left"'), (".inp", "maxX_left"), (".unv", "maxX_left"):
+            self.run_program("mesh", "a.stl", "b.stl", "--paste", "--fill", "-o", "out" + ending)
+            self.assertTrue(name in (self.folder / ("out" + ending)).read_text(), ending)
+
+    def test_a_region_and_a_patch_of_one_name_are_both_read_back(self):
+        names = self.parts(box((0, 0, 0), (1, 1, 1), 2), box((1, 0, 0), (2, 1, 1), 2))
+        for ending in (".unv", ".inp", ".msh", ".med", ".vtu", ".xdmf"):
+            out = "out" + ending
+            self.run_program("mesh", *names, "--fill", "-o", out)
+            found = json.loads(self.run_program("info", "--json", out).stdout)
+            regions = {r["name"]: r["volume"] for r in found["regions"]}
+            self.assertEqual(set(regions), {"a", "b"}, ending)
+            self.assertAlmostEqual(regions["a"], 1, places=12)
+            patches = {m["name"].replace("_", "+"): m["triangles"] for m in found["markers"]}
+            self.assertEqual(patches, {"a": 40, "b": 40, "a+b": 8}, ending)
 
     def test_regions_of_one_name_are_told_apart_by_the_part(self):
         for k, name in enumerate("ab"):

@@ -1,0 +1,17 @@
+// How fine the details of parts are, where a tolerance for pasting is above that.
+#pragma once
+
+#include <string>
+
+#include "holdfast/paste.h"
+#include "surface/search.h"
+
+namespace holdfast {
+
+/// Looks for the vertex that is nearest to a facet of its own part which does not have it. Where that is
+/// within the tolerance, tells it and what to do; else empty. Where there are very many, not all are looked
+/// at.
+[[nodiscard]] std::string advice_on_tolerance(const Complex& joined, const PasteResult& of_parts,
+                                              double tolerance, const Step& step);
+
+}  // namespace holdfast
