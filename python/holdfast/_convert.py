@@ -7,7 +7,7 @@ import subprocess
 import typing
 from typing import Optional, Union
 
-from ._limits import MemoryAmount, bytes_of, whole
+from ._limits import MemoryAmount, bytes_of, threads_of
 from ._names import Names, names_of
 from ._program import program
 from ._surface import PathLike
@@ -85,7 +85,7 @@ def convert(
     >>> found["order"], round(found["volume"], 6), found["regions"][0]["name"]
     (2, 1.333333, 'core')
     """
-    words = [program(), "convert", os.fspath(source), os.fspath(target), "--threads", str(whole(threads, "threads"))]
+    words = [program(), "convert", os.fspath(source), os.fspath(target), "--threads", str(threads_of(threads))]
     for part in [only] if isinstance(only, str) else only or []:
         words += ["--only", part]
     for option, value in (("--scale", scale), ("--order", order), ("--curved", curved), ("--curved-tolerance", curved_tolerance),

@@ -9,7 +9,7 @@ from typing import Any, Optional
 import numpy.typing as npt
 
 from . import _core
-from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits, whole
+from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits, threads_of
 from ._surface import surface_of
 from .errors import Defect, _defects
 
@@ -69,7 +69,7 @@ def diagnose(
     Diagnosis(valid, encloses 1 region)
     """
     options = limits(time_limit, memory_limit, cancel)
-    options.update(most=most, threads=whole(threads, "threads"))
+    options.update(most=most, threads=threads_of(threads))
     what = surface_of(surface, triangles, segments=segments)
     with Shown(progress, "diagnose") as callback:
         defects, summary = _core.diagnose(what._arrays(), options, callback)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import numbers
 import operator
 import re
 import sys
@@ -35,20 +36,44 @@ def bytes_of(amount: Optional[MemoryAmount]) -> Optional[int]:
     return int(size)
 
 
-def whole(value: Any, name: str) -> int:
-    """An option that is an integer: 1.5 is none."""
-    try:
-        return operator.index(value)
-    except TypeError:
-        raise TypeError(f"{name}={value!r}: an integer is expected") from None
-
-
 def limits(
     time_limit: Optional[float], memory_limit: Optional[MemoryAmount], cancel: Optional[CancelToken]
 ) -> dict[str, Any]:
+    if time_limit is not None and not isinstance(time_limit, numbers.Real):
+        raise TypeError(f"time_limit={time_limit!r}: a number of seconds is expected; None is no limit")
     if time_limit is not None and not 0 < time_limit < float("inf"):
         raise ValueError(f"time_limit={time_limit!r}: a positive number of seconds is expected; None is no limit")
+    if cancel is not None and not isinstance(cancel, CancelToken):
+        raise TypeError(f"cancel={cancel!r}: a CancelToken is expected")
     return {"time_limit": time_limit, "memory_limit": bytes_of(memory_limit), "cancel": cancel}
+
+
+def whole(value: Any, what: str) -> int:
+    """An integer of Python or NumPy, and nothing that would have to be rounded."""
+    try:
+        return operator.index(value)
+    except TypeError:
+        raise TypeError(f"{what}={value!r}: an integer is expected") from None
+
+
+def threads_of(threads: Any) -> int:
+    count = whole(threads, "threads")
+    if not 0 <= count <= 4096:
+        raise ValueError(f"threads={count}: 0 (all there are) to 4096 are expected")
+    return count
+
+
+def length(value: Any, what: str) -> float:
+    """A finite length that is not negative."""
+    try:
+        number = float(value)
+    except OverflowError:
+        number = float("inf")
+    except (TypeError, ValueError):
+        raise TypeError(f"{what}={value!r}: a length is expected, in the surface's unit") from None
+    if not 0 <= number < float("inf"):
+        raise ValueError(f"{what}={number}: the length must be finite and not negative")
+    return number
 
 
 class _Bar:

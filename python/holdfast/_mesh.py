@@ -7,10 +7,11 @@ import operator
 import typing
 from typing import Any, Optional, Union
 
+import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits, whole
+from ._limits import CancelToken, MemoryAmount, Progress, Shown, length, limits, threads_of, whole
 from ._paste import Pasted
 from ._repair import Repair
 from ._repair import repair as repair_surface
@@ -149,6 +150,8 @@ def mesh(
         raise ValueError("fill=True adds no field points, so that size, metric, max_volume, max_ratio and layers have no meaning; "
                          "leave out one of them")
     pasted = surface if isinstance(surface, Pasted) else None
+    if pasted is not None and triangles is not None:
+        raise ValueError("a pasted surface is meshed as it is: leave out triangles, segments and markers")
     what = surface_of(
         surface if pasted is None else pasted.surface,
         triangles,
@@ -159,10 +162,12 @@ def mesh(
     if pasted is not None and what is not pasted.surface:
         raise ValueError("a pasted surface is meshed as it is: leave out triangles, segments and markers")
     repaired, given = None, what
+    if isinstance(repair, np.bool_):
+        repair = bool(repair)
     if pasted is not None and repair is not False:
         raise ValueError("a pasted surface is valid: leave out repair")
     if repair is not False:
-        repaired = repair_surface(what, weld=0.0 if repair is True else float(repair), threads=whole(threads, "threads"),
+        repaired = repair_surface(what, weld=0.0 if repair is True else length(repair, "repair"), threads=threads,
                                   time_limit=time_limit, memory_limit=memory_limit, cancel=cancel, progress=progress)
         what = repaired.surface
     options.update(
@@ -183,7 +188,7 @@ def mesh(
         add_points="points" not in steps,
         order=order,
         seed=whole(seed, "seed"),
-        threads=whole(threads, "threads"),
+        threads=threads_of(threads),
     )
     asked_size = set_size(size, options, len(what.points))
     asked_metric = set_metric(metric, options)
@@ -269,6 +274,6 @@ def delaunay(
     (1, 4)
     """
     options = limits(time_limit, memory_limit, cancel)
-    options.update(seed=whole(seed, "seed"), threads=whole(threads, "threads"))
+    options.update(seed=whole(seed, "seed"), threads=threads_of(threads))
     with Shown(progress, "delaunay") as callback:
         return _core.delaunay(points_of(points), options, callback)

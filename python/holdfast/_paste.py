@@ -8,8 +8,8 @@ import typing
 from typing import Any, Optional
 
 from . import _core
-from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits, whole
-from ._surface import Surface, _of_data, _stem, surface_of
+from ._limits import CancelToken, MemoryAmount, Progress, Shown, length, limits, threads_of
+from ._surface import Surface, _of_data, _stem, read_surface, surface_of
 from .errors import _raise_unless_done
 
 
@@ -65,23 +65,35 @@ def paste(
     Parameters
     ----------
     parts
-        Two surfaces or more, each whatever `mesh` takes.
+        Two surfaces or more, each whatever `mesh` takes; or one, whose connected components are the parts.
     tolerance
-        Points of later parts that are nearer to an earlier one than this are put on it, in the surfaces' unit. The first
-        part stays as it is; with 0 all do.
+        Points of later parts that are nearer to an earlier one than this are put on it: a length in the surfaces' unit, 0 or
+        more. The first part stays as it is; with 0 all do. It should be smaller than the parts' details.
     overlap
         Who gets what several parts hold: "first", "last", "new" (a region of its own), or "refuse".
     names
-        Of the parts; the names of their files otherwise.
+        Of the parts, one each: regions and markers that have no name get it. By default the stem of the part's file, or "part k".
     threads, time_limit, memory_limit, cancel, progress
         As `mesh` takes them.
+
+    Returns
+    -------
+    Pasted
+        `surface` has the (n, 3) points of all parts in turn, then new ones, and (m, 3) triangles; `moved` tells the points
+        that moved, with their distances in the surfaces' unit.
 
     Raises
     ------
     InvalidSurface
         If parts overlap, and `overlap` is "refuse". The message names both, and how deep.
+    NotRepresentable
+        If no surface was found. The message tells the part's detail that is smaller than the tolerance, if there is one.
+    TimeLimit, MemoryLimit, Cancelled, FileError
+        As `mesh` does.
     ValueError, TypeError
-        For fewer than two parts, and what makes no sense.
+        For no part, one that is a single component, arrays of a wrong shape or type, and what makes no sense.
+
+    How it works, and on what it rests: docs/pasting.md; George, Borouchaki, Saltel 2003, section 9.
 
     Example
     -------
@@ -96,12 +108,25 @@ def paste(
     ([1, 2], 22)
     """
     options = limits(time_limit, memory_limit, cancel)
-    options.update(tolerance=float(tolerance), overlap=overlap, threads=whole(threads, "threads"))
-    surfaces = [surface_of(part) for part in parts]
-    if names is None:
-        names = [_stem(p) if isinstance(p, (str, os.PathLike)) else f"part {k}" for k, p in enumerate(parts, 1)]
+    if not isinstance(overlap, str):
+        raise TypeError(f'overlap={overlap!r}: "refuse", "first", "last" or "new" is expected')
+    near = length(tolerance, "tolerance")
+    options.update(tolerance=near, overlap=overlap, threads=threads_of(threads))
+    surfaces = [read_surface(part, tolerance=near, time_limit=time_limit, memory_limit=memory_limit, cancel=cancel)
+                if isinstance(part, (str, os.PathLike)) else surface_of(part) for part in parts]
     given = [(s._arrays(), [tuple(r) for r in s.regions], [list(map(float, h)) for h in s.holes]) for s in surfaces]
     with Shown(progress, "paste") as callback:
-        result = _core.paste(given, list(names), options, callback)
+        result = _core.paste(given, _names_of(parts, names), options, callback)
     _raise_unless_done(result)
     return Pasted(result)
+
+
+def _names_of(parts: typing.Sequence[Any], names: Optional[typing.Sequence[str]]) -> list[str]:
+    if names is None:
+        return [_stem(p) if isinstance(p, (str, os.PathLike)) else f"part {k}" for k, p in enumerate(parts, 1)]
+    found = [] if isinstance(names, str) else list(names)
+    if isinstance(names, str) or not all(isinstance(name, str) for name in found):
+        raise TypeError(f"names={names!r}: a list of texts is expected, one for each part")
+    if len(found) != len(parts):
+        raise ValueError(f"names={names!r}: one for each of {len(parts)} parts is expected")
+    return [str(name) for name in found]

@@ -5,10 +5,11 @@ from __future__ import annotations
 import json
 from typing import Any, Optional, Union
 
+import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits, whole
+from ._limits import CancelToken, MemoryAmount, Progress, Shown, length, limits, threads_of, whole
 from ._surface import Array, Surface, _of_data, surface_of
 from .errors import _raise_unless_done
 
@@ -90,23 +91,37 @@ def repair(
     ----------
     surface, triangles, segments, triangle_markers, segment_markers
         As `mesh` takes them.
+        As `mesh` takes them: a path, a `Surface`, an object of another package, or (n, 3) points with (m, 3) triangles.
     weld
         First join points that are this near to each other, and put points that are this near to a side or triangle on it.
+        A length in the surface's unit, 0 or more; 0 joins nothing.
     join
-        Then make triangles that overlap at most this far from each other, some last bits, the same where they do. Points stay.
+        Then make triangles that overlap at most this far from each other, some last bits, the same where they do. Points
+        stay. A length in the surface's unit, 0 or more.
     fill_holes
-        Close holes: True, or the most sides that the border of one may have.
+        Close holes: True, or the most sides that the border of one may have, 3 or more; False or 0: none.
     union
         Drop triangles that have material on both sides, or on none.
     threads, time_limit, memory_limit, cancel, progress
         As `mesh` takes them.
 
+    Returns
+    -------
+    Repair
+        `surface` has the given (n, 3) points, bit for bit but for those in `moved`, then new ones; `max_displacement` and the
+        distances of `moved` are in the surface's unit. Triangles with corners that are not finite or out of range are in
+        `dropped`.
+
     Raises
     ------
     NotRepresentable
         If no doubles were found for the new points.
-    TimeLimit, MemoryLimit, Cancelled, FileError, ValueError, TypeError
+    TimeLimit, MemoryLimit, Cancelled, FileError
         As `mesh` does.
+    ValueError, TypeError
+        For arrays of a wrong shape or type, and lengths that are negative, not finite, or none.
+
+    How it works, and on what it rests: docs/repairing.md; George, Borouchaki, Saltel 2003, section 9.
 
     Example
     -------
@@ -120,13 +135,21 @@ def repair(
     (True, True, {})
     """
     options = limits(time_limit, memory_limit, cancel)
-    sides = 2**62 if fill_holes is True else int(fill_holes)
-    if sides < 0 or 0 < sides < 3:
-        raise ValueError(f"fill_holes={fill_holes}: a hole has three sides at least")
-    options.update(weld=float(weld), join=float(join), fill_holes=sides, union=bool(union), threads=whole(threads, "threads"))
+    options.update(weld=length(weld, "weld"), join=length(join, "join"), fill_holes=_most_sides(fill_holes), union=bool(union),
+                   threads=threads_of(threads))
     what = surface_of(surface, triangles, segments=segments, triangle_markers=triangle_markers,
                       segment_markers=segment_markers)
     with Shown(progress, "repair") as callback:
         result = _core.repair(what._arrays(), options, callback)
     _raise_unless_done(result)
     return Repair(what, result)
+
+
+def _most_sides(fill_holes: Union[bool, int]) -> int:
+    """Of a hole that is filled; 0: none is."""
+    if isinstance(fill_holes, (bool, np.bool_)):
+        return 2**62 if fill_holes else 0
+    sides = whole(fill_holes, "fill_holes")
+    if sides < 0 or 0 < sides < 3:
+        raise ValueError(f"fill_holes={sides}: a hole has three sides at least")
+    return min(sides, 2**62)

@@ -161,12 +161,19 @@ def _told_by_shape(surface: Any) -> Surface:
         return _of_pyvista(surface)
     if hasattr(surface, "vertices") and hasattr(surface, "faces"):
         return Surface(surface.vertices, surface.faces)
-    if isinstance(surface, (tuple, list)) and len(surface) == 2 and np.ndim(surface[0]) == 2:
+    if isinstance(surface, (tuple, list)) and len(surface) == 2 and _is_table(surface[0]):
         return Surface(surface[0], surface[1])
     raise TypeError(
         f"a surface is expected: a path, an (n, 3) array with `triangles`, or an object like a PyVista or VTK "
         f"PolyData, a meshio.Mesh or a trimesh.Trimesh; not {type(surface).__name__}"
     )
+
+
+def _is_table(values: Any) -> bool:
+    try:
+        return np.ndim(values) == 2
+    except ValueError:  # rows of several lengths
+        return False
 
 
 class _Polygons(typing.NamedTuple):

@@ -88,7 +88,7 @@ Sizes sizes_from(const py::dict& options, const Fields& fields) {
   Sizes sizes;
   take(options, "size", sizes.size);
   if (options.contains("gradation") && !options["gradation"].is_none())
-    sizes.gradation = py::cast<double>(options["gradation"]);
+    sizes.gradation = value_of<double>(options, "gradation");
   take(options, "growth", sizes.grow);
   take(options, "max_volume", sizes.max_volume);
   take(options, "max_ratio", sizes.max_ratio);

@@ -13,17 +13,17 @@ namespace holdfast::python {
 
 namespace py = pybind11;
 
-/// The value of an option. Throws what becomes a TypeError or ValueError that names it.
+/// The value of an option; one that is of another type, or out of range, is told by its name.
 template <class Value>
 Value value_of(const py::dict& options, const char* name) {
-  const py::object value = options[name];
+  const py::object given = options[name];
   try {
-    return py::cast<Value>(value);
+    return py::cast<Value>(given);
   } catch (const py::cast_error&) {
-    const std::string given = std::string(name) + "=" + std::string(py::repr(value));
-    if (std::is_arithmetic_v<Value> && PyNumber_Check(value.ptr()) != 0)
-      throw py::value_error(given + " is out of range");
-    throw py::type_error(given + " has a wrong type");
+    const std::string what = std::string(name) + "=" + std::string(py::repr(given));
+    if (std::is_arithmetic_v<Value> && PyNumber_Check(given.ptr()) != 0)
+      throw py::value_error(what + " is out of range");
+    throw py::type_error(what + " is of a wrong type");
   }
 }
 

@@ -58,6 +58,10 @@ std::shared_ptr<PasteResult> paste_parts(const py::list& parts, const std::vecto
   const Watch watch(progress);
   how.progress = [&watch](double fraction) { return watch.go_on("paste", fraction); };
   const py::gil_scoped_release unlocked;
+  if (surfaces.size() == 1) {
+    how.labels = names;
+    return std::make_shared<PasteResult>(paste_components(surfaces[0], how));
+  }
   return std::make_shared<PasteResult>(paste(surfaces, how, names));
 }
 

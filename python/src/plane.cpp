@@ -47,7 +47,7 @@ PlaneOptions options_from(const py::dict& options) {
   take(options, "delaunay", how.delaunay);
   take(options, "hull", how.hull);
   take(options, "size", how.size);
-  if (!options["angle"].is_none()) how.angle = py::cast<double>(options["angle"]);
+  if (!options["angle"].is_none()) how.angle = value_of<double>(options, "angle");
   take(options, "keep_boundary", how.keep_boundary);
   take(options, "max_points", how.max_points);
   take(options, "seed", how.seed);

@@ -85,3 +85,29 @@ def test_what_is_refused():
         holdfast.repair(CUBE, FACES, weld=-1)
     with pytest.raises(holdfast.TimeLimit):
         holdfast.repair(*two_cubes(), time_limit=1e-9)
+
+
+@pytest.mark.parametrize("option, value, error", [
+    ("weld", None, TypeError), ("weld", "near", TypeError), ("weld", -1, ValueError), ("join", float("inf"), ValueError),
+    ("fill_holes", 1.5, TypeError), ("fill_holes", 1e300, TypeError), ("fill_holes", None, TypeError), ("fill_holes", -3, ValueError),
+    ("threads", -1, ValueError), ("threads", 2.0, TypeError), ("cancel", "now", TypeError),
+])
+def test_options_of_a_wrong_kind(option, value, error):
+    with pytest.raises(error, match=f"^{option}="):
+        holdfast.repair(CUBE, FACES, **{option: value})
+
+
+def test_values_of_numpy():
+    filled = holdfast.repair(CUBE, FACES[1:], fill_holes=np.bool_(True))
+    assert len(filled.surface.triangles) > len(FACES) - 1
+    assert len(holdfast.repair(CUBE, FACES[1:], fill_holes=2**70).surface.triangles) == len(filled.surface.triangles)
+    # True is no distance of 1 within which points are joined
+    mesh = holdfast.mesh(CUBE, FACES, fill=True, repair=np.bool_(True))
+    assert len(mesh.repair.surface.points) == len(CUBE) and mesh.repair.moved == {}
+    assert holdfast.mesh(CUBE, FACES, fill=True, repair=np.bool_(False)).repair is None
+
+
+def test_keep_and_quality_of_a_wrong_kind():
+    for option in {"keep": None}, {"quality": 3}, {"order": ["random"]}:
+        with pytest.raises(TypeError, match="is of a wrong type"):
+            holdfast.mesh(CUBE, FACES, **option)
