@@ -90,7 +90,7 @@ def test_triangles_that_are_not_finite_are_no_part_of_a_closed_one():
     (p, t), b = box(0, 1, 1), box(1, 2, 1)
     p[0, 0] = np.nan
     pasted = holdfast.paste(b, (p, t), tolerance=0.01)
-    assert {dropped["reason"] for dropped in pasted.report["dropped"]} == {"not_finite"}
+    assert {dropped["reason"] for dropped in pasted.report["dropped"]} == {"not finite"}
 
 
 @pytest.mark.parametrize("points", [np.float16, np.float32, ">f8", np.int64, np.uint8])

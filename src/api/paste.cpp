@@ -300,7 +300,9 @@ void end_without_surface(const PasteOptions& options, const std::string& message
   if (!advice.empty())
     result.message += "; " + advice;
   else if (options.tolerance > 0)
-    result.message += ": the tolerance is too large for the parts' details";
+    result.message +=
+        "; the tolerance must be above the depth of gaps and overlaps, and below the size of the parts' "
+        "details";
 }
 
 /// Cuts what touches or crosses so that it fits; nothing where no such surface is found.
