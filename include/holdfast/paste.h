@@ -105,7 +105,8 @@ struct PastedVolumes {
 
 /// Pastes volumes together: their boundaries as surfaces, and where these changed the tetrahedra at the
 /// changed triangles are replaced. All other tetrahedra, and all vertices that do not move, stay bit for bit.
-/// Region ids are the volumes' own where there are any. Throws what `paste` of surfaces throws, and
+/// Region ids are the volumes' own where there are any. Volumes that overlap are `invalid_input`, whatever
+/// `options.overlap` says: their tetrahedra stay. Throws what `paste` of surfaces throws, and
 /// std::invalid_argument for volumes whose indices are out of range or whose faces have more than two
 /// tetrahedra.
 [[nodiscard]] HOLDFAST_API PastedVolumes paste(std::span<const Volume> volumes,

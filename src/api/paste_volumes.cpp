@@ -334,7 +334,9 @@ PastedVolumes paste(std::span<const Volume> volumes, const PasteOptions& options
   std::vector<Boundary> boundaries = boundaries_of(volumes);
   std::vector<Surface> surfaces;
   for (std::size_t k = 0; k < volumes.size(); ++k) surfaces.push_back(surface_of(volumes[k], boundaries[k]));
-  result.boundary = paste(surfaces, options, names);
+  PasteOptions of_boundaries = options;
+  of_boundaries.overlap = Overlap::refuse;  // the tetrahedra of both would stay
+  result.boundary = paste(surfaces, of_boundaries, names);
   result.outcome = result.boundary.outcome;
   result.message = result.boundary.message;
   if (result.outcome != Outcome::done) return result;

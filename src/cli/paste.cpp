@@ -54,14 +54,15 @@ Json options_of(const PasteArguments& arguments) {
 }
 
 /// Says how the run ended and what the user can do; returns the exit code.
-int conclude(const PasteArguments& arguments, const PasteResult& result) {
+int conclude(const PasteArguments& arguments, const PasteResult& result,
+             const char* advice = overlap_advice) {
   switch (result.outcome) {
     case Outcome::done:
       if (!arguments.quiet) tell(result, arguments.output);
       return exit_done;
     case Outcome::invalid_input:
       say("holdfast: {}; nothing was written\n", result.message);
-      if (!result.overlaps.empty()) say("{}\n", overlap_advice);
+      if (!result.overlaps.empty()) say("{}\n", advice);
       return exit_invalid_surface;
     case Outcome::time_limit:
     case Outcome::memory_limit:
@@ -111,7 +112,10 @@ int run_volumes(const PasteArguments& arguments, const PasteOptions& options, st
   Json report = report_of(result.boundary, options_of(arguments));
   report["tetrahedra"] = {{"count", result.volume.tetrahedra.size()}, {"replaced", result.replaced}};
   write_json(arguments.report, report);
-  const int code = conclude(arguments, result.boundary);
+  const int code =
+      conclude(arguments, result.boundary,
+               "tetrahedra of volumes stay, so that --overlap is for surfaces: `holdfast convert "
+               "VOLUME SURFACE` makes one of a volume");
   if (code == exit_done && !arguments.quiet)
     say("{}: {}, in place of {} of the files'\n", arguments.output.string(),
         counted(static_cast<std::size_t>(std::count(result.origin.begin(), result.origin.end(), -1)),

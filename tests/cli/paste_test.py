@@ -508,6 +508,15 @@ class PasteTest(CliTest):
 
     # --- volumes -----------------------------------------------------------------------------------
 
+    def test_volumes_that_overlap_are_refused(self):
+        for name in self.parts(box((0, 0, 0), (1, 1, 1), 2), box((0.7, 0, 0), (2, 1, 1), 2)):
+            self.run_program("mesh", name, "-o", name[0] + ".vtu", "--fill")
+        for options in (), ("--overlap", "first"), ("--overlap", "last"), ("--overlap", "new"):
+            ended = self.run_program("paste", "a.vtu", "b.vtu", "-o", "ab.vtu", *options, expect=4)
+            self.assertIn("a.vtu and b.vtu overlap by 0.3 at", ended.stderr)
+            self.assertIn("tetrahedra of volumes stay, so that --overlap is for surfaces", ended.stderr)
+        self.assertFalse((self.folder / "ab.vtu").exists())
+
     def test_volumes(self):
         parts = [rotated(box((0, 0, 0), (1, 1, 1), 4)), rotated(box((1, 0, 0), (2, 1, 1), 7))]
         names = self.parts(*parts)
