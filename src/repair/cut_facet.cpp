@@ -115,6 +115,7 @@ class FacetCut {
       take(corners, by_region[mesh.regions[t]]);
     }
     std::vector<Cell> cells;
+    cells.reserve(by_region.size());
     for (auto& [region, cell] : by_region) cells.push_back(std::move(cell));
     return finished(std::move(cells));
   }

@@ -38,6 +38,7 @@ void LedSides::put_vertices(std::span<const Index> close, const Step& step) {
     vertices.insert(vertices.end(), facets_.corners(f).begin(), facets_.corners(f).end());
   sort_unique(vertices);
   std::vector<Box> boxes;
+  boxes.reserve(vertices.size() + sides_.size());
   std::vector<Sides::iterator> sides;
   for (const Index v : vertices) boxes.push_back(box_round(facets_.state(), std::array{v}, gap_));
   for (auto side = sides_.begin(); side != sides_.end(); ++side) {

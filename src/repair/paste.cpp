@@ -116,6 +116,7 @@ void PatchCutter::cut_curved(const std::vector<Index>& patch) {
                    [&](Index f, Index g) { return facets_.part_of(f) < facets_.part_of(g); });
   std::map<Index, std::vector<Index>> inside = vertices_inside(patch);
   std::vector<Box> boxes;
+  boxes.reserve(in_order.size());
   for (const Index f : in_order) boxes.push_back(box_round(facets_.state(), facets_.corners(f), gap_));
   std::vector<Cell> cells;
   for (const Index f : in_order) {
@@ -157,6 +158,7 @@ std::map<Index, std::vector<Index>> PatchCutter::vertices_inside(const std::vect
     vertices.insert(vertices.end(), facets_.corners(f).begin(), facets_.corners(f).end());
   sort_unique(vertices);
   std::vector<Box> boxes;
+  boxes.reserve(vertices.size() + patch.size());
   for (const Index v : vertices) boxes.push_back(box_round(facets_.state(), std::array{v}, gap_));
   for (const Index f : patch) boxes.push_back(box_round(facets_.state(), facets_.corners(f), 0));
   std::map<std::pair<Index, Index>, std::pair<double, Index>> best;  // by vertex and part
