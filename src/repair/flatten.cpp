@@ -217,7 +217,7 @@ class Flattening {
       piece.parents.insert(piece.parents.end(), of.begin(), of.end());
       for (const Index v : piece.corners) most_ = std::max(most_, distance(v, state_.facets[parent]));
     }
-    sort_unique(piece.parents);
+    sort_odd(piece.parents);
     pieces_[first].push_back(std::move(piece));
   }
 
