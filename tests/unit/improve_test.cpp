@@ -155,20 +155,27 @@ TEST(Improve, LeavesAValidMeshWithBetterElements) {
   EXPECT_LT(4 * below_10(), before);
 }
 
+/// What `act` does to a mesh of slivers all of whose vertices stand, so that bad elements stay.
+template <class Act>
+auto of_standing_slivers(int points, Act&& act) {
+  TetMesh mesh = random_mesh(points, 5);
+  std::vector<RegionId> region_of(mesh.slot_count(), 0);
+  std::vector<double> sizes(mesh.vertex_count(), 0.1);
+  const std::vector<bool> kept{true};
+  const VolumeData volume{mesh, region_of, sizes, kept, static_cast<Vertex>(mesh.vertex_count())};
+  const Options options;
+  Monitor monitor(options);
+  auto result = act(volume, monitor);
+  EXPECT_EQ(find_fault(mesh), "");
+  return result;
+}
+
 // How much of a mesh of slivers is left for a comparison to tell whether it matters.
 TEST(Improve, IsBriefWhereManyElementsAreBadAndOnlyIfItMay) {
   const auto improved = [](bool may_be_brief) {
-    TetMesh mesh = random_mesh(2000, 5);
-    std::vector<RegionId> region_of(mesh.slot_count(), 0);
-    std::vector<double> sizes(mesh.vertex_count(), 0.1);
-    // All vertices stand, so that bad elements stay.
-    const std::vector<bool> kept{true};
-    const VolumeData volume{mesh, region_of, sizes, kept, static_cast<Vertex>(mesh.vertex_count())};
-    const Options options;
-    Monitor monitor(options);
-    const ImproveStats stats = improve(volume, {Effort::fast, may_be_brief}, monitor);
-    EXPECT_EQ(find_fault(mesh), "");
-    return stats;
+    return of_standing_slivers(2000, [&](const VolumeData& volume, Monitor& monitor) {
+      return improve(volume, {Effort::fast, may_be_brief}, monitor);
+    });
   };
   const ImproveStats whole = improved(false), brief = improved(true);
   EXPECT_FALSE(whole.was_brief);
@@ -179,20 +186,14 @@ TEST(Improve, IsBriefWhereManyElementsAreBadAndOnlyIfItMay) {
 // Points that nobody limits are added without end where all vertices stand.
 TEST(Improve, AddsNoPointsBeyondTheGrowthThatIsAllowed) {
   const auto improved = [](double most_growth) {
-    TetMesh mesh = random_mesh(1000, 5);
-    std::vector<RegionId> region_of(mesh.slot_count(), 0);
-    std::vector<double> sizes(mesh.vertex_count(), 0.1);
-    const std::vector<bool> kept{true};
-    const VolumeData volume{mesh, region_of, sizes, kept, static_cast<Vertex>(mesh.vertex_count())};
-    const Options options;
-    Monitor monitor(options);
-    Extent extent = Effort::good;
-    extent.lowers_shares = true;
-    extent.most_growth = most_growth;
-    const auto before = static_cast<double>(mesh.tet_count());
-    const ImproveStats stats = improve_further(volume, extent, figures_of(volume), {0, 1}, monitor);
-    EXPECT_EQ(find_fault(mesh), "");
-    return std::pair(stats.inserted, static_cast<double>(mesh.tet_count()) / before);
+    return of_standing_slivers(1000, [&](const VolumeData& volume, Monitor& monitor) {
+      Extent extent = Effort::good;
+      extent.lowers_shares = true;
+      extent.most_growth = most_growth;
+      const auto before = static_cast<double>(volume.mesh.tet_count());
+      const ImproveStats stats = improve_further(volume, extent, figures_of(volume), {0, 1}, monitor);
+      return std::pair(stats.inserted, static_cast<double>(volume.mesh.tet_count()) / before);
+    });
   };
   const auto [some, little] = improved(0.01);
   const auto [many, much] = improved(0.5);
