@@ -23,8 +23,7 @@ class Improver {
         monitor_(monitor),
         ways_(volume_, energy_of_sine(passes_.patient_aim)),
         most_inserted_(
-            static_cast<std::size_t>(passes_.inserted_per_tet * static_cast<double>(mesh_.tet_count()))) {
-  }
+            static_cast<std::size_t>(passes_.inserted_per_tet * static_cast<double>(mesh_.tet_count()))) {}
 
   /// From now on, no figure may become worse.
   void keep(const Figures& figures) { volume_.keep(figures); }
@@ -175,7 +174,7 @@ class Improver {
   [[nodiscard]] double rank_of(Tet t, First first) const {
     if (first == First::the_worst) return volume_.energy(t);
     if (first == First::the_mildest) return -volume_.energy(t);
-    return std::sqrt(six_volumes(mesh_, mesh_.corners(t))) / volume_.energy(t);
+    return std::sqrt(std::max(0.0, six_volumes(mesh_, mesh_.corners(t)))) / volume_.energy(t);
   }
 
   // One element after another, as long as there is work left to spend. Returns whether any became better.

@@ -172,8 +172,9 @@ struct WeightBelow {
 inline constexpr std::array<WeightBelow, 3> kWeightBelow{{{0.1736, 0.5}, {0.342, 1}, {0.5, 1}}};
 inline constexpr double kWeightThatPays = 0.5;        ///< of an element more
 inline constexpr double kPartOfVolumeThatPays = 0.7;  ///< part of what weighs, by volume, that may stay
-inline constexpr double kLongestContracted = 1.6;     ///< sizes: longer edges would undo the sizes asked for
-inline constexpr double kLongerContracted = 2;        ///< times the longest edge before, where that is longer
+// Contractions.
+inline constexpr double kLongestContracted = 1.6;  ///< sizes: longer edges would undo the sizes asked for
+inline constexpr double kLongerContracted = 2;     ///< times the longest edge before, where that is longer
 // What asks for more shares of the work: of the elements.
 inline constexpr double kMuchInside = 0.15, kManyBadInside = 0.002;
 inline constexpr double kSineOfBad = 0.17364817766693033;  ///< 10 degrees
