@@ -2,13 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "holdfast/repair.h"
+#include "repair/bounds.h"
 
 namespace holdfast {
 namespace {
@@ -18,14 +17,6 @@ struct Attempt {
   double join, weld;
 };
 constexpr std::array kAttempts{Attempt{0x1p3, 0}, Attempt{0x1p6, 0}, Attempt{0x1p6, 0x1p6}};
-
-double last_bit(std::span<const Point> points) {
-  double most = 0;
-  for (const Point& p : points)
-    for (const double x : p)
-      if (std::isfinite(x)) most = std::max(most, std::fabs(x));
-  return std::nextafter(most, std::numeric_limits<double>::infinity()) - most;
-}
 
 /// Whether a call ended because it had to; then the mesh has ended so, too.
 bool ends(Outcome outcome, const std::string& message, Result& result) {
@@ -44,7 +35,7 @@ bool mesh_joined(const Complex& given, const Options& options, RepairOptions& re
   const auto begin = std::chrono::steady_clock::now();
   Options meshing = options;
   meshing.started = options.started.value_or(begin);
-  const double bit = last_bit(given.vertices);
+  const double bit = repairing::last_bit(given.vertices);
   for (const Attempt& attempt : kAttempts) {
     RepairOptions joining = repairing;
     joining.exact = false;

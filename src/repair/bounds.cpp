@@ -26,9 +26,9 @@ double largest(const std::vector<double>& distances) {
   return distances.empty() ? 0 : *std::max_element(distances.begin(), distances.end());
 }
 
-double last_bit(const State& state) {
+double last_bit(std::span<const Point> points) {
   double most = 0;
-  for (const Point& p : state.vertices)
+  for (const Point& p : points)
     for (const double x : p)
       if (std::isfinite(x)) most = std::max(most, std::fabs(x));
   return std::nextafter(most, std::numeric_limits<double>::infinity()) - most;

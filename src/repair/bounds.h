@@ -1,11 +1,12 @@
 // Bounds on how far things were moved, in doubles that are rounded up, and what these depend on.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "arrange/arrange.h"
+#include "holdfast/types.h"
 #include "mesh/parallel.h"
-#include "repair/state.h"
 
 namespace holdfast::repairing {
 
@@ -18,6 +19,6 @@ namespace holdfast::repairing {
 [[nodiscard]] double largest(const std::vector<double>& distances);
 
 /// The last bit of the largest coordinate.
-[[nodiscard]] double last_bit(const State& state);
+[[nodiscard]] double last_bit(std::span<const Point> points);
 
 }  // namespace holdfast::repairing

@@ -86,7 +86,7 @@ class Rounding {
     if (rounded_.is_valid || is_hopeless()) return std::move(rounded_);
     most_facets_ = is_plane_ ? most_in_plane(rounded_.state.facets.size()) : SIZE_MAX;
     // Joining what is near costs less than to move the input, but takes long where sheets lie in each other.
-    const double twin_gap = kWeldedPlans[0].last_bits * last_bit(given_);
+    const double twin_gap = kWeldedPlans[0].last_bits * last_bit(given_.vertices);
     bool is_welded =
         !is_plane_ && trouble_.size() > kMany && most_have_twins(rounded_.state, trouble_, twin_gap, here());
     if (is_welded) begin_flat(kWeldedPlans);
@@ -177,7 +177,7 @@ class Rounding {
   /// Where joining does not help by itself, vertices are put where sides pass each other. That may take some
   /// passes: sheets that lie in each other agree only when the diagonals of what they share do, too.
   void join(const Plan& plan) {
-    Settle how{plan.last_bits * last_bit(rounded_.state), 0, plan.moves_input, false, most_facets_};
+    Settle how{plan.last_bits * last_bit(rounded_.state.vertices), 0, plan.moves_input, false, most_facets_};
     report_.rung = plan.moves_input ? Rung::snapped : Rung::coarser;
     constexpr int kPasses = 8, kPassesInVain = 4;
     constexpr std::size_t kTooMuch = 4;
@@ -242,7 +242,7 @@ class Rounding {
     const RoundPlane round = round_plane();
     constexpr int kPasses = 4;
     for (int pass = 0; pass < kPasses && !flat.trouble.none(); ++pass) {
-      const double gap = plan.last_bits * last_bit(flat.state);
+      const double gap = plan.last_bits * last_bit(flat.state.vertices);
       const double moved = flatten(flat.state, gap, round, sides_, here(), flat.trouble.facets);
       if (moved == 0) return;
       flat.displacement = sum_above(flat.displacement, moved);
@@ -261,7 +261,7 @@ class Rounding {
   /// Begins again with sheets that lie in each other made one before anything is cut: their planes would
   /// cross in lines all over them. Counts if it leaves less in trouble.
   void begin_flat(const Plan& plan) {
-    const double gap = plan.last_bits * last_bit(given_);
+    const double gap = plan.last_bits * last_bit(given_.vertices);
     Attempt flat{given_, {}, given_displacement_};
     if (plan.moves_input) flat.displacement = sum_above(flat.displacement, weld(flat.state, gap, here()));
     flatten_all(flat.state, gap, flat.displacement);
@@ -303,7 +303,7 @@ class Rounding {
     if (options_.join > 0) return false;
     for (const double last_bits : kJoinedLastBits) {
       RepairOptions options = options_;
-      options.join = last_bits * last_bit(given_);
+      options.join = last_bits * last_bit(given_.vertices);
       Rounding joining(given_, options, report_, exact_, planes_, step_, threads_);
       joining.is_part_ = true;
       joining.flatten_all(options.join, sides_);
@@ -318,7 +318,7 @@ class Rounding {
   void weld_all() {
     for (const double last_bits : kWeldedLastBits) {
       State welded = given_;
-      const double moved = weld(welded, last_bits * last_bit(given_), here());
+      const double moved = weld(welded, last_bits * last_bit(given_.vertices), here());
       if (moved == 0) continue;
       Rounding welding(std::move(welded), options_, report_, exact_, planes_, step_, threads_);
       welding.is_part_ = true;
