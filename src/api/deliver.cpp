@@ -69,8 +69,8 @@ void measure_volume(const Attempt& attempt, const Volume& volume, Field* field, 
     report.field.after =
         describe_shape(field->has_metric() ? shape_of(field->volume(), attempt.threads) : shape.elements);
   if (!field->has_metric() && report.elements.below_10_deg > 0)
-    find_forced(volume, attempt.complex().vertices.size(), report.field,
-                [&] { attempt.monitor.poll_again(); });
+    find_forced(volume, attempt.complex().vertices.size(), report.field, attempt.threads,
+                [&] { attempt.monitor.poll(attempt.monitor.stage(), 1); });
 }
 
 }  // namespace

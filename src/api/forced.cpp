@@ -62,28 +62,56 @@ class FacetsAtVertices {
   std::vector<Index> facets_;
 };
 
+// An angle of 10 degrees makes Q larger than this: the inscribed ball is flat between the two faces. Saves
+// most elements from having their angles computed.
+constexpr double kQualityOfSmall = 2;
+
+struct SmallAngle {
+  Index tetrahedron;
+  double degrees;
+  int edge;
+};
+
+void note_small_angle(const Volume& volume, Index t, std::vector<SmallAngle>& small) {
+  const auto& v = volume.vertices;
+  const auto& [a, b, c, d] = volume.tetrahedra[t];
+  if (quality(v[a], v[b], v[c], v[d]) < kQualityOfSmall) return;
+  const std::array<double, 6> angles = dihedral_angles(v[a], v[b], v[c], v[d]);
+  const auto least = std::min_element(angles.begin(), angles.end());
+  if (*least < kSmall) small.push_back({t, *least, static_cast<int>(least - angles.begin())});
+}
+
+// In the order of the tetrahedra.
+std::vector<SmallAngle> small_angles(const Volume& volume, const Threads& threads) {
+  constexpr std::size_t kBlock = 16384;
+  const std::size_t count = volume.tetrahedra.size();
+  std::vector<std::vector<SmallAngle>> blocks((count + kBlock - 1) / kBlock);
+  parallel(threads, blocks.size(), [&](std::size_t k) {
+    for (std::size_t t = k * kBlock; t < std::min(count, (k + 1) * kBlock); ++t)
+      note_small_angle(volume, static_cast<Index>(t), blocks[k]);
+  });
+  std::vector<SmallAngle> all;
+  for (const auto& own : blocks) all.insert(all.end(), own.begin(), own.end());
+  return all;
+}
+
 class ForcedElements {
  public:
   ForcedElements(const Volume& volume, std::size_t first_added, const std::function<void()>& tell)
       : volume_(volume), first_added_(first_added), tell_(tell) {}
 
-  void find(Report::Field& report) {
-    for (Index t = 0; t < volume_.tetrahedra.size(); ++t) {
+  void find(const std::vector<SmallAngle>& all, Report::Field& report) {
+    for (const SmallAngle& small : all) {
       tell_();
-      const Tetrahedron& c = volume_.tetrahedra[t];
-      const auto& v = volume_.vertices;
-      if (quality(v[c[0]], v[c[1]], v[c[2]], v[c[3]]) < kQualityOfSmall) continue;
-      const std::array<double, 6> angles = dihedral_angles(v[c[0]], v[c[1]], v[c[2]], v[c[3]]);
-      const auto least = std::min_element(angles.begin(), angles.end());
-      if (*least >= kSmall) continue;
+      const Tetrahedron& c = volume_.tetrahedra[small.tetrahedron];
       ++report.below_10_deg;
-      std::vector<Index> facets = to_blame(c, static_cast<int>(least - angles.begin()));
+      std::vector<Index> facets = to_blame(c, small.edge);
       if (facets.empty()) {
         if (std::all_of(c.begin(), c.end(), [&](Index x) { return x < first_added_; })) ++report.across;
         continue;
       }
       ++report.forced;
-      report.worst_forced.push_back({t, *least, std::move(facets)});
+      report.worst_forced.push_back({small.tetrahedron, small.degrees, std::move(facets)});
     }
     std::sort(report.worst_forced.begin(), report.worst_forced.end(), [](const auto& x, const auto& y) {
       return x.min_dihedral_deg != y.min_dihedral_deg ? x.min_dihedral_deg < y.min_dihedral_deg
@@ -93,10 +121,6 @@ class ForcedElements {
   }
 
  private:
-  // An angle of 10 degrees makes Q larger than this: the inscribed ball is flat between the two faces. Saves
-  // most elements from having their angles computed.
-  static constexpr double kQualityOfSmall = 2;
-
   // The faces at an edge are those opposite the other two corners.
   std::vector<Index> to_blame(const Tetrahedron& c, int edge) {
     std::vector<Index> both, small;
@@ -180,9 +204,9 @@ class ForcedElements {
 
 }  // namespace
 
-void find_forced(const Volume& volume, std::size_t first_added, Report::Field& report,
+void find_forced(const Volume& volume, std::size_t first_added, Report::Field& report, const Threads& threads,
                  const std::function<void()>& tell) {
-  ForcedElements(volume, first_added, tell).find(report);
+  ForcedElements(volume, first_added, tell).find(small_angles(volume, threads), report);
 }
 
 }  // namespace holdfast

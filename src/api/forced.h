@@ -2,6 +2,7 @@
 #pragma once
 
 #include "holdfast/holdfast.h"
+#include "mesh/parallel.h"
 
 namespace holdfast {
 
@@ -9,7 +10,7 @@ namespace holdfast {
 /// are to blame: the two that meet at that angle, or those of the element's faces that have such an angle
 /// themselves. Counts the others whose corners are all below `first_added`. `tell` is called now and then,
 /// and may throw.
-void find_forced(const Volume& volume, std::size_t first_added, Report::Field& report,
+void find_forced(const Volume& volume, std::size_t first_added, Report::Field& report, const Threads& threads,
                  const std::function<void()>& tell);
 
 }  // namespace holdfast

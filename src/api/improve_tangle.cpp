@@ -233,7 +233,7 @@ ImprovedTangle improve_tangle(Tangle& tangle, const exact::DoubleGrid& grid, std
   ImprovedTangle improved;
   improved.before = figures_of(as_mesh.data());
   for (const Effort effort : {Effort::fast, Effort::good})
-    improved.stats += improve_further_in_parts(as_mesh.data(), effort, {0, 1}, 1, monitor);
+    improved.stats += improve_further_in_parts(as_mesh.data(), effort, std::nullopt, {0, 1}, 1, monitor);
   improved.after = figures_of(as_mesh.data());
   tangle = as_mesh.tangle();
   return improved;

@@ -101,45 +101,55 @@ void improve_flat(const Attempt& attempt, BoxMesh& box, Division& division, Repo
   if (!flat.empty()) optimise_worst_of(attempt, box, division, flat, PointsToRemove::added_here, report);
 }
 
+// A mesh that field points and the common work have made.
+struct Begun {
+  bool was_brief;                  // and that was enough
+  std::optional<Figures> figures;  // where they are known
+};
+
 // Field points must not make any figure worse than it is without. What was brief goes on. Where little is
 // missing, more work may help; if it does not, only points that better their surroundings are put into the
-// mesh without. Returns whether what was brief was enough.
-bool keep_what_pays(const Attempt& attempt, BoxMesh& box, Division& division, Field& field, bool was_brief,
-                    Report& report) {
+// mesh without.
+Begun keep_what_pays(const Attempt& attempt, BoxMesh& box, Division& division, Field& field, bool was_brief,
+                     Report& report) {
   constexpr std::array<double, 2> kNoProgress{kCommonWork, kCommonWork};
   WithoutField& without = *field.without;
+  if (!without.is_given()) return {was_brief, std::nullopt};
   Figures now = figures_of(field.volume(), attempt.threads);
-  if (!without.is_better_somewhere(now)) return was_brief;
+  if (!without.is_better_somewhere(now)) return {was_brief, now};
   if (was_brief) {
     note(improve_in_parts(field.volume(), {}, Effort::fast, attempt.threads, attempt.monitor), report.field);
     now = figures_of(field.volume(), attempt.threads);
-    if (!without.is_better_somewhere(now)) return false;
+    if (!without.is_better_somewhere(now)) return {false, now};
   }
   if (without.is_within_reach(now)) {
-    note(
-        improve_further_in_parts(field.volume(), Effort::good, kNoProgress, attempt.threads, attempt.monitor),
-        report.field);
-    if (!without.is_better_somewhere(figures_of(field.volume(), attempt.threads))) return false;
+    note(improve_further_in_parts(field.volume(), Effort::good, now, kNoProgress, attempt.threads,
+                                  attempt.monitor),
+         report.field);
+    now = figures_of(field.volume(), attempt.threads);
+    if (!without.is_better_somewhere(now)) return {false, now};
   }
   without.take(box, division);
   field.set_sizes(attempt);
   report.field.points = 0;
-  note(improve_further_in_parts(field.volume(), Effort::fast, kNoProgress, attempt.threads, attempt.monitor),
+  note(improve_further_in_parts(field.volume(), Effort::fast, std::nullopt, kNoProgress, attempt.threads,
+                                attempt.monitor),
        report.field);
-  return false;
+  return {false, std::nullopt};
 }
 
 // Where facets force much of what is bad, what can be bettered are the shares of elements with small angles.
 // Where they force most of it, more elements hardly help: other meshers have as many as the volume takes
 // without field points.
-Extent extent_of_good(Field& field, bool was_brief, const Threads& threads) {
+Extent extent_of_good(Field& field, Begun& begun, const Threads& threads) {
   constexpr double kManySmall = 0.3, kMostOfThoseWithout = 1.35, kLeastGrowth = 0.06;
   Extent extent = Effort::good;
   if (!field.without || !field.without->is_given()) return extent;
-  const Figures now = figures_of(field.volume(), threads);
-  const auto elements = static_cast<double>(now.elements());
-  extent.lowers_shares = was_brief || static_cast<double>(now.below_30_deg()) > kManySmall * elements;
-  if (was_brief)
+  if (!begun.figures) begun.figures = figures_of(field.volume(), threads);
+  const auto elements = static_cast<double>(begun.figures->elements());
+  const auto below_30_deg = static_cast<double>(begun.figures->below_30_deg());
+  extent.lowers_shares = begun.was_brief || below_30_deg > kManySmall * elements;
+  if (begun.was_brief)
     extent.most_growth = std::max(
         kLeastGrowth, kMostOfThoseWithout * static_cast<double>(field.without->elements()) / elements - 1);
   return extent;
@@ -149,28 +159,29 @@ Extent extent_of_good(Field& field, bool was_brief, const Threads& threads) {
 void improve_with_field(const Attempt& attempt, BoxMesh& box, Division& division, Field& field,
                         Report& report) {
   const Threads& threads = attempt.threads;
-  const ImproveStats begun = improve_as_fast(attempt, field, report.field);
+  const ImproveStats common = improve_as_fast(attempt, field, report.field);
   // Flat ones are told from others in space; in a metric they may be as they should be.
-  if (begun.worst > kEnergyOfFlat && !field.has_metric()) {
+  if (common.worst > kEnergyOfFlat && !field.has_metric()) {
     improve_flat(attempt, box, division, report);
     field.give_sizes_to_new_vertices();
   }
-  bool was_brief = begun.was_brief;
+  Begun begun{common.was_brief, std::nullopt};
   if (field.without) {
-    was_brief = keep_what_pays(attempt, box, division, field, was_brief, report);
+    begun = keep_what_pays(attempt, box, division, field, begun.was_brief, report);
     field.worst_without = field.without->worst_quality();
   }
-  const Extent extent = extent_of_good(field, was_brief, threads);
+  const Extent extent = extent_of_good(field, begun, threads);
   field.without.reset();
   const Effort effort = attempt.options.effort;
   constexpr double kUpToGood = 0.75;
   if (effort != Effort::fast)
-    note(improve_further_in_parts(field.volume(), extent,
+    note(improve_further_in_parts(field.volume(), extent, begun.figures,
                                   {kCommonWork, effort == Effort::good ? 1 : kUpToGood}, threads,
                                   attempt.monitor),
          report.field);
   if (effort == Effort::best)
-    note(improve_further_in_parts(field.volume(), Effort::best, {kUpToGood, 1}, threads, attempt.monitor),
+    note(improve_further_in_parts(field.volume(), Effort::best, std::nullopt, {kUpToGood, 1}, threads,
+                                  attempt.monitor),
          report.field);
   report.field.edge_lengths = edge_lengths_of(field.volume(), threads);
 }

@@ -54,20 +54,21 @@ ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledPart
   return stats;
 }
 
-ImproveStats improve_further_in_parts(const VolumeData& volume, Extent extent, std::array<double, 2> work,
-                                      const Threads& threads, Monitor& monitor) {
+ImproveStats improve_further_in_parts(const VolumeData& volume, Extent extent, std::optional<Figures> figures,
+                                      std::array<double, 2> work, const Threads& threads, Monitor& monitor) {
+  if (!figures) figures = figures_to_keep(volume, threads);
   std::unique_ptr<Parts> parts = cut_evenly(volume, threads);
-  if (!parts) return improve_further(volume, extent, figures_to_keep(volume, threads), work, monitor);
+  if (!parts) return improve_further(volume, extent, figures, work, monitor);
   ImproveStats stats;
   const double most = work[0] + tuning::kWorkOfFirstParts * (work[1] - work[0]);
   for (std::array<double, 2> now{work[0], most}; parts; now = {most, work[1]}) {
-    const std::optional<Figures> kept = figures_to_keep(volume, threads);
     const auto improve_part = [&](Part& part, Monitor& own) {
-      return improve_further(part.data(parts->whole()), extent, kept, {0, 1}, own, part.on_cut(),
+      return improve_further(part.data(parts->whole()), extent, figures, {0, 1}, own, part.on_cut(),
                              part.was_on_cut());
     };
     stats += improve_each(*parts, improve_part, now, threads, monitor);
     parts = join_and_cut_again(*parts, threads);
+    if (parts) figures = figures_to_keep(volume, threads);
   }
   return stats;
 }

@@ -24,10 +24,10 @@ ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledPart
                               const Threads& threads, Monitor& monitor);
 
 /// Goes on with what less effort has left, as far as `extent` goes, and makes none of the figures of the
-/// volume (figures.h) worse than they are. Progress is told as that part of the stage's work. A large mesh is
-/// cut into parts. Each keeps the figures of the whole as if the others stayed as they are; as all but the
-/// least angle are means, the parts keep them together.
-ImproveStats improve_further_in_parts(const VolumeData& volume, Extent extent, std::array<double, 2> work,
-                                      const Threads& threads, Monitor& monitor);
+/// volume (figures.h) worse than they are; `figures` are these, where they are known. Progress is told as
+/// that part of the stage's work. A large mesh is cut into parts. Each keeps the figures of the whole as if
+/// the others stayed as they are; as all but the least angle are means, the parts keep them together.
+ImproveStats improve_further_in_parts(const VolumeData& volume, Extent extent, std::optional<Figures> figures,
+                                      std::array<double, 2> work, const Threads& threads, Monitor& monitor);
 
 }  // namespace holdfast

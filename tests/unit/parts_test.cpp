@@ -331,7 +331,7 @@ TEST(ImproveInParts, MoreEffortKeepsTheFiguresOfTheWholeOnAnyNumberOfThreads) {
   const Figures before = figures_of(fast.data());
   const auto improved = [&](unsigned threads) {
     Cube cube = fast;
-    improve_further_in_parts(cube.data(), Effort::good, {0, 1}, threads, monitor);
+    improve_further_in_parts(cube.data(), Effort::good, std::nullopt, {0, 1}, threads, monitor);
     EXPECT_EQ(find_fault(cube.mesh), "");
     return cube;
   };
