@@ -10,6 +10,7 @@
 
 #include "mesh/anatomy.h"
 #include "mesh/quality.h"
+#include "mesh/quality_below.h"
 #include "numbers/elementary.h"
 
 namespace holdfast {
@@ -75,7 +76,7 @@ struct SmallAngle {
 void note_small_angle(const Volume& volume, Index t, std::vector<SmallAngle>& small) {
   const auto& v = volume.vertices;
   const auto& [a, b, c, d] = volume.tetrahedra[t];
-  if (quality(v[a], v[b], v[c], v[d]) < kQualityOfSmall) return;
+  if (is_quality_below(v[a], v[b], v[c], v[d], kQualityOfSmall)) return;
   const std::array<double, 6> angles = dihedral_angles(v[a], v[b], v[c], v[d]);
   const auto least = std::min_element(angles.begin(), angles.end());
   if (*least < kSmall) small.push_back({t, *least, static_cast<int>(least - angles.begin())});

@@ -22,6 +22,7 @@ using Normals = std::array<Vector, 4>;
 // What Q stands on, in plain arithmetic.
 struct Plain {
   Normals normals;
+  std::array<double, 4> lengths;  // of the normals
   double longest, six_volumes, twice_area;
 
   [[nodiscard]] bool is_thinner_than(double thin) const {
@@ -41,8 +42,9 @@ std::optional<Plain> plain_of(const Point& a, const Point& b, const Point& c, co
   if (!(longest > kSmall && longest < kLarge)) return std::nullopt;
   const Vector n = cross(u, v);
   const Normals normals{cross(y, x), cross(v, w), cross(w, u), n};
-  const double twice_area = length(normals[3]) + length(normals[1]) + length(normals[2]) + length(normals[0]);
-  return Plain{normals, longest, std::abs(dot(n, w)), twice_area};
+  const std::array<double, 4> l{length(normals[0]), length(normals[1]), length(normals[2]),
+                                length(normals[3])};
+  return Plain{normals, l, longest, std::abs(dot(n, w)), l[3] + l[1] + l[2] + l[0]};
 }
 
 // The same with care for what cancels.
@@ -183,7 +185,7 @@ std::optional<PlainShape> plain_shape(const Point& a, const Point& b, const Poin
   const Normals& n = plain->normals;
   PlainShape shape{plain->quality(), {}};
   std::array<double, 4> inverse{};
-  for (std::size_t i = 0; i < 4; ++i) inverse[i] = 1 / length(n[i]);
+  for (std::size_t i = 0; i < 4; ++i) inverse[i] = 1 / plain->lengths[i];
   for (std::size_t k = 0; k < 6; ++k) {
     const auto [i, j] = kFacesAt[k];
     shape.cosines[k] = -dot(n[i], n[j]) * inverse[i] * inverse[j];
