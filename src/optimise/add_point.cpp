@@ -1,6 +1,7 @@
 #include "optimise/add_point.h"
 
 #include <algorithm>
+#include <array>
 
 #include "mesh/editor.h"
 #include "mesh/measure.h"
@@ -10,17 +11,25 @@ namespace holdfast {
 namespace {
 
 // What elements with small angles weigh, those with an angle below 10, 20 and 30 degrees.
-struct Burden {
+class Burden {
+ public:
   double by_number = 0;  // over what new elements may
   double by_volume = 0;
 
+  explicit Burden(const ImprovedVolume& judge) {
+    for (std::size_t k = 0; k < from_.size(); ++k)
+      from_[k] = judge.energy_of_sine(tuning::kWeightBelow[k].sine);
+  }
   void add(double energy, double volume) {
     double weight = 0;
-    for (const auto& [sine, more] : tuning::kWeightBelow)
-      if (energy > energy_of_sine(sine)) weight += more;
+    for (std::size_t k = 0; k < from_.size(); ++k)
+      if (energy > from_[k]) weight += tuning::kWeightBelow[k].weight;
     by_number += weight - tuning::kWeightThatPays;
     by_volume += weight * volume;
   }
+
+ private:
+  std::array<double, tuning::kWeightBelow.size()> from_{};
 };
 
 }  // namespace
@@ -84,7 +93,7 @@ bool PointAdder::find_cavity(Vertex p, Tet t, std::span<const Tet> tets) {
 bool PointAdder::improves(Vertex p) {
   TetMesh& mesh = volume_.mesh();
   star_.clear();
-  star_.bound(frame_.is_plain() ? volume_.most() : kNoEnergy);
+  star_.follow(volume_.rule_in(frame_));
   for (const RimFace& rim : cavity_.rim())
     star_.add(frame_.to(mesh.position(rim.v[0])), frame_.to(mesh.position(rim.v[1])),
               frame_.to(mesh.position(rim.v[2])), 1);
@@ -106,7 +115,7 @@ bool PointAdder::improves(Vertex p) {
 // good mesh would; or less of the volume is bad.
 bool PointAdder::pays(Vertex p) const {
   const TetMesh& mesh = volume_.mesh();
-  Burden before, after;
+  Burden before(volume_), after(volume_);
   for (const Tet t : cavity_.tets()) before.add(volume_.energy(t), six_volumes(mesh, mesh.corners(t)));
   for (const RimFace& rim : cavity_.rim()) {
     const TetMesh::Corners corners{rim.v[0], rim.v[1], rim.v[2], p};

@@ -22,23 +22,29 @@ namespace holdfast {
 
 inline constexpr double kNoEnergy = std::numeric_limits<double>::infinity();
 
+/// What decides besides the angles.
+struct EnergyRule {
+  double most = kNoEnergy;                       ///< sixths of a unit of volume that an element may have
+  double hopeless_sine = tuning::kHopelessSine;  ///< q below which energies grow less steeply
+};
+
 /// The energy of an element whose least angle has this sine.
-[[nodiscard]] constexpr double energy_of_sine(double q) {
+[[nodiscard]] constexpr double energy_of_sine(double q, const EnergyRule& rule = {}) {
   const double q2 = q * q;
-  return 1 / (q2 * std::max(q2, tuning::kHopelessSine * tuning::kHopelessSine));
+  return 1 / (q2 * std::max(q2, rule.hopeless_sine * rule.hopeless_sine));
 }
 
 /// Of one tetrahedron, or of two if Number is a Pair.
 template <typename Number>
 using PointOf = std::array<Number, 3>;
 
-/// Puts into `result` the energy of each tetrahedron: infinite where it is not positive, or of more than
-/// `most` sixths of a unit of volume, in floating point. No vector is handed over by value: how that is done
+/// Puts into `result` the energy of each tetrahedron: infinite where it is not positive, or larger than the
+/// rule allows, in floating point. No vector is handed over by value: how that is done
 /// depends on what the processor is known to have.
 template <typename Number>
 [[gnu::always_inline]] inline void put_energy(const PointOf<Number>& a, const PointOf<Number>& b,
-                                              const PointOf<Number>& c, const PointOf<Number>& d, double most,
-                                              Number& result) {
+                                              const PointOf<Number>& c, const PointOf<Number>& d,
+                                              const EnergyRule& rule, Number& result) {
   const Number ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
   const Number vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
   const Number wx = d[0] - a[0], wy = d[1] - a[1], wz = d[2] - a[2];
@@ -76,18 +82,18 @@ template <typename Number>
   lessen(ab, bd);
   const Number& least = ab;
   const Number q2 = volume * volume * least, infinite = Number{} + kNoEnergy;
-  const Number least_q2 = Number{} + tuning::kHopelessSine * tuning::kHopelessSine;
+  const Number least_q2 = Number{} + rule.hopeless_sine * rule.hopeless_sine;
   const Number e = 1 / (q2 * (q2 < least_q2 ? least_q2 : q2)), of_positive = e < infinite ? e : infinite;
-  const Number of_small = volume > most ? infinite : of_positive;
+  const Number of_small = volume > rule.most ? infinite : of_positive;
   result = volume > 0 ? of_small : infinite;
 }
 
 template <typename Number>
 [[nodiscard]] inline Number energy(const PointOf<Number>& a, const PointOf<Number>& b,
                                    const PointOf<Number>& c, const PointOf<Number>& d,
-                                   double most = kNoEnergy) {
+                                   const EnergyRule& rule = {}) {
   Number result{};
-  put_energy<Number>(a, b, c, d, most, result);
+  put_energy<Number>(a, b, c, d, rule, result);
   return result;
 }
 [[nodiscard]] inline double energy(const Point& a, const Point& b, const Point& c, const Point& d) {

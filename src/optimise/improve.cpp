@@ -17,11 +17,12 @@ class Improver {
   Improver(const VolumeData& volume, const tuning::Passes& passes, std::span<const std::uint8_t> spared,
            std::span<const std::uint8_t> fresh, Monitor& monitor)
       : mesh_(volume.mesh),
-        volume_(volume, fresh, Threads(1).polling([&monitor] { monitor.poll_again(); })),
+        volume_(volume, fresh, Threads(1).polling([&monitor] { monitor.poll_again(); }),
+                passes.hopeless_sine),
         passes_(passes),
         spared_(spared),
         monitor_(monitor),
-        ways_(volume_, energy_of_sine(passes_.patient_aim)),
+        ways_(volume_, volume_.energy_of_sine(passes_.patient_aim)),
         most_inserted_(
             static_cast<std::size_t>(passes_.inserted_per_tet * static_cast<double>(mesh_.tet_count()))) {}
 
@@ -70,6 +71,7 @@ class Improver {
     if (passes_.first != First::the_worst)
       work_on_single_ones(passes_.aim, work(passes_.share_of_the_worst), First::the_worst, Patience::usual);
     // The very worst are few: they get as many rounds as help.
+    volume_.judge_by(tuning::kHopelessSine);
     volume_.touch_all();
     for (int round = 0; round < tuning::kPatientRounds * passes_.rounds; ++round) {
       volume_.touch_beside_touched();
@@ -120,7 +122,7 @@ class Improver {
   }
 
   void swap_pass() {
-    const double from = energy_of_sine(passes_.sine);
+    const double from = volume_.energy_of_sine(passes_.sine);
     const auto count = static_cast<double>(mesh_.slot_count());
     // Slots that are filled on the way are met again, here or in the next pass.
     for (Tet t = 0; t < mesh_.slot_count(); ++t) {
@@ -131,7 +133,7 @@ class Improver {
   }
 
   void smooth_pass() {
-    const double from = energy_of_sine(passes_.smooth_sine);
+    const double from = volume_.energy_of_sine(passes_.smooth_sine);
     std::vector<std::uint8_t> bad(mesh_.vertex_count(), 0);
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
       if (is_worse(t, from))
@@ -146,7 +148,7 @@ class Improver {
   // So many that passes are the faster way.
   [[nodiscard]] bool has_many_bad() const { return share_of_bad() > tuning::kManyBad; }
   [[nodiscard]] double share_of_bad() const {
-    const double from = energy_of_sine(passes_.aim);
+    const double from = volume_.energy_of_sine(passes_.aim);
     std::size_t bad = 0;
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
       if (is_worse(t, from)) ++bad;
@@ -160,7 +162,7 @@ class Improver {
     for (Tet t = 0; t < mesh_.slot_count(); ++t) {
       if (!volume_.is_inside(t) || touches_a_constraint(t)) continue;
       ++inside;
-      if (is_worse(t, energy_of_sine(tuning::kSineOfBad))) ++bad;
+      if (is_worse(t, volume_.energy_of_sine(tuning::kSineOfBad))) ++bad;
     }
     const auto all = static_cast<double>(mesh_.tet_count());
     return static_cast<double>(inside) > tuning::kMuchInside * all &&
@@ -179,7 +181,7 @@ class Improver {
 
   // One element after another, as long as there is work left to spend. Returns whether any became better.
   bool work_on_single_ones(double aim, double share, First first, Patience patience) {
-    const double from = energy_of_sine(aim);
+    const double from = volume_.energy_of_sine(aim);
     std::priority_queue<Entry> queue;
     const auto rank = [&](Tet t) { return rank_of(t, first); };
     const auto push = [&](Tet t) {

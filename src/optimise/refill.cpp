@@ -65,7 +65,7 @@ void CavityRefiller::offer(const Cavity& cavity, double gain) {
 void CavityRefiller::find_place(const Cavity& cavity) {
   const TetMesh& mesh = volume_.mesh();
   star_.clear();
-  star_.bound(frame_.is_plain() ? volume_.most() : kNoEnergy);
+  star_.follow(volume_.rule_in(frame_));
   Point middle{};
   for (const auto& f : cavity.faces()) {
     star_.add(frame_.to(mesh.position(f[0])), frame_.to(mesh.position(f[1])), frame_.to(mesh.position(f[2])),

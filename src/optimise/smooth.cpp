@@ -33,7 +33,7 @@ void VertexSmoother::gather_star(Vertex v) {
   const TetMesh& mesh = volume_.mesh();
   star_.clear();
   frame_ = volume_.frame_of({&v, 1});
-  star_.bound(frame_.is_plain() ? volume_.most() : kNoEnergy);
+  star_.follow(volume_.rule_in(frame_));
   for (const Tet t : tets_) {
     const auto f = mesh.face_vertices(face_code(t, mesh.index_of(t, v)));
     star_.add(frame_.to(mesh.position(f[0])), frame_.to(mesh.position(f[1])), frame_.to(mesh.position(f[2])),

@@ -76,7 +76,7 @@ HOLDFAST_WITH_FOURS double Star::energy_by_fours(const Point& x, double limit) {
       d[i] = Four{} + x[i];
     }
     Four e{};
-    put_energy<Four>(a, b, c, d, most_, e);
+    put_energy<Four>(a, b, c, d, rule_, e);
     const std::array<double, 4> energies{e[0], e[1], e[2], e[3]};
     if (reaches(limit, k, energies.data(), sum)) return sum;
     if (k + 1 < count && reaches(limit, k + 1, energies.data() + 2, sum)) return sum;

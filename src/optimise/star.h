@@ -14,8 +14,8 @@ class Star {
   /// A face that a point x of the star sees with orient(a, b, c, x) > 0. The heavier it weighs the more it
   /// says about where x should be.
   void add(const Point& a, const Point& b, const Point& c, double weight);
-  /// No tetrahedron may have more than a sixth of this volume; infinite without a bound.
-  void bound(double most) { most_ = most; }
+  /// By which energies are computed from now on.
+  void follow(const EnergyRule& rule) { rule_ = rule; }
   [[nodiscard]] std::size_t face_count() const { return face_count_; }
 
   /// Starts the search for a place at x, where the energy is known or computed.
@@ -51,7 +51,7 @@ class Star {
   };
 
   [[nodiscard]] Pair energies_at(const TwoFaces& two, const Point& x) const {
-    return holdfast::energy<Pair>(two.a, two.b, two.c, {Pair{} + x[0], Pair{} + x[1], Pair{} + x[2]}, most_);
+    return holdfast::energy<Pair>(two.a, two.b, two.c, {Pair{} + x[0], Pair{} + x[1], Pair{} + x[2]}, rule_);
   }
   [[nodiscard]] double energy_at(const Point& x, double limit);
   [[nodiscard]] double energy_by_pairs(const Point& x, double limit);
@@ -66,7 +66,7 @@ class Star {
   std::size_t face_count_ = 0;
   Point at_{};
   double energy_ = kNoEnergy;
-  double most_ = kNoEnergy;
+  EnergyRule rule_;
 };
 
 }  // namespace holdfast

@@ -101,6 +101,7 @@ inline constexpr std::size_t kFlatShells = 200;       ///< shells looked at for 
 /// helped the soonest. But where the least is spent, and the result is held to that of --fill, the worst must
 /// not be left over.
 enum class First : std::uint8_t { the_worst, the_mildest, the_largest };
+inline constexpr double kHopelessSine = 0.14;  ///< 8 degrees: below, energies grow less, for much is forced
 /// Passes over the whole volume, then work on single elements.
 struct Passes {
   int passes;
@@ -122,6 +123,7 @@ struct Passes {
   /// again, up to so many times.
   double most_shares = 10;
   bool points_must_pay = false;  ///< by the shares of elements with small angles
+  double hopeless_sine = kHopelessSine;
 };
 /// What is left of fast effort on results that are compared with others, where so large a share of the
 /// elements is below its aim after so many passes: one patient round.
@@ -149,13 +151,13 @@ inline constexpr Brief kBrief;
   Passes passes{0, 0.45, 0.50, 0.36, 0.24, 1, First::the_mildest, 1, 0.02};
   if (!lowers_shares) return passes;
   passes.aim = 0.46;  // 27 degrees
-  passes.rounds = 2;
+  passes.rounds = 3;
   passes.work_per_tet = 1;
   passes.inserted_per_tet = 0.042;
   passes.least_work = 2400;
   passes.most_shares = 1;  // what was left need not be inside for want of work
   passes.points_must_pay = true;
-  passes.first = First::the_largest;
+  passes.hopeless_sine = 0.3;  // 17 degrees: what is below hardly leaves a share
   return passes;
 }
 inline constexpr int kMostPasses = 6;     ///< while many elements are bad, which passes help faster
@@ -169,7 +171,7 @@ inline constexpr double kSineWorthAPoint = 0.42;   ///< 25 degrees; no element a
 struct WeightBelow {
   double sine, weight;
 };
-inline constexpr std::array<WeightBelow, 3> kWeightBelow{{{0.1736, 0.5}, {0.342, 1}, {0.5, 1}}};
+inline constexpr std::array<WeightBelow, 3> kWeightBelow{{{0.1736, 0.7}, {0.342, 1}, {0.5, 1}}};
 inline constexpr double kWeightThatPays = 0.5;        ///< of an element more
 inline constexpr double kPartOfVolumeThatPays = 0.7;  ///< part of what weighs, by volume, that may stay
 // Contractions.
@@ -185,7 +187,6 @@ inline constexpr double kAddTetsAWork = 60;        ///< tetrahedra of its caviti
 inline constexpr double kContractTetsAWork = 100;  ///< tetrahedra looked at
 inline constexpr double kSmoothTetsAWork = 10;     ///< tetrahedra of a ball
 
-inline constexpr double kHopelessSine = 0.14;  ///< 8 degrees: below, energies grow less, for much is forced
 inline constexpr double kObtuse = 1.5;  ///< square of what the sine of an obtuse angle counts for: less harm
 inline constexpr double kSineOfFlat = 0.035;  ///< 2 degrees: what is worse gets the ways of --fill, too
 /// Part of a sum of energies that is rounding, and a gain that is worth a change.

@@ -10,14 +10,14 @@ constexpr Tet kTetsALook = 1 << 16;  // some milliseconds
 }  // namespace
 
 ImprovedVolume::ImprovedVolume(const VolumeData& data, std::span<const std::uint8_t> fresh,
-                               const Threads& threads)
-    : data_(data), mesh_(data.mesh), region_of_(data.region_of) {
+                               const Threads& threads, double hopeless_sine)
+    : data_(data),
+      mesh_(data.mesh),
+      region_of_(data.region_of),
+      rule_{.most = kNoEnergy, .hopeless_sine = hopeless_sine} {
   const auto slots = static_cast<Tet>(mesh_.slot_count());
   energy_.assign(slots, 0);
-  for (Tet first = 0; first < slots; first += std::min(kTetsALook, slots - first)) {
-    compute_energies(first, first + std::min(kTetsALook, slots - first));
-    threads.poll();
-  }
+  compute_energies(threads);
   touched_.assign(fresh.begin(), fresh.end());
   touched_.resize(mesh_.vertex_count(), 1);
   in_vain_.make_room(slots, mesh_.vertex_count());
@@ -28,6 +28,18 @@ ImprovedVolume::ImprovedVolume(const VolumeData& data, std::span<const std::uint
     const TetMesh::Corners& c = mesh_.corners(t);
     if (is_inside(t) && std::any_of(c.begin(), c.end(), [&](Vertex v) { return touched_[v] != 0; }))
       changed_[t] = 1;
+  }
+}
+
+void ImprovedVolume::judge_by(double hopeless_sine) {
+  if (std::exchange(rule_.hopeless_sine, hopeless_sine) != hopeless_sine) compute_energies(Threads(1));
+}
+
+void ImprovedVolume::compute_energies(const Threads& threads) {
+  const auto slots = static_cast<Tet>(mesh_.slot_count());
+  for (Tet first = 0; first < slots; first += std::min(kTetsALook, slots - first)) {
+    compute_energies(first, first + std::min(kTetsALook, slots - first));
+    threads.poll();
   }
 }
 
@@ -70,9 +82,10 @@ Figures ImprovedVolume::figures(std::span<const TetMesh::Corners> tets) const {
 
 // A frame does not keep volumes.
 double ImprovedVolume::energy_in_frame(const TetMesh::Corners& c) const {
-  if (most_ < kNoEnergy && six_volumes(mesh_, c) > most_) return kNoEnergy;
-  return data_.see(c, [](const Point& p, const Point& q, const Point& r, const Point& s) {
-    return holdfast::energy(p, q, r, s);
+  if (rule_.most < kNoEnergy && six_volumes(mesh_, c) > rule_.most) return kNoEnergy;
+  const EnergyRule rule{kNoEnergy, rule_.hopeless_sine};
+  return data_.see(c, [&rule](const Point& p, const Point& q, const Point& r, const Point& s) {
+    return holdfast::energy<double>(p, q, r, s, rule);
   });
 }
 

@@ -21,9 +21,10 @@ namespace holdfast {
 class ImprovedVolume {
  public:
   /// Free vertices may move and go. All vertices of kept tetrahedra are explicit. What is at vertices that
-  /// `fresh` marks, or that are higher than it tells of, counts as changed.
+  /// `fresh` marks, or that are higher than it tells of, counts as changed. Energies grow less steeply below
+  /// the hopeless sine.
   explicit ImprovedVolume(const VolumeData& data, std::span<const std::uint8_t> fresh = {},
-                          const Threads& threads = 1);
+                          const Threads& threads = 1, double hopeless_sine = tuning::kHopelessSine);
 
   [[nodiscard]] TetMesh& mesh() { return mesh_; }
   [[nodiscard]] const TetMesh& mesh() const { return mesh_; }
@@ -34,8 +35,13 @@ class ImprovedVolume {
 
   /// From now on, elements are judged as those of the region of t: by the most that these may measure.
   void turn_to(Tet t) { turn_to_region(region_of_[t]); }
-  /// Six times that, a little less where floating point could not tell; infinite without a bound.
-  [[nodiscard]] double most() const { return most_; }
+  /// From now on, energies grow less steeply below that sine.
+  void judge_by(double hopeless_sine);
+  /// For elements that are seen in a frame, where a bound on volumes means nothing unless it is plain.
+  [[nodiscard]] EnergyRule rule_in(const Frame& frame) const {
+    return {frame.is_plain() ? rule_.most : kNoEnergy, rule_.hopeless_sine};
+  }
+  [[nodiscard]] double energy_of_sine(double q) const { return holdfast::energy_of_sine(q, rule_); }
 
   /// Of a living tetrahedron inside.
   [[nodiscard]] double energy(Tet t) const { return energy_[t]; }
@@ -48,7 +54,7 @@ class ImprovedVolume {
     if (data_.metrics != nullptr) [[unlikely]]
       return energy_in_frame(c);
     return holdfast::energy<double>(mesh_.position(c[0]), mesh_.position(c[1]), mesh_.position(c[2]),
-                                    mesh_.position(c[3]), most_);
+                                    mesh_.position(c[3]), rule_);
   }
   /// Of two, in little more time than of one.
   [[nodiscard]] Pair energies_of(const TetMesh::Corners& x, const TetMesh::Corners& y) const {
@@ -59,7 +65,7 @@ class ImprovedVolume {
       const Point &of_x = mesh_.position(x[i]), &of_y = mesh_.position(y[i]);
       for (std::size_t k = 0; k < 3; ++k) p[i][k] = Pair{of_x[k], of_y[k]};
     }
-    return holdfast::energy<Pair>(p[0], p[1], p[2], p[3], most_);
+    return holdfast::energy<Pair>(p[0], p[1], p[2], p[3], rule_);
   }
   [[nodiscard]] bool is_positive(const TetMesh::Corners& c) const {
     return mesh_.orient(c[0], c[1], c[2], c[3]) > 0;
@@ -165,11 +171,13 @@ class ImprovedVolume {
   [[nodiscard]] RegionId region_of(Tet t) const { return region_of_[t]; }
 
  private:
+  void compute_energies(const Threads& threads);
   void compute_energies(Tet first, Tet last);
+  // A little less than the bound where floating point could not tell.
   void turn_to_region(RegionId region) {
     constexpr double kSurely = 1 - 1e-9;
     if (data_.most_volumes != nullptr) [[unlikely]]
-      most_ = 6 * kSurely * (*data_.most_volumes)[region];
+      rule_.most = 6 * kSurely * (*data_.most_volumes)[region];
   }
   [[nodiscard]] double energy_in_frame(const TetMesh::Corners& c) const;
   [[nodiscard]] Pair energies_in_frames(const TetMesh::Corners& x, const TetMesh::Corners& y) const;
@@ -178,7 +186,7 @@ class ImprovedVolume {
   TetMesh& mesh_;
   std::vector<RegionId>& region_of_;
   std::vector<double> energy_;  // by slot
-  double most_ = kNoEnergy;
+  EnergyRule rule_;
   std::optional<Standard> standard_;
   std::vector<std::uint8_t> changed_, touched_;
   InVain in_vain_;

@@ -72,9 +72,8 @@ void EnergyWays::contract_a_corner(Tet t, Outcome& out, double& work) {
 }
 
 void EnergyWays::add_point(Tet t, Outcome& out, double& work) {
-  constexpr double worth_a_point = energy_of_sine(tuning::kSineWorthAPoint);
   const double energy = volume_.energy(t);
-  if (!may_add_ || !(energy > worth_a_point)) return;
+  if (!may_add_ || !(energy > volume_.energy_of_sine(tuning::kSineWorthAPoint))) return;
   const bool is_added = adder_.add(t, energy > very_bad_);
   work += tuning::kAddWork + adder_.work() / tuning::kAddTetsAWork;
   if (is_added) out.changed = adder_.ball();

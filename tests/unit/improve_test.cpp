@@ -42,7 +42,17 @@ TEST(Energy, IsOfTheLeastAngle) {
       least = std::min(least, angle > 90 ? sine * std::sqrt(1.5) : sine);
     }
     EXPECT_NEAR(e / energy_of_sine(least), 1, 1e-5);
+    const EnergyRule early{.hopeless_sine = 0.4};
+    EXPECT_NEAR(energy<double>(p[0], p[1], p[2], p[3], early) / energy_of_sine(least, early), 1, 1e-5);
   }
+}
+
+// What is hopeless counts for less, beside what is not, than by the usual rule; the rest counts the same.
+TEST(Energy, GrowsLessBelowTheHopelessSine) {
+  const EnergyRule early{.hopeless_sine = 0.4};
+  EXPECT_EQ(energy_of_sine(0.5, early), energy_of_sine(0.5));
+  EXPECT_NEAR(energy_of_sine(0.2, early) / energy_of_sine(0.4, early), 4, 1e-12);
+  EXPECT_NEAR(energy_of_sine(0.2) / energy_of_sine(0.4), 16, 1e-12);
 }
 
 TEST(Shape, ANeedleIsNotFlat) {
@@ -120,7 +130,7 @@ HOLDFAST_WITH_FOURS void expect_four_to_be_those_of_each(std::mt19937_64& random
     for (std::size_t j = 0; j < 3; ++j)
       for (std::size_t lane = 0; lane < 4; ++lane) all[i][j][lane] = p[lane][i][j] = any(random);
   Four e{};
-  put_energy<Four>(all[0], all[1], all[2], all[3], kNoEnergy, e);
+  put_energy<Four>(all[0], all[1], all[2], all[3], EnergyRule{}, e);
   for (std::size_t lane = 0; lane < 4; ++lane) {
     const double of_lane = e[lane];
     EXPECT_EQ(of_lane, energy(p[lane][0], p[lane][1], p[lane][2], p[lane][3]));
@@ -211,11 +221,35 @@ std::array<double, 2> burden_of(const TetMesh& mesh, const ImprovedVolume& volum
   for (Tet t = 0; t < mesh.slot_count(); ++t) {
     if (!volume.is_inside(t)) continue;
     const double e = volume.energy(t);
-    const double weight = 0.5 * (e > energy_of_sine(0.1736)) + (e > energy_of_sine(0.342)) + (e > 16);
+    const double weight = 0.7 * (e > energy_of_sine(0.1736)) + (e > energy_of_sine(0.342)) + (e > 16);
     sum[0] += weight - 0.5;
     sum[1] += weight * six_volumes(mesh, mesh.corners(t));
   }
   return sum;
+}
+
+TEST(ImprovedVolume, IsJudgedByAnotherSineFromThenOn) {
+  TetMesh mesh = random_mesh(100, 3);
+  std::vector<RegionId> region_of(mesh.slot_count(), 0);
+  const std::vector<bool> kept{true};
+  std::vector<double> sizes(mesh.vertex_count(), 1);
+  const VolumeData data{mesh, region_of, sizes, kept, 8};
+  const ImprovedVolume usual(data), early(data, {}, 1, 0.4);
+  ImprovedVolume volume(data, {}, 1, 0.4);
+  std::size_t less = 0;
+  for (Tet t = 0; t < mesh.slot_count(); ++t) {
+    EXPECT_EQ(volume.energy(t), early.energy(t));
+    if (early.energy(t) < usual.energy(t)) ++less;
+  }
+  EXPECT_GT(less, 10u);
+  volume.judge_by(tuning::kHopelessSine);
+  EXPECT_EQ(volume.energy_of_sine(0.1), energy_of_sine(0.1));
+  for (Tet t = 0; t < mesh.slot_count(); ++t) {
+    EXPECT_EQ(volume.energy(t), usual.energy(t));
+    if (volume.is_inside(t)) {
+      EXPECT_EQ(volume.energy_of(mesh.corners(t)), usual.energy(t));
+    }
+  }
 }
 
 TEST(PointAdder, LowersSharesOfSmallAnglesWhereItMust) {
