@@ -73,7 +73,7 @@ class Improver {
     // The very worst are few: they get as many rounds as help.
     volume_.judge_by(tuning::kHopelessSine);
     volume_.touch_all();
-    for (int round = 0; round < tuning::kPatientRounds * passes_.rounds; ++round) {
+    for (int round = 0; round < passes_.patient_rounds * passes_.rounds; ++round) {
       volume_.touch_beside_touched();
       if (!work_on_single_ones(patient_aim(), work(tuning::kPatientShare), First::the_worst,
                                Patience::all_ways))

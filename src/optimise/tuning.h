@@ -124,6 +124,7 @@ struct Passes {
   double most_shares = 10;
   bool points_must_pay = false;  ///< by the shares of elements with small angles
   double hopeless_sine = kHopelessSine;
+  int patient_rounds = 3;  ///< times the rounds: the very worst are few and get all that help
 };
 /// What is left of fast effort on results that are compared with others, where so large a share of the
 /// elements is below its aim after so many passes: one patient round.
@@ -157,12 +158,12 @@ inline constexpr Brief kBrief;
   passes.least_work = 2400;
   passes.most_shares = 1;  // what was left need not be inside for want of work
   passes.points_must_pay = true;
+  passes.patient_rounds = 2;
   passes.hopeless_sine = 0.3;  // 17 degrees: what is below hardly leaves a share
   return passes;
 }
-inline constexpr int kMostPasses = 6;     ///< while many elements are bad, which passes help faster
-inline constexpr double kManyBad = 0.1;   ///< of the elements: as many are many
-inline constexpr int kPatientRounds = 3;  ///< times the rounds: the very worst are few and get all that help
+inline constexpr int kMostPasses = 6;              ///< while many elements are bad, which passes help faster
+inline constexpr double kManyBad = 0.1;            ///< of the elements: as many are many
 inline constexpr double kPatientShare = 0.1;       ///< of the work of a round for each of these
 inline constexpr double kBeyondPatientAim = 0.02;  ///< so that what is just better gets the cheap ways, too
 inline constexpr double kSineWorthAPoint = 0.42;   ///< 25 degrees; no element above is worth a vertex
