@@ -1,11 +1,9 @@
 #include "optimise/improve.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <queue>
 
-#include "mesh/measure.h"
 #include "optimise/tuning.h"
 #include "optimise/ways_for_energy.h"
 
@@ -174,9 +172,7 @@ class Improver {
   }
 
   [[nodiscard]] double rank_of(Tet t, First first) const {
-    if (first == First::the_worst) return volume_.energy(t);
-    if (first == First::the_mildest) return -volume_.energy(t);
-    return std::sqrt(std::max(0.0, six_volumes(mesh_, mesh_.corners(t)))) / volume_.energy(t);
+    return first == First::the_worst ? volume_.energy(t) : -volume_.energy(t);
   }
 
   // One element after another, as long as there is work left to spend. Returns whether any became better.

@@ -96,11 +96,10 @@ inline constexpr std::size_t kMostShellForFlat = 14;  ///< tetrahedra of a shell
 inline constexpr std::size_t kFlatShells = 200;       ///< shells looked at for one element
 
 // --- With field points. Angles are told by their sines.
-/// Which of the bad elements comes first; the largest are those with much volume for their energy. On
-/// surfaces full of needles the facets force most of the worst, so that what is nearest to being good is
-/// helped the soonest. But where the least is spent, and the result is held to that of --fill, the worst must
-/// not be left over.
-enum class First : std::uint8_t { the_worst, the_mildest, the_largest };
+/// Which of the bad elements comes first. On surfaces full of needles the facets force most of the worst, so
+/// that what is nearest to being good is helped the soonest. But where the least is spent, and the result is
+/// held to that of --fill, the worst must not be left over.
+enum class First : std::uint8_t { the_worst, the_mildest };
 inline constexpr double kHopelessSine = 0.14;  ///< 8 degrees: below, energies grow less, for much is forced
 /// Passes over the whole volume, then work on single elements.
 struct Passes {
