@@ -19,30 +19,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Optional, Union
 
+from ._batch_records import Row, Task, checksum_of, is_complete, keep_better, options_that_matter, rows_of
 from ._limits import MemoryAmount, bytes_of
 from ._program import program
 
 PathLike = Union[str, "os.PathLike[str]"]
-Row = dict[str, Any]
 
 STATUSES = ("done", "skipped", "invalid", "limit", "failed")
 _BY_EXIT = {0: "done", 4: "invalid", 5: "limit"}
-_FILES_OF_FORMAT = {".node": (".node", ".ele", ".face", ".edge")}
 
 
 class BatchError(ValueError):
     """A batch that cannot be begun: two files of one stem, a shard that there is not."""
-
-
-@dataclass(frozen=True)
-class Task:
-    """One part, as a worker gets it; plain data, so that it travels to other processes and machines."""
-
-    file: str
-    output: str
-    arguments: tuple[str, ...]
-    time_limit: Optional[float]
-    format: str
 
 
 @dataclass
@@ -132,43 +120,13 @@ def plan(
     batch = Batch(tasks, Path(results) if results is not None else folder / "results.jsonl", shard)
     if resume:
         for path in _all_results(batch.results):
-            for row in _rows(path):
-                _keep_better(batch.earlier, row)
+            for row in rows_of(path):
+                keep_better(batch.earlier, row)
     return batch
 
 
 def _all_results(results: Path) -> list[Path]:
     return [results, *sorted(results.parent.glob(f"{results.stem}.*-of-*{results.suffix}"))]
-
-
-def _rows(path: Path) -> typing.Iterator[Row]:
-    """Lines that are whole; a run that was killed may have left a part of one."""
-    try:
-        lines = path.read_text(encoding="utf-8").splitlines()
-    except FileNotFoundError:
-        return
-    for line in lines:
-        with contextlib.suppress(json.JSONDecodeError):
-            row = json.loads(line)
-            if isinstance(row, dict) and "output" in row and "status" in row:
-                yield row
-
-
-def _keep_better(rows: dict[str, Row], row: Row) -> None:
-    """The latest row of a part, but that to have skipped it says less than what was skipped."""
-    known = rows.get(row["output"])
-    if known is None or row["status"] != "skipped":
-        rows[row["output"]] = row
-
-
-def is_complete(task: Task, earlier: dict[str, Row]) -> bool:
-    """Files appear complete or not at all; of those that go together the first may stand alone."""
-    endings = _FILES_OF_FORMAT.get(task.format)
-    if endings is None:
-        return os.path.exists(task.output)
-    stem = task.output[: -len(task.format)]
-    known = earlier.get(task.output, {}).get("status") in ("done", "skipped")
-    return known and all(os.path.exists(stem + e) for e in endings[:2])
 
 
 def run_part(task: Task) -> Row:
@@ -178,7 +136,9 @@ def run_part(task: Task) -> Row:
     command = [program(), "mesh", task.file, "-o", task.output, "--report", "-", *task.arguments]
     if setpriv := shutil.which("setpriv"):
         command = [setpriv, "--pdeathsig", "KILL", "--", *command]
-    row: Row = {"file": task.file, "output": task.output}
+    row: Row = {"file": task.file, "output": task.output, "options": options_that_matter(task.arguments)}
+    if (checksum := checksum_of(task.file)) is not None:
+        row["checksum"] = checksum
     # A child that does not heed its limit is stuck in the system, where no limit of its own helps.
     patience = None if task.time_limit is None else 2 * task.time_limit + 60
     child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -201,6 +161,7 @@ def run_part(task: Task) -> Row:
     row["status"] = _BY_EXIT.get(exit_code, "failed")
     row["exit"] = exit_code
     row["seconds"] = round(time.monotonic() - started, 3)
+    row["ended"] = round(time.time(), 3)
     row["message"] = _told(exit_code, message)
     if report and row["status"] == "done":
         row["points"] = report["mesh"]["vertices"]
@@ -266,8 +227,8 @@ def merge(batch: Batch) -> None:
         if batch.shard is not None:
             sources = [_shard_file(batch.results, i, batch.shard[1]) for i in range(batch.shard[1])]
         for source in sources:
-            for row in _rows(source):
-                _keep_better(rows, row)
+            for row in rows_of(source):
+                keep_better(rows, row)
         partial = batch.results.with_name(f".{batch.results.name}.{os.getpid()}")
         partial.write_text("".join(json.dumps(r) + "\n" for r in rows.values()), encoding="utf-8")
         os.replace(partial, batch.results)
@@ -342,7 +303,7 @@ def _as_completed(futures: typing.Iterable[Any], is_dask: bool) -> typing.Iterat
 
 def _lost(task: Task, error: Exception) -> Row:
     return {"file": task.file, "output": task.output, "status": "failed", "exit": 1, "seconds": 0.0,
-            "message": f"the worker was lost: {type(error).__name__}: {error}"}
+            "ended": round(time.time(), 3), "message": f"the worker was lost: {type(error).__name__}: {error}"}
 
 
 _FLAGS = {"fill": "--fill", "drop_outside": "--drop-outside", "surface_of": "--surface-of"}
@@ -405,7 +366,8 @@ def batch(
     time_limit, memory_limit
         Of each part, as `mesh` takes them.
     resume
-        Leaves out parts whose output is complete, and merges the results of earlier runs and shards.
+        Leaves out parts whose output is complete, of the same file and by the same options, and merges the results of earlier
+        runs and shards. Results that do not tell the options count as of the same.
     results
         File of a JSON line a part (default `output`/results.jsonl; shard I of N writes results.I-of-N.jsonl and merges
         those that there are).
@@ -419,7 +381,8 @@ def batch(
     Returns
     -------
     A dict a file: "file", "output", "status" ("done", "skipped", "invalid", "limit" or "failed"), "exit", "seconds",
-    "message", and for done parts "points", "tetrahedra", "regions", "steiner_points", "min_dihedral_deg", "below_10_deg".
+    "message", "ended" (seconds since 1970), "options" (those on which the mesh depends), "checksum" (of the file), and for
+    done parts "points", "tetrahedra", "regions", "steiner_points", "min_dihedral_deg", "below_10_deg".
 
     Raises
     ------

@@ -8,7 +8,8 @@ import sys
 import typing
 from typing import Any, Optional
 
-from ._batch import STATUSES, BatchError, Row, execute, kill_children, plan, shard_of_slurm
+from ._batch import STATUSES, BatchError, execute, kill_children, plan, shard_of_slurm
+from ._batch_records import Row
 
 _USAGE, _INTERRUPTED = 2, 5
 
@@ -49,7 +50,8 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--time-limit", type=_positive, metavar="S", help="seconds for each part")
     parser.add_argument("--memory-limit", type=_positive, metavar="GB", help="gigabytes for each part")
     parser.add_argument("--resume", action="store_true",
-                        help="leave out parts whose output is complete, and merge the results of earlier runs and shards")
+                        help="leave out parts whose output is complete, of the same file and by the same options, and merge the results of "
+                        "earlier runs and shards")
     parser.add_argument("--results", metavar="FILE.jsonl", help="a JSON line a part (default DIR/results.jsonl)")
     parser.add_argument("--shard", type=_shard, metavar="I/N",
                         help="only every N-th file from the I-th on, from 0 (default: of a Slurm array's task)")

@@ -18,7 +18,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Optional
 
-from ._batch import PathLike, Row, Task, arguments_of, kill_children, run_part
+from ._batch import PathLike, arguments_of, kill_children, run_part
+from ._batch_records import Row, Task
 from ._limits import MemoryAmount, bytes_of
 from ._program import program
 from .errors import (

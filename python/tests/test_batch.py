@@ -79,6 +79,54 @@ def test_resume_does_what_is_missing(parts, tmp_path):
     assert all(r["status"] == "done" for r in rows), "what an earlier run did stays done"
 
 
+def test_resume_does_again_what_has_other_options_now(parts, tmp_path):
+    out = tmp_path / "out"
+    assert command(*parts[:2], "-o", out, "--", "--fill").returncode == 0
+    filled = {p.name: p.read_bytes() for p in out.glob("part?.vtu")}
+    assert all(r["options"] == ["--fill"] for r in rows_of(out / "results.jsonl"))
+    same = command(*parts[:2], "-o", out, "--resume", "--time-limit", 100, "--", "--fill", "--threads", 2, "-q")
+    assert same.stdout.splitlines()[-1] == "2 parts: 0 done, 2 skipped"
+    other = command(*parts[:2], "-o", out, "--resume", "--", "--size=0.3")
+    assert other.stdout.splitlines()[-1] == "2 parts: 2 done"
+    assert all((out / name).read_bytes() != bytes_ for name, bytes_ in filled.items())
+    assert all(r["options"] == ["--size", "0.3"] for r in rows_of(out / "results.jsonl"))
+    assert command(*parts[:2], "-o", out, "--resume", "--", "--size", "0.3").stdout.splitlines()[-1].endswith("2 skipped")
+
+
+def test_resume_does_again_what_is_of_another_surface(parts, tmp_path):
+    out = tmp_path / "out"
+    assert command(*parts[:2], "-o", out).returncode == 0
+    write_off(parts[0], *box())
+    assert command(*parts[:2], "-o", out, "--resume").stdout.splitlines()[-1] == "2 parts: 1 done, 1 skipped"
+
+
+def test_resume_does_again_what_failed_with_the_options_since(parts, tmp_path):
+    """The file there is of the options before."""
+    out = tmp_path / "out"
+    assert command(parts[0], "-o", out, "--", "--fill").returncode == 0
+    assert command(parts[0], "-o", out, "--resume", "--time-limit", "1e-9").returncode == 1
+    assert command(parts[0], "-o", out, "--resume").stdout.splitlines()[-1] == "1 part: 1 done"
+
+
+def test_the_latest_row_counts_whichever_file_it_is_in(parts, tmp_path):
+    out = tmp_path / "out"
+    for i in range(2):
+        assert command(*parts[:4], "-o", out, "--shard", f"{i}/2", "--", "--fill").returncode == 0
+    assert command(*parts[:4], "-o", out, "--resume").stdout.splitlines()[-1] == "4 parts: 4 done"
+    for i in range(2):
+        assert command(*parts[:4], "-o", out, "--resume", "--shard", f"{i}/2").stdout.splitlines()[-1] == "2 parts: 0 done, 2 skipped"
+    assert command(*parts[:4], "-o", out, "--resume").stdout.splitlines()[-1] == "4 parts: 0 done, 4 skipped"
+    assert all(r["options"] == [] and r["status"] == "done" for r in rows_of(out / "results.jsonl"))
+
+
+def test_resume_of_results_without_options(parts, tmp_path):
+    out = tmp_path / "out"
+    assert command(parts[0], "-o", out).returncode == 0
+    rows = [{k: v for k, v in r.items() if k not in ("options", "checksum")} for r in rows_of(out / "results.jsonl")]
+    (out / "results.jsonl").write_text("".join(json.dumps(r) + "\n" for r in rows))
+    assert command(parts[0], "-o", out, "--resume", "--", "--fill").stdout.splitlines()[-1].endswith("1 skipped")
+
+
 def test_equal_stems(parts, tmp_path):
     other = tmp_path / "other"
     other.mkdir()
