@@ -11,6 +11,7 @@ import typing
 from typing import Any, Optional, Union
 
 from ._core import CancelToken as CancelToken
+from ._core import now
 
 ProgressCallback = typing.Callable[[str, float], Any]
 Progress = Union[None, bool, ProgressCallback]
@@ -45,7 +46,7 @@ def limits(
         raise ValueError(f"time_limit={time_limit!r}: a positive number of seconds is expected; None is no limit")
     if cancel is not None and not isinstance(cancel, CancelToken):
         raise TypeError(f"cancel={cancel!r}: a CancelToken is expected")
-    return {"time_limit": time_limit, "memory_limit": bytes_of(memory_limit), "cancel": cancel}
+    return {"time_limit": time_limit, "memory_limit": bytes_of(memory_limit), "cancel": cancel, "started": now()}
 
 
 def whole(value: Any, what: str) -> int:

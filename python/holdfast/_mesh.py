@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import numbers
 import operator
 import typing
@@ -12,11 +13,11 @@ import numpy.typing as npt
 
 from . import _core
 from ._limits import CancelToken, MemoryAmount, Progress, Shown, length, limits, threads_of, whole
-from ._paste import Pasted
-from ._repair import Repair
+from ._parts import given
+from ._repair import Repair, most_sides
 from ._repair import repair as repair_surface
 from ._size import Size, set_metric, set_size
-from ._surface import Array, points_of, surface_of
+from ._surface import Array, points_of
 from ._tetmesh import TetMesh
 from .errors import _raise_unless_done
 
@@ -43,6 +44,10 @@ def mesh(
     regions: typing.Iterable[typing.Sequence[float]] = (),
     drop_outside: bool = False,
     repair: Union[bool, float] = False,
+    fill_holes: Union[bool, int] = False,
+    union: bool = False,
+    paste: Union[bool, float] = False,
+    overlap: str = "refuse",
     without: typing.Iterable[str] = (),
     order: str = "random",
     seed: int = 1,
@@ -57,7 +62,8 @@ def mesh(
     Parameters
     ----------
     surface
-        A path, a `Surface`, parts that `paste` put together, an (n, 3) array of points together with `triangles`, or anything shaped like a PyVista or
+        A path, a `Surface`, a list of several parts (which have regions of their own where they have triangles in common, or are
+        pasted), parts that `paste` put together, an (n, 3) array of points together with `triangles`, or anything shaped like a PyVista or
         VTK PolyData, a `meshio.Mesh` or a `trimesh.Trimesh`. Arrays of float64 points and int32 or uint32 triangles that
         lie together in memory are not copied.
     triangles
@@ -104,6 +110,14 @@ def mesh(
         Make the surface valid first, as `holdfast.repair` does: True, or the distance within which vertices are joined.
         The result's `repair` tells what changed. Where the surface then has no mesh in doubles, it is repaired again with
         sheets joined that are some last bits apart.
+    fill_holes, union
+        With `repair`: as `holdfast.repair` takes them.
+    paste
+        Make parts that touch fit together first, as `holdfast.paste` does: True, or the distance within which what is nearer to an
+        earlier part is put on it. Parts are those of the list, or the connected components of one surface.
+    overlap
+        Beside several parts, or `paste`: who gets what several hold, "first", "last" or "new" (a region of its own). By default
+        parts that overlap are refused.
     without
         Steps to leave out: "flips", "optimise", "points".
     order
@@ -149,25 +163,18 @@ def mesh(
     if fill and any(x is not None for x in (size, metric, max_volume, max_ratio, layers)):
         raise ValueError("fill=True adds no field points, so that size, metric, max_volume, max_ratio and layers have no meaning; "
                          "leave out one of them")
-    pasted = surface if isinstance(surface, Pasted) else None
-    if pasted is not None and triangles is not None:
-        raise ValueError("a pasted surface is meshed as it is: leave out triangles, segments and markers")
-    what = surface_of(
-        surface if pasted is None else pasted.surface,
-        triangles,
-        segments=segments,
-        triangle_markers=triangle_markers,
-        segment_markers=segment_markers,
-    )
-    if pasted is not None and what is not pasted.surface:
-        raise ValueError("a pasted surface is meshed as it is: leave out triangles, segments and markers")
-    repaired, given = None, what
     if isinstance(repair, np.bool_):
         repair = bool(repair)
-    if pasted is not None and repair is not False:
-        raise ValueError("a pasted surface is valid: leave out repair")
+    if repair is False and (most_sides(fill_holes) or union):
+        raise ValueError("fill_holes and union do nothing without repair: the surface is meshed as it is")
+    options["threads"] = threads_of(threads)
+    what, pasted = given(
+        surface, triangles, {"segments": segments, "triangle_markers": triangle_markers, "segment_markers": segment_markers},
+        paste=paste, overlap=overlap, repairs=repair is not False, options=options, progress=progress)
+    repaired, unrepaired = None, what
     if repair is not False:
-        repaired = repair_surface(what, weld=0.0 if repair is True else length(repair, "repair"), threads=threads,
+        repaired = repair_surface(what, weld=0.0 if repair is True else length(repair, "repair"), fill_holes=fill_holes,
+                                  union=union, threads=threads,
                                   time_limit=time_limit, memory_limit=memory_limit, cancel=cancel, progress=progress)
         what = repaired.surface
     options.update(
@@ -188,7 +195,6 @@ def mesh(
         add_points="points" not in steps,
         order=order,
         seed=whole(seed, "seed"),
-        threads=threads_of(threads),
     )
     asked_size = set_size(size, options, len(what.points))
     asked_metric = set_metric(metric, options)
@@ -197,12 +203,15 @@ def mesh(
             result = _core.mesh_pasted(pasted._result, options, asked_size, asked_metric, callback)
         else:
             result = _core.mesh(what._arrays(), options, asked_size, asked_metric, callback)
-        if repaired is not None and (joined := _core.mesh_joined(given._arrays(), repaired._result, result, options, asked_size,
+        if repaired is not None and (joined := _core.mesh_joined(unrepaired._arrays(), repaired._result, result, options, asked_size,
                                                                 asked_metric, callback)):
-            repaired, result = Repair(given, joined[0]), joined[1]
+            repaired, result = Repair(unrepaired, joined[0]), joined[1]
     _raise_unless_done(result)
     meshed = TetMesh._of(result.volume, result.n_input_points, result)
     meshed.repair = repaired
+    if pasted is not None:
+        meshed.pasted = pasted
+        meshed.report.update(parts=json.loads(pasted._result.parts()), shared_facets=pasted.shared_triangles)
     return meshed
 
 

@@ -9,18 +9,25 @@ from typing import Any, Optional
 
 from . import _core
 from ._limits import CancelToken, MemoryAmount, Progress, Shown, length, limits, threads_of
-from ._surface import Surface, _of_data, _stem, read_surface, surface_of
+from ._surface import Array, Surface, _of_data, _stem, surface_of
+from ._tetmesh import TetMesh
+from ._volume import mesh_in
 from .errors import _raise_unless_done
 
 
 class Pasted:
-    """Parts as one conformal surface, which `mesh` takes: every region of the mesh is of one part.
+    """Parts as one conformal surface, which `mesh` takes: every region of the mesh is of one part. Of meshes, one mesh.
 
     Indices of points and triangles count through the parts in turn.
     """
 
-    def __init__(self, result: _core.PasteResult) -> None:
+    def __init__(self, result: _core.PasteResult, volumes: Optional[_core.PastedVolumes] = None) -> None:
         self._result = result
+        self._volumes = volumes
+        self.mesh: Optional[TetMesh] = None if volumes is None else TetMesh._of(volumes.volume, None, volumes)
+        """The tetrahedra, where the parts are meshes: those that stay, and those that replace others."""
+        self.origin: Optional[Array] = None if volumes is None else volumes.origin
+        """(m,) int64 beside `mesh`: which of the parts' tetrahedra in turn each is; -1: a new one."""
         self.surface: Surface = _of_data(result.surface)
         """The points of all parts, then new ones; triangles that parts have in common are there once."""
         self.marker_sets: dict[int, list[int]] = dict(result.marker_sets)
@@ -35,6 +42,11 @@ class Pasted:
         """How far the surface is from the parts at most, rounded up."""
 
     @property
+    def shared_triangles(self) -> int:
+        """How many triangles of the surface several parts have."""
+        return self._result.shared_facets
+
+    @property
     def parents(self) -> list[tuple[int, ...]]:
         """For each triangle those of the parts that it is a part of: several where parts touch."""
         return self._result.parents
@@ -42,7 +54,7 @@ class Pasted:
     @property
     def report(self) -> dict[str, Any]:
         """All that changed, with the keys of the program's `--report`."""
-        found: dict[str, Any] = json.loads(self._result.report())
+        found: dict[str, Any] = json.loads((self._volumes or self._result).report())
         return found
 
     def __repr__(self) -> str:
@@ -65,12 +77,15 @@ def paste(
     Parameters
     ----------
     parts
-        Two surfaces or more, each whatever `mesh` takes; or one, whose connected components are the parts.
+        Two surfaces or more, each whatever `mesh` takes; or one, whose connected components are the parts. Or two meshes or more:
+        `TetMesh`, files that hold tetrahedra, objects like a `meshio.Mesh` or a PyVista grid. If all have tetrahedra, these stay,
+        but for those at triangles that change.
     tolerance
         Points of later parts that are nearer to an earlier one than this are put on it: a length in the surfaces' unit, 0 or
         more. The first part stays as it is; with 0 all do. It should be smaller than the parts' details.
     overlap
-        Who gets what several parts hold: "first", "last", "new" (a region of its own), or "refuse".
+        Who gets what several parts hold: "first", "last", "new" (a region of its own), or "refuse". Meshes that overlap are
+        refused in any case.
     names
         Of the parts, one each: regions and markers that have no name get it. By default the stem of the part's file, or "part k".
     threads, time_limit, memory_limit, cancel, progress
@@ -80,7 +95,8 @@ def paste(
     -------
     Pasted
         `surface` has the (n, 3) points of all parts in turn, then new ones, and (m, 3) triangles; `moved` tells the points
-        that moved, with their distances in the surfaces' unit.
+        that moved, with their distances in the surfaces' unit. Of meshes, `mesh` has the tetrahedra, and `surface` is their
+        boundary; indices count the points on the boundaries in turn.
 
     Raises
     ------
@@ -110,18 +126,42 @@ def paste(
     options = limits(time_limit, memory_limit, cancel)
     if not isinstance(overlap, str):
         raise TypeError(f'overlap={overlap!r}: "refuse", "first", "last" or "new" is expected')
-    near = length(tolerance, "tolerance")
-    options.update(tolerance=near, overlap=overlap, threads=threads_of(threads))
-    surfaces = [read_surface(part, tolerance=near, time_limit=time_limit, memory_limit=memory_limit, cancel=cancel)
-                if isinstance(part, (str, os.PathLike)) else surface_of(part) for part in parts]
-    given = [(s._arrays(), [tuple(r) for r in s.regions], [list(map(float, h)) for h in s.holes]) for s in surfaces]
+    options.update(tolerance=length(tolerance, "tolerance"), overlap=overlap, threads=threads_of(threads))
+    called = names_of_parts(parts, names)
+    meshes = _meshes_in(parts, options)
+    if meshes is None:
+        return pasted_parts([surface_of(part, reading=options) for part in parts], called, options, progress)
+    if len(meshes) < 2:
+        raise ValueError("at least two meshes are needed to paste")
     with Shown(progress, "paste") as callback:
-        result = _core.paste(given, _names_of(parts, names), options, callback)
+        result = _core.paste_volumes([mesh._volume for mesh in meshes], called, options, callback)
+    _raise_unless_done(result)
+    return Pasted(result.boundary, result)
+
+
+def pasted_parts(
+    surfaces: typing.Sequence[Surface], names: typing.Sequence[str], options: dict[str, Any], progress: Progress
+) -> Pasted:
+    with Shown(progress, "paste") as callback:
+        result = _core.paste([s._given() for s in surfaces], names, options, callback)
     _raise_unless_done(result)
     return Pasted(result)
 
 
-def _names_of(parts: typing.Sequence[Any], names: Optional[typing.Sequence[str]]) -> list[str]:
+def _meshes_in(parts: typing.Sequence[Any], options: dict[str, Any]) -> Optional[list[TetMesh]]:
+    """The parts as meshes, if all have tetrahedra; None where they are surfaces."""
+    found: list[TetMesh] = []
+    for part in parts:
+        mesh = mesh_in(part, options)
+        if mesh is None:
+            if any(isinstance(other, TetMesh) for other in parts):
+                raise TypeError("meshes are pasted to meshes, and surfaces to surfaces: `TetMesh.surface()` is the surface of one")
+            return None
+        found.append(mesh)
+    return found or None
+
+
+def names_of_parts(parts: typing.Sequence[Any], names: Optional[typing.Sequence[str]]) -> list[str]:
     if names is None:
         return [_stem(p) if isinstance(p, (str, os.PathLike)) else f"part {k}" for k, p in enumerate(parts, 1)]
     found = [] if isinstance(names, str) else list(names)

@@ -90,7 +90,6 @@ def repair(
     Parameters
     ----------
     surface, triangles, segments, triangle_markers, segment_markers
-        As `mesh` takes them.
         As `mesh` takes them: a path, a `Surface`, an object of another package, or (n, 3) points with (m, 3) triangles.
     weld
         First join points that are this near to each other, and put points that are this near to a side or triangle on it.
@@ -135,7 +134,7 @@ def repair(
     (True, True, {})
     """
     options = limits(time_limit, memory_limit, cancel)
-    options.update(weld=length(weld, "weld"), join=length(join, "join"), fill_holes=_most_sides(fill_holes), union=bool(union),
+    options.update(weld=length(weld, "weld"), join=length(join, "join"), fill_holes=most_sides(fill_holes), union=bool(union),
                    threads=threads_of(threads))
     what = surface_of(surface, triangles, segments=segments, triangle_markers=triangle_markers,
                       segment_markers=segment_markers)
@@ -145,7 +144,7 @@ def repair(
     return Repair(what, result)
 
 
-def _most_sides(fill_holes: Union[bool, int]) -> int:
+def most_sides(fill_holes: Union[bool, int]) -> int:
     """Of a hole that is filled; 0: none is."""
     if isinstance(fill_holes, (bool, np.bool_)):
         return 2**62 if fill_holes else 0

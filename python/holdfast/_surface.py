@@ -74,6 +74,10 @@ class Surface:
         return (self.points, self.triangles, self.segments, self.point_markers, self.triangle_markers,
                 self.segment_markers, tuple(self.names))
 
+    def _given(self) -> tuple[Any, ...]:
+        """With what a file says of regions."""
+        return self._arrays(), [tuple(r) for r in self.regions], [list(map(float, h)) for h in self.holes]
+
 
 def points_of(values: npt.ArrayLike, what: str = "points") -> Array:
     """(n, 3) coordinates of a type that the extension takes as it lies there."""
@@ -124,10 +128,14 @@ def surface_of(
     segments: Optional[npt.ArrayLike] = None,
     triangle_markers: Optional[npt.ArrayLike] = None,
     segment_markers: Optional[npt.ArrayLike] = None,
+    reading: Optional[dict[str, Any]] = None,
 ) -> Surface:
-    """The surface that an argument means; what else is given replaces what the surface has of it."""
+    """The surface that an argument means; what else is given replaces what the surface has of it. `reading` has the
+    limits under which a file is read."""
     if triangles is not None:
         found = Surface(surface, triangles)
+    elif isinstance(surface, (str, os.PathLike)):
+        found = _of_data(_core.read_surface(os.fspath(surface), "", reading or {}, None))
     else:
         found = _told_by_shape(surface)
     if segments is None and triangle_markers is None and segment_markers is None:
@@ -151,8 +159,6 @@ def surface_of(
 def _told_by_shape(surface: Any) -> Surface:
     if isinstance(surface, Surface):
         return surface
-    if isinstance(surface, (str, os.PathLike)):
-        return read_surface(surface)
     if hasattr(surface, "GetPolys") and hasattr(surface, "GetPoints"):
         return _of_vtk(surface)
     if hasattr(surface, "points") and hasattr(surface, "cells") and not hasattr(surface, "faces"):

@@ -95,6 +95,8 @@ class TetMesh:
         self._report: Optional[dict[str, Any]] = None
         self.repair: Optional[Repair] = None
         """What `mesh(..., repair=True)` changed before; `repair.surface` is the surface that was meshed."""
+        self.pasted: Any = None
+        """The `Pasted` parts of which `mesh` made it, or None; `pasted.surface` is the surface that was meshed."""
         self._triangle_regions: Optional[ma.MaskedArray[Any, Any]] = None
         self.curve_report: dict[str, Any] = {}
         self.points = volume.points
@@ -231,6 +233,7 @@ class TetMesh:
             0.0 if tolerance is None else float(tolerance),
         )
         mesh = TetMesh._of(volume, self.n_input_points, self._result)
+        mesh._report = self._report
         mesh.curve_report = {} if smooth is None else dict(told)
         return mesh
 

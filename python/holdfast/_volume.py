@@ -45,11 +45,9 @@ def info(path: PathLike, format: Optional[str] = None) -> dict[str, Any]:
     12.5
     """
     name = os.fspath(path)
-    ending = _core.volume_format_of(name.removesuffix(".gz"), format or "")
     remarks: list[str] = []
     told: dict[str, Any] = {}
-    stem = os.path.splitext(name)[0]
-    if ending in _core.volume_formats() and (ending != ".node" or os.path.exists(stem + ".ele")):
+    if _may_be_volume(name, format or ""):
         volume, remarks = _core.read_volume(name, format or "", {}, None)
         if len(volume.tetrahedra):
             told = {"file": name, "kind": "volume", **json.loads(_core.volume_info(volume))}
@@ -58,6 +56,26 @@ def info(path: PathLike, format: Optional[str] = None) -> dict[str, Any]:
         remarks = surface.remarks
         told = {"file": name, "kind": "surface", **json.loads(_core.surface_info(surface))}
     return {**told, "remarks": remarks}
+
+
+def mesh_in(part: Any, options: dict[str, Any]) -> Optional[TetMesh]:
+    """What has tetrahedra as a mesh, with the limits of `options` where it is a file; None for a surface."""
+    if isinstance(part, TetMesh):
+        return part
+    if isinstance(part, (str, os.PathLike)):
+        if not _may_be_volume(os.fspath(part), ""):
+            return None
+        volume, _ = _core.read_volume(os.fspath(part), "", options, None)
+        return TetMesh._of(volume, None) if len(volume.tetrahedra) else None
+    if hasattr(part, "cells_dict") and hasattr(part, "points"):
+        cells = part.cells_dict
+        return volume_of(part) if 10 in cells or "tetra" in cells else None
+    return None
+
+
+def _may_be_volume(path: str, format: str) -> bool:
+    ending = _core.volume_format_of(path.removesuffix(".gz"), format)
+    return ending in _core.volume_formats() and (ending != ".node" or os.path.exists(os.path.splitext(path)[0] + ".ele"))
 
 
 def volume_of(mesh: Any) -> TetMesh:

@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <chrono>
 #include <string>
 #include <type_traits>
 
@@ -36,6 +37,9 @@ void take(const py::dict& options, const char* name, Value& to) {
 inline void take_limits(const py::dict& options, Limits& limits) {
   take(options, "time_limit", limits.time_limit);
   take(options, "memory_limit", limits.memory_limit);
+  using Clock = std::chrono::steady_clock;
+  if (options.contains("started"))
+    limits.started = Clock::time_point(Clock::duration(value_of<Clock::duration::rep>(options, "started")));
   CancelToken token;
   if (options.contains("cancel") && !options["cancel"].is_none()) {
     take(options, "cancel", token);

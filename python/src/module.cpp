@@ -1,6 +1,8 @@
 // The extension holdfast._core: the library's calls on numpy arrays. holdfast/*.py is what people use.
 #include <pybind11/pybind11.h>
 
+#include <chrono>
+
 #include "holdfast/holdfast.h"
 #include "holdfast/io.h"
 #include "register.h"
@@ -45,6 +47,9 @@ PYBIND11_MODULE(_core, module) {
       .def(py::init<>())
       .def("cancel", &holdfast::CancelToken::cancel, "Stops the calls that have this token. From any thread.")
       .def_property_readonly("cancelled", &holdfast::CancelToken::cancelled, "Whether `cancel` was called.");
+  module.def(
+      "now", [] { return std::chrono::steady_clock::now().time_since_epoch().count(); },
+      "What limits call `started`: the time limit of all calls that share it runs from here.");
   register_volume(module);
   register_files(module);
   register_calls(module);

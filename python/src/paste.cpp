@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "arrays.h"
+#include "holdfast/io.h"
 #include "holdfast/names.h"
 #include "limits.h"
 #include "named.h"
@@ -46,23 +47,73 @@ Surface surface_from(const py::tuple& part) {
   return surface;
 }
 
-std::shared_ptr<PasteResult> paste_parts(const py::list& parts, const std::vector<std::string>& names,
-                                         const py::dict& options, const py::object& progress) {
+std::vector<Surface> surfaces_from(const py::list& parts) {
   std::vector<Surface> surfaces;
   for (const py::handle part : parts) surfaces.push_back(surface_from(py::cast<py::tuple>(part)));
+  return surfaces;
+}
+
+PasteOptions paste_options(const py::dict& options, const Watch& watch) {
   PasteOptions how;
   take_limits(options, how);
+  take(options, "cut", how.cut);
+  take(options, "judge", how.judge);
   take(options, "tolerance", how.tolerance);
   how.overlap = named<Overlap>(value_of<std::string>(options, "overlap"), "overlap");
   take(options, "threads", how.threads);
-  const Watch watch(progress);
   how.progress = [&watch](double fraction) { return watch.go_on("paste", fraction); };
+  return how;
+}
+
+std::shared_ptr<Surface> join_parts(const py::list& parts, const std::vector<std::string>& names) {
+  return std::make_shared<Surface>(join(surfaces_from(parts), names));
+}
+
+std::shared_ptr<PasteResult> paste_parts(const py::list& parts, const std::vector<std::string>& names,
+                                         const py::dict& options, const py::object& progress) {
+  const std::vector<Surface> surfaces = surfaces_from(parts);
+  const Watch watch(progress);
+  PasteOptions how = paste_options(options, watch);
   const py::gil_scoped_release unlocked;
   if (surfaces.size() == 1) {
     how.labels = names;
     return std::make_shared<PasteResult>(paste_components(surfaces[0], how));
   }
   return std::make_shared<PasteResult>(paste(surfaces, how, names));
+}
+
+std::shared_ptr<PastedVolumes> paste_meshes(const std::vector<std::shared_ptr<Volume>>& parts,
+                                            const std::vector<std::string>& names, const py::dict& options,
+                                            const py::object& progress) {
+  std::vector<Volume> volumes;
+  for (const auto& part : parts) volumes.push_back(*part);
+  const Watch watch(progress);
+  const PasteOptions how = paste_options(options, watch);
+  const py::gil_scoped_release unlocked;
+  return std::make_shared<PastedVolumes>(paste(volumes, how, names));
+}
+
+void register_volumes(py::module_& module) {
+  py::class_<PastedVolumes, std::shared_ptr<PastedVolumes>>(module, "PastedVolumes")
+      .def_property_readonly("outcome", [](const PastedVolumes& r) { return static_cast<int>(r.outcome); })
+      .def_property_readonly("message", [](const PastedVolumes& r) { return r.message; })
+      .def_property_readonly("defects", [](const PastedVolumes&) { return py::list(); })
+      .def_property_readonly(
+          "volume",
+          [](const std::shared_ptr<PastedVolumes>& r) { return std::shared_ptr<Volume>(r, &r->volume); })
+      .def_property_readonly("boundary",
+                             [](const std::shared_ptr<PastedVolumes>& r) {
+                               return std::shared_ptr<PasteResult>(r, &r->boundary);
+                             })
+      .def_property_readonly("origin",
+                             [](const py::object& self) {
+                               const auto& origin = self.cast<const PastedVolumes&>().origin;
+                               return view_on(origin.data(), origin.size(), 0, self);
+                             })
+      .def("report", [](const PastedVolumes& r) {
+        return reports::text_of(reports::to_json(r, reports::Json::object()));
+      });
+  module.def("paste_volumes", &paste_meshes);
 }
 
 }  // namespace
@@ -108,11 +159,14 @@ void register_paste(py::module_& module) {
                                return list;
                              })
       .def_property_readonly("max_displacement", [](const PasteResult& r) { return r.max_displacement; })
-      .def("report", [](const PasteResult& r) {
-        return reports::text_of(
-            reports::to_json(static_cast<const RepairResult&>(r), reports::Json::object()));
-      });
+      .def(
+          "report",
+          [](const PasteResult& r) { return reports::text_of(reports::to_json(r, reports::Json::object())); })
+      .def_property_readonly("shared_facets", [](const PasteResult& r) { return r.shared_facets; })
+      .def("parts", [](const PasteResult& r) { return reports::text_of(reports::parts_of(r)); });
   module.def("paste", &paste_parts);
+  module.def("join_parts", &join_parts);
+  register_volumes(module);
 }
 
 }  // namespace holdfast::python

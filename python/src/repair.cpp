@@ -68,7 +68,11 @@ std::string check_repair_arrays(const py::tuple& surface, const Repair& repaired
 std::string report_of(const Repair& repaired) {
   const RepairOptions& options = repaired.options;
   reports::Json asked{
-      {"weld", options.weld}, {"join", options.join}, {"union", options.unite}, {"threads", options.threads}};
+      {"weld", options.weld},
+      {"join", options.join},
+      {"fill_holes", options.fill_holes ? reports::Json(*options.fill_holes) : reports::Json(nullptr)},
+      {"union", options.unite},
+      {"threads", options.threads}};
   return reports::text_of(reports::to_json(repaired.result, std::move(asked)));
 }
 

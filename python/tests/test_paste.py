@@ -1,9 +1,16 @@
 """Parts that touch: `paste`, and `mesh` of what it gives."""
 
+import gzip
+import json
+import subprocess
+
 import numpy as np
 import pytest
 
 import holdfast
+from conftest import box as plain_box
+from conftest import write_off
+from holdfast._program import program
 
 
 def box(x0, x1, n):
@@ -62,6 +69,129 @@ def test_overlap_and_tolerance():
     pasted = holdfast.paste(a, b, tolerance=0.03)
     assert list(pasted.moved.values()) == pytest.approx([0.02] * len(pasted.moved)) and pasted.moved
     assert volumes(holdfast.mesh(pasted, fill=True)) == pytest.approx({1: 1, 2: 1})
+
+
+def test_parts_are_pasted_and_meshed_at_once(tmp_path):
+    a, b = box(0, 1, 2), box(1, 3, 3)
+    mesh = holdfast.mesh([a, b], paste=True, fill=True)
+    want = holdfast.mesh(holdfast.paste(a, b), fill=True)
+    assert mesh.points.tobytes() == want.points.tobytes() and mesh.tetrahedra.tobytes() == want.tetrahedra.tobytes()
+    assert mesh.marker_sets == {3: [1, 2]} and mesh.names.regions == {1: "part 1", 2: "part 2"}
+    assert mesh.report["shared_facets"] == mesh.pasted.shared_triangles > 0
+    assert [p["region"] for p in mesh.report["parts"]] == [1, 2]
+    assert mesh.second_order().report["shared_facets"] == mesh.report["shared_facets"]
+    assert holdfast.check(mesh.pasted.surface, mesh)
+
+
+def test_files_that_are_meshed_at_once_give_the_programs_mesh(tmp_path):
+    files = [write_off(tmp_path / "left.off", *box(0, 1, 2)), write_off(tmp_path / "right.off", *box(0.98, 3, 3))]
+    for arguments, options in ((["--paste=0.03"], {"paste": 0.03}),
+                               (["--paste", "--overlap", "new"], {"paste": True, "overlap": "new"}),
+                               (["--paste", "--overlap", "last"], {"paste": np.bool_(True), "overlap": "last"})):
+        out, report = tmp_path / "p.vtu", tmp_path / "r.json"
+        subprocess.run([program(), "mesh", *files, "-o", out, "--report", report, "--fill", *arguments], check=True)
+        want, told = holdfast.read_volume(out), json.loads(report.read_text())
+        mesh = holdfast.mesh(files, fill=True, **options)
+        assert mesh.points.tobytes() == want.points.tobytes() and mesh.tetrahedra.tobytes() == want.tetrahedra.tobytes()
+        assert mesh.regions.tobytes() == want.regions.tobytes() and mesh.names.regions == want.names.regions
+        assert np.array_equal(mesh.triangle_markers, want.triangle_markers) and mesh.names.triangles == want.names.triangles
+        assert {str(k): v for k, v in mesh.marker_sets.items()} == told["marker_sets"]
+        assert mesh.report["shared_facets"] == told["shared_facets"]
+        assert [p["region"] for p in mesh.report["parts"]] == [p["region"] for p in told["parts"]]
+    with pytest.raises(holdfast.InvalidSurface, match="left and right overlap by 0.02"):
+        holdfast.mesh(files, paste=True, fill=True)
+
+
+def test_several_surfaces_without_paste(tmp_path):
+    """Those that have triangles in common are parts, others one surface; with repair they are one in any case."""
+    common = holdfast.mesh([plain_box(), plain_box((1, 0, 0), (2, 1, 1))], fill=True)
+    assert volumes(common) == pytest.approx({1: 1, 2: 1}) and common.pasted.shared_triangles == 2
+    apart = holdfast.mesh([box(0, 1, 1), box(2, 3, 1)], fill=True)
+    assert apart.pasted is None and len(apart.points) == 16 and sorted(set(apart.triangle_markers)) == [1, 2]
+    crossing = volumes(holdfast.mesh([box(0, 1, 1), box(0.5, 2, 1)], repair=True, fill=True))
+    assert sorted(crossing.values()) == pytest.approx([0.5, 0.5, 1])
+    with pytest.raises(holdfast.InvalidSurface):
+        holdfast.mesh([box(0, 1, 1), box(0.5, 2, 1)], fill=True)
+    assert len(holdfast.mesh([box(0, 1, 1)], fill=True).points) == 8
+    (p, t), (q, u) = box(0, 1, 2), box(1, 3, 3)
+    components = holdfast.mesh(np.vstack([p, q]), np.vstack([t, u + len(p)]), paste=True, fill=True)
+    assert volumes(components) == pytest.approx({1: 1, 2: 2})
+
+
+@pytest.mark.parametrize("surface, options, message", [
+    ("ab", {"paste": True, "repair": True}, "with repair all parts are one surface"),
+    ("ab", {"overlap": "first", "repair": True}, "with repair all parts are one surface"),
+    ("a", {"overlap": "first"}, "does nothing for one surface"),
+    ("ab", {"paste": 0.0}, "^paste=0.0"), ("ab", {"paste": -1}, "^paste=-1"), ("ab", {"overlap": "all"}, "^overlap='all'"),
+    ("ab", {"segments": [(0, 1)]}, "those of each part"), ("pasted", {"paste": True}, "pasted already"),
+    ("pasted", {"overlap": "new"}, "pasted already"), ("none", {"paste": True}, "no surface"), ("none", {}, "no surface"),
+    ("a", {"paste": True}, "one part"),
+])
+def test_what_makes_no_sense_in_mesh(surface, options, message):
+    a, b = box(0, 1, 2), box(1, 2, 2)
+    what = {"a": a, "ab": [a, b], "none": [], "pasted": None}[surface] if surface != "pasted" else holdfast.paste(a, b)
+    with pytest.raises(ValueError, match=message):
+        holdfast.mesh(what, **options)
+    for wrong in {"paste": "near"}, {"paste": None}, {"overlap": None}:
+        with pytest.raises(TypeError, match=f"^{next(iter(wrong))}="):
+            holdfast.mesh([a, b], **wrong)
+
+
+def test_the_time_limit_is_one_for_all():
+    with pytest.raises(holdfast.TimeLimit):
+        holdfast.mesh([box(0, 1, 2), box(1, 3, 3)], paste=True, time_limit=1e-9)
+
+
+def test_an_index_of_a_part_that_is_joined_names_no_point_of_another():
+    (p, t), b = box(0, 1, 1), box(2, 3, 1)
+    for options in {"repair": True}, {}, {"paste": True}:
+        with pytest.raises(ValueError, match="triangle 12 of part 1 names (point|vertex) 11, of 8"):
+            holdfast.mesh([(p, np.vstack([t, (0, 1, len(p) + 3)])), b], **options)
+
+
+def test_meshes(tmp_path):
+    left = holdfast.mesh(box(0, 1, 2), fill=True)
+    right = holdfast.mesh(box(1, 3, 3), regions=[(2, 0.5, 0.5, 2)], fill=True)
+    files = [tmp_path / "left.vtu", tmp_path / "right.vtu"]
+    left.save(files[0])
+    right.save(files[1], names={"regions": {2: "beam"}})
+    out, report = tmp_path / "p.vtu", tmp_path / "r.json"
+    subprocess.run([program(), "paste", *files, "-o", out, "--report", report], check=True)
+    want, told = holdfast.read_volume(out), json.loads(report.read_text())
+    for given in (files, [left, right], [files[0], right.to_meshio()]):
+        pasted = holdfast.paste(*given, names=["left", "right"])
+        mesh = pasted.mesh
+        assert mesh.points.tobytes() == want.points.tobytes() and mesh.tetrahedra.tobytes() == want.tetrahedra.tobytes()
+        assert mesh.regions.tobytes() == want.regions.tobytes()
+        assert mesh.names.regions == (want.names.regions if given is files else {})
+        if given is files:
+            assert np.array_equal(mesh.triangle_markers, want.triangle_markers) and mesh.names.triangles == want.names.triangles
+            assert {str(k): v for k, v in mesh.marker_sets.items()} == told["marker_sets"] and mesh.marker_sets
+        assert pasted.report["tetrahedra"] == told["tetrahedra"]
+        assert len(pasted.origin) == len(mesh.tetrahedra) and (pasted.origin == -1).any()
+        kept = pasted.origin[(0 <= pasted.origin) & (pasted.origin < len(left.tetrahedra))]
+        assert np.array_equal(mesh.points[mesh.tetrahedra[np.isin(pasted.origin, kept)]], left.points[left.tetrahedra[kept]])
+    assert volumes(mesh) == pytest.approx({1: 1, 2: 2}) and want.names.regions == {2: "beam"}
+    right.save(tmp_path / "right.msh")
+    (tmp_path / "right.msh.gz").write_bytes(gzip.compress((tmp_path / "right.msh").read_bytes()))
+    pasted.mesh.save(tmp_path / "again.vtu")
+    packed = holdfast.paste(tmp_path / "left.vtu", tmp_path / "right.msh.gz")
+    assert packed.mesh.points.tobytes() == mesh.points.tobytes() == holdfast.read_volume(tmp_path / "again.vtu").points.tobytes()
+
+
+def test_meshes_that_cannot_be_pasted():
+    left, right = holdfast.mesh(box(0, 1, 1), fill=True), holdfast.mesh(box(0.5, 2, 1), fill=True)
+    for overlap in "refuse", "first":
+        with pytest.raises(holdfast.InvalidSurface, match="overlap by 0.5"):
+            holdfast.paste(left, right, overlap=overlap)
+    with pytest.raises(TypeError, match="meshes are pasted to meshes"):
+        holdfast.paste(left, box(1, 2, 1))
+    with pytest.raises(TypeError, match="meshes are pasted to meshes"):
+        holdfast.paste(box(1, 2, 1), left)
+    with pytest.raises(ValueError, match="two meshes"):
+        holdfast.paste(left)
+    with pytest.raises(ValueError, match="Pasted.mesh"):
+        holdfast.mesh(holdfast.paste(left, holdfast.mesh(box(1, 2, 1), fill=True)))
 
 
 def test_parts_apart():

@@ -51,6 +51,22 @@ def test_repair_and_mesh_at_once():
     assert np.array_equal(mesh.points[:16], points)
 
 
+def test_holes_are_filled_and_parts_united_before_the_mesh():
+    filled = holdfast.mesh(CUBE, FACES[1:], repair=True, fill_holes=True, fill=True)
+    assert filled.quality().volume.sum() == pytest.approx(1) and len(filled.repair.report["filled"]) == 1
+    assert filled.repair.check()["holds"] and filled.repair.report["options"]["fill_holes"] > 3
+    cut, united = (holdfast.mesh(*two_cubes(), repair=True, fill=True, union=u) for u in (False, True))
+    assert len(set(cut.regions)) == 3 and set(united.regions) == {1}
+    assert united.quality().volume.sum() == pytest.approx(cut.quality().volume.sum())
+    with pytest.raises(holdfast.InvalidSurface):
+        holdfast.mesh(CUBE, FACES[3:], repair=True, fill_holes=3, fill=True)
+    for options in {"fill_holes": True}, {"fill_holes": 4}, {"union": True}:
+        with pytest.raises(ValueError, match="do nothing without repair"):
+            holdfast.mesh(CUBE, FACES, fill=True, **options)
+    with pytest.raises(ValueError, match="three sides"):
+        holdfast.mesh(CUBE, FACES, fill=True, repair=True, fill_holes=2)
+
+
 def stacked_boxes():
     """Half in each other: sums of 0.05 make sheets that differ in their last bits, and no mesh in doubles."""
     rng, points, low = random.Random(1), [], 0.0

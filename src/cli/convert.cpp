@@ -92,6 +92,8 @@ int run(const ConvertArguments& arguments) {
   AnyMesh mesh = read_any(arguments.input, reading(limits, arguments.input_format, arguments.tolerance));
   if (!arguments.quiet) tell(mesh.remarks, arguments.input);
   merge(mesh.names(), names);
+  if (!arguments.quiet && !arguments.names.empty())
+    tell_idle_names(arguments.names, mesh.is_volume ? nameable_in(mesh.volume) : nameable_in(mesh.surface));
   take_part(mesh, part);
   if (arguments.scale)
     if (const std::size_t turned = scale(mesh, *arguments.scale); turned > 0)

@@ -53,6 +53,15 @@ void refuse_beside_without(const MeshArguments& a) {
          "--without optimise", "it is for the optimisation");
 }
 
+void refuse_without_repair(const MeshArguments& a) {
+  for (const Given& given :
+       {Given{"--repaired", !a.repaired.empty()}, Given{"--fill-holes", a.repair_ways.fill_holes.has_value()},
+        Given{"--union", a.repair_ways.unite}})
+    if (given.is_given)
+      throw UsageError(
+          fmt::format("{} does nothing without --repair: the surface is meshed as it is", given.option));
+}
+
 void refuse_after_end(const MeshArguments& a) {
   if (a.stop_after.empty()) return;
   const Stage last = stage_named(a.stop_after);
@@ -89,8 +98,7 @@ void refuse_idle_options(const MeshArguments& arguments) {
            "--paste makes parts of its components");
   if (arguments.fill) refuse_beside_fill(arguments);
   refuse_beside_without(arguments);
-  if (!arguments.repaired.empty() && !arguments.repair)
-    throw UsageError("--repaired does nothing without --repair: the surface is meshed as it is");
+  if (!arguments.repair) refuse_without_repair(arguments);
   if (arguments.repair && (arguments.paste || arguments.overlap))
     throw UsageError(
         "--paste and --overlap are for parts that are valid; with --repair all files are one surface");

@@ -34,6 +34,15 @@ int tell_limit(Outcome outcome, const std::string& message) {
   return exit_limit;
 }
 
+std::string message_of(const Interrupted& interrupted, const Limits& limits) {
+  if (interrupted.outcome() == Outcome::time_limit)
+    return fmt::format("the time limit of {} s ran out", limits.time_limit);
+  if (interrupted.outcome() == Outcome::memory_limit)
+    return fmt::format("the memory limit of {} GB was reached",
+                       static_cast<double>(limits.memory_limit) / 1e9);
+  return "cancelled";
+}
+
 std::string not_a_count(const std::string& text) {
   errno = 0;
   static_cast<void>(std::strtoull(text.c_str(), nullptr, 0));
@@ -64,6 +73,7 @@ ReadOptions reading(const Limits& limits, const std::string& format, double tole
   options.tolerance = tolerance;
   static_cast<Limits&>(options) = limits;
   options.format = format;
+  options.progress = goes_on;
   return options;
 }
 

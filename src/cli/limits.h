@@ -22,7 +22,22 @@ void add_limits(CLI::App& command, LimitArguments& arguments);
 /// Of a command that begins now. Throws UsageError for numbers that are no limits.
 [[nodiscard]] Limits limits_of(const LimitArguments& arguments);
 
-/// For reading. A signal ends the program at once then, as reading may wait for a pipe.
+/// How a limit or a signal ended a call that has no outcome, in the words of those that have one.
+[[nodiscard]] std::string message_of(const Interrupted& interrupted, const Limits& limits);
+
+/// Reads; where a limit or a signal ends that, `report` gets the outcome and its message, as where one ends
+/// what comes after reading, before the interruption goes on.
+template <class Read, class Report>
+auto read_or_report(const Limits& limits, const Read& read, const Report& report) {
+  try {
+    return read();
+  } catch (const Interrupted& interrupted) {
+    report(interrupted.outcome(), message_of(interrupted, limits));
+    throw;
+  }
+}
+
+/// For reading, which heeds signals once `cancel_by_flag` was called.
 [[nodiscard]] ReadOptions reading(const Limits& limits, const std::string& format, double tolerance = 0);
 
 /// Why text is no number of 64 bits without a sign, which would become another one without a word; else "".

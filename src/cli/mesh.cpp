@@ -23,6 +23,7 @@
 #include "paste_result.h"
 #include "progress.h"
 #include "repair_before.h"
+#include "repair_options.h"
 #include "repair_result.h"
 #include "report.h"
 #include "signals.h"
@@ -138,6 +139,7 @@ void tell_the_end(const MeshArguments& arguments, const Options& options, const 
   if (arguments.verbose) print_details(result.report);
   print_decisions(result);
   if (result.outcome != Outcome::done) return;
+  if (!arguments.names.empty()) tell_idle_names(arguments.names, nameable_in(result.volume));
   if (!result.defects.empty()) {
     print_defects(result.defects, defects_shown);
     if (result.defects.size() > defects_shown)
@@ -168,7 +170,10 @@ void write_html(const MeshArguments& arguments, const Limits& limits, const Surf
 }
 
 Json report_of(const RepairResult& result, const RepairOptions& options) {
-  return to_json(result, {{"weld", options.weld}, {"join", options.join}, {"union", options.unite}});
+  return to_json(result, {{"weld", options.weld},
+                          {"join", options.join},
+                          {"fill_holes", sides_to_json(options.fill_holes)},
+                          {"union", options.unite}});
 }
 
 /// Notes all files of the run before anything is read, so that one that cannot be is found at once.
@@ -241,10 +246,19 @@ Json report_of(const MeshArguments& arguments, const Options& options, const Mes
   if (options.stop_after && *options.stop_after < Stage::classify)
     report["intermediate"] = to_json(result.intermediate);
   if (input.pasted) {
-    report["parts"] = parts_of(*input.pasted);
+    report["parts"] = reports::parts_of(*input.pasted);
     report["shared_facets"] = input.pasted->shared_facets;
   }
   return report;
+}
+
+void report_end_of_reading(const MeshArguments& arguments, Outcome outcome, const std::string& message,
+                           double seconds) {
+  Result ended;
+  ended.outcome = outcome;
+  ended.message = message;
+  ended.report.seconds["read"] = ended.report.seconds["total"] = seconds;
+  write_json(arguments.report, to_json(ended, to_json(arguments)));
 }
 
 int run(const MeshArguments& arguments) {
@@ -255,14 +269,17 @@ int run(const MeshArguments& arguments) {
   std::optional<RepairOptions> repairing = repair_options(arguments, options);
   FilesOfRun files;
   const Targets targets = note_files(arguments, options, files);
-  cancel_at_once();
+  cancel_by_flag();
 
   ProgressView progress(how_to_show(arguments.quiet, arguments.verbose));
-  Given given = read_all(arguments, names, options, progress);
+  Given given = read_or_report(
+      options, [&] { return read_all(arguments, names, options, progress); },
+      [&](Outcome outcome, const std::string& message) {
+        report_end_of_reading(arguments, outcome, message, whole.seconds());
+      });
   MeshInput& input = given.input;
   const double reading = whole.seconds();
 
-  cancel_by_flag();  // from here on the mesher asks, and files are open
   std::optional<RepairResult> repaired;
   Surface unrepaired;  // if it may be repaired once more
   if (repairing) {
@@ -341,6 +358,7 @@ void add_mesh(CLI::App& app, Command& chosen) {
                  "First make the surface valid, as `repair` does; T joins vertices that are this near, as "
                  "its --weld")
       ->option_text("[=T]");
+  add_repair_ways(*command, arguments->repair_ways, "With --repair: ");
   command
       ->add_option("--repaired", arguments->repaired,
                    "With --repair: write the surface that was meshed, for `check` (formats as for `repair`)")

@@ -134,6 +134,7 @@ std::optional<RepairOptions> repair_options(const MeshArguments& arguments, cons
   RepairOptions repair;
   static_cast<Limits&>(repair) = options;
   repair.threads = options.threads;
+  take_repair_ways(arguments.repair_ways, repair);
   if (*arguments.repair != "true") {
     repair.weld =
         numbers("--repair=", *arguments.repair, 1, "a length, within which vertices are joined, is")[0];
@@ -206,6 +207,8 @@ Json to_json(const MeshArguments& arguments) {
           {"curved_tolerance", arguments.elements.tolerance.value_or(0)},
           {"quality", arguments.quality.value_or("good")},
           {"repair", arguments.repair.has_value()},
+          {"fill_holes", sides_to_json(arguments.repair_ways.fill_holes)},
+          {"union", arguments.repair_ways.unite},
           {"repaired", arguments.repaired.string()},
           {"keep", arguments.keep.value_or("auto")},
           {"holes", arguments.holes},

@@ -11,6 +11,7 @@
 #include "holdfast/repair.h"
 #include "mesh_output.h"
 #include "order_options.h"
+#include "repair_options.h"
 #include "report.h"
 
 namespace holdfast::cli {
@@ -26,6 +27,7 @@ struct MeshArguments {
   std::optional<std::string> keep, quality, overlap;
   std::optional<std::string> paste;   ///< the tolerance, or empty for none
   std::optional<std::string> repair;  ///< the tolerance, or "true"
+  RepairWays repair_ways;
   std::vector<std::string> holes, regions, without, names;
   std::string stop_after, order;
   std::optional<double> size, gradation, markers_by_angle;

@@ -4,7 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <system_error>
 
+#include "any_mesh.h"
 #include "command.h"
 #include "files.h"
 #include "files_of_run.h"
@@ -53,6 +55,17 @@ Json options_of(const PasteArguments& arguments) {
           {"memory_limit", arguments.limits.memory_limit.value_or(0)}};
 }
 
+/// Regions are those that a mesh of it has.
+Nameable nameable_of_mesh(const PasteResult& result) {
+  Nameable ids = nameable_in(result.surface);
+  ids.regions_are_known = true;
+  for (const PastedPart& part : result.parts) {
+    ids.regions.insert(part.id);
+    for (const RegionSeed& seed : part.seeds) ids.regions.insert(seed.id);
+  }
+  return ids;
+}
+
 /// Says how the run ended and what the user can do; returns the exit code.
 int conclude(const PasteArguments& arguments, const PasteResult& result,
              const char* advice = overlap_advice) {
@@ -76,42 +89,58 @@ int conclude(const PasteArguments& arguments, const PasteResult& result,
   return exit_internal_error;
 }
 
-/// The volumes, if every file is one; none where all hold surfaces alone.
-std::vector<Volume> read_volumes(const PasteArguments& arguments, const PasteOptions& options) {
-  const std::vector<std::string> formats = volume_formats();
+/// What the files hold: volumes if every one has tetrahedra, else surfaces.
+struct Parts {
   std::vector<Volume> volumes;
-  for (const auto& path : arguments.surfaces) {
-    const std::string format = arguments.input_format.empty() ? path.extension().string() : "";
-    if (std::find(formats.begin(), formats.end(), format) == formats.end()) return {};
-    Volume volume = read_volume(path, reading(options, arguments.input_format));
-    if (volume.tetrahedra.empty()) return {};
-    volumes.push_back(std::move(volume));
-  }
-  return volumes;
+  std::vector<Surface> surfaces;
+  std::vector<std::vector<Remark>> remarks;  ///< of volumes
+};
+
+/// What comes through a pipe is there once, and taken for a surface.
+bool may_be_volumes(const PasteArguments& arguments) {
+  return std::all_of(arguments.surfaces.begin(), arguments.surfaces.end(), [&](const auto& path) {
+    std::error_code error;
+    return may_be_volume(path, arguments.input_format) && !descriptor_of(path) &&
+           (std::filesystem::is_regular_file(path, error) || std::filesystem::is_directory(path, error));
+  });
 }
 
-int run_volumes(const PasteArguments& arguments, const PasteOptions& options, std::vector<Volume> volumes) {
+Parts read(const PasteArguments& arguments, const PasteOptions& options) {
+  Parts parts;
+  if (may_be_volumes(arguments))
+    for (const auto& path : arguments.surfaces) {
+      parts.volumes.push_back(
+          read_volume(path, reading(options, arguments.input_format), &parts.remarks.emplace_back()));
+      if (parts.volumes.back().tetrahedra.empty()) {
+        parts = {};
+        break;
+      }
+    }
+  if (parts.volumes.empty())
+    parts.surfaces =
+        read_parts(arguments.surfaces, reading(options, arguments.input_format, options.tolerance));
+  return parts;
+}
+
+int paste_volumes(const PasteArguments& arguments, const PasteOptions& options, FilesOfRun& files,
+                  const std::vector<Volume>& volumes) {
   if (volumes.size() < 2) throw UsageError("paste: two volumes at least are expected");
-  FilesOfRun files;
-  for (const auto& path : arguments.surfaces) files.read_volume(path, arguments.input_format);
   VolumeTarget target = files.write_volume("-o", arguments.output, arguments.format);
-  files.write("--parents", arguments.parents);
-  files.write("--report", arguments.report);
-  cancel_by_flag();
   target.options.threads = arguments.threads;
   watch_writing(target.options, options);
   PastedVolumes result = paste(volumes, options, stems(arguments.surfaces));
   merge(result.volume.names, names_of(arguments.names));
   if (result.outcome == Outcome::done) {
     write_volume(target.path, result.volume, target.options);
-    if (!arguments.quiet) tell(not_held(target.path, result.volume, target.options), target.path);
+    if (!arguments.quiet) {
+      tell(not_held(target.path, result.volume, target.options), target.path);
+      tell_idle_names(arguments.names, nameable_in(result.volume));
+    }
     write_parents(arguments.parents, 0, result.boundary);  // volumes bring no segments
   }
+  write_json(arguments.report, to_json(result, options_of(arguments)));
   result.boundary.outcome = result.outcome;
   result.boundary.message = result.message;
-  Json report = report_of(result.boundary, options_of(arguments));
-  report["tetrahedra"] = {{"count", result.volume.tetrahedra.size()}, {"replaced", result.replaced}};
-  write_json(arguments.report, report);
   const int code =
       conclude(arguments, result.boundary,
                "tetrahedra of volumes stay, so that --overlap is for surfaces: `holdfast convert "
@@ -124,36 +153,55 @@ int run_volumes(const PasteArguments& arguments, const PasteOptions& options, st
   return code;
 }
 
-int run(const PasteArguments& arguments) {
-  const PasteOptions options = to_options(arguments);
-  const Names names = names_of(arguments.names);
-  if (std::vector<Volume> volumes = read_volumes(arguments, options); !volumes.empty())
-    return run_volumes(arguments, options, std::move(volumes));
-  FilesOfRun files;
-  files.read_surfaces(arguments.surfaces, arguments.input_format);
-  WriteOptions writing = files.write_surface("-o", arguments.output, arguments.format);
-  files.write("--parents", arguments.parents);
-  files.write("--report", arguments.report);
-  cancel_at_once();
-  const std::vector<Surface> parts =
-      read_parts(arguments.surfaces, reading(options, arguments.input_format, options.tolerance));
-  if (!arguments.quiet)
-    for (const Surface& part : parts) tell(part.remarks);
-
-  cancel_by_flag();  // from here on files are open
+int paste_surfaces(const PasteArguments& arguments, const PasteOptions& options, FilesOfRun& files,
+                   std::optional<WriteOptions> target, const std::vector<Surface>& parts) {
+  WriteOptions writing = target ? *target : files.write_surface("-o", arguments.output, arguments.format);
   watch_writing(writing, options);
   PasteResult result = parts.size() == 1 ? paste_components(parts[0], options)
                                          : paste(parts, options, stems(arguments.surfaces));
-  merge(result.surface.names, names);
+  merge(result.surface.names, names_of(arguments.names));
   if (result.outcome == Outcome::done) {
     write_surface(arguments.output, result.surface, writing);
-    if (!arguments.quiet) tell(not_held(arguments.output, result.surface, writing), arguments.output);
+    if (!arguments.quiet) {
+      tell(not_held(arguments.output, result.surface, writing), arguments.output);
+      tell_idle_names(arguments.names, nameable_of_mesh(result));
+    }
     std::size_t facets = 0;
     for (const Surface& part : parts) facets += part.facets.size();
     write_parents(arguments.parents, facets, result);
   }
-  write_json(arguments.report, report_of(result, options_of(arguments)));
+  write_json(arguments.report, to_json(result, options_of(arguments)));
   return conclude(arguments, result);
+}
+
+int run(const PasteArguments& arguments) {
+  const PasteOptions options = to_options(arguments);
+  static_cast<void>(names_of(arguments.names));  // wrong usage is told before anything is read
+  FilesOfRun files;
+  std::optional<WriteOptions> target;  // if it is known before anything is read that it is for a surface
+  if (may_be_volumes(arguments)) {
+    for (const auto& path : arguments.surfaces) files.read_volume(path, arguments.input_format);
+  } else {
+    files.read_surfaces(arguments.surfaces, arguments.input_format);
+    target = files.write_surface("-o", arguments.output, arguments.format);
+  }
+  files.write("--parents", arguments.parents);
+  files.write("--report", arguments.report);
+  cancel_by_flag();
+  const Parts parts = read_or_report(
+      options, [&] { return read(arguments, options); },
+      [&](Outcome outcome, const std::string& message) {
+        PasteResult ended;
+        ended.outcome = outcome;
+        ended.message = message;
+        write_json(arguments.report, to_json(ended, options_of(arguments)));
+      });
+  if (!arguments.quiet) {
+    for (std::size_t k = 0; k < parts.volumes.size(); ++k) tell(parts.remarks[k], arguments.surfaces[k]);
+    for (const Surface& part : parts.surfaces) tell(part.remarks);
+  }
+  return parts.volumes.empty() ? paste_surfaces(arguments, options, files, target, parts.surfaces)
+                               : paste_volumes(arguments, options, files, parts.volumes);
 }
 
 }  // namespace

@@ -7,31 +7,6 @@
 
 namespace holdfast::cli {
 
-Json parts_of(const PasteResult& pasted) {
-  Json parts = Json::array();
-  for (const PastedPart& part : pasted.parts)
-    parts.push_back({{"file", part.name},
-                     {"region", part.id},
-                     {"first_vertex", part.first_vertex},
-                     {"first_facet", part.first_facet}});
-  return parts;
-}
-
-Json report_of(const PasteResult& result, Json options) {
-  Json json = to_json(static_cast<const RepairResult&>(result), std::move(options));
-  json["parts"] = parts_of(result);
-  json["shared_facets"] = result.shared_facets;
-  json["overlaps"] = Json::array();
-  for (const PartOverlap& overlap : result.overlaps)
-    json["overlaps"].push_back(
-        {{"parts", {overlap.first, overlap.second}}, {"depth", overlap.depth}, {"where", overlap.where}});
-  json["apart"] = Json::array();
-  for (const PartApart& apart : result.apart)
-    json["apart"].push_back(
-        {{"parts", {apart.part, apart.nearest}}, {"distance", apart.distance}, {"where", apart.where}});
-  return json;
-}
-
 void tell(const PasteResult& result, const std::filesystem::path& output) {
   for (const PartApart& apart : result.apart)
     say("holdfast: {} and {} do not touch: they are {:.6g} apart\n", result.parts[apart.part].name,

@@ -191,12 +191,20 @@ int run(const PlaneArguments& arguments) {
   const PlaneOptions options = to_options(arguments);
   FilesOfRun files;
   WriteOptions writing = target_of(files, arguments);
-  cancel_at_once();
-  const PlanesInSpace planes =
-      read_planes(arguments.input, reading(options, arguments.input_format, arguments.tolerance));
+  cancel_by_flag();
+  const PlanesInSpace planes = read_or_report(
+      options,
+      [&] {
+        return read_planes(arguments.input, reading(options, arguments.input_format, arguments.tolerance));
+      },
+      [&](Outcome outcome, const std::string& message) {
+        PlaneResult ended;
+        ended.outcome = outcome;
+        ended.message = message;
+        write_json(arguments.report, report_of(arguments, ended));
+      });
   if (!arguments.quiet) tell(planes.remarks, arguments.input);
 
-  cancel_by_flag();  // from here on files are open
   watch_writing(writing, options);
   const PlaneResult result = solve(planes, options);
   if (result.outcome == Outcome::done) write_plane(arguments.output, result.mesh, writing);

@@ -12,6 +12,7 @@
 #include "limits.h"
 #include "page.h"
 #include "repair_hints.h"
+#include "repair_options.h"
 #include "repair_result.h"
 #include "report.h"
 #include "signals.h"
@@ -26,10 +27,9 @@ struct RepairArguments {
   double tolerance = 0;
   LimitArguments limits;
   double weld = 0, join = 0;
-  std::optional<std::size_t> fill_holes;
-  bool fill_all = false;
+  RepairWays ways;
   unsigned threads = 1;
-  bool unite = false, quiet = false;
+  bool quiet = false;
 };
 
 RepairOptions to_options(const RepairArguments& arguments) {
@@ -37,8 +37,7 @@ RepairOptions to_options(const RepairArguments& arguments) {
   static_cast<Limits&>(options) = limits_of(arguments.limits);
   options.weld = arguments.weld;
   options.join = arguments.join;
-  options.fill_holes = arguments.fill_holes;
-  options.unite = arguments.unite;
+  take_repair_ways(arguments.ways, options);
   options.exact = !arguments.exact.empty();
   options.threads = arguments.threads;
   options.progress = goes_on;
@@ -52,8 +51,8 @@ Json options_of(const RepairArguments& arguments) {
           {"output", arguments.output.string()},
           {"weld", arguments.weld},
           {"join", arguments.join},
-          {"fill_holes", arguments.fill_holes ? Json(*arguments.fill_holes) : Json(nullptr)},
-          {"union", arguments.unite},
+          {"fill_holes", sides_to_json(arguments.ways.fill_holes)},
+          {"union", arguments.ways.unite},
           {"tolerance", arguments.tolerance},
           {"threads", arguments.threads},
           {"time_limit", arguments.limits.time_limit.value_or(0)},
@@ -112,16 +111,25 @@ int run(const RepairArguments& arguments) {
   files.write("--report", arguments.report);
   files.write("--exact", arguments.exact);
   files.write("--html", arguments.html);
-  cancel_at_once();
-  const Surface surface =
-      read_surfaces(arguments.surfaces, reading(options, arguments.input_format, arguments.tolerance));
+  cancel_by_flag();
+  const Surface surface = read_or_report(
+      options,
+      [&] {
+        return read_surfaces(arguments.surfaces,
+                             reading(options, arguments.input_format, arguments.tolerance));
+      },
+      [&](Outcome outcome, const std::string& message) {
+        RepairResult ended;
+        ended.outcome = outcome;
+        ended.message = message;
+        write_json(arguments.report, to_json(ended, options_of(arguments)));
+      });
   if (!arguments.quiet) {
     tell(surface.remarks);
     if (const std::string told = told_below_last_bit(surface, arguments.weld); !told.empty())
       say("note: {}\n", told);
   }
 
-  cancel_by_flag();  // from here on files are open
   watch_writing(writing, options);
   RepairResult result = repair(surface.view(), options);
   result.surface.regions = surface.regions;
@@ -168,23 +176,7 @@ void add_repair(CLI::App& app, Command& chosen) {
                    "Triangles that overlap at most T from each other, some last bits, become the same where "
                    "they do (default 0)")
       ->option_text("T");
-  command
-      ->add_option_function<std::string>(
-          "--fill-holes",
-          [arguments](const std::string& text) {
-            if (text.empty()) {
-              arguments->fill_holes = SIZE_MAX;
-              return;
-            }
-            std::size_t most = 0;
-            if (!not_a_count(text).empty() || !CLI::detail::lexical_cast(text, most) || most < 3)
-              throw CLI::ValidationError("--fill-holes", "'" + text + "' is no number of sides from 3 on");
-            arguments->fill_holes = most;
-          },
-          "Close holes whose border has at most N sides (default: any number)")
-      ->expected(0, 1)
-      ->option_text("[N]");
-  command->add_flag("--union", arguments->unite, "Drop facets that have material on both sides, or on none");
+  add_repair_ways(*command, arguments->ways);
   command
       ->add_option("--parents", arguments->parents,
                    "Write a line for each triangle with the indices of those it is a part of")

@@ -154,8 +154,8 @@ int run(const SplitArguments& arguments) {
   Surface surface = read_surfaces(arguments.mesh.surfaces,
                                   reading(limits, arguments.mesh.input_format, arguments.mesh.tolerance));
   if (!arguments.mesh.quiet) tell(surface.remarks);
-  for (const auto& [id, name] : names.facets) surface.names.facets[id] = name;
-  for (const auto& [id, name] : names.regions) surface.names.regions[id] = name;
+  merge(surface.names, names);
+  if (!arguments.mesh.quiet) tell_idle_names(arguments.mesh.names, nameable_in(surface));
   DivideOptions options = to_options(arguments, surface);
   static_cast<Limits&>(options) = limits;
 

@@ -248,8 +248,16 @@ int run(const TetgenArguments& arguments) {
   files.write("the output", viewers.vtk);
   files.write("the output", viewers.medit);
   files.write("--report", arguments.report);
+  cancel_by_flag();
+  read_or_report(
+      limits, [&] { read_input(input, switches, reading(limits, {}, arguments.tolerance)); },
+      [&](Outcome outcome, const std::string& message) {
+        Result ended;
+        ended.outcome = outcome;
+        ended.message = message;
+        write_json(arguments.report, to_json(ended, {{"words", arguments.words}}));
+      });
   cancel_at_once();
-  read_input(input, switches, reading(limits, {}, arguments.tolerance));
   names = files_of(switches, input, command);  // what the file holds is known now
   static_cast<Limits&>(names) = limits;
   names.progress = goes_on;

@@ -123,14 +123,21 @@ int run(const UntangleArguments& arguments) {
   watch_writing(target.options, options);
   files.write("--report", arguments.report);
   files.write("--html", arguments.html);
-  cancel_at_once();
+  cancel_by_flag();
 
   std::vector<Remark> remarks;
-  const Volume volume = read_volume(arguments.input, reading(options, arguments.input_format), &remarks);
+  const Volume volume = read_or_report(
+      options,
+      [&] { return read_volume(arguments.input, reading(options, arguments.input_format), &remarks); },
+      [&](Outcome outcome, const std::string& message) {
+        UntangleResult ended;
+        ended.outcome = outcome;
+        ended.message = message;
+        write_json(arguments.report, report_of(arguments, ended));
+      });
   if (!arguments.quiet) tell(remarks, arguments.input);
   const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - start;
   ProgressView progress(how_to_show(arguments.quiet, arguments.verbose));
-  cancel_by_flag();  // from here on the mesher asks, and files are open
   options.progress = std::ref(progress);
   UntangleResult result = untangle(volume, options);
   progress.finish();

@@ -1,12 +1,13 @@
 // A whole file in memory.
 #include "io/file_bytes.h"
 
+#include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <new>
 #include <optional>
@@ -20,8 +21,19 @@
 namespace holdfast::io {
 namespace {
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+
+  [[nodiscard]] int number() const { return number_; }
+
+ private:
+  int number_;
 };
 
 /// Read in a few milliseconds.
@@ -46,34 +58,52 @@ void require_readable(const std::filesystem::path& path, const struct stat& stat
   throw FileError(path, "", std::string(what) + ": " + std::strerror(errno));
 }
 
-/// Opens a file, or an open descriptor at its place.
-std::unique_ptr<std::FILE, CloseFile> open(const std::filesystem::path& path) {
+/// Opens a file, or an open descriptor at its place. Nobody may write to a named pipe yet, which opening
+/// would wait for.
+Descriptor open(const std::filesystem::path& path) {
   struct stat status {};
-  std::unique_ptr<std::FILE, CloseFile> file;
+  int number = -1;
   if (const std::optional<int> descriptor = descriptor_of(path)) {
     if (::fstat(*descriptor, &status) != 0) fail(path, "cannot be opened");
     require_readable(path, status, ::isatty(*descriptor) != 0);
-    const int copy = copy_of_descriptor(*descriptor);
-    file.reset(copy < 0 ? nullptr : ::fdopen(copy, "rb"));
-    if (!file && copy >= 0) ::close(copy);
+    number = copy_of_descriptor(*descriptor);
   } else {
     if (::stat(path.c_str(), &status) != 0) {
       if (errno == ENOENT) throw FileError(path, "", "no such file");
       fail(path, "cannot be opened");
     }
     require_readable(path, status, false);
-    file.reset(std::fopen(path.c_str(), "rb"));
+    number = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | (S_ISFIFO(status.st_mode) ? O_NONBLOCK : 0));
   }
-  if (!file) fail(path, "cannot be opened");
-  return file;
+  if (number < 0) fail(path, "cannot be opened");
+  return Descriptor(number);
 }
 
 /// How many bytes are left to read; nothing for pipes and the like.
-std::optional<std::size_t> size_of(std::FILE* file) {
+std::optional<std::size_t> size_of(const Descriptor& file) {
   struct stat status {};
-  if (::fstat(::fileno(file), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
-  const off_t at = ::lseek(::fileno(file), 0, SEEK_CUR);
+  if (::fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+  const off_t at = ::lseek(file.number(), 0, SEEK_CUR);
   return static_cast<std::size_t>(std::max<off_t>(0, status.st_size - std::max<off_t>(0, at)));
+}
+
+/// Until there is something to read from what may have nothing for long, such as a pipe, or its other end is
+/// closed.
+void wait_for_bytes(const Descriptor& file, Watch* watch) {
+  constexpr int kMilliseconds = 20;
+  pollfd asked{file.number(), POLLIN, 0};
+  while (::poll(&asked, 1, kMilliseconds) <= 0) step(watch);
+}
+
+/// At most so many bytes; 0 at the end.
+std::size_t read_some(const std::filesystem::path& path, const Descriptor& file, char* to, std::size_t most,
+                      bool may_wait, Watch* watch) {
+  for (;;) {
+    if (may_wait) wait_for_bytes(file, watch);
+    const ssize_t got = ::read(file.number(), to, most);
+    if (got >= 0) return static_cast<std::size_t>(got);
+    if (errno != EINTR && errno != EAGAIN) fail(path, "cannot be read");
+  }
 }
 
 }  // namespace
@@ -91,25 +121,24 @@ std::filesystem::path sibling(const std::filesystem::path& path, const char* ext
 }
 
 FileBytes::FileBytes(const std::filesystem::path& path, Watch* watch) {
-  const std::unique_ptr<std::FILE, CloseFile> file = open(path);
-  const std::optional<std::size_t> expected = size_of(file.get());
+  const Descriptor file = open(path);
+  const std::optional<std::size_t> expected = size_of(file);
   // One byte more than the file has, so that its end shows without growing the buffer; a pipe, or a
   // file that grows meanwhile, doubles it.
   std::size_t capacity = expected ? *expected + 1 : std::size_t{1} << 16;
   bytes_ = allocate(path, capacity);
   for (;;) {
     const std::size_t asked = std::min(capacity - size_, kChunk);
-    const std::size_t got = std::fread(bytes_.get() + size_, 1, asked, file.get());
+    const std::size_t got = read_some(path, file, bytes_.get() + size_, asked, !expected, watch);
     size_ += got;
     step(watch);
-    if (got < asked) break;
+    if (got == 0) break;
     if (size_ < capacity) continue;
     std::unique_ptr<char[]> larger = allocate(path, 2 * capacity);
     std::copy_n(bytes_.get(), size_, larger.get());
     bytes_ = std::move(larger);
     capacity *= 2;
   }
-  if (std::ferror(file.get())) fail(path, "cannot be read");
   if (!is_gzip(view())) return;
   Unpacked unpacked = gunzipped({path, view(), false, watch});
   unpacked_ = std::move(unpacked.bytes);

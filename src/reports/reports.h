@@ -6,6 +6,7 @@
 
 #include "holdfast/check.h"
 #include "holdfast/holdfast.h"
+#include "holdfast/paste.h"
 #include "holdfast/repair.h"
 #include "holdfast/statistics.h"
 #include "holdfast/summary.h"
@@ -29,8 +30,13 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json to_json(const Result& result, Json options);
 [[nodiscard]] Json to_json(const UntangleResult& result, Json options);
 [[nodiscard]] Json to_json(const RepairResult& result, Json options);
+[[nodiscard]] Json to_json(const PasteResult& result, Json options);
+[[nodiscard]] Json to_json(const PastedVolumes& result, Json options);
 [[nodiscard]] Json to_json(const CheckResult& result);
 [[nodiscard]] Json to_json(const Statistics& statistics);
+
+/// The parts of a pasted surface as `parts` of reports lists them.
+[[nodiscard]] Json parts_of(const PasteResult& pasted);
 
 /// As text of one line, or indented. Bytes that are no UTF-8, as paths may hold, are replaced.
 [[nodiscard]] std::string text_of(const Json& json, int indent = -1);

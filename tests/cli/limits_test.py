@@ -3,6 +3,7 @@
     limits_test.py PROGRAM [unittest options]
 """
 import json
+import os
 import random
 import signal
 import subprocess
@@ -66,6 +67,63 @@ class Limits(CliTest):
         said = process.communicate()[1].decode()  # reads what was written so far, and more if there was more
         self.assertEqual(process.returncode, 5)
         self.assertIn("cancelled", said)
+
+    COMMANDS = (("mesh", "-o", "v.vtu"), ("mesh", "-o", "v.vtu", "--repair"), ("repair", "-o", "out.off"),
+                ("paste", "-o", "out.off"), ("plane", "-o", "out.off"), ("tetgen", "-p"))
+
+    def test_a_limit_that_ends_the_reading_is_in_the_report(self):
+        for command, *options in self.COMMANDS:
+            for limit, outcome in (("--time-limit", "1e-6"), "time_limit"), (("--memory-limit", "0.001"), "memory_limit"):
+                self.run_program(command, *options, "cube.off", "--report", "r.json", *limit, expect=5)
+                report = json.loads((self.folder / "r.json").read_text())
+                self.assertEqual(report["outcome"], outcome, command)
+                self.assertIn(f"the {outcome.replace('_', ' ')} of ", report["message"])
+                self.assertIn("options", report)
+                (self.folder / "r.json").unlink()
+        self.assertEqual(self.files(), ["cube.off", "p.xyz"])
+
+    def test_a_signal_that_ends_the_reading_is_in_the_report(self):
+        """A pipe to which nobody writes, named or not, or not all of a file."""
+        os.mkfifo(self.folder / "pipe.off")
+        os.mkfifo(self.folder / "pipe.poly")
+        for command, *options in self.COMMANDS:
+            for source in "-", "pipe.off", "part":
+                if command == "tetgen":
+                    if source != "pipe.off":
+                        continue
+                    given = ["pipe.poly"]
+                else:
+                    given = [source if source == "pipe.off" else "-"] + (["--input-format", "off"] if source != "pipe.off" else [])
+                process = subprocess.Popen([self.program, command, *options, *given, "--report", "r.json"], cwd=self.folder,
+                                           stdin=subprocess.PIPE, stderr=subprocess.PIPE)
+                if source == "part":
+                    process.stdin.write(b"OFF\n8 12 0\n0 0 0\n")
+                    process.stdin.flush()
+                time.sleep(0.5)
+                self.assertIsNone(process.poll(), (command, source))
+                process.send_signal(signal.SIGINT)
+                self.assertEqual(process.wait(60), 5, (command, source))
+                said = process.stderr.read().decode()
+                process.communicate()
+                self.assertIn("cancelled", said)
+                self.assertEqual(json.loads((self.folder / "r.json").read_text())["outcome"], "cancelled", command)
+                (self.folder / "r.json").unlink()
+
+    def test_a_time_limit_holds_while_a_pipe_is_waited_for(self):
+        os.mkfifo(self.folder / "pipe.off")
+        self.run_program("mesh", "pipe.off", "-o", "v.vtu", "--time-limit", "0.2", "--report", "r.json", expect=5)
+        self.assertEqual(json.loads((self.folder / "r.json").read_text())["outcome"], "time_limit")
+
+    def test_what_comes_through_a_named_pipe(self):
+        os.mkfifo(self.folder / "pipe.off")
+        process = subprocess.Popen([self.program, "mesh", "pipe.off", "-o", "v.vtu"], cwd=self.folder)
+        time.sleep(0.2)
+        with open(self.folder / "pipe.off", "w") as pipe:
+            for line in (self.folder / "cube.off").read_text().splitlines(keepends=True):
+                pipe.write(line)
+                pipe.flush()
+        self.assertEqual(process.wait(), 0)
+        self.run_program("check", "cube.off", "v.vtu")
 
 
 if __name__ == "__main__":

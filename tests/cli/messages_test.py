@@ -153,6 +153,24 @@ class LongLists(CliTest):
         self.assertEqual(said.count("repeated facet:"), 20)
         self.assertIn("more like these; `holdfast diagnose`", said)
 
+    def test_names_that_nothing_has(self):
+        names = ["--name", "region:7=x", "--name", "region:1=core", "--name", "3=wall", "--name", "0=skin", "--name", "segment:4=rim"]
+        said = self.run_program("mesh", "cube.off", "-o", "v.vtu", *names).stderr
+        self.assertIn("--name region:7=x does nothing: there is no such region; there is 1\n", said)
+        self.assertIn("--name 3=wall does nothing: no triangle has the marker 3; there is 0\n", said)
+        self.assertIn("--name segment:4=rim does nothing: no segment has the marker 4; there is none at all\n", said)
+        self.assertEqual(said.count("does nothing"), 3)
+        said = self.run_program("convert", "v.vtu", "w.vtu", *names).stderr
+        self.assertEqual(said.count("does nothing"), 3)
+        # The mesh of a surface without seeds numbers its regions, so that its names may have a meaning yet.
+        said = self.run_program("convert", "cube.off", "s.off", "--name", "region:7=x", "--name", "3=wall").stderr
+        self.assertEqual((said.count("does nothing"), said.count("region:7")), (1, 0))
+        self.assertNotIn("does nothing", self.run_program("mesh", "cube.off", "-o", "v.vtu", "-q", *names).stderr)
+        self.write("next.off", off(cube((1, 0, 0)), CUBE_FACETS))
+        said = self.run_program("paste", "cube.off", "next.off", "-o", "p.off", "--name", "region:2=b", "--name", "region:3=c",
+                                "--name", "3=between", "--name", "4=none").stderr
+        self.assertEqual((said.count("does nothing"), said.count("region:3=c"), said.count("4=none")), (2, 1, 1))
+
 
 if __name__ == "__main__":
     main()

@@ -1,4 +1,5 @@
 """Several files as parts: `holdfast mesh a b`, `--paste`, `--overlap`, and `holdfast paste`."""
+import gzip
 import json
 import math
 import struct
@@ -549,6 +550,19 @@ class PasteTest(CliTest):
         for mesh, lost in zip(given, gone):
             self.assertTrue(lost)
             self.assertLessEqual(lost, at_interface(mesh))
+
+    def test_volumes_that_are_packed_or_told_by_the_option(self):
+        for name in self.parts(box((0, 0, 0), (1, 1, 1), 2), box((1, 0, 0), (2, 1, 1), 2)):
+            self.run_program("mesh", name, "-o", name[0] + ".msh", "--fill")
+            data = (self.folder / (name[0] + ".msh")).read_bytes()
+            self.write(name[0] + ".msh.gz", gzip.compress(data))
+            self.write(name[0], data)
+        self.run_program("paste", "a.msh", "b.msh", "-o", "ab.vtu")
+        want = (self.folder / "ab.vtu").read_bytes()
+        for given in ("a.msh.gz", "b.msh.gz"), ("a", "b", "--input-format", "msh"):
+            said = self.run_program("paste", *given, "-o", "other.vtu").stderr
+            self.assertIn("new tetrahedr", said)
+            self.assertEqual((self.folder / "other.vtu").read_bytes(), want)
 
     @staticmethod
     def is_on_interface(p):

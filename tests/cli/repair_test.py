@@ -481,6 +481,26 @@ class MeshAtOnce(Repaired):
         self.run_program("check", "out.off", "v.vtu")
         self.check("in.off", files=("--report", "r.json"))
 
+    def test_holes_are_filled(self):
+        self.write("in.off", off(cube(), CUBE_FACETS[1:]))
+        self.run_program("mesh", "in.off", "-o", "v.vtu", "--fill", "--repair", expect=4)
+        said = self.run_program("mesh", "in.off", "-o", "v.vtu", "--fill", "--repair", "--fill-holes", "3", "--repaired", "out.off",
+                                "--report", "r.json").stderr
+        self.assertIn("1 filled", said)
+        self.run_program("check", "out.off", "v.vtu")
+        self.check("in.off", files=("--report", "r.json"))
+        self.assertEqual((self.report()["repair"]["options"]["fill_holes"], self.report()["options"]["fill_holes"]), (3, 3))
+        self.write("in.off", off(cube(), CUBE_FACETS[2:]))
+        said = self.run_program("mesh", "in.off", "-o", "v.vtu", "--fill", "--repair", "--fill-holes", "3", expect=4).stderr
+        self.assertIn("more sides than --fill-holes allows", said)
+        self.run_program("mesh", "in.off", "-o", "v.vtu", "--fill", "--repair", "--fill-holes")
+
+    def test_union(self):
+        self.write("in.off", off(*two_cubes()))
+        for options, regions in ((), 3), (("--union",), 1):
+            self.run_program("mesh", "in.off", "-o", "v.vtu", "--fill", "--repair", *options, "--report", "r.json")
+            self.assertEqual((self.report()["mesh"]["regions"], self.report()["repair"]["options"]["union"]), (regions, bool(options)))
+
     def test_a_valid_surface(self):
         said = self.run_program("mesh", "cube.off", "-o", "v.vtu", "--fill", "--repair").stderr
         self.assertIn("valid as it is", said)
@@ -488,6 +508,10 @@ class MeshAtOnce(Repaired):
 
     def test_wrong_usage(self):
         self.run_program("mesh", "cube.off", "-o", "v.vtu", "--repaired", "out.off", expect=2)
+        for option in "--union", "--fill-holes", "--fill-holes=4":
+            said = self.run_program("mesh", "cube.off", "-o", "v.vtu", option, expect=2).stderr
+            self.assertIn("does nothing without --repair", said)
+        self.run_program("mesh", "cube.off", "-o", "v.vtu", "--repair", "--fill-holes", "2", expect=2)
         for tolerance in "x", "-1", "nan", "1,2":
             self.run_program("mesh", "cube.off", "-o", "v.vtu", f"--repair={tolerance}", expect=2)
         self.run_program("mesh", "cube.off", "-o", "v.vtu", "--repair", "--repaired", "v.vtu", expect=2)
