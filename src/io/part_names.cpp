@@ -19,7 +19,7 @@ std::vector<std::map<int, std::string>> names_apart(std::vector<std::map<int, st
   for (std::size_t k = 0; k < of_parts.size() && k < parts.size(); ++k)
     for (auto& [id, name] : of_parts[k]) {
       const Uses& of = uses[name];
-      if (!name.empty() && of.ids.size() > 1 && of.parts.size() > 1) name = parts[k] + '.' + name;
+      if (!name.empty() && of.ids.size() > 1 && of.parts.size() > 1) name.insert(0, parts[k] + '.');
     }
   return of_parts;
 }

@@ -7,7 +7,8 @@
 
 namespace holdfast::repairing {
 
-/// The first part that had no side with a single facet and has one now; no_index if there is none. `part` is
+/// The first part that had no side with a single facet and has one now, or no facet at all; no_index if there
+/// is none. `part` is
 /// that of each facet of the input, which `before` is.
 [[nodiscard]] Index opened_part(const State& before, const State& after, std::span<const Index> part);
 

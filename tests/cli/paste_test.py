@@ -350,6 +350,17 @@ class PasteTest(CliTest):
                              r"has details smaller than the tolerance, which take one below 0\.236: so far is its vertex \d+, at \(")
         self.assertFalse((self.folder / "x.mesh").exists())
 
+    def test_a_part_that_is_as_small_as_coordinates_are_rounded_opens_another(self):
+        """It was delivered open so far, and the mesher then told of triangles outside every region."""
+        e = 2.0**-23
+        names = self.parts(box((0, 0, 0), (1, 1, 1), 1), box((1 - 4 * e, 1 - 4 * e, 1 + e), (1 - 3 * e, 1 - 3 * e, 1 + 2 * e), 1))
+        for ended in (self.run_program("mesh", *names, "-o", "x.mesh", "--paste", "--overlap", "first", expect=7),
+                      self.run_program("paste", *names, "-o", "x.mesh", "--overlap", "first", "--report", "r.json", expect=7)):
+            self.assertIn("a.off was closed, and is not once it is brought together within 4.77e-07 of the others, as near as "
+                          "coordinates are rounded; coordinates of more digits, or nearer to the origin, may help", ended.stderr)
+        self.assertFalse((self.folder / "x.mesh").exists())
+        self.assertEqual(json.loads((self.folder / "r.json").read_text())["outcome"], "not_representable")
+
     def test_a_corner_near_to_a_crossing_may_be_far_from_a_side(self):
         """A side was led through a corner 0.04 away from it, since the other that it crossed there ended in it."""
         parts = box((0.2, 0.8, 0), (1, 1, 0.6), (4, 1, 3)), box((0.76, 0, 0), (1, 0.8, 0.48), (2, 1, 3))
