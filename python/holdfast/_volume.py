@@ -24,7 +24,7 @@ def read_volume(
     cancel: Optional[CancelToken] = None,
     progress: Progress = None,
 ) -> TetMesh:
-    """Reads tetrahedra from .vtu, .vtm, .vtk, .mesh, .meshb, .msh, .inp, .unv, .bdf, .nas, .su2, .mfem, .vol, .xdmf, .med,
+    """Reads tetrahedra from .vtu, .pvtu, .vtm, .vtk, .mesh, .meshb, .msh, .inp, .unv, .bdf, .nas, .su2, .mfem, .vol, .xdmf, .med,
     .avs, .ucd, .node with .ele, or a folder polyMesh. Raises FileError.
 
     >>> read_volume("part.vtu")  # doctest: +SKIP

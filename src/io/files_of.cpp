@@ -45,7 +45,7 @@ Paths tetgen_files(const std::filesystem::path& path) {
 
 Paths files_of_surface(const std::filesystem::path& path, std::string_view format) {
   const std::string extension = extension_of(path, format);
-  for (const std::string_view of_several : {".vtu", ".vtm", ".xdmf", ".openfoam", ""})
+  for (const std::string_view of_several : {".vtu", ".pvtu", ".vtm", ".xdmf", ".openfoam", ""})
     if (extension == of_several) return files_of_volume(path, format);
   if ((extension == ".poly" || extension == ".smesh") && has_nodes_beside(path))
     return {path, io::sibling(path, ".node")};
@@ -64,6 +64,7 @@ Paths files_of_volume(const std::filesystem::path& path, std::string_view format
   if (extension == ".xdmf")
     return {path, io::with_ending(path, ".h5"), io::surface_beside(path),
             io::surface_beside(io::with_ending(path, ".h5"))};
+  if (extension == ".pvtu") return io::pvtu_files(path);
   if (extension == ".vtm") {
     const std::filesystem::path grid = io::with_ending(plain, ".vtu");
     return {path, grid, io::surface_beside(grid)};

@@ -113,6 +113,10 @@ void write_openfoam(const std::filesystem::path& folder, const Volume& volume, c
 /// The files in it, as they are written.
 [[nodiscard]] std::vector<std::filesystem::path> openfoam_files(const std::filesystem::path& path);
 [[nodiscard]] MeshData read_vtm(const Source& source);
+/// The pieces that the file names, joined.
+[[nodiscard]] MeshData read_pvtu(const Source& source);
+/// The file and its pieces, with the files beside these; it alone if it cannot be read.
+[[nodiscard]] std::vector<std::filesystem::path> pvtu_files(const std::filesystem::path& path);
 /// NAME_surface with the same ending.
 [[nodiscard]] std::filesystem::path surface_beside(const std::filesystem::path& path);
 [[nodiscard]] std::filesystem::path with_ending(const std::filesystem::path& path, const char* ending);

@@ -63,6 +63,7 @@ constexpr Format kFormats[] = {
     {".poly", read_poly, nullptr, nullptr},
     {".smesh", read_smesh, nullptr, nullptr},
     {".vtu", read_vtu, read_vtu, write_vtu},
+    {".pvtu", read_pvtu, read_pvtu, nullptr},
     {".vtm", read_vtm, read_vtm, write_vtm},
     {".vtp", read_vtu, nullptr, nullptr},
     {".vtk", read_vtk, read_vtk, write_file<write_vtk>},

@@ -1,5 +1,6 @@
 #include "io/vtu_block.h"
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <utility>
@@ -51,14 +52,22 @@ void read_fields(const VtuFile& file, VtuBlock& block, VtkGrid& grid) {
   grid.names = names.take();
 }
 
-void read_tags(const VtuFile& file, VtuBlock& block, VtkGrid& grid) {
+/// Whether an array tells of which whole a file is a piece.
+bool is_of_pieces(const std::string& name) {
+  const auto is_one_of = [&](const auto& names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  return name == "part" || name == "vtkGhostType" || is_one_of(kPointIds) || is_one_of(kCellIds);
+}
+
+void read_tags(const VtuFile& file, VtuGhosts ghosts, VtuBlock& block, VtkGrid& grid) {
   const std::string regions = array_of(file, "region", kRegionArrays),
                     markers = array_of(file, "marker", kMarkerArrays);
   for (const auto& [path, array] : file.arrays()) {
     const bool of_points = path.starts_with("PointData/");
     const std::string name = array.tag.attribute("Name");
     if ((of_points || path.starts_with("CellData/")) && !is_known_array(name) && path != regions &&
-        path != markers)
+        path != markers && !(ghosts == VtuGhosts::left_out && is_of_pieces(name)))
       grid.other_arrays.push_back(name);
   }
   if (!regions.empty()) grid.regions = file.values<int>(regions, file.cells());
@@ -104,9 +113,63 @@ void read_polydata(const VtuFile& file, VtkGrid& grid) {
   }
 }
 
+/// The first of these arrays that holds integers, one each; empty if there is none.
+std::vector<std::int64_t> ids_of(const VtuFile& file, const std::string& section, std::uint64_t count,
+                                 std::span<const char* const> names) {
+  for (const std::string name : names)
+    if (const DataArray* array = file.find(section + name); array != nullptr && is_scalar_integer(*array))
+      return file.values<std::int64_t>(section + name, count);
+  return {};
+}
+
+constexpr const char* kGhosts = "CellData/vtkGhostType";
+
+/// Leaves out the cells that are another piece's, and says of each cell that it was in the file whether it
+/// stays.
+std::vector<std::uint8_t> leave_out_ghosts(const VtuFile& file, VtkGrid& grid) {
+  constexpr std::uint8_t kDuplicateCell = 1;
+  std::vector<std::uint8_t> stays(grid.types.size(), 1);
+  if (file.find(kGhosts) == nullptr) return stays;
+  const auto types = file.values<std::uint8_t>(kGhosts, file.cells());
+  VtkGrid own;
+  std::int64_t begin = 0;
+  for (std::size_t c = 0; c < grid.types.size(); begin = grid.ends[c++]) {
+    stays[c] = (types[c] & kDuplicateCell) == 0 ? 1 : 0;
+    if (stays[c] == 0) continue;
+    if (begin < 0 || grid.ends[c] < begin ||
+        static_cast<std::uint64_t>(grid.ends[c]) > grid.connectivity.size())
+      throw FileError(file.source().path, "cell " + std::to_string(c), "its offset is out of range");
+    own.connectivity.insert(own.connectivity.end(), grid.connectivity.begin() + begin,
+                            grid.connectivity.begin() + grid.ends[c]);
+    own.ends.push_back(static_cast<std::int64_t>(own.connectivity.size()));
+    own.types.push_back(grid.types[c]);
+    if (!grid.regions.empty()) own.regions.push_back(grid.regions[c]);
+    if (!grid.markers.empty()) own.markers.push_back(grid.markers[c]);
+  }
+  grid.types = std::move(own.types);
+  grid.ends = std::move(own.ends);
+  grid.connectivity = std::move(own.connectivity);
+  grid.regions = std::move(own.regions);
+  grid.markers = std::move(own.markers);
+  return stays;
+}
+
+void read_ids(const VtuFile& file, VtuGhosts ghosts, VtuBlock& block, VtkGrid& grid) {
+  block.point_ids = ids_of(file, "PointData/", file.points(), kPointIds);
+  std::vector<std::int64_t> cells = ids_of(file, "CellData/", file.cells(), kCellIds);
+  std::vector<std::uint8_t> stays(grid.types.size(), 1);
+  if (ghosts == VtuGhosts::left_out) stays = leave_out_ghosts(file, grid);
+  const auto tetrahedron = static_cast<std::uint8_t>(VtkCell::tetrahedron);
+  if (cells.empty() || std::any_of(grid.types.begin(), grid.types.end(),
+                                   [&](std::uint8_t type) { return type != tetrahedron; }))
+    return;
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    if (stays[c] != 0) block.tetrahedron_ids.push_back(cells[c]);
+}
+
 }  // namespace
 
-VtuBlock read_vtu_block(const VtuFile& file) {
+VtuBlock read_vtu_block(const VtuFile& file, VtuGhosts ghosts) {
   VtuBlock block;
   VtkGrid grid;
   grid.points = read_points(file);
@@ -114,7 +177,8 @@ VtuBlock read_vtu_block(const VtuFile& file) {
     read_polydata(file, grid);
   else if (file.cells() > 0)
     read_cells(file, grid);
-  if (file.is_polydata() || file.cells() > 0) read_tags(file, block, grid);
+  if (file.is_polydata() || file.cells() > 0) read_tags(file, ghosts, block, grid);
+  if (!file.is_polydata()) read_ids(file, ghosts, block, grid);
   block.mesh = mesh_of(file.source(), std::move(grid));
   return block;
 }

@@ -15,7 +15,22 @@
 namespace holdfast::io {
 namespace {
 
-/// Appends the entities of a part, whose vertex i is `number[i]` of the mesh.
+/// Puts a surface in whose points know their indices in the volume.
+void attach(MeshData& mesh, VtuBlock&& part, const std::filesystem::path& path) {
+  std::vector<Index> number;
+  for (std::size_t i = 0; i < part.in_volume.size(); ++i) {
+    const std::int64_t v = part.in_volume[i];
+    if (v < 0 || static_cast<std::uint64_t>(v) >= mesh.vertices.size() ||
+        std::memcmp(&mesh.vertices[static_cast<std::size_t>(v)], &part.mesh.vertices[i], sizeof(Point)) != 0)
+      throw FileError(path, "point " + std::to_string(i),
+                      "is none of the volume's; the two files are not of one run");
+    number.push_back(static_cast<Index>(v));
+  }
+  append(mesh, std::move(part.mesh), number);
+}
+
+}  // namespace
+
 void append(MeshData& mesh, MeshData&& part, const std::vector<Index>& number) {
   const auto moved = [&](auto entities) {
     for (auto& entity : entities)
@@ -62,25 +77,9 @@ void append(MeshData& mesh, MeshData&& part, const std::vector<Index>& number) {
   mesh.names.vertices.merge(part.names.vertices);
 }
 
-/// Puts a surface in whose points know their indices in the volume.
-void attach(MeshData& mesh, VtuBlock&& part, const std::filesystem::path& path) {
-  std::vector<Index> number;
-  for (std::size_t i = 0; i < part.in_volume.size(); ++i) {
-    const std::int64_t v = part.in_volume[i];
-    if (v < 0 || static_cast<std::uint64_t>(v) >= mesh.vertices.size() ||
-        std::memcmp(&mesh.vertices[static_cast<std::size_t>(v)], &part.mesh.vertices[i], sizeof(Point)) != 0)
-      throw FileError(path, "point " + std::to_string(i),
-                      "is none of the volume's; the two files are not of one run");
-    number.push_back(static_cast<Index>(v));
-  }
-  append(mesh, std::move(part.mesh), number);
-}
-
-}  // namespace
-
-MeshData read_vtu(const Source& source) {
-  VtuBlock block = read_vtu_block(VtuFile(source));
-  if (!block.surface_beside) return std::move(block.mesh);
+VtuBlock read_vtu_blocks(const Source& source, VtuGhosts ghosts) {
+  VtuBlock block = read_vtu_block(VtuFile(source), ghosts);
+  if (!block.surface_beside) return block;
   std::filesystem::path beside = surface_beside(without_gz(source.path));
   std::error_code error;
   if (!std::filesystem::exists(beside, error)) beside += ".gz";
@@ -89,12 +88,15 @@ MeshData read_vtu(const Source& source) {
                                   "the facets and segments, which are in " +
                                       surface_beside(without_gz(source.path)).filename().string() +
                                       ", are left out: this file is not there"});
-    return std::move(block.mesh);
+    return block;
   }
   const FileBytes bytes(beside, source.watch);
-  attach(block.mesh, read_vtu_block(VtuFile({beside, bytes.view(), source.finite, source.watch})), beside);
-  return std::move(block.mesh);
+  attach(block.mesh, read_vtu_block(VtuFile({beside, bytes.view(), source.finite, source.watch}), ghosts),
+         beside);
+  return block;
 }
+
+MeshData read_vtu(const Source& source) { return read_vtu_blocks(source).mesh; }
 
 MeshData read_vtm(const Source& source) {
   XmlReader xml(source);
