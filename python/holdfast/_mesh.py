@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._limits import CancelToken, MemoryAmount, Progress, Shown, length, limits, threads_of, whole
+from ._masks import require_unmasked
 from ._parts import given
 from ._repair import Repair, most_sides
 from ._repair import repair as repair_surface
@@ -216,6 +217,7 @@ def mesh(
 
 
 def _numbers(values: typing.Sequence[float], count: int, what: str) -> list[float]:
+    require_unmasked(values, what)
     found = [float(v) for v in values]
     if len(found) != count:
         raise ValueError(f"{what} is given by {count} numbers, not {len(found)}")
@@ -223,6 +225,7 @@ def _numbers(values: typing.Sequence[float], count: int, what: str) -> list[floa
 
 
 def _region(values: typing.Sequence[float]) -> tuple[float, float, float, int, float]:
+    require_unmasked(values, "a region")
     if len(values) not in (4, 5):
         raise ValueError(f"a region is given as (x, y, z, id) or (x, y, z, id, size), not by {len(values)} numbers")
     if int(values[3]) != values[3] or not -(2**31) <= int(values[3]) < 2**31:

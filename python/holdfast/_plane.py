@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits, whole
+from ._masks import plain, require_unmasked
 from ._surface import Array, PathLike, indices_of, markers_of
 from .errors import _raise_unless_done
 
@@ -292,7 +293,7 @@ def _positive(size: float) -> float:
 
 
 def _coordinates(values: Any) -> Array:
-    array = np.asarray(values)
+    array = plain(values, "points")
     if array.dtype == object or array.dtype.kind not in "fiu":
         raise TypeError(f"points must be real numbers, not {array.dtype}")
     if array.ndim != 2 or array.shape[1] not in (2, 3):
@@ -306,6 +307,7 @@ def _coordinates(values: Any) -> Array:
 
 
 def _place(values: typing.Sequence[float], count: int) -> tuple[float, ...]:
+    require_unmasked(values, "hole")
     found = tuple(float(v) for v in values)
     if len(found) != count:
         raise ValueError(f"a hole is given by {count} numbers, not {len(found)}")
@@ -313,6 +315,7 @@ def _place(values: typing.Sequence[float], count: int) -> tuple[float, ...]:
 
 
 def _seed(values: typing.Sequence[float]) -> tuple[float, float, int, float]:
+    require_unmasked(values, "region")
     if len(values) not in (3, 4):
         raise ValueError(f"a region is given as (x, y, id) or (x, y, id, area), not by {len(values)} numbers")
     if int(values[2]) != values[2] or not -(2**31) <= int(values[2]) < 2**31:

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._masks import plain
 from ._surface import Array, indices_of, points_of
 
 Size = Any  # a number, an array, a background mesh, a path or a function
@@ -32,7 +33,7 @@ def set_size(size: Size, options: dict[str, Any], points: int) -> Optional[typin
     elif _is_background(size):
         where, tetrahedra, sizes = size
         options["size_field"] = _core.SizeField(points_of(where), indices_of(tetrahedra, 4, "tetrahedra"),
-                                                np.asarray(sizes, np.float64).ravel().tolist(), [])
+                                                plain(sizes, "sizes", np.float64).ravel().tolist(), [])
     elif hasattr(size, "points") and hasattr(size, "point_data"):
         options["size_field"] = _background(size, "size")
     elif callable(size):
@@ -49,7 +50,7 @@ def set_size(size: Size, options: dict[str, Any], points: int) -> Optional[typin
 
 
 def _point_sizes(sizes: npt.ArrayLike, points: int) -> list[float]:
-    array = np.asarray(sizes, np.float64)
+    array = plain(sizes, "size", np.float64)
     if array.shape != (points,):
         raise ValueError(f"size must be one number, or one a point of the surface, ({points},), not {array.shape}")
     return [float(x) for x in array]
@@ -57,7 +58,7 @@ def _point_sizes(sizes: npt.ArrayLike, points: int) -> list[float]:
 
 def _as_six(tensors: npt.ArrayLike) -> Array:
     """m11 m12 m22 m13 m23 m33 of (m, 3, 3) or (m, 6) numbers."""
-    array = np.asarray(tensors, np.float64)
+    array = plain(tensors, "metric", np.float64)
     if array.ndim == 3 and array.shape[1:] == (3, 3):
         return np.stack([array[:, i, j] for i, j in ((0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2))], axis=1)
     if array.ndim == 2 and array.shape[1] == 6:
@@ -70,9 +71,9 @@ def _background(mesh: Any, name: str) -> _core.SizeField:
     data = mesh.point_data
     if name not in data:
         raise ValueError(f"the background mesh has no point data '{name}'")
-    cells = [np.asarray(b.data) for b in mesh.cells if b.type == "tetra"]
+    cells = [plain(b.data, "cells") for b in mesh.cells if b.type == "tetra"]
     tetrahedra = np.concatenate(cells) if cells else np.empty((0, 4), np.int64)
-    values = np.asarray(data[name], np.float64)
+    values = plain(data[name], name, np.float64)
     if name == "size":
         return _core.SizeField(points_of(mesh.points), indices_of(tetrahedra, 4, "tetrahedra"), values.ravel().tolist(), [])
     return _core.SizeField(points_of(mesh.points), indices_of(tetrahedra, 4, "tetrahedra"), [], _as_six(values).tolist())

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits
+from ._masks import plain
 from ._names import Names, names_of
 
 Array = npt.NDArray[Any]
@@ -81,7 +82,7 @@ class Surface:
 
 def points_of(values: npt.ArrayLike, what: str = "points") -> Array:
     """(n, 3) coordinates of a type that the extension takes as it lies there."""
-    array = np.asarray(values)
+    array = plain(values, what)
     if array.dtype == object or array.dtype.kind not in "fiu":
         raise TypeError(f"{what} must be real numbers, not {array.dtype}")
     if array.ndim != 2 or array.shape[1] != 3:
@@ -97,7 +98,7 @@ def points_of(values: npt.ArrayLike, what: str = "points") -> Array:
 
 def indices_of(values: npt.ArrayLike, columns: int, what: str) -> Array:
     """(m, columns) indices of a type that the extension takes as it lies there."""
-    array = np.asarray(values)
+    array = plain(values, what)
     if array.size == 0 and array.ndim < 2:
         array = np.empty((0, columns), np.int32)
     if array.dtype.kind not in "iu":
@@ -111,7 +112,7 @@ def markers_of(values: Optional[npt.ArrayLike], what: str) -> Optional[Array]:
     """(m,) integers, or None."""
     if values is None:
         return None
-    array = np.asarray(values)
+    array = plain(values, what)
     if array.ndim != 1:
         raise ValueError(f"{what} must have the shape (m,), not {array.shape}")
     if array.dtype.kind == "f" and np.all(array == np.floor(array)):
@@ -219,7 +220,7 @@ def _require_convex(corners: Array, number: int) -> None:
 
 def _offsets_of(counted: Array) -> tuple[Array, Array]:
     """Cells as VTK's old lists have them, [3, a, b, c, 4, ...], as offsets and corners."""
-    flat = np.asarray(counted).ravel()
+    flat = plain(counted, "cells").ravel()
     if flat.size % 4 == 0 and np.all(flat[::4] == 3):
         corners = flat.reshape(-1, 4)[:, 1:].ravel()
         return np.arange(0, corners.size + 1, 3), corners
@@ -250,17 +251,16 @@ def _named(data: Any, *names: str) -> Optional[Array]:
         except (KeyError, TypeError, IndexError, AttributeError):
             continue
         if found is not None:
-            array: Array = np.asarray(found)
-            return array
+            return plain(found, name)
     return None
 
 
 def _of_pyvista(mesh: Any) -> Surface:
-    points = np.asarray(mesh.points)
+    points = plain(mesh.points, "points")
     if getattr(mesh, "n_strips", 0):
         raise ValueError("the surface has triangle strips; call .triangulate() first")
     cells = _triangles_of(points, *_offsets_of(mesh.faces))
-    lines = np.asarray(getattr(mesh, "lines", np.empty(0, np.int64)))
+    lines = plain(getattr(mesh, "lines", np.empty(0, np.int64)), "lines")
     segments = _lines_of(*_offsets_of(lines)) if lines.size else None
     markers = _named(getattr(mesh, "cell_data", None), "marker")
     if markers is not None:  # VTK counts lines before polygons
@@ -292,7 +292,7 @@ _MARKER_NAMES = ("marker", "gmsh:physical", "medit:ref", "cell_tags")
 
 
 def _of_meshio(mesh: Any) -> Surface:
-    points = np.asarray(mesh.points)
+    points = plain(mesh.points, "points")
     if points.ndim == 2 and points.shape[1] == 2:
         raise ValueError("the mesh is plane: its points have two coordinates")
     triangles: list[Array] = []
@@ -303,8 +303,8 @@ def _of_meshio(mesh: Any) -> Surface:
     name = next((n for n in _MARKER_NAMES if n in data), None)
     for i, block in enumerate(mesh.cells):
         kind, cells = (block.type, block.data) if hasattr(block, "type") else block
-        cells = np.asarray(cells)
-        marks = np.zeros(len(cells), np.int64) if name is None else np.asarray(data[name][i])
+        cells = plain(cells, "cells")
+        marks = np.zeros(len(cells), np.int64) if name is None else plain(data[name][i], name)
         if kind in ("triangle", "triangle6", "triangle7"):
             triangles.append(cells[:, :3])
             markers.append(marks)

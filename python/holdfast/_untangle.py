@@ -7,6 +7,7 @@ from typing import Any, Optional
 
 from . import _core
 from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits, whole
+from ._masks import plain
 from ._tetmesh import TetMesh
 from ._volume import volume_of
 from .errors import _raise_unless_done
@@ -38,7 +39,8 @@ def untangle(
     True
     """
     options = limits(time_limit, memory_limit, cancel)
-    options.update(fixed=[int(v) for v in fixed], refill=bool(refill), improve=bool(improve), seed=whole(seed, "seed"))
+    options.update(fixed=[int(v) for v in plain(list(fixed), "fixed")], refill=bool(refill), improve=bool(improve),
+                   seed=whole(seed, "seed"))
     what = volume_of(mesh)
     with Shown(progress, "untangle") as callback:
         result = _core.untangle(what._volume, options, callback)

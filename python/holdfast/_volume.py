@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _core
 from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits
+from ._masks import plain
 from ._surface import Array, PathLike, markers_of
 from ._tetmesh import TetMesh
 
@@ -75,7 +76,7 @@ def mesh_in(part: Any, options: dict[str, Any]) -> Optional[TetMesh]:
 
 def _may_be_volume(path: str, format: str) -> bool:
     ending = _core.volume_format_of(path.removesuffix(".gz"), format)
-    return ending in _core.volume_formats() and (ending != ".node" or os.path.exists(os.path.splitext(path)[0] + ".ele"))
+    return ending in _core.readable_volume_formats() and (ending != ".node" or os.path.exists(os.path.splitext(path)[0] + ".ele"))
 
 
 def volume_of(mesh: Any) -> TetMesh:
@@ -88,7 +89,7 @@ def volume_of(mesh: Any) -> TetMesh:
         return _of_meshio(mesh)
     if hasattr(mesh, "points") and hasattr(mesh, "cells_dict"):  # PyVista's grid
         cells = mesh.cells_dict
-        regions = mesh.cell_data["region"][np.asarray(mesh.celltypes) == 10] if "region" in mesh.cell_data else None
+        regions = plain(mesh.cell_data["region"], "region")[np.asarray(mesh.celltypes) == 10] if "region" in mesh.cell_data else None
         return TetMesh(mesh.points, cells[10], regions=regions, triangles=cells.get(5), segments=cells.get(3))
     if isinstance(mesh, (tuple, list)) and len(mesh) == 2 and np.ndim(mesh[0]) == 2:
         return TetMesh(mesh[0], mesh[1])
@@ -108,8 +109,8 @@ def _of_meshio(mesh: Any) -> TetMesh:
         if not here:
             return None, None
         name = next((n for n in names if n in data), None)
-        cells = np.concatenate([np.asarray(mesh.cells[i].data) for i in here])
-        return cells, None if name is None else np.concatenate([np.asarray(data[name][i]) for i in here])
+        cells = np.concatenate([plain(mesh.cells[i].data, "cells") for i in here])
+        return cells, None if name is None else np.concatenate([plain(data[name][i], name) for i in here])
 
     tetrahedra, regions = blocks("tetra", _REGION_NAMES)
     triangles, triangle_markers = blocks("triangle", _MARKER_NAMES)

@@ -43,7 +43,11 @@ Enum named(const py::dict& options, const char* key) {
 py::array_t<double> asked_at(const py::object& function, std::span<const Point> at, std::size_t numbers,
                              const char* what) {
   const py::array_t<double> points({static_cast<py::ssize_t>(at.size()), py::ssize_t{3}}, at.front().data());
-  const py::array_t<double, py::array::c_style | py::array::forcecast> answer(function(points));
+  const py::object given = function(points);
+  // Of numpy's masked arrays, which would lose it.
+  if (py::hasattr(given, "filled") && py::cast<bool>(py::bool_(given.attr("mask").attr("any")())))
+    throw std::invalid_argument(std::string(what) + " gave an array with a masked entry, which has no value");
+  const py::array_t<double, py::array::c_style | py::array::forcecast> answer(given);
   const auto size = static_cast<std::size_t>(answer.size());
   if (size != numbers && size != numbers * at.size())
     throw std::invalid_argument(std::string(what) + " gave an array of shape " +

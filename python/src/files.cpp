@@ -154,6 +154,7 @@ void register_files(py::module_& module) {
     return std::make_shared<Surface>(surface_of(volume));
   });
   module.def("volume_formats", &volume_formats);
+  module.def("readable_volume_formats", &readable_volume_formats);
   module.def("volume_format_of", [](const std::string& path, const std::string& format) {
     return volume_format_of(path, format);
   });
