@@ -86,4 +86,12 @@ std::string advice_on_tolerance(const Complex& joined, const PasteResult& of_par
          std::to_string(detail->facet - part.first_facet);
 }
 
+std::string opened_text(const PastedPart& part, double tolerance, double gap) {
+  const std::string text = part.name + " was closed, and is not once it is brought together within ";
+  if (tolerance > 0) return text + decimal(tolerance) + " of the others";
+  return text + decimal(gap, 3) +
+         " of the others, as near as coordinates are rounded; coordinates of more digits, or nearer to the "
+         "origin, may help";
+}
+
 }  // namespace holdfast

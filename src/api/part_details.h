@@ -14,4 +14,8 @@ namespace holdfast {
 [[nodiscard]] std::string advice_on_tolerance(const Complex& joined, const PasteResult& of_parts,
                                               double tolerance, const Step& step);
 
+/// That a part was closed and would not be; a tolerance of 0 is none, and `gap` what coordinates are rounded
+/// by.
+[[nodiscard]] std::string opened_text(const PastedPart& part, double tolerance, double gap);
+
 }  // namespace holdfast

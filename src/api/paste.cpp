@@ -323,9 +323,6 @@ std::optional<repairing::Rounded> fit(repairing::State state, const Complex& com
     return std::nullopt;
   };
   const std::string within = " within " + decimal(options.tolerance) + " of ";
-  const std::string within_gap =
-      has_tolerance ? within + "the others"
-                    : " within " + decimal(gap, 3) + " of the others, as near as coordinates are rounded";
   if (has_tolerance && is_hopeless(state, step, threads))
     return end("what was brought together" + within + "each other crosses nearly everywhere");
   ExactSurface exact;
@@ -339,10 +336,7 @@ std::optional<repairing::Rounded> fit(repairing::State state, const Complex& com
   if (!rounded.is_valid)
     return end("no doubles were found for the new points with which the surface is valid");
   const Index opened = repairing::opened_part(repairing::state_of(complex), rounded.state, part);
-  if (opened != no_index)
-    return end(result.parts[opened].name + " was closed, and is not once it is brought together" +
-               within_gap +
-               (has_tolerance ? "" : "; coordinates of more digits, or nearer to the origin, may help"));
+  if (opened != no_index) return end(opened_text(result.parts[opened], options.tolerance, gap));
   return rounded;
 }
 
