@@ -163,10 +163,11 @@ void add_untangle(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand(
       "untangle", "Make every tetrahedron of a tangled volume positive, with its boundary as it is");
   command
-      ->add_option("VOLUME", arguments->input,
-                   "Tangled volume file (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol "
-                   ".xdmf .med .avs .node, "
-                   "or OpenFOAM's constant/polyMesh)")
+      ->add_option(
+          "VOLUME", arguments->input,
+          "Tangled volume file (.vtu .pvtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol "
+          ".xdmf .med .avs .node, "
+          "or OpenFOAM's constant/polyMesh)")
       ->transform(or_standard_input)
       ->required();
   command
