@@ -9,22 +9,13 @@ import numpy as np
 
 from . import _core
 from ._limits import Progress, length
-from ._paste import Pasted, names_of_parts, pasted_parts
-from ._surface import Surface, _is_table, _of_data, surface_of
+from ._paste import Pasted, names_of_parts, parts_in, pasted_parts
+from ._surface import Surface, _of_data, surface_of
 
 
 class Given(typing.NamedTuple):
     surface: Surface
     pasted: Optional[Pasted]
-
-
-def parts_in(surface: Any) -> Optional[list[Any]]:
-    """The parts that a list or tuple holds; None for what is one surface, such as (points, triangles)."""
-    if not isinstance(surface, (list, tuple)):
-        return None
-    if len(surface) == 2 and _is_table(surface[0]):
-        return None
-    return list(surface)
 
 
 def joined(surfaces: typing.Sequence[Surface], names: typing.Sequence[str]) -> Surface:

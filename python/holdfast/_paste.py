@@ -9,7 +9,7 @@ from typing import Any, Optional
 
 from . import _core
 from ._limits import CancelToken, MemoryAmount, Progress, Shown, length, limits, threads_of
-from ._surface import Array, Surface, _of_data, _stem, surface_of
+from ._surface import Array, Surface, _is_table, _of_data, _stem, surface_of
 from ._tetmesh import TetMesh
 from ._volume import mesh_in
 from .errors import _raise_unless_done
@@ -61,6 +61,15 @@ class Pasted:
         return f"Pasted({len(self.regions)} parts, {len(self.surface.points)} points, {len(self.surface.triangles)} triangles)"
 
 
+def parts_in(surface: Any) -> Optional[list[Any]]:
+    """The parts that a list or tuple holds; None for what is one surface, such as (points, triangles)."""
+    if not isinstance(surface, (list, tuple)):
+        return None
+    if len(surface) == 2 and _is_table(surface[0]):
+        return None
+    return list(surface)
+
+
 def paste(
     *parts: Any,
     tolerance: float = 0.0,
@@ -77,7 +86,7 @@ def paste(
     Parameters
     ----------
     parts
-        Two surfaces or more, each whatever `mesh` takes; or one, whose connected components are the parts. Or two meshes or more:
+        Two surfaces or more, each whatever `mesh` takes, or a list of them; or one, whose connected components are the parts. Or two meshes or more:
         `TetMesh`, files that hold tetrahedra, objects like a `meshio.Mesh` or a PyVista grid. If all have tetrahedra, these stay,
         but for those at triangles that change.
     tolerance
@@ -126,6 +135,8 @@ def paste(
     options = limits(time_limit, memory_limit, cancel)
     if not isinstance(overlap, str):
         raise TypeError(f'overlap={overlap!r}: "refuse", "first", "last" or "new" is expected')
+    if len(parts) == 1 and (listed := parts_in(parts[0])) is not None:
+        parts = tuple(listed)
     options.update(tolerance=length(tolerance, "tolerance"), overlap=overlap, threads=threads_of(threads))
     called = names_of_parts(parts, names)
     meshes = _meshes_in(parts, options)

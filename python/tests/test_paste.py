@@ -60,6 +60,14 @@ def test_parts_that_are_cut_differently():
     assert holdfast.check(pasted.surface, mesh)
 
 
+def test_parts_may_be_in_a_list():
+    a, b = box(0, 1, 2), box(1, 3, 3)
+    listed, apart = holdfast.paste([a, b], names=["left", "right"]), holdfast.paste(a, b, names=["left", "right"])
+    assert np.array_equal(listed.surface.points, apart.surface.points)
+    assert np.array_equal(listed.surface.triangles, apart.surface.triangles)
+    assert len(holdfast.paste([holdfast.mesh(*a), holdfast.mesh(*b)]).mesh.tetrahedra) > 0
+
+
 def test_overlap_and_tolerance():
     a, b = box(0, 1, 2), box(0.98, 2, 3)
     with pytest.raises(holdfast.InvalidSurface, match="left and right overlap by 0.02 at"):
@@ -243,8 +251,10 @@ def test_what_makes_no_sense():
         holdfast.paste()
     with pytest.raises(ValueError, match="one part"):
         holdfast.paste(a)
+    with pytest.raises(ValueError, match="two parts"):
+        holdfast.paste([])
     with pytest.raises(TypeError, match="a surface is expected"):
-        holdfast.paste([a, b])
+        holdfast.paste([a, 3])
     with pytest.raises(ValueError, match="overlap='both'"):
         holdfast.paste(a, b, overlap="both")
     with pytest.raises(ValueError, match="as it is"):
