@@ -136,10 +136,9 @@ class Bending {
   void bend_side(const Side& side) {
     const BentSurface::AtSide* at_side = surface_.at(side);
     if (at_side == nullptr) return;
-    const BentSurface::AtSide here = *at_side;
-    const auto [through, nearest] = vertex_beside(side, here);
-    if (through == no_index || comes_back(side, here, through)) return;
-    surface_.forget(side);
+    const auto [through, nearest] = vertex_beside(side, *at_side);
+    if (through == no_index || comes_back(side, *at_side, through)) return;
+    const BentSurface::AtSide here = surface_.forget(side);
     for (const Index f : here.facets) {
       if (!surface_.facet(f).lives) continue;
       const BentFacet part = surface_.take(f, nearest.bound());

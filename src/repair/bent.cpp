@@ -19,15 +19,17 @@ void join(std::vector<Index>& list, const std::vector<Index>& other) {
 void BentSurface::add(BentFacet facet) {
   most_ = std::max(most_, facet.bent);
   const auto fresh = static_cast<Index>(facets_.size());
-  const auto [found, is_new] = facet_with_.try_emplace(ascending(facet.corners), fresh);
-  if (!is_new && facets_[found->second].lives) {
-    BentFacet& other = facets_[found->second];
+  const auto next = static_cast<Index>(facet_with_.size());
+  const Index number = corners_.find_or_add(ascending(facet.corners), next);
+  if (number == next) {
+    facet_with_.push_back(fresh);
+  } else if (BentFacet& other = facets_[facet_with_[number]]; other.lives) {
     join(other.origins, facet.origins);
     join(other.lists, facet.lists);
     other.bent = std::max(other.bent, facet.bent);
     return;
   }
-  found->second = fresh;
+  facet_with_[number] = fresh;
   for (std::size_t i = 0; i < 3; ++i)
     note(ascending(Side{facet.corners[i], facet.corners[(i + 1) % 3]})).facets.push_back(fresh);
   if (!facet.lists.empty()) whole_.push_back(fresh);
@@ -51,8 +53,8 @@ void BentSurface::add(const BentSegment& segment) {
 }
 
 bool BentSurface::had(const Triangle& corners) const {
-  const auto found = facet_with_.find(ascending(corners));
-  return found != facet_with_.end() && !facets_[found->second].lives;
+  const Index number = corners_.find(ascending(corners));
+  return number != no_entity && !facets_[facet_with_[number]].lives;
 }
 
 BentFacet BentSurface::take(Index facet, double more) {
@@ -74,21 +76,31 @@ BentSegment BentSurface::take_segment(Index segment, double more) {
 }
 
 BentSurface::AtSide& BentSurface::note(const Side& side) {
-  const auto [found, is_new] = at_side_.try_emplace(side);
-  if (is_new) sides_.emplace(length(minus(vertices_[side[0]], vertices_[side[1]])), side);
-  return found->second;
+  const auto next = static_cast<Index>(at_side_.size());
+  const Index number = side_numbers_.find_or_add(side, next);
+  if (number == next) at_side_.emplace_back();
+  SideNote& note = at_side_[number];
+  if (!std::exchange(note.is_there, true))
+    sides_.emplace(length(minus(vertices_[side[0]], vertices_[side[1]])), side);
+  return note.at;
 }
 
 const BentSurface::AtSide* BentSurface::at(const Side& side) const {
-  const auto found = at_side_.find(side);
-  return found == at_side_.end() ? nullptr : &found->second;
+  const Index number = side_numbers_.find(side);
+  return number == no_entity || !at_side_[number].is_there ? nullptr : &at_side_[number].at;
+}
+
+BentSurface::AtSide BentSurface::forget(const Side& side) {
+  const Index number = side_numbers_.find(side);
+  if (number == no_entity) return {};
+  at_side_[number].is_there = false;
+  return std::exchange(at_side_[number].at, {});
 }
 
 std::optional<Side> BentSurface::next_side() {
   if (sides_.empty()) return std::nullopt;
-  const auto last = std::prev(sides_.end());
-  const Side side = last->second;
-  sides_.erase(last);
+  const Side side = sides_.top().second;
+  sides_.pop();
   return side;
 }
 

@@ -4,11 +4,12 @@
 
 #include <map>
 #include <optional>
-#include <set>
+#include <queue>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "arrange/index_table.h"
 #include "repair/state.h"
 
 namespace holdfast::repairing {
@@ -62,22 +63,28 @@ class BentSurface {
   /// The longest side that nobody has looked at since something came to have it.
   [[nodiscard]] std::optional<Side> next_side();
   [[nodiscard]] const AtSide* at(const Side& side) const;
-  /// When all that has it is taken out.
-  void forget(const Side& side) { at_side_.erase(side); }
+  /// When all that has it is taken out. Returns what had it.
+  AtSide forget(const Side& side);
   /// The last facet with lists that nobody has looked at.
   [[nodiscard]] std::optional<Index> next_facet();
 
  private:
+  struct SideNote {
+    AtSide at;
+    bool is_there = false;  // nobody forgot it
+  };
   AtSide& note(const Side& side);
 
   const std::vector<Point>& vertices_;
   std::vector<BentFacet> facets_;
   std::vector<BentSegment> segments_;
   std::size_t living_ = 0;
-  std::map<Triangle, Index> facet_with_;                  // by its corners, ascending: the last of them
+  arrange::IndexTable<3> corners_;                        // the numbers of corners, ascending
+  std::vector<Index> facet_with_;                         // by their numbers, the last that had them
   std::map<std::pair<Side, Index>, Index> segment_with_;  // by its ends and its origin
-  std::map<Side, AtSide> at_side_;
-  std::set<std::pair<double, Side>> sides_;  // to look at, by their lengths
+  arrange::IndexTable<2> side_numbers_;
+  std::vector<SideNote> at_side_;                      // by their numbers
+  std::priority_queue<std::pair<double, Side>> sides_;  // to look at, by their lengths
   std::vector<Index> whole_;                 // facets to look at
   double most_ = 0;
 };

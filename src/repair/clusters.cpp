@@ -46,21 +46,29 @@ int turn_of(const Point& a, const Point& b, const Point& c, unsigned axis) {
 /// Whether two facets share area in the projection along an axis: if not, a side of one of them has the other
 /// one beyond it.
 bool overlap(const State& state, Index f, Index g, unsigned axis) {
-  const auto corners = [&](Index k) {
-    const auto& [a, b, c] = state.facets[k];
-    return std::array{&state.vertices[a], &state.vertices[b], &state.vertices[c]};
+  const auto turn = [&](Index a, Index b, Index c) {
+    return turn_of(state.vertices[a], state.vertices[b], state.vertices[c], axis);
   };
-  const std::array of_f = corners(f), of_g = corners(g);
-  const auto is_parted = [&](const auto& t, int turn, const auto& other) {
-    for (std::size_t i = 0; i < 3; ++i)
-      if (std::all_of(other.begin(), other.end(),
-                      [&](const Point* p) { return turn_of(*t[i], *t[(i + 1) % 3], *p, axis) * turn <= 0; }))
-        return true;
+  // Sides that the two share come first: most pairs are neighbours, and lie on both sides of these.
+  const auto is_parted = [&](const Triangle& t, int turn_t, const Triangle& other) {
+    const auto is_beyond = [&](Index a, Index b) {
+      return std::all_of(other.begin(), other.end(),
+                         [&](Index v) { return v == a || v == b || turn(a, b, v) * turn_t <= 0; });
+    };
+    const auto has = [&](Index v) { return v == other[0] || v == other[1] || v == other[2]; };
+    const std::array is_shared{has(t[0]), has(t[1]), has(t[2])};
+    for (const bool sides_shared : {true, false})
+      for (std::size_t i = 0; i < 3; ++i)
+        if ((is_shared[i] && is_shared[(i + 1) % 3]) == sides_shared && is_beyond(t[i], t[(i + 1) % 3]))
+          return true;
     return false;
   };
-  const int turn_f = turn_of(*of_f[0], *of_f[1], *of_f[2], axis);
-  const int turn_g = turn_of(*of_g[0], *of_g[1], *of_g[2], axis);
-  return turn_f != 0 && turn_g != 0 && !is_parted(of_f, turn_f, of_g) && !is_parted(of_g, turn_g, of_f);
+  const Triangle &t = state.facets[f], &u = state.facets[g];
+  const int turn_t = turn(t[0], t[1], t[2]);
+  if (turn_t == 0) return false;
+  if (is_parted(t, turn_t, u)) return false;
+  const int turn_u = turn(u[0], u[1], u[2]);
+  return turn_u != 0 && !is_parted(u, turn_u, t);
 }
 
 /// Whether all of the first facet is near to the plane of the second.
@@ -108,8 +116,13 @@ std::vector<Cluster> find_clusters(const State& state, double gap, std::span<con
     boxes.push_back(box_round(state, t, gap));
   }
   const Planes planes(state);
-  const auto share = [&](Index f, Index g) {
-    return lies_in(state, planes, f, g, gap) && overlap(state, f, g, axis_of(planes.normal[g]));
+  const auto share_area = [&](Index f, Index g) {
+    const bool in_g = lies_in(state, planes, f, g, gap), in_f = lies_in(state, planes, g, f, gap);
+    if (!in_g && !in_f) return false;
+    const unsigned axis = axis_of(planes.normal[in_g ? g : f]);
+    if (overlap(state, f, g, axis)) return true;
+    const unsigned other = axis_of(planes.normal[f]);
+    return in_g && in_f && other != axis && overlap(state, f, g, other);
   };
   DisjointSets sets(state.facets.size());
   std::set<Index> together;
@@ -117,7 +130,7 @@ std::vector<Cluster> find_clusters(const State& state, double gap, std::span<con
       [&](Index i, Index j) {
         const Index f = facet[i], g = facet[j];
         if (is_some[f] + is_some[g] == 0) return true;
-        if (sets.root(f) != sets.root(g) && (share(f, g) || share(g, f))) {
+        if (sets.root(f) != sets.root(g) && share_area(f, g)) {
           sets.unite(f, g);
           together.insert(f);
           together.insert(g);

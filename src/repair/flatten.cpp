@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "arrange/index_table.h"
 #include "numbers/sorted.h"
 #include "repair/bounds.h"
 #include "repair/clusters.h"
@@ -32,17 +33,17 @@ class Flattening {
         sides_(state.vertices, gap),
         in_cluster_(state.facets.size(), 0) {}
 
-  double run(const std::vector<Cluster>& clusters) {
+  Flattened run(const std::vector<Cluster>& clusters) {
     bool any = false;
     for (const Cluster& cluster : clusters) any |= arrange_cluster(cluster);
-    if (!any && !sides_.has_united()) return 0;
+    if (!any && !sides_.has_united()) return {};
     if (!sides_.finish()) {
       state_.vertices.resize(vertices_);
-      return 0;
+      return {0, has_led_};
     }
     deliver();
     drop_unused(state_);
-    return std::max(most_, sides_.most());
+    return {std::max(most_, sides_.most()), has_led_};
   }
 
  private:
@@ -101,8 +102,10 @@ class Flattening {
     for (std::size_t k = 0; k < chains.size(); ++k)
       if (!sides_.fits(before.sides[k][0], before.sides[k][1], chains[k])) return undo();
     for (std::size_t f = 0; f < after.facets.size(); ++f) take(cluster, after, f, name);
-    for (std::size_t k = 0; k < chains.size(); ++k)
+    for (std::size_t k = 0; k < chains.size(); ++k) {
       sides_.add(before.sides[k][0], before.sides[k][1], chains[k]);
+      has_led_ |= !chains[k].empty();
+    }
     for (const Index f : cluster.facets) in_cluster_[f] = 1;
     most_ = std::max(most_, rounded.displacement);
     return true;
@@ -241,12 +244,15 @@ class Flattening {
           }
         }
       if (in_cluster_[f] != 0) continue;
-      const std::vector<Triangle> parts = cut(state_.facets[f]);
-      for (const Triangle& t : parts) {
+      const auto add = [&](const Triangle& t) {
         facets.push_back(t);
         parents.add(state_.facet_parents.of(f));
         known.push_back(t != state_.facets[f] || state_.known.empty() ? 0 : state_.known[f]);
-      }
+      };
+      if (stays_whole(state_.facets[f]))
+        add(state_.facets[f]);
+      else
+        for (const Triangle& t : cut(state_.facets[f])) add(t);
     }
     if (state_.known.empty()) known.clear();
     deliver_facets(facets, parents, known);
@@ -258,33 +264,31 @@ class Flattening {
   /// a sheet that was folded would end at its folds else.
   void deliver_facets(std::span<const Triangle> facets, const Parents& parents,
                       std::span<const std::uint8_t> known) {
-    std::map<Triangle, std::vector<Index>> with;  // by their corners, ascending
+    arrange::IndexTable<3> first_with;
+    std::vector<std::uint8_t> is_first(facets.size(), 0);
+    std::map<Index, std::vector<Index>> of_several;  // by the first of them, their parents
     for (Index f = 0; f < facets.size(); ++f) {
-      Triangle corners = facets[f];
-      std::sort(corners.begin(), corners.end());
-      with[corners].push_back(f);
-    }
-    std::vector<std::vector<Index>> of(facets.size());  // the first of each
-    for (const auto& [corners, same] : with) {
-      std::vector<Index>& list = of[same[0]];
-      for (const Index f : same) list.insert(list.end(), parents.of(f).begin(), parents.of(f).end());
-      if (same.size() == 1) continue;
-      std::sort(list.begin(), list.end());
-      std::vector<Index> odd;
-      for (const Index p : list)
-        if (odd.empty() || odd.back() != p)
-          odd.push_back(p);
-        else
-          odd.pop_back();
-      list = std::move(odd);
+      const Index first = first_with.find_or_add(ascending(facets[f]), f);
+      is_first[f] = first == f ? 1 : 0;
+      if (first == f) continue;
+      const auto [found, is_new] = of_several.try_emplace(first);
+      std::vector<Index>& list = found->second;
+      if (is_new) list.assign(parents.of(first).begin(), parents.of(first).end());
+      list.insert(list.end(), parents.of(f).begin(), parents.of(f).end());
     }
     state_.facets.clear();
     state_.facet_parents = {};
     state_.known.clear();
-    for (std::size_t f = 0; f < facets.size(); ++f) {
-      if (of[f].empty()) continue;
+    for (Index f = 0; f < facets.size(); ++f) {
+      if (is_first[f] == 0) continue;
+      std::span<const Index> list = parents.of(f);
+      if (const auto found = of_several.find(f); found != of_several.end()) {
+        sort_odd(found->second);
+        list = found->second;
+      }
+      if (list.empty()) continue;
       state_.facets.push_back(facets[f]);
-      state_.facet_parents.add(of[f]);
+      state_.facet_parents.add(list);
       if (!known.empty()) state_.known.push_back(known[f]);
     }
   }
@@ -306,6 +310,14 @@ class Flattening {
     }
     state_.segments = std::move(segments);
     state_.segment_parents = std::move(parents);
+  }
+
+  [[nodiscard]] bool stays_whole(const Triangle& t) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index a = t[i], b = t[(i + 1) % 3];
+      if (a == b || sides_.root(a) != a || sides_.is_led(a, b)) return false;
+    }
+    return true;
   }
 
   /// One side after the other: each fan leaves the other two sides whole.
@@ -354,24 +366,26 @@ class Flattening {
   std::set<Index> lifted_;                           // new vertices that have no third coordinate yet
   std::map<Index, std::pair<double, Index>> below_;  // of these, the area and the index of the largest facet
   double most_ = 0;
+  bool has_led_ = false;
 };
 
 }  // namespace
 
-double flatten(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step,
-               std::span<const Index> some) {
+Flattened flatten(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step,
+                  std::span<const Index> some) {
   return Flattening(state, gap, round, sides).run(find_clusters(state, gap, some, step));
 }
 
-double flatten_all(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step) {
+Flattened flatten_all(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step) {
   constexpr int kPasses = 4;
-  double most = 0;
+  Flattened all;
   for (int pass = 0; pass < kPasses; ++pass) {
-    const double moved = flatten(state, gap, round, sides, step);
-    if (moved == 0) break;
-    most = sum_above(most, moved);
+    const Flattened now = flatten(state, gap, round, sides, step);
+    all.has_led |= now.has_led;
+    if (now.moved == 0) break;
+    all.moved = sum_above(all.moved, now.moved);
   }
-  return most;
+  return all;
 }
 
 }  // namespace holdfast::repairing

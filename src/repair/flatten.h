@@ -26,12 +26,14 @@ enum class SidesOf {
 /// below. Sides that are cut so are cut in all facets that have them.
 ///
 /// The result is a graph over a triangulation of the plane and cannot cross itself; what is round it may.
-/// Returns the largest distance by which anything was moved or bent, rounded up; 0 where there was nothing to
-/// do.
-double flatten(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step,
-               std::span<const Index> some = {});
+struct Flattened {
+  double moved = 0;      ///< the largest distance by which anything was moved or bent, rounded up
+  bool has_led = false;  ///< some side: where there was none, `sides` made no difference
+};
+Flattened flatten(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step,
+                  std::span<const Index> some = {});
 
 /// The same again, as long as there is something to do, but a few times at most.
-double flatten_all(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step);
+Flattened flatten_all(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step);
 
 }  // namespace holdfast::repairing

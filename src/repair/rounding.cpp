@@ -45,8 +45,15 @@ class Rounding {
   [[nodiscard]] bool is_valid() const { return rounded_.is_valid; }
   /// Whether vertices all over the surface became others first.
   [[nodiscard]] bool starts_welded() const { return welded_last_bits_ > 0; }
+  /// Whether sheets that were made one have led a side: else it is the same for any SidesOf.
+  [[nodiscard]] bool has_led() const { return has_led_; }
 
   void leave_out_joining_all() { joins_all_ = false; }
+  /// Tries nothing that another one did not need.
+  void try_no_more_than(const Rounding& other) {
+    joins_all_ = false;
+    plans_ = std::min(other.next_plan_ + 1, kPlans.size());
+  }
 
   /// A plane surface has no sheets that lie in each other but for rounding. What moves further than `most` is
   /// of no use.
@@ -82,36 +89,8 @@ class Rounding {
 
   /// Goes on from there.
   Rounded run(SidesOf sides = SidesOf::all_sheets) {
-    sides_ = sides;
-    if (rounded_.is_valid || is_hopeless()) return std::move(rounded_);
-    most_facets_ = is_plane_ ? most_in_plane(rounded_.state.facets.size()) : SIZE_MAX;
-    // Joining what is near costs less than to move the input, but takes long where sheets lie in each other.
-    const double twin_gap = kWeldedPlans[0].last_bits * last_bit(given_.vertices);
-    bool is_welded =
-        !is_plane_ && trouble_.size() > kMany && most_have_twins(rounded_.state, trouble_, twin_gap, here());
-    if (is_welded) begin_flat(kWeldedPlans);
-    begin_flat(kFlatPlans);
-    // In a plane, what the first plan does not make much less the others do not, either.
-    std::size_t most_in_trouble = SIZE_MAX;
-    for (const Plan& plan : kPlans) {
-      if (is_plane_ && (plan.moves_input || plan.last_bits > kMostInPlane || is_hopeless())) break;
-      if (work_.is_spent() || (starts_welded() && (plan.moves_input || plan.last_bits > welded_last_bits_)))
-        break;
-      if (is_plane_ && trouble_.size() > most_in_trouble) break;
-      most_in_trouble = std::max(2 * kFew, trouble_.size() / 2);
-      if (!is_welded && (plan.moves_input || trouble_.size() > kFew)) {
-        begin_flat(kWeldedPlans);
-        is_welded = true;
-        if (best_ && trouble_.size() < best_->trouble.size()) best_.reset();
-      }
-      if (!is_done()) cut_late();
-      if (is_done()) break;
-      join_from_best(plan);
-      if (!is_done()) cut_if_better();
-    }
-    rounded_.is_valid = is_done();
-    if (rounded_.is_valid || is_plane_ || is_part_ || !joins_all_) return std::move(rounded_);
-    if (!join_all()) weld_all();
+    try_plans(sides);
+    if (!rounded_.is_valid && !is_plane_ && joins_all_ && !join_all()) weld_all();
     return std::move(rounded_);
   }
 
@@ -122,6 +101,43 @@ class Rounding {
   }
 
  private:
+  void try_plans(SidesOf sides) {
+    sides_ = sides;
+    if (rounded_.is_valid || is_hopeless()) return;
+    most_facets_ = is_plane_ ? most_in_plane(rounded_.state.facets.size()) : SIZE_MAX;
+    // Joining what is near costs less than to move the input, but takes long where sheets lie in each other.
+    const double twin_gap = kWeldedPlans[0].last_bits * last_bit(given_.vertices);
+    is_welded_ =
+        !is_plane_ && trouble_.size() > kMany && most_have_twins(rounded_.state, trouble_, twin_gap, here());
+    if (is_welded_) begin_flat(kWeldedPlans);
+    begin_flat(kFlatPlans);
+    try_next_plans();
+  }
+
+  /// From the first that has not been tried yet.
+  void try_next_plans() {
+    // In a plane, what the first plan does not make much less the others do not, either.
+    std::size_t most_in_trouble = SIZE_MAX;
+    for (; next_plan_ < plans_; ++next_plan_) {
+      const Plan& plan = kPlans[next_plan_];
+      if (is_plane_ && (plan.moves_input || plan.last_bits > kMostInPlane || is_hopeless())) break;
+      if (work_.is_spent() || (starts_welded() && (plan.moves_input || plan.last_bits > welded_last_bits_)))
+        break;
+      if (is_plane_ && trouble_.size() > most_in_trouble) break;
+      most_in_trouble = std::max(2 * kFew, trouble_.size() / 2);
+      if (!is_welded_ && (plan.moves_input || trouble_.size() > kFew)) {
+        begin_flat(kWeldedPlans);
+        is_welded_ = true;
+        if (best_ && trouble_.size() < best_->trouble.size()) best_.reset();
+      }
+      if (!is_done()) cut_late();
+      if (is_done()) break;
+      join_from_best(plan);
+      if (!is_done()) cut_if_better();
+    }
+    rounded_.is_valid = is_done();
+  }
+
   /// In a plane, more new points than the first time lead nowhere.
   void cut_again() {
     const std::size_t most = is_plane_ ? 64 + new_points_[0] : 1000 + 4 * report_.points;
@@ -232,7 +248,9 @@ class Rounding {
   }
 
   void flatten_all(State& state, double gap, double& displacement) {
-    displacement = sum_above(displacement, repairing::flatten_all(state, gap, round_plane(), sides_, here()));
+    const Flattened flat = repairing::flatten_all(state, gap, round_plane(), sides_, here());
+    has_led_ |= flat.has_led;
+    displacement = sum_above(displacement, flat.moved);
   }
 
   /// Makes sheets one that lie in each other by now and are in trouble.
@@ -243,7 +261,9 @@ class Rounding {
     constexpr int kPasses = 4;
     for (int pass = 0; pass < kPasses && !flat.trouble.none(); ++pass) {
       const double gap = plan.last_bits * last_bit(flat.state.vertices);
-      const double moved = flatten(flat.state, gap, round, sides_, here(), flat.trouble.facets);
+      const auto [moved, has_led] =
+          flatten(flat.state, gap, round, sides_, here(), flat.trouble.facets);
+      has_led_ |= has_led;
       if (moved == 0) return;
       flat.displacement = sum_above(flat.displacement, moved);
       flat.trouble = trouble_of(flat.state, here(), threads_, 4 * trouble_.size());
@@ -301,14 +321,19 @@ class Rounding {
   /// cuts beside them are in trouble or not, and are the start of all that was tried before.
   bool join_all() {
     if (options_.join > 0) return false;
+    State last;
     for (const double last_bits : kJoinedLastBits) {
       RepairOptions options = options_;
       options.join = last_bits * last_bit(given_.vertices);
       Rounding joining(given_, options, report_, exact_, planes_, step_, threads_);
-      joining.is_part_ = true;
       joining.flatten_all(options.join, sides_);
-      if (joining.rounded_.displacement == 0) continue;
-      if (take_if_valid(joining, Rung::coarser)) return true;
+      has_led_ |= joining.has_led_;
+      if (joining.rounded_.displacement == 0 || are_same(joining.rounded_.state, last)) continue;
+      last = joining.rounded_.state;
+      joining.report_.rung = Rung::coarser;
+      joining.begin();
+      joining.try_plans(sides_);
+      if (take_if_valid(joining)) return true;
     }
     return false;
   }
@@ -316,29 +341,40 @@ class Rounding {
   /// Where that fails, too: vertices that are near to each other become one, and sides are led through what
   /// is near, all over the surface, before anything is cut.
   void weld_all() {
+    std::optional<Rounding> welding;
     for (const double last_bits : kWeldedLastBits) {
       State welded = given_;
       const double moved = weld(welded, last_bits * last_bit(given_.vertices), here());
       if (moved == 0) continue;
-      Rounding welding(std::move(welded), options_, report_, exact_, planes_, step_, threads_);
-      welding.is_part_ = true;
-      welding.welded_last_bits_ = last_bits;
-      welding.work_.most = kLittleWork.of(given_.facets.size());
-      welding.rounded_.displacement = sum_above(given_displacement_, moved);
-      if (take_if_valid(welding, Rung::snapped)) return;
+      const double displacement = sum_above(given_displacement_, moved);
+      if (welding && displacement == welding->given_displacement_ && are_same(welded, welding->given_)) {
+        welding->welded_last_bits_ = last_bits;  // the same but for the plans that are tried after all others
+        welding->try_next_plans();
+      } else {
+        welding.emplace(std::move(welded), options_, report_, exact_, planes_, step_, threads_);
+        welding->welded_last_bits_ = last_bits;
+        welding->work_.most = kLittleWork.of(given_.facets.size());
+        welding->rounded_.displacement = displacement;
+        welding->report_.rung = Rung::snapped;
+        welding->begin();
+        welding->try_plans(sides_);
+      }
+      if (take_if_valid(*welding)) return;
     }
   }
 
-  bool take_if_valid(Rounding& other, Rung rung) {
-    other.report_.rung = rung;
-    other.begin();
-    Rounded rounded = other.run(sides_);
+  bool take_if_valid(Rounding& other) {
     report_.rounds = other.report_.rounds;
-    if (!rounded.is_valid) return false;
+    has_led_ |= other.has_led_;
+    if (!other.rounded_.is_valid) return false;
     report_ = other.report_;
     welded_last_bits_ = other.welded_last_bits_;
-    rounded_ = std::move(rounded);
+    rounded_ = std::move(other.rounded_);
     return true;
+  }
+
+  [[nodiscard]] static bool are_same(const State& a, const State& b) {
+    return a.facets == b.facets && a.vertices == b.vertices && a.segments == b.segments;
   }
 
   void stand(Attempt attempt) {
@@ -399,9 +435,11 @@ class Rounding {
   const Threads& threads_;
   SidesOf sides_ = SidesOf::all_sheets;
   bool is_plane_ = false;
-  bool is_part_ = false;  // of another one, which goes on if this one fails
   bool joins_all_ = true;
   double welded_last_bits_ = 0;
+  bool is_welded_ = false;     // what kWeldedPlans say was tried
+  std::size_t next_plan_ = 0, plans_ = kPlans.size();  // of kPlans: the next, and how many are tried
+  bool has_led_ = false;
   Work work_;  // of joining
   double most_displacement_ = std::numeric_limits<double>::infinity();
   std::size_t most_facets_ = SIZE_MAX;  // that joining may make
@@ -444,8 +482,9 @@ Rounded round_arranged(State state, const RepairOptions& options, RepairReport& 
   if (rounded.is_valid && report.rung >= Rung::coarser && !together.starts_welded()) {
     constexpr std::size_t kFewSides = 16;  // where there are more, nearly as many are left
     const std::size_t open = open_sides(rounded.state), before = open_sides(given);
-    if (open > before && open <= before + kFewSides) {
+    if (together.has_led() && open > before && open <= before + kFewSides) {
       if (!one_by_one) one_by_one.emplace(begun(told, SidesOf::one_sheet));
+      one_by_one->try_no_more_than(together);
       Rounded other = one_by_one->run(SidesOf::one_sheet);
       if (other.is_valid && open_sides(other.state) < open) {
         rounded = std::move(other);

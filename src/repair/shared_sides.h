@@ -2,6 +2,7 @@
 // own.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <span>
@@ -35,6 +36,8 @@ class SharedSides {
   [[nodiscard]] Index root(Index v) const;
   /// What a side is led through from a to b, without these.
   [[nodiscard]] std::vector<Index> chain(Index a, Index b) const;
+  /// Whether that is anything.
+  [[nodiscard]] bool is_led(Index a, Index b) const { return !known({std::min(a, b), std::max(a, b)}).empty(); }
   [[nodiscard]] bool has_united() const { return !into_.empty(); }
   /// The furthest that a vertex went to become another one, rounded up.
   [[nodiscard]] double most() const { return most_; }
