@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "arrange/index_table.h"
 #include "check_repair/cover.h"
 #include "check_repair/reach.h"
 #include "numbers/sorted.h"
 #include "repair/children.h"
+#include "repair/numbered_sides.h"
 #include "surface/complex.h"
 #include "surface/places.h"
 
@@ -54,43 +54,32 @@ class Covers {
   }
 
  private:
-  [[nodiscard]] Side side_of(Index f, std::size_t i) const {
-    const Triangle& t = state_.facets[f];
-    return ascending(Side{place_[t[i]], place_[t[(i + 1) % 3]]});
-  }
-
   /// The sides that an odd number of some facets have.
   void list_odd(std::span<const Index> facets) {
     sides_.clear();
     constexpr std::size_t kFew = 32;
     if (facets.size() <= kFew) {
-      for (const Index f : facets)
-        for (std::size_t i = 0; i < 3; ++i) sides_.push_back(side_of(f, i));
+      for (const Index f : facets) {
+        const Triangle& t = state_.facets[f];
+        for (std::size_t i = 0; i < 3; ++i)
+          sides_.push_back(ascending(Side{place_[t[i]], place_[t[(i + 1) % 3]]}));
+      }
       sort_odd(sides_);
       return;
     }
-    if (numbers_.empty()) number_sides();
+    if (!numbered_) {
+      numbered_.emplace(state_.facets, place_);
+      is_odd_.resize(numbered_->all.size(), 0);
+    }
     for (const Index f : facets)
-      for (const Index side : numbers_[f]) {
+      for (const Index side : numbered_->of_facets[f]) {
         is_odd_[side] ^= 1u;
         touched_.push_back(side);
       }
     for (const Index side : touched_)
-      if (std::exchange(is_odd_[side], std::uint8_t{0}) != 0) sides_.push_back(numbered_[side]);
+      if (std::exchange(is_odd_[side], std::uint8_t{0}) != 0) sides_.push_back(numbered_->all[side]);
     touched_.clear();
     std::sort(sides_.begin(), sides_.end());
-  }
-
-  void number_sides() {
-    arrange::IndexTable<2> table;
-    numbers_.resize(state_.facets.size());
-    for (Index f = 0; f < numbers_.size(); ++f)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto next = static_cast<Index>(numbered_.size());
-        numbers_[f][i] = table.find_or_add(side_of(f, i), next);
-        if (numbers_[f][i] == next) numbered_.push_back(side_of(f, i));
-      }
-    is_odd_.resize(numbered_.size(), 0);
   }
 
   /// The sides that an odd number of the parts of a facet have, once from each of their ends.
@@ -157,10 +146,8 @@ class Covers {
   std::vector<Index> place_;  // by vertex a used one at its place, or none
   const Children children_;
   std::vector<Side> sides_;
-  // For facets of many parts: the numbers of the sides of each facet, the sides, and which are odd so far.
-  std::vector<std::array<Index, 3>> numbers_;
-  std::vector<Side> numbered_;
-  std::vector<std::uint8_t> is_odd_;
+  std::optional<NumberedSides> numbered_;  // where a facet has many parts
+  std::vector<std::uint8_t> is_odd_;       // by number, so far
   std::vector<Index> touched_;
 };
 

@@ -8,10 +8,12 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "numbers/sorted.h"
 #include "repair/near.h"
+#include "repair/numbered_sides.h"
 #include "surface/places.h"
 
 namespace holdfast::repairing {
@@ -26,11 +28,11 @@ class Fins {
         given_(given),
         most_(most),
         first_(first_at_places(state.vertices)),
+        numbered_(state.facets, first_),
         fin_(state.facets.size()) {
     std::iota(fin_.begin(), fin_.end(), Index{0});
     is_gone_.assign(state.facets.size(), 0);
-    for (Index f = 0; f < state.facets.size(); ++f)
-      for (const Side& side : sides_of(f)) at_[side].push_back(f);
+    list_facets();
     for (const Segment& s : state.segments) held_.insert(ascending(Side{first_[s[0]], first_[s[1]]}));
   }
 
@@ -46,23 +48,39 @@ class Fins {
   }
 
  private:
-  [[nodiscard]] std::array<Side, 3> sides_of(Index f) const {
-    const Triangle& t = state_.facets[f];
-    return {ascending(Side{first_[t[0]], first_[t[1]]}), ascending(Side{first_[t[1]], first_[t[2]]}),
-            ascending(Side{first_[t[2]], first_[t[0]]})};
+  void list_facets() {
+    begin_.assign(numbered_.all.size() + 1, 0);
+    for (const std::array<Index, 3>& sides : numbered_.of_facets)
+      for (const Index side : sides) ++begin_[side + 1];
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    std::vector<Index> next(begin_.begin(), begin_.end() - 1);
+    facets_.resize(begin_.back());
+    for (Index f = 0; f < numbered_.of_facets.size(); ++f)
+      for (const Index side : sides_of(f)) facets_[next[side]++] = f;
+  }
+
+  /// The numbers of its sides.
+  [[nodiscard]] const std::array<Index, 3>& sides_of(Index f) const { return numbered_.of_facets[f]; }
+
+  [[nodiscard]] std::span<const Index> facets_at(Index side) const {
+    return {facets_.data() + begin_[side], facets_.data() + begin_[side + 1]};
   }
 
   /// Facets with the side that are still there.
-  [[nodiscard]] std::size_t left(const Side& side) const {
-    const std::vector<Index>& all = at_.at(side);
+  [[nodiscard]] std::size_t left(Index side) const {
+    const std::span<const Index> all = facets_at(side);
     return static_cast<std::size_t>(
         std::count_if(all.begin(), all.end(), [&](Index f) { return is_gone_[f] == 0; }));
   }
 
   void peel() {
+    std::vector<std::pair<Side, Index>> free;
+    for (Index side = 0; side < numbered_.all.size(); ++side)
+      if (const auto facets = facets_at(side); facets.size() == 1)
+        free.emplace_back(numbered_.all[side], facets[0]);
+    std::sort(free.begin(), free.end());
     std::vector<Index> next;
-    for (const auto& [side, facets] : at_)
-      if (facets.size() == 1) next.push_back(facets[0]);
+    for (const auto& [side, f] : free) next.push_back(f);
     while (!next.empty()) {
       const Index f = next.back();
       next.pop_back();
@@ -71,8 +89,8 @@ class Fins {
       if (!(distance <= most_)) continue;
       is_gone_[f] = 1;
       order_.emplace_back(f, distance);
-      for (const Side& side : sides_of(f))
-        for (const Index g : at_[side]) {
+      for (const Index side : sides_of(f))
+        for (const Index g : facets_at(side)) {
           if (is_gone_[g] != 0)
             fin_[root(g)] = root(f);
           else if (left(side) == 1)
@@ -94,11 +112,11 @@ class Fins {
   /// How far points of a facet are from its sides that others have. The distance from a side is convex, so
   /// that corners decide; from two sides it is so on either part that the foot of their corner divides.
   [[nodiscard]] double thickness(Index f) const {
-    const std::array<Side, 3> sides = sides_of(f);
+    const std::array<Index, 3>& sides = sides_of(f);
     std::array<bool, 3> is_free{};
     for (std::size_t i = 0; i < 3; ++i) {
       is_free[i] = left(sides[i]) == 1;
-      if (is_free[i] && held_.contains(sides[i])) return std::numeric_limits<double>::infinity();
+      if (is_free[i] && held_.contains(numbered_.all[sides[i]])) return std::numeric_limits<double>::infinity();
     }
     const Triangle& t = state_.facets[f];
     double least = std::numeric_limits<double>::infinity();
@@ -123,8 +141,8 @@ class Fins {
     for (const auto& [f, distance] : order_)
       for (const Index p : state_.facet_parents.of(f)) {
         std::set<Side>& sides = ends[{root(f), p}];
-        for (const Side& side : sides_of(f))
-          if (!sides.insert(side).second) sides.erase(side);
+        for (const Index side : sides_of(f))
+          if (!sides.insert(numbered_.all[side]).second) sides.erase(numbered_.all[side]);
       }
     return ends;
   }
@@ -183,11 +201,11 @@ class Fins {
     std::vector<Index> found;
     if (sides_at_.empty()) {
       sides_at_.resize(state_.vertices.size());
-      for (const auto& [side, facets] : at_)
-        for (const Index w : side) sides_at_[w].push_back(side);
+      for (Index side = 0; side < numbered_.all.size(); ++side)
+        for (const Index w : numbered_.all[side]) sides_at_[w].push_back(side);
     }
-    for (const Side& side : sides_at_[v])
-      if (left(side) > 0) found.push_back(side[0] == v ? side[1] : side[0]);
+    for (const Index side : sides_at_[v])
+      if (const auto& [a, b] = numbered_.all[side]; left(side) > 0) found.push_back(a == v ? b : a);
     return found;
   }
 
@@ -219,7 +237,7 @@ class Fins {
       if (!(sum <= most_)) bad.insert(f);
     for (const auto& [f, distance] : order_) {
       bool is_bad = false;
-      for (const Side& side : sides_of(f)) is_bad |= left(side) == 1;
+      for (const Index side : sides_of(f)) is_bad |= left(side) == 1;
       each(
           f, [&](Index p) { is_bad |= parts[p] == 0; }, [&](Index v) { is_bad |= uses[v] == 0; });
       if (is_bad) bad.insert(root(f));
@@ -252,8 +270,9 @@ class Fins {
   const State& given_;
   const double most_;
   const std::vector<Index> first_;
-  std::map<Side, std::vector<Index>> at_;            // the facets of each side
-  mutable std::vector<std::vector<Side>> sides_at_;  // each vertex, once asked for
+  const NumberedSides numbered_;
+  std::vector<Index> begin_, facets_;                 // the facets of each side, and where they begin
+  mutable std::vector<std::vector<Index>> sides_at_;  // each vertex, once asked for
   std::set<Side> held_;                              // sides that are segments
   std::vector<std::uint8_t> is_gone_;
   std::vector<Index> fin_;                       // of facets that are gone, one that is of the same fin
