@@ -12,18 +12,16 @@
 namespace holdfast::repairing {
 namespace {
 
-/// The plane of each facet, as often as it is asked for.
+/// The planes of some facets, as often as they are asked for.
 struct Planes {
-  std::vector<Vector> normal;
-  std::vector<double> size;  // of each normal
+  std::vector<Vector> normal;  // by facet
+  std::vector<double> size;    // of each normal
 
-  explicit Planes(const State& state) {
-    for (Index f = 0; f < state.facets.size(); ++f) {
-      const Triangle& t = state.facets[f];
-      const bool is_facet =
-          std::all_of(t.begin(), t.end(), [&](Index v) { return v < state.vertices.size(); });
-      normal.push_back(is_facet ? normal_of(state, f) : Vector{});
-      size.push_back(length(normal.back()));
+  Planes(const State& state, std::span<const Index> facets)
+      : normal(state.facets.size()), size(state.facets.size()) {
+    for (const Index f : facets) {
+      normal[f] = normal_of(state, f);
+      size[f] = length(normal[f]);
     }
   }
 };
@@ -82,6 +80,35 @@ bool lies_in(const State& state, const Planes& planes, Index f, Index g, double 
   });
 }
 
+/// Facets whose corners are points, and boxes round them; of few of them only what is near these.
+std::pair<std::vector<Index>, std::vector<Box>> boxes_near(const State& state, double gap,
+                                                           std::span<const Index> some) {
+  const auto box_of = [&](Index f) { return box_round(state, state.facets[f], gap); };
+  const auto is_whole = [&](Index f) {
+    const Triangle& t = state.facets[f];
+    return std::all_of(t.begin(), t.end(),
+                       [&](Index v) { return v < state.vertices.size() && is_finite(state.vertices[v]); });
+  };
+  constexpr std::size_t kFew = 4;  // a part of all
+  const bool are_few = !some.empty() && some.size() < state.facets.size() / kFew;
+  AabbTree near;
+  if (are_few) {
+    std::vector<Box> boxes;
+    for (const Index f : some)
+      if (is_whole(f)) boxes.push_back(box_of(f));
+    near = AabbTree(boxes);
+  }
+  std::pair<std::vector<Index>, std::vector<Box>> found;
+  for (Index f = 0; f < state.facets.size(); ++f) {
+    if (!is_whole(f)) continue;
+    const Box box = box_of(f);
+    if (are_few && !near.overlaps_any(box)) continue;
+    found.first.push_back(f);
+    found.second.push_back(box);
+  }
+  return found;
+}
+
 /// Takes the axis that is steepest to the largest facet, and leaves out what has no area along it.
 void keep_projected(const State& state, const Planes& planes, Cluster& cluster) {
   const Index largest = *std::max_element(cluster.facets.begin(), cluster.facets.end(),
@@ -101,21 +128,11 @@ Vector normal_of(const State& state, Index facet) {
   return cross(minus(at[b], at[a]), minus(at[c], at[a]));
 }
 
-std::vector<Cluster> find_clusters(const State& state, double gap, std::span<const Index> some,
-                                   const Step& step) {
+Clusters find_clusters(const State& state, double gap, std::span<const Index> some, const Step& step) {
   std::vector<std::uint8_t> is_some(state.facets.size(), some.empty() ? 1 : 0);
   for (const Index f : some) is_some[f] = 1;
-  std::vector<Box> boxes;
-  std::vector<Index> facet;
-  for (Index f = 0; f < state.facets.size(); ++f) {
-    const Triangle& t = state.facets[f];
-    if (std::any_of(t.begin(), t.end(),
-                    [&](Index v) { return v >= state.vertices.size() || !is_finite(state.vertices[v]); }))
-      continue;
-    facet.push_back(f);
-    boxes.push_back(box_round(state, t, gap));
-  }
-  const Planes planes(state);
+  const auto [facet, boxes] = boxes_near(state, gap, some);
+  const Planes planes(state, facet);
   const auto share_area = [&](Index f, Index g) {
     const bool in_g = lies_in(state, planes, f, g, gap), in_f = lies_in(state, planes, g, f, gap);
     if (!in_g && !in_f) return false;
@@ -140,10 +157,11 @@ std::vector<Cluster> find_clusters(const State& state, double gap, std::span<con
       [](Index, Index) { return false; }, step);
   std::map<Index, Cluster> by_first;
   for (const Index f : together) by_first[sets.root(f)].facets.push_back(f);
-  std::vector<Cluster> found;
+  Clusters found;
+  found.facets.assign(together.begin(), together.end());
   for (auto& [first, cluster] : by_first) {
     keep_projected(state, planes, cluster);
-    if (cluster.facets.size() > 1) found.push_back(std::move(cluster));
+    if (cluster.facets.size() > 1) found.all.push_back(std::move(cluster));
   }
   return found;
 }

@@ -16,10 +16,15 @@ struct Cluster {
   unsigned axis = 0;
 };
 
+struct Clusters {
+  std::vector<Cluster> all;
+  std::vector<Index> facets;  ///< all that overlap another one, ascending: some are in no cluster
+};
+
 /// Clusters of facets that lie within `gap` of each other's planes. Of each pair one is among `some`, unless
 /// that is empty.
-[[nodiscard]] std::vector<Cluster> find_clusters(const State& state, double gap, std::span<const Index> some,
-                                                 const Step& step);
+[[nodiscard]] Clusters find_clusters(const State& state, double gap, std::span<const Index> some,
+                                     const Step& step);
 
 /// Normal to a facet, as long as twice its area.
 [[nodiscard]] Vector normal_of(const State& state, Index facet);

@@ -31,19 +31,21 @@ class Flattening {
         vertices_(state.vertices.size()),
         sides_of_(sides),
         sides_(state.vertices, gap),
-        in_cluster_(state.facets.size(), 0) {}
+        in_cluster_(state.facets.size(), 0),
+        overlaps_(state.facets.size(), 0) {}
 
-  Flattened run(const std::vector<Cluster>& clusters) {
+  Flattened run(const Clusters& clusters) {
     bool any = false;
-    for (const Cluster& cluster : clusters) any |= arrange_cluster(cluster);
+    for (const Cluster& cluster : clusters.all) any |= arrange_cluster(cluster);
     if (!any && !sides_.has_united()) return {};
     if (!sides_.finish()) {
       state_.vertices.resize(vertices_);
-      return {0, has_led_};
+      return {0, has_led_, {}};
     }
+    for (const Index f : clusters.facets) overlaps_[f] = 1;
     deliver();
     drop_unused(state_);
-    return {std::max(most_, sides_.most()), has_led_};
+    return {std::max(most_, sides_.most()), has_led_, std::move(changed_)};
   }
 
  private:
@@ -229,7 +231,7 @@ class Flattening {
   void deliver() {
     std::vector<Triangle> facets;
     Parents parents;
-    std::vector<std::uint8_t> known;
+    std::vector<std::uint8_t> known, changed;
     for (Index f = 0; f < in_cluster_.size(); ++f) {
       if (const auto found = pieces_.find(f); found != pieces_.end())
         for (Piece& piece : found->second) {
@@ -238,6 +240,7 @@ class Flattening {
             facets.push_back(t);
             parents.add(piece.parents);
             known.push_back(0);
+            changed.push_back(1);
             if (parts.size() == 1 && parts[0] == piece.corners) continue;
             for (const Index parent : piece.facets)
               for (const Index v : t) most_ = std::max(most_, distance(v, state_.facets[parent]));
@@ -248,6 +251,7 @@ class Flattening {
         facets.push_back(t);
         parents.add(state_.facet_parents.of(f));
         known.push_back(t != state_.facets[f] || state_.known.empty() ? 0 : state_.known[f]);
+        changed.push_back(t != state_.facets[f] ? 1 : overlaps_[f]);
       };
       if (stays_whole(state_.facets[f]))
         add(state_.facets[f]);
@@ -255,7 +259,7 @@ class Flattening {
         for (const Triangle& t : cut(state_.facets[f])) add(t);
     }
     if (state_.known.empty()) known.clear();
-    deliver_facets(facets, parents, known);
+    deliver_facets(facets, parents, known, changed);
     state_.sheet.clear();
     deliver_segments();
   }
@@ -263,7 +267,7 @@ class Flattening {
   /// Facets with the same corners are one, whose parents are those of which they are an odd number of parts:
   /// a sheet that was folded would end at its folds else.
   void deliver_facets(std::span<const Triangle> facets, const Parents& parents,
-                      std::span<const std::uint8_t> known) {
+                      std::span<const std::uint8_t> known, std::span<const std::uint8_t> changed) {
     arrange::IndexTable<3> first_with;
     std::vector<std::uint8_t> is_first(facets.size(), 0);
     std::map<Index, std::vector<Index>> of_several;  // by the first of them, their parents
@@ -287,6 +291,7 @@ class Flattening {
         list = found->second;
       }
       if (list.empty()) continue;
+      if (changed[f] != 0 || of_several.contains(f)) changed_.push_back(static_cast<Index>(state_.facets.size()));
       state_.facets.push_back(facets[f]);
       state_.facet_parents.add(list);
       if (!known.empty()) state_.known.push_back(known[f]);
@@ -361,7 +366,8 @@ class Flattening {
   const std::size_t vertices_;  // before
   const SidesOf sides_of_;
   SharedSides sides_;
-  std::vector<std::uint8_t> in_cluster_;             // by facet
+  std::vector<std::uint8_t> in_cluster_, overlaps_;  // by facet
+  std::vector<Index> changed_;                       // or overlapped others, as they are in the end
   std::map<Index, std::vector<Piece>> pieces_;       // by first facet
   std::set<Index> lifted_;                           // new vertices that have no third coordinate yet
   std::map<Index, std::pair<double, Index>> below_;  // of these, the area and the index of the largest facet
@@ -379,11 +385,14 @@ Flattened flatten(State& state, double gap, const RoundPlane& round, SidesOf sid
 Flattened flatten_all(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step) {
   constexpr int kPasses = 4;
   Flattened all;
+  std::vector<Index> some;
   for (int pass = 0; pass < kPasses; ++pass) {
-    const Flattened now = flatten(state, gap, round, sides, step);
+    Flattened now = flatten(state, gap, round, sides, step, some);
     all.has_led |= now.has_led;
     if (now.moved == 0) break;
     all.moved = sum_above(all.moved, now.moved);
+    if (now.changed.empty()) break;
+    some = std::move(now.changed);
   }
   return all;
 }

@@ -29,6 +29,8 @@ enum class SidesOf {
 struct Flattened {
   double moved = 0;      ///< the largest distance by which anything was moved or bent, rounded up
   bool has_led = false;  ///< some side: where there was none, `sides` made no difference
+  /// Facets, as they are now, that changed or overlapped others: what overlaps from now on has one of them.
+  std::vector<Index> changed;
 };
 Flattened flatten(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step,
                   std::span<const Index> some = {});

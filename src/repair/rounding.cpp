@@ -261,11 +261,10 @@ class Rounding {
     constexpr int kPasses = 4;
     for (int pass = 0; pass < kPasses && !flat.trouble.none(); ++pass) {
       const double gap = plan.last_bits * last_bit(flat.state.vertices);
-      const auto [moved, has_led] =
-          flatten(flat.state, gap, round, sides_, here(), flat.trouble.facets);
-      has_led_ |= has_led;
-      if (moved == 0) return;
-      flat.displacement = sum_above(flat.displacement, moved);
+      const Flattened now = flatten(flat.state, gap, round, sides_, here(), flat.trouble.facets);
+      has_led_ |= now.has_led;
+      if (now.moved == 0) return;
+      flat.displacement = sum_above(flat.displacement, now.moved);
       flat.trouble = trouble_of(flat.state, here(), threads_, 4 * trouble_.size());
       if (flat.trouble.size() < trouble_.size()) return stand(std::move(flat));
       if (flat.trouble.size() > 4 * trouble_.size()) return;
