@@ -83,9 +83,9 @@ class BentSurface {
   std::vector<Index> facet_with_;                         // by their numbers, the last that had them
   std::map<std::pair<Side, Index>, Index> segment_with_;  // by its ends and its origin
   arrange::IndexTable<2> side_numbers_;
-  std::vector<SideNote> at_side_;                      // by their numbers
+  std::vector<SideNote> at_side_;                       // by their numbers
   std::priority_queue<std::pair<double, Side>> sides_;  // to look at, by their lengths
-  std::vector<Index> whole_;                 // facets to look at
+  std::vector<Index> whole_;                            // facets to look at
   double most_ = 0;
 };
 

@@ -116,7 +116,8 @@ class Fins {
     std::array<bool, 3> is_free{};
     for (std::size_t i = 0; i < 3; ++i) {
       is_free[i] = left(sides[i]) == 1;
-      if (is_free[i] && held_.contains(numbered_.all[sides[i]])) return std::numeric_limits<double>::infinity();
+      if (is_free[i] && held_.contains(numbered_.all[sides[i]]))
+        return std::numeric_limits<double>::infinity();
     }
     const Triangle& t = state_.facets[f];
     double least = std::numeric_limits<double>::infinity();
@@ -273,7 +274,7 @@ class Fins {
   const NumberedSides numbered_;
   std::vector<Index> begin_, facets_;                 // the facets of each side, and where they begin
   mutable std::vector<std::vector<Index>> sides_at_;  // each vertex, once asked for
-  std::set<Side> held_;                              // sides that are segments
+  std::set<Side> held_;                               // sides that are segments
   std::vector<std::uint8_t> is_gone_;
   std::vector<Index> fin_;                       // of facets that are gone, one that is of the same fin
   std::vector<std::pair<Index, double>> order_;  // facets that went, and how far they are from what stays

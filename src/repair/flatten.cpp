@@ -291,7 +291,8 @@ class Flattening {
         list = found->second;
       }
       if (list.empty()) continue;
-      if (changed[f] != 0 || of_several.contains(f)) changed_.push_back(static_cast<Index>(state_.facets.size()));
+      if (changed[f] != 0 || of_several.contains(f))
+        changed_.push_back(static_cast<Index>(state_.facets.size()));
       state_.facets.push_back(facets[f]);
       state_.facet_parents.add(list);
       if (!known.empty()) state_.known.push_back(known[f]);

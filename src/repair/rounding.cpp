@@ -436,7 +436,7 @@ class Rounding {
   bool is_plane_ = false;
   bool joins_all_ = true;
   double welded_last_bits_ = 0;
-  bool is_welded_ = false;     // what kWeldedPlans say was tried
+  bool is_welded_ = false;                             // what kWeldedPlans say was tried
   std::size_t next_plan_ = 0, plans_ = kPlans.size();  // of kPlans: the next, and how many are tried
   bool has_led_ = false;
   Work work_;  // of joining

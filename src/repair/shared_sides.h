@@ -37,7 +37,9 @@ class SharedSides {
   /// What a side is led through from a to b, without these.
   [[nodiscard]] std::vector<Index> chain(Index a, Index b) const;
   /// Whether that is anything.
-  [[nodiscard]] bool is_led(Index a, Index b) const { return !known({std::min(a, b), std::max(a, b)}).empty(); }
+  [[nodiscard]] bool is_led(Index a, Index b) const {
+    return !known({std::min(a, b), std::max(a, b)}).empty();
+  }
   [[nodiscard]] bool has_united() const { return !into_.empty(); }
   /// The furthest that a vertex went to become another one, rounded up.
   [[nodiscard]] double most() const { return most_; }
