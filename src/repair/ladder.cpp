@@ -1,0 +1,361 @@
+#include "repair/ladder.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "arrange/arrange.h"
+#include "repair/bounds.h"
+#include "repair/exact_surface.h"
+#include "repair/tell_round.h"
+#include "repair/weld.h"
+
+namespace holdfast::repairing {
+
+Ladder::Ladder(State state, const RepairOptions& options, const RepairReport& report, const Exact& exact,
+               RoundedPlanes& planes, const Step& step, const Threads& threads)
+    : options_(options), report_(report), exact_(exact), planes_(planes), step_(step), threads_(threads) {
+  rounded_.state = std::move(state);
+  work_.most = kMuchWork.of(rounded_.state.facets.size());
+}
+
+void Ladder::try_no_more_than(const Ladder& other) {
+  joins_all_ = false;
+  plans_ = std::min(other.next_plan_ + 1, kPlans.size());
+}
+
+Rounded Ladder::run_in_plane(double most) {
+  is_plane_ = true;
+  most_displacement_ = most;
+  begin();
+  return run();
+}
+
+void Ladder::begin() {
+  given_ = rounded_.state;
+  given_displacement_ = rounded_.displacement;
+  const std::optional<std::size_t> points =
+      cut(is_plane_ ? std::min(options_.most_points, most_points_in_plane(given_.facets.size()))
+                    : options_.most_points);
+  grows_ = is_plane_ && !points;
+  new_points_[0] = points.value_or(0);
+  if (rounded_.is_valid || grows_) return;
+  if (!is_plane_) {
+    const std::size_t much = kMany + new_points_[0];
+    trouble_ = trouble_of(rounded_.state, here(), threads_, much);
+    if (!trouble_.is_all) {
+      once_cut_ = rounded_;
+      return;
+    }
+  }
+  cut_again();
+  if (!rounded_.is_valid && !is_hopeless()) trouble_ = trouble_of(rounded_.state, here(), threads_);
+}
+
+Rounded Ladder::run(SidesOf sides) {
+  try_plans(sides);
+  if (!rounded_.is_valid && !is_plane_ && joins_all_ && !join_all()) weld_all();
+  return std::move(rounded_);
+}
+
+void Ladder::flatten_all(double gap, SidesOf sides) {
+  sides_ = sides;
+  flatten_all(rounded_.state, gap, rounded_.displacement);
+}
+
+void Ladder::try_plans(SidesOf sides) {
+  sides_ = sides;
+  if (rounded_.is_valid || is_hopeless()) return;
+  most_facets_ = is_plane_ ? most_in_plane(rounded_.state.facets.size()) : SIZE_MAX;
+  // Joining what is near costs less than to move the input, but takes long where sheets lie in each other.
+  const double twin_gap = kWeldedPlans[0].last_bits * last_bit(given_.vertices);
+  is_welded_ =
+      !is_plane_ && trouble_.size() > kMany && most_have_twins(rounded_.state, trouble_, twin_gap, here());
+  if (is_welded_) begin_flat(kWeldedPlans);
+  begin_flat(kFlatPlans);
+  try_next_plans();
+}
+
+void Ladder::try_next_plans() {
+  // In a plane, what the first plan does not make much less the others do not, either.
+  std::size_t most_in_trouble = SIZE_MAX;
+  for (; next_plan_ < plans_; ++next_plan_) {
+    const Plan& plan = kPlans[next_plan_];
+    if (is_plane_ && (plan.moves_input || plan.last_bits > kMostInPlane || is_hopeless())) break;
+    if (work_.is_spent() || (starts_welded() && (plan.moves_input || plan.last_bits > welded_last_bits_)))
+      break;
+    if (is_plane_ && trouble_.size() > most_in_trouble) break;
+    most_in_trouble = std::max(2 * kFew, trouble_.size() / 2);
+    if (!is_welded_ && (plan.moves_input || trouble_.size() > kFew)) {
+      begin_flat(kWeldedPlans);
+      is_welded_ = true;
+      if (best_ && trouble_.size() < best_->trouble.size()) best_.reset();
+    }
+    if (!is_done()) cut_late();
+    if (is_done()) break;
+    join_from_best(plan);
+    if (!is_done()) cut_if_better();
+  }
+  rounded_.is_valid = is_done();
+}
+
+void Ladder::cut_again() {
+  const std::size_t most = is_plane_ ? 64 + new_points_[0] : 1000 + 4 * report_.points;
+  const std::optional<std::size_t> points = cut(std::min(options_.most_points, most));
+  new_points_[1] = points.value_or(SIZE_MAX);
+  grows_ = is_plane_ && !points;
+}
+
+void Ladder::cut_late() {
+  if (!once_cut_) return;
+  if (!trouble_.is_all) trouble_ = trouble_of(rounded_.state, here(), threads_);
+  Rounded before = std::exchange(rounded_, std::move(*once_cut_));
+  once_cut_.reset();
+  cut_again();
+  Trouble now;
+  if (!rounded_.is_valid) now = trouble_of(rounded_.state, here(), threads_, trouble_.size());
+  rounded_.is_valid = false;
+  if (now.size() < trouble_.size())
+    trouble_ = std::move(now);
+  else
+    rounded_ = std::move(before);
+}
+
+bool Ladder::is_done() {
+  if (!trouble_.none()) return false;
+  if (rounded_.state.known.empty() && rounded_.state.sheet.empty()) return true;
+  rounded_.state.doubt_all();
+  trouble_ = trouble_of(rounded_.state, here(), threads_);
+  if (trouble_.none()) rounded_.state.doubt_all();  // so that it is not looked at once more
+  return trouble_.none();
+}
+
+bool Ladder::is_hopeless() const {
+  const auto is_far = [&](double displacement) { return displacement > most_displacement_; };
+  return grows_ || (is_far(rounded_.displacement) && (!best_ || is_far(best_->displacement)));
+}
+
+Step Ladder::here() const {
+  return [this](double fraction) { step_(1 - 1 / (1 + static_cast<double>(report_.rounds) + fraction)); };
+}
+
+void Ladder::join(const Plan& plan) {
+  Settle how{plan.last_bits * last_bit(rounded_.state.vertices), 0, plan.moves_input, false, most_facets_};
+  report_.rung = plan.moves_input ? Rung::snapped : Rung::coarser;
+  constexpr int kPasses = 8, kPassesInVain = 4;
+  constexpr std::size_t kTooMuch = 4;
+  Attempt now{rounded_.state, trouble_, rounded_.displacement};
+  int in_vain = 0;
+  for (int pass = 0; pass < kPasses && in_vain < kPassesInVain && !trouble_.none(); ++pass) {
+    if (work_.is_spent()) break;
+    const double moved = settle(now.state, now.trouble, how, work_, here());
+    grows_ |= now.state.facets.size() > most_facets_;
+    if (grows_) break;
+    const std::size_t too_much = kTooMuch * (trouble_.size() + 16);
+    now.trouble = trouble_of(now.state, here(), threads_, too_much);
+    now.displacement = sum_above(now.displacement, moved);
+    if (now.trouble.size() < trouble_.size()) {
+      stand(now);
+      in_vain = 0;
+      continue;
+    }
+    ++in_vain;
+    if (now.trouble.size() > too_much || (how.passings && moved == 0)) break;
+    how.passings = true;
+  }
+}
+
+void Ladder::join_from_best(const Plan& plan) {
+  join(plan);
+  if (is_done()) return;
+  if (!best_ || trouble_.size() < best_->trouble.size()) {
+    best_ = Attempt{rounded_.state, trouble_, rounded_.displacement};
+    return;
+  }
+  if (grows_) return;
+  stand(*best_);
+  join(plan);
+  if (trouble_.size() == best_->trouble.size()) flatten_again(plan);
+  if (trouble_.size() < best_->trouble.size())
+    best_ = Attempt{rounded_.state, trouble_, rounded_.displacement};
+}
+
+RoundPlane Ladder::round_plane() {
+  return planes_.rounding([this](State plane, double most) {
+    RepairOptions options = options_;
+    options.exact = false;
+    ExactSurface exact;
+    RoundedPlanes none;
+    const Parents of_plane;  // asked for with the exact surface alone
+    return Ladder(std::move(plane), options, {}, {exact, of_plane}, none, here(), threads_)
+        .run_in_plane(most);
+  });
+}
+
+void Ladder::flatten_all(State& state, double gap, double& displacement) {
+  const Flattened flat = repairing::flatten_all(state, gap, round_plane(), sides_, here());
+  has_led_ |= flat.has_led;
+  displacement = sum_above(displacement, flat.moved);
+}
+
+void Ladder::flatten_again(const Plan& plan) {
+  if (is_plane_ || trouble_.facets.empty()) return;
+  Attempt flat{rounded_.state, trouble_, rounded_.displacement};
+  const RoundPlane round = round_plane();
+  constexpr int kPasses = 4;
+  for (int pass = 0; pass < kPasses && !flat.trouble.none(); ++pass) {
+    const double gap = plan.last_bits * last_bit(flat.state.vertices);
+    const Flattened now = flatten(flat.state, gap, round, sides_, here(), flat.trouble.facets);
+    has_led_ |= now.has_led;
+    if (now.moved == 0) return;
+    flat.displacement = sum_above(flat.displacement, now.moved);
+    flat.trouble = trouble_of(flat.state, here(), threads_, 4 * trouble_.size());
+    if (flat.trouble.size() < trouble_.size()) return stand(std::move(flat));
+    if (flat.trouble.size() > 4 * trouble_.size()) return;
+  }
+}
+
+void Ladder::begin_flat(std::span<const Plan> plans) {
+  if (is_plane_) return;
+  for (const Plan& plan : plans)
+    if (!is_done()) begin_flat(plan);
+}
+
+void Ladder::begin_flat(const Plan& plan) {
+  const double gap = plan.last_bits * last_bit(given_.vertices);
+  Attempt flat{given_, {}, given_displacement_};
+  if (plan.moves_input) flat.displacement = sum_above(flat.displacement, weld(flat.state, gap, here()));
+  flatten_all(flat.state, gap, flat.displacement);
+  if (flat.displacement == given_displacement_) return;
+  if (flat.state.facets == flattened_.facets && flat.state.vertices == flattened_.vertices) return;
+  flattened_ = flat.state;
+  Rounded before = std::move(rounded_);
+  rounded_ = {false, std::move(flat.state), flat.displacement, false};
+  Trouble now;
+  const bool is_cut = cut_flat();
+  if (is_cut && !rounded_.is_valid) {
+    now = trouble_of(rounded_.state, here(), threads_, trouble_.size());
+    if (!now.is_all && !trouble_.is_all) {
+      trouble_ = trouble_of(before.state, here(), threads_);
+      now = trouble_of(rounded_.state, here(), threads_, trouble_.size());
+    }
+  }
+  if (is_cut && now.size() < trouble_.size()) {
+    trouble_ = std::move(now);
+    report_.rung = plan.moves_input ? Rung::snapped : Rung::coarser;
+  } else {
+    rounded_ = std::move(before);
+  }
+}
+
+bool Ladder::cut_flat() {
+  const auto [first, second] = new_points_;
+  const std::optional<std::size_t> now = cut(std::min(options_.most_points, 100 + first + first / 8));
+  if (!now) return too_many_ > 1000 + 4 * first;
+  return rounded_.is_valid || cut(std::min({options_.most_points, second, 100 + *now}));
+}
+
+bool Ladder::join_all() {
+  if (options_.join > 0) return false;
+  State last;
+  for (const double last_bits : kJoinedLastBits) {
+    RepairOptions options = options_;
+    options.join = last_bits * last_bit(given_.vertices);
+    Ladder joining(given_, options, report_, exact_, planes_, step_, threads_);
+    joining.flatten_all(options.join, sides_);
+    has_led_ |= joining.has_led_;
+    if (joining.rounded_.displacement == 0 || are_same(joining.rounded_.state, last)) continue;
+    last = joining.rounded_.state;
+    joining.report_.rung = Rung::coarser;
+    joining.begin();
+    joining.try_plans(sides_);
+    if (take_if_valid(joining)) return true;
+  }
+  return false;
+}
+
+void Ladder::weld_all() {
+  std::optional<Ladder> welding;
+  for (const double last_bits : kWeldedLastBits) {
+    State welded = given_;
+    const double moved = weld(welded, last_bits * last_bit(given_.vertices), here());
+    if (moved == 0) continue;
+    const double displacement = sum_above(given_displacement_, moved);
+    if (welding && displacement == welding->given_displacement_ && are_same(welded, welding->given_)) {
+      welding->welded_last_bits_ = last_bits;  // the same but for the plans that are tried after all others
+      welding->try_next_plans();
+    } else {
+      welding.emplace(std::move(welded), options_, report_, exact_, planes_, step_, threads_);
+      welding->welded_last_bits_ = last_bits;
+      welding->work_.most = kLittleWork.of(given_.facets.size());
+      welding->rounded_.displacement = displacement;
+      welding->report_.rung = Rung::snapped;
+      welding->begin();
+      welding->try_plans(sides_);
+    }
+    if (take_if_valid(*welding)) return;
+  }
+}
+
+bool Ladder::take_if_valid(Ladder& other) {
+  report_.rounds = other.report_.rounds;
+  has_led_ |= other.has_led_;
+  if (!other.rounded_.is_valid) return false;
+  report_ = other.report_;
+  welded_last_bits_ = other.welded_last_bits_;
+  rounded_ = std::move(other.rounded_);
+  return true;
+}
+
+bool Ladder::are_same(const State& a, const State& b) {
+  return a.facets == b.facets && a.vertices == b.vertices && a.segments == b.segments;
+}
+
+void Ladder::stand(Attempt attempt) {
+  rounded_.state = std::move(attempt.state);
+  rounded_.displacement = attempt.displacement;
+  trouble_ = std::move(attempt.trouble);
+}
+
+std::optional<std::size_t> Ladder::cut(std::size_t most_points) {
+  arrange::Arrangement arrangement;
+  try {
+    arrangement = arrangement_of(rounded_.state, most_points, here(), threads_);
+  } catch (const arrange::TooManyPoints& many) {
+    if (report_.rounds == 0 && !is_plane_) throw;
+    too_many_ = many.count();
+    return std::nullopt;
+  }
+  if (arrangement.is_same) {
+    rounded_.is_valid = true;
+    if (report_.rounds == 0 && options_.exact)
+      exact_.surface = exact_surface(rounded_.state, exact_.of_given);
+    return 0;
+  }
+  if (report_.rounds == 0 && options_.exact) exact_.surface = exact_surface(arrangement, exact_.of_given);
+  tell_round(report_, arrangement);
+  const std::vector<double> distances = rounded_by(arrangement, threads_);
+  rounded_.displacement = sum_above(rounded_.displacement, largest(distances));
+  rounded_.state = arranged(rounded_.state, arrangement, distances);
+  return distances.size();
+}
+
+void Ladder::cut_if_better() {
+  arrange::Arrangement arrangement;
+  try {
+    const std::size_t most = std::min(options_.most_points, 200 + 4 * trouble_.size());
+    arrangement = arrangement_of(rounded_.state, most, here(), threads_);
+  } catch (const arrange::TooManyPoints&) {
+    return;
+  }
+  const std::vector<double> distances = rounded_by(arrangement, threads_);
+  Attempt cut{arranged(rounded_.state, arrangement, distances), {}, 0};
+  const std::size_t too_much = 2 * trouble_.size() + 24;
+  cut.trouble = trouble_of(cut.state, here(), threads_, too_much);
+  if (cut.trouble.size() > too_much) return;
+  cut.displacement = sum_above(rounded_.displacement, largest(distances));
+  stand(std::move(cut));
+  tell_round(report_, arrangement);
+}
+
+}  // namespace holdfast::repairing
