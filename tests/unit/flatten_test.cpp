@@ -1,0 +1,95 @@
+// Sheets that lie in each other but for rounding.
+#include "repair/flatten.h"
+
+#include <gtest/gtest.h>
+
+#include "numbers/random.h"
+#include "repair/ladder.h"
+
+namespace holdfast::repairing {
+namespace {
+
+const Step kNoStep = [](double) {};
+constexpr double kGap = 0x1p-44;
+
+Rounded rounded_in_plane(State plane, double most) {
+  const RepairOptions options;
+  ExactSurface exact;
+  RoundedPlanes planes;
+  const Parents none;
+  const Threads one = 1;
+  return Ladder(std::move(plane), options, {}, {exact, none}, planes, kNoStep, one).run_in_plane(most);
+}
+
+/// Boxes that stand beside and on each other, with corners some last bits from where these should be.
+State boxes(std::size_t count, numbers::Random& random) {
+  constexpr std::array<Triangle, 12> kSides{{{0, 2, 1},
+                                             {1, 2, 3},
+                                             {4, 5, 6},
+                                             {5, 7, 6},
+                                             {0, 1, 4},
+                                             {1, 5, 4},
+                                             {2, 6, 3},
+                                             {3, 6, 7},
+                                             {0, 4, 2},
+                                             {2, 4, 6},
+                                             {1, 3, 5},
+                                             {3, 7, 5}}};
+  std::vector<Point> vertices;
+  std::vector<Triangle> facets;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto first = static_cast<Index>(vertices.size());
+    Point low{}, high{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = static_cast<double>(numbers::below(4, random)) / 3;
+      high[i] = low[i] + static_cast<double>(1 + numbers::below(3, random)) / 3;
+    }
+    for (std::size_t v = 0; v < 8; ++v) {
+      Point& p = vertices.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i)
+        p[i] = (v >> i & 1u ? high : low)[i] + static_cast<double>(numbers::below(9, random)) * 0x1p-50;
+    }
+    for (const Triangle& t : kSides) facets.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  return state_of({vertices, facets, {}, {}, {}});
+}
+
+TEST(Flatten, ToTheEndIsTheSameAsAgainAndAgain) {
+  numbers::Random random(7);
+  std::size_t several = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    const State given = boxes(2 + trial % 6, random);
+    for (const SidesOf sides : {SidesOf::all_sheets, SidesOf::one_sheet}) {
+      State state = given, same = given;
+      const Flattened all = flatten_all(state, kGap, rounded_in_plane, sides, kNoStep);
+      std::size_t passes = 0;
+      for (; passes < 4 && flatten(same, kGap, rounded_in_plane, sides, kNoStep).moved > 0; ++passes) {
+      }
+      several += passes > 1 ? 1 : 0;
+      EXPECT_EQ(all.moved > 0, passes > 0);
+      EXPECT_EQ(state.vertices, same.vertices);
+      EXPECT_EQ(state.facets, same.facets);
+      EXPECT_EQ(state.facet_parents.all, same.facet_parents.all);
+    }
+  }
+  EXPECT_GT(several, 10u);
+}
+
+TEST(Flatten, WhereNoSideIsLedAllSheetsDoWhatOneDoes) {
+  numbers::Random random(8);
+  std::size_t not_led = 0, led = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    State together = boxes(2, random), one_by_one = together;
+    const bool has_led = flatten_all(together, kGap, rounded_in_plane, SidesOf::all_sheets, kNoStep).has_led;
+    flatten_all(one_by_one, kGap, rounded_in_plane, SidesOf::one_sheet, kNoStep);
+    (has_led ? led : not_led) += 1;
+    if (has_led) continue;
+    EXPECT_EQ(together.vertices, one_by_one.vertices);
+    EXPECT_EQ(together.facets, one_by_one.facets);
+  }
+  EXPECT_GT(not_led, 10u);
+  EXPECT_GT(led, 10u);
+}
+
+}  // namespace
+}  // namespace holdfast::repairing
