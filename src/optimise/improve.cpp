@@ -20,7 +20,7 @@ class Improver {
         passes_(passes),
         spared_(spared),
         monitor_(monitor),
-        ways_(volume_, volume_.energy_of_sine(passes_.patient_aim)),
+        ways_(volume_, passes_.patient_aim),
         most_inserted_(
             static_cast<std::size_t>(passes_.inserted_per_tet * static_cast<double>(mesh_.tet_count()))) {}
 

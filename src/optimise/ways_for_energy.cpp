@@ -60,7 +60,7 @@ void EnergyWays::smooth_a_corner(Tet t, Outcome& out, double& work) {
 }
 
 void EnergyWays::contract_a_corner(Tet t, Outcome& out, double& work) {
-  if (!(volume_.energy(t) > very_bad_)) return;
+  if (!is_very_bad(t)) return;
   const TetMesh::Corners corners = volume_.mesh().corners(t);
   for (const Vertex v : corners) {
     if (!volume_.may_move(v) || volume_.in_vain().has(v, InVain::AtVertex::contraction)) continue;
@@ -74,13 +74,13 @@ void EnergyWays::contract_a_corner(Tet t, Outcome& out, double& work) {
 void EnergyWays::add_point(Tet t, Outcome& out, double& work) {
   const double energy = volume_.energy(t);
   if (!may_add_ || !(energy > volume_.energy_of_sine(tuning::kSineWorthAPoint))) return;
-  const bool is_added = adder_.add(t, energy > very_bad_);
+  const bool is_added = adder_.add(t, is_very_bad(t));
   work += tuning::kAddWork + adder_.work() / tuning::kAddTetsAWork;
   if (is_added) out.changed = adder_.ball();
 }
 
 void EnergyWays::refill(Tet t, Outcome& out, double& work) {
-  if (!(volume_.energy(t) > very_bad_)) return;
+  if (!is_very_bad(t)) return;
   work += tuning::kRefillWork;
   out.changed = refiller_.refill(t, may_add_);
   if (refiller_.point() != kNone) out.count = &ImproveStats::inserted;

@@ -18,7 +18,7 @@ namespace holdfast {
 /// Each changes the volume only where the sum of the energies falls.
 class EnergyWays {
  public:
-  /// What has more energy than `very_bad` is worth patience.
+  /// What is worse than an element whose least angle has the sine `very_bad` is worth patience.
   EnergyWays(ImprovedVolume& volume, double very_bad);
 
   /// Better elements, and the way that made them.
@@ -45,6 +45,9 @@ class EnergyWays {
 
  private:
   struct Way;
+  [[nodiscard]] bool is_very_bad(Tet t) const {
+    return volume_.energy(t) > volume_.energy_of_sine(very_bad_);
+  }
   void swap(Tet t, Outcome& out, double& work);
   void smooth_a_corner(Tet t, Outcome& out, double& work);
   void contract_a_corner(Tet t, Outcome& out, double& work);
