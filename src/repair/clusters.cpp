@@ -131,7 +131,8 @@ Vector normal_of(const State& state, Index facet) {
 Clusters find_clusters(const State& state, double gap, std::span<const Index> some, const Step& step) {
   std::vector<std::uint8_t> is_some(state.facets.size(), some.empty() ? 1 : 0);
   for (const Index f : some) is_some[f] = 1;
-  const auto [facet, boxes] = boxes_near(state, gap, some);
+  const auto near = boxes_near(state, gap, some);
+  const std::vector<Index>& facet = near.first;
   const Planes planes(state, facet);
   const auto share_area = [&](Index f, Index g) {
     const bool in_g = lies_in(state, planes, f, g, gap), in_f = lies_in(state, planes, g, f, gap);
@@ -143,7 +144,7 @@ Clusters find_clusters(const State& state, double gap, std::span<const Index> so
   };
   DisjointSets sets(state.facets.size());
   std::set<Index> together;
-  AabbTree(boxes).for_each_overlap(
+  AabbTree(near.second).for_each_overlap(
       [&](Index i, Index j) {
         const Index f = facet[i], g = facet[j];
         if (is_some[f] + is_some[g] == 0) return true;
