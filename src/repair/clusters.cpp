@@ -144,18 +144,19 @@ Clusters find_clusters(const State& state, double gap, std::span<const Index> so
   };
   DisjointSets sets(state.facets.size());
   std::set<Index> together;
-  AabbTree(near.second).for_each_overlap(
-      [&](Index i, Index j) {
-        const Index f = facet[i], g = facet[j];
-        if (is_some[f] + is_some[g] == 0) return true;
-        if (sets.root(f) != sets.root(g) && share_area(f, g)) {
-          sets.unite(f, g);
-          together.insert(f);
-          together.insert(g);
-        }
-        return true;
-      },
-      [](Index, Index) { return false; }, step);
+  AabbTree(near.second)
+      .for_each_overlap(
+          [&](Index i, Index j) {
+            const Index f = facet[i], g = facet[j];
+            if (is_some[f] + is_some[g] == 0) return true;
+            if (sets.root(f) != sets.root(g) && share_area(f, g)) {
+              sets.unite(f, g);
+              together.insert(f);
+              together.insert(g);
+            }
+            return true;
+          },
+          [](Index, Index) { return false; }, step);
   std::map<Index, Cluster> by_first;
   for (const Index f : together) by_first[sets.root(f)].facets.push_back(f);
   Clusters found;
