@@ -10,6 +10,7 @@
 
 #include "classify/keep.h"
 #include "holdfast/region_bounds.h"
+#include "numbers/finite.h"
 #include "surface/whereabouts.h"
 
 namespace holdfast {
@@ -22,10 +23,6 @@ void require(bool sensible, const char* otherwise) {
 
 constexpr unsigned kMostLayers = 100;
 constexpr double kLeastRatio = 0.61237243569579452;  // sqrt(6) / 4
-
-bool is_finite(const Point& p) {
-  return std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
-}
 
 // Also of a volume.
 bool is_length_or_none(double x) { return x >= 0 && std::isfinite(x); }

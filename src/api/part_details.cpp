@@ -21,7 +21,7 @@ struct Detail {
 
 bool is_sound(const Complex& joined, const Triangle& t) {
   return std::all_of(t.begin(), t.end(), [&](Index v) {
-    return v < joined.vertices.size() && repairing::is_finite(joined.vertices[v]);
+    return v < joined.vertices.size() && holdfast::is_finite(joined.vertices[v]);
   });
 }
 

@@ -25,8 +25,7 @@ bool is_open(const DefectSummary& summary, const std::vector<Defect>& defects) {
 void print_advice_on_tolerance(const MeshArguments& arguments) {
   if (arguments.paste && !arguments.paste->empty())
     say("--paste={} may be above the size of the parts' details, which are lost then: a smaller tolerance "
-        "may "
-        "help\n",
+        "may help\n",
         *arguments.paste);
 }
 

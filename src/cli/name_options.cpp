@@ -63,6 +63,16 @@ void add(std::set<int>& ids, const std::vector<int>& markers, std::size_t entiti
   for (const int marker : markers) ids.insert(marker);
 }
 
+/// Of a surface or volume, all but its regions.
+template <class Entities>
+Nameable marked_in(const Entities& of) {
+  Nameable ids;
+  add(ids.facets, of.facet_markers, of.facets.size());
+  add(ids.segments, of.segment_markers, of.segments.size());
+  add(ids.vertices, of.vertex_markers, of.vertices.size());
+  return ids;
+}
+
 std::string listed(const std::set<int>& ids) {
   constexpr std::size_t most = 20;
   if (ids.empty()) return "there is none at all";
@@ -96,19 +106,13 @@ Names names_of(const std::vector<std::string>& arguments) {
 }
 
 Nameable nameable_in(const Volume& volume) {
-  Nameable ids;
-  add(ids.facets, volume.facet_markers, volume.facets.size());
-  add(ids.segments, volume.segment_markers, volume.segments.size());
-  add(ids.vertices, volume.vertex_markers, volume.vertices.size());
+  Nameable ids = marked_in(volume);
   add(ids.regions, volume.regions, volume.tetrahedra.size());
   return ids;
 }
 
 Nameable nameable_in(const Surface& surface) {
-  Nameable ids;
-  add(ids.facets, surface.facet_markers, surface.facets.size());
-  add(ids.segments, surface.segment_markers, surface.segments.size());
-  add(ids.vertices, surface.vertex_markers, surface.vertices.size());
+  Nameable ids = marked_in(surface);
   for (const Surface::RegionSeed& seed : surface.regions) ids.regions.insert(seed.id);
   ids.regions_are_known = !surface.regions.empty();
   return ids;

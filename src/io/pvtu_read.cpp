@@ -4,7 +4,6 @@
 // have none.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <map>
 #include <set>
@@ -14,6 +13,7 @@
 #include "io/file_bytes.h"
 #include "io/formats.h"
 #include "io/vtu_block.h"
+#include "numbers/finite.h"
 
 namespace holdfast::io {
 namespace {
@@ -82,8 +82,6 @@ std::vector<Piece> read_pieces(const Source& source) {
   }
   return pieces;
 }
-
-bool is_finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
 
 bool same(const Point& a, const Point& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 

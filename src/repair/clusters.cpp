@@ -133,6 +133,7 @@ Clusters find_clusters(const State& state, double gap, std::span<const Index> so
   for (const Index f : some) is_some[f] = 1;
   const auto near = boxes_near(state, gap, some);
   const std::vector<Index>& facet = near.first;
+  const std::vector<Box>& boxes = near.second;
   const Planes planes(state, facet);
   const auto share_area = [&](Index f, Index g) {
     const bool in_g = lies_in(state, planes, f, g, gap), in_f = lies_in(state, planes, g, f, gap);
@@ -144,19 +145,18 @@ Clusters find_clusters(const State& state, double gap, std::span<const Index> so
   };
   DisjointSets sets(state.facets.size());
   std::set<Index> together;
-  AabbTree(near.second)
-      .for_each_overlap(
-          [&](Index i, Index j) {
-            const Index f = facet[i], g = facet[j];
-            if (is_some[f] + is_some[g] == 0) return true;
-            if (sets.root(f) != sets.root(g) && share_area(f, g)) {
-              sets.unite(f, g);
-              together.insert(f);
-              together.insert(g);
-            }
-            return true;
-          },
-          [](Index, Index) { return false; }, step);
+  AabbTree(boxes).for_each_overlap(
+      [&](Index i, Index j) {
+        const Index f = facet[i], g = facet[j];
+        if (is_some[f] + is_some[g] == 0) return true;
+        if (sets.root(f) != sets.root(g) && share_area(f, g)) {
+          sets.unite(f, g);
+          together.insert(f);
+          together.insert(g);
+        }
+        return true;
+      },
+      [](Index, Index) { return false; }, step);
   std::map<Index, Cluster> by_first;
   for (const Index f : together) by_first[sets.root(f)].facets.push_back(f);
   Clusters found;

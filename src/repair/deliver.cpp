@@ -12,6 +12,7 @@
 
 #include "exact/dyadic.h"
 #include "exact/space_point.h"
+#include "numbers/finite.h"
 #include "numbers/sorted.h"
 #include "surface/complex.h"
 #include "surface/intersect.h"
@@ -98,8 +99,6 @@ void mark_vertices(std::span<const int> markers, RepairResult& result) {
   result.surface.vertex_markers.resize(result.surface.vertices.size(), 0);
 }
 
-bool finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
-
 /// The least double that is not below the distance of two points.
 double distance_above(const Point& p, const Point& q) {
   exact::Dyadic square;
@@ -121,7 +120,7 @@ void list_moved(const Complex& input, RepairResult& result) {
   for (Index v = 0; v < input.vertices.size(); ++v) {
     const Point& before = input.vertices[v];
     Point& after = result.surface.vertices[v];
-    if (!finite(before)) continue;
+    if (!is_finite(before)) continue;
     if (before == after) {
       after = before;
       continue;
@@ -136,7 +135,7 @@ DropReason reason_of(const Complex& input, Index f, bool has_united) {
   const Triangle& t = input.facets[f];
   Simplex facet;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (t[i] >= input.vertices.size() || !finite(input.vertices[t[i]])) return DropReason::not_finite;
+    if (t[i] >= input.vertices.size() || !is_finite(input.vertices[t[i]])) return DropReason::not_finite;
     facet.point[i] = input.vertices[t[i]].data();
   }
   if (!set_projection(facet)) return DropReason::no_area;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "holdfast/types.h"
+#include "numbers/finite.h"
 
 namespace holdfast::repairing {
 
@@ -22,9 +23,6 @@ inline double length(const Vector& u) {
   if (!(most > 0) || !std::isfinite(most)) return most;
   const Vector v = over(u, most);
   return most * std::sqrt(dot(v, v));
-}
-inline bool is_finite(const Point& p) {
-  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
 }
 
 /// Where a point stands beside the inside of a side or facet; an infinite distance elsewhere.

@@ -59,7 +59,7 @@ class Settling {
     std::sort(vertices_.begin(), vertices_.end());
   }
 
-  [[nodiscard]] bool is_finite(Index v) const { return repairing::is_finite(at(v)); }
+  [[nodiscard]] bool is_finite(Index v) const { return holdfast::is_finite(at(v)); }
 
   // --- 1. Vertices ------------------------------------------------------------------------------------
 

@@ -2,14 +2,12 @@
 #include "surface/elements.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "mesh/parallel.h"
+#include "numbers/finite.h"
 
 namespace holdfast {
 namespace {
-
-bool finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
 
 // A segment of the complex by the first vertices at its ends' places, the lesser first.
 struct Candidate {
@@ -47,7 +45,7 @@ class Sorter {
     for (Index v = 0; v < points.size(); ++v) {
       const Index first = places.first[v];
       if (first == no_index) continue;
-      if (!finite(points[v]))
+      if (!is_finite(points[v]))
         result_.flaws.push_back({DefectKind::non_finite_coordinate, 1, v});
       else if (first != v && same_place_ == SamePlace::defect)
         result_.flaws.push_back({DefectKind::repeated_vertex, 1, v, first});
@@ -65,7 +63,7 @@ class Sorter {
     }
     bool good = true;
     for (Index& v : corners) {
-      good = good && finite(complex_.vertices[v]);
+      good = good && is_finite(complex_.vertices[v]);
       v = result_.places.first[v];
     }
     return good;
@@ -143,7 +141,8 @@ class Sorter {
 
   void add_vertices() {
     for (Index v = 0; v < complex_.vertices.size(); ++v) {
-      if (!used_[v] && result_.places.first[v] == v && finite(complex_.vertices[v])) add({{v, 0, 0}, v, 1});
+      if (!used_[v] && result_.places.first[v] == v && is_finite(complex_.vertices[v]))
+        add({{v, 0, 0}, v, 1});
     }
   }
 

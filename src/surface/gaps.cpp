@@ -7,6 +7,7 @@
 #include <map>
 
 #include "numbers/elementary.h"
+#include "numbers/finite.h"
 #include "numbers/sorted.h"
 #include "surface/aabb_tree.h"
 
@@ -16,10 +17,6 @@ namespace {
 /// Of the shortest edge at a vertex: how near another must be to look like the same. Wide enough for gaps
 /// that people overlook, too narrow for what was modelled.
 constexpr double kReach = 0.02;
-
-bool is_finite(const Point& p) {
-  return std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
-}
 
 /// How far p is from the middle of ab, and where: 0 at a, 1 at b.
 std::pair<double, double> from_side(const Point& p, const Point& a, const Point& b) {

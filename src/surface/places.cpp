@@ -3,16 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numeric>
 
 #include "holdfast/holdfast.h"
+#include "numbers/finite.h"
 #include "surface/weld.h"
 
 namespace holdfast {
 namespace {
-
-bool finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
 
 std::vector<std::uint8_t> used_vertices(const Complex& complex) {
   std::vector<std::uint8_t> used(complex.vertices.size(), 0);
@@ -40,7 +38,7 @@ std::vector<Index> first_at_places(std::span<const Point> vertices) {
     const std::size_t end = std::min(vertices.size(), begin + kBatch);
     for (std::size_t v = begin; v < end; ++v) hashes[v - begin] = table.announce(vertices[v]);
     for (std::size_t v = begin; v < end; ++v)
-      if (finite(vertices[v]))
+      if (is_finite(vertices[v]))
         first[v] = table.find_or_add(vertices[v], hashes[v - begin], static_cast<Index>(v), point_of);
   }
   return first;
@@ -51,7 +49,7 @@ Places places_of(const Complex& complex) {
   places.first = first_at_places(complex.vertices);
   bool suspect = false;
   for (Index v = 0; v < places.first.size() && !suspect; ++v)
-    suspect = places.first[v] != v || !finite(complex.vertices[v]);
+    suspect = places.first[v] != v || !is_finite(complex.vertices[v]);
   if (!suspect) return places;
 
   const std::vector<std::uint8_t> used = used_vertices(complex);
@@ -65,7 +63,7 @@ Places places_of(const Complex& complex) {
     if (used[v] != 0) {
       first = in_use;
       if (first != v) ++places.merged;
-    } else if (first != v || in_use != no_index || !finite(complex.vertices[v])) {
+    } else if (first != v || in_use != no_index || !is_finite(complex.vertices[v])) {
       first = no_index;
       ++places.left_out;
     }
