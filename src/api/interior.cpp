@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "api/report.h"
@@ -74,6 +75,14 @@ void note(const ImproveStats& stats, Report::Field& report) {
 // The part of the stage's work that every effort takes.
 constexpr double kCommonWork = 0.6;
 
+// Where facets force most of what is bad, more elements hardly help: other meshers have as many as the volume
+// takes without field points. Points go until there are so many times as many, and come again where they pay.
+constexpr double kMostOfThoseWithout = 1.25, kMostInTheEnd = 1.35;
+
+double elements_of(const Report::Shape& shape) {
+  return static_cast<double>(std::accumulate(shape.quality.begin(), shape.quality.end(), std::size_t{0}));
+}
+
 // What every effort begins with. It is brief where it may go on for falling behind the mesh without field
 // points.
 ImproveStats improve_as_fast(const Attempt& attempt, Field& field, Report::Field& report) {
@@ -82,9 +91,14 @@ ImproveStats improve_as_fast(const Attempt& attempt, Field& field, Report::Field
       describe_shape(field.parts ? shape_of(*field.parts, threads) : shape_of(field.volume(), threads));
   std::optional<FilledParts> filled;
   if (field.parts) filled.emplace(FilledParts{std::move(field.parts), field.size_function()});
-  const bool may_be_brief = field.without && field.without->is_given();
-  const ImproveStats stats = improve_in_parts(field.volume(), std::move(filled), {Effort::fast, may_be_brief},
-                                              threads, attempt.monitor);
+  Extent extent = Effort::fast;
+  if (field.without && field.without->is_given()) {
+    extent.is_brief = true;
+    extent.least_part =
+        kMostOfThoseWithout * static_cast<double>(field.without->elements()) / elements_of(report.before);
+  }
+  const ImproveStats stats =
+      improve_in_parts(field.volume(), std::move(filled), extent, threads, attempt.monitor);
   note(stats, report);
   return stats;
 }
@@ -139,10 +153,8 @@ Begun keep_what_pays(const Attempt& attempt, BoxMesh& box, Division& division, F
 }
 
 // Where facets force much of what is bad, what can be bettered are the shares of elements with small angles.
-// Where they force most of it, more elements hardly help: other meshers have as many as the volume takes
-// without field points.
 Extent extent_of_good(Field& field, Begun& begun, const Threads& threads) {
-  constexpr double kManySmall = 0.3, kMostOfThoseWithout = 1.35, kLeastGrowth = 0.06;
+  constexpr double kManySmall = 0.3, kLeastGrowth = 0.02;
   Extent extent = Effort::good;
   if (!field.without || !field.without->is_given()) return extent;
   if (!begun.figures) begun.figures = figures_of(field.volume(), threads);
@@ -150,8 +162,8 @@ Extent extent_of_good(Field& field, Begun& begun, const Threads& threads) {
   const auto below_30_deg = static_cast<double>(begun.figures->below_30_deg());
   extent.lowers_shares = begun.was_brief || below_30_deg > kManySmall * elements;
   if (begun.was_brief)
-    extent.most_growth = std::max(
-        kLeastGrowth, kMostOfThoseWithout * static_cast<double>(field.without->elements()) / elements - 1);
+    extent.most_growth =
+        std::max(kLeastGrowth, kMostInTheEnd * static_cast<double>(field.without->elements()) / elements - 1);
   return extent;
 }
 

@@ -1,35 +1,24 @@
 #include "optimise/add_point.h"
 
 #include <algorithm>
-#include <array>
 
 #include "mesh/editor.h"
 #include "mesh/measure.h"
+#include "optimise/small_angles.h"
 #include "optimise/tuning.h"
 
 namespace holdfast {
 namespace {
 
-// What elements with small angles weigh, those with an angle below 10, 20 and 30 degrees.
-class Burden {
- public:
+// What the elements of a cavity, or of a ball in its place, weigh.
+struct Burden {
   double by_number = 0;  // over what new elements may
   double by_volume = 0;
 
-  explicit Burden(const ImprovedVolume& judge) {
-    for (std::size_t k = 0; k < from_.size(); ++k)
-      from_[k] = judge.energy_of_sine(tuning::kWeightBelow[k].sine);
-  }
-  void add(double energy, double volume) {
-    double weight = 0;
-    for (std::size_t k = 0; k < from_.size(); ++k)
-      if (energy > from_[k]) weight += tuning::kWeightBelow[k].weight;
+  void add(double weight, double volume) {
     by_number += weight - tuning::kWeightThatPays;
     by_volume += weight * volume;
   }
-
- private:
-  std::array<double, tuning::kWeightBelow.size()> from_{};
 };
 
 }  // namespace
@@ -115,11 +104,13 @@ bool PointAdder::improves(Vertex p) {
 // good mesh would; or less of the volume is bad.
 bool PointAdder::pays(Vertex p) const {
   const TetMesh& mesh = volume_.mesh();
-  Burden before(volume_), after(volume_);
-  for (const Tet t : cavity_.tets()) before.add(volume_.energy(t), six_volumes(mesh, mesh.corners(t)));
+  const SmallAngles small(volume_);
+  Burden before, after;
+  for (const Tet t : cavity_.tets())
+    before.add(small.weight(volume_.energy(t)), six_volumes(mesh, mesh.corners(t)));
   for (const RimFace& rim : cavity_.rim()) {
     const TetMesh::Corners corners{rim.v[0], rim.v[1], rim.v[2], p};
-    after.add(volume_.energy_of(corners), six_volumes(mesh, corners));
+    after.add(small.weight(volume_.energy_of(corners)), six_volumes(mesh, corners));
   }
   return after.by_number <= before.by_number ||
          after.by_volume <= tuning::kPartOfVolumeThatPays * before.by_volume;

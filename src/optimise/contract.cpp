@@ -2,76 +2,46 @@
 
 #include <algorithm>
 
-#include "mesh/editor.h"
-#include "mesh/traverse.h"
-#include "numbers/sorted.h"
 #include "optimise/tuning.h"
 
 namespace holdfast {
 
 std::span<const Tet> VertexContractor::contract(Vertex v, double longest) {
-  TetMesh& mesh = volume_.mesh();
-  tets_.clear();
-  ball(mesh, v, tets_);
-  work_ = static_cast<double>(tets_.size());
-  if (tets_.size() > tuning::kMostContractedBall) return {};
-  link_.clear();
-  for (const Tet t : tets_)
-    for (const Vertex w : mesh.corners(t))
-      if (w != v) link_.push_back(w);
-  sort_unique(link_);
-  work_ *= static_cast<double>(link_.size());
+  const bool is_small = contraction_.turn_to(v);
+  work_ = static_cast<double>(contraction_.ball().size());
+  if (!is_small) return {};
+  const std::span<const Vertex> link = contraction_.link();
+  work_ *= static_cast<double>(link.size());
   double most = 0;
-  for (const Vertex w : link_) most = std::max(most, volume_.length(v, w));
+  for (const Vertex w : link) most = std::max(most, volume_.length(v, w));
   if (most > longest) longest = tuning::kLongerContracted * most;
-  const double before = volume_.energy(tets_);
-  double best = before;
-  fresh_.clear();
-  for (const Vertex w : link_) {
-    const double after = energy_with(v, w, longest, best);
-    if (!is_less(after, best)) continue;
-    if (!std::all_of(candidate_.begin(), candidate_.end(),
-                     [&](const TetMesh::Corners& c) { return volume_.is_positive(c); }))
-      continue;
+  double best = volume_.energy(contraction_.ball());
+  for (const Vertex w : link) {
+    const double after = energy_with(w, longest, best);
+    if (!is_less(after, best) || !contraction_.is_valid()) continue;
     best = after;
-    fresh_.swap(candidate_);
+    contraction_.choose();
   }
-  if (fresh_.empty() || !volume_.allows(tets_, fresh_)) return {};
-  const auto created = volume_.replace(tets_, fresh_);
-  MeshEditor(mesh).remove_vertex(v);
-  return created;
+  if (!contraction_.has_choice() || !contraction_.is_allowed()) return {};
+  return contraction_.make();
 }
 
-// The energy of the ball of v with w in its place, and the tetrahedra in candidate_; infinite, or at least
-// `limit`, where that does not pay.
-double VertexContractor::energy_with(Vertex v, Vertex w, double longest, double limit) {
-  if (!list_with(v, w, longest) || candidate_.empty()) return kNoEnergy;
+// The energy of the ball with w in the place of its vertex; infinite, or at least `limit`, where that does
+// not pay, or an edge would be too long.
+double VertexContractor::energy_with(Vertex w, double longest, double limit) {
+  const std::span<const TetMesh::Corners> tets = contraction_.with(w);
+  const auto is_short = [&](const TetMesh::Corners& c) {
+    return std::all_of(c.begin(), c.end(),
+                       [&](Vertex x) { return x == w || volume_.length(x, w) <= longest; });
+  };
+  if (tets.empty() || !std::all_of(tets.begin(), tets.end(), is_short)) return kNoEnergy;
   double sum = 0;
-  for (std::size_t k = 0; k + 1 < candidate_.size() && sum < limit; k += 2) {
-    const Pair both = volume_.energies_of(candidate_[k], candidate_[k + 1]);
+  for (std::size_t k = 0; k + 1 < tets.size() && sum < limit; k += 2) {
+    const Pair both = volume_.energies_of(tets[k], tets[k + 1]);
     sum += both[0] + both[1];
   }
-  if (candidate_.size() % 2 == 1 && sum < limit) sum += volume_.energy_of(candidate_.back());
+  if (tets.size() % 2 == 1 && sum < limit) sum += volume_.energy_of(tets.back());
   return sum;
-}
-
-// The tetrahedra of the ball of v with w in its place, in candidate_; false where an edge would be too long.
-bool VertexContractor::list_with(Vertex v, Vertex w, double longest) {
-  const TetMesh& mesh = volume_.mesh();
-  candidate_.clear();
-  for (const Tet t : tets_) {
-    TetMesh::Corners c = mesh.corners(t);
-    if (std::find(c.begin(), c.end(), w) != c.end()) continue;
-    for (Vertex& x : c) {
-      if (x == v) {
-        x = w;
-        continue;
-      }
-      if (volume_.length(x, w) > longest) return false;
-    }
-    candidate_.push_back(c);
-  }
-  return true;
 }
 
 }  // namespace holdfast

@@ -1,15 +1,14 @@
 // Removing one vertex by contraction onto a neighbour: too short edges go, and points in the way.
 #pragma once
 
-#include <vector>
-
+#include "optimise/contraction.h"
 #include "optimise/volume.h"
 
 namespace holdfast {
 
 class VertexContractor {
  public:
-  explicit VertexContractor(ImprovedVolume& volume) : volume_(volume) {}
+  explicit VertexContractor(ImprovedVolume& volume) : volume_(volume), contraction_(volume) {}
 
   /// Contracts v onto the neighbour that makes the energy least, if that is less than before, and no edge
   /// becomes longer than `longest`. Where some edge at v is longer already, as beside large facets, sizes are
@@ -20,13 +19,10 @@ class VertexContractor {
   [[nodiscard]] double work() const { return work_; }
 
  private:
-  [[nodiscard]] double energy_with(Vertex v, Vertex w, double longest, double limit);
-  [[nodiscard]] bool list_with(Vertex v, Vertex w, double longest);
+  [[nodiscard]] double energy_with(Vertex w, double longest, double limit);
 
   ImprovedVolume& volume_;
-  std::vector<Tet> tets_;
-  std::vector<Vertex> link_;
-  std::vector<TetMesh::Corners> candidate_, fresh_;
+  Contraction contraction_;
   double work_ = 0;
 };
 

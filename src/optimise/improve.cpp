@@ -4,6 +4,7 @@
 #include <limits>
 #include <queue>
 
+#include "optimise/thin_out.h"
 #include "optimise/tuning.h"
 #include "optimise/ways_for_energy.h"
 
@@ -21,13 +22,18 @@ class Improver {
         spared_(spared),
         monitor_(monitor),
         ways_(volume_, passes_.patient_aim),
+        thinner_(volume_, fresh, [this] { poll(0); }),
         most_inserted_(
             static_cast<std::size_t>(passes_.inserted_per_tet * static_cast<double>(mesh_.tet_count()))) {}
 
   /// From now on, no figure may become worse.
   void keep(const Figures& figures) { volume_.keep(figures); }
-  /// From now on, what is bad may be left where it is much.
-  void be_brief() { is_brief_ = true; }
+  /// From now on, what is bad may be left where it is much; and points go again where they cost little, until
+  /// that part of the tetrahedra that there are is left.
+  void be_brief(double least_part) {
+    is_brief_ = true;
+    least_tets_ = thinner_.tets_where_left(least_part);
+  }
   /// From now on, points are added as long as there are less than that many elements more, of those there
   /// are.
   void grow_at_most(double part) {
@@ -63,6 +69,7 @@ class Improver {
   void work_in_rounds(int steps) {
     for (int round = 0; round < passes_.rounds; ++round) {
       stage_ = {static_cast<double>(passes_.passes + round) / steps, 1.0 / steps};
+      if (passes_.points_must_pay) stats_.contracted += thinner_.run(0, tuning::kCostOfWhatMustGo);
       volume_.touch_all();
       if (!work_on_single_ones(passes_.aim, work(1), passes_.first, Patience::usual)) break;
     }
@@ -79,9 +86,15 @@ class Improver {
     }
   }
 
-  // Facets force most of what is bad: no more than what shows in figures, and the very worst.
+  // Facets force most of what is bad, and make points useless: no more than what shows in figures, and the
+  // very worst.
   void work_briefly() {
     const tuning::Brief& brief = tuning::kBrief;
+    if (const std::size_t gone = thinner_.run(least_tets_, brief.most_cost); gone > 0) {
+      stats_.contracted += gone;
+      swap_pass();
+      smooth_pass();
+    }
     volume_.touch_all();
     work_on_single_ones(patient_aim(), brief.least_patient_work + brief.patient_work_per_tet * tets(),
                         First::the_worst, Patience::all_ways);
@@ -216,8 +229,9 @@ class Improver {
   const std::span<const std::uint8_t> spared_;  // by vertex
   Monitor& monitor_;
   EnergyWays ways_;
+  Thinner thinner_;
   const std::size_t most_inserted_;
-  double most_tets_ = std::numeric_limits<double>::infinity();
+  double least_tets_ = 0, most_tets_ = std::numeric_limits<double>::infinity();
   std::array<double, 2> stage_{}, work_{0, 1};
   bool is_brief_ = false;
   ImproveStats stats_;
@@ -228,7 +242,7 @@ class Improver {
 ImproveStats improve(const VolumeData& volume, Extent extent, Monitor& monitor,
                      std::span<const std::uint8_t> spared, std::span<const std::uint8_t> fresh) {
   Improver improver(volume, tuning::passes_of(extent.effort), spared, fresh, monitor);
-  if (extent.is_brief) improver.be_brief();
+  if (extent.is_brief) improver.be_brief(extent.least_part);
   return improver.run();
 }
 

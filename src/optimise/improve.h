@@ -24,6 +24,8 @@ struct Extent {
   /// Where many elements are bad after a pass, most are left: for a result that is compared with another, and
   /// goes on where it is worse.
   bool is_brief;
+  /// Of what is brief: points go again until that part of the elements is left, as long as it costs little.
+  double least_part = 1;
   /// Of what goes on: facets force so much that the shares of elements with small angles are to become less.
   bool lowers_shares = false;
   /// Points are added as long as there are less than so many elements more, of those there are.

@@ -14,7 +14,7 @@ namespace holdfast {
 
 class InVain {
  public:
-  enum class AtVertex : std::uint8_t { smoothing = 1, contraction = 2 };
+  enum class AtVertex : std::uint8_t { smoothing = 1, contraction = 2, going = 4 };
   enum class AtEdge : std::uint8_t { point, point_with_patience };
 
   void make_room(std::size_t slots, std::size_t vertices) {

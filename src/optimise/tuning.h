@@ -131,6 +131,8 @@ struct Brief {
   double many_bad = 0.05;  ///< of smooth surfaces with a fine mesh 0.00001 to 0.012 are
   int most_passes = 2;
   double patient_work_per_tet = 0.06, least_patient_work = 600;
+  /// Of an element that goes: what others may weigh more (kWeightBelow).
+  double most_cost = 0.1;
 };
 inline constexpr Brief kBrief;
 [[nodiscard]] constexpr Passes passes_of(Effort effort) {
@@ -174,6 +176,10 @@ struct WeightBelow {
 inline constexpr std::array<WeightBelow, 3> kWeightBelow{{{0.1736, 0.7}, {0.342, 1}, {0.5, 1}}};
 inline constexpr double kWeightThatPays = 0.5;        ///< of an element more
 inline constexpr double kPartOfVolumeThatPays = 0.7;  ///< part of what weighs, by volume, that may stay
+// Points that go again, by what the elements beside them weigh more for each that goes.
+inline constexpr double kCostOfWhatMustGo = -1;
+inline constexpr double kWeightOfTwiceTheEnergy = 0.07;  ///< of an element
+inline constexpr double kSineNotToFallBelow = 0.02;      ///< 1 degree, unless there is worse
 // Contractions.
 inline constexpr double kLongestContracted = 1.6;  ///< sizes: longer edges would undo the sizes asked for
 inline constexpr double kLongerContracted = 2;     ///< times the longest edge before, where that is longer

@@ -193,6 +193,26 @@ TEST(Improve, IsBriefWhereManyElementsAreBadAndOnlyIfItMay) {
   EXPECT_LT(brief.inserted, whole.inserted);
 }
 
+// Where facets force much, so that it is brief, points go again: of those that are free.
+TEST(Improve, ThinsOutWhatIsBrief) {
+  const auto tets_left = [](double least_part) {
+    TetMesh mesh = random_mesh(2000, 5);
+    std::vector<RegionId> region_of(mesh.slot_count(), 0);
+    const std::vector<bool> kept{true};
+    std::vector<double> sizes(mesh.vertex_count(), 1);
+    const VolumeData volume{mesh, region_of, sizes, kept, 1000};
+    const Options options;
+    Monitor monitor(options);
+    Extent extent{Effort::fast, true};
+    extent.least_part = least_part;
+    const ImproveStats stats = improve(volume, extent, monitor);
+    EXPECT_TRUE(stats.was_brief);
+    EXPECT_EQ(find_fault(mesh), "");
+    return mesh.tet_count();
+  };
+  EXPECT_LT(tets_left(0.5), 0.95 * static_cast<double>(tets_left(1)));
+}
+
 // Points that nobody limits are added without end where all vertices stand.
 TEST(Improve, AddsNoPointsBeyondTheGrowthThatIsAllowed) {
   const auto improved = [](double most_growth) {

@@ -1,0 +1,53 @@
+#include "optimise/contraction.h"
+
+#include <algorithm>
+
+#include "mesh/editor.h"
+#include "mesh/traverse.h"
+#include "numbers/sorted.h"
+#include "optimise/tuning.h"
+
+namespace holdfast {
+
+bool Contraction::turn_to(Vertex v) {
+  v_ = v;
+  chosen_.clear();
+  link_.clear();
+  ball_.clear();
+  holdfast::ball(volume_.mesh(), v, ball_);
+  if (ball_.size() > tuning::kMostContractedBall) return false;
+  members_.clear();
+  for (const Tet t : ball_) {
+    const TetMesh::Corners& c = volume_.mesh().corners(t);
+    members_.push_back({c, static_cast<std::size_t>(std::find(c.begin(), c.end(), v) - c.begin())});
+    for (const Vertex w : c)
+      if (w != v) link_.push_back(w);
+  }
+  sort_unique(link_);
+  return true;
+}
+
+std::span<const TetMesh::Corners> Contraction::with(Vertex w) {
+  candidate_.clear();
+  for (const Member& m : members_) {
+    const TetMesh::Corners& c = m.corners;
+    if (c[0] == w || c[1] == w || c[2] == w || c[3] == w) continue;
+    candidate_.push_back(c);
+    candidate_.back()[m.index] = w;
+  }
+  return candidate_;
+}
+
+bool Contraction::is_valid() const {
+  return !candidate_.empty() &&
+         std::all_of(candidate_.begin(), candidate_.end(),
+                     [&](const TetMesh::Corners& c) { return volume_.is_positive(c); });
+}
+
+std::span<const Tet> Contraction::make() {
+  const auto created = volume_.replace(ball_, chosen_);
+  MeshEditor(volume_.mesh()).remove_vertex(v_);
+  return created;
+}
+
+}  // namespace holdfast

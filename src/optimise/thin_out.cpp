@@ -1,0 +1,112 @@
+#include "optimise/thin_out.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "optimise/tuning.h"
+
+namespace holdfast {
+namespace {
+
+// The logarithm to the base 2, but straight between powers of 2: that has the same bits everywhere.
+double rough_log2(double x) {
+  int exponent = 0;
+  const double half_to_one = std::frexp(x, &exponent);
+  return exponent + 2 * half_to_one - 2;
+}
+
+}  // namespace
+
+double Thinner::tets_where_left(double part) const {
+  const TetMesh& mesh = volume_.mesh();
+  std::size_t tets = 0;
+  for (Tet t = 0; t < mesh.slot_count(); ++t) {
+    const TetMesh::Corners& c = mesh.corners(t);
+    if (volume_.is_inside(t) &&
+        (fresh_.empty() || std::any_of(c.begin(), c.end(), [&](Vertex v) { return may_go(v); })))
+      ++tets;
+  }
+  return static_cast<double>(mesh.tet_count()) - (1 - part) * static_cast<double>(tets);
+}
+
+std::size_t Thinner::run(double least_tets, double most_cost) {
+  TetMesh& mesh = volume_.mesh();
+  const auto is_to_go_on = [&] { return static_cast<double>(mesh.tet_count()) > least_tets; };
+  small_.emplace(volume_);
+  queue_ = {};
+  if (is_to_go_on())
+    for (Vertex v = volume_.first_free(); v < mesh.vertex_count(); ++v)
+      if (mesh.in_mesh(v)) push(v, most_cost);
+  std::size_t gone = 0;
+  while (!queue_.empty() && is_to_go_on()) {
+    const Entry next = queue_.top();
+    queue_.pop();
+    if (!mesh.in_mesh(next.v)) continue;
+    poll_();
+    // Neighbours that went may have made it dearer since.
+    const double cost = cost_of(next.v, most_cost);
+    if (!contraction_.has_choice()) continue;
+    if (cost > next.cost && !queue_.empty() && cost > queue_.top().cost) {
+      queue_.push({cost, next.v});
+      continue;
+    }
+    if (!contraction_.is_allowed()) continue;
+    link_.assign(contraction_.link().begin(), contraction_.link().end());
+    contraction_.make();
+    ++gone;
+    for (const Vertex w : link_) push(w, most_cost);
+  }
+  return gone;
+}
+
+void Thinner::push(Vertex v, double most_cost) {
+  if (!may_go(v) || volume_.in_vain().has(v, InVain::AtVertex::going)) return;
+  poll_();
+  const double cost = cost_of(v, most_cost);
+  if (contraction_.has_choice())
+    queue_.push({cost, v});
+  else
+    volume_.in_vain().add(v, InVain::AtVertex::going);
+}
+
+// The least, if it is at most `most`, and then it is chosen.
+double Thinner::cost_of(Vertex v, double most) {
+  if (!contraction_.turn_to(v)) return most;
+  const std::span<const Tet> ball = contraction_.ball();
+  double before = 0, worst = volume_.energy_of_sine(tuning::kSineNotToFallBelow);
+  for (const Tet t : ball) {
+    before += burden_of(volume_.energy(t));
+    worst = std::max(worst, volume_.energy(t));
+  }
+  double best = most;
+  for (const Vertex w : contraction_.link()) {
+    const auto gone = static_cast<double>(ball.size() - contraction_.with(w).size());
+    const double limit = before + best * gone;
+    const double after = burden_of_listed(worst, limit);
+    if (!(after < limit) || !contraction_.is_valid()) continue;
+    best = (after - before) / gone;
+    contraction_.choose();
+  }
+  return best;
+}
+
+// Of what the contraction has listed; at least `limit` where it is no less, or an element is worse than that.
+double Thinner::burden_of_listed(double worst, double limit) const {
+  const std::span<const TetMesh::Corners> tets = contraction_.listed();
+  double sum = 0;
+  for (std::size_t k = 0; k < tets.size() && sum < limit; k += 2) {
+    const bool is_last = k + 1 == tets.size();
+    const Pair both = volume_.energies_of(tets[k], tets[is_last ? k : k + 1]);
+    if (!(both[0] < worst && both[1] < worst)) return limit;
+    sum += burden_of(both[0]) + (is_last ? 0 : burden_of(both[1]));
+  }
+  return sum;
+}
+
+// Energies decide between those that weigh the same.
+double Thinner::burden_of(double energy) const {
+  constexpr double kMostEnergy = 1e30;
+  return small_->weight(energy) + tuning::kWeightOfTwiceTheEnergy * rough_log2(std::min(energy, kMostEnergy));
+}
+
+}  // namespace holdfast

@@ -1,0 +1,137 @@
+// Points that do not pay go again: in which order, how many, and what becomes of the rest.
+#include "optimise/thin_out.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "delaunay/delaunay.h"
+#include "mesh/editor.h"
+#include "mesh/measure.h"
+#include "mesh/validate.h"
+
+namespace holdfast {
+namespace {
+
+// Random points in the unit cube; the corners stand.
+struct Cube {
+  TetMesh mesh;
+  std::vector<RegionId> region_of;
+  std::vector<double> sizes;
+  const std::vector<bool> kept{true};
+
+  explicit Cube(int points, std::uint64_t seed = 1) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> any(0, 1);
+    for (int k = 0; k < 8; ++k)
+      MeshEditor(mesh).add_vertex(Point{double(k & 1), double((k >> 1) & 1), double(k >> 2)});
+    for (int k = 0; k < points; ++k)
+      MeshEditor(mesh).add_vertex(Point{any(random), any(random), any(random)});
+    EXPECT_TRUE(build_delaunay(mesh, {1}, nullptr));
+    region_of.assign(mesh.slot_count(), 0);
+    sizes.assign(mesh.vertex_count(), 1);
+  }
+  [[nodiscard]] VolumeData data() { return {mesh, region_of, sizes, kept, 8}; }
+};
+
+struct Found {
+  double weight = 0, worst = 0, volume = 0;
+};
+
+Found found(const ImprovedVolume& volume) {
+  const TetMesh& mesh = volume.mesh();
+  const SmallAngles small(volume);
+  Found sum;
+  for (Tet t = 0; t < mesh.slot_count(); ++t) {
+    if (!volume.is_inside(t)) continue;
+    sum.weight += small.weight(volume.energy(t));
+    sum.worst = std::max(sum.worst, volume.energy(t));
+    sum.volume += six_volumes(mesh, mesh.corners(t));
+  }
+  return sum;
+}
+
+constexpr double kAnyCost = 1e9;
+
+TEST(Thinner, EndsWhereSoManyTetrahedraAreLeft) {
+  Cube cube(300);
+  ImprovedVolume volume(cube.data());
+  Thinner thinner(volume, {}, [] {});
+  const auto tets = static_cast<double>(cube.mesh.tet_count());
+  EXPECT_EQ(thinner.run(tets, kAnyCost), 0u);
+  const double half = thinner.tets_where_left(0.5);
+  EXPECT_LT(half, 0.55 * tets);
+  EXPECT_GT(half, 0.5 * tets);  // the ghosts stay
+  EXPECT_GT(thinner.run(half, kAnyCost), 10u);
+  EXPECT_LE(static_cast<double>(cube.mesh.tet_count()), half);
+  EXPECT_GT(static_cast<double>(cube.mesh.tet_count()), 0.9 * half);
+  EXPECT_EQ(find_fault(cube.mesh), "");
+}
+
+// The volume stays full, and no element becomes worse than the worst was.
+TEST(Thinner, LeavesAValidMesh) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Cube cube(200, seed);
+    ImprovedVolume volume(cube.data());
+    const Found before = found(volume);
+    EXPECT_GT(Thinner(volume, {}, [] {}).run(0, kAnyCost), 20u);
+    const Found after = found(volume);
+    EXPECT_EQ(find_fault(cube.mesh), "");
+    EXPECT_NEAR(after.volume, before.volume, 1e-12);
+    EXPECT_LE(after.worst, before.worst);
+  }
+}
+
+// What goes at a cost of -1 takes more of what weighs with it than there are tetrahedra less.
+TEST(Thinner, TakesNoVertexThatCostsTooMuch) {
+  Cube cube(300);
+  ImprovedVolume volume(cube.data());
+  const Found before = found(volume);
+  const auto tets = static_cast<double>(cube.mesh.tet_count());
+  Thinner thinner(volume, {}, [] {});
+  const std::size_t gone = thinner.run(0, -1);
+  EXPECT_GT(gone, 0u);
+  const double fewer = tets - static_cast<double>(cube.mesh.tet_count());
+  const double energies_at_most = tuning::kWeightOfTwiceTheEnergy * 100 * static_cast<double>(gone);
+  EXPECT_LT(found(volume).weight, before.weight - fewer + energies_at_most);
+  EXPECT_EQ(thinner.run(0, -1), 0u);  // nothing is left
+  Cube same(300);
+  ImprovedVolume of_same(same.data());
+  EXPECT_GT(Thinner(of_same, {}, [] {}).run(0, kAnyCost), gone);
+}
+
+TEST(Thinner, LeavesVerticesThatAreNotFresh) {
+  Cube cube(200);
+  ImprovedVolume volume(cube.data());
+  std::vector<std::uint8_t> fresh(150, 0);
+  for (Vertex v = 100; v < 150; ++v) fresh[v] = 1;
+  Thinner thinner(volume, fresh, [] {});
+  const double all = Thinner(volume, {}, [] {}).tets_where_left(0.5);
+  EXPECT_GT(thinner.tets_where_left(0.5), all);
+  EXPECT_GT(thinner.run(0, kAnyCost), 10u);
+  for (Vertex v = 0; v < 100; ++v) EXPECT_TRUE(cube.mesh.in_mesh(v));
+}
+
+TEST(Thinner, KeepsFigures) {
+  Cube cube(200, 3);
+  ImprovedVolume volume(cube.data());
+  const Figures before = figures_of(cube.data());
+  volume.keep(before);
+  EXPECT_GT(Thinner(volume, {}, [] {}).run(0, kAnyCost), 0u);
+  EXPECT_TRUE(figures_of(cube.data()).is_no_worse_than(before));
+}
+
+TEST(Thinner, AsksForLeaveToGoOn) {
+  Cube cube(100);
+  ImprovedVolume volume(cube.data());
+  struct Enough {};
+  int asked = 0;
+  Thinner thinner(volume, {}, [&] {
+    if (++asked == 50) throw Enough{};
+  });
+  EXPECT_THROW(thinner.run(0, kAnyCost), Enough);
+  EXPECT_EQ(find_fault(cube.mesh), "");
+}
+
+}  // namespace
+}  // namespace holdfast
