@@ -17,13 +17,14 @@ bool Contraction::turn_to(Vertex v) {
   holdfast::ball(volume_.mesh(), v, ball_);
   if (ball_.size() > tuning::kMostContractedBall) return false;
   members_.clear();
+  faces_.clear();
   for (const Tet t : ball_) {
     const TetMesh::Corners& c = volume_.mesh().corners(t);
-    members_.push_back({c, static_cast<std::size_t>(std::find(c.begin(), c.end(), v) - c.begin())});
-    for (const Vertex w : c)
-      if (w != v) link_.push_back(w);
+    const auto at = static_cast<std::size_t>(std::find(c.begin(), c.end(), v) - c.begin());
+    members_.push_back({c, at});
+    faces_.push_back({c[(at + 1) % 4], c[(at + 2) % 4], c[(at + 3) % 4]});
   }
-  sort_unique(link_);
+  link_ = corners_of_all(faces_);
   return true;
 }
 

@@ -1,6 +1,8 @@
 // A free vertex that goes: its ball, filled again with one of its neighbours in its place.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -41,6 +43,7 @@ class Contraction {
   Vertex v_ = kNone;
   std::vector<Tet> ball_;
   std::vector<Member> members_;
+  std::vector<std::array<Vertex, 3>> faces_;  // of the ball, opposite v
   std::vector<Vertex> link_;
   std::vector<TetMesh::Corners> candidate_, chosen_;
 };

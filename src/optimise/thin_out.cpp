@@ -1,18 +1,18 @@
 #include "optimise/thin_out.h"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 
 #include "optimise/tuning.h"
 
 namespace holdfast {
 namespace {
 
-// The logarithm to the base 2, but straight between powers of 2: that has the same bits everywhere.
+// The logarithm to the base 2, but straight between powers of 2: that has the same bits everywhere. A double
+// is its exponent, and then its fraction.
 double rough_log2(double x) {
-  int exponent = 0;
-  const double half_to_one = std::frexp(x, &exponent);
-  return exponent + 2 * half_to_one - 2;
+  constexpr double kFractions = 0x1p52, kBias = 1023;
+  return static_cast<double>(std::bit_cast<std::int64_t>(x)) / kFractions - kBias;
 }
 
 }  // namespace
