@@ -94,8 +94,10 @@ ImproveStats improve_as_fast(const Attempt& attempt, Field& field, Report::Field
   Extent extent = Effort::fast;
   if (field.without && field.without->is_given()) {
     extent.is_brief = true;
-    extent.least_part =
-        kMostOfThoseWithout * static_cast<double>(field.without->elements()) / elements_of(report.before);
+    const Sizes& asked = *attempt.options.sizes;
+    if (asked.grow && !asked.gradation)
+      extent.least_part =
+          kMostOfThoseWithout * static_cast<double>(field.without->elements()) / elements_of(report.before);
   }
   const ImproveStats stats =
       improve_in_parts(field.volume(), std::move(filled), extent, threads, attempt.monitor);
