@@ -14,7 +14,7 @@
 #include "api/attempt.h"
 #include "api/bounds.h"
 #include "api/course.h"
-#include "api/fill_polyhedron.h"
+#include "api/fillings.h"
 #include "api/input.h"
 #include "api/judge.h"
 #include "api/remote_components.h"
@@ -131,12 +131,12 @@ class Call {
     worst_without_field_ = mesh_once({input_, options, seed_++, threads_, monitor_, &fill_anew_}, result_);
   }
 
-  [[nodiscard]] std::optional<Filling> fill(const Complex& polyhedron, PointsOfFilling points) {
+  [[nodiscard]] std::optional<Filling> fill(const ToFill& asked, const LikelyToFill& likely) {
     try {
       // All of them together.
       if (!end_of_filling_) end_of_filling_ = half_of_the_time();
       const LessTime half(limits_, *end_of_filling_);
-      return fill_polyhedron(polyhedron, points, limits_, monitor_);
+      return fillings_.fill(asked, likely);
     } catch (const Interrupted& interrupted) {
       if (interrupted.outcome() != Outcome::time_limit) throw;
     } catch (const std::logic_error&) {
@@ -342,8 +342,9 @@ class Call {
   std::uint64_t seed_ = options_.seed;    // of the next attempt
   double worst_without_field_ = 0;        // of the last one
   std::optional<double> end_of_filling_;  // polyhedra, as a time limit
+  Fillings fillings_{limits_, monitor_, threads_};
   const FillAnew fill_anew_{
-      [this](const Complex& polyhedron, PointsOfFilling points) { return fill(polyhedron, points); },
+      [this](const ToFill& asked, const LikelyToFill& likely) { return fill(asked, likely); },
       has_few_facets() ? kNearTarget : kFarFromTarget};
   Result result_;
 };

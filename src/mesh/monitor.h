@@ -54,6 +54,8 @@ class Monitor {
   [[nodiscard]] bool caller_threw() const { return caller_threw_; }
   /// The stage of the last look.
   [[nodiscard]] Stage stage() const { return stage_; }
+  /// How much of it was done then.
+  [[nodiscard]] double fraction() const { return fraction_; }
 
  private:
   void look(Stage stage, double fraction, bool tell);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <limits>
 #include <span>
 
 #include "mesh/quality.h"
+#include "mesh/quality_below.h"
 #include "numbers/vector.h"
 #include "optimise/walk_tuning.h"
 
@@ -13,6 +15,7 @@ namespace holdfast {
 namespace {
 
 constexpr std::size_t kBlock = 1024;  // vertices between two looks at what other threads have found
+constexpr double kAboveRounding = 1.01, kWithSquare = 1e-100;
 
 // Whether some vertex makes an element on face f whose Q is below `limit`, be it that it does not see the
 // facet: unless one does, no exchange betters the element at a facet.
@@ -20,14 +23,21 @@ bool has_better_apex(const TetMesh& mesh, Face f, double limit, const Threads& t
   const std::array<Vertex, 3> v = mesh.face_vertices(f);
   const Point &a = mesh.position(v[0]), &b = mesh.position(v[1]), &c = mesh.position(v[2]);
   const Vector u = b - a, w = c - a, normal = cross(u, w);
-  const double longest = std::max({length(u), length(w), length(c - b)});
+  const std::array<double, 3> lengths{length(u), length(w), length(c - b)};
+  const double longest = std::max({lengths[0], lengths[1], lengths[2]});
   const double side = dot(mesh.position(mesh.apex(f)) - a, normal) > 0 ? 1 : -1;
   // The inradius is below half of the height, so that most vertices need no Q.
   const double least_height = 2 * kQualityOfRegular * longest / limit;
-  const double least = least_height * length(normal);
+  const double twice_area = length(normal), least = least_height * twice_area;
+  // And below that of the facet, by which the longest edge must not be too many times as long.
+  const double most =
+      kAboveRounding * limit / kQualityOfRegular * twice_area / (lengths[0] + lengths[1] + lengths[2]);
+  const double most_squared = most > kWithSquare ? most * most : std::numeric_limits<double>::infinity();
   const std::span<const Point> positions = mesh.positions();
   const auto is_better = [&](const Point& p) {
-    return side * dot(p - a, normal) > least && quality(a, b, c, p) < limit;
+    const Vector from = p - a;
+    return !(dot(from, from) > most_squared) && side * dot(from, normal) > least &&
+           is_quality_below(a, b, c, p, limit);
   };
   std::atomic<bool> found = false;
   parallel_ranges(threads, positions.size(), [&](std::size_t first, std::size_t last) {

@@ -50,9 +50,18 @@ struct Filling {
 struct PointsOfFilling {
   std::size_t most_recovered = std::numeric_limits<std::size_t>::max();
   bool may_be_added = true;
+  friend bool operator==(const PointsOfFilling&, const PointsOfFilling&) = default;
 };
-/// Fills what the facets of a complex enclose; nothing where it cannot.
-using Filler = std::function<std::optional<Filling>(const Complex&, PointsOfFilling)>;
+/// A polyhedron, and how it is to be filled.
+struct ToFill {
+  Surface polyhedron;
+  PointsOfFilling points;
+};
+/// What is likely to be asked for next, so much of it or less.
+using LikelyToFill = std::function<std::vector<ToFill>(std::size_t)>;
+/// Fills what the facets of a complex enclose; nothing where it cannot. Threads may fill what is likely to
+/// come at the same time.
+using Filler = std::function<std::optional<Filling>(const ToFill&, const LikelyToFill&)>;
 
 /// How polyhedra round the worst elements are filled anew.
 struct FillAnew {

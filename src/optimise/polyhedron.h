@@ -25,6 +25,7 @@ class Polyhedron {
   [[nodiscard]] std::size_t points() const { return points_; }
   /// Its facets look outwards.
   [[nodiscard]] Complex surface() const { return surface_.view(); }
+  [[nodiscard]] ToFill with(PointsOfFilling points) const { return {surface_, points}; }
   /// Whether without further points each of its faces may have a tetrahedron whose Q is below the limit.
   [[nodiscard]] bool may_be_filled_below(double limit) const;
   /// The worst Q of its tetrahedra, and that of other ones.

@@ -60,13 +60,14 @@ std::size_t Search::points_in_mesh() const {
       std::count_if(points().begin(), points().end(), [&](Vertex p) { return mesh_.in_mesh(p); }));
 }
 
-Badness Search::badness() const {
+Badness Search::badness() {
   Badness all;
   std::mutex mutex;
+  qualities_.make_room();
   parallel_ranges(threads_, mesh_.slot_count(), [&](std::size_t first, std::size_t last) {
     Badness own;
     for (auto t = static_cast<Tet>(first); t < last; ++t)
-      if (mesh_.alive(t) && is_ours(t)) own.add(quality_of(mesh_, mesh_.corners(t)), bad_from());
+      if (mesh_.alive(t) && is_ours(t)) own.add(qualities_.of(t), bad_from());
     const std::scoped_lock lock(mutex);
     all = join(all, own);
   });

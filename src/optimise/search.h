@@ -77,10 +77,10 @@ class Search {
   /// Whether a slot was, to begin with, one of those that are to be better, or dead.
   [[nodiscard]] bool is_ours(Tet t) const { return t >= is_others_.size() || !is_others_[t]; }
   [[nodiscard]] bool is_current(const WaitingElement& e) { return elements_.is_current(e); }
-  [[nodiscard]] Badness badness() const;
+  [[nodiscard]] Badness badness();
   /// How bad an element may be for a point to go: as long as a worse one stays, nothing is worth a point but
   /// null elements.
-  [[nodiscard]] double worst_without_point() const {
+  [[nodiscard]] double worst_without_point() {
     return std::max(bad_from().flat, std::min(badness().worst, bad_from().null));
   }
   /// The worst of the elements that are to be better, whether it waits, was given up, or neither; nothing

@@ -27,7 +27,7 @@ bool may_points_be_worth_it(const Search& search, const Badness& was) {
 
 // As many null elements gone as there are more points, or the worst as many times better, and ten times at
 // least.
-bool are_points_worth_it(const Search& search, const Search::Trial& trial, const Badness& was) {
+bool are_points_worth_it(Search& search, const Search::Trial& trial, const Badness& was) {
   const auto more = static_cast<double>(search.points_in_mesh()) - static_cast<double>(trial.points());
   const Badness is = search.badness();
   return more <= static_cast<double>(was.null) - static_cast<double>(is.null) ||

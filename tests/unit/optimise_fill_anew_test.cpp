@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "holdfast/holdfast.h"
 #include "mesh/quality.h"
@@ -24,9 +26,9 @@ constexpr double kTarget = 2;
 
 // A mesh with slivers and a search for better ones, with which the test begins.
 struct Searched {
-  explicit Searched(std::uint64_t seed, Limits given = {})
+  explicit Searched(std::uint64_t seed, Limits given = {}, int cubes = 3)
       : limits(std::move(given)),
-        mesh(slivers(0.4, seed, 3)),
+        mesh(slivers(0.4, seed, cubes)),
         monitor(limits, progress),
         tets(solid(mesh)),
         search(mesh, tets, static_cast<Vertex>(mesh.vertex_count()), kTarget, seed, 1, monitor) {}
@@ -46,6 +48,13 @@ std::optional<Filling> filled(const Complex& complex, PointsOfFilling = {}) {
   const auto first_added =
       result.volume.vertices.begin() + static_cast<std::ptrdiff_t>(complex.vertices.size());
   return Filling{{first_added, result.volume.vertices.end()}, result.volume.tetrahedra};
+}
+
+// That heeds nothing but what it is asked for.
+Filler filler(std::function<std::optional<Filling>(const Complex&, PointsOfFilling)> fill) {
+  return [fill = std::move(fill)](const ToFill& asked, const LikelyToFill&) {
+    return fill(asked.polyhedron.view(), asked.points);
+  };
 }
 
 // The tetrahedra that are there, in the numbers of the surface, whose vertices are in ascending order.
@@ -175,7 +184,7 @@ TEST(FillAnew, MakesNothingWorse) {
     const exact::Dyadic volume = volume_of(s.mesh);
     const std::size_t vertices = s.mesh.vertex_count();
     const Badness before = badness_of(s.mesh, s.tets, kFrom);
-    fill_anew_round_the_worst(s.search, {filled, 3});
+    fill_anew_round_the_worst(s.search, {filler(filled), 3});
     const Badness after = badness_of(s.mesh, solid(s.mesh), kFrom);
     EXPECT_LE(std::tuple(after.null, after.hopeless, after.worst),
               std::tuple(before.null, before.hopeless, before.worst))
@@ -196,14 +205,14 @@ TEST(FillAnew, EndsWithOneBesideTheWorst) {
     Searched s(seed);
     const auto worst = s.search.worst();
     ASSERT_TRUE(worst);
-    const Filler not_round_the_worst = [&](const Complex& complex, PointsOfFilling) {
+    const auto not_round_the_worst = [&](const Complex& complex, PointsOfFilling) {
       const auto has = [&](Vertex v) {
         return std::count(complex.vertices.begin(), complex.vertices.end(), s.mesh.position(v)) > 0;
       };
       const bool has_all = std::all_of(worst->corners.begin(), worst->corners.end(), has);
       return has_all ? std::nullopt : filled(complex);
     };
-    fill_anew_round_the_worst(s.search, {not_round_the_worst, 3});
+    fill_anew_round_the_worst(s.search, {filler(not_round_the_worst), 3});
     EXPECT_EQ(s.search.badness().worst, worst->quality);
     EXPECT_LE(s.search.stats().filled_anew, 1U) << seed;
     beside += s.search.stats().filled_anew;
@@ -218,11 +227,11 @@ TEST(FillAnew, LeavesWhatIsForced) {
   ASSERT_TRUE(worst && worst->quality > 10);
   Search search(s.mesh, {worst->tet}, static_cast<Vertex>(s.mesh.vertex_count()), kTarget, 1, 1, s.monitor);
   int calls = 0;
-  const Filler counting = [&](const Complex&, PointsOfFilling) {
+  const auto counting = [&](const Complex&, PointsOfFilling) -> std::optional<Filling> {
     ++calls;
     return std::nullopt;
   };
-  fill_anew_round_the_worst(search, {counting, 3});
+  fill_anew_round_the_worst(search, {filler(counting), 3});
   EXPECT_EQ(calls, 0);
 }
 
@@ -232,22 +241,23 @@ TEST(FillAnew, ChangesNothingWhereNothingFits) {
     for (const Tet t : solid(mesh)) corners.push_back(mesh.corners(t));
     return corners;
   };
-  const std::vector<Filler> fillers{[](const Complex&, PointsOfFilling) { return std::nullopt; },
-                                    [](const Complex&, PointsOfFilling) { return Filling{}; },
-                                    [](const Complex& complex, PointsOfFilling) {
-                                      std::optional<Filling> filling = filled(complex);
-                                      if (filling) filling->tetrahedra.pop_back();
-                                      return filling;
-                                    }};
-  for (const Filler& fill : fillers) {
+  using Fill = std::function<std::optional<Filling>(const Complex&, PointsOfFilling)>;
+  const std::vector<Fill> fills{[](const Complex&, PointsOfFilling) { return std::nullopt; },
+                                [](const Complex&, PointsOfFilling) { return Filling{}; },
+                                [](const Complex& complex, PointsOfFilling) {
+                                  std::optional<Filling> filling = filled(complex);
+                                  if (filling) filling->tetrahedra.pop_back();
+                                  return filling;
+                                }};
+  for (const Fill& fill : fills) {
     Searched s(2);
     const std::vector<TetMesh::Corners> before = corners_of(s.mesh);
     int calls = 0;
-    const Filler counting = [&](const Complex& complex, PointsOfFilling points) {
+    const auto counting = [&](const Complex& complex, PointsOfFilling points) {
       ++calls;
       return fill(complex, points);
     };
-    fill_anew_round_the_worst(s.search, {counting, 3});
+    fill_anew_round_the_worst(s.search, {filler(counting), 3});
     EXPECT_GT(calls, 0);
     EXPECT_EQ(corners_of(s.mesh), before);
   }
@@ -283,7 +293,7 @@ TEST(FillAnew, TakesNoPointForLittle) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     Searched s(seed);
     const double before = badness_of(s.mesh, s.tets, kFrom).worst;
-    const Filler fill = [&](const Complex& complex, PointsOfFilling) -> std::optional<Filling> {
+    const auto fill = [&](const Complex& complex, PointsOfFilling) -> std::optional<Filling> {
       std::optional<Filling> filling = filled(complex);
       if (!filling || !filling->added.empty()) return std::nullopt;
       filling = with_a_point(*filling, complex);
@@ -293,7 +303,7 @@ TEST(FillAnew, TakesNoPointForLittle) {
       if (2 * worst < before) ++better;
       return filling;
     };
-    fill_anew_round_the_worst(s.search, {fill, 3});
+    fill_anew_round_the_worst(s.search, {filler(fill), 3});
     EXPECT_EQ(s.search.points_in_mesh(), 0U) << seed;
     EXPECT_EQ(find_fault(s.mesh), "");
   }
@@ -329,12 +339,12 @@ TEST(FillAnew, DoesWithoutPoints) {
     const double limit = search.worst_without_point();
     const std::size_t before = search.points_in_mesh();
     ASSERT_EQ(before, 6U);
-    const Filler fill = [&](const Complex& complex, PointsOfFilling points) {
+    const auto fill = [&](const Complex& complex, PointsOfFilling points) {
       EXPECT_LT(points.most_recovered, search.points_in_mesh());
       EXPECT_FALSE(points.may_be_added);
       return filled(complex);
     };
-    fill_anew_without_points(search, {fill, 3});
+    fill_anew_without_points(search, {filler(fill), 3});
     gone += before - search.points_in_mesh();
     EXPECT_LE(search.badness().worst, limit);
     EXPECT_EQ(find_fault(mesh), "");
@@ -344,15 +354,42 @@ TEST(FillAnew, DoesWithoutPoints) {
   EXPECT_GT(gone, 10U);
 }
 
+// What is told to be likely is mostly what is asked for next, and to ask changes nothing.
+TEST(FillAnew, TellsWhatIsLikelyNext) {
+  int likely_ones = 0, right = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Searched asking(seed, {}, 8), silent(seed, {}, 8);
+    std::vector<ToFill> told;
+    const Filler looking_ahead = [&](const ToFill& asked, const LikelyToFill& likely) {
+      for (const ToFill& next : told)
+        if (next.polyhedron.facets == asked.polyhedron.facets &&
+            next.polyhedron.vertices == asked.polyhedron.vertices)
+          ++right;
+      told = likely(1);
+      EXPECT_LE(told.size(), 1U);
+      likely_ones += static_cast<int>(told.size());
+      return filled(asked.polyhedron.view());
+    };
+    fill_anew_round_the_worst(asking.search, {looking_ahead, 3});
+    fill_anew_round_the_worst(silent.search, {filler(filled), 3});
+    EXPECT_EQ(find_fault(asking.mesh), "");  // no marks are left
+    const std::vector<Tet> tets = solid(asking.mesh);
+    ASSERT_EQ(tets, solid(silent.mesh)) << seed;
+    for (const Tet t : tets) EXPECT_EQ(asking.mesh.corners(t), silent.mesh.corners(t)) << seed;
+  }
+  EXPECT_GT(right, 0);
+  EXPECT_GE(likely_ones, right);
+}
+
 TEST(FillAnew, EndsWhereTheCallIsCancelled) {
   Limits limits;
   limits.cancel = CancelToken();
   Searched s(4, limits);
-  const Filler cancelling = [&](const Complex& complex, PointsOfFilling) {
+  const auto cancelling = [&](const Complex& complex, PointsOfFilling) {
     limits.cancel->cancel();
     return filled(complex);
   };
-  EXPECT_THROW(fill_anew_round_the_worst(s.search, {cancelling, 3}), Interrupted);
+  EXPECT_THROW(fill_anew_round_the_worst(s.search, {filler(cancelling), 3}), Interrupted);
   EXPECT_EQ(find_fault(s.mesh), "");
 }
 
