@@ -1,6 +1,7 @@
 #include "recover/flipper.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <optional>
 
@@ -70,6 +71,27 @@ class Flipper::ForTarget {
   Vertex avoided_;
   std::optional<ShellCosts> costs_;
 };
+
+namespace {
+
+// The triangles that a search for the best triangulation of a link with four corners would look at, where it
+// would find none, or only the one whose diagonal ends at the vertex to be avoided, whatever these cost.
+std::optional<std::size_t> looks_in_vain_at_four(const EdgeShell& shell, const ShellEars& ears,
+                                                 Vertex avoided) {
+  const std::array<bool, 4> sees{ears.sees_both(0), ears.sees_both(1), ears.sees_both(2), ears.sees_both(3)};
+  const std::size_t between = 2 + (sees[1] ? 1 : 0) + (sees[2] ? 1 : 0);
+  const bool has_1_3 = sees[0] && sees[2], has_0_2 = sees[1] && sees[3];
+  const auto avoids = [&](std::size_t i, std::size_t j) {
+    return shell.link[i] != avoided && shell.link[j] != avoided;
+  };
+  if (!has_1_3 && !has_0_2) return between;
+  if (!has_1_3 && !avoids(0, 2)) return between;
+  // With corner 1 as well, it depends on costs whether the triangles of the other diagonal are looked at.
+  if (has_1_3 && !sees[1] && !avoids(1, 3)) return between;
+  return std::nullopt;
+}
+
+}  // namespace
 
 bool Flipper::holds(Tet t, Vertex a, Vertex b) const {
   return mesh_.alive(t) && mesh_.index_of(t, a) >= 0 && mesh_.index_of(t, b) >= 0;
@@ -159,6 +181,11 @@ bool Flipper::remove_now(const Level& level, Vertex avoided) {
     work_.add(2 * shell.size());
     return false;
   }
+  if (shell.size() == 4)
+    if (const auto looks = looks_in_vain_at_four(shell, level.ears, avoided)) {
+      work_.add(2 * *looks);
+      return false;
+    }
   ForTarget objective(mesh_, shell, level.ears, signs_, target_, avoided);
   const auto cost = triangulation_.find(shell.size(), objective);
   work_.add(2 * objective.tests);
@@ -210,31 +237,27 @@ bool Flipper::clip_ear(EdgeShell& shell, std::size_t i) {
 // An ear is blocked at an end where it sees that end wrongly: then the spoke there is reflex. In random
 // order, but those first that are blocked at one end only.
 void Flipper::begin_spokes(Level& level) {
-  auto& spokes = level.spokes;
-  spokes.clear();
-  level.next = 0;
-  for (std::uint32_t i = 0; i < level.shell.size(); ++i) {
+  BlockedSpokes mixed;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < level.shell.size(); ++i) {
     const LinkCorners bit = LinkCorners{1} << i;
     const bool sees_a = (level.ears.see_a & bit) != 0, sees_b = (level.ears.see_b & bit) != 0;
-    if (!sees_b) spokes.push_back({{i, true}, !sees_a});
-    if (!sees_a) spokes.push_back({{i, false}, !sees_b});
+    if (!sees_b) mixed[count++] = {i, true, !sees_a};
+    if (!sees_a) mixed[count++] = {i, false, !sees_b};
   }
-  numbers::shuffle(spokes.begin(), spokes.end(), random_);
-  blocked_twice_.clear();
-  auto end = spokes.begin();
-  for (const BlockedSpoke& s : spokes) {
-    if (s.blocked_twice)
-      blocked_twice_.push_back(s);
-    else
-      *end++ = s;
-  }
-  std::copy(blocked_twice_.begin(), blocked_twice_.end(), end);
+  const auto end = mixed.begin() + static_cast<std::ptrdiff_t>(count);
+  numbers::shuffle(mixed.begin(), end, random_);
+  const auto is_blocked_once = [](BlockedSpoke s) { return !s.is_blocked_twice(); };
+  const auto twice = std::copy_if(mixed.begin(), end, level.spokes.begin(), is_blocked_once);
+  std::remove_copy_if(mixed.begin(), end, twice, is_blocked_once);
+  level.next = 0;
+  level.count = count;
   work_.add(2 * level.shell.size());
 }
 
 std::optional<ShellSpoke> Flipper::next_blocked(Level& level) {
-  if (level.next == level.spokes.size() || work_.exhausted()) return std::nullopt;
-  return level.spokes[level.next++].spoke;
+  if (level.next == level.count || work_.exhausted()) return std::nullopt;
+  return level.spokes[level.next++].spoke();
 }
 
 void Flipper::note_flip(std::size_t old_tets, int change) {

@@ -6,6 +6,8 @@
 // walk among the meshes finds more than a search that returns to where it began, in an eighth of the time.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -89,16 +91,25 @@ class Flipper {
 
  private:
   [[nodiscard]] bool holds(Tet t, Vertex a, Vertex b) const;
-  struct BlockedSpoke {
-    ShellSpoke spoke;
-    bool blocked_twice;
+  // In few bits, since millions are put in order.
+  class BlockedSpoke {
+   public:
+    BlockedSpoke() = default;
+    BlockedSpoke(std::size_t corner, bool at_b, bool is_blocked_twice)
+        : bits_(static_cast<std::uint8_t>(corner << 2 | (at_b ? 2U : 0U) | (is_blocked_twice ? 1U : 0U))) {}
+    [[nodiscard]] ShellSpoke spoke() const { return {std::uint32_t{bits_} >> 2U, (bits_ & 2U) != 0}; }
+    [[nodiscard]] bool is_blocked_twice() const { return (bits_ & 1U) != 0; }
+
+   private:
+    std::uint8_t bits_ = 0;
   };
+  using BlockedSpokes = std::array<BlockedSpoke, 2 * kMostLink>;
   // An edge that is to go while `depth` more levels may clear its way; kept to allocate nothing.
   struct Level {
     EdgeShell shell;
     ShellEars ears;
-    std::vector<BlockedSpoke> spokes;
-    std::size_t next = 0;
+    BlockedSpokes spokes;
+    std::size_t next = 0, count = 0;  // of the spokes
   };
   class ForTarget;
   friend EdgeClearing<Flipper>;
@@ -135,7 +146,6 @@ class Flipper {
   ShellSigns signs_;           // of the shell gathered last
   LinkTriangulation<int> triangulation_;
   std::vector<LinkTriangle> triangles_;
-  std::vector<BlockedSpoke> blocked_twice_;
   std::vector<Tet> created_;
 };
 

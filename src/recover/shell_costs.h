@@ -1,6 +1,7 @@
 // What a segment that is to be recovered crosses among the vertices of a shell.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +18,7 @@ class ShellCosts {
  public:
   ShellCosts(const TetMesh& mesh, const EdgeShell& shell, const Target& target)
       : mesh_(mesh), shell_(shell), target_(target), has_pairs_(target.is_segment()) {
-    if (has_pairs_) sides_.fill(kUnknown);
+    if (has_pairs_) std::fill_n(sides_.begin(), count() * count(), kUnknown);
   }
 
   [[nodiscard]] std::size_t a() const { return shell_.size(); }
@@ -38,15 +39,16 @@ class ShellCosts {
   static constexpr std::size_t kMost = kMostLink + 2;
   static constexpr std::int8_t kUnknown = 2;
 
+  [[nodiscard]] std::size_t count() const { return shell_.size() + 2; }
   [[nodiscard]] Vertex vertex(std::size_t i) const {
     return i < shell_.size() ? shell_.link[i] : i == shell_.size() ? shell_.a : shell_.b;
   }
   // On which side of the segment the edge from i to j passes; 0 where one of them is an end of the segment.
   int side(std::size_t i, std::size_t j) {
-    std::int8_t& known = sides_[i * kMost + j];
+    std::int8_t& known = sides_[i * count() + j];
     if (known == kUnknown) {
       known = static_cast<std::int8_t>(target_.side(mesh_, vertex(i), vertex(j)));
-      sides_[j * kMost + i] = static_cast<std::int8_t>(-known);
+      sides_[j * count() + i] = static_cast<std::int8_t>(-known);
     }
     return known;
   }
@@ -55,7 +57,7 @@ class ShellCosts {
   const EdgeShell& shell_;
   const Target& target_;
   const bool has_pairs_;
-  std::array<std::int8_t, kMost * kMost> sides_;
+  std::array<std::int8_t, kMost * kMost> sides_;  // of pairs, as many as there are
 };
 
 }  // namespace holdfast
