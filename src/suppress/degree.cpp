@@ -1,6 +1,9 @@
 #include "suppress/degree.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "mesh/traverse.h"
@@ -15,15 +18,27 @@ struct EdgeAt {
   Tet tet;
 };
 
-// Of hundreds of neighbours, sorting is most of the work: hence numbers, not pairs.
+// Each with the lowest of the tetrahedra that hold it, six on the mean. Of hundreds of neighbours, sorting is
+// most of the work: hence numbers, not pairs, and few that are of the same edge. Where the last one with the
+// same lowest bits is of the same edge, it becomes that of the lower tetrahedron.
 std::vector<EdgeAt> edges_at(TetMesh& mesh, Vertex p) {
   std::vector<Tet> tets;
   ball(mesh, p, tets);
   std::vector<std::uint64_t> keys;
-  keys.reserve(3 * tets.size());
+  keys.reserve(tets.size());
+  std::vector<std::size_t> last(std::bit_ceil(tets.size() + 1), 0);  // in `keys`, by the lowest bits
   for (const Tet t : tets)
-    for (const Vertex q : mesh.corners(t))
-      if (q != p && q != kGhost) keys.push_back(std::uint64_t{q} << 32 | t);
+    for (const Vertex q : mesh.corners(t)) {
+      if (q == p || q == kGhost) continue;
+      const std::uint64_t key = std::uint64_t{q} << 32 | t;
+      std::size_t& at = last[q & (last.size() - 1)];
+      if (at < keys.size() && keys[at] >> 32 == q) {
+        keys[at] = std::min(keys[at], key);
+      } else {
+        at = keys.size();
+        keys.push_back(key);
+      }
+    }
   std::sort(keys.begin(), keys.end());
   std::vector<EdgeAt> edges;
   for (const std::uint64_t key : keys) {
