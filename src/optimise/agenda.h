@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -30,7 +31,7 @@ class Agenda {
     if (e.quality >= floor_)
       put(e);
     else
-      below_.push_back({e.quality, e.tet});
+      below_.front().push_back({e.quality, e.tet});
   }
   /// Whether an element waits. What is not flat stands beside the heap until the flat ones are done, and what
   /// is not bad until the bad ones are, and unless many have failed: the heap would hold most of the mesh,
@@ -90,7 +91,8 @@ class Agenda {
   void keep(IsWanted&& is_wanted) {
     std::erase_if(heap_, [&](const WaitingElement& e) { return !is_wanted(e.tet); });
     std::make_heap(heap_.begin(), heap_.end());
-    std::erase_if(below_, [&](const Below& b) { return !is_wanted(b.tet); });
+    for (std::vector<Below>& list : below_)
+      std::erase_if(list, [&](const Below& b) { return !is_wanted(b.tet); });
     std::erase_if(stuck_, [&](const WaitingElement& e) { return !is_wanted(e.tet); });
   }
   /// The worst of those that were given up, so many, are tried once more.
@@ -107,7 +109,7 @@ class Agenda {
     floor_ = flat_;
     for (const std::vector<WaitingElement>& waiting : {std::exchange(heap_, {}), std::move(other.heap_)})
       for (const WaitingElement& e : waiting) push(e);
-    below_.insert(below_.end(), other.below_.begin(), other.below_.end());
+    std::move(other.below_.begin(), other.below_.end(), std::back_inserter(below_));
     stuck_.insert(stuck_.end(), other.stuck_.begin(), other.stuck_.end());
     worst_stuck_ = std::max(worst_stuck_, other.worst_stuck_);
     failures_ += other.failures_;
@@ -140,18 +142,20 @@ class Agenda {
   template <typename CornersOf>
   void lift(CornersOf&& corners_of) {
     std::vector<WaitingElement> lifted;
-    std::erase_if(below_, [&](const Below& b) {
-      if (b.quality < floor_) return false;
-      if (const auto corners = corners_of(b.quality, b.tet)) lifted.push_back({b.quality, b.tet, *corners});
-      return true;
-    });
+    for (std::vector<Below>& list : below_)
+      std::erase_if(list, [&](const Below& b) {
+        if (b.quality < floor_) return false;
+        if (const auto corners = corners_of(b.quality, b.tet)) lifted.push_back({b.quality, b.tet, *corners});
+        return true;
+      });
     heap_ = std::move(lifted);
     std::make_heap(heap_.begin(), heap_.end());
   }
 
   double flat_, floor_;               // of the Q in the heap
   std::vector<WaitingElement> heap_;  // the worst first
-  std::vector<Below> below_;
+  // Most of a mesh, so that what is taken over stays in the lists that it is in; the first is for what comes.
+  std::vector<std::vector<Below>> below_{1};
   std::vector<WaitingElement> stuck_;
   double worst_stuck_ = 0;
   int round_ = 0, failures_ = 0;
