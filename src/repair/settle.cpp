@@ -205,7 +205,9 @@ Trouble trouble_of(State& state, const Step& step, const Threads& threads, std::
     }
     return trouble.size() <= most;
   };
-  for_each_offending_pair(complex, elements, visit, step, {}, KnownElements(state, elements).known());
+  const KnownElements known(state, elements);
+  for_each_offending_pair(complex, elements, visit, step, {},
+                          {known.known().each, known.known().sheet, is_listed});
   for (const Flaw& flaw : elements.flaws) {
     if (flaw.kind == DefectKind::degenerate_facet) trouble.facets.push_back(flaw.id);
     if (flaw.kind == DefectKind::degenerate_segment) trouble.segments.push_back(flaw.id);

@@ -285,6 +285,7 @@ class Search {
 
   [[nodiscard]] bool test(Index i, Index j, const VisitPair& visit) const {
     if (!known_.each.empty() && known_.each[i] != 0 && known_.each[j] != 0) return true;
+    if (!known_.found.empty() && known_.found[i] != 0 && known_.found[j] != 0) return true;
     if (!known_.sheet.empty() && fit_as_sheets(i, j)) return true;
     if (i > j) std::swap(i, j);
     const Element &a = elements_.all[i], &b = elements_.all[j];
@@ -329,10 +330,11 @@ class Search {
 struct NearUnknown {
   Elements elements;
   std::vector<std::uint8_t> known;
+  std::vector<Index> sheet;   // where there are any
   std::vector<Index> number;  // of each, among all elements
 
-  NearUnknown(const Complex& complex, const Elements& all, std::span<const std::uint8_t> known_of_all,
-              const Threads& threads) {
+  NearUnknown(const Complex& complex, const Elements& all, const Known& of_all, const Threads& threads) {
+    const std::span known_of_all = of_all.each;
     std::vector<Box> boxes;
     for (Index e = 0; e < all.all.size(); ++e)
       if (known_of_all[e] == 0) boxes.push_back(box_of(complex, all.all[e]));
@@ -346,6 +348,7 @@ struct NearUnknown {
       if (is_near[e] == 0) continue;
       elements.all.push_back(all.all[e]);
       known.push_back(known_of_all[e]);
+      if (!of_all.sheet.empty()) sheet.push_back(of_all.sheet[e]);
       number.push_back(e);
     }
   }
@@ -358,13 +361,18 @@ void for_each_offending_pair(const Complex& complex, const Elements& elements, c
   constexpr std::size_t kFew = 4;  // a part of all
   const auto unknown =
       static_cast<std::size_t>(std::count(known.each.begin(), known.each.end(), std::uint8_t{0}));
-  if (known.each.empty() || !known.sheet.empty() || unknown >= elements.all.size() / kFew)
+  if (known.each.empty() || unknown >= elements.all.size() / kFew)
     return Search(complex, elements, known, visit, step, tuning).run();
-  const NearUnknown near(complex, elements, known.each, tuning.threads);
+  const NearUnknown near(complex, elements, known, tuning.threads);
+  std::vector<std::uint8_t> found(known.found.empty() ? 0 : near.number.size());
+  for (std::size_t k = 0; k < found.size(); ++k) found[k] = known.found[near.number[k]];
   const VisitPair visit_near = [&](Index i, Index j, const Contacts& contacts) {
-    return visit(near.number[i], near.number[j], contacts);
+    const bool go_on = visit(near.number[i], near.number[j], contacts);
+    if (!found.empty())
+      for (const Index k : {i, j}) found[k] = known.found[near.number[k]];
+    return go_on;
   };
-  Search(complex, near.elements, near.known, visit_near, step, tuning).run();
+  Search(complex, near.elements, {near.known, near.sheet, found}, visit_near, step, tuning).run();
 }
 
 bool all_fit(const Complex& complex, const Elements& elements, Known known, const Step& step,

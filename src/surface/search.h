@@ -60,8 +60,9 @@ struct SearchTuning {
 struct Known {
   Known() = default;
   Known(const std::vector<std::uint8_t>& of_all) : each(of_all) {}  // NOLINT(*-explicit-*): the usual case
-  Known(std::span<const std::uint8_t> of_all, std::span<const Index> of_sheet)
-      : each(of_all), sheet(of_sheet) {}
+  Known(std::span<const std::uint8_t> of_all, std::span<const Index> of_sheet,
+        std::span<const std::uint8_t> found_before = {})
+      : each(of_all), sheet(of_sheet), found(found_before) {}
 
   /// For each element whether it fits together with all others of which that is said, as faces of one
   /// triangulation do.
@@ -69,6 +70,9 @@ struct Known {
   /// The number of its sheet, or `no_index`: facets of one sheet lie in a plane but for rounding and fit
   /// together.
   std::span<const Index> sheet;
+  /// For each element whether the visitor has it already: pairs of two such are passed over. The visitor may
+  /// change it from visit to visit.
+  std::span<const std::uint8_t> found;
 };
 
 /// Visits every pair of elements that do not meet in a common face or not at all, in no useful order; but

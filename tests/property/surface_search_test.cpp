@@ -163,6 +163,36 @@ void check_with_sheets(const Complex& complex, const Elements& elements, const P
   for_each_offending_pair(
       complex, elements, visit, [](double) {}, {3, 1000}, Known({}, sheet));
   ASSERT_EQ(pairs, expected);
+  for (const double share : {0.5, 0.9, 1.0}) {
+    std::vector<std::uint8_t> known(elements.all.size());
+    for (auto& k : known) k = uniform(random, 0, 1) < share;
+    Pairs not_known = expected;
+    std::erase_if(not_known, [&](const auto& pair) { return known[pair.first] && known[pair.second]; });
+    pairs.clear();
+    for_each_offending_pair(
+        complex, elements, visit, [](double) {}, {3, 1000}, Known(known, sheet));
+    ASSERT_EQ(pairs, not_known);
+  }
+}
+
+/// Every element of a pair is found where pairs of two that were found before are passed over, and none of
+/// these pairs is visited.
+void check_with_found(const Complex& complex, const Elements& elements, const Pairs& all_expected,
+                      Random& random) {
+  for (const double share : {0.0, 0.9}) {
+    std::vector<std::uint8_t> known(elements.all.size()), found(elements.all.size(), 0), expected = found;
+    for (auto& k : known) k = uniform(random, 0, 1) < share;
+    for (const auto& [i, j] : all_expected)
+      if (!known[i] || !known[j]) expected[i] = expected[j] = 1;
+    const auto visit = [&](Index i, Index j, const Contacts&) {
+      EXPECT_FALSE(found[i] && found[j]);
+      found[i] = found[j] = 1;
+      return true;
+    };
+    for_each_offending_pair(
+        complex, elements, visit, [](double) {}, {}, Known(known, {}, found));
+    ASSERT_EQ(found, expected);
+  }
 }
 
 void check(Surface (*make)(Random&), unsigned seeds) {
@@ -187,6 +217,7 @@ void check(Surface (*make)(Random&), unsigned seeds) {
     }
     check_with_known(complex, elements, expected, random);
     check_with_sheets(complex, elements, expected, random);
+    check_with_found(complex, elements, expected, random);
   }
   EXPECT_GT(found_some, seeds / 2);
 }
