@@ -36,6 +36,7 @@ class Arranging {
 
   Arrangement run(std::vector<OffendingPair> pairs) {
     result_.pairs = pairs.size();
+    tell_fitted(pairs);
     std::sort(pairs.begin(), pairs.end());
     const FacetPlanes planes(complex_, elements_, facets_of(pairs), options_.threads);
     const Meetings meetings =
@@ -104,6 +105,15 @@ class Arranging {
     } else {
       sheet.traces.push_back({meeting.points, line_of(meeting, e, elements_)});
     }
+  }
+
+  void tell_fitted(std::span<const OffendingPair> pairs) {
+    result_.fitted.assign(complex_.facets.size(), 1);
+    for (const OffendingPair& pair : pairs)
+      for (const Index e : pair.elements)
+        if (elements_.all[e].corners == 3) result_.fitted[elements_.all[e].id] = 0;
+    for (const Flaw& flaw : elements_.flaws)
+      if (flaw.corners == 3) result_.fitted[flaw.id] = 0;
   }
 
   /// For each element whether it is a facet of some pair.

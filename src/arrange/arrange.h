@@ -52,7 +52,9 @@ struct Arrangement {
   /// Facets and segments of the complex that are left out, as they are none: see Elements::flaws.
   std::vector<Flaw> left_out;
   std::size_t pairs = 0;  ///< of elements that did not fit
-  bool is_same = false;   ///< there was nothing to do, and nothing of the above is filled in
+  /// For each facet of the complex whether it fitted together with all others of which that is said.
+  std::vector<std::uint8_t> fitted;
+  bool is_same = false;  ///< there was nothing to do, and nothing of the above is filled in
 };
 
 struct ArrangeOptions {

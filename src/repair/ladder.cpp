@@ -1,6 +1,7 @@
 #include "repair/ladder.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -36,7 +37,8 @@ void Ladder::begin() {
   given_displacement_ = rounded_.displacement;
   const std::optional<std::size_t> points =
       cut(is_plane_ ? std::min(options_.most_points, most_points_in_plane(given_.facets.size()))
-                    : options_.most_points);
+                    : options_.most_points,
+          &given_);
   grows_ = is_plane_ && !points;
   new_points_[0] = points.value_or(0);
   if (rounded_.is_valid || grows_) return;
@@ -121,13 +123,15 @@ void Ladder::cut_late() {
     rounded_ = std::move(before);
 }
 
-bool Ladder::is_done() {
+bool Ladder::is_done() const {
   if (!trouble_.none()) return false;
-  if (rounded_.state.known.empty() && rounded_.state.sheet.empty()) return true;
-  rounded_.state.doubt_all();
-  trouble_ = trouble_of(rounded_.state, here(), threads_);
-  if (trouble_.none()) rounded_.state.doubt_all();  // so that it is not looked at once more
-  return trouble_.none();
+#ifdef HOLDFAST_VALIDATE
+  State doubted = rounded_.state;
+  doubted.doubt_all();
+  if (!trouble_of(doubted, here(), threads_).none())
+    throw std::logic_error("facets that were known to fit together do not");
+#endif
+  return true;
 }
 
 bool Ladder::is_hopeless() const {
@@ -317,7 +321,7 @@ void Ladder::stand(Attempt attempt) {
   trouble_ = std::move(attempt.trouble);
 }
 
-std::optional<std::size_t> Ladder::cut(std::size_t most_points) {
+std::optional<std::size_t> Ladder::cut(std::size_t most_points, State* before) {
   arrange::Arrangement arrangement;
   try {
     arrangement = arrangement_of(rounded_.state, most_points, here(), threads_);
@@ -333,6 +337,7 @@ std::optional<std::size_t> Ladder::cut(std::size_t most_points) {
     return 0;
   }
   if (report_.rounds == 0 && options_.exact) exact_.surface = exact_surface(arrangement, exact_.of_given);
+  if (before != nullptr) before->known = arrangement.fitted;
   tell_round(report_, arrangement);
   const std::vector<double> distances = rounded_by(arrangement, threads_);
   rounded_.displacement = sum_above(rounded_.displacement, largest(distances));

@@ -69,8 +69,9 @@ class Ladder {
   /// The second time, where it was left out. Counts if it leaves less in trouble than what was tried since.
   void cut_late();
 
-  /// Nothing is in trouble, and nothing that is said to be known is taken for granted.
-  bool is_done();
+  /// Nothing is in trouble. In builds with HOLDFAST_VALIDATE nothing that is said to be known is taken for
+  /// granted: throws std::logic_error where it is not so.
+  [[nodiscard]] bool is_done() const;
 
   /// All that may come to stand is of no use, since nothing moves back.
   [[nodiscard]] bool is_hopeless() const;
@@ -125,8 +126,9 @@ class Ladder {
 
   void stand(Attempt attempt);
 
-  /// How many new points that took; none where it takes more than so many, and is left undone.
-  std::optional<std::size_t> cut(std::size_t most_points);
+  /// How many new points that took; none where it takes more than so many, and is left undone. `before` is
+  /// the same state, if given, and gets to know which facets fit together.
+  std::optional<std::size_t> cut(std::size_t most_points, State* before = nullptr);
 
   /// Where little is in trouble, many new points are a sign of facets that lie in each other: rather than cut
   /// all that, the next plan joins more.
