@@ -48,24 +48,26 @@ std::vector<std::vector<Index>> list_near(const State& state, const Trouble& tro
                                           std::span<const Index> vertices, double gap, Work& work,
                                           const Step& step) {
   constexpr double kRoom = 4;
+  constexpr std::size_t kWork = 4;  // that finding a pair is
   std::vector<Box> boxes;
   for (const Index v : vertices) boxes.push_back(box_round(state, std::array{v}, 0));
-  for (const Index f : trouble.facets) boxes.push_back(box_round(state, state.facets[f], kRoom * gap));
-  for (const Index s : trouble.segments) boxes.push_back(box_round(state, state.segments[s], kRoom * gap));
-  std::vector<std::vector<Index>> near(boxes.size() - vertices.size());
-  const auto first = static_cast<Index>(vertices.size());
-  AabbTree(boxes).for_each_overlap(
-      [&](Index i, Index j) {
-        ++work.done;
-        if (i > j) std::swap(i, j);
-        if (i >= first || j < first) return !work.is_spent();
-        const Index v = vertices[i], k = j - first;
-        if (k >= trouble.facets.size() || is_near(state, v, state.facets[trouble.facets[k]], kRoom * gap))
-          near[k].push_back(v);
-        return !work.is_spent();
-      },
-      [](Index, Index) { return false; }, step);
-  for (std::vector<Index>& list : near) std::sort(list.begin(), list.end());
+  const AabbTree tree(boxes);
+  std::vector<std::vector<Index>> near(trouble.size());
+  for (std::size_t k = 0; k < near.size() && !work.is_spent(); ++k) {
+    if (k % 256 == 0) step(static_cast<double>(k) / static_cast<double>(near.size()));
+    const bool is_facet = k < trouble.facets.size();
+    const Box box =
+        is_facet ? box_round(state, state.facets[trouble.facets[k]], kRoom * gap)
+                 : box_round(state, state.segments[trouble.segments[k - trouble.facets.size()]], kRoom * gap);
+    tree.for_each_item([&](const Box& other) { return !box.overlaps(other); },
+                       [&](const AabbTree::Item& item) {
+                         work.done += kWork;
+                         const Index v = vertices[item.id];
+                         if (!is_facet || is_near(state, v, state.facets[trouble.facets[k]], kRoom * gap))
+                           near[k].push_back(v);
+                       });
+    std::sort(near[k].begin(), near[k].end());
+  }
   return near;
 }
 

@@ -74,10 +74,17 @@ bool lies_in(const State& state, const Planes& planes, Index f, Index g, double 
   const Vector& n = planes.normal[g];
   const double size = planes.size[g];
   if (!(size > 0)) return false;
-  const Point& origin = state.vertices[state.facets[g][0]];
-  return std::all_of(state.facets[f].begin(), state.facets[f].end(), [&](Index v) {
+  const Triangle& corners = state.facets[g];
+  const Point& origin = state.vertices[corners[0]];
+  const auto is_near = [&](Index v) {
     return std::fabs(dot(minus(state.vertices[v], origin), n)) / size <= gap;
-  });
+  };
+  // Most pairs are neighbours: what they do not share comes first.
+  const auto is_shared = [&](Index v) { return v == corners[0] || v == corners[1] || v == corners[2]; };
+  for (const bool shared : {false, true})
+    for (const Index v : state.facets[f])
+      if (is_shared(v) == shared && !is_near(v)) return false;
+  return true;
 }
 
 /// Facets whose corners are points, and boxes round them; of few of them only what is near these.

@@ -106,7 +106,7 @@ std::vector<AabbTree::NodePair> AabbTree::divided(std::size_t count) const {
     for (const auto& [a, b] : pairs) {
       if (!nodes_[a].box.overlaps(nodes_[b].box)) continue;
       if (nodes_[a].left != 0 || nodes_[b].left != 0) {
-        push_parts(parts, {a, b});
+        for_each_part({a, b}, [&](Index c, Index d) { parts.emplace_back(c, d); });
         divisible = true;
       } else {
         parts.push_back({a, b});
@@ -151,6 +151,15 @@ Index AabbTree::partition(Node& node) {
   Box centres;
   const auto bound_centres = [&] {
     for (std::size_t k = 0; k < 3; ++k) centres.low[k] = centres.high[k] = centre(node, *begin, k);
+    if (node.one_group) {
+      for (auto item = begin + 1; item != end; ++item)
+        for (std::size_t k = 0; k < 3; ++k) {
+          const double c = item->box.centre(k);
+          centres.low[k] = std::min(centres.low[k], c);
+          centres.high[k] = std::max(centres.high[k], c);
+        }
+      return;
+    }
     for (auto item = begin; item != end; ++item) {
       const std::array<double, 3> c{centre(node, *item, 0), centre(node, *item, 1), centre(node, *item, 2)};
       centres.extend({c, c});
@@ -168,7 +177,10 @@ Index AabbTree::partition(Node& node) {
     if (half(k) > half(axis) || centres.low[axis] == centres.high[axis]) axis = k;
   }
   const double cut = centres.centre(axis);
-  auto middle = std::partition(begin, end, [&](const Item& item) { return centre(node, item, axis) < cut; });
+  const auto is_first = [&](const Item& item) { return centre(node, item, axis) < cut; };
+  const auto is_first_alone = [&](const Item& item) { return item.box.centre(axis) < cut; };
+  auto middle =
+      node.one_group ? std::partition(begin, end, is_first_alone) : std::partition(begin, end, is_first);
   const Index least = node.count / 8;
   if (static_cast<Index>(middle - begin) <= least || static_cast<Index>(end - middle) <= least) {
     const auto key = [&](const Item& item) {

@@ -90,7 +90,8 @@ class AabbTree {
   void build_below(Nodes& nodes, Index node);
   void build(Nodes& nodes, Index node);
   Index partition(Node& node);
-  void push_parts(std::vector<NodePair>& pairs, NodePair pair) const;
+  template <class Push>
+  void for_each_part(NodePair pair, Push&& push) const;
   template <class Skip, class Visit>
   void for_each_item_below(const Node& node, Skip& skip, Visit& visit) const;
   [[nodiscard]] double centre(const Node& node, const Item& item, std::size_t k) const;
@@ -101,17 +102,22 @@ class AabbTree {
   std::vector<Box> group_boxes_;
 };
 
-// Replaces a pair of nodes that are not both leaves by pairs of their children.
-inline void AabbTree::push_parts(std::vector<NodePair>& pairs, NodePair pair) const {
+// Calls push(a, b) for the pairs of their children that stand for a pair of nodes, not both leaves.
+template <class Push>
+void AabbTree::for_each_part(NodePair pair, Push&& push) const {
   const auto [a, b] = pair;
   const Node& m = nodes_[a];
   const Node& n = nodes_[b];
   if (a == b) {
-    pairs.insert(pairs.end(), {{m.left, m.left + 1}, {m.left + 1, m.left + 1}, {m.left, m.left}});
+    push(m.left, m.left + 1);
+    push(m.left + 1, m.left + 1);
+    push(m.left, m.left);
   } else if (m.left != 0 && (n.left == 0 || m.count >= n.count)) {
-    pairs.insert(pairs.end(), {{m.left + 1, b}, {m.left, b}});
+    push(m.left + 1, b);
+    push(m.left, b);
   } else {
-    pairs.insert(pairs.end(), {{a, n.left + 1}, {a, n.left}});
+    push(a, n.left + 1);
+    push(a, n.left);
   }
 }
 
@@ -134,22 +140,31 @@ void AabbTree::for_each_item_below(const Node& node, Skip& skip, Visit& visit) c
 
 template <class Visit, class Skip, class Step>
 void AabbTree::for_each_overlap(NodePair top, Visit&& visit, Skip&& skip, Step&& step) const {
-  std::vector<NodePair> stack{top};
+  std::vector<NodePair> stack;
   std::size_t tests = 0, done = 0;
-  while (!stack.empty()) {
+  const auto push = [&](Index a, Index b) {
+    ++tests;
+    if (nodes_[a].box.overlaps(nodes_[b].box)) stack.emplace_back(a, b);
+  };
+  push(top.first, top.second);
+  constexpr std::size_t kTestsAStep = 4096;
+  for (std::size_t next_step = kTestsAStep; !stack.empty();) {
     const auto [a, b] = stack.back();
     stack.pop_back();
     const Node& m = nodes_[a];
     const Node& n = nodes_[b];
-    if ((++tests & 0xFFF) == 0) step(static_cast<double>(done) / static_cast<double>(items_.size()));
-    if (!m.box.overlaps(n.box)) continue;
+    if (tests >= next_step) {
+      step(static_cast<double>(done) / static_cast<double>(items_.size()));
+      next_step = tests + kTestsAStep;
+    }
     if (skip(a, b)) {
       if (a == b) done += m.count;
     } else if (m.left != 0 || n.left != 0) {
-      push_parts(stack, {a, b});
+      for_each_part({a, b}, push);
     } else {
       if (a == b) done += m.count;
       for (Index i = m.first; i < m.first + m.count; ++i) {
+        if (a != b && !items_[i].box.overlaps(n.box)) continue;
         for (Index j = a == b ? i + 1 : n.first; j < n.first + n.count; ++j) {
           if (items_[i].box.overlaps(items_[j].box) && !visit(items_[i].id, items_[j].id)) return;
         }
