@@ -9,6 +9,7 @@
 #include <optional>
 #include <thread>
 
+#include "arrange/index_table.h"
 #include "arrange/meetings.h"
 #include "arrange/point_pool.h"
 #include "arrange/sheet.h"
@@ -207,69 +208,94 @@ class Arranging {
     result_.facet_parents.add(parents);
   }
 
+  /// Segments by their ends, and the points on each.
+  struct PointsOn {
+    IndexTable<2> number;  // by the ends, ascending
+    std::vector<std::vector<Index>> all;
+
+    std::vector<Index>* find(const std::array<Index, 2>& ends) {
+      const Index k = number.find(ascending(ends));
+      return k == no_entity ? nullptr : &all[k];
+    }
+  };
+
   /// Cuts segments at the points that meetings leave on them or on the sides that they are.
   void deliver_segments(const Meetings& meetings) {
     if (complex_.segments.empty()) return;
-    std::map<std::array<Index, 2>, std::vector<Index>> points_on;  // by the segment's ends
+    PointsOn points_on;
     const auto first = [&](Index v) { return elements_.places.first[v]; };
     std::vector<std::array<Index, 2>> ends(complex_.segments.size(), {no_index, no_index});
     for (std::size_t s = 0; s < ends.size(); ++s) {
       const auto [a, b] = complex_.segments[s];
       if (a >= complex_.vertices.size() || b >= complex_.vertices.size()) continue;
       if (!is_element_vertex(a) || !is_element_vertex(b) || first(a) == first(b)) continue;
-      ends[s] = ascending(std::array<Index, 2>{first(a), first(b)});
-      points_on[ends[s]];
+      ends[s] = {first(a), first(b)};
+      const auto fresh = static_cast<Index>(points_on.all.size());
+      if (points_on.number.find_or_add(ascending(ends[s]), fresh) == fresh) points_on.all.emplace_back();
     }
-    const auto note = [&](const Meeting& meeting, std::size_t e) {
-      const Element& element = elements_.all[meeting.elements[e]];
-      for (std::size_t k = 0; k < 2 && meeting.points[k] != no_index; ++k) {
-        const unsigned mask = meeting.faces[k][e];
-        if (std::popcount(mask) != 2) continue;
-        std::array<Index, 2> side{};
-        std::size_t count = 0;
-        for (unsigned i = 0; i < element.corners; ++i)
-          if ((mask >> i & 1u) != 0) side[count++] = element.vertex[i];
-        if (const auto at = points_on.find(ascending(side)); at != points_on.end())
-          at->second.push_back(meeting.points[k]);
-      }
-    };
-    for (const Meeting& meeting : meetings.all) {
-      note(meeting, 0);
-      note(meeting, 1);
-    }
+    for (const Meeting& meeting : meetings.all)
+      for (std::size_t e = 0; e < 2; ++e) note_points(meeting, e, points_on);
     note_sides_in_sheets(points_on);
-    std::map<std::array<Index, 2>, Index> piece_of;
+    IndexTable<2> piece_of;
     std::vector<std::vector<Index>> parents;
     for (Index s = 0; s < ends.size(); ++s) {
       if (ends[s][0] == no_index) continue;
-      std::vector<Index> chain = points_on[ends[s]];
-      chain.insert(chain.end(), ends[s].begin(), ends[s].end());
-      std::sort(chain.begin(), chain.end(), [&](Index p, Index q) {
-        const int sign = pool_.compare(p, q);
-        return sign != 0 ? sign < 0 : p < q;
-      });
-      chain.erase(std::unique(chain.begin(), chain.end()), chain.end());
-      if (chain.front() != first(complex_.segments[s][0])) std::reverse(chain.begin(), chain.end());
+      const std::vector<Index> chain = chain_of(ends[s], *points_on.find(ends[s]));
       for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
         const std::array<Index, 2> piece{chain[k], chain[k + 1]};
-        const auto [at, is_new] = piece_of.try_emplace(ascending(piece), static_cast<Index>(parents.size()));
-        if (is_new) {
+        const auto fresh = static_cast<Index>(parents.size());
+        const Index number = piece_of.find_or_add(ascending(piece), fresh);
+        if (number == fresh) {
           result_.segments.push_back(piece);
           parents.emplace_back();
         }
-        parents[at->second].push_back(s);
+        parents[number].push_back(s);
       }
     }
     for (const std::vector<Index>& p : parents) result_.segment_parents.add(p);
   }
 
+  /// Those that a meeting leaves on a side of its element e.
+  void note_points(const Meeting& meeting, std::size_t e, PointsOn& points_on) const {
+    const Element& element = elements_.all[meeting.elements[e]];
+    for (std::size_t k = 0; k < 2 && meeting.points[k] != no_index; ++k) {
+      const unsigned mask = meeting.faces[k][e];
+      if (std::popcount(mask) != 2) continue;
+      std::array<Index, 2> side{};
+      std::size_t count = 0;
+      for (unsigned i = 0; i < element.corners; ++i)
+        if ((mask >> i & 1u) != 0) side[count++] = element.vertex[i];
+      if (std::vector<Index>* points = points_on.find(side)) points->push_back(meeting.points[k]);
+    }
+  }
+
   /// Sides of facets that share area with others cross these in the sheet, without a meeting.
-  void note_sides_in_sheets(std::map<std::array<Index, 2>, std::vector<Index>>& points_on) const {
+  void note_sides_in_sheets(PointsOn& points_on) const {
     for (const SheetTriangles& cut : cut_)
-      for (const std::vector<Index>& side : cut.sides) {
-        const auto at = points_on.find(ascending(std::array<Index, 2>{side.front(), side.back()}));
-        if (at != points_on.end()) at->second.insert(at->second.end(), side.begin() + 1, side.end() - 1);
-      }
+      for (const std::vector<Index>& side : cut.sides)
+        if (std::vector<Index>* points = points_on.find({side.front(), side.back()}))
+          points->insert(points->end(), side.begin() + 1, side.end() - 1);
+  }
+
+  /// Points of a segment, in order from its first end to its second.
+  [[nodiscard]] std::vector<Index> chain_of(const std::array<Index, 2>& ends,
+                                            std::span<const Index> between) const {
+    std::vector<Index> chain(between.begin(), between.end());
+    chain.insert(chain.end(), ends.begin(), ends.end());
+    if (chain.size() == 2) return {ends[0], ends[1]};
+    const Point &a = pool_.nearest(ends[0]), &b = pool_.nearest(ends[1]);
+    const int direction = pool_.compare(ends[0], ends[1]);
+    std::sort(chain.begin(), chain.end(), [&](Index p, Index q) {
+      if (p == q) return false;
+      // Each coordinate rises or falls all along, and rounding to nearest is monotonic.
+      for (std::size_t k = 0; k < 3; ++k)
+        if (const double x = pool_.nearest(p)[k], y = pool_.nearest(q)[k]; x != y)
+          return (x < y) == (a[k] < b[k]);
+      const int sign = pool_.compare(p, q);
+      return sign != 0 ? sign == direction : p < q;
+    });
+    chain.erase(std::unique(chain.begin(), chain.end()), chain.end());
+    return chain;
   }
 
   [[nodiscard]] bool is_element_vertex(Index v) const {

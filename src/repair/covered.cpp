@@ -38,7 +38,7 @@ class Covers {
     std::vector<Index> open;
     const checking::Reach near(most);
     for (Index g = 0; g < given_.facets.size(); ++g)
-      if (!children_.of(g).empty() && !has_its_sides_round_it(g, near)) open.push_back(g);
+      if (!children_.of(g).empty() && !is_whole(g) && !has_its_sides_round_it(g, near)) open.push_back(g);
     constexpr int kDoublings = 8;
     double distance = most;
     for (int k = 0; k <= kDoublings; ++k, distance *= 2) {
@@ -54,6 +54,17 @@ class Covers {
   }
 
  private:
+  /// Whether a facet is its only part.
+  [[nodiscard]] bool is_whole(Index g) const {
+    const auto parts = children_.of(g);
+    return parts.size() == 1 && state_.facets[parts[0]] == given_.facets[g] && has_kept_corners(g);
+  }
+
+  [[nodiscard]] bool has_kept_corners(Index g) const {
+    const Triangle& t = given_.facets[g];
+    return std::all_of(t.begin(), t.end(), [&](Index v) { return at(v) == given_.vertices[v]; });
+  }
+
   /// The sides that an odd number of some facets have.
   void list_odd(std::span<const Index> facets) {
     sides_.clear();

@@ -96,7 +96,8 @@ class Flattening {
       state_.vertices.resize(vertices);
       return false;
     };
-    if (!is_near(cluster, after, before, chains, name)) return undo();
+    const Corners corners = corners_of_parts(after);
+    if (!is_near(cluster, corners, before, chains, name)) return undo();
     for (std::size_t k = 0; k < chains.size(); ++k)
       if (!chains[k].empty()) put_on_side(cluster, before.sides[k], chains[k], name);
     for (std::vector<Index>& chain : chains)
@@ -104,6 +105,9 @@ class Flattening {
     for (std::size_t k = 0; k < chains.size(); ++k)
       if (!sides_.fits(before.sides[k][0], before.sides[k][1], chains[k])) return undo();
     for (std::size_t f = 0; f < after.facets.size(); ++f) take(cluster, after, f, name);
+    // How far the points of a part are from its parent is a convex function: corners decide.
+    for (const auto& [k, v] : corners)
+      most_ = std::max(most_, distance(name[v], state_.facets[cluster.facets[k]]));
     for (std::size_t k = 0; k < chains.size(); ++k) {
       sides_.add(before.sides[k][0], before.sides[k][1], chains[k]);
       has_led_ |= !chains[k].empty();
@@ -134,15 +138,24 @@ class Flattening {
     return any;
   }
 
-  /// Whether what comes of a cluster is near to it. Facets that stand steep on the plane are not, since their
-  /// points come down on others far from them.
-  [[nodiscard]] bool is_near(const Cluster& cluster, const State& after, const Flat& before,
-                             std::span<const std::vector<Index>> chains, std::span<const Index> name) const {
-    const double far = kMostGaps * gap_;
+  /// Facets of a cluster, by number there, and the corners of their parts.
+  using Corners = std::vector<std::array<Index, 2>>;
+  [[nodiscard]] static Corners corners_of_parts(const State& after) {
+    Corners corners;
     for (std::size_t f = 0; f < after.facets.size(); ++f)
       for (const Index k : after.facet_parents.of(f))
-        for (const Index v : after.facets[f])
-          if (!(distance(name[v], state_.facets[cluster.facets[k]]) <= far)) return false;
+        for (const Index v : after.facets[f]) corners.push_back({k, v});
+    sort_unique(corners);
+    return corners;
+  }
+
+  /// Whether what comes of a cluster is near to it. Facets that stand steep on the plane are not, since their
+  /// points come down on others far from them.
+  [[nodiscard]] bool is_near(const Cluster& cluster, const Corners& corners, const Flat& before,
+                             std::span<const std::vector<Index>> chains, std::span<const Index> name) const {
+    const double far = kMostGaps * gap_;
+    for (const auto& [k, v] : corners)
+      if (!(distance(name[v], state_.facets[cluster.facets[k]]) <= far)) return false;
     for (std::size_t k = 0; k < chains.size(); ++k)
       for (const Index v : chains[k])
         if (lifted_.count(name[v]) == 0 && !(distance(name[v], before.sides[k]) <= far)) return false;
@@ -208,8 +221,7 @@ class Flattening {
     return least;
   }
 
-  /// Takes a facet of the plane as one of the surface, with its parents there. How far its points are from a
-  /// parent is a convex function: corners decide.
+  /// Takes a facet of the plane as one of the surface, with its parents there.
   void take(const Cluster& cluster, const State& after, std::size_t f, std::span<const Index> name) {
     const auto& [a, b, c] = after.facets[f];
     Piece piece{{name[a], name[b], name[c]}, {}, {}};
@@ -220,7 +232,6 @@ class Flattening {
       piece.facets.push_back(parent);
       const auto of = state_.facet_parents.of(parent);
       piece.parents.insert(piece.parents.end(), of.begin(), of.end());
-      for (const Index v : piece.corners) most_ = std::max(most_, distance(v, state_.facets[parent]));
     }
     sort_odd(piece.parents);
     pieces_[first].push_back(std::move(piece));
