@@ -417,6 +417,14 @@ class PasteTest(CliTest):
         self.run_program("check", "--repaired", *names, "pasted.off", "--parents", "p.txt", "--report", "p.json")
         self.assertLess(json.loads((self.folder / "p.json").read_text())["max_displacement"], 1e-14)
 
+    def test_a_tolerance_changes_valid_surfaces_too(self):
+        """A tetrahedron in a box, from one of its corners, is valid as it is: triangles there come out turned round."""
+        inside = [(0, 0, 0), (0.5, 0.2, 0.2), (0.2, 0.5, 0.2), (0.2, 0.2, 0.5)], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+        names = self.parts(box((0, 0, 0), (1, 1, 1), 1), inside)
+        self.run_program("paste", *names, "-o", "pasted.off", "--parents", "p.txt", "--report", "p.json",
+                         "--overlap", "new", "--tolerance", "1e-6")
+        self.run_program("check", "--repaired", *names, "pasted.off", "--parents", "p.txt", "--report", "p.json")
+
     def write_patches(self, name, part, order):
         """Solids minX and so on of an STL file, in an order."""
         points, triangles = part
