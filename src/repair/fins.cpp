@@ -12,8 +12,11 @@
 #include <utility>
 
 #include "numbers/sorted.h"
+#include "repair/bounds.h"
 #include "repair/near.h"
 #include "repair/numbered_sides.h"
+#include "repair/open_sides.h"
+#include "repair/plans.h"
 #include "surface/places.h"
 
 namespace holdfast::repairing {
@@ -23,9 +26,10 @@ using Side = std::array<Index, 2>;  // ascending, the first vertices at their pl
 
 class Fins {
  public:
-  Fins(State& state, const State& given, double most)
+  Fins(State& state, const State& given, double displaced, double most)
       : state_(state),
         given_(given),
+        displaced_(displaced),
         most_(most),
         first_(first_at_places(state.vertices)),
         numbered_(state.facets, first_),
@@ -149,9 +153,10 @@ class Fins {
   }
 
   /// Fins that take what a side of a facet of the input begins with, at its corner, where nothing else that
-  /// stays leads along it.
+  /// stays leads along it. What it displaces is told besides what was displaced before, and may be used up.
   [[nodiscard]] std::set<Index> at_corners() const {
     const auto all = ends();
+    const std::map<Index, double> thickness = sums();
     std::map<Index, std::vector<Index>> fins_of;  // by facet of the input
     for (const auto& [of, sides] : all) fins_of[of[1]].push_back(of[0]);
     std::set<Index> found;
@@ -160,30 +165,31 @@ class Fins {
         const auto fins = fins_of.find(p);
         if (fins == fins_of.end()) continue;
         for (const Index fin : fins->second)
-          if (takes_corner(all.at({fin, p}), given_.facets[g])) found.insert(fin);
+          if (takes_corner(all.at({fin, p}), given_.facets[g], sum_above(displaced_, thickness.at(fin))))
+            found.insert(fin);
       }
     return found;
   }
 
   /// Whether one of the sides of a facet of the input loses its beginning to a fin that ends so.
-  [[nodiscard]] bool takes_corner(const std::set<Side>& ends, const Triangle& facet) const {
+  [[nodiscard]] bool takes_corner(const std::set<Side>& ends, const Triangle& facet, double most) const {
     for (std::size_t i = 0; i < 3; ++i) {
       const Index corner = first_[facet[i]];
       const bool is_there = std::any_of(ends.begin(), ends.end(),
                                         [&](const Side& s) { return s[0] == corner || s[1] == corner; });
-      if (is_there && !(is_led(facet[i], facet[(i + 1) % 3]) && is_led(facet[i], facet[(i + 2) % 3])))
-        return true;
+      const auto leads_to = [&](std::size_t to) { return is_led(facet[i], facet[to % 3], most); };
+      if (is_there && !(leads_to(i + 1) && leads_to(i + 2))) return true;
     }
     return false;
   }
 
   /// Whether sides of facets that stay lead from a vertex of the input to another one, no further than `most`
   /// from the straight way between them.
-  [[nodiscard]] bool is_led(Index from, Index to) const {
+  [[nodiscard]] bool is_led(Index from, Index to, double most) const {
     const Point &a = given_.vertices[from], &b = given_.vertices[to];
     const auto is_near = [&](Index v) {
       const double to_ends = std::min(length(minus(at(v), a)), length(minus(at(v), b))) * (1 + 0x1p-48);
-      return std::min(beside_side(at(v), a, b).bound(), to_ends) <= most_;
+      return std::min(beside_side(at(v), a, b).bound(), to_ends) <= most;
     };
     std::vector<Index> open{first_[from]};
     std::set<Index> seen{first_[from]};
@@ -269,7 +275,7 @@ class Fins {
 
   State& state_;
   const State& given_;
-  const double most_;
+  const double displaced_, most_;
   const std::vector<Index> first_;
   const NumberedSides numbered_;
   std::vector<Index> begin_, facets_;                 // the facets of each side, and where they begin
@@ -282,6 +288,13 @@ class Fins {
 
 }  // namespace
 
-double drop_fins(State& state, const State& given, double most) { return Fins(state, given, most).run(); }
+/// Thicker ones come second: what hangs together goes as a whole or not at all.
+double drop_fins(State& state, const State& given, double displaced) {
+  const double thin = Fins(state, given, displaced, displaced).run();
+  displaced = sum_above(displaced, thin);
+  const double joined = kPlans[0].last_bits * last_bit(state.vertices);
+  if (!(displaced < joined) || open_sides(state) <= open_sides(given)) return thin;
+  return sum_above(thin, Fins(state, given, displaced, joined).run());
+}
 
 }  // namespace holdfast::repairing

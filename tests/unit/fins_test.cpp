@@ -54,6 +54,14 @@ TEST(Fins, ThickOnesStay) {
   EXPECT_EQ(state.facets.size(), 8u);
 }
 
+TEST(Fins, ThinnerThanWhatIsJoinedGo) {
+  State state = tetrahedron({{4, 1, 5}});
+  state.vertices[4] = {0.875, 0, 0};
+  state.vertices[5] = {0.9375, -e / 4, -e / 4};
+  EXPECT_GT(drop_fins(state, {}, e / 8), e / 4);
+  EXPECT_EQ(state.facets.size(), 6u);
+}
+
 TEST(Fins, TheLastPartOfAFacetStays) {
   State state = tetrahedron({{4, 1, 5}});
   state.facet_parents = {};
