@@ -149,12 +149,13 @@ RepairClaims claims_of_report(const Json& report) {
   claims.max_displacement = report.at("max_displacement").get<double>();
   if (const auto options = report.find("options"); options != report.end()) {
     if (options->contains("weld")) claims.weld = options->at("weld").get<double>();
-    // That of `paste`, as it was given.
-    if (const auto tolerance = options->find("tolerance");
-        tolerance != options->end() && tolerance->is_string())
-      claims.weld = tolerance_of(tolerance->get<std::string>(), "tolerance");
     if (options->contains("join")) claims.join = options->at("join").get<double>();
     if (options->contains("union")) claims.unite = options->at("union").get<bool>();
+    // That of `paste`, as it was given. Vertices may move further where coordinates are rounded more
+    // coarsely.
+    if (const auto tolerance = options->find("tolerance");
+        tolerance != options->end() && tolerance->is_string())
+      claims.join = tolerance_of(tolerance->get<std::string>(), "tolerance");
   }
   return claims;
 }

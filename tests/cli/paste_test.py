@@ -425,6 +425,15 @@ class PasteTest(CliTest):
                          "--overlap", "new", "--tolerance", "1e-6")
         self.run_program("check", "--repaired", *names, "pasted.off", "--parents", "p.txt", "--report", "p.json")
 
+    def test_a_tolerance_below_the_rounding_of_coordinates_bounds_no_move(self):
+        """Floats of one plane, turned: they are further from each other than the tolerance."""
+        parts = [as_float32(rotated(box(low, high, n))) for low, high, n in
+                 (((0, 0, 0), (1, 1, 1), 2), ((1, 0, 0), (2, 1, 1), 3))]
+        names = self.parts(*parts)
+        self.run_program("paste", *names, "-o", "pasted.off", "--parents", "p.txt", "--report", "p.json", "--tolerance", "1e-12")
+        self.assertGreater(json.loads((self.folder / "p.json").read_text())["max_displacement"], 1e-12)
+        self.run_program("check", "--repaired", *names, "pasted.off", "--parents", "p.txt", "--report", "p.json")
+
     def write_patches(self, name, part, order):
         """Solids minX and so on of an STL file, in an order."""
         points, triangles = part
