@@ -75,6 +75,23 @@ int run_repaired(const CheckArguments& arguments) {
   return check_repaired_files(files, limits_of(arguments.limits), arguments.quiet);
 }
 
+int check_files(const CheckArguments& arguments, const CheckOptions& options,
+                const std::vector<std::filesystem::path>& surfaces, const FilesOfRun& files) {
+  const std::filesystem::path& volume_path = arguments.files.back();
+  const Surface surface =
+      read_surfaces(surfaces, reading(options, arguments.input_format, arguments.tolerance));
+  if (!arguments.quiet) tell(surface.remarks);
+  const Volume volume = read_volume(volume_path, reading(options, arguments.format));
+
+  const CheckResult result = check(surface.view(), volume, options);
+  if (!arguments.quiet) files.list(listing_of(result));
+  write_json(arguments.report, to_json(result));
+  write_html(arguments, options, surface, volume, result);
+  if (result.holds()) return exit_done;
+  say("holdfast: {} does not keep the surface; the rules marked BROKEN say where\n", volume_path.string());
+  return exit_check_failed;
+}
+
 int run(const CheckArguments& arguments) {
   if (arguments.repaired && arguments.files.size() >= 2) return run_repaired(arguments);
   if (!arguments.parents.empty() || !arguments.verdict.empty())
@@ -88,26 +105,15 @@ int run(const CheckArguments& arguments) {
         "check: a surface and a volume are expected, as in `holdfast check part.stl part.vtu`, "
         "or, with --repaired, surfaces and what `holdfast repair` made of them");
   const std::vector<std::filesystem::path> surfaces(arguments.files.begin(), arguments.files.end() - 1);
-  const std::filesystem::path& volume_path = arguments.files.back();
   FilesOfRun files;
   files.read_surfaces(surfaces, arguments.input_format);
-  files.read_volume(volume_path, arguments.format);
+  files.read_volume(arguments.files.back(), arguments.format);
   files.write("--report", arguments.report);
   files.write("--html", arguments.html);
-  cancel_at_once();
-  const Surface surface =
-      read_surfaces(surfaces, reading(options, arguments.input_format, arguments.tolerance));
-  if (!arguments.quiet) tell(surface.remarks);
-  const Volume volume = read_volume(volume_path, reading(options, arguments.format));
-
-  const CheckResult result = check(surface.view(), volume, options);
-  if (!arguments.quiet) files.list(listing_of(result));
-  cancel_by_flag();  // from here on files are open
-  write_json(arguments.report, to_json(result));
-  write_html(arguments, options, surface, volume, result);
-  if (result.holds()) return exit_done;
-  say("holdfast: {} does not keep the surface; the rules marked BROKEN say where\n", volume_path.string());
-  return exit_check_failed;
+  cancel_by_flag();
+  return work_or_report(
+      options, [&] { return check_files(arguments, options, surfaces, files); },
+      [&](Outcome outcome, const std::string& message) { write_end(arguments.report, outcome, message); });
 }
 
 }  // namespace

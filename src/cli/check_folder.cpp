@@ -4,6 +4,7 @@
 
 #include "command.h"
 #include "files_of_run.h"
+#include "limits.h"
 #include "manifest.h"
 #include "signals.h"
 
@@ -56,6 +57,21 @@ void check_part(const Manifest& manifest, std::size_t k, const CheckOptions& opt
   }
 }
 
+Findings examine(const Manifest& manifest, const CheckOptions& options) {
+  Findings findings;
+  try {
+    const Surface whole = whole_of(manifest, options);
+    FitChecker fits(whole.view(), manifest.outside_dropped);
+    for (std::size_t k = 0; k < manifest.parts.size(); ++k) check_part(manifest, k, options, fits, findings);
+    // Of parts that are broken nothing follows for the whole.
+    if (findings.hold)
+      for (const Fit& fit : fits.finish()) findings.add_fit(fit);
+  } catch (const Stale& stale) {
+    findings.add_part(manifest.surface.string(), false, stale.what());
+  }
+  return findings;
+}
+
 }  // namespace
 
 int check_folder(const FolderCheck& what) {
@@ -64,18 +80,9 @@ int check_folder(const FolderCheck& what) {
   for (const ManifestPart& part : manifest.parts) files.read_volume(manifest.path_of(part.volume), {});
   files.write("--report", what.report);
   cancel_by_flag();
-  Findings findings;
-  try {
-    const Surface whole = whole_of(manifest, what.options);
-    FitChecker fits(whole.view(), manifest.outside_dropped);
-    for (std::size_t k = 0; k < manifest.parts.size(); ++k)
-      check_part(manifest, k, what.options, fits, findings);
-    // Of parts that are broken nothing follows for the whole.
-    if (findings.hold)
-      for (const Fit& fit : fits.finish()) findings.add_fit(fit);
-  } catch (const Stale& stale) {
-    findings.add_part(manifest.surface.string(), false, stale.what());
-  }
+  const Findings findings = work_or_report(
+      what.options, [&] { return examine(manifest, what.options); },
+      [&](Outcome outcome, const std::string& message) { write_end(what.report, outcome, message); });
   if (!what.quiet) files.list(findings.listing);
   write_json(what.report, {{"holds", findings.hold}, {"parts", findings.parts}, {"fit", findings.fits}});
   if (findings.hold) return exit_done;

@@ -35,6 +35,25 @@ std::string listing_of(const RepairCheckResult& result, const std::vector<std::s
   return text;
 }
 
+int examine(const RepairedFiles& named, const Limits& limits, bool quiet, const FilesOfRun& files) {
+  const Surface input = read_surfaces(named.inputs, reading(limits, named.input_format));
+  const Surface output = read_surface(named.output, reading(limits, named.format));
+  const auto [claims, disagreements] = read_claims(named.parents, named.report, input, output);
+
+  RepairCheckOptions options;
+  static_cast<Limits&>(options) = limits;
+  options.most = kMostListed;
+  const RepairCheckResult result = check_repaired(input.view(), output.view(), claims, options);
+  if (!quiet) files.list(listing_of(result, disagreements));
+  Json json = reports::to_json(result);
+  json["disagreements"] = disagreements;
+  write_json(named.verdict, json);
+  if (result.holds() && disagreements.empty()) return exit_done;
+  say("holdfast: {} is not what `repair` promises; the rules marked BROKEN say where\n",
+      named.output.string());
+  return exit_check_failed;
+}
+
 }  // namespace
 
 int check_repaired_files(const RepairedFiles& named, const Limits& limits, bool quiet) {
@@ -47,24 +66,10 @@ int check_repaired_files(const RepairedFiles& named, const Limits& limits, bool 
   files.read_file("--parents", named.parents);
   files.read_file("--report", named.report);
   files.write("--verdict", named.verdict);
-  cancel_at_once();
-  const Surface input = read_surfaces(named.inputs, reading(limits, named.input_format));
-  const Surface output = read_surface(named.output, reading(limits, named.format));
-  const auto [claims, disagreements] = read_claims(named.parents, named.report, input, output);
-
-  RepairCheckOptions options;
-  static_cast<Limits&>(options) = limits;
-  options.most = kMostListed;
-  const RepairCheckResult result = check_repaired(input.view(), output.view(), claims, options);
-  if (!quiet) files.list(listing_of(result, disagreements));
-  cancel_by_flag();  // from here on files are open
-  Json json = reports::to_json(result);
-  json["disagreements"] = disagreements;
-  write_json(named.verdict, json);
-  if (result.holds() && disagreements.empty()) return exit_done;
-  say("holdfast: {} is not what `repair` promises; the rules marked BROKEN say where\n",
-      named.output.string());
-  return exit_check_failed;
+  cancel_by_flag();
+  return work_or_report(
+      limits, [&] { return examine(named, limits, quiet, files); },
+      [&](Outcome outcome, const std::string& message) { write_end(named.verdict, outcome, message); });
 }
 
 }  // namespace holdfast::cli

@@ -27,6 +27,10 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+Json options_of(const DelaunayArguments& arguments) {
+  return {{"points", arguments.points.string()}, {"seed", arguments.seed}, {"threads", arguments.threads}};
+}
+
 /// Of this program alone: getrusage would count the process that started it too. 0 where it is not told.
 std::uint64_t peak_memory_bytes() {
   std::ifstream status("/proc/self/status");
@@ -39,19 +43,9 @@ std::uint64_t peak_memory_bytes() {
   return 0;
 }
 
-int run(const DelaunayArguments& arguments) {
-  const auto whole = std::chrono::steady_clock::now();
-  DelaunayOptions options;
-  static_cast<Limits&>(options) = limits_of(arguments.limits);
-  options.seed = arguments.seed;
-  options.threads = arguments.threads;
-  FilesOfRun files;
-  files.read_points(arguments.points, arguments.input_format);
-  VolumeTarget target = files.write_volume("-o", arguments.output, arguments.format);
-  target.options.threads = arguments.threads;
-  watch_writing(target.options, options);
-  files.write("--report", arguments.report);
-  cancel_at_once();
+int join_points(const DelaunayArguments& arguments, const DelaunayOptions& options,
+                const VolumeTarget& target) {
+  const auto whole = *options.started;
   Volume volume;
   volume.vertices = read_points(arguments.points, reading(options, arguments.input_format));
   const double reading = seconds_since(whole);
@@ -68,28 +62,47 @@ int run(const DelaunayArguments& arguments) {
     say("holdfast: {}: all {} points lie in one plane, so there is no tetrahedron\n",
         arguments.points.string(), volume.vertices.size());
 
-  cancel_by_flag();  // from here on files are open
   volume.regions.assign(volume.tetrahedra.size(), 1);
   const auto writing = std::chrono::steady_clock::now();
   write_volume(target.path, volume, target.options);
-  write_json(
-      arguments.report,
-      {{"input", {{"vertices", volume.vertices.size()}}},
-       {"mesh", {{"vertices", volume.vertices.size()}, {"tetrahedra", volume.tetrahedra.size()}}},
-       {"seconds",
-        {{"read", reading},
-         {"delaunay", seconds},
-         {"write", seconds_since(writing)},
-         {"total", seconds_since(whole)}}},
-       {"peak_memory_bytes", peak_memory_bytes()},
-       {"version", version()},
-       {"options",
-        {{"points", arguments.points.string()}, {"seed", arguments.seed}, {"threads", arguments.threads}}},
-       {"outcome", "done"}});
+  write_json(arguments.report,
+             {{"input", {{"vertices", volume.vertices.size()}}},
+              {"mesh", {{"vertices", volume.vertices.size()}, {"tetrahedra", volume.tetrahedra.size()}}},
+              {"seconds",
+               {{"read", reading},
+                {"delaunay", seconds},
+                {"write", seconds_since(writing)},
+                {"total", seconds_since(whole)}}},
+              {"peak_memory_bytes", peak_memory_bytes()},
+              {"version", version()},
+              {"options", options_of(arguments)},
+              {"outcome", "done"}});
   if (!arguments.quiet)
     say("{}: {} points, {} tetrahedra, {:.2f} s ({:.2f} s Delaunay)\n", target.path.string(),
         volume.vertices.size(), volume.tetrahedra.size(), seconds_since(whole), seconds);
   return exit_done;
+}
+
+int run(const DelaunayArguments& arguments) {
+  DelaunayOptions options;
+  static_cast<Limits&>(options) = limits_of(arguments.limits);
+  options.seed = arguments.seed;
+  options.threads = arguments.threads;
+  FilesOfRun files;
+  files.read_points(arguments.points, arguments.input_format);
+  VolumeTarget target = files.write_volume("-o", arguments.output, arguments.format);
+  target.options.threads = arguments.threads;
+  watch_writing(target.options, options);
+  files.write("--report", arguments.report);
+  cancel_by_flag();
+  return work_or_report(
+      options, [&] { return join_points(arguments, options, target); },
+      [&](Outcome outcome, const std::string& message) {
+        write_json(arguments.report, {{"message", message},
+                                      {"version", version()},
+                                      {"options", options_of(arguments)},
+                                      {"outcome", name(outcome)}});
+      });
 }
 
 }  // namespace

@@ -149,18 +149,8 @@ Findings examine(const Surface& surface, const DiagnoseOptions& options) {
   return found;
 }
 
-int run(const DiagnoseArguments& arguments) {
-  DiagnoseOptions options;
-  static_cast<Limits&>(options) = limits_of(arguments.limits);
-  options.threads = arguments.threads;
-  FilesOfRun files;
-  files.read_surfaces(arguments.surfaces, arguments.input_format);
-  files.write("--marks", arguments.marks);
-  files.write("--report", arguments.report);
-  files.write("--html", arguments.html);
-  const std::filesystem::path json = arguments.json ? or_standard_output("-") : "";
-  files.write("--json", json);
-  cancel_at_once();
+int diagnose_files(const DiagnoseArguments& arguments, DiagnoseOptions options,
+                   const std::filesystem::path& json, const FilesOfRun& files) {
   const Surface surface =
       read_surfaces(arguments.surfaces, reading(options, arguments.input_format, arguments.tolerance));
   if (!arguments.quiet) tell(surface.remarks);
@@ -168,7 +158,6 @@ int run(const DiagnoseArguments& arguments) {
   if (!found.in_time) options.time_limit = 0;  // for what is written of it
   const std::vector<Defect>& defects = found.defects;
 
-  cancel_by_flag();  // from here on files are open
   if (!arguments.marks.empty()) write_marks(arguments.marks, surface.view(), defects);
   const Report::Input input = count_vertices(surface);
   if (!arguments.quiet) print_merged(input);
@@ -184,6 +173,26 @@ int run(const DiagnoseArguments& arguments) {
   say("holdfast: the surface is not valid: {} defect{}{}\n", defects.size(), defects.size() == 1 ? "" : "s",
       arguments.marks.empty() ? "; --marks FILE.vtu writes the places for a viewer" : "");
   return exit_invalid_surface;
+}
+
+int run(const DiagnoseArguments& arguments) {
+  DiagnoseOptions options;
+  static_cast<Limits&>(options) = limits_of(arguments.limits);
+  options.threads = arguments.threads;
+  FilesOfRun files;
+  files.read_surfaces(arguments.surfaces, arguments.input_format);
+  files.write("--marks", arguments.marks);
+  files.write("--report", arguments.report);
+  files.write("--html", arguments.html);
+  const std::filesystem::path json = arguments.json ? or_standard_output("-") : "";
+  files.write("--json", json);
+  cancel_by_flag();
+  return work_or_report(
+      options, [&] { return diagnose_files(arguments, options, json, files); },
+      [&](Outcome outcome, const std::string& message) {
+        write_end(arguments.report, outcome, message);
+        write_end(json, outcome, message);
+      });
 }
 
 }  // namespace

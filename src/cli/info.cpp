@@ -103,19 +103,12 @@ std::string text_of(const std::filesystem::path& file, bool is_volume, const Sta
   return text;
 }
 
-int run(const InfoArguments& arguments) {
-  const Limits limits = limits_of(arguments.limits);
-  FilesOfRun files;
-  read_any(files, arguments.file, arguments.format);
-  files.write("--report", arguments.report);
-  const std::filesystem::path json = arguments.json ? or_standard_output("-") : "";
-  files.write("--json", json);
-  cancel_at_once();
+int tell_of_file(const InfoArguments& arguments, const Limits& limits, const std::filesystem::path& json,
+                 const FilesOfRun& files) {
   const AnyMesh mesh = read_any(arguments.file, reading(limits, arguments.format, arguments.tolerance));
   if (!arguments.quiet) tell(mesh.remarks);
   const Statistics counts =
       mesh.is_volume ? statistics(mesh.volume, limits) : statistics(mesh.surface, limits);
-  cancel_by_flag();  // from here on files are open
   Json report{{"file", arguments.file.string()}, {"kind", mesh.is_volume ? "volume" : "surface"}};
   report.update(to_json(counts));
   report["remarks"] = to_json(mesh.remarks);
@@ -123,6 +116,22 @@ int run(const InfoArguments& arguments) {
   write_json(json, report);
   if (!arguments.json) files.list(text_of(arguments.file, mesh.is_volume, counts));
   return exit_done;
+}
+
+int run(const InfoArguments& arguments) {
+  const Limits limits = limits_of(arguments.limits);
+  FilesOfRun files;
+  read_any(files, arguments.file, arguments.format);
+  files.write("--report", arguments.report);
+  const std::filesystem::path json = arguments.json ? or_standard_output("-") : "";
+  files.write("--json", json);
+  cancel_by_flag();
+  return work_or_report(
+      limits, [&] { return tell_of_file(arguments, limits, json, files); },
+      [&](Outcome outcome, const std::string& message) {
+        write_end(arguments.report, outcome, message);
+        write_end(json, outcome, message);
+      });
 }
 
 }  // namespace

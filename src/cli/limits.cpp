@@ -6,6 +6,7 @@
 
 #include "command.h"
 #include "mesh_options.h"
+#include "report.h"
 #include "signals.h"
 
 namespace holdfast::cli {
@@ -22,6 +23,7 @@ Limits limits_of(const LimitArguments& arguments) {
   limits.started = std::chrono::steady_clock::now();
   limits.time_limit = time_limit_of(arguments.time_limit);
   limits.memory_limit = memory_limit_of(arguments.memory_limit);
+  limits.cancel = cancel_token();
   return limits;
 }
 
@@ -41,6 +43,10 @@ std::string message_of(const Interrupted& interrupted, const Limits& limits) {
     return fmt::format("the memory limit of {} GB was reached",
                        static_cast<double>(limits.memory_limit) / 1e9);
   return "cancelled";
+}
+
+void write_end(const std::filesystem::path& path, Outcome outcome, const std::string& message) {
+  write_json(path, {{"outcome", name(outcome)}, {"message", message}});
 }
 
 std::string not_a_count(const std::string& text) {

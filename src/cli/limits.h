@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -19,18 +20,22 @@ struct LimitArguments {
 
 void add_limits(CLI::App& command, LimitArguments& arguments);
 
-/// Of a command that begins now. Throws UsageError for numbers that are no limits.
+/// Of a command that begins now, and of signals once `cancel_by_flag` was called. Throws UsageError for
+/// numbers that are no limits.
 [[nodiscard]] Limits limits_of(const LimitArguments& arguments);
 
 /// How a limit or a signal ended a call that has no outcome, in the words of those that have one.
 [[nodiscard]] std::string message_of(const Interrupted& interrupted, const Limits& limits);
 
-/// Reads; where a limit or a signal ends that, `report` gets the outcome and its message, as where one ends
-/// what comes after reading, before the interruption goes on.
-template <class Read, class Report>
-auto read_or_report(const Limits& limits, const Read& read, const Report& report) {
+/// The report of a command that found nothing before it was ended.
+void write_end(const std::filesystem::path& path, Outcome outcome, const std::string& message);
+
+/// Works: reads, writes, or calls what has no outcome. Where a limit or a signal ends that, `report` gets the
+/// outcome and its message, as where one ends what has an outcome, before the interruption goes on.
+template <class Work, class Report>
+auto work_or_report(const Limits& limits, const Work& work, const Report& report) {
   try {
-    return read();
+    return work();
   } catch (const Interrupted& interrupted) {
     report(interrupted.outcome(), message_of(interrupted, limits));
     throw;

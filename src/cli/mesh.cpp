@@ -208,33 +208,18 @@ Json report_of(const MeshArguments& arguments, const Options& options, const Mes
   return report;
 }
 
-void report_end_of_reading(const MeshArguments& arguments, Outcome outcome, const std::string& message,
-                           double seconds) {
-  Result ended;
-  ended.outcome = outcome;
-  ended.message = message;
-  ended.report.seconds["read"] = ended.report.seconds["total"] = seconds;
-  write_json(arguments.report, to_json(ended, to_json(arguments)));
-}
-
-int run(const MeshArguments& arguments) {
-  const Stopwatch whole;
-  Options options = to_options(arguments);
+/// `result` is what is known, should a limit end it.
+int mesh_files(const MeshArguments& arguments, Options options, FilesOfRun& files, const Stopwatch& whole,
+               Result& result) {
   const Names names = names_of(arguments.names);
-  options.started = whole.start();  // the limit is on the whole command
   std::optional<RepairOptions> repairing = repair_options(arguments, options);
-  FilesOfRun files;
   const Targets targets = note_files(arguments, options, files);
   cancel_by_flag();
 
   ProgressView progress(how_to_show(arguments.quiet, arguments.verbose));
-  Given given = read_or_report(
-      options, [&] { return read_all(arguments, names, options, progress); },
-      [&](Outcome outcome, const std::string& message) {
-        report_end_of_reading(arguments, outcome, message, whole.seconds());
-      });
+  Given given = read_all(arguments, names, options, progress);
   MeshInput& input = given.input;
-  const double reading = whole.seconds();
+  const double reading = result.report.seconds["read"] = whole.seconds();
 
   std::optional<RepairResult> repaired;
   Surface unrepaired;  // if it may be repaired once more
@@ -251,7 +236,7 @@ int run(const MeshArguments& arguments) {
   }
   options.progress = std::ref(progress);
   if (!repaired) paste_parts(arguments, options, input);
-  Result result = mesh_or_refuse(arguments, input, options);
+  result = mesh_or_refuse(arguments, input, options);
   if (repaired && arguments.exact.empty() && result.report.unrounded_points > 0 &&
       result.outcome == Outcome::not_representable)
     mesh_joined_sheets(unrepaired, options, progress, arguments.quiet, input, *repairing, *repaired, result);
@@ -278,6 +263,23 @@ int run(const MeshArguments& arguments) {
   }
   if (!arguments.quiet) tell_the_end(arguments, options, result, whole.seconds());
   return conclude(arguments, meshed, result);
+}
+
+int run(const MeshArguments& arguments) {
+  const Stopwatch whole;
+  Options options = to_options(arguments);
+  options.started = whole.start();  // the limit is on the whole command
+  FilesOfRun files;
+  Result result;  // until the end
+  return work_or_report(
+      options, [&] { return mesh_files(arguments, options, files, whole, result); },
+      [&](Outcome outcome, const std::string& message) {
+        result.outcome = outcome;
+        result.message = message;
+        result.report.seconds["total"] = whole.seconds();
+        if (!result.report.seconds.contains("read")) result.report.seconds["read"] = whole.seconds();
+        write_json(arguments.report, to_json(result, to_json(arguments)));
+      });
 }
 
 }  // namespace

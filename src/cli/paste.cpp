@@ -174,6 +174,17 @@ int paste_surfaces(const PasteArguments& arguments, const PasteOptions& options,
   return conclude(arguments, result);
 }
 
+int paste_files(const PasteArguments& arguments, const PasteOptions& options, FilesOfRun& files,
+                const std::optional<WriteOptions>& target) {
+  const Parts parts = read(arguments, options);
+  if (!arguments.quiet) {
+    for (std::size_t k = 0; k < parts.volumes.size(); ++k) tell(parts.remarks[k], arguments.surfaces[k]);
+    for (const Surface& part : parts.surfaces) tell(part.remarks);
+  }
+  return parts.volumes.empty() ? paste_surfaces(arguments, options, files, target, parts.surfaces)
+                               : paste_volumes(arguments, options, files, parts.volumes);
+}
+
 int run(const PasteArguments& arguments) {
   const PasteOptions options = to_options(arguments);
   static_cast<void>(names_of(arguments.names));  // wrong usage is told before anything is read
@@ -188,20 +199,14 @@ int run(const PasteArguments& arguments) {
   files.write("--parents", arguments.parents);
   files.write("--report", arguments.report);
   cancel_by_flag();
-  const Parts parts = read_or_report(
-      options, [&] { return read(arguments, options); },
+  return work_or_report(
+      options, [&] { return paste_files(arguments, options, files, target); },
       [&](Outcome outcome, const std::string& message) {
         PasteResult ended;
         ended.outcome = outcome;
         ended.message = message;
         write_json(arguments.report, to_json(ended, options_of(arguments)));
       });
-  if (!arguments.quiet) {
-    for (std::size_t k = 0; k < parts.volumes.size(); ++k) tell(parts.remarks[k], arguments.surfaces[k]);
-    for (const Surface& part : parts.surfaces) tell(part.remarks);
-  }
-  return parts.volumes.empty() ? paste_surfaces(arguments, options, files, target, parts.surfaces)
-                               : paste_volumes(arguments, options, files, parts.volumes);
 }
 
 }  // namespace

@@ -192,22 +192,22 @@ int run(const PlaneArguments& arguments) {
   FilesOfRun files;
   WriteOptions writing = target_of(files, arguments);
   cancel_by_flag();
-  const PlanesInSpace planes = read_or_report(
+  watch_writing(writing, options);
+  PlaneResult result;
+  work_or_report(
       options,
       [&] {
-        return read_planes(arguments.input, reading(options, arguments.input_format, arguments.tolerance));
+        const PlanesInSpace planes =
+            read_planes(arguments.input, reading(options, arguments.input_format, arguments.tolerance));
+        if (!arguments.quiet) tell(planes.remarks, arguments.input);
+        result = solve(planes, options);
+        if (result.outcome == Outcome::done) write_plane(arguments.output, result.mesh, writing);
       },
       [&](Outcome outcome, const std::string& message) {
-        PlaneResult ended;
-        ended.outcome = outcome;
-        ended.message = message;
-        write_json(arguments.report, report_of(arguments, ended));
+        result.outcome = outcome;
+        result.message = message;
+        write_json(arguments.report, report_of(arguments, result));
       });
-  if (!arguments.quiet) tell(planes.remarks, arguments.input);
-
-  watch_writing(writing, options);
-  const PlaneResult result = solve(planes, options);
-  if (result.outcome == Outcome::done) write_plane(arguments.output, result.mesh, writing);
   write_json(arguments.report, report_of(arguments, result));
   return conclude(arguments, result);
 }

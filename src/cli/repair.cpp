@@ -102,36 +102,18 @@ void write_html(const RepairArguments& arguments, const Limits& limits, const Su
   page.write();
 }
 
-int run(const RepairArguments& arguments) {
-  const RepairOptions options = to_options(arguments);
-  FilesOfRun files;
-  files.read_surfaces(arguments.surfaces, arguments.input_format);
-  WriteOptions writing = files.write_surface("-o", arguments.output, arguments.format);
-  files.write("--parents", arguments.parents);
-  files.write("--report", arguments.report);
-  files.write("--exact", arguments.exact);
-  files.write("--html", arguments.html);
-  cancel_by_flag();
-  const Surface surface = read_or_report(
-      options,
-      [&] {
-        return read_surfaces(arguments.surfaces,
-                             reading(options, arguments.input_format, arguments.tolerance));
-      },
-      [&](Outcome outcome, const std::string& message) {
-        RepairResult ended;
-        ended.outcome = outcome;
-        ended.message = message;
-        write_json(arguments.report, to_json(ended, options_of(arguments)));
-      });
+/// `result` is what is known, should a limit end it.
+int repair_files(const RepairArguments& arguments, const RepairOptions& options, const WriteOptions& writing,
+                 RepairResult& result) {
+  const Surface surface =
+      read_surfaces(arguments.surfaces, reading(options, arguments.input_format, arguments.tolerance));
   if (!arguments.quiet) {
     tell(surface.remarks);
     if (const std::string told = told_below_last_bit(surface, arguments.weld); !told.empty())
       say("note: {}\n", told);
   }
 
-  watch_writing(writing, options);
-  RepairResult result = repair(surface.view(), options);
+  result = repair(surface.view(), options);
   result.surface.regions = surface.regions;
   result.surface.holes = surface.holes;
   if (result.outcome == Outcome::done) {
@@ -146,6 +128,27 @@ int run(const RepairArguments& arguments) {
     write_html(arguments, options, surface, result, report);
   }
   return conclude(arguments, surface, result);
+}
+
+int run(const RepairArguments& arguments) {
+  const RepairOptions options = to_options(arguments);
+  FilesOfRun files;
+  files.read_surfaces(arguments.surfaces, arguments.input_format);
+  WriteOptions writing = files.write_surface("-o", arguments.output, arguments.format);
+  files.write("--parents", arguments.parents);
+  files.write("--report", arguments.report);
+  files.write("--exact", arguments.exact);
+  files.write("--html", arguments.html);
+  cancel_by_flag();
+  watch_writing(writing, options);
+  RepairResult result;  // until the end
+  return work_or_report(
+      options, [&] { return repair_files(arguments, options, writing, result); },
+      [&](Outcome outcome, const std::string& message) {
+        result.outcome = outcome;
+        result.message = message;
+        write_json(arguments.report, to_json(result, options_of(arguments)));
+      });
 }
 
 }  // namespace

@@ -12,8 +12,15 @@ namespace {
 // A signal handler can reach nothing but globals.
 volatile std::sig_atomic_t cancelled = 0;
 
+// Made before a handler is.
+const CancelToken& token() {
+  static const CancelToken only;
+  return only;
+}
+
 void set_flag(int signal) {
   cancelled = 1;
+  token().cancel();
   std::signal(signal, SIG_DFL);
 }
 
@@ -39,10 +46,15 @@ void fail_rather_than_die() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-void cancel_by_flag() { on_cancel(set_flag); }
+void cancel_by_flag() {
+  token();
+  on_cancel(set_flag);
+}
 
 void cancel_at_once() { on_cancel(leave); }
 
 bool cancel_requested() { return cancelled != 0; }
+
+const CancelToken& cancel_token() { return token(); }
 
 }  // namespace holdfast::cli

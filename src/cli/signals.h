@@ -1,6 +1,8 @@
 // Ctrl-C, termination requests, and signals that stand for errors.
 #pragma once
 
+#include "holdfast/limits.h"
+
 namespace holdfast::cli {
 
 /// From now on writing to a pipe that nobody reads, or beyond the largest size of a file, is an error of that
@@ -16,5 +18,8 @@ void cancel_by_flag();
 void cancel_at_once();
 
 [[nodiscard]] bool cancel_requested();
+
+/// Cancelled with the flag: for calls that are given limits alone.
+[[nodiscard]] const CancelToken& cancel_token();
 
 }  // namespace holdfast::cli

@@ -82,19 +82,26 @@ void tell_differences(const TetgenSwitches& switches, const TetgenInput& input) 
   if (switches.dihedral > 0) say("holdfast: no dihedral angle is promised; the least one is told below\n");
 }
 
+void write_report(const TetgenArguments& arguments, const Result& result) {
+  if (!arguments.report.empty()) write_json(arguments.report, to_json(result, {{"words", arguments.words}}));
+}
+
 /// Exit 4 where the surface crosses itself or breaks another rule; what breaks one goes to NAME.1.face.
-int detect(const TetgenSwitches& switches, const TetgenInput& input, const TetgenFiles& names,
-           const Limits& limits, const FilesOfRun& files) {
+int detect(const TetgenArguments& arguments, const TetgenSwitches& switches, const TetgenInput& input,
+           const TetgenFiles& names, const Limits& limits, const FilesOfRun& files, Result& result) {
   DiagnoseOptions options;
   static_cast<Limits&>(options) = limits;
   const std::vector<Defect> defects = diagnose(input.surface.view(), options);
   if (defects.empty()) {
+    write_report(arguments, result);
     if (!switches.quiet) files.list("No faces are intersecting.\n");
     return exit_done;
   }
   const DefectSummary summary = summarise(input.surface.view(), defects);
   if (!switches.quiet) files.list(summary_text(summary) + list_text(summary, defects, SIZE_MAX, ""));
-  cancel_by_flag();  // from here on files are open
+  result.outcome = Outcome::invalid_input;
+  result.defects = defects;
+  write_report(arguments, result);
   write_tetgen(input.output, facets_of_defects(input.surface, defects), names);
   say("holdfast: the surface is not valid: {}; the triangles concerned are in {}.face\n",
       counted(defects.size(), "defect"), input.output.string());
@@ -176,19 +183,19 @@ void write_all(const TetgenInput& input, const Volume& volume, const TetgenFiles
 }
 
 int fill(const TetgenArguments& arguments, const TetgenSwitches& switches, TetgenInput& input,
-         const TetgenFiles& names, const Viewers& viewers, const Limits& limits, const FilesOfRun& files) {
+         const TetgenFiles& names, const Viewers& viewers, const Limits& limits, const FilesOfRun& files,
+         Result& result) {
   Options options = to_options(arguments, switches, input);
   static_cast<Limits&>(options) = limits;
   if (switches.volume_by_region && !switches.quiet &&
       std::none_of(options.regions.begin(), options.regions.end(),
                    [](const RegionSeed& seed) { return seed.max_volume > 0; }))
     say("holdfast: switch a without a number: no region in {} has a bound on volumes\n", input.path.string());
-  cancel_by_flag();  // from here on the mesher asks, and files are open
   ProgressView progress(how_to_show(switches.quiet, switches.verbose));
   options.progress = std::ref(progress);
-  Result result = mesh(input.surface.view(), options);
+  result = mesh(input.surface.view(), options);
   progress.finish();
-  if (!arguments.report.empty()) write_json(arguments.report, to_json(result, {{"words", arguments.words}}));
+  write_report(arguments, result);
   if (result.outcome != Outcome::done) return conclude(input, result);
   const int checked =
       switches.check ? verify(switches, input, result.volume, files) : static_cast<int>(exit_done);
@@ -199,13 +206,15 @@ int fill(const TetgenArguments& arguments, const TetgenSwitches& switches, Tetge
   return checked;
 }
 
-int join_points(const TetgenSwitches& switches, const TetgenInput& input, const TetgenFiles& names,
-                const Viewers& viewers, const Limits& limits) {
+int join_points(const TetgenArguments& arguments, const TetgenSwitches& switches, const TetgenInput& input,
+                const TetgenFiles& names, const Viewers& viewers, const Limits& limits, Result& result) {
   Volume volume = delaunay_volume(input.surface, limits);
   if (!switches.quiet)
     say("{}: {} vertices, {} tetrahedra\n", input.output.string(), volume.vertices.size(),
         volume.tetrahedra.size());
-  cancel_by_flag();
+  result.report.input.vertices = result.report.vertices = volume.vertices.size();
+  result.report.tetrahedra = volume.tetrahedra.size();
+  write_report(arguments, result);
   if (switches.second_order) add_mid_nodes(volume, limits);
   write_all(input, volume, names, viewers, limits);
   return exit_done;
@@ -229,6 +238,23 @@ std::filesystem::path take_words(const TetgenArguments& arguments, TetgenSwitche
   return rest.front();
 }
 
+/// `result` is what is known, should a limit end it.
+int work_on_input(const TetgenArguments& arguments, const TetgenSwitches& switches, TetgenInput& input,
+                  TetgenFiles names, const Viewers& viewers, const Limits& limits, const FilesOfRun& files,
+                  Result& result) {
+  if (!switches.quiet) tell_differences(switches, input);
+  if (switches.detect) {
+    names.elements = names.edges = names.neighbours = names.surface = false;
+    names.all_faces = names.adjacent = false;
+    return detect(arguments, switches, input, names, limits, files, result);
+  }
+  if (switches.hull ? input.is_complex : !input.is_complex && switches.has_sizes())
+    static_cast<void>(add_convex_hull(input.surface, limits));
+  if (input.is_complex || switches.has_sizes())
+    return fill(arguments, switches, input, names, viewers, limits, files, result);
+  return join_points(arguments, switches, input, names, viewers, limits, result);
+}
+
 int run(const TetgenArguments& arguments) {
   TetgenSwitches switches;
   const std::filesystem::path file = take_words(arguments, switches);
@@ -249,29 +275,21 @@ int run(const TetgenArguments& arguments) {
   files.write("the output", viewers.medit);
   files.write("--report", arguments.report);
   cancel_by_flag();
-  read_or_report(
-      limits, [&] { read_input(input, switches, reading(limits, {}, arguments.tolerance)); },
+  Result result;  // until the end
+  return work_or_report(
+      limits,
+      [&] {
+        read_input(input, switches, reading(limits, {}, arguments.tolerance));
+        names = files_of(switches, input, command);  // what the file holds is known now
+        static_cast<Limits&>(names) = limits;
+        names.progress = goes_on;
+        return work_on_input(arguments, switches, input, names, viewers, limits, files, result);
+      },
       [&](Outcome outcome, const std::string& message) {
-        Result ended;
-        ended.outcome = outcome;
-        ended.message = message;
-        write_json(arguments.report, to_json(ended, {{"words", arguments.words}}));
+        result.outcome = outcome;
+        result.message = message;
+        write_report(arguments, result);
       });
-  cancel_at_once();
-  names = files_of(switches, input, command);  // what the file holds is known now
-  static_cast<Limits&>(names) = limits;
-  names.progress = goes_on;
-  if (!switches.quiet) tell_differences(switches, input);
-  if (switches.detect) {
-    names.elements = names.edges = names.neighbours = names.surface = false;
-    names.all_faces = names.adjacent = false;
-    return detect(switches, input, names, limits, files);
-  }
-  if (switches.hull ? input.is_complex : !input.is_complex && switches.has_sizes())
-    static_cast<void>(add_convex_hull(input.surface, limits));
-  if (input.is_complex || switches.has_sizes())
-    return fill(arguments, switches, input, names, viewers, limits, files);
-  return join_points(switches, input, names, viewers, limits);
 }
 
 }  // namespace

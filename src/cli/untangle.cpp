@@ -112,6 +112,32 @@ void write_html(const UntangleArguments& arguments, const Limits& limits, const 
   page.write();
 }
 
+/// `result` is what is known, should a limit end it.
+int untangle_file(const UntangleArguments& arguments, UntangleOptions options, const VolumeTarget& target,
+                  UntangleResult& result) {
+  std::vector<Remark> remarks;
+  const Volume volume = read_volume(arguments.input, reading(options, arguments.input_format), &remarks);
+  if (!arguments.quiet) tell(remarks, arguments.input);
+  const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - *options.started;
+  ProgressView progress(how_to_show(arguments.quiet, arguments.verbose));
+  options.progress = std::ref(progress);
+  result = untangle(volume, options);
+  progress.finish();
+
+  if (result.outcome == Outcome::done) {
+    write_volume(target.path, result.volume, target.options);
+    if (!arguments.quiet) tell(not_held(target.path, result.volume, target.options), target.path);
+  }
+  const std::chrono::duration<double> total = std::chrono::steady_clock::now() - *options.started;
+  result.report.seconds["read"] = reading.count();
+  result.report.seconds["total"] = total.count();
+  const Json report = report_of(arguments, result);
+  write_json(arguments.report, report);
+  write_html(arguments, options, volume, result, report);
+  if (!arguments.quiet) print_summary(arguments, result);
+  return conclude(arguments, result);
+}
+
 int run(const UntangleArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   UntangleOptions options = to_options(arguments);
@@ -125,35 +151,14 @@ int run(const UntangleArguments& arguments) {
   files.write("--html", arguments.html);
   cancel_by_flag();
 
-  std::vector<Remark> remarks;
-  const Volume volume = read_or_report(
-      options,
-      [&] { return read_volume(arguments.input, reading(options, arguments.input_format), &remarks); },
+  UntangleResult result;  // until the end
+  return work_or_report(
+      options, [&] { return untangle_file(arguments, options, target, result); },
       [&](Outcome outcome, const std::string& message) {
-        UntangleResult ended;
-        ended.outcome = outcome;
-        ended.message = message;
-        write_json(arguments.report, report_of(arguments, ended));
+        result.outcome = outcome;
+        result.message = message;
+        write_json(arguments.report, report_of(arguments, result));
       });
-  if (!arguments.quiet) tell(remarks, arguments.input);
-  const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - start;
-  ProgressView progress(how_to_show(arguments.quiet, arguments.verbose));
-  options.progress = std::ref(progress);
-  UntangleResult result = untangle(volume, options);
-  progress.finish();
-
-  if (result.outcome == Outcome::done) {
-    write_volume(target.path, result.volume, target.options);
-    if (!arguments.quiet) tell(not_held(target.path, result.volume, target.options), target.path);
-  }
-  const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start;
-  result.report.seconds["read"] = reading.count();
-  result.report.seconds["total"] = total.count();
-  const Json report = report_of(arguments, result);
-  write_json(arguments.report, report);
-  write_html(arguments, options, volume, result, report);
-  if (!arguments.quiet) print_summary(arguments, result);
-  return conclude(arguments, result);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "io/atomic_writer.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,7 +10,9 @@
 #include <atomic>
 #include <cerrno>
 #include <charconv>
+#include <climits>
 #include <cstring>
+#include <ctime>
 #include <system_error>
 #include <utility>
 
@@ -49,6 +52,9 @@ AtomicWriter::AtomicWriter(std::filesystem::path target, Watch* watch)
     if (const std::optional<int> descriptor = descriptor_of(written_)) {
       file_ = copy_of_descriptor(*descriptor);
       if (file_ < 0) fail("cannot be opened for writing", errno);
+      struct stat status {};
+      may_wait_ = watch_ != nullptr && ::fstat(file_, &status) == 0 &&
+                  (S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode));
       return;
     }
     if (!std::filesystem::is_symlink(written_, error)) break;
@@ -62,14 +68,27 @@ AtomicWriter::AtomicWriter(std::filesystem::path target, Watch* watch)
   if (type == file_type::regular || type == file_type::not_found || type == file_type::none) {
     open_temporary();
   } else {
-    file_ = ::open(written_.c_str(), O_WRONLY | O_CLOEXEC);
-    if (file_ < 0) fail("cannot be opened for writing", errno);
+    open_in_place(type == file_type::fifo);
   }
 }
 
 AtomicWriter::~AtomicWriter() {
   if (file_ >= 0) ::close(file_);
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+// Nobody may read a named pipe yet, which opening would wait for.
+void AtomicWriter::open_in_place(bool is_pipe) {
+  constexpr timespec kPause{0, 20'000'000};
+  const bool asks = is_pipe && watch_ != nullptr;
+  for (;;) {
+    file_ = ::open(written_.c_str(), O_WRONLY | O_CLOEXEC | (asks ? O_NONBLOCK : 0));
+    if (file_ >= 0) break;
+    if (errno != EINTR && !(asks && errno == ENXIO)) fail("cannot be opened for writing", errno);
+    step(watch_);
+    ::nanosleep(&kPause, nullptr);
+  }
+  may_wait_ = asks;
 }
 
 void AtomicWriter::open_temporary() {
@@ -128,11 +147,21 @@ void AtomicWriter::give_name() {
   ::close(nameless);
 }
 
+// Whether a pipe takes so much that it can be asked again soon: what reads it may do so slowly, or not at
+// all.
+bool AtomicWriter::has_room() const {
+  constexpr int kMilliseconds = 20;
+  pollfd asked{file_, POLLOUT, 0};
+  return ::poll(&asked, 1, kMilliseconds) > 0;
+}
+
 void AtomicWriter::write_through(std::string_view bytes) {
   while (!bytes.empty()) {
     step(watch_);
-    const ssize_t written = ::write(file_, bytes.data(), std::min(bytes.size(), kChunk));
-    if (written < 0 && errno == EINTR) continue;
+    if (may_wait_ && !has_room()) continue;
+    const ssize_t written =
+        ::write(file_, bytes.data(), std::min(bytes.size(), may_wait_ ? std::size_t{PIPE_BUF} : kChunk));
+    if (written < 0 && (errno == EINTR || (may_wait_ && errno == EAGAIN))) continue;
     if (written < 0) fail("cannot be written", errno);
     written_through_ += static_cast<std::uint64_t>(written);
     bytes.remove_prefix(static_cast<std::size_t>(written));

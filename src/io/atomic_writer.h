@@ -60,6 +60,8 @@ class AtomicWriter {
   void write_large(std::string_view bytes);
   void flush();
   void write_through(std::string_view bytes);
+  [[nodiscard]] bool has_room() const;
+  void open_in_place(bool is_pipe);
   [[noreturn]] void fail(const char* what, int error) const;
 
   std::filesystem::path target_;
@@ -67,6 +69,7 @@ class AtomicWriter {
   std::filesystem::path written_;    ///< the target where its links lead
   std::filesystem::path temporary_;  ///< empty when written directly, committed, or as yet without a name
   bool nameless_ = false;            ///< the file is to get a name when it is complete
+  bool may_wait_ = false;            ///< it is a pipe, and there is a watch to be asked meanwhile
   int file_ = -1;
   std::unique_ptr<char[]> buffer_;
   std::size_t used_ = 0;

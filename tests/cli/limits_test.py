@@ -71,6 +71,9 @@ class Limits(CliTest):
     COMMANDS = (("mesh", "-o", "v.vtu"), ("mesh", "-o", "v.vtu", "--repair"), ("repair", "-o", "out.off"),
                 ("paste", "-o", "out.off"), ("plane", "-o", "out.off"), ("tetgen", "-p"))
 
+    # Whose reports tell how a run ended only where it did not end as it should.
+    LOOKING = (("check", "cube.off"), ("diagnose",), ("info",), ("delaunay", "-o", "v.vtu"))
+
     def test_a_limit_that_ends_the_reading_is_in_the_report(self):
         for command, *options in self.COMMANDS:
             for limit, outcome in (("--time-limit", "1e-6"), "time_limit"), (("--memory-limit", "0.001"), "memory_limit"):
@@ -82,11 +85,82 @@ class Limits(CliTest):
                 (self.folder / "r.json").unlink()
         self.assertEqual(self.files(), ["cube.off", "p.xyz"])
 
+    def test_a_limit_is_in_the_report_of_what_only_looks(self):
+        self.run_program("mesh", "cube.off", "-o", "v.vtu", "-q")
+        self.run_program("split", "cube.off", "--parts", "1", "-o", "parts")
+        before = self.files()
+        for command, *options in self.LOOKING + (("check", "parts"),):
+            given = [] if "parts" in options else ["v.vtu" if command == "check" else "cube.off"]
+            for limit, outcome in (("--time-limit", "1e-6"), "time_limit"), (("--memory-limit", "0.001"), "memory_limit"):
+                self.run_program(command, *options, *given, "--report", "r.json", *limit, expect=5)
+                report = json.loads((self.folder / "r.json").read_text())
+                self.assertEqual(report["outcome"], outcome, command)
+                self.assertIn(f"the {outcome.replace('_', ' ')} of ", report["message"])
+                (self.folder / "r.json").unlink()
+        for command in "diagnose", "info":
+            told = self.run_program(command, "cube.off", "--json", "--time-limit", "1e-6", expect=5)
+            self.assertEqual(json.loads(told.stdout)["outcome"], "time_limit")
+        self.run_program("repair", "cube.off", "-o", "out.off", "--parents", "p.txt", "--report", "claims.json")
+        self.run_program("check", "--repaired", "cube.off", "out.off", "--report", "claims.json", "--verdict", "r.json",
+                         "--time-limit", "1e-6", expect=5)
+        self.assertEqual(json.loads((self.folder / "r.json").read_text())["outcome"], "time_limit")
+        self.assertEqual(self.files(), sorted(before + ["claims.json", "out.off", "p.txt", "r.json"]))
+
+    # A reader that does not read: the program waits in the middle of the file.
+    WRITING = (("mesh", "big.off", "--fill", "--format", "mesh"), ("mesh", "big.off", "--repair", "--fill", "--format", "mesh"),
+               ("repair", "big.off", "--format", "off"), ("paste", "big.off", "cube.off", "--format", "off"),
+               ("plane", "big.node", "--format", "off"), ("untangle", "big.mesh", "--format", "mesh"),
+               ("delaunay", "p.xyz", "--format", "mesh"))
+
+    def write_what_takes_more_than_a_pipe(self):
+        n = 40
+        square = [[i, j] for i in range(n + 1) for j in range(n + 1)]
+        low, high = [p + [5] for p in square], [p + [5 + n] for p in square]
+        facets = []
+        for i in range(n):
+            for j in range(n):
+                a, b, c, d = i * (n + 1) + j, (i + 1) * (n + 1) + j, (i + 1) * (n + 1) + j + 1, i * (n + 1) + j + 1
+                facets += [(a, c, b), (a, d, c)]
+        top = len(low)
+        facets += [(a + top, c + top, b + top) for a, b, c in facets]
+        ring = ([i * (n + 1) for i in range(n)] + [n * (n + 1) + j for j in range(n)]
+                + [i * (n + 1) + n for i in range(n, 0, -1)] + list(range(n, 0, -1)))
+        for a, b in zip(ring, ring[1:] + ring[:1]):
+            facets += [(a, b, b + top), (a, b + top, a + top)]
+        points = low + high
+        self.write("big.off", f"OFF\n{len(points)} {len(facets)} 0\n" + "".join("%d %d %d\n" % tuple(p) for p in points)
+                   + "".join("3 %d %d %d\n" % f for f in facets))
+        chance = random.Random(2)
+        self.write("big.node", "5000 2 0 0\n" + "".join(f"{i} {chance.random()!r} {chance.random()!r}\n" for i in range(5000)))
+        self.run_program("mesh", "big.off", "-o", "big.mesh", "--fill")
+
+    def test_what_ends_the_writing_is_in_the_report(self):
+        self.write_what_takes_more_than_a_pipe()
+        before = self.files()
+        for command in self.WRITING:
+            for outcome in "time_limit", "cancelled":
+                limit = ["--time-limit", "4"] if outcome == "time_limit" else []
+                process = subprocess.Popen([self.program, *command, "-q", "-o", "-", "--report", "r.json", *limit],
+                                           cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                begun = process.stdout.read(1)
+                self.assertTrue(begun, command)
+                if outcome == "cancelled":
+                    process.send_signal(signal.SIGINT)
+                process.wait(60)
+                said = process.communicate()[1].decode()
+                self.assertEqual(process.returncode, 5, (command, said))
+                report = json.loads((self.folder / "r.json").read_text())
+                self.assertEqual(report["outcome"], outcome, command)
+                self.assertIn("options", report)
+                (self.folder / "r.json").unlink()
+        self.assertEqual(self.files(), before)
+
     def test_a_signal_that_ends_the_reading_is_in_the_report(self):
         """A pipe to which nobody writes, named or not, or not all of a file."""
         os.mkfifo(self.folder / "pipe.off")
         os.mkfifo(self.folder / "pipe.poly")
-        for command, *options in self.COMMANDS:
+        self.run_program("delaunay", "p.xyz", "-o", "v.vtu")
+        for command, *options in self.COMMANDS + self.LOOKING:
             for source in "-", "pipe.off", "part":
                 if command == "tetgen":
                     if source != "pipe.off":
@@ -94,6 +168,8 @@ class Limits(CliTest):
                     given = ["pipe.poly"]
                 else:
                     given = [source if source == "pipe.off" else "-"] + (["--input-format", "off"] if source != "pipe.off" else [])
+                if command == "check":
+                    options, given = [], given[:1] + ["v.vtu"] + given[1:]
                 process = subprocess.Popen([self.program, command, *options, *given, "--report", "r.json"], cwd=self.folder,
                                            stdin=subprocess.PIPE, stderr=subprocess.PIPE)
                 if source == "part":
