@@ -9,8 +9,10 @@ namespace holdfast::io {
 
 /// What was met so far.
 struct VtuFile::Seen {
-  bool file = false, piece = false, end = false;
-  std::string section;  ///< the element that holds the current arrays
+  bool file = false, end = false;
+  bool in_piece = false;
+  std::string section;                      ///< the element that holds the current arrays
+  std::map<std::string, DataArray> common;  ///< outside all pieces
 };
 
 VtuFile::VtuFile(const Source& source) : source_(source), xml_(source) {
@@ -25,7 +27,8 @@ VtuFile::VtuFile(const Source& source) : source_(source), xml_(source) {
   }
   if (!seen.file) throw FileError(source_.path, "", "not a VTK XML file: it has no VTKFile element");
   if (!seen.end) throw FileError(source_.path, "", "the file does not end with </VTKFile>; it is truncated");
-  if (!seen.piece) throw FileError(source_.path, "", "the file has no Piece");
+  if (pieces_.empty()) throw FileError(source_.path, "", "the file has no Piece");
+  for (Piece& piece : pieces_) piece.arrays.insert(seen.common.begin(), seen.common.end());
 }
 
 void VtuFile::read_tag(const XmlTag& tag, Seen& seen) {
@@ -37,8 +40,9 @@ void VtuFile::read_tag(const XmlTag& tag, Seen& seen) {
     read_piece(tag, seen);
   else if (tag.name == "DataArray" && !tag.closing)
     // The points' array may have any name.
-    arrays_.insert({seen.section + "/" + (seen.section == "Points" ? "" : tag.attribute("Name")),
-                    DataArray{tag, xml_.position()}});
+    (seen.in_piece ? pieces_.back().arrays : seen.common)
+        .insert({seen.section + "/" + (seen.section == "Points" ? "" : tag.attribute("Name")),
+                 DataArray{tag, xml_.position()}});
   else if (std::find(std::begin(kSections), std::end(kSections), tag.name) != std::end(kSections))
     seen.section = tag.name;
 }
@@ -64,17 +68,17 @@ void VtuFile::read_file_attributes(const XmlTag& tag, Seen& seen) {
 }
 
 void VtuFile::read_piece(const XmlTag& tag, Seen& seen) {
+  seen.in_piece = !tag.closing && !tag.empty;
   if (tag.closing) return;
-  if (seen.piece) xml_.fail(tag, "files of several pieces are not read; merge them first");
-  seen.piece = true;
-  points_ = xml_.number(tag, "NumberOfPoints");
+  Piece& piece = pieces_.emplace_back();
+  piece.points = xml_.number(tag, "NumberOfPoints");
   if (polydata_)
     for (const std::string kind : {"Verts", "Lines", "Strips", "Polys"}) {
-      counts_[kind] = tag.attribute("NumberOf" + kind).empty() ? 0 : xml_.number(tag, "NumberOf" + kind);
-      cells_ += counts_[kind];
+      piece.counts[kind] = tag.attribute("NumberOf" + kind).empty() ? 0 : xml_.number(tag, "NumberOf" + kind);
+      piece.cells += piece.counts[kind];
     }
   else
-    cells_ = xml_.number(tag, "NumberOfCells");
+    piece.cells = xml_.number(tag, "NumberOfCells");
 }
 
 void VtuFile::read_appended(const XmlTag& tag) {
@@ -87,8 +91,8 @@ void VtuFile::read_appended(const XmlTag& tag) {
 }
 
 const DataArray* VtuFile::find(const std::string& name) const {
-  const auto found = arrays_.find(name);
-  return found == arrays_.end() ? nullptr : &found->second;
+  const auto found = arrays().find(name);
+  return found == arrays().end() ? nullptr : &found->second;
 }
 
 std::uint64_t VtuFile::components(const DataArray& array) const {

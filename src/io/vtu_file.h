@@ -19,7 +19,8 @@ struct DataArray {
   std::size_t content = 0;  ///< offset behind the tag
 };
 
-/// A whole file of one piece. Its arrays are decoded when they are asked for.
+/// A whole file. Its arrays are decoded when they are asked for. What it tells of is one of its pieces, the
+/// first to begin with.
 class VtuFile {
  public:
   /// Throws FileError for what is no such file, or is truncated.
@@ -28,16 +29,18 @@ class VtuFile {
   [[nodiscard]] const Source& source() const { return source_; }
   /// PolyData; else an UnstructuredGrid.
   [[nodiscard]] bool is_polydata() const { return polydata_; }
-  [[nodiscard]] std::uint64_t points() const { return points_; }
-  [[nodiscard]] std::uint64_t cells() const { return cells_; }
+  [[nodiscard]] std::size_t pieces() const { return pieces_.size(); }
+  void turn_to(std::size_t piece) { piece_ = piece; }
+  [[nodiscard]] std::uint64_t points() const { return piece().points; }
+  [[nodiscard]] std::uint64_t cells() const { return piece().cells; }
   /// Of polygonal data, in a section.
   [[nodiscard]] std::uint64_t cells_of(const std::string& section) const {
-    const auto found = counts_.find(section);
-    return found == counts_.end() ? 0 : found->second;
+    const auto found = piece().counts.find(section);
+    return found == piece().counts.end() ? 0 : found->second;
   }
 
   /// By "section/name"; the points' array has no name.
-  [[nodiscard]] const std::map<std::string, DataArray>& arrays() const { return arrays_; }
+  [[nodiscard]] const std::map<std::string, DataArray>& arrays() const { return piece().arrays; }
   [[nodiscard]] const DataArray* find(const std::string& name) const;
   /// The values of an array that must exist, `count` of them if that is known. T: double, int, std::int64_t
   /// or std::uint8_t.
@@ -48,11 +51,17 @@ class VtuFile {
 
  private:
   struct Seen;
+  struct Piece {
+    std::uint64_t points = 0, cells = 0;
+    std::map<std::string, std::uint64_t> counts;
+    std::map<std::string, DataArray> arrays;  ///< with those of the whole file
+  };
   struct Appended {
     std::size_t offset;
     bool base64;
   };
   void read_tag(const XmlTag& tag, Seen& seen);
+  [[nodiscard]] const Piece& piece() const { return pieces_[piece_]; }
   void read_file_attributes(const XmlTag& tag, Seen& seen);
   void read_piece(const XmlTag& tag, Seen& seen);
   void read_appended(const XmlTag& tag);
@@ -70,9 +79,8 @@ class VtuFile {
   XmlReader xml_;
   VtuEncoding encoding_;
   bool polydata_ = false;
-  std::uint64_t points_ = 0, cells_ = 0;
-  std::map<std::string, std::uint64_t> counts_;
-  std::map<std::string, DataArray> arrays_;
+  std::vector<Piece> pieces_;
+  std::size_t piece_ = 0;
   std::optional<Appended> appended_;
 };
 

@@ -1,5 +1,6 @@
 // Reads VTK's XML files, .vtu and .vtp, with the surface beside a volume, and .vtm, the list of several
 // (https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html).
+#include <algorithm>
 #include <cstring>
 #include <numeric>
 #include <set>
@@ -10,14 +11,29 @@
 #include "io/formats.h"
 #include "io/mid_nodes.h"
 #include "io/pieces.h"
-#include "io/vtu_block.h"
+#include "io/vtu_join.h"
 
 namespace holdfast::io {
 namespace {
 
+/// Puts the values of a piece's points into those of the whole.
+void put(const PointArray& part, const std::vector<Index>& number, std::size_t points, PointArray& whole) {
+  if (whole.values.empty()) {
+    whole.components = part.components;
+    whole.values.resize(points * part.components);
+  }
+  const auto each = static_cast<std::ptrdiff_t>(part.components);
+  for (std::size_t v = 0; v < number.size(); ++v)
+    std::copy_n(part.values.begin() + static_cast<std::ptrdiff_t>(v) * each, each,
+                whole.values.begin() + static_cast<std::ptrdiff_t>(number[v]) * each);
+}
+
 /// Puts a surface in whose points know their indices in the volume.
 void attach(MeshData& mesh, VtuBlock&& part, const std::filesystem::path& path) {
   std::vector<Index> number;
+  if (part.in_volume.size() != part.mesh.vertices.size())
+    throw FileError(
+        path, "", "its points do not tell which of the volume's they are; the two files are not of one run");
   for (std::size_t i = 0; i < part.in_volume.size(); ++i) {
     const std::int64_t v = part.in_volume[i];
     if (v < 0 || static_cast<std::uint64_t>(v) >= mesh.vertices.size() ||
@@ -27,6 +43,49 @@ void attach(MeshData& mesh, VtuBlock&& part, const std::filesystem::path& path) 
     number.push_back(static_cast<Index>(v));
   }
   append(mesh, std::move(part.mesh), number);
+}
+
+/// The mesh of a file of one piece or several, without what may be in another beside it.
+struct WholeFile {
+  VtuBlock block;
+  PointArray array;  ///< the first of those that are asked for
+};
+WholeFile read_whole(VtuFile& file, VtuGhosts ghosts, std::span<const char* const> arrays = {}) {
+  WholeFile whole;
+  if (file.pieces() == 1) {
+    whole.block = read_vtu_block(file, ghosts);
+    if (!arrays.empty()) whole.array = point_array(file, arrays);
+    return whole;
+  }
+  std::vector<VtuPiece> pieces;
+  std::vector<PointArray> of_pieces;
+  for (std::size_t k = 0; k < file.pieces(); ++k) {
+    file.turn_to(k);
+    if (file.points() == 0) continue;  // processes may have no share
+    pieces.push_back(
+        {file.source().path, "piece " + std::to_string(k) + ": ", read_vtu_block(file, VtuGhosts::left_out)});
+    whole.block.surface_beside |= pieces.back().block.surface_beside;
+    if (!arrays.empty()) of_pieces.push_back(point_array(file, arrays));
+  }
+  whole.block.mesh = joined(pieces);
+  const std::size_t points = whole.block.mesh.vertices.size();
+  for (std::size_t k = 0; k < of_pieces.size(); ++k) {
+    if (of_pieces[k].components != of_pieces.front().components)
+      throw FileError(file.source().path, "", "the array that is asked for differs in size between pieces");
+    put(of_pieces[k], pieces[k].number, points, whole.array);
+  }
+  std::vector<std::int64_t>& ids = whole.block.point_ids;
+  for (const VtuPiece& piece : pieces)
+    for (std::size_t v = 0; v < piece.block.point_ids.size(); ++v) {
+      if (ids.empty()) ids.resize(points, -1);
+      ids[piece.number[v]] = piece.block.point_ids[v];
+    }
+  return whole;
+}
+
+VtuBlock read_file(const Source& source, VtuGhosts ghosts = VtuGhosts::kept) {
+  VtuFile file(source);
+  return std::move(read_whole(file, ghosts).block);
 }
 
 }  // namespace
@@ -78,7 +137,7 @@ void append(MeshData& mesh, MeshData&& part, const std::vector<Index>& number) {
 }
 
 VtuBlock read_vtu_blocks(const Source& source, VtuGhosts ghosts) {
-  VtuBlock block = read_vtu_block(VtuFile(source), ghosts);
+  VtuBlock block = read_file(source, ghosts);
   if (!block.surface_beside) return block;
   std::filesystem::path beside = surface_beside(without_gz(source.path));
   std::error_code error;
@@ -91,8 +150,7 @@ VtuBlock read_vtu_blocks(const Source& source, VtuGhosts ghosts) {
     return block;
   }
   const FileBytes bytes(beside, source.watch);
-  attach(block.mesh, read_vtu_block(VtuFile({beside, bytes.view(), source.finite, source.watch}), ghosts),
-         beside);
+  attach(block.mesh, read_file({beside, bytes.view(), source.finite, source.watch}, ghosts), beside);
   return block;
 }
 
@@ -112,7 +170,7 @@ MeshData read_vtm(const Source& source) {
     if (const std::string ending = lower(part.extension().string()); ending != ".vtu" && ending != ".vtp")
       xml.fail(*tag, "a block in the format " + in_quotes(ending) + " is not read; only .vtu and .vtp are");
     const FileBytes bytes(part, source.watch);
-    VtuBlock block = read_vtu_block(VtuFile({part, bytes.view(), source.finite, source.watch}));
+    VtuBlock block = read_file({part, bytes.view(), source.finite, source.watch});
     if (!block.in_volume.empty() && !seen.empty() && !mesh.vertices.empty()) {
       attach(mesh, std::move(block), part);
       continue;
@@ -132,10 +190,10 @@ MeshData read_vtm(const Source& source) {
 }
 
 MeshData read_vtu(const Source& source, std::span<const char* const> names, PointArray& array) {
-  const VtuFile file(source);
-  MeshData mesh = read_vtu_block(file).mesh;
-  array = point_array(file, names);
-  return mesh;
+  VtuFile file(source);
+  WholeFile whole = read_whole(file, VtuGhosts::kept, names);
+  array = std::move(whole.array);
+  return std::move(whole.block.mesh);
 }
 
 }  // namespace holdfast::io

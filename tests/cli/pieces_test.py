@@ -94,6 +94,63 @@ class Pieces(CliTest):
         said = self.run_program("convert", "p.pvtu", "w.vtu").stderr
         self.assertIn("3 points at the places of others, of pieces that have no ids of points, are left out", said)
 
+    def test_pieces_in_one_file(self):
+        def in_one(*grids):
+            pieces = "".join(g[g.index("<Piece"):g.index("</UnstructuredGrid>")] for g in grids)
+            head, tail = grids[0][:grids[0].index("<Piece")], "</UnstructuredGrid>\n</VTKFile>\n"
+            names = ('<FieldData><DataArray type="Int64" Name="core" NumberOfComponents="2" NumberOfTuples="1" '
+                     'format="ascii">2 3</DataArray></FieldData>\n')
+            return head + names + pieces + tail
+        empty = '<Piece NumberOfPoints="0" NumberOfCells="0"></Piece>'
+        self.write("p.vtu", in_one(
+            grid(CORNERS[:4], [(0, 1, 2, 3)], [("Int32", "marker", (5, 0, 0, 0))], [("Int32", "region", (1,))]),
+            empty + "</UnstructuredGrid>",
+            grid(CORNERS[1:], [(0, 3, 1, 2)], [("Int32", "marker", (0, 0, 0, 6))], [("Int32", "region", (2,))])))
+        points, tetrahedra, _ = self.mesh("p.vtu")
+        self.assertEqual([tuple(map(float, p[:3])) for p in points], CORNERS)
+        self.assertEqual([p[3] for p in points], ["5", "0", "0", "0", "6"])
+        self.assertEqual(tetrahedra, [("1", "2", "3", "4", "1"), ("2", "5", "3", "4", "2")])
+        told = json.loads(self.run_program("info", "p.vtu", "--json").stdout)
+        self.assertEqual({r["id"]: r["name"] for r in told["regions"]}, {1: None, 2: "core"})
+        # Ghosts are copies of cells of other pieces; ids say which points are one.
+        self.write("g.vtu", in_one(
+            grid(CORNERS, [FIRST, SECOND], [("Int64", "GlobalPointIds", (10, 11, 12, 13, 14))],
+                 [("UInt8", "vtkGhostType", (0, 1)), ("Int32", "region", (1, 9))]),
+            grid(CORNERS[::-1], [(3, 0, 2, 1)], [("Int64", "GlobalPointIds", (14, 13, 12, 11, 10))],
+                 [("UInt8", "vtkGhostType", (0,)), ("Int32", "region", (2,))])))
+        self.assertEqual(self.mesh("g.vtu")[1:], self.mesh("p.vtu")[1:])
+        # The pieces of a .pvtu may have pieces of their own.
+        self.write("q.pvtu", index("g.vtu"))
+        self.assertEqual(self.mesh("q.pvtu")[1], self.mesh("p.vtu")[1])
+
+    def test_triangles_and_sizes_in_pieces_of_one_file(self):
+        def piece(points, triangles, size):
+            return (f'<Piece NumberOfPoints="{len(points)}" NumberOfPolys="{len(triangles)}">\n<Points>\n<DataArray type="Float64" '
+                    f'NumberOfComponents="3" format="ascii">{" ".join(str(x) for p in points for x in p)}</DataArray></Points>\n'
+                    f'<Polys><DataArray type="Int64" Name="connectivity" format="ascii">{" ".join(str(v) for t in triangles for v in t)}'
+                    '</DataArray><DataArray type="Int64" Name="offsets" format="ascii">'
+                    f'{" ".join(str(3 * i + 3) for i in range(len(triangles)))}</DataArray></Polys></Piece>\n')
+        points = cube()
+        self.write("s.vtp", '<VTKFile type="PolyData" byte_order="LittleEndian">\n<PolyData>\n' + piece(points, CUBE_FACETS[:5], 1)
+                   + piece(points[::-1], [tuple(7 - v for v in f) for f in CUBE_FACETS[5:]], 1) + "</PolyData></VTKFile>\n")
+        self.run_program("mesh", "s.vtp", "-o", "v.vtu", "--fill")
+        self.run_program("check", "cube.off", "v.vtu")
+        self.run_program("mesh", "cube.off", "-o", "w.mesh", "--size", "0.5")
+        counts = []
+        for size in 0.4, 0.1:
+            background = grid([(x * 4 - 1, y * 4 - 1, z * 4 - 1) for x, y, z in CORNERS[:4]], [FIRST], [("Float64", "size", [size] * 4)])
+            other = grid([(x * 4 - 1, y * 4 - 1, z * 4 - 1) for x, y, z in CORNERS[1:]], [(0, 3, 1, 2)], [("Float64", "size", [size] * 4)])
+            self.write("b.vtu", background.replace("</UnstructuredGrid>", other[other.index("<Piece"):other.index("</UnstructuredGrid>")]
+                                                   + "</UnstructuredGrid>"))
+            self.run_program("mesh", "cube.off", "-o", "v.vtu", "--size-field", "b.vtu", "--report", "r.json")
+            counts.append(json.loads((self.folder / "r.json").read_text())["mesh"]["tetrahedra"])
+        self.assertGreater(counts[1], 10 * counts[0])
+
+    def test_a_surface_beside_that_does_not_tell_its_points_is_refused(self):
+        self.run_program("mesh", "cube.off", "-o", "v.vtu")
+        self.write("v_surface.vtu", grid(CORNERS[:4], [FIRST]))
+        self.assertIn("v_surface.vtu: its points do not tell", self.run_program("info", "v.vtu", expect=3).stderr)
+
     def test_errors_name_the_line_or_the_point(self):
         self.write("a.vtu", grid(CORNERS[:4], [(0, 1, 2, 3)], [("Int64", "vertex", (0, 1, 2, 3))]))
         (self.folder / "folder.vtu").mkdir()
