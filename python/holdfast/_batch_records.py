@@ -90,7 +90,7 @@ def is_current(task: Task, known: Row) -> bool:
         return True
     if known["status"] not in ("done", "skipped"):  # the files are of a run before that one
         return False
-    if known.get("options", options_that_matter(task.arguments)) != options_that_matter(task.arguments):
+    if known.get("options") != options_that_matter(task.arguments):  # a row without is of nobody knows which
         return False
     return "checksum" not in known or known["checksum"] == checksum_of(task.file)
 

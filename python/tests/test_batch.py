@@ -124,6 +124,7 @@ def test_resume_of_results_without_options(parts, tmp_path):
     assert command(parts[0], "-o", out).returncode == 0
     rows = [{k: v for k, v in r.items() if k not in ("options", "checksum")} for r in rows_of(out / "results.jsonl")]
     (out / "results.jsonl").write_text("".join(json.dumps(r) + "\n" for r in rows))
+    assert command(parts[0], "-o", out, "--resume", "--", "--fill").stdout.splitlines()[-1] == "1 part: 1 done"
     assert command(parts[0], "-o", out, "--resume", "--", "--fill").stdout.splitlines()[-1].endswith("1 skipped")
 
 
