@@ -34,16 +34,28 @@ bool has_no_shape(std::string_view type) {
 
 }  // namespace
 
-void InpElements::read_nodes(InpText& text) {
+std::vector<std::int64_t> InpElements::read_nodes(InpText& text) {
+  std::vector<std::int64_t> read;
   for (; text.is_data(); text.next()) {
     const std::vector<std::string_view> fields = text.fields();
     // Coordinates that are not there are zero (Abaqus and CalculiX, *NODE).
-    nodes_.add(text.number(fields[0], "a node's number"));
+    read.push_back(text.number(fields[0], "a node's number"));
     Point point{};
     for (std::size_t axis = 0; axis < 3 && axis + 1 < fields.size(); ++axis)
       if (!fields[axis + 1].empty()) point[axis] = real_of(text.reader(), fields[axis + 1], "a coordinate");
-    mesh_.vertices.push_back(text.scope().placement.of(point));
+    add_node(read.back(), text.scope().placement.of(point));
   }
+  return read;
+}
+
+void InpElements::add_node(std::int64_t number, const Point& point) {
+  nodes_.add(number);
+  mesh_.vertices.push_back(point);
+}
+
+Point InpElements::place_of_node(const InpText& text, std::int64_t number) {
+  if (const auto twice = nodes_.finish()) fail_twice(text.reader().source(), "node", *twice);
+  return mesh_.vertices[vertex(text.reader(), text.place(), number)];
 }
 
 const InpElements::Type& InpElements::type_of(const TextReader& text, const InpKeyword& key) {
@@ -93,12 +105,57 @@ std::vector<std::int64_t> InpElements::read(InpText& text, const InpKeyword& key
     if (numbers.size() != type.nodes + 1)
       text.reader().fail_at(place, "an element of " + std::to_string(type.nodes) + " nodes has " +
                                        std::to_string(numbers.empty() ? 0 : numbers.size() - 1));
-    Nodes nodes{};
-    for (std::size_t i = 0; i < type.nodes; ++i) nodes[i] = vertex(text.reader(), place, numbers[i + 1]);
-    add(text.reader(), place, type, nodes, numbers[0]);
+    const Original element{&type, {numbers.begin() + 1, numbers.end()}};
+    add_by_numbers(text.reader(), place, numbers[0], element, 0);
+    if (has_copies_) originals_[numbers[0]] = element;
     read.push_back(numbers[0]);
   }
   return read;
+}
+
+void InpElements::add_by_numbers(const TextReader& text, std::size_t place, std::int64_t number,
+                                 const Original& original, std::int64_t step) {
+  Nodes nodes{};
+  for (std::size_t i = 0; i < original.nodes.size(); ++i)
+    nodes[i] = vertex(text, place, original.nodes[i] + step);
+  add(text, place, *original.type, nodes, number);
+}
+
+std::vector<std::int64_t> InpElements::read_copies(InpText& text) {
+  std::vector<std::int64_t> all;
+  if (const auto twice = nodes_.finish()) fail_twice(text.reader().source(), "node", *twice);
+  for (; text.is_data(); text.next()) {
+    const std::vector<std::string_view> fields = text.fields();
+    const auto value = [&](std::size_t k) {
+      return k < fields.size() && !fields[k].empty()
+                 ? integer_of(text.reader(), fields[k], "a number of *ELGEN")
+                 : std::int64_t{1};
+    };
+    const std::int64_t first = text.number(fields[0], "an element's number");
+    const auto original = originals_.find(first);
+    if (original == originals_.end())
+      text.reader().fail("the element " + std::to_string(number_in_file(first)) +
+                         ", of which *ELGEN makes others, "
+                         "does not exist");
+    const Original element = original->second;
+    // Three times a number of elements with the steps of nodes and of elements.
+    const std::array<std::int64_t, 3> counts{value(1), value(4), value(7)};
+    for (const std::int64_t count : counts)
+      if (count < 1) text.reader().fail("a number of elements below 1");
+    copies_.count(text, counts[0]);
+    copies_.count(text, counts[0] * std::min<std::int64_t>(counts[1], 1 << 30));
+    copies_.count(text, counts[0] * counts[1] * std::min<std::int64_t>(counts[2], 1 << 30));
+    for (std::int64_t k = 0; k < counts[2]; ++k)
+      for (std::int64_t j = 0; j < counts[1]; ++j)
+        for (std::int64_t i = 0; i < counts[0]; ++i) {
+          const std::int64_t number = first + i * value(3) + j * value(6) + k * value(9);
+          all.push_back(number);
+          if (i + j + k > 0)
+            add_by_numbers(text.reader(), text.place(), number, element,
+                           i * value(2) + j * value(5) + k * value(8));
+        }
+  }
+  return all;
 }
 
 // A line each. Their numbers count, as sets may hold them.

@@ -19,14 +19,32 @@ struct InpElement {
   Index cell;     ///< of a hexahedron, prism or pyramid: its index among the cells; else no_entity
 };
 
+/// What few lines make of others: a short file may make much.
+class InpMade {
+ public:
+  /// Throws for the line where it is more than any mesh has.
+  void count(const InpText& text, std::int64_t more);
+
+ private:
+  std::int64_t made_ = 0;
+};
+
 /// Every node is a vertex of the mesh, every element with a shape an entity of it, or a run of facets.
 class InpElements {
  public:
-  explicit InpElements(MeshData& mesh) : mesh_(mesh) {}
+  /// `has_copies`: the file makes elements of others.
+  InpElements(MeshData& mesh, bool has_copies) : mesh_(mesh), has_copies_(has_copies) {}
 
-  void read_nodes(InpText& text);
+  /// Their numbers in order.
+  std::vector<std::int64_t> read_nodes(InpText& text);
+  /// A node at a place of the mesh.
+  void add_node(std::int64_t number, const Point& point);
+  /// Where a node is that came before. Throws for the line.
+  [[nodiscard]] Point place_of_node(const InpText& text, std::int64_t number);
   /// The elements behind a keyword: their numbers in order.
   std::vector<std::int64_t> read(InpText& text, const InpKeyword& key);
+  /// The lines behind *ELGEN, which make rows, layers and stacks of an element: the numbers of all of them.
+  std::vector<std::int64_t> read_copies(InpText& text);
   /// Before `find`. Throws if a number is there twice.
   void finish(const Source& source);
 
@@ -58,8 +76,17 @@ class InpElements {
   void add(const TextReader& text, std::size_t place, const Type& type, const Nodes& nodes,
            std::int64_t number);
   Index add_cell_of(const Type& type, const Nodes& nodes);
+  struct Original {
+    const Type* type;
+    std::vector<std::int64_t> nodes;  ///< their numbers
+  };
+  void add_by_numbers(const TextReader& text, std::size_t place, std::int64_t number,
+                      const Original& original, std::int64_t step);
 
   MeshData& mesh_;
+  const bool has_copies_;
+  InpMade copies_;
+  std::map<std::int64_t, Original> originals_;  ///< by the element's number, where there are copies
   Numbered nodes_, numbers_;
   std::vector<InpElement> elements_;
   std::vector<Cell> cells_;

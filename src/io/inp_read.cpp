@@ -4,6 +4,7 @@
 // Sets of tetrahedra are regions, those of triangles and surfaces markers. Where sets overlap, the smaller
 // one counts. An instance of a part reads the part's lines once more, with numbers and names of its own.
 #include "io/formats.h"
+#include "io/inp_generate.h"
 #include "io/inp_include.h"
 #include "io/inp_parts.h"
 #include "io/inp_sets.h"
@@ -13,7 +14,11 @@ namespace {
 
 class InpReader {
  public:
-  explicit InpReader(const Source& source) : text_(source, names_), elements_(mesh_) {}
+  explicit InpReader(const Source& source)
+      : text_(source, names_),
+        has_filled_(has_inp_keyword(source.bytes, "nfill")),
+        elements_(mesh_, has_inp_keyword(source.bytes, "elgen")),
+        generated_(elements_) {}
 
   MeshData read() {
     while (!text_.at_end()) read_block(text_.keyword());
@@ -30,7 +35,19 @@ class InpReader {
   void read_block(const InpKeyword& key) {
     if (key.name == "node") {
       require_global(key);
-      elements_.read_nodes(text_);
+      const std::vector<std::int64_t> numbers = elements_.read_nodes(text_);
+      if (has_filled_) generated_.add_listed(text_, key, numbers);
+    } else if (key.name == "ngen") {
+      require_global(key);
+      generated_.read_ngen(text_, key);
+    } else if (key.name == "nfill") {
+      generated_.read_nfill(text_, key);
+    } else if (key.name == "nset" && has_filled_ && key.has("nset")) {
+      ++skipped_[key.name];  // they are no markers
+      generated_.read_set(text_, key);
+    } else if (key.name == "elgen") {
+      const std::vector<std::int64_t> numbers = elements_.read_copies(text_);
+      if (key.has("elset")) sets_.add_listed(text_.scope().given(key.values.at("elset")), numbers);
     } else if (key.name == "element") {
       const std::vector<std::int64_t> numbers = elements_.read(text_, key);
       if (key.has("elset")) sets_.add_listed(text_.scope().given(key.values.at("elset")), numbers);
@@ -61,7 +78,7 @@ class InpReader {
     };
     if (key.name == "system" && text_.is_data()) fail("coordinates of their own (*SYSTEM)");
     const auto system = key.values.find("system");
-    if (key.name != "node" || system == key.values.end()) return;
+    if ((key.name != "node" && key.name != "ngen") || system == key.values.end()) return;
     const std::string kind = lower(system->second);
     if (kind == "c") fail("cylindrical coordinates (SYSTEM=C)");
     if (kind == "s") fail("spherical coordinates (SYSTEM=S)");
@@ -155,7 +172,9 @@ class InpReader {
   MeshData mesh_;
   InpNames names_;
   InpText text_;
+  const bool has_filled_;
   InpElements elements_;
+  InpGenerated generated_;
   InpSets sets_;
   InpSurfaces surfaces_;
   InpParts parts_;

@@ -1,6 +1,6 @@
-// Reads I-DEAS universal files: nodes (2411, 781), elements (2412) and permanent groups (2467, 2477 and their
-// older forms). A group is a region or a marker; elements of a kind that has no groups keep the number of
-// their physical property.
+// Reads I-DEAS universal files: nodes (2411, 781, 15), elements (2412) and permanent groups (2467, 2477 and
+// their older forms). A group is a region or a marker; elements of a kind that has no groups keep the number
+// of their physical property.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -28,7 +28,7 @@ class UnvReader {
       read_dataset(integer_of(text_, line_, "a dataset's number"));
     }
     if (nodes_.size() == 0)
-      throw FileError(text_.source().path, "", "the file holds no nodes (dataset 2411)");
+      throw FileError(text_.source().path, "", "the file holds no nodes (dataset 2411, 781 or 15)");
     if (const auto twice = numbers_.finish()) fail_twice("element", *twice);
     give_ids();
     mesh_.leave_out(skipped_, "datasets of other kinds", "dataset of another kind");
@@ -75,6 +75,8 @@ class UnvReader {
       case 2411:
       case 781:
         return read_nodes();
+      case 15:
+        return read_nodes_of_one_line();
       case 2412:
         return read_elements();
       case 2467:
@@ -96,11 +98,25 @@ class UnvReader {
       if (!next_in_dataset()) text_.fail("a node without coordinates");
       const std::vector<std::string_view> fields = words();
       if (fields.size() < 3) text_.fail("a node needs three coordinates");
-      mesh_.vertices.push_back({real_of(text_, fields[0], "a coordinate"),
-                                real_of(text_, fields[1], "a coordinate"),
-                                real_of(text_, fields[2], "a coordinate")});
+      add_vertex(fields[0], fields[1], fields[2]);
     }
     if (const auto twice = nodes_.finish()) fail_twice("node", *twice);
+  }
+
+  // Number, two coordinate systems and a colour, then the coordinates.
+  void read_nodes_of_one_line() {
+    while (next_in_dataset()) {
+      const std::vector<std::string_view> fields = words();
+      if (fields.size() < 7) text_.fail("a node of dataset 15 has seven numbers");
+      nodes_.add(integer_of(text_, fields[0], "a node's number"));
+      add_vertex(fields[4], fields[5], fields[6]);
+    }
+    if (const auto twice = nodes_.finish()) fail_twice("node", *twice);
+  }
+
+  void add_vertex(std::string_view x, std::string_view y, std::string_view z) {
+    mesh_.vertices.push_back({real_of(text_, x, "a coordinate"), real_of(text_, y, "a coordinate"),
+                              real_of(text_, z, "a coordinate")});
   }
 
   void read_elements() {

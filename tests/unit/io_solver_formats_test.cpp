@@ -236,6 +236,26 @@ std::string error(const std::string& name, const std::string& bytes) {
   return "read";
 }
 
+/// As I-DEAS Test writes them.
+TEST(SolverFormats, UniversalNodesOfOneLine) {
+  TemporaryFolder folder;
+  put(folder / "a.unv",
+      "    -1\n    15\n"
+      "         1         0         0        11  0.00000E+00  0.00000E+00  0.00000E+00\n"
+      "         2         0         0        11  1.50000E+00  0.00000E+00  0.00000E+00\n"
+      "         7         0         0        11  0.00000E+00  1.00000E+00  0.00000E+00\n"
+      "         4         0         0        11  0.00000E+00  0.00000E+00 -1.00000E+00\n"
+      "    -1\n    -1\n  2412\n         1       111         3         1         7         4\n"
+      "         1         7         2         4\n    -1\n");
+  const Volume v = read_volume(folder / "a.unv");
+  ASSERT_EQ(v.vertices.size(), 4u);
+  EXPECT_EQ(v.vertices[1], (Point{1.5, 0, 0}));
+  EXPECT_EQ(v.vertices[3], (Point{0, 0, -1}));
+  EXPECT_EQ(v.tetrahedra, (std::vector<Tetrahedron>{{0, 2, 1, 3}}));
+  EXPECT_EQ(v.regions, (std::vector<int>{3}));
+  EXPECT_EQ(error("a.unv", "-1\n15\n1 1 1 1 0. 0.\n-1\n"), "line 3: a node of dataset 15 has seven numbers");
+}
+
 TEST(SolverFormats, BadFilesAreToldByTheirLines) {
   EXPECT_EQ(error("a.inp", "*NODE\n1, 0, 0, 0\n2, 1, x, 0\n"), "line 3: expected a coordinate, found 'x'");
   EXPECT_EQ(error("a.inp", "*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=C3D4\n1, 1, 1, 1, 9\n"),
