@@ -226,13 +226,13 @@ void keep_layers(const Attempt& attempt, const VolumeData& volume, bool improves
   }
 }
 
-// The improvement heeds bounds, so that it leaves next to nothing to do for a second pass; what a pass
-// without it leaves is exact.
+// Points for ratios make angles smaller, and improvement, which knows nothing of ratios, lets nearly all of
+// them be while it makes angles larger than they were. It heeds bounds on volumes, so that it leaves next to
+// nothing to do for a second pass; what a pass without it leaves is exact.
 void bound(const Attempt& attempt, const VolumeData& volume, bool improves, Report::Bounds& report) {
+  const std::vector<std::uint8_t> fresh(volume.mesh.vertex_count(), 0);
   const double most_ratio = attempt.options.sizes->max_ratio;
   if (most_ratio > 0) report.ratio_points += lower_ratios(volume, most_ratio, attempt.monitor).points;
-  if (volume.most_volumes == nullptr) return;
-  const std::vector<std::uint8_t> fresh(volume.mesh.vertex_count(), 0);
   report.points += bound_volumes(volume, attempt.monitor).points;
   if (!improves || volume.mesh.vertex_count() == fresh.size()) return;
   improve(volume, attempt.options.effort, attempt.monitor, {}, fresh);

@@ -3,6 +3,7 @@
     bounds_test.py PROGRAM [unittest options]
 """
 import json
+import math
 from fractions import Fraction
 
 from cli_case import CUBE_FACETS, CliTest, cube, main, off, shifted
@@ -81,6 +82,27 @@ class Bounds(CliTest):
         bounds = json.loads((self.folder / "r.json").read_text())["bounds"]
         self.assertGreater(bounds["worst_ratio"], 0.612)
         self.assertEqual(bounds["above_ratio"] > 0, bounds["worst_ratio"] > 1.2)
+
+    def test_ratio_does_not_make_angles_smaller(self):
+        """Cylinders, whose least angle points for ratios lowered to 8 to 10 degrees."""
+        for around, rows, ratio in (8, 4, 1.2), (12, 3, 1.2), (12, 4, 1.0):
+            ring = [(round(math.cos(2 * math.pi * i / around), 6), round(math.sin(2 * math.pi * i / around), 6))
+                    for i in range(around)]
+            points = [(x, y, 2 * k / rows) for k in range(rows + 1) for x, y in ring] + [(0, 0, 0), (0, 0, 2)]
+            facets, low, high = [], len(points) - 2, len(points) - 1
+            for i in range(around):
+                j = (i + 1) % around
+                for k in range(rows):
+                    a, b, c, d = k * around + i, k * around + j, (k + 1) * around + j, (k + 1) * around + i
+                    facets += [(a, b, c), (a, c, d)]
+                facets += [(high, rows * around + i, rows * around + j), (low, j, i)]
+            self.write("cylinder.off", off(points, facets))
+            self.run_program("mesh", "cylinder.off", "-o", "out.mesh", "--max-ratio", ratio, "--report", "r.json")
+            report = json.loads((self.folder / "r.json").read_text())
+            self.assertGreater(report["quality"]["min_dihedral_deg"], 15, (around, rows, ratio))
+            self.assertGreater(report["bounds"]["ratio_points"], 0)
+            self.assertLess(report["bounds"]["above_ratio"], report["mesh"]["tetrahedra"] / 5)
+            self.run_program("check", "cylinder.off", "out.mesh")
 
     def test_layers_across_a_plate(self):
         n, thickness = 6, 0.3
