@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iostream>
 #include <iterator>
 #include <new>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "command.h"
 #include "holdfast/holdfast.h"
@@ -76,6 +79,16 @@ int tell_interruption(const Interrupted& interrupted, const CLI::App& command) {
   }
 }
 
+/// A value that is empty, as of a variable that is not set, would count as none.
+void require_values(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_expected_min() == 0) continue;
+    const std::vector<std::string>& given = option->results();
+    if (std::find(given.begin(), given.end(), "") != given.end())
+      throw UsageError(option->get_name() + ": a value is expected, and it is empty");
+  }
+}
+
 int run(int count, const char* const* arguments) {
   open_standard_streams();
   fail_rather_than_die();
@@ -96,8 +109,11 @@ int run(int count, const char* const* arguments) {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
     // Help and version are "errors" of code 0 here.
-    return app.exit(error) == 0 ? exit_done : exit_usage;
+    if (app.exit(error) != 0) return exit_usage;
+    if (!std::cout.flush()) throw FileError("/dev/stdout", "", "cannot be written");
+    return exit_done;
   }
+  require_values(*app.get_subcommands().front());
   try {
     return chosen();
   } catch (const Interrupted& interrupted) {

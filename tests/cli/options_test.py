@@ -2,6 +2,8 @@
 
     options_test.py PROGRAM [unittest options]
 """
+import subprocess
+
 from cli_case import CliTest, main
 
 # The option that does nothing, as the message names it, and what makes it so.
@@ -66,6 +68,22 @@ class Options(CliTest):
             with self.subTest(arguments):
                 said = self.run_program("mesh", "missing.off", "-o", "out.vtu", *arguments, expect=2).stderr
                 self.assertIn(option, said)
+
+    def test_an_empty_value_is_none(self):
+        """As `--size "$H"` where H is not set."""
+        for option in "--size", "--gradation", "--max-ratio", "--time-limit", "--seed", "--format", "--report", "--quality", "--layers":
+            said = self.run_program("mesh", "cube.off", "-o", "a.vtu", option, "", expect=2).stderr
+            self.assertIn(option, said)
+        self.assertIn("SURFACE", self.run_program("mesh", "", "-o", "a.vtu", expect=2).stderr)
+        self.assertIn("--scale", self.run_program("convert", "cube.off", "a.stl", "--scale", "", expect=2).stderr)
+        self.assertEqual(self.files(), ["cube.off"])
+
+    def test_help_that_cannot_be_written_is_told(self):
+        with open("/dev/full", "w", encoding="ascii") as full:
+            for command in ["--help"], ["mesh", "--help"], ["--version"]:
+                ended = subprocess.run([self.program, *command], stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+                self.assertEqual(ended.returncode, 3)
+                self.assertIn("cannot be written", ended.stderr)
 
     def test_counts_of_other_commands_do_not_wrap(self):
         for arguments in (["split", "cube.off", "--parts", "-3", "-o", "parts"], ["plane", "cube.off", "-o", "out.off", "--max-points", "-1"],
