@@ -264,6 +264,9 @@ def _bounded(
     if not isinstance(most, (numbers.Real, typing.Mapping, type(None))):
         raise TypeError("max_volume is a number, or a dict of numbers by the ids of regions")
     by_id = {id: v for id, v in most.items() if id is not None} if isinstance(most, typing.Mapping) else {}
+    for id in by_id:
+        if isinstance(id, bool) or not isinstance(id, numbers.Integral):
+            raise TypeError(f"max_volume: {id!r} is no id of a region, which is an integer")
     nowhere = float("nan")  # the region that has the id in the mesh, whatever gives it (holdfast/region_bounds.h)
     bounds = [(nowhere, nowhere, nowhere, int(id), 0.0, _positive(v, "max_volume")) for id, v in sorted(by_id.items())]
     return [(*r, 0.0) for r in regions] + bounds

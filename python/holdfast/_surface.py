@@ -396,5 +396,5 @@ def read_surface(
 
 
 def _stem(path: PathLike) -> str:
-    name = os.path.basename(os.fspath(path))
+    name = os.path.basename(os.fsencode(path)).decode("utf-8", "replace")  # for people, as the program reports it
     return os.path.splitext(name[:-3] if name.endswith(".gz") else name)[0]

@@ -348,7 +348,7 @@ class TetMesh:
         ...     holdfast.read_volume(os.path.join(folder, "one.msh"))
         TetMesh(4 points, 1 tetrahedron, 1 region)
         """
-        surfaces = os.path.splitext(os.fspath(path))[1].lower() in (".stl", ".ply", ".obj", ".off", ".poly") and not format
+        surfaces = os.path.splitext(os.fsdecode(path))[1].lower() in (".stl", ".ply", ".obj", ".off", ".poly") and not format
         if surfaces or each_region or any(x is not None for x in (order, names, only, scale)):
             with tempfile.TemporaryDirectory() as folder:
                 inner = os.path.join(folder, "mesh.vtu")

@@ -45,7 +45,7 @@ def info(path: PathLike, format: Optional[str] = None) -> dict[str, Any]:
     >>> holdfast.info("part.vtu")["volume"]  # doctest: +SKIP
     12.5
     """
-    name = os.fspath(path)
+    name = os.fsdecode(path)
     remarks: list[str] = []
     told: dict[str, Any] = {}
     if _may_be_volume(name, format or ""):

@@ -14,6 +14,7 @@
 #include "names.h"
 #include "register.h"
 #include "reports.h"
+#include "text.h"
 #include "watch.h"
 
 namespace holdfast::python {
@@ -50,7 +51,7 @@ py::list regions_of(const Surface& surface) {
 
 py::list messages_of(const std::vector<Remark>& remarks) {
   py::list messages;
-  for (const Remark& remark : remarks) messages.append(remark.message);
+  for (const Remark& remark : remarks) messages.append(message_of(remark.message));
   return messages;
 }
 
@@ -104,15 +105,17 @@ void register_files(py::module_& module) {
       .def_property_readonly("has_metrics", [](const SizeField& field) { return !field.metrics.empty(); })
       .def_property_readonly("sizes", [](const SizeField& field) { return field.sizes; });
 
-  module.def("read_surface", [](const std::string& path, const std::string& format, const py::dict& options,
+  module.def("read_surface", [](const py::object& file, const std::string& format, const py::dict& options,
                                 const py::object& progress) {
+    const std::filesystem::path path = path_from(file);
     const Watch watch(progress);
     const ReadOptions how = reading(options, watch, format);
     const py::gil_scoped_release unlocked;
     return std::make_shared<Surface>(read_surface(path, how));
   });
-  module.def("read_volume", [](const std::string& path, const std::string& format, const py::dict& options,
+  module.def("read_volume", [](const py::object& file, const std::string& format, const py::dict& options,
                                const py::object& progress) {
+    const std::filesystem::path path = path_from(file);
     const Watch watch(progress);
     const ReadOptions how = reading(options, watch, format);
     std::vector<Remark> remarks;
@@ -123,14 +126,16 @@ void register_files(py::module_& module) {
     }
     return py::make_tuple(volume, messages_of(remarks));
   });
-  module.def("read_size_field", [](const std::string& path, const py::dict& options) {
+  module.def("read_size_field", [](const py::object& file, const py::dict& options) {
+    const std::filesystem::path path = path_from(file);
     const Watch watch(py::none{});
     const ReadOptions how = reading(options, watch, {});
     const py::gil_scoped_release unlocked;
     return std::make_shared<SizeField>(read_size_field(path, how));
   });
-  module.def("write_volume", [](const std::string& path, const Volume& volume, const py::dict& how_to_write,
+  module.def("write_volume", [](const py::object& file, const Volume& volume, const py::dict& how_to_write,
                                 const py::dict& options, const py::object& progress) {
+    const std::filesystem::path path = path_from(file);
     const Watch watch(progress);
     WriteOptions how = writing(how_to_write);
     take_limits(options, how);
@@ -155,8 +160,8 @@ void register_files(py::module_& module) {
   });
   module.def("volume_formats", &volume_formats);
   module.def("readable_volume_formats", &readable_volume_formats);
-  module.def("volume_format_of", [](const std::string& path, const std::string& format) {
-    return volume_format_of(path, format);
+  module.def("volume_format_of", [](const py::object& file, const std::string& format) {
+    return volume_format_of(path_from(file), format);
   });
   module.def("volume_info", [](const Volume& volume) {
     const py::gil_scoped_release unlocked;

@@ -6,6 +6,7 @@
 #include "holdfast/holdfast.h"
 #include "holdfast/io.h"
 #include "register.h"
+#include "text.h"
 
 namespace holdfast::python {
 namespace {
@@ -19,7 +20,7 @@ void translate(std::exception_ptr thrown) {
   try {
     std::rethrow_exception(thrown);
   } catch (const FileError& error) {
-    raise(error_class("FileError")(error.what(), py::str(error.path().string()), error.where()));
+    raise(error_class("FileError")(message_of(error.what()), file_name_of(error.path()), error.where()));
   } catch (const Interrupted& interrupted) {
     raise(py::module_::import("holdfast.errors")
               .attr("_interrupted")(static_cast<int>(interrupted.outcome()), interrupted.what()));

@@ -16,6 +16,7 @@
 #include "named.h"
 #include "plane_report.h"
 #include "register.h"
+#include "text.h"
 #include "watch.h"
 
 namespace holdfast::python {
@@ -108,8 +109,9 @@ std::shared_ptr<PlaneRun> plane_in_space_arrays(const py::tuple& given, double t
   });
 }
 
-std::shared_ptr<PlaneRun> plane_file(const std::string& path, const std::string& format, double tolerance,
+std::shared_ptr<PlaneRun> plane_file(const py::object& file, const std::string& format, double tolerance,
                                      const py::dict& options, const py::object& progress) {
+  const std::filesystem::path path = path_from(file);
   return solve(options, progress, [&](const Watch& watch, const PlaneOptions& how) {
     ReadOptions reading;
     static_cast<Limits&>(reading) = how;
@@ -120,8 +122,9 @@ std::shared_ptr<PlaneRun> plane_file(const std::string& path, const std::string&
   });
 }
 
-void save(const PlaneRun& run, const std::string& path, const std::string& format, const py::dict& options,
+void save(const PlaneRun& run, const py::object& file, const std::string& format, const py::dict& options,
           const py::object& progress) {
+  const std::filesystem::path path = path_from(file);
   const Watch watch(progress);
   WriteOptions how;
   take_limits(options, how);

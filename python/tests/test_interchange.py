@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import warnings
 from types import SimpleNamespace
 
@@ -268,3 +269,30 @@ def test_max_volume_of_a_region_that_no_seed_numbers():
     assert volumes[mesh.regions == 2].max() <= 0.01 < volumes[mesh.regions == 1].max()
     with pytest.raises(ValueError, match="its regions are 1, 2"):
         holdfast.mesh(*boxes(), keep="bounded", max_volume={7: 0.01})
+    for id in "core", 1.5, True:
+        with pytest.raises(TypeError, match="is no id of a region"):
+            holdfast.mesh(*boxes(), keep="bounded", max_volume={id: 0.01})
+
+
+def test_names_of_files_that_are_no_utf8(tmp_path):
+    folder = os.fsencode(tmp_path) + b"/d\xe4"
+    os.mkdir(folder)
+    name = os.fsdecode(folder + b"/w\xfcrfel.off")
+    points, triangles = boxes()
+    with open(name, "w", encoding="ascii") as off:
+        off.write(f"OFF\n{len(points)} {len(triangles)} 0\n" + "".join("%r %r %r\n" % tuple(map(float, p)) for p in points)
+                  + "".join("3 %d %d %d\n" % tuple(t) for t in triangles))
+    mesh = holdfast.mesh(name, keep="bounded")
+    for written in "n.vtu", "n.msh", "n.stl":
+        mesh.save(os.path.join(os.fsdecode(folder), written))
+        assert os.path.exists(os.path.join(folder, os.fsencode(written)))
+    assert len(holdfast.read_volume(os.path.join(os.fsdecode(folder), "n.vtu")).tetrahedra) == len(mesh.tetrahedra)
+    assert holdfast.info(name)["file"] == holdfast.info(os.fsencode(name))["file"] == name
+    assert len(holdfast.read_surface([name, name]).triangles) == 2 * len(triangles)
+    missing = os.fsdecode(folder + b"/no\xfc.stl")
+    with pytest.raises(holdfast.FileError) as told:
+        holdfast.mesh(missing)
+    assert told.value.filename == missing
+    str(told.value).encode()  # can be printed
+    with pytest.raises(ValueError, match="null byte"):
+        holdfast.mesh("a\0b.stl")

@@ -63,9 +63,10 @@ void Hdf5File::links_of_table(std::uint64_t tree, std::uint64_t heap,
     for (std::size_t i = 0; i < entries; ++i) {
       count_block(blocks, at);
       const std::uint64_t entry = at + 8 + 40 * i, name = number<std::uint64_t>(entry);
-      const std::size_t end = name < names.size() ? names.find('\0', name) : std::string_view::npos;
+      const std::size_t begin = name < names.size() ? static_cast<std::size_t>(name) : names.size(),
+                        end = names.find('\0', begin);
       if (end == std::string_view::npos) fail(entry, "a name of HDF5 lies beyond its heap");
-      found.emplace(names.substr(name, end - name), number<std::uint64_t>(entry + 8));
+      found.emplace(names.substr(begin, end - begin), number<std::uint64_t>(entry + 8));
     }
   }
 }

@@ -219,7 +219,7 @@ void Hdf5File::read_layout(const Hdf5Message& layout, const std::vector<Filter>&
       chunks.size *= values.shape[i];
     }
     if (chunks.size > most_bytes(source_)) fail(at, "the chunks of an HDF5 array are damaged");
-    values.owned.assign(size, '\0');
+    values.owned.assign(static_cast<std::size_t>(size), '\0');
     const auto tree = number<std::uint64_t>(at + 3);
     if (tree != kNoAddress) read_chunks(tree, chunks, values);
     values.bytes = values.owned;
@@ -272,7 +272,8 @@ void Hdf5File::put_chunk(const std::vector<std::uint64_t>& origin, const Chunks&
       from = from * chunks.shape[i] + place[i];
       to = to * values.shape[i] + origin[i] + place[i];
     }
-    values.owned.replace(to * each, row, unpacked, from * each, row);
+    const auto in = [](std::uint64_t bytes) { return static_cast<std::size_t>(bytes); };
+    values.owned.replace(in(to * each), in(row), unpacked, in(from * each), in(row));
     more = false;
     for (std::size_t i = last; i-- > 0 && !more;) {
       more = ++place[i] < extent(i);
@@ -293,7 +294,7 @@ std::string Hdf5File::unpacked_chunk(std::uint64_t at, std::uint64_t size, std::
     } else if (filter.id == kShuffle) {
       unpacked = unshuffled(unpacked, filter.parameter);
     } else {
-      std::string raw(chunks.size + 4, '\0');
+      std::string raw(static_cast<std::size_t>(chunks.size) + 4, '\0');
       auto length = static_cast<uLongf>(raw.size());
       if (uncompress(reinterpret_cast<Bytef*>(raw.data()), &length,
                      reinterpret_cast<const Bytef*>(unpacked.data()),
@@ -332,7 +333,7 @@ std::vector<double> Hdf5File::reals(Object array) const {
   const Values read = values(array);
   const std::endian order = read.type.big_endian ? std::endian::big : std::endian::little;
   std::vector<double> result;
-  result.reserve(read.count);
+  result.reserve(static_cast<std::size_t>(read.count));
   if (read.type.kind == Hdf5Datatype::Kind::real) {
     if (read.type.size == 4)
       convert<double, float>(read.bytes, order, result, read.count);
@@ -350,7 +351,7 @@ std::vector<double> Hdf5File::reals(Object array) const {
 std::vector<std::int64_t> Hdf5File::as_integers(const Values& read, Object at) const {
   const std::endian order = read.type.big_endian ? std::endian::big : std::endian::little;
   std::vector<std::int64_t> result;
-  result.reserve(read.count);
+  result.reserve(static_cast<std::size_t>(read.count));
   if (read.type.kind == Hdf5Datatype::Kind::integer) {
     with_integer(read.type.size, read.type.is_signed, [&](auto kind) {
       convert<std::int64_t, decltype(kind)>(read.bytes, order, result, read.count);
@@ -375,7 +376,7 @@ std::vector<std::int64_t> Hdf5File::integers(Object array) const { return as_int
 std::vector<std::string> Hdf5File::as_texts(const Values& read) {
   std::vector<std::string> result;
   for (std::uint64_t i = 0; i < read.count; ++i) {
-    std::string_view text = read.bytes.substr(i * read.type.size, read.type.size);
+    std::string_view text = read.bytes.substr(static_cast<std::size_t>(i * read.type.size), read.type.size);
     text = text.substr(0, text.find('\0'));
     text = text.substr(0, text.find_last_not_of(' ') + 1);
     result.emplace_back(text);

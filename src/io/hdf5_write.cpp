@@ -178,7 +178,7 @@ class Metadata {
                       {0x0005, fill_value()},
                       {0x0008, layout(values_end_, size)}};
     add_attributes(messages, array.attributes);
-    values_end_ += round_up(size);
+    values_end_ += round_up(static_cast<std::size_t>(size));
     arrays_.push_back(&array);
     return add(header(messages));
   }
@@ -214,7 +214,7 @@ class Metadata {
 };
 
 void put_values(AtomicWriter& out, const Hdf5Array& array) {
-  const std::size_t size = bytes_of(array.type), count = array.rows * array.columns;
+  const std::size_t size = bytes_of(array.type), count = static_cast<std::size_t>(array.rows * array.columns);
   const char* const values = static_cast<const char*>(array.values);
   if (std::endian::native == std::endian::little || array.type == Hdf5Type::text80) {
     out << std::string_view(values, count * size);

@@ -32,7 +32,9 @@ class Numbered {
     // Numbers without gaps are the rule; then no search is needed.
     const std::uint64_t guess =
         static_cast<std::uint64_t>(number) - static_cast<std::uint64_t>(entries_.front().first);
-    if (guess < entries_.size() && entries_[guess].first == number) return entries_[guess].second;
+    if (guess < entries_.size())
+      if (const auto& [known, index] = entries_[static_cast<std::size_t>(guess)]; known == number)
+        return index;
     const auto found = std::lower_bound(entries_.begin(), entries_.end(), number,
                                         [](const auto& entry, std::int64_t n) { return entry.first < n; });
     if (found == entries_.end() || found->first != number) return std::nullopt;
