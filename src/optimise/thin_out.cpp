@@ -34,6 +34,7 @@ std::size_t Thinner::run(double least_tets, double most_cost) {
   const auto is_to_go_on = [&] { return static_cast<double>(mesh.tet_count()) > least_tets; };
   small_.emplace(volume_);
   queue_ = {};
+  is_queued_.assign(mesh.vertex_count(), 0);
   if (is_to_go_on())
     for (Vertex v = volume_.first_free(); v < mesh.vertex_count(); ++v)
       if (mesh.in_mesh(v)) push(v, most_cost);
@@ -41,6 +42,7 @@ std::size_t Thinner::run(double least_tets, double most_cost) {
   while (!queue_.empty() && is_to_go_on()) {
     const Entry next = queue_.top();
     queue_.pop();
+    is_queued_[next.v] = 0;
     if (!mesh.in_mesh(next.v)) continue;
     poll_();
     // Neighbours that went may have made it dearer since.
@@ -48,6 +50,7 @@ std::size_t Thinner::run(double least_tets, double most_cost) {
     if (!contraction_.has_choice()) continue;
     if (cost > next.cost && !queue_.empty() && cost > queue_.top().cost) {
       queue_.push({cost, next.v});
+      is_queued_[next.v] = 1;
       continue;
     }
     if (!contraction_.is_allowed()) continue;
@@ -60,13 +63,15 @@ std::size_t Thinner::run(double least_tets, double most_cost) {
 }
 
 void Thinner::push(Vertex v, double most_cost) {
-  if (!may_go(v) || volume_.in_vain().has(v, InVain::AtVertex::going)) return;
+  if (!may_go(v) || is_queued_[v] != 0 || volume_.in_vain().has(v, InVain::AtVertex::going)) return;
   poll_();
   const double cost = cost_of(v, most_cost);
-  if (contraction_.has_choice())
-    queue_.push({cost, v});
-  else
+  if (!contraction_.has_choice()) {
     volume_.in_vain().add(v, InVain::AtVertex::going);
+    return;
+  }
+  queue_.push({cost, v});
+  is_queued_[v] = 1;
 }
 
 // The least, if it is at most `most`, and then it is chosen.

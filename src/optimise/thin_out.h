@@ -56,6 +56,7 @@ class Thinner {
   std::function<void()> poll_;
   std::optional<SmallAngles> small_;
   std::priority_queue<Entry> queue_;
+  std::vector<std::uint8_t> is_queued_;  // by vertex
   std::vector<Vertex> link_;
 };
 
