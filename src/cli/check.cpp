@@ -111,9 +111,8 @@ int run(const CheckArguments& arguments) {
   files.write("--report", arguments.report);
   files.write("--html", arguments.html);
   cancel_by_flag();
-  return work_or_report(
-      options, [&] { return check_files(arguments, options, surfaces, files); },
-      [&](Outcome outcome, const std::string& message) { write_end(arguments.report, outcome, message); });
+  return work_or_write_end(options, [&] { return check_files(arguments, options, surfaces, files); },
+                           {arguments.report});
 }
 
 }  // namespace

@@ -80,9 +80,8 @@ int check_folder(const FolderCheck& what) {
   for (const ManifestPart& part : manifest.parts) files.read_volume(manifest.path_of(part.volume), {});
   files.write("--report", what.report);
   cancel_by_flag();
-  const Findings findings = work_or_report(
-      what.options, [&] { return examine(manifest, what.options); },
-      [&](Outcome outcome, const std::string& message) { write_end(what.report, outcome, message); });
+  const Findings findings =
+      work_or_write_end(what.options, [&] { return examine(manifest, what.options); }, {what.report});
   if (!what.quiet) files.list(findings.listing);
   write_json(what.report, {{"holds", findings.hold}, {"parts", findings.parts}, {"fit", findings.fits}});
   if (findings.hold) return exit_done;

@@ -67,9 +67,7 @@ int check_repaired_files(const RepairedFiles& named, const Limits& limits, bool 
   files.read_file("--report", named.report);
   files.write("--verdict", named.verdict);
   cancel_by_flag();
-  return work_or_report(
-      limits, [&] { return examine(named, limits, quiet, files); },
-      [&](Outcome outcome, const std::string& message) { write_end(named.verdict, outcome, message); });
+  return work_or_write_end(limits, [&] { return examine(named, limits, quiet, files); }, {named.verdict});
 }
 
 }  // namespace holdfast::cli

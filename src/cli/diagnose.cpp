@@ -187,12 +187,8 @@ int run(const DiagnoseArguments& arguments) {
   const std::filesystem::path json = arguments.json ? or_standard_output("-") : "";
   files.write("--json", json);
   cancel_by_flag();
-  return work_or_report(
-      options, [&] { return diagnose_files(arguments, options, json, files); },
-      [&](Outcome outcome, const std::string& message) {
-        write_end(arguments.report, outcome, message);
-        write_end(json, outcome, message);
-      });
+  return work_or_write_end(options, [&] { return diagnose_files(arguments, options, json, files); },
+                           {arguments.report, json});
 }
 
 }  // namespace

@@ -126,12 +126,8 @@ int run(const InfoArguments& arguments) {
   const std::filesystem::path json = arguments.json ? or_standard_output("-") : "";
   files.write("--json", json);
   cancel_by_flag();
-  return work_or_report(
-      limits, [&] { return tell_of_file(arguments, limits, json, files); },
-      [&](Outcome outcome, const std::string& message) {
-        write_end(arguments.report, outcome, message);
-        write_end(json, outcome, message);
-      });
+  return work_or_write_end(limits, [&] { return tell_of_file(arguments, limits, json, files); },
+                           {arguments.report, json});
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string>
 
@@ -27,9 +28,6 @@ void add_limits(CLI::App& command, LimitArguments& arguments);
 /// How a limit or a signal ended a call that has no outcome, in the words of those that have one.
 [[nodiscard]] std::string message_of(const Interrupted& interrupted, const Limits& limits);
 
-/// The report of a command that found nothing before it was ended.
-void write_end(const std::filesystem::path& path, Outcome outcome, const std::string& message);
-
 /// Works: reads, writes, or calls what has no outcome. Where a limit or a signal ends that, `report` gets the
 /// outcome and its message, as where one ends what has an outcome, before the interruption goes on.
 template <class Work, class Report>
@@ -40,6 +38,18 @@ auto work_or_report(const Limits& limits, const Work& work, const Report& report
     report(interrupted.outcome(), message_of(interrupted, limits));
     throw;
   }
+}
+
+/// The report of a command that found nothing before it was ended.
+void write_end(const std::filesystem::path& path, Outcome outcome, const std::string& message);
+
+/// As work_or_report, where all that there is to report is how it ended, in each of these files.
+template <class Work>
+auto work_or_write_end(const Limits& limits, const Work& work,
+                       std::initializer_list<std::filesystem::path> reports) {
+  return work_or_report(limits, work, [&](Outcome outcome, const std::string& message) {
+    for (const std::filesystem::path& path : reports) write_end(path, outcome, message);
+  });
 }
 
 /// For reading, which heeds signals once `cancel_by_flag` was called.

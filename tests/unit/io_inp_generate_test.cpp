@@ -10,17 +10,7 @@ namespace {
 
 using namespace samples;
 
-class InpGenerate : public ::testing::Test {
- protected:
-  Volume volume(const std::string& text) {
-    put(folder_ / "a.inp", text);
-    return read_volume(folder_ / "a.inp");
-  }
-  std::string error(const std::string& text) {
-    return refusal_of([&] { return volume(text); });
-  }
-  TemporaryFolder folder_;
-};
+class InpGenerate : public ::testing::Test, protected AsInp {};
 
 // A block of 4 x 2 x 2 bricks, 40 x 10 x 6: lines along x, planes of them, and the space between two planes.
 constexpr const char* kBlock =

@@ -8,20 +8,12 @@ namespace {
 
 using namespace samples;
 
-class InpParts : public ::testing::Test {
+class InpParts : public ::testing::Test, protected AsInp {
  protected:
-  Volume volume(const std::string& text) {
-    put(folder_ / "a.inp", text);
-    return read_volume(folder_ / "a.inp");
-  }
-  std::string error(const std::string& text) {
-    return refusal_of([&] { return volume(text); });
-  }
   static std::string without(std::string text, const std::string& from, const std::string& to) {
     const std::size_t begin = text.find(from);
     return text.erase(begin, text.find(to, begin) + to.size() + 1 - begin);
   }
-  TemporaryFolder folder_;
 };
 
 TEST_F(InpParts, InstancesArePlacedCopies) {

@@ -467,4 +467,19 @@ inline std::string binary_off(bool normals) {
   return bytes + number(2) + number(3) + number(4) + number(0);
 }
 
+/// Volumes of texts, read as files of Abaqus in a folder of their own.
+class AsInp {
+ public:
+  Volume volume(const std::string& text) {
+    put(folder_ / "a.inp", text);
+    return read_volume(folder_ / "a.inp");
+  }
+  std::string error(const std::string& text) {
+    return refusal_of([&] { return volume(text); });
+  }
+
+ protected:
+  TemporaryFolder folder_;
+};
+
 }  // namespace holdfast::samples
