@@ -45,7 +45,8 @@ using RegionSeed = Surface::RegionSeed;
 struct Sizes {
   double size = 0;  ///< the most anywhere; 0: as the surface has it
   /// From a vertex of the surface, whose size is that of its edges, sizes grow inward by this much a unit of
-  /// length, 0 to 1. Unset: 0.3, and up to 0.5 where sizes of the surface jump (docs/sizes.md).
+  /// length, 0 to 1. Unset: 0.3, and up to 0.5 where sizes of the surface jump; and points go again where
+  /// needles make them useless, unless `grow` is false (docs/sizes.md).
   std::optional<double> gradation = {};
   /// Whether sizes grow inside beyond those of the surface round; else they lie between them.
   bool grow = true;

@@ -81,7 +81,8 @@ def mesh(
         The same for sizes that depend on the direction: `(points, tetrahedra, tensors)`, a path, or a function that takes
         an (m, 3) array and gives (m, 3, 3) or (m, 6) numbers (m11 m12 m22 m13 m23 m33): in this metric edges have length 1.
     gradation
-        How much sizes grow a unit of length, away from the surface; 0 to 1. By default 0.3, and up to 0.5 on surfaces full of needles.
+        How much sizes grow a unit of length, away from the surface; 0 to 1. By default 0.3, and up to 0.5 on surfaces full of needles,
+        where points that help little go again unless this is given.
     growth
         Whether sizes may grow inside beyond those of the surface round.
     max_volume

@@ -328,7 +328,7 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->add_option(
           "--gradation", arguments->gradation,
           "Field points: growth of sizes a unit of length, away from the surface (default 0.3, up to 0.5 on "
-          "surfaces full of needles)")
+          "surfaces full of needles, where points that help little go again unless this is given)")
       ->option_text("G");
   command
       ->add_option(
