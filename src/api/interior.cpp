@@ -145,6 +145,7 @@ Begun keep_what_pays(const Attempt& attempt, BoxMesh& box, Division& division, F
     now = figures_of(field.volume(), attempt.threads);
     if (!without.is_better_somewhere(now)) return {false, now};
   }
+  if (field.is_limited()) return {false, now};  // its edges are too long
   without.take(box, division);
   field.set_sizes(attempt);
   report.field.points = 0;
@@ -156,16 +157,18 @@ Begun keep_what_pays(const Attempt& attempt, BoxMesh& box, Division& division, F
 
 // Where facets force much of what is bad, what can be bettered are the shares of elements with small angles.
 Extent extent_of_good(Field& field, Begun& begun, const Threads& threads) {
-  constexpr double kManySmall = 0.3, kLeastGrowth = 0.02;
+  constexpr double kManySmall = 0.3;
   Extent extent = Effort::good;
   if (!field.without || !field.without->is_given()) return extent;
   if (!begun.figures) begun.figures = figures_of(field.volume(), threads);
   const auto elements = static_cast<double>(begun.figures->elements());
   const auto below_30_deg = static_cast<double>(begun.figures->below_30_deg());
   extent.lowers_shares = begun.was_brief || below_30_deg > kManySmall * elements;
-  if (begun.was_brief)
+  const bool is_limited = field.is_limited();
+  const double least_growth = is_limited ? 0 : 0.02;  // limits have said how many there are to be
+  if (begun.was_brief || (extent.lowers_shares && is_limited))
     extent.most_growth =
-        std::max(kLeastGrowth, kMostInTheEnd * static_cast<double>(field.without->elements()) / elements - 1);
+        std::max(least_growth, kMostInTheEnd * static_cast<double>(field.without->elements()) / elements - 1);
   return extent;
 }
 
@@ -219,9 +222,9 @@ void keep_layers(const Attempt& attempt, const VolumeData& volume, bool improves
     if (!improves || made.points == 0) continue;
     std::vector<bool> alone(volume.kept.size(), false);
     alone[region] = true;
-    const VolumeData own{volume.mesh,         volume.region_of, volume.sizes,   alone,
-                         volume.first_free,   nullptr,          volume.metrics, volume.seed,
-                         volume.most_volumes, &levels};
+    const VolumeData own{volume.mesh,         volume.region_of,  volume.sizes,   alone,
+                         volume.first_free,   nullptr,           volume.metrics, volume.seed,
+                         volume.most_volumes, volume.most_sizes, &levels};
     improve(own, attempt.options.effort, attempt.monitor, {}, fresh);
   }
 }
@@ -273,6 +276,18 @@ void Field::set_sizes(const Attempt& attempt) {
   set_sizes_at_vertices(volume(), size_function_, attempt.threads, attempt.monitor);
 }
 
+bool Field::is_limited() const {
+  if (!size_function_.has_limit()) return false;
+  const std::vector<Tet> tets = division_.tets(box_.mesh);
+  return std::any_of(tets.begin(), tets.end(), [&](Tet t) {
+    const RegionId region = division_.regions.of_tet[t];
+    const TetMesh::Corners& c = box_.mesh.corners(t);
+    return std::any_of(c.begin(), c.end(), [&](Vertex v) {
+      return v < sizes_.size() && size_function_.decider(sizes_[v], region) == FacetSizes::By::user;
+    });
+  });
+}
+
 // As large as those of the vertices that they are joined to.
 void Field::give_sizes_to_new_vertices() {
   const TetMesh& mesh = box_.mesh;
@@ -295,7 +310,8 @@ VolumeData Field::volume() {
           nullptr,
           asks_for_metric_ ? &metrics_ : nullptr,
           seed_,
-          size_function_.most_volumes().empty() ? nullptr : &size_function_.most_volumes()};
+          size_function_.most_volumes().empty() ? nullptr : &size_function_.most_volumes(),
+          &size_function_.limits_of_regions()};
 }
 
 std::unique_ptr<Field> add_field_points(const Attempt& attempt, BoxMesh& box, Division& division,
@@ -306,7 +322,7 @@ std::unique_ptr<Field> add_field_points(const Attempt& attempt, BoxMesh& box, Di
   const SizeFunction& sizes = field->size_function();
   require_few_enough(field->volume());
   if (WithoutField::is_asked_for(attempt.options))
-    field->without = std::make_unique<WithoutField>(attempt, box, division);
+    field->without = std::make_unique<WithoutField>(attempt, box, division, sizes.limits_of_regions());
   const std::size_t before = box.mesh.vertex_count();
   FieldPoints added = add_field_points(field->volume(), sizes, attempt.threads, attempt.monitor);
   field->parts = std::move(added.parts);

@@ -28,6 +28,8 @@ class Field {
   /// As long as a large mesh is in parts, for its improvement to go on with; else null.
   std::unique_ptr<Parts> parts;
   [[nodiscard]] const SizeFunction& size_function() const { return size_function_; }
+  /// Whether the user's limit is what is wanted at some vertex.
+  [[nodiscard]] bool is_limited() const;
   [[nodiscard]] bool has_metric() const { return !metrics_.empty(); }
   /// To compare with, where the surface alone decides on sizes; else null.
   std::unique_ptr<WithoutField> without;

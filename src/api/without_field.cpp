@@ -1,8 +1,10 @@
 #include "api/without_field.h"
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
+#include "mesh/measure.h"
 #include "optimise/optimise.h"
 
 namespace holdfast {
@@ -27,20 +29,34 @@ bool is_plainly_worse(const Figures& before, const Figures& with_field) {
          (before.elements() > kTets && below > kManyBelow10 * elements);
 }
 
+// Of regular ones, as large as the limits on sizes of their regions.
+double elements_asked_for(const TetMesh& mesh, const std::vector<Tet>& tets, const Division& division,
+                          std::span<const double> limits) {
+  double elements = 0;
+  for (const Tet t : tets) {
+    const double h = limits[division.regions.of_tet[t]];
+    elements += std::numbers::sqrt2 * six_volumes(mesh, mesh.corners(t)) / (h * h * h);
+  }
+  return elements;
+}
+
 }  // namespace
 
 bool WithoutField::is_asked_for(const Options& options) {
   const Sizes& s = *options.sizes;
-  return s.size == 0 && s.vertex_sizes.empty() && !s.field && !s.fields && !s.metric && s.max_volume == 0 &&
+  return s.vertex_sizes.empty() && !s.field && !s.fields && !s.metric && s.max_volume == 0 &&
          s.max_ratio == 0 && s.layers <= 1 &&
          std::all_of(options.regions.begin(), options.regions.end(),
-                     [](const RegionSeed& r) { return r.size == 0 && r.max_volume == 0; });
+                     [](const RegionSeed& r) { return r.max_volume == 0; });
 }
 
-WithoutField::WithoutField(const Attempt& attempt, const BoxMesh& box, const Division& division)
+WithoutField::WithoutField(const Attempt& attempt, const BoxMesh& box, const Division& division,
+                           std::span<const double> limits)
     : attempt_(attempt), first_free_(box.first_free) {
   const std::vector<Tet> tets = division.tets(box.mesh);
-  if (tets.size() > kMostCompared) return;
+  if (tets.size() > kMostCompared ||
+      elements_asked_for(box.mesh, tets, division, limits) > static_cast<double>(tets.size()))
+    return;
   mesh_ = box.mesh;
   division_ = division;
   before_ = figures_of(mesh_, tets, attempt.threads);

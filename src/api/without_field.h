@@ -1,8 +1,9 @@
 // What a mesh would be without field points, as --fill makes it: the least that field points have to be worth
-// where the surface alone decides on the sizes.
+// where it is the surface that decides on the number of elements.
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "api/boundary.h"
 #include "optimise/figures.h"
@@ -11,10 +12,13 @@ namespace holdfast {
 
 class WithoutField {
  public:
-  /// Whether the user leaves sizes to the surface, so that there is something to compare.
+  /// Whether the user leaves sizes to the surface, or limits them for whole regions, so that there may be
+  /// something to compare.
   [[nodiscard]] static bool is_asked_for(const Options& options);
-  /// Copies the mesh, which has no field points yet. Nothing of a very large one.
-  WithoutField(const Attempt& attempt, const BoxMesh& box, const Division& division);
+  /// Copies the mesh, which has no field points yet. Nothing of a very large one, nor where the limits, by
+  /// region, ask for more elements than it has.
+  WithoutField(const Attempt& attempt, const BoxMesh& box, const Division& division,
+               std::span<const double> limits);
 
   /// Whether there is anything to compare with.
   [[nodiscard]] bool is_given() const { return elements() > 0; }

@@ -12,8 +12,7 @@ std::span<const Tet> VertexContractor::contract(Vertex v, double longest) {
   if (!is_small) return {};
   const std::span<const Vertex> link = contraction_.link();
   work_ *= static_cast<double>(link.size());
-  double most = 0;
-  for (const Vertex w : link) most = std::max(most, volume_.length(v, w));
+  const double most = contraction_.longest();
   if (most > longest) longest = tuning::kLongerContracted * most;
   double best = volume_.energy(contraction_.ball());
   for (const Vertex w : link) {
@@ -30,11 +29,7 @@ std::span<const Tet> VertexContractor::contract(Vertex v, double longest) {
 // not pay, or an edge would be too long.
 double VertexContractor::energy_with(Vertex w, double longest, double limit) {
   const std::span<const TetMesh::Corners> tets = contraction_.with(w);
-  const auto is_short = [&](const TetMesh::Corners& c) {
-    return std::all_of(c.begin(), c.end(),
-                       [&](Vertex x) { return x == w || volume_.length(x, w) <= longest; });
-  };
-  if (tets.empty() || !std::all_of(tets.begin(), tets.end(), is_short)) return kNoEnergy;
+  if (tets.empty() || !contraction_.is_within(longest, w)) return kNoEnergy;
   double sum = 0;
   for (std::size_t k = 0; k + 1 < tets.size() && sum < limit; k += 2) {
     const Pair both = volume_.energies_of(tets[k], tets[k + 1]);

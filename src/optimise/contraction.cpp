@@ -1,6 +1,7 @@
 #include "optimise/contraction.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "mesh/editor.h"
 #include "mesh/traverse.h"
@@ -37,6 +38,20 @@ std::span<const TetMesh::Corners> Contraction::with(Vertex w) {
     candidate_.back()[m.index] = w;
   }
   return candidate_;
+}
+
+double Contraction::longest() const {
+  double most = 0;
+  for (const Vertex w : link_) most = std::max(most, volume_.length(v_, w));
+  return most;
+}
+
+bool Contraction::is_within(double longest, Vertex w) const {
+  if (longest == std::numeric_limits<double>::infinity()) return true;
+  return std::all_of(candidate_.begin(), candidate_.end(), [&](const TetMesh::Corners& c) {
+    return std::all_of(c.begin(), c.end(),
+                       [&](Vertex x) { return x == w || volume_.length(x, w) <= longest; });
+  });
 }
 
 bool Contraction::is_valid() const {

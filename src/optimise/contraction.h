@@ -17,6 +17,8 @@ class Contraction {
   /// Turns to v. Returns whether its ball is small enough to be worth a look.
   bool turn_to(Vertex v);
   [[nodiscard]] std::span<const Tet> ball() const { return ball_; }
+  /// The length of the longest edge at v.
+  [[nodiscard]] double longest() const;
   /// The neighbours of v, in ascending order.
   [[nodiscard]] std::span<const Vertex> link() const { return link_; }
   /// The tetrahedra of the ball with w in the place of v, until the next call.
@@ -24,6 +26,8 @@ class Contraction {
   [[nodiscard]] std::span<const TetMesh::Corners> listed() const { return candidate_; }
   /// Whether all of them are positive.
   [[nodiscard]] bool is_valid() const;
+  /// Whether no edge of those, listed with w, is longer than that at w.
+  [[nodiscard]] bool is_within(double longest, Vertex w) const;
   /// Takes those, of all that were listed since v was turned to.
   void choose() { chosen_.swap(candidate_); }
   [[nodiscard]] bool has_choice() const { return !chosen_.empty(); }

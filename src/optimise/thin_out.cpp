@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "optimise/tuning.h"
 
@@ -83,9 +84,11 @@ double Thinner::cost_of(Vertex v, double most) {
     before += burden_of(volume_.energy(t));
     worst = std::max(worst, volume_.energy(t));
   }
+  const double longest = longest_at(v, ball.front());
   double best = most;
   for (const Vertex w : contraction_.link()) {
     const auto gone = static_cast<double>(ball.size() - contraction_.with(w).size());
+    if (!contraction_.is_within(longest, w)) continue;
     const double limit = before + best * gone;
     const double after = burden_of_listed(worst, limit);
     if (!(after < limit) || !contraction_.is_valid()) continue;
@@ -93,6 +96,14 @@ double Thinner::cost_of(Vertex v, double most) {
     contraction_.choose();
   }
   return best;
+}
+
+// Beside v, a corner of t, where a limit on sizes holds. Facets may ask for larger ones than it, and edges
+// that are longer already may be replaced by others.
+double Thinner::longest_at(Vertex v, Tet t) const {
+  const double limit = volume_.most_size(t);
+  if (limit == std::numeric_limits<double>::infinity()) return limit;
+  return std::max(tuning::kLongestThinned * std::max(limit, volume_.size(v)), contraction_.longest());
 }
 
 // Of what the contraction has listed; at least `limit` where it is no less, or an element is worse than that.

@@ -26,8 +26,9 @@ class Thinner {
   /// Contracts vertices onto neighbours, as long as more than `least_tets` tetrahedra, ghosts included, are
   /// left in the mesh. A contraction costs what the elements there weigh more than before (small_angles.h),
   /// for each that goes. None is made that costs more than `most_cost`, or leaves an element below 1 degree
-  /// that is as bad as the worst was. Sizes are not heeded. What has cost too much is not looked at again
-  /// where nothing has changed: later calls must not allow more. Returns how many vertices went.
+  /// that is as bad as the worst was. Of sizes, those that the user allows are heeded. What has cost too much
+  /// is not looked at again where nothing has changed: later calls must not allow more. Returns how many
+  /// vertices went.
   std::size_t run(double least_tets, double most_cost);
 
   /// All tetrahedra, if of those at vertices that may go only that part is left.
@@ -47,6 +48,7 @@ class Thinner {
   }
   void push(Vertex v, double most_cost);
   [[nodiscard]] double cost_of(Vertex v, double most);
+  [[nodiscard]] double longest_at(Vertex v, Tet t) const;
   [[nodiscard]] double burden_of(double energy) const;
   [[nodiscard]] double burden_of_listed(double worst, double limit) const;
 

@@ -182,6 +182,7 @@ inline constexpr double kWeightOfTwiceTheEnergy = 0.07;  ///< of an element
 inline constexpr double kSineNotToFallBelow = 0.02;      ///< 1 degree, unless there is worse
 // Contractions.
 inline constexpr double kLongestContracted = 1.6;  ///< sizes: longer edges would undo the sizes asked for
+inline constexpr double kLongestThinned = 2;       ///< the same, where points go that do not pay
 inline constexpr double kLongerContracted = 2;     ///< times the longest edge before, where that is longer
 // What asks for more shares of the work: of the elements.
 inline constexpr double kMuchInside = 0.15, kManyBadInside = 0.002;

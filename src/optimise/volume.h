@@ -77,6 +77,8 @@ class ImprovedVolume {
   [[nodiscard]] double size(Vertex v) const { return data_.size_in_frame(v); }
   [[nodiscard]] double length(Vertex v, Vertex w) const { return data_.length(v, w); }
 
+  /// What the user alone wants where t is; infinite without a limit.
+  [[nodiscard]] double most_size(Tet t) const { return data_.most_size(region_of_[t]); }
   /// Adds a vertex with the size and metric of those near it.
   Vertex add_vertex(const Point& place, const TetMesh::Corners& near) {
     const Vertex p = MeshEditor(mesh_).add_vertex(place);

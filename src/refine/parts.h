@@ -26,7 +26,8 @@ class Part {
 
   /// Regions are those of the whole.
   [[nodiscard]] VolumeData data(const VolumeData& whole) {
-    return {mesh, region_of, sizes, whole.kept, first_free, this, metrics_if_any(), seed, whole.most_volumes};
+    return {mesh, region_of,        sizes, whole.kept,         first_free,
+            this, metrics_if_any(), seed,  whole.most_volumes, whole.most_sizes};
   }
   /// Whether a tetrahedron is the ghost on a face of an interface.
   [[nodiscard]] bool is_beyond_interface(Tet t) const {

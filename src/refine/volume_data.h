@@ -27,6 +27,8 @@ struct VolumeData {
   /// By region: the most that a tetrahedron may measure, infinite without a bound; none where no region has
   /// one.
   const std::vector<double>* most_volumes = nullptr;
+  /// By region: the sizes that the user allows, infinite without a limit; none where there is no limit.
+  const std::vector<double>* most_sizes = nullptr;
   const Levels* levels = nullptr;  ///< that edges are not to jump over; no points are added then
 
   [[nodiscard]] bool is_inside(Tet t) const {
@@ -34,6 +36,9 @@ struct VolumeData {
   }
   [[nodiscard]] double most_volume(RegionId region) const {
     return most_volumes == nullptr ? std::numeric_limits<double>::infinity() : (*most_volumes)[region];
+  }
+  [[nodiscard]] double most_size(RegionId region) const {
+    return most_sizes == nullptr ? std::numeric_limits<double>::infinity() : (*most_sizes)[region];
   }
   /// The mean of the metrics at some vertices.
   [[nodiscard]] Metric mean_metric(std::span<const Vertex> vertices) const {

@@ -103,8 +103,8 @@ SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds
                            const SegmentTable& table, const Kept& kept, int scale, const Threads& threads)
     : gradation_(sizes.gradation.value_or(tuning::kGradation)),
       grows_(sizes.grow),
-      most_(sizes.size > 0 ? std::ldexp(sizes.size, scale) : kNoLimit),
       scale_(scale),
+      of_region_(kept.id.size(), sizes.size > 0 ? std::ldexp(sizes.size, scale) : kNoLimit),
       field_(sizes.field),
       fields_(sizes.fields),
       metric_(sizes.metric),
@@ -130,7 +130,7 @@ SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds
 }
 
 FacetSizes SizeFunction::sizes_of_facets(const Complex& complex, const Threads& threads) const {
-  double least = most_;
+  double least = kNoLimit;
   for (const double h : of_region_) least = std::min(least, h);
   std::vector<FacetSizes::Facet> facets;
   facets.reserve(complex.facets.size());
@@ -149,13 +149,10 @@ FacetSizes SizeFunction::sizes_of_facets(const Complex& complex, const Threads& 
 }
 
 void SizeFunction::limit_regions(const Sizes& sizes, std::span<const RegionSeed> seeds, const Kept& kept) {
-  const auto limits = [](const RegionSeed& seed) { return seed.size > 0 || seed.max_volume > 0; };
   const auto bounds = [](const RegionSeed& seed) { return seed.max_volume > 0; };
   const auto volume = [&](double v) { return v > 0 ? std::ldexp(v, 3 * scale_) : kNoLimit; };
   require_regions_of_bounds(seeds, kept);
   const bool has_bound = sizes.max_volume > 0 || std::any_of(seeds.begin(), seeds.end(), bounds);
-  if (!has_bound && std::none_of(seeds.begin(), seeds.end(), limits)) return;
-  of_region_.assign(kept.id.size(), most_);
   if (has_bound) most_volumes_.assign(kept.id.size(), volume(sizes.max_volume));
   for (std::size_t r = 0; r < kept.id.size(); ++r) {
     if (!kept.region[r]) continue;
@@ -185,7 +182,7 @@ void SizeFunction::limits(std::span<const Point> points, std::span<const RegionI
                  [this](const Point& p) { return unscaled(p); });
   fields_(unscaled_points, limits);
   for (std::size_t k = 0; k < points.size(); ++k)
-    limits[k] = std::min(limit_of_region(regions[k]), scaled(limits[k]));
+    limits[k] = std::min(of_region_[regions[k]], scaled(limits[k]));
 }
 
 Metric SizeFunction::metric(const Point& p, double most) const {

@@ -14,6 +14,7 @@
 // handed on itself, it would be spoiled where it turns, as along a curved layer.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <span>
 #include <vector>
@@ -38,7 +39,7 @@ class SizeFunction {
   [[nodiscard]] double of_vertex(Vertex v) const { return of_vertex_[v]; }
   /// What the user allows at a point of the mesh in a region; infinite without a limit there.
   [[nodiscard]] double limit(const Point& p, RegionId region) const {
-    const double least = limit_of_region(region);
+    const double least = of_region_[region];
     return field_ ? std::min(least, field_at(p)) : least;
   }
   /// The same at several points, each in a region of its own.
@@ -52,13 +53,16 @@ class SizeFunction {
   [[nodiscard]] Metric metric(const Point& p, double most) const;
   /// Whether the user gave a limit anywhere.
   [[nodiscard]] bool has_limit() const {
-    return most_ < std::numeric_limits<double>::infinity() || !of_region_.empty() || field_;
+    return field_ || std::any_of(of_region_.begin(), of_region_.end(),
+                                 [](double h) { return h < std::numeric_limits<double>::infinity(); });
   }
   /// Those of the threads that may ask for sizes: a function of the user is called on the calling one alone,
   /// unless it may be called on several.
   [[nodiscard]] Threads threads_of(const Threads& all) const {
     return (field_ || metric_) && !is_concurrent_ ? all.at_most(1) : all;
   }
+  /// By region, what the user allows there besides a function; infinite without a limit.
+  [[nodiscard]] const std::vector<double>& limits_of_regions() const { return of_region_; }
   /// By region, the most that a tetrahedron of the mesh may measure, infinite without a bound; none where no
   /// region has one.
   [[nodiscard]] const std::vector<double>& most_volumes() const { return most_volumes_; }
@@ -70,15 +74,12 @@ class SizeFunction {
   [[nodiscard]] const FacetSizes& of_facets() const { return of_facets_; }
   /// Who decides on a size at a point in a region.
   [[nodiscard]] FacetSizes::By decider(double size, RegionId region) const {
-    return field_ || !(size < limit_of_region(region)) ? FacetSizes::By::user : FacetSizes::By::surface;
+    return field_ || !(size < of_region_[region]) ? FacetSizes::By::user : FacetSizes::By::surface;
   }
   /// Inside, sizes do not grow beyond those of the surface round it.
   [[nodiscard]] bool grows() const { return grows_; }
 
  private:
-  [[nodiscard]] double limit_of_region(RegionId region) const {
-    return of_region_.empty() ? most_ : of_region_[region];
-  }
   [[nodiscard]] FacetSizes sizes_of_facets(const Complex& complex, const Threads& threads) const;
   void limit_regions(const Sizes& sizes, std::span<const RegionSeed> seeds, const Kept& kept);
   [[nodiscard]] Point unscaled(const Point& p) const;
@@ -87,9 +88,8 @@ class SizeFunction {
 
   double gradation_, steepness_ = 0;
   bool grows_;
-  double most_;
   int scale_;
-  std::vector<double> of_region_;  // empty where no region has a size of its own
+  std::vector<double> of_region_;
   std::vector<double> most_volumes_;
   std::function<double(const Point&)> field_;
   std::function<void(std::span<const Point>, std::span<double>)> fields_;

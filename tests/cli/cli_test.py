@@ -485,12 +485,15 @@ class Examples(CliTest):
     def test_points_go_again_where_needles_make_them_useless_unless_growth_is_asked_for(self):
         self.make("make_part.py", "part.stl")
         count = {}
-        for asked in ((), ("--fill",), ("--gradation", "0.3"), ("--no-growth",)):
+        for asked in ((), ("--fill",), ("--gradation", "0.3"), ("--no-growth",), ("--size", "1000"), ("--size", "3")):
             self.run_program("mesh", "part.stl", "-o", "a.vtu", "-q", "--report", "r.json", *asked)
             count[asked] = json.loads((self.folder / "r.json").read_text())["mesh"]["tetrahedra"]
         self.assertLess(count[()], 1.5 * count[("--fill",)])
         self.assertGreater(count[("--gradation", "0.3")], 1.8 * count[("--fill",)])
         self.assertGreater(count[("--no-growth",)], 1.8 * count[("--fill",)])
+        # A size beyond all that the surface allows asks for nothing, and a smaller one is kept to.
+        self.assertAlmostEqual(count[("--size", "1000")] / count[()], 1, delta=0.03)
+        self.assertGreater(count[("--size", "3")], 2 * count[()])
 
     def test_schonhardts_prism_at_many_twists(self):
         for twist in (1e-3, 1, 10, 20, 30, 40, 50, 59, 59.9):

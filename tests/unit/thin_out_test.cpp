@@ -121,6 +121,35 @@ TEST(Thinner, KeepsFigures) {
   EXPECT_TRUE(figures_of(cube.data()).is_no_worse_than(before));
 }
 
+double longest_edge_inside(const TetMesh& mesh, Vertex first_free) {
+  double most = 0;
+  for (Tet t = 0; t < mesh.slot_count(); ++t) {
+    if (!mesh.alive(t) || mesh.is_ghost(t)) continue;
+    for (const Vertex v : mesh.corners(t))
+      for (const Vertex w : mesh.corners(t))
+        if (v >= first_free) most = std::max(most, distance(mesh.position(v), mesh.position(w)));
+  }
+  return most;
+}
+
+// Edges that were longer already may be as long again.
+TEST(Thinner, HeedsTheSizesThatTheUserAllows) {
+  constexpr double kSize = 0.3;
+  Cube free(300), limited(300);
+  free.sizes.assign(free.sizes.size(), 0.1);
+  limited.sizes = free.sizes;
+  const double most = std::max(2 * kSize, longest_edge_inside(limited.mesh, 8));
+  ImprovedVolume any(free.data());
+  Thinner(any, {}, [] {}).run(0, kAnyCost);
+  const std::vector<double> limits{kSize};
+  VolumeData data = limited.data();
+  data.most_sizes = &limits;
+  ImprovedVolume volume(data);
+  EXPECT_GT(Thinner(volume, {}, [] {}).run(0, kAnyCost), 20u);
+  EXPECT_LE(longest_edge_inside(limited.mesh, 8), most);
+  EXPECT_GT(limited.mesh.tet_count(), 2 * free.mesh.tet_count());
+}
+
 TEST(Thinner, AsksForLeaveToGoOn) {
   Cube cube(100);
   ImprovedVolume volume(cube.data());
