@@ -104,7 +104,7 @@ SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds
     : gradation_(sizes.gradation.value_or(tuning::kGradation)),
       grows_(sizes.grow),
       scale_(scale),
-      of_region_(kept.id.size(), sizes.size > 0 ? std::ldexp(sizes.size, scale) : kNoLimit),
+      of_region_(kept.region.size(), sizes.size > 0 ? std::ldexp(sizes.size, scale) : kNoLimit),
       field_(sizes.field),
       fields_(sizes.fields),
       metric_(sizes.metric),

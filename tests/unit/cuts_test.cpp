@@ -137,7 +137,9 @@ TEST(SectionPoints, MakeTheCirclesSmallInWhichSpheresMeetTheCuts) {
   const Cuts cuts(samples, 2);
   const Options options;
   const Sizes sizes{.size = 0.1};
-  const SizeFunction size_function(sizes, {}, {}, SegmentTable{}, {}, 0);
+  Kept kept;
+  kept.region = {true};
+  const SizeFunction size_function(sizes, {}, {}, SegmentTable{}, kept, 0);
   Monitor monitor(options);
   EXPECT_LT(add_section_points(cube.data(), cuts, size_function, 2, monitor), 0.25);
   EXPECT_EQ(find_fault(cube.mesh), "");
@@ -177,7 +179,9 @@ TEST(SectionPoints, APlateOfTrianglesMuchLargerThanTheSizeIsNotCut) {
       MeshEditor(plate.mesh).set_facet(plate.mesh.neighbour(t, 3));
   const Options options;
   const Sizes sizes{.size = kSize};
-  const SizeFunction size_function(sizes, {}, {}, SegmentTable{}, {}, 0);
+  Kept kept;
+  kept.region = {true};
+  const SizeFunction size_function(sizes, {}, {}, SegmentTable{}, kept, 0);
   Monitor monitor(options);
   const Cuts cuts({{{0.5, 0.5, 0}, 1}, {{0.52, 0.5, 0}, 1}}, 1);
   set_sizes_at_vertices(plate.data(), size_function, 1, monitor);
