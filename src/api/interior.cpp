@@ -76,29 +76,40 @@ void note(const ImproveStats& stats, Report::Field& report) {
 constexpr double kCommonWork = 0.6;
 
 // Where facets force most of what is bad, more elements hardly help: other meshers have as many as the volume
-// takes without field points. Points go until there are so many times as many, and come again where they pay.
-constexpr double kMostOfThoseWithout = 1.25, kMostInTheEnd = 1.35;
+// takes without field points. Points go until there are so many times as many, or as many as the user's sizes
+// take, and come again where they pay, until there are so many times as many as that.
+constexpr double kTimesThoseWithout = 1.25, kTimesThoseLeft = 1.08;
+double elements_left_of(const WithoutField& without) {
+  return std::max(kTimesThoseWithout * static_cast<double>(without.elements()), without.elements_asked_for());
+}
+bool asks_for_most(const WithoutField& without) {
+  return without.elements_asked_for() == elements_left_of(without);
+}
 
 double elements_of(const Report::Shape& shape) {
   return static_cast<double>(std::accumulate(shape.quality.begin(), shape.quality.end(), std::size_t{0}));
 }
 
-// What every effort begins with. It is brief where it may go on for falling behind the mesh without field
-// points.
+// It is brief where it may go on for falling behind the mesh without field points. Where the user's sizes
+// take more elements than that, and there are no more than they take, there is nothing to compare.
+Extent extent_of_fast(const Attempt& attempt, Field& field, double elements) {
+  Extent extent = Effort::fast;
+  if (!field.without || !field.without->is_given()) return extent;
+  const Sizes& asked = *attempt.options.sizes;
+  if (asked.grow && !asked.gradation) extent.least_part = elements_left_of(*field.without) / elements;
+  extent.is_brief = extent.least_part < 1 || !asks_for_most(*field.without);
+  if (!extent.is_brief) field.without.reset();
+  return extent;
+}
+
+// What every effort begins with.
 ImproveStats improve_as_fast(const Attempt& attempt, Field& field, Report::Field& report) {
   const Threads& threads = attempt.threads;
   report.before =
       describe_shape(field.parts ? shape_of(*field.parts, threads) : shape_of(field.volume(), threads));
+  const Extent extent = extent_of_fast(attempt, field, elements_of(report.before));
   std::optional<FilledParts> filled;
   if (field.parts) filled.emplace(FilledParts{std::move(field.parts), field.size_function()});
-  Extent extent = Effort::fast;
-  if (field.without && field.without->is_given()) {
-    extent.is_brief = true;
-    const Sizes& asked = *attempt.options.sizes;
-    if (asked.grow && !asked.gradation)
-      extent.least_part =
-          kMostOfThoseWithout * static_cast<double>(field.without->elements()) / elements_of(report.before);
-  }
   const ImproveStats stats =
       improve_in_parts(field.volume(), std::move(filled), extent, threads, attempt.monitor);
   note(stats, report);
@@ -165,10 +176,10 @@ Extent extent_of_good(Field& field, Begun& begun, const Threads& threads) {
   const auto below_30_deg = static_cast<double>(begun.figures->below_30_deg());
   extent.lowers_shares = begun.was_brief || below_30_deg > kManySmall * elements;
   const bool is_limited = field.is_limited();
-  const double least_growth = is_limited ? 0 : 0.02;  // limits have said how many there are to be
-  if (begun.was_brief || (extent.lowers_shares && is_limited))
+  const double least_growth = is_limited ? 0 : 0.02;
+  if (begun.was_brief || is_limited)
     extent.most_growth =
-        std::max(least_growth, kMostInTheEnd * static_cast<double>(field.without->elements()) / elements - 1);
+        std::max(least_growth, kTimesThoseLeft * elements_left_of(*field.without) / elements - 1);
   return extent;
 }
 

@@ -12,6 +12,8 @@ namespace {
 
 // Larger ones take memory, and no optimisation makes them good.
 constexpr std::size_t kMostCompared = 300'000;  // tetrahedra
+// There is little to thin out where so many times as many are asked for.
+constexpr double kManyTimes = 8;
 // Of meshes of so many tetrahedra the optimisation changes a small part, so that the mean Q does not halve.
 // Of smaller ones it may change much, yet no such share of elements below 10 degrees goes.
 constexpr std::size_t kManyTets = 10'000, kTets = 500;
@@ -54,9 +56,9 @@ WithoutField::WithoutField(const Attempt& attempt, const BoxMesh& box, const Div
                            std::span<const double> limits)
     : attempt_(attempt), first_free_(box.first_free) {
   const std::vector<Tet> tets = division.tets(box.mesh);
-  if (tets.size() > kMostCompared ||
-      elements_asked_for(box.mesh, tets, division, limits) > static_cast<double>(tets.size()))
-    return;
+  if (tets.size() > kMostCompared) return;
+  asked_for_ = holdfast::elements_asked_for(box.mesh, tets, division, limits);
+  if (asked_for_ > kManyTimes * static_cast<double>(tets.size())) return;
   mesh_ = box.mesh;
   division_ = division;
   before_ = figures_of(mesh_, tets, attempt.threads);

@@ -15,14 +15,16 @@ class WithoutField {
   /// Whether the user leaves sizes to the surface, or limits them for whole regions, so that there may be
   /// something to compare.
   [[nodiscard]] static bool is_asked_for(const Options& options);
-  /// Copies the mesh, which has no field points yet. Nothing of a very large one, nor where the limits, by
-  /// region, ask for more elements than it has.
+  /// Copies the mesh, which has no field points yet, and takes note of the limits, by region. Nothing of a
+  /// very large one, nor where the limits ask for many more elements than it has.
   WithoutField(const Attempt& attempt, const BoxMesh& box, const Division& division,
                std::span<const double> limits);
 
   /// Whether there is anything to compare with.
   [[nodiscard]] bool is_given() const { return elements() > 0; }
   [[nodiscard]] std::size_t elements() const { return before_.elements(); }
+  /// Regular ones as large as the limits are so many.
+  [[nodiscard]] double elements_asked_for() const { return asked_for_; }
   /// Whether some figure of the mesh with field points is worse than of this one. The first call optimises
   /// this one, unless it is plain that nothing will be.
   [[nodiscard]] bool is_better_somewhere(const Figures& with_field);
@@ -38,6 +40,7 @@ class WithoutField {
   TetMesh mesh_;
   Division division_;
   Vertex first_free_ = 0;
+  double asked_for_ = 0;
   Figures before_;                    // the optimisation
   std::optional<Figures> optimised_;  // then
 };
