@@ -29,7 +29,8 @@ struct BoundStats {
 /// to date.
 BoundStats bound_volumes(const VolumeData& volume, Monitor& monitor);
 
-/// Throws std::length_error where the bounds would take more than 2^30 tetrahedra.
+/// Throws std::length_error where the bounds, or the user's sizes of regions, would take more than 2^30
+/// tetrahedra.
 void require_few_enough(const VolumeData& volume);
 
 struct RatioStats {

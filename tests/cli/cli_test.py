@@ -176,6 +176,15 @@ class Mesh(CliTest):
         self.run_program("mesh", "cube.off", "-o", "a.vtu", "--fill", "--report", "r.json")
         self.assertEqual(json.loads((self.folder / "r.json").read_text())["field_points"], 0)
 
+    def test_sizes_that_no_mesh_can_have_are_told_at_once(self):
+        for asked, word in ((("--size", "1e-5"), "the size asked for"), (("--region", "0.5,0.5,0.5,3,1e-200"), "the size asked for"),
+                            (("--max-volume", "1e-12"), "the largest volume asked for")):
+            with self.subTest(asked):
+                told = self.run_program("mesh", "cube.off", "-o", "a.vtu", *asked, "--report", "r.json", expect=5).stderr
+                self.assertIn(word + " takes more than 2^30 tetrahedra", told)
+                self.assertEqual(self.files(), ["cube.off", "r.json"])
+                (self.folder / "r.json").unlink()
+
     def test_size_fields_of_files(self):
         # One tetrahedron round the cube, in every format; the size is 0.15 at x = -1 and grows by 0.05 a unit.
         corners, sizes = [(-1, -1, -1), (9, -1, -1), (-1, 9, -1), (-1, -1, 9)], [0.15, 0.65, 0.15, 0.15]
