@@ -44,7 +44,7 @@ function off(name, shapes) {
 }
 
 python("make_part.py", "part.stl");
-run("mesh", "part.stl", "-o", "part.vtu", "--html", "part.html");
+run("mesh", "part.stl", "--size", "2.5", "-o", "part.vtu", "--html", "part.html");
 off("materials.off", [sphere([0, 0, 0], 3, 14), sphere([0, 0, 0], 2, 12), sphere([0.9, 0, 0], 0.8, 10), sphere([-0.9, 0, 0], 0.8, 10)]);
 run("mesh", "materials.off", "-o", "materials.vtu", "--keep", "bounded", "--html", "materials.html");
 off("crossing.off", [sphere([0, 0, 0], 1, 9), sphere([1.1, 0.2, 0.1], 0.8, 8)]);
