@@ -1,6 +1,7 @@
 #include "optimise/contract.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "optimise/tuning.h"
 
@@ -31,11 +32,11 @@ double VertexContractor::energy_with(Vertex w, double longest, double limit) {
   const std::span<const TetMesh::Corners> tets = contraction_.with(w);
   if (tets.empty() || !contraction_.is_within(longest, w)) return kNoEnergy;
   double sum = 0;
-  for (std::size_t k = 0; k + 1 < tets.size() && sum < limit; k += 2) {
-    const Pair both = volume_.energies_of(tets[k], tets[k + 1]);
-    sum += both[0] + both[1];
+  for (std::size_t k = 0; k < tets.size() && sum < limit; k += 4) {
+    const std::size_t count = std::min<std::size_t>(4, tets.size() - k);
+    const std::array<double, 4> energies = volume_.energies_of(tets.subspan(k, count));
+    sum = std::accumulate(energies.begin(), energies.begin() + static_cast<std::ptrdiff_t>(count), sum);
   }
-  if (tets.size() % 2 == 1 && sum < limit) sum += volume_.energy_of(tets.back());
   return sum;
 }
 

@@ -30,13 +30,15 @@ bool Contraction::turn_to(Vertex v) {
 }
 
 std::span<const TetMesh::Corners> Contraction::with(Vertex w) {
-  candidate_.clear();
+  candidate_.resize(members_.size());
+  std::size_t count = 0;  // of those without w; no branch, for which they are is hard to foresee
   for (const Member& m : members_) {
     const TetMesh::Corners& c = m.corners;
-    if (c[0] == w || c[1] == w || c[2] == w || c[3] == w) continue;
-    candidate_.push_back(c);
-    candidate_.back()[m.index] = w;
+    candidate_[count] = c;
+    candidate_[count][m.index] = w;
+    count += static_cast<std::size_t>(((c[0] == w) | (c[1] == w) | (c[2] == w) | (c[3] == w)) == 0);
   }
+  candidate_.resize(count);
   return candidate_;
 }
 

@@ -19,7 +19,8 @@ class SmallAngles {
   [[nodiscard]] double weight(double energy) const {
     double sum = 0;
     for (std::size_t k = 0; k < from_.size(); ++k)
-      if (energy > from_[k]) sum += tuning::kWeightBelow[k].weight;
+      sum += energy > from_[k] ? tuning::kWeightBelow[k].weight
+                               : 0.0;  // no branch, for they are hard to foresee
     return sum;
   }
 

@@ -110,11 +110,13 @@ double Thinner::longest_at(Vertex v, Tet t) const {
 double Thinner::burden_of_listed(double worst, double limit) const {
   const std::span<const TetMesh::Corners> tets = contraction_.listed();
   double sum = 0;
-  for (std::size_t k = 0; k < tets.size() && sum < limit; k += 2) {
-    const bool is_last = k + 1 == tets.size();
-    const Pair both = volume_.energies_of(tets[k], tets[is_last ? k : k + 1]);
-    if (!(both[0] < worst && both[1] < worst)) return limit;
-    sum += burden_of(both[0]) + (is_last ? 0 : burden_of(both[1]));
+  for (std::size_t k = 0; k < tets.size() && sum < limit; k += 4) {
+    const std::size_t count = std::min<std::size_t>(4, tets.size() - k);
+    const std::array<double, 4> energies = volume_.energies_of(tets.subspan(k, count));
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!(energies[i] < worst)) return limit;
+      sum += burden_of(energies[i]);
+    }
   }
   return sum;
 }

@@ -43,9 +43,16 @@ void ImprovedVolume::compute_energies(const Threads& threads) {
   }
 }
 
-// Two at a time, where elements of all regions are judged alike.
+// Four at a time, where elements of all regions are judged alike.
 void ImprovedVolume::compute_energies(Tet first, Tet last) {
-  Tet waiting = kNone;  // for a second one
+  std::array<Tet, 4> tets{};
+  std::array<TetMesh::Corners, 4> corners;
+  std::size_t waiting = 0;
+  const auto compute_waiting = [&] {
+    const std::array<double, 4> energies = energies_of({corners.data(), waiting});
+    for (std::size_t k = 0; k < waiting; ++k) energy_[tets[k]] = energies[k];
+    waiting = 0;
+  };
   for (Tet t = first; t < last; ++t) {
     if (!is_inside(t)) continue;
     if (data_.most_volumes != nullptr) {
@@ -53,15 +60,41 @@ void ImprovedVolume::compute_energies(Tet first, Tet last) {
       energy_[t] = energy_of(mesh_.corners(t));
       continue;
     }
-    if (waiting == kNone) {
-      waiting = t;
-      continue;
-    }
-    const Pair both = energies_of(mesh_.corners(waiting), mesh_.corners(t));
-    energy_[std::exchange(waiting, kNone)] = both[0];
-    energy_[t] = both[1];
+    tets[waiting] = t;
+    corners[waiting] = mesh_.corners(t);
+    if (++waiting == corners.size()) compute_waiting();
   }
-  if (waiting != kNone) energy_[waiting] = energy_of(mesh_.corners(waiting));
+  if (waiting > 0) compute_waiting();
+}
+
+std::array<double, 4> ImprovedVolume::energies_of(std::span<const TetMesh::Corners> tets) const {
+  static const bool by_fours = has_fours();
+  std::array<double, 4> energies{};
+  if (by_fours && data_.metrics == nullptr && tets.size() > 2) {
+    put_energies_by_fours(tets, energies);
+    return energies;
+  }
+  for (std::size_t k = 0; k < tets.size(); k += 2) {
+    const Pair both = energies_of(tets[k], tets[std::min(k + 1, tets.size() - 1)]);
+    energies[k] = both[0];
+    energies[k + 1] = both[1];
+  }
+  return energies;
+}
+
+HOLDFAST_WITH_FOURS void ImprovedVolume::put_energies_by_fours(std::span<const TetMesh::Corners> tets,
+                                                               std::array<double, 4>& energies) const {
+  const TetMesh::Corners &c0 = tets[0], &c1 = tets[1], &c2 = tets[2],
+                         &c3 = tets[std::min<std::size_t>(3, tets.size() - 1)];
+  std::array<PointOf<Four>, 4> p;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Point &p0 = mesh_.position(c0[i]), &p1 = mesh_.position(c1[i]), &p2 = mesh_.position(c2[i]),
+                &p3 = mesh_.position(c3[i]);
+    for (std::size_t k = 0; k < 3; ++k) p[i][k] = Four{p0[k], p1[k], p2[k], p3[k]};
+  }
+  Four e{};
+  put_energy<Four>(p[0], p[1], p[2], p[3], rule_, e);
+  for (std::size_t k = 0; k < 4; ++k) energies[k] = e[k];
 }
 
 Figures ImprovedVolume::figures(std::span<const Tet> tets) const {

@@ -67,6 +67,8 @@ class ImprovedVolume {
     }
     return holdfast::energy<Pair>(p[0], p[1], p[2], p[3], rule_);
   }
+  /// Of one to four, each what it would be by itself.
+  [[nodiscard]] std::array<double, 4> energies_of(std::span<const TetMesh::Corners> tets) const;
   [[nodiscard]] bool is_positive(const TetMesh::Corners& c) const {
     return mesh_.orient(c[0], c[1], c[2], c[3]) > 0;
   }
@@ -182,6 +184,8 @@ class ImprovedVolume {
       rule_.most = 6 * kSurely * (*data_.most_volumes)[region];
   }
   [[nodiscard]] double energy_in_frame(const TetMesh::Corners& c) const;
+  HOLDFAST_WITH_FOURS void put_energies_by_fours(std::span<const TetMesh::Corners> tets,
+                                                 std::array<double, 4>& energies) const;
   [[nodiscard]] Pair energies_in_frames(const TetMesh::Corners& x, const TetMesh::Corners& y) const;
 
   const VolumeData data_;

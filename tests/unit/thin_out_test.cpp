@@ -150,6 +150,27 @@ TEST(Thinner, HeedsTheSizesThatTheUserAllows) {
   EXPECT_GT(limited.mesh.tet_count(), 2 * free.mesh.tet_count());
 }
 
+// One to four at a time, in space and in a metric; the last of the corners is turned round and not positive.
+TEST(ImprovedVolume, EnergiesOfSeveralAreThoseOfEach) {
+  for (const bool in_metric : {false, true}) {
+    Cube cube(50);
+    std::vector<Metric> metrics(cube.mesh.vertex_count(), isotropic_metric(0.5));
+    VolumeData data = cube.data();
+    if (in_metric) data.metrics = &metrics;
+    const ImprovedVolume volume(data);
+    std::vector<TetMesh::Corners> all;
+    for (Tet t = 0; t < cube.mesh.slot_count(); ++t)
+      if (volume.is_inside(t)) all.push_back(cube.mesh.corners(t));
+    std::swap(all.back()[0], all.back()[1]);
+    for (std::size_t k = 0; k + 4 <= all.size(); ++k)
+      for (std::size_t count = 1; count <= 4; ++count) {
+        const std::array<double, 4> energies = volume.energies_of({&all[k], count});
+        for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(energies[i], volume.energy_of(all[k + i]));
+      }
+    EXPECT_EQ(volume.energy_of(all.back()), kNoEnergy);
+  }
+}
+
 TEST(Thinner, AsksForLeaveToGoOn) {
   Cube cube(100);
   ImprovedVolume volume(cube.data());
