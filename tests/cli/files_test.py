@@ -357,7 +357,7 @@ class Signals(CliTest):
             for number in ignored:
                 signal.signal(number, signal.SIG_IGN)
 
-        process = subprocess.Popen([self.program, "mesh", "sheet.off", "--keep", "box=2", "--size", "0.05", "-v",
+        process = subprocess.Popen([self.program, "mesh", "sheet.off", "--keep", "box=2", "--size", "0.3", "-v",
                                     *arguments], cwd=self.folder, stderr=subprocess.PIPE, text=True, preexec_fn=ignore)
         process.stderr.readline()
         return process
