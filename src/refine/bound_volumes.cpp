@@ -220,9 +220,10 @@ void require_few_enough(const VolumeData& volume) {
   for (Tet t = 0; t < volume.mesh.slot_count(); ++t) {
     if (!volume.is_inside(t)) continue;
     const double six = six_volumes(volume.mesh, volume.mesh.corners(t));
-    const double size = volume.most_size(volume.region_of[t]);
-    for_volumes += six / (6 * volume.most_volume(volume.region_of[t]));
-    for_sizes += kPartOfRegular * std::numbers::sqrt2 * six / (size * size * size);
+    const double most = volume.most_volume(volume.region_of[t]), size = volume.most_size(volume.region_of[t]);
+    if (!std::isfinite(six)) continue;  // beyond the range of doubles, as sizes to their third power may be
+    for_volumes += six / 6 / most;
+    for_sizes += kPartOfRegular * std::numbers::sqrt2 * (six / size / size / size);
   }
   const auto require = [](double tets, const char* what) {
     if (!(tets < kMostTets))
