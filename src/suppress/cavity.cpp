@@ -25,25 +25,21 @@ Cavity::Cavity(const TetMesh& mesh, std::span<const Tet> ball, Vertex first_free
 }
 
 bool Cavity::grow(std::mt19937_64& random) {
-  std::vector<Tet> candidates = across_;
-  sort_unique(candidates);
-  numbers::shuffle(candidates.begin(), candidates.end(), random);
-  // Those without a new vertex first.
-  const std::vector<Vertex> boundary = corners();
-  const auto brings_a_vertex = [&](Tet t) {
-    const auto& v = mesh_.corners(t);
-    return std::any_of(v.begin(), v.end(),
-                       [&](Vertex x) { return !std::binary_search(boundary.begin(), boundary.end(), x); });
-  };
-  std::size_t others = 0;
-  for (const Tet t : candidates) {
-    if (brings_a_vertex(t))
-      candidates[others++] = t;
-    else if (add(t))
-      return true;
+  // Twice the tetrahedron, and one more where it brings a vertex: one across several faces brings none.
+  candidates_.clear();
+  const std::vector<Vertex>& boundary = corners();
+  for (std::size_t k = 0; k < across_.size(); ++k) {
+    const bool brings = !std::binary_search(boundary.begin(), boundary.end(), apexes_[k]);
+    candidates_.push_back(std::uint64_t{across_[k]} * 2 + (brings ? 1 : 0));
   }
-  candidates.resize(others);
-  return std::any_of(candidates.begin(), candidates.end(), [&](Tet t) { return add(t); });
+  sort_unique(candidates_);
+  numbers::shuffle(candidates_.begin(), candidates_.end(), random);
+  const auto add_any = [&](bool bringing) {
+    return std::any_of(candidates_.begin(), candidates_.end(), [&](std::uint64_t candidate) {
+      return (candidate % 2 != 0) == bringing && add(static_cast<Tet>(candidate / 2));
+    });
+  };
+  return add_any(false) || add_any(true);
 }
 
 bool Cavity::grow_across(std::size_t k) { return add(across_[k]); }
@@ -76,21 +72,41 @@ bool Cavity::add(Tet t) {
   if (!may_add(t)) return false;
   std::swap(faces_, faces_before_);
   std::swap(across_, across_before_);
+  std::swap(apexes_, apexes_before_);
   faces_.clear();
   across_.clear();
+  apexes_.clear();
   for (std::size_t k = 0; k < faces_before_.size(); ++k) {
     if (across_before_[k] == t) continue;
     faces_.push_back(faces_before_[k]);
     across_.push_back(across_before_[k]);
+    apexes_.push_back(apexes_before_[k]);
   }
-  corners_.clear();
   tets_.push_back(t);
   collect_faces_of(t);
-  if (!encloses_a_constraint(t)) return true;
+  if (!encloses_a_constraint(t)) {
+    renew_corners(t);
+    return true;
+  }
   tets_.pop_back();
   std::swap(faces_, faces_before_);
   std::swap(across_, across_before_);
+  std::swap(apexes_, apexes_before_);
   return false;
+}
+
+// Corners of the tetrahedron that was added may have come, or gone inside.
+void Cavity::renew_corners(Tet t) {
+  if (corners_.empty()) return;
+  for (const Vertex v : mesh_.corners(t)) {
+    const auto at = std::lower_bound(corners_.begin(), corners_.end(), v);
+    const bool is_known = at != corners_.end() && *at == v;
+    if (!on_boundary(v)) {
+      if (is_known) corners_.erase(at);
+    } else if (!is_known) {
+      corners_.insert(at, v);
+    }
+  }
 }
 
 void Cavity::drop_from(std::size_t size) {
@@ -136,15 +152,18 @@ void Cavity::collect_faces() {
   corners_.clear();
   faces_.clear();
   across_.clear();
+  apexes_.clear();
   for (const Tet t : tets_) collect_faces_of(t);
 }
 
 void Cavity::collect_faces_of(Tet t) {
   for (int i = 0; i < 4; ++i) {
-    const Tet s = tet_of(mesh_.neighbour(t, i));
+    const Face across = mesh_.neighbour(t, i);
+    const Tet s = tet_of(across);
     if (holds(s)) continue;
     faces_.push_back(mesh_.face_vertices(face_code(t, i)));
     across_.push_back(s);
+    apexes_.push_back(mesh_.apex(across));
   }
 }
 

@@ -2,6 +2,7 @@
 // (Marot, Remacle 2020, "Quality tetrahedral mesh generation with HXT").
 #pragma once
 
+#include <cstdint>
 #include <random>
 #include <span>
 #include <vector>
@@ -44,6 +45,7 @@ class Cavity {
   [[nodiscard]] const std::vector<Vertex>& corners() const;
   [[nodiscard]] bool holds(Tet t) const;
   bool add(Tet t);
+  void renew_corners(Tet t);
   [[nodiscard]] bool may_add(Tet t) const;
   [[nodiscard]] bool encloses_a_constraint(Tet t) const;
   void drop_from(std::size_t size);
@@ -57,10 +59,13 @@ class Cavity {
   std::vector<Tet> tets_;
   std::vector<std::array<Vertex, 3>> faces_;
   std::vector<Tet> across_;              // by face
+  std::vector<Vertex> apexes_;           // by face, of what is across
   mutable std::vector<Vertex> corners_;  // empty until they are asked for
   // Before the last tetrahedron was added; kept to allocate nothing.
   std::vector<std::array<Vertex, 3>> faces_before_;
   std::vector<Tet> across_before_;
+  std::vector<Vertex> apexes_before_;
+  std::vector<std::uint64_t> candidates_;
 };
 
 }  // namespace holdfast

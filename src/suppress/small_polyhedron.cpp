@@ -76,9 +76,11 @@ constexpr std::size_t face_numbers(std::size_t vertices) { return 2 * std::size_
 
 // A set of vertices, one bit each.
 using Mask = std::uint32_t;
+constexpr Mask kUnknownMask = 0x80000000u;  // no vertex has this bit
 
 // The vertices above and below every triangle, where above sees its corners turn counterclockwise, computed
-// when a triangle is asked for. Each sign that the filter leaves open is computed once.
+// when a triangle is asked for. Signs that the filter leaves open are computed for whoever needs them, each
+// once: most of those that are of one plane do not matter.
 class Sides {
  public:
   Sides(const TetMesh& mesh, std::vector<Vertex> vertices)
@@ -87,48 +89,54 @@ class Sides {
         all_are_explicit_(
             std::all_of(vertices_.begin(), vertices_.end(), [&](Vertex v) { return mesh.is_explicit(v); })),
         filter_(vertices_.size(), [&](std::size_t i) { return mesh.position(vertices_[i]).data(); }),
-        of_triangle_(kBinomial[vertices_.size()][3], {kUnknownMask, 0}) {}
+        of_triangle_(kBinomial[vertices_.size()][3], {kUnknownMask, 0, 0}) {}
 
   [[nodiscard]] const std::vector<Vertex>& vertices() const { return vertices_; }
 
-  Mask above(FaceNumber f) {
-    const Pair& sides = of(f / 2);
-    return f % 2 != 0 ? sides.below : sides.above;
+  /// Those that are not known to be in its plane or below.
+  Mask maybe_above(FaceNumber f) {
+    const Known& sides = of(f / 2);
+    return (f % 2 != 0 ? sides.below : sides.above) | sides.open;
   }
-  Mask not_below(FaceNumber f) {
-    const Pair& sides = of(f / 2);
+  /// Those that are not known to be below.
+  Mask maybe_not_below(FaceNumber f) {
+    const Known& sides = of(f / 2);
     return ~(f % 2 != 0 ? sides.above : sides.below);
+  }
+  bool is_above(FaceNumber f, Local d) {
+    settle(f, Mask{1} << d);
+    return (maybe_above(f) >> d & 1) != 0;
+  }
+  /// From now on it is known on which sides these are.
+  void settle(FaceNumber f, Mask which) {
+    Known& sides = of(f / 2);
+    for (Mask open = sides.open & which; open != 0; open &= open - 1) {
+      const auto d = static_cast<Local>(std::countr_zero(open));
+      const int s = sign(kTriangles[f / 2], d);
+      if (s > 0) sides.above |= Mask{1} << d;
+      if (s < 0) sides.below |= Mask{1} << d;
+    }
+    sides.open &= ~which;
   }
 
  private:
-  struct Pair {
-    Mask above, below;
+  struct Known {
+    Mask above, below, open;
   };
   static constexpr std::int8_t kUnknown = 2;
-  static constexpr Mask kUnknownMask = 0x80000000u;  // no vertex has this bit
 
-  const Pair& of(std::size_t triangle) {
-    Pair& sides = of_triangle_[triangle];
+  Known& of(std::size_t triangle) {
+    Known& sides = of_triangle_[triangle];
     if (sides.above == kUnknownMask) sides = compute(kTriangles[triangle]);
     return sides;
   }
 
-  Pair compute(const LocalFace& f) {
+  [[nodiscard]] Known compute(const LocalFace& f) const {
     const Mask corners = Mask{1} << f[0] | Mask{1} << f[1] | Mask{1} << f[2];
-    Mask open = ~corners & ((Mask{1} << vertices_.size()) - 1);
-    Pair sides{0, 0};
-    if (all_are_explicit_) {
-      const exact::OrientAmong::Signs known = filter_.of_all(f[0], f[1], f[2]);
-      sides = {known.positive & open, known.negative & open};
-      open &= ~(sides.above | sides.below);
-    }
-    for (; open != 0; open &= open - 1) {
-      const auto d = static_cast<Local>(std::countr_zero(open));
-      const int s = sign(f, d);
-      if (s > 0) sides.above |= Mask{1} << d;
-      if (s < 0) sides.below |= Mask{1} << d;
-    }
-    return sides;
+    const Mask others = ~corners & ((Mask{1} << vertices_.size()) - 1);
+    if (!all_are_explicit_) return {0, 0, others};
+    const exact::OrientAmong::Signs known = filter_.of_all(f[0], f[1], f[2]);
+    return {known.positive & others, known.negative & others, others & ~(known.positive | known.negative)};
   }
 
   int sign(const LocalFace& f, Local d) {
@@ -151,7 +159,7 @@ class Sides {
   const bool all_are_explicit_;
   const exact::OrientAmong filter_;  // of positions
   std::vector<std::int8_t> sign_;    // by the number of the four corners; empty until one is asked for
-  std::vector<Pair> of_triangle_;    // by the number of the three corners
+  std::vector<Known> of_triangle_;   // by the number of the three corners
 };
 
 // The faces that are still to be covered, seen positively from what is left to fill: by number, with the
@@ -190,7 +198,7 @@ class Search {
         measure_(options.measure),
         n_(vertices.size()),
         sides_(mesh, std::move(vertices)),
-        apexes_(face_numbers(n_), kUnknownApexes),
+        apexes_(face_numbers(n_), Apexes{0, kUnknownMask, 0}),
         fits_(kBinomial[n_][4], Fits::unknown),
         open_(n_) {
     for (const auto& f : faces) open_.add(number_of({local(f[0]), local(f[1]), local(f[2])}));
@@ -207,11 +215,12 @@ class Search {
 
  private:
   using Number = OpenFaces::Number;
+  // Of a face: the vertices that are known to make a positive, good, empty tetrahedron with it, and those not
+  // looked at.
   struct Apexes {
-    Mask mask;
-    int count;
+    Mask found, rest;
+    int count;  // of those found
   };
-  static constexpr Apexes kUnknownApexes{0, -1};
   enum class Fits : std::uint8_t { unknown, no, yes };
 
   [[nodiscard]] Vertex vertex(Local v) const { return sides_.vertices()[v]; }
@@ -223,10 +232,17 @@ class Search {
   // A tetrahedron that holds another vertex of the polyhedron in its closure cannot be part of a filling.
   bool is_empty(FaceNumber number, Local d) {
     const LocalFace f = corners_of(number);
-    Mask inside = sides_.not_below(number) & ((Mask{1} << n_) - 1);
+    std::array<FaceNumber, 4> faces{number};
+    Mask inside = sides_.maybe_not_below(number) & ((Mask{1} << n_) - 1);
     for (const Local v : {f[0], f[1], f[2], d}) inside &= ~(Mask{1} << v);
-    for (std::size_t k = 0; k < 3 && inside != 0; ++k)
-      inside &= sides_.not_below(number_of({f[k], d, f[(k + 1) % 3]}));
+    for (std::size_t k = 0; k < 3 && inside != 0; ++k) {
+      faces[k + 1] = number_of({f[k], d, f[(k + 1) % 3]});
+      inside &= sides_.maybe_not_below(faces[k + 1]);
+    }
+    for (std::size_t k = 0; k < 4 && inside != 0; ++k) {
+      sides_.settle(faces[k], inside);
+      inside &= sides_.maybe_not_below(faces[k]);
+    }
     return inside == 0;
   }
 
@@ -240,23 +256,23 @@ class Search {
   // Each of the four faces asks.
   bool fits(FaceNumber number, Local d) {
     Fits& known = fits_[number_of_four(kTriangles[number / 2], d)];
+    if (known == Fits::no || !sides_.is_above(number, d)) return false;
     if (known == Fits::unknown)
       known = is_good(corners_of(number), d) && is_empty(number, d) ? Fits::yes : Fits::no;
     return known == Fits::yes;
   }
 
-  // The vertices that make a positive, good, empty tetrahedron with the face.
-  const Apexes& apexes(Number number) {
-    Apexes& found = apexes_[number];
-    if (found.count >= 0) return found;
-    found = {0, 0};
-    for (Mask rest = sides_.above(number); rest != 0; rest &= rest - 1) {
-      const auto d = static_cast<Local>(std::countr_zero(rest));
+  // Looks for apexes of the face until there are so many, or all that it has.
+  const Apexes& look_for_apexes(Number number, int most) {
+    Apexes& apexes = apexes_[number];
+    if (apexes.rest == kUnknownMask) apexes.rest = sides_.maybe_above(number);
+    for (; apexes.count < most && apexes.rest != 0; apexes.rest &= apexes.rest - 1) {
+      const auto d = static_cast<Local>(std::countr_zero(apexes.rest));
       if (!fits(number, d)) continue;
-      found.mask |= Mask{1} << d;
-      ++found.count;
+      apexes.found |= Mask{1} << d;
+      ++apexes.count;
     }
-    return found;
+    return apexes;
   }
 
   struct Ranking {
@@ -280,15 +296,16 @@ class Search {
     return order;
   }
 
-  // The open face with the fewest possible apexes, and these; none if some face has none.
+  // The open face with the fewest possible apexes, and these; none if some face has none. Of the others it is
+  // enough to know that they have as many.
   std::pair<Number, Mask> tightest() {
     std::pair<Number, Mask> found{0, 0};
-    int fewest = 32;
+    int fewest = kMostVertices + 1;
     for (const Number f : open_.list()) {
-      const Apexes& own = apexes(f);
+      const Apexes& own = look_for_apexes(f, fewest);
       if (own.count >= fewest) continue;
       fewest = own.count;
-      found = {f, own.mask};
+      found = {f, own.found};
       if (fewest == 0) break;
     }
     return found;
