@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <utility>
 
 #include "exact/orient_among.h"
@@ -76,7 +77,27 @@ constexpr std::size_t face_numbers(std::size_t vertices) { return 2 * std::size_
 
 // A set of vertices, one bit each.
 using Mask = std::uint32_t;
-constexpr Mask kUnknownMask = 0x80000000u;  // no vertex has this bit
+
+// One value for each of many numbers, few of which are ever asked for: those that have one are marked, so
+// that memory is written where it is used.
+template <typename Value>
+class Sparse {
+ public:
+  explicit Sparse(std::size_t count) : values_(new Value[count]), has_((count + 63) / 64, 0) {}
+
+  /// The value of a number, and whether it has none yet; from now on it has one.
+  std::pair<Value&, bool> take(std::size_t number) {
+    std::uint64_t& word = has_[number / 64];
+    const std::uint64_t bit = std::uint64_t{1} << number % 64;
+    const bool is_new = (word & bit) == 0;
+    word |= bit;
+    return {values_[number], is_new};
+  }
+
+ private:
+  std::unique_ptr<Value[]> values_;  // NOLINT(modernize-avoid-c-arrays): a vector would write to all of it
+  std::vector<std::uint64_t> has_;
+};
 
 // The vertices above and below every triangle, where above sees its corners turn counterclockwise, computed
 // when a triangle is asked for. Signs that the filter leaves open are computed for whoever needs them, each
@@ -89,7 +110,7 @@ class Sides {
         all_are_explicit_(
             std::all_of(vertices_.begin(), vertices_.end(), [&](Vertex v) { return mesh.is_explicit(v); })),
         filter_(vertices_.size(), [&](std::size_t i) { return mesh.position(vertices_[i]).data(); }),
-        of_triangle_(kBinomial[vertices_.size()][3], {kUnknownMask, 0, 0}) {}
+        of_triangle_(kBinomial[vertices_.size()][3]) {}
 
   [[nodiscard]] const std::vector<Vertex>& vertices() const { return vertices_; }
 
@@ -126,8 +147,8 @@ class Sides {
   static constexpr std::int8_t kUnknown = 2;
 
   Known& of(std::size_t triangle) {
-    Known& sides = of_triangle_[triangle];
-    if (sides.above == kUnknownMask) sides = compute(kTriangles[triangle]);
+    const auto [sides, is_new] = of_triangle_.take(triangle);
+    if (is_new) sides = compute(kTriangles[triangle]);
     return sides;
   }
 
@@ -159,7 +180,7 @@ class Sides {
   const bool all_are_explicit_;
   const exact::OrientAmong filter_;  // of positions
   std::vector<std::int8_t> sign_;    // by the number of the four corners; empty until one is asked for
-  std::vector<Known> of_triangle_;   // by the number of the three corners
+  Sparse<Known> of_triangle_;        // by the number of the three corners
 };
 
 // The faces that are still to be covered, seen positively from what is left to fill: by number, with the
@@ -198,7 +219,7 @@ class Search {
         measure_(options.measure),
         n_(vertices.size()),
         sides_(mesh, std::move(vertices)),
-        apexes_(face_numbers(n_), Apexes{0, kUnknownMask, 0}),
+        apexes_(face_numbers(n_)),
         fits_(kBinomial[n_][4], Fits::unknown),
         open_(n_) {
     for (const auto& f : faces) open_.add(number_of({local(f[0]), local(f[1]), local(f[2])}));
@@ -264,8 +285,8 @@ class Search {
 
   // Looks for apexes of the face until there are so many, or all that it has.
   const Apexes& look_for_apexes(Number number, int most) {
-    Apexes& apexes = apexes_[number];
-    if (apexes.rest == kUnknownMask) apexes.rest = sides_.maybe_above(number);
+    const auto [apexes, is_new] = apexes_.take(number);
+    if (is_new) apexes = {0, sides_.maybe_above(number), 0};
     for (; apexes.count < most && apexes.rest != 0; apexes.rest &= apexes.rest - 1) {
       const auto d = static_cast<Local>(std::countr_zero(apexes.rest));
       if (!fits(number, d)) continue;
@@ -371,8 +392,8 @@ class Search {
   const PolyhedronOptions::Measure measure_;
   const std::size_t n_;
   Sides sides_;
-  std::vector<Apexes> apexes_;  // by face
-  std::vector<Fits> fits_;      // by the number of the four corners
+  Sparse<Apexes> apexes_;   // by face
+  std::vector<Fits> fits_;  // by the number of the four corners
   OpenFaces open_;
   std::vector<std::array<Local, 4>> tets_;
 };
