@@ -90,7 +90,7 @@ class Sparse {
     std::uint64_t& word = has_[number / 64];
     const std::uint64_t bit = std::uint64_t{1} << number % 64;
     const bool is_new = (word & bit) == 0;
-    word |= bit;
+    if (is_new) word |= bit;
     return {values_[number], is_new};
   }
 
@@ -225,10 +225,10 @@ class Search {
     for (const auto& f : faces) open_.add(number_of({local(f[0]), local(f[1]), local(f[2])}));
   }
 
-  [[nodiscard]] bool is_unfillable() { return !fill() && budget_ > 0; }
+  [[nodiscard]] bool is_unfillable() { return !fill_all() && budget_ > 0; }
 
   std::optional<std::vector<TetMesh::Corners>> run() {
-    if (!fill()) return std::nullopt;
+    if (!fill_all()) return std::nullopt;
     std::vector<TetMesh::Corners> tets;
     for (const auto& t : tets_) tets.push_back({vertex(t[0]), vertex(t[1]), vertex(t[2]), vertex(t[3])});
     return tets;
@@ -301,13 +301,9 @@ class Search {
     std::size_t count = 0;
   };
 
-  // The fattest tetrahedron first. Mostly there is only one.
+  // The fattest tetrahedron first.
   [[nodiscard]] Ranking ranked(const LocalFace& f, Mask mask) const {
     Ranking order;
-    if (std::has_single_bit(mask)) {
-      order.list[order.count++] = {0, static_cast<Local>(std::countr_zero(mask))};
-      return order;
-    }
     for (; mask != 0; mask &= mask - 1) {
       const auto d = static_cast<Local>(std::countr_zero(mask));
       order.list[order.count++] = {
@@ -317,8 +313,8 @@ class Search {
     return order;
   }
 
-  // The open face with the fewest possible apexes, and these; none if some face has none. Of the others it is
-  // enough to know that they have as many.
+  // The open face with the fewest possible apexes, and these, where each has some. Of the others it is enough
+  // to know that they have as many.
   std::pair<Number, Mask> tightest() {
     std::pair<Number, Mask> found{0, 0};
     int fewest = kMostVertices + 1;
@@ -327,28 +323,48 @@ class Search {
       if (own.count >= fewest) continue;
       fewest = own.count;
       found = {f, own.found};
-      if (fewest == 0) break;
+      if (fewest == 1) break;
     }
     return found;
   }
 
+  bool has_apexes(Number number) { return look_for_apexes(number, 1).count > 0; }
+
+  bool fill_all() {
+    const std::vector<Number>& open = open_.list();
+    if (std::all_of(open.begin(), open.end(), [&](Number f) { return has_apexes(f); })) return fill();
+    if (budget_ > 0) --budget_;
+    return false;
+  }
+
+  // All open faces have apexes.
   bool fill() {
     if (open_.list().empty()) return true;
     if (budget_ == 0) return false;
     --budget_;
     const auto [number, mask] = tightest();
     const LocalFace face = corners_of(number);
+    // Mostly there is only one.
+    if (std::has_single_bit(mask)) return fill_at(number, face, static_cast<Local>(std::countr_zero(mask)));
     const Ranking order = ranked(face, mask);
-    for (std::size_t k = 0; k < order.count; ++k) {
-      const Local apex = order.list[k].second;
-      Changes changes;
-      if (place(number, apex, changes)) {
+    for (std::size_t k = 0; k < order.count; ++k)
+      if (fill_at(number, face, order.list[k].second)) return true;
+    return false;
+  }
+
+  // With that tetrahedron. Where a face that it opens has no apex, this is the node that would tell so.
+  bool fill_at(Number number, const LocalFace& face, Local apex) {
+    Changes changes;
+    if (place(number, apex, changes)) {
+      if (have_apexes(changes)) {
         tets_.push_back({face[0], face[1], face[2], apex});
         if (fill()) return true;
         tets_.pop_back();
+      } else if (budget_ > 0) {
+        --budget_;
       }
-      undo(changes);
     }
+    undo(changes);
     return false;
   }
 
@@ -363,6 +379,11 @@ class Search {
   void change(Number f, bool add, Changes& changes) {
     add ? open_.add(f) : open_.remove(f);
     changes.list[changes.count++] = {f, add};
+  }
+  // The faces that were opened: all others had apexes before.
+  bool have_apexes(const Changes& changes) {
+    return std::all_of(changes.list.begin(), changes.list.begin() + changes.count,
+                       [&](const Changes::Change& c) { return !c.added || has_apexes(c.face); });
   }
   void undo(const Changes& changes) {
     for (std::size_t k = changes.count; k-- > 0;)
