@@ -100,6 +100,34 @@ TEST(SmallPolyhedron, AgreesWithAnExhaustiveSearch) {
   EXPECT_GT(unfillable, 100);
 }
 
+// The ball of the origin among the corners of a cube and some middles of its edges and faces.
+Polyhedron in_a_cube(int middles, Random& random) {
+  std::vector<Point> points, others;
+  for (int k = 0; k < 27; ++k) {
+    const Point p{k % 3 - 1.0, k / 3 % 3 - 1.0, k / 9 - 1.0};
+    const double square = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
+    if (square > 0) (square > 2 ? points : others).push_back(p);
+  }
+  std::shuffle(others.begin(), others.end(), random);
+  points.insert(points.end(), others.begin(), others.begin() + middles);
+  const auto origin = static_cast<Vertex>(points.size());
+  points.push_back({0, 0, 0});
+  TetMesh mesh = delaunay_in_box(points);
+  Polyhedron out{{}, outer_faces(mesh, ball_of(mesh, origin))};
+  for (Vertex v = 0; v < origin; ++v) MeshEditor(out.mesh).add_vertex(points[v]);
+  return out;
+}
+
+TEST(SmallPolyhedron, AgreesWithAnExhaustiveSearchWhereManyPointsAreOfOnePlane) {
+  Random random(4);
+  for (int trial = 0; trial < 40; ++trial) {
+    const Polyhedron p = in_a_cube(trial % 4, random);
+    const auto filling = fill_polyhedron(p.mesh, p.faces, kExhaustive);
+    ASSERT_EQ(filling.has_value(), can_be_filled(p, as_set(p.faces), volume_of(p).to_double())) << trial;
+    if (filling) expect_fills(p, *filling);
+  }
+}
+
 TEST(SmallPolyhedron, KeepsToItsLimits) {
   Random random(3);
   const Polyhedron p = star(12, 1, random);
