@@ -34,7 +34,8 @@ class Covers {
     for (Index v = 0; v < place_.size(); ++v) place_[v] = place_[first[v]];
   }
 
-  double run(double most) {
+  /// None where no multiple of `most` is found.
+  std::optional<double> run(double most) {
     std::vector<Index> open;
     const checking::Reach near(most);
     for (Index g = 0; g < given_.facets.size(); ++g)
@@ -50,7 +51,7 @@ class Covers {
       });
       if (open.empty()) return distance;
     }
-    return most;
+    return std::nullopt;
   }
 
  private:
@@ -164,8 +165,9 @@ class Covers {
 
 }  // namespace
 
-double covered_within(const State& state, const State& given, double most, const Step& step) {
-  return most == 0 ? most : Covers(state, given, step).run(most);
+std::optional<double> covered_within(const State& state, const State& given, double most, const Step& step) {
+  if (most == 0) return most;
+  return Covers(state, given, step).run(most);
 }
 
 }  // namespace holdfast::repairing

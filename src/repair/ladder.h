@@ -38,6 +38,8 @@ class Ladder {
   /// Whether sheets that were made one have led a side: else it is the same for any SidesOf.
   [[nodiscard]] bool has_led() const { return has_led_; }
 
+  /// The surface as it was before anything was done, which must outlive this.
+  void compare_with(const State& before) { before_ = &before; }
   void leave_out_joining_all() { joins_all_ = false; }
   /// Tries nothing that another one did not need.
   void try_no_more_than(const Ladder& other);
@@ -116,11 +118,25 @@ class Ladder {
   /// cuts beside them are in trouble or not, and are the start of all that was tried before.
   bool join_all();
 
+  /// Where that fails, too, and little is in trouble: its vertices go to the points of a grid, by and by of a
+  /// coarser one, and what crosses then is cut again. Only what covers the surface as it was counts.
+  bool snap_all(Ladder from);
+
+  /// For one grid, from the best so far.
+  void snap(double cell, Attempt& best);
+
+  /// Whether it is valid, and known to cover the surface as it was.
+  [[nodiscard]] bool is_covered() const;
+
   /// Where that fails, too: vertices that are near to each other become one, and sides are led through what
-  /// is near, all over the surface, before anything is cut.
+  /// is near, all over the surface, before anything is cut. Where that brings sheets together, they are made
+  /// one as well.
   void weld_all();
 
-  bool take_if_valid(Ladder& other);
+  /// A way that starts with vertices that were welded.
+  [[nodiscard]] Ladder welded(State state, double displacement, double last_bits) const;
+
+  bool take_if_valid(const Ladder& other);
 
   [[nodiscard]] static bool are_same(const State& a, const State& b);
 
@@ -161,6 +177,7 @@ class Ladder {
   std::optional<Rounded> once_cut_;  // and not twice yet
   std::optional<Attempt> best_;      // of the plans so far
   State flattened_;                  // by the last plan that began again
+  const State* before_ = nullptr;    // see compare_with
 };
 
 }  // namespace holdfast::repairing

@@ -26,6 +26,7 @@ Rounded round_arranged(State state, const RepairOptions& options, RepairReport& 
   const auto begun = [&](const RepairReport& told, SidesOf sides) {
     Ladder rounding(given, options, told, {exact, of_given}, planes, step, threads);
     if (trials == Trials::near_trouble) rounding.leave_out_joining_all();
+    rounding.compare_with(given);
     if (options.join > 0) rounding.flatten_all(options.join, sides);
     rounding.begin();
     return rounding;
@@ -57,7 +58,7 @@ Rounded round_arranged(State state, const RepairOptions& options, RepairReport& 
     const std::span places = std::span(given.vertices).first(given.input_vertices);
     most = sum_above(most, restore(rounded.state, places, step, threads));
     most = keep_strips(rounded.state, given, most, step, threads);
-    most = covered_within(rounded.state, given, most, step);
+    most = covered_within(rounded.state, given, most, step).value_or(most);
   }
   rounded.state.facet_parents = composed(of_given, rounded.state.facet_parents);
   return rounded;

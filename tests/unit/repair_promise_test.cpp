@@ -2,6 +2,8 @@
 // they are.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
 #include <string>
 
 #include "holdfast/check_repair.h"
@@ -185,6 +187,51 @@ TEST(RepairPromise, TheDistanceIsThatOfLostParts) {
                                {4, 6, 11}})),
             "");
 }
+
+/// Boxes on a lattice, turned together, each of whose vertices is rounded to floats by itself: their planes
+/// are common but for these last bits.
+Surface turned_boxes(int count) {
+  std::uint32_t random = 10;
+  const auto next = [&](std::uint32_t below) {
+    random = random * 1664525U + 1013904223U;
+    return (random >> 16) % below;
+  };
+  // By the quaternion (3, 1, 2, 5).
+  const std::array<Point, 3> turn{{{1 - 58.0 / 39, -26.0 / 39, 22.0 / 39},
+                                   {34.0 / 39, 1 - 52.0 / 39, 14.0 / 39},
+                                   {-2.0 / 39, 26.0 / 39, 1 - 10.0 / 39}}};
+  constexpr std::array<Triangle, 12> kFacets{{{0, 2, 1},
+                                              {1, 2, 3},
+                                              {4, 5, 6},
+                                              {5, 7, 6},
+                                              {0, 1, 4},
+                                              {1, 5, 4},
+                                              {2, 6, 3},
+                                              {3, 6, 7},
+                                              {0, 4, 2},
+                                              {2, 4, 6},
+                                              {1, 3, 5},
+                                              {3, 7, 5}}};
+  Surface surface;
+  for (int box = 0; box < count; ++box) {
+    std::array<std::uint32_t, 3> low{}, size{};
+    for (std::uint32_t& x : low) x = next(4);
+    for (std::uint32_t& x : size) x = 1U << next(3);
+    const auto first = static_cast<Index>(surface.vertices.size());
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      Point p{}, q{};
+      for (unsigned k = 0; k < 3; ++k) p[k] = (low[k] + ((corner >> k & 1U) != 0 ? size[k] : 0)) / 4.0;
+      for (unsigned k = 0; k < 3; ++k)
+        q[k] = static_cast<float>(turn[k][0] * p[0] + turn[k][1] * p[1] + turn[k][2] * p[2]);
+      surface.vertices.push_back(q);
+    }
+    for (const auto& [a, b, c] : kFacets) surface.facets.push_back({first + a, first + b, first + c});
+  }
+  return surface;
+}
+
+// No doubles were found: sheets that are 1e-7 apart cross in lines all over them.
+TEST(RepairPromise, APileOfTurnedBoxesIsRepaired) { EXPECT_EQ(broken(turned_boxes(24)), ""); }
 
 }  // namespace
 }  // namespace holdfast
