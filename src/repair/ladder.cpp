@@ -329,7 +329,7 @@ bool Ladder::snap_all(Ladder from) {
   Attempt best{from.rounded_.state, from.trouble_, from.rounded_.displacement};
   for (const double last_bits : kGridLastBits) {
     if (last_bits > widest || best.trouble.size() > kMany) return false;
-    from.snap(std::exp2(std::ilogb(last_bits * last_bit(given_.vertices))), best);
+    from.snap(std::ldexp(1.0, std::ilogb(last_bits * last_bit(given_.vertices))), best);
     if (from.is_covered() && take_if_valid(from)) return true;
   }
   return false;
