@@ -191,7 +191,7 @@ def mesh(
         max_volume=_most_volume(max_volume),
         max_ratio=0.0 if max_ratio is None else _positive(max_ratio, "max_ratio"),
         layers=_layers(layers),
-        drop_outside=bool(drop_outside),
+        drop_outside=bool(drop_outside or union),  # corners of what a union drops stay
         flips="flips" not in steps,
         optimise="optimise" not in steps,
         add_points="points" not in steps,

@@ -58,6 +58,8 @@ def test_holes_are_filled_and_parts_united_before_the_mesh():
     cut, united = (holdfast.mesh(*two_cubes(), repair=True, fill=True, union=u) for u in (False, True))
     assert len(set(cut.regions)) == 3 and set(united.regions) == {1}
     assert united.quality().volume.sum() == pytest.approx(cut.quality().volume.sum())
+    blade = np.array([(0.2, 0.2, 0.5), (2, 0.2, 0.5), (2, 2, 0.5)])
+    assert holdfast.mesh(np.vstack([CUBE, blade]), np.vstack([FACES, [[8, 9, 10]]]), repair=True, union=True, fill=True).quality().volume.sum() == pytest.approx(1)
     with pytest.raises(holdfast.InvalidSurface):
         holdfast.mesh(CUBE, FACES[3:], repair=True, fill_holes=3, fill=True)
     for options in {"fill_holes": True}, {"fill_holes": 4}, {"union": True}:

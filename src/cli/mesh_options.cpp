@@ -176,7 +176,8 @@ Options to_options(const MeshArguments& arguments) {
   options.effort = effort_named(arguments.quality.value_or("good"));
   if (!arguments.stop_after.empty()) options.stop_after = stage_named(arguments.stop_after);
   if (!arguments.order.empty()) options.order = order_named(arguments.order);
-  options.drop_outside = arguments.drop_outside;
+  options.drop_outside =
+      arguments.drop_outside || arguments.repair_ways.unite;  // corners of what a union drops stay
   options.seed = arguments.seed;
   options.threads = arguments.threads;
   options.time_limit = time_limit_of(arguments.time_limit);
@@ -217,7 +218,7 @@ Json to_json(const MeshArguments& arguments) {
           {"paste", arguments.paste ? Json(*arguments.paste) : Json(nullptr)},
           {"overlap", arguments.overlap ? Json(*arguments.overlap) : Json(nullptr)},
           {"markers_by_angle", arguments.markers_by_angle ? Json(*arguments.markers_by_angle) : Json()},
-          {"drop_outside", arguments.drop_outside},
+          {"drop_outside", arguments.drop_outside || arguments.repair_ways.unite},
           {"without", arguments.without},
           {"stop_after", arguments.stop_after},
           {"order", arguments.order.empty() ? name(LayingOrder::random) : arguments.order},

@@ -16,6 +16,7 @@
 #include "repair_result.h"
 #include "report.h"
 #include "signals.h"
+#include "summary.h"
 
 namespace holdfast::cli {
 namespace {
@@ -102,6 +103,26 @@ void write_html(const RepairArguments& arguments, const Limits& limits, const Su
   page.write();
 }
 
+/// By vertex: whether it belongs to a triangle or segment.
+std::vector<bool> in_use(const Surface& surface) {
+  std::vector<bool> used(surface.vertices.size(), false);
+  for (const auto& f : surface.facets)
+    for (const Index v : f) used[v] = true;
+  for (const auto& s : surface.segments)
+    for (const Index v : s) used[v] = true;
+  return used;
+}
+
+/// Vertices of the input stay where all that they belonged to goes.
+void tell_left_alone(const Surface& before, const Surface& after) {
+  const std::vector<bool> was = in_use(before), is = in_use(after);
+  std::size_t alone = 0;
+  for (std::size_t v = 0; v < was.size(); ++v) alone += static_cast<std::size_t>(was[v] && !is[v]);
+  if (alone > 0)
+    say("note: {} to nothing any more; `mesh --drop-outside` leaves out those that lie outside\n",
+        counted(alone, "vertex belongs", "vertices belong"));
+}
+
 /// `result` is what is known, should a limit end it.
 int repair_files(const RepairArguments& arguments, const RepairOptions& options, const WriteOptions& writing,
                  RepairResult& result) {
@@ -119,6 +140,7 @@ int repair_files(const RepairArguments& arguments, const RepairOptions& options,
   if (result.outcome == Outcome::done) {
     write_surface(arguments.output, result.surface, writing);
     if (!arguments.quiet) tell(not_held(arguments.output, result.surface, writing), arguments.output);
+    if (!arguments.quiet && options.unite) tell_left_alone(surface, result.surface);
     write_parents(arguments.parents, surface.facets.size(), result);
   }
   write_exact(arguments.exact, surface, result);

@@ -501,6 +501,15 @@ class MeshAtOnce(Repaired):
             self.run_program("mesh", "in.off", "-o", "v.vtu", "--fill", "--repair", *options, "--report", "r.json")
             self.assertEqual((self.report()["mesh"]["regions"], self.report()["repair"]["options"]["union"]), (regions, bool(options)))
 
+    def test_corners_of_what_a_union_drops_are_left_out(self):
+        blade = [(0.2, 0.2, 0.5), (2, 0.2, 0.5), (2, 2, 0.5), (0.2, 2, 0.5)]
+        self.write("in.off", off(cube() + blade, CUBE_FACETS + [(8, 9, 10), (8, 10, 11)]))
+        said = self.run_program("repair", "in.off", "-o", "out.off", "--union").stderr
+        self.assertIn("4 vertices belong to nothing any more", said)
+        self.run_program("mesh", "out.off", "-o", "v.vtu", "--fill", "--drop-outside")
+        self.run_program("mesh", "in.off", "-o", "v.vtu", "--fill", "--repair", "--union", "--repaired", "out.off")
+        self.run_program("check", "out.off", "v.vtu", "--outside-dropped")
+
     def test_a_valid_surface(self):
         said = self.run_program("mesh", "cube.off", "-o", "v.vtu", "--fill", "--repair").stderr
         self.assertIn("valid as it is", said)
