@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "api/mesh.h"
+#include "api/named_parts.h"
 #include "api/part_components.h"
 #include "api/part_details.h"
 #include "api/parts_apart.h"
@@ -17,7 +18,6 @@
 #include "check_repair/examine.h"
 #include "holdfast/check_repair.h"
 #include "holdfast/io.h"
-#include "io/part_names.h"
 #include "numbers/float_environment.h"
 #include "repair/deliver.h"
 #include "repair/fuse.h"
@@ -60,97 +60,6 @@ void require_sensible(std::span<const Surface> parts, const PasteOptions& option
     require_vertices("triangle", parts[k].facets, parts[k], k);
     require_vertices("segment", parts[k].segments, parts[k], k);
   }
-}
-
-/// Ids of regions that mean the same in all parts.
-class RegionIds {
- public:
-  explicit RegionIds(std::span<const Surface> parts) {
-    for (const Surface& part : parts) {
-      for (const RegionSeed& seed : part.regions) used_.insert(seed.id);
-      if (names_one(part)) used_.insert(part.names.regions.begin()->first);
-    }
-  }
-
-  static bool names_one(const Surface& part) {
-    return part.regions.empty() && part.names.regions.size() == 1;
-  }
-
-  /// The number of a region that a part calls `id`: its own, unless an earlier part has another name there.
-  int number(int id, const std::string& name) {
-    const auto [there, is_new] = meaning_.try_emplace(id, name);
-    if (is_new || there->second == name) return id;
-    const int number = next_free(1);
-    meaning_[number] = name;
-    return number;
-  }
-
-  /// For a region without an id of its own.
-  int number_of_part(std::size_t part, const std::string& name) {
-    const int id = next_free(static_cast<int>(part) + 1);
-    meaning_[id] = name;
-    return id;
-  }
-
-  [[nodiscard]] std::map<int, std::string> names() const {
-    std::map<int, std::string> names = meaning_;
-    std::erase_if(names, [](const auto& entry) { return entry.second.empty(); });
-    return names;
-  }
-
- private:
-  /// `wanted`, or the next that nothing has.
-  int next_free(int wanted) {
-    while (!used_.insert(wanted).second) ++wanted;
-    return wanted;
-  }
-
-  std::set<int> used_;
-  std::map<int, std::string> meaning_;
-};
-
-std::vector<PastedPart> describe(std::span<const Surface> parts, std::span<const std::string> names,
-                                 std::span<const std::string> labels,
-                                 std::map<int, std::string>& region_names) {
-  RegionIds ids(parts);
-  const auto name_of = [](const std::map<int, std::string>& of, int id) {
-    const auto found = of.find(id);
-    return found == of.end() ? std::string() : found->second;
-  };
-  std::vector<std::map<int, std::string>> of_parts;
-  for (const Surface& part : parts) of_parts.push_back(part.names.regions);
-  of_parts = io::names_apart(std::move(of_parts), names);
-  std::vector<PastedPart> described;
-  std::size_t vertices = 0, facets = 0;
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    const Surface& part = parts[k];
-    PastedPart pasted;
-    pasted.name = k < labels.size()  ? labels[k]
-                  : k < names.size() ? names[k]
-                                     : "part " + std::to_string(k + 1);
-    pasted.first_vertex = vertices;
-    pasted.first_facet = facets;
-    pasted.holes = part.holes;
-    std::map<int, int> number;
-    for (RegionSeed seed : part.regions) {
-      const auto [at, is_new] = number.try_emplace(seed.id, 0);
-      if (is_new) at->second = ids.number(seed.id, name_of(of_parts[k], seed.id));
-      seed.id = at->second;
-      pasted.seeds.push_back(seed);
-    }
-    if (!pasted.seeds.empty())
-      pasted.id = pasted.seeds[0].id;
-    else if (RegionIds::names_one(part))
-      pasted.id = ids.number(of_parts[k].begin()->first, of_parts[k].begin()->second);
-    described.push_back(std::move(pasted));
-    vertices += part.vertices.size();
-    facets += part.facets.size();
-  }
-  for (std::size_t k = 0; k < parts.size(); ++k)
-    if (parts[k].regions.empty() && !RegionIds::names_one(parts[k]))
-      described[k].id = ids.number_of_part(k, k < names.size() ? names[k] : "");
-  region_names = ids.names();
-  return described;
 }
 
 double largest_coordinate(const Complex& complex) {
@@ -400,11 +309,11 @@ PasteResult paste(std::span<const Surface> parts, const PasteOptions& options,
   if (parts.size() < 2) throw std::invalid_argument("at least two parts are needed to paste");
   const Surface joined = join(parts, names);
   PasteResult result;
-  std::map<int, std::string> region_names;
-  result.parts = describe(parts, names, options.labels, region_names);
+  NamedParts named = name_parts(parts, names, options.labels);
+  result.parts = std::move(named.parts);
   result.part_of_facet = parts_of_facets(parts);
   paste_joined(joined, options, result);
-  result.surface.names.regions = std::move(region_names);
+  result.surface.names.regions = std::move(named.regions);
   return result;
 }
 
