@@ -38,7 +38,7 @@ HOLDFAST_API void write_tetgen(const std::filesystem::path& name, const Volume& 
 /// Adds the triangles of the convex hull of all vertices that the facets do not have, so that they fit: sides
 /// of facets and segments on the hull are kept. Their markers are 0. Returns how many were added; the hull of
 /// what breaks the rules of a surface may not fit it. Throws std::invalid_argument for coordinates that are
-/// not finite, and Interrupted.
+/// not finite and indices out of range, and Interrupted; the surface is as it was then.
 HOLDFAST_API std::size_t add_convex_hull(Surface& surface, const Limits& limits = {});
 
 /// The number that TetGen gives the first vertex of a file: that of the file in .node, .poly and .smesh, 1

@@ -2,20 +2,36 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 
 #include "exact/predicates.h"
 #include "holdfast/plane.h"
 #include "holdfast/tetgen.h"
+#include "mesh/limit_message.h"
+#include "mesh/started.h"
 #include "numbers/float_environment.h"
+#include "numbers/sorted.h"
+#include "surface/places.h"
 
 namespace holdfast {
 namespace {
 
 constexpr std::array<std::array<std::size_t, 3>, 4> kFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
-Triangle ascending(Triangle t) {
-  std::sort(t.begin(), t.end());
-  return t;
+/// The triangles of the hull, seen from outside; they name the first vertex of each place alone.
+std::vector<Triangle> hull_of(const std::vector<Point>& vertices, const Limits& limits) {
+  DelaunayOptions options;
+  static_cast<Limits&>(options) = limits;
+  const std::vector<Tetrahedron> tetrahedra = delaunay(vertices, options);
+  const std::vector<Neighbours> beside = neighbours(tetrahedra);
+  std::vector<Triangle> hull;
+  for (std::size_t t = 0; t < tetrahedra.size(); ++t)
+    for (std::size_t k = 0; k < 4; ++k)
+      if (beside[t][k] == no_entity)
+        hull.push_back(
+            {tetrahedra[t][kFaces[k][0]], tetrahedra[t][kFaces[k][1]], tetrahedra[t][kFaces[k][2]]});
+  return hull;
 }
 
 /// Hull triangles, the coplanar ones together.
@@ -66,11 +82,8 @@ std::array<std::size_t, 2> projection_of(const std::vector<Point>& vertices, con
 /// Triangles of one face of the hull with the surface's sides in it; the hull's own where these do not fit.
 std::vector<Triangle> triangles_of(const std::vector<Point>& vertices, const std::vector<Triangle>& face,
                                    const std::vector<std::vector<Index>>& sides_at, const Limits& limits) {
-  std::vector<Index> corners;
-  for (const Triangle& t : face) corners.insert(corners.end(), t.begin(), t.end());
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   if (face.size() == 1) return face;
+  const std::vector<Index> corners = corners_of_all(face);
   const auto [x, y] = projection_of(vertices, face[0]);
   Plane plane;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -85,6 +98,7 @@ std::vector<Triangle> triangles_of(const std::vector<Point>& vertices, const std
   static_cast<Limits&>(options) = limits;
   options.hull = true;
   const PlaneResult result = triangulate(plane, options);
+  if (is_interruption(result.outcome)) throw Interrupted(result.outcome);
   if (result.outcome != Outcome::done) return face;
   std::vector<Triangle> triangles;
   for (const Triangle& t : result.mesh.triangles)
@@ -92,52 +106,59 @@ std::vector<Triangle> triangles_of(const std::vector<Point>& vertices, const std
   return triangles;
 }
 
+template <class Entity>
+void require_vertices(const char* what, const std::vector<Entity>& entities, std::size_t vertices) {
+  for (std::size_t i = 0; i < entities.size(); ++i)
+    for (const Index v : entities[i])
+      if (v >= vertices)
+        throw std::invalid_argument(what + (" " + std::to_string(i)) + " names vertex " + std::to_string(v) +
+                                    ", of " + std::to_string(vertices));
+}
+
+/// What a surface has already, by the first vertices of its places.
+class Present {
+ public:
+  explicit Present(const Surface& surface) : sides_at_(surface.vertices.size()) {
+    const std::vector<Index> place = first_at_places(surface.vertices);
+    const auto add_side = [&](Index a, Index b) {
+      sides_at_[std::min(place[a], place[b])].push_back(std::max(place[a], place[b]));
+    };
+    for (const Triangle& f : surface.facets) {
+      facets_.push_back(ascending(Triangle{place[f[0]], place[f[1]], place[f[2]]}));
+      for (std::size_t k = 0; k < 3; ++k) add_side(f[k], f[(k + 1) % 3]);
+    }
+    for (const Segment& s : surface.segments) add_side(s[0], s[1]);
+    for (std::vector<Index>& sides : sides_at_) sort_unique(sides);
+    std::sort(facets_.begin(), facets_.end());
+  }
+
+  [[nodiscard]] bool has(const Triangle& t) const {
+    return std::binary_search(facets_.begin(), facets_.end(), ascending(t));
+  }
+  /// The higher ends of sides, by the lower one.
+  [[nodiscard]] const std::vector<std::vector<Index>>& sides_at() const { return sides_at_; }
+
+ private:
+  std::vector<Triangle> facets_;
+  std::vector<std::vector<Index>> sides_at_;
+};
+
 }  // namespace
 
-std::size_t add_convex_hull(Surface& surface, const Limits& limits) {
+std::size_t add_convex_hull(Surface& surface, const Limits& given) {
   const FloatEnvironment environment;
-  DelaunayOptions options;
-  static_cast<Limits&>(options) = limits;
-  const std::vector<Tetrahedron> tetrahedra = delaunay(surface.vertices, options);
-  const std::vector<Neighbours> beside = neighbours(tetrahedra);
-  std::vector<Triangle> hull;
-  for (std::size_t t = 0; t < tetrahedra.size(); ++t)
-    for (std::size_t k = 0; k < 4; ++k)
-      if (beside[t][k] == no_entity)
-        hull.push_back(
-            {tetrahedra[t][kFaces[k][0]], tetrahedra[t][kFaces[k][1]], tetrahedra[t][kFaces[k][2]]});
-
-  // Repeated vertices: Delaunay tetrahedra name the first alone, the surface any of them.
-  std::map<Point, Index> first;
-  std::vector<Index> place(surface.vertices.size());
-  for (std::size_t v = 0; v < place.size(); ++v) {
-    Point p = surface.vertices[v];
-    for (double& x : p) x += 0.0;  // -0 is 0
-    place[v] = first.try_emplace(p, static_cast<Index>(v)).first->second;
-  }
-  std::vector<std::vector<Index>> sides_at(surface.vertices.size());
-  std::vector<Triangle> present;
-  const auto add_side = [&](Index a, Index b) {
-    sides_at[std::min(place[a], place[b])].push_back(std::max(place[a], place[b]));
-  };
-  for (const Triangle& f : surface.facets) {
-    present.push_back(ascending({place[f[0]], place[f[1]], place[f[2]]}));
-    for (std::size_t k = 0; k < 3; ++k) add_side(f[k], f[(k + 1) % 3]);
-  }
-  for (const Segment& s : surface.segments) add_side(s[0], s[1]);
-  for (std::vector<Index>& sides : sides_at) {
-    std::sort(sides.begin(), sides.end());
-    sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
-  }
-  std::sort(present.begin(), present.end());
-
-  const std::size_t before = surface.facets.size();
-  const HullFaces faces(surface.vertices, hull);
+  const Limits limits = started(given);
+  require_vertices("facet", surface.facets, surface.vertices.size());
+  require_vertices("segment", surface.segments, surface.vertices.size());
+  const HullFaces faces(surface.vertices, hull_of(surface.vertices, limits));
+  const Present present(surface);
+  std::vector<Triangle> added;
   for (const std::vector<Triangle>& face : faces.faces())
-    for (const Triangle& t : triangles_of(surface.vertices, face, sides_at, limits))
-      if (!std::binary_search(present.begin(), present.end(), ascending(t))) surface.facets.push_back(t);
+    for (const Triangle& t : triangles_of(surface.vertices, face, present.sides_at(), limits))
+      if (!present.has(t)) added.push_back(t);
+  surface.facets.insert(surface.facets.end(), added.begin(), added.end());
   if (!surface.facet_markers.empty()) surface.facet_markers.resize(surface.facets.size(), 0);
-  return surface.facets.size() - before;
+  return added.size();
 }
 
 }  // namespace holdfast

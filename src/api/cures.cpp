@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/plain_monitor.h"
+#include "mesh/started.h"
 #include "repair/borders.h"
 #include "repair/state.h"
 #include "repair/weld.h"
@@ -170,7 +171,9 @@ class Proposal {
 
 Cures propose_cures(const Complex& complex, std::span<const Defect> defects, const DefectSummary& summary,
                     const RepairOptions& options) {
-  return Proposal(complex, defects, summary, options).run();
+  RepairOptions timed = options;
+  static_cast<Limits&>(timed) = started(options);
+  return Proposal(complex, defects, summary, timed).run();
 }
 
 }  // namespace holdfast

@@ -23,6 +23,7 @@
 #include "mesh/memory.h"
 #include "mesh/monitor.h"
 #include "mesh/parallel.h"
+#include "mesh/started.h"
 #include "numbers/float_environment.h"
 
 namespace holdfast {
@@ -81,16 +82,22 @@ class Call {
     const bool has_all = options_.stop_after.value_or(Stage::optimise) == Stage::optimise;
     if (result_.outcome == Outcome::done && has_all) try_other_choices();
     if (result_.outcome == Outcome::done && options_.sizes && has_all && options_.keep != Keep::box)
-      mesh_remote_components(input_.complex(), with_sizes(input_.sizes()), threads_, mesh_complex, result_);
+      mesh_remote_components(input_.complex(), options_of_component(), threads_, mesh_complex, result_);
     if (result_.outcome == Outcome::done && options_.sizes &&
         options_.stop_after.value_or(Stage::optimise) >= Stage::field_points)
       judge_bounds(options_, threads_, result_);
   }
 
-  [[nodiscard]] Options with_sizes(Sizes sizes) const {
+  // Of a component that is meshed alone when the rest is done.
+  [[nodiscard]] Options options_of_component() {
     Options options = options_;
-    options.sizes = std::move(sizes);
+    static_cast<Limits&>(options) = limits_;
+    options.sizes = input_.sizes();
     options.neighbours = false;  // those of the whole volume follow
+    if (options_.progress)
+      options.progress = [this](const Progress& now) {
+        return options_.progress({now.stage, now.fraction, monitor_.overall()});
+      };
     return options;
   }
 
@@ -143,12 +150,6 @@ class Call {
       warn_of(std::current_exception());
     }
     return std::nullopt;
-  }
-
-  static Limits started(const Limits& limits) {
-    Limits own = limits;
-    own.started = limits.started.value_or(std::chrono::steady_clock::now());
-    return own;
   }
 
   // As long as it lives, this is all the time there is: for what may be done without, when a result is there
@@ -239,19 +240,8 @@ class Call {
   template <typename IsBetter>
   bool try_instead(const Options& options, std::uint64_t seed, IsBetter&& is_better) {
     Result before = std::exchange(result_, {});
-    try {
-      result_.report = of_all_attempts(before.report);
-      mesh_once({input_, options, seed, threads_, monitor_, nullptr}, result_);
-    } catch (const Interrupted& interrupted) {
-      if (interrupted.outcome() == Outcome::cancelled) throw;
-      go_back_to(std::move(before));
-      return false;
-    } catch (...) {
-      if (monitor_.caller_threw()) throw;
-      go_back_to(std::move(before));
-      warn_of(std::current_exception());
-      return false;
-    }
+    const auto mesh_anew = [&] { mesh_once({input_, options, seed, threads_, monitor_, nullptr}, result_); };
+    if (!attempt_after(before, mesh_anew)) return false;
     if (result_.outcome != Outcome::done || !is_better(result_)) go_back_to(std::move(before));
     return true;
   }
@@ -262,23 +252,29 @@ class Call {
   bool try_again() {
     Result best = std::exchange(result_, {});
     const LessTime half(limits_, half_of_the_time());
-    try {
-      result_.report = of_all_attempts(best.report);
-      try_once();
-    } catch (const Interrupted& interrupted) {
-      if (interrupted.outcome() == Outcome::cancelled) throw;
-      go_back_to(std::move(best));
-      return false;
-    } catch (...) {
-      if (monitor_.caller_threw()) throw;
-      go_back_to(std::move(best));
-      warn_of(std::current_exception());
-      return false;
-    }
+    if (!attempt_after(best, [&] { try_once(); })) return false;
     if (result_.outcome == Outcome::not_representable &&
         result_.exact_vertices.size() >= best.exact_vertices.size())
       go_back_to(std::move(best));
     return true;
+  }
+
+  // Where a limit or an error ends the attempt, `before` is the result again; then returns false.
+  template <typename Attempted>
+  bool attempt_after(Result& before, Attempted&& attempted) {
+    try {
+      result_.report = of_all_attempts(before.report);
+      attempted();
+      return true;
+    } catch (const Interrupted& interrupted) {
+      if (interrupted.outcome() == Outcome::cancelled) throw;
+      go_back_to(std::move(before));
+    } catch (...) {
+      if (monitor_.caller_threw()) throw;
+      go_back_to(std::move(before));
+      warn_of(std::current_exception());
+    }
+    return false;
   }
 
   // What counts over all attempts.
@@ -348,10 +344,6 @@ class Call {
       has_few_facets() ? kNearTarget : kFarFromTarget};
   Result result_;
 };
-
-}  // namespace
-
-namespace {
 
 Result mesh_called(const Complex& complex, const Options& options, PartsOfComplex* parts) {
   const FloatEnvironment environment;

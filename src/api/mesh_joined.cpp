@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "holdfast/repair.h"
+#include "mesh/limit_message.h"
 #include "repair/bounds.h"
 
 namespace holdfast {
@@ -20,8 +21,7 @@ constexpr std::array kAttempts{Attempt{0x1p3, 0}, Attempt{0x1p6, 0}, Attempt{0x1
 
 /// Whether a call ended because it had to; then the mesh has ended so, too.
 bool ends(Outcome outcome, const std::string& message, Result& result) {
-  if (outcome != Outcome::time_limit && outcome != Outcome::memory_limit && outcome != Outcome::cancelled)
-    return false;
+  if (!is_interruption(outcome)) return false;
   result.outcome = outcome;
   result.message = message;
   return true;

@@ -18,6 +18,7 @@
 #include "check_repair/examine.h"
 #include "holdfast/check_repair.h"
 #include "holdfast/io.h"
+#include "mesh/limit_message.h"
 #include "numbers/float_environment.h"
 #include "repair/deliver.h"
 #include "repair/fuse.h"
@@ -194,8 +195,7 @@ void judge(const PasteOptions& options, const std::string& advice, const Step& s
   PartsOfComplex parts = parts_of(result);
   const Result found = mesh_parts(result.surface.view(), meshing, parts);
   result.overlaps = parts.overlaps;
-  const bool is_limit = found.outcome == Outcome::time_limit || found.outcome == Outcome::memory_limit ||
-                        found.outcome == Outcome::cancelled;
+  const bool is_limit = is_interruption(found.outcome);
   if (!is_limit && !parts.refuses()) return;  // what encloses nothing is pasted, too
   result.outcome = found.outcome;
   result.message = found.message;

@@ -12,12 +12,22 @@
 
 #include "api/part_volumes.h"
 #include "holdfast/paste.h"
+#include "mesh/started.h"
 #include "numbers/float_environment.h"
 #include "numbers/sorted.h"
 #include "surface/places.h"
 
 namespace holdfast {
 namespace {
+
+// A share of the work that is told, the rest being the replacements.
+constexpr double kWorkOnBoundaries = 0.5;
+
+/// Tells how much of the whole is done, by a call that does it from the one share to the other.
+ProgressFunction part_of(const ProgressFunction& whole, double from, double to) {
+  if (!whole) return {};
+  return [&whole, from, to](double fraction) { return whole(from + fraction * (to - from)); };
+}
 
 /// The vertices of all volumes in turn, those of the boundary where the pasting has put them, and new ones
 /// behind; where several are at one place, the first stands for them.
@@ -122,7 +132,17 @@ class WholeFaces {
 struct VolumeChange {
   std::set<Index> faces;           ///< of its boundary: 4 * tetrahedron + face
   std::vector<std::uint8_t> goes;  ///< by tetrahedron
+  std::set<int> regions;           ///< of these
 };
+
+int region_of(const Volume& volume, Index tet) { return volume.regions.empty() ? 0 : volume.regions[tet]; }
+
+std::set<int> regions_of(const Volume& volume, std::span<const std::uint8_t> goes) {
+  std::set<int> regions;
+  for (Index t = 0; t < goes.size(); ++t)
+    if (goes[t] != 0) regions.insert(region_of(volume, t));
+  return regions;
+}
 
 VolumeChange change_of(Index k, const Volume& volume, const Boundary& boundary, const WholeVertices& vertices,
                        const WholeFaces& faces) {
@@ -147,16 +167,8 @@ VolumeChange change_of(Index k, const Volume& volume, const Boundary& boundary, 
         if (cut.count(ascending(Segment{whole[i], whole[j]})) != 0) change.goes[t] = 1;
     }
   }
+  change.regions = regions_of(volume, change.goes);
   return change;
-}
-
-int region_of(const Volume& volume, Index tet) { return volume.regions.empty() ? 0 : volume.regions[tet]; }
-
-std::set<int> regions_of(const Volume& volume, const VolumeChange& change) {
-  std::set<int> regions;
-  for (Index t = 0; t < change.goes.size(); ++t)
-    if (change.goes[t] != 0) regions.insert(region_of(volume, t));
-  return regions;
 }
 
 /// Makes the volume of a pasted boundary.
@@ -172,11 +184,15 @@ class Pasting {
         faces_(result.boundary, vertices_) {}
 
   void run() {
+    std::vector<VolumeChange> changes;
     for (Index k = 0; k < volumes_.size(); ++k) {
-      const VolumeChange change = change_of(k, volumes_[k], boundaries_[k], vertices_, faces_);
-      take_kept(k, change);
-      for (const int region : regions_of(volumes_[k], change))
-        if (!refill(k, region, change)) return;
+      changes.push_back(change_of(k, volumes_[k], boundaries_[k], vertices_, faces_));
+      refills_ += changes[k].regions.size();
+    }
+    for (Index k = 0; k < volumes_.size(); ++k) {
+      take_kept(k, changes[k]);
+      for (const int region : changes[k].regions)
+        if (!refill(k, region, changes[k])) return;
     }
     take_facets();
     drop_unused();
@@ -185,6 +201,11 @@ class Pasting {
  private:
   [[nodiscard]] const Surface& surface() const { return result_.boundary.surface; }
   [[nodiscard]] int new_id(Index k, int region) const { return boundaries_[k].id_of.at(region); }
+  /// The share of the work once so many regions are filled again.
+  [[nodiscard]] double done(std::size_t refilled) const {
+    return kWorkOnBoundaries +
+           (1 - kWorkOnBoundaries) * static_cast<double>(refilled) / static_cast<double>(refills_);
+  }
 
   void take_kept(Index k, const VolumeChange& change) {
     const Volume& volume = volumes_[k];
@@ -240,30 +261,42 @@ class Pasting {
     }
   }
 
-  bool refill(Index k, int region, const VolumeChange& change) {
-    const std::vector<Triangle> hull = hull_of(k, region, change);
-    Surface cavity;
-    std::unordered_map<Index, Index> local;
+  /// What a polyhedron to be filled is, and its vertices in the whole.
+  struct Cavity {
+    Surface surface;
     std::vector<Index> whole;
+  };
+
+  /// What goes of a region, bounded by the faces round it; vertices inside stay, too.
+  [[nodiscard]] Cavity cavity_of(Index k, int region, const VolumeChange& change) const {
+    Cavity cavity;
+    std::unordered_map<Index, Index> local;
     const auto number = [&](Index v) {
-      const auto [there, is_new] = local.try_emplace(v, static_cast<Index>(whole.size()));
+      const auto [there, is_new] = local.try_emplace(v, static_cast<Index>(cavity.whole.size()));
       if (is_new) {
-        whole.push_back(v);
-        cavity.vertices.push_back(vertices_.point(v));
+        cavity.whole.push_back(v);
+        cavity.surface.vertices.push_back(vertices_.point(v));
       }
       return there->second;
     };
-    for (const Triangle& t : hull) cavity.facets.push_back({number(t[0]), number(t[1]), number(t[2])});
-    for (Index t = 0; t < change.goes.size(); ++t)  // vertices inside stay, too
+    for (const Triangle& t : hull_of(k, region, change))
+      cavity.surface.facets.push_back({number(t[0]), number(t[1]), number(t[2])});
+    for (Index t = 0; t < change.goes.size(); ++t)
       if (change.goes[t] != 0 && region_of(volumes_[k], t) == region)
         for (const Index v : volumes_[k].tetrahedra[t]) number(vertices_.of_volume(k, v));
+    return cavity;
+  }
+
+  bool refill(Index k, int region, const VolumeChange& change) {
+    auto [surface, whole] = cavity_of(k, region, change);
     Options filling;
     static_cast<Limits&>(filling) = options_;
     filling.keep = Keep::winding;
     filling.threads = options_.threads;
-    if (options_.progress)
-      filling.progress = [&](const Progress& progress) { return options_.progress(progress.overall); };
-    const Result filled = mesh(cavity.view(), filling);
+    const ProgressFunction tell = part_of(options_.progress, done(refilled_), done(refilled_ + 1));
+    ++refilled_;
+    if (tell) filling.progress = [&](const Progress& progress) { return tell(progress.overall); };
+    const Result filled = mesh(surface.view(), filling);
     if (filled.outcome != Outcome::done) {
       result_.outcome = filled.outcome;
       result_.message = "the tetrahedra of " + result_.boundary.parts[k].name +
@@ -323,18 +356,22 @@ class Pasting {
   PastedVolumes& result_;
   WholeVertices vertices_;
   WholeFaces faces_;
+  std::size_t refills_ = 0, refilled_ = 0;
 };
 
 }  // namespace
 
-PastedVolumes paste(std::span<const Volume> volumes, const PasteOptions& options,
+PastedVolumes paste(std::span<const Volume> volumes, const PasteOptions& given,
                     std::span<const std::string> names) {
   const FloatEnvironment environment;
+  PasteOptions options = given;
+  static_cast<Limits&>(options) = started(given);
   PastedVolumes result;
   std::vector<Boundary> boundaries = boundaries_of(volumes);
   std::vector<Surface> surfaces;
   for (std::size_t k = 0; k < volumes.size(); ++k) surfaces.push_back(surface_of(volumes[k], boundaries[k]));
   PasteOptions of_boundaries = options;
+  of_boundaries.progress = part_of(options.progress, 0, kWorkOnBoundaries);
   of_boundaries.overlap = Overlap::refuse;  // the tetrahedra of both would stay
   result.boundary = paste(surfaces, of_boundaries, names);
   result.outcome = result.boundary.outcome;

@@ -13,6 +13,7 @@
 #include "api/scale.h"
 #include "mesh/anatomy.h"
 #include "mesh/disjoint_sets.h"
+#include "mesh/limit_message.h"
 #include "mesh/shape_counts.h"
 #include "numbers/sorted.h"
 
@@ -140,6 +141,7 @@ class RemoteComponents {
       limit(sizes.max_volume, seed.max_volume);
     }
     Result found = mesh(boundary.view(), options);
+    if (is_interruption(found.outcome)) throw Interrupted(found.outcome);
     if (found.outcome != Outcome::done) return;
     gone_.insert(tets.begin(), tets.end());
     fresh_.push_back({id, std::move(vertices), std::move(found)});

@@ -232,9 +232,7 @@ class Untangling {
     options.cancel = options_.cancel;
     if (options_.progress) options.progress = [this](const Progress&) { return tell(); };
     Result result = mesh_as_given(complex, options);
-    if (result.outcome == Outcome::time_limit || result.outcome == Outcome::memory_limit ||
-        result.outcome == Outcome::cancelled)
-      throw Interrupted(result.outcome);
+    if (is_interruption(result.outcome)) throw Interrupted(result.outcome);
     if (result.outcome == Outcome::invalid_input) {
       Filled refused{.outcome = Filled::Outcome::invalid};
       for (const Defect& defect : result.defects)
@@ -266,8 +264,7 @@ class Untangling {
     if (refill.overlaps)
       return refuse(
           "the boundary is a valid surface, but not that of this mesh: parts of the mesh lie within one "
-          "another or "
-          "inside out");
+          "another or inside out");
     result_.outcome = Outcome::not_representable;
     result_.message = options_.refill ? "no positive mesh in double precision was found"
                                       : "relocation and swaps leave tetrahedra that are not positive";

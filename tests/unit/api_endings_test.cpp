@@ -1,13 +1,20 @@
 // How calls end that do not end with a whole mesh: refused, interrupted, or after a stage.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <limits>
 #include <set>
 #include <stdexcept>
+#include <thread>
+#include <vector>
 
 #include "delaunay/box.h"
 #include "holdfast/check.h"
+#include "holdfast/cures.h"
 #include "holdfast/holdfast.h"
+#include "holdfast/paste.h"
+#include "holdfast/summary.h"
+#include "holdfast/tetgen.h"
 #include "small_surfaces.h"
 #include "unit/meshed.h"
 
@@ -95,6 +102,15 @@ TEST(Refusal, OfOptionsThatMakeNoSense) {
   refused({});
 }
 
+TEST(Refusal, OfAConvexHullForIndicesOutOfRange) {
+  Surface surface = small::box();
+  surface.segments = {{0, 8}};
+  EXPECT_THROW(static_cast<void>(add_convex_hull(surface)), std::invalid_argument);
+  surface.segments.clear();
+  surface.facets[3][1] = 1000000;
+  EXPECT_THROW(static_cast<void>(add_convex_hull(surface)), std::invalid_argument);
+}
+
 TEST(Interruption, ByTime) {
   Options options;
   options.time_limit = 1e-9;
@@ -114,6 +130,75 @@ TEST(Interruption, ByMemory) {
   expect_empty(result.volume);
 }
 
+/// Volumes whose common face each of them has cut otherwise, so that tetrahedra of both are replaced.
+std::vector<Volume> shifted_boxes() {
+  return {mesh(small::box()).volume, mesh(small::box({1, 0.5, 0}, {2, 1.5, 1})).volume};
+}
+
+// Neither the boundaries nor what is filled again takes longer than the limit, but both together do.
+TEST(Interruption, ByTheTimeOfAllThatPastingVolumesCalls) {
+  PasteOptions options;
+  options.time_limit = 0.5;
+  double next = 0;
+  options.progress = [&](double fraction) {
+    if (fraction >= next) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      next = next == 0 ? 0.51 : 2;
+    }
+    return true;
+  };
+  EXPECT_EQ(paste(shifted_boxes(), options).outcome, Outcome::time_limit);
+}
+
+// A repair that cuts, and then one that fills the hole.
+TEST(Interruption, ByTheTimeOfAllRepairsThatAProposalTries) {
+  Surface surface = small::open_box();
+  small::add_triangle(surface, {0.5, 0.5, 0.5}, {1.5, 0.4, 0.5}, {0.5, 0.5, 1.5});
+  const std::vector<Defect> defects = diagnose(surface.view());
+  const DefectSummary summary = summarise(surface.view(), defects);
+  RepairOptions options;
+  options.time_limit = 0.5;
+  double last = 1;
+  options.progress = [&](double fraction) {
+    if (fraction < last) std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    last = fraction;
+    return true;
+  };
+  EXPECT_THROW(static_cast<void>(propose_cures(surface.view(), defects, summary, options)), Interrupted);
+}
+
+// One of many faces in one plane, on which the surface has some triangles: however late it is cancelled, what
+// comes out is the whole or nothing.
+TEST(Interruption, OfAConvexHullLeavesNothingOut) {
+  constexpr Index kSide = 30;
+  Surface given;
+  for (Index y = 0; y < kSide; ++y)
+    for (Index x = 0; x < kSide; ++x) given.vertices.push_back({double(x), double(y), 0});
+  given.vertices.push_back({1, 1, 1});
+  for (Index i = 0; i + 1 < kSide; ++i) given.facets.push_back({i, i + 1 + kSide, i + kSide});
+  Surface whole = given;
+  const auto start = std::chrono::steady_clock::now();
+  static_cast<void>(add_convex_hull(whole));
+  const auto whole_time = std::chrono::steady_clock::now() - start;
+  constexpr int kTrials = 20;
+  for (int k = 1; k <= kTrials; ++k) {
+    Surface surface = given;
+    Limits limits;
+    limits.cancel.emplace();
+    std::thread canceller([&] {
+      std::this_thread::sleep_for(k * whole_time / kTrials);
+      limits.cancel->cancel();
+    });
+    try {
+      static_cast<void>(add_convex_hull(surface, limits));
+      EXPECT_EQ(surface.facets, whole.facets);
+    } catch (const Interrupted&) {
+      EXPECT_EQ(surface.facets, given.facets);
+    }
+    canceller.join();
+  }
+}
+
 TEST(Interruption, AtEveryStage) {
   const Surface surface = small::box();
   for (const Stage stage : {Stage::validate, Stage::delaunay, Stage::flips, Stage::partition, Stage::classify,
@@ -125,6 +210,26 @@ TEST(Interruption, AtEveryStage) {
     EXPECT_EQ(result.message, std::string("cancelled in stage ") + name(stage));
     expect_empty(result.volume);
   }
+}
+
+// A component too small for the sizes of the other is meshed by a call of its own, after the rest.
+TEST(Interruption, InAComponentThatIsMeshedAlone) {
+  constexpr double kTiny = 1e-120;
+  Surface surface = small::box({-2, -2, -2}, {-1, -1, -1});
+  small::add_box(surface, {0, 0, 0}, {kTiny, kTiny, kTiny});
+  Options options;
+  options.sizes.emplace();
+  bool is_rest_done = false;
+  double last = 0;
+  options.progress = [&](const Progress& progress) {
+    EXPECT_GE(progress.overall, last);
+    last = progress.overall;
+    is_rest_done |= progress.stage == Stage::optimise;
+    return !is_rest_done || progress.stage != Stage::validate;
+  };
+  const Result result = mesh(surface.view(), options);
+  EXPECT_EQ(result.outcome, Outcome::cancelled);
+  expect_empty(result.volume);
 }
 
 // The callback is asked at intervals of time; the fraction is 0 only when a stage begins. However fast the
@@ -152,6 +257,21 @@ TEST(Progress, StagesComeInOrder) {
   EXPECT_EQ(stages,
             (std::vector<Stage>{Stage::validate, Stage::delaunay, Stage::validate, Stage::flips,
                                 Stage::partition, Stage::classify, Stage::suppress, Stage::optimise}));
+}
+
+TEST(Progress, OfPastingVolumesNeverGoesBack) {
+  PasteOptions options;
+  double last = 0;
+  options.progress = [&](double fraction) {
+    EXPECT_GE(fraction, last);
+    EXPECT_LE(fraction, 1);
+    last = fraction;
+    return true;
+  };
+  const PastedVolumes pasted = paste(shifted_boxes(), options);
+  EXPECT_EQ(pasted.outcome, Outcome::done) << pasted.message;
+  EXPECT_GT(pasted.replaced, 0u);
+  EXPECT_GT(last, 0.5);
 }
 
 TEST(StopAfter, ShowsWhatStands) {
