@@ -88,7 +88,7 @@ int run(const ConvertArguments& arguments) {
   AnyTarget target = output_target(files, "the output", arguments.output);
   target.options.threads = arguments.threads;
   watch_writing(target.options, limits);
-  cancel_at_once();
+  cancel_by_flag();
   AnyMesh mesh = read_any(arguments.input, reading(limits, arguments.input_format, arguments.tolerance));
   if (!arguments.quiet) tell(mesh.remarks, arguments.input);
   merge(mesh.names(), names);
@@ -103,7 +103,6 @@ int run(const ConvertArguments& arguments) {
     if (!mesh.is_volume) throw UsageError("--each-region: the file holds no tetrahedra, but a surface");
     if (arguments.order.order)
       set_order(mesh.volume, arguments.order, read_curved(arguments.order, limits), limits, arguments.quiet);
-    cancel_by_flag();
     write_output(files, arguments.output, target, mesh.volume, arguments.quiet);
     return exit_done;
   }
@@ -121,7 +120,6 @@ int run(const ConvertArguments& arguments) {
       throw UsageError("--order: only volumes have an order, and this is a surface");
     set_order(mesh.volume, arguments.order, read_curved(arguments.order, limits), limits, arguments.quiet);
   }
-  cancel_by_flag();  // from here on files are open
   write(mesh, arguments, target);
   if (arguments.quiet) return exit_done;
   const bool has_tetrahedra = mesh.is_volume && !mesh.volume.tetrahedra.empty();

@@ -1,10 +1,6 @@
 #include "signals.h"
 
-#include <unistd.h>
-
 #include <csignal>
-
-#include "command.h"
 
 namespace holdfast::cli {
 namespace {
@@ -24,21 +20,6 @@ void set_flag(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
-void leave(int) {
-  static constexpr char message[] = "\nholdfast: cancelled, nothing was written\n";
-  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, message, sizeof message - 1);
-  _exit(exit_limit);
-}
-
-/// Of the signals that ask a program to end, those that whoever started it did not have ignored, as `nohup`
-/// does and shells for what runs in the background.
-void on_cancel(void (*handler)(int)) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    const auto before = std::signal(signal, handler);
-    if (before == SIG_IGN) std::signal(signal, SIG_IGN);
-  }
-}
-
 }  // namespace
 
 void fail_rather_than_die() {
@@ -48,10 +29,13 @@ void fail_rather_than_die() {
 
 void cancel_by_flag() {
   token();
-  on_cancel(set_flag);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    // Whoever started the program may have them ignored, as `nohup` does and shells for what runs in the
+    // background.
+    const auto before = std::signal(signal, set_flag);
+    if (before == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
 }
-
-void cancel_at_once() { on_cancel(leave); }
 
 bool cancel_requested() { return cancelled != 0; }
 

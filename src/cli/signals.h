@@ -13,10 +13,6 @@ void fail_rather_than_die();
 /// them ends the program at once.
 void cancel_by_flag();
 
-/// From now on SIGINT, SIGTERM and SIGHUP end the program with the exit code of a cancellation. For work that
-/// cannot be asked to stop and has no file open.
-void cancel_at_once();
-
 [[nodiscard]] bool cancel_requested();
 
 /// Cancelled with the flag: for calls that are given limits alone.

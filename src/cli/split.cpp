@@ -150,7 +150,7 @@ int run(const SplitArguments& arguments) {
   FilesOfRun files;
   files.read_surfaces(arguments.mesh.surfaces, arguments.mesh.input_format);
   files.write("-o", arguments.folder / manifest_name, true);
-  cancel_at_once();
+  cancel_by_flag();
   Surface surface = read_surfaces(arguments.mesh.surfaces,
                                   reading(limits, arguments.mesh.input_format, arguments.mesh.tolerance));
   if (!arguments.mesh.quiet) tell(surface.remarks);
@@ -159,7 +159,6 @@ int run(const SplitArguments& arguments) {
   DivideOptions options = to_options(arguments, surface);
   static_cast<Limits&>(options) = limits;
 
-  cancel_by_flag();  // from here on files are open
   SurfaceDivision division;
   try {
     division = divide(surface.view(), options);

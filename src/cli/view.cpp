@@ -96,13 +96,12 @@ int run(const ViewArguments& arguments) {
       files.read_surfaces({path}, arguments.input_format);
   }
   files.write("-o", arguments.output);
-  cancel_at_once();
+  cancel_by_flag();
   std::vector<Shape> shapes;
   for (const auto& path : arguments.files)
     shapes.push_back(
         read_shape(path, reading(limits, arguments.input_format, arguments.tolerance), arguments.quiet));
 
-  cancel_by_flag();  // from here on files are open
   const bool is_temporary = arguments.output.empty();
   const std::filesystem::path output = is_temporary ? temporary_page() : arguments.output;
   PageOfRun page(output, limits);
@@ -116,7 +115,13 @@ int run(const ViewArguments& arguments) {
       page.add(name, shape.surface);
   }
   page.set_title(title);
-  page.write();
+  try {
+    page.write();
+  } catch (...) {
+    std::error_code ignored;
+    if (is_temporary) std::filesystem::remove(output, ignored);
+    throw;
+  }
   if (is_temporary && !open_in_browser(output) && !arguments.quiet)
     say("no browser was found; open {}\n", output.string());
   if (is_temporary) files.list(output.string() + "\n");

@@ -185,6 +185,32 @@ class Limits(CliTest):
                 self.assertEqual(json.loads((self.folder / "r.json").read_text())["outcome"], "cancelled", command)
                 (self.folder / "r.json").unlink()
 
+    WITHOUT_REPORT = (("convert", "-o", "out.off"), ("view", "-o", "page.html"), ("view",), ("split", "--parts", "2", "-o", "parts"))
+
+    def test_a_signal_that_ends_the_reading_is_told_in_one_way(self):
+        os.mkfifo(self.folder / "pipe.off")
+        (self.folder / "tmp").mkdir()
+        before = self.files()
+        for command in self.WITHOUT_REPORT:
+            for sent in signal.SIGINT, signal.SIGTERM, signal.SIGHUP:
+                process = subprocess.Popen([self.program, *command, "pipe.off"], cwd=self.folder, stdout=subprocess.PIPE,
+                                           stderr=subprocess.PIPE, env={**os.environ, "TMPDIR": str(self.folder / "tmp")})
+                time.sleep(0.3)
+                process.send_signal(sent)
+                said = process.communicate(timeout=60)[1].decode()
+                self.assertEqual((process.returncode, said), (5, "holdfast: cancelled; nothing was written\n"), command)
+        self.assertEqual(self.files(), before)
+        self.assertEqual(list((self.folder / "tmp").iterdir()), [])
+
+    def test_a_page_that_cannot_be_written_leaves_no_empty_one(self):
+        (self.folder / "tmp").mkdir()
+        pages = self.folder / "tmp"
+        code = f"ulimit -f 1; exec '{self.program}' view cube.off"
+        told = subprocess.run(["bash", "-c", code], cwd=self.folder, capture_output=True, text=True, check=False,
+                              env={**os.environ, "TMPDIR": str(pages)})
+        self.assertEqual(told.returncode, 3, told.stderr)
+        self.assertEqual(list(pages.iterdir()), [])
+
     def test_a_time_limit_holds_while_a_pipe_is_waited_for(self):
         os.mkfifo(self.folder / "pipe.off")
         self.run_program("mesh", "pipe.off", "-o", "v.vtu", "--time-limit", "0.2", "--report", "r.json", expect=5)
