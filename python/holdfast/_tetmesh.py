@@ -434,6 +434,8 @@ class TetMesh:
             "n_input_points": self.n_input_points,
             "report": self.report,
             "triangle_regions": regions,
+            "repair": self.repair,
+            "pasted": self.pasted,
         }
 
     def __setstate__(self, state: dict[str, Any]) -> None:
@@ -445,3 +447,4 @@ class TetMesh:
         self._report = state["report"]
         regions = state["triangle_regions"]
         self._triangle_regions = None if regions is None else frozen(regions.data, np.asarray(regions.mask))
+        self.repair, self.pasted = state.get("repair"), state.get("pasted")

@@ -18,6 +18,7 @@
 #include "named.h"
 #include "register.h"
 #include "reports.h"
+#include "state.h"
 #include "watch.h"
 
 namespace holdfast::python {
@@ -110,9 +111,11 @@ void register_volumes(py::module_& module) {
                                const auto& origin = self.cast<const PastedVolumes&>().origin;
                                return view_on(origin.data(), origin.size(), 0, self);
                              })
-      .def("report", [](const PastedVolumes& r) {
-        return reports::text_of(reports::to_json(r, reports::Json::object()));
-      });
+      .def("report",
+           [](const PastedVolumes& r) {
+             return reports::text_of(reports::to_json(r, reports::Json::object()));
+           })
+      .def(pickled<PastedVolumes>());
   module.def("paste_volumes", &paste_meshes);
 }
 
@@ -163,7 +166,8 @@ void register_paste(py::module_& module) {
           "report",
           [](const PasteResult& r) { return reports::text_of(reports::to_json(r, reports::Json::object())); })
       .def_property_readonly("shared_facets", [](const PasteResult& r) { return r.shared_facets; })
-      .def("parts", [](const PasteResult& r) { return reports::text_of(reports::parts_of(r)); });
+      .def("parts", [](const PasteResult& r) { return reports::text_of(reports::parts_of(r)); })
+      .def(pickled<PasteResult>());
   module.def("paste", &paste_parts);
   module.def("join_parts", &join_parts);
   register_volumes(module);

@@ -16,6 +16,7 @@
 #include "repair_check.h"
 #include "repaired.h"
 #include "reports.h"
+#include "state.h"
 #include "watch.h"
 
 namespace holdfast::python {
@@ -98,7 +99,8 @@ void register_repair(py::module_& module) {
           [](const std::shared_ptr<Repair>& r) { return std::shared_ptr<Surface>(r, &r->result.surface); })
       .def_property_readonly("parents", [](const Repair& r) { return parents_of(r.result); })
       .def_property_readonly("max_displacement", [](const Repair& r) { return r.result.max_displacement; })
-      .def("report", &report_of);
+      .def("report", &report_of)
+      .def(pickled<Repair>());
   module.def("repair", &repair_arrays);
   module.def("check_repair", &check_repair_arrays);
 }

@@ -1,7 +1,9 @@
 """Parts that touch: `paste`, and `mesh` of what it gives."""
 
+import copy
 import gzip
 import json
+import pickle
 import subprocess
 
 import numpy as np
@@ -58,6 +60,29 @@ def test_parts_that_are_cut_differently():
                                      for k in (1, 2))), axis=1) / 2
     assert area[mesh.triangle_markers == 3].sum() == pytest.approx(1)
     assert holdfast.check(pasted.surface, mesh)
+
+
+@pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda r: pickle.loads(pickle.dumps(r))])
+def test_copies_and_pickling(again):
+    one = holdfast.paste(box(0, 1, 2), box(1 + 1e-9, 3, 3), box(5, 6, 1), tolerance=1e-6, names=["left", "right", "far"])
+    other = again(one)
+    assert repr(other) == repr(one) and other.report == one.report and other.parents == one.parents
+    for name in ("marker_sets", "moved", "regions", "apart", "max_displacement", "shared_triangles", "origin"):
+        assert getattr(other, name) == getattr(one, name), name
+    assert one.moved and one.apart and np.array_equal(other.surface.points, one.surface.points)
+    meshes = [holdfast.mesh(p, fill=True) for p in (one, other)]
+    assert np.array_equal(meshes[0].tetrahedra, meshes[1].tetrahedra) and meshes[0].names == meshes[1].names
+    assert again(meshes[0]).pasted.report == one.report and meshes[0].report["parts"] == meshes[1].report["parts"]
+
+
+@pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda r: pickle.loads(pickle.dumps(r))])
+def test_copies_and_pickling_of_meshes(again):
+    one = holdfast.paste(*(holdfast.mesh(*box(*b), fill=True) for b in ((0, 1, 2), (1, 3, 3))))
+    other = again(one)
+    assert repr(other) == repr(one) and other.report == one.report and other.parents == one.parents
+    assert np.array_equal(other.mesh.tetrahedra, one.mesh.tetrahedra) and np.array_equal(other.origin, one.origin)
+    assert other.mesh.report == one.mesh.report and other.mesh.names == one.mesh.names
+    assert holdfast.check(other.surface, other.mesh)
 
 
 def test_parts_may_be_in_a_list():

@@ -1,5 +1,7 @@
 """Surfaces that are not valid: `repair`, and `mesh(..., repair=True)`."""
 
+import copy
+import pickle
 import random
 
 import numpy as np
@@ -49,6 +51,33 @@ def test_repair_and_mesh_at_once():
     mesh = holdfast.mesh(points, triangles, repair=True, fill=True)
     assert mesh.repair.moved == {} and holdfast.check(mesh.repair.surface, mesh)
     assert np.array_equal(mesh.points[:16], points)
+
+
+@pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda r: pickle.loads(pickle.dumps(r))])
+def test_copies_and_pickling(again):
+    points, triangles = two_cubes()
+    near = np.vstack([points, CUBE + (3, 0, 0), CUBE + (4 + 1e-9, 0, 0)])
+    surface = holdfast.Surface(near, np.vstack([triangles, FACES + 16, FACES[1:] + 24, [(0, 0, 1)]]), segments=[(0, 7)],
+                               triangle_markers=np.arange(48) % 5, regions=[(0.1, 0.1, 0.1, 7, 0.5)], holes=[(3.5, 0.5, 0.5)],
+                               names={"triangles": {3: "Wäscheleine"}})
+    one = holdfast.repair(surface, weld=1e-8, fill_holes=True)
+    other = again(one)
+    assert repr(other) == repr(one) and other.report == one.report and other.moved == one.moved and len(one.moved) == 4
+    assert other.dropped == one.dropped and len(one.dropped) == 1 and other.marker_sets == one.marker_sets
+    for mine, its in zip(one.parents, other.parents):
+        assert np.array_equal(mine, its)
+    for name in ("points", "triangles", "segments", "triangle_markers"):
+        assert np.array_equal(getattr(other.surface, name), getattr(one.surface, name)), name
+    assert (other.surface.names, other.surface.regions, other.surface.holes) == (one.surface.names, one.surface.regions, one.surface.holes)
+    assert other.check() == one.check() and one.check()["holds"]
+    mesh = holdfast.mesh(*two_cubes(), repair=True, fill=True)
+    assert again(mesh).repair.check()["holds"] and again(mesh).repair.report == mesh.repair.report
+
+
+def test_what_another_version_has_pickled_is_told():
+    result = holdfast.repair(CUBE, FACES)._result
+    with pytest.raises(ValueError, match="another version"):
+        type(result).__new__(type(result)).__setstate__(result.__getstate__()[:-1])
 
 
 def test_holes_are_filled_and_parts_united_before_the_mesh():
