@@ -45,9 +45,9 @@ struct ReadOptions : Limits {
 
 /// Reads a surface; the format follows the extension unless `format` (".stl", ...) is given.
 ///
-/// .off, .stl, .obj, .ply, .3mf, .amf, .gltf, .glb, .ts (GOCAD), .mesh, .meshb (GMF), .poly, .smesh, .node
-/// (TetGen), .vtu, .vtp, .vtk, .msh (1, 2.x, 3, 4.0, 4.1), ASCII and binary where the format has both; each
-/// also packed by gzip (.stl.gz). Lengths are in the file's own unit.
+/// .off, .stl, .obj, .ply, .3mf, .amf, .gltf, .glb, .wrl (VRML), .ts (GOCAD), .mesh, .meshb (GMF), .poly,
+/// .smesh, .node (TetGen), .vtu, .vtp, .vtk, .msh (1, 2.x, 3, 4.0, 4.1), ASCII and binary where the format
+/// has both; each also packed by gzip (.stl.gz). Lengths are in the file's own unit.
 /// - Coordinates keep their bits, -0 and numbers that are not finite included (`diagnose` reports them).
 /// - Vertices keep their indices, those with identical coordinates too (`mesh` and all else take them as one,
 ///   see Complex); but .stl has no indices, and numbers its distinct vertices as they come.

@@ -170,7 +170,7 @@ int diagnose_files(const DiagnoseArguments& arguments, DiagnoseOptions options,
     files.list(listing_of(input, found, cut ? shown_on_terminal : SIZE_MAX));
   }
   if (defects.empty()) return exit_done;
-  say("holdfast: the surface is not valid: {} defect{}{}\n", defects.size(), defects.size() == 1 ? "" : "s",
+  say("holdfast: the surface is not valid: {}{}\n", counted(defects.size(), "defect"),
       arguments.marks.empty() ? "; --marks FILE.vtu writes the places for a viewer" : "");
   return exit_invalid_surface;
 }
@@ -201,8 +201,8 @@ void add_diagnose(CLI::App& app, Command& chosen) {
   command
       ->add_option(
           "SURFACE", arguments->surfaces,
-          "Surface files (.stl .off .obj .ply .3mf .amf .gltf .glb .ts .mesh .meshb .poly .smesh .node .msh "
-          ".vtu .vtp .vtk, "
+          "Surface files (.stl .off .obj .ply .3mf .amf .gltf .glb .wrl .ts .mesh .meshb .poly .smesh .node "
+          ".msh .vtu .vtp .vtk, "
           "each also .gz); "
           "several count on from "
           "one another; vertices with identical coordinates are one")

@@ -290,8 +290,8 @@ void add_mesh(CLI::App& app, Command& chosen) {
   command
       ->add_option(
           "SURFACE", arguments->surfaces,
-          "Surface files (.stl .off .obj .ply .3mf .amf .gltf .glb .ts .mesh .meshb .poly .smesh .node .msh "
-          ".vtu .vtp .vtk, "
+          "Surface files (.stl .off .obj .ply .3mf .amf .gltf .glb .wrl .ts .mesh .meshb .poly .smesh .node "
+          ".msh .vtu .vtp .vtk, "
           "each also .gz, and whatever else `convert` reads); several count on from "
           "one another; vertices with identical coordinates are one")
       ->transform(or_standard_input)

@@ -10,7 +10,9 @@
 #include "io/formats.h"
 #include "io/mid_nodes.h"
 #include "io/text_reader.h"
+#include "io/vrml_read.h"
 #include "numbers/float_environment.h"
+#include "text/count.h"
 #include "text/decimal.h"
 
 namespace holdfast {
@@ -57,6 +59,8 @@ constexpr Format kFormats[] = {
     {".amf", read_amf, nullptr, nullptr},
     {".gltf", read_gltf, nullptr, nullptr},
     {".glb", read_gltf, nullptr, nullptr},
+    {".wrl", read_vrml, nullptr, nullptr},
+    {".wrz", read_vrml, nullptr, nullptr},
     {".ts", read_gocad, nullptr, nullptr},
     {".mesh", read_medit, read_medit, write_file<write_medit>},
     {".meshb", read_gmf, read_gmf, write_file<write_gmf>},
@@ -118,10 +122,10 @@ std::string_view way_out_of(std::string_view extension) {
   static constexpr std::string_view kOfCad =
       "; it describes shapes, without triangles: export it as STL, or `gmsh -2 IN -o OUT.stl` makes some";
   static constexpr std::string_view kOfScenes = "; Blender, MeshLab or assimp save it as .obj";
-  static constexpr Way kWays[] = {{".step", kOfCad},   {".stp", kOfCad},    {".iges", kOfCad},
-                                  {".igs", kOfCad},    {".brep", kOfCad},   {".geo", kOfCad},
-                                  {".dae", kOfScenes}, {".wrl", kOfScenes}, {".x3d", kOfScenes},
-                                  {".3ds", kOfScenes}, {".fbx", kOfScenes}, {".blend", kOfScenes}};
+  static constexpr Way kWays[] = {{".step", kOfCad},   {".stp", kOfCad},     {".iges", kOfCad},
+                                  {".igs", kOfCad},    {".brep", kOfCad},    {".geo", kOfCad},
+                                  {".dae", kOfScenes}, {".x3d", kOfScenes},  {".3ds", kOfScenes},
+                                  {".fbx", kOfScenes}, {".blend", kOfScenes}};
   for (const Way& way : kWays)
     if (way.extension == extension) return way.text;
   return {};
@@ -178,9 +182,8 @@ void tell_polygons(MeshData& mesh) {
   if (mesh.polygons_cut > 0)
     mesh.remarks.push_back(
         {RemarkKind::polygons_cut, mesh.polygons_cut,
-         std::to_string(mesh.polygons_cut) + " polygon" + (mesh.polygons_cut == 1 ? "" : "s") +
-             " of more than three corners " + (mesh.polygons_cut == 1 ? "is" : "are") +
-             " cut into triangles" +
+         counted(mesh.polygons_cut, "polygon") + " of more than three corners " +
+             (mesh.polygons_cut == 1 ? "is" : "are") + " cut into triangles" +
              (mesh.deviation > 0 ? "; their corners lie up to " + decimal(mesh.deviation, 3) +
                                        " from the mean plane of their polygon"
                                  : "")});

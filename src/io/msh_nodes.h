@@ -45,8 +45,9 @@ class MshNodes {
     // Tags without gaps are the rule; then no search is needed.
     if (!tags_.empty() && tag >= tags_.front() && tag <= tags_.back()) {
       // The difference may be beyond 63 bits.
-      const std::size_t guess = static_cast<std::uint64_t>(tag) - static_cast<std::uint64_t>(tags_.front());
-      if (guess < tags_.size() && tags_[guess] == tag) return static_cast<Index>(guess);
+      const std::uint64_t guess = static_cast<std::uint64_t>(tag) - static_cast<std::uint64_t>(tags_.front());
+      if (guess < tags_.size() && tags_[static_cast<std::size_t>(guess)] == tag)
+        return static_cast<Index>(guess);
       const auto found = std::lower_bound(tags_.begin(), tags_.end(), tag);
       if (*found == tag) return static_cast<Index>(found - tags_.begin());
     }

@@ -170,7 +170,7 @@ void write_nodes_4(MshOut& to, const Volume& volume, std::pair<int, int> home) {
     to.size(i);
     to.end_line();
   }
-  for (std::uint64_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     beat(to.out().watch());
     to.point(node(volume, i));
     to.end_line();
@@ -214,7 +214,7 @@ void write_msh_2(MshOut& to, const MshData& data) {
   write_head(to, "2.2", data);
   const std::uint64_t count = node_count(data.volume);
   to.out() << "$Nodes\n" << count << '\n';
-  for (std::uint64_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     beat(to.out().watch());
     to.integer(static_cast<std::int64_t>(i) + 1).point(node(data.volume, i));
     to.end_line();

@@ -30,7 +30,9 @@ class ObjReader {
     // Two passes, because an element may name a vertex that follows it.
     read_id_comments();
     each_line([&](std::string_view keyword, TextReader& text) {
-      if (keyword == "v") mesh_.vertices.push_back(text.point());
+      if (keyword != "v") return;
+      mesh_.vertices.push_back(text.point());
+      if (!text.at_line_end() && !has_weight_of_one(text)) ++coloured_;
     });
     each_line([&](std::string_view keyword, TextReader& text) { read_element(keyword, text); });
     mark_facets();
@@ -60,6 +62,10 @@ class ObjReader {
     if (text.at_line_end() || text.remaining()[0] != '\\') return false;
     const std::string_view behind = text.remaining().substr(1);
     return behind.empty() || behind[0] == '\n' || behind[0] == '\r';
+  }
+  /// Which all vertices have.
+  static bool has_weight_of_one(TextReader& text) {
+    return text.real("a weight or colour") == 1 && text.at_line_end();
   }
   static void skip_logical_line(TextReader& text) {
     while (text.rest_of_line().ends_with('\\') && !text.remaining().empty()) {
@@ -135,6 +141,7 @@ class ObjReader {
       if (looks_[i] > 0) names += (names.empty() ? "" : ", ") + std::string(kLooks[i]);
       lines += looks_[i];
     }
+    mesh_.leave_out(coloured_, "colours or weights of vertices", "colour or weight of a vertex");
     mesh_.leave_out(lines, "lines of looks, groups or names (" + names + ")",
                     "line of looks, groups or names (" + names + ")");
   }
@@ -166,7 +173,8 @@ class ObjReader {
 
   Source source_;
   MeshData mesh_;
-  std::size_t seen_ = 0;  ///< vertices above the current line
+  std::size_t coloured_ = 0;  ///< vertices with colours or weights
+  std::size_t seen_ = 0;      ///< vertices above the current line
   std::vector<Index> corners_;
   std::array<std::size_t, std::size(kLooks)> looks_{};  ///< lines of each
 

@@ -7,6 +7,7 @@
 #include "io/formats.h"
 #include "io/polygon.h"
 #include "io/text_reader.h"
+#include "text/count.h"
 
 namespace holdfast::io {
 namespace {
@@ -44,7 +45,10 @@ Header read_header(TextReader& text) {
   Header header;
   const bool number = text.number_follows();
   const std::size_t start = text.position();
-  const std::string keyword = lower(text.word("the keyword OFF"));
+  std::string_view word = text.word("the keyword OFF");
+  // Unlike N for normals, n tells that the number of dimensions follows.
+  const bool tells_dimensions = word.ends_with("nOFF");
+  const std::string keyword = lower(word);
   if (!keyword.ends_with("off")) {
     if (!number) text.fail("not an OFF file: it starts with " + in_quotes(keyword));
     text.seek(start);
@@ -54,13 +58,15 @@ Header read_header(TextReader& text) {
     std::string_view name;
     std::size_t floats;
   };
-  std::string_view prefix = std::string_view(keyword).substr(0, keyword.size() - 3);
+  std::string_view prefix = std::string_view(keyword).substr(0, keyword.size() - (tells_dimensions ? 4 : 3));
   for (const Part& part : {Part{"st", 2}, Part{"c", 4}, Part{"n", 3}}) {
     if (!prefix.starts_with(part.name)) continue;
     prefix.remove_prefix(part.name.size());
     header.floats_behind += part.floats;
   }
-  if (!prefix.empty()) text.fail(in_quotes(keyword) + " is not OFF of three dimensions");
+  if (!prefix.empty()) text.fail(in_quotes(word) + " is not OFF of three dimensions");
+  if (tells_dimensions && text.integer("the number of dimensions") != 3)
+    text.fail("only OFF of three dimensions is read");
   if (text.at_line_end() || text.number_follows()) return header;
   header.binary = lower(text.word_on_line()) == "binary";
   if (!header.binary) text.fail("expected the number of vertices");
@@ -100,7 +106,7 @@ class OffReader {
     }
     if (!text_.at_end()) {
       text_.seek(text_.position());
-      text_.fail("text after the last of " + std::to_string(faces) + " faces; the counts are wrong");
+      text_.fail("text after the last of " + counted(faces, "face") + "; the counts are wrong");
     }
   }
 
@@ -127,7 +133,7 @@ class OffReader {
     mesh_.facets.reserve(faces);
     for (std::uint32_t i = 0; i < faces; ++i) read_face(bytes);
     if (bytes.left() > 0)
-      bytes.fail("bytes after the last of " + std::to_string(faces) + " faces; the counts are wrong");
+      bytes.fail("bytes after the last of " + counted(faces, "face") + "; the counts are wrong");
   }
 
   void read_face(ByteReader& bytes) {

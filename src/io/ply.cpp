@@ -199,6 +199,7 @@ class PlyReader {
     for (const Element& element : header_.elements) {
       if (element.count == 0 || element.properties.empty()) continue;
       values_.require(element.count, least_size(element), "elements");
+      if (element.name != "vertex") require_vertices_before(element);
       if (element.name == "vertex")
         read_vertices(element);
       else if (element.name == "face")
@@ -240,6 +241,18 @@ class PlyReader {
         mesh_.remarks.push_back(
             {RemarkKind::left_out, element.count, "of every " + element.name + " is left out: " + names});
     }
+  }
+
+  /// What names vertices can be judged only behind them.
+  void require_vertices_before(const Element& element) {
+    const bool names_vertices =
+        element.name == "face" || element.name == "edge" || element.name == "tristrips";
+    if (!names_vertices || !mesh_.vertices.empty()) return;
+    for (const Element& other : header_.elements)
+      if (other.name == "vertex" && other.position > element.position)
+        text_.fail_at(element.position,
+                      "the element " + in_quotes(element.name) +
+                          " stands before the vertices, and is not read so: save vertices first");
   }
 
   static std::size_t least_size(const Element& element) {

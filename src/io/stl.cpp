@@ -11,11 +11,13 @@
 #include "io/labels.h"
 #include "io/text_reader.h"
 #include "surface/weld.h"
+#include "text/count.h"
 
 namespace holdfast::io {
 namespace {
 
 constexpr std::size_t kHeader = 80, kRecord = 50;
+constexpr std::uint32_t kUnknown = 0xFFFFFFFF;
 
 /// Number of triangles that a binary file's header announces.
 std::uint32_t announced(std::string_view bytes) {
@@ -34,13 +36,22 @@ bool is_binary(std::string_view bytes) {
 
 MeshData read_binary(const Source& source) {
   ByteReader bytes(source, std::endian::little, kHeader);
-  const auto count = bytes.read<std::uint32_t>();
+  auto count = bytes.read<std::uint32_t>();
+  MeshData mesh;
+  // Programs that do not know the number when they begin leave one of these there.
+  const std::uint64_t whole = bytes.left() / kRecord;
+  if ((count == 0 || count == kUnknown) && whole > 0 && bytes.left() % kRecord == 0 && whole < kUnknown) {
+    mesh.remarks.push_back(
+        {RemarkKind::left_out, 1,
+         "the header announces " + std::to_string(count) + " triangles: the " +
+             counted(static_cast<std::size_t>(whole), "one that follows is", "that follow are") + " read"});
+    count = static_cast<std::uint32_t>(whole);
+  }
   bytes.require_items(count, kRecord, "triangles");
   const std::uint64_t behind = bytes.left() - kRecord * std::uint64_t{count};
   if (behind >= kRecord)
-    bytes.fail("the header announces " + std::to_string(count) + " triangles, but " + std::to_string(behind) +
-               " more bytes follow them");
-  MeshData mesh;
+    bytes.fail("the header announces " + counted(count, "triangle") + ", but " +
+               counted(behind, "more byte follows", "more bytes follow") + (count == 1 ? " it" : " them"));
   mesh.facets.reserve(count);
   mesh.vertices.reserve(count / 2);
   Welder weld(mesh.vertices, count / 2);  // a closed surface has half as many vertices

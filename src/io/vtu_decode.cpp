@@ -1,4 +1,4 @@
-// Decodes the arrays of VTK's XML files: base64, size headers, blocks packed by zlib or LZ4.
+// Decodes the arrays of VTK's XML files: base64, size headers, blocks packed by zlib, LZ4 or LZMA.
 #include "io/vtu_decode.h"
 
 #include <zlib.h>
@@ -12,6 +12,7 @@
 #include "io/base64.h"
 #include "io/byte_reader.h"
 #include "io/lz4_block.h"
+#include "io/xz_block.h"
 
 namespace holdfast::io {
 namespace {
@@ -24,8 +25,9 @@ class Stream {
 
   /// The next `count` bytes. Whatever is left of a base64 group stays for the next call, unless
   /// padding ends the group: a header may be encoded apart from its data.
-  std::string take(std::uint64_t count) {
-    if (count > available()) fail("the data ends too early; the file is truncated");
+  std::string take(std::uint64_t wanted) {
+    if (wanted > available()) fail("the data ends too early; the file is truncated");
+    const auto count = static_cast<std::size_t>(wanted);
     if (!base64_) {
       position_ += count;
       return std::string(source_.bytes.substr(position_ - count, count));
@@ -82,13 +84,29 @@ class Stream {
 constexpr std::uint64_t kBestRatioOfDeflate = 1032;
 
 /// Appends what a block of zlib's holds; whether that is so many bytes.
-bool append_deflated(std::string& bytes, const std::string& packed, std::size_t size) {
+bool append_deflated(std::string& bytes, std::string_view packed, std::size_t size) {
   const std::size_t start = bytes.size();
   bytes.resize(start + size);
   uLongf unpacked = size;
   const int status = uncompress(reinterpret_cast<Bytef*>(bytes.data() + start), &unpacked,
                                 reinterpret_cast<const Bytef*>(packed.data()), packed.size());
   return status == Z_OK && unpacked == size;
+}
+
+struct WayToUnpack {
+  std::uint64_t best_ratio;  ///< which bounds the memory
+  bool (*append)(std::string& bytes, std::string_view packed, std::size_t size);
+};
+
+WayToUnpack way_of(VtuCompressor compressor) {
+  switch (compressor) {
+    case VtuCompressor::lz4:
+      return {kBestRatioOfLz4, append_lz4_block};
+    case VtuCompressor::lzma:
+      return {kBestRatioOfXz, append_xz};
+    default:
+      return {kBestRatioOfDeflate, append_deflated};
+  }
 }
 
 class ArrayDecoder {
@@ -124,26 +142,24 @@ class ArrayDecoder {
     const std::uint64_t block = size_word(), last = size_word();
     if (blocks > stream_.available() / (encoding_.wide_header ? 8 : 4))
       stream_.fail(std::to_string(blocks) + " blocks are announced; the file is truncated or damaged");
-    std::vector<std::uint64_t> sizes(blocks);
+    std::vector<std::uint64_t> sizes(static_cast<std::size_t>(blocks));
     for (std::uint64_t& size : sizes) size = size_word();
     stream_.drop_pending();
     std::string result;
-    for (std::uint64_t i = 0; i < blocks; ++i) {
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
       stream_.step();
-      const bool partial = i + 1 == blocks && last != 0;
+      const bool partial = i + 1 == sizes.size() && last != 0;
       unpack_block(result, sizes[i], partial ? last : block);
     }
     return result;
   }
 
   void unpack_block(std::string& result, std::uint64_t packed_size, std::uint64_t size) {
-    const bool lz4 = encoding_.compressor == VtuCompressor::lz4;
-    // Which bounds the memory.
-    const std::uint64_t best_ratio = lz4 ? kBestRatioOfLz4 : kBestRatioOfDeflate;
+    const auto [best_ratio, append] = way_of(encoding_.compressor);
     const std::string packed = stream_.take(packed_size);
     if (size / best_ratio > packed_size) stream_.fail("a block of impossible size; the file is damaged");
     if (size > result.max_size() - result.size()) throw std::bad_alloc();  // where sizes have 32 bits
-    if (!(lz4 ? append_lz4_block(result, packed, size) : append_deflated(result, packed, size)))
+    if (!append(result, packed, static_cast<std::size_t>(size)))
       stream_.fail("a block that cannot be decompressed; the file is damaged");
   }
 

@@ -1,4 +1,4 @@
-// Decodes the arrays of VTK's XML files: base64, size headers, blocks packed by zlib or LZ4.
+// Decodes the arrays of VTK's XML files: base64, size headers, blocks packed by zlib, LZ4 or LZMA.
 #pragma once
 
 #include <bit>
@@ -9,7 +9,7 @@
 
 namespace holdfast::io {
 
-enum class VtuCompressor : std::uint8_t { none, zlib, lz4 };
+enum class VtuCompressor : std::uint8_t { none, zlib, lz4, lzma };
 
 /// How a file encodes all of its arrays.
 struct VtuEncoding {

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "io/text_reader.h"
+#include "text/count.h"
 
 namespace holdfast::io {
 
@@ -62,9 +63,11 @@ void VtuFile::read_file_attributes(const XmlTag& tag, Seen& seen) {
     encoding_.compressor = VtuCompressor::zlib;
   else if (compressor == "vtkLZ4DataCompressor")
     encoding_.compressor = VtuCompressor::lz4;
+  else if (compressor == "vtkLZMADataCompressor")
+    encoding_.compressor = VtuCompressor::lzma;
   else if (!compressor.empty())
     xml_.fail(tag, "data compressed by " + in_quotes(compressor) +
-                       " is not read; save it with zlib or LZ4, or without");
+                       " is not read; save it with zlib, LZ4 or LZMA, or without");
 }
 
 void VtuFile::read_piece(const XmlTag& tag, Seen& seen) {
@@ -105,8 +108,7 @@ std::uint64_t VtuFile::components(const DataArray& array) const {
 void VtuFile::require_count(const DataArray& array, std::uint64_t size,
                             std::optional<std::uint64_t> count) const {
   if (count && size != *count)
-    xml_.fail(array.tag,
-              "the array has " + std::to_string(size) + " values instead of " + std::to_string(*count));
+    xml_.fail(array.tag, "the array has " + counted(size, "value") + " instead of " + std::to_string(*count));
 }
 
 VtkType VtuFile::type_of(const DataArray& array) const {

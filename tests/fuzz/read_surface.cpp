@@ -12,7 +12,7 @@ namespace {
 
 using namespace holdfast;
 
-constexpr std::array<std::array<const char*, 2>, 19> kFormats{{{".off"},
+constexpr std::array<std::array<const char*, 2>, 20> kFormats{{{".off"},
                                                                {".stl"},
                                                                {".obj"},
                                                                {".ply"},
@@ -30,7 +30,8 @@ constexpr std::array<std::array<const char*, 2>, 19> kFormats{{{".off"},
                                                                {".amf"},
                                                                {".ts"},
                                                                {".gltf"},
-                                                               {".glb"}}};
+                                                               {".glb"},
+                                                               {".wrl"}}};
 
 void require_in_range(const Surface& surface) {
   for (const Triangle& f : surface.facets)

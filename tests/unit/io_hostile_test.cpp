@@ -8,6 +8,7 @@
 #include "io/formats.h"
 #include "io_archive_samples.h"
 #include "io_samples.h"
+#include "vrml_samples.h"
 
 namespace holdfast {
 namespace {
@@ -45,6 +46,8 @@ std::vector<Sample> valid_files() {
                                {".3mf", small_3mf(Packing::wide)},
                                {".amf", kSmallAmf},
                                {".ts", kGocad},
+                               {".wrl", kVrml1},
+                               {".wrl", kVrml2},
                                {".inp", kAssembly},
                                {".gltf", gltf()},
                                {".glb", glb(gltf_json(""), gltf_buffer())}};

@@ -74,11 +74,11 @@ TEST(Off, Errors) {
   EXPECT_EQ(error("OFF\n3 1 0\n0 0 0\n1 0 0\n", "a.off"),
             "line 5: the file ends where a coordinate is expected; it is truncated");
   EXPECT_EQ(error("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n", "a.off"),
-            "line 7: text after the last of 1 faces; the counts are wrong");
+            "line 7: text after the last of 1 face; the counts are wrong");
   EXPECT_EQ(error("OFF\n4000000000 1 0\n0 0 0\n", "a.off"),
             "line 2: the number of vertices is 4000000000, but only 11 bytes follow; the file is truncated "
             "or damaged");
-  EXPECT_EQ(error("4OFF\n1 0 0\n0 0 0 0\n", "a.off"), "line 1: '4off' is not OFF of three dimensions");
+  EXPECT_EQ(error("4OFF\n1 0 0\n0 0 0 0\n", "a.off"), "line 1: '4OFF' is not OFF of three dimensions");
   EXPECT_EQ(error("OFF BINARY\n1 0 0\n", "a.off"), "byte 15: the file ends too early; it is truncated");
   EXPECT_EQ(error("OFF\n1 0 0\n0 0 1e999\n", "a.off"), "line 3: '1e999' is too large for a double");
   EXPECT_EQ(error("", "a.off"), "the file is empty");
@@ -447,9 +447,10 @@ TEST(Vtu, Errors) {
   EXPECT_EQ(error(replaced(kVtu, ">10 5 3<", ">10 42 3<"), "a.vtu").substr(0, 20), "cell 1: is of type 4");
   EXPECT_EQ(error(replaced(kVtu, "NumberOfPoints='4'", "NumberOfPoints='5'"), "a.vtu"),
             "line 8: the array has 12 values instead of 15");
-  EXPECT_EQ(error(replaced(kVtu, "byte_order", "compressor=\"vtkLZMADataCompressor\" byte_order"), "a.vtu"),
-            "line 3: data compressed by 'vtkLZMADataCompressor' is not read; save it with zlib or LZ4, or "
-            "without");
+  EXPECT_EQ(
+      error(replaced(kVtu, "byte_order", "compressor=\"vtkBrotliDataCompressor\" byte_order"), "a.vtu"),
+      "line 3: data compressed by 'vtkBrotliDataCompressor' is not read; save it with zlib, LZ4 or LZMA, "
+      "or without");
   const std::string text = kVtu;
   EXPECT_EQ(error(text.substr(0, text.size() - 11), "a.vtu"),
             "the file does not end with </VTKFile>; it is truncated");

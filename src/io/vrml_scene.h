@@ -1,0 +1,75 @@
+// The nodes of a VRML file, as versions 1.0 and 2.0 (ISO/IEC 14772-1, VRML97) write them: whatever they are,
+// by their braces and fields.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/text_reader.h"
+
+namespace holdfast::io {
+
+struct VrmlNode;
+
+struct VrmlField {
+  std::vector<double> numbers;
+  std::vector<const VrmlNode*> nodes;  ///< nullptr for NULL
+  std::string word;  ///< the last that is neither: TRUE, an enumerator, a text
+};
+
+struct VrmlNode {
+  std::string type, name;  ///< the name that DEF gives it
+  std::size_t position = 0;
+  std::map<std::string, VrmlField, std::less<>> fields;
+  std::vector<const VrmlNode*> children;  ///< of version 1.0: nodes that stand in it
+
+  /// Of a field that is not there: an empty one.
+  [[nodiscard]] const VrmlField& field(std::string_view field) const;
+};
+
+class VrmlScene {
+ public:
+  /// Parses the whole. Throws FileError.
+  explicit VrmlScene(const Source& source);
+
+  [[nodiscard]] bool is_first_version() const { return is_first_version_; }
+  [[nodiscard]] const std::vector<const VrmlNode*>& roots() const { return roots_; }
+  /// Throws a FileError for the line of a node.
+  [[noreturn]] void fail(const VrmlNode& node, const std::string& reason) const;
+
+ private:
+  struct Token {
+    enum class Kind { end, word, number, text, sign } kind;
+    std::string_view text;
+    std::size_t position;
+  };
+
+  void read_head();
+  void skip_blanks();
+  Token next();
+  [[nodiscard]] Token peek();
+  Token expect(std::string_view what);
+  [[nodiscard]] double number(const Token& token) const;
+  /// After its opening bracket or brace.
+  void skip_to_end();
+  bool skip_statement(std::string_view word);
+  [[nodiscard]] const VrmlNode* read_node(const Token& first);
+  [[nodiscard]] const VrmlNode* read_body(const Token& type, std::string name);
+  void read_value(VrmlField& field);
+  void read_item(VrmlField& field, const Token& token);
+  [[nodiscard]] bool begins_node(const Token& token);
+  [[noreturn]] void fail(const Token& token, const std::string& reason) const;
+
+  Source source_;
+  TextReader errors_;
+  std::size_t position_ = 0, depth_ = 0;
+  bool is_first_version_ = false;
+  std::deque<VrmlNode> nodes_;
+  std::map<std::string, const VrmlNode*, std::less<>> named_;
+  std::vector<const VrmlNode*> roots_;
+};
+
+}  // namespace holdfast::io

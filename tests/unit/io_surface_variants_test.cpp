@@ -1,0 +1,72 @@
+// What surface files of other programs have in their heads and lines: numbers that were not known,
+// dimensions, colours, an order of elements.
+#include <gtest/gtest.h>
+
+#include "io_samples.h"
+
+namespace holdfast {
+namespace {
+
+using namespace samples;
+
+class SurfaceVariants : public ::testing::Test {
+ protected:
+  Surface surface(const std::string& bytes, const std::string& name) {
+    put(folder_ / name, bytes);
+    return read_surface(folder_ / name);
+  }
+  std::string error(const std::string& bytes, const std::string& name) {
+    return refusal_of([&] { return surface(bytes, name); });
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(SurfaceVariants, OffThatTellsItsDimensions) {
+  const std::string behind = "\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  EXPECT_EQ(surface("nOFF\n3" + behind, "a.off").facets, (std::vector<Triangle>{{0, 1, 2}}));
+  EXPECT_EQ(surface("nOFF 3" + behind, "a.off").facets.size(), 1u);
+  EXPECT_EQ(error("nOFF\n4" + behind, "a.off"), "line 2: only OFF of three dimensions is read");
+  EXPECT_EQ(error("4nOFF\n3" + behind, "a.off"), "line 1: '4nOFF' is not OFF of three dimensions");
+  EXPECT_EQ(error("4OFF" + behind, "a.off"), "line 1: '4OFF' is not OFF of three dimensions");
+  EXPECT_EQ(surface("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n", "a.off").facets.size(),
+            1u);
+}
+
+TEST_F(SurfaceVariants, StlWhoseHeaderDoesNotKnowTheNumber) {
+  const std::string whole =
+      binary_stl("written as it comes", {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 0, 0, 0, 1, 0, 0, 0, 1}});
+  for (const std::string& number : {std::string(4, '\0'), std::string(4, '\xFF')}) {
+    std::string text = whole;
+    text.replace(80, 4, number);
+    const Surface s = surface(text, "a.stl");
+    EXPECT_EQ(s.facets, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+    ASSERT_EQ(s.remarks.size(), 1u);
+    EXPECT_NE(s.remarks[0].message.find("triangles: the 2 that follow are read"), std::string::npos);
+    EXPECT_NE(error(text.substr(0, text.size() - 1), "a.stl"), "read");
+  }
+  std::string one = whole;
+  one[80] = 1;
+  EXPECT_EQ(error(one, "a.stl"), "byte 84: the header announces 1 triangle, but 50 more bytes follow it");
+  EXPECT_EQ(error(whole.substr(0, 80) + std::string(4, '\0'), "a.stl"), "the file holds no vertices");
+}
+
+TEST_F(SurfaceVariants, ColoursOfVerticesInObj) {
+  const Surface s = surface("v 0 0 0 1 0.5 0\nv 1 0 0 2\nv 0 1 0 1.0\nf 1 2 3\n", "a.obj");
+  EXPECT_EQ(s.facets.size(), 1u);
+  ASSERT_EQ(s.remarks.size(), 1u);
+  EXPECT_EQ(s.remarks[0].message, "2 colours or weights of vertices are left out");
+}
+
+TEST_F(SurfaceVariants, FacesBeforeVerticesInPly) {
+  const std::string head = "ply\nformat ascii 1.0\n",
+                    faces = "element face 1\nproperty list int int vertex_indices\n",
+                    vertices = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+  EXPECT_EQ(error(head + faces + vertices + "end_header\n3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n", "a.ply"),
+            "line 3: the element 'face' stands before the vertices, and is not read so: save vertices first");
+  EXPECT_EQ(
+      surface(head + vertices + faces + "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a.ply").facets.size(),
+      1u);
+}
+
+}  // namespace
+}  // namespace holdfast
