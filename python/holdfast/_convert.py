@@ -85,13 +85,13 @@ def convert(
     >>> found["order"], round(found["volume"], 6), found["regions"][0]["name"]
     (2, 1.333333, 'core')
     """
-    words = [program(), "convert", os.fspath(source), os.fspath(target), "--threads", str(threads_of(threads))]
+    words = [program(), "convert", os.fsdecode(source), os.fsdecode(target), "--threads", str(threads_of(threads))]
     for part in [only] if isinstance(only, str) else only or []:
         words += ["--only", part]
     for option, value in (("--scale", scale), ("--order", order), ("--curved", curved), ("--curved-tolerance", curved_tolerance),
                           ("--format", format), ("--input-format", input_format), ("--time-limit", time_limit)):
         if value is not None:
-            words += [option, os.fspath(value) if isinstance(value, os.PathLike) else str(value)]
+            words += [option, os.fsdecode(value) if isinstance(value, os.PathLike) else str(value)]
     if (memory := bytes_of(memory_limit)) is not None:
         words += ["--memory-limit", repr(memory / 1e9)]
     for option, given in (("--each-region", each_region), ("--binary", binary), ("--one-file", one_file), ("--gzip", gzip),
@@ -110,7 +110,7 @@ def convert(
     if done.returncode == 2:
         raise ValueError(message)
     if done.returncode == 3:
-        raise FileError(message, next((f for f in (os.fspath(source), os.fspath(target)) if message.startswith(f)), ""))
+        raise FileError(message, next((f for f in (os.fsdecode(source), os.fsdecode(target)) if message.startswith(f)), ""))
     if done.returncode == 5:
         raise MemoryLimit(message) if "memory" in message else TimeLimit(message)
     raise HoldfastError(message)

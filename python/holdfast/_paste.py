@@ -8,6 +8,7 @@ import typing
 from typing import Any, Optional
 
 from . import _core
+from ._counts import counted
 from ._limits import CancelToken, MemoryAmount, Progress, Shown, length, limits, threads_of
 from ._surface import Array, Surface, _is_table, _of_data, _stem, surface_of
 from ._tetmesh import TetMesh
@@ -58,7 +59,8 @@ class Pasted:
         return found
 
     def __repr__(self) -> str:
-        return f"Pasted({len(self.regions)} parts, {len(self.surface.points)} points, {len(self.surface.triangles)} triangles)"
+        return (f"Pasted({counted(len(self.regions), 'part')}, {counted(len(self.surface.points), 'point')}, "
+                f"{counted(len(self.surface.triangles), 'triangle')})")
 
 
 def parts_in(surface: Any) -> Optional[list[Any]]:
@@ -174,7 +176,7 @@ def _meshes_in(parts: typing.Sequence[Any], options: dict[str, Any]) -> Optional
 
 def names_of_parts(parts: typing.Sequence[Any], names: Optional[typing.Sequence[str]]) -> list[str]:
     if names is None:
-        return [_stem(p) if isinstance(p, (str, os.PathLike)) else f"part {k}" for k, p in enumerate(parts, 1)]
+        return [_stem(p) if isinstance(p, (str, bytes, os.PathLike)) else f"part {k}" for k, p in enumerate(parts, 1)]
     found = [] if isinstance(names, str) else list(names)
     if isinstance(names, str) or not all(isinstance(name, str) for name in found):
         raise TypeError(f"names={names!r}: a list of texts is expected, one for each part")

@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._counts import counted
 from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits, whole
 from ._masks import plain, require_unmasked
 from ._surface import Array, PathLike, indices_of, markers_of
@@ -86,10 +87,10 @@ class PlaneMesh:
         FileError."""
         options = limits(time_limit, memory_limit, cancel)
         with Shown(progress, "write") as callback:
-            self._result.save(os.fspath(path), format or "", options, callback)
+            self._result.save(os.fsdecode(path), format or "", options, callback)
 
     def __repr__(self) -> str:
-        return f"PlaneMesh({len(self.points)} points, {len(self.triangles)} triangles)"
+        return f"PlaneMesh({counted(len(self.points), 'point')}, {counted(len(self.triangles), 'triangle')})"
 
 
 def plane(
@@ -215,11 +216,11 @@ def plane(
         order=order,
         seed=whole(seed, "seed"),
     )
-    if isinstance(points, (str, os.PathLike)):
+    if isinstance(points, (str, bytes, os.PathLike)):
         if segments is not None or point_markers is not None or segment_markers is not None or list(holes) or list(regions):
             raise ValueError("a file holds its own segments, markers, holes and regions: leave them out")
         with Shown(progress, "plane") as callback:
-            result = _core.plane_file(os.fspath(points), format or "", float(tolerance), options, callback)
+            result = _core.plane_file(os.fsdecode(points), format or "", float(tolerance), options, callback)
     else:
         if format is not None:
             raise ValueError("format: there is no file to read")

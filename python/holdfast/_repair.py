@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._counts import counted
 from ._limits import CancelToken, MemoryAmount, Progress, Shown, length, limits, threads_of, whole
 from ._surface import Array, Surface, _of_data, surface_of
 from .errors import _raise_unless_done
@@ -64,7 +65,7 @@ class Repair:
         return found
 
     def __repr__(self) -> str:
-        return (f"Repair({len(self.surface.points)} points, {len(self.surface.triangles)} triangles, "
+        return (f"Repair({counted(len(self.surface.points), 'point')}, {counted(len(self.surface.triangles), 'triangle')}, "
                 f"at most {self.max_displacement:.3g} away)")
 
 

@@ -24,8 +24,8 @@ def set_size(size: Size, options: dict[str, Any], points: int) -> Optional[typin
     """Puts what `size` means into the options, or gives the function that it is."""
     if size is None:
         return None
-    if isinstance(size, (str, os.PathLike)):
-        field = _core.read_size_field(os.fspath(size), {})
+    if isinstance(size, (str, bytes, os.PathLike)):
+        field = _core.read_size_field(os.fsdecode(size), {})
         if field.has_mesh:
             options["size_field"] = field
         else:
@@ -84,10 +84,10 @@ def set_metric(metric: Any, options: dict[str, Any]) -> Optional[typing.Callable
         return None
     if "size_field" in options:
         raise ValueError("size and metric cannot both be background meshes")
-    if isinstance(metric, (str, os.PathLike)):
-        options["size_field"] = _core.read_size_field(os.fspath(metric), {})
+    if isinstance(metric, (str, bytes, os.PathLike)):
+        options["size_field"] = _core.read_size_field(os.fsdecode(metric), {})
         if not options["size_field"].has_metrics:
-            raise ValueError(f"metric={os.fspath(metric)!r}: the file holds sizes, not metrics; give it as size")
+            raise ValueError(f"metric={os.fsdecode(metric)!r}: the file holds sizes, not metrics; give it as size")
     elif _is_background(metric):
         where, tetrahedra, tensors = metric
         options["size_field"] = _core.SizeField(points_of(where), indices_of(tetrahedra, 4, "tetrahedra"), [],

@@ -11,12 +11,13 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._counts import counted
 from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits
 from ._masks import plain
 from ._names import Names, names_of
 
 Array = npt.NDArray[Any]
-PathLike = Union[str, "os.PathLike[str]"]
+PathLike = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
 Region = tuple[float, float, float, int, float]
 Hole = tuple[float, float, float]
 
@@ -68,8 +69,8 @@ class Surface:
         """Names of markers, and of regions that `regions` number; meshes get them."""
 
     def __repr__(self) -> str:
-        extra = "" if self.segments is None else f", {len(self.segments)} segments"
-        return f"Surface({len(self.points)} points, {len(self.triangles)} triangles{extra})"
+        extra = "" if self.segments is None else f", {counted(len(self.segments), 'segment')}"
+        return f"Surface({counted(len(self.points), 'point')}, {counted(len(self.triangles), 'triangle')}{extra})"
 
     def _arrays(self) -> tuple[Any, ...]:
         return (self.points, self.triangles, self.segments, self.point_markers, self.triangle_markers,
@@ -83,6 +84,8 @@ class Surface:
 def points_of(values: npt.ArrayLike, what: str = "points") -> Array:
     """(n, 3) coordinates of a type that the extension takes as it lies there."""
     array = plain(values, what)
+    if array.shape == (0,):
+        array = np.empty((0, 3))
     if array.dtype == object or array.dtype.kind not in "fiu":
         raise TypeError(f"{what} must be real numbers, not {array.dtype}")
     if array.ndim != 2 or array.shape[1] != 3:
@@ -115,7 +118,7 @@ def markers_of(values: Optional[npt.ArrayLike], what: str) -> Optional[Array]:
     array = plain(values, what)
     if array.ndim != 1:
         raise ValueError(f"{what} must have the shape (m,), not {array.shape}")
-    if array.dtype.kind == "f" and np.all(array == np.floor(array)):
+    if array.dtype.kind == "f" and np.all((array == np.floor(array)) & (np.abs(array) < 2**63)):
         array = array.astype(np.int64)
     if array.dtype.kind not in "iu" and array.size > 0:
         raise TypeError(f"{what} must be integers, not {array.dtype}")
@@ -135,8 +138,8 @@ def surface_of(
     limits under which a file is read."""
     if triangles is not None:
         found = Surface(surface, triangles)
-    elif isinstance(surface, (str, os.PathLike)):
-        found = _of_data(_core.read_surface(os.fspath(surface), "", reading or {}, None))
+    elif isinstance(surface, (str, bytes, os.PathLike)):
+        found = _of_data(_core.read_surface(os.fsdecode(surface), "", reading or {}, None))
     else:
         found = _told_by_shape(surface)
     if segments is None and triangle_markers is None and segment_markers is None:
@@ -358,7 +361,7 @@ def read_surface(
     cancel: Optional[CancelToken] = None,
     progress: Progress = None,
 ) -> Surface:
-    """Reads a surface from .stl, .off, .obj, .ply, .3mf, .amf, .gltf, .glb, .ts (GOCAD), .mesh, .meshb,
+    """Reads a surface from .stl, .off, .obj, .ply, .3mf, .amf, .gltf, .glb, .wrl (VRML), .ts (GOCAD), .mesh, .meshb,
     .poly, .smesh, .node, .msh, .vtu, .vtp or .vtk.
 
     Parameters
@@ -387,9 +390,9 @@ def read_surface(
     if not 0 <= tolerance < float("inf"):
         raise ValueError(f"tolerance={tolerance}: a finite length, not negative, is expected")
     options["tolerance"] = float(tolerance)
-    paths = [path] if isinstance(path, (str, os.PathLike)) else list(path)
+    paths = [path] if isinstance(path, (str, bytes, os.PathLike)) else list(path)
     with Shown(progress, "read") as callback:
-        parts = [_core.read_surface(os.fspath(p), format or "", options, callback) for p in paths]
+        parts = [_core.read_surface(os.fsdecode(p), format or "", options, callback) for p in paths]
     if not parts:
         raise ValueError("there is no surface")
     return _of_data(parts[0] if len(parts) == 1 else _core.join(parts, [_stem(p) for p in paths]))

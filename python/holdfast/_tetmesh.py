@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from . import _core, _other_packages
 from ._convert import convert
+from ._counts import counted
 from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits
 from ._names import Names, names_of
 from ._repair import Repair
@@ -357,7 +358,7 @@ class TetMesh:
                                order=order, names=names, only=only, each_region=each_region, scale=scale, threads=threads,
                                time_limit=time_limit, memory_limit=memory_limit)
         legacy = format in ("msh2", ".msh2")
-        ending = _core.volume_format_of(os.fspath(path), ".msh" if legacy else format or "")
+        ending = _core.volume_format_of(os.fsdecode(path), ".msh" if legacy else format or "")
         for option, given, of in (
             ("binary", binary, (".msh",)),
             ("one_file", one_file, (".vtu", ".xdmf")),
@@ -370,7 +371,7 @@ class TetMesh:
                "one_file": one_file, "gzip": gzip, "shells": shells}
         options = limits(time_limit, memory_limit, cancel)
         with Shown(progress, "write") as callback:
-            return _core.write_volume(os.fspath(path), self._volume, how, options, callback)
+            return _core.write_volume(os.fsdecode(path), self._volume, how, options, callback)
 
     def to_meshio(self) -> Any:
         """A `meshio.Mesh` with cell data "region" and "marker". Raises ImportError without meshio."""
@@ -390,24 +391,19 @@ class TetMesh:
     def __len__(self) -> int:
         return len(self.tetrahedra)
 
-    def _counts(self) -> list[tuple[int, str]]:
+    def _counts(self) -> list[tuple[int, str, str]]:
         regions = len(np.unique(self.regions)) if len(self.regions) else 1 if len(self.tetrahedra) else 0
         return [
-            (len(self.points), "point"),
-            (len(self.tetrahedra), "tetrahedron"),
-            (regions, "region"),
+            (len(self.points), "point", "points"),
+            (len(self.tetrahedra), "tetrahedron", "tetrahedra"),
+            (regions, "region", "regions"),
         ]
 
     def __repr__(self) -> str:
-        def told(count: int, one: str) -> str:
-            many = "tetrahedra" if one == "tetrahedron" else one + "s"
-            return f"{count} {one if count == 1 else many}"
-
-        return f"TetMesh({', '.join(told(*c) for c in self._counts())})"
+        return f"TetMesh({', '.join(counted(*c) for c in self._counts())})"
 
     def _repr_html_(self) -> str:
-        rows = [(f"{count:,}", what if count == 1 else "tetrahedra" if what == "tetrahedron" else what + "s")
-                for count, what in self._counts()]
+        rows = [(f"{count:,}", one if count == 1 else many) for count, one, many in self._counts()]
         if self.n_input_points is not None:
             rows.append((f"{len(self.points) - self.n_input_points:,}", "added points"))
         rows.append((f"{len(self.triangles):,}", "triangles kept"))

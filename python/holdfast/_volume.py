@@ -33,7 +33,7 @@ def read_volume(
     """
     options = limits(time_limit, memory_limit, cancel)
     with Shown(progress, "read") as callback:
-        volume, _ = _core.read_volume(os.fspath(path), format or "", options, callback)
+        volume, _ = _core.read_volume(os.fsdecode(path), format or "", options, callback)
     known = volume.input_points
     return TetMesh._of(volume, int(np.count_nonzero(known >= 0)) if len(known) else None)
 
@@ -63,10 +63,10 @@ def mesh_in(part: Any, options: dict[str, Any]) -> Optional[TetMesh]:
     """What has tetrahedra as a mesh, with the limits of `options` where it is a file; None for a surface."""
     if isinstance(part, TetMesh):
         return part
-    if isinstance(part, (str, os.PathLike)):
-        if not _may_be_volume(os.fspath(part), ""):
+    if isinstance(part, (str, bytes, os.PathLike)):
+        if not _may_be_volume(os.fsdecode(part), ""):
             return None
-        volume, _ = _core.read_volume(os.fspath(part), "", options, None)
+        volume, _ = _core.read_volume(os.fsdecode(part), "", options, None)
         return TetMesh._of(volume, None) if len(volume.tetrahedra) else None
     if hasattr(part, "cells_dict") and hasattr(part, "points"):
         cells = part.cells_dict
@@ -83,7 +83,7 @@ def volume_of(mesh: Any) -> TetMesh:
     """The mesh that an argument means."""
     if isinstance(mesh, TetMesh):
         return mesh
-    if isinstance(mesh, (str, os.PathLike)):
+    if isinstance(mesh, (str, bytes, os.PathLike)):
         return read_volume(mesh)
     if hasattr(mesh, "points") and hasattr(mesh, "cells") and not hasattr(mesh, "celltypes"):
         return _of_meshio(mesh)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import pickle
 import signal
 import subprocess
@@ -324,3 +325,32 @@ def test_file_errors_keep_their_file_when_they_are_pickled():
         holdfast.mesh("none.stl")
     again = pickle.loads(pickle.dumps(caught.value))
     assert (str(again), again.filename, again.where) == (str(caught.value), "none.stl", caught.value.where)
+
+
+def test_markers_that_are_no_integers_of_32_bits():
+    points, triangles = box()
+    for marker, error in ((np.inf, TypeError), (np.nan, TypeError), (1e300, TypeError), (0.5, TypeError), (2.0**40, ValueError), (2**40, ValueError)):
+        with pytest.raises(error, match="must be integers|marker 0 is beyond 32 bits"):
+            holdfast.mesh(points, triangles, triangle_markers=np.full(12, marker))
+    assert set(holdfast.mesh(points, triangles, triangle_markers=np.full(12, -3.0)).triangle_markers) == {-3}
+
+
+def test_empty_lists_are_no_points():
+    with pytest.raises(holdfast.InvalidSurface, match="encloses nothing"):
+        holdfast.mesh([], [])
+    assert holdfast.delaunay([]).shape == (0, 4)
+
+
+def test_names_of_files_may_be_bytes(tmp_path):
+    points, triangles = box()
+    path = os.fsencode(tmp_path) + b"/\xff part.off"
+    with open(path, "w") as file:
+        file.write(f"OFF\n8 12 0\n" + "".join("%r %r %r\n" % tuple(p) for p in points.tolist())
+                   + "".join("3 %d %d %d\n" % tuple(t) for t in triangles.tolist()))
+    assert len(holdfast.read_surface(path).points) == len(holdfast.read_surface([path, path]).points) // 2 == 8
+    mesh = holdfast.mesh(path)
+    for ending in (b".vtu", b".off"):
+        mesh.save(path + ending)
+    assert holdfast.check(path, path + b".vtu") and len(holdfast.read_volume(path + b".vtu")) == len(mesh)
+    holdfast.convert(path + b".vtu", path + b".mesh")
+    assert holdfast.info(path + b".mesh")["tetrahedra"] == len(mesh)

@@ -169,6 +169,13 @@ def test_pickle():
     assert np.array_equal(surface.triangles, triangles)
 
 
+def test_one_thing_is_no_many():
+    points, triangles = np.eye(3), [(0, 1, 2)]
+    assert repr(holdfast.Surface(points, triangles, segments=[(0, 1)])) == "Surface(3 points, 1 triangle, 1 segment)"
+    assert repr(holdfast.repair(points, triangles)).startswith("Repair(3 points, 1 triangle, ")
+    assert repr(holdfast.plane(points[:, :2])) == "PlaneMesh(3 points, 1 triangle)"
+
+
 def test_merged_points_are_mapped():
     points, triangles = box()
     # Every corner of its own.

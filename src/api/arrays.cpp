@@ -25,7 +25,9 @@ To converted(From value, const char* what, std::size_t row) {
   } else if constexpr (std::is_floating_point_v<From>) {
     refuse(what, row, "is not of integers");
   } else {
-    if (!std::in_range<To>(value)) refuse(what, row, "has a number that is negative or beyond 32 bits");
+    if (!std::in_range<To>(value))
+      refuse(what, row,
+             std::is_signed_v<To> ? "is beyond 32 bits" : "has a number that is negative or beyond 32 bits");
     return static_cast<To>(value);
   }
 }

@@ -6,6 +6,7 @@
 
 #include "check/examination.h"
 #include "check/findings.h"
+#include "text/count.h"
 
 namespace holdfast::checking {
 
@@ -55,7 +56,7 @@ Rule vertices_kept(Examination& on) {
     findings.add(
         [&] { return vertex_words("input", given(i), on.surface.vertices[given(i)]) + " is missing"; });
   on.vertices_kept = findings.empty();
-  const std::string all = std::to_string(on.surface.vertices.size()) + " input vertices";
+  const std::string all = counted(on.surface.vertices.size(), "input vertex", "input vertices");
   return judge(RuleKind::input_vertices_kept, findings, "input vertices changed or missing",
                (on.input_vertices() == on.surface.vertices.size()
                     ? all
@@ -85,8 +86,8 @@ Rule well_formed(Examination& on) {
       });
   on.well_formed = findings.empty();
   return judge(RuleKind::well_formed, findings, "malformed entities",
-               std::to_string(volume.tetrahedra.size()) + " tetrahedra, " +
-                   std::to_string(volume.vertices.size()) + " vertices");
+               counted(volume.tetrahedra.size(), "tetrahedron", "tetrahedra") + ", " +
+                   counted(volume.vertices.size(), "vertex", "vertices"));
 }
 
 Rule no_vertex_unused(const Examination& on) {
@@ -106,9 +107,10 @@ Rule no_vertex_unused(const Examination& on) {
              (on.vertices[i] == Fate::dropped ? " is outside all tetrahedra" : " is in no tetrahedron");
     });
   }
-  return judge(kind, findings, "unused vertices",
-               std::to_string(on.vertices.size() - dropped) + " vertices used" +
-                   (dropped > 0 ? ", " + std::to_string(dropped) + " input vertices outside" : ""));
+  return judge(
+      kind, findings, "unused vertices",
+      counted(on.vertices.size() - dropped, "vertex", "vertices") + " used" +
+          (dropped > 0 ? ", " + counted(dropped, "input vertex", "input vertices") + " outside" : ""));
 }
 
 }  // namespace holdfast::checking

@@ -6,6 +6,7 @@
 
 #include "check/examination.h"
 #include "check/findings.h"
+#include "text/count.h"
 
 namespace holdfast::checking {
 
@@ -117,7 +118,7 @@ Rule facets_kept(const Examination& on) {
       findings.add([&] { return facet_words(on, i) + " is no face of the mesh"; });
   }
   return judge(kind, findings, "input facets lost",
-               std::to_string(kept) + " input facets, each one face of the mesh");
+               counted(kept, "input facet") + ", each one face of the mesh");
 }
 
 Rule segments_kept(const Examination& on) {
@@ -146,7 +147,7 @@ Rule segments_kept(const Examination& on) {
         return words("facet side", given, on.surface.vertices) + " is no edge of the mesh";
       });
   return judge(kind, findings, "input segments or facet sides lost",
-               std::to_string(kept) + " input segments and all facet sides are edges of the mesh");
+               counted(kept, "input segment") + " and all facet sides are edges of the mesh");
 }
 
 Rule nothing_dropped(const Examination& on) {

@@ -7,6 +7,7 @@
 #include "check/disjoint_sets.h"
 #include "check/examination.h"
 #include "check/findings.h"
+#include "text/count.h"
 
 namespace holdfast::checking {
 
@@ -80,8 +81,8 @@ void find_wrong_markers(const Listing<Entity>& on, const Examination& whole, Fin
   const auto bad_length = [&](std::string_view whose, std::size_t markers, std::size_t entities) {
     if (markers == 0 || markers == entities) return false;
     findings.add([&] {
-      return std::string(whose) + " " + std::to_string(markers) + " markers for " + std::to_string(entities) +
-             " " + std::string(on.kind) + "s";
+      return std::string(whose) + " " + counted(markers, "marker") + " for " +
+             counted(entities, std::string(on.kind));
     });
     return true;
   };
@@ -139,7 +140,7 @@ void find_wrong_vertex_markers(const Examination& on, Findings& findings) {
   if (input.size() != on.surface.vertices.size() || kept.size() != on.volume.vertices.size()) {
     findings.add([&] {
       return std::to_string(input.size()) + " vertex markers for " +
-             std::to_string(on.surface.vertices.size()) + " vertices of the input, " +
+             counted(on.surface.vertices.size(), "vertex", "vertices") + " of the input, " +
              std::to_string(kept.size()) + " for " + std::to_string(on.volume.vertices.size()) +
              " of the mesh";
     });
@@ -204,7 +205,7 @@ Rule regions_numbered(const Examination& on) {
   std::sort(of_region.begin(), of_region.end());
   of_region.erase(std::unique(of_region.begin(), of_region.end()), of_region.end());
   return judge(kind, findings, "places where ids change inside a region",
-               std::to_string(count) + " regions, " + std::to_string(of_region.size()) + " different ids");
+               counted(count, "region") + ", " + counted(of_region.size(), "different id"));
 }
 
 Rule markers_kept(const Examination& on) {
@@ -227,8 +228,8 @@ Rule markers_kept(const Examination& on) {
                                volume.segments, volume.segment_markers, on.segments, sides},
                               on, findings);
   return judge(RuleKind::markers_kept, findings, "wrong facets, segments or markers",
-               std::to_string(volume.facets.size()) + " facets and " +
-                   std::to_string(volume.segments.size()) + " segments listed");
+               counted(volume.facets.size(), "facet") + " and " + counted(volume.segments.size(), "segment") +
+                   " listed");
 }
 
 }  // namespace holdfast::checking

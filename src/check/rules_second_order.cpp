@@ -6,6 +6,7 @@
 #include "check/examination.h"
 #include "check/findings.h"
 #include "exact/jacobian.h"
+#include "text/count.h"
 
 namespace holdfast::checking {
 namespace {
@@ -121,10 +122,10 @@ Rule mid_nodes_placed(const Examination& on, const Uses& uses, Findings& finding
   }
   const auto unused = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
   if (uses.sound() && unused > 0)
-    findings.add([&] { return std::to_string(unused) + " nodes are on no edge"; });
-  return judge(RuleKind::mid_nodes_placed, findings, "mid-edge nodes misplaced",
-               std::to_string(edges) + " edges with a node each, " + std::to_string(curved) +
-                   " of them curved on facets");
+    findings.add([&] { return counted(unused, "node is", "nodes are") + " on no edge"; });
+  return judge(
+      RuleKind::mid_nodes_placed, findings, "mid-edge nodes misplaced",
+      counted(edges, "edge") + " with a node each, " + std::to_string(curved) + " of them curved on facets");
 }
 
 Rule jacobians_positive(const Examination& on) {

@@ -6,6 +6,7 @@
 #include "check/findings.h"
 #include "check/intersect.h"
 #include "exact/predicates.h"
+#include "text/count.h"
 
 namespace holdfast::checking {
 
@@ -55,7 +56,7 @@ Rule positive_volumes(Examination& on) {
   }
   on.positive = findings.empty();
   return judge(kind, findings, "tetrahedra are not positive",
-               std::to_string(on.volume.tetrahedra.size()) + " tetrahedra, all positive");
+               counted(on.volume.tetrahedra.size(), "tetrahedron", "tetrahedra") + ", all positive");
 }
 
 Rule faces_matched(Examination& on) {
@@ -90,7 +91,7 @@ Rule faces_matched(Examination& on) {
     return rule;
   }
   return judge(kind, folded, "faces with both tetrahedra on one side",
-               std::to_string(shared) + " faces of two tetrahedra, " + std::to_string(alone) + " of one");
+               counted(shared, "face") + " of two tetrahedra, " + std::to_string(alone) + " of one");
 }
 
 Rule boundary_is_input(const Examination& on) {

@@ -5,6 +5,7 @@
 #include "check/findings.h"
 #include "check_repair/examination.h"
 #include "holdfast/names.h"
+#include "text/count.h"
 #include "text/decimal.h"
 
 namespace holdfast::checking {
@@ -74,7 +75,7 @@ RepairRule losses_listed(const RepairExamination& on) {
   for (std::size_t f = 0; f < on.children.size(); ++f)
     if (on.children[f].empty() && !listed.contains(static_cast<Index>(f)))
       violations.add([&] { return input_facet(on, f) + " has no children and is not listed as dropped"; });
-  return violations.rule(std::to_string(listed.size()) + " triangles dropped");
+  return violations.rule(counted(listed.size(), "triangle") + " dropped");
 }
 
 RepairRule repeats_listed(const RepairExamination& on) {
@@ -115,7 +116,7 @@ RepairRule repeats_listed(const RepairExamination& on) {
         return input_facet(on, f) + " repeats " + std::to_string(other) + " and has other children";
       });
   }
-  return violations.rule(std::to_string(repeats) + " triangles merged");
+  return violations.rule(counted(repeats, "triangle") + " merged");
 }
 
 RepairRule fillings_bounded(const RepairExamination& on) {

@@ -6,6 +6,7 @@
 #include "check/findings.h"
 #include "check_repair/cover.h"
 #include "check_repair/examination.h"
+#include "text/count.h"
 #include "text/decimal.h"
 
 namespace holdfast::checking {
@@ -73,7 +74,7 @@ RepairRule parents_named(RepairExamination& on) {
         follows = false;
         violations.add([&] {
           return facet_words("output", on.output, f) + " names the parent " + std::to_string(p) +
-                 ", and the input has " + std::to_string(on.input.facets.size()) + " triangles";
+                 ", and the input has " + counted(on.input.facets.size(), "triangle");
         });
         continue;
       }
@@ -177,9 +178,9 @@ RepairRule parents_covered(const RepairExamination& on) {
       violations.add([&] { return facet_words("input", on.input, p) + " is not covered: " + *gap; });
   }
   return violations.rule(
-      std::to_string(covered) + " input triangles, each within " + decimal(reach.distance()) +
-      " of its children" +
-      (trimmed > 0 ? "; of " + std::to_string(trimmed) + " parts went in the union, which is not examined"
+      counted(covered, "input triangle") + ", each within " + decimal(reach.distance()) + " of its children" +
+      (trimmed > 0 ? "; of " + std::to_string(trimmed) + (trimmed == 1 ? " a part" : " parts") +
+                         " went in the union, which is not examined"
                    : ""));
 }
 
@@ -192,7 +193,7 @@ RepairRule segments_covered(const RepairExamination& on) {
   if (on.output.segments.empty() && parents.size() > 0) return violations.rule("the file holds no segments");
   if (parents.size() != on.output.segments.size()) {
     violations.add([&] {
-      return "there are parents for " + std::to_string(parents.size()) + " segments, and the output has " +
+      return "there are parents for " + counted(parents.size(), "segment") + ", and the output has " +
              std::to_string(on.output.segments.size());
     });
     return violations.rule({});
@@ -230,7 +231,7 @@ RepairRule segments_covered(const RepairExamination& on) {
       violations.add(
           [&] { return words("input segment", p, segment, on.input.vertices) + " is not covered: " + *gap; });
   }
-  return violations.rule(std::to_string(children.size()) + " input segments");
+  return violations.rule(counted(children.size(), "input segment"));
 }
 
 }  // namespace holdfast::checking

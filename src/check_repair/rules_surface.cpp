@@ -4,6 +4,7 @@
 #include "check/findings.h"
 #include "check_repair/examination.h"
 #include "check_repair/validity.h"
+#include "text/count.h"
 
 namespace holdfast::checking {
 namespace {
@@ -49,8 +50,8 @@ RepairRule output_valid(RepairExamination& on) {
       },
       on.pulse);
   find_whether_followed(on);
-  return violations.rule(std::to_string(on.output.facets.size()) + " triangles, " +
-                         std::to_string(on.output.vertices.size()) + " vertices: a simplicial complex");
+  return violations.rule(counted(on.output.facets.size(), "triangle") + ", " +
+                         counted(on.output.vertices.size(), "vertex", "vertices") + ": a simplicial complex");
 }
 
 /// Vertices are compared by another rule.
@@ -79,8 +80,8 @@ RepairRule valid_unchanged(const RepairExamination& on) {
   if (identical) return violations.rule("the triangles are as they were");
   if (!is_complex(on.input, on.pulse)) return violations.rule("the input is not valid");
   violations.add([&] {
-    return "the input is valid; it has " + std::to_string(on.input.facets.size()) + " triangles and " +
-           std::to_string(on.input.vertices.size()) + " vertices, the output " +
+    return "the input is valid; it has " + counted(on.input.facets.size(), "triangle") + " and " +
+           counted(on.input.vertices.size(), "vertex", "vertices") + ", the output " +
            std::to_string(on.output.facets.size()) + " and " + std::to_string(on.output.vertices.size()) +
            "; triangle " + std::to_string(first) + " is the first that differs";
   });

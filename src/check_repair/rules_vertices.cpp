@@ -4,6 +4,7 @@
 
 #include "check/findings.h"
 #include "check_repair/examination.h"
+#include "text/count.h"
 #include "text/decimal.h"
 
 namespace holdfast::checking {
@@ -44,7 +45,7 @@ RepairRule vertices_kept(const RepairExamination& on) {
              decimal(rough_distance(before, after)) + " away, and is not listed as moved";
     });
   }
-  return violations.rule(std::to_string(all - std::min(all, moved.size())) + " vertices bit for bit, " +
+  return violations.rule(counted(all - std::min(all, moved.size()), "vertex", "vertices") + " bit for bit, " +
                          std::to_string(moved.size()) + " listed as moved");
 }
 

@@ -9,6 +9,7 @@
 #include "holdfast/region_bounds.h"
 #include "number.h"
 #include "parts_of_mesh.h"
+#include "summary.h"
 
 namespace holdfast::cli {
 namespace {
@@ -92,11 +93,11 @@ void set_bounds(const BoundArguments& arguments, const Names& names, Options& op
 namespace {
 
 std::string layers_text(const Report::Layers& layers, unsigned asked) {
-  std::string text =
-      fmt::format("{} points for {} layers, {} edges too long for them", layers.points, asked, layers.left);
+  std::string text = fmt::format("{} for {} layers, {} too long for them", counted(layers.points, "point"),
+                                 asked, counted(layers.left, "edge"));
   if (layers.at_rims > 0)
-    text += fmt::format(", {} vertices left out where fewer edges lead over the side from wall to wall",
-                        layers.at_rims);
+    text += fmt::format(", {} left out where fewer edges lead over the side from wall to wall",
+                        counted(layers.at_rims, "vertex", "vertices"));
   return text;
 }
 
@@ -111,9 +112,10 @@ std::string bounds_text(const Options& options, const Report& report) {
                                     [](const RegionSeed& seed) { return seed.max_volume > 0; }));
   if (has_volume)
     text += fmt::format(
-        "the largest tetrahedron has {:.6g} of the volume it may have, {} points for it, {} "
-        "bounded tetrahedra with an angle below 10 degrees",
-        bounds.fullest, bounds.points, bounds.flat);
+        "the largest tetrahedron has {:.6g} of the volume it may have, {} for it, {} "
+        "with an angle below 10 degrees",
+        bounds.fullest, counted(bounds.points, "point"),
+        counted(bounds.flat, "bounded tetrahedron", "bounded tetrahedra"));
   if (options.sizes && options.sizes->max_ratio > 0)
     text += fmt::format("{}largest ratio {:.4g}, {} above {:g}", text.empty() ? "" : "; ", bounds.worst_ratio,
                         bounds.above_ratio, options.sizes->max_ratio);

@@ -7,6 +7,7 @@
 #include "limits.h"
 #include "manifest.h"
 #include "signals.h"
+#include "summary.h"
 
 namespace holdfast::cli {
 namespace {
@@ -46,9 +47,9 @@ void check_part(const Manifest& manifest, std::size_t k, const CheckOptions& opt
     const Surface surface = surface_of_part(manifest, k, options);
     const Volume volume = volume_of(manifest, k, options);
     const CheckResult result = check(surface.view(), volume, options);
-    findings.add_part(
-        file, result.holds(),
-        result.holds() ? fmt::format("{} tetrahedra", volume.tetrahedra.size()) : broken_rules(result));
+    findings.add_part(file, result.holds(),
+                      result.holds() ? counted(volume.tetrahedra.size(), "tetrahedron", "tetrahedra")
+                                     : broken_rules(result));
     if (result.holds()) fits.add(volume);
   } catch (const Stale& stale) {
     findings.add_part(file, false, stale.what());

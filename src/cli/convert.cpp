@@ -123,11 +123,12 @@ int run(const ConvertArguments& arguments) {
   write(mesh, arguments, target);
   if (arguments.quiet) return exit_done;
   const bool has_tetrahedra = mesh.is_volume && !mesh.volume.tetrahedra.empty();
-  say("{}: {} vertices, {}{} triangles, {} segments\n", arguments.output.path.string(),
-      mesh.is_volume ? mesh.volume.vertices.size() : mesh.surface.vertices.size(),
-      has_tetrahedra ? fmt::format("{} tetrahedra, ", mesh.volume.tetrahedra.size()) : "",
-      mesh.is_volume ? mesh.volume.facets.size() : mesh.surface.facets.size(),
-      mesh.is_volume ? mesh.volume.segments.size() : mesh.surface.segments.size());
+  say("{}: {}, {}{}, {}\n", arguments.output.path.string(),
+      counted(mesh.is_volume ? mesh.volume.vertices.size() : mesh.surface.vertices.size(), "vertex",
+              "vertices"),
+      has_tetrahedra ? counted(mesh.volume.tetrahedra.size(), "tetrahedron, ", "tetrahedra, ") : "",
+      counted(mesh.is_volume ? mesh.volume.facets.size() : mesh.surface.facets.size(), "triangle"),
+      counted(mesh.is_volume ? mesh.volume.segments.size() : mesh.surface.segments.size(), "segment"));
   return exit_done;
 }
 

@@ -10,6 +10,7 @@
 #include "limits.h"
 #include "report.h"
 #include "signals.h"
+#include "summary.h"
 
 namespace holdfast::cli {
 namespace {
@@ -59,7 +60,7 @@ int join_points(const DelaunayArguments& arguments, const DelaunayOptions& optio
   }
   const double seconds = seconds_since(start);
   if (volume.tetrahedra.empty())
-    say("holdfast: {}: all {} points lie in one plane, so there is no tetrahedron\n",
+    say("holdfast: {}: the points, {}, lie in one plane, so there is no tetrahedron\n",
         arguments.points.string(), volume.vertices.size());
 
   volume.regions.assign(volume.tetrahedra.size(), 1);
@@ -78,8 +79,9 @@ int join_points(const DelaunayArguments& arguments, const DelaunayOptions& optio
               {"options", options_of(arguments)},
               {"outcome", "done"}});
   if (!arguments.quiet)
-    say("{}: {} points, {} tetrahedra, {:.2f} s ({:.2f} s Delaunay)\n", target.path.string(),
-        volume.vertices.size(), volume.tetrahedra.size(), seconds_since(whole), seconds);
+    say("{}: {}, {}, {:.2f} s ({:.2f} s Delaunay)\n", target.path.string(),
+        counted(volume.vertices.size(), "point"),
+        counted(volume.tetrahedra.size(), "tetrahedron", "tetrahedra"), seconds_since(whole), seconds);
   return exit_done;
 }
 

@@ -11,6 +11,7 @@
 #include "limits.h"
 #include "report.h"
 #include "signals.h"
+#include "summary.h"
 
 namespace holdfast::cli {
 namespace {
@@ -91,7 +92,8 @@ std::string text_of(const std::filesystem::path& file, bool is_volume, const Sta
     line("volume", fmt::format("{:.10g}{}", s.volume, is_volume ? "" : ", bounded by the triangles"));
   if (!is_volume && !s.closed) line("volume", "none: not closed, or not turned one way");
   if (s.negative + s.null > 0)
-    line("not positive", fmt::format("{} tetrahedra of negative volume, {} of none", s.negative, s.null));
+    line("not positive", fmt::format("{} of negative volume, {} of none",
+                                     counted(s.negative, "tetrahedron", "tetrahedra"), s.null));
   if (is_volume)
     text += table_of("regions", s.regions, "tetrahedra", "volume", "area");
   else

@@ -106,11 +106,9 @@ void require_a_size_a_vertex(const MeshArguments& arguments, const Options& opti
   if (!options.sizes || options.sizes->vertex_sizes.empty()) return;
   const std::size_t sizes = options.sizes->vertex_sizes.size();
   if (sizes != surface.vertices.size())
-    throw FileError(
-        arguments.size_field, "",
-        fmt::format(
-            "there are {} for {} of the surface", counted(sizes, "size"),
-            surface.vertices.size() == 1 ? "1 vertex" : fmt::format("{} vertices", surface.vertices.size())));
+    throw FileError(arguments.size_field, "",
+                    fmt::format("there are {} for {} of the surface", counted(sizes, "size"),
+                                counted(surface.vertices.size(), "vertex", "vertices")));
 }
 
 }  // namespace holdfast::cli

@@ -7,6 +7,7 @@
 #include "command.h"
 #include "holdfast/second_order.h"
 #include "limits.h"
+#include "summary.h"
 
 namespace holdfast::cli {
 
@@ -65,15 +66,18 @@ Json set_order(Volume& volume, const OrderArguments& arguments, const std::optio
   add_mid_nodes(volume, limits);
   const CurveReport report = curve_mid_nodes(volume, smooth->view(), options);
   if (!quiet) {
-    say("holdfast: {} of {} nodes on triangles are on {}, moved by {:.4g} at most\n", report.moved,
-        report.on_facets, arguments.curved.string(), report.farthest);
+    say("holdfast: {} of {} on triangles are on {}, moved by {:.4g} at most\n", report.moved,
+        counted(report.on_facets, "node"), arguments.curved.string(), report.farthest);
     if (report.beyond > 0)
-      say("holdfast: {} are farther from it than allowed, and straight\n", report.beyond);
+      say("holdfast: {} farther from it than allowed, and straight\n",
+          counted(report.beyond, "node is", "nodes are"));
     if (report.straightened > 0)
-      say("holdfast: {} stay straight, or an element would not be positive everywhere\n",
-          report.straightened);
+      say("holdfast: {} straight, or an element would not be positive everywhere\n",
+          counted(report.straightened, "node stays", "nodes stay"));
     if (report.not_positive > 0)
-      say("holdfast: {} elements are so flat that rounded mid-edge nodes turn them\n", report.not_positive);
+      say("holdfast: {} so flat that rounded mid-edge nodes turn {}\n",
+          counted(report.not_positive, "element is", "elements are"),
+          report.not_positive == 1 ? "it" : "them");
   }
   return {{"order", 2},
           {"nodes", volume.mid_nodes.points.size()},

@@ -10,6 +10,7 @@
 #include "files.h"
 #include "holdfast/partition.h"
 #include "limits.h"
+#include "summary.h"
 
 namespace holdfast::cli {
 namespace {
@@ -73,8 +74,8 @@ VolumeTarget target_of_partition(FilesOfRun& files, std::string_view option,
 
 void write_partition(const VolumeTarget& target, std::size_t pieces, const Volume& volume, bool quiet) {
   if (pieces > volume.tetrahedra.size())
-    throw UsageError(fmt::format("--partition {}: the mesh has {} tetrahedra; nothing was written", pieces,
-                                 volume.tetrahedra.size()));
+    throw UsageError(fmt::format("--partition {}: the mesh has {}; nothing was written", pieces,
+                                 counted(volume.tetrahedra.size(), "tetrahedron", "tetrahedra")));
   if (!volume.mid_nodes.empty())
     throw UsageError("--partition: elements of second order are not written in pieces; nothing was written");
   write_pieces(target.path, pieces, pieces_of(volume, partition(volume, pieces), pieces), target.options);

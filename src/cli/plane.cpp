@@ -138,8 +138,8 @@ void tell_of_refinement(const PlaneArguments& arguments, const PlaneReport& repo
   if (report.large_left > 0)
     say("{} larger than asked for\n", counted(report.large_left, "triangle is", "triangles are"));
   if (report.capped)
-    say("no more than {} points are added: allow more by --max-points, or ask for less\n",
-        arguments.max_points);
+    say("no more than {} added: allow more by --max-points, or ask for less\n",
+        counted(arguments.max_points, "point is", "points are"));
 }
 
 /// Says how the run ended and what the user can do; returns the exit code.

@@ -47,10 +47,10 @@ std::string open_holes_of(const RepairResult& result) {
     if (count == 0) continue;
     const auto first = std::find_if(result.left_open.begin(), result.left_open.end(), is_so);
     const Point& p = result.surface.vertices[first->border.front()];
-    text +=
-        fmt::format("; {} open ({}{} sides from ({:.10g}, {:.10g}, {:.10g})): {}",
-                    count == 1 ? "1 hole stays" : fmt::format("{} holes stay", count),
-                    count == 1 ? "" : "one of ", first->border.size(), p[0], p[1], p[2], explanation(reason));
+    text += fmt::format("; {} open ({}{} from ({:.10g}, {:.10g}, {:.10g})): {}",
+                        count == 1 ? "1 hole stays" : fmt::format("{} holes stay", count),
+                        count == 1 ? "" : "one of ", counted(first->border.size(), "side"), p[0], p[1], p[2],
+                        explanation(reason));
   }
   return text;
 }

@@ -7,6 +7,7 @@
 #include "command.h"
 #include "defects.h"
 #include "holdfast/io.h"
+#include "summary.h"
 
 namespace holdfast::cli {
 
@@ -26,7 +27,7 @@ Report::Input count_vertices(const Surface& surface) {
 void print_merged(const Report::Input& input) {
   if (input.merged_vertices + input.left_out_vertices == 0) return;
   const std::size_t all = input.vertices + input.merged_vertices + input.left_out_vertices;
-  say("{} vertices at {} places:{}{}{}\n", all, input.vertices,
+  say("{} at {}:{}{}{}\n", counted(all, "vertex", "vertices"), counted(input.vertices, "place"),
       input.merged_vertices == 0 ? "" : fmt::format(" {} merged", input.merged_vertices),
       input.merged_vertices > 0 && input.left_out_vertices > 0 ? "," : "",
       input.left_out_vertices == 0

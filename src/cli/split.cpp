@@ -13,6 +13,7 @@
 #include "mesh_options.h"
 #include "name_options.h"
 #include "signals.h"
+#include "summary.h"
 
 namespace holdfast::cli {
 namespace {
@@ -118,10 +119,9 @@ int conclude(const SplitArguments& arguments, const SurfaceDivision& division) {
         least = std::min(least, part.tetrahedra);
         most = std::max(most, part.tetrahedra);
       }
-      say("{}: {} with {} triangles between them; {:.3g} to {:.3g} tetrahedra each, estimated\n",
-          (arguments.folder / manifest_name).string(),
-          division.parts.size() == 1 ? "1 part" : fmt::format("{} parts", division.parts.size()),
-          triangles / 2, least, most);
+      say("{}: {} with {} between them; {:.3g} to {:.3g} tetrahedra each, estimated\n",
+          (arguments.folder / manifest_name).string(), counted(division.parts.size(), "part"),
+          counted(triangles / 2, "triangle"), least, most);
       if (division.parts.size() < arguments.parts)
         say("holdfast: the mesh is too coarse for {} parts\n", arguments.parts);
       return exit_done;

@@ -100,9 +100,9 @@ std::string counted(std::size_t count, const std::string& one, const std::string
 }
 
 void print_details(const Report& report) {
-  say("input      {} vertices, {} segments, {} facets in {}, {}\n", report.input.vertices,
-      report.input.segments, report.input.facets, counted(report.input.components, "component"),
-      report.input.closed ? "closed" : "not closed");
+  say("input      {}, {}, {} in {}, {}\n", counted(report.input.vertices, "vertex", "vertices"),
+      counted(report.input.segments, "segment"), counted(report.input.facets, "facet"),
+      counted(report.input.components, "component"), report.input.closed ? "closed" : "not closed");
   say("delaunay   missing: {}, {}\n", counted(report.delaunay.segments, "segment"),
       counted(report.delaunay.facets, "facet"));
   say("flips      missing: {}, {}\n", counted(report.flips.segments, "segment"),
@@ -128,11 +128,10 @@ void print_decisions(const Result& result) {
 
 void print_summary(const MeshArguments& arguments, const Options& options, const Result& result,
                    double seconds) {
-  say("{}: {} vertices ({} added), {} in {}{}, {:.2f} s{}\n",
+  say("{}: {} ({} added), {} in {}{}, {:.2f} s{}\n",
       arguments.output.each_region ? "all regions" : arguments.output.path.string(),
-      result.volume.vertices.size(), result.report.steiner_points,
-      result.volume.tetrahedra.size() == 1 ? "1 tetrahedron"
-                                           : fmt::format("{} tetrahedra", result.volume.tetrahedra.size()),
+      counted(result.volume.vertices.size(), "vertex", "vertices"), result.report.steiner_points,
+      counted(result.volume.tetrahedra.size(), "tetrahedron", "tetrahedra"),
       counted(result.report.regions, "region"), options.keep == Keep::automatic ? decided_rule(result) : "",
       seconds, result.report.tetrahedra > 0 ? "; " + quality_of(result, options) : "");
   if (const std::string bounds = bounds_text(options, result.report); !bounds.empty())

@@ -150,10 +150,10 @@ void tell_the_end(const TetgenSwitches& switches, const TetgenInput& input, cons
   if (!result.defects.empty())
     say("holdfast: {} outside every region left out\n",
         counted(result.defects.size(), "element or group of them is", "elements or groups of them are"));
-  say("{}: {} vertices ({} added), {} tetrahedra in {}, least dihedral angle {:.3g} degrees\n",
-      input.output.string(), result.volume.vertices.size(), result.report.steiner_points,
-      result.volume.tetrahedra.size(), counted(result.report.regions, "region"),
-      result.report.elements.min_dihedral_deg);
+  say("{}: {} ({} added), {} in {}, least dihedral angle {:.3g} degrees\n", input.output.string(),
+      counted(result.volume.vertices.size(), "vertex", "vertices"), result.report.steiner_points,
+      counted(result.volume.tetrahedra.size(), "tetrahedron", "tetrahedra"),
+      counted(result.report.regions, "region"), result.report.elements.min_dihedral_deg);
   if (const std::string bounds = bounds_text(options, result.report); !bounds.empty())
     say("bounds: {}\n", bounds);
 }
@@ -210,8 +210,8 @@ int join_points(const TetgenArguments& arguments, const TetgenSwitches& switches
                 const TetgenFiles& names, const Viewers& viewers, const Limits& limits, Result& result) {
   Volume volume = delaunay_volume(input.surface, limits);
   if (!switches.quiet)
-    say("{}: {} vertices, {} tetrahedra\n", input.output.string(), volume.vertices.size(),
-        volume.tetrahedra.size());
+    say("{}: {}, {}\n", input.output.string(), counted(volume.vertices.size(), "vertex", "vertices"),
+        counted(volume.tetrahedra.size(), "tetrahedron", "tetrahedra"));
   result.report.input.vertices = result.report.vertices = volume.vertices.size();
   result.report.tetrahedra = volume.tetrahedra.size();
   write_report(arguments, result);

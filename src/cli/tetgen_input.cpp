@@ -115,7 +115,7 @@ void read_sizes(const TetgenInput& input, const ReadOptions& options, Sizes& siz
   } else {
     if (field.sizes.size() > input.surface.vertices.size())
       throw FileError(input.sizes(), "",
-                      fmt::format("there are {} sizes for {} vertices", field.sizes.size(),
+                      fmt::format("there are more sizes than vertices: {} for {}", field.sizes.size(),
                                   input.surface.vertices.size()));
     sizes.vertex_sizes = std::move(field.sizes);
     sizes.vertex_sizes.resize(input.surface.vertices.size(), 0);  // points of switch i have none

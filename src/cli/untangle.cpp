@@ -15,6 +15,7 @@
 #include "progress.h"
 #include "report.h"
 #include "signals.h"
+#include "summary.h"
 #include "write_options.h"
 
 namespace holdfast::cli {
@@ -80,17 +81,20 @@ void print_summary(const UntangleArguments& arguments, const UntangleResult& res
   if (arguments.verbose)
     for (const auto& [step, seconds] : report.seconds) say("seconds    {} {:.3f}\n", step, seconds);
   if (result.outcome != Outcome::done) return;
-  say("{}: {} negative and {} null of {} tetrahedra untangled: {} vertices moved, {} swaps, {} cavities "
-      "refilled, {} vertices added, {} removed, {:.2f} s\n",
-      arguments.output.string(), report.negative, report.null, report.tetrahedra, report.moved,
-      report.swapped, report.cavities, report.added, report.removed, report.seconds.at("total"));
+  say("{}: {} negative and {} null of {} untangled: {} moved, {}, {} "
+      "refilled, {} added, {} removed, {:.2f} s\n",
+      arguments.output.string(), report.negative, report.null,
+      counted(report.tetrahedra, "tetrahedron", "tetrahedra"), counted(report.moved, "vertex", "vertices"),
+      counted(report.swapped, "swap"), counted(report.cavities, "cavity", "cavities"),
+      counted(report.added, "vertex", "vertices"), report.removed, report.seconds.at("total"));
   if (!arguments.improve) return;
   const auto& [before, after] = std::tie(report.improved.before, report.improved.after);
   say("improved: least dihedral angle {:.4g} to {:.4g} degrees, {} to {} of the elements below 10, mean Q "
       "{:.4g} to "
-      "{:.4g}, {} to {} tetrahedra\n",
+      "{:.4g}, {} to {}\n",
       before.min_dihedral_deg, after.min_dihedral_deg, before.below_10_deg, after.below_10_deg,
-      before.mean_quality, after.mean_quality, before.tetrahedra, after.tetrahedra);
+      before.mean_quality, after.mean_quality, before.tetrahedra,
+      counted(after.tetrahedra, "tetrahedron", "tetrahedra"));
 }
 
 /// The volume untangled, and as it came.
@@ -104,10 +108,11 @@ void write_html(const UntangleArguments& arguments, const Limits& limits, const 
   page.set_title(name);
   if (done) page.add(arguments.output.filename().string() + ", after", result.volume);
   page.add(name + ", before", before);
-  page.set_verdict(done ? fmt::format("{} negative and {} null of {} tetrahedra untangled",
-                                      result.report.negative, result.report.null, result.report.tetrahedra)
-                        : result.message,
-                   done);
+  page.set_verdict(
+      done ? fmt::format("{} negative and {} null of {} untangled", result.report.negative,
+                         result.report.null, counted(result.report.tetrahedra, "tetrahedron", "tetrahedra"))
+           : result.message,
+      done);
   page.set_report(report);
   page.write();
 }

@@ -7,6 +7,7 @@
 #include "holdfast/divide.h"
 #include "mesh/anatomy.h"
 #include "surface/describe.h"
+#include "text/count.h"
 
 namespace holdfast {
 namespace {
@@ -100,11 +101,12 @@ std::vector<Fit> FitChecker::finish() const {
           s.fit_of(FitKind::segments_there, s.seen.segments, "segment", "segments"),
           s.fit_of(FitKind::vertices_there, s.seen.vertices, "vertex", "vertices"),
           {FitKind::interfaces_matched, alone == 0,
-           alone == 0 ? std::to_string(matched) + " faces between parts"
-                      : std::to_string(alone) +
-                            " faces are neither the surface's nor another part's: " + first_alone},
+           alone == 0 ? counted(matched, "face") + " between parts"
+                      : counted(alone, "face is", "faces are") +
+                            " neither the surface's nor another part's: " + first_alone},
           {FitKind::nothing_twice, twice == 0,
-           twice == 0 ? "" : std::to_string(twice) + " faces have two parts on one side: " + first_twice}};
+           twice == 0 ? ""
+                      : counted(twice, "face has", "faces have") + " two parts on one side: " + first_twice}};
 }
 
 }  // namespace holdfast

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "io/solver_text.h"
+#include "text/count.h"
 #include "text/parse.h"
 
 namespace holdfast::io {
@@ -156,8 +157,9 @@ std::vector<Remark> not_in_bdf(const Volume& volume, const WriteOptions&) {
       [](const Point& p) { return std::any_of(p.begin(), p.end(), [](double x) { return !is_exact(x); }); }));
   if (rounded > 0)
     remarks.push_back({RemarkKind::not_held, rounded,
-                       std::to_string(rounded) + " vertices have coordinates of more figures than the 16 "
-                                                 "characters of .bdf, which are rounded"});
+                       counted(rounded, "vertex has", "vertices have") +
+                           " coordinates of more figures than the 16 "
+                           "characters of .bdf, which are rounded"});
   tell_left_out(volume, ".bdf", false, true, remarks);
   return remarks;
 }

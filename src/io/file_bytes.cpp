@@ -17,6 +17,7 @@
 #include "io/descriptor.h"
 #include "io/gunzip.h"
 #include "io/text_reader.h"
+#include "text/count.h"
 
 namespace holdfast::io {
 namespace {
@@ -43,7 +44,7 @@ std::unique_ptr<char[]> allocate(const std::filesystem::path& path, std::uintmax
   try {
     return std::unique_ptr<char[]>(new char[static_cast<std::size_t>(size)]);
   } catch (const std::bad_alloc&) {
-    throw FileError(path, "", "the file (" + std::to_string(size) + " bytes) does not fit in memory");
+    throw FileError(path, "", "the file (" + counted(size, "byte") + ") does not fit in memory");
   }
 }
 

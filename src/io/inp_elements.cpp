@@ -6,6 +6,7 @@
 #include "io/cells.h"
 #include "io/mid_nodes.h"
 #include "io/polygon.h"
+#include "text/count.h"
 
 namespace holdfast::io {
 
@@ -103,7 +104,7 @@ std::vector<std::int64_t> InpElements::read(InpText& text, const InpKeyword& key
       for (const std::string_view field : text.fields())
         if (!field.empty()) numbers.push_back(text.number(field, "a number of an element or node"));
     if (numbers.size() != type.nodes + 1)
-      text.reader().fail_at(place, "an element of " + std::to_string(type.nodes) + " nodes has " +
+      text.reader().fail_at(place, "an element of " + counted(type.nodes, "node") + " has " +
                                        std::to_string(numbers.empty() ? 0 : numbers.size() - 1));
     const Original element{&type, {numbers.begin() + 1, numbers.end()}};
     add_by_numbers(text.reader(), place, numbers[0], element, 0);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "io/text_reader.h"
+#include "text/count.h"
 
 namespace holdfast::io {
 namespace {
@@ -168,8 +169,7 @@ void tell(const Labels& labels, std::string_view format, std::vector<Remark>& re
                                      : " has no place for this number")});
   if (labels.changed_names > 0)
     remarks.push_back({RemarkKind::not_held, labels.changed_names,
-                       std::to_string(labels.changed_names) + " name" +
-                           (labels.changed_names == 1 ? " of a " : "s of ") + what +
+                       counted(labels.changed_names, "name of a ", "names of ") + what +
                            (labels.changed_names == 1 ? " is" : "s are") + " changed to what " +
                            std::string(format) + " allows"});
 }

@@ -11,6 +11,7 @@
 #include "metric/metric.h"
 #include "numbers/float_environment.h"
 #include "size/flat_field.h"
+#include "text/count.h"
 
 namespace holdfast::io {
 namespace {
@@ -58,7 +59,7 @@ SizeField on_mesh(MeshData mesh, SizeField field) {
 void require_as_many(const std::filesystem::path& path, std::size_t values, std::size_t vertices) {
   if (values != vertices)
     throw FileError(path, "",
-                    "there are sizes for " + std::to_string(values) + " vertices, but the mesh has " +
+                    "there are sizes for " + counted(values, "vertex", "vertices") + ", but the mesh has " +
                         std::to_string(vertices));
 }
 
@@ -135,8 +136,7 @@ SizeField read_mtr(const Source& source) {
   SizeField field;
   for (std::size_t k = 0; k < count; ++k) read_value(text, static_cast<std::size_t>(columns), field);
   if (!text.at_end())
-    text.fail_at(text.position(),
-                 "more follows than sizes for the " + std::to_string(count) + " vertices announced");
+    text.fail_at(text.position(), "more follows than the " + counted(count, "size") + " announced");
   return field;
 }
 

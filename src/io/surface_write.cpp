@@ -10,6 +10,7 @@
 #include "io/text_reader.h"
 #include "numbers/float_environment.h"
 #include "surface/isolated.h"
+#include "text/count.h"
 
 namespace holdfast {
 namespace io {
@@ -205,10 +206,6 @@ std::size_t marked(const std::vector<int>& markers) {
       std::count_if(markers.begin(), markers.end(), [](int marker) { return marker != 0; }));
 }
 
-std::string counted(std::size_t count, const char* one, const char* many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
 }  // namespace
 }  // namespace io
 
@@ -230,7 +227,7 @@ std::vector<Remark> not_held(const std::filesystem::path& path, const Surface& s
   const auto say = [&](std::size_t count, const char* one, const char* many) {
     if (count == 0) return;
     remarks.push_back({RemarkKind::not_held, count,
-                       io::counted(count, one, many) + (count == 1 ? " has" : " have") + " no place in " +
+                       counted(count, one, many) + (count == 1 ? " has" : " have") + " no place in " +
                            std::string(format.extension)});
   };
   if (!format.markers) say(surface.facet_markers.size(), "marker", "markers");

@@ -8,6 +8,7 @@
 #include "io/mid_nodes.h"
 #include "io/polygon.h"
 #include "io/text_reader.h"
+#include "text/count.h"
 
 namespace holdfast::io {
 namespace {
@@ -23,9 +24,7 @@ class CellReader {
   MeshData read() {
     const std::size_t cells = grid_.types.size();
     if (grid_.ends.size() != cells)
-      throw FileError(
-          path_, "",
-          std::to_string(grid_.ends.size()) + " cells, but " + std::to_string(cells) + " cell types");
+      throw FileError(path_, "", counted(grid_.ends.size(), "cell") + ", but " + counted(cells, "cell type"));
     for (const auto* tags : {&grid_.regions, &grid_.markers})
       if (!tags->empty() && tags->size() != cells)
         throw FileError(path_, "", "'region' or 'marker' has not one value a cell");
@@ -159,7 +158,7 @@ class CellReader {
   /// Cells of second order that have no place here, and those of any order: their corners come first.
   void add_by_corners(int marker) {
     const auto corners = [&](std::size_t count) {
-      if (corners_.size() < count) fail("has fewer than " + std::to_string(count) + " corners");
+      if (corners_.size() < count) fail("has fewer than " + counted(count, "corner"));
       add_no_corners(mesh_, std::span(corners_).subspan(count));
       return std::span<const Index>(corners_).first(count);
     };
@@ -209,7 +208,7 @@ class CellReader {
   }
 
   void add_cell_of(std::size_t corners) {
-    if (corners_.size() < corners) fail("has fewer than " + std::to_string(corners) + " corners");
+    if (corners_.size() < corners) fail("has fewer than " + counted(corners, "corner"));
     io::add_cell(mesh_, corners_, corners, tag_of(grid_.regions, cell_));
   }
 

@@ -12,6 +12,7 @@
 #include "io/text_reader.h"
 #include "io/vtk_cells.h"
 #include "io/vtk_values.h"
+#include "text/count.h"
 
 namespace holdfast::io {
 namespace {
@@ -141,9 +142,9 @@ class VtkReader {
     if (binary_) text_.skip_line();
     const std::size_t left = text_.remaining().size() + (binary_ ? 0 : 1);
     if (count > left / bytes_each)
-      text_.fail(std::to_string(count) + " values are announced, but only " +
-                 std::to_string(text_.remaining().size()) +
-                 " bytes follow; the file is truncated or damaged");
+      text_.fail(counted(count, "value is", "values are") + " announced, but only " +
+                 counted(text_.remaining().size(), "byte follows", "bytes follow") +
+                 "; the file is truncated or damaged");
     if (binary_) {
       const std::string_view bytes = text_.remaining().substr(0, count * bytes_each);
       const std::size_t start = text_.position();

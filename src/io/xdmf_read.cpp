@@ -153,8 +153,8 @@ class XdmfReader {
     const std::string announced = tag.attribute("NumberOfElements");
     if (!announced.empty() && announced.find_first_not_of("0123456789") == std::string::npos &&
         file_.number(tag, "NumberOfElements") != count)
-      file_.fail(tag,
-                 "there are " + std::to_string(count) + " cells, but NumberOfElements says " + announced);
+      file_.fail(tag, "the number of cells is " + std::to_string(count) + ", but NumberOfElements says " +
+                          announced);
     if (&grid == &file_.grids().front()) first_cells_ = count;
     std::vector<std::size_t> cells = take_off_known(first);
     if (cells.empty()) {

@@ -9,6 +9,7 @@
 #include "holdfast/holdfast.h"
 #include "holdfast/partition.h"
 #include "numbers/float_environment.h"
+#include "text/count.h"
 
 #ifdef HOLDFAST_METIS
 #include <metis.h>
@@ -69,8 +70,8 @@ std::vector<Index> partition(const Volume& volume, std::size_t parts) {
   const std::size_t count = volume.tetrahedra.size();
   if (parts == 0) throw std::invalid_argument("a volume is partitioned into one part or more");
   if (parts > count)
-    throw std::invalid_argument(std::to_string(parts) + " parts of a volume of " + std::to_string(count) +
-                                " tetrahedra: some would be empty");
+    throw std::invalid_argument(counted(parts, "part") + " of a volume of " +
+                                counted(count, "tetrahedron", "tetrahedra") + ": some would be empty");
   if (count > static_cast<std::size_t>(std::numeric_limits<idx_t>::max()) / 4)
     throw std::invalid_argument("METIS, as it was built, has no numbers for so many tetrahedra");
   std::vector<Index> part_of(count, 0);

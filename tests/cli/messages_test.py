@@ -5,6 +5,7 @@
 import json
 import os
 import pty
+import re
 import subprocess
 
 from cli_case import CUBE_FACETS, CUBE_POINTS, CliTest, cube, main, off, read_terminal, shifted
@@ -29,6 +30,35 @@ class DiagnoseAndMesh(CliTest):
         self.assertIn("--keep box", said)
         self.assertIn("4 edges at vertex 4", said)
         self.run_program("mesh", "open.off", "-o", "a.vtu", "--keep", "box", "--fill")
+
+    def test_one_thing_is_no_many(self):
+        points, facets = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)]
+        self.write("one.off", off(points, facets))
+        self.write("one.node", "4 3 0 0\n" + "".join(f"{i} {x} {y} {z}\n" for i, (x, y, z) in enumerate(points)))
+        self.write("twice.off", off(points + [(1, 0, 0)], facets[:3] + [(2, 0, 3), (0, 1, 4)]))
+        self.write("triangle.off", off(points[:3], [(0, 1, 2)]))
+        self.write("plane.node", "3 2 0 0\n0 0 0\n1 1 0\n2 0 1\n")
+        self.write("short.stl", "x" * 80 + "\x01\0\0\0" + "\0" * 101)
+        said = ""
+        for command in (["mesh", "one.off", "-o", "a.vtu", "--verbose"], ["mesh", "one.off", "-o", "b.vtu", "--layers", "2"],
+                        ["mesh", "one.off", "-o", "b.vtu", "--max-volume", "1", "--max-ratio", "9"],
+                        ["mesh", "one.off", "-o", "p.vtu", "--partition", "2"], ["mesh", "one.off", "-o", "p.stl"],
+                        ["mesh", "one.off", "-o", "c.vtu", "--order", "2", "--curved", "one.off"],
+                        ["mesh", "twice.off", "-o", "b.vtu"], ["diagnose", "twice.off"], ["diagnose", "one.off"],
+                        ["repair", "one.off", "-o", "r.off"], ["repair", "twice.off", "-o", "r.off", "--parents", "p.txt", "--report", "r.json"],
+                        ["check", "--repaired", "twice.off", "r.off", "--parents", "p.txt", "--report", "r.json"],
+                        ["check", "one.off", "a.vtu"], ["check", "one.off", "c.vtu"], ["untangle", "a.vtu", "-o", "u.vtu"],
+                        ["delaunay", "one.node", "-o", "d.vtu"], ["delaunay", "triangle.off", "-o", "d.vtu"],
+                        ["convert", "triangle.off", "t.poly"], ["convert", "a.vtu", "t.bdf"], ["convert", "short.stl", "t.off"],
+                        ["info", "a.vtu"], ["view", "a.vtu", "-o", "a.html"], ["plane", "plane.node", "-o", "p.off", "--hull"],
+                        ["split", "one.off", "--parts", "1", "-o", "parts"], ["tetgen", "-p", "one.off"], ["tetgen", "one.node"]):
+            told = subprocess.run([self.program, *command], cwd=self.folder, capture_output=True, text=True, check=False)
+            self.assertNotIn(told.returncode, (1, 2 if "--partition" not in command else 1), (command, told.stderr))
+            said += f"{command}\n{told.stdout}{told.stderr}"
+        found = [line for line in said.splitlines() if re.search(
+            r"(?<![\d.(])1 (\w+ )?(vertices|tetrahedra|triangles|segments|facets|regions|points|parts|nodes|edges|faces|files|defects|sides|swaps|cavities|are|have)\b",
+            line) and "of 1 " not in line]
+        self.assertEqual(found, [], said)
 
     def test_what_a_valid_surface_encloses(self):
         for points, facets, regions in [
