@@ -247,7 +247,9 @@ TEST(CheckAgainstOracle, RegionsAndVoidsAreCounted) {
     ASSERT_EQ(broken(c), Names{}) << seed;
     const int regions = Flood(size, region_of).components([](int id) { return id > 0; }, true);
     const int voids = Flood(size, region_of).components([](int id) { return id == 0; }, false);
-    EXPECT_TRUE(detail(c, "regions numbered").starts_with(std::to_string(regions) + " regions")) << seed;
+    EXPECT_TRUE(detail(c, "regions numbered")
+                    .starts_with(std::to_string(regions) + (regions == 1 ? " region," : " regions,")))
+        << seed;
     const std::string dropped = detail(c, "nothing dropped");
     if (voids > 0) {
       ++with_voids;

@@ -24,7 +24,7 @@ TEST(GoodMesh, OneTetrahedronHolds) {
 TEST(GoodMesh, GridWithIsolatedPointHolds) {
   const Case c = grid({2, 2, 2});  // the middle vertex is on no facet
   EXPECT_EQ(broken(c), Names{});
-  EXPECT_EQ(detail(c, "regions numbered"), "1 regions, 1 different ids");
+  EXPECT_EQ(detail(c, "regions numbered"), "1 region, 1 different id");
 }
 
 TEST(GoodMesh, SteinerPointInsideHolds) {
@@ -74,7 +74,7 @@ TEST(GoodMesh, CheckerboardHolds) {
   // Every inner side belongs to two blocks, and no two blocks share a face.
   const Case c = grid({4, 4, 4}, [](int x, int y, int z) { return (x + y + z) % 2; });
   EXPECT_EQ(broken(c), Names{});
-  EXPECT_EQ(detail(c, "regions numbered"), "32 regions, 1 different ids");
+  EXPECT_EQ(detail(c, "regions numbered"), "32 regions, 1 different id");
   // The empty cells that are closed on all sides are half of the inner 2x2x2.
   EXPECT_TRUE(contains(detail(c, "nothing dropped"), "; 4 enclosed regions are left empty"));
 }

@@ -39,6 +39,7 @@ TEST_F(Remarks, SayWhatASurfaceHasNoPlaceFor) {
             "6 vertices' and faces' normals, colours or texture coordinates are left out\n"
             "1 polygon of more than three corners is cut into triangles\n");
   EXPECT_EQ(said(kObj, "a.obj"),
+            "1 colour or weight of a vertex is left out\n"
             "4 lines of looks, groups or names (vt, vn, s, mtllib) are left out\n"
             "1 polygon of more than three corners is cut into triangles\n");
   EXPECT_EQ(said(kPly, "a.ply"), "of every vertex is left out: red\nof every face is left out: flags\n");
@@ -64,11 +65,11 @@ TEST_F(Remarks, OfAppearance) {
 
 TEST_F(Remarks, HaveKindsAndCounts) {
   const Surface s = surface(kObj, "a.obj");
-  ASSERT_EQ(s.remarks.size(), 2u);
-  EXPECT_EQ(s.remarks[0].kind, RemarkKind::left_out);
-  EXPECT_EQ(s.remarks[0].count, 4u);
-  EXPECT_EQ(s.remarks[1].kind, RemarkKind::polygons_cut);
-  EXPECT_EQ(s.remarks[1].count, 1u);
+  ASSERT_EQ(s.remarks.size(), 3u);
+  EXPECT_EQ(s.remarks[1].kind, RemarkKind::left_out);
+  EXPECT_EQ(s.remarks[1].count, 4u);
+  EXPECT_EQ(s.remarks[2].kind, RemarkKind::polygons_cut);
+  EXPECT_EQ(s.remarks[2].count, 1u);
 }
 
 TEST_F(Remarks, OfVolumes) {
