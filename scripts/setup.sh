@@ -5,7 +5,7 @@ set -euo pipefail
 
 declare -A packages=(
   # libgmp-dev is for the independent checker of `make corpus`, not for the product.
-  [build]="cmake ninja-build g++ ccache python3 xz-utils zlib1g-dev libboost-dev libmetis-dev libcli11-dev libfmt-dev
+  [build]="cmake ninja-build g++ ccache python3 xz-utils zlib1g-dev libboost-dev libmetis-dev liblzma-dev libcli11-dev libfmt-dev
            nlohmann-json3-dev libgtest-dev libgmp-dev locales pkg-config dpkg-dev"
   [test]="python3-dolfinx python3-scipy python3-meshio python3-h5py"
   [python]="python3-dev pybind11-dev python3-numpy python3-setuptools python3-wheel python3-pip python3-venv"

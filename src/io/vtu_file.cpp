@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "io/text_reader.h"
+#include "io/xz_block.h"
 #include "text/count.h"
 
 namespace holdfast::io {
@@ -63,11 +64,11 @@ void VtuFile::read_file_attributes(const XmlTag& tag, Seen& seen) {
     encoding_.compressor = VtuCompressor::zlib;
   else if (compressor == "vtkLZ4DataCompressor")
     encoding_.compressor = VtuCompressor::lz4;
-  else if (compressor == "vtkLZMADataCompressor")
+  else if (compressor == "vtkLZMADataCompressor" && has_xz())
     encoding_.compressor = VtuCompressor::lzma;
   else if (!compressor.empty())
-    xml_.fail(tag, "data compressed by " + in_quotes(compressor) +
-                       " is not read; save it with zlib, LZ4 or LZMA, or without");
+    xml_.fail(tag, "data compressed by " + in_quotes(compressor) + " is not read; save it with " +
+                       (has_xz() ? "zlib, LZ4 or LZMA" : "zlib or LZ4") + ", or without");
 }
 
 void VtuFile::read_piece(const XmlTag& tag, Seen& seen) {

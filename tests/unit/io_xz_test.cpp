@@ -58,14 +58,16 @@ const std::string kZeros(
     140);
 
 TEST(Xz, LiteralsAndMatches) {
+  if (!io::has_xz()) GTEST_SKIP() << "without liblzma";
   EXPECT_EQ(unpacked(kStream, 520), what_it_holds());
   EXPECT_EQ(unpacked(kZeros, 100000), std::string(100000, '\0'));
 }
 
 TEST(Xz, DamagedStreams) {
+  if (!io::has_xz()) GTEST_SKIP() << "without liblzma";
   EXPECT_EQ(unpacked(kStream, 519), "damaged");
   EXPECT_EQ(unpacked(kStream, 521), "damaged");
-  for (std::size_t size = 0; size < kStream.size() - 28; ++size)  // of the index and what follows it
+  for (std::size_t size = 0; size < kStream.size(); ++size)
     EXPECT_EQ(unpacked(kStream.substr(0, size), 520), "damaged") << size;
   std::string wrong = kStream;
   wrong[60] = static_cast<char>(wrong[60] ^ 1);
@@ -73,6 +75,7 @@ TEST(Xz, DamagedStreams) {
 }
 
 TEST(Xz, ArbitraryBytesDoNoHarm) {
+  if (!io::has_xz()) GTEST_SKIP() << "without liblzma";
   std::mt19937_64 random(1);
   for (int k = 0; k < 20000; ++k) {
     std::string stream = k % 4 == 0 ? kZeros : kStream;
@@ -88,6 +91,7 @@ TEST(Xz, ArbitraryBytesDoNoHarm) {
 }
 
 TEST(Xz, PacksArraysOfVtu) {
+  if (!io::has_xz()) GTEST_SKIP() << "without liblzma";
   const std::string packed =
       "AQAAAAwAAAAAAAAAQAAAAA==/"
       "Td6WFoAAAFpIt42AgAhARYAAAB0L+WjAQALBAAAAAcAAAAJAAAAAIO7Hg8AASAMot20vJBCmQ0BAAAAAAFZWg==";
