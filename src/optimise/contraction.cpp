@@ -31,12 +31,13 @@ bool Contraction::turn_to(Vertex v) {
 
 std::span<const TetMesh::Corners> Contraction::with(Vertex w) {
   candidate_.resize(members_.size());
+  const auto is_w = [w](Vertex x) { return static_cast<std::size_t>(x == w); };
   std::size_t count = 0;  // of those without w; no branch, for which they are is hard to foresee
   for (const Member& m : members_) {
     const TetMesh::Corners& c = m.corners;
     candidate_[count] = c;
     candidate_[count][m.index] = w;
-    count += static_cast<std::size_t>(((c[0] == w) | (c[1] == w) | (c[2] == w) | (c[3] == w)) == 0);
+    count += 1 - (is_w(c[0]) + is_w(c[1]) + is_w(c[2]) + is_w(c[3]));
   }
   candidate_.resize(count);
   return candidate_;
