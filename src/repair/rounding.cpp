@@ -37,10 +37,10 @@ Rounded round_arranged(State state, const RepairOptions& options, RepairReport& 
   if (options.join == 0 && !together.is_valid()) one_by_one.emplace(together);
   Rounded rounded = together.run(SidesOf::all_sheets);
   report = together.report();
-  if (rounded.is_valid && report.rung >= Rung::coarser && !together.starts_welded()) {
+  if (rounded.is_valid && report.rung >= Rung::coarser) {
     constexpr std::size_t kFewSides = 16;  // where there are more, nearly as many are left
     const std::size_t open = open_sides(rounded.state), before = open_sides(given);
-    if (together.has_led() && open > before && open <= before + kFewSides) {
+    if (!together.starts_welded() && together.has_led() && open > before && open <= before + kFewSides) {
       if (!one_by_one) one_by_one.emplace(begun(told, SidesOf::one_sheet));
       one_by_one->try_no_more_than(together);
       Rounded other = one_by_one->run(SidesOf::one_sheet);
