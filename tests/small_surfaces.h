@@ -1,6 +1,7 @@
 // Small surfaces made by hand, for tests of several layers.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -8,6 +9,20 @@
 #include "holdfast/types.h"
 
 namespace holdfast::small {
+
+/// Of a box whose corners count along x, then y, then z; from outside.
+inline constexpr std::array<Triangle, 12> kSidesOfBox{{{0, 2, 1},
+                                                       {1, 2, 3},
+                                                       {4, 5, 6},
+                                                       {5, 7, 6},
+                                                       {0, 1, 4},
+                                                       {1, 5, 4},
+                                                       {2, 6, 3},
+                                                       {3, 6, 7},
+                                                       {0, 4, 2},
+                                                       {2, 4, 6},
+                                                       {1, 3, 5},
+                                                       {3, 7, 5}}};
 
 inline Surface surface_of(std::vector<Point> vertices, std::vector<Triangle> facets,
                           std::vector<Segment> segments = {}) {

@@ -5,6 +5,7 @@
 
 #include "numbers/random.h"
 #include "repair/ladder.h"
+#include "small_surfaces.h"
 
 namespace holdfast::repairing {
 namespace {
@@ -23,18 +24,6 @@ Rounded rounded_in_plane(State plane, double most) {
 
 /// Boxes that stand beside and on each other, with corners some last bits from where these should be.
 State boxes(std::size_t count, numbers::Random& random) {
-  constexpr std::array<Triangle, 12> kSides{{{0, 2, 1},
-                                             {1, 2, 3},
-                                             {4, 5, 6},
-                                             {5, 7, 6},
-                                             {0, 1, 4},
-                                             {1, 5, 4},
-                                             {2, 6, 3},
-                                             {3, 6, 7},
-                                             {0, 4, 2},
-                                             {2, 4, 6},
-                                             {1, 3, 5},
-                                             {3, 7, 5}}};
   std::vector<Point> vertices;
   std::vector<Triangle> facets;
   for (std::size_t k = 0; k < count; ++k) {
@@ -49,7 +38,7 @@ State boxes(std::size_t count, numbers::Random& random) {
       for (std::size_t i = 0; i < 3; ++i)
         p[i] = (v >> i & 1u ? high : low)[i] + static_cast<double>(numbers::below(9, random)) * 0x1p-50;
     }
-    for (const Triangle& t : kSides) facets.push_back({first + t[0], first + t[1], first + t[2]});
+    for (const Triangle& t : small::kSidesOfBox) facets.push_back({first + t[0], first + t[1], first + t[2]});
   }
   return state_of({vertices, facets, {}, {}, {}});
 }

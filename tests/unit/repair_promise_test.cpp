@@ -200,18 +200,6 @@ Surface turned_boxes(int count) {
   const std::array<Point, 3> turn{{{1 - 58.0 / 39, -26.0 / 39, 22.0 / 39},
                                    {34.0 / 39, 1 - 52.0 / 39, 14.0 / 39},
                                    {-2.0 / 39, 26.0 / 39, 1 - 10.0 / 39}}};
-  constexpr std::array<Triangle, 12> kFacets{{{0, 2, 1},
-                                              {1, 2, 3},
-                                              {4, 5, 6},
-                                              {5, 7, 6},
-                                              {0, 1, 4},
-                                              {1, 5, 4},
-                                              {2, 6, 3},
-                                              {3, 6, 7},
-                                              {0, 4, 2},
-                                              {2, 4, 6},
-                                              {1, 3, 5},
-                                              {3, 7, 5}}};
   Surface surface;
   for (int box = 0; box < count; ++box) {
     std::array<std::uint32_t, 3> low{}, size{};
@@ -225,7 +213,8 @@ Surface turned_boxes(int count) {
         q[k] = static_cast<float>(turn[k][0] * p[0] + turn[k][1] * p[1] + turn[k][2] * p[2]);
       surface.vertices.push_back(q);
     }
-    for (const auto& [a, b, c] : kFacets) surface.facets.push_back({first + a, first + b, first + c});
+    for (const auto& [a, b, c] : small::kSidesOfBox)
+      surface.facets.push_back({first + a, first + b, first + c});
   }
   return surface;
 }
