@@ -182,6 +182,12 @@ struct Report {
     /// docs/sizes.md), and that of it where the caller's sizes are the ones wanted. Zero with a metric or
     /// bounds on volumes, which are kept to all the same.
     double limited_volume = 0, limited_asked_volume = 0;
+    /// A region that got smaller sizes than the caller's, as too few elements came of these.
+    struct SmallerSize {
+      int region;
+      double asked, used;
+    };
+    std::vector<SmallerSize> smaller_sizes;
     std::vector<Limiting> limiting;    ///< by volume, the most first, at most 100
     bool stopped_early = false;        ///< too much was tried in vain: edges may be longer than wanted
     std::vector<Forced> worst_forced;  ///< the worst of these, at most 100

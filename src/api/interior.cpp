@@ -13,7 +13,6 @@
 #include "optimise/shape.h"
 #include "refine/bound_volumes.h"
 #include "refine/field_points.h"
-#include "refine/front.h"
 #include "refine/layers.h"
 #include "refine/limited_sizes.h"
 
@@ -25,28 +24,6 @@ bool is_explicit(const TetMesh& mesh, const std::vector<Tet>& tets) {
            const TetMesh::Corners& v = mesh.corners(t);
            return std::all_of(v.begin(), v.end(), [&](Vertex x) { return mesh.is_explicit(x); });
          });
-}
-
-// Functions of the caller may be slow. Those that several threads call have no monitor to ask that all may.
-Sizes polling(Sizes sizes, Monitor& monitor) {
-  if (sizes.concurrent) return sizes;
-  if (sizes.field)
-    sizes.field = [&monitor, field = std::move(sizes.field)](const Point& p) {
-      monitor.poll_again();
-      return field(p);
-    };
-  if (sizes.fields)
-    sizes.fields = [&monitor, fields = std::move(sizes.fields)](std::span<const Point> points,
-                                                                std::span<double> found) {
-      monitor.poll_again();
-      fields(points, found);
-    };
-  if (sizes.metric)
-    sizes.metric = [&monitor, metric = std::move(sizes.metric)](const Point& p) {
-      monitor.poll_again();
-      return metric(p);
-    };
-  return sizes;
 }
 
 void optimise_worst_of(const Attempt& attempt, BoxMesh& box, Division& division, const std::vector<Tet>& tets,
@@ -275,56 +252,6 @@ void note_limited_sizes(const Attempt& attempt, Field& field, int scale, Report:
 
 }  // namespace
 
-Field::Field(const Attempt& attempt, BoxMesh& box, Division& division)
-    : box_(box),
-      division_(division),
-      seed_(attempt.seed),
-      asks_for_metric_(attempt.options.sizes && attempt.options.sizes->metric),
-      size_function_(polling(attempt.input.sizes(), attempt.monitor), attempt.options.regions,
-                     attempt.complex(), attempt.input.table(), division.kept, box.scale, attempt.threads) {}
-
-void Field::set_sizes(const Attempt& attempt) {
-  set_sizes_at_vertices(volume(), size_function_, attempt.threads, attempt.monitor);
-}
-
-bool Field::is_limited() const {
-  if (!size_function_.has_limit()) return false;
-  const std::vector<Tet> tets = division_.tets(box_.mesh);
-  return std::any_of(tets.begin(), tets.end(), [&](Tet t) {
-    const RegionId region = division_.regions.of_tet[t];
-    const TetMesh::Corners& c = box_.mesh.corners(t);
-    return std::any_of(c.begin(), c.end(), [&](Vertex v) {
-      return v < sizes_.size() && size_function_.decider(sizes_[v], region) == FacetSizes::By::user;
-    });
-  });
-}
-
-// As large as those of the vertices that they are joined to.
-void Field::give_sizes_to_new_vertices() {
-  const TetMesh& mesh = box_.mesh;
-  const std::size_t first = sizes_.size();
-  if (first == mesh.vertex_count()) return;
-  sizes_.resize(mesh.vertex_count(), 0);
-  for (const Tet t : division_.tets(mesh))
-    for (const Vertex v : mesh.corners(t))
-      if (v >= first)
-        for (const Vertex w : mesh.corners(t))
-          if (w < first) sizes_[v] = std::max(sizes_[v], sizes_[w]);
-}
-
-VolumeData Field::volume() {
-  return {box_.mesh,
-          division_.regions.of_tet,
-          sizes_,
-          division_.kept.region,
-          box_.first_free,
-          nullptr,
-          asks_for_metric_ ? &metrics_ : nullptr,
-          seed_,
-          size_function_.most_volumes().empty() ? nullptr : &size_function_.most_volumes(),
-          &size_function_.limits_of_regions()};
-}
-
 std::unique_ptr<Field> add_field_points(const Attempt& attempt, BoxMesh& box, Division& division,
                                         Report& all) {
   Report::Field& report = all.field;
@@ -332,12 +259,8 @@ std::unique_ptr<Field> add_field_points(const Attempt& attempt, BoxMesh& box, Di
   auto field = std::make_unique<Field>(attempt, box, division);
   const SizeFunction& sizes = field->size_function();
   require_few_enough(field->volume());
-  if (WithoutField::is_asked_for(attempt.options))
-    field->without = std::make_unique<WithoutField>(attempt, box, division, sizes.limits_of_regions());
   const std::size_t before = box.mesh.vertex_count();
-  FieldPoints added = add_field_points(field->volume(), sizes, attempt.threads, attempt.monitor);
-  field->parts = std::move(added.parts);
-  report.stopped_early = added.stopped_early;
+  report.stopped_early = add_enough_points(attempt, box, division, *field, report);
   report.gradation = sizes.gradation();
   const bool improves = attempt.options.optimise && attempt.last_stage() == Stage::optimise;
   if (!improves)

@@ -2,48 +2,11 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <vector>
 
 #include "api/boundary.h"
-#include "api/without_field.h"
-#include "refine/parts.h"
-#include "refine/volume_data.h"
-#include "size/size_function.h"
+#include "api/field.h"
 
 namespace holdfast {
-
-/// Kept regions with field points. The mesh and its division are those of the call, and must outlive it.
-class Field {
- public:
-  Field(const Attempt& attempt, BoxMesh& box, Division& division);
-  Field(const Field&) = delete;  // its parts refer to its sizes
-  Field& operator=(const Field&) = delete;
-
-  [[nodiscard]] VolumeData volume();
-  /// Of all vertices, as the surface and the user ask for.
-  void set_sizes(const Attempt& attempt);
-  /// Of those that came without.
-  void give_sizes_to_new_vertices();
-  /// As long as a large mesh is in parts, for its improvement to go on with; else null.
-  std::unique_ptr<Parts> parts;
-  [[nodiscard]] const SizeFunction& size_function() const { return size_function_; }
-  /// Whether the user's limit is what is wanted at some vertex.
-  [[nodiscard]] bool is_limited() const;
-  [[nodiscard]] bool has_metric() const { return !metrics_.empty(); }
-  /// To compare with, where the surface alone decides on sizes; else null.
-  std::unique_ptr<WithoutField> without;
-  double worst_without = 0;  ///< its worst Q, once it is optimised
-
- private:
-  BoxMesh& box_;
-  Division& division_;
-  const std::uint64_t seed_;
-  const bool asks_for_metric_;
-  SizeFunction size_function_;
-  std::vector<double> sizes_;    // by vertex
-  std::vector<Metric> metrics_;  // by vertex; empty without a metric of the user
-};
 
 /// Adds points until edges have the sizes asked for. Null if some vertex inside has no doubles: then the
 /// attempt has failed already.

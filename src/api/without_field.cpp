@@ -1,10 +1,8 @@
 #include "api/without_field.h"
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
-#include "mesh/measure.h"
 #include "optimise/optimise.h"
 
 namespace holdfast {
@@ -31,17 +29,6 @@ bool is_plainly_worse(const Figures& before, const Figures& with_field) {
          (before.elements() > kTets && below > kManyBelow10 * elements);
 }
 
-// Of regular ones, as large as the limits on sizes of their regions.
-double elements_asked_for(const TetMesh& mesh, const std::vector<Tet>& tets, const Division& division,
-                          std::span<const double> limits) {
-  double elements = 0;
-  for (const Tet t : tets) {
-    const double h = limits[division.regions.of_tet[t]];
-    elements += std::numbers::sqrt2 * six_volumes(mesh, mesh.corners(t)) / (h * h * h);
-  }
-  return elements;
-}
-
 }  // namespace
 
 bool WithoutField::is_asked_for(const Options& options) {
@@ -53,11 +40,10 @@ bool WithoutField::is_asked_for(const Options& options) {
 }
 
 WithoutField::WithoutField(const Attempt& attempt, const BoxMesh& box, const Division& division,
-                           std::span<const double> limits)
-    : attempt_(attempt), first_free_(box.first_free) {
+                           double elements_asked_for)
+    : attempt_(attempt), first_free_(box.first_free), asked_for_(elements_asked_for) {
   const std::vector<Tet> tets = division.tets(box.mesh);
   if (tets.size() > kMostCompared) return;
-  asked_for_ = holdfast::elements_asked_for(box.mesh, tets, division, limits);
   if (asked_for_ > kManyTimes * static_cast<double>(tets.size())) return;
   mesh_ = box.mesh;
   division_ = division;

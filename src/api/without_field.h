@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 
 #include "api/boundary.h"
 #include "optimise/figures.h"
@@ -15,10 +14,10 @@ class WithoutField {
   /// Whether the user leaves sizes to the surface, or limits them for whole regions, so that there may be
   /// something to compare.
   [[nodiscard]] static bool is_asked_for(const Options& options);
-  /// Copies the mesh, which has no field points yet, and takes note of the limits, by region. Nothing of a
-  /// very large one, nor where the limits ask for many more elements than it has.
+  /// Copies the mesh, which has no field points yet. Nothing of a very large one, nor where the limits ask
+  /// for many more elements than it has.
   WithoutField(const Attempt& attempt, const BoxMesh& box, const Division& division,
-               std::span<const double> limits);
+               double elements_asked_for);
 
   /// Whether there is anything to compare with.
   [[nodiscard]] bool is_given() const { return elements() > 0; }
@@ -40,7 +39,7 @@ class WithoutField {
   TetMesh mesh_;
   Division division_;
   Vertex first_free_ = 0;
-  double asked_for_ = 0;
+  double asked_for_;
   Figures before_;                    // the optimisation
   std::optional<Figures> optimised_;  // then
 };

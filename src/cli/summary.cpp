@@ -31,6 +31,9 @@ void print_field(const Report::Field& field) {
     say("           triangles limit sizes on {:.3g} % of the volume, {} most: {:.3g} in place of {:.3g}\n",
         100 * field.limited_volume, field.limiting[0].facet, field.limiting[0].bearable,
         field.limiting[0].wanted);
+  for (const Report::Field::SmallerSize& s : field.smaller_sizes)
+    say("           size {:.3g} in region {} in place of {:.3g}, which gives too few elements\n", s.used,
+        s.region, s.asked);
   if (field.below_10_deg == 0) return;
   say("           {} below 10 degrees, {} of them forced by the surface",
       counted(field.below_10_deg, "element"), field.forced);

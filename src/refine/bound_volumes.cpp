@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <numeric>
 #include <queue>
 #include <stdexcept>
 #include <string>
@@ -11,6 +11,7 @@
 #include "mesh/kernel.h"
 #include "mesh/measure.h"
 #include "refine/point_setter.h"
+#include "refine/regular_elements.h"
 
 namespace holdfast {
 namespace {
@@ -216,15 +217,13 @@ void require_few_enough(const VolumeData& volume) {
   // Of the regular tetrahedra of a size: where facets are large beside it, fewer are made, a fifth at least
   // of those that were measured (docs/field.md).
   constexpr double kPartOfRegular = 0.1;
-  double for_volumes = 0, for_sizes = 0;  // tetrahedra that they take at least
+  double for_volumes = 0;  // tetrahedra that they take at least
   for (Tet t = 0; t < volume.mesh.slot_count(); ++t) {
     if (!volume.is_inside(t)) continue;
     const double six = six_volumes(volume.mesh, volume.mesh.corners(t));
-    const double most = volume.most_volume(volume.region_of[t]), size = volume.most_size(volume.region_of[t]);
-    if (!std::isfinite(six)) continue;  // beyond the range of doubles, as sizes to their third power may be
-    for_volumes += six / 6 / most;
-    for_sizes += kPartOfRegular * std::numbers::sqrt2 * (six / size / size / size);
+    if (std::isfinite(six)) for_volumes += six / 6 / volume.most_volume(volume.region_of[t]);
   }
+  const std::vector<double> regular = regular_elements(volume);
   const auto require = [](double tets, const char* what) {
     if (!(tets < kMostTets))
       throw std::length_error(std::string("the ") + what +
@@ -232,7 +231,7 @@ void require_few_enough(const VolumeData& volume) {
                               "length, is needed");
   };
   require(for_volumes, "largest volume");
-  require(for_sizes, "size");
+  require(kPartOfRegular * std::accumulate(regular.begin(), regular.end(), 0.0), "size");
 }
 
 RatioStats lower_ratios(const VolumeData& volume, double most, Monitor& monitor) {

@@ -61,11 +61,12 @@ Found found_in(const VolumeData& volume, const SizeFunction& sizes, std::span<co
     const double wanted = std::min(limits[k], handed_on(volume, sizes, block[k], places[k]));
     const FacetSizes::By by = sizes.decider(wanted, regions[k]);
     const FacetSizes::Limit limit = sizes.of_facets().limit(places[k], wanted, by);
+    const double asked = by == FacetSizes::By::user ? sizes.asked_for(wanted, regions[k]) : wanted;
     found.all += six;
-    if (limit.facet == no_entity) continue;
+    if (limit.facet == no_entity || !(limit.size > asked)) continue;
     found.limited += six;
     if (by == FacetSizes::By::user) found.asked += six;
-    found.facets.push_back({limit.facet, wanted, limit.size, places[k], six});
+    found.facets.push_back({limit.facet, asked, limit.size, places[k], six});
   }
   found.facets = joined(std::move(found.facets));
   return found;

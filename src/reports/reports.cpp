@@ -50,6 +50,9 @@ Json to_json(const Report::Field& field) {
                         {"bearable", f.bearable},
                         {"volume", f.volume},
                         {"place", f.place}});
+  Json smaller = Json::array();
+  for (const Report::Field::SmallerSize& s : field.smaller_sizes)
+    smaller.push_back({{"region", s.region}, {"asked", s.asked}, {"used", s.used}});
   return {{"gradation", field.gradation},
           {"before", to_json(field.before)},
           {"after", to_json(field.after)},
@@ -64,6 +67,7 @@ Json to_json(const Report::Field& field) {
           {"limited_volume", field.limited_volume},
           {"limited_asked_volume", field.limited_asked_volume},
           {"limiting", limiting},
+          {"smaller_sizes", smaller},
           {"stopped_early", field.stopped_early},
           {"worst_forced", forced}};
 }

@@ -126,7 +126,16 @@ SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds
     };
   limit_regions(sizes, seeds, kept);
   // A metric is kept to as it is, and a bound on volumes is exact.
-  if (!metric_ && most_volumes_.empty()) of_facets_ = sizes_of_facets(complex, threads);
+  if (heeds_facets()) of_facets_ = sizes_of_facets(complex, threads);
+}
+
+SizeFunction SizeFunction::with_limits_times(std::span<const double> factor_of_region, const Complex& complex,
+                                             const Threads& threads) const {
+  SizeFunction other = *this;
+  other.factor_of_region_.assign(factor_of_region.begin(), factor_of_region.end());
+  for (std::size_t r = 0; r < other.of_region_.size(); ++r) other.of_region_[r] *= factor_of_region[r];
+  if (heeds_facets()) other.of_facets_ = other.sizes_of_facets(complex, threads);
+  return other;
 }
 
 FacetSizes SizeFunction::sizes_of_facets(const Complex& complex, const Threads& threads) const {

@@ -34,6 +34,10 @@ class SizeFunction {
   SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds, const Complex& complex,
                const SegmentTable& table, const Kept& kept, int scale, const Threads& threads = 1);
 
+  /// The same with smaller sizes than the user asks for: the limit of each region times a factor.
+  [[nodiscard]] SizeFunction with_limits_times(std::span<const double> factor_of_region,
+                                               const Complex& complex, const Threads& threads = 1) const;
+
   /// Of a vertex of the complex; infinite for one without edges.
   [[nodiscard]] std::size_t vertex_count() const { return of_vertex_.size(); }
   [[nodiscard]] double of_vertex(Vertex v) const { return of_vertex_[v]; }
@@ -51,6 +55,10 @@ class SizeFunction {
   [[nodiscard]] bool has_metric() const { return static_cast<bool>(metric_); }
   /// The metric of the user at a point of the mesh, with no size above `most`; zero without either.
   [[nodiscard]] Metric metric(const Point& p, double most) const;
+  /// What the user asks for in a region where `size` is what a limit of it leaves.
+  [[nodiscard]] double asked_for(double size, RegionId region) const {
+    return factor_of_region_.empty() ? size : size / factor_of_region_[region];
+  }
   /// Whether the user gave a limit anywhere.
   [[nodiscard]] bool has_limit() const {
     return field_ || std::any_of(of_region_.begin(), of_region_.end(),
@@ -80,6 +88,7 @@ class SizeFunction {
   [[nodiscard]] bool grows() const { return grows_; }
 
  private:
+  [[nodiscard]] bool heeds_facets() const { return !metric_ && most_volumes_.empty(); }
   [[nodiscard]] FacetSizes sizes_of_facets(const Complex& complex, const Threads& threads) const;
   void limit_regions(const Sizes& sizes, std::span<const RegionSeed> seeds, const Kept& kept);
   [[nodiscard]] Point unscaled(const Point& p) const;
@@ -90,6 +99,7 @@ class SizeFunction {
   bool grows_;
   int scale_;
   std::vector<double> of_region_;
+  std::vector<double> factor_of_region_;  // that of_region_ is multiplied by already; none if by nothing
   std::vector<double> most_volumes_;
   std::function<double(const Point&)> field_;
   std::function<void(std::span<const Point>, std::span<double>)> fields_;

@@ -1,0 +1,54 @@
+// Kept regions with field points, and the sizes that these are for (paper §8).
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "api/boundary.h"
+#include "api/without_field.h"
+#include "refine/parts.h"
+#include "refine/volume_data.h"
+#include "size/size_function.h"
+
+namespace holdfast {
+
+/// The mesh and its division are those of the call, and must outlive it.
+class Field {
+ public:
+  Field(const Attempt& attempt, BoxMesh& box, Division& division);
+  Field(const Field&) = delete;  // its parts refer to its sizes
+  Field& operator=(const Field&) = delete;
+
+  [[nodiscard]] VolumeData volume();
+  /// Of all vertices, as the surface and the user ask for.
+  void set_sizes(const Attempt& attempt);
+  /// Of those that came without.
+  void give_sizes_to_new_vertices();
+  /// As long as a large mesh is in parts, for its improvement to go on with; else null.
+  std::unique_ptr<Parts> parts;
+  [[nodiscard]] const SizeFunction& size_function() const { return size_function_; }
+  void set_size_function(SizeFunction sizes) { size_function_ = std::move(sizes); }
+  /// Whether the user's limit is what is wanted at some vertex.
+  [[nodiscard]] bool is_limited() const;
+  [[nodiscard]] bool has_metric() const { return !metrics_.empty(); }
+  /// To compare with, where the surface alone decides on sizes; else null.
+  std::unique_ptr<WithoutField> without;
+  double worst_without = 0;  ///< its worst Q, once it is optimised
+
+ private:
+  BoxMesh& box_;
+  Division& division_;
+  const std::uint64_t seed_;
+  const bool asks_for_metric_;
+  SizeFunction size_function_;
+  std::vector<double> sizes_;    // by vertex
+  std::vector<Metric> metrics_;  // by vertex; empty without a metric of the user
+};
+
+/// Adds points; smaller sizes than the user's are set where too few elements come of those given for regions.
+/// Returns whether that stopped early.
+bool add_enough_points(const Attempt& attempt, BoxMesh& box, Division& division, Field& field,
+                       Report::Field& report);
+
+}  // namespace holdfast

@@ -1,0 +1,31 @@
+#include "refine/regular_elements.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "mesh/measure.h"
+
+namespace holdfast {
+
+std::vector<double> regular_elements(const VolumeData& volume) {
+  std::vector<double> elements(volume.kept.size(), 0);
+  if (volume.most_sizes == nullptr) return elements;
+  for (Tet t = 0; t < volume.mesh.slot_count(); ++t) {
+    if (!volume.is_inside(t)) continue;
+    const double six = six_volumes(volume.mesh, volume.mesh.corners(t));
+    if (!std::isfinite(six)) continue;  // beyond the range of doubles, as sizes to their third power may be
+    const RegionId region = volume.region_of[t];
+    const double size = volume.most_size(region);
+    elements[region] += std::numbers::sqrt2 * (six / size / size / size);
+  }
+  return elements;
+}
+
+std::vector<double> elements_by_region(const VolumeData& volume) {
+  std::vector<double> elements(volume.kept.size(), 0);
+  for (Tet t = 0; t < volume.mesh.slot_count(); ++t)
+    if (volume.is_inside(t)) ++elements[volume.region_of[t]];
+  return elements;
+}
+
+}  // namespace holdfast
