@@ -149,7 +149,8 @@ Step Ladder::here() const {
 }
 
 void Ladder::join(const Plan& plan) {
-  Settle how{plan.last_bits * last_bit(rounded_.state.vertices), 0, plan.moves_input, false, most_facets_};
+  Settle how{plan.last_bits * last_bit(rounded_.state.vertices), 0, plan.moves_input, Passings::none,
+             most_facets_};
   report_.rung = plan.moves_input ? Rung::snapped : Rung::coarser;
   constexpr int kPasses = 8, kPassesInVain = 4;
   constexpr std::size_t kTooMuch = 4;
@@ -169,8 +170,8 @@ void Ladder::join(const Plan& plan) {
       continue;
     }
     ++in_vain;
-    if (now.trouble.size() > too_much || (how.passings && moved == 0)) break;
-    how.passings = true;
+    if (now.trouble.size() > too_much || (how.passings == Passings::all && moved == 0)) break;
+    how.passings = Passings::all;
   }
 }
 

@@ -30,7 +30,7 @@ class Settling {
   double run() {
     list_vertices();
     const double merged = merge_vertices();
-    if (how_.passings) add_passings();
+    if (how_.passings != Passings::none) add_passings();
     const double room = how_.most > 0 ? how_.most - merged : kMostGaps * gap_;
     const double bent = bend(state_, trouble_, vertices_, {gap_, room, how_.most_facets}, work_, step_);
     drop_unused(state_);
@@ -112,18 +112,37 @@ class Settling {
 
   // --- Sides that pass each other ---------------------------------------------------------------------
 
-  /// New vertices where two sides pass each other at most the gap away, unless a vertex is there.
-  void add_passings() {
+  [[nodiscard]] std::vector<Side> passing_sides() const {
     std::vector<Side> sides;
     for (const Index f : trouble_.facets) {
       const Triangle& t = state_.facets[f];
+      const bool is_line = t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+      if (is_line && how_.passings == Passings::free) continue;
       for (std::size_t i = 0; i < 3; ++i)
         if (t[i] != t[(i + 1) % 3]) sides.push_back(ascending(Side{t[i], t[(i + 1) % 3]}));
     }
+    if (how_.passings == Passings::free) return once_in(std::move(sides));
     for (const Index s : trouble_.segments)
       if (state_.segments[s][0] != state_.segments[s][1])
         sides.push_back(ascending(Side(state_.segments[s])));
     sort_unique(sides);
+    return sides;
+  }
+
+  static std::vector<Side> once_in(std::vector<Side> sides) {
+    std::sort(sides.begin(), sides.end());
+    std::vector<Side> once;
+    for (auto side = sides.begin(); side != sides.end();) {
+      const auto next = std::upper_bound(side, sides.end(), *side);
+      if (next - side == 1) once.push_back(*side);
+      side = next;
+    }
+    return once;
+  }
+
+  /// New vertices where two sides pass each other at most the gap away, unless a vertex is there.
+  void add_passings() {
+    const std::vector<Side> sides = passing_sides();
     std::vector<Box> boxes;
     for (const Side& side : sides) boxes.push_back(box_round(state_, side, gap_));
     std::vector<std::pair<double, Point>> found;

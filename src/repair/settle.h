@@ -30,18 +30,22 @@ struct Work {
   [[nodiscard]] bool is_spent() const { return done >= most; }
 };
 
+/// Sides between which a vertex is put where they pass each other. Free ones have one facet.
+enum class Passings { none, free, all };
+
 struct Settle {
   double gap = 0;
   double most = 0;           ///< nothing is moved or bent further in all; 0: no limit but some gaps
   bool moves_input = false;  ///< vertices of the input may move, too
-  bool passings = true;      ///< see 2
+  Passings passings = Passings::all;
   /// Ends early where there are more facets than that.
   std::size_t most_facets = SIZE_MAX;
 };
 
 /// Round the facets and segments in trouble,
 ///   1. vertices that are new, or all, become one with another of lower number that is at most `gap` away;
-///   2. where two sides pass each other at most `gap` away, a new vertex is put between them;
+///   2. where two of the sides in question pass each other at most `gap` away, a new vertex is put between
+///   them;
 ///   3. sides that pass a vertex at most `gap` away are led through it, in all facets that have them;
 ///   4. facets that pass a vertex so are led through it.
 /// Afterwards facets may still cross, or be of no area. Returns the largest distance by which anything was

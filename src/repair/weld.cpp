@@ -28,7 +28,9 @@ double weld(State& state, double tolerance, const Step& step) {
   constexpr double kRoomForRounding = 0x1p-20;  // of the tolerance
   const double gap = tolerance * (1 - kRoomForRounding);
   Work work;
-  return settle(state, all, {gap, gap, true, false}, work, step);
+  // Where two patches cut the curve between them each in its own way, their sides cross on the way from
+  // vertex to vertex.
+  return settle(state, all, {gap, gap, true, Passings::free}, work, step);
 }
 
 bool most_have_twins(const State& state, const Trouble& trouble, double gap, const Step& step) {

@@ -343,6 +343,27 @@ TEST(Repair, PartsOfWeldedFacetsNameTheFacetsOfTheInput) {
   }
 }
 
+// Two patches that cut the curve between them each in its own way: their sides pass each other between the
+// vertices.
+TEST(Repair, FreeSidesThatPassWithinTheWeldShareAVertex) {
+  Surface surface;
+  surface.vertices = {{0, 0, 0}, {4, 0, 0}, {2, 0, 3}, {1, -1, -1e-9}, {3, 1, -1e-9}, {2, 0, -3}};
+  surface.facets = {{0, 1, 2}, {3, 4, 5}};
+  RepairOptions options;
+  options.weld = 1e-6;
+  const RepairResult free = repair(surface.view(), options);
+  expect_valid(free);
+  EXPECT_EQ(free.surface.facets.size(), 4u);
+  EXPECT_EQ(free.surface.vertices.size(), 7u);
+  EXPECT_LE(free.max_displacement, options.weld);
+
+  surface.vertices.push_back({2, 3, 3});
+  surface.facets.push_back({1, 0, 6});
+  const RepairResult shared = repair(surface.view(), options);
+  expect_valid(shared);
+  EXPECT_EQ(shared.surface.facets.size(), 3u);
+}
+
 TEST(Repair, WhatIsNotFiniteGoes) {
   Surface surface = small::box({0, 0, 0}, {1, 1, 1});
   const std::size_t whole = surface.facets.size();

@@ -23,7 +23,7 @@ std::size_t facets_settled(State state, std::size_t most, Work work = {}) {
   Trouble all;
   all.facets.resize(state.facets.size());
   std::iota(all.facets.begin(), all.facets.end(), Index{0});
-  settle(state, all, {1e-2, 0, false, true, most}, work, [](double) {});
+  settle(state, all, {1e-2, 0, false, Passings::all, most}, work, [](double) {});
   return state.facets.size();
 }
 
