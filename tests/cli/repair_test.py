@@ -382,11 +382,11 @@ class Proposals(Repaired):
         self.assertEqual(cures["options"], "--weld 2e-16")
         self.assertTrue(after["valid"])
 
-    def test_a_weld_may_need_more_than_the_gaps_are_wide(self):
-        # The side that is led through the vertex on its one side is then twice as far from the one on its other side.
+    def test_a_side_is_led_through_vertices_on_both_of_its_sides(self):
+        # Led through the one alone, it would be twice as far from the other; where it passes the side between them, it gets a vertex.
         points = [(0, 0, 0), (10, 0, 0), (5, -5, 0), (4.9, 0, 6.1e-6), (5.1, 0, -6.1e-6), (5, 5, 0)]
         cures, after = self.cure(points, [(0, 1, 2), (0, 3, 5), (3, 4, 5), (4, 1, 5)])
-        self.assertEqual(cures["options"], "--weld 2e-05")
+        self.assertEqual(cures["options"], "--weld 7e-06")
         self.assertEqual((after["valid"], after["summary"]["gaps"]), (True, []))
 
     def test_a_hole(self):
