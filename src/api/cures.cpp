@@ -70,9 +70,23 @@ class Proposal {
   }
 
  private:
+  /// Of all that is tried, where nobody knows how much it will be.
+  static double share(std::size_t trial, double fraction) {
+    return 1 - 1 / (1 + static_cast<double>(trial) + fraction);
+  }
+
+  RepairOptions next_trial() {
+    RepairOptions options = options_;
+    if (options_.progress)
+      options.progress = [this, trial = trials_++](double fraction) {
+        return options_.progress(share(trial, fraction));
+      };
+    return options;
+  }
+
   /// A repair of the complex; `tried` becomes false where it takes too many points, or finds no doubles.
   RepairResult attempt(double tolerance) {
-    RepairOptions options = options_;
+    RepairOptions options = next_trial();
     options.weld = tolerance;
     options.fill_holes = {};
     options.unite = options.exact = false;
@@ -111,7 +125,8 @@ class Proposal {
   /// The gaps that welding alone leaves.
   std::pair<bool, bool> gaps_welded(double tolerance, double widest) {
     repairing::State state = repairing::state_of(complex_);
-    repairing::weld(state, tolerance, [&](double fraction) { monitor_.poll(fraction); });
+    const std::size_t trial = trials_++;
+    repairing::weld(state, tolerance, [&](double fraction) { monitor_.poll(share(trial, fraction)); });
     return gaps_left(state.complex(), widest);
   }
 
@@ -139,7 +154,7 @@ class Proposal {
     if (loops.empty()) return;
     std::size_t sides = 0;
     for (const repairing::Loop& loop : loops) sides = std::max(sides, loop.size());
-    RepairOptions options = options_;
+    RepairOptions options = next_trial();
     options.weld = 0;
     options.fill_holes = sides;
     options.unite = options.exact = false;
@@ -164,6 +179,7 @@ class Proposal {
   const DefectSummary& summary_;
   const RepairOptions& options_;
   PlainMonitor monitor_;
+  std::size_t trials_ = 0;
   Cures cures_;
 };
 

@@ -157,11 +157,21 @@ TEST(Interruption, ByTheTimeOfAllRepairsThatAProposalTries) {
   const std::vector<Defect> defects = diagnose(surface.view());
   const DefectSummary summary = summarise(surface.view(), defects);
   RepairOptions options;
-  options.time_limit = 0.5;
-  double last = 1;
+  double last = 0;
   options.progress = [&](double fraction) {
-    if (fraction < last) std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    EXPECT_GE(fraction, last);
     last = fraction;
+    return true;
+  };
+  static_cast<void>(propose_cures(surface.view(), defects, summary, options));
+  EXPECT_GT(last, 0.5);
+  options.time_limit = 0.5;
+  double next = 0;
+  options.progress = [&](double fraction) {
+    if (fraction >= next) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      next = next == 0 ? 0.5 : 2;
+    }
     return true;
   };
   EXPECT_THROW(static_cast<void>(propose_cures(surface.view(), defects, summary, options)), Interrupted);
