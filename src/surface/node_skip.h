@@ -19,7 +19,7 @@ class NodeSkip {
  public:
   /// `known`: for each element whether it is known to fit together with all others of which that is said;
   /// `done`: for each its sheet, or `no_index`, where pairs of facets of sheets need no look. Both may be
-  /// empty. `all` is the box of all elements. Oriented boxes come in after `patience` pairs.
+  /// empty. `all` is the box of all elements. Oriented boxes come in after `patience` tests.
   NodeSkip(const Complex& complex, const Elements& elements, std::span<const std::uint8_t> known,
            std::span<const Index> done, const Hubs& hubs, const AabbTree& tree, const Box& all,
            std::size_t patience);
@@ -30,10 +30,13 @@ class NodeSkip {
     if (!known_.empty() && is_known(a) && is_known(b)) return true;
     if (!done_.empty() && is_done(a) && is_done(b)) return true;
     if (!common_.empty() && share_hub(common_hubs(a), common_hubs(b))) return true;
-    if (a == b || ++calls_ <= patience_) return false;
+    if (a == b || ++tests_ <= patience_) return false;
     boxes_.resize(tree_.nodes());
     return surely_apart(oriented(a), oriented(b));
   }
+
+  /// Pairs of elements were tested, too.
+  void count_pair() { ++tests_; }
 
  private:
   using HubSet = std::array<Index, 3>;
@@ -72,7 +75,7 @@ class NodeSkip {
   const Hubs& hubs_;
   const AabbTree& tree_;
   UnitFrame frame_;
-  std::size_t patience_, calls_ = 0;
+  std::size_t patience_, tests_ = 0;
   std::vector<std::optional<HubSet>> common_;
   std::vector<std::optional<bool>> all_known_, all_done_;
   std::vector<std::optional<OrientedBox>> boxes_;

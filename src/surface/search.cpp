@@ -224,7 +224,12 @@ class Search {
     NodeSkip skip(complex_, elements_, known_.each, done_, hubs_, tree, all, patience_);
     bool go_on = true;
     tree.for_each_overlap(
-        {0, 0}, [&](Index i, Index j) { return go_on = test_in_space(i, j, visit_); }, skip, step_);
+        {0, 0},
+        [&](Index i, Index j) {
+          skip.count_pair();
+          return go_on = test_in_space(i, j, visit_);
+        },
+        skip, step_);
     return go_on;
   }
 
@@ -250,7 +255,12 @@ class Search {
         for (std::size_t k = next++; k < tops.size() && !stop; k = next++) {
           step(0);
           tree.for_each_overlap(
-              tops[k], [&](Index i, Index j) { return !stop && test_in_space(i, j, visit); }, skip, step);
+              tops[k],
+              [&](Index i, Index j) {
+                skip.count_pair();
+                return !stop && test_in_space(i, j, visit);
+              },
+              skip, step);
         }
       } catch (...) {
         stop = true;
