@@ -239,6 +239,7 @@ void Ladder::begin_flat(const Plan& plan) {
   if (flat.displacement == given_displacement_) return;
   if (flat.state.facets == flattened_.facets && flat.state.vertices == flattened_.vertices) return;
   flattened_ = flat.state;
+  if (!proven_) proven_ = std::make_shared<const Proven>(rounded_.state);
   Rounded before = std::move(rounded_);
   rounded_ = {false, std::move(flat.state), flat.displacement, false};
   Trouble now;
@@ -272,6 +273,7 @@ bool Ladder::join_all() {
     RepairOptions options = options_;
     options.join = last_bits * last_bit(given_.vertices);
     Ladder joining(given_, options, report_, exact_, planes_, step_, threads_);
+    joining.proven_ = proven_;
     joining.flatten_all(options.join, sides_);
     has_led_ |= joining.has_led_;
     if (joining.rounded_.displacement == 0 || are_same(joining.rounded_.state, last)) continue;
@@ -319,6 +321,7 @@ Ladder Ladder::welded(State state, double displacement, double last_bits) const 
   Ladder welding(std::move(state), options_, report_, exact_, planes_, step_, threads_);
   welding.welded_last_bits_ = last_bits;
   welding.before_ = before_;
+  welding.proven_ = proven_;
   welding.work_.most = kLittleWork.of(given_.facets.size());
   welding.rounded_.displacement = displacement;
   welding.report_.rung = Rung::snapped;
@@ -383,6 +386,7 @@ void Ladder::stand(Attempt attempt) {
 
 std::optional<std::size_t> Ladder::cut(std::size_t most_points, State* before) {
   arrange::Arrangement arrangement;
+  if (proven_) proven_->tell(rounded_.state);
   try {
     arrangement = arrangement_of(rounded_.state, most_points, here(), threads_);
   } catch (const arrange::TooManyPoints& many) {

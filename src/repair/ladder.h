@@ -5,12 +5,14 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 
 #include "holdfast/repair.h"
 #include "repair/flatten.h"
 #include "repair/plans.h"
+#include "repair/proven.h"
 #include "repair/rounded_planes.h"
 #include "repair/rounding.h"
 #include "repair/settle.h"
@@ -174,10 +176,11 @@ class Ladder {
   double given_displacement_ = 0;  // by sheets that were made one before
   Rounded rounded_;
   Trouble trouble_;
-  std::optional<Rounded> once_cut_;  // and not twice yet
-  std::optional<Attempt> best_;      // of the plans so far
-  State flattened_;                  // by the last plan that began again
-  const State* before_ = nullptr;    // see compare_with
+  std::optional<Rounded> once_cut_;       // and not twice yet
+  std::optional<Attempt> best_;           // of the plans so far
+  State flattened_;                       // by the last plan that began again
+  const State* before_ = nullptr;         // see compare_with
+  std::shared_ptr<const Proven> proven_;  // when attempts begin again
 };
 
 }  // namespace holdfast::repairing

@@ -66,23 +66,24 @@ class Settling {
   double merge_vertices() {
     std::vector<Box> boxes;
     for (const Index v : vertices_) boxes.push_back(box_round(state_, std::array{v}, gap_ / 2));
-    std::vector<std::tuple<Index, Index, double>> pairs;
-    AabbTree(boxes).for_each_overlap(
-        [&](Index i, Index j) {
-          const auto [v, w] = std::minmax(vertices_[i], vertices_[j]);
-          const double distance = length(minus(at(v), at(w)));
-          const bool may_move = w >= state_.input_vertices || how_.moves_input;
-          if (may_move && distance <= gap_) pairs.emplace_back(v, w, distance);
-          return true;
-        },
-        [](Index, Index) { return false; }, step_);
-    std::sort(pairs.begin(), pairs.end());
+    const AabbTree tree(boxes);
     std::map<Index, Index> into;
+    std::vector<std::uint8_t> is_gone(vertices_.size(), 0);
     double most = 0;
-    for (const auto& [v, w, distance] : pairs) {
-      if (into.count(v) != 0 || into.count(w) != 0) continue;
-      into[w] = v;
-      most = std::max(most, distance * (1 + 0x1p-48));
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {  // ascending
+      if (is_gone[i] != 0) continue;
+      const Index v = vertices_[i];
+      tree.for_each_item([&](const Box& box) { return !box.overlaps(boxes[i]); },
+                         [&](const AabbTree::Item& item) {
+                           const Index w = vertices_[item.id];
+                           if (w <= v || is_gone[item.id] != 0) return;
+                           const double distance = length(minus(at(v), at(w)));
+                           const bool may_move = w >= state_.input_vertices || how_.moves_input;
+                           if (!may_move || !(distance <= gap_)) return;
+                           is_gone[item.id] = 1;
+                           into[w] = v;
+                           most = std::max(most, distance * (1 + 0x1p-48));
+                         });
     }
     if (into.empty()) return 0;
     move_slots(into);
@@ -237,6 +238,7 @@ Trouble trouble_of(State& state, const Step& step, const Threads& threads, std::
   if (trouble.is_all) {
     state.sheet.clear();
     state.known.assign(state.facets.size(), 1);
+    state.knows_vertices = true;
     for (const Index f : trouble.facets) state.known[f] = 0;
   }
   return trouble;

@@ -75,7 +75,8 @@ std::vector<Index> drop_unused(State& state) {
 
 KnownElements::KnownElements(const State& state, const Elements& elements) {
   for (const Element& e : elements.all) {
-    if (!state.known.empty()) each_.push_back(e.corners == 3 ? state.known[e.id] : e.corners == 1 ? 1 : 0);
+    if (!state.known.empty())
+      each_.push_back(e.corners == 3 ? state.known[e.id] : e.corners == 1 && state.knows_vertices ? 1 : 0);
     if (!state.sheet.empty()) sheet_.push_back(e.corners == 3 ? state.sheet[e.id] : no_index);
   }
 }

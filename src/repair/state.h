@@ -30,6 +30,7 @@ struct State {
   Parents segment_parents;
   /// For each facet whether it is known to fit together with all others of which that is known.
   std::vector<std::uint8_t> known;
+  bool knows_vertices = true;  ///< the same holds for vertices that nothing uses
   /// For each facet the sheet of an arrangement that it is a part of, if all parts of that are known to fit
   /// together, else `no_index`; empty where there are none.
   std::vector<Index> sheet;
