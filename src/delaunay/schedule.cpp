@@ -18,7 +18,7 @@ namespace holdfast {
 namespace {
 
 constexpr std::size_t kPollInterval = 2048;  // faces of cavities; most have some thirty
-constexpr std::size_t kFewPoints = 1000;     // a thread, that are not worth a phase
+constexpr std::size_t kFewPoints = 200;      // a thread, that are not worth a phase
 constexpr std::size_t kSamplePerSlab = 512;  // points to find the slabs by
 constexpr double kMostShare = 1.7;           // of points in a slab, over the mean
 constexpr std::size_t kEntrances = 8;        // points to try to enter a slab by
