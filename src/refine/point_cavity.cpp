@@ -5,6 +5,35 @@
 #include "mesh/editor.h"
 
 namespace holdfast {
+namespace {
+
+// By the facets of a tetrahedron: the corners, and the flags of the edges, that are in none of them.
+struct OffFacets {
+  std::uint8_t corners = 0xF;
+  Flags segments = kSegmentBits;
+};
+
+constexpr std::array<OffFacets, kFacetBits + 1> off_facets() {
+  std::array<OffFacets, kFacetBits + 1> off{};
+  for (unsigned facets = 0; facets <= kFacetBits; ++facets)
+    for (int f = 0; f < 4; ++f) {
+      if ((facets & facet_bit(f)) == 0) continue;
+      unsigned corners = off[facets].corners, segments = off[facets].segments;
+      for (int i = 0; i < 4; ++i)
+        if (i != f) corners &= ~(1u << i);
+      for (int k = 0; k < 6; ++k) {
+        const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
+        if (e[0] != f && e[1] != f) segments &= ~unsigned{segment_bit(k)};
+      }
+      off[facets] = {static_cast<std::uint8_t>(corners), static_cast<Flags>(segments)};
+    }
+  return off;
+}
+
+constexpr std::array<OffFacets, kFacetBits + 1> kOffFacets = off_facets();
+
+}  // namespace
+
 bool PointCavity::find(Vertex p, Tet base, const Frame& frame, std::size_t most) {
   p_ = p;
   spread(base, frame, most);
@@ -161,16 +190,20 @@ void PointCavity::list_rim() {
   }
 }
 
-// A tetrahedron of the cavity with a vertex or segment that no face of the boundary holds, or kNone.
+// A tetrahedron of the cavity with a vertex or segment that no face of the boundary holds, or kNone. Facets
+// are faces of the boundary.
 Tet PointCavity::holder_of_lost_entity(Tet base) const {
   Tet lost = kNone;
   for (const Tet t : tets_) {
-    const auto& c = mesh_.corners(t);
-    bool holds = !std::all_of(c.begin(), c.end(), [&](Vertex v) { return vertices_.has(v); });
-    if ((mesh_.flags(t) & kSegmentBits) != 0)
+    const Flags flags = mesh_.flags(t);
+    const OffFacets& off = kOffFacets[flags & kFacetBits];
+    bool holds = false;
+    for (int i = 0; i < 4 && !holds; ++i)
+      holds = (off.corners & (1u << i)) != 0 && !vertices_.has(mesh_.corner(t, i));
+    if ((flags & off.segments) != 0)
       for (int k = 0; k < 6 && !holds; ++k) {
         const auto& e = kEdgeVertex[static_cast<std::size_t>(k)];
-        holds = mesh_.is_segment(t, k) &&
+        holds = (flags & off.segments & segment_bit(k)) != 0 &&
                 !edges_.has(rim_, vertices_, mesh_.corner(t, e[0]), mesh_.corner(t, e[1]));
       }
     if (holds) lost = t;
