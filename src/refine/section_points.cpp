@@ -55,7 +55,7 @@ class SectionRefiner {
       monitor_.poll(Stage::field_points, 0);
       const auto circle = large_circle(t);
       if (!circle) continue;
-      for (const Tet fresh : put_point_into(*circle, t)) look_at(fresh);
+      look_at(put_point_into(*circle, t), threads);
     }
   }
 
@@ -91,8 +91,14 @@ class SectionRefiner {
     return created;
   }
 
-  void look_at(Tet t) {
-    if (large_circle(t)) large_.push_back(t);
+  // The first points of a section are joined to the surface from side to side.
+  void look_at(std::span<const Tet> fresh, const Threads& threads) {
+    is_large_.resize(fresh.size());
+    parallel_ranges(threads, fresh.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) is_large_[k] = large_circle(fresh[k]) ? 1 : 0;
+    });
+    for (std::size_t k = 0; k < fresh.size(); ++k)
+      if (is_large_[k] != 0) large_.push_back(fresh[k]);
   }
 
   [[nodiscard]] std::optional<Circle> large_circle(Tet t) const {
@@ -103,16 +109,17 @@ class SectionRefiner {
       const ScaledCentre scaled = sphere_centre(corners[0], corners[1], corners[2], corners[3]);
       Point centre;
       for (std::size_t k = 0; k < 3; ++k) centre[k] = corners[0][k] + scaled.at[k] / scaled.scale;
-      Circle circle{centre, middle_of_section(corners, plane), centre, false, false};
-      circle.middle[plane.axis] = plane.at;
-      const double size = size_at(circle.middle, t), height = centre[plane.axis] - plane.at;
+      Point middle = centre;
+      middle[plane.axis] = plane.at;
+      const double size = size_at(middle, t), height = centre[plane.axis] - plane.at;
       const double to_corner = distance(centre, corners[0]);
       const double radius2 = to_corner * to_corner - height * height;
-      circle.towards[plane.axis] = plane.at + std::copysign(size, height);
-      circle.is_of_a_cap = std::abs(height) > size;
-      circle.is_huge = radius2 > tuning::kHugeOnCut * tuning::kHugeOnCut * size * size;
-      if (radius2 > tuning::kLargestOnCut * tuning::kLargestOnCut * size * size) found = circle;
-      return found.has_value();
+      if (!(radius2 > tuning::kLargestOnCut * tuning::kLargestOnCut * size * size)) return false;
+      Point towards = centre;
+      towards[plane.axis] = plane.at + std::copysign(size, height);
+      found = {middle, middle_of_section(corners, plane), towards, std::abs(height) > size,
+               radius2 > tuning::kHugeOnCut * tuning::kHugeOnCut * size * size};
+      return true;
     });
     return found;
   }
@@ -137,6 +144,7 @@ class SectionRefiner {
   Monitor& monitor_;
   FieldInserter inserter_;
   std::deque<Tet> large_;
+  std::vector<char> is_large_;  // of those that have come last
 };
 
 }  // namespace
