@@ -67,15 +67,18 @@ bool Inserter::insert_as(Vertex k) {
   return true;
 }
 
+// Where k is beyond the hull, the cell inside is entered: a walk begins in a finite one.
 bool Inserter::enter(const Slab& slab, Vertex k, Tet from) {
   own_.move_to(slab);
   last_ = from;
   last_ = locate<false>(at(k)).tet;
-  return own_.touches(triangulation_.cells()[last_]);
+  const LargeArray<Cell>& cells = triangulation_.cells();
+  if (triangulation_.is_ghost(cells[last_])) last_ = tet_of(cells[last_].n[3]);
+  return own_.touches(cells[last_]);
 }
 
 // Remembering stochastic visibility walk (Devillers, Pion, Teillaud 2002): ends with probability one in
-// any triangulation. It may stop at any cell in strict conflict, which the cell that holds q is, unless q
+// any triangulation, from a finite cell. It may stop at any cell in strict conflict, which the cell that holds q is, unless q
 // is one of its corners. A ghost is entered only through a face that q is strictly beyond.
 template <bool kInSlab>
 Inserter::Located Inserter::locate(const double* q) {
