@@ -37,7 +37,8 @@ enum class Rung {
 
 struct RepairOptions : Limits {
   /// Before anything else, vertices within this distance of each other become one, and vertices within it of
-  /// a side or facet are put on it. No vertex moves further than this.
+  /// a side or facet are put on it. Two sides with one facet each that pass each other within it get a vertex
+  /// there. No vertex moves further than this.
   double weld = 0;
   /// After that, facets that overlap at most this far from each other come to have the same triangles where
   /// they do. Vertices stay; new ones, where sides cross above each other, are put onto the larger facet.

@@ -94,6 +94,7 @@ def repair(
         As `mesh` takes them: a path, a `Surface`, an object of another package, or (n, 3) points with (m, 3) triangles.
     weld
         First join points that are this near to each other, and put points that are this near to a side or triangle on it.
+        Sides with one triangle each that pass each other this near get a point there.
         A length in the surface's unit, 0 or more; 0 joins nothing.
     join
         Then make triangles that overlap at most this far from each other, some last bits, the same where they do. Points

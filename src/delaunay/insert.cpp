@@ -78,8 +78,9 @@ bool Inserter::enter(const Slab& slab, Vertex k, Tet from) {
 }
 
 // Remembering stochastic visibility walk (Devillers, Pion, Teillaud 2002): ends with probability one in
-// any triangulation, from a finite cell. It may stop at any cell in strict conflict, which the cell that holds q is, unless q
-// is one of its corners. A ghost is entered only through a face that q is strictly beyond.
+// any triangulation, from a finite cell. It may stop at any cell in strict conflict, which the cell that
+// holds q is, unless q is one of its corners. A ghost is entered only through a face that q is strictly
+// beyond.
 template <bool kInSlab>
 Inserter::Located Inserter::locate(const double* q) {
   const Cell* const cells = triangulation_.cells().data();
