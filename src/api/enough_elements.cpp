@@ -28,14 +28,21 @@ SizesForEnough::SizesForEnough(std::vector<double> asked)
       too_small_(asked_.size(), 0) {}
 
 bool SizesForEnough::goes_on(std::span<const double> made) {
-  if (tries_++ == kMostTries) return false;
+  if (tries_ > kMostTries) return false;
+  const bool is_last = tries_++ == kMostTries;
   bool changes = false;
   for (std::size_t r = 0; r < factors_.size(); ++r) {
-    const double factor = next(r, made[r]);
+    const double factor = is_last ? last(r, made[r]) : next(r, made[r]);
     changes |= factor != factors_[r];
     factors_[r] = factor;
   }
   return changes;
+}
+
+// Rather too many than too few, where nothing else was found.
+double SizesForEnough::last(std::size_t region, double made) const {
+  const bool are_few = made < kNearlyEnough * asked_[region];
+  return are_few && too_small_[region] > 0 ? too_small_[region] : factors_[region];
 }
 
 // What sizes give jumps where walls begin to get points: then a factor between two known ones is tried. The

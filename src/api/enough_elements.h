@@ -26,6 +26,7 @@ class SizesForEnough {
 
  private:
   [[nodiscard]] double next(std::size_t region, double made);
+  [[nodiscard]] double last(std::size_t region, double made) const;
 
   std::vector<double> asked_, factors_;
   std::vector<double> too_large_, too_small_;  // factors by region, as far as known

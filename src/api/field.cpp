@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include "api/enough_elements.h"
@@ -127,14 +126,13 @@ std::vector<double> elements_made(Field& field) {
 
 bool add_enough_points(const Attempt& attempt, BoxMesh& box, Division& division, Field& field,
                        Report::Field& report) {
-  const std::vector<double> asked = regular_elements(field.volume());
   if (!WithoutField::is_asked_for(attempt.options)) return add_points(attempt, field);
+  const std::vector<double> asked = regular_elements(field.volume());
   field.without = std::make_unique<WithoutField>(attempt, box, division,
                                                  std::accumulate(asked.begin(), asked.end(), 0.0));
-  std::optional<Unfilled> unfilled;
-  if (are_too_few_elements(elements_by_region(field.volume()), asked))
-    unfilled.emplace(Unfilled{box, division});
-  if (!unfilled) return add_points(attempt, field);
+  if (!field.size_function().has_limit() || !are_too_few_elements(elements_by_region(field.volume()), asked))
+    return add_points(attempt, field);
+  const Unfilled unfilled{box, division};
   const SizeFunction sizes = field.size_function();
   SizesForEnough search(asked);
   for (;;) {
@@ -144,8 +142,8 @@ bool add_enough_points(const Attempt& attempt, BoxMesh& box, Division& division,
       return stopped_early;
     }
     field.parts.reset();
-    box = unfilled->box;
-    division = unfilled->division;
+    box = unfilled.box;
+    division = unfilled.division;
     field.set_size_function(sizes.with_limits_times(search.factors(), attempt.complex(), attempt.threads));
   }
 }

@@ -218,7 +218,7 @@ void require_few_enough(const VolumeData& volume) {
   // of those that were measured (docs/field.md).
   constexpr double kPartOfRegular = 0.1;
   double for_volumes = 0;  // tetrahedra that they take at least
-  for (Tet t = 0; t < volume.mesh.slot_count(); ++t) {
+  for (Tet t = 0; volume.most_volumes != nullptr && t < volume.mesh.slot_count(); ++t) {
     if (!volume.is_inside(t)) continue;
     const double six = six_volumes(volume.mesh, volume.mesh.corners(t));
     if (std::isfinite(six)) for_volumes += six / 6 / volume.most_volume(volume.region_of[t]);

@@ -1,5 +1,6 @@
 #include "refine/regular_elements.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -9,7 +10,10 @@ namespace holdfast {
 
 std::vector<double> regular_elements(const VolumeData& volume) {
   std::vector<double> elements(volume.kept.size(), 0);
-  if (volume.most_sizes == nullptr) return elements;
+  const auto is_limit = [](double size) { return std::isfinite(size); };
+  if (volume.most_sizes == nullptr ||
+      std::none_of(volume.most_sizes->begin(), volume.most_sizes->end(), is_limit))
+    return elements;
   for (Tet t = 0; t < volume.mesh.slot_count(); ++t) {
     if (!volume.is_inside(t)) continue;
     const double six = six_volumes(volume.mesh, volume.mesh.corners(t));

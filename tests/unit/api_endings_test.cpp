@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <functional>
 #include <limits>
 #include <set>
 #include <stdexcept>
@@ -130,6 +131,17 @@ TEST(Interruption, ByMemory) {
   expect_empty(result.volume);
 }
 
+/// Takes 0.3 s at the first look, and at the first from a fraction on.
+std::function<bool(double)> slow_at_first_and_from(double second) {
+  return [second, next = 0.0](double fraction) mutable {
+    if (fraction >= next) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      next = next == 0 ? second : 2;
+    }
+    return true;
+  };
+}
+
 /// Volumes whose common face each of them has cut otherwise, so that tetrahedra of both are replaced.
 std::vector<Volume> shifted_boxes() {
   return {mesh(small::box()).volume, mesh(small::box({1, 0.5, 0}, {2, 1.5, 1})).volume};
@@ -139,14 +151,7 @@ std::vector<Volume> shifted_boxes() {
 TEST(Interruption, ByTheTimeOfAllThatPastingVolumesCalls) {
   PasteOptions options;
   options.time_limit = 0.5;
-  double next = 0;
-  options.progress = [&](double fraction) {
-    if (fraction >= next) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(300));
-      next = next == 0 ? 0.51 : 2;
-    }
-    return true;
-  };
+  options.progress = slow_at_first_and_from(0.51);
   EXPECT_EQ(paste(shifted_boxes(), options).outcome, Outcome::time_limit);
 }
 
@@ -166,14 +171,7 @@ TEST(Interruption, ByTheTimeOfAllRepairsThatAProposalTries) {
   static_cast<void>(propose_cures(surface.view(), defects, summary, options));
   EXPECT_GT(last, 0.5);
   options.time_limit = 0.5;
-  double next = 0;
-  options.progress = [&](double fraction) {
-    if (fraction >= next) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(300));
-      next = next == 0 ? 0.5 : 2;
-    }
-    return true;
-  };
+  options.progress = slow_at_first_and_from(0.5);
   EXPECT_THROW(static_cast<void>(propose_cures(surface.view(), defects, summary, options)), Interrupted);
 }
 

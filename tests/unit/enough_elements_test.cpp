@@ -53,7 +53,14 @@ TEST(SizesForEnough, LooksBetweenTooFewAndTooMany) {
 
 TEST(SizesForEnough, EndsWhereNothingHelps) {
   EXPECT_LE(search(1000, [](double) { return 100; }).tries, 4);
-  EXPECT_LE(search(1000, [](double f) { return f > 0.999 ? 100 : 3000; }).tries, 4);
+  EXPECT_LE(search(1000, [](double f) { return f > 0.999 ? 100 : 3000; }).tries, 5);
+}
+
+TEST(SizesForEnough, TakesTooManyRatherThanTooFew) {
+  const auto made = [](double f) { return f > 0.55 ? 6 : 3000; };
+  const Found found = search(1000, made);
+  EXPECT_EQ(made(found.factor), 3000);
+  EXPECT_LE(found.tries, 5);
 }
 
 TEST(SizesForEnough, TakesEachRegionAlone) {
