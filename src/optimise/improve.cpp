@@ -73,6 +73,7 @@ class Improver {
       volume_.touch_all();
       if (!work_on_single_ones(passes_.aim, work(1), passes_.first, Patience::usual)) break;
     }
+    if (passes_.aim_of_mild > 0) work_on_mild_ones();
     if (passes_.first != First::the_worst)
       work_on_single_ones(passes_.aim, work(passes_.share_of_the_worst), First::the_worst, Patience::usual);
     // The very worst are few: they get as many rounds as help.
@@ -84,6 +85,12 @@ class Improver {
                                Patience::all_ways))
         break;
     }
+  }
+
+  void work_on_mild_ones() {
+    volume_.touch_all();
+    const double work = passes_.least_work + passes_.work_of_mild_per_tet * tets();
+    work_on_single_ones(passes_.aim_of_mild, work, First::the_mildest, Patience::usual);
   }
 
   // Facets force most of what is bad, and make points useless: no more than what shows in figures, and the

@@ -124,6 +124,9 @@ struct Passes {
   bool points_must_pay = false;  ///< by the shares of elements with small angles
   double hopeless_sine = kHopelessSine;
   int patient_rounds = 3;  ///< times the rounds: the very worst are few and get all that help
+  /// Once the rounds are done, elements below that are worked on, too, the mildest first: with little work
+  /// many leave the shares of small angles.
+  double aim_of_mild = 0, work_of_mild_per_tet = 0;
 };
 /// What is left of fast effort on results that are compared with others, where so large a share of the
 /// elements is below its aim after so many passes: one patient round.
@@ -151,7 +154,11 @@ inline constexpr Brief kBrief;
 [[nodiscard]] constexpr Passes further_passes_of(Effort effort, bool lowers_shares) {
   if (effort != Effort::good) return passes_of(effort);
   Passes passes{0, 0.45, 0.50, 0.36, 0.24, 1, First::the_mildest, 1, 0.02};
-  if (!lowers_shares) return passes;
+  if (!lowers_shares) {
+    passes.aim_of_mild = 0.5;  // 30 degrees
+    passes.work_of_mild_per_tet = 0.03;
+    return passes;
+  }
   passes.aim = 0.46;  // 27 degrees
   passes.rounds = 3;
   passes.work_per_tet = 1;
