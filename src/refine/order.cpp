@@ -50,8 +50,8 @@ class Curve {
   double scale_ = 0;
 };
 
-// Items in the order of their keys, equal ones as they stood: three passes of 10 bits, whose counts fit in the
-// nearest cache.
+// Items in the order of their keys, equal ones as they stood: three passes of 10 bits, whose counts fit in
+// the nearest cache.
 template <typename KeyOf>
 void sort_by_key(std::vector<std::uint32_t>& items, KeyOf&& key_of) {
   constexpr unsigned kBits = 10, kPasses = 3;
