@@ -13,12 +13,15 @@
 #include "mesh_options.h"
 #include "name_options.h"
 #include "signals.h"
+#include "staged_folder.h"
 #include "summary.h"
 
 namespace holdfast::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* whole_name = "surface.vtu";  ///< of the copy of the whole surface
 
 struct SplitArguments {
   MeshArguments mesh;  ///< of these: surfaces, sizes, regions and holes
@@ -49,17 +52,16 @@ std::string numbered(std::size_t k, std::size_t count, const char* ending) {
   return fmt::format("part_{:0{}}{}", k + 1, std::to_string(count).size(), ending);
 }
 
-Json json_of_part(const SurfacePart& part, const fs::path& folder, std::size_t k, std::size_t count) {
+Json json_of_part(const SurfacePart& part, const fs::path& file, std::size_t k, std::size_t count) {
   Json sizes = Json::array();
   std::set<int> regions;
   for (const RegionSeed& seed : part.surface.regions) {
     regions.insert(seed.id);
     if (seed.size > 0) sizes.push_back({{"region", seed.id}, {"size", seed.size}});
   }
-  const std::string surface = numbered(k, count, ".poly");
-  return {{"surface", surface},
+  return {{"surface", file.filename().string()},
           {"volume", numbered(k, count, ".vtu")},
-          {"crc32", checksum_of(folder / surface)},
+          {"crc32", checksum_of(file)},
           {"triangles", part.surface.facets.size()},
           {"interface_triangles", part.interface_facets},
           {"tetrahedra_expected", std::llround(part.tetrahedra)},
@@ -67,45 +69,58 @@ Json json_of_part(const SurfacePart& part, const fs::path& folder, std::size_t k
           {"sizes", sizes}};
 }
 
-// The manifest last: until then the folder is none of a division.
+/// All files, or none; the manifest last: until then the folder is none of a division.
 void write_division(const SplitArguments& arguments, const Surface& surface, const SurfaceDivision& division,
                     const Limits& limits) {
-  const fs::path& folder = arguments.folder;
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw FileError(folder, "", "the folder cannot be made: " + error.message());
+  StagedFolder staged(arguments.folder);
   WriteOptions writing;
   watch_writing(writing, limits);
-  const fs::path whole = "surface.vtu";
-  write_surface(folder / whole, surface, writing);
+  const auto write = [&](const std::string& name, const Surface& written) {
+    staged.write(name, [&](const fs::path& path) { write_surface(path, written, writing); });
+  };
+  write(whole_name, surface);
   Json parts = Json::array();
   const std::size_t count = division.parts.size();
   for (std::size_t k = 0; k < count; ++k) {
-    write_surface(folder / numbered(k, count, ".poly"), division.parts[k].surface, writing);
-    parts.push_back(json_of_part(division.parts[k], folder, k, count));
+    const std::string name = numbered(k, count, ".poly");
+    write(name, division.parts[k].surface);
+    parts.push_back(json_of_part(division.parts[k], staged.of(name), k, count));
   }
   Json inputs = Json::array();
   for (const auto& path : arguments.mesh.surfaces) inputs.push_back(path.string());
-  write_json(folder / manifest_name,
-             {{"format", "holdfast division"},
-              {"version", 1},
-              {"holdfast", version()},
-              {"inputs", inputs},
-              {"options",
-               {{"parts", arguments.parts},
-                {"size", arguments.mesh.size ? Json(*arguments.mesh.size) : Json(nullptr)},
-                {"keep", arguments.mesh.keep.value_or("auto")},
-                {"drop_outside", arguments.mesh.drop_outside},
-                {"seed", arguments.mesh.seed}}},
-              {"surface",
-               {{"file", whole.string()},
-                {"crc32", checksum_of(folder / whole)},
-                {"vertices", surface.vertices.size()},
-                {"triangles", surface.facets.size()},
-                {"segments", surface.segments.size()}}},
-              {"interface_marker", division.interface_marker},
-              {"names", to_json(surface.names)},
-              {"parts", parts}});
+  const Json manifest = {{"format", "holdfast division"},
+                         {"version", 1},
+                         {"holdfast", version()},
+                         {"inputs", inputs},
+                         {"options",
+                          {{"parts", arguments.parts},
+                           {"size", arguments.mesh.size ? Json(*arguments.mesh.size) : Json(nullptr)},
+                           {"keep", arguments.mesh.keep.value_or("auto")},
+                           {"drop_outside", arguments.mesh.drop_outside},
+                           {"seed", arguments.mesh.seed}}},
+                         {"surface",
+                          {{"file", whole_name},
+                           {"crc32", checksum_of(staged.of(whole_name))},
+                           {"vertices", surface.vertices.size()},
+                           {"triangles", surface.facets.size()},
+                           {"segments", surface.segments.size()}}},
+                         {"interface_marker", division.interface_marker},
+                         {"names", to_json(surface.names)},
+                         {"parts", parts}};
+  staged.write(manifest_name, [&](const fs::path& path) { write_json(path, manifest); });
+  staged.publish(manifest_name);
+}
+
+/// The files of the division, none of which may be read: its manifest, and of the others those that are
+/// there.
+void name_files(const fs::path& folder, FilesOfRun& files) {
+  files.write("-o", folder / manifest_name, true);
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    const fs::path name = entry.path().filename();
+    if (name == whole_name || (name.string().starts_with("part_") && name.extension() == ".poly"))
+      files.write("-o", entry.path());
+  }
 }
 
 int conclude(const SplitArguments& arguments, const SurfaceDivision& division) {
@@ -149,7 +164,7 @@ int run(const SplitArguments& arguments) {
   const Names names = names_of(arguments.mesh.names);
   FilesOfRun files;
   files.read_surfaces(arguments.mesh.surfaces, arguments.mesh.input_format);
-  files.write("-o", arguments.folder / manifest_name, true);
+  name_files(arguments.folder, files);
   cancel_by_flag();
   Surface surface = read_surfaces(arguments.mesh.surfaces,
                                   reading(limits, arguments.mesh.input_format, arguments.mesh.tolerance));

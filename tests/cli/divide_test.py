@@ -4,6 +4,7 @@
 """
 import json
 import re
+import resource
 import shutil
 import struct
 import subprocess
@@ -135,6 +136,34 @@ class Divided(CliTest):
         self.run_program("split", "cube.off", "--parts", "2", "-o", "cube.off", expect=3)
         self.assertEqual(self.files(), before)
         self.assertFalse((self.folder / "new").exists())
+
+    def test_a_split_that_stops_while_it_writes_leaves_nothing(self):
+        def small_files():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (8000, 8000))  # more than the copy of the surface, less than a part
+
+        def stopped():
+            ended = subprocess.run([self.program, "split", "cube.off", "--parts", "2", "-o", "new/d", "--size", "0.1"],
+                                   cwd=self.folder, stderr=subprocess.PIPE, preexec_fn=small_files, timeout=60, check=False)
+            self.assertEqual(ended.returncode, 3, ended.stderr)
+            self.assertIn(b"new/d/part_1.poly: cannot be written", ended.stderr)
+
+        stopped()
+        self.assertFalse((self.folder / "new").exists())
+        self.run_program("split", "cube.off", "--parts", 2, "-o", "new/d", "--size", 0.4)
+        before = {path.name: path.read_bytes() for path in (self.folder / "new" / "d").iterdir()}
+        stopped()
+        self.assertEqual({path.name: path.read_bytes() for path in (self.folder / "new" / "d").iterdir()}, before)
+
+    def test_a_split_does_not_write_over_its_input(self):
+        self.split("--size", 0.4)
+        for name in "surface.vtu", "part_1.poly":
+            before = (self.folder / "d" / name).read_bytes()
+            link = self.folder / ("link" + name[name.index("."):])
+            link.symlink_to(f"d/{name}")
+            for given in f"d/{name}", link.name:
+                said = self.run_program("split", given, "--parts", 2, "-o", "d", "--size", 0.4, expect=2).stderr
+                self.assertIn(name, said)
+            self.assertEqual((self.folder / "d" / name).read_bytes(), before)
 
     def test_report_of_a_check(self):
         self.split("--size", 0.3, parts=2)
