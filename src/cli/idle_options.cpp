@@ -53,6 +53,11 @@ void refuse_beside_without(const MeshArguments& a) {
          "--without optimise", "it is for the optimisation");
 }
 
+void refuse_without_fill(const MeshArguments& a) {
+  if (leaves_out(a, "points"))
+    throw UsageError("--without points does nothing without --fill: field points are wanted then");
+}
+
 void refuse_without_repair(const MeshArguments& a) {
   for (const Given& given :
        {Given{"--repaired", !a.repaired.empty()}, Given{"--fill-holes", a.repair_ways.fill_holes.has_value()},
@@ -103,6 +108,7 @@ void refuse_idle_options(const MeshArguments& arguments) {
     throw UsageError(
         "--paste and --overlap are for parts that are valid; with --repair all files are one surface");
   refuse_after_end(arguments);
+  if (!arguments.fill) refuse_without_fill(arguments);
 }
 
 void refuse_idle_options(const MeshArguments& arguments, const Options& options, const Surface& surface) {

@@ -30,6 +30,7 @@ IDLE = [
     ("--size", ["--stop-after", "suppress", "--size", "0.5"]),
     ("--quality", ["--stop-after", "field_points", "--quality", "fast"]),
     ("--without points", ["--stop-after", "suppress", "--without", "points"]),
+    ("--without points does nothing without --fill", ["--without", "points"]),
     ("field_points", ["--stop-after", "field_points", "--fill"]), ("--fill", ["--stop-after", "delaunay", "--fill"]),
 ]
 SENSELESS = [
@@ -47,7 +48,7 @@ SENSELESS = [
     ("--layers", ["--layers", "101"]),
 ]
 SENSIBLE = [
-    ["--fill", "--without", "points"], ["--without", "points"], ["--without", "optimise", "--size", "0.5"],
+    ["--fill", "--without", "points"], ["--without", "optimise", "--size", "0.5"],
     ["--fill", "--without", "optimise"], ["--no-growth", "--gradation", "0.2"],
     ["--stop-after", "flips", "--keep", "box=0.2"], ["--stop-after", "field_points", "--size", "0.5"],
     ["--stop-after", "flips", "--without", "flips"], ["--keep", "box", "--drop-outside", "--hole", "0.4,0.5,0.6"],
