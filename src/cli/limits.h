@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
+#include <new>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "holdfast/holdfast.h"
@@ -28,14 +30,21 @@ void add_limits(CLI::App& command, LimitArguments& arguments);
 /// How a limit or a signal ended a call that has no outcome, in the words of those that have one.
 [[nodiscard]] std::string message_of(const Interrupted& interrupted, const Limits& limits);
 
-/// Works: reads, writes, or calls what has no outcome. Where a limit or a signal ends that, `report` gets the
-/// outcome and its message, as where one ends what has an outcome, before the interruption goes on.
+/// Works: reads, writes, or calls what has no outcome. Where a limit or a signal ends that, or it needs more
+/// memory or numbers than there are, `report` gets the outcome and its message, as where one ends what has an
+/// outcome, before the exception goes on.
 template <class Work, class Report>
 auto work_or_report(const Limits& limits, const Work& work, const Report& report) {
   try {
     return work();
   } catch (const Interrupted& interrupted) {
     report(interrupted.outcome(), message_of(interrupted, limits));
+    throw;
+  } catch (const std::length_error& large) {
+    report(Outcome::memory_limit, large.what());
+    throw;
+  } catch (const std::bad_alloc&) {
+    report(Outcome::memory_limit, "out of memory");
     throw;
   }
 }

@@ -5,6 +5,7 @@
 import json
 import os
 import random
+import resource
 import signal
 import subprocess
 import time
@@ -154,6 +155,22 @@ class Limits(CliTest):
                 self.assertIn("options", report)
                 (self.folder / "r.json").unlink()
         self.assertEqual(self.files(), before)
+
+    def test_memory_that_the_system_refuses_is_in_the_report(self):
+        def little_memory():
+            resource.setrlimit(resource.RLIMIT_AS, (48 << 20, 48 << 20))
+
+        chance = random.Random(3)
+        self.write("many.xyz", "".join(f"{chance.random():.6f} {chance.random():.6f} {chance.random():.6f}\n" for _ in range(100000)))
+        for command in (["delaunay", "many.xyz"], ["mesh", "cube.off", "--size", "0.02"]):
+            ended = subprocess.run([self.program, *command, "-o", "out.mesh", "--report", "r.json"], cwd=self.folder,
+                                   stderr=subprocess.PIPE, preexec_fn=little_memory, timeout=240, check=False)
+            self.assertEqual(ended.returncode, 5, ended.stderr)
+            self.assertIn(b"out of memory", ended.stderr)
+            report = json.loads((self.folder / "r.json").read_text())
+            self.assertEqual((report["outcome"], report["message"]), ("memory_limit", "out of memory"))
+            (self.folder / "r.json").unlink()
+            self.assertFalse((self.folder / "out.mesh").exists())
 
     def test_a_signal_that_ends_the_reading_is_in_the_report(self):
         """A pipe to which nobody writes, named or not, or not all of a file."""
