@@ -19,14 +19,14 @@
 #include "report.h"
 #include "signals.h"
 #include "summary.h"
+#include "surface_output.h"
 
 namespace holdfast::cli {
 namespace {
 
-struct PasteArguments {
+struct PasteArguments : SurfaceOutput {
   std::vector<std::filesystem::path> surfaces;
-  std::filesystem::path output, parents, report;
-  std::string input_format, format;
+  std::string input_format;
   std::optional<std::string> tolerance, overlap;
   std::vector<std::string> names;
   LimitArguments limits;
@@ -161,11 +161,8 @@ int paste_surfaces(const PasteArguments& arguments, const PasteOptions& options,
                                          : paste(parts, options, stems(arguments.surfaces));
   merge(result.surface.names, names_of(arguments.names));
   if (result.outcome == Outcome::done) {
-    write_surface(arguments.output, result.surface, writing);
-    if (!arguments.quiet) {
-      tell(not_held(arguments.output, result.surface, writing), arguments.output);
-      tell_idle_names(arguments.names, nameable_of_mesh(result));
-    }
+    write_and_tell(arguments, result.surface, writing, arguments.quiet);
+    if (!arguments.quiet) tell_idle_names(arguments.names, nameable_of_mesh(result));
     std::size_t facets = 0;
     for (const Surface& part : parts) facets += part.facets.size();
     write_parents(arguments.parents, facets, result);
@@ -222,13 +219,7 @@ void add_paste(CLI::App& app, Command& chosen) {
           "through them in turn")
       ->transform(or_standard_input)
       ->required();
-  command
-      ->add_option("-o,--output", arguments->output,
-                   "Surface to write (.off .obj .stl .ply .poly .mesh .meshb .msh .vtk .vtu), -: standard "
-                   "output")
-      ->transform(or_standard_output)
-      ->required()
-      ->option_text("FILE");
+  add_surface_output(*command, *arguments);
   command
       ->add_option("--tolerance", arguments->tolerance,
                    "Put what is nearer to an earlier file than this on it (the first file stays); so near to "
@@ -236,17 +227,9 @@ void add_paste(CLI::App& app, Command& chosen) {
                    "polygon of a file must lie, too")
       ->option_text("T");
   add_overlap_option(*command, arguments->overlap);
-  command
-      ->add_option("--parents", arguments->parents,
-                   "Write a line for each triangle with the indices of those it is a part of")
-      ->transform(or_standard_output)
-      ->option_text("FILE");
-  command->add_option("--report", arguments->report, "Write all that changed as JSON")
-      ->transform(or_standard_output)
-      ->option_text("FILE.json");
+  add_account(*command, *arguments);
   add_name_option(*command, arguments->names);
-  command->add_option("--format", arguments->format, "Format of the surface to write, instead of by ending")
-      ->option_text("FORMAT");
+  add_surface_format(*command, *arguments);
   command->add_option("--input-format", arguments->input_format, "Format of the input, instead of by ending")
       ->option_text("FORMAT");
   command->add_option("--threads", arguments->threads, threads_help)

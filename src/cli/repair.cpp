@@ -17,14 +17,15 @@
 #include "report.h"
 #include "signals.h"
 #include "summary.h"
+#include "surface_output.h"
 
 namespace holdfast::cli {
 namespace {
 
-struct RepairArguments {
+struct RepairArguments : SurfaceOutput {
   std::vector<std::filesystem::path> surfaces;
-  std::filesystem::path output, parents, report, exact, html;
-  std::string input_format, format;
+  std::filesystem::path exact, html;
+  std::string input_format;
   double tolerance = 0;
   LimitArguments limits;
   double weld = 0, join = 0;
@@ -138,8 +139,7 @@ int repair_files(const RepairArguments& arguments, const RepairOptions& options,
   result.surface.regions = surface.regions;
   result.surface.holes = surface.holes;
   if (result.outcome == Outcome::done) {
-    write_surface(arguments.output, result.surface, writing);
-    if (!arguments.quiet) tell(not_held(arguments.output, result.surface, writing), arguments.output);
+    write_and_tell(arguments, result.surface, writing, arguments.quiet);
     if (!arguments.quiet && options.unite) tell_left_alone(surface, result.surface);
     write_parents(arguments.parents, surface.facets.size(), result);
   }
@@ -184,13 +184,7 @@ void add_repair(CLI::App& app, Command& chosen) {
                    "Surface files, as for `mesh`; indices count through several in turn")
       ->transform(or_standard_input)
       ->required();
-  command
-      ->add_option("-o,--output", arguments->output,
-                   "Surface to write (.off .obj .stl .ply .poly .mesh .meshb .msh .vtk .vtu), -: standard "
-                   "output")
-      ->transform(or_standard_output)
-      ->required()
-      ->option_text("FILE");
+  add_surface_output(*command, *arguments);
   command
       ->add_option("--weld", arguments->weld,
                    "First make one of vertices that are this near to each other, and put vertices that are "
@@ -202,22 +196,14 @@ void add_repair(CLI::App& app, Command& chosen) {
                    "they do (default 0)")
       ->option_text("T");
   add_repair_ways(*command, arguments->ways);
-  command
-      ->add_option("--parents", arguments->parents,
-                   "Write a line for each triangle with the indices of those it is a part of")
-      ->transform(or_standard_output)
-      ->option_text("FILE");
-  command->add_option("--report", arguments->report, "Write all that changed as JSON")
-      ->transform(or_standard_output)
-      ->option_text("FILE.json");
+  add_account(*command, *arguments);
   command
       ->add_option("--exact", arguments->exact,
                    "Write the exact arrangement, its points as quotients, as JSON lines")
       ->transform(or_standard_output)
       ->option_text("FILE");
   add_html_option(*command, arguments->html);
-  command->add_option("--format", arguments->format, "Format of the surface to write, instead of by ending")
-      ->option_text("FORMAT");
+  add_surface_format(*command, *arguments);
   add_tolerance(*command, arguments->tolerance);
   command->add_option("--input-format", arguments->input_format, "Format of the input, instead of by ending")
       ->option_text("FORMAT");

@@ -1,0 +1,29 @@
+// What `repair` and `paste` write: a surface, and an account of what it was made of.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+
+#include "holdfast/surface_io.h"
+
+namespace holdfast::cli {
+
+struct SurfaceOutput {
+  std::filesystem::path output, parents, report;
+  std::string format;
+};
+
+/// -o.
+void add_surface_output(CLI::App& command, SurfaceOutput& output);
+/// --parents and --report.
+void add_account(CLI::App& command, SurfaceOutput& output);
+/// --format.
+void add_surface_format(CLI::App& command, SurfaceOutput& output);
+
+/// Writes the surface and, unless `quiet`, says what its format does not hold. Throws FileError and
+/// Interrupted.
+void write_and_tell(const SurfaceOutput& output, const Surface& surface, const WriteOptions& options,
+                    bool quiet);
+
+}  // namespace holdfast::cli
