@@ -115,7 +115,10 @@ std::vector<bool> in_use(const Surface& surface) {
 }
 
 /// Vertices of the input stay where all that they belonged to goes.
-void tell_left_alone(const Surface& before, const Surface& after) {
+void tell_what_union_leaves(const Surface& before, const Surface& after) {
+  if (after.facets.empty() && !before.facets.empty())
+    say("note: no triangle is left, as no connected part of the input encloses anything; `holdfast diagnose` "
+        "proposes what closes gaps and holes, without --union\n");
   const std::vector<bool> was = in_use(before), is = in_use(after);
   std::size_t alone = 0;
   for (std::size_t v = 0; v < was.size(); ++v) alone += static_cast<std::size_t>(was[v] && !is[v]);
@@ -140,7 +143,7 @@ int repair_files(const RepairArguments& arguments, const RepairOptions& options,
   result.surface.holes = surface.holes;
   if (result.outcome == Outcome::done) {
     write_and_tell(arguments, result.surface, writing, arguments.quiet);
-    if (!arguments.quiet && options.unite) tell_left_alone(surface, result.surface);
+    if (!arguments.quiet && options.unite) tell_what_union_leaves(surface, result.surface);
     write_parents(arguments.parents, surface.facets.size(), result);
   }
   write_exact(arguments.exact, surface, result);

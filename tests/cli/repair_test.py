@@ -7,7 +7,7 @@ import math
 import random
 import subprocess
 
-from cli_case import CUBE_FACETS, CliTest, cube, main, off, shifted
+from cli_case import CUBE_FACETS, CUBE_POINTS, CliTest, cube, main, off, shifted
 
 
 def read_off(text):
@@ -157,6 +157,12 @@ class WhatIsMade(Repaired):
         self.write("b.mesh", medit(points[8:], [[v - 8 for v in f] for f in facets[12:]], [40] * 12))
         self.repair("a.mesh", "b.mesh", output="out.mesh")
         self.assertIn("holds   markers kept", self.check("a.mesh", "b.mesh", output="out.mesh"))
+
+    def test_a_union_of_what_encloses_nothing(self):
+        self.write("in.off", off(CUBE_POINTS, CUBE_FACETS[:-1]))
+        self.assertIn("no triangle is left", self.run_program("repair", "in.off", "-o", "out.off", "--union").stderr)
+        self.write("in.off", off(CUBE_POINTS, CUBE_FACETS))
+        self.assertNotIn("no triangle is left", self.run_program("repair", "in.off", "-o", "out.off", "--union").stderr)
 
     def test_union(self):
         self.write("in.off", off(*two_cubes()))
