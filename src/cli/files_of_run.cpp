@@ -120,6 +120,13 @@ void require_format(const fs::path& path, std::string_view format) {
         fmt::format("{}: there is no ending that tells the format; give --input-format", called(path)));
 }
 
+std::vector<std::string> without(std::vector<std::string> names, const std::vector<std::string>& others) {
+  std::erase_if(names, [&](const std::string& name) {
+    return std::find(others.begin(), others.end(), name) != others.end();
+  });
+  return names;
+}
+
 }  // namespace
 
 std::string or_standard_input(const std::string& path) { return path == "-" ? standard_input : path; }
@@ -189,7 +196,8 @@ void FilesOfRun::write(std::string_view option, const fs::path& path, bool with_
   add(std::move(file));
 }
 
-VolumeTarget FilesOfRun::write_volume(std::string_view option, const fs::path& path, std::string format) {
+VolumeTarget FilesOfRun::write_volume(std::string_view option, const fs::path& path, std::string format,
+                                      bool or_surface) {
   VolumeTarget target{path, {}};
   if (!format.empty() && format.front() != '.') format.insert(format.begin(), '.');
   target.options.format = lower(format);
@@ -203,9 +211,13 @@ VolumeTarget FilesOfRun::write_volume(std::string_view option, const fs::path& p
   const std::vector<std::string> known = volume_formats();
   if (std::find(known.begin(), known.end(), kind) == known.end())
     throw UsageError(fmt::format(
-        "{}: {}; use {} (--format msh2 for version 2.2 of .msh) {}by --format", called(path),
-        kind.empty() ? "there is no ending that tells the format" : "'" + kind + "' is no volume format",
-        fmt::join(known, " "), path == standard_output ? "" : "as the file's ending or "));
+        "{}: {}; use {}{} (--format msh2 for version 2.2 of .msh) {}by --format", called(path),
+        kind.empty() ? "there is no ending that tells the format"
+                     : "'" + kind + "' is no " + (or_surface ? "format to write" : "volume format"),
+        fmt::join(known, " "),
+        or_surface ? fmt::format(", of surfaces alone {},", fmt::join(without(surface_formats(), known), " "))
+                   : "",
+        path == standard_output ? "" : "as the file's ending or "));
   const std::vector<fs::path> files = files_of_volume(path, target.options.format);
   struct stat status {};
   const bool is_stream =

@@ -44,9 +44,9 @@ class FilesOfRun {
   /// Throws FileError, too, if it cannot be created.
   void write(std::string_view option, const std::filesystem::path& path, bool with_folders = false);
   /// A volume of a format that is known (`format`, or the extension when it is empty), and what belongs to
-  /// it.
+  /// it. `or_surface`: the command writes surfaces, too, and its user is told of their formats.
   [[nodiscard]] VolumeTarget write_volume(std::string_view option, const std::filesystem::path& path,
-                                          std::string format);
+                                          std::string format, bool or_surface = false);
 
   /// A surface, of a format that is known likewise.
   [[nodiscard]] WriteOptions write_surface(std::string_view option, const std::filesystem::path& path,

@@ -110,7 +110,7 @@ class Formats(CliTest):
         self.run_program("mesh", "p.off.gz", "-o", "p.vtu", "--fill")
         self.run_program("check", "p.off.gz", "p.vtu")
         ended = self.run_program("mesh", "p.off.gz", "-o", "p.vtu.gz", "--fill", expect=2)
-        self.assertIn("no volume format", ended.stderr)
+        self.assertIn("no format to write", ended.stderr)
 
     def test_a_size_field_that_is_not_finite_is_refused(self):
         self.write("s.pos", 'View "s" {\nSS(0,0,0,inf,0,0,0,1,0,0,0,1){1,1,1,1};\n};\n')
