@@ -43,7 +43,9 @@ using RegionSeed = Surface::RegionSeed;
 
 /// How long edges should be, for field points. The least of all limits counts.
 struct Sizes {
-  double size = 0;  ///< the most anywhere; 0: as the surface has it
+  /// The most anywhere; 0: as the surface has it. Where large triangles or thin walls beside it leave too few
+  /// elements, a smaller one is taken for a region, half of it at least (Report::smaller_sizes).
+  double size = 0;
   /// From a vertex of the surface, whose size is that of its edges, sizes grow inward by this much a unit of
   /// length, 0 to 1. Unset: 0.3, and up to 0.5 where sizes of the surface jump; and points go again where
   /// needles make them useless, unless `grow` is false (docs/sizes.md).

@@ -24,6 +24,11 @@ enum class Outcome {
                       ///< mesh
 };
 
+/// Whether a limit or the caller ended it.
+[[nodiscard]] constexpr bool is_interruption(Outcome outcome) {
+  return outcome == Outcome::time_limit || outcome == Outcome::memory_limit || outcome == Outcome::cancelled;
+}
+
 /// Stops calls from another thread. Copies are one token: keep one and give another to `Limits::cancel`.
 /// A token may be given to many calls; once cancelled it stays so.
 class CancelToken {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -25,6 +26,14 @@ using Segment = std::array<Index, 2>;
 using Triangle = std::array<Index, 3>;
 /// Vertex indices of a tetrahedron with det(b-a, c-a, d-a) > 0.
 using Tetrahedron = std::array<Index, 4>;
+/// Of a tetrahedron, the corners of the face opposite to each corner, as they turn counterclockwise where
+/// they are seen from outside.
+inline constexpr std::array<std::array<std::size_t, 3>, 4> outward_faces{
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+/// The face opposite to corner i, as it is seen from outside.
+[[nodiscard]] constexpr Triangle outward_face(const Tetrahedron& t, std::size_t i) {
+  return {t[outward_faces[i][0]], t[outward_faces[i][1]], t[outward_faces[i][2]]};
+}
 
 /// Names of ids, in UTF-8. Several ids may share a name; formats that hold each name once write them as one
 /// set or tell them apart by a number (docs/formats.md). An id without an entry has no name.
@@ -86,7 +95,8 @@ struct Surface {
   struct RegionSeed {
     Point where;
     int id;
-    double size = 0;        ///< most that edges of the region may measure, for field points; 0: no limit
+    double size = 0;        ///< most that edges of the region may measure, for field points, or less (as
+                            ///< Sizes::size); 0: no limit
     double max_volume = 0;  ///< most that a tetrahedron of the region may measure; 0: no limit
   };
   std::vector<RegionSeed> regions;

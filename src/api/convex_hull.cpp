@@ -17,8 +17,6 @@
 namespace holdfast {
 namespace {
 
-constexpr std::array<std::array<std::size_t, 3>, 4> kFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-
 /// The triangles of the hull, seen from outside; they name the first vertex of each place alone.
 std::vector<Triangle> hull_of(const std::vector<Point>& vertices, const Limits& limits) {
   DelaunayOptions options;
@@ -28,9 +26,7 @@ std::vector<Triangle> hull_of(const std::vector<Point>& vertices, const Limits& 
   std::vector<Triangle> hull;
   for (std::size_t t = 0; t < tetrahedra.size(); ++t)
     for (std::size_t k = 0; k < 4; ++k)
-      if (beside[t][k] == no_entity)
-        hull.push_back(
-            {tetrahedra[t][kFaces[k][0]], tetrahedra[t][kFaces[k][1]], tetrahedra[t][kFaces[k][2]]});
+      if (beside[t][k] == no_entity) hull.push_back(outward_face(tetrahedra[t], k));
   return hull;
 }
 

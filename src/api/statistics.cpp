@@ -52,7 +52,6 @@ class Counter {
   void add_tetrahedra(const Volume& volume) {
     require(volume.regions.empty() || volume.regions.size() == volume.tetrahedra.size());
     const std::vector<Neighbours> sides = neighbours(volume.tetrahedra);
-    constexpr std::array<std::array<std::size_t, 3>, 4> kFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
     const auto region_of = [&](std::size_t t) { return volume.regions.empty() ? 0 : volume.regions[t]; };
     ById regions;
     ShapeHistogram shape;
@@ -73,8 +72,8 @@ class Counter {
       for (std::size_t k = 0; k < 4; ++k) {
         const Index other = sides[t][k];
         if (other != no_entity && region_of(other) == region_of(t)) continue;
-        const double area =
-            area_of(vertices_[v[kFaces[k][0]]], vertices_[v[kFaces[k][1]]], vertices_[v[kFaces[k][2]]]);
+        const Triangle face = outward_face(v, k);
+        const double area = area_of(vertices_[face[0]], vertices_[face[1]], vertices_[face[2]]);
         region.area += area;
         if (other == no_entity) counts_.boundary_area += area;
       }

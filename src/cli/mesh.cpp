@@ -322,7 +322,11 @@ void add_mesh(CLI::App& app, Command& chosen) {
                    "With --repair: write the surface that was meshed, for `check` (formats as for `repair`)")
       ->transform(or_standard_output)
       ->option_text("FILE");
-  command->add_option("--size", arguments->size, "Field points: no edge inside much longer than this")
+  command
+      ->add_option(
+          "--size", arguments->size,
+          "Field points: no edge inside much longer than this; in a region whose large triangles or thin "
+          "walls leave too few elements, a smaller size is taken, half of it at least")
       ->option_text("H");
   command
       ->add_option(

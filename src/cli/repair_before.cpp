@@ -32,9 +32,7 @@ int conclude_repair(const RepairResult& result) {
 
 void write_repaired(const std::filesystem::path& path, const Surface& surface, Outcome outcome,
                     const WriteOptions& options, bool quiet) {
-  const bool ended =
-      outcome == Outcome::time_limit || outcome == Outcome::memory_limit || outcome == Outcome::cancelled;
-  if (path.empty() || ended) return;
+  if (path.empty() || is_interruption(outcome)) return;
   write_surface(path, surface, options);
   if (!quiet) tell(not_held(path, surface, options), path);
 }

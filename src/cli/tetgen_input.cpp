@@ -44,15 +44,11 @@ fs::path next_name(const fs::path& stem) {
 }
 
 std::vector<Triangle> hull_faces(const std::vector<Tetrahedron>& tetrahedra) {
-  // Of a tetrahedron, the corners of the face that is opposite to each, seen from outside.
-  constexpr std::array<std::array<std::size_t, 3>, 4> kFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
   const std::vector<Neighbours> sides = neighbours(tetrahedra);
   std::vector<Triangle> faces;
   for (std::size_t t = 0; t < tetrahedra.size(); ++t)
     for (std::size_t k = 0; k < 4; ++k)
-      if (sides[t][k] == no_entity)
-        faces.push_back(
-            {tetrahedra[t][kFaces[k][0]], tetrahedra[t][kFaces[k][1]], tetrahedra[t][kFaces[k][2]]});
+      if (sides[t][k] == no_entity) faces.push_back(outward_face(tetrahedra[t], k));
   return faces;
 }
 

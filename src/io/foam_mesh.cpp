@@ -21,9 +21,7 @@ std::vector<Side> sorted_sides(const Volume& volume, Watch& watch) {
   for (Index t = 0; t < volume.tetrahedra.size(); ++t)
     for (std::uint8_t i = 0; i < 4; ++i) {
       watch.beat();
-      const Tetrahedron& c = volume.tetrahedra[t];
-      const auto& f = kOutwardFaces[i];
-      sides.push_back({ascending(Triangle{c[f[0]], c[f[1]], c[f[2]]}), t, i});
+      sides.push_back({ascending(outward_face(volume.tetrahedra[t], i)), t, i});
     }
   std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) {
     watch.beat();
@@ -42,9 +40,8 @@ void find_faces(const Volume& volume, FoamMesh& mesh, Watch& watch) {
     for (j = i; j < sides.size() && sides[j].key == sides[i].key;) ++j;
     if (j > i + 2)
       throw std::invalid_argument("a face of more than two tetrahedra, which OpenFOAM has no place for");
-    const Tetrahedron& c = volume.tetrahedra[sides[i].cell];
-    const auto& f = kOutwardFaces[sides[i].side];
-    FoamFace face{{c[f[0]], c[f[1]], c[f[2]]}, sides[i].cell, no_entity, no_entity};
+    FoamFace face{outward_face(volume.tetrahedra[sides[i].cell], sides[i].side), sides[i].cell, no_entity,
+                  no_entity};
     if (j == i + 2) face.neighbour = sides[i + 1].cell;
     if (const auto found = facet_at.find(sides[i].key); found != facet_at.end()) face.facet = found->second;
     (j == i + 2 ? mesh.inside : mesh.boundary).push_back(face);

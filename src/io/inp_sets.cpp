@@ -152,10 +152,9 @@ class InpSurfaces::Facets {
       }
       return;
     }
-    const auto& outward = kOutwardFaces[kOpposite[number_of(text, side, 4)]];
-    const Tetrahedron& corners = mesh_.tetrahedra[element.entity];
-    const Triangle facet{corners[outward[0]], corners[outward[1]], corners[outward[2]]};
-    if (add_once(facet)) add_facet(mesh_, element.entity, outward, facet);
+    const std::size_t opposite = kOpposite[number_of(text, side, 4)];
+    const Triangle facet = outward_face(mesh_.tetrahedra[element.entity], opposite);
+    if (add_once(facet)) add_facet(mesh_, element.entity, outward_faces[opposite], facet);
     markers_[facet_of_.at(ascending(facet))] = id;
   }
 

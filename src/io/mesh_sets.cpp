@@ -57,8 +57,7 @@ std::vector<SidesOfFacet> sides_of_facets(const Volume& volume) {
   for (Index t = 0; t < volume.tetrahedra.size(); ++t) {
     const Tetrahedron& corners = volume.tetrahedra[t];
     for (std::uint8_t side = 0; side < 4; ++side) {
-      const auto& outward = kOutwardFaces[side];
-      const Triangle face{corners[outward[0]], corners[outward[1]], corners[outward[2]]};
+      const Triangle face = outward_face(corners, side);
       const Triangle key = ascending(face);
       auto found = std::lower_bound(keys.begin(), keys.end(), key,
                                     [](const FacetKey& a, const Triangle& b) { return a.key < b; });

@@ -54,10 +54,6 @@ struct SidesOfFacet {
   std::optional<SideOfTet> behind, front;
 };
 
-/// Corner i's opposite face, as seen from outside.
-inline constexpr std::array<std::array<std::size_t, 3>, 4> kOutwardFaces{
-    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-
 /// One for each facet.
 [[nodiscard]] std::vector<SidesOfFacet> sides_of_facets(const Volume& volume);
 

@@ -9,9 +9,6 @@
 namespace holdfast {
 namespace {
 
-// Corner i's opposite face, as seen from outside.
-constexpr std::array<std::array<std::size_t, 3>, 4> kOutward{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-
 struct FaceOfTet {
   Triangle key;  // ascending corners
   Index tet = 0;
@@ -19,9 +16,7 @@ struct FaceOfTet {
 };
 
 Triangle corners(const Volume& volume, const FaceOfTet& face) {
-  const Tetrahedron& t = volume.tetrahedra[face.tet];
-  const auto& f = kOutward[face.side];
-  return {t[f[0]], t[f[1]], t[f[2]]};
+  return outward_face(volume.tetrahedra[face.tet], face.side);
 }
 
 // Faces with one tetrahedron, or with two of different regions: of these, as the first one has them.

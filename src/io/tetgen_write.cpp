@@ -18,8 +18,6 @@ using Path = std::filesystem::path;
 
 // TetGen's order of the mid-edge nodes of a tetrahedron, as places in ours: its edges are 23 03 01 12 13 02.
 constexpr std::array<std::size_t, 6> kTetgenOrder{5, 3, 0, 1, 4, 2};
-// Of a tetrahedron, the corners of the face that is opposite to each, seen from outside.
-constexpr std::array<std::array<std::size_t, 3>, 4> kFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 constexpr int kMarkerOfUnmarked = 1;
 
 Triangle sorted(Triangle t) {
@@ -163,8 +161,7 @@ class Writer {
       for (std::size_t k = 0; k < 4; ++k) {
         const Index other = neighbours_[t][k];
         if (other != no_entity && other < t) continue;
-        const Tetrahedron& v = volume_.tetrahedra[t];
-        const Triangle face{v[kFaces[k][0]], v[kFaces[k][1]], v[kFaces[k][2]]};
+        const Triangle face = outward_face(volume_.tetrahedra[t], k);
         const auto at = std::lower_bound(facets.begin(), facets.end(), std::pair{sorted(face), Index{0}});
         const bool is_facet = at != facets.end() && at->first == sorted(face);
         if (!is_facet && !files_.all_faces) continue;

@@ -199,14 +199,12 @@ class JoinedPieces {
 
   /// Facets on the boundary of the part, seen from outside.
   static std::map<Triangle, Triangle> outward_faces(const Volume& part) {
-    static constexpr std::array<std::array<std::size_t, 3>, 4> kOutward{
-        {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
     std::map<Triangle, Triangle> facets;
     for (const Triangle& t : part.facets) facets[ascending(t)];
     std::map<Triangle, int> sides;
     for (const Tetrahedron& t : part.tetrahedra)
-      for (const auto& side : kOutward) {
-        const Triangle face{t[side[0]], t[side[1]], t[side[2]]};
+      for (std::size_t side = 0; side < 4; ++side) {
+        const Triangle face = outward_face(t, side);
         const auto found = facets.find(ascending(face));
         if (found == facets.end()) continue;
         found->second = face;

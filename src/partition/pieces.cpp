@@ -195,9 +195,8 @@ class Pieces {
       for (std::size_t side = 0; side < 4; ++side) {
         const Index other = beside_[t][side];
         if (other == no_entity || part_of_[other] == part) continue;
-        const auto& corners = io::kOutwardFaces[side];
-        Triangle face{};
-        for (std::size_t k = 0; k < 3; ++k) face[k] = number[volume_.tetrahedra[t][corners[k]]];
+        Triangle face = outward_face(volume_.tetrahedra[t], side);
+        for (Index& corner : face) corner = number[corner];
         faces.add(part_of_[other], face);
       }
     piece.interfaces = faces.take(piece.vertices);
