@@ -1,6 +1,7 @@
 // The exact arrangement rounded to doubles so that it stays valid.
 #include "repair/rounding.h"
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <utility>
@@ -12,8 +13,23 @@
 #include "repair/open_sides.h"
 #include "repair/restore.h"
 #include "repair/strips.h"
+#include "surface/places.h"
 
 namespace holdfast::repairing {
+namespace {
+
+/// Whether all that happened is that the points of an exact arrangement went to their nearest doubles, of
+/// which no two that are used are the same. Then the parts of a facet hang together as those in the
+/// arrangement do, which cover it: their border runs along its sides, as near to them as points went.
+bool is_rounded_once(const State& state, const RepairReport& report) {
+  if (report.rounds != 1 || report.rung > Rung::nearest) return false;
+  const std::vector<Index> first = first_at_places(state.vertices);
+  return std::all_of(state.facets.begin(), state.facets.end(), [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](Index v) { return first[v] == v; });
+  });
+}
+
+}  // namespace
 
 /// Sheets that share their sides may leave thin facets between them, which hang on the surface by a side.
 /// Then they are tried one after the other.
@@ -57,8 +73,10 @@ Rounded round_arranged(State state, const RepairOptions& options, RepairReport& 
     double& most = rounded.displacement;
     const std::span places = std::span(given.vertices).first(given.input_vertices);
     most = sum_above(most, restore(rounded.state, places, step, threads));
-    most = keep_strips(rounded.state, given, most, step, threads);
-    most = covered_within(rounded.state, given, most, step).value_or(most);
+    if (options.join > 0 || !is_rounded_once(rounded.state, report)) {
+      most = keep_strips(rounded.state, given, most, step, threads);
+      most = covered_within(rounded.state, given, most, step).value_or(most);
+    }
   }
   rounded.state.facet_parents = composed(of_given, rounded.state.facet_parents);
   return rounded;

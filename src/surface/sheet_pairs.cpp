@@ -2,6 +2,7 @@
 #include "surface/sheet_pairs.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -16,45 +17,21 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double product(const Point& n, const Point& p) { return n[0] * p[0] + n[1] * p[1] + n[2] * p[2]; }
 
-/// Across a triangle and twice its area long; not finite where that overflows.
-Point normal_of(const Point& a, const Point& b, const Point& c) {
-  Point u{}, v{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    u[k] = b[k] - a[k];
-    v[k] = c[k] - a[k];
-  }
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-
 /// The largest coordinate.
 double size_of(const Point& p) { return std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])}); }
 
-bool visit_each(std::vector<AabbTree::Item>& a, std::vector<AabbTree::Item>& b,
-                const SheetPairs::Visit& visit) {
-  // Along the axis in which these reach furthest.
-  Box box = a[0].box;
-  for (const AabbTree::Item& item : a) box.extend(item.box);
-  std::size_t axis = 0;
-  for (std::size_t k = 1; k < 3; ++k)
-    if (box.high[k] / 2 - box.low[k] / 2 > box.high[axis] / 2 - box.low[axis] / 2) axis = k;
-  const auto before = [axis](const AabbTree::Item& p, const AabbTree::Item& q) {
-    return std::tie(p.box.low[axis], p.id) < std::tie(q.box.low[axis], q.id);
-  };
-  std::sort(a.begin(), a.end(), before);
-  std::sort(b.begin(), b.end(), before);
-  const auto overlapping = [&](const AabbTree::Item& item, auto from, auto end, auto&& pair) {
-    for (; from != end && from->box.low[axis] <= item.box.high[axis]; ++from)
-      if (item.box.overlaps(from->box) && !pair(item.id, from->id)) return false;
-    return true;
-  };
-  for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end();) {
-    if (i->box.low[axis] <= j->box.low[axis]) {
-      if (!overlapping(*i++, j, b.end(), visit)) return false;
-    } else {
-      if (!overlapping(*j++, i, a.end(), [&](Index p, Index q) { return visit(q, p); })) return false;
-    }
-  }
-  return true;
+Point minus(const Point& p, const Point& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
+
+Point cross(const Point& u, const Point& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+/// Across a triangle and twice its area long; not finite where that overflows.
+Point normal_of(const Point& a, const Point& b, const Point& c) { return cross(minus(b, a), minus(c, a)); }
+
+/// Whether a fan of one part surely has nothing but its vertex in common with facets at it that are so flat.
+bool is_steep(double rise, double slope, double layer, double share) {
+  return rise > 2 * layer && slope > share;
 }
 
 }  // namespace
@@ -141,6 +118,7 @@ void SheetPairs::measure(Part& part) const {
     const Triangle& corners = elements_.all[part.facets[item.id]].vertex;
     part.corners.push_back(
         {complex_.vertices[corners[0]], complex_.vertices[corners[1]], complex_.vertices[corners[2]]});
+    part.vertices.push_back(corners);
   }
   // Components of at most 1/8, so that products do not overflow.
   for (double& x : part.normal) x = largest > 0 ? x / largest / 8 : 0;
@@ -169,45 +147,208 @@ void SheetPairs::measure(Part& part) const {
   part.most_share = 4 * part.most_share * (1 + 0x1p-40) + kShare;
 }
 
-/// The facets of a part that touch the plane and the box of another one.
-SheetPairs::Items SheetPairs::touching(const Part& part, const Part& plane) const {
-  const Box& box = plane.box;
+/// How flat a facet of a part is, seen from a corner. Squares: 64 (t / r)^2, in place of the 16 that are
+/// needed, leaves room for roundings where the area is not all rounding; and sums of them are not so small
+/// that they underflow.
+SheetPairs::Flatness SheetPairs::flatness(const Part& part, const std::array<Point, 3>& corners,
+                                          std::size_t corner) {
+  const Point &v = corners[corner], &p = corners[(corner + 1) % 3], &q = corners[(corner + 2) % 3];
+  const double size = std::max({size_of(v), size_of(p), size_of(q)});
+  const double t = part.most + part.most_share * size;
+  const Point a = minus(p, v), b = minus(q, v), n = cross(a, b), side = minus(q, p);
+  const double area = product(n, n), most_area = product(a, a) * product(b, b);
+  constexpr double kLeastShare = 0x1p-80, kLeast = 0x1p-400;
+  const bool is_known = area > kLeastShare * most_area && area > kLeast && t > kLeast;
+  return {t, is_known ? 64 * (t * t) * product(side, side) / area : kInfinity};
+}
+
+/// False where a facet does not touch the plane of another part.
+bool SheetPairs::find_near(const Part& part, std::size_t item, const Part& plane, Near& near) {
+  const std::array<Point, 3>& corners = part.corners[item];
+  std::array<double, 3> h{};
+  double most = 0;  // of the bounds
+  unsigned above = 0, below = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    h[i] = product(plane.normal, corners[i]) - plane.offset;
+    const double bound = plane.most + plane.most_share * size_of(corners[i]);
+    above |= static_cast<unsigned>(h[i] > bound) << i;
+    below |= static_cast<unsigned>(h[i] < -bound) << i;
+    h[i] = std::fabs(h[i]) - bound;
+    most = std::max(most, bound);
+  }
+  if (above == 7 || below == 7) return false;
+  near.vertex = no_index;
+  const unsigned beyond = above | below;
+  if (beyond == 0 || (above != 0 && below != 0)) return true;
+  // What is near to the plane is so near to the corners that are: h <= 4 most there, by linearity.
+  double rise = kInfinity, far = 0;
+  Point low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if ((beyond >> i & 1u) != 0) {
+      rise = std::min(rise, h[i]);
+      continue;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], corners[i][k]);
+      high[k] = std::max(high[k], corners[i][k]);
+    }
+    for (std::size_t j = 0; j < 3; ++j) {
+      if ((beyond >> j & 1u) == 0) continue;
+      const Point way = minus(corners[j], corners[i]);
+      far = std::max(far, product(way, way));
+    }
+  }
+  const double room = 5 * most / rise * std::sqrt(far);
+  for (std::size_t k = 0; k < 3; ++k) {
+    near.box.low[k] = std::max(near.box.low[k], low[k] - room);
+    near.box.high[k] = std::min(near.box.high[k], high[k] + room);
+  }
+  const unsigned touching = 7u & ~beyond;
+  if ((touching & (touching - 1)) != 0) return true;
+  const auto corner = static_cast<std::size_t>(std::countr_zero(touching));
+  near.vertex = part.vertices[item][corner];
+  near.rise = rise;
+  near.slope = rise * rise / far;
+  near.flatness = flatness(part, corners, corner);
+  return true;
+}
+
+/// Whether a box is beyond the plane of a part.
+bool SheetPairs::is_beyond(const Box& box, const Part& plane) {
   const Point& n = plane.normal;
+  Point least{}, most{}, far{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double low = n[k] * box.low[k], high = n[k] * box.high[k];
+    least[k] = std::min(low, high);
+    most[k] = std::max(low, high);
+    far[k] = std::max(std::fabs(box.low[k]), std::fabs(box.high[k]));
+  }
+  const double bound = plane.most + plane.most_share * size_of(far);
+  return least[0] + least[1] + least[2] - plane.offset > bound ||
+         most[0] + most[1] + most[2] - plane.offset < -bound;
+}
+
+/// The facets of a part that touch the plane of another one within a box.
+SheetPairs::Touching SheetPairs::touching(const Part& part, const Part& plane, const Box& box) {
   const AabbTree::Item* const first = part.tree.items(0).data();
-  Items found;
-  part.tree.for_each_item(
-      [&](const Box& node) {
-        if (!node.overlaps(box)) return true;
-        Point least{}, most{}, far{};
-        for (std::size_t k = 0; k < 3; ++k) {
-          const double low = n[k] * node.low[k], high = n[k] * node.high[k];
-          least[k] = std::min(low, high);
-          most[k] = std::max(low, high);
-          far[k] = std::max(std::fabs(node.low[k]), std::fabs(node.high[k]));
-        }
-        const double bound = plane.most + plane.most_share * size_of(far);
-        return least[0] + least[1] + least[2] - plane.offset > bound ||
-               most[0] + most[1] + most[2] - plane.offset < -bound;
-      },
-      [&](const AabbTree::Item& item) {
-        unsigned above = 0, below = 0;
-        for (const Point& corner : part.corners[static_cast<std::size_t>(&item - first)]) {
-          const double h = product(n, corner) - plane.offset;
-          const double bound = plane.most + plane.most_share * size_of(corner);
-          above += static_cast<unsigned>(h > bound);
-          below += static_cast<unsigned>(h < -bound);
-        }
-        if (above < 3 && below < 3) found.push_back({item.box, part.facets[item.id]});
-      });
+  Touching found;
+  std::vector<Near> fanned;
+  part.tree.for_each_item([&](const Box& node) { return !node.overlaps(box) || is_beyond(node, plane); },
+                          [&](const AabbTree::Item& item) {
+                            Near near{item.box, part.facets[item.id], no_index};
+                            if (!find_near(part, static_cast<std::size_t>(&item - first), plane, near))
+                              return;
+                            if (near.vertex != no_index) {
+                              fanned.push_back(near);
+                              return;
+                            }
+                            const auto at = static_cast<Index>(found.elements.size());
+                            found.elements.push_back(near.element);
+                            found.fans.push_back({near.box, at, at + 1, no_index, 0, 0, {}});
+                          });
+  std::sort(fanned.begin(), fanned.end(), [](const Near& p, const Near& q) {
+    return std::tie(p.vertex, p.element) < std::tie(q.vertex, q.element);
+  });
+  for (const Near& near : fanned) {
+    const auto at = static_cast<Index>(found.elements.size());
+    found.elements.push_back(near.element);
+    if (found.fans.empty() || found.fans.back().vertex != near.vertex) {
+      found.fans.push_back({near.box, at, at + 1, near.vertex, near.rise, near.slope, near.flatness});
+      continue;
+    }
+    Fan& fan = found.fans.back();
+    fan.last = at + 1;
+    fan.box.extend(near.box);
+    fan.rise = std::min(fan.rise, near.rise);
+    fan.slope = std::min(fan.slope, near.slope);
+    fan.flatness.layer = std::max(fan.flatness.layer, near.flatness.layer);
+    fan.flatness.share = std::max(fan.flatness.share, near.flatness.share);
+  }
   return found;
 }
 
+/// Compares what touches the planes of each other of two parts.
+class SheetPairs::Sweep {
+ public:
+  Sweep(const SheetPairs& sheets, const Part& a, const Part& b, const Visit& visit)
+      : sheets_(sheets), a_(a), b_(b), visit_(visit) {}
+
+  /// False: stopped.
+  bool run() {
+    if (is_beyond(b_.box, a_)) return true;
+    of_a_ = touching(a_, b_, b_.box);
+    if (of_a_.fans.empty()) return true;
+    Box box = of_a_.fans[0].box;
+    for (const Fan& fan : of_a_.fans) box.extend(fan.box);
+    of_b_ = touching(b_, a_, box);
+    if (of_b_.fans.empty()) return true;
+    sort(box);
+    for (auto i = of_a_.fans.begin(), j = of_b_.fans.begin();
+         i != of_a_.fans.end() && j != of_b_.fans.end();) {
+      const bool is_a = i->box.low[axis_] <= j->box.low[axis_];
+      if (is_a ? !overlapping(*i, j, of_b_.fans.end(),
+                              [&](const Fan& p, const Fan& q) { return compare(p, q); })
+               : !overlapping(*j, i, of_a_.fans.end(),
+                              [&](const Fan& p, const Fan& q) { return compare(q, p); }))
+        return false;
+      is_a ? ++i : ++j;
+    }
+    return true;
+  }
+
+ private:
+  /// Along the axis in which the box of the first part's reaches furthest.
+  void sort(const Box& box) {
+    for (std::size_t k = 1; k < 3; ++k)
+      if (box.high[k] / 2 - box.low[k] / 2 > box.high[axis_] / 2 - box.low[axis_] / 2) axis_ = k;
+    const auto before = [this](const Fan& p, const Fan& q) {
+      return std::tie(p.box.low[axis_], p.first) < std::tie(q.box.low[axis_], q.first);
+    };
+    std::sort(of_a_.fans.begin(), of_a_.fans.end(), before);
+    std::sort(of_b_.fans.begin(), of_b_.fans.end(), before);
+  }
+
+  template <class From, class Pair>
+  bool overlapping(const Fan& fan, From from, From end, Pair&& pair) const {
+    for (; from != end && from->box.low[axis_] <= fan.box.high[axis_]; ++from)
+      if (fan.box.overlaps(from->box) && !pair(fan, *from)) return false;
+    return true;
+  }
+
+  bool compare(const Fan& p, const Fan& q) const {
+    if (is_apart(p, b_, of_b_, q) || is_apart(q, a_, of_a_, p)) return true;
+    for (Index i = p.first; i < p.last; ++i)
+      for (Index j = q.first; j < q.last; ++j)
+        if (!visit_(of_a_.elements[i], of_b_.elements[j])) return false;
+    return true;
+  }
+
+  /// Whether a fan surely has nothing but its vertex in common with the facets of another one, of `part`.
+  [[nodiscard]] bool is_apart(const Fan& fan, const Part& part, const Touching& of_part,
+                              const Fan& other) const {
+    if (fan.vertex == no_index) return false;
+    if (other.vertex == fan.vertex)
+      return is_steep(fan.rise, fan.slope, other.flatness.layer, other.flatness.share);
+    if (other.vertex != no_index) return false;
+    const Triangle& t = sheets_.elements_.all[of_part.elements[other.first]].vertex;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (t[i] != fan.vertex) continue;
+      const auto at = [&](std::size_t k) { return sheets_.complex_.vertices[t[k]]; };
+      const Flatness flat = flatness(part, {at(0), at(1), at(2)}, i);
+      return is_steep(fan.rise, fan.slope, flat.layer, flat.share);
+    }
+    return false;
+  }
+
+  const SheetPairs& sheets_;
+  const Part &a_, &b_;
+  const Visit& visit_;
+  std::size_t axis_ = 0;
+  Touching of_a_, of_b_;
+};
+
 bool SheetPairs::for_each(const std::array<Index, 2>& parts, const Visit& visit) const {
-  const Part &a = parts_[parts[0]], &b = parts_[parts[1]];
-  Items of_a = touching(a, b);
-  if (of_a.empty()) return true;
-  Items of_b = touching(b, a);
-  return of_b.empty() || visit_each(of_a, of_b, visit);
+  return Sweep(*this, parts_[parts[0]], parts_[parts[1]], visit).run();
 }
 
 }  // namespace holdfast

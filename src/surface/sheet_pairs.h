@@ -13,6 +13,15 @@
 // everywhere, by the triangle inequality, and is disjoint from it. So what lies near the origin is told
 // apart as finely as its doubles are. Facets without such a coordinate, round the origin, are a part of the
 // sheet by themselves, for which |h| <= t.
+//
+// Most pairs that are left are of facets that have a vertex v of the common line, each in a fan of its own
+// sheet. Let only v, of a facet a, be near to the plane of the other sheet, and h >= m > 0 at its other
+// corners, which are at most l from v. Let |h| <= t at the corners of a facet b of the other sheet, which has
+// v, too, with the opposite side at least r from it. A common point p is s of the way from v to the far side
+// of a, and f of that in b: s (m - t) <= |h(p) - h(v)| <= 2 t f and f r <= |p - v| <= s l. So if
+// m > 2 t and m / l > 4 t / r, there is none but v. That is a property of each facet, so that one comparison
+// decides of two fans. What is near to the plane of such a facet as a, moreover, is near to v, and only that
+// has to be compared with facets that have no v.
 #pragma once
 
 #include <array>
@@ -40,8 +49,8 @@ class SheetPairs {
   /// Pairs of parts, of different sheets, whose boxes overlap; but for those that are wholly known.
   [[nodiscard]] const std::vector<std::array<Index, 2>>& all() const { return pairs_; }
 
-  /// Visits facets of two parts, as indices of Elements::all, that have overlapping boxes and touch each
-  /// other's planes, until that returns false. Other pairs of facets of the two are disjoint.
+  /// Visits facets of two parts, as indices of Elements::all, that may have more in common than a vertex of
+  /// both, until that returns false.
   using Visit = std::function<bool(Index i, Index j)>;
   bool for_each(const std::array<Index, 2>& parts, const Visit& visit) const;
 
@@ -53,17 +62,47 @@ class SheetPairs {
     Box box{};
     AabbTree tree;                              // of the facets' boxes
     std::vector<std::array<Point, 3>> corners;  // of its items, side by side in memory
+    std::vector<Triangle> vertices;             // the same
     Point normal{};
     double offset = 0;
     double most = 0, most_share = 0;  // |h(x)| <= most + most_share |x| on all facets
   };
-  using Items = std::vector<AabbTree::Item>;  // with indices of Elements::all
+  /// A facet as one that is flat in its sheet, seen from one of its corners: t, and (t / r)^2.
+  struct Flatness {
+    double layer, share;
+  };
+  /// A facet that touches the plane of another part.
+  struct Near {
+    Box box;          // of what is near to it
+    Index element;    // of Elements::all
+    Index vertex;     // the only corner that is, or `no_index`
+    double rise = 0;  // m, and (m / l)^2
+    double slope = 0;
+    Flatness flatness{};  // at this corner
+  };
+  /// Such facets at one vertex, or a single one.
+  struct Fan {
+    Box box;
+    Index first, last;  // of Touching::elements
+    Index vertex;       // or `no_index`
+    double rise, slope;
+    Flatness flatness;
+  };
+  struct Touching {
+    std::vector<Index> elements;
+    std::vector<Fan> fans;
+  };
+  class Sweep;
 
   void divide(std::span<const Index> sheet, std::span<const std::uint8_t> known);
   [[nodiscard]] bool is_round_origin(const Triangle& facet) const;
   void list_pairs(std::size_t most);
   void measure(Part& part) const;
-  [[nodiscard]] Items touching(const Part& part, const Part& plane) const;
+  [[nodiscard]] static bool is_beyond(const Box& box, const Part& plane);
+  [[nodiscard]] static Touching touching(const Part& part, const Part& plane, const Box& box);
+  [[nodiscard]] static bool find_near(const Part& part, std::size_t item, const Part& plane, Near& near);
+  [[nodiscard]] static Flatness flatness(const Part& part, const std::array<Point, 3>& corners,
+                                         std::size_t corner);
 
   const Complex& complex_;
   const Elements& elements_;

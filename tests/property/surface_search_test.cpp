@@ -329,6 +329,74 @@ TEST(SheetPairs, LoseNoPairThatMeets) {
   EXPECT_LT(visited, boxes * 9 / 10) << "planes tell some apart that boxes do not";
 }
 
+// Facets on planes through one line, at vertices on that; planes may be nearly the same, facets nearly flat,
+// and some corners beside their plane by what rounding does, or by more.
+Surface sheets_at_a_line(Random& random, bool are_flat, std::vector<Index>& sheet) {
+  Surface s;
+  constexpr Index kOnLine = 6;
+  for (Index i = 0; i < kOnLine; ++i) s.vertices.push_back(rotated(i + uniform(random, 0, 1), 0, 0));
+  const double least = std::ldexp(1.0, -static_cast<int>(below(random, are_flat ? 8 : 52)));
+  for (Index k = 0; k < 4; ++k) {
+    const double angle = least * k, c = std::cos(angle), sine = std::sin(angle);
+    for (int f = 0; f < 24; ++f) {
+      const double size = std::ldexp(1.0, -static_cast<int>(below(random, 30))),
+                   middle = below(random, kOnLine);
+      const double side = below(random, 2) == 0 ? 1 : -1, least_y = are_flat ? 0.1 : -1;
+      const auto corner = [&] {
+        const int bits = are_flat ? 52 : static_cast<int>(below(random, 55));
+        const double beside = below(random, 6) == 0 ? std::ldexp(uniform(random, -1, 1), -bits) : 0;
+        const double x = middle + uniform(random, -1, 1) * size,
+                     y = uniform(random, least_y, 1) * side * size;
+        s.vertices.push_back(rotated(x, c * y - sine * beside, sine * y + c * beside));
+        return static_cast<Index>(s.vertices.size() - 1);
+      };
+      const Index a = below(random, kOnLine), b = below(random, 3) == 0 ? (a + 1) % kOnLine : corner();
+      s.facets.push_back({a, b, corner()});
+      sheet.push_back(k);
+    }
+  }
+  return s;
+}
+
+TEST(SheetPairs, FansAtACommonVertexAreToldApartAsAWhole) {
+  std::size_t at_a_vertex = 0, visited = 0, meet = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    std::vector<Index> sheet;
+    const bool are_flat = seed % 2 == 0;
+    const Surface s = sheets_at_a_line(random, are_flat, sheet);
+    const Complex complex = s.view();
+    const Elements elements = elements_of(complex);
+    ASSERT_EQ(elements.all.size(), sheet.size());
+    const SheetPairs sheets(complex, elements, sheet, {}, 1);
+    Pairs found;
+    for (const auto& parts : sheets.all())
+      sheets.for_each(parts, [&](Index i, Index j) {
+        EXPECT_TRUE(found.insert({std::min(i, j), std::max(i, j)}).second) << "visited twice";
+        return true;
+      });
+    for (const auto& [i, j] : all_pairs(complex, elements)) {
+      if (sheet[i] == sheet[j]) continue;
+      EXPECT_TRUE(found.contains({i, j})) << i << ' ' << j;
+      ++meet;
+    }
+    const auto share_one = [&](Index i, Index j) {
+      const Triangle &t = elements.all[i].vertex, &u = elements.all[j].vertex;
+      return std::count_if(t.begin(), t.end(),
+                           [&](Index v) { return std::find(u.begin(), u.end(), v) != u.end(); }) == 1;
+    };
+    for (Index i = 0; i < sheet.size(); ++i)
+      for (Index j = 0; j < i; ++j)
+        if (are_flat && sheet[i] != sheet[j] && share_one(i, j)) {
+          ++at_a_vertex;
+          visited += found.contains({j, i});
+        }
+  }
+  EXPECT_GT(meet, 1000u);
+  EXPECT_LT(visited, at_a_vertex * 2 / 3);
+}
+
 TEST(OrientedBox, ApartMeansDisjoint) {
   std::size_t apart = 0;
   for (unsigned seed = 0; seed < 4000; ++seed) {
