@@ -35,7 +35,8 @@ class Usage(CliTest):
                                      ("untangle", "--output", "written"), ("check", "SURFACE VOLUME", "read"),
                                      ("untangle", "VOLUME TEXT", "read")]:
             described = self.run_program(command, "--help").stdout.split(option, 1)[1].split(" or OpenFOAM", 1)[0]
-            for ending in set(re.findall(r"\.[a-z]\w*", known[use].split("formats are" if use == "read" else "use ", 1)[1])):
+            listed = known[use].split("formats are" if use == "read" else "use ", 1)[1].split("of surfaces alone", 1)[0]
+            for ending in set(re.findall(r"\.[a-z]\w*", listed)):
                 if ending not in (".nas", ".fem", ".ucd", ".ele", ".face", ".openfoam", ".msh2"):
                     with self.subTest([command, option, ending]):
                         self.assertIn(ending, described)
