@@ -44,7 +44,7 @@ using RegionSeed = Surface::RegionSeed;
 /// How long edges should be, for field points. The least of all limits counts.
 struct Sizes {
   /// The most anywhere; 0: as the surface has it. Where large triangles or thin walls beside it leave too few
-  /// elements, a smaller one is taken for a region, half of it at least (Report::smaller_sizes).
+  /// elements, a smaller one is taken for a region, half of it at least (Report::Field::smaller_sizes).
   double size = 0;
   /// From a vertex of the surface, whose size is that of its edges, sizes grow inward by this much a unit of
   /// length, 0 to 1. Unset: 0.3, and up to 0.5 where sizes of the surface jump; and points go again where
