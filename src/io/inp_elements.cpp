@@ -44,7 +44,7 @@ std::vector<std::int64_t> InpElements::read_nodes(InpText& text) {
     Point point{};
     for (std::size_t axis = 0; axis < 3 && axis + 1 < fields.size(); ++axis)
       if (!fields[axis + 1].empty()) point[axis] = real_of(text.reader(), fields[axis + 1], "a coordinate");
-    add_node(read.back(), text.scope().placement.of(point));
+    add_node(read.back(), text.scope().placement.of(text.exact_nodes().of(read.back(), point)));
   }
   return read;
 }

@@ -9,7 +9,9 @@ bool InpText::next() {
     line_ = trimmed(text_.rest_of_line());
     beat(text_.source().watch);
     if (!line_.empty() && !line_.starts_with("**")) return true;
-    if (!line_.empty()) read_id_comment(line_.substr(2), std::array{&names_.regions, &names_.markers});
+    if (line_.empty()) continue;
+    if (!read_id_comment(line_.substr(2), std::array{&names_.regions, &names_.markers}))
+      exact_nodes_.read(line_.substr(2));
   }
   line_ = {};
   return false;

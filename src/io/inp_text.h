@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "io/fields.h"
+#include "io/inp_exact.h"
 #include "io/labels.h"
 #include "io/placement.h"
 
@@ -47,7 +48,8 @@ inline constexpr std::int64_t kNumbersOfAnInstance = std::int64_t{1} << 40;
 /// Stands at a line that is no comment, or at the end.
 class InpText {
  public:
-  /// Comments that keep ids go into `names`. Throws for a file without a line.
+  /// Comments that keep ids go into `names`, those that keep places of nodes into exact_nodes(). Throws for a
+  /// file without a line.
   InpText(const Source& source, InpNames& names) : text_(source, '\0'), names_(names) {
     if (!next()) text_.fail_truncated("a keyword");
   }
@@ -75,6 +77,8 @@ class InpText {
   /// A field as the number of a node or an element, in the scope. Throws for the line.
   [[nodiscard]] std::int64_t number(std::string_view field, std::string_view what) const;
 
+  [[nodiscard]] const ExactNodes& exact_nodes() const { return exact_nodes_; }
+
   /// For what is wrong with the line.
   [[nodiscard]] const TextReader& reader() const { return text_; }
   /// For what is wrong with the line at a place where the reader has been.
@@ -83,6 +87,7 @@ class InpText {
  private:
   TextReader text_;
   InpNames& names_;
+  ExactNodes exact_nodes_;
   std::string_view line_;
   InpScope scope_;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "io/formats.h"
+#include "io/inp_exact.h"
 #include "io/labels.h"
 #include "io/mesh_sets.h"
 
@@ -98,11 +99,13 @@ void write_inp(AtomicWriter& out, const Volume& volume, const WriteOptions& opti
   const bool second = is_second_order(volume);
   out << "*HEADING\nmesh by Holdfast\n";
   for (const Labels* labels : {&data.regions, &data.facets}) write_id_comments(out, "**", *labels);
+  write_exact_nodes(out, volume);
   out << "*NODE\n";
   for (std::size_t i = 0; i < node_count(volume); ++i) {
     beat(out.watch());
     const Point& p = node(volume, i);
-    out << std::uint64_t{i} + 1 << ", " << p[0] << ", " << p[1] << ", " << p[2] << '\n';
+    out << std::uint64_t{i} + 1 << ", " << inp_real(p[0]) << ", " << inp_real(p[1]) << ", " << inp_real(p[2])
+        << '\n';
   }
   write_elements(out, second ? "C3D10" : "C3D4", data.regions, 1,
                  [&](std::size_t i) { return tetrahedron_nodes(volume, i, kVtkEdges); });
