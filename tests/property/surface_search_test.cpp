@@ -294,6 +294,19 @@ Surface crossing_sheets(Random& random, std::vector<Index>& sheet) {
   return s;
 }
 
+/// The pairs that SheetPairs visits, each once and of two sheets.
+Pairs pairs_of(const Complex& complex, const Elements& elements, const std::vector<Index>& sheet) {
+  const SheetPairs sheets(complex, elements, sheet, {}, 1);
+  Pairs found;
+  for (const auto& parts : sheets.all())
+    sheets.for_each(parts, [&](Index i, Index j) {
+      EXPECT_NE(sheet[i], sheet[j]);
+      EXPECT_TRUE(found.insert({std::min(i, j), std::max(i, j)}).second) << "visited twice";
+      return true;
+    });
+  return found;
+}
+
 TEST(SheetPairs, LoseNoPairThatMeets) {
   std::size_t visited = 0, boxes = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
@@ -304,14 +317,7 @@ TEST(SheetPairs, LoseNoPairThatMeets) {
     const Complex complex = s.view();
     const Elements elements = elements_of(complex);
     ASSERT_EQ(elements.all.size(), sheet.size());
-    const SheetPairs sheets(complex, elements, sheet, {}, 1);
-    Pairs found;
-    for (const auto& parts : sheets.all())
-      sheets.for_each(parts, [&](Index i, Index j) {
-        EXPECT_NE(sheet[i], sheet[j]);
-        EXPECT_TRUE(found.insert({std::min(i, j), std::max(i, j)}).second) << "visited twice";
-        return true;
-      });
+    const Pairs found = pairs_of(complex, elements, sheet);
     visited += found.size();
     for (const auto& [i, j] : all_pairs(complex, elements)) {
       const bool is_asked = sheet[i] != no_index && sheet[j] != no_index && sheet[i] != sheet[j];
@@ -369,13 +375,7 @@ TEST(SheetPairs, FansAtACommonVertexAreToldApartAsAWhole) {
     const Complex complex = s.view();
     const Elements elements = elements_of(complex);
     ASSERT_EQ(elements.all.size(), sheet.size());
-    const SheetPairs sheets(complex, elements, sheet, {}, 1);
-    Pairs found;
-    for (const auto& parts : sheets.all())
-      sheets.for_each(parts, [&](Index i, Index j) {
-        EXPECT_TRUE(found.insert({std::min(i, j), std::max(i, j)}).second) << "visited twice";
-        return true;
-      });
+    const Pairs found = pairs_of(complex, elements, sheet);
     for (const auto& [i, j] : all_pairs(complex, elements)) {
       if (sheet[i] == sheet[j]) continue;
       EXPECT_TRUE(found.contains({i, j})) << i << ' ' << j;
