@@ -114,7 +114,7 @@ struct RepairResult {
     bool is_plane;
   };
   struct LeftOpen {
-    std::vector<Index> border;  ///< vertices of the output; a union takes what is open, and may take some
+    std::vector<Index> border;  ///< vertices of the output, or empty where a union took some of them
     OpenReason reason;
   };
 

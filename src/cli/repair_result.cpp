@@ -45,12 +45,15 @@ std::string open_holes_of(const RepairResult& result) {
     const auto is_so = [&](const RepairResult::LeftOpen& hole) { return hole.reason == reason; };
     const auto count = std::count_if(result.left_open.begin(), result.left_open.end(), is_so);
     if (count == 0) continue;
-    const auto first = std::find_if(result.left_open.begin(), result.left_open.end(), is_so);
-    const Point& p = result.surface.vertices[first->border.front()];
-    text += fmt::format("; {} open ({}{} from ({:.10g}, {:.10g}, {:.10g})): {}",
-                        count == 1 ? "1 hole stays" : fmt::format("{} holes stay", count),
-                        count == 1 ? "" : "one of ", counted(first->border.size(), "side"), p[0], p[1], p[2],
-                        explanation(reason));
+    const auto is_seen = [&](const auto& hole) { return is_so(hole) && !hole.border.empty(); };
+    const auto seen = std::find_if(result.left_open.begin(), result.left_open.end(), is_seen);
+    text += count == 1 ? "; 1 hole stays open" : fmt::format("; {} holes stay open", count);
+    if (seen != result.left_open.end()) {
+      const Point& p = result.surface.vertices[seen->border.front()];
+      text += fmt::format(" ({}{} from ({:.10g}, {:.10g}, {:.10g}))", count == 1 ? "" : "one of ",
+                          counted(seen->border.size(), "side"), p[0], p[1], p[2]);
+    }
+    text += fmt::format(": {}", explanation(reason));
   }
   return text;
 }

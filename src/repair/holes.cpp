@@ -248,7 +248,11 @@ void renumber(Holes& holes, const State& state, std::span<const Index> facet_num
     }
   }
   holes.filled = std::move(left);
-  for (RepairResult::LeftOpen& hole : holes.left_open) hole.border = numbers_of(hole.border, vertex_number);
+  for (RepairResult::LeftOpen& hole : holes.left_open) {
+    std::vector<Index> border = numbers_of(hole.border, vertex_number);
+    if (border.size() < hole.border.size()) border.clear();
+    hole.border = std::move(border);
+  }
 }
 
 }  // namespace holdfast::repairing

@@ -151,6 +151,14 @@ class WhatIsMade(Repaired):
         said = self.run_program("mesh", "in.off", "-o", "v.vtu", expect=4).stderr
         self.assertIn("diagnose", said)
 
+    def test_holes_that_a_union_takes_with_their_borders(self):
+        # Two triangles cross: the border of what is open goes through points that the union drops.
+        points = [(-1, -1, 0), (1, -1, 0), (0, 1, 0), (-1, 0, -1), (1, 0, -1), (0, 0, 1)]
+        self.write("in.off", off(points, [(0, 1, 2), (3, 4, 5)]))
+        said = self.run_program("repair", "in.off", "-o", "out.off", "--report", "r.json", "--union", "--fill-holes").stderr
+        self.assertIn("open: ", said)
+        self.assertEqual([hole["border"] for hole in self.report()["left_open"]], [[], []])
+
     def test_several_inputs_and_markers(self):
         points, facets = two_cubes()
         self.write("a.mesh", medit(points[:8], facets[:12], range(1, 13)))
