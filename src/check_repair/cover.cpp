@@ -45,6 +45,26 @@ class Cover {
     }
   }
 
+  /// Adds triangles between two short odd edges at vertices that have no others, and away from the sides:
+  /// what joins the far ends of a slit becomes one edge. (d)
+  void close_short_ends() {
+    for (const auto& [tip, unused] : neighbours_of(odd_)) {
+      if (sides_of(tip) != 0) continue;
+      const Neighbours now = neighbours_of(odd_);
+      const auto at = now.find(tip);
+      if (at == now.end() || at->second.size() != 2) continue;
+      const Index v = at->second[0], w = at->second[1];
+      if (std::max(width_of(tip, v), width_of(tip, w)) > test_.reach_.distance() / 2) continue;
+      std::vector<Segment> edges;
+      for (const Index end : {v, w})
+        if (is_odd_edge(tip, end)) edges.push_back(edge_of(tip, end));
+      const std::optional<Reach> left = reach_beside(edges, {tip, v, w});
+      if (!left) continue;
+      flip(odd_, {tip, v, w});
+      at_gaps_[edge_of(v, w)] = sides_near(*left, v, w);
+    }
+  }
+
   /// Adds two triangles between two odd edges that are near to each other along their length, like the sides
   /// of a slit, of which an odd edge joins the far ends: what was so thin there became a line. (d)
   void close_thin_slits() {
@@ -56,8 +76,8 @@ class Cover {
       if (of_v.size() > kMost || of_w.size() > kMost) continue;
       for (const Index u : of_v)
         for (const Index x : of_w)
-          if (u != w && x != v && u != x && is_odd_edge(v, w) && is_odd_edge(u, v) && is_odd_edge(w, x) &&
-              !close_thin_slit(u, v, w, x))
+          if (u != w && x != v && u != x && odd_.contains(edge_of(v, w)) && is_odd_edge(u, v) &&
+              is_odd_edge(w, x) && !close_thin_slit(u, v, w, x))
             close_thin_slit(x, w, v, u);
     }
   }
@@ -107,8 +127,8 @@ class Cover {
     }
     return std::nullopt;
   }
-  /// What is left of the distance for a triangle that is no facet, near to one of two edges. (d)
-  [[nodiscard]] std::optional<Reach> reach_beside(const std::array<Segment, 2>& edges,
+  /// What is left of the distance for a triangle that is no facet, near to one of some edges. (d)
+  [[nodiscard]] std::optional<Reach> reach_beside(std::span<const Segment> edges,
                                                   const Triangle& corners) const {
     std::optional<double> least;
     for (const Segment& edge : edges)
@@ -384,10 +404,14 @@ std::optional<std::string> CoverTest::gap(const std::array<Point, 3>& triangle, 
   }
   std::optional<std::string> gap = Cover(*this, triangle, places, chain).gap();
   if (!gap) return gap;
-  Cover closed(*this, triangle, places, chain);
-  closed.close_thin_gaps();
-  closed.close_thin_slits();
-  return closed.gap() ? gap : std::nullopt;
+  for (const bool with_short_ends : {false, true}) {
+    Cover closed(*this, triangle, places, chain);
+    closed.close_thin_gaps();
+    if (with_short_ends) closed.close_short_ends();
+    closed.close_thin_slits();
+    if (!closed.gap()) return std::nullopt;
+  }
+  return gap;
 }
 
 std::optional<std::string> CoverTest::gap(const std::array<Point, 2>& segment, std::array<Index, 2> places,

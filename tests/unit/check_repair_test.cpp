@@ -220,6 +220,27 @@ TEST(Cover, AThinPartThatBecameASlit) {
   EXPECT_TRUE(CoverTest(vertices, facets, nearer).gap(triangle, {0, 1, 2}, children));
 }
 
+// The same where several edges lead round its far end.
+TEST(Cover, ASlitWithSeveralEdgesAtItsEnd) {
+  const double e = 1e-9;
+  const std::array<Point, 3> triangle{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}};
+  const std::vector<Point> vertices{triangle[0],
+                                    triangle[1],
+                                    triangle[2],
+                                    {0.5, 0, 0},
+                                    {0.5 + e, 0, 0},
+                                    {0.6, 0.3, 0},
+                                    {0.6 + e, 0.3, 0},
+                                    {0.6 + e / 4, 0.3 + e / 4, 0},
+                                    {0.6 + e / 2, 0.3 + e / 4, 0}};
+  const std::vector<Triangle> facets{{0, 3, 5}, {4, 1, 6}, {1, 2, 6}, {6, 2, 8},
+                                     {8, 2, 7}, {7, 2, 5}, {2, 0, 5}};
+  const std::vector<Index> children{0, 1, 2, 3, 4, 5, 6};
+  const Reach reach(1.8 * e), nearer(0.9 * e);
+  EXPECT_FALSE(CoverTest(vertices, facets, reach).gap(triangle, {0, 1, 2}, children));
+  EXPECT_TRUE(CoverTest(vertices, facets, nearer).gap(triangle, {0, 1, 2}, children));
+}
+
 // The same where its ends are longer than it is thick, since it runs almost along the side that it comes
 // from: once both of its sides begin and end beside each other, once one of them is shorter at both ends.
 TEST(Cover, ASlitWithEndsLongerThanItsThickness) {
