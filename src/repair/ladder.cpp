@@ -74,13 +74,30 @@ void Ladder::try_plans(SidesOf sides) {
   sides_ = sides;
   if (rounded_.is_valid || is_hopeless()) return;
   most_facets_ = is_plane_ ? most_in_plane(rounded_.state.facets.size()) : SIZE_MAX;
-  // Joining what is near costs less than to move the input, but takes long where sheets lie in each other.
-  const double twin_gap = kWeldedPlans[0].last_bits * last_bit(given_.vertices);
-  is_welded_ =
-      !is_plane_ && trouble_.size() > kMany && most_have_twins(rounded_.state, trouble_, twin_gap, here());
-  if (is_welded_) begin_flat(kWeldedPlans);
+  if (!is_plane_ && trouble_.size() > kMany && begin_with_twins()) return;
   begin_flat(kFlatPlans);
   try_next_plans();
+}
+
+bool Ladder::begin_with_twins() {
+  const double bit = last_bit(given_.vertices);
+  const double widest = starts_welded() ? welded_last_bits_ : kTwinsLastBits.back();
+  const auto distance = distance_of_twins(rounded_.state, trouble_, widest * bit, here());
+  if (!distance) return false;
+  // Joining what is near costs less than to move the input, but takes long where sheets lie in each other.
+  is_welded_ = *distance <= kWeldedPlans[0].last_bits * bit;
+  if (is_welded_) begin_flat(kWeldedPlans);
+  if (is_welded_ || starts_welded()) return false;
+  for (const double last_bits : kTwinsLastBits) {
+    if (last_bits * bit <= *distance) continue;
+    State state = given_;
+    const double moved = weld(state, last_bits * bit, here());
+    Ladder welding = welded(std::move(state), sum_above(given_displacement_, moved), last_bits);
+    welding.begin();
+    if (welding.is_covered() && take_if_valid(welding)) return true;
+    report_.rounds = welding.report_.rounds;
+  }
+  return false;
 }
 
 void Ladder::try_next_plans() {

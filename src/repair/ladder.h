@@ -64,6 +64,10 @@ class Ladder {
   /// What is tried near what is in trouble.
   void try_plans(SidesOf sides);
 
+  /// Where most of what is in trouble is there twice: but for last bits, so that these are made one at first
+  /// in what comes; or by more, and then a weld may be all that it takes. True where that ends it.
+  bool begin_with_twins();
+
   /// From the first that has not been tried yet.
   void try_next_plans();
 

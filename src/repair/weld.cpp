@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
+#include <limits>
 
 #include "numbers/sorted.h"
 #include "repair/near.h"
@@ -33,7 +33,8 @@ double weld(State& state, double tolerance, const Step& step) {
   return settle(state, all, {gap, gap, true, Passings::free}, work, step);
 }
 
-bool most_have_twins(const State& state, const Trouble& trouble, double gap, const Step& step) {
+std::optional<double> distance_of_twins(const State& state, const Trouble& trouble, double widest,
+                                        const Step& step) {
   std::vector<Index> vertices;
   const auto list = [&](std::span<const Index> corners) {
     for (const Index v : corners)
@@ -43,17 +44,23 @@ bool most_have_twins(const State& state, const Trouble& trouble, double gap, con
   for (const Index s : trouble.segments) list(state.segments[s]);
   sort_unique(vertices);
   std::vector<Box> boxes;
-  for (const Index v : vertices) boxes.push_back(box_round(state, std::array{v}, gap / 2));
-  std::vector<std::uint8_t> has_twin(vertices.size(), 0);
+  for (const Index v : vertices) boxes.push_back(box_round(state, std::array{v}, widest / 2));
+  std::vector<double> least(vertices.size(), std::numeric_limits<double>::infinity());
   const auto visit = [&](Index i, Index j) {
     const Point &p = state.vertices[vertices[i]], &q = state.vertices[vertices[j]];
-    if (p != q && length(minus(p, q)) <= gap) has_twin[i] = has_twin[j] = 1;
+    if (p == q) return true;
+    const double distance = length(minus(p, q));
+    least[i] = std::min(least[i], distance);
+    least[j] = std::min(least[j], distance);
     return true;
   };
   AabbTree(boxes).for_each_overlap(
       visit, [](Index, Index) { return false; }, step);
-  const auto twins = std::count(has_twin.begin(), has_twin.end(), std::uint8_t{1});
-  return 2 * static_cast<std::size_t>(twins) > vertices.size();
+  if (least.empty()) return std::nullopt;
+  const auto middle = least.begin() + static_cast<std::ptrdiff_t>(least.size() / 2);
+  std::nth_element(least.begin(), middle, least.end());
+  if (*middle > widest) return std::nullopt;
+  return *middle;
 }
 
 }  // namespace holdfast::repairing

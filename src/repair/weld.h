@@ -1,6 +1,8 @@
 // Vertices that lie near to each other, or to a side or facet, joined within the user's tolerance.
 #pragma once
 
+#include <optional>
+
 #include "repair/settle.h"
 #include "repair/state.h"
 #include "surface/search.h"
@@ -11,8 +13,10 @@ namespace holdfast::repairing {
 /// than the tolerance, with room left for rounding where that is possible.
 double weld(State& state, double tolerance, const Step& step);
 
-/// Whether more than half of the vertices of the input that are in trouble lie at most `gap` from another one
-/// of them at another place, as they do where a surface is there twice but for rounding.
-[[nodiscard]] bool most_have_twins(const State& state, const Trouble& trouble, double gap, const Step& step);
+/// The distance within which more than half of the vertices of the input that are in trouble have another one
+/// of them at another place, as they do where a surface is there twice but for rounding, or its triangles
+/// were written one by one. None where it is more than `widest`.
+[[nodiscard]] std::optional<double> distance_of_twins(const State& state, const Trouble& trouble,
+                                                      double widest, const Step& step);
 
 }  // namespace holdfast::repairing

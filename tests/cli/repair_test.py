@@ -151,6 +151,26 @@ class WhatIsMade(Repaired):
         said = self.run_program("mesh", "in.off", "-o", "v.vtu", expect=4).stderr
         self.assertIn("diagnose", said)
 
+    def test_triangles_that_were_written_one_by_one(self):
+        # Each triangle of a torus is some 1e-12 larger than it was, and has corners of its own.
+        def at(i, j):
+            u, v = (2 * math.pi * k / n for k, n in ((i, 20), (j, 15)))
+            return ((3 + math.cos(v)) * math.cos(u), (3 + math.cos(v)) * math.sin(u), math.sin(v))
+        points = []
+        for i in range(20):
+            for j in range(15):
+                a, b, c, d = at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)
+                for corners in ((a, b, c), (a, c, d)):
+                    middle = [sum(p[k] for p in corners) / 3 for k in range(3)]
+                    points += [tuple(m + (1 + 1e-12) * (x - m) for x, m in zip(p, middle)) for p in corners]
+        self.write("in.off", off(points, [(k, k + 1, k + 2) for k in range(0, len(points), 3)]))
+        self.repair("in.off", options=["--time-limit", "60"])
+        self.check("in.off")
+        report = self.report()
+        self.assertEqual(report["output"]["facets"], 600)
+        self.assertLess(report["max_displacement"], 8 * 2**-40)
+        self.run_program("mesh", "out.off", "-o", "out.mesh", "--drop-outside")
+
     def test_holes_that_a_union_takes_with_their_borders(self):
         # Two triangles cross: the border of what is open goes through points that the union drops.
         points = [(-1, -1, 0), (1, -1, 0), (0, 1, 0), (-1, 0, -1), (1, 0, -1), (0, 0, 1)]
