@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <map>
 #include <set>
@@ -45,41 +46,13 @@ class Cover {
     }
   }
 
-  /// Adds triangles between two short odd edges at vertices that have no others, and away from the sides:
-  /// what joins the far ends of a slit becomes one edge. (d)
-  void close_short_ends() {
-    for (const auto& [tip, unused] : neighbours_of(odd_)) {
-      if (sides_of(tip) != 0) continue;
-      const Neighbours now = neighbours_of(odd_);
-      const auto at = now.find(tip);
-      if (at == now.end() || at->second.size() != 2) continue;
-      const Index v = at->second[0], w = at->second[1];
-      if (std::max(width_of(tip, v), width_of(tip, w)) > test_.reach_.distance() / 2) continue;
-      std::vector<Segment> edges;
-      for (const Index end : {v, w})
-        if (is_odd_edge(tip, end)) edges.push_back(edge_of(tip, end));
-      const std::optional<Reach> left = reach_beside(edges, {tip, v, w});
-      if (!left) continue;
-      flip(odd_, {tip, v, w});
-      at_gaps_[edge_of(v, w)] = sides_near(*left, v, w);
-    }
-  }
-
-  /// Adds two triangles between two odd edges that are near to each other along their length, like the sides
-  /// of a slit, of which an odd edge joins the far ends: what was so thin there became a line. (d)
-  void close_thin_slits() {
-    constexpr std::size_t kMost = 16;
-    const Neighbours neighbours = neighbours_of(odd_);
-    const std::set<Segment> edges = odd_;
-    for (const auto& [v, w] : edges) {
-      const std::vector<Index>&of_v = neighbours.at(v), &of_w = neighbours.at(w);
-      if (of_v.size() > kMost || of_w.size() > kMost) continue;
-      for (const Index u : of_v)
-        for (const Index x : of_w)
-          if (u != w && x != v && u != x && odd_.contains(edge_of(v, w)) && is_odd_edge(u, v) &&
-              is_odd_edge(w, x) && !close_thin_slit(u, v, w, x))
-            close_thin_slit(x, w, v, u);
-    }
+  /// Adds triangles between odd edges that are near to each other along their length, like the two banks of a
+  /// slit, from its far end on: what was so thin there became a line. (d)
+  void close_slits() {
+    const Neighbours tips = neighbours_of(odd_);
+    Neighbours now = tips;
+    for (const auto& [tip, unused] : tips)
+      if (sides_of(tip) == 0 && close_slit(tip, now)) now = neighbours_of(odd_);
   }
 
   std::optional<std::string> gap() {
@@ -128,19 +101,16 @@ class Cover {
     return std::nullopt;
   }
   /// What is left of the distance for a triangle that is no facet, near to one of some edges. (d)
-  [[nodiscard]] std::optional<Reach> reach_beside(std::span<const Segment> edges,
+  [[nodiscard]] std::optional<Reach> reach_beside(std::initializer_list<Segment> edges,
                                                   const Triangle& corners) const {
     std::optional<double> least;
     for (const Segment& edge : edges)
-      if (const std::optional<double> height = height_above(edge, corners);
+      if (const std::optional<double> height =
+              at_gaps_.contains(edge) ? std::nullopt : height_above(edge, corners);
           height && (!least || *height < *least))
         least = height;
     const std::optional<Reach> left = least ? reach_without(*least) : std::nullopt;
     return left && all_within(*left, corners) ? left : std::nullopt;
-  }
-  /// Of the output.
-  [[nodiscard]] bool is_odd_edge(Index v, Index w) const {
-    return odd_.contains(edge_of(v, w)) && !at_gaps_.contains(edge_of(v, w));
   }
   /// What is left of the distance where a part of it is used up; nothing where that is all.
   [[nodiscard]] std::optional<Reach> reach_without(double part) const {
@@ -171,18 +141,62 @@ class Cover {
     at_gaps_[edge_of(t[1], t[2])] = sides;
   }
 
-  /// Between uv and xw, which vw joins, with the diagonal uw.
-  bool close_thin_slit(Index u, Index v, Index w, Index x) {
-    const std::array<Segment, 2> edges{edge_of(u, v), edge_of(x, w)};
-    const Triangle inner{u, v, w}, outer{u, w, x};
-    if (!reach_beside(edges, inner)) return false;
-    const std::optional<Reach> left = reach_beside(edges, outer);
-    const unsigned sides = left ? sides_near(*left, u, x) : 0;
-    if (sides == 0) return false;
-    flip(odd_, inner);
-    flip(odd_, outer);
-    at_gaps_[edge_of(u, x)] = sides;
-    return true;
+  /// Where the odd edges on one bank of a slit have come to, and from where.
+  struct Bank {
+    Index at, before;
+  };
+  /// The vertex that comes next, if there is only one.
+  [[nodiscard]] static Index next_on(const Bank& bank, const Neighbours& odd) {
+    const auto at = odd.find(bank.at);
+    if (at == odd.end() || at->second.size() != 2) return no_entity;
+    return at->second[at->second[0] == bank.before ? 1 : 0];
+  }
+
+  /// From its far end, where both banks begin, to where they come to one side.
+  bool close_slit(Index tip, const Neighbours& odd) {
+    const auto at = odd.find(tip);
+    if (at == odd.end() || at->second.size() != 2) return false;
+    std::array<Bank, 2> banks{{{at->second[0], tip}, {at->second[1], tip}}};
+    std::vector<Triangle> between{{tip, banks[0].at, banks[1].at}};
+    std::optional<Reach> left =
+        reach_beside({edge_of(tip, banks[0].at), edge_of(tip, banks[1].at)}, between[0]);
+    constexpr std::size_t kMost = 64;
+    while (left && between.size() < kMost) {
+      if (const unsigned sides = sides_near(*left, banks[0].at, banks[1].at); sides != 0) {
+        for (const Triangle& t : between) flip(odd_, t);
+        at_gaps_[edge_of(banks[0].at, banks[1].at)] = sides;
+        return true;
+      }
+      left = go_on(banks, odd, between);
+    }
+    return false;
+  }
+
+  /// One step on the bank on which that leads less far from the other one; what is left of the distance.
+  std::optional<Reach> go_on(std::array<Bank, 2>& banks, const Neighbours& odd,
+                             std::vector<Triangle>& between) {
+    std::optional<Reach> left;
+    double least = std::numeric_limits<double>::infinity();
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Bank &bank = banks[i], &other = banks[1 - i];
+      const Index next = next_on(bank, odd);
+      if (next == no_entity || next == other.at || sides_of(bank.at) != 0) continue;
+      const double width = width_of(next, other.at);
+      if (width >= least) continue;
+      const std::optional<Reach> now =
+          reach_beside({edge_of(bank.at, next), edge_of(other.before, other.at)}, {bank.at, next, other.at});
+      if (!now) continue;
+      left.emplace(*now);
+      least = width;
+      best = i;
+    }
+    if (!left) return left;
+    Bank& bank = banks[best];
+    const Index next = next_on(bank, odd);
+    between.push_back({bank.at, next, banks[1 - best].at});
+    bank = {next, bank.at};
+    return left;
   }
 
   /// Makes edges of corners with all vertices within reach of them. (c)
@@ -404,14 +418,10 @@ std::optional<std::string> CoverTest::gap(const std::array<Point, 3>& triangle, 
   }
   std::optional<std::string> gap = Cover(*this, triangle, places, chain).gap();
   if (!gap) return gap;
-  for (const bool with_short_ends : {false, true}) {
-    Cover closed(*this, triangle, places, chain);
-    closed.close_thin_gaps();
-    if (with_short_ends) closed.close_short_ends();
-    closed.close_thin_slits();
-    if (!closed.gap()) return std::nullopt;
-  }
-  return gap;
+  Cover closed(*this, triangle, places, chain);
+  closed.close_thin_gaps();
+  closed.close_slits();
+  return closed.gap() ? gap : std::nullopt;
 }
 
 std::optional<std::string> CoverTest::gap(const std::array<Point, 2>& segment, std::array<Index, 2> places,
