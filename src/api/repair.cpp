@@ -12,6 +12,7 @@
 #include "mesh/memory.h"
 #include "mesh/plain_monitor.h"
 #include "numbers/float_environment.h"
+#include "repair/covered.h"
 #include "repair/deliver.h"
 #include "repair/holes.h"
 #include "repair/rounding.h"
@@ -96,10 +97,15 @@ void run(const Complex& complex, const RepairOptions& options, PlainMonitor& mon
   repairing::State state = repairing::state_of(complex);
   const double welded = options.weld > 0 ? repairing::weld(state, options.weld, step) : 0;
   repairing::Rounded rounded = round_scaled(complex, std::move(state), options, result, step, threads);
-  rounded.displacement += welded;
   if (!rounded.is_valid)
     return end(result, Outcome::not_representable,
                "no doubles were found for the new points with which the surface is valid");
+  if (welded > 0) {
+    // What is thinner than the tolerance becomes a line, and is lost where nothing else has it.
+    const double most = rounded.displacement + welded;
+    rounded.displacement =
+        repairing::covered_within(rounded.state, repairing::state_of(complex), most, step).value_or(most);
+  }
   repairing::Holes holes;
   if (options.fill_holes) holes = repairing::fill_holes(rounded.state, *options.fill_holes, step, threads);
   if (options.unite) {

@@ -171,6 +171,14 @@ class WhatIsMade(Repaired):
         self.assertLess(report["max_displacement"], 8 * 2**-40)
         self.run_program("mesh", "out.off", "-o", "out.mesh", "--drop-outside")
 
+    def test_a_tip_thinner_than_the_tolerance_counts_as_lost(self):
+        # A vertex of another triangle lies near both sides of a tip, which becomes a line of length 1.
+        points = [(0, 0, 0), (10, 0.4, 0), (10, -0.4, 0), (1, 0, 0.02), (1, 1, 1), (2, 1, 1)]
+        self.write("in.off", off(points, [(0, 1, 2), (3, 4, 5)]))
+        self.repair("in.off", options=["--weld", "0.1"])
+        self.check("in.off")
+        self.assertGreater(self.report()["max_displacement"], 1)
+
     def test_holes_that_a_union_takes_with_their_borders(self):
         # Two triangles cross: the border of what is open goes through points that the union drops.
         points = [(-1, -1, 0), (1, -1, 0), (0, 1, 0), (-1, 0, -1), (1, 0, -1), (0, 0, 1)]
