@@ -74,32 +74,110 @@ Edges odd_edges(const Cluster& cluster, const Flat& before, const State& after,
   return odd;
 }
 
+/// Facets of a plane that change sides for a facet of the cluster: what was no part of it becomes one, and
+/// what was no longer is.
+class Exchange {
+ public:
+  Exchange(const State& plane, Edges odd)
+      : plane_(plane), odd_(std::move(odd)), changed_(plane.facets.size()) {}
+
+  /// False where edges are left that are odd.
+  bool run() {
+    for (Index f = 0; f < plane_.facets.size(); ++f)
+      for (auto& [k, edges] : odd_) {
+        const std::array<Side, 3> sides = sides_of(f);
+        if (std::all_of(sides.begin(), sides.end(), [&, &e = edges](const Side& s) { return e.contains(s); }))
+          change({f}, k, edges);
+      }
+    if (is_done()) return true;
+    for (Index f = 0; f < plane_.facets.size(); ++f)
+      for (const Side& side : sides_of(f)) at_[side].push_back(f);
+    for (auto& [k, edges] : odd_)
+      while (!edges.empty())
+        if (!change_within(k, edges)) return false;
+    return true;
+  }
+
+  [[nodiscard]] std::set<Index> parents_of(Index f) const {
+    const std::span<const Index> before = plane_.facet_parents.of(f);
+    std::set<Index> parents(before.begin(), before.end());
+    for (const Index k : changed_[f])
+      if (parents.erase(k) == 0) parents.insert(k);
+    return parents;
+  }
+
+ private:
+  [[nodiscard]] bool is_done() const {
+    return std::all_of(odd_.begin(), odd_.end(), [](const auto& of) { return of.second.empty(); });
+  }
+
+  [[nodiscard]] std::array<Side, 3> sides_of(Index f) const {
+    const Triangle& t = plane_.facets[f];
+    return {ascending(Side{t[0], t[1]}), ascending(Side{t[1], t[2]}), ascending(Side{t[2], t[0]})};
+  }
+
+  void change(const std::vector<Index>& facets, Index k, std::set<Side>& edges) {
+    for (const Index f : facets) {
+      changed_[f].push_back(k);
+      for (const Side& side : sides_of(f))
+        if (edges.erase(side) == 0) edges.insert(side);
+    }
+  }
+
+  /// What edges that are odd enclose: few facets, in a strip that was so thin that its sides changed places.
+  bool change_within(Index k, std::set<Side>& edges) {
+    for (const Side& edge : edges)
+      for (const Index f : at_.at(edge))
+        if (const std::vector<Index> facets = enclosed_with(f, edges); !facets.empty()) {
+          const std::size_t before = edges.size();
+          change(facets, k, edges);
+          return edges.size() < before;
+        }
+    return false;
+  }
+
+  /// All facets that are reached from one without crossing an odd edge; none where there are too many, or
+  /// where they end at the border of the plane.
+  [[nodiscard]] std::vector<Index> enclosed_with(Index start, const std::set<Side>& edges) const {
+    constexpr std::size_t kMost = 256;
+    std::vector<Index> facets{start};
+    std::set<Index> seen{start};
+    for (std::size_t i = 0; i < facets.size(); ++i)
+      for (const Side& side : sides_of(facets[i])) {
+        if (edges.contains(side)) continue;
+        const std::vector<Index>& both = at_.at(side);
+        if (both.size() != 2 || facets.size() > kMost) return {};
+        const Index next = both[both[0] == facets[i] ? 1 : 0];
+        if (seen.insert(next).second) facets.push_back(next);
+      }
+    return facets;
+  }
+
+  const State& plane_;
+  Edges odd_;
+  std::vector<std::vector<Index>> changed_;  // by facet of the plane, those of the cluster
+  std::map<Side, std::vector<Index>> at_;    // facets by side
+};
+
 }  // namespace
 
 bool make_whole(const Cluster& cluster, const Flat& before, State& after,
                 std::span<const std::vector<Index>> chains) {
   Edges odd = odd_edges(cluster, before, after, chains);
   if (odd.empty()) return true;
+  Exchange exchange(after, std::move(odd));
+  if (!exchange.run()) return false;
   std::vector<Triangle> facets;
   Parents parents;
-  for (std::size_t f = 0; f < after.facets.size(); ++f) {
-    const Triangle& t = after.facets[f];
-    std::set<Index> of(after.facet_parents.of(f).begin(), after.facet_parents.of(f).end());
-    const std::array sides{ascending(Side{t[0], t[1]}), ascending(Side{t[1], t[2]}),
-                           ascending(Side{t[2], t[0]})};
-    for (auto& [k, edges] : odd) {
-      if (!std::all_of(sides.begin(), sides.end(), [&, &e = edges](const Side& s) { return e.contains(s); }))
-        continue;
-      for (const Side& side : sides) edges.erase(side);
-      if (of.erase(k) == 0) of.insert(k);
-    }
+  for (Index f = 0; f < after.facets.size(); ++f) {
+    const std::set<Index> of = exchange.parents_of(f);
     if (of.empty()) continue;
-    facets.push_back(t);
+    facets.push_back(after.facets[f]);
     parents.add(std::vector<Index>(of.begin(), of.end()));
   }
   after.facets = std::move(facets);
   after.facet_parents = std::move(parents);
-  return std::all_of(odd.begin(), odd.end(), [](const auto& of) { return of.second.empty(); });
+  return true;
 }
 
 bool chain_of(const std::vector<Segment>& pieces, const Segment& side, std::vector<Index>& chain) {

@@ -2,6 +2,7 @@
 
     repair_test.py PROGRAM [unittest options]
 """
+import itertools
 import json
 import math
 import random
@@ -170,6 +171,28 @@ class WhatIsMade(Repaired):
         self.assertEqual(report["output"]["facets"], 600)
         self.assertLess(report["max_displacement"], 8 * 2**-40)
         self.run_program("mesh", "out.off", "-o", "out.mesh", "--drop-outside")
+
+    def test_triangles_that_overlap_in_turned_planes(self):
+        # A cube of 4 by 4 squares a face, turned, each of its triangles a thousandth larger: all those of a face
+        # overlap in one plane but for rounding, with sides in one line but for that.
+        def turned(p):
+            c, s = math.cos(0.3), math.sin(0.3)
+            x, y, z = c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]
+            return x, c * y - s * z, s * y + c * z
+        n, points = 4, []
+        for axis, height, i, j in itertools.product(range(3), (0, 1), range(n), range(n)):
+            def at(u, v):
+                p = [height] * 3
+                p[(axis + 1) % 3], p[(axis + 2) % 3] = u / n, v / n
+                return turned(p)
+            a, b, c, d = at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)
+            for corners in ((a, b, c), (a, c, d)):
+                middle = [sum(p[k] for p in corners) / 3 for k in range(3)]
+                points += [tuple(m + 1.001 * (x - m) for x, m in zip(p, middle)) for p in corners]
+        self.write("in.off", off(points, [(k, k + 1, k + 2) for k in range(0, len(points), 3)]))
+        self.repair("in.off", options=["--time-limit", "60"])
+        self.check("in.off")
+        self.assertEqual(self.report()["moved"], [])
 
     def test_a_tip_thinner_than_the_tolerance_counts_as_lost(self):
         # A vertex of another triangle lies near both sides of a tip, which becomes a line of length 1.
