@@ -76,6 +76,7 @@ void Ladder::try_plans(SidesOf sides) {
   most_facets_ = is_plane_ ? most_in_plane(rounded_.state.facets.size()) : SIZE_MAX;
   if (!is_plane_ && trouble_.size() > kMany && begin_with_twins()) return;
   begin_flat(kFlatPlans);
+  if (!is_plane_ && !is_welded_ && report_.rung == Rung::coarser && trouble_.size() > kFew) join_flat();
   try_next_plans();
 }
 
@@ -205,6 +206,17 @@ void Ladder::join_from_best(const Plan& plan) {
   if (trouble_.size() == best_->trouble.size()) flatten_again(plan);
   if (trouble_.size() < best_->trouble.size())
     best_ = Attempt{rounded_.state, trouble_, rounded_.displacement};
+}
+
+void Ladder::join_flat() {
+  Attempt flat{rounded_.state, trouble_, rounded_.displacement};
+  join_from_best(kPlans[0]);
+  if (trouble_.size() <= kFew) {
+    next_plan_ = 1;
+    return;
+  }
+  stand(std::move(flat));
+  best_.reset();
 }
 
 RoundPlane Ladder::round_plane() {

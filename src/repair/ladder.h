@@ -102,6 +102,10 @@ class Ladder {
   /// far, from this.
   void join_from_best(const Plan& plan);
 
+  /// Where sheets were made one, what is in trouble beside them may be joined at once. Goes back where it
+  /// cannot.
+  void join_flat();
+
   [[nodiscard]] RoundPlane round_plane();
 
   void flatten_all(State& state, double gap, double& displacement);
