@@ -88,13 +88,17 @@ class Counter {
   }
 
   /// The signed volume, if each side of a facet has another one turned against it: then the facets bound it.
+  /// Vertices at one place are one, as in a mesh.
   void add_enclosed(const Surface& surface, Statistics& counts) const {
+    const std::vector<std::int64_t> map = vertex_map(surface.view());
+    const auto place = [&](Index v) { return map.empty() ? v : static_cast<Index>(map[v]); };
     EdgeNumbers edges;
     std::vector<std::int64_t> balance;
     double volume = 0;
     for (const Triangle& f : surface.facets) {
       for (std::size_t k = 0; k < 3; ++k) {
-        const Index a = f[k], b = f[(k + 1) % 3];
+        const Index a = place(f[k]), b = place(f[(k + 1) % 3]);
+        if (a == b) continue;  // without length
         const Index edge = edges.of(a, b);
         balance.resize(edges.edges().size());
         balance[edge] += a < b ? 1 : -1;

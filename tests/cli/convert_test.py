@@ -51,6 +51,15 @@ class Convert(CliTest):
                     self.assertAlmostEqual(found["area"], 6)
                     self.assertAlmostEqual(found["volume"], 1)
 
+    def test_a_surface_whose_corners_are_split_is_closed_all_the_same(self):
+        sides = "0 2 3 1  4 5 7 6  0 1 5 4  2 6 7 3  0 4 6 2  1 3 7 5".split()
+        corners = "".join(f"v {int(v) & 1} {int(v) >> 1 & 1} {int(v) >> 2}\n" for v in sides)
+        (self.folder / "split.obj").write_text(corners + "".join(f"f {4 * i + 1} {4 * i + 2} {4 * i + 3} {4 * i + 4}\n"
+                                                                 for i in range(6)))
+        found = self.info("split.obj")
+        self.assertEqual((found["vertices"], found["closed"]), (24, True))
+        self.assertAlmostEqual(found["volume"], 1)
+
     def test_a_volume_in_a_format_of_surfaces_is_its_surface_and_told(self):
         self.boxes()
         said = self.run_program("convert", "boxes.vtu", "boxes.stl").stderr
