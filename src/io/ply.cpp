@@ -143,6 +143,11 @@ class TextValues {
   }
   [[noreturn]] void fail(const std::string& reason) const { text_.fail(reason); }
   void begin_entity() {}
+  void require_end() const {
+    if (text_.at_end()) return;
+    text_.seek(text_.position());
+    text_.fail("text after the last element; the counts are wrong");
+  }
 
  private:
   TextReader& text_;
@@ -183,6 +188,9 @@ class BinaryValues {
     bytes_.fail(reason);
   }
   void begin_entity() { entity_ = bytes_.position(); }
+  void require_end() const {
+    if (bytes_.left() > 0) bytes_.fail("bytes after the last element; the counts are wrong");
+  }
 
  private:
   ByteReader bytes_;
@@ -211,6 +219,7 @@ class PlyReader {
       else
         skip(element);
     }
+    values_.require_end();
     tell_skipped();
     NamedIds facets = header_.facets, segments = header_.segments, vertices = header_.vertices;
     mesh_.names = {facets.take(), {}, segments.take(), vertices.take()};

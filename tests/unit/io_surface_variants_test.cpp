@@ -32,6 +32,21 @@ TEST_F(SurfaceVariants, OffThatTellsItsDimensions) {
             1u);
 }
 
+TEST_F(SurfaceVariants, PlyWhoseCountsAreTooSmall) {
+  const std::string head =
+      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+      "property list uchar uchar vertex_indices\nend_header\n";
+  const std::string text = "ply\nformat ascii 1.0\n" + head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  EXPECT_EQ(surface(text + "\n \n", "a.ply").facets.size(), 1u);
+  EXPECT_EQ(error(text + "3 0 2 1\n", "a.ply"), "line 14: text after the last element; the counts are wrong");
+  std::string binary = "ply\nformat binary_little_endian 1.0\n" + head + std::string(36, '\0');
+  binary[binary.size() - 36 + 15] = binary[binary.size() - 36 + 28] = '?';
+  binary += std::string("\3\0\1\2", 4);
+  EXPECT_EQ(surface(binary, "a.ply").facets.size(), 1u);
+  EXPECT_EQ(error(binary + '\3', "a.ply"),
+            "byte " + std::to_string(binary.size()) + ": bytes after the last element; the counts are wrong");
+}
+
 TEST_F(SurfaceVariants, StlWhoseHeaderDoesNotKnowTheNumber) {
   const std::string whole =
       binary_stl("written as it comes", {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 0, 0, 0, 1, 0, 0, 0, 1}});
