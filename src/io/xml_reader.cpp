@@ -21,6 +21,25 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(0, text.find_last_not_of(kBlanks) + 1);
 }
 
+/// The bytes in UTF-8 of a character that `text` begins with by its number (&#252; or &#xfc;), and how much
+/// of the text it takes; nothing where there is none.
+std::pair<std::string, std::size_t> character_by_number(std::string_view text) {
+  if (!text.starts_with("&#")) return {};
+  const bool hexadecimal = text.substr(2).starts_with('x');
+  const char* const digits = text.data() + (hexadecimal ? 3 : 2);
+  const char* const end = text.data() + text.size();
+  std::uint32_t code = 0;
+  const auto result = std::from_chars(digits, end, code, hexadecimal ? 16 : 10);
+  const bool is_character = code > 0 && code < 0x110000 && (code < 0xD800 || code > 0xDFFF);
+  if (result.ec != std::errc() || result.ptr == end || *result.ptr != ';' || !is_character) return {};
+  std::string bytes;
+  const int behind = code < 0x80 ? 0 : code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
+  constexpr std::uint32_t kLead[] = {0, 0xC0, 0xE0, 0xF0};
+  bytes += static_cast<char>(kLead[behind] | code >> (6 * behind));
+  for (int i = behind - 1; i >= 0; --i) bytes += static_cast<char>(0x80 | (code >> (6 * i) & 0x3F));
+  return {bytes, static_cast<std::size_t>(result.ptr + 1 - text.data())};
+}
+
 }  // namespace
 
 std::string unescaped(std::string_view text) {
@@ -28,6 +47,11 @@ std::string unescaped(std::string_view text) {
       {"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
   std::string result;
   while (!text.empty()) {
+    if (const auto [bytes, length] = character_by_number(text); length > 0) {
+      result += bytes;
+      text.remove_prefix(length);
+      continue;
+    }
     const auto found = std::find_if(std::begin(kEntities), std::end(kEntities),
                                     [&](const auto& entity) { return text.starts_with(entity.first); });
     const bool is_entity = found != std::end(kEntities);

@@ -89,6 +89,17 @@ TEST_F(SolidsOfFiles, ComponentsArePlacedWithinTheirObject) {
   EXPECT_EQ(s.names.facets, (FacetNames{{1, "a & b"}, {2, "a & b"}}));
 }
 
+TEST_F(SolidsOfFiles, CharactersOfNamesMayBeGivenByTheirNumbers) {
+  const auto name_of = [&](const std::string& text) {
+    const std::string model = object(1, kTetrahedronOf3mf, "name=\"" + text + "\"");
+    return of_3mf(model, "<item objectid=\"1\"/>").names.facets.at(0);
+  };
+  EXPECT_EQ(name_of("W&#252;rfel &#x20aC;&#128077;&#38;amp;"), "W\u00fcrfel \u20ac\U0001f44d&amp;");
+  for (const char* text :
+       {"&#;", "&#x;", "&#0;", "&#xD800;", "&#1114112;", "&#99999999999;", "&#12", "&#-5;"})
+    EXPECT_EQ(name_of(text), text);
+}
+
 TEST_F(SolidsOfFiles, ObjectsWithoutABuildAreAllShown) {
   const Surface s =
       of_3mf(object(1, kTetrahedronOf3mf) +
