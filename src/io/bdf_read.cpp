@@ -3,6 +3,7 @@
 // write into comments.
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "io/bdf_card.h"
 #include "io/cells.h"
@@ -30,6 +31,8 @@ class BdfReader {
     if (const auto twice = nodes_.finish())
       throw FileError(text_.source().path, "",
                       "the grid point " + std::to_string(*twice) + " is there twice");
+    if (has_default_system_ && default_system_)
+      text_.fail_at(*default_system_, "grid points in a coordinate system of their own are not read");
     for (const Element& element : elements_) add(element);
     if (mesh_.vertices.empty()) throw FileError(text_.source().path, "", "the file has no GRID");
     tell_skipped();
@@ -114,6 +117,8 @@ class BdfReader {
     static_cast<void>(text_.rest_of_line());  // errors are of the card's line
     if (name == "grid") {
       read_grid();
+    } else if (name == "grdset") {
+      read_grid_defaults();
     } else if (name == "ctetra") {
       read_element(2, 4, 10);
     } else if (name == "ctria3" || name == "ctriar") {
@@ -143,12 +148,21 @@ class BdfReader {
 
   void read_grid() {
     nodes_.add(integer_of(text_, field(0), "a grid point's number"));
-    if (!field(1).empty() && integer_of(text_, field(1), "a coordinate system") != 0)
+    if (field(1).empty())
+      has_default_system_ = true;
+    else if (integer_of(text_, field(1), "a coordinate system") != 0)
       text_.fail("a grid point in a coordinate system of its own is not read");
     Point point{};
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (!field(2 + axis).empty()) point[axis] = real_of(text_, field(2 + axis), "a coordinate");
     mesh_.vertices.push_back(point);
+  }
+
+  /// GRDSET, before or behind the grid points, has the coordinate system of those that name none.
+  void read_grid_defaults() {
+    if (!field(1).empty() && integer_of(text_, field(1), "a coordinate system") != 0)
+      default_system_ = place_;
+    ++skipped_["grdset"];
   }
 
   void read_element(std::size_t first, std::size_t corners, std::size_t most) {
@@ -220,6 +234,8 @@ class BdfReader {
   std::map<int, int> ids_of_regions_, ids_of_markers_;
   NamedIds regions_{kRegionStem}, markers_{kFacetStem};
   std::map<std::string, std::size_t> skipped_;
+  bool has_default_system_ = false;            ///< whether some grid point names no coordinate system
+  std::optional<std::size_t> default_system_;  ///< where a GRDSET gives it another one than the basic
 };
 
 }  // namespace

@@ -73,8 +73,9 @@ const InpElements::Type& InpElements::type_of(const TextReader& text, const InpK
       {"m3d6", 2, 6},    {"sfm3d6", 2, 6},  {"s4", 2, 4},     {"cps4", 2, 4},   {"cpe4", 2, 4},
       {"m3d4", 2, 4},    {"sfm3d4", 2, 4},  {"r3d4", 2, 4},   {"s8", 2, 8},     {"cps8", 2, 8},
       {"cpe8", 2, 8},    {"m3d8", 2, 8},    {"m3d9", 2, 9},   {"sfm3d8", 2, 8}, {"cax3", 2, 3},
-      {"cax4", 2, 4},    {"cax6", 2, 6},    {"cax8", 2, 8},   {"t3d2", 1, 2},   {"b31", 1, 2},
-      {"b21", 1, 2},     {"t2d2", 1, 2},    {"t3d3", 1, 3},   {"b32", 1, 3}};
+      {"ds4", 2, 4},     {"ds8", 2, 8},     {"cax4", 2, 4},   {"cax6", 2, 6},   {"cax8", 2, 8},
+      {"t3d2", 1, 2},    {"b31", 1, 2},     {"b21", 1, 2},    {"t2d2", 1, 2},   {"t3d3", 1, 3},
+      {"b32", 1, 3}};
   const std::string& given = key.values.at("type");
   const std::string name = lower(given);
   const Type* best = nullptr;

@@ -279,6 +279,9 @@ TEST(SolverFormats, BadFilesAreToldByTheirLines) {
             "line 3: the grid point 2 does not exist");
   EXPECT_EQ(error("a.bdf", "GRID           1      7      0.      0.      0.\n"),
             "line 1: a grid point in a coordinate system of its own is not read");
+  for (const char* text :
+       {"GRDSET,,7\nGRID,1,,0.,0.,0.\nGRID,2,0,0.,0.,0.\n", "GRDSET,,7,,,,6\nGRID,1\nENDDATA\n"})
+    EXPECT_EQ(error("a.bdf", text), "line 1: grid points in a coordinate system of their own are not read");
   EXPECT_EQ(error("a.su2", "NDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 1\n0 0 0\n"),
             "line 3: the point 1 does not exist; there are 1");
   EXPECT_EQ(error("a.su2", "NDIME= 2\n"), "line 1: the dimension is not 3");
@@ -403,6 +406,9 @@ TEST(SolverFormats, ElementsOfAbaqusWithoutAShape) {
   ASSERT_EQ(remarks.size(), 1u);
   EXPECT_EQ(remarks[0].count, 4u);
   EXPECT_NE(remarks[0].message.find("4 elements (D, MASS, SPRINGA) are left out"), std::string::npos);
+  put(folder / "ds.inp",
+      "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n*ELEMENT, TYPE=DS4\n1, 1, 2, 3, 4\n");
+  EXPECT_EQ(read_surface(folder / "ds.inp").facets.size(), 2u);
   put(folder / "b.inp", "*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=MASS\n1, 1\n*ELEMENT, TYPE=SPRINGA\n1, 1, 1\n");
   EXPECT_THROW((void)read_volume(folder / "b.inp"), FileError);  // the element 1 is there twice
 }
