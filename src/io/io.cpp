@@ -8,6 +8,7 @@
 #include "io/cells.h"
 #include "io/file_bytes.h"
 #include "io/formats.h"
+#include "io/labels.h"
 #include "io/mid_nodes.h"
 #include "io/text_reader.h"
 #include "io/vrml_read.h"
@@ -48,6 +49,7 @@ struct Format {
   Reader surface, volume;      ///< null: not read as such
   Writer write;                ///< null: volumes are not written in it
   Remarks not_held = nullptr;  ///< what the writer does not hold as it is; null: everything is held
+  bool has_names = true;       ///< of ids, in what is written
 };
 
 constexpr Format kFormats[] = {
@@ -62,8 +64,8 @@ constexpr Format kFormats[] = {
     {".wrl", read_vrml, nullptr, nullptr},
     {".wrz", read_vrml, nullptr, nullptr},
     {".ts", read_gocad, nullptr, nullptr},
-    {".mesh", read_medit, read_medit, write_file<write_medit>},
-    {".meshb", read_gmf, read_gmf, write_file<write_gmf>},
+    {".mesh", read_medit, read_medit, write_file<write_medit>, nullptr, false},
+    {".meshb", read_gmf, read_gmf, write_file<write_gmf>, nullptr, false},
     {".poly", read_poly, nullptr, nullptr},
     {".smesh", read_smesh, nullptr, nullptr},
     {".vtu", read_vtu, read_vtu, write_vtu},
@@ -85,9 +87,9 @@ constexpr Format kFormats[] = {
     {".xdmf", read_xdmf, read_xdmf, write_xdmf, not_in_xdmf},
     {".med", read_med, read_med, write_file<write_med>, not_in_med},
     {".openfoam", read_openfoam, read_openfoam, write_openfoam, not_in_openfoam},
-    {".node", read_node, read_tetgen_volume, write_tetgen_files},
-    {".ele", nullptr, read_tetgen_volume, write_tetgen_files},
-    {".face", nullptr, read_tetgen_volume, write_tetgen_files},
+    {".node", read_node, read_tetgen_volume, write_tetgen_files, nullptr, false},
+    {".ele", nullptr, read_tetgen_volume, write_tetgen_files, nullptr, false},
+    {".face", nullptr, read_tetgen_volume, write_tetgen_files, nullptr, false},
 };
 
 /// The bytes of a file; none of a format that is a folder.
@@ -325,7 +327,10 @@ std::vector<std::string> volume_formats() {
 std::vector<Remark> not_held(const std::filesystem::path& path, const Volume& volume,
                              const WriteOptions& options) {
   const io::Format& writer = io::writer_of(path, options.format);
-  return writer.not_held == nullptr ? std::vector<Remark>() : writer.not_held(volume, options);
+  std::vector<Remark> remarks;
+  if (writer.not_held != nullptr) remarks = writer.not_held(volume, options);
+  if (!writer.has_names) io::tell_names(volume.names, writer.extension, remarks);
+  return remarks;
 }
 
 void write_volume(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options) {

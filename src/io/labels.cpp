@@ -174,6 +174,16 @@ void tell(const Labels& labels, std::string_view format, std::vector<Remark>& re
                            std::string(format) + " allows"});
 }
 
+void tell_names(const Names& names, std::string_view format, std::vector<Remark>& remarks) {
+  std::size_t count = 0;
+  for (const auto* of : {&names.facets, &names.regions, &names.segments, &names.vertices})
+    count += of->size() - of->count(0);
+  if (count > 0)
+    remarks.push_back({RemarkKind::not_held, count,
+                       counted(count, "name", "names") + (count == 1 ? " has" : " have") + " no place in " +
+                           std::string(format)});
+}
+
 void tell_marked_vertices(const Volume& volume, std::string_view format, std::vector<Remark>& remarks) {
   const auto& markers = volume.vertex_markers;
   const auto count = static_cast<std::size_t>(

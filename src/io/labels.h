@@ -90,6 +90,9 @@ class NamedIds {
   std::set<int> used_;
 };
 
+/// Says how many ids have names, which `format` does not hold. The name of 0 is that of all that has no id.
+void tell_names(const Names& names, std::string_view format, std::vector<Remark>& remarks);
+
 /// Says how many vertices have markers, which `format` does not hold.
 void tell_marked_vertices(const Volume& volume, std::string_view format, std::vector<Remark>& remarks);
 

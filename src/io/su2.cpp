@@ -237,6 +237,8 @@ std::vector<Remark> not_in_su2(const Volume& volume, const WriteOptions&) {
   };
   if (labels.regions.names.size() > 1)
     say(labels.regions.names.size(), " regions are one zone in .su2, which has no place for them");
+  else
+    tell_names({{}, volume.names.regions, {}, {}}, ".su2", remarks);
   const std::vector<bool> boundary = on_boundary(volume);
   say(static_cast<std::size_t>(std::count(boundary.begin(), boundary.end(), false)),
       " facets inside are left out: markers of .su2 are for the boundary");

@@ -155,12 +155,13 @@ struct Format {
   void (*write)(AtomicWriter&, const Surface&);  ///< null: as a volume without tetrahedra
   bool markers, segments, seeds;                 ///< what it holds
   bool vertex_markers, segment_markers;          ///< with a null writer, that one tells
+  const NameRule* names = nullptr;               ///< of markers; null: it holds none, or the writer tells
 };
 
 constexpr std::array kFormats{Format{".off", write_off, false, true, false, false, false},
-                              Format{".obj", write_obj, true, true, false, false, false},
-                              Format{".stl", write_stl, true, false, false, false, false},
-                              Format{".ply", write_ply, true, false, false, true, false},
+                              Format{".obj", write_obj, true, true, false, false, false, &kGroups},
+                              Format{".stl", write_stl, true, false, false, false, false, &kSolids},
+                              Format{".ply", write_ply, true, false, false, true, false, &kComments},
                               Format{".poly", write_poly, true, true, true, true, true},
                               Format{".mesh", nullptr, true, true, false, true, true},
                               Format{".meshb", nullptr, true, true, false, true, true},
@@ -236,6 +237,10 @@ std::vector<Remark> not_held(const std::filesystem::path& path, const Surface& s
   if (format.segments && !format.segment_markers)
     say(io::marked(surface.segment_markers), "segment's marker", "segments' markers");
   if (!format.seeds) say(surface.regions.size() + surface.holes.size(), "seed", "seeds");
+  if (format.names != nullptr)
+    io::tell(io::facet_labels(surface, *format.names), format.extension, remarks);
+  else if (format.write != nullptr)
+    io::tell_names(surface.names, format.extension, remarks);
   if (format.write == nullptr)
     for (Remark& remark : not_held(path, io::as_volume(surface), options))
       remarks.push_back(std::move(remark));

@@ -153,6 +153,26 @@ TEST_F(Remarks, SayWhichMarkersAreLostWithASurface) {
   for (const char* name : {"a.poly", "a.mesh", "a.vtu"}) EXPECT_EQ(lost(name), "") << name;
 }
 
+TEST_F(Remarks, SayWhichNamesAreLostOrChanged) {
+  Surface surface;
+  surface.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  surface.facets = {{0, 1, 2}, {0, 1, 3}};
+  surface.facet_markers = {1, 2};
+  surface.names.facets = {{0, "all"}, {1, "in let"}, {2, "wall"}};
+  const auto lost = [&](const char* name) { return messages(not_held(folder_ / name, surface)); };
+  EXPECT_EQ(lost("a.off"), "2 markers have no place in .off\n2 names have no place in .off\n");
+  for (const char* name : {"a.poly", "a.mesh"})
+    EXPECT_EQ(lost(name), "2 names have no place in " + std::string(name + 1) + "\n");
+  EXPECT_EQ(lost("a.obj"), "1 name of a marker is changed to what .obj allows\n");
+  for (const char* name : {"a.stl", "a.ply", "a.vtu"}) EXPECT_EQ(lost(name), "") << name;
+
+  Volume volume = sample_volume();
+  volume.names = {{}, {{1, "core"}}, {}, {}};
+  for (const char* name : {"a.mesh", "a.meshb", "a.node"})
+    EXPECT_EQ(messages(not_held(folder_ / name, volume)),
+              "1 name has no place in " + std::string(name + 1) + "\n");
+}
+
 TEST_F(Remarks, AVolumeWithAnotherNumberOfVertexMarkersIsRefused) {
   Volume volume = sample_volume();
   volume.vertex_markers.pop_back();
