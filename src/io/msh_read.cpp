@@ -38,6 +38,8 @@ class MshReader {
     for (std::size_t i = 0; i < point_markers_.size(); ++i) mesh_.vertex_markers.add(i, point_markers_[i]);
     mesh_.names = {names_[2].take(), names_[3].take(), names_[1].take(), names_[0].take()};
     ids_.part(mesh_);
+    mesh_.leave_out(further_groups_.size(), "physical groups of entities that are in one before",
+                    "physical group of entities that are in one before");
     return std::move(mesh_);
   }
 
@@ -212,6 +214,14 @@ class MshReader {
     }
   }
 
+  /// Of several physical groups of an entity the first counts.
+  void note_group(std::pair<std::size_t, std::int64_t> entity, int physical, bool is_first) {
+    if (is_first)
+      physicals_[entity] = physical;
+    else
+      further_groups_.insert({entity.first, physical});
+  }
+
   /// Entities of version 3, which are text, too, where numbers are bytes.
   void read_entities_3() {
     std::array<std::size_t, 4> counts{};
@@ -224,7 +234,7 @@ class MshReader {
         const std::size_t physicals = text_.count("the number of physical tags", 2);
         for (std::size_t k = 0; k < physicals; ++k) {
           const int physical = text_.tag("a physical tag");
-          if (k == 0) physicals_[{dimension, tag}] = physical;
+          note_group({dimension, tag}, physical, k == 0);
         }
       }
   }
@@ -246,7 +256,7 @@ class MshReader {
     const std::size_t physicals = in_.count("the number of physical tags", 2, 4);
     for (std::size_t k = 0; k < physicals; ++k) {
       const int physical = in_.tag("a physical tag");
-      if (k == 0) physicals_[{dimension, tag}] = physical;
+      note_group({dimension, tag}, physical, k == 0);
     }
     if (dimension == 0) return;
     const std::size_t borders = in_.count("the number of bounding entities", 2, 4);
@@ -431,7 +441,8 @@ class MshReader {
   MshNodes nodes_;
   std::map<std::pair<std::size_t, std::int64_t>, int> physicals_;  ///< by dimension and entity tag
   std::set<std::pair<std::size_t, std::int64_t>> between_;         ///< entities between parts
-  std::vector<int> point_markers_;                                 ///< by vertex, where any is marked
+  std::set<std::pair<std::size_t, int>> further_groups_;  ///< by dimension, of entities with one before
+  std::vector<int> point_markers_;                        ///< by vertex, where any is marked
   std::array<NamedIds, 4> names_{NamedIds(kVertexStem), NamedIds(kSegmentStem), NamedIds(kFacetStem),
                                  NamedIds(kRegionStem)};  ///< by dimension
   EntityIds ids_;

@@ -161,5 +161,17 @@ TEST_F(NamesOfFiles, OfGroupsAreNotThoseOfEntitiesWithTheirNumber) {
   EXPECT_EQ(none.remarks[0].message, "the name of the group 3, which has no triangles, is left out");
 }
 
+TEST_F(NamesOfFiles, OfTheGroupsOfAnEntityTheFirstCountsAndTheOthersAreTold) {
+  put(folder_ / "a.msh",
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 7 \"skin\"\n2 9 \"inlet\"\n"
+      "$EndPhysicalNames\n$Entities\n0 0 2 0\n1 0 0 0 1 1 0 2 7 9 0\n2 0 0 0 1 1 0 2 7 9 0\n$EndEntities\n"
+      "$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n"
+      "$Elements\n2 2 1 2\n2 1 2 1\n1 1 3 2\n2 2 2 1\n2 1 2 4\n$EndElements\n");
+  const Surface s = read_surface(folder_ / "a.msh");
+  EXPECT_EQ(s.facet_markers, (std::vector<int>{7, 7}));
+  ASSERT_EQ(s.remarks.size(), 1u);
+  EXPECT_EQ(s.remarks[0].message, "1 physical group of entities that are in one before is left out");
+}
+
 }  // namespace
 }  // namespace holdfast
