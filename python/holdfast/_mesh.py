@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import numbers
-import operator
 import typing
 from typing import Any, Optional, Union
 
@@ -181,13 +180,13 @@ def mesh(
         what = repaired.surface
     options.update(
         fill=fill,
-        gradation=None if gradation is None else float(gradation),
+        gradation=None if gradation is None else length(gradation, "gradation"),
         growth=bool(growth),
         quality=quality,
         keep=keep,
         box_margin=float(box_margin),
-        holes=[_numbers(h, 3, "a hole") for h in holes] + [list(map(float, h)) for h in what.holes],
-        regions=_bounded([_region(r) for r in [*regions, *what.regions]], max_volume),
+        holes=[_numbers(h, 3, "a hole") for h in _listed(holes, "holes")] + [list(map(float, h)) for h in what.holes],
+        regions=_bounded([_region(r) for r in [*_listed(regions, "regions"), *what.regions]], max_volume),
         max_volume=_most_volume(max_volume),
         max_ratio=0.0 if max_ratio is None else _positive(max_ratio, "max_ratio"),
         layers=_layers(layers),
@@ -217,6 +216,14 @@ def mesh(
     return meshed
 
 
+def _listed(rows: Any, what: str) -> list[Any]:
+    """Points in a list, and not one point alone."""
+    listed = list(rows) if isinstance(rows, typing.Iterable) else [rows]
+    if any(np.ndim(row) == 0 for row in listed):
+        raise TypeError(f"{what}={rows!r}: a list is expected, of one sequence of numbers for each")
+    return listed
+
+
 def _numbers(values: typing.Sequence[float], count: int, what: str) -> list[float]:
     require_unmasked(values, what)
     found = [float(v) for v in values]
@@ -229,14 +236,17 @@ def _region(values: typing.Sequence[float]) -> tuple[float, float, float, int, f
     require_unmasked(values, "a region")
     if len(values) not in (4, 5):
         raise ValueError(f"a region is given as (x, y, z, id) or (x, y, z, id, size), not by {len(values)} numbers")
-    if int(values[3]) != values[3] or not -(2**31) <= int(values[3]) < 2**31:
+    if not isinstance(values[3], numbers.Real) or int(values[3]) != values[3] or not -(2**31) <= int(values[3]) < 2**31:
         raise ValueError(f"the id of a region must be an integer of 32 bits, not {values[3]!r}")
     size = float(values[4]) if len(values) == 5 and values[4] is not None else 0.0
     return (float(values[0]), float(values[1]), float(values[2]), int(values[3]), size)
 
 
 def _positive(value: Any, what: str) -> float:
-    number = float(value)
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{what}={value!r}: a positive number is expected") from None
     if not 0 < number < float("inf"):
         raise ValueError(f"{what}={number}: a positive number is expected")
     return number
@@ -245,7 +255,7 @@ def _positive(value: Any, what: str) -> float:
 def _layers(layers: Optional[int]) -> int:
     if layers is None:
         return 0
-    number = operator.index(layers)
+    number = whole(layers, "layers")
     if not 1 <= number <= 100:
         raise ValueError(f"layers={number}: 1 to 100 are expected")
     return number

@@ -40,6 +40,8 @@ def set_size(size: Size, options: dict[str, Any], points: int) -> Optional[typin
         asked: typing.Callable[[Array], Any] = size
         return asked
     elif np.ndim(size) == 0:
+        if isinstance(size, (bool, np.bool_)):
+            raise TypeError(f"size={size}: a length is expected, in the surface's unit")
         number = float(size)
         if not 0 < number < float("inf"):
             raise ValueError(f"size={number}: a positive length is expected")

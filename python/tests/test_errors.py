@@ -92,6 +92,19 @@ def test_options_of_a_wrong_type(options):
         holdfast.mesh(*box(), **options)
 
 
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"size": True}, {"size": np.True_}, {"gradation": "x"}, {"layers": 2.5}, {"max_volume": "x"}, {"max_ratio": "x"}, {"holes": 5},
+        {"holes": (0.5, 0.5, 0.5)}, {"regions": (0.5, 0.5, 0.5, 1)}, {"regions": [(0.5, 0.5, 0.5, "a")]},
+    ],
+)
+def test_errors_of_options_name_them(options):
+    (name,) = options
+    with pytest.raises((TypeError, ValueError), match=name.rstrip("s")):
+        holdfast.mesh(*box(), **options)
+
+
 def test_files_that_are_not_there(tmp_path):
     with pytest.raises(holdfast.FileError) as caught:
         holdfast.mesh(tmp_path / "none.stl")
