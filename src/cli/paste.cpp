@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <map>
 #include <memory>
+#include <set>
 #include <system_error>
 
 #include "any_mesh.h"
@@ -122,6 +124,22 @@ Parts read(const PasteArguments& arguments, const PasteOptions& options) {
   return parts;
 }
 
+/// Regions of one id without a name are one, though they are those of several files.
+void tell_joined_regions(const std::vector<std::filesystem::path>& files,
+                         const std::vector<Volume>& volumes) {
+  std::map<int, std::size_t> first;  // the file that has the id
+  std::set<int> told;
+  for (std::size_t k = 0; k < volumes.size(); ++k)
+    for (const int id : std::set<int>(volumes[k].regions.begin(), volumes[k].regions.end())) {
+      if (id == 0 || volumes[k].names.regions.contains(id)) continue;
+      const auto [before, is_first] = first.try_emplace(id, k);
+      if (!is_first && told.insert(id).second)
+        say("holdfast: region {} of {} and of {} is one; to keep them apart, give them names: "
+            "`holdfast convert {} OUT --name region:{}=NAME`\n",
+            id, files[before->second].string(), files[k].string(), files[k].string(), id);
+    }
+}
+
 int paste_volumes(const PasteArguments& arguments, const PasteOptions& options, FilesOfRun& files,
                   const std::vector<Volume>& volumes) {
   if (volumes.size() < 2) throw UsageError("paste: two volumes at least are expected");
@@ -133,6 +151,7 @@ int paste_volumes(const PasteArguments& arguments, const PasteOptions& options, 
   if (result.outcome == Outcome::done) {
     write_volume(target.path, result.volume, target.options);
     if (!arguments.quiet) {
+      tell_joined_regions(arguments.surfaces, volumes);
       tell(not_held(target.path, result.volume, target.options), target.path);
       tell_idle_names(arguments.names, nameable_in(result.volume));
     }

@@ -592,6 +592,16 @@ class PasteTest(CliTest):
             self.assertIn("new tetrahedr", said)
             self.assertEqual((self.folder / "other.vtu").read_bytes(), want)
 
+    def test_regions_of_volumes_that_become_one_are_told(self):
+        for name in self.parts(box((0, 0, 0), (1, 1, 1), 2), box((1, 0, 0), (2, 1, 1), 2)):
+            self.run_program("mesh", name, "-o", name[0] + ".vtu", "--fill")
+        said = self.run_program("paste", "a.vtu", "b.vtu", "-o", "ab.vtu").stderr
+        self.assertIn("region 1 of a.vtu and of b.vtu is one; to keep them apart", said)
+        self.run_program("convert", "b.vtu", "c.vtu", "--name", "region:1=c")  # as the message says
+        self.assertNotIn("is one", self.run_program("paste", "a.vtu", "c.vtu", "-o", "ac.mesh").stderr)
+        points, _, tets = read_mesh(self.folder / "ac.mesh")
+        self.assertEqual({r: round(v, 12) for r, v in volumes(points, tets).items()}, {1: 1, 2: 1})
+
     @staticmethod
     def is_on_interface(p):
         face = rotated(([(1, 0, 0), (1, 1, 0), (1, 0, 1)], []))[0]
