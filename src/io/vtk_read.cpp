@@ -273,9 +273,43 @@ class VtkReader {
       }
       const std::uint64_t components = text_.count("the number of components", 1);
       const std::uint64_t tuples = this->tuples();
+      if (skip_strings_or_bits(name, components * tuples)) continue;
       const VtkType type = type_of(text_, text_.word("a type"));
       read_array(name, type, components * tuples);
     }
+  }
+
+  /// Whether an array, in front of its type, is of strings or bits, which is left out.
+  bool skip_strings_or_bits(const std::string& name, std::uint64_t count) {
+    const std::size_t start = text_.position();
+    const std::string type = lower(text_.word("a type"));
+    if (type == "bit") {
+      static_cast<void>(values<double>(VtkType::uint8, binary_ ? (count + 7) / 8 : count));
+    } else if (type == "string") {
+      text_.skip_line();
+      for (std::uint64_t i = 0; i < count; ++i) {
+        if (text_.remaining().empty()) text_.fail_truncated("a string");
+        binary_ ? skip_counted_string() : text_.skip_line();
+      }
+    } else {
+      text_.seek(start);
+      return false;
+    }
+    grid_.other_arrays.push_back(name);
+    return true;
+  }
+
+  /// The upper two bits of the first byte tell in how many bytes the length stands: 3 in one, 2 in two, 1 in
+  /// four, 0 in eight.
+  void skip_counted_string() {
+    const std::string_view bytes = text_.remaining();
+    const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(bytes[i]); };
+    const std::size_t width = std::size_t{1} << (3 - (byte(0) >> 6));
+    if (bytes.size() < width) text_.fail_truncated("the length of a string");
+    std::uint64_t length = byte(0) & 0x3F;
+    for (std::size_t i = 1; i < width; ++i) length = length << 8 | byte(i);
+    if (length > bytes.size() - width) text_.fail_truncated("a string");
+    text_.seek(text_.position() + width + length);
   }
 
   /// A block that ends with an empty line.
@@ -307,6 +341,7 @@ class VtkReader {
     for (const Attribute& attribute : kAttributes)
       if (attribute.keyword == keyword)
         return skip_array(name, type_of(text_, text_.word("a type")), attribute.components * tuples_);
+    if (keyword == "pedigree_ids" && skip_strings_or_bits(name, tuples_)) return;
     if (keyword == "global_ids" || keyword == "pedigree_ids")
       return skip_array(name, type_of(text_, text_.word("a type")), tuples_);
     text_.fail("unknown keyword " + in_quotes(keyword));

@@ -70,6 +70,8 @@ void read_tags(const VtuFile& file, VtuGhosts ghosts, VtuBlock& block, VtkGrid& 
         path != markers && !(ghosts == VtuGhosts::left_out && is_of_pieces(name)))
       grid.other_arrays.push_back(name);
   }
+  const std::vector<std::string>& strings = file.arrays_of_strings();
+  grid.other_arrays.insert(grid.other_arrays.end(), strings.begin(), strings.end());
   if (!regions.empty()) grid.regions = file.values<int>(regions, file.cells());
   if (!markers.empty()) grid.markers = file.values<int>(markers, file.cells());
   if (file.find("PointData/marker")) grid.point_markers = file.values<int>("PointData/marker", file.points());

@@ -45,6 +45,8 @@ void VtuFile::read_tag(const XmlTag& tag, Seen& seen) {
     (seen.in_piece ? pieces_.back().arrays : seen.common)
         .insert({seen.section + "/" + (seen.section == "Points" ? "" : tag.attribute("Name")),
                  DataArray{tag, xml_.position()}});
+  else if (tag.name == "Array" && !tag.closing && seen.in_piece && seen.section.ends_with("Data"))
+    pieces_.back().strings.push_back(tag.attribute("Name"));
   else if (std::find(std::begin(kSections), std::end(kSections), tag.name) != std::end(kSections))
     seen.section = tag.name;
 }

@@ -41,6 +41,7 @@ class VtuFile {
 
   /// By "section/name"; the points' array has no name.
   [[nodiscard]] const std::map<std::string, DataArray>& arrays() const { return piece().arrays; }
+  [[nodiscard]] const std::vector<std::string>& arrays_of_strings() const { return piece().strings; }
   [[nodiscard]] const DataArray* find(const std::string& name) const;
   /// The values of an array that must exist, `count` of them if that is known. T: double, int, std::int64_t
   /// or std::uint8_t.
@@ -55,6 +56,7 @@ class VtuFile {
     std::uint64_t points = 0, cells = 0;
     std::map<std::string, std::uint64_t> counts;
     std::map<std::string, DataArray> arrays;  ///< with those of the whole file
+    std::vector<std::string> strings;         ///< names of arrays of strings, of points and cells
   };
   struct Appended {
     std::size_t offset;

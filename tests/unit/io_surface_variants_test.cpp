@@ -1,5 +1,5 @@
 // What surface files of other programs have in their heads and lines: numbers that were not known,
-// dimensions, colours, an order of elements.
+// dimensions, colours, an order of elements, arrays of strings.
 #include <gtest/gtest.h>
 
 #include "io_samples.h"
@@ -81,6 +81,39 @@ TEST_F(SurfaceVariants, FacesBeforeVerticesInPly) {
   EXPECT_EQ(
       surface(head + vertices + faces + "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a.ply").facets.size(),
       1u);
+}
+
+// VTK writes arrays of strings and bits, a string in bytes behind its length, in text one a line.
+TEST_F(SurfaceVariants, LegacyVtkArraysOfStringsAndBitsAreLeftOut) {
+  const auto told = [&](const std::string& bytes) {
+    const Surface s = surface(bytes, "a.vtk");
+    EXPECT_EQ(s.facets, (std::vector<Triangle>{{0, 2, 1}}));
+    return s.remarks.empty() ? "" : s.remarks[0].message;
+  };
+  const std::string text = std::string(kVtk).substr(0, std::string(kVtk).find("CELL_DATA"));
+  const std::string arrays =
+      "\nPOINT_DATA 4\nFIELD F 2\nnames 1 4 string\na%20b\n\n3 4\nd\nflags 1 4 bit\n0 1 1 0\n";
+  EXPECT_EQ(told(text + arrays), "2 arrays ('names', 'flags') are left out");
+  EXPECT_EQ(told(text + "\nPOINT_DATA 4\nPEDIGREE_IDS ids string\na\nb\nc\nd\n"),
+            "1 array ('ids') is left out");
+  EXPECT_EQ(error(text + "\nPOINT_DATA 4\nPEDIGREE_IDS ids string\na\nb\nc\n", "a.vtk").substr(0, 8),
+            "line 28:");
+
+  const std::string whole = binary_vtk();
+  const std::string head =
+      whole.substr(0, whole.find("\nCELL_DATA")) + "\nPOINT_DATA 4\nFIELD F 2\nnames 1 5 string\n";
+  const std::string strings = std::string("\xC0\xC2\n\n\x81\0", 6) + std::string(256, 'x') +
+                              std::string("\x40\0\0\1y\0\0\0\0\0\0\0\2zz", 15);
+  EXPECT_EQ(told(head + strings + "\nflags 1 4 bit\n\x60\n"), "2 arrays ('names', 'flags') are left out");
+  for (const std::size_t length : {0, 2, 5, 200, 264, 270, 276})
+    EXPECT_NE(error(head + strings.substr(0, length), "a.vtk"), "read") << length;
+}
+
+TEST_F(SurfaceVariants, ArraysOfStringsInVtuAreTold) {
+  const std::string array = "<Array type=\"String\" Name=\"marker\" format=\"ascii\">97 0 0 98 0</Array>";
+  const Surface s = surface(replaced(kVtu, "<CellData>", "<CellData>" + array), "a.vtu");
+  EXPECT_EQ(s.facet_markers, surface(kVtu, "a.vtu").facet_markers);
+  EXPECT_NE(s.remarks[0].message.find("'marker'"), std::string::npos) << s.remarks[0].message;
 }
 
 }  // namespace
