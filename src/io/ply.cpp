@@ -188,8 +188,11 @@ class BinaryValues {
     bytes_.fail(reason);
   }
   void begin_entity() { entity_ = bytes_.position(); }
+  /// Some programs end the file with a line break.
   void require_end() const {
-    if (bytes_.left() > 0) bytes_.fail("bytes after the last element; the counts are wrong");
+    ByteReader behind = bytes_;
+    if (behind.take(behind.left()).find_first_not_of("\r\n") != std::string_view::npos)
+      bytes_.fail("bytes after the last element; the counts are wrong");
   }
 
  private:

@@ -43,6 +43,7 @@ TEST_F(SurfaceVariants, PlyWhoseCountsAreTooSmall) {
   binary[binary.size() - 36 + 15] = binary[binary.size() - 36 + 28] = '?';
   binary += std::string("\3\0\1\2", 4);
   EXPECT_EQ(surface(binary, "a.ply").facets.size(), 1u);
+  EXPECT_EQ(surface(binary + "\r\n", "a.ply").facets.size(), 1u);
   EXPECT_EQ(error(binary + '\3', "a.ply"),
             "byte " + std::to_string(binary.size()) + ": bytes after the last element; the counts are wrong");
 }
