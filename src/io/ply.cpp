@@ -188,10 +188,10 @@ class BinaryValues {
     bytes_.fail(reason);
   }
   void begin_entity() { entity_ = bytes_.position(); }
-  /// Some programs end the file with a line break.
+  /// Some programs end the file with a line break, or with zeros up to a whole block.
   void require_end() const {
     ByteReader behind = bytes_;
-    if (behind.take(behind.left()).find_first_not_of("\r\n") != std::string_view::npos)
+    if (behind.take(behind.left()).find_first_not_of(std::string_view("\r\n\0", 3)) != std::string_view::npos)
       bytes_.fail("bytes after the last element; the counts are wrong");
   }
 
