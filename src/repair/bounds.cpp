@@ -34,4 +34,19 @@ double last_bit(std::span<const Point> points) {
   return std::nextafter(most, std::numeric_limits<double>::infinity()) - most;
 }
 
+double extent(std::span<const Point> points) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double most = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    double low = kInfinity, high = -kInfinity;
+    for (const Point& p : points) {
+      if (!std::isfinite(p[k])) continue;
+      low = std::min(low, p[k]);
+      high = std::max(high, p[k]);
+    }
+    most = std::max(most, high - low);
+  }
+  return most;
+}
+
 }  // namespace holdfast::repairing

@@ -21,4 +21,7 @@ namespace holdfast::repairing {
 /// The last bit of the largest coordinate.
 [[nodiscard]] double last_bit(std::span<const Point> points);
 
+/// The longest side of their box.
+[[nodiscard]] double extent(std::span<const Point> points);
+
 }  // namespace holdfast::repairing

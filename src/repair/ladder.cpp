@@ -81,19 +81,21 @@ void Ladder::try_plans(SidesOf sides) {
 }
 
 bool Ladder::begin_with_twins() {
-  const double bit = last_bit(given_.vertices);
-  const double widest = starts_welded() ? welded_last_bits_ : kTwinsLastBits.back();
-  const auto distance = distance_of_twins(rounded_.state, trouble_, widest * bit, here());
+  const double bit = last_bit(given_.vertices), near = kWeldedPlans[0].last_bits * bit;
+  const double most = kMostForTwins * extent(given_.vertices);
+  const auto distance = distance_of_twins(rounded_.state, trouble_, std::max(near, most), here());
   if (!distance) return false;
   // Joining what is near costs less than to move the input, but takes long where sheets lie in each other.
-  is_welded_ = *distance <= kWeldedPlans[0].last_bits * bit;
+  is_welded_ = *distance <= near;
   if (is_welded_) begin_flat(kWeldedPlans);
   if (is_welded_ || starts_welded()) return false;
-  for (const double last_bits : kTwinsLastBits) {
-    if (last_bits * bit <= *distance) continue;
+  double last = 0;
+  for (double gap = kTwinsLastBits * bit; last < gap && gap <= most; gap = std::min(4 * gap, most)) {
+    last = gap;
+    if (gap < *distance) continue;
     State state = given_;
-    const double moved = weld(state, last_bits * bit, here());
-    Ladder welding = welded(std::move(state), sum_above(given_displacement_, moved), last_bits);
+    const double moved = weld(state, gap, here());
+    Ladder welding = welded(std::move(state), sum_above(given_displacement_, moved), gap / bit);
     welding.begin();
     if (welding.is_covered() && take_if_valid(welding)) return true;
     report_.rounds = welding.report_.rounds;

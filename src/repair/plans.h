@@ -38,8 +38,8 @@ inline constexpr std::array kJoinedLastBits{0x1p3, 0x1p6};
 inline constexpr std::array kWeldedLastBits{0x1p6,  0x1p8,  0x1p10, 0x1p12, 0x1p14, 0x1p16, 0x1p18,
                                             0x1p20, 0x1p22, 0x1p24, 0x1p26, 0x1p28, 0x1p30, 0x1p32};
 
-/// The same where vertices in trouble are there twice. 2^-40 of a surface's extent is 2^13 of its last bits.
-inline constexpr std::array kTwinsLastBits{0x1p5, 0x1p7, 0x1p9, 0x1p11, 0x1p13};
+/// The same where vertices in trouble are there twice: the least, and the most in parts of the extent.
+inline constexpr double kTwinsLastBits = 0x1p5, kMostForTwins = 0x1p-40;
 
 /// The widths of grids to whose points the vertices of what is in trouble go, in last bits.
 inline constexpr std::array kGridLastBits{0x1p8, 0x1p12, 0x1p16, 0x1p20, 0x1p24, 0x1p28};
