@@ -92,11 +92,12 @@ class Cover {
     constexpr double kLeast = 0x1p-10;  // of the distance of the test
     double height = kLeast * test_.reach_.distance();
     for (const Index v : corners) height = std::max(height, rough_distance(test_.vertices_[v], {a, b, a}));
-    for (; height < test_.reach_.distance(); height *= 1.125) {
+    while (height < test_.reach_.distance()) {
       const Reach reach(height);
       if (std::all_of(corners.begin(), corners.end(),
                       [&](Index v) { return reach.of_segment(test_.vertices_[v], a, b); }))
         return height;
+      height *= 1.125;
     }
     return std::nullopt;
   }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <set>
 
 #include "exact/predicates.h"
@@ -176,6 +177,7 @@ std::vector<std::vector<Index>> connected_parts(const State& state, std::span<co
   std::map<Index, std::vector<Index>> parts;
   for (Index k = 0; k < facets.size(); ++k) parts[sets.root(k)].push_back(facets[k]);
   std::vector<std::vector<Index>> list;
+  list.reserve(parts.size());
   for (auto& [unused, part] : parts) list.push_back(std::move(part));
   return list;
 }
@@ -213,9 +215,9 @@ Holes fill_holes(State& state, std::size_t most_sides, const Step& step, const T
       }
     const std::set<std::size_t> bad = unfit(state, before, filling_with, step, threads);
     if (bad.empty()) break;
-    for (auto k = bad.rbegin(); k != bad.rend(); ++k) {
-      holes.left_open.push_back({std::move(fillings[*k].loop), OpenReason::meets_surface});
-      fillings.erase(fillings.begin() + static_cast<std::ptrdiff_t>(*k));
+    for (const std::size_t k : std::views::reverse(bad)) {
+      holes.left_open.push_back({std::move(fillings[k].loop), OpenReason::meets_surface});
+      fillings.erase(fillings.begin() + static_cast<std::ptrdiff_t>(k));
     }
   }
   auto next = static_cast<Index>(before);
@@ -242,6 +244,7 @@ void renumber(Holes& holes, const State& state, std::span<const Index> facet_num
     }
     for (std::vector<Index>& part : connected_parts(state, kept)) {
       std::vector<Triangle> triangles;
+      triangles.reserve(part.size());
       for (const Index f : part) triangles.push_back(state.facets[f]);
       std::vector<Loop> loops = border_loops(Complex{state.vertices, triangles, {}, {}, {}});
       left.push_back({std::move(loops.at(0)), std::move(part), is_plane});

@@ -44,6 +44,7 @@ std::optional<double> distance_of_twins(const State& state, const Trouble& troub
   for (const Index s : trouble.segments) list(state.segments[s]);
   sort_unique(vertices);
   std::vector<Box> boxes;
+  boxes.reserve(vertices.size());
   for (const Index v : vertices) boxes.push_back(box_round(state, std::array{v}, widest / 2));
   std::vector<double> least(vertices.size(), std::numeric_limits<double>::infinity());
   const auto visit = [&](Index i, Index j) {
