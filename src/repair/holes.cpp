@@ -6,7 +6,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <ranges>
 #include <set>
 
 #include "exact/predicates.h"
@@ -215,9 +214,9 @@ Holes fill_holes(State& state, std::size_t most_sides, const Step& step, const T
       }
     const std::set<std::size_t> bad = unfit(state, before, filling_with, step, threads);
     if (bad.empty()) break;
-    for (const std::size_t k : std::views::reverse(bad)) {
-      holes.left_open.push_back({std::move(fillings[k].loop), OpenReason::meets_surface});
-      fillings.erase(fillings.begin() + static_cast<std::ptrdiff_t>(k));
+    for (auto k = bad.rbegin(); k != bad.rend(); ++k) {
+      holes.left_open.push_back({std::move(fillings[*k].loop), OpenReason::meets_surface});
+      fillings.erase(fillings.begin() + static_cast<std::ptrdiff_t>(*k));
     }
   }
   auto next = static_cast<Index>(before);
