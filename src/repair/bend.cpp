@@ -141,6 +141,7 @@ class Bending {
     const auto [through, nearest] = vertex_beside(side, *at_side);
     if (through == no_index || comes_back(side, *at_side, through)) return;
     const BentSurface::AtSide here = surface_.forget(side);
+    work_.done += here.facets.size() + here.segments.size();
     for (const Index f : here.facets) {
       if (!surface_.facet(f).lives) continue;
       const BentFacet part = surface_.take(f, nearest.bound());
@@ -162,16 +163,23 @@ class Bending {
     }
   }
 
-  /// Whether a facet would come back that was taken out before. Two vertices near a side may each pass the
-  /// side that ends in the other: the two ways to part the facet between them would follow each other for
-  /// ever.
+  /// Whether a facet or a segment would come back that was taken out before. Two vertices near a side may
+  /// each pass the side that ends in the other: the two ways to part what is between them would follow each
+  /// other for ever.
   [[nodiscard]] bool comes_back(const Side& side, const BentSurface::AtSide& here, Index through) const {
-    return std::any_of(here.facets.begin(), here.facets.end(), [&](Index f) {
+    const auto of_facet = [&](Index f) {
       const Triangle& corners = surface_.facet(f).corners;
       if (!surface_.facet(f).lives || std::count(corners.begin(), corners.end(), through) != 0) return false;
       return std::any_of(side.begin(), side.end(),
                          [&](Index end) { return surface_.had(with(through, end, corners)); });
-    });
+    };
+    const auto of_segment = [&](Index s) {
+      return surface_.segment(s).lives && std::any_of(side.begin(), side.end(), [&](Index end) {
+               return surface_.had({through, end}, surface_.segment(s).origin);
+             });
+    };
+    return std::any_of(here.facets.begin(), here.facets.end(), of_facet) ||
+           std::any_of(here.segments.begin(), here.segments.end(), of_segment);
   }
 
   /// The nearest of the vertices that a side passes and may be led through.

@@ -1,6 +1,7 @@
 #include "repair/bent.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "numbers/sorted.h"
 #include "repair/near.h"
@@ -9,9 +10,13 @@
 namespace holdfast::repairing {
 namespace {
 
+/// Both ascend, and are the same more often than not.
 void join(std::vector<Index>& list, const std::vector<Index>& other) {
-  list.insert(list.end(), other.begin(), other.end());
-  sort_unique(list);
+  if (std::includes(list.begin(), list.end(), other.begin(), other.end())) return;
+  std::vector<Index> both;
+  both.reserve(list.size() + other.size());
+  std::set_union(list.begin(), list.end(), other.begin(), other.end(), std::back_inserter(both));
+  list = std::move(both);
 }
 
 }  // namespace
@@ -41,13 +46,15 @@ void BentSurface::add(const BentSegment& segment) {
   most_ = std::max(most_, segment.bent);
   const auto fresh = static_cast<Index>(segments_.size());
   const Side ends = ascending(Side(segment.ends));
-  const auto [found, is_new] = segment_with_.try_emplace({ends, segment.origin}, fresh);
-  if (!is_new && segments_[found->second].lives) {
-    BentSegment& other = segments_[found->second];
+  const auto next = static_cast<Index>(segment_with_.size());
+  const Index number = ends_.find_or_add({ends[0], ends[1], segment.origin}, next);
+  if (number == next) {
+    segment_with_.push_back(fresh);
+  } else if (BentSegment& other = segments_[segment_with_[number]]; other.lives) {
     other.bent = std::max(other.bent, segment.bent);
     return;
   }
-  found->second = fresh;
+  segment_with_[number] = fresh;
   segments_.push_back(segment);
   note(ends).segments.push_back(fresh);
 }
@@ -55,6 +62,12 @@ void BentSurface::add(const BentSegment& segment) {
 bool BentSurface::had(const Triangle& corners) const {
   const Index number = corners_.find(ascending(corners));
   return number != no_entity && !facets_[facet_with_[number]].lives;
+}
+
+bool BentSurface::had(const Segment& ends, Index origin) const {
+  const auto [a, b] = ascending(Side(ends));
+  const Index number = ends_.find({a, b, origin});
+  return number != no_entity && !segments_[segment_with_[number]].lives;
 }
 
 BentFacet BentSurface::take(Index facet, double more) {

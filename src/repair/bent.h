@@ -2,7 +2,6 @@
 // yet to be looked at.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <queue>
 #include <span>
@@ -52,6 +51,8 @@ class BentSurface {
   /// Whether a facet with these corners was there and was taken out.
   [[nodiscard]] bool had(const Triangle& corners) const;
   void add(const BentSegment& segment);
+  /// Whether a segment of this origin was there and was taken out.
+  [[nodiscard]] bool had(const Segment& ends, Index origin) const;
   /// Takes out what lives, for its parts to be added: it comes back, bent by some more.
   [[nodiscard]] BentFacet take(Index facet, double more);
   [[nodiscard]] BentSegment take_segment(Index segment, double more);
@@ -79,9 +80,10 @@ class BentSurface {
   std::vector<BentFacet> facets_;
   std::vector<BentSegment> segments_;
   std::size_t living_ = 0;
-  arrange::IndexTable<3> corners_;                        // the numbers of corners, ascending
-  std::vector<Index> facet_with_;                         // by their numbers, the last that had them
-  std::map<std::pair<Side, Index>, Index> segment_with_;  // by its ends and its origin
+  arrange::IndexTable<3> corners_;   // the numbers of corners, ascending
+  std::vector<Index> facet_with_;    // by their numbers, the last that had them
+  arrange::IndexTable<3> ends_;      // the numbers of ends, ascending, and an origin
+  std::vector<Index> segment_with_;  // by their numbers, the last that had them
   arrange::IndexTable<2> side_numbers_;
   std::vector<SideNote> at_side_;                       // by their numbers
   std::priority_queue<std::pair<double, Side>> sides_;  // to look at, by their lengths

@@ -142,7 +142,11 @@ Clusters find_clusters(const State& state, double gap, std::span<const Index> so
   const std::vector<Index>& facet = near.first;
   const std::vector<Box>& boxes = near.second;
   const Planes planes(state, facet);
+  const auto are_parts_of_one = [&](Index f, Index g) {
+    return !state.sheet.empty() && state.sheet[f] != no_index && state.sheet[f] == state.sheet[g];
+  };
   const auto share_area = [&](Index f, Index g) {
+    if (are_parts_of_one(f, g)) return false;
     const bool in_g = lies_in(state, planes, f, g, gap), in_f = lies_in(state, planes, g, f, gap);
     if (!in_g && !in_f) return false;
     const unsigned axis = axis_of(planes.normal[in_g ? g : f]);

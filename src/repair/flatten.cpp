@@ -31,6 +31,7 @@ class Flattening {
         vertices_(state.vertices.size()),
         sides_of_(sides),
         sides_(state.vertices, gap),
+        sheets_(sheets_of(state)),
         in_cluster_(state.facets.size(), 0),
         overlaps_(state.facets.size(), 0) {}
 
@@ -105,6 +106,7 @@ class Flattening {
     for (std::size_t k = 0; k < chains.size(); ++k)
       if (!sides_.fits(before.sides[k][0], before.sides[k][1], chains[k])) return undo();
     for (std::size_t f = 0; f < after.facets.size(); ++f) take(cluster, after, f, name);
+    ++sheets_;
     // How far the points of a part are from its parent is a convex function: corners decide.
     for (const auto& [k, v] : corners)
       most_ = std::max(most_, distance(name[v], state_.facets[cluster.facets[k]]));
@@ -115,6 +117,13 @@ class Flattening {
     for (const Index f : cluster.facets) in_cluster_[f] = 1;
     most_ = std::max(most_, rounded.displacement);
     return true;
+  }
+
+  [[nodiscard]] static Index sheets_of(const State& state) {
+    Index next = 0;
+    for (const Index sheet : state.sheet)
+      if (sheet != no_index) next = std::max(next, sheet + 1);
+    return next;
   }
 
   /// New vertices that stand above another one become it, if they are no more than the gap away: for the next
@@ -224,7 +233,7 @@ class Flattening {
   /// Takes a facet of the plane as one of the surface, with its parents there.
   void take(const Cluster& cluster, const State& after, std::size_t f, std::span<const Index> name) {
     const auto& [a, b, c] = after.facets[f];
-    Piece piece{{name[a], name[b], name[c]}, {}, {}};
+    Piece piece{{name[a], name[b], name[c]}, {}, {}, sheets_};
     Index first = no_index;
     for (const Index k : after.facet_parents.of(f)) {
       const Index parent = cluster.facets[k];
@@ -243,16 +252,19 @@ class Flattening {
     std::vector<Triangle> facets;
     Parents parents;
     std::vector<std::uint8_t> known, changed;
+    std::vector<Index> sheet;
     for (Index f = 0; f < in_cluster_.size(); ++f) {
       if (const auto found = pieces_.find(f); found != pieces_.end())
         for (Piece& piece : found->second) {
           const std::vector<Triangle> parts = cut(piece.corners);
+          const bool is_whole = parts.size() == 1 && parts[0] == piece.corners;
           for (const Triangle& t : parts) {
             facets.push_back(t);
             parents.add(piece.parents);
             known.push_back(0);
+            sheet.push_back(is_whole ? piece.sheet : no_index);
             changed.push_back(1);
-            if (parts.size() == 1 && parts[0] == piece.corners) continue;
+            if (is_whole) continue;
             for (const Index parent : piece.facets)
               for (const Index v : t) most_ = std::max(most_, distance(v, state_.facets[parent]));
           }
@@ -262,6 +274,7 @@ class Flattening {
         facets.push_back(t);
         parents.add(state_.facet_parents.of(f));
         known.push_back(t != state_.facets[f] || state_.known.empty() ? 0 : state_.known[f]);
+        sheet.push_back(t != state_.facets[f] || state_.sheet.empty() ? no_index : state_.sheet[f]);
         changed.push_back(t != state_.facets[f] ? 1 : overlaps_[f]);
       };
       if (stays_whole(state_.facets[f]))
@@ -270,15 +283,15 @@ class Flattening {
         for (const Triangle& t : cut(state_.facets[f])) add(t);
     }
     if (state_.known.empty()) known.clear();
-    deliver_facets(facets, parents, known, changed);
-    state_.sheet.clear();
+    deliver_facets(facets, parents, known, sheet, changed);
     deliver_segments();
   }
 
   /// Facets with the same corners are one, whose parents are those of which they are an odd number of parts:
   /// a sheet that was folded would end at its folds else.
   void deliver_facets(std::span<const Triangle> facets, const Parents& parents,
-                      std::span<const std::uint8_t> known, std::span<const std::uint8_t> changed) {
+                      std::span<const std::uint8_t> known, std::span<const Index> sheet,
+                      std::span<const std::uint8_t> changed) {
     arrange::IndexTable<3> first_with;
     std::vector<std::uint8_t> is_first(facets.size(), 0);
     std::map<Index, std::vector<Index>> of_several;  // by the first of them, their parents
@@ -294,6 +307,7 @@ class Flattening {
     state_.facets.clear();
     state_.facet_parents = {};
     state_.known.clear();
+    state_.sheet.clear();
     for (Index f = 0; f < facets.size(); ++f) {
       if (is_first[f] == 0) continue;
       std::span<const Index> list = parents.of(f);
@@ -307,6 +321,7 @@ class Flattening {
       state_.facets.push_back(facets[f]);
       state_.facet_parents.add(list);
       if (!known.empty()) state_.known.push_back(known[f]);
+      state_.sheet.push_back(sheet[f]);
     }
   }
 
@@ -370,6 +385,7 @@ class Flattening {
     Triangle corners;
     std::vector<Index> parents;
     std::vector<Index> facets;  // of the state, that it is a part of
+    Index sheet;
   };
 
   State& state_;
@@ -378,6 +394,7 @@ class Flattening {
   const std::size_t vertices_;  // before
   const SidesOf sides_of_;
   SharedSides sides_;
+  Index sheets_;                                     // the next number for `State::sheet`
   std::vector<std::uint8_t> in_cluster_, overlaps_;  // by facet
   std::vector<Index> changed_;                       // or overlapped others, as they are in the end
   std::map<Index, std::vector<Piece>> pieces_;       // by first facet

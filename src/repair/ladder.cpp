@@ -74,6 +74,8 @@ void Ladder::try_plans(SidesOf sides) {
   sides_ = sides;
   if (rounded_.is_valid || is_hopeless()) return;
   most_facets_ = is_plane_ ? most_in_plane(rounded_.state.facets.size()) : SIZE_MAX;
+  if (!is_plane_ && !starts_welded())
+    work_.most = kPlansOfMuchWork * kMuchWork.of(rounded_.state.facets.size());
   if (!is_plane_ && trouble_.size() > kMany && begin_with_twins()) return;
   begin_flat(kFlatPlans);
   if (!is_plane_ && !is_welded_ && report_.rung == Rung::coarser && trouble_.size() > kFew) join_flat();
@@ -175,10 +177,11 @@ void Ladder::join(const Plan& plan) {
   constexpr int kPasses = 8, kPassesInVain = 4;
   constexpr std::size_t kTooMuch = 4;
   Attempt now{rounded_.state, trouble_, rounded_.displacement};
+  Work work{std::min(work_.left(), kMuchWork.of(now.state.facets.size()))};
   int in_vain = 0;
   for (int pass = 0; pass < kPasses && in_vain < kPassesInVain && !trouble_.none(); ++pass) {
-    if (work_.is_spent()) break;
-    const double moved = settle(now.state, now.trouble, how, work_, here());
+    if (work.is_spent()) break;
+    const double moved = settle(now.state, now.trouble, how, work, here());
     grows_ |= now.state.facets.size() > most_facets_;
     if (grows_) break;
     const std::size_t too_much = kTooMuch * (trouble_.size() + 16);
@@ -193,6 +196,7 @@ void Ladder::join(const Plan& plan) {
     if (now.trouble.size() > too_much || (how.passings == Passings::all && moved == 0)) break;
     how.passings = Passings::all;
   }
+  work_.done += work.done;
 }
 
 void Ladder::join_from_best(const Plan& plan) {

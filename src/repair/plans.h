@@ -25,9 +25,10 @@ inline constexpr double kMostInPlane = 0x1p6;
 /// How many facets joining may make of so many in a plane. Where it makes more, it does not end well.
 constexpr std::size_t most_in_plane(std::size_t facets) { return 64 + 2 * facets; }
 
-/// How many new points so many facets in a plane may have. Those that lie in each other have some for each;
-/// many times as many come of facets all of which lie across each other along a line, and take long.
-constexpr std::size_t most_points_in_plane(std::size_t facets) { return 64 + 32 * facets; }
+/// How many new points so many facets in a plane may have. Those that lie in each other have some for each,
+/// and a fan whose facets all overlap round its apex has some for each pair. Far more come of facets all of
+/// which lie across each other along a line, and take long.
+constexpr std::size_t most_points_in_plane(std::size_t facets) { return 20'000 + 32 * facets; }
 
 /// Last bits by which sheets that are made one may be apart. In the latter plans vertices of the input that
 /// are as near to each other become one before.
@@ -45,11 +46,13 @@ inline constexpr double kTwinsLastBits = 0x1p5, kMostForTwins = 0x1p-40;
 inline constexpr std::array kGridLastBits{0x1p8, 0x1p12, 0x1p16, 0x1p20, 0x1p24, 0x1p28};
 
 /// How many vertices joining may compare with sides and facets, on a surface of so many facets. The most that
-/// a surface of `make repair` takes is 3 million, where it has 1,456 facets.
+/// a surface of `make repair` takes is 3 million, where it has 1,456 facets. A plan that spends more is left,
+/// and others come: triangles that all cross their neighbours take some plans with much work.
 struct MostWork {
   std::size_t once, for_each_facet;
   [[nodiscard]] constexpr std::size_t of(std::size_t facets) const { return once + for_each_facet * facets; }
 };
+inline constexpr std::size_t kPlansOfMuchWork = 8;
 inline constexpr MostWork kMuchWork{8'000'000, 1000}, kLittleWork{1'000'000, 250};
 
 /// How much in trouble is little, and much.

@@ -28,6 +28,7 @@ struct Work {
   std::size_t most = SIZE_MAX;
   std::size_t done = 0;
   [[nodiscard]] bool is_spent() const { return done >= most; }
+  [[nodiscard]] std::size_t left() const { return is_spent() ? 0 : most - done; }
 };
 
 /// Sides between which a vertex is put where they pass each other. Free ones have one facet.

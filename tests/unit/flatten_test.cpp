@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "numbers/random.h"
 #include "repair/ladder.h"
 #include "small_surfaces.h"
@@ -78,6 +81,39 @@ TEST(Flatten, WhereNoSideIsLedAllSheetsDoWhatOneDoes) {
   }
   EXPECT_GT(not_led, 10u);
   EXPECT_GT(led, 10u);
+}
+
+/// A fan round an apex in a plane that is turned. Each facet is a twentieth larger than the fan needs, and is
+/// rounded by itself.
+State overlapping_fan(int facets) {
+  const Point u{2.0 / 3, 1.0 / 3, 2.0 / 3}, v{-1.0 / 3, -2.0 / 3, 2.0 / 3};
+  std::vector<Point> vertices;
+  std::vector<Triangle> fan;
+  for (int k = 0; k < facets; ++k) {
+    std::array<std::array<double, 2>, 3> flat{};
+    for (int i = 0; i < 2; ++i) {
+      const double angle = 2 * std::numbers::pi * (k + i) / facets;
+      flat[static_cast<std::size_t>(i) + 1] = {std::cos(angle), std::sin(angle)};
+    }
+    const double x = (flat[1][0] + flat[2][0]) / 3, y = (flat[1][1] + flat[2][1]) / 3;
+    const auto first = static_cast<Index>(vertices.size());
+    for (const auto& [a, b] : flat) {
+      const double s = x + 1.05 * (a - x), t = y + 1.05 * (b - y);
+      vertices.push_back({s * u[0] + t * v[0], s * u[1] + t * v[1], s * u[2] + t * v[2]});
+    }
+    fan.push_back({first, first + 1, first + 2});
+  }
+  return state_of({vertices, fan, {}, {}, {}});
+}
+
+/// It has a new point for each pair of sides, and more of them than many facets that only lie in each other.
+TEST(Flatten, AFanWhoseFacetsAllOverlapIsOneSheet) {
+  State state = overlapping_fan(36);
+  const Flattened flat = flatten_all(state, kGap, rounded_in_plane, SidesOf::all_sheets, kNoStep);
+  EXPECT_GT(flat.moved, 0);
+  EXPECT_LT(flat.moved, kGap);
+  EXPECT_GT(state.facets.size(), 36u * 36);
+  EXPECT_EQ(trouble_of(state, kNoStep, 1).size(), 0u);
 }
 
 }  // namespace

@@ -41,5 +41,27 @@ TEST(Settle, EndsWhenItsWorkIsSpent) {
   EXPECT_LT(facets_settled(state, SIZE_MAX, {1000}), facets_settled(state, SIZE_MAX) / 2);
 }
 
+/// Two vertices that are next to each other, each beside the side from the first one to the other: segments
+/// there may be led through one as well as through the other.
+TEST(Settle, SegmentsAreNotLedToAndFro) {
+  constexpr Index kSegments = 20;
+  State state = state_of({{}, {}, {}, {}, {}});
+  state.vertices = {{0, 0, 0}, {10, 1e-9, 0}, {10, -1e-9, 0}, {20, 0, 1}};
+  state.input_vertices = state.vertices.size();
+  for (Index s = 0; s < kSegments; ++s) {
+    state.segments.push_back({0, 1});
+    state.segment_parents.add(std::array{s});
+  }
+  state.segments.push_back({2, 3});
+  state.segment_parents.add(std::array{kSegments});
+  Trouble all;
+  all.segments.resize(state.segments.size());
+  std::iota(all.segments.begin(), all.segments.end(), Index{0});
+  Work work;
+  settle(state, all, {1e-2, 0, false, Passings::none, SIZE_MAX}, work, [](double) {});
+  EXPECT_GT(work.done, 0u);
+  EXPECT_LT(work.done, 100u * kSegments);
+}
+
 }  // namespace
 }  // namespace holdfast::repairing
