@@ -5,7 +5,6 @@
 // marker of a vertex is the physical tag of a point element. Names are those of the physical groups. Vertices
 // are ordered by node tag, which is the order in which Holdfast numbers them.
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -15,6 +14,7 @@
 #include "io/formats.h"
 #include "io/labels.h"
 #include "io/mid_nodes.h"
+#include "io/msh_groups.h"
 #include "io/msh_nodes.h"
 #include "io/msh_numbers.h"
 #include "io/msh_of_others.h"
@@ -38,8 +38,7 @@ class MshReader {
     for (std::size_t i = 0; i < point_markers_.size(); ++i) mesh_.vertex_markers.add(i, point_markers_[i]);
     mesh_.names = {names_[2].take(), names_[3].take(), names_[1].take(), names_[0].take()};
     ids_.part(mesh_);
-    mesh_.leave_out(further_groups_.size(), "physical groups of entities that are in one before",
-                    "physical group of entities that are in one before");
+    groups_.tell(mesh_);
     return std::move(mesh_);
   }
 
@@ -167,7 +166,7 @@ class MshReader {
       const std::int64_t type = in_.integer("an element type");
       const int physical = in_.tag("a physical tag"), elementary = in_.tag("an elementary tag");
       static_cast<void>(in_.integer("the number of nodes"));
-      read_element(type, physical, elementary);
+      if (!groups_.is_one_before(in_, type, physical, elementary)) read_element(type, physical, elementary);
     }
   }
 
@@ -189,7 +188,7 @@ class MshReader {
           if (tag == 0) physical = value;
           if (tag == 1) elementary = value;
         }
-        read_element(type, physical, elementary);
+        if (!groups_.is_one_before(in_, type, physical, elementary)) read_element(type, physical, elementary);
       }
     }
   }
@@ -208,18 +207,9 @@ class MshReader {
       if (numbers < kind->nodes)
         in_.fail("an element of type " + std::to_string(type) + " with " + std::to_string(numbers) +
                  " nodes; it has " + std::to_string(kind->nodes));
-      const auto found = physicals_.find({kind->dimension, entity});
-      read_element(type, found == physicals_.end() ? 0 : found->second, entity);
+      read_element(type, groups_.of({kind->dimension, entity}), entity);
       for (std::size_t k = kind->nodes; k < numbers; ++k) static_cast<void>(in_.integer("a part"));
     }
-  }
-
-  /// Of several physical groups of an entity the first counts.
-  void note_group(std::pair<std::size_t, std::int64_t> entity, int physical, bool is_first) {
-    if (is_first)
-      physicals_[entity] = physical;
-    else
-      further_groups_.insert({entity.first, physical});
   }
 
   /// Entities of version 3, which are text, too, where numbers are bytes.
@@ -232,10 +222,8 @@ class MshReader {
         const std::size_t borders = dimension == 0 ? 0 : text_.count("the number of bounding entities", 2);
         for (std::size_t k = 0; k < borders; ++k) static_cast<void>(text_.integer("an entity tag"));
         const std::size_t physicals = text_.count("the number of physical tags", 2);
-        for (std::size_t k = 0; k < physicals; ++k) {
-          const int physical = text_.tag("a physical tag");
-          note_group({dimension, tag}, physical, k == 0);
-        }
+        for (std::size_t k = 0; k < physicals; ++k)
+          groups_.note({dimension, tag}, text_.tag("a physical tag"));
       }
   }
 
@@ -254,10 +242,7 @@ class MshReader {
     const int bounds = dimension == 0 && version_ == MshVersion::v4_1 ? 3 : 6;
     for (int bound = 0; bound < bounds; ++bound) static_cast<void>(in_.real("a bound"));
     const std::size_t physicals = in_.count("the number of physical tags", 2, 4);
-    for (std::size_t k = 0; k < physicals; ++k) {
-      const int physical = in_.tag("a physical tag");
-      note_group({dimension, tag}, physical, k == 0);
-    }
+    for (std::size_t k = 0; k < physicals; ++k) groups_.note({dimension, tag}, in_.tag("a physical tag"));
     if (dimension == 0) return;
     const std::size_t borders = in_.count("the number of bounding entities", 2, 4);
     for (std::size_t k = 0; k < borders; ++k) static_cast<void>(in_.integer("an entity tag"));
@@ -331,9 +316,7 @@ class MshReader {
     for (std::size_t i = 0; i < blocks; ++i) {
       const Block block = read_block("an element type", "the number of elements", 4, 4);
       const std::pair entity{static_cast<std::size_t>(block.dimension), std::int64_t{block.entity}};
-      const auto found = physicals_.find(entity);
-      const int physical = found == physicals_.end() ? 0 : found->second;
-      const int elementary = found == physicals_.end() ? block.entity : 0;
+      const int physical = groups_.of(entity), elementary = physical != 0 ? 0 : block.entity;
       const bool between = between_.contains(entity);
       for (std::size_t k = 0; k < block.count; ++k) {
         static_cast<void>(node_tag());  // of the element, which takes as many bytes
@@ -439,10 +422,9 @@ class MshReader {
   TextReader& text_;
   MshVersion version_ = MshVersion::v1;
   MshNodes nodes_;
-  std::map<std::pair<std::size_t, std::int64_t>, int> physicals_;  ///< by dimension and entity tag
-  std::set<std::pair<std::size_t, std::int64_t>> between_;         ///< entities between parts
-  std::set<std::pair<std::size_t, int>> further_groups_;  ///< by dimension, of entities with one before
-  std::vector<int> point_markers_;                        ///< by vertex, where any is marked
+  MshGroups groups_;
+  std::set<std::pair<std::size_t, std::int64_t>> between_;  ///< entities between parts
+  std::vector<int> point_markers_;                          ///< by vertex, where any is marked
   std::array<NamedIds, 4> names_{NamedIds(kVertexStem), NamedIds(kSegmentStem), NamedIds(kFacetStem),
                                  NamedIds(kRegionStem)};  ///< by dimension
   EntityIds ids_;

@@ -173,5 +173,26 @@ TEST_F(NamesOfFiles, OfTheGroupsOfAnEntityTheFirstCountsAndTheOthersAreTold) {
   EXPECT_EQ(s.remarks[0].message, "1 physical group of entities that are in one before is left out");
 }
 
+/// Gmsh writes these once for each group, one after the other, with the tag of their entity.
+TEST_F(NamesOfFiles, OfTheGroupsOfAnElementTheFirstCountsAndTheOthersAreTold) {
+  const std::string nodes = "4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n";
+  for (const bool is_version_2 : {true, false}) {
+    // Groups 7 and 9 have the first triangle, 7, 8 and 9 the second. The last one is of another entity.
+    std::string elements = "6\n";
+    for (const char* const element :
+         {"7 1 1 3 2", "9 1 1 3 2", "7 1 1 2 4", "8 1 1 2 4", "9 1 1 2 4", "9 2 2 3 4"}) {
+      const std::string of(element);
+      elements += is_version_2 ? "1 2 2 " + of + "\n" : "1 2 " + of.substr(0, 4) + "3 " + of.substr(4) + "\n";
+    }
+    put(folder_ / "a.msh", is_version_2 ? "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + nodes +
+                                              "$EndNodes\n$Elements\n" + elements + "$EndElements\n"
+                                        : "$NOD\n" + nodes + "$ENDNOD\n$ELM\n" + elements + "$ENDELM\n");
+    const Surface s = read_surface(folder_ / "a.msh");
+    EXPECT_EQ(s.facet_markers, (std::vector<int>{7, 7, 9}));
+    ASSERT_EQ(s.remarks.size(), 1u);
+    EXPECT_EQ(s.remarks[0].message, "2 physical groups of entities that are in one before are left out");
+  }
+}
+
 }  // namespace
 }  // namespace holdfast
