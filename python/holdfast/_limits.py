@@ -10,6 +10,8 @@ import sys
 import typing
 from typing import Any, Optional, Union
 
+import numpy as np
+
 from ._core import CancelToken as CancelToken
 from ._core import now
 
@@ -40,7 +42,7 @@ def bytes_of(amount: Optional[MemoryAmount]) -> Optional[int]:
 def limits(
     time_limit: Optional[float], memory_limit: Optional[MemoryAmount], cancel: Optional[CancelToken]
 ) -> dict[str, Any]:
-    if time_limit is not None and not isinstance(time_limit, numbers.Real):
+    if time_limit is not None and (is_truth(time_limit) or not isinstance(time_limit, numbers.Real)):
         raise TypeError(f"time_limit={time_limit!r}: a number of seconds is expected; None is no limit")
     if time_limit is not None and not 0 < time_limit < float("inf"):
         raise ValueError(f"time_limit={time_limit!r}: a positive number of seconds is expected; None is no limit")
@@ -49,12 +51,19 @@ def limits(
     return {"time_limit": time_limit, "memory_limit": bytes_of(memory_limit), "cancel": cancel, "started": now()}
 
 
+def is_truth(value: Any) -> bool:
+    """True and False count as 1 and 0 in Python, but are no numbers that anyone means."""
+    return isinstance(value, (bool, np.bool_))
+
+
 def whole(value: Any, what: str) -> int:
     """An integer of Python or NumPy, and nothing that would have to be rounded."""
     try:
-        return operator.index(value)
+        if not is_truth(value):
+            return operator.index(value)
     except TypeError:
-        raise TypeError(f"{what}={value!r}: an integer is expected") from None
+        pass
+    raise TypeError(f"{what}={value!r}: an integer is expected")
 
 
 def threads_of(threads: Any) -> int:
@@ -66,6 +75,8 @@ def threads_of(threads: Any) -> int:
 
 def length(value: Any, what: str) -> float:
     """A finite length that is not negative."""
+    if is_truth(value):
+        raise TypeError(f"{what}={value!r}: a length is expected, in the surface's unit")
     try:
         number = float(value)
     except OverflowError:

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._limits import CancelToken, MemoryAmount, Progress, Shown, length, limits, threads_of, whole
+from ._limits import CancelToken, MemoryAmount, Progress, Shown, is_truth, length, limits, threads_of, whole
 from ._masks import require_unmasked
 from ._parts import given
 from ._repair import Repair, most_sides
@@ -243,6 +243,8 @@ def _region(values: typing.Sequence[float]) -> tuple[float, float, float, int, f
 
 
 def _positive(value: Any, what: str) -> float:
+    if is_truth(value):
+        raise TypeError(f"{what}={value!r}: a positive number is expected")
     try:
         number = float(value)
     except (TypeError, ValueError):
@@ -276,7 +278,7 @@ def _bounded(
         raise TypeError("max_volume is a number, or a dict of numbers by the ids of regions")
     by_id = {id: v for id, v in most.items() if id is not None} if isinstance(most, typing.Mapping) else {}
     for id in by_id:
-        if isinstance(id, bool) or not isinstance(id, numbers.Integral):
+        if is_truth(id) or not isinstance(id, numbers.Integral):
             raise TypeError(f"max_volume: {id!r} is no id of a region, which is an integer")
     nowhere = float("nan")  # the region that has the id in the mesh, whatever gives it (holdfast/region_bounds.h)
     bounds = [(nowhere, nowhere, nowhere, int(id), 0.0, _positive(v, "max_volume")) for id, v in sorted(by_id.items())]

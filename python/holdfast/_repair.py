@@ -5,12 +5,11 @@ from __future__ import annotations
 import json
 from typing import Any, Optional, Union
 
-import numpy as np
 import numpy.typing as npt
 
 from . import _core
 from ._counts import counted
-from ._limits import CancelToken, MemoryAmount, Progress, Shown, length, limits, threads_of, whole
+from ._limits import CancelToken, MemoryAmount, Progress, Shown, is_truth, length, limits, threads_of, whole
 from ._surface import Array, Surface, _of_data, surface_of
 from .errors import _raise_unless_done
 
@@ -148,7 +147,7 @@ def repair(
 
 def most_sides(fill_holes: Union[bool, int]) -> int:
     """Of a hole that is filled; 0: none is."""
-    if isinstance(fill_holes, (bool, np.bool_)):
+    if is_truth(fill_holes):
         return 2**62 if fill_holes else 0
     sides = whole(fill_holes, "fill_holes")
     if sides < 0 or 0 < sides < 3:

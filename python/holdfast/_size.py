@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._limits import is_truth
 from ._masks import plain
 from ._surface import Array, indices_of, points_of
 
@@ -40,7 +41,7 @@ def set_size(size: Size, options: dict[str, Any], points: int) -> Optional[typin
         asked: typing.Callable[[Array], Any] = size
         return asked
     elif np.ndim(size) == 0:
-        if isinstance(size, (bool, np.bool_)):
+        if is_truth(size):
             raise TypeError(f"size={size}: a length is expected, in the surface's unit")
         number = float(size)
         if not 0 < number < float("inf"):

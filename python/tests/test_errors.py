@@ -367,3 +367,18 @@ def test_names_of_files_may_be_bytes(tmp_path):
     assert holdfast.check(path, path + b".vtu") and len(holdfast.read_volume(path + b".vtu")) == len(mesh)
     holdfast.convert(path + b".vtu", path + b".mesh")
     assert holdfast.info(path + b".mesh")["tetrahedra"] == len(mesh)
+
+
+@pytest.mark.parametrize("name", ["size", "gradation", "max_volume", "max_ratio", "layers", "threads", "seed", "time_limit"])
+@pytest.mark.parametrize("truth", [True, np.bool_(True)])
+def test_true_is_no_number(name, truth):
+    points, triangles = box()
+    with pytest.raises(TypeError, match=name):
+        holdfast.mesh(points, triangles, **{name: truth})
+
+
+@pytest.mark.parametrize("name", ["weld", "join"])
+def test_true_is_no_length_of_a_repair(name):
+    points, triangles = box()
+    with pytest.raises(TypeError, match=name):
+        holdfast.repair(points, triangles, **{name: True})
