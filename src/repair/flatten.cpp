@@ -7,13 +7,13 @@
 #include <set>
 #include <utility>
 
-#include "arrange/index_table.h"
 #include "numbers/sorted.h"
 #include "repair/bounds.h"
 #include "repair/clusters.h"
 #include "repair/flat_cluster.h"
 #include "repair/near.h"
 #include "repair/shared_sides.h"
+#include "repair/sheet_parts.h"
 #include "surface/complex.h"
 
 namespace holdfast::repairing {
@@ -32,8 +32,8 @@ class Flattening {
         sides_of_(sides),
         sides_(state.vertices, gap),
         sheets_(sheets_of(state)),
-        in_cluster_(state.facets.size(), 0),
-        overlaps_(state.facets.size(), 0) {}
+        in_sheets_{std::vector<std::uint8_t>(state.facets.size(), 0),
+                   std::vector<std::uint8_t>(state.facets.size(), 0)} {}
 
   Flattened run(const Clusters& clusters) {
     bool any = false;
@@ -43,14 +43,21 @@ class Flattening {
       state_.vertices.resize(vertices_);
       return {0, has_led_, {}};
     }
-    for (const Index f : clusters.facets) overlaps_[f] = 1;
-    deliver();
+    for (const Index f : clusters.facets) in_sheets_.overlap[f] = 1;
+    Delivered delivered = deliver_sheets(state_, sides_, parts_, in_sheets_);
     drop_unused(state_);
-    return {std::max(most_, sides_.most()), has_led_, std::move(changed_)};
+    return {std::max({most_, sides_.most(), delivered.moved}), has_led_, std::move(delivered.changed)};
   }
 
  private:
   [[nodiscard]] const Point& at(Index v) const { return state_.vertices[v]; }
+
+  /// What came of a cluster in its plane.
+  struct Sheet {
+    State state;
+    double moved = 0;
+    std::vector<std::vector<Index>> chains;  // the vertices on each side, without its ends
+  };
 
   bool arrange_cluster(const Cluster& cluster) {
     const Flat before = flat_of(state_, cluster);
@@ -59,64 +66,92 @@ class Flattening {
                              [&](const Side& s) { return !sides_.chain(s[0], s[1]).empty(); }))
       return false;
     if (has_one_above_another(before)) return false;
-    Rounded rounded = round_(before.state, kMostGaps * gap_);
-    State& after = rounded.state;
-    if (!rounded.is_valid || !(rounded.displacement <= kMostGaps * gap_) ||
-        !std::equal(before.state.vertices.begin(), before.state.vertices.end(), after.vertices.begin()))
+    std::optional<Sheet> sheet = rounded(cluster, before);
+    if (!sheet || (waits && leads_what_is_told(before, *sheet))) return false;
+
+    const std::size_t vertices = state_.vertices.size();
+    const std::vector<Index> name = put_vertices(before, sheet->state);
+    lift_all(cluster, sheet->state, name);
+    const Corners corners = corners_of_parts(sheet->state);
+    if (!is_near(cluster, corners, before, sheet->chains, name) ||
+        !put_on_sides(cluster, before, *sheet, name)) {
+      lifted_.erase(lifted_.lower_bound(static_cast<Index>(vertices)), lifted_.end());
+      state_.vertices.resize(vertices);
       return false;
-    // Every side must have become a chain from end to end.
+    }
+    take(cluster, before, *sheet, name);
+    // How far the points of a part are from its parent is a convex function: corners decide.
+    for (const auto& [k, v] : corners)
+      most_ = std::max(most_, distance(name[v], state_.facets[cluster.facets[k]]));
+    return true;
+  }
+
+  /// The cluster arranged in its plane and rounded, where that is near enough and leaves the facets whole and
+  /// each side a chain from end to end.
+  [[nodiscard]] std::optional<Sheet> rounded(const Cluster& cluster, const Flat& before) const {
+    Rounded in_plane = round_(before.state, kMostGaps * gap_);
+    State& after = in_plane.state;
+    if (!in_plane.is_valid || !(in_plane.displacement <= kMostGaps * gap_) ||
+        !std::equal(before.state.vertices.begin(), before.state.vertices.end(), after.vertices.begin()))
+      return std::nullopt;
     std::vector<std::vector<Segment>> pieces(before.sides.size());
     for (std::size_t s = 0; s < after.segments.size(); ++s)
       for (const Index p : after.segment_parents.of(s)) pieces[p].push_back(after.segments[s]);
     std::vector<std::vector<Index>> chains(before.sides.size());
     for (std::size_t k = 0; k < chains.size(); ++k)
-      if (!chain_of(pieces[k], before.state.segments[k], chains[k]) ||
-          (waits && !chains[k].empty() && sides_.is_told(before.sides[k])))
-        return false;
-    if (!make_whole(cluster, before, after, chains)) return false;
+      if (!chain_of(pieces[k], before.state.segments[k], chains[k])) return std::nullopt;
+    if (!make_whole(cluster, before, after, chains)) return std::nullopt;
+    return Sheet{std::move(after), in_plane.displacement, std::move(chains)};
+  }
 
-    const std::size_t vertices = state_.vertices.size();
-    std::vector<Index> name(after.vertices.size());
-    for (Index v = 0; v < name.size(); ++v) {
-      if (v < before.vertices.size()) {
-        name[v] = before.vertices[v];
-        continue;
-      }
-      name[v] = static_cast<Index>(state_.vertices.size());
-      state_.vertices.push_back(after.vertices[v]);
-      lifted_.insert(name[v]);
+  [[nodiscard]] bool leads_what_is_told(const Flat& before, const Sheet& sheet) const {
+    for (std::size_t k = 0; k < sheet.chains.size(); ++k)
+      if (!sheet.chains[k].empty() && sides_.is_told(before.sides[k])) return true;
+    return false;
+  }
+
+  /// The vertices of a sheet in the state, where new ones have no third coordinate yet.
+  std::vector<Index> put_vertices(const Flat& before, const State& sheet) {
+    std::vector<Index> name = before.vertices;
+    for (std::size_t v = name.size(); v < sheet.vertices.size(); ++v) {
+      name.push_back(static_cast<Index>(state_.vertices.size()));
+      state_.vertices.push_back(sheet.vertices[v]);
+      lifted_.insert(name.back());
     }
-    for (std::size_t f = 0; f < after.facets.size(); ++f) lift(cluster, after, f, name);
+    return name;
+  }
+
+  /// New vertices that are corners of facets get their third coordinate. Others are on sides alone.
+  void lift_all(const Cluster& cluster, const State& sheet, std::span<const Index> name) {
+    for (std::size_t f = 0; f < sheet.facets.size(); ++f) lift(cluster, sheet, f, name);
     for (const auto& [v, largest] : below_) {
       state_.vertices[v][cluster.axis] = above(largest.second, state_.vertices[v], cluster.axis);
       lifted_.erase(v);
     }
     below_.clear();
-    const auto undo = [&] {
-      lifted_.erase(lifted_.lower_bound(static_cast<Index>(vertices)), lifted_.end());
-      state_.vertices.resize(vertices);
-      return false;
-    };
-    const Corners corners = corners_of_parts(after);
-    if (!is_near(cluster, corners, before, chains, name)) return undo();
-    for (std::size_t k = 0; k < chains.size(); ++k)
-      if (!chains[k].empty()) put_on_side(cluster, before.sides[k], chains[k], name);
-    for (std::vector<Index>& chain : chains)
+  }
+
+  /// The chains get their names in the state. False where one does not fit to what other sheets lead the side
+  /// through.
+  bool put_on_sides(const Cluster& cluster, const Flat& before, Sheet& sheet, std::span<const Index> name) {
+    for (std::size_t k = 0; k < sheet.chains.size(); ++k)
+      if (!sheet.chains[k].empty()) put_on_side(cluster, before.sides[k], sheet.chains[k], name);
+    for (std::vector<Index>& chain : sheet.chains)
       for (Index& v : chain) v = name[v];
-    for (std::size_t k = 0; k < chains.size(); ++k)
-      if (!sides_.fits(before.sides[k][0], before.sides[k][1], chains[k])) return undo();
-    for (std::size_t f = 0; f < after.facets.size(); ++f) take(cluster, after, f, name);
-    ++sheets_;
-    // How far the points of a part are from its parent is a convex function: corners decide.
-    for (const auto& [k, v] : corners)
-      most_ = std::max(most_, distance(name[v], state_.facets[cluster.facets[k]]));
-    for (std::size_t k = 0; k < chains.size(); ++k) {
-      sides_.add(before.sides[k][0], before.sides[k][1], chains[k]);
-      has_led_ |= !chains[k].empty();
-    }
-    for (const Index f : cluster.facets) in_cluster_[f] = 1;
-    most_ = std::max(most_, rounded.displacement);
+    for (std::size_t k = 0; k < sheet.chains.size(); ++k)
+      if (!sides_.fits(before.sides[k][0], before.sides[k][1], sheet.chains[k])) return false;
     return true;
+  }
+
+  void take(const Cluster& cluster, const Flat& before, const Sheet& sheet, std::span<const Index> name) {
+    for (std::size_t f = 0; f < sheet.state.facets.size(); ++f) take(cluster, sheet.state, f, name);
+    ++sheets_;
+    for (std::size_t k = 0; k < sheet.chains.size(); ++k) {
+      sides_.add(before.sides[k][0], before.sides[k][1], sheet.chains[k]);
+      has_led_ |= !sheet.chains[k].empty();
+    }
+    for (const Index f : cluster.facets) in_sheets_.are_parted[f] = 1;
+    most_ = std::max(most_, sheet.moved);
   }
 
   [[nodiscard]] static Index sheets_of(const State& state) {
@@ -212,181 +247,28 @@ class Flattening {
     return std::isfinite(z) ? std::clamp(z, low, high) : low;
   }
 
-  /// Of a vertex and a side, rounded up.
   [[nodiscard]] double distance(Index v, const Side& side) const {
-    const Point &a = at(side[0]), &b = at(side[1]);
-    const double to_ends = std::min(length(minus(at(v), a)), length(minus(at(v), b))) * (1 + 0x1p-48);
-    return std::min(beside_side(at(v), a, b).bound(), to_ends);
+    return distance_above(at(v), at(side[0]), at(side[1]));
   }
-
-  /// Of a vertex and a facet, rounded up.
   [[nodiscard]] double distance(Index v, const Triangle& t) const {
-    if (v == t[0] || v == t[1] || v == t[2]) return 0;
-    double least = beside_facet(at(v), at(t[0]), at(t[1]), at(t[2])).bound();
-    for (std::size_t i = 0; i < 3; ++i) {
-      least = std::min(least, beside_side(at(v), at(t[i]), at(t[(i + 1) % 3])).bound());
-      least = std::min(least, length(minus(at(v), at(t[i]))) * (1 + 0x1p-48));
-    }
-    return least;
+    return distance_above(at(v), at(t[0]), at(t[1]), at(t[2]));
   }
 
   /// Takes a facet of the plane as one of the surface, with its parents there.
   void take(const Cluster& cluster, const State& after, std::size_t f, std::span<const Index> name) {
     const auto& [a, b, c] = after.facets[f];
-    Piece piece{{name[a], name[b], name[c]}, {}, {}, sheets_};
+    SheetPart part{{name[a], name[b], name[c]}, {}, {}, sheets_};
     Index first = no_index;
     for (const Index k : after.facet_parents.of(f)) {
       const Index parent = cluster.facets[k];
       first = std::min(first, parent);
-      piece.facets.push_back(parent);
+      part.facets.push_back(parent);
       const auto of = state_.facet_parents.of(parent);
-      piece.parents.insert(piece.parents.end(), of.begin(), of.end());
+      part.parents.insert(part.parents.end(), of.begin(), of.end());
     }
-    sort_odd(piece.parents);
-    pieces_[first].push_back(std::move(piece));
+    sort_odd(part.parents);
+    parts_[first].push_back(std::move(part));
   }
-
-  /// All facets again: parts of clusters in the places of their first parents, others cut where their sides
-  /// are.
-  void deliver() {
-    std::vector<Triangle> facets;
-    Parents parents;
-    std::vector<std::uint8_t> known, changed;
-    std::vector<Index> sheet;
-    for (Index f = 0; f < in_cluster_.size(); ++f) {
-      if (const auto found = pieces_.find(f); found != pieces_.end())
-        for (Piece& piece : found->second) {
-          const std::vector<Triangle> parts = cut(piece.corners);
-          const bool is_whole = parts.size() == 1 && parts[0] == piece.corners;
-          for (const Triangle& t : parts) {
-            facets.push_back(t);
-            parents.add(piece.parents);
-            known.push_back(0);
-            sheet.push_back(is_whole ? piece.sheet : no_index);
-            changed.push_back(1);
-            if (is_whole) continue;
-            for (const Index parent : piece.facets)
-              for (const Index v : t) most_ = std::max(most_, distance(v, state_.facets[parent]));
-          }
-        }
-      if (in_cluster_[f] != 0) continue;
-      const auto add = [&](const Triangle& t) {
-        facets.push_back(t);
-        parents.add(state_.facet_parents.of(f));
-        known.push_back(t != state_.facets[f] || state_.known.empty() ? 0 : state_.known[f]);
-        sheet.push_back(t != state_.facets[f] || state_.sheet.empty() ? no_index : state_.sheet[f]);
-        changed.push_back(t != state_.facets[f] ? 1 : overlaps_[f]);
-      };
-      if (stays_whole(state_.facets[f]))
-        add(state_.facets[f]);
-      else
-        for (const Triangle& t : cut(state_.facets[f])) add(t);
-    }
-    if (state_.known.empty()) known.clear();
-    deliver_facets(facets, parents, known, sheet, changed);
-    deliver_segments();
-  }
-
-  /// Facets with the same corners are one, whose parents are those of which they are an odd number of parts:
-  /// a sheet that was folded would end at its folds else.
-  void deliver_facets(std::span<const Triangle> facets, const Parents& parents,
-                      std::span<const std::uint8_t> known, std::span<const Index> sheet,
-                      std::span<const std::uint8_t> changed) {
-    arrange::IndexTable<3> first_with;
-    std::vector<std::uint8_t> is_first(facets.size(), 0);
-    std::map<Index, std::vector<Index>> of_several;  // by the first of them, their parents
-    for (Index f = 0; f < facets.size(); ++f) {
-      const Index first = first_with.find_or_add(ascending(facets[f]), f);
-      is_first[f] = first == f ? 1 : 0;
-      if (first == f) continue;
-      const auto [found, is_new] = of_several.try_emplace(first);
-      std::vector<Index>& list = found->second;
-      if (is_new) list.assign(parents.of(first).begin(), parents.of(first).end());
-      list.insert(list.end(), parents.of(f).begin(), parents.of(f).end());
-    }
-    state_.facets.clear();
-    state_.facet_parents = {};
-    state_.known.clear();
-    state_.sheet.clear();
-    for (Index f = 0; f < facets.size(); ++f) {
-      if (is_first[f] == 0) continue;
-      std::span<const Index> list = parents.of(f);
-      if (const auto found = of_several.find(f); found != of_several.end()) {
-        sort_odd(found->second);
-        list = found->second;
-      }
-      if (list.empty()) continue;
-      if (changed[f] != 0 || of_several.contains(f))
-        changed_.push_back(static_cast<Index>(state_.facets.size()));
-      state_.facets.push_back(facets[f]);
-      state_.facet_parents.add(list);
-      if (!known.empty()) state_.known.push_back(known[f]);
-      state_.sheet.push_back(sheet[f]);
-    }
-  }
-
-  void deliver_segments() {
-    std::vector<Segment> segments;
-    Parents parents;
-    for (std::size_t s = 0; s < state_.segments.size(); ++s) {
-      const Index end = sides_.root(state_.segments[s][1]);
-      Index before = sides_.root(state_.segments[s][0]);
-      std::vector<Index> chain = sides_.chain(before, end);
-      chain.push_back(end);
-      for (const Index v : chain) {
-        if (before == v) continue;
-        segments.push_back({before, v});
-        parents.add(state_.segment_parents.of(s));
-        before = v;
-      }
-    }
-    state_.segments = std::move(segments);
-    state_.segment_parents = std::move(parents);
-  }
-
-  [[nodiscard]] bool stays_whole(const Triangle& t) const {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index a = t[i], b = t[(i + 1) % 3];
-      if (a == b || sides_.root(a) != a || sides_.is_led(a, b)) return false;
-    }
-    return true;
-  }
-
-  /// One side after the other: each fan leaves the other two sides whole.
-  [[nodiscard]] std::vector<Triangle> cut(Triangle facet) const {
-    for (Index& v : facet) v = sides_.root(v);
-    std::vector<Triangle> parts{facet};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index a = facet[i], b = facet[(i + 1) % 3];
-      const std::vector<Index> chain = sides_.chain(a, b);
-      if (chain.empty()) continue;
-      std::vector<Triangle> now;
-      for (const Triangle& t : parts) {
-        const auto at_a = static_cast<std::size_t>(std::find(t.begin(), t.end(), a) - t.begin());
-        if (at_a == 3 || t[(at_a + 1) % 3] != b) {
-          now.push_back(t);
-          continue;
-        }
-        const Index apex = t[(at_a + 2) % 3];
-        Index before = a;
-        for (const Index v : chain) {
-          if (v != apex) now.push_back({before, v, apex});
-          before = v;
-        }
-        now.push_back({before, b, apex});
-      }
-      parts = std::move(now);
-    }
-    std::erase_if(parts, [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
-    return parts;
-  }
-
-  struct Piece {
-    Triangle corners;
-    std::vector<Index> parents;
-    std::vector<Index> facets;  // of the state, that it is a part of
-    Index sheet;
-  };
 
   State& state_;
   const double gap_;
@@ -394,10 +276,9 @@ class Flattening {
   const std::size_t vertices_;  // before
   const SidesOf sides_of_;
   SharedSides sides_;
-  Index sheets_;                                     // the next number for `State::sheet`
-  std::vector<std::uint8_t> in_cluster_, overlaps_;  // by facet
-  std::vector<Index> changed_;                       // or overlapped others, as they are in the end
-  std::map<Index, std::vector<Piece>> pieces_;       // by first facet
+  Index sheets_;  // the next number for `State::sheet`
+  InSheets in_sheets_;
+  SheetParts parts_;
   std::set<Index> lifted_;                           // new vertices that have no third coordinate yet
   std::map<Index, std::pair<double, Index>> below_;  // of these, the area and the index of the largest facet
   double most_ = 0;

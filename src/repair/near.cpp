@@ -55,6 +55,18 @@ Passing pass(const Point& a, const Point& b, const Point& c, const Point& d) {
   return passing;
 }
 
+double distance_above(const Point& p, const Point& a, const Point& b) {
+  const double to_ends = std::min(length(minus(p, a)), length(minus(p, b))) * (1 + 0x1p-48);
+  return std::min(beside_side(p, a, b).bound(), to_ends);
+}
+
+double distance_above(const Point& p, const Point& a, const Point& b, const Point& c) {
+  if (p == a || p == b || p == c) return 0;
+  const double to_sides =
+      std::min({distance_above(p, a, b), distance_above(p, b, c), distance_above(p, c, a)});
+  return std::min(beside_facet(p, a, b, c).bound(), to_sides);
+}
+
 double distance_to(const Point& p, const Point& a, const Point& b, const Point& c) {
   double distance = beside_facet(p, a, b, c).distance;
   const auto take = [&](double d) { distance = std::min(distance, d); };

@@ -51,6 +51,10 @@ struct Passing {
 };
 [[nodiscard]] Passing pass(const Point& a, const Point& b, const Point& c, const Point& d);
 
+/// From a point to a side or to a facet, rounded up.
+[[nodiscard]] double distance_above(const Point& p, const Point& a, const Point& b);
+[[nodiscard]] double distance_above(const Point& p, const Point& a, const Point& b, const Point& c);
+
 /// From a point to a facet.
 [[nodiscard]] double distance_to(const Point& p, const Point& a, const Point& b, const Point& c);
 
