@@ -50,6 +50,11 @@ void Ladder::begin() {
       return;
     }
   }
+  if (is_plane_ && new_points_[0] > many_points_in_plane(given_.facets.size())) {
+    const double much = kMostInTrouble * static_cast<double>(rounded_.state.facets.size());
+    grows_ = !trouble_of(rounded_.state, here(), threads_, static_cast<std::size_t>(much)).is_all;
+    if (grows_) return;
+  }
   cut_again();
   if (!rounded_.is_valid && !is_hopeless()) trouble_ = trouble_of(rounded_.state, here(), threads_);
 }

@@ -30,6 +30,11 @@ constexpr std::size_t most_in_plane(std::size_t facets) { return 64 + 2 * facets
 /// which lie across each other along a line, and take long.
 constexpr std::size_t most_points_in_plane(std::size_t facets) { return 20'000 + 32 * facets; }
 
+/// With more points than that, a plane in which most facets are in trouble after the first cut is given up:
+/// the second one takes long and has too many points.
+constexpr std::size_t many_points_in_plane(std::size_t facets) { return 64 + 32 * facets; }
+inline constexpr double kMostInTrouble = 2.0 / 3;  // of the facets
+
 /// Last bits by which sheets that are made one may be apart. In the latter plans vertices of the input that
 /// are as near to each other become one before.
 inline constexpr std::array kFlatPlans{Plan{0x1p2, false}, Plan{0x1p6, false}};
@@ -52,7 +57,7 @@ struct MostWork {
   std::size_t once, for_each_facet;
   [[nodiscard]] constexpr std::size_t of(std::size_t facets) const { return once + for_each_facet * facets; }
 };
-inline constexpr std::size_t kPlansOfMuchWork = 8;
+inline constexpr std::size_t kPlansOfMuchWork = 5;
 inline constexpr MostWork kMuchWork{8'000'000, 1000}, kLittleWork{1'000'000, 250};
 
 /// How much in trouble is little, and much.
