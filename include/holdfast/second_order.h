@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "holdfast/export.h"
 #include "holdfast/limits.h"
@@ -14,6 +15,12 @@ namespace holdfast {
 /// tetrahedra, then in what else the volume has. Throws std::out_of_range for indices of no vertex,
 /// std::length_error where nodes are beyond 32 bits, and Interrupted for its limits.
 HOLDFAST_API void add_mid_nodes(Volume& volume, const Limits& limits = {});
+
+/// The tetrahedra of a volume of second order whose Jacobian is not proven positive everywhere, ascending.
+/// Those of straight edges are so flat that their nodes, rounded to doubles, turn them. The volume is sound,
+/// and its numbers are finite. Throws Interrupted for its limits.
+[[nodiscard]] HOLDFAST_API std::vector<Index> not_positive_elements(const Volume& volume,
+                                                                    const Limits& limits = {});
 
 struct CurveOptions : Limits {
   /// How far a node may move, in the surface's unit; 0: a tenth of its edge's length.

@@ -208,7 +208,7 @@ class TetMesh:
 
     def second_order(self, curved: Any = None, tolerance: Optional[float] = None) -> "TetMesh":
         """The same mesh with a node in the middle of each edge, which `nodes`, `tetrahedra10` and so on have, and `save`
-        writes.
+        writes. `not_positive` has the tetrahedra that are too flat for it.
 
         Parameters
         ----------
@@ -237,6 +237,12 @@ class TetMesh:
         mesh._report = self._report
         mesh.curve_report = {} if smooth is None else dict(told)
         return mesh
+
+    @property
+    def not_positive(self) -> Array:
+        """(k,) tetrahedra of second order whose Jacobian is not proven positive everywhere, ascending. With straight edges they
+        are so flat that their nodes, rounded to doubles, turn them. Solvers refuse them. Empty for a mesh of first order."""
+        return _core.not_positive_elements(self._volume)
 
     @property
     def nodes(self) -> Array:

@@ -128,6 +128,14 @@ void register_volume(py::module_& module) {
     told["farthest"] = report.farthest;
     return py::make_tuple(copy, told);
   });
+  module.def("not_positive_elements", [](const Volume& volume) {
+    std::vector<Index> elements;
+    {
+      const py::gil_scoped_release unlocked;
+      elements = not_positive_elements(volume);
+    }
+    return py::array_t<std::int64_t>(py::cast(elements));
+  });
 }
 
 }  // namespace holdfast::python

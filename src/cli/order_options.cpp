@@ -49,6 +49,20 @@ std::optional<Surface> read_curved(const OrderArguments& arguments, const Limits
   return read_surface(arguments.curved, reading(limits, {}));
 }
 
+std::size_t tell_not_positive(const Volume& volume, const Limits& limits, bool quiet) {
+  const std::vector<Index> elements = not_positive_elements(volume, limits);
+  if (quiet || elements.empty()) return elements.size();
+  const Point& at = volume.vertices[volume.tetrahedra[elements[0]][0]];
+  const bool is_one = elements.size() == 1;
+  say("holdfast: warning: {} not positive everywhere with nodes in the middle of edges, since {} flat to the "
+      "last "
+      "bits, or inverted; first tetrahedron {} at ({:.10g}, {:.10g}, {:.10g}). Most solvers refuse {}: use "
+      "--order 1, or repair what is so thin\n",
+      counted(elements.size(), "element is", "elements are"), is_one ? "it is" : "they are", elements[0],
+      at[0], at[1], at[2], is_one ? "it" : "them");
+  return elements.size();
+}
+
 Json set_order(Volume& volume, const OrderArguments& arguments, const std::optional<Surface>& smooth,
                const Limits& limits, bool quiet) {
   if (arguments.order != 2) {
@@ -58,7 +72,8 @@ Json set_order(Volume& volume, const OrderArguments& arguments, const std::optio
   if (!smooth) {
     // Nodes that a file has stay as they are.
     if (volume.mid_nodes.empty()) add_mid_nodes(volume, limits);
-    return {{"order", 2}, {"nodes", volume.mid_nodes.points.size()}};
+    const std::size_t not_positive = tell_not_positive(volume, limits, quiet);
+    return {{"order", 2}, {"nodes", volume.mid_nodes.points.size()}, {"not_positive", not_positive}};
   }
   CurveOptions options;
   static_cast<Limits&>(options) = limits;
@@ -74,11 +89,8 @@ Json set_order(Volume& volume, const OrderArguments& arguments, const std::optio
     if (report.straightened > 0)
       say("holdfast: {} straight, or an element would not be positive everywhere\n",
           counted(report.straightened, "node stays", "nodes stay"));
-    if (report.not_positive > 0)
-      say("holdfast: {} so flat that rounded mid-edge nodes turn {}\n",
-          counted(report.not_positive, "element is", "elements are"),
-          report.not_positive == 1 ? "it" : "them");
   }
+  if (report.not_positive > 0) tell_not_positive(volume, limits, quiet);
   return {{"order", 2},
           {"nodes", volume.mid_nodes.points.size()},
           {"on_triangles", report.on_facets},

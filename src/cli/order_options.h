@@ -29,8 +29,13 @@ void take_order(const OrderArguments& arguments, FilesOfRun& files);
 /// The smooth surface, if there is one. Throws FileError.
 [[nodiscard]] std::optional<Surface> read_curved(const OrderArguments& arguments, const Limits& limits);
 
+/// Warns, unless `quiet`, of elements of second order that are not positive everywhere; returns how many
+/// there are.
+std::size_t tell_not_positive(const Volume& volume, const Limits& limits, bool quiet);
+
 /// Gives the volume the order that was asked for, if one was: mid-edge nodes if 2, on the smooth surface
-/// where they can be. Tells what stayed straight unless `quiet`; returns it for the report.
+/// where they can be. Tells what stayed straight, and what is not positive, unless `quiet`; returns it for
+/// the report.
 Json set_order(Volume& volume, const OrderArguments& arguments, const std::optional<Surface>& smooth,
                const Limits& limits, bool quiet);
 

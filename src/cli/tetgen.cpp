@@ -16,6 +16,7 @@
 #include "holdfast/check.h"
 #include "holdfast/second_order.h"
 #include "limits.h"
+#include "order_options.h"
 #include "progress.h"
 #include "report.h"
 #include "signals.h"
@@ -182,6 +183,12 @@ void write_all(const TetgenInput& input, const Volume& volume, const TetgenFiles
   if (!viewers.medit.empty()) write_volume(viewers.medit, volume, writing);
 }
 
+/// TetGen's -o2.
+void add_nodes(Volume& volume, const TetgenSwitches& switches, const Limits& limits) {
+  add_mid_nodes(volume, limits);
+  tell_not_positive(volume, limits, switches.quiet);
+}
+
 int fill(const TetgenArguments& arguments, const TetgenSwitches& switches, TetgenInput& input,
          const TetgenFiles& names, const Viewers& viewers, const Limits& limits, const FilesOfRun& files,
          Result& result) {
@@ -201,7 +208,7 @@ int fill(const TetgenArguments& arguments, const TetgenSwitches& switches, Tetge
       switches.check ? verify(switches, input, result.volume, files) : static_cast<int>(exit_done);
   if (!switches.quiet) tell_the_end(switches, input, options, result);
   if (switches.keep_unused) result.volume = with_unused(input.surface, std::move(result.volume));
-  if (switches.second_order) add_mid_nodes(result.volume, limits);
+  if (switches.second_order) add_nodes(result.volume, switches, limits);
   write_all(input, result.volume, names, viewers, limits);
   return checked;
 }
@@ -215,7 +222,7 @@ int join_points(const TetgenArguments& arguments, const TetgenSwitches& switches
   result.report.input.vertices = result.report.vertices = volume.vertices.size();
   result.report.tetrahedra = volume.tetrahedra.size();
   write_report(arguments, result);
-  if (switches.second_order) add_mid_nodes(volume, limits);
+  if (switches.second_order) add_nodes(volume, switches, limits);
   write_all(input, volume, names, viewers, limits);
   return exit_done;
 }

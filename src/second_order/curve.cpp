@@ -3,12 +3,12 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "exact/jacobian.h"
 #include "holdfast/second_order.h"
 #include "mesh/plain_monitor.h"
 #include "numbers/float_environment.h"
 #include "numbers/vector.h"
 #include "second_order/edges_of.h"
+#include "second_order/positive.h"
 #include "surface/nearest.h"
 
 namespace holdfast {
@@ -77,14 +77,6 @@ class Curver {
       }
   }
 
-  [[nodiscard]] bool is_positive(std::size_t t) {
-    std::array<Point, 10> shape;
-    for (std::size_t i = 0; i < 4; ++i) shape[i] = volume_.vertices[volume_.tetrahedra[t][i]];
-    for (std::size_t e = 0; e < 6; ++e)
-      shape[4 + e] = nodes()[volume_.mid_nodes.tetrahedra[t][e] - volume_.vertices.size()];
-    return exact::jacobian_of(shape) == exact::Jacobian::positive;
-  }
-
   // Nodes only ever become straight, so that there is an end.
   void straighten() {
     std::vector<std::uint8_t> proven(volume_.tetrahedra.size(), 0);
@@ -95,7 +87,7 @@ class Curver {
       for (std::size_t t = 0; t < volume_.tetrahedra.size(); ++t) {
         monitor_.poll_again();
         if (proven[t] != 0) continue;
-        if (is_positive(t)) {
+        if (is_positive_everywhere(volume_, t)) {
           proven[t] = 1;
           continue;
         }

@@ -10,6 +10,7 @@
 #include "exact/jacobian.h"
 #include "holdfast/check.h"
 #include "holdfast/holdfast.h"
+#include "numbers/random.h"
 #include "second_order/edges_of.h"
 #include "small_surfaces.h"
 #include "surface/nearest.h"
@@ -63,6 +64,53 @@ TEST(JacobianOfElement, StraightOnesHaveTheSignOfTheirVolume) {
 }
 
 // The node of one edge moves along it: at the quarter point the Jacobian is zero at the corner.
+Volume one_element(const std::array<Point, 4>& corners) {
+  Volume volume;
+  volume.vertices.assign(corners.begin(), corners.end());
+  volume.tetrahedra = {{0, 1, 2, 3}};
+  volume.regions = {1};
+  add_mid_nodes(volume);
+  return volume;
+}
+
+/// Most elements are decided by a bound in doubles; near to it all of them agree with the exact decision.
+TEST(NotPositiveElements, AreThoseOfTheExactDecision) {
+  numbers::Random random(5);
+  std::size_t positive = 0, turned = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    std::array<Point, 4> corners{};
+    for (Point& p : corners)
+      for (double& x : p) x = 1 + static_cast<double>(numbers::below(1 << 20, random)) * 0x1p-20;
+    // The last one is some last bits above the plane of the others.
+    const double s = static_cast<double>(numbers::below(1 << 10, random)) * 0x1p-11;
+    for (std::size_t k = 0; k < 3; ++k)
+      corners[3][k] = corners[0][k] + s * (corners[1][k] - corners[0][k]) +
+                      (0.5 - s / 2) * (corners[2][k] - corners[0][k]) +
+                      static_cast<double>(numbers::below(64, random)) * 0x1p-52;
+    for (const int exponent : {0, 40, -1000}) {
+      std::array<Point, 4> scaled = corners;
+      for (Point& p : scaled)
+        for (double& x : p) x = std::ldexp(x, exponent);
+      const Volume volume = one_element(scaled);
+      const bool is_positive = exact::jacobian_of(straight(scaled)) == Jacobian::positive;
+      EXPECT_EQ(not_positive_elements(volume).empty(), is_positive);
+      (is_positive ? positive : turned) += 1;
+    }
+  }
+  EXPECT_GT(positive, 100u);
+  EXPECT_GT(turned, 100u);
+}
+
+TEST(NotPositiveElements, OfFirstOrderAreNone) {
+  Volume volume = one_element(kUnit);
+  EXPECT_TRUE(not_positive_elements(volume).empty());
+  volume.tetrahedra = {{1, 0, 2, 3}};
+  add_mid_nodes(volume);
+  EXPECT_EQ(not_positive_elements(volume), std::vector<Index>{0});
+  volume.mid_nodes = {};
+  EXPECT_TRUE(not_positive_elements(volume).empty());
+}
+
 TEST(JacobianOfElement, VanishesAtTheCornerForAQuarterPoint) {
   for (const double at : {0.26, 0.5, 0.74}) {
     Nodes nodes = straight(kUnit);
