@@ -111,7 +111,8 @@ enum class FitKind : int {
   facets_there = 1,        ///< every facet of the surface is one of a part
   segments_there = 2,      ///< every segment is one of a part
   vertices_there = 3,      ///< every place is a vertex of a part
-  interfaces_matched = 4,  ///< a face of a single part on its boundary is a facet of the surface
+  interfaces_matched = 4,  ///< a face of a single part on its boundary is a facet of the surface, and one of
+                           ///< two parts is, too, or has one region
   nothing_twice = 5,       ///< of two parts at a face one is in front and one behind, and there is no third
 };
 [[nodiscard]] HOLDFAST_API const char* name(FitKind kind);

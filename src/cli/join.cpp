@@ -31,6 +31,14 @@ bool is_vtu(const JoinArguments& arguments) {
   return format == ".vtu" || format == "vtu";
 }
 
+/// Places of mid-edge nodes go with the parts: what is at an interface is the business of two of them.
+void tell_mid_nodes(const JoinArguments& arguments, bool had_some) {
+  if (had_some && !arguments.quiet)
+    say("holdfast: {}: mid-edge nodes of the parts are left out; `holdfast convert --order 2` gives a volume "
+        "straight ones\n",
+        arguments.output.string());
+}
+
 /// A format of pieces alone has the parts, too.
 bool keeps_parts(const JoinArguments& arguments) {
   if (arguments.pieces.parts) {
@@ -61,20 +69,29 @@ int run(const JoinArguments& arguments) {
   cancel_by_flag();
   try {
     const Surface whole = whole_of(manifest, limits);
-    const auto load = [&](std::size_t k) { return volume_of(manifest, k, limits); };
+    bool had_mid_nodes = false;
+    const auto load = [&](std::size_t k) {
+      Volume volume = volume_of(manifest, k, limits);
+      had_mid_nodes = had_mid_nodes || !volume.mid_nodes.empty();
+      volume.mid_nodes = {};
+      return volume;
+    };
     if (as_parts) {
       write_pieces(target.path, manifest.parts.size(),
                    joined_pieces(whole.view(), manifest.parts.size(), load, manifest.interface_marker),
                    target.options);
+      tell_mid_nodes(arguments, had_mid_nodes);
       return exit_done;
     }
     if (is_vtu(arguments) && !arguments.pieces.parts) {
       write_joined(target.path, whole.view(), manifest.parts.size(), load, manifest.interface_marker,
                    target.options);
+      tell_mid_nodes(arguments, had_mid_nodes);
       return exit_done;
     }
     std::vector<Volume> parts;
     for (std::size_t k = 0; k < manifest.parts.size(); ++k) parts.push_back(load(k));
+    tell_mid_nodes(arguments, had_mid_nodes);
     const Volume joined = join_parts(whole.view(), parts, manifest.interface_marker);
     if (arguments.pieces.parts) {
       write_partition(target, *arguments.pieces.parts, joined, arguments.quiet);

@@ -1,10 +1,13 @@
 #include "manifest.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
+#include <set>
+#include <utility>
 
 #include "limits.h"
 
@@ -56,6 +59,36 @@ void require_checksum(const Manifest& manifest, const fs::path& file, const std:
                             manifest.path_of(file).string()));
 }
 
+std::vector<std::pair<Triangle, int>> facets_with_markers(std::span<const Triangle> facets,
+                                                          std::span<const int> markers) {
+  std::vector<std::pair<Triangle, int>> all(facets.size());
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    all[f] = {facets[f], markers.empty() ? 0 : markers[f]};
+    std::sort(all[f].first.begin(), all[f].first.end());
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+/// In what a volume is not what `mesh` makes of a part's surface without options, as far as joining goes by
+/// it; empty if in nothing. A part has a seed for each of its regions.
+std::string foreign_in(const Volume& volume, const Surface& surface) {
+  const std::size_t n = surface.vertices.size();
+  if (volume.vertices.size() < n ||
+      !std::equal(surface.vertices.begin(), surface.vertices.end(), volume.vertices.begin()))
+    return "it does not begin with its vertices";
+  if (facets_with_markers(volume.facets, volume.facet_markers) !=
+      facets_with_markers(surface.facets, surface.facet_markers))
+    return fmt::format("it lists other facets, {} in place of {}", volume.facets.size(),
+                       surface.facets.size());
+  std::set<int> wanted;
+  for (const Surface::RegionSeed& seed : surface.regions) wanted.insert(seed.id);
+  const std::set<int> found(volume.regions.begin(), volume.regions.end());
+  if (found != wanted)
+    return fmt::format("its regions are {}, in place of {}", fmt::join(found, ", "), fmt::join(wanted, ", "));
+  return "";
+}
+
 }  // namespace
 
 std::string checksum_of(const fs::path& file) {
@@ -99,11 +132,9 @@ Volume volume_of(const Manifest& manifest, std::size_t k, const Limits& limits) 
   const fs::path path = manifest.path_of(manifest.parts[k].volume);
   const Surface surface = surface_of_part(manifest, k, limits);
   Volume volume = read_volume(path, reading(limits, {}));
-  const std::size_t n = surface.vertices.size();
-  if (volume.vertices.size() < n ||
-      !std::equal(surface.vertices.begin(), surface.vertices.end(), volume.vertices.begin()))
-    throw Stale(fmt::format("{} is not a mesh of {}: it does not begin with its vertices", path.string(),
-                            manifest.path_of(manifest.parts[k].surface).string()));
+  if (const std::string what = foreign_in(volume, surface); !what.empty())
+    throw Stale(fmt::format("{} is not a mesh of {}: {}", path.string(),
+                            manifest.path_of(manifest.parts[k].surface).string(), what));
   return volume;
 }
 

@@ -111,16 +111,29 @@ void write_division(const SplitArguments& arguments, const Surface& surface, con
   staged.publish(manifest_name);
 }
 
+bool is_part(const fs::path& file) {
+  return file.filename().string().starts_with("part_") && file.extension() == ".poly";
+}
+
 /// The files of the division, none of which may be read: its manifest, and of the others those that are
 /// there.
 void name_files(const fs::path& folder, FilesOfRun& files) {
   files.write("-o", folder / manifest_name, true);
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-    const fs::path name = entry.path().filename();
-    if (name == whole_name || (name.string().starts_with("part_") && name.extension() == ".poly"))
-      files.write("-o", entry.path());
+    if (entry.path().filename() == whole_name || is_part(entry.path())) files.write("-o", entry.path());
   }
+}
+
+/// Parts of an earlier division that had more: a pattern such as `part_*.poly` takes them for ones of this.
+void tell_left_parts(const fs::path& folder, std::size_t parts) {
+  std::set<fs::path> names, left;
+  for (std::size_t k = 0; k < parts; ++k) names.insert(numbered(k, parts, ".poly"));
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+    if (is_part(entry.path()) && !names.contains(entry.path().filename())) left.insert(entry.path());
+  for (const fs::path& path : left)
+    say("holdfast: {} is left from an earlier split, and none of these parts\n", path.string());
 }
 
 int conclude(const SplitArguments& arguments, const SurfaceDivision& division) {
@@ -139,6 +152,7 @@ int conclude(const SplitArguments& arguments, const SurfaceDivision& division) {
           counted(triangles / 2, "triangle"), least, most);
       if (division.parts.size() < arguments.parts)
         say("holdfast: the mesh is too coarse for {} parts\n", arguments.parts);
+      tell_left_parts(arguments.folder, division.parts.size());
       return exit_done;
     }
     case Outcome::invalid_input:
@@ -160,6 +174,8 @@ int conclude(const SplitArguments& arguments, const SurfaceDivision& division) {
 
 int run(const SplitArguments& arguments) {
   if (arguments.parts == 0) throw UsageError("--parts: one or more are expected");
+  if (arguments.folder == "-")
+    throw UsageError("-o: the name of a folder is expected; parts are several files");
   const Limits limits = limits_of(arguments.limits);
   const Names names = names_of(arguments.mesh.names);
   FilesOfRun files;

@@ -17,6 +17,7 @@ struct Outer {
   Triangle places;  ///< in ascending order
   bool is_odd;      ///< of the turn that `corners_of_face` has
   std::uint32_t part;
+  int region;
 };
 
 bool is_odd(const Triangle& t) {
@@ -36,7 +37,8 @@ struct FitChecker::State {
         if (beside[t][k] != no_entity) continue;
         Triangle corners = corners_of_face(part.tetrahedra[t], static_cast<int>(k));
         for (Index& v : corners) v = places.welder.add(part.vertices[v]);
-        outer.push_back({ascending(corners), is_odd(corners), parts});
+        outer.push_back(
+            {ascending(corners), is_odd(corners), parts, part.regions.empty() ? 0 : part.regions[t]});
       }
   }
 
@@ -83,16 +85,23 @@ std::vector<Fit> FitChecker::finish() const {
   std::sort(faces.begin(), faces.end(), [](const Outer& a, const Outer& b) {
     return a.places != b.places ? a.places < b.places : a.part < b.part;
   });
-  std::size_t matched = 0, alone = 0, twice = 0;
-  std::string first_alone, first_twice;
+  std::size_t matched = 0, unmatched = 0, twice = 0;
+  std::string first_unmatched, first_twice;
   for (std::size_t i = 0, end = 0; i < faces.size(); i = end) {
     end = i + 1;
     while (end < faces.size() && faces[end].places == faces[i].places) ++end;
+    const bool is_facet = s.places.facets.find(faces[i].places) != no_entity;
     if (end - i == 1) {
-      if (s.places.facets.find(faces[i].places) != no_entity) continue;
-      if (alone++ == 0) first_alone = s.words(faces[i]);
+      if (is_facet || unmatched++ > 0) continue;
+      first_unmatched = s.words(faces[i]) + " is neither the surface's nor another part's";
     } else if (end - i == 2 && faces[i].is_odd != faces[i + 1].is_odd) {
-      ++matched;
+      if (is_facet || faces[i].region == faces[i + 1].region)
+        ++matched;
+      else if (unmatched++ == 0)
+        first_unmatched = s.words(faces[i]) + " is no facet, and has region " +
+                          std::to_string(faces[i].region) + " there, but " +
+                          std::to_string(faces[i + 1].region) + " in part " +
+                          std::to_string(faces[i + 1].part);
     } else if (twice++ == 0) {
       first_twice = s.words(faces[i]) + " is also one of part " + std::to_string(faces[i + 1].part);
     }
@@ -100,10 +109,9 @@ std::vector<Fit> FitChecker::finish() const {
   return {s.fit_of(FitKind::facets_there, s.seen.facets, "facet", "facets"),
           s.fit_of(FitKind::segments_there, s.seen.segments, "segment", "segments"),
           s.fit_of(FitKind::vertices_there, s.seen.vertices, "vertex", "vertices"),
-          {FitKind::interfaces_matched, alone == 0,
-           alone == 0 ? counted(matched, "face") + " between parts"
-                      : counted(alone, "face is", "faces are") +
-                            " neither the surface's nor another part's: " + first_alone},
+          {FitKind::interfaces_matched, unmatched == 0,
+           unmatched == 0 ? counted(matched, "face") + " between parts"
+                          : counted(unmatched, "face") + " unmatched: " + first_unmatched},
           {FitKind::nothing_twice, twice == 0,
            twice == 0 ? ""
                       : counted(twice, "face has", "faces have") + " two parts on one side: " + first_twice}};

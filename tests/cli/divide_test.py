@@ -127,6 +127,35 @@ class Divided(CliTest):
         (d / parts[1]["surface"]).write_text((d / parts[1]["surface"]).read_text() + "\n")
         self.assertIn("checksum", self.run_program("check", "d", expect=6).stdout)
 
+    def test_volumes_that_are_no_meshes_of_their_parts_are_not_joined(self):
+        parts = self.split("--size", 0.3)
+        self.mesh()
+        first = self.folder / "d" / parts[0]["volume"]
+        surface = (self.folder / "d" / parts[0]["surface"]).read_text()
+        for spoil, words in [
+                (lambda: first.with_name(first.stem + "_surface.vtu").unlink(), "other facets"),
+                (lambda: self.run_program("mesh", f"d/{parts[0]['surface']}", "-o", first, "--keep", "box"), "regions are 0, 1"),
+                (lambda: self.run_program("mesh", "other.poly", "-o", first), "regions are 33, in place of 1")]:
+            self.write("other.poly", re.sub(r" 1( \S+\s*)$", r" 33\1", surface))
+            spoil()
+            self.assertIn(words, self.run_program("check", "d", expect=6).stdout)
+            for ending in ("vtu", "mesh", "pvtu"):
+                self.assertIn(words, self.run_program("join", "d", "-o", f"whole.{ending}", expect=6).stderr)
+                self.assertFalse((self.folder / f"whole.{ending}").exists())
+
+    def test_nodes_of_second_order_are_told(self):
+        parts = self.split("--size", 0.3)
+        for part in parts:
+            self.run_program("mesh", f"d/{part['surface']}", "-o", f"d/{part['volume']}", "--order", 2)
+        self.run_program("check", "d")
+        for ending in ("vtu", "mesh", "pvtu"):
+            self.assertIn("mid-edge nodes", self.run_program("join", "d", "-o", f"whole.{ending}").stderr)
+            self.run_program("check", "cube.off", f"whole.{ending}")
+
+    def test_parts_of_an_earlier_split_are_told(self):
+        self.split("--size", 0.3)
+        self.assertIn("d/part_3.poly is left", self.run_program("split", "cube.off", "--parts", 2, "-o", "d", "--size", 0.3).stderr)
+
     def test_no_folder_is_left_where_nothing_is_written(self):
         lines = (self.folder / "cube.off").read_text().splitlines()
         self.write("open.off", "\n".join(["OFF", f"{len(CUBE_POINTS)} {len(CUBE_FACETS) - 1} 0", *lines[2:-1]]) + "\n")
@@ -181,6 +210,7 @@ class Divided(CliTest):
         self.run_program("split", "two.off", "--parts", 2, "-o", "d", expect=4)
         self.run_program("split", "cube.off", "--parts", 0, "-o", "d", expect=2)
         self.run_program("split", "cube.off", "-o", "d", expect=2)
+        self.run_program("split", "cube.off", "--parts", 2, "-o", "-", expect=2)
         self.run_program("split", "cube.off", "--parts", "2", "-o", "cube.off", expect=3)
         self.run_program("join", "nowhere", "-o", "x.vtu", expect=3)
         (self.folder / "d").mkdir(exist_ok=True)

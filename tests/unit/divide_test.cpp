@@ -179,6 +179,12 @@ TEST_F(FitCheckerTest, FindsAPartThatIsThereTwice) {
   EXPECT_FALSE(verdict()[4]);
 }
 
+TEST_F(FitCheckerTest, FindsAPartWhoseRegionHasAnotherNumber) {
+  EXPECT_TRUE(verdict()[3]);
+  std::fill(volumes[1].regions.begin(), volumes[1].regions.end(), 33);
+  EXPECT_FALSE(verdict()[3]);
+}
+
 TEST_F(FitCheckerTest, FindsAnInterfaceThatIsOffByTheLastBit) {
   Volume& part = volumes[1];
   for (std::size_t f = 0; f < part.facets.size(); ++f) {
