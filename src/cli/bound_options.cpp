@@ -71,7 +71,9 @@ void require_bounds(const BoundArguments& arguments) {
   constexpr double regular = 0.61237243569579452;  // sqrt(6) / 4
   for (const std::string& text : arguments.max_volumes) static_cast<void>(bound_of(text));
   if (arguments.max_ratio && !(*arguments.max_ratio > regular && std::isfinite(*arguments.max_ratio)))
-    throw UsageError("--max-ratio: a number above 0.613 is expected; a regular tetrahedron has 0.6124");
+    throw UsageError(
+        fmt::format("--max-ratio {}: a number above 0.613 is expected; a regular tetrahedron has 0.6124",
+                    *arguments.max_ratio));
 }
 
 void set_bounds(const BoundArguments& arguments, const Names& names, Options& options) {

@@ -48,8 +48,9 @@ void set_keep(Options& options, const std::string& keep) {
     options.keep = Keep::box;
     if (keep.size() > 3)
       options.box_margin = numbers("--keep box=", keep.substr(4), 1, "a number such as 0.5 is")[0];
-    if (options.box_margin <= 0)
-      throw UsageError("--keep " + keep + ": the margin, a part of the largest extent, must be positive");
+    if (!(options.box_margin > 0 && options.box_margin < 1e6))
+      throw UsageError("--keep " + keep +
+                       ": the margin, a part of the largest extent, must be positive and below a million");
   } else {
     throw UsageError("--keep " + keep + ": auto, bounded, winding, box or box=MARGIN is expected");
   }
@@ -59,12 +60,12 @@ bool is_positive(double x) { return x > 0 && std::isfinite(x); }
 
 Sizes to_sizes(const MeshArguments& arguments) {
   if (arguments.size && !is_positive(*arguments.size))
-    throw UsageError("--size: the length must be positive");
+    throw UsageError(fmt::format("--size {}: a positive and finite length is expected", *arguments.size));
   Sizes sizes;
   sizes.size = arguments.size.value_or(sizes.size);
   sizes.gradation = arguments.gradation;
   if (sizes.gradation && !(*sizes.gradation >= 0 && *sizes.gradation <= 1))
-    throw UsageError("--gradation: a number from 0 to 1 is expected");
+    throw UsageError(fmt::format("--gradation {}: a number from 0 to 1 is expected", *sizes.gradation));
   sizes.grow = !arguments.no_growth;
   return sizes;
 }
@@ -90,16 +91,18 @@ Stage stage_named(const std::string& text) {
 
 double time_limit_of(const std::optional<double>& seconds) {
   if (seconds && !is_positive(*seconds))
-    throw UsageError(
-        "--time-limit: a positive number of seconds is expected; without the option there is no limit");
+    throw UsageError(fmt::format(
+        "--time-limit {}: a positive number of seconds is expected; without the option there is no limit",
+        *seconds));
   return seconds.value_or(0);
 }
 
 std::uint64_t memory_limit_of(const std::optional<double>& gigabytes) {
   constexpr double bytes_per_gigabyte = 1e9, most = 1e9;
   if (gigabytes && !(*gigabytes > 0 && *gigabytes < most))
-    throw UsageError(
-        "--memory-limit: a positive number of gigabytes is expected; without the option there is no limit");
+    throw UsageError(fmt::format(
+        "--memory-limit {}: a positive number of gigabytes is expected; without the option there is no limit",
+        *gigabytes));
   return static_cast<std::uint64_t>(std::ceil(gigabytes.value_or(0) * bytes_per_gigabyte));
 }
 

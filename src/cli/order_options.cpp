@@ -40,7 +40,8 @@ void take_order(const OrderArguments& arguments, FilesOfRun& files) {
   if (arguments.tolerance && arguments.curved.empty())
     throw UsageError("--curved-tolerance does nothing without --curved");
   if (arguments.tolerance && !(*arguments.tolerance > 0 && std::isfinite(*arguments.tolerance)))
-    throw UsageError("--curved-tolerance: a positive length is expected");
+    throw UsageError(
+        fmt::format("--curved-tolerance {}: a positive and finite length is expected", *arguments.tolerance));
   if (!arguments.curved.empty()) files.read_surfaces({arguments.curved}, {});
 }
 

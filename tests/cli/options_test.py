@@ -46,6 +46,9 @@ SENSELESS = [
     ("--max-ratio", ["--max-ratio", "0.5"]), ("--max-ratio", ["--max-ratio", "nan"]),
     ("--layers", ["--layers", "0"]), ("--layers", ["--layers", "-1"]), ("--layers", ["--layers", "1.5"]),
     ("--layers", ["--layers", "101"]),
+    ("--size inf", ["--size", "inf"]), ("--size 0", ["--size", "0"]), ("--gradation 1.5", ["--gradation", "1.5"]),
+    ("--max-ratio 0.5", ["--max-ratio", "0.5"]), ("--time-limit -1", ["--time-limit", "-1"]), ("--memory-limit inf", ["--memory-limit", "1e400"]),
+    ("--keep box=1e300", ["--keep", "box=1e300"]), ("--curved-tolerance inf", ["--order", "2", "--curved", "missing.off", "--curved-tolerance", "inf"]),
 ]
 SENSIBLE = [
     ["--fill", "--without", "points"], ["--without", "optimise", "--size", "0.5"],
