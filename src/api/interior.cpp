@@ -258,7 +258,7 @@ std::unique_ptr<Field> add_field_points(const Attempt& attempt, BoxMesh& box, Di
   if (box.mesh.exact_vertex_count() > 0 && !is_explicit(box.mesh, division.tets(box.mesh))) return nullptr;
   auto field = std::make_unique<Field>(attempt, box, division);
   const SizeFunction& sizes = field->size_function();
-  require_few_enough(field->volume());
+  require_few_enough(field->volume(), sizes);
   const std::size_t before = box.mesh.vertex_count();
   report.stopped_early = add_enough_points(attempt, box, division, *field, report);
   report.gradation = sizes.gradation();

@@ -167,7 +167,7 @@ struct Given {
 };
 Given read_all(const MeshArguments& arguments, const Names& names, Options& options, ProgressView& progress) {
   progress.reading();
-  read_size_field(arguments, options);
+  const std::optional<Extent> field = read_size_field(arguments, options);
   Given given{read_input(arguments, options), {}};
   Surface& surface = given.input.surface;
   if (arguments.markers_by_angle) {
@@ -180,6 +180,7 @@ Given read_all(const MeshArguments& arguments, const Names& names, Options& opti
   if (!surface.remarks.empty()) progress.finish();
   if (!arguments.quiet) tell(surface.remarks);
   tell_unused_sizes(arguments, surface);
+  if (field) tell_field_elsewhere(arguments, *field, surface);
   require_a_size_a_vertex(arguments, options, surface);
   refuse_idle_options(arguments, options, surface);
   return given;

@@ -102,6 +102,14 @@ void tell_unused_sizes(const MeshArguments& arguments, const Surface& surface) {
                counted(static_cast<std::size_t>(sizes), "region"));
 }
 
+void tell_field_elsewhere(const MeshArguments& arguments, const Extent& field, const Surface& surface) {
+  const Extent extent = extent_of(surface.vertices);
+  const bool goes_further = arguments.keep && arguments.keep->starts_with("box");
+  if (arguments.quiet || goes_further || field.meets(extent)) return;
+  say("holdfast: warning: no size of {} tells: its mesh lies in {}, and the surface in {}\n",
+      arguments.size_field.string(), words_for(field), words_for(extent));
+}
+
 void require_a_size_a_vertex(const MeshArguments& arguments, const Options& options, const Surface& surface) {
   if (!options.sizes || options.sizes->vertex_sizes.empty()) return;
   const std::size_t sizes = options.sizes->vertex_sizes.size();

@@ -39,6 +39,9 @@ void tell_of_lone_vertices(const MeshArguments& arguments, const Surface& surfac
 /// Says that sizes of regions in the file are unused: they are for field points.
 void tell_unused_sizes(const MeshArguments& arguments, const Surface& surface);
 
+/// Says that a background mesh has sizes nowhere near the surface, as one in another unit may.
+void tell_field_elsewhere(const MeshArguments& arguments, const Extent& field, const Surface& surface);
+
 /// Sizes in a file without a background mesh are those of the surface's vertices. Throws FileError if they
 /// are not as many.
 void require_a_size_a_vertex(const MeshArguments& arguments, const Options& options, const Surface& surface);

@@ -106,17 +106,21 @@ std::uint64_t memory_limit_of(const std::optional<double>& gigabytes) {
   return static_cast<std::uint64_t>(std::ceil(gigabytes.value_or(0) * bytes_per_gigabyte));
 }
 
-void read_size_field(const MeshArguments& arguments, Options& options) {
-  if (arguments.size_field.empty()) return;
+std::optional<Extent> read_size_field(const MeshArguments& arguments, Options& options) {
+  if (arguments.size_field.empty()) return std::nullopt;
   SizeField field = holdfast::read_size_field(arguments.size_field, reading(options, {}));
   Sizes& sizes = *options.sizes;
   sizes.concurrent = true;
-  if (field.vertices.empty())
+  if (field.vertices.empty()) {
     sizes.vertex_sizes = std::move(field.sizes);
-  else if (!field.metrics.empty())
+    return std::nullopt;
+  }
+  const Extent extent = extent_of(field.vertices);
+  if (!field.metrics.empty())
     sizes.metric = metric_function(std::move(field));
   else
     sizes.field = size_function(std::move(field));
+  return extent;
 }
 
 void take_orders(MeshArguments& arguments, const std::vector<std::string>& words) {

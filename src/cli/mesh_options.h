@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bound_options.h"
+#include "extent.h"
 #include "holdfast/holdfast.h"
 #include "holdfast/repair.h"
 #include "mesh_output.h"
@@ -52,8 +53,9 @@ void take_orders(MeshArguments& arguments, const std::vector<std::string>& words
 [[nodiscard]] std::optional<RepairOptions> repair_options(const MeshArguments& arguments,
                                                           const Options& options);
 
-/// Reads the size field, if there is one, into the sizes. Throws FileError.
-void read_size_field(const MeshArguments& arguments, Options& options);
+/// Reads the size field, if there is one, into the sizes. Returns where it has sizes, unless that is at the
+/// vertices of the surface. Throws FileError.
+std::optional<Extent> read_size_field(const MeshArguments& arguments, Options& options);
 
 /// The stage of that name. Throws UsageError.
 [[nodiscard]] Stage stage_named(const std::string& text);

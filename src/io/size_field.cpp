@@ -246,6 +246,7 @@ SizeField read_size_field(const std::filesystem::path& path, const ReadOptions& 
     for (const double x : field.vertices[v])
       if (!std::isfinite(x))
         throw FileError(path, "vertex " + std::to_string(v), "a coordinate is not finite");
+  if (count == 0) throw FileError(path, "", "there is no size in it");
   if (!field.vertices.empty() && field.tetrahedra.empty())
     throw FileError(path, "", "the background mesh has no tetrahedra");
   if (is_flat(field))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "numbers/elementary.h"
 
@@ -16,7 +17,8 @@ Criteria::Criteria(const GrowingMesh& growing, const RefineOptions& options)
   const double half = options.angle * kDegree / 2;
   off_ = options.angle > 0 ? 0.475 * numbers::cos(half) / numbers::sin(half) : 0;
   const double size = growing.scale().length_down(options.size);
-  size2_ = options.size > 0 ? size * size : 0;
+  // A square below the range of doubles would be 0, which is no size.
+  size2_ = options.size > 0 ? std::max(size * size, std::numeric_limits<double>::min()) : 0;
   for (const double area : options.areas) areas_.push_back(area > 0 ? growing.scale().area_down(area) : 0);
 }
 

@@ -10,6 +10,7 @@
 #include "exact/volume.h"
 #include "mesh/kernel.h"
 #include "mesh/measure.h"
+#include "refine/elements_of_function.h"
 #include "refine/point_setter.h"
 #include "refine/regular_elements.h"
 
@@ -212,7 +213,7 @@ BoundStats bound_volumes(const VolumeData& volume, Monitor& monitor) {
   return VolumeBounder(volume, monitor).run();
 }
 
-void require_few_enough(const VolumeData& volume) {
+void require_few_enough(const VolumeData& volume, const SizeFunction& sizes) {
   constexpr double kMostTets = 1u << 30;
   // Of the regular tetrahedra of a size: where facets are large beside it, fewer are made, a fifth at least
   // of those that were measured (docs/field.md).
@@ -224,14 +225,16 @@ void require_few_enough(const VolumeData& volume) {
     if (std::isfinite(six)) for_volumes += six / 6 / volume.most_volume(volume.region_of[t]);
   }
   const std::vector<double> regular = regular_elements(volume);
-  const auto require = [](double tets, const char* what) {
-    if (!(tets < kMostTets))
+  const auto require = [](bool few, const char* what) {
+    if (!few)
       throw std::length_error(std::string("the ") + what +
                               " asked for takes more than 2^30 tetrahedra; a larger one, or another unit of "
                               "length, is needed");
   };
-  require(for_volumes, "largest volume");
-  require(kPartOfRegular * std::accumulate(regular.begin(), regular.end(), 0.0), "size");
+  require(for_volumes < kMostTets, "largest volume");
+  require(kPartOfRegular * std::accumulate(regular.begin(), regular.end(), 0.0) < kMostTets, "size");
+  require(!asks_for_more_than(kMostTets / kPartOfRegular, sizes, volume),
+          sizes.has_metric() ? "size in the metric" : "size field");
 }
 
 RatioStats lower_ratios(const VolumeData& volume, double most, Monitor& monitor) {

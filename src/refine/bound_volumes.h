@@ -16,6 +16,7 @@
 
 #include "mesh/monitor.h"
 #include "refine/volume_data.h"
+#include "size/size_function.h"
 
 namespace holdfast {
 
@@ -29,9 +30,9 @@ struct BoundStats {
 /// to date.
 BoundStats bound_volumes(const VolumeData& volume, Monitor& monitor);
 
-/// Throws std::length_error where the bounds, or the user's sizes of regions, would take more than 2^30
-/// tetrahedra.
-void require_few_enough(const VolumeData& volume);
+/// Throws std::length_error where the bounds, or the user's sizes of regions or of a function, would take
+/// more than 2^30 tetrahedra.
+void require_few_enough(const VolumeData& volume, const SizeFunction& sizes);
 
 struct RatioStats {
   std::size_t points = 0;

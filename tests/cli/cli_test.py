@@ -178,12 +178,28 @@ class Mesh(CliTest):
         self.assertEqual(json.loads((self.folder / "r.json").read_text())["field_points"], 0)
 
     def test_sizes_that_no_mesh_can_have_are_told_at_once(self):
+        round_it = "(-9,-9,-9, 99,-9,-9, -9,99,-9, -9,-9,99){"
+        self.write("f.pos", f'View "f" {{\nSS{round_it}1e-5,1e-5,1e-5,1e-300}};\n}};\n')
+        self.write("m.pos", f'View "m" {{\nTT{round_it}{",".join(["1e60,0,0,0,4,0,0,0,4"] * 4)}}};\n}};\n')
         for asked, word in ((("--size", "1e-5"), "the size asked for"), (("--region", "0.5,0.5,0.5,3,1e-200"), "the size asked for"),
-                            (("--max-volume", "1e-12"), "the largest volume asked for")):
+                            (("--max-volume", "1e-12"), "the largest volume asked for"),
+                            (("--size-field", "f.pos"), "the size field asked for"), (("--size-field", "m.pos"), "the size in the metric asked for")):
             with self.subTest(asked):
                 told = self.run_program("mesh", "cube.off", "-o", "a.vtu", *asked, expect=5).stderr
                 self.assertIn(word + " takes more than 2^30 tetrahedra", told)
-                self.assertEqual(self.files(), ["cube.off"])
+                self.assertEqual(self.files(), ["cube.off", "f.pos", "m.pos"])
+        # Fine at one end alone.
+        self.write("f.pos", 'View "f" {\nSS(0,0,0, 3,0,0, 0,3,0, 0,0,3){1e-9,1,1,1};\n};\n')
+        self.run_program("mesh", "cube.off", "-o", "a.vtu", "--size-field", "f.pos")
+
+    def test_a_size_field_elsewhere_is_told(self):
+        self.write("f.pos", 'View "f" {\nSS(2,2,2, 3,2,2, 2,3,2, 2,2,3){0.1,0.1,0.1,0.1};\n};\n')
+        told = self.run_program("mesh", "cube.off", "-o", "a.vtu", "--size-field", "f.pos").stderr
+        self.assertIn("no size of f.pos tells: its mesh lies in (2, 2, 2) to (3, 3, 3)", told)
+        self.assertNotIn("no size", self.run_program("mesh", "cube.off", "-o", "a.vtu", "--size-field", "f.pos", "--keep", "box=3").stderr)
+        self.write("e.mesh", "MeshVersionFormatted 2 Dimension 3 Vertices 0 Tetrahedra 0 End\n")
+        self.write("e.sol", "MeshVersionFormatted 2 Dimension 3 SolAtVertices 0 1 1 End\n")
+        self.assertIn("e.mesh", self.run_program("mesh", "cube.off", "-o", "a.vtu", "--size-field", "e.mesh", expect=3).stderr)
 
     def test_size_fields_of_files(self):
         # One tetrahedron round the cube, in every format; the size is 0.15 at x = -1 and grows by 0.05 a unit.

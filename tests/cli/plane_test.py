@@ -211,8 +211,9 @@ class Refined(CliTest):
 
     def test_a_cap_is_told(self):
         self.write("in.poly", poly(SQUARE, RING[:4]))
-        said = self.run_program("plane", "in.poly", "-o", "out.off", "--size", "0.001", "--max-points", "50").stderr
-        self.assertIn("no more than 50 points are added", said)
+        for size in "0.001", "1e-300":  # the square of which is 0
+            said = self.run_program("plane", "in.poly", "-o", "out.off", "--size", size, "--max-points", "50").stderr
+            self.assertIn("no more than 50 points are added", said)
 
     def test_options_that_do_nothing_are_refused(self):
         self.write("in.poly", poly(SQUARE, RING[:4]))
