@@ -51,6 +51,11 @@ void write_html(const CheckArguments& arguments, const Limits& limits, const Sur
   page.write();
 }
 
+/// Or would be if it were there.
+bool is_meant_as_folder(const std::filesystem::path& file) {
+  return std::filesystem::is_directory(file) || (!std::filesystem::exists(file) && !file.has_extension());
+}
+
 int run_on_folder(const CheckArguments& arguments, const CheckOptions& options) {
   if (options.outside_dropped || options.box || !arguments.input_format.empty() ||
       !arguments.format.empty() || !arguments.html.empty())
@@ -98,7 +103,7 @@ int run(const CheckArguments& arguments) {
     throw UsageError("check: --parents and --verdict go with --repaired");
   CheckOptions options = arguments.options;
   static_cast<Limits&>(options) = limits_of(arguments.limits);
-  if (arguments.files.size() == 1 && std::filesystem::is_directory(arguments.files[0]))
+  if (arguments.files.size() == 1 && is_meant_as_folder(arguments.files[0]))
     return run_on_folder(arguments, options);
   if (arguments.files.size() < 2)
     throw UsageError(

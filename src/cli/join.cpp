@@ -39,6 +39,20 @@ void tell_mid_nodes(const JoinArguments& arguments, bool had_some) {
         arguments.output.string());
 }
 
+/// What pieces do not hold of the surface, as there is no volume in memory.
+void tell_not_held(const JoinArguments& arguments, const Surface& whole, const VolumeTarget& target) {
+  if (arguments.quiet) return;
+  Volume surface;
+  surface.vertices = whole.vertices;
+  surface.facets = whole.facets;
+  surface.facet_markers = whole.facet_markers;
+  surface.segments = whole.segments;
+  surface.segment_markers = whole.segment_markers;
+  surface.vertex_markers = whole.vertex_markers;
+  surface.names = whole.names;
+  tell_not_held_by_pieces(target, surface);
+}
+
 /// A format of pieces alone has the parts, too.
 bool keeps_parts(const JoinArguments& arguments) {
   if (arguments.pieces.parts) {
@@ -80,6 +94,7 @@ int run(const JoinArguments& arguments) {
       write_pieces(target.path, manifest.parts.size(),
                    joined_pieces(whole.view(), manifest.parts.size(), load, manifest.interface_marker),
                    target.options);
+      tell_not_held(arguments, whole, target);
       tell_mid_nodes(arguments, had_mid_nodes);
       return exit_done;
     }

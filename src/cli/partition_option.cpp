@@ -79,8 +79,12 @@ void write_partition(const VolumeTarget& target, std::size_t pieces, const Volum
   if (!volume.mid_nodes.empty())
     throw UsageError("--partition: elements of second order are not written in pieces; nothing was written");
   write_pieces(target.path, pieces, pieces_of(volume, partition(volume, pieces), pieces), target.options);
-  // What a format does not hold does not depend on pieces.
-  if (!quiet && is_one_of(volume_formats(), format_of(target)))
+  if (!quiet) tell_not_held_by_pieces(target, volume);
+}
+
+void tell_not_held_by_pieces(const VolumeTarget& target, const Volume& volume) {
+  // It does not depend on pieces; a format of pieces alone holds all.
+  if (is_one_of(volume_formats(), format_of(target)))
     tell(not_held(target.path, volume, target.options), target.path);
 }
 

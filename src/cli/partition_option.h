@@ -30,4 +30,7 @@ void add_partition(CLI::App& command, PartitionArguments& arguments);
 /// UsageError for more pieces than tetrahedra, and for elements of second order.
 void write_partition(const VolumeTarget& target, std::size_t pieces, const Volume& volume, bool quiet);
 
+/// Says what of a volume the format of its pieces does not hold.
+void tell_not_held_by_pieces(const VolumeTarget& target, const Volume& volume);
+
 }  // namespace holdfast::cli

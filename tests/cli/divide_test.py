@@ -213,6 +213,8 @@ class Divided(CliTest):
         self.run_program("split", "cube.off", "--parts", 2, "-o", "-", expect=2)
         self.run_program("split", "cube.off", "--parts", "2", "-o", "cube.off", expect=3)
         self.run_program("join", "nowhere", "-o", "x.vtu", expect=3)
+        self.assertIn("nowhere/manifest.json", self.run_program("check", "nowhere", expect=3).stderr)
+        self.run_program("check", "cube.off", expect=2)
         (self.folder / "d").mkdir(exist_ok=True)
         self.write("d/manifest.json", '{"format": "other"}')
         self.run_program("check", "d", expect=3)

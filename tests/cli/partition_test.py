@@ -160,6 +160,14 @@ class Partitioned(CliTest):
         self.run_program("join", "d", "-o", "k.pvtu", "--partition", 5)
         self.assertTrue((self.folder / "k_4.vtu").exists())
 
+    def test_what_pieces_of_a_split_surface_do_not_hold_is_told(self):
+        self.write("wire.off", off(CUBE_POINTS + [(0.4, 0.4, 0.4), (0.6, 0.6, 0.5)], [*CUBE_FACETS, (8, 9)]))
+        self.run_program("split", "wire.off", "--parts", 2, "--size", 0.4, "-o", "d")
+        for k in (1, 2):
+            self.run_program("mesh", f"d/part_{k}.poly", "-o", f"d/part_{k}.vtu")
+        self.assertIn("1 segment", self.run_program("join", "d", "-o", "j.xdmf", "--as-parts").stderr)
+        self.assertNotIn("segment", self.run_program("join", "d", "-o", "j.pvtu").stderr)
+
     def test_what_makes_no_sense_is_refused(self):
         for options in (["-o", "x.vtu", "--partition", 2], ["-o", "x.pvtu"], ["-o", "x.pvtu", "--partition", 0],
                         ["-o", "x.pvtu", "--partition", 100000], ["-o", "-", "--format", "pvtu", "--partition", 2],
