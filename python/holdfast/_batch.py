@@ -199,9 +199,9 @@ def _told(exit_code: int, message: str) -> str:
     lines = message.splitlines()
     if not lines:
         return ""
-    # What went wrong begins with the program's name; what went well is the last line.
+    # What went wrong begins with the program's name, behind what it tells of the file; what went well is the last line.
     if exit_code != 0:
-        return next((line for line in lines if line.startswith("holdfast: ")), lines[0])
+        return next((line for line in reversed(lines) if line.startswith("holdfast: ")), lines[0])
     return lines[-1]
 
 
@@ -311,6 +311,11 @@ _VALUES = {"size": "--size", "gradation": "--gradation", "quality": "--quality",
            "size_field": "--size-field"}
 
 
+def _number(value: Any) -> str:
+    """As the program reads it: the id of a region is an integer, also in a row of an array."""
+    return str(int(value)) if isinstance(value, float) and value.is_integer() and abs(value) < 2**53 else str(value)
+
+
 def arguments_of(options: dict[str, Any]) -> list[str]:
     """Options of `mesh` as the program takes them. Raises TypeError for those that files cannot have."""
     found: list[str] = []
@@ -330,7 +335,7 @@ def arguments_of(options: dict[str, Any]) -> list[str]:
         found += ["--keep", f"{keep}={margin}" if keep == "box" and margin is not None else str(keep)]
     for name, option in (("holes", "--hole"), ("regions", "--region")):
         for values in left.pop(name, ()):
-            found += [option, ",".join(repr(v) for v in values)]
+            found += [option, ",".join(_number(v) for v in values)]
     for step in left.pop("without", ()):
         found += ["--without", step]
     if left:

@@ -81,7 +81,7 @@ def split(
     surface
         A path, or several.
     folder
-        Gets the parts and manifest.json. Volumes of an earlier division there are removed.
+        Gets the parts and manifest.json. Then volumes of an earlier division there are removed.
     parts
         How many.
     options
@@ -94,11 +94,13 @@ def split(
         As `holdfast.mesh`.
     """
     files = [surface] if isinstance(surface, (str, os.PathLike)) else list(surface)
+    earlier: list[Path] = []
     with contextlib.suppress(FileNotFoundError, ValueError):
-        earlier = read(folder)
-        for part in earlier.parts:
-            earlier.volume(part).unlink(missing_ok=True)
+        there = read(folder)
+        earlier = [there.volume(part) for part in there.parts]
     _run("split", *(os.fspath(f) for f in files), "--parts", str(parts), "-o", os.fspath(folder), "-q", *_with_limits(options))
+    for volume in earlier:
+        volume.unlink(missing_ok=True)
     return read(folder)
 
 
@@ -134,8 +136,9 @@ def mesh_parts(
     memory = bytes_of(memory_limit)
     limits += [] if memory is None else ["--memory-limit", repr(memory / 1e9)]
     arguments = ("--threads", str(threads), *limits)
-    tasks = [Task(str(division.surface(p)), str(division.volume(p)), arguments, time_limit, division.volume(p).suffix)
-             for p in division.parts]
+    # Workers may be in another folder.
+    tasks = [Task(os.path.abspath(division.surface(p)), os.path.abspath(division.volume(p)), arguments, time_limit,
+                  division.volume(p).suffix) for p in division.parts]
     rows: dict[str, Row] = {}
 
     def finish(row: Row) -> None:
@@ -225,7 +228,7 @@ class _Race:
     def _room(self) -> int:
         """Half of the workers: the other half is idle."""
         if self._is_dask:
-            return int(sum(w["nthreads"] for w in self._executor.scheduler_info()["workers"].values())) // 2
+            return int(sum(w["nthreads"] for w in self._executor.scheduler_info().get("workers", {}).values())) // 2
         return int(getattr(self._executor, "_max_workers", 0)) // 2
 
     def _cancel(self) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 
+import numpy as np
 import pytest
 
 import holdfast
@@ -56,6 +57,32 @@ def test_what_goes_wrong_is_told(cube, tmp_path):
         holdfast.distributed.split(cube, tmp_path / "d", parts=2)
     with pytest.raises(FileNotFoundError):
         holdfast.distributed.read(tmp_path / "e")
+
+
+def test_a_split_that_fails_leaves_what_is_there(cube, tmp_path):
+    division = holdfast.distributed.mesh(cube, folder=tmp_path / "d", parts=2, size=0.3)
+    with pytest.raises(holdfast.FileError):
+        holdfast.distributed.split(tmp_path / "nothing.off", tmp_path / "d", parts=2)
+    assert holdfast.distributed.check(division.folder)
+
+
+def test_workers_in_another_folder(cube, tmp_path, monkeypatch):
+    import concurrent.futures
+
+    monkeypatch.chdir(tmp_path)
+    with concurrent.futures.ProcessPoolExecutor(2, initializer=os.chdir, initargs=("/",)) as pool:
+        holdfast.distributed.mesh("cube.off", "out.vtu", parts=2, size=0.3, client=pool)
+    assert holdfast.check(cube, "out.vtu")
+
+
+def test_the_error_is_told_and_not_what_comes_before(cube, tmp_path):
+    with pytest.raises(holdfast.HoldfastError, match="time limit of 1e-06 s"):
+        holdfast.distributed.mesh(cube, folder=tmp_path / "d", parts=2, size=0.3, time_limit=1e-6)
+
+
+def test_regions_in_arrays(cube, tmp_path):
+    division = holdfast.distributed.split(cube, tmp_path / "d", parts=1, regions=np.array([[0.25, 0.5, 1e-3, 7.0, 0.3]]))
+    assert division.parts[0]["regions"] == [7]
 
 
 def test_dask_with_a_killed_worker(cube, tmp_path):
