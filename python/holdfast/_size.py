@@ -63,6 +63,10 @@ def _as_six(tensors: npt.ArrayLike) -> Array:
     """m11 m12 m22 m13 m23 m33 of (m, 3, 3) or (m, 6) numbers."""
     array = plain(tensors, "metric", np.float64)
     if array.ndim == 3 and array.shape[1:] == (3, 3):
+        with np.errstate(invalid="ignore"):  # of what is not finite others tell
+            skew = np.abs(array - array.transpose(0, 2, 1)).max(axis=(1, 2), initial=0)
+        if (wrong := np.flatnonzero(skew > 1e-6 * np.abs(array).max(axis=(1, 2), initial=0))).size > 0:
+            raise ValueError(f"metrics must be symmetric, and number {wrong[0]} is not")
         return np.stack([array[:, i, j] for i, j in ((0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2))], axis=1)
     if array.ndim == 2 and array.shape[1] == 6:
         return array

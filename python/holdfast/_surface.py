@@ -102,7 +102,7 @@ def points_of(values: npt.ArrayLike, what: str = "points") -> Array:
 def indices_of(values: npt.ArrayLike, columns: int, what: str) -> Array:
     """(m, columns) indices of a type that the extension takes as it lies there."""
     array = plain(values, what)
-    if array.size == 0 and array.ndim < 2:
+    if array.size == 0 and (array.ndim < 2 or array.shape == (0, columns)):  # of any type, as `np.empty` gives floats
         array = np.empty((0, columns), np.int32)
     if array.dtype.kind not in "iu":
         raise TypeError(f"{what} must be integers, not {array.dtype}")

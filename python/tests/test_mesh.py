@@ -54,6 +54,15 @@ def test_metric_stretches(cube):
     assert len(flat) > 1.5 * len(thin)
 
 
+def test_metric_that_is_not_symmetric_is_refused(cube):
+    with pytest.raises(ValueError, match="symmetric"):
+        holdfast.mesh(*cube, metric=lambda p: np.tile([[4.0, 1, 0], [0, 4, 0], [0, 0, 4]], (len(p), 1, 1)))
+
+
+def test_empty_arrays_of_any_type(cube):
+    assert len(holdfast.mesh(*cube, segments=np.empty((0, 2))).tetrahedra) > 0
+
+
 def test_function_of_sizes_is_asked_with_arrays(cube):
     shapes = []
 
