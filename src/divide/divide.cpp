@@ -127,11 +127,22 @@ class Divider {
   std::vector<division::Work> work(const WantedSize& wanted) const {
     double sum = 0;
     for (const Tetrahedron& t : coarse_.tetrahedra) sum += expected(coarse_, t, wanted);
+    require_few_enough(sum / static_cast<double>(options_.parts));
     std::vector<division::Work> result;
     const double most = sum / (kSamples * static_cast<double>(options_.parts));
     for (const Tetrahedron& t : coarse_.tetrahedra)
       add_work(corners_of(coarse_, t), wanted, most, kMostHalvings, result);
     return result;
+  }
+
+  // As `mesh` does, which would refuse the parts: where they are made so fine, their interfaces take all
+  // memory.
+  static void require_few_enough(double tetrahedra_of_part) {
+    constexpr double kMost = 1u << 30, kLeastMade = 0.1;
+    if (!(kLeastMade * tetrahedra_of_part < kMost))
+      throw std::length_error(
+          "the size asked for takes more than 2^30 tetrahedra in a part; a larger one, or another unit of "
+          "length, or more parts are needed");
   }
 
   using Corners = std::array<Point, 4>;

@@ -211,6 +211,8 @@ class Divided(CliTest):
         self.run_program("split", "cube.off", "--parts", 0, "-o", "d", expect=2)
         self.run_program("split", "cube.off", "-o", "d", expect=2)
         self.run_program("split", "cube.off", "--parts", 2, "-o", "-", expect=2)
+        for size in 1e-300, 1e-5:
+            self.assertIn("2^30", self.run_program("split", "cube.off", "--parts", 2, "-o", "d", "--size", size, expect=5).stderr)
         self.run_program("split", "cube.off", "--parts", "2", "-o", "cube.off", expect=3)
         self.run_program("join", "nowhere", "-o", "x.vtu", expect=3)
         self.assertIn("nowhere/manifest.json", self.run_program("check", "nowhere", expect=3).stderr)
