@@ -32,7 +32,7 @@ void require_finite(std::span<const Point> points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& p = points[i];
     if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
-      throw std::invalid_argument("holdfast: point " + std::to_string(i) + " is not finite");
+      throw std::invalid_argument("point " + std::to_string(i) + " is not finite");
   }
 }
 

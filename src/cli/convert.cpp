@@ -1,4 +1,6 @@
 // `holdfast convert`: a surface or a volume in another format.
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -78,7 +80,7 @@ void write(const AnyMesh& mesh, const ConvertArguments& arguments, const AnyTarg
 
 int run(const ConvertArguments& arguments) {
   if (arguments.scale && !(*arguments.scale > 0 && std::isfinite(*arguments.scale)))
-    throw UsageError("--scale: a positive number is expected");
+    throw UsageError(fmt::format("--scale {}: a positive and finite number is expected", *arguments.scale));
   const Part part = part_of(arguments.only);
   const Names names = names_of(arguments.names);
   const Limits limits = limits_of(arguments.limits);

@@ -39,10 +39,14 @@ struct PlaneArguments {
 void set_refinement(const PlaneArguments& arguments, PlaneOptions& options) {
   if (arguments.size && !(*arguments.size > 0 && std::isfinite(*arguments.size)))
     throw UsageError(
-        "--size: a positive number is expected; without the option edges are as long as they are");
+        fmt::format("--size {}: a positive and finite length is expected; without the option edges are as "
+                    "long as they are",
+                    *arguments.size));
   constexpr double most_angle = 34;
   if (arguments.angle && !(*arguments.angle >= 0 && *arguments.angle <= most_angle))
-    throw UsageError("--angle: a number of degrees from 0 to 34 is expected; up to 26.45 every input ends");
+    throw UsageError(
+        fmt::format("--angle {}: a number of degrees from 0 to 34 is expected; up to 26.45 every input ends",
+                    *arguments.angle));
   options.size = arguments.size.value_or(0);
   options.angle = arguments.angle;
   options.keep_boundary = arguments.keep_boundary;

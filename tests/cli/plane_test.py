@@ -219,7 +219,8 @@ class Refined(CliTest):
         self.write("in.poly", poly(SQUARE, RING[:4]))
         for options in (["--keep-boundary"], ["--max-points", "5"], ["--size", "0"], ["--size", "nan"], ["--angle", "40"],
                         ["--angle", "-1"], ["--angle", "20", "--stop-after", "delaunay"], ["--tolerance", "-1"]):
-            self.run_program("plane", "in.poly", "-o", "out.off", *options, expect=2)
+            self.assertIn(options[0], self.run_program("plane", "in.poly", "-o", "out.off", *options, expect=2).stderr)
+        self.assertIn("--angle 40", self.run_program("plane", "in.poly", "-o", "out.off", "--angle", "40", expect=2).stderr)
         self.assertNotIn("out.off", self.files())
 
 
