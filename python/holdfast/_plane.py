@@ -14,6 +14,7 @@ from . import _core
 from ._counts import counted
 from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits, whole
 from ._masks import plain, require_unmasked
+from ._mesh import _listed, _positive
 from ._surface import Array, PathLike, indices_of, markers_of
 from .errors import _raise_unless_done
 
@@ -207,8 +208,8 @@ def plane(
         partition_first=bool(partition_first),
         delaunay=bool(delaunay),
         hull=bool(hull),
-        size=0.0 if size is None else _positive(size),
-        angle=None if angle is None else float(angle),
+        size=0.0 if size is None else _positive(size, "size"),
+        angle=None if angle is None else _angle(angle),
         keep_boundary=bool(keep_boundary),
         max_points=_MOST_POINTS if max_points is None else whole(max_points, "max_points"),
         stop_after=stop_after,
@@ -226,8 +227,8 @@ def plane(
             raise ValueError("format: there is no file to read")
         array = _coordinates(points)
         ends = None if segments is None else indices_of(segments, 2, "segments")
-        seeds = [_seed(r) for r in regions]
-        places = [_place(h, array.shape[1]) for h in holes]
+        seeds = [_seed(r) for r in _listed(regions, "regions")]
+        places = [_place(h, array.shape[1]) for h in _listed(holes, "holes")]
         marks = (markers_of(point_markers, "point_markers"), markers_of(segment_markers, "segment_markers"))
         with Shown(progress, "plane") as callback:
             if array.shape[1] == 3:
@@ -286,11 +287,14 @@ def _require_sense(
         raise ValueError(f"max_points={max_points}: a number of points is expected")
 
 
-def _positive(size: float) -> float:
-    number = float(size)
-    if not 0 < number < float("inf"):
-        raise ValueError(f"size={number}: a positive length is expected")
-    return number
+def _angle(angle: Any) -> float:
+    try:
+        degrees = float(angle)
+    except (TypeError, ValueError):
+        raise TypeError(f"angle={angle!r}: a number of degrees is expected") from None
+    if not 0 <= degrees <= 34:
+        raise ValueError(f"angle={degrees}: 0 to 34 degrees are expected")
+    return degrees
 
 
 def _coordinates(values: Any) -> Array:
