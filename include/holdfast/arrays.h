@@ -1,4 +1,4 @@
-// Holdfast: surfaces out of arrays as other programs hold them: strided, 32-bit floats, any integers.
+// Holdfast: surfaces from the arrays of other programs: strided, 32-bit floats, any integers.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,8 @@ template <class Number>
   }
 }
 
-/// Rows of numbers anywhere in memory, which it does not own. Number j of row i is at
-/// data + i * row_stride + j * column_stride, in bytes; it need not be aligned.
+/// A non-owning view of rows of numbers anywhere in memory. Number j of row i is at
+/// data + i * row_stride + j * column_stride, in bytes. The numbers need not be aligned.
 struct ArrayView {
   const void* data = nullptr;
   std::size_t rows = 0;
@@ -36,20 +36,20 @@ struct ArrayView {
   std::ptrdiff_t row_stride = 0, column_stride = 0;
 };
 
-/// `rows` rows of `columns` numbers, one behind the other.
+/// `rows` rows of `columns` numbers each, contiguous.
 template <class Number>
 [[nodiscard]] ArrayView rows_of(const Number* data, std::size_t rows, std::size_t columns) {
   return {data, rows, scalar_of<Number>(), static_cast<std::ptrdiff_t>(columns * sizeof(Number)),
           sizeof(Number)};
 }
 
-/// A complex out of arrays. Those that lie in memory as the library has them (points as rows of three
-/// doubles, indices as rows of unsigned 32-bit integers, markers as consecutive 32-bit integers, all aligned)
-/// are not copied and must outlive it; others are converted once. A 32-bit float becomes the double of the
+/// A complex built from arrays. Arrays in the library's own layout (points as rows of three doubles, indices
+/// as rows of unsigned 32-bit integers, markers as consecutive 32-bit integers, all aligned) are not copied
+/// and must outlive this object. Other arrays are converted once. A 32-bit float becomes the double of the
 /// same value.
 ///
-/// Throws std::invalid_argument for indices that are negative or beyond 32 bits, for points that are integers
-/// beyond 2^53 or indices that are no integers, and for markers beyond 32 bits.
+/// Throws std::invalid_argument for indices that are negative, beyond 32 bits or no integers, for integer
+/// coordinates beyond 2^53, and for markers beyond 32 bits.
 class HOLDFAST_API Arrays {
  public:
   /// Rows of three.
@@ -63,7 +63,7 @@ class HOLDFAST_API Arrays {
   void set_segment_markers(const ArrayView& markers);
   void set_names(Names names);
 
-  /// As long as this stands, and is not changed.
+  /// Valid while this object exists and is not changed.
   [[nodiscard]] const Complex& view() const& { return complex_; }
   const Complex& view() const&& = delete;
 

@@ -2,11 +2,11 @@
  *
  * - Every function that can fail returns a holdfast_status and fills `error`, which may be NULL. No C++
  * exception leaves a function, and running out of memory is HOLDFAST_OUT_OF_MEMORY.
- * - Handles are made by functions that write to their last but one argument `out`, which stays NULL where the
- *   status is not HOLDFAST_OK (holdfast_mesh says what else it delivers). Each is given back by
- *   its own _free, which takes NULL.
- * - Arrays that a handle returns belong to it, are read-only and stand until it is freed. None is copied.
- * Shapes are given as (rows, columns); rows lie one behind the other. A count of 0 comes with NULL.
+ * - Handles are made by functions that write to their last but one argument `out`, which stays NULL unless
+ * the status is HOLDFAST_OK (holdfast_mesh has exceptions). Release each handle by its own _free, which
+ *   accepts NULL.
+ * - Arrays that a handle returns belong to the handle, are read-only and valid until it is freed. None is
+ * copied. Shapes are given as (rows, columns); rows are contiguous. A count of 0 comes with NULL.
  * - A handle may be read from several threads at once.
  * - Callbacks get the context pointer given with them, run in the thread that made the call, and must not
  * throw or jump out of it.
@@ -56,11 +56,11 @@ HOLDFAST_API const char* holdfast_version(void);
 /* Stops calls from another thread. */
 typedef struct holdfast_cancel holdfast_cancel;
 HOLDFAST_API holdfast_status holdfast_cancel_new(holdfast_cancel** out, holdfast_error* error);
-/* From any thread, and from a signal handler; once cancelled a token stays so. */
+/* May be called from any thread and from a signal handler. A cancelled token stays cancelled. */
 HOLDFAST_API void holdfast_cancel_now(holdfast_cancel* cancel);
 HOLDFAST_API void holdfast_cancel_free(holdfast_cancel* cancel);
 
-/* What bounds and watches a call. Set it up by holdfast_control_init; a NULL control has no limits. */
+/* Limits and progress of a call. Set it up by holdfast_control_init; a NULL control has no limits. */
 typedef struct holdfast_control {
   size_t struct_size;    /* sizeof(holdfast_control) of the caller's headers */
   double time_limit;     /* seconds; 0: none */
@@ -85,8 +85,8 @@ typedef enum holdfast_scalar {
   HOLDFAST_UINT64 = 5
 } holdfast_scalar;
 
-/* Number j of row i is at data + i * row_stride + j * column_stride, in bytes. Both strides 0: rows lie one
- * behind the other without gaps. No rows: there is no such array. */
+/* Number j of row i is at data + i * row_stride + j * column_stride, in bytes. Both strides 0: rows are
+ * contiguous, without gaps. No rows: there is no such array. */
 typedef struct holdfast_array {
   const void* data;
   size_t rows;
@@ -108,8 +108,8 @@ typedef struct holdfast_surface_arrays {
   holdfast_array segment_markers;  /* (k, 1), or none */
 } holdfast_surface_arrays;
 
-/* Arrays of doubles, uint32 indices and int32 markers without gaps are not copied: they must stand,
- * unchanged, until the surface is freed. Others are converted once. */
+/* Arrays of doubles, uint32 indices and int32 markers without gaps are not copied: they must stay valid
+ * and unchanged until the surface is freed. Others are converted once. */
 HOLDFAST_API holdfast_status holdfast_surface_from_arrays(const holdfast_surface_arrays* arrays,
                                                           holdfast_surface** out, holdfast_error* error);
 /* `format` (".stl", ...) overrides the ending of the path; NULL: by the ending. */
@@ -150,7 +150,7 @@ HOLDFAST_API const int* holdfast_volume_segment_markers(const holdfast_volume* v
                                                         size_t* rows); /* (k) or 0 */
 HOLDFAST_API const int* holdfast_volume_vertex_markers(const holdfast_volume* volume,
                                                        size_t* rows); /* (n) or 0 */
-/* One more owner: each frees it once. Returns `volume`. */
+/* Adds an owner; each owner frees the volume once. Returns `volume`. */
 HOLDFAST_API holdfast_volume* holdfast_volume_retain(holdfast_volume* volume);
 HOLDFAST_API void holdfast_volume_free(holdfast_volume* volume);
 
@@ -207,7 +207,7 @@ HOLDFAST_API holdfast_status holdfast_mesh(const holdfast_surface* surface,
                                            holdfast_error* error);
 /* The mesh; NULL where there is none. The result owns it: retain it to keep it longer. */
 HOLDFAST_API holdfast_volume* holdfast_result_volume(const holdfast_result* result);
-/* (t, 4): behind the face opposite to each corner the neighbour, UINT32_MAX where there is none. */
+/* (t, 4): the neighbour behind the face opposite each corner, UINT32_MAX where there is none. */
 HOLDFAST_API const uint32_t* holdfast_result_neighbours(const holdfast_result* result, size_t* rows);
 /* Ids of the regions in front of and behind triangle i; returns bit 0: there is one in front, bit 1: one
  * behind. */
@@ -243,7 +243,7 @@ typedef struct holdfast_defect {
 HOLDFAST_API holdfast_status holdfast_diagnose(const holdfast_surface* surface, size_t most,
                                                const holdfast_control* control, holdfast_defects** out,
                                                holdfast_error* error);
-/* Those that holdfast_mesh has found; they belong to the result. */
+/* The defects that holdfast_mesh found; they belong to the result. */
 HOLDFAST_API const holdfast_defects* holdfast_result_defects(const holdfast_result* result);
 HOLDFAST_API size_t holdfast_defects_count(const holdfast_defects* defects);
 /* Defect i, whose pointers stand as long as `defects`; returns 0 beyond the last. */
@@ -252,7 +252,8 @@ HOLDFAST_API void holdfast_defects_free(holdfast_defects* defects);
 
 /* ---- Check, Delaunay, untangle ---- */
 
-/* Whether a volume keeps a surface, exactly. `holds` gets 1 or 0; `error`, if given, the first broken rule.
+/* Decides exactly whether a volume keeps a surface. `holds` gets 1 or 0; `error`, if given, the first broken
+ * rule.
  */
 HOLDFAST_API holdfast_status holdfast_check(const holdfast_surface* surface, const holdfast_volume* volume,
                                             const holdfast_control* control, int* holds,
@@ -263,7 +264,7 @@ HOLDFAST_API holdfast_status holdfast_delaunay(const holdfast_array* points, uin
                                                const holdfast_control* control, holdfast_volume** out,
                                                holdfast_error* error);
 
-/* Makes every tetrahedron positive, with the boundary as it is. */
+/* Makes every tetrahedron positive and keeps the boundary. */
 HOLDFAST_API holdfast_status holdfast_untangle(const holdfast_volume* volume, const holdfast_control* control,
                                                holdfast_volume** out, holdfast_error* error);
 

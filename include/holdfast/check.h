@@ -35,7 +35,7 @@ struct Rule {
   RuleKind kind;
   std::string name;  ///< that of `kind`
   bool holds;
-  std::string detail;  ///< counts where it holds; the first offending entities where it does not
+  std::string detail;  ///< counts if the rule holds; else the first offending entities
 };
 
 struct CheckResult {
@@ -47,7 +47,7 @@ struct CheckResult {
   }
 };
 
-/// What a check may take as given.
+/// What a check accepts.
 struct CheckOptions : Limits {
   bool outside_dropped = false;  ///< input facets outside every tetrahedron are accepted
   bool box = false;              ///< the mesh may extend to an enclosing box (--keep box)
@@ -56,13 +56,14 @@ struct CheckOptions : Limits {
 
 /// Checks a volume against the surface that it should keep, exactly.
 ///
-/// Vertices of the surface with identical coordinates are one vertex; the volume should begin with the
-/// distinct ones, in the order that `vertex_map` (holdfast.h) tells. Findings name the surface's own indices.
-/// Vertices of the volume are never taken together.
+/// Vertices of the surface with identical coordinates count as one vertex. The volume must begin with these
+/// distinct vertices, in the order of `vertex_map` (holdfast.h). Findings name the surface's own indices.
+/// Vertices of the volume are never merged.
 ///
-/// The result has all rules, in the order of `RuleKind`; those on mid-edge nodes where the volume has some. A
-/// rule that cannot be decided because another is broken does not hold, and its detail begins with "not
-/// examined". Any arrays are accepted, however wrong. Throws Interrupted for its limits, and std::bad_alloc.
+/// The result lists all rules in the order of `RuleKind`. Rules on mid-edge nodes appear only if the volume
+/// has such nodes. A rule that cannot be decided because another is broken does not hold, and its detail
+/// begins with "not examined". Any arrays are accepted, however wrong. Throws Interrupted for its limits, and
+/// std::bad_alloc.
 [[nodiscard]] HOLDFAST_API CheckResult check(const Complex& surface, const Volume& volume,
                                              const CheckOptions& options = {});
 

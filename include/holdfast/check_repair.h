@@ -16,11 +16,11 @@ struct RepairClaims {
   std::vector<RepairResult::Moved> moved;
   std::vector<RepairResult::Dropped> dropped;
   std::optional<std::vector<RepairResult::Merged>> merged;  ///< nothing: not told
-  /// Nothing: not told, and facets without parents are taken for such.
+  /// Nothing: not told. Facets without parents then count as fillings.
   std::optional<std::vector<RepairResult::Filled>> filled;
   std::map<int, std::vector<int>> marker_sets;
   double max_displacement = 0;
-  /// What was asked for, by which valid surfaces change, too. Nothing: not told.
+  /// The options of the repair that change valid surfaces, too. Nothing: not told.
   std::optional<double> weld, join;
   std::optional<bool> unite;
 };
@@ -29,14 +29,14 @@ struct RepairClaims {
 
 /// The rules of the promise of `repair`, in the order in which a check lists them. The numbers are stable.
 enum class RepairRuleKind : int {
-  output_valid = 1,       ///< a simplicial complex: nothing meets but in common vertices and sides
-  vertices_kept = 2,      ///< the input's vertices, bit for bit, but for those that are listed as moved
-  distances_right = 3,    ///< every listed distance is that of its vertex, and at most the largest
+  output_valid = 1,       ///< a simplicial complex: elements meet only in common vertices and sides
+  vertices_kept = 2,      ///< all input vertices not listed as moved have the same bits
+  distances_right = 3,    ///< every listed distance is right for its vertex, and at most `max_displacement`
   parents_named = 4,      ///< every facet has parents that exist, or fills a hole
   children_near = 5,      ///< every facet lies within the largest distance of each of its parents
   parents_covered = 6,    ///< every input facet lies within the largest distance of its children
   segments_covered = 7,   ///< the same for segments, both ways
-  losses_listed = 8,      ///< what has no children is listed as dropped, for a reason that is true
+  losses_listed = 8,      ///< every input facet without children is listed as dropped, with the true reason
   repeats_listed = 9,     ///< facets with the same corners are listed as merged
   fillings_bounded = 10,  ///< facets without parents close the holes that are listed
   markers_kept = 11,      ///< each facet's marker stands for those of its parents
@@ -67,9 +67,9 @@ struct RepairCheckOptions : Limits {
   ProgressFunction progress = {};
 };
 
-/// Checks exactly that `output` and what is claimed of it keep the promise of `repair` for `input`.
+/// Checks exactly that `output` and the claims about it keep the promise of `repair` for `input`.
 ///
-/// That every input facet lies near to its children is proved and not sampled: see
+/// The check proves, without sampling, that every input facet lies near its children: see
 /// src/check_repair/cover.h. Any arrays are accepted, however wrong. Throws Interrupted for its limits, and
 /// std::bad_alloc.
 [[nodiscard]] HOLDFAST_API RepairCheckResult check_repaired(const Complex& input, const Complex& output,

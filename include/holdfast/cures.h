@@ -1,4 +1,4 @@
-// Holdfast: what `repair` would need to be asked for to cure a surface.
+// Holdfast: the `repair` options that would cure a surface.
 #pragma once
 
 #include "holdfast/export.h"
@@ -10,7 +10,7 @@ namespace holdfast {
 
 enum class CureKind {
   weld,        ///< RepairOptions::weld
-  cut,         ///< no option: what crosses, touches or overlaps is cut
+  cut,         ///< no option: facets that cross, touch or overlap are cut
   fill_holes,  ///< RepairOptions::fill_holes
   unite,       ///< RepairOptions::unite
 };
@@ -21,28 +21,29 @@ struct Cure {
   CureKind kind;
   std::size_t count =
       0;                 ///< of vertices to join, of defects, of holes; of parts that pass through each other
-  double distance = 0;   ///< weld: the widest gap that is to be closed
-  double tolerance = 0;  ///< weld: one significant digit, the smallest of those tried that closes all gaps
+  double distance = 0;   ///< weld: the widest gap to close
+  double tolerance = 0;  ///< weld: the smallest tolerance tried that closes all gaps, to one significant
+                         ///< digit
   std::size_t sides = 0;  ///< fill_holes: of the longest border
-  std::size_t left = 0;   ///< fill_holes: borders that stay open, since a filling would meet the surface
+  std::size_t left = 0;   ///< fill_holes: borders that stay open because a filling would meet the surface
 };
 
 struct Cures {
-  std::vector<Cure> cures;  ///< in the order in which a repair does them
-  /// Whether they were applied, all but `unite` together, and gave a valid surface without the gaps.
+  std::vector<Cure> cures;  ///< in the order in which a repair applies them
+  /// Whether all cures but `unite` were applied together and gave a valid surface without the gaps.
   bool tried = false;
-  /// Whether the surface is valid as it is, so that what is proposed closes it.
+  /// Whether the surface is already valid. The cures then only close it.
   bool was_valid = false;
-  /// Holes that no option closes: their fillings would meet the surface.
+  /// Holes that no option closes because their fillings would meet the surface.
   std::size_t left_open = 0;
 };
 
-/// What cures a surface with such a summary, the one that `summarise` gives of its defects.
+/// The cures of a surface. `summary` is what `summarise` returns for its defects.
 ///
-/// Each proposal is applied before it is made, unless that would take more new points than `most_points`:
-/// then it is a guess, and `tried` is false. To unite parts is a matter of what is meant, so it is proposed
-/// wherever they pass through each other. Holes are those that are left after the rest. Limits are those of
-/// `options`, whose other members are not looked at; throws Interrupted for them.
+/// Each cure is applied before it is proposed, unless that would take too many new points (src/api/cures.cpp
+/// has the limit). The proposal is then a guess, and `tried` is false. Whether to unite parts depends on what
+/// the user means, so `unite` is proposed wherever parts pass through each other. Holes are counted after all
+/// other cures. Only the limits of `options` are used. Throws Interrupted for them.
 [[nodiscard]] HOLDFAST_API Cures propose_cures(const Complex& complex, std::span<const Defect> defects,
                                                const DefectSummary& summary,
                                                const RepairOptions& options = {});

@@ -1,4 +1,4 @@
-// Holdfast: the order in which missing constraints come into a mesh, and what stands where a run is stopped.
+// Holdfast: the order in which missing constraints are laid, and the mesh of a run that was stopped early.
 #pragma once
 
 #include <array>
@@ -18,11 +18,11 @@ enum class LayingOrder {
 };
 [[nodiscard]] HOLDFAST_API const char* name(LayingOrder order);
 
-/// What stands where `stop_after` ended a run before regions were found. Vertices are numbered as in the
-/// mesh, facets as in the input.
+/// The constraints of a run that `stop_after` ended before regions were found. Vertices are numbered as in
+/// the mesh, facets as in the input.
 struct Intermediate {
-  std::vector<Segment> missing_segments;  ///< no single edge of the mesh; sides of facets, too
-  std::vector<Index> missing_facets;      ///< no single face of it
+  std::vector<Segment> missing_segments;  ///< not a single edge of the mesh; includes sides of facets
+  std::vector<Index> missing_facets;      ///< not a single face of the mesh
   /// A missing segment in pieces, from its first end to the second.
   struct Chain {
     Segment segment;
@@ -35,7 +35,7 @@ struct Intermediate {
     std::vector<Triangle> faces;
   };
   std::vector<SubFacets> sub_facets;
-  /// A vertex that was added on a constraint: inside a segment or else inside a facet.
+  /// A vertex that was added inside a segment, or else inside a facet.
   struct Added {
     Index vertex;
     std::optional<Segment> segment;

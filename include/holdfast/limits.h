@@ -1,4 +1,4 @@
-// Holdfast: how a call may be bounded, stopped and watched.
+// Holdfast: how to bound, stop and watch a call.
 #pragma once
 
 #include <atomic>
@@ -20,20 +20,19 @@ enum class Outcome {
   time_limit,         ///< `Limits::time_limit` ran out
   memory_limit,       ///< `Limits::memory_limit` was reached
   cancelled,          ///< the progress callback returned false, or the token was cancelled
-  not_representable,  ///< valid, but some Steiner point has no position in doubles, or a largest volume no
-                      ///< mesh
+  not_representable,  ///< valid, but some Steiner point has no position in doubles, or a volume bound no mesh
 };
 
-/// Whether a limit or the caller ended it.
+/// Whether a limit or the caller ended the call.
 [[nodiscard]] constexpr bool is_interruption(Outcome outcome) {
   return outcome == Outcome::time_limit || outcome == Outcome::memory_limit || outcome == Outcome::cancelled;
 }
 
-/// Stops calls from another thread. Copies are one token: keep one and give another to `Limits::cancel`.
-/// A token may be given to many calls; once cancelled it stays so.
+/// Stops calls from another thread. Copies share one state: keep one copy and give another to
+/// `Limits::cancel`. Many calls may share a token. A cancelled token stays cancelled.
 class CancelToken {
  public:
-  /// From any thread, and from a signal handler.
+  /// May be called from any thread and from a signal handler.
   void cancel() const noexcept { state_->store(true, std::memory_order_relaxed); }
   [[nodiscard]] bool cancelled() const noexcept { return state_->load(std::memory_order_relaxed); }
 
@@ -45,15 +44,15 @@ class CancelToken {
 /// Limits that end a call early. They are checked every 50 ms, or more often.
 struct Limits {
   double time_limit = 0;  ///< seconds; 0: none
-  /// When the time limit began to run, if not with the call.
+  /// When the time limit began to run, if before the call.
   std::optional<std::chrono::steady_clock::time_point> started = {};
-  /// Bytes of the process; 0: none. Refused where the system does not tell how many there are.
+  /// Bytes of the process; 0: none. Refused if the system does not report the memory of a process.
   std::uint64_t memory_limit = 0;
   std::optional<CancelToken> cancel = {};
 };
 
-/// Called every 20 ms or so, from the thread that made the call, with the share of the work that is done, 0
-/// to 1; returns false to cancel. What it throws ends the call.
+/// Called every 20 ms or so from the calling thread, with the share of the work that is done, 0 to 1. Returns
+/// false to cancel. An exception from it ends the call.
 using ProgressFunction = std::function<bool(double)>;
 
 /// Thrown by calls whose result has no `Outcome` (diagnose, check, delaunay, readers and writers) when a

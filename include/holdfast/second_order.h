@@ -11,8 +11,8 @@
 namespace holdfast {
 
 /// Gives each edge of a volume's tetrahedra, facets and segments a node in its middle, rounded to doubles
-/// (`Volume::mid_nodes`); nodes that are there already are replaced. Nodes are numbered as edges come in the
-/// tetrahedra, then in what else the volume has. Throws std::out_of_range for indices of no vertex,
+/// (`Volume::mid_nodes`). Existing nodes are replaced. Nodes are numbered in the order of the edges in the
+/// tetrahedra, then in the other elements of the volume. Throws std::out_of_range for indices of no vertex,
 /// std::length_error where nodes are beyond 32 bits, and Interrupted for its limits.
 HOLDFAST_API void add_mid_nodes(Volume& volume, const Limits& limits = {});
 
@@ -29,19 +29,19 @@ struct CurveOptions : Limits {
 
 struct CurveReport {
   std::size_t on_facets = 0;     ///< nodes on edges of facets
-  std::size_t moved = 0;         ///< of these, those that lie on the smooth surface now
-  std::size_t beyond = 0;        ///< those whose edge is farther from it than the tolerance
-  std::size_t straightened = 0;  ///< those that stay straight since an element would not be positive
-  std::size_t not_positive =
-      0;                ///< tetrahedra that are not proven positive though all their edges are straight
-  double farthest = 0;  ///< the largest distance that a node moved
+  std::size_t moved = 0;         ///< of these, those that now lie on the smooth surface
+  std::size_t beyond = 0;        ///< of these, those whose edge is farther from that surface than the
+                                 ///< tolerance
+  std::size_t straightened = 0;  ///< those that stay straight because an element would not be positive
+  std::size_t not_positive = 0;  ///< tetrahedra not proven positive although all their edges are straight
+  double farthest = 0;           ///< the largest distance that a node moved
 };
 
-/// Moves the nodes on edges of facets onto a smooth surface, given by triangles (finer ones, as a rule): each
-/// to the nearest point, if that is near enough. Of every tetrahedron the Jacobian is then proven positive
-/// everywhere; where it is not, nodes go back to the middle of their edges. Corners stay. Nodes are added
-/// where the volume has none. Throws std::out_of_range for indices of no vertex, std::invalid_argument for a
-/// tolerance or coordinates that are not finite, and Interrupted for its limits.
+/// Moves the nodes on edges of facets onto a smooth surface, given by triangles (finer ones, as a rule). Each
+/// node moves to the nearest point if that is near enough. The Jacobian of every tetrahedron is then proven
+/// positive everywhere; where this fails, nodes go back to the middle of their edges. Corners stay. Nodes are
+/// added if the volume has none. Throws std::out_of_range for indices of no vertex, std::invalid_argument for
+/// a tolerance or coordinates that are not finite, and Interrupted for its limits.
 HOLDFAST_API CurveReport curve_mid_nodes(Volume& volume, const Complex& surface,
                                          const CurveOptions& options = {});
 

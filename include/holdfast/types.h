@@ -14,7 +14,7 @@ namespace holdfast {
 
 /// Index of a vertex, facet, segment or tetrahedron; always zero-based.
 using Index = std::uint32_t;
-/// Where there is no tetrahedron, vertex, facet or segment.
+/// Stands for no tetrahedron, vertex, facet or segment.
 inline constexpr Index no_entity = ~Index{0};
 /// x, y, z in the input's own unit.
 using Point = std::array<double, 3>;
@@ -26,17 +26,16 @@ using Segment = std::array<Index, 2>;
 using Triangle = std::array<Index, 3>;
 /// Vertex indices of a tetrahedron with det(b-a, c-a, d-a) > 0.
 using Tetrahedron = std::array<Index, 4>;
-/// Of a tetrahedron, the corners of the face opposite to each corner, as they turn counterclockwise where
-/// they are seen from outside.
+/// The corners of the face opposite each corner of a tetrahedron, counterclockwise as seen from outside.
 inline constexpr std::array<std::array<std::size_t, 3>, 4> outward_faces{
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-/// The face opposite to corner i, as it is seen from outside.
+/// The face opposite corner i, as seen from outside.
 [[nodiscard]] constexpr Triangle outward_face(const Tetrahedron& t, std::size_t i) {
   return {t[outward_faces[i][0]], t[outward_faces[i][1]], t[outward_faces[i][2]]};
 }
 
-/// Names of ids, in UTF-8. Several ids may share a name; formats that hold each name once write them as one
-/// set or tell them apart by a number (docs/formats.md). An id without an entry has no name.
+/// Names of ids, in UTF-8. Several ids may share a name. Formats that allow each name only once write such
+/// ids as one set, or add a number to the name (docs/formats.md). An id without an entry has no name.
 struct Names {
   std::map<int, std::string> facets;    ///< of facet markers
   std::map<int, std::string> regions;   ///< of region ids
@@ -49,11 +48,11 @@ struct Names {
   friend bool operator==(const Names&, const Names&) = default;
 };
 
-/// A piecewise linear complex as non-owning views: what the mesher takes.
+/// A piecewise linear complex as non-owning views: the input of the mesher.
 ///
 /// Vertices with identical coordinates (+0 and -0 are one) are one vertex, whatever their indices: a place.
-/// Vertices that no facet and no segment uses are isolated points and become mesh vertices too, but for those
-/// that are not finite or at the place of another vertex: these are left out.
+/// Vertices that no facet and no segment uses are isolated points and become mesh vertices, too. Only those
+/// that are not finite or at the place of another vertex are left out.
 /// Marker spans are either empty or as long as the entities that they mark.
 struct Complex {
   std::span<const Point> vertices;
@@ -67,12 +66,12 @@ struct Complex {
 
 /// What a remark is about. The numbers are stable.
 enum class RemarkKind : int {
-  left_out = 1,      ///< something in the file that a surface or volume has no place for
+  left_out = 1,      ///< something in the file that a surface or volume cannot hold
   polygons_cut = 2,  ///< polygons of more than three corners, cut into triangles
   size_limits = 3,   ///< limits on volumes, taken as sizes
-  not_held = 4,      ///< something that a format has no place for, when a file is written
-  renumbered = 5,    ///< ids that are other numbers in the file, since its format takes theirs for none, or
-                     ///< since several things in it have one number
+  not_held = 4,      ///< something that the format of a written file cannot hold
+  renumbered = 5,    ///< ids that differ from the numbers in the file, because the format reserves these or
+                     ///< several things in the file share a number
   cells_split = 6,   ///< hexahedra, prisms and pyramids, split into tetrahedra
 };
 
@@ -83,7 +82,7 @@ struct Remark {
   std::string message;  ///< one sentence
 };
 
-/// A piecewise linear complex that owns its arrays: what the readers give.
+/// A piecewise linear complex that owns its arrays: the result of the readers.
 struct Surface {
   std::vector<Point> vertices;
   std::vector<Triangle> facets;
@@ -95,26 +94,26 @@ struct Surface {
   struct RegionSeed {
     Point where;
     int id;
-    double size = 0;        ///< most that edges of the region may measure, for field points, or less (as
-                            ///< Sizes::size); 0: no limit
-    double max_volume = 0;  ///< most that a tetrahedron of the region may measure; 0: no limit
+    double size = 0;        ///< longest edge of the region, or less, for field points (as Sizes::size); 0: no
+                            ///< limit
+    double max_volume = 0;  ///< largest volume of a tetrahedron of the region; 0: no limit
   };
   std::vector<RegionSeed> regions;
   std::vector<Point> holes;
-  std::vector<Remark> remarks;  ///< what the file holds besides, or in another way
+  std::vector<Remark> remarks;  ///< what the file holds besides, or in another form
   Names names = {};
 
-  /// Of a surface that outlives it.
+  /// A view of this surface, which must outlive it.
   [[nodiscard]] Complex view() const& {
     return {vertices, facets, segments, facet_markers, segment_markers, vertex_markers, &names};
   }
   Complex view() const&& = delete;
 };
 
-/// Mid-edge nodes: what makes elements of second order out of straight ones, whose corners stay as they are.
+/// Mid-edge nodes turn straight elements into elements of second order. The corners stay as they are.
 ///
 /// Nodes are numbered behind the vertices of the volume: node k is `points[k - vertices.size()]`, and
-/// elements that share an edge share its node. Either all edges of the volume have one, or none.
+/// elements that share an edge share its node. Either all edges of the volume have a node, or none.
 struct MidNodes {
   std::vector<Point> points;
   std::vector<std::array<Index, 6>>
@@ -127,8 +126,8 @@ struct MidNodes {
 
 /// A tetrahedral mesh that conforms to a complex.
 struct Volume {
-  /// First the input's distinct places, in the order of their first vertices and with these vertices' bits,
-  /// so that an input that repeats none keeps its indices; then the Steiner points.
+  /// First the input's distinct places, in the order and with the bits of the first vertex at each, so that
+  /// an input without repeated vertices keeps its indices; then the Steiner points.
   std::vector<Point> vertices;
   std::vector<Tetrahedron> tetrahedra;
   std::vector<int> regions;  ///< region id, one a tetrahedron
@@ -137,7 +136,7 @@ struct Volume {
   std::vector<Segment> segments;
   std::vector<int> segment_markers;  ///< empty, or one a segment
   std::vector<int> vertex_markers;   ///< empty, or one a vertex: 0 for Steiner points
-  /// Empty, or one a vertex: the first of the input's vertices at its place, -1 for an added one.
+  /// Empty, or one a vertex: the first input vertex at its place, -1 for an added vertex.
   std::vector<std::int64_t> input_vertices;
   Names names = {};
   MidNodes mid_nodes = {};  ///< of a mesh of second order; empty for one of first order
@@ -145,32 +144,34 @@ struct Volume {
 
 /// Which rule of a valid input is broken. The numbers are stable.
 enum class DefectKind : int {
-  non_finite_coordinate = 1,      ///< a vertex in use with NaN or infinity
-  index_out_of_range = 2,         ///< a facet or segment that names a vertex which does not exist
-  repeated_vertex = 3,            ///< two vertices at one place; of volumes only, surfaces have one there
+  non_finite_coordinate = 1,      ///< a vertex in use has a coordinate that is NaN or infinite
+  index_out_of_range = 2,         ///< a facet or segment names a vertex that does not exist
+  repeated_vertex = 3,            ///< two vertices at one place; in volumes only, in surfaces they count as
+                                  ///< one
   degenerate_facet = 4,           ///< a facet that names one place twice, or of zero area
   degenerate_segment = 5,         ///< a segment that names one place twice
   repeated_facet = 6,             ///< two facets with the same three vertices (places)
   vertex_in_segment = 7,          ///< a vertex in the interior of a segment or facet side (T-junction)
   vertex_in_facet = 8,            ///< a vertex in the interior of a facet
-  segments_cross = 9,             ///< two segments or sides that meet in an interior point
-  segment_pierces_facet = 10,     ///< a segment or side that pierces a facet's interior
-  facets_cross = 11,              ///< two facets that meet outside a common face
+  segments_cross = 9,             ///< two segments or sides meet in an interior point
+  segment_pierces_facet = 10,     ///< a segment or side pierces a facet's interior
+  facets_cross = 11,              ///< two facets meet outside a common vertex or side
   facets_overlap = 12,            ///< two coplanar facets that share area
   segments_overlap = 13,          ///< two collinear segments or sides that share length
   encloses_nothing = 14,          ///< no region is bounded by the facets
-  outside_region = 15,            ///< facets, segments or vertices that border on no kept region
-  inconsistent_orientation = 16,  ///< facets turned so that there is no winding number (Keep::winding only)
+  outside_region = 15,            ///< facets, segments or vertices border on no kept region
+  inconsistent_orientation = 16,  ///< facets are oriented so that there is no winding number (Keep::winding
+                                  ///< only)
 };
 
-/// One broken rule, with the entities that break it, by their indices in the input.
+/// One broken rule and the entities that break it, by their indices in the input.
 struct Defect {
   DefectKind kind;
   std::vector<Index> vertices;
   std::vector<Index> facets;
   std::vector<Index> segments;
-  /// 1 point, or the 2 ends of the intersection, rounded to doubles; for `encloses_nothing` the ends of every
-  /// open border edge, two by two.
+  /// 1 point, or the 2 ends of the intersection, rounded to doubles. For `encloses_nothing`: the ends of
+  /// every open border edge, in pairs.
   std::vector<Point> where;
   std::string message;  ///< one sentence with indices, coordinates and what to do
 };

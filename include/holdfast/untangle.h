@@ -1,4 +1,4 @@
-// Holdfast: a tangled volume mesh made positive, with its boundary fixed.
+// Holdfast: makes a tangled volume mesh positive and keeps its boundary.
 //
 // After P.L. George, H. Borouchaki, E. Saltel, "'Ultimate' robustness in meshing an arbitrary polyhedron"
 // (Int. J. Numer. Meth. Engng 2003), §6.4: relocation, exchange of tetrahedra, added points; and V. Garanzha,
@@ -10,13 +10,13 @@
 
 namespace holdfast {
 
-/// What untangling does; the steps take turns until no tetrahedron is tangled.
+/// Steps of untangling. They take turns until no tetrahedron is tangled.
 enum class UntangleStep {
   validate,  ///< the connectivity, and the boundary as a surface
   relocate,  ///< vertices one by one, into the kernel of their ball
   swap,      ///< tetrahedra of a region exchanged for others
-  smooth,    ///< many vertices at once, by an energy that is infinite for inverted tetrahedra
-  refill,    ///< cavities emptied and filled again, as `mesh` does it
+  smooth,    ///< many vertices at once, with an energy that is infinite for inverted tetrahedra
+  refill,    ///< cavities emptied and filled again, as `mesh` fills them
   check,     ///< the result, exactly
   improve,   ///< better elements, once all are positive; before `check`
 };
@@ -26,34 +26,35 @@ enum class UntangleStep {
 
 struct UntangleProgress {
   UntangleStep step;
-  double fraction;  ///< of the tetrahedra that were not positive, those that are by now; 0 to 1
+  double fraction;  ///< share of the tetrahedra not positive at first that are positive by now; 0 to 1
 };
 
 struct UntangleOptions : Limits {
   std::vector<Index> fixed;  ///< vertices to keep besides those of the boundary, facets and segments
-  bool refill = true;        ///< empties and refills what nothing else untangles: may add and remove points
+  bool refill = true;        ///< empties and refills cavities that nothing else untangles; may add and remove
+                             ///< points
   std::uint64_t seed = 1;    ///< of the random orders when refilling
-  /// Makes elements better when all are positive, also where nothing was tangled: vertices inside are moved,
-  /// tetrahedra exchanged, vertices added and removed. Needs `refill`.
+  /// Improves elements once all are positive, also if nothing was tangled. Moves vertices inside, exchanges
+  /// tetrahedra, adds and removes vertices. Needs `refill`.
   bool improve = false;
-  /// Called now and then from the calling thread; returns false to cancel.
+  /// Called from time to time from the calling thread; returns false to cancel.
   std::function<bool(const UntangleProgress&)> progress;
 };
 
 struct UntangleReport {
-  /// What `improve` did, and to what end. None of the figures gets worse.
+  /// What `improve` did, and its effect. None of the figures gets worse.
   struct Improved {
     std::size_t moves = 0, swaps = 0, contractions = 0, insertions = 0;
     struct Figures {
       double min_dihedral_deg = 0;  ///< the least
-      double mean_quality = 0;      ///< of the paper's Q, at most 1e15 each
+      double mean_quality = 0;      ///< mean of the paper's Q, each counted as at most 1e15
       std::size_t below_10_deg = 0, tetrahedra = 0;
     } before, after;
   } improved;
-  std::size_t vertices = 0, tetrahedra = 0;        ///< of the volume that came in
+  std::size_t vertices = 0, tetrahedra = 0;        ///< of the input volume
   std::size_t free_vertices = 0;                   ///< of these, those that may move
   std::size_t turned = 0;                          ///< tetrahedra that were listed the other way round
-  std::size_t negative = 0, null = 0;              ///< tetrahedra before, once all are turned alike
+  std::size_t negative = 0, null = 0;              ///< tetrahedra before, once all are oriented alike
   std::size_t negative_after = 0, null_after = 0;  ///< at the end: 0 for Outcome::done
   std::size_t moved = 0;                           ///< vertices in another place than before
   std::size_t swapped = 0;                         ///< exchanges of tetrahedra
@@ -70,8 +71,8 @@ struct UntangleResult {
   Outcome outcome = Outcome::done;
   Volume volume;  ///< empty unless `outcome` is done
   UntangleReport report;
-  /// Of the boundary as a surface. Facet i is the volume's; from volume.facets.size() on, they are further
-  /// faces of the boundary or between regions. Vertices and segments are the volume's.
+  /// Defects of the boundary as a surface. Facet i is that of the volume. From volume.facets.size() on,
+  /// facets are further faces of the boundary or between regions. Vertices and segments are the volume's.
   std::vector<Defect> defects;
   std::string message;  ///< one sentence when the outcome is not done
 };
@@ -79,13 +80,15 @@ struct UntangleResult {
 /// Makes every tetrahedron of a mesh strictly positive, exactly, without changing its boundary.
 ///
 /// `volume` is a mesh by its connectivity: no face has more than two tetrahedra, `facets` are faces and
-/// `segments` edges of it. Any of its tetrahedra may be negative or null; they may be listed any way round.
-/// What comes out: the faces of the boundary and between regions, `facets`, `segments` and their vertices are
-/// what they were, coordinates bit for bit, indices and markers included; every tetrahedron is strictly
-/// positive in doubles, no two overlap, and each region fills the space that it filled. Other vertices may
-/// have moved; with `refill` some may be new (they take the places of removed ones, then come last), and a
-/// removed vertex whose place nothing takes remains as an unused one. A mesh without non-positive tetrahedra
-/// comes out as it came in, unless it is to be improved.
+/// `segments` edges of it. Any of its tetrahedra may be negative or null, and their corners may be listed in
+/// any order.
+///
+/// In the result, the faces of the boundary and between regions, `facets`, `segments` and their vertices are
+/// unchanged: coordinates bit for bit, indices and markers included. Every tetrahedron is strictly positive
+/// in doubles, no two overlap, and each region fills the space that it filled. Other vertices may have moved.
+/// With `refill` some vertices may be new: they take the slots of removed vertices, then come last. A removed
+/// vertex whose slot stays free remains as an unused vertex. A mesh without non-positive tetrahedra comes out
+/// as it came in, unless `improve` is set.
 ///
 /// Throws std::invalid_argument if arrays of regions or markers have a wrong length or `fixed` is out of
 /// range or `improve` is set without `refill`, std::length_error beyond 2^28 vertices, std::bad_alloc when

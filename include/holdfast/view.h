@@ -1,4 +1,4 @@
-// Holdfast: a page to look at: one HTML file that a browser opens without a server and without a network.
+// Holdfast: writes a page to look at: one HTML file that a browser opens without a server or a network.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace holdfast {
 
 /// A surface or a volume that a page shows. What it points to must outlive the call.
 struct PagePart {
-  std::string name;                        ///< what the page calls it: a file's name, "before", ...
+  std::string name;                        ///< its name on the page: a file's name, "before", ...
   const Volume* volume = nullptr;          ///< shown if there is one; else `complex`
   Complex complex;                         ///< a surface; indices in it need not be in range
   std::span<const Defect> defects = {};    ///< of `complex`
@@ -23,23 +23,23 @@ struct PagePart {
 struct Page {
   std::string title;
   std::vector<PagePart> parts;       ///< one is shown at a time; the page opens on the first that has defects
-  std::string verdict;               ///< one sentence: what was found
-  bool good = true;                  ///< whether that is what one hopes for
+  std::string verdict;               ///< one sentence: the finding
+  bool good = true;                  ///< whether the finding is good
   std::span<const Rule> rules = {};  ///< of a check
   std::string report;                ///< JSON, shown as text
 };
 
 struct PageOptions : Limits {
-  /// Of a volume with more tetrahedra the page holds the surface, and the tetrahedra nearest to the middle of
-  /// the longest side, and says so.
+  /// For a volume with more tetrahedra, the page holds the surface and the tetrahedra nearest to the middle
+  /// of the longest side, and says so.
   std::size_t most_tetrahedra = 1'200'000;
   ProgressFunction progress = {};
 };
 
-/// Writes a page beside its name and renames it, so that no partial file is ever left. Names, messages and
-/// markers are shown as text, whatever they hold; the page's policy lets no script run but its own. Throws
-/// FileError, Interrupted for its limits, and std::invalid_argument for tags of another number than their
-/// entities.
+/// Writes a page to a temporary name and renames the file, so that no partial file is ever left. Names,
+/// messages and markers are shown as plain text, whatever they contain, and the page's policy allows only its
+/// own script. Throws FileError, Interrupted for its limits, and std::invalid_argument if there are not as
+/// many tags as entities.
 HOLDFAST_API void write_page(const std::filesystem::path& path, const Page& page,
                              const PageOptions& options = {});
 
