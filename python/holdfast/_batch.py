@@ -30,12 +30,12 @@ _BY_EXIT = {0: "done", 4: "invalid", 5: "limit"}
 
 
 class BatchError(ValueError):
-    """A batch that cannot be begun: two files of one stem, a shard that there is not."""
+    """A batch that cannot begin: two files with one stem, or a shard that does not exist."""
 
 
 @dataclass
 class Batch:
-    """What is to be done, and what is known of it already."""
+    """The tasks of a batch, and what earlier runs recorded of them."""
 
     tasks: list[Task]
     results: Path
@@ -177,7 +177,7 @@ _children: set["subprocess.Popen[bytes]"] = set()
 
 
 def kill_children() -> None:
-    """Those of this process that still run."""
+    """The child processes of this process that still run."""
     for child in list(_children):
         with contextlib.suppress(OSError):
             child.kill()
@@ -218,7 +218,7 @@ def _locked(folder: Path) -> typing.Iterator[None]:
 
 
 def merge(batch: Batch) -> None:
-    """One results file of what is known: of all shards, and of earlier runs where this one resumes them."""
+    """One results file with all records: of all shards, and of earlier runs if this run resumes them."""
     if batch.shard is None and not batch.earlier:
         return
     with _locked(batch.results.parent):
@@ -242,7 +242,7 @@ def execute(
     resume: bool = False,
     tell: Optional[typing.Callable[[Row, int, int], None]] = None,
 ) -> list[Row]:
-    """Runs the tasks and gives a row each, in their order; a results file holds them as they come."""
+    """Runs the tasks and returns a row for each, in their order. The results file gets the rows as they come."""
     batch.results.parent.mkdir(parents=True, exist_ok=True)
     rows: dict[str, Row] = {}
     lock = threading.Lock()

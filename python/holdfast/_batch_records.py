@@ -42,7 +42,7 @@ def rows_of(path: Path) -> typing.Iterator[Row]:
 
 
 def keep_better(rows: dict[str, Row], row: Row) -> None:
-    """The latest row of a part, but that to have skipped it says less than what was skipped."""
+    """The latest row of a part. A row that says "skipped" counts less than the row of the skipped result."""
     known = rows.get(row["output"])
     if known is not None and row.get("ended", 0) < known.get("ended", 0):
         return
@@ -56,7 +56,7 @@ _NO_MATTER = {"-q": 0, "--quiet": 0, "-v": 0, "--verbose": 0, "--threads": 1, "-
 
 
 def options_that_matter(arguments: typing.Sequence[str]) -> list[str]:
-    """Those of `mesh` on which the mesh depends, with `--option=value` as two words."""
+    """The options of `mesh` on which the mesh depends, with `--option=value` as two words."""
     words: list[str] = []
     for argument in arguments:
         words += argument.split("=", 1) if argument.startswith("--") else [argument]
@@ -72,7 +72,7 @@ def options_that_matter(arguments: typing.Sequence[str]) -> list[str]:
 
 
 def checksum_of(file: PathLike) -> Optional[str]:
-    """CRC-32 of a file's bytes, eight hexadecimal digits; None where it cannot be read."""
+    """CRC-32 of a file's bytes, eight hexadecimal digits; None if it cannot be read."""
     sum = 0
     try:
         with open(file, "rb") as bytes_of_file:
@@ -84,8 +84,8 @@ def checksum_of(file: PathLike) -> Optional[str]:
 
 
 def is_current(task: Task, known: Row) -> bool:
-    """Whether what an earlier run wrote is what this one would: of the same file, by the same options, as far as `known`, its
-    row, tells."""
+    """Whether an earlier run wrote what this run would write: from the same file, with the same options, as far as
+    `known`, the row of that run, tells."""
     if not known:
         return True
     if known["status"] not in ("done", "skipped"):  # the files are of a run before that one
@@ -96,7 +96,7 @@ def is_current(task: Task, known: Row) -> bool:
 
 
 def is_complete(task: Task, earlier: dict[str, Row]) -> bool:
-    """Files appear complete or not at all; of those that go together the first may stand alone."""
+    """Files appear complete or not at all. Of files that belong together the first may exist alone."""
     if not is_current(task, earlier.get(task.output, {})):
         return False
     endings = _FILES_OF_FORMAT.get(task.format)

@@ -58,11 +58,11 @@ def check(
     cancel: Optional[CancelToken] = None,
     progress: Progress = None,
 ) -> CheckResult:
-    """Checks exactly, and independently of how it was made, that a mesh keeps a surface.
+    """Checks exactly, and independently of the mesher, that a mesh keeps a surface.
 
     `surface` is what `mesh` takes (`(points, triangles)` for arrays), `mesh` a `TetMesh`, a path, or an object like a
-    `meshio.Mesh`. `outside_dropped` accepts missing triangles outside every tetrahedron, `box` a mesh that goes out to a
-    box.
+    `meshio.Mesh`. `outside_dropped` accepts missing triangles outside every tetrahedron, `box` accepts a mesh that
+    extends to an enclosing box.
 
     >>> import holdfast
     >>> s = holdfast.Surface([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)])

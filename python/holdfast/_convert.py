@@ -37,7 +37,7 @@ def convert(
     time_limit: Optional[float] = None,
     memory_limit: Optional[MemoryAmount] = None,
 ) -> list[str]:
-    """Writes a file of a surface or a volume in another format, whatever the program reads in whatever it writes.
+    """Converts a file of a surface or a volume: from any format that the program reads to any that it writes.
 
     Parameters
     ----------

@@ -15,10 +15,10 @@ from .errors import Defect, _defects
 
 
 class Diagnosis(list[Defect]):
-    """The defects of a surface, a list, with what they come to. Empty for a surface that breaks no rule.
+    """The defects of a surface, a list, with a summary. Empty for a surface that breaks no rule.
 
-    `summary` is a dict: "causes" (grouped by what has probably gone wrong, each with a message that says what to do),
-    "gaps", "open_sides", "parts" and "encloses" (how many regions the surface bounds; None where it is not valid).
+    `summary` is a dict: "causes" (defects grouped by probable cause, each with a message that says what to do), "gaps",
+    "open_sides", "parts" and "encloses" (how many regions the surface bounds; None if it is not valid).
     """
 
     def __init__(self, defects: typing.Iterable[Defect], summary: dict[str, Any]) -> None:
@@ -37,7 +37,7 @@ class Diagnosis(list[Defect]):
 
     @property
     def encloses(self) -> Optional[int]:
-        """How many regions the surface bounds; None where it is not valid."""
+        """How many regions the surface bounds; None if it is not valid."""
         found = self.summary["encloses"]
         return None if found is None else int(found)
 

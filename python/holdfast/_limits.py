@@ -24,8 +24,9 @@ _UNITS = {"": 1e9, "B": 1.0, "KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12, "KIB":
 
 
 def bytes_of(amount: Optional[MemoryAmount]) -> Optional[int]:
-    """In bytes: a number of gigabytes, or from a million on of bytes (no machine has the one, no process fits into less
-    of the other); or text with a unit ("500 MB", "2 GiB")."""
+    """An amount of memory in bytes, given as text with a unit ("500 MB", "2 GiB") or as a number. Numbers below a
+    million are gigabytes, others are bytes: no machine has a million gigabytes, and no process fits into a million
+    bytes."""
     if amount is None:
         return None
     found = re.fullmatch(r"\s*([0-9.eE+]+)\s*([A-Za-z]*)\s*", str(amount))
@@ -52,12 +53,12 @@ def limits(
 
 
 def is_truth(value: Any) -> bool:
-    """True and False count as 1 and 0 in Python, but are no numbers that anyone means."""
+    """Python counts True and False as 1 and 0, but nobody means them as numbers."""
     return isinstance(value, (bool, np.bool_))
 
 
 def whole(value: Any, what: str) -> int:
-    """An integer of Python or NumPy, and nothing that would have to be rounded."""
+    """An integer of Python or NumPy; numbers that would have to be rounded are refused."""
     try:
         if not is_truth(value):
             return operator.index(value)
@@ -89,7 +90,7 @@ def length(value: Any, what: str) -> float:
 
 
 class _Bar:
-    """A bar on standard error: tqdm's where there is one, else a line of its own."""
+    """A bar on standard error: tqdm's if it is installed, else a plain line."""
 
     def __init__(self, what: str) -> None:
         self.done = 0.0
@@ -120,7 +121,7 @@ class _Bar:
 
 
 class Shown:
-    """A context that gives the callback for the extension: None, the user's, or a bar for True."""
+    """A context that returns the callback for the extension: None, the user's, or a bar for True."""
 
     def __init__(self, progress: Progress, what: str) -> None:
         if progress is not None and not isinstance(progress, bool) and not callable(progress):

@@ -1,4 +1,4 @@
-"""numpy's masked arrays as arguments: whole ones are arrays like others, an entry without a value is an error."""
+"""numpy's masked arrays as arguments: without masked entries they are ordinary arrays; a masked entry is an error."""
 
 from __future__ import annotations
 

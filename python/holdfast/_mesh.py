@@ -62,79 +62,83 @@ def mesh(
     Parameters
     ----------
     surface
-        A path, a `Surface`, a list of several parts (which have regions of their own where they have triangles in common, or are
-        pasted), parts that `paste` put together, an (n, 3) array of points together with `triangles`, or anything shaped like a PyVista or
-        VTK PolyData, a `meshio.Mesh` or a `trimesh.Trimesh`. Arrays of float64 points and int32 or uint32 triangles that
-        lie together in memory are not copied.
+        A path, a `Surface`, a list of several parts (which get regions of their own if they have triangles in common or
+        are pasted), parts that `paste` put together, an (n, 3) array of points together with `triangles`, or anything
+        shaped like a PyVista or VTK PolyData, a `meshio.Mesh` or a `trimesh.Trimesh`. Contiguous arrays of float64
+        points and int32 or uint32 triangles are not copied.
     triangles
         (m, 3) indices from 0.
     segments
-        (k, 2) indices: edges to keep that belong to no triangle, or that have markers.
+        (k, 2) indices: edges to keep that are sides of no triangle or have markers.
     triangle_markers, segment_markers
-        (m,) and (k,) integers that the result repeats.
+        (m,) and (k,) integers, copied to the result.
     size
-        How long edges should be, in the surface's unit: a number (the most anywhere), one a point of the surface (0: as
-        the surface has it), a background mesh (a path to .mesh with .sol, .vtu, .mtr or .pos; or `(points, tetrahedra,
-        sizes)`), or a function that takes an (m, 3) array and gives m sizes, where what is not positive is no limit.
+        How long edges should be, in the surface's unit: a number (the largest size anywhere), one number a point of the
+        surface (0: as the surface has it), a background mesh (a path to .mesh with .sol, .vtu, .mtr or .pos; or
+        `(points, tetrahedra, sizes)`), or a function that takes an (m, 3) array and returns m sizes. A size that is not
+        positive is no limit.
     metric
-        The same for sizes that depend on the direction: `(points, tetrahedra, tensors)`, a path, or a function that takes
-        an (m, 3) array and gives (m, 3, 3) or (m, 6) numbers (m11 m12 m22 m13 m23 m33): in this metric edges have length 1.
+        Sizes that depend on the direction: `(points, tetrahedra, tensors)`, a path, or a function that takes an (m, 3)
+        array and returns (m, 3, 3) or (m, 6) numbers (m11 m12 m22 m13 m23 m33). In this metric edges should have length
+        1.
     gradation
-        How much sizes grow a unit of length, away from the surface; 0 to 1. By default 0.3, and up to 0.5 on surfaces full of needles,
-        where points that help little go again unless this is given.
+        How fast sizes grow away from the surface, per unit of length; 0 to 1. By default 0.3, and up to 0.5 on surfaces
+        full of needles. Unless this is given, points that help little there are removed again.
     growth
-        Whether sizes may grow inside beyond those of the surface round.
+        Whether sizes inside may grow beyond those of the surrounding surface.
     max_volume
-        The most that a tetrahedron may measure: a number, or a dict of numbers by the ids of the mesh's regions (None: anywhere). It holds
-        for every tetrahedron, even at the price of flat ones; `TetMesh.report["bounds"]` counts them.
+        The largest volume of a tetrahedron: a number, or a dict of numbers by region id of the mesh (None: anywhere).
+        Every tetrahedron keeps the bound, even if flat ones result; `TetMesh.report["bounds"]` counts those.
     max_ratio
-        The most that the radius of the sphere round a tetrahedron should be over its shortest edge: an aim. Exceptions
-        are counted in `TetMesh.report["bounds"]`.
+        The largest ratio wanted of a tetrahedron's circumradius to its shortest edge. This is an aim;
+        `TetMesh.report["bounds"]` counts exceptions.
     layers
-        Elements across, at least, on every path inside between two sides of a wall or a gap that face each other;
-        `TetMesh.report["layers"]` tells the points that it took. At most 100.
+        The least number of elements on every path inside between two facing sides of a wall or a gap, at most 100.
+        `TetMesh.report["layers"]` counts the points added for it.
     fill
-        Add no field points: only what the surface forces. `size`, `metric`, `gradation`, `growth`, `max_volume`,
-        `max_ratio` and `layers` have no meaning then.
+        Add no field points, only the points that the surface forces. `size`, `metric`, `gradation`, `growth`,
+        `max_volume`, `max_ratio` and `layers` then have no meaning.
     quality
         Effort for the elements with field points: "fast", "good" or "best".
     keep
-        "auto" (by winding number where the surface is turned consistently, else every bounded region), "bounded",
+        "auto" (by winding number if the surface is consistently oriented, else every bounded region), "bounded",
         "winding" or "box" (everything out to a box, `box_margin` of the largest extent away).
     holes
         (x, y, z) of points in regions to leave empty.
     regions
-        (x, y, z, id[, size]): the id, and the longest edge wanted, of the region that holds the point.
+        (x, y, z, id[, size]): the id of the region that contains the point, and the longest edge wanted there.
     drop_outside
         Drop triangles outside every kept region instead of refusing them.
     repair
         Make the surface valid first, as `holdfast.repair` does: True, or the distance within which vertices are joined.
-        The result's `repair` tells what changed. Where the surface then has no mesh in doubles, it is repaired again with
-        sheets joined that are some last bits apart.
+        The result's `repair` tells what changed. If the surface then has no mesh in doubles, it is repaired again, and
+        sheets that are some last bits apart are joined.
     fill_holes, union
         With `repair`: as `holdfast.repair` takes them.
     paste
-        Make parts that touch fit together first, as `holdfast.paste` does: True, or the distance within which what is nearer to an
-        earlier part is put on it. Parts are those of the list, or the connected components of one surface.
+        Make parts that touch fit together first, as `holdfast.paste` does: True, or the distance within which points of
+        later parts are put on an earlier part. The parts are those of the list, or the connected components of one
+        surface.
     overlap
-        Beside several parts, or `paste`: who gets what several hold, "first", "last" or "new" (a region of its own). By default
-        parts that overlap are refused.
+        With several parts or `paste`: which part gets space that several parts hold: "first", "last" or "new" (a region
+        of its own). By default parts that overlap are refused.
     without
         Steps to leave out: "flips", "optimise", "points".
     order
-        In which missing constraints are cut into the mesh: "random", "given" (as the surface has them) or "halving" (the middle
-        one first, then those in the middle of both halves).
+        The order in which missing constraints are cut into the mesh: "random", "given" (the surface's order) or
+        "halving" (the middle one first, then those in the middle of both halves).
     seed, threads
-        Of the random orders; 0 threads are all there are. The result is the same on any number of threads.
+        The seed of the random orders, and the number of threads (0: all there are). The result does not depend on the
+        number of threads.
     time_limit
         Seconds.
     memory_limit
-        Of the process: gigabytes, or bytes from a million on, or text with a unit ("500 MB").
+        Memory of the process in gigabytes, or in bytes from a million on, or text with a unit ("500 MB").
     cancel
         A `CancelToken` that another thread may use.
     progress
-        True shows a bar; or a function that takes (stage, fraction of the whole call). Where it returns False, the call
-        is cancelled; what it raises comes out of the call.
+        True shows a bar. A function is called with (stage, fraction of the whole call); the call is cancelled if it
+        returns False, and its exceptions leave the call.
 
     Raises
     ------
@@ -217,7 +221,7 @@ def mesh(
 
 
 def _listed(rows: Any, what: str) -> list[Any]:
-    """Points in a list, and not one point alone."""
+    """The points as a list; a single point is refused."""
     listed = list(rows) if isinstance(rows, typing.Iterable) else [rows]
     if any(np.ndim(row) == 0 for row in listed):
         raise TypeError(f"{what}={rows!r}: a list is expected, of one sequence of numbers for each")
@@ -264,7 +268,7 @@ def _layers(layers: Optional[int]) -> int:
 
 
 def _most_volume(most: Union[None, float, typing.Mapping[Optional[int], float]]) -> float:
-    """The bound that holds anywhere, 0 for none."""
+    """The bound for all regions, 0 for none."""
     anywhere = most.get(None) if isinstance(most, typing.Mapping) else most
     return 0.0 if anywhere is None else _positive(anywhere, "max_volume")
 
@@ -273,7 +277,7 @@ def _bounded(
     regions: list[tuple[float, float, float, int, float]],
     most: Union[None, float, typing.Mapping[Optional[int], float]],
 ) -> list[tuple[float, float, float, int, float, float]]:
-    """The regions with the volume that their tetrahedra may measure, 0 for any."""
+    """The regions with the largest volume of their tetrahedra, 0 for any."""
     if not isinstance(most, (numbers.Real, typing.Mapping, type(None))):
         raise TypeError("max_volume is a number, or a dict of numbers by the ids of regions")
     by_id = {id: v for id, v in most.items() if id is not None} if isinstance(most, typing.Mapping) else {}
@@ -295,7 +299,8 @@ def delaunay(
     cancel: Optional[CancelToken] = None,
     progress: Progress = None,
 ) -> Array:
-    """(m, 4) int32: Delaunay tetrahedra of (n, 3) points. Repeated points are left unused; none where all are coplanar.
+    """(m, 4) int32: Delaunay tetrahedra of (n, 3) points. Repeated points stay unused. There are no tetrahedra if all
+    points are coplanar.
 
     >>> import holdfast
     >>> holdfast.delaunay([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]).shape

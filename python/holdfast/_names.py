@@ -14,13 +14,13 @@ class Names(typing.NamedTuple):
     """
 
     triangles: dict[int, str] = {}
-    """Of triangle markers."""
+    """Names of triangle markers."""
     regions: dict[int, str] = {}
-    """Of region ids."""
+    """Names of region ids."""
     segments: dict[int, str] = {}
-    """Of segment markers."""
+    """Names of segment markers."""
     points: dict[int, str] = {}
-    """Of point markers."""
+    """Names of point markers."""
 
     def __bool__(self) -> bool:
         return any(len(names) > 0 for names in self)

@@ -1,4 +1,4 @@
-"""What `mesh` fills: one surface, several parts, or what was pasted."""
+"""The inputs of `mesh`: one surface, several parts, or pasted parts."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Given(typing.NamedTuple):
 
 
 def joined(surfaces: typing.Sequence[Surface], names: typing.Sequence[str]) -> Surface:
-    """Parts as one surface, as the program joins files: what has no markers gets one, with the part's name."""
+    """Parts as one surface, as the program joins files: a part without markers gets one, with the part's name."""
     if not surfaces:
         raise ValueError("there is no surface")
     if len(surfaces) == 1:
@@ -30,7 +30,7 @@ def joined(surfaces: typing.Sequence[Surface], names: typing.Sequence[str]) -> S
 
 
 def _require_own_points(part: Surface, number: int) -> None:
-    """What names no point of its own part would name one of the next."""
+    """Refuses indices beyond a part's own points: they would name points of the next part."""
     for what, rows in (("triangle", part.triangles), ("segment", part.segments)):
         if rows is None or not len(rows):
             continue

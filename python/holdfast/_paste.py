@@ -1,4 +1,4 @@
-"""Parts that touch, pasted together."""
+"""Pastes parts that touch."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ from .errors import _raise_unless_done
 
 
 class Pasted:
-    """Parts as one conformal surface, which `mesh` takes: every region of the mesh is of one part. Of meshes, one mesh.
+    """Parts as one conformal surface for `mesh`: every region of the mesh belongs to one part. If the parts are meshes,
+    one mesh.
 
     Indices of points and triangles count through the parts in turn.
     """
@@ -26,35 +27,35 @@ class Pasted:
         self._result = result
         self._volumes = volumes
         self.mesh: Optional[TetMesh] = None if volumes is None else TetMesh._of(volumes.volume, None, volumes)
-        """The tetrahedra, where the parts are meshes: those that stay, and those that replace others."""
+        """The tetrahedra if the parts are meshes: those that stay, and those that replace others."""
         self.origin: Optional[Array] = None if volumes is None else volumes.origin
-        """(m,) int64 beside `mesh`: which of the parts' tetrahedra in turn each is; -1: a new one."""
+        """(m,) int64, with `mesh`: the number of each tetrahedron through all parts in turn; -1: a new one."""
         self.surface: Surface = _of_data(result.surface)
         """The points of all parts, then new ones; triangles that parts have in common are there once."""
         self.marker_sets: dict[int, list[int]] = dict(result.marker_sets)
-        """Markers of triangles that several parts have under different markers: what they stand for."""
+        """The markers behind each marker of triangles that parts share under different markers."""
         self.moved: dict[int, float] = dict(result.moved)
         """Points that moved, with their distances."""
         self.regions: list[int] = list(result.regions)
-        """The region of each part that no seed numbers."""
+        """For each part, the id of its regions without a seed."""
         self.apart: list[tuple[int, int, float]] = list(result.apart)
         """(part, nearest, distance) of parts that touch no other."""
         self.max_displacement: float = result.max_displacement
-        """How far the surface is from the parts at most, rounded up."""
+        """The largest distance between the surface and the parts, rounded up."""
 
     @property
     def shared_triangles(self) -> int:
-        """How many triangles of the surface several parts have."""
+        """Number of triangles of the surface that several parts share."""
         return self._result.shared_facets
 
     @property
     def parents(self) -> list[tuple[int, ...]]:
-        """For each triangle those of the parts that it is a part of: several where parts touch."""
+        """For each triangle, the triangles of the parts that it is a part of: several where parts touch."""
         return self._result.parents
 
     @property
     def report(self) -> dict[str, Any]:
-        """All that changed, with the keys of the program's `--report`."""
+        """All changes, with the keys of the program's `--report`."""
         found: dict[str, Any] = json.loads((self._volumes or self._result).report())
         return found
 
@@ -64,7 +65,7 @@ class Pasted:
 
 
 def parts_in(surface: Any) -> Optional[list[Any]]:
-    """The parts that a list or tuple holds; None for what is one surface, such as (points, triangles)."""
+    """The parts in a list or tuple; None for a single surface, such as (points, triangles)."""
     if not isinstance(surface, (list, tuple)):
         return None
     if len(surface) == 2 and _is_table(surface[0]):
@@ -83,44 +84,47 @@ def paste(
     cancel: Optional[CancelToken] = None,
     progress: Progress = None,
 ) -> Pasted:
-    """Pastes parts that touch: common faces are there once, cut alike.
+    """Pastes parts that touch. Each common face is there once, and both parts cut it alike.
 
     Parameters
     ----------
     parts
-        Two surfaces or more, each whatever `mesh` takes, or a list of them; or one, whose connected components are the parts. Or two meshes or more:
-        `TetMesh`, files that hold tetrahedra, objects like a `meshio.Mesh` or a PyVista grid. If all have tetrahedra, these stay,
-        but for those at triangles that change.
+        Two or more surfaces, each in any form that `mesh` takes, or a list of them; or one surface, whose connected
+        components are the parts. Or two or more meshes: `TetMesh`, files with tetrahedra, objects like a `meshio.Mesh`
+        or a PyVista grid. If all parts have tetrahedra, these stay, except at triangles that change.
     tolerance
-        Points of later parts that are nearer to an earlier one than this are put on it: a length in the surfaces' unit, 0 or
-        more. The first part stays as it is; with 0 all do. It should be smaller than the parts' details.
+        Points of later parts within this distance of an earlier part are put on it: a length in the surfaces' unit, 0
+        or more. The first part stays as it is; with 0 all parts do. It should be smaller than the parts' details.
     overlap
-        Who gets what several parts hold: "first", "last", "new" (a region of its own), or "refuse". Meshes that overlap are
-        refused in any case.
+        Which part gets space that several parts hold: "first", "last", "new" (a region of its own), or "refuse". Meshes
+        that overlap are always refused.
     names
-        Of the parts, one each: regions and markers that have no name get it. By default the stem of the part's file, or "part k".
+        One name a part, for its regions and markers without a name. By default the stem of the part's file, or "part
+        k".
     threads, time_limit, memory_limit, cancel, progress
         As `mesh` takes them.
 
     Returns
     -------
     Pasted
-        `surface` has the (n, 3) points of all parts in turn, then new ones, and (m, 3) triangles; `moved` tells the points
-        that moved, with their distances in the surfaces' unit. Of meshes, `mesh` has the tetrahedra, and `surface` is their
-        boundary; indices count the points on the boundaries in turn.
+        `surface` has the (n, 3) points of all parts in turn, then new ones, and (m, 3) triangles; `moved` tells the
+        points that moved, with their distances in the surfaces' unit. If the parts are meshes, `mesh` has the
+        tetrahedra, `surface` is their boundary, and indices count the points on the boundaries in turn.
 
     Raises
     ------
     InvalidSurface
-        If parts overlap, and `overlap` is "refuse". The message names both, and how deep.
+        If parts overlap and `overlap` is "refuse". The message names both parts and the depth of the overlap.
     NotRepresentable
-        If no surface was found. The message tells the part's detail that is smaller than the tolerance, if there is one.
+        If no surface was found. The message names a detail of a part that is smaller than the tolerance, if there is
+        one.
     TimeLimit, MemoryLimit, Cancelled, FileError
         As `mesh` does.
     ValueError, TypeError
-        For no part, one that is a single component, arrays of a wrong shape or type, and what makes no sense.
+        For no part, a single part that is one component, arrays of a wrong shape or type, and options that make no
+        sense.
 
-    How it works, and on what it rests: docs/pasting.md; George, Borouchaki, Saltel 2003, section 9.
+    How it works and what it is based on: docs/pasting.md; George, Borouchaki, Saltel 2003, section 9.
 
     Example
     -------
@@ -162,7 +166,7 @@ def pasted_parts(
 
 
 def _meshes_in(parts: typing.Sequence[Any], options: dict[str, Any]) -> Optional[list[TetMesh]]:
-    """The parts as meshes, if all have tetrahedra; None where they are surfaces."""
+    """The parts as meshes if all have tetrahedra; None if they are surfaces."""
     found: list[TetMesh] = []
     for part in parts:
         mesh = mesh_in(part, options)

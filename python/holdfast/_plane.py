@@ -1,4 +1,4 @@
-"""plane: triangles in the plane that keep every segment."""
+"""plane: triangulates the plane and keeps every segment."""
 
 from __future__ import annotations
 
@@ -26,50 +26,51 @@ _STAGES, _ORDERS = ("delaunay", "partition", "swap"), ("given", "random", "halvi
 class PlaneMesh:
     """Triangles in the plane, as read-only arrays.
 
-    Points 0 to `n_input_points - 1` are those given, bit for bit.
+    Points 0 to `n_input_points - 1` are the given points, bit for bit.
     """
 
     def __init__(self, result: _core.PlaneResult) -> None:
         self._result = result
         self._report: Optional[dict[str, Any]] = None
         self.n_input_points: int = result.n_input_points
-        """Points that were given; what follows was added by `size` or `angle`."""
+        """Number of given points. The points after them were added for `size` or `angle`."""
         self.remarks: list[str] = list(result.remarks)
-        """What the file holds that the plane does not, or holds in another way."""
+        """What the file holds and the plane does not, or holds in another form."""
 
     @property
     def points(self) -> Array:
-        """(n, 2) coordinates; (n, 3) of what lies in a plane in space."""
+        """(n, 2) coordinates; (n, 3) for a plane in space."""
         return self._result.points
 
     @property
     def triangles(self) -> Array:
-        """(m, 3) indices of points. Corners turn left; in space they turn as the first polygon of their plane."""
+        """(m, 3) indices of points. Corners turn left; in space they are oriented as the first polygon of their
+        plane."""
         return self._result.triangles
 
     @property
     def regions(self) -> Array:
-        """(m,) the region of each triangle: that of the input, or the next free number from 1."""
+        """(m,) the region of each triangle: the id of a seed, or the next free number from 1."""
         return self._result.regions
 
     @property
     def segments(self) -> Array:
-        """(k, 2) indices of the ends of segments: those given, in pieces where points were added on them."""
+        """(k, 2) indices of the ends of segments: the given segments, in pieces where points were added on them."""
         return self._result.segments
 
     @property
     def point_markers(self) -> Optional[Array]:
-        """(n,) where points have markers, else None. Points on a segment have its marker."""
+        """(n,) if points have markers, else None. Points on a segment carry its marker."""
         return _or_none(self._result.point_markers)
 
     @property
     def segment_markers(self) -> Optional[Array]:
-        """(k,) where segments have markers, else None."""
+        """(k,) if segments have markers, else None."""
         return _or_none(self._result.segment_markers)
 
     @property
     def report(self) -> dict[str, Any]:
-        """As `holdfast plane --report` writes it."""
+        """The report, as `holdfast plane --report` writes it."""
         if self._report is None:
             self._report = json.loads(self._result.report())
         return self._report
@@ -121,54 +122,55 @@ def plane(
     cancel: Optional[CancelToken] = None,
     progress: Progress = None,
 ) -> PlaneMesh:
-    """Fills outlines in the plane with triangles that keep every segment; no point is added without a size or an angle.
+    """Fills outlines in the plane with triangles and keeps every segment. Points are added only for a size or an angle.
 
     Parameters
     ----------
     points
-        (n, 2) coordinates; (n, 3) ones of points that lie in one plane in space; or the path of a .poly or .node (Triangle), or
-        of polygons in space (.off, .obj, .ply, ...).
+        (n, 2) coordinates; (n, 3) coordinates of points in one plane in space; or the path of a .poly or .node
+        (Triangle), or of polygons in space (.off, .obj, .ply, ...).
     segments
-        (k, 2) indices from 0. Outlines, nested or not, and segments that end anywhere. Kept is every region that segments
-        separate from the outside; without segments, all within the convex hull.
+        (k, 2) indices from 0. Outlines, nested or not, and segments with free ends. Every region that segments separate
+        from the outside is kept; without segments, everything within the convex hull.
     holes
         (x, y) of points in regions to leave empty; (x, y, z) in space.
     regions
-        (x, y, id[, area]): the id of the region that holds the point, and the most that its triangles may measure with
+        (x, y, id[, area]): the id of the region that contains the point, and the largest area of its triangles, with
         `size` or `angle`.
     point_markers, segment_markers
         (n,) and (k,) integers that the result repeats.
     method
-        "ears", "swaps" or "partition": how segments come into the mesh. All solve every valid input.
+        "ears", "swaps" or "partition": how missing segments are recovered. Each method solves every valid input.
     ears
         For the method "ears": "first", "best" (the corner whose triangle is closest to a regular one) or "join" (the second
         construction of the paper's §2.1.2).
     partition_first
-        For the method "partition": remove points when all segments stand, and not after each.
+        For the method "partition": remove added points when all segments stand, not after each segment.
     delaunay
-        Then swap edges until the triangles are constrained Delaunay.
+        Finally swap edges until the triangles are constrained Delaunay.
     hull
-        Keep all within the convex hull, but holes.
+        Keep everything within the convex hull except holes.
     size
-        Add points until no edge is longer, in the points' unit; the triangles then are constrained Delaunay, with angles of 20
-        degrees.
+        Add points until no edge is longer than this, in the points' unit. The triangles are then constrained Delaunay,
+        with angles of at least 20 degrees.
     angle
-        Add points until no angle is smaller, in degrees: 0 to 34; up to 26.45 that ends for every input.
+        Add points until no angle is smaller than this, in degrees: 0 to 34. Up to 26.45 this ends for every input.
     keep_boundary
-        Add points inside alone, none on segments.
+        Add points inside only, none on segments.
     max_points
-        The most points that `size` and `angle` add; 10,000,000 by default.
+        Largest number of points added for `size` and `angle`; 10,000,000 by default.
     stop_after
-        "delaunay", "partition" or "swap=K" (after K swaps): give what stands after this stage, with the report's "intermediate".
+        "delaunay", "partition" or "swap=K" (after K swaps): return the mesh after this stage, with "intermediate" in
+        the report.
     order
-        Which missing segment is laid next, for "swaps" and "partition": "given", "random" or "halving"; else one near the
-        last.
+        Which missing segment is laid next, for "swaps" and "partition": "given", "random" or "halving"; by default one
+        near the last.
     tolerance
-        How far points in space may be from their mean plane; rounding is allowed always.
+        How far points in space may be from their mean plane; rounding is always allowed.
     seed
         Of the random orders.
     format
-        The ending to go by (".poly"), where the file's own does not tell.
+        The ending to use (".poly") if the file's own does not tell the format.
     time_limit, memory_limit, cancel, progress
         As `mesh` takes them.
 
@@ -263,7 +265,7 @@ def _require_sense(
     keep_boundary: bool,
     max_points: Optional[int],
 ) -> None:
-    """Options that would do nothing are refused."""
+    """Refuses options that would have no effect."""
     for what, value, known in (("method", method, _METHODS), ("ears", ears, _EARS), ("order", order, _ORDERS),
                                ("stop_after", stop_after, _STAGES)):
         if value is not None and value not in known:

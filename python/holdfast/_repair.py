@@ -1,4 +1,4 @@
-"""repair: a valid surface out of any."""
+"""repair: makes any surface valid."""
 
 from __future__ import annotations
 
@@ -15,49 +15,49 @@ from .errors import _raise_unless_done
 
 
 class Repair:
-    """A valid surface, and all that `repair` changed for it."""
+    """A valid surface, and all changes that `repair` made."""
 
     def __init__(self, given: Surface, result: _core.RepairResult) -> None:
         self._given = given
         self._result = result
         self._report: Optional[dict[str, Any]] = None
         self.surface: Surface = _of_data(result.surface)
-        """The given points with their indices, then the new ones."""
+        """The surface: the given points with their indices, then the new ones."""
         self.surface.holes, self.surface.regions = list(given.holes), list(given.regions)
         self.max_displacement: float = result.max_displacement
-        """No point of the surface is further than this from the given one, nor the other way round, but for triangles that
-        were dropped or fill holes."""
+        """No point of the surface is further than this from the given surface, nor the other way round, except on
+        triangles that were dropped or fill holes."""
 
     @property
     def parents(self) -> tuple[Array, Array]:
-        """(first, all): triangle i is a part of the given triangles `all[first[i]:first[i + 1]]`; of none where it fills a
-        hole."""
+        """(first, all): triangle i is a part of the given triangles `all[first[i]:first[i + 1]]`, or of none if it
+        fills a hole."""
         return self._result.parents
 
     @property
     def moved(self) -> dict[int, float]:
-        """How far given points moved, by their indices; empty as a rule without a tolerance."""
+        """How far given points moved, by their indices. Usually empty without a tolerance."""
         return {int(m["vertex"]): float(m["distance"]) for m in self.report["moved"]}
 
     @property
     def dropped(self) -> dict[int, str]:
-        """Why given triangles are no more, by their indices."""
+        """The reasons why given triangles were dropped, by their indices."""
         return {int(d["facet"]): str(d["reason"]) for d in self.report["dropped"]}
 
     @property
     def marker_sets(self) -> dict[int, list[int]]:
-        """Markers of the surface that stand for several of the given ones, where triangles with these overlapped."""
+        """Markers of the surface that stand for several given markers, because triangles with these overlapped."""
         return {int(k): [int(m) for m in v] for k, v in self.report["marker_sets"].items()}
 
     @property
     def report(self) -> dict[str, Any]:
-        """As `holdfast repair --report` writes it."""
+        """The report, as `holdfast repair --report` writes it."""
         if self._report is None:
             self._report = json.loads(self._result.report())
         return self._report
 
     def check(self) -> dict[str, Any]:
-        """Verifies it exactly, and independently of how it was made: "holds", and the "rules" one by one."""
+        """Verifies the repair exactly and independently of the repair itself: "holds", and the "rules" one by one."""
         with Shown(None, "check") as callback:
             found: dict[str, Any] = json.loads(
                 _core.check_repair(self._given._arrays(), self._result, {}, callback))
@@ -85,32 +85,32 @@ def repair(
     cancel: Optional[CancelToken] = None,
     progress: Progress = None,
 ) -> Repair:
-    """Makes a surface valid: what crosses, touches or overlaps is cut where it does, and nothing else changes.
+    """Makes a surface valid: triangles are cut where they cross, touch or overlap, and nothing else changes.
 
     Parameters
     ----------
     surface, triangles, segments, triangle_markers, segment_markers
         As `mesh` takes them: a path, a `Surface`, an object of another package, or (n, 3) points with (m, 3) triangles.
     weld
-        First join points that are this near to each other, and put points that are this near to a side or triangle on it.
-        Sides with one triangle each that pass each other this near get a point there.
-        A length in the surface's unit, 0 or more; 0 joins nothing.
+        First join points within this distance of each other, and put points within this distance of a side or triangle
+        on it. Sides with one triangle each get a point where they pass each other within this distance. A length in the
+        surface's unit, 0 or more; 0 joins nothing.
     join
-        Then make triangles that overlap at most this far from each other, some last bits, the same where they do. Points
-        stay. A length in the surface's unit, 0 or more.
+        Then give triangles that overlap within this distance, some last bits, the same triangles where they overlap.
+        Points stay. A length in the surface's unit, 0 or more.
     fill_holes
-        Close holes: True, or the most sides that the border of one may have, 3 or more; False or 0: none.
+        Close holes: True for all, or the largest number of sides of a border, 3 or more; False or 0: none.
     union
-        Drop triangles that have material on both sides, or on none.
+        Drop triangles with material on both sides or on neither.
     threads, time_limit, memory_limit, cancel, progress
         As `mesh` takes them.
 
     Returns
     -------
     Repair
-        `surface` has the given (n, 3) points, bit for bit but for those in `moved`, then new ones; `max_displacement` and the
-        distances of `moved` are in the surface's unit. Triangles with corners that are not finite or out of range are in
-        `dropped`.
+        `surface` has the given (n, 3) points, bit for bit except those in `moved`, then new points; `max_displacement`
+        and the distances of `moved` are in the surface's unit. Triangles with corners that are not finite or out of
+        range are in `dropped`.
 
     Raises
     ------
@@ -121,7 +121,7 @@ def repair(
     ValueError, TypeError
         For arrays of a wrong shape or type, and lengths that are negative, not finite, or none.
 
-    How it works, and on what it rests: docs/repairing.md; George, Borouchaki, Saltel 2003, section 9.
+    How it works and what it is based on: docs/repairing.md; George, Borouchaki, Saltel 2003, section 9.
 
     Example
     -------
@@ -146,7 +146,7 @@ def repair(
 
 
 def most_sides(fill_holes: Union[bool, int]) -> int:
-    """Of a hole that is filled; 0: none is."""
+    """The largest number of sides of a hole to fill; 0: fill none."""
     if is_truth(fill_holes):
         return 2**62 if fill_holes else 0
     sides = whole(fill_holes, "fill_holes")

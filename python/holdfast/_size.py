@@ -1,4 +1,4 @@
-"""What `size` and `metric` of mesh mean: a number, an array, a background mesh, a path or a function."""
+"""The forms of `size` and `metric` of mesh: a number, an array, a background mesh, a path or a function."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def _is_background(value: Any) -> bool:
 
 
 def set_size(size: Size, options: dict[str, Any], points: int) -> Optional[typing.Callable[[Array], Any]]:
-    """Puts what `size` means into the options, or gives the function that it is."""
+    """Puts the meaning of `size` into the options, or returns it if it is a function."""
     if size is None:
         return None
     if isinstance(size, (str, bytes, os.PathLike)):
@@ -60,7 +60,7 @@ def _point_sizes(sizes: npt.ArrayLike, points: int) -> list[float]:
 
 
 def _as_six(tensors: npt.ArrayLike) -> Array:
-    """m11 m12 m22 m13 m23 m33 of (m, 3, 3) or (m, 6) numbers."""
+    """The (m, 6) numbers m11 m12 m22 m13 m23 m33 of tensors given as (m, 3, 3) or (m, 6) numbers."""
     array = plain(tensors, "metric", np.float64)
     if array.ndim == 3 and array.shape[1:] == (3, 3):
         with np.errstate(invalid="ignore"):  # of what is not finite others tell

@@ -1,4 +1,4 @@
-"""Surfaces out of whatever holds one: files, arrays, and the objects of other packages, told by their shape."""
+"""Surfaces from files, arrays and objects of other packages, which are recognised by their attributes."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ _FLOATS = {np.dtype(t) for t in (np.float32, np.float64)}
 
 
 class Surface:
-    """A triangulated surface: arrays that are read-only where a file gave them.
+    """A triangulated surface. Arrays read from a file are read-only.
 
-    Every function that takes a surface takes this. Optional arrays are None where there is nothing.
+    Every function that takes a surface accepts this. Optional arrays are None if absent.
 
     >>> import numpy as np
     >>> s = Surface(np.eye(4, 3), [(0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)])
@@ -55,7 +55,7 @@ class Surface:
         self.triangles: Array = indices_of(triangles, 3, "triangles")
         """(m, 3) indices of points, from 0."""
         self.segments: Optional[Array] = None if segments is None else indices_of(segments, 2, "segments")
-        """(k, 2) indices of the ends of segments that belong to no triangle, or that have markers."""
+        """(k, 2) indices of the ends of segments that are sides of no triangle or have markers."""
         self.triangle_markers: Optional[Array] = markers_of(triangle_markers, "triangle_markers")
         self.segment_markers: Optional[Array] = markers_of(segment_markers, "segment_markers")
         self.point_markers: Optional[Array] = markers_of(point_markers, "point_markers")
@@ -64,9 +64,9 @@ class Surface:
         self.regions: list[Region] = list(regions)
         """(x, y, z, id, size) of regions, as the file names them; a size of 0 is none."""
         self.remarks: list[str] = list(remarks)
-        """What the file holds that a surface does not, or holds in another way."""
+        """What the file holds and a surface does not, or holds in another form."""
         self.names: Names = names_of(names)
-        """Names of markers, and of regions that `regions` number; meshes get them."""
+        """Names of markers, and of regions that `regions` number. Meshes of the surface get them."""
 
     def __repr__(self) -> str:
         extra = "" if self.segments is None else f", {counted(len(self.segments), 'segment')}"
@@ -77,12 +77,12 @@ class Surface:
                 self.segment_markers, tuple(self.names))
 
     def _given(self) -> tuple[Any, ...]:
-        """With what a file says of regions."""
+        """The arrays, with the regions and holes of the file."""
         return self._arrays(), [tuple(r) for r in self.regions], [list(map(float, h)) for h in self.holes]
 
 
 def points_of(values: npt.ArrayLike, what: str = "points") -> Array:
-    """(n, 3) coordinates of a type that the extension takes as it lies there."""
+    """(n, 3) coordinates of a type that the extension takes without a copy."""
     array = plain(values, what)
     if array.shape == (0,):
         array = np.empty((0, 3))
@@ -100,7 +100,7 @@ def points_of(values: npt.ArrayLike, what: str = "points") -> Array:
 
 
 def indices_of(values: npt.ArrayLike, columns: int, what: str) -> Array:
-    """(m, columns) indices of a type that the extension takes as it lies there."""
+    """(m, columns) indices of a type that the extension takes without a copy."""
     array = plain(values, what)
     if array.size == 0 and (array.ndim < 2 or array.shape == (0, columns)):  # of any type, as `np.empty` gives floats
         array = np.empty((0, columns), np.int32)
@@ -134,8 +134,8 @@ def surface_of(
     segment_markers: Optional[npt.ArrayLike] = None,
     reading: Optional[dict[str, Any]] = None,
 ) -> Surface:
-    """The surface that an argument means; what else is given replaces what the surface has of it. `reading` has the
-    limits under which a file is read."""
+    """The surface of an argument. Segments and markers that are given replace those of the surface. `reading` holds the
+    limits for reading a file."""
     if triangles is not None:
         found = Surface(surface, triangles)
     elif isinstance(surface, (str, bytes, os.PathLike)):
@@ -189,11 +189,11 @@ def _is_table(values: Any) -> bool:
 class _Polygons(typing.NamedTuple):
     triangles: Array
     origin: Array
-    """Of each triangle, the polygon that it is from."""
+    """For each triangle, the polygon that it comes from."""
 
 
 def _triangles_of(points: Array, offsets: Array, corners: Array) -> _Polygons:
-    """Polygons as triangles; those of more than three corners must be convex."""
+    """Polygons as triangles. Polygons of more than three corners must be convex."""
     counts = np.diff(offsets)
     if np.all(counts == 3):
         return _Polygons(corners.reshape(-1, 3), np.arange(len(counts)))
@@ -222,7 +222,7 @@ def _require_convex(corners: Array, number: int) -> None:
 
 
 def _offsets_of(counted: Array) -> tuple[Array, Array]:
-    """Cells as VTK's old lists have them, [3, a, b, c, 4, ...], as offsets and corners."""
+    """The offsets and corners of cells in VTK's old form, [3, a, b, c, 4, ...]."""
     flat = plain(counted, "cells").ravel()
     if flat.size % 4 == 0 and np.all(flat[::4] == 3):
         corners = flat.reshape(-1, 4)[:, 1:].ravel()
@@ -367,12 +367,13 @@ def read_surface(
     Parameters
     ----------
     path
-        The file, each also packed by gzip; or several files, which count on from one another. The triangles of a file
-        without markers get the next free one, from 1, and the file's name.
+        The file, also packed by gzip; or several files, whose indices count on. The triangles of a file without markers
+        get the next free marker, from 1, and the file's name.
     format
-        The ending to go by (".stl"), where the file's own does not tell.
+        The ending to use (".stl") if the file's own does not tell the format.
     tolerance
-        How far corners of a polygon that is not convex may lie from its plane, in the file's unit; rounding is allowed always.
+        How far corners of a polygon that is not convex may lie from its plane, in the file's unit; rounding is always
+        allowed.
     time_limit, memory_limit, cancel, progress
         As `mesh` takes them.
 

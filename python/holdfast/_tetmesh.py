@@ -1,4 +1,4 @@
-"""The result of meshing: arrays, the report, and the forms that other packages take."""
+"""The result of meshing: arrays, the report, and conversions to objects of other packages."""
 
 from __future__ import annotations
 
@@ -43,13 +43,13 @@ class TetMesh:
     tetrahedra: Array
     """(m, 4) int32, in VTK's order: the fourth corner is on the side to which the first three turn counterclockwise."""
     regions: Array
-    """(m,) int32: the region of each tetrahedron, from 1 unless seeds name them."""
+    """(m,) int32: the region of each tetrahedron, from 1 unless seeds number it."""
     triangles: Array
-    """(k, 3) int32: every triangle of the surface that is kept, turned as there."""
+    """(k, 3) int32: every kept triangle of the surface, with its orientation there."""
     segments: Array
     """(s, 2) int32."""
     n_input_points: Optional[int]
-    """How many of the points are the surface's; None where a file does not tell."""
+    """How many points belong to the surface; None if a file does not tell."""
 
     def __init__(
         self,
@@ -95,9 +95,9 @@ class TetMesh:
         self._result = result
         self._report: Optional[dict[str, Any]] = None
         self.repair: Optional[Repair] = None
-        """What `mesh(..., repair=True)` changed before; `repair.surface` is the surface that was meshed."""
+        """The changes that `mesh(..., repair=True)` made first; `repair.surface` is the surface that was meshed."""
         self.pasted: Any = None
-        """The `Pasted` parts of which `mesh` made it, or None; `pasted.surface` is the surface that was meshed."""
+        """The `Pasted` parts that `mesh` filled, or None; `pasted.surface` is the surface that was meshed."""
         self._triangle_regions: Optional[ma.MaskedArray[Any, Any]] = None
         self.curve_report: dict[str, Any] = {}
         self.points = volume.points
@@ -115,8 +115,8 @@ class TetMesh:
 
     @property
     def names(self) -> Names:
-        """Names of triangle, segment and point markers and of regions, a dictionary each; files that can hold them get
-        them."""
+        """Names of triangle, segment and point markers and of regions, a dictionary each. They are written to files
+        that can hold them."""
         return Names(*self._volume.names)
 
     @property
@@ -131,7 +131,7 @@ class TetMesh:
 
     @property
     def point_markers(self) -> Array:
-        """(n,) int32; zeros where the surface has none, and for added points."""
+        """(n,) int32; zeros if the surface has none, and for added points."""
         return self._markers(self._volume.point_markers, len(self.points))
 
     @staticmethod
@@ -144,8 +144,8 @@ class TetMesh:
 
     @property
     def input_points(self) -> Array:
-        """(n,) int64: for each point the first of the input's points at its place, -1 for an added one; empty where
-        that is not known."""
+        """(n,) int64: for each point the first of the input's points at its place, -1 for an added point. Empty if not
+        known."""
         if len(self._volume.input_points) or self.n_input_points is None:
             return self._volume.input_points
         found = np.arange(len(self.points), dtype=np.int64)
@@ -155,8 +155,8 @@ class TetMesh:
 
     @property
     def triangle_regions(self) -> "ma.MaskedArray[Any, Any]":
-        """(k, 2) int32: regions in front of each triangle (where its corners turn counterclockwise) and behind it;
-        masked where there is none."""
+        """(k, 2) int32: regions in front of each triangle (seen from there its corners turn counterclockwise) and
+        behind it; masked where there is none."""
         if self._triangle_regions is None:
             self._triangle_regions = self._find_triangle_regions()
         return self._triangle_regions
@@ -170,19 +170,19 @@ class TetMesh:
 
     @property
     def report(self) -> dict[str, Any]:
-        """What the run did and decided, with the keys of the program's `--report`; {} where there was no run."""
+        """What the run did and decided, with the keys of the program's `--report`; {} if there was no run."""
         if self._report is None:
             self._report = {} if self._result is None else json.loads(self._result.report())
         return self._report
 
     @property
     def marker_sets(self) -> dict[int, list[int]]:
-        """Markers of `triangles` that stand for several of the parts pasted together: {marker: theirs}."""
+        """Markers of `triangles` that stand for several markers of the pasted parts: {marker: markers of the parts}."""
         return {int(marker): list(of) for marker, of in self.report.get("marker_sets", {}).items()}
 
     @property
     def warnings(self) -> list[str]:
-        """What was decided, or may not be as it was meant."""
+        """Decisions of the mesher, and doubts about the input."""
         return [str(w["message"]) for w in self.report.get("warnings", [])]
 
     def quality(self) -> Quality:
@@ -198,7 +198,7 @@ class TetMesh:
 
     def info(self) -> dict[str, Any]:
         """Counts, sizes, regions and markers with their names and measures, shapes of the tetrahedra: the keys of
-        `holdfast info --json`, of which docs/command-line.md has the list."""
+        `holdfast info --json` (listed in docs/command-line.md)."""
         return dict(json.loads(_core.volume_info(self._volume)))
 
     @property
@@ -207,8 +207,8 @@ class TetMesh:
         return 2 if len(self._volume.mid_points) else 1
 
     def second_order(self, curved: Any = None, tolerance: Optional[float] = None) -> "TetMesh":
-        """The same mesh with a node in the middle of each edge, which `nodes`, `tetrahedra10` and so on have, and `save`
-        writes. `not_positive` has the tetrahedra that are too flat for it.
+        """The same mesh with a node in the middle of each edge. `nodes`, `tetrahedra10` and so on hold the nodes, and
+        `save` writes them. `not_positive` lists the tetrahedra that are too flat for such nodes.
 
         Parameters
         ----------
@@ -216,7 +216,7 @@ class TetMesh:
             A smooth surface, given by finer triangles (whatever `mesh` takes): nodes on edges of triangles are put on it,
             unless an element would not be positive everywhere. `curve_report` counts them.
         tolerance
-            How far a node may move; a tenth of its edge unless given.
+            How far a node may move; by default a tenth of its edge.
 
         >>> import holdfast
         >>> mesh = holdfast.mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
@@ -251,8 +251,8 @@ class TetMesh:
 
     @property
     def tetrahedra10(self) -> Array:
-        """(m, 10) indices into `nodes`: the corners, then the nodes on their edges 01 12 02 03 13 23, as VTK, meshio and
-        Abaqus have them (Gmsh swaps the last two). Of a mesh of second order alone."""
+        """(m, 10) indices into `nodes`: the corners, then the nodes on their edges 01 12 02 03 13 23, as VTK, meshio
+        and Abaqus have them (Gmsh swaps the last two). Only for a mesh of second order."""
         return self._with_nodes(self.tetrahedra, self._volume.mid_tetrahedra)
 
     @property
@@ -271,11 +271,11 @@ class TetMesh:
         return np.concatenate([corners, nodes], axis=1)
 
     def neighbours(self) -> Array:
-        """(m, 4) int32: the tetrahedron behind the face opposite to each corner, -1 where there is none."""
+        """(m, 4) int32: the tetrahedron behind the face opposite each corner, -1 where there is none."""
         return _core.neighbours(self._volume)
 
     def surface(self) -> Surface:
-        """Its facets and segments, and the faces on its boundary and between regions, as a surface."""
+        """The mesh's facets and segments, and the faces on its boundary and between regions, as a surface."""
         data = _core.surface_of(self._volume)
         return Surface(
             data.points,
@@ -308,21 +308,21 @@ class TetMesh:
         cancel: Optional[CancelToken] = None,
         progress: Progress = None,
     ) -> list[str]:
-        """Writes a file that appears complete or not at all, of the second order if the mesh is.
+        """Writes a file, which appears complete or not at all. It is of second order if the mesh is.
 
         Parameters
         ----------
         path
             .vtu, .vtm, .vtk, .mesh, .meshb, .msh, .inp, .unv, .bdf, .nas, .su2, .mfem, .vol, .xdmf, .med, .node, or a
             folder polyMesh (OpenFOAM); or .stl, .ply, .obj, .off or .poly for the boundary and the interfaces.
-            docs/formats.md tells what each holds.
+            docs/formats.md lists what each format holds.
         format
-            The ending to go by, "msh2" (version 2.2 of .msh) or "openfoam" (`path` is the case), where the name does not
-            tell.
+            The ending to use if the name does not tell the format; also "msh2" (version 2.2 of .msh) or "openfoam"
+            (`path` is the case).
         binary
             .msh: numbers as bytes.
         one_file
-            .vtu, .xdmf: triangles and segments in the same file, not in NAME_surface beside it.
+            .vtu, .xdmf: triangles and segments in the same file, not in a second file NAME_surface.
         gzip
             OpenFOAM: packed files.
         shells

@@ -25,12 +25,12 @@ def untangle(
     cancel: Optional[CancelToken] = None,
     progress: Progress = None,
 ) -> TetMesh:
-    """Makes every tetrahedron of a mesh positive, with its boundary fixed bit for bit.
+    """Makes every tetrahedron of a mesh positive and keeps its boundary bit for bit.
 
     `fixed` are points to keep besides those of the boundary, triangles and segments; `refill` may add and remove points
-    where moves and exchanges do not do. `improve` makes elements better when all are positive; it adds and removes points,
-    and so needs `refill`. Raises InvalidSurface if the boundary or the connectivity is wrong, NotRepresentable if no positive
-    mesh was found, and as `mesh` for limits.
+    where moves and exchanges are not enough. `improve` makes elements better once all are positive. It adds and removes
+    points, so it needs `refill`. Raises InvalidSurface if the boundary or the connectivity is wrong, NotRepresentable
+    if no positive mesh was found, and as `mesh` for limits.
 
     >>> import holdfast
     >>> tangled = holdfast.TetMesh([(0, 0, 0), (3, 0, 0), (0, 3, 0), (0, 0, 3), (2, 2, 2)],

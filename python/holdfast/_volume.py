@@ -39,8 +39,8 @@ def read_volume(
 
 
 def info(path: PathLike, format: Optional[str] = None) -> dict[str, Any]:
-    """What a surface or volume file holds: counts, sizes, regions and markers with their names and measures, shapes of the
-    tetrahedra, with the keys of `holdfast info --json` (docs/command-line.md). Raises FileError.
+    """The contents of a surface or volume file: counts, sizes, regions and markers with their names and measures,
+    shapes of the tetrahedra, with the keys of `holdfast info --json` (docs/command-line.md). Raises FileError.
 
     >>> holdfast.info("part.vtu")["volume"]  # doctest: +SKIP
     12.5
@@ -60,7 +60,7 @@ def info(path: PathLike, format: Optional[str] = None) -> dict[str, Any]:
 
 
 def mesh_in(part: Any, options: dict[str, Any]) -> Optional[TetMesh]:
-    """What has tetrahedra as a mesh, with the limits of `options` where it is a file; None for a surface."""
+    """The argument as a mesh if it has tetrahedra, else None. `options` holds the limits for reading a file."""
     if isinstance(part, TetMesh):
         return part
     if isinstance(part, (str, bytes, os.PathLike)):
@@ -80,7 +80,7 @@ def _may_be_volume(path: str, format: str) -> bool:
 
 
 def volume_of(mesh: Any) -> TetMesh:
-    """The mesh that an argument means."""
+    """The mesh of an argument."""
     if isinstance(mesh, TetMesh):
         return mesh
     if isinstance(mesh, (str, bytes, os.PathLike)):

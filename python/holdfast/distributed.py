@@ -60,7 +60,8 @@ class Division:
 
 
 def read(folder: PathLike) -> Division:
-    """The division in a folder. Raises FileNotFoundError where there is none, ValueError for another manifest."""
+    """The division in a folder. Raises FileNotFoundError if there is none, ValueError for a manifest of another
+    kind."""
     manifest = json.loads((Path(folder) / "manifest.json").read_text(encoding="utf-8"))
     if manifest.get("format") != "holdfast division":
         raise ValueError(f"{folder}/manifest.json is not one of `holdfast split`")
@@ -114,7 +115,7 @@ def mesh_parts(
     memory_limit: Optional[MemoryAmount] = None,
     progress: Optional[Progress] = None,
 ) -> list[Row]:
-    """Meshes the parts whose volume is not there yet, each in a process of its own.
+    """Meshes the parts that have no volume yet, each in a process of its own.
 
     A part whose worker is lost runs again on another. One that takes much longer than the others runs a second time where
     there is room, and the first result counts: both are the same, bit for bit, and appear complete or not at all.
@@ -164,7 +165,7 @@ def mesh_parts(
 
 
 class _Race:
-    """Tasks on an executor, a second time where the first straggles."""
+    """Runs tasks on an executor, and a task a second time if its first run straggles."""
 
     def __init__(self, executor: Any, finish: typing.Callable[[Row], None]) -> None:
         self._executor = executor
@@ -217,7 +218,7 @@ class _Race:
         self._finish(row)
 
     def _stragglers(self, left: dict[str, Task], doubled: set[str]) -> list[Task]:
-        """Only when nothing waits any more: a second run must not be in the way of a first."""
+        """Only when no task waits any more: a second run must not delay a first run."""
         if not self._took or len(left) > self._room():
             return []
         late = max(STRAGGLES_AFTER_SECONDS, STRAGGLES_BEYOND * statistics.median(self._took))
@@ -308,7 +309,7 @@ def mesh(
 
 
 def _division_of(surface: Any, folder: PathLike, parts: int, options: dict[str, Any]) -> Division:
-    """The one that is there, if it is of the same call and no input is younger."""
+    """The existing division, if it comes from the same call and no input is newer."""
     files = [surface] if isinstance(surface, (str, os.PathLike)) else list(surface)
     call = {"inputs": [os.path.abspath(f) for f in files], "parts": parts, "options": _with_limits(options)}
     record = Path(folder) / "call.json"

@@ -1,4 +1,4 @@
-"""What a call that does not end well raises. Nothing here ends the process, prints or handles signals."""
+"""Exceptions of calls that fail. Nothing here ends the process, prints or handles signals."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Defect:
-    """One broken rule of a valid surface, with what breaks it, by indices in the input.
+    """One broken rule of a valid surface and the entities that break it, by their indices in the input.
 
     >>> import holdfast
     >>> points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1)]
@@ -44,7 +44,7 @@ class Defect:
 
 
 class HoldfastError(Exception):
-    """Base of all errors of this package. `report` is that of the run, as far as it came (a dict)."""
+    """Base of all errors of this package. `report` is the report of the run so far (a dict)."""
 
     def __init__(self, message: str, report: Optional[dict[str, Any]] = None) -> None:
         super().__init__(message)
@@ -119,7 +119,7 @@ _BY_OUTCOME: dict[int, type[HoldfastError]] = {
 
 
 def _interrupted(outcome: int, message: str) -> HoldfastError:
-    """What the extension raises where a call has no report."""
+    """The exception that the extension raises when a call has no report."""
     return _BY_OUTCOME.get(outcome, HoldfastError)(message)
 
 
@@ -128,7 +128,7 @@ def _defects(raw: list[Any]) -> tuple[Defect, ...]:
 
 
 def _raise_unless_done(result: Any) -> None:
-    """Takes a result of the extension that has an outcome."""
+    """Raises the exception for the outcome of a result of the extension."""
     if result.outcome == _DONE:
         return
     report = json.loads(result.report())
