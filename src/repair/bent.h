@@ -1,5 +1,5 @@
-// The part of a surface that is being bent: facets and segments, what they came from, and which of them have
-// yet to be looked at.
+// The part of a surface that is being bent: facets and segments, their origins, and a queue of those not yet
+// examined.
 #pragma once
 
 #include <optional>
@@ -18,9 +18,9 @@ using Side = std::array<Index, 2>;
 
 struct BentFacet {
   Triangle corners;
-  std::vector<Index> origins;  ///< in the state, ascending
+  std::vector<Index> origins;  ///< facets or segments of the state, ascending
   std::vector<Index> lists;    ///< of vertices near it, by number
-  double bent = 0;             ///< by how much its points were moved so far
+  double bent = 0;             ///< distance by which its points were moved so far
   bool lives = true;
 };
 
@@ -32,8 +32,8 @@ struct BentSegment {
   bool lives = true;
 };
 
-/// Of facets that live no two have the same corners: such are one from then on, with all that these came
-/// from. The same holds for segments of one origin.
+/// No two live facets have the same corners: facets that come to have the same corners become one, with the
+/// origins of both. The same holds for segments of one origin.
 class BentSurface {
  public:
   explicit BentSurface(const std::vector<Point>& vertices) : vertices_(vertices) {}
@@ -42,16 +42,16 @@ class BentSurface {
   [[nodiscard]] const BentSegment& segment(Index s) const { return segments_[s]; }
   [[nodiscard]] const std::vector<BentFacet>& facets() const { return facets_; }
   [[nodiscard]] const std::vector<BentSegment>& segments() const { return segments_; }
-  /// Facets that live.
+  /// The live facets.
   [[nodiscard]] std::size_t living() const { return living_; }
-  /// The most by which anything was bent.
+  /// The largest distance by which anything was bent.
   [[nodiscard]] double most() const { return most_; }
 
   void add(BentFacet facet);
-  /// Whether a facet with these corners was there and was taken out.
+  /// Takes out the facet with these corners. Returns whether there was one.
   [[nodiscard]] bool had(const Triangle& corners) const;
   void add(const BentSegment& segment);
-  /// Whether a segment of this origin was there and was taken out.
+  /// Takes out the segment of this origin. Returns whether there was one.
   [[nodiscard]] bool had(const Segment& ends, Index origin) const;
   /// Takes out what lives, for its parts to be added: it comes back, bent by some more.
   [[nodiscard]] BentFacet take(Index facet, double more);
@@ -61,12 +61,12 @@ class BentSurface {
   struct AtSide {
     std::vector<Index> facets, segments;
   };
-  /// The longest side that nobody has looked at since something came to have it.
+  /// The longest side not examined since an element last got it.
   [[nodiscard]] std::optional<Side> next_side();
   [[nodiscard]] const AtSide* at(const Side& side) const;
   /// When all that has it is taken out. Returns what had it.
   AtSide forget(const Side& side);
-  /// The last facet with lists that nobody has looked at.
+  /// The last facet with lists that was not examined.
   [[nodiscard]] std::optional<Index> next_facet();
 
  private:

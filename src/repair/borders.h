@@ -7,11 +7,11 @@
 
 namespace holdfast::repairing {
 
-/// Vertices in turn, none twice, against the facets at its sides as far as these agree.
+/// The vertices of a loop in order, none twice, against the orientation of the facets at its sides where
+/// these agree.
 using Loop = std::vector<Index>;
 
-/// Loops of sides that have one facet. Every side is in one loop at most; a path that does not close is in
-/// none.
+/// Loops of sides with one facet. Every side is in at most one loop. Paths that do not close are in none.
 [[nodiscard]] std::vector<Loop> border_loops(const Complex& surface);
 
 }  // namespace holdfast::repairing

@@ -1,4 +1,4 @@
-// Bounds on how far things were moved, in doubles that are rounded up, and what these depend on.
+// Upper bounds on distances moved, in doubles rounded up, and the lengths that they depend on.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@ namespace holdfast::repairing {
 /// Sums of numbers that are rounded up.
 [[nodiscard]] double sum_above(double a, double b);
 
-/// How far each new point is from the doubles nearest to it.
+/// The distance of each new point from the doubles nearest to it.
 [[nodiscard]] std::vector<double> rounded_by(const arrange::Arrangement& arrangement, const Threads& threads);
 
 [[nodiscard]] double largest(const std::vector<double>& distances);
@@ -21,7 +21,7 @@ namespace holdfast::repairing {
 /// The last bit of the largest coordinate.
 [[nodiscard]] double last_bit(std::span<const Point> points);
 
-/// The longest side of their box.
+/// The longest side of the vertices' box.
 [[nodiscard]] double extent(std::span<const Point> points);
 
 }  // namespace holdfast::repairing

@@ -1,4 +1,4 @@
-// The parts of the facets of the input.
+// The parts of each facet of the input.
 #pragma once
 
 #include <span>
@@ -10,10 +10,10 @@ namespace holdfast::repairing {
 
 class Children {
  public:
-  /// Of facets of `given` in `state`, as it is now. `given` must outlive it.
+  /// Finds the parts, in `state` as it is now, of the facets of `given`. `given` must outlive this object.
   Children(const State& state, const State& given);
 
-  /// Facets of the state, ascending. Those of facets of the input that were the same are the same.
+  /// Facets of the state, ascending. Repeated facets of the input have the same parts.
   [[nodiscard]] std::span<const Index> of(Index facet) const;
 
  private:

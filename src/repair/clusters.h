@@ -1,4 +1,4 @@
-// Facets that overlap but for rounding, and the plane in which they do.
+// Facets that overlap up to rounding, and the plane in which they overlap.
 #pragma once
 
 #include <span>
@@ -18,15 +18,15 @@ struct Cluster {
 
 struct Clusters {
   std::vector<Cluster> all;
-  std::vector<Index> facets;  ///< all that overlap another one, ascending: some are in no cluster
+  std::vector<Index> facets;  ///< all facets that overlap another one, ascending: some are in no cluster
 };
 
-/// Clusters of facets that lie within `gap` of each other's planes. Of each pair one is among `some`, unless
-/// that is empty.
+/// Clusters of facets that lie within `gap` of each other's planes. Only pairs with a facet among `some`
+/// count, unless `some` is empty.
 [[nodiscard]] Clusters find_clusters(const State& state, double gap, std::span<const Index> some,
                                      const Step& step);
 
-/// Normal to a facet, as long as twice its area.
+/// The normal of a facet; its length is twice the facet's area.
 [[nodiscard]] Vector normal_of(const State& state, Index facet);
 
 }  // namespace holdfast::repairing

@@ -1,4 +1,4 @@
-// How far a surface is from the facets that it came from, where these lost parts.
+// The distance of a surface from its original facets where these lost parts.
 #pragma once
 
 #include <optional>
@@ -8,10 +8,11 @@
 
 namespace holdfast::repairing {
 
-/// As long as one line goes round the parts of a facet, through its corners and beside its sides, how far
-/// that and they were moved tells how far the facet is from them. Where parts became lines or points, it may
-/// be further. Returns the least of `most` and some multiples of it within which the parts of all facets of
-/// the input (`given`) cover these, as `check --repaired` finds it, or nothing where none of these does.
+/// While a single closed line goes round the parts of a facet, through its corners and beside its sides, the
+/// displacements of the line and the parts bound the distance of the facet from its parts. If parts became
+/// lines or points, the facet may be further away. So this tries `most` and some multiples of it, in
+/// ascending order. It returns the first distance within which the parts of all input facets (`given`) cover
+/// these facets, as `check --repaired` decides, or nothing if no multiple suffices.
 [[nodiscard]] std::optional<double> covered_within(const State& state, const State& given, double most,
                                                    const Step& step);
 

@@ -1,4 +1,4 @@
-// A facet that other parts lie on, cut in its own plane.
+// Cuts a facet that other parts lie on, in its own plane.
 #pragma once
 
 #include <array>
@@ -10,16 +10,16 @@
 
 namespace holdfast::repairing {
 
-/// A piece of a facet that no side of another part divides.
+/// A piece of a facet that no side of another part divides further.
 struct Cell {
   Index facet = 0;
-  std::vector<Triangle> triangles;           // turned as the facet is
+  std::vector<Triangle> triangles;           // oriented as the facet
   std::vector<std::array<Index, 2>> border;  // ascending: exactly these are sides of an odd number of them
 };
 
-/// Cuts a facet with its sides, as they are led, and with what may be of the vertices `inside` it and of the
-/// `pieces` of other parts' sides between vertices on it. Those that cross others do not count. The borders
-/// of all cells together are the facet's sides. `step` is called now and then.
+/// Cuts a facet with its led sides, the vertices `inside` it, and the `pieces` of other parts' sides between
+/// vertices on it. Pieces that cross others are ignored. The borders of all cells together are the facet's
+/// sides. `step` is called from time to time.
 [[nodiscard]] std::vector<Cell> cut_facet(const PartFacets& facets, const LedSides& sides, Index f,
                                           std::span<const Index> inside,
                                           std::span<const std::array<Index, 2>> pieces, const Step& step);

@@ -1,4 +1,4 @@
-// What a repaired surface is told as: markers of parents, and all that moved, went or became one.
+// Fills the result of a repair: the markers of parents, and the lists of what was moved, dropped or merged.
 #pragma once
 
 #include "holdfast/repair.h"

@@ -1,4 +1,4 @@
-// The exact arrangement as it is told to the caller.
+// The exact arrangement in the form that the caller gets.
 #pragma once
 
 #include "arrange/arrange.h"
@@ -7,10 +7,10 @@
 
 namespace holdfast::repairing {
 
-/// The arrangement of a state whose vertices are still the input's, and whose facets have these parents.
+/// The arrangement of a state that still has the input's vertices and whose facets have these parents.
 [[nodiscard]] ExactSurface exact_surface(const arrange::Arrangement& arrangement, const Parents& of_state);
 
-/// Of a valid surface, which is its own arrangement.
+/// The same for a valid surface, which is its own arrangement.
 [[nodiscard]] ExactSurface exact_surface(const State& valid, const Parents& of_state);
 
 }  // namespace holdfast::repairing

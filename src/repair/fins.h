@@ -5,12 +5,12 @@
 
 namespace holdfast::repairing {
 
-/// Where a thin part between sheets is folded, its two sides become one facet, which hangs on the surface and
-/// encloses nothing. Such facets go from their free sides inwards where no point of one is further from the
-/// sides that stay than anything was displaced before, or than what is joined first of all, and where in the
-/// end no side is left that one facet has. So a surface keeps its own borders. Every facet of the input keeps
-/// a part and, at each corner, the sides that lead from there; every vertex of it that is used stays so.
-/// `given`: the input. Returns the largest such distance, rounded up.
+/// If a thin part between sheets is folded, its two sides become one facet, a fin, which hangs on the surface
+/// and encloses nothing. Fins are removed from their free sides inwards, under two conditions: no point of a
+/// fin is further from the sides that stay than anything was displaced before, or than the distance of the
+/// first joining; and in the end no side with a single facet is left. So a surface keeps its own borders.
+/// Every facet of the input (`given`) keeps a part, and at each corner the sides from there; every vertex in
+/// use stays in use. Returns the largest such distance, rounded up.
 double drop_fins(State& state, const State& given, double displaced);
 
 }  // namespace holdfast::repairing

@@ -1,4 +1,4 @@
-// The facets of a cluster in the plane, with their sides as segments, and what comes of them there.
+// The facets of a cluster in the plane, with their sides as segments, and their parts there.
 #pragma once
 
 #include <array>
@@ -20,12 +20,12 @@ struct Flat {
 
 [[nodiscard]] Flat flat_of(const State& state, const Cluster& cluster);
 
-/// Where a facet was folded by rounding, triangles of which it has two parts have become one, and there is
-/// a gap. Such are no parts of it. False where gaps stay.
+/// If rounding folded a facet, two of its parts have become the same triangle, and this leaves a gap. Such
+/// triangles are taken from the facet's parts. False if gaps stay.
 [[nodiscard]] bool make_whole(const Cluster& cluster, const Flat& before, State& after,
                               std::span<const std::vector<Index>> chains);
 
-/// The vertices of a path between the ends of a side, without the ends; false where the pieces are none.
+/// The vertices of the path between the ends of a side, without the ends; false if the pieces are not a path.
 [[nodiscard]] bool chain_of(const std::vector<Segment>& pieces, const Segment& side,
                             std::vector<Index>& chain);
 

@@ -19,7 +19,7 @@
 namespace holdfast::repairing {
 namespace {
 
-/// How many gaps the sheets that are made of a cluster may be away from its facets.
+/// Largest distance, in gaps, between the sheets made of a cluster and the cluster's facets.
 constexpr double kMostGaps = 64;
 
 class Flattening {
@@ -52,7 +52,7 @@ class Flattening {
  private:
   [[nodiscard]] const Point& at(Index v) const { return state_.vertices[v]; }
 
-  /// What came of a cluster in its plane.
+  /// A cluster after it was arranged in its plane.
   struct Sheet {
     State state;
     double moved = 0;
@@ -80,14 +80,14 @@ class Flattening {
       return false;
     }
     take(cluster, before, *sheet, name);
-    // How far the points of a part are from its parent is a convex function: corners decide.
+    // The distance of a part's points from its parent is a convex function, so the corners decide.
     for (const auto& [k, v] : corners)
       most_ = std::max(most_, distance(name[v], state_.facets[cluster.facets[k]]));
     return true;
   }
 
-  /// The cluster arranged in its plane and rounded, where that is near enough and leaves the facets whole and
-  /// each side a chain from end to end.
+  /// The cluster, arranged in its plane and rounded. Nothing if that moves it too far, tears a facet, or
+  /// leaves a side that is not a chain from end to end.
   [[nodiscard]] std::optional<Sheet> rounded(const Cluster& cluster, const Flat& before) const {
     Rounded in_plane = round_(before.state, kMostGaps * gap_);
     State& after = in_plane.state;
@@ -110,7 +110,8 @@ class Flattening {
     return false;
   }
 
-  /// The vertices of a sheet in the state, where new ones have no third coordinate yet.
+  /// Adds the new vertices of a sheet to the state, still without a third coordinate. Returns the state's
+  /// index of each vertex.
   std::vector<Index> put_vertices(const Flat& before, const State& sheet) {
     std::vector<Index> name = before.vertices;
     for (std::size_t v = name.size(); v < sheet.vertices.size(); ++v) {
@@ -121,7 +122,8 @@ class Flattening {
     return name;
   }
 
-  /// New vertices that are corners of facets get their third coordinate. Others are on sides alone.
+  /// Gives new vertices that are corners of facets their third coordinate. The other new vertices are on
+  /// sides alone.
   void lift_all(const Cluster& cluster, const State& sheet, std::span<const Index> name) {
     for (std::size_t f = 0; f < sheet.facets.size(); ++f) lift(cluster, sheet, f, name);
     for (const auto& [v, largest] : below_) {
@@ -131,8 +133,8 @@ class Flattening {
     below_.clear();
   }
 
-  /// The chains get their names in the state. False where one does not fit to what other sheets lead the side
-  /// through.
+  /// Renames the chains of a sheet to the state's vertices. False if a chain contradicts the vertices through
+  /// which other sheets lead the side.
   bool put_on_sides(const Cluster& cluster, const Flat& before, Sheet& sheet, std::span<const Index> name) {
     for (std::size_t k = 0; k < sheet.chains.size(); ++k)
       if (!sheet.chains[k].empty()) put_on_side(cluster, before.sides[k], sheet.chains[k], name);
@@ -161,8 +163,9 @@ class Flattening {
     return next;
   }
 
-  /// New vertices that stand above another one become it, if they are no more than the gap away: for the next
-  /// pass. They are points of several planes, of which each has put its own there.
+  /// Whether two vertices of the cluster stand above each other. If they are at most the gap apart, the later
+  /// one, if new, becomes the other for the next pass: they are one point of several planes, and each plane
+  /// has added its own.
   bool has_one_above_another(const Flat& flat) {
     std::vector<std::pair<Point, Index>> places;
     for (std::size_t k = 0; k < flat.vertices.size(); ++k)
@@ -193,8 +196,8 @@ class Flattening {
     return corners;
   }
 
-  /// Whether what comes of a cluster is near to it. Facets that stand steep on the plane are not, since their
-  /// points come down on others far from them.
+  /// Whether the arranged cluster lies near the given one. It does not if a facet is steep on the plane,
+  /// because points of such a facet land on other facets far away.
   [[nodiscard]] bool is_near(const Cluster& cluster, const Corners& corners, const Flat& before,
                              std::span<const std::vector<Index>> chains, std::span<const Index> name) const {
     const double far = kMostGaps * gap_;
@@ -206,7 +209,7 @@ class Flattening {
     return true;
   }
 
-  /// What was on the facet that a side bounds only gets its third coordinate where it is on the side.
+  /// A vertex that no facet gave a third coordinate gets it from the side that it is on.
   void put_on_side(const Cluster& cluster, const Side& side, std::span<const Index> chain,
                    std::span<const Index> name) {
     const Point &a = at(side[0]), &b = at(side[1]);
@@ -222,7 +225,7 @@ class Flattening {
     }
   }
 
-  /// Puts new corners onto the plane of the largest facet that they are a corner of a part of.
+  /// Puts each new corner on the plane of the largest facet that has a part with this corner.
   void lift(const Cluster& cluster, const State& after, std::size_t f, std::span<const Index> name) {
     for (const Index v : after.facets[f]) {
       if (!lifted_.contains(name[v])) continue;
@@ -235,7 +238,7 @@ class Flattening {
     }
   }
 
-  /// The coordinate along an axis at which the plane of a facet stands over a point, within its range.
+  /// The coordinate along an axis of the facet's plane over a point, clamped to the range of the facet.
   [[nodiscard]] double above(Index f, const Point& p, unsigned axis) const {
     const auto& [a, b, c] = state_.facets[f];
     const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
@@ -254,7 +257,7 @@ class Flattening {
     return distance_above(at(v), at(t[0]), at(t[1]), at(t[2]));
   }
 
-  /// Takes a facet of the plane as one of the surface, with its parents there.
+  /// Adds a facet of the plane to the surface, with its parents there.
   void take(const Cluster& cluster, const State& after, std::size_t f, std::span<const Index> name) {
     const auto& [a, b, c] = after.facets[f];
     SheetPart part{{name[a], name[b], name[c]}, {}, {}, sheets_};

@@ -1,4 +1,4 @@
-// Sheets that lie in each other but for rounding, made one.
+// Makes sheets that coincide up to rounding one.
 #pragma once
 
 #include <functional>
@@ -10,32 +10,34 @@
 
 namespace holdfast::repairing {
 
-/// Arranges a plane surface, and rounds it. Where that moves anything further than `most`, the result may be
-/// one that is not valid.
+/// Arranges a plane surface and rounds it. If this moves anything further than `most`, the result may be
+/// invalid.
 using RoundPlane = std::function<Rounded(State, double most)>;
 
-/// Which sheets may lead a side through vertices of theirs.
+/// Which sheets may lead a side through their vertices.
 enum class SidesOf {
   all_sheets,  ///< together: see SharedSides
-  one_sheet,   ///< the first; others wait for the next call
+  one_sheet,   ///< the first one; others wait for the next call
 };
 
 /// Facets that overlap at a distance of at most `gap` are arranged in a projection along an axis, where they
-/// overlap exactly: so sheets come to have the same triangles wherever both are, with the parents of both.
-/// Vertices stay; new ones, where sides cross in the projection, get their third coordinate from a facet
-/// below. Sides that are cut so are cut in all facets that have them.
+/// overlap exactly. So two sheets get the same triangles where both are, with the parents of both. Vertices
+/// stay. New vertices, where sides cross in the projection, get their third coordinate from a facet below
+/// them. A side that is cut is cut in all of its facets.
 ///
-/// The result is a graph over a triangulation of the plane and cannot cross itself; what is round it may.
+/// The result is a graph over a triangulation of the plane, so it cannot cross itself. It may cross the
+/// surface round it.
 struct Flattened {
   double moved = 0;      ///< the largest distance by which anything was moved or bent, rounded up
-  bool has_led = false;  ///< some side: where there was none, `sides` made no difference
-  /// Facets, as they are now, that changed or overlapped others: what overlaps from now on has one of them.
+  bool has_led = false;  ///< whether a side was led; if not, `sides` made no difference
+  /// Facets, by their present numbers, that changed or overlapped others. Any overlap from now on involves
+  /// one of them.
   std::vector<Index> changed;
 };
 Flattened flatten(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step,
                   std::span<const Index> some = {});
 
-/// The same again, as long as there is something to do, but a few times at most.
+/// Repeats `flatten` while it changes something, a few times at most.
 Flattened flatten_all(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step);
 
 }  // namespace holdfast::repairing

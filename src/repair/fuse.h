@@ -1,4 +1,4 @@
-// Interfaces of parts that nearly coincide, cut alike: facets bend, vertices stay.
+// Cuts nearly coincident interfaces of parts alike: facets bend, vertices stay.
 #pragma once
 
 #include <span>
@@ -15,10 +15,10 @@ namespace holdfast::repairing {
 ///   3. facets that lie on each other are triangulated anew, once for both, with all of these sides; the
 ///   others
 ///      that have a side that was cut are cut with it.
-/// `rounding` is how far from its plane a facet may be for rounding alone.
-/// `part` tells the part of each facet of the input. Facets that several parts have already, facets that are
-/// none, and what does not lie in a plane together, stay as they are. Returns the largest distance by which
-/// anything was bent, rounded up.
+/// `rounding` is the distance that rounding alone may put a facet off its plane.
+/// `part` holds the part of each facet of the input. Facets that several parts share already, degenerate
+/// facets, and facets that do not lie in one plane together stay as they are. Returns the largest distance by
+/// which anything was bent, rounded up.
 double fuse(State& state, std::span<const Index> part, double gap, double rounding, const Step& step);
 
 }  // namespace holdfast::repairing

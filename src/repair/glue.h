@@ -1,4 +1,4 @@
-// Parts of a surface that have facets in common.
+// Glues parts of a surface along common facets.
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace holdfast::repairing {
 
-/// Facets of different parts with the same corners (places) become one, the first of them, with the parents
-/// of all. `part` tells the part of each facet of the input. Facets that one part has twice stay two.
+/// Facets of different parts with the same corners (places) become one: the first of them, with the parents
+/// of all. `part` holds the part of each facet of the input. If one part has a facet twice, both stay.
 void glue(State& state, std::span<const Index> part);
 
 }  // namespace holdfast::repairing

@@ -1,4 +1,4 @@
-// Holes closed: loops of sides that have one facet.
+// Closes holes: loops of sides with one facet.
 #pragma once
 
 #include <span>
@@ -17,14 +17,14 @@ struct Holes {
 };
 
 /// Closes border loops of a valid surface that have at most `most_sides` sides: plane ones by a constrained
-/// triangulation, others by triangles of the least area (Barequet, Sharir 1995). What would meet the surface,
-/// or another filling, other than in its border stays open. New facets come last and have no parents.
+/// triangulation, others by triangles of the least area (Barequet, Sharir 1995). A hole stays open if its
+/// filling would meet the surface or another filling outside its border. New facets come last and have no
+/// parents.
 [[nodiscard]] Holes fill_holes(State& state, std::size_t most_sides, const Step& step,
                                const Threads& threads);
 
-/// What is left of them once facets and vertices have these numbers in `state`, or `no_index` where they
-/// went. Fillings without a facet are none; where some facets of one went, each connected part of the rest is
-/// one.
+/// The fillings after facets and vertices were renumbered in `state` (`no_index`: dropped). Fillings without
+/// a facet are left out. If a filling lost some of its facets, each connected part of the rest is a filling.
 void renumber(Holes& holes, const State& state, std::span<const Index> facet_number,
               std::span<const Index> vertex_number);
 

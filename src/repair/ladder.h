@@ -20,14 +20,15 @@
 
 namespace holdfast::repairing {
 
-/// Where the exact arrangement is told, and the parents of the facets that are arranged.
+/// Receives the exact arrangement; `of_given` holds the parents of the facets that are arranged.
 struct Exact {
   ExactSurface& surface;
   const Parents& of_given;
 };
 
-/// One way from an arrangement to a surface that is valid: it is cut and rounded, and where that leaves
-/// something in trouble, what is near is joined, by more and more. What fails may be a start for another one.
+/// One way to make a surface valid. A ladder cuts the surface and rounds it. While facets are still in
+/// trouble, it joins what lies near them, at growing distances. The state in which one ladder fails may be
+/// the start of another.
 class Ladder {
  public:
   Ladder(State state, const RepairOptions& options, const RepairReport& report, const Exact& exact,
@@ -35,115 +36,120 @@ class Ladder {
 
   [[nodiscard]] const RepairReport& report() const { return report_; }
   [[nodiscard]] bool is_valid() const { return rounded_.is_valid; }
-  /// Whether vertices all over the surface became others first.
+  /// Whether this ladder started from a surface whose vertices were welded.
   [[nodiscard]] bool starts_welded() const { return welded_last_bits_ > 0; }
-  /// Whether sheets that were made one have led a side: else it is the same for any SidesOf.
+  /// Whether flattened sheets have led a side. If not, every SidesOf gives the same result.
   [[nodiscard]] bool has_led() const { return has_led_; }
 
-  /// The surface as it was before anything was done, which must outlive this.
+  /// Compares results with the surface before the repair, which must outlive this ladder.
   void compare_with(const State& before) { before_ = &before; }
   void leave_out_joining_all() { joins_all_ = false; }
-  /// Tries nothing that another one did not need.
+  /// Tries no step beyond those that `other` needed.
   void try_no_more_than(const Ladder& other);
 
-  /// A plane surface has no sheets that lie in each other but for rounding. What moves further than `most` is
-  /// of no use.
+  /// Runs the ladder on a plane surface, which has no nearly coincident sheets. A result that moves anything
+  /// further than `most` is useless.
   [[nodiscard]] Rounded run_in_plane(double most);
 
-  /// Cuts and rounds, twice unless so much is in trouble then that a second time would make more of it: this
-  /// comes late, if at all.
+  /// Cuts and rounds, as a rule twice. If so much is in trouble after the first cut that a second one would
+  /// add to it, the second cut is left to `cut_late`.
   void begin();
 
-  /// Goes on from there.
+  /// Continues after `begin` until the surface is valid or no step is left.
   Rounded run(SidesOf sides = SidesOf::all_sheets);
 
-  /// Makes sheets one that lie in each other within the gap, whether they are in trouble or not.
+  /// Makes sheets that coincide within `gap` one, whether they are in trouble or not.
   void flatten_all(double gap, SidesOf sides);
 
  private:
-  /// What is tried near what is in trouble.
+  /// Tries the plans, which change the surface only near facets in trouble.
   void try_plans(SidesOf sides);
 
-  /// Where most of what is in trouble is there twice: but for last bits, so that these are made one at first
-  /// in what comes; or by more, and then a weld may be all that it takes. True where that ends it.
+  /// Treats a surface most of whose vertices in trouble are there twice. If twins are only last bits apart,
+  /// the plans that follow start by making them one. If they are further apart, a weld alone may do. Returns
+  /// true if it made the surface valid.
   bool begin_with_twins();
 
-  /// From the first that has not been tried yet.
+  /// Tries the plans from the first untried one on.
   void try_next_plans();
 
-  /// In a plane, more new points than the first time lead nowhere.
+  /// The second cut. In a plane it stops if it needs more new points than the first one, which would lead
+  /// nowhere.
   void cut_again();
 
-  /// The second time, where it was left out. Counts if it leaves less in trouble than what was tried since.
+  /// The second cut, if `begin` left it out. Its result is kept if it leaves less in trouble than all tried
+  /// since.
   void cut_late();
 
-  /// Nothing is in trouble. In builds with HOLDFAST_VALIDATE nothing that is said to be known is taken for
-  /// granted: throws std::logic_error where it is not so.
+  /// Whether nothing is in trouble. Builds with HOLDFAST_VALIDATE search again without relying on facets
+  /// known to fit together, and throw std::logic_error if some of them do not.
   [[nodiscard]] bool is_done() const;
 
-  /// All that may come to stand is of no use, since nothing moves back.
+  /// Whether no result can be of use any more: displacements never shrink, and all states are beyond the
+  /// limit.
   [[nodiscard]] bool is_hopeless() const;
 
   [[nodiscard]] Step here() const;
 
-  /// A state that stands, or may come to stand.
+  /// A state of the surface that may become the current one.
   struct Attempt {
     State state;
     Trouble trouble;
     double displacement;
   };
 
-  /// Joins again and again, since bending makes new sides; the pass that leaves the least in trouble counts.
-  /// Where joining does not help by itself, vertices are put where sides pass each other. That may take some
-  /// passes: sheets that lie in each other agree only when the diagonals of what they share do, too.
+  /// Joins in several passes, because bending makes new sides. The pass that leaves the least in trouble
+  /// counts. If joining alone does not help, vertices are put where sides pass each other. This may take some
+  /// passes: nearly coincident sheets agree only when the diagonals of their common area agree, too.
   void join(const Plan& plan);
 
-  /// From what the last plan left and cutting made of it, and if that leaves more in trouble than the best so
-  /// far, from this.
+  /// Joins from the current state. If that leaves more in trouble than the best state so far, joins again
+  /// from the best state.
   void join_from_best(const Plan& plan);
 
-  /// Where sheets were made one, what is in trouble beside them may be joined at once. Goes back where it
-  /// cannot.
+  /// After sheets were made one, joins what is in trouble beside them. If much stays in trouble, the joining
+  /// is taken back.
   void join_flat();
 
   [[nodiscard]] RoundPlane round_plane();
 
   void flatten_all(State& state, double gap, double& displacement);
 
-  /// Makes sheets one that lie in each other by now and are in trouble.
+  /// Makes sheets one that are in trouble and coincide by now.
   void flatten_again(const Plan& plan);
 
   void begin_flat(std::span<const Plan> plans);
 
-  /// Begins again with sheets that lie in each other made one before anything is cut: their planes would
-  /// cross in lines all over them. Counts if it leaves less in trouble.
+  /// Starts again from the given surface and makes coincident sheets one before the first cut, because their
+  /// planes would cross in lines all over the sheets. The result is kept if it leaves less in trouble.
   void begin_flat(const Plan& plan);
 
-  /// Cuts and rounds twice; false where that takes more new points than it did before sheets were made one,
-  /// or the second time more than the first: then more would be in trouble, too. A few more are no such sign.
-  /// Where it takes several times as many, cutting is no way at all, and the sheets are a start without it.
+  /// Cuts and rounds twice. Returns false if a cut takes more new points than it did before sheets were made
+  /// one, or the second cut more than the first, because then more would be in trouble, too. A few points
+  /// more are allowed. Returns true without a cut if the first one would take several times as many points:
+  /// cutting is then useless, and the uncut sheets are a start.
   bool cut_flat();
 
-  /// Where all of this fails: sheets that lie in each other are made one all over the surface, whether the
-  /// cuts beside them are in trouble or not, and are the start of all that was tried before.
+  /// First last resort: makes coincident sheets one all over the surface, whether the cuts beside them are in
+  /// trouble or not, and tries all the steps above from there.
   bool join_all();
 
-  /// Where that fails, too, and little is in trouble: its vertices go to the points of a grid, by and by of a
-  /// coarser one, and what crosses then is cut again. Only what covers the surface as it was counts.
+  /// Second last resort, if little is in trouble: rounds the vertices in trouble to the points of ever
+  /// coarser grids and cuts again what then crosses. A result counts only if it covers the surface before the
+  /// repair.
   bool snap_all(Ladder from);
 
-  /// For one grid, from the best so far.
+  /// Tries one grid, from the best state so far.
   void snap(double cell, Attempt& best);
 
-  /// Whether it is valid, and known to cover the surface as it was.
+  /// Whether the surface is valid, and known to cover the surface before the repair.
   [[nodiscard]] bool is_covered() const;
 
-  /// Where that fails, too: vertices that are near to each other become one, and sides are led through what
-  /// is near, all over the surface, before anything is cut. Where that brings sheets together, they are made
-  /// one as well.
+  /// Third last resort: before the first cut, joins nearby vertices and leads sides through nearby vertices
+  /// all over the surface. If this brings sheets together, they are made one as well.
   void weld_all();
 
-  /// A way that starts with vertices that were welded.
+  /// A ladder that starts from a welded surface.
   [[nodiscard]] Ladder welded(State state, double displacement, double last_bits) const;
 
   bool take_if_valid(const Ladder& other);
@@ -152,12 +158,13 @@ class Ladder {
 
   void stand(Attempt attempt);
 
-  /// How many new points that took; none where it takes more than so many, and is left undone. `before` is
-  /// the same state, if given, and gets to know which facets fit together.
+  /// Cuts and rounds the current state. Returns the number of new points, or nothing if there would be more
+  /// than `most_points`; the state is then unchanged. `before`, if given, is the same state, and learns which
+  /// of its facets fit together.
   std::optional<std::size_t> cut(std::size_t most_points, State* before = nullptr);
 
-  /// Where little is in trouble, many new points are a sign of facets that lie in each other: rather than cut
-  /// all that, the next plan joins more.
+  /// Cuts if that takes few new points. When little is in trouble, many new points are a sign of nearly
+  /// coincident facets; the next plan then joins more instead.
   void cut_if_better();
 
   const RepairOptions& options_;
@@ -170,25 +177,25 @@ class Ladder {
   bool is_plane_ = false;
   bool joins_all_ = true;
   double welded_last_bits_ = 0;
-  bool is_welded_ = false;                             // what kWeldedPlans say was tried
-  std::size_t next_plan_ = 0, plans_ = kPlans.size();  // of kPlans: the next, and how many are tried
+  bool is_welded_ = false;                             // kWeldedPlans were tried
+  std::size_t next_plan_ = 0, plans_ = kPlans.size();  // in kPlans: the next one, and the number of plans to
+                                                       // try
   bool has_led_ = false;
   Work work_;  // of joining
   double most_displacement_ = std::numeric_limits<double>::infinity();
-  std::size_t most_facets_ = SIZE_MAX;  // that joining may make
-  bool grows_ = false;                  // it has made more
-  std::array<std::size_t, 2> new_points_{0,
-                                         SIZE_MAX};  // of the two cuts that come first, where they were made
-  std::size_t too_many_ = 0;                         // that a cut would have taken
+  std::size_t most_facets_ = SIZE_MAX;                  // upper limit of facets after joining
+  bool grows_ = false;                                  // joining or cutting exceeded its limit
+  std::array<std::size_t, 2> new_points_{0, SIZE_MAX};  // of the first and the second cut, if they were made
+  std::size_t too_many_ = 0;                            // new points that a refused cut would have taken
   State given_;
-  double given_displacement_ = 0;  // by sheets that were made one before
+  double given_displacement_ = 0;  // by earlier steps: welding, or sheets made one
   Rounded rounded_;
   Trouble trouble_;
-  std::optional<Rounded> once_cut_;       // and not twice yet
+  std::optional<Rounded> once_cut_;       // after the first cut, while the second is put off
   std::optional<Attempt> best_;           // of the plans so far
-  State flattened_;                       // by the last plan that began again
+  State flattened_;                       // by the last call of begin_flat
   const State* before_ = nullptr;         // see compare_with
-  std::shared_ptr<const Proven> proven_;  // when attempts begin again
+  std::shared_ptr<const Proven> proven_;  // for attempts that start again from the given surface
 };
 
 }  // namespace holdfast::repairing

@@ -1,5 +1,5 @@
-// What is tried all over the surface where nothing helps that is tried near what is in trouble: sheets are
-// made one, vertices are welded, and vertices go to the points of a grid.
+// Last resorts, which change the whole surface when changes near the facets in trouble did not help: sheets
+// are made one, vertices are welded, and vertices are rounded to the points of a grid.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -51,7 +51,7 @@ void Ladder::weld_all() {
       welding->try_plans(sides_);
     }
     if (take_if_valid(*welding)) return;
-    // Welding has brought sheets together where fewer new points are left.
+    // Fewer new points are a sign that welding has brought sheets together.
     if (welding->new_points_[0] >= least_points) continue;
     least_points = welding->new_points_[0];
     if (snap_all(*welding)) return;

@@ -1,6 +1,6 @@
-// What each side of nearly coincident interfaces is led through: vertices of other parts, and crossings. It
-// is decided once for all facets that have the side, so that no crack can open: a vertex of another part lies
-// on at most one side of a part, and two sides cross in one vertex.
+// The vertices that each side of nearly coincident interfaces is led through: vertices of other parts, and
+// crossings. They are decided once for all facets of the side, so no crack can open: a vertex of another part
+// lies on at most one side of a part, and two sides cross in one vertex.
 #pragma once
 
 #include <map>
@@ -16,26 +16,26 @@ namespace holdfast::repairing {
 
 class LedSides {
  public:
-  /// The sides of facets that are close to another part, led through vertices that they pass within `gap`,
-  /// and through new ones, which are added to `vertices`, where they cross.
+  /// Leads the sides of facets that are close to another part through the vertices that they pass within
+  /// `gap`, and through new vertices where they cross. New vertices are added to `vertices`.
   LedSides(const PartFacets& facets, std::span<const Index> close, double gap, std::vector<Point>& vertices,
            const Step& step);
 
   /// The vertices of a side from one end to the other.
   [[nodiscard]] std::vector<Index> chain(Index from, Index to) const;
-  /// The steps from vertex to vertex round a facet, along its sides.
+  /// The edges from vertex to vertex round a facet, along its led sides.
   [[nodiscard]] std::vector<std::array<Index, 2>> round(const Triangle& t) const;
-  /// Whether a vertex is on a side of a part that is led through it.
+  /// Whether some side of a part is led through a vertex.
   [[nodiscard]] bool is_on_side(Index v, Index part) const { return on_side_.count({v, part}) != 0; }
   /// A facet that is in no patch, cut with its sides: exactly these are sides of an odd number of the pieces.
   [[nodiscard]] std::vector<Triangle> split(const Triangle& t) const;
-  /// The furthest that a side passes what it is led through.
+  /// The largest distance between a side and a vertex that it is led through.
   [[nodiscard]] double most() const { return most_; }
 
  private:
   using Side = std::array<Index, 2>;  // ascending
 
-  /// What a side is led through, by how far along it.
+  /// The vertices that a side is led through, by their position along it.
   struct OnSide {
     std::vector<Index> parts;
     std::vector<std::pair<double, Index>> points;
@@ -43,7 +43,7 @@ class LedSides {
   };
   using Sides = std::map<Side, OnSide>;
 
-  /// False where that leads back to itself, as it may in facets that are thinner than the gap.
+  /// False if the chain leads back to itself, as it may in facets thinner than the gap.
   [[nodiscard]] bool split_deeper(const Triangle& t, std::vector<Triangle>& pieces, int depth) const;
   [[nodiscard]] std::vector<Triangle> fan(const Triangle& t) const;
   void append(Index from, Index to, std::vector<Index>& chain, int depth = 0) const;

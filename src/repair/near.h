@@ -1,4 +1,5 @@
-// Distances between points, sides and facets in floating point, to choose what is joined.
+// Distances between points, sides and facets in floating point. They choose what is joined; exact tests
+// decide what is valid.
 #pragma once
 
 #include <algorithm>
@@ -25,14 +26,14 @@ inline double length(const Vector& u) {
   return most * std::sqrt(dot(v, v));
 }
 
-/// Where a point stands beside the inside of a side or facet; an infinite distance elsewhere.
+/// The foot of a point on a side or facet, if the foot is inside; an infinite distance otherwise.
 struct Nearness {
   double distance = std::numeric_limits<double>::infinity();
   double t = 0;     ///< along the side
   Point foot{};     ///< the point below
-  double size = 0;  ///< of the numbers that the distance was computed from
+  double size = 0;  ///< magnitude of the numbers behind the distance
   double tilt =
-      0;  ///< error of the distance from a sliver, whose normal is as uncertain as its area is small
+      0;  ///< error of the distance from a sliver, whose normal is uncertain because its area is small
 
   /// Of the distance, whose error is some last bits of these.
   [[nodiscard]] double bound() const { return distance + size * 0x1p-49; }
@@ -43,7 +44,7 @@ struct Nearness {
 /// Beside the inside of the facet abc.
 [[nodiscard]] Nearness beside_facet(const Point& p, const Point& a, const Point& b, const Point& c);
 
-/// Where two sides are nearest to each other, if that is inside both; an infinite distance elsewhere.
+/// The nearest points of two sides, if they are inside both; an infinite distance otherwise.
 struct Passing {
   double distance = std::numeric_limits<double>::infinity();
   double t = 0, s = 0;  ///< along each
@@ -51,11 +52,11 @@ struct Passing {
 };
 [[nodiscard]] Passing pass(const Point& a, const Point& b, const Point& c, const Point& d);
 
-/// From a point to a side or to a facet, rounded up.
+/// Distance from a point to a side or a facet, rounded up.
 [[nodiscard]] double distance_above(const Point& p, const Point& a, const Point& b);
 [[nodiscard]] double distance_above(const Point& p, const Point& a, const Point& b, const Point& c);
 
-/// From a point to a facet.
+/// Distance from a point to a facet.
 [[nodiscard]] double distance_to(const Point& p, const Point& a, const Point& b, const Point& c);
 
 }  // namespace holdfast::repairing

@@ -1,4 +1,4 @@
-// Sides that one facet has.
+// Sides with one facet.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace holdfast::repairing {
 
-/// How many there are. Vertices at the same place are one.
+/// Number of sides with one facet. Vertices at the same place are one.
 [[nodiscard]] std::size_t open_sides(const State& state);
 
 }  // namespace holdfast::repairing

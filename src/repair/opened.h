@@ -1,4 +1,4 @@
-// Parts that were closed, and are so no longer.
+// Finds parts that were closed and are open now.
 #pragma once
 
 #include <span>
@@ -7,9 +7,8 @@
 
 namespace holdfast::repairing {
 
-/// The first part that had no side with a single facet and has one now, or no facet at all; no_index if there
-/// is none. `part` is
-/// that of each facet of the input, which `before` is.
+/// The first part that had no side with a single facet and now has one, or has no facet at all; no_index if
+/// there is none. `before` is the input, and `part` holds the part of each of its facets.
 [[nodiscard]] Index opened_part(const State& before, const State& after, std::span<const Index> part);
 
 }  // namespace holdfast::repairing

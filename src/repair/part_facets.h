@@ -1,5 +1,5 @@
-// Facets of parts that are put together: the part and the plane of each. Whatever is measured here is
-// floating point: it chooses what is joined.
+// Facets of parts that are pasted: the part and the plane of each. All measures here are floating point: they
+// only choose what is joined.
 #pragma once
 
 #include <optional>
@@ -14,15 +14,15 @@ namespace holdfast::repairing {
 
 /// A facet's plane.
 struct PlaneOf {
-  Vector normal{};    ///< of length 1
-  double height = 0;  ///< the facet's least
+  Vector normal{};    ///< unit length
+  double height = 0;  ///< the least height of the facet
   std::size_t axis = 0;
 };
 
 class PartFacets {
  public:
-  /// `part` tells the part of each facet of the input. The facets of the state stay as they are as long as
-  /// this is used; vertices may be added.
+  /// `part` holds the part of each facet of the input. While this object is in use, the facets of the state
+  /// must not change; vertices may be added.
   PartFacets(const State& state, std::span<const Index> part);
 
   [[nodiscard]] const State& state() const { return state_; }
@@ -32,11 +32,11 @@ class PartFacets {
   [[nodiscard]] Index part_of(Index f) const { return part_[state_.facet_parents.of(f)[0]]; }
   /// Facets that parts have in common already stay as they are.
   [[nodiscard]] bool is_shared(Index f) const { return state_.facet_parents.of(f).size() > 1; }
-  /// Nothing for facets that are none.
+  /// Nothing for degenerate facets.
   [[nodiscard]] const std::optional<PlaneOf>& plane(Index f) const { return planes_[f]; }
   /// The parts that have a vertex, ascending.
   [[nodiscard]] const std::vector<Index>& parts_at(Index v) const { return parts_at_[v]; }
-  /// Of facets the one with the greatest height.
+  /// The facet with the greatest height.
   [[nodiscard]] Index widest(const std::vector<Index>& facets) const;
 
   // In two of the three coordinates, without the one along the axis.
@@ -47,7 +47,7 @@ class PartFacets {
   [[nodiscard]] double area(const Triangle& t, std::size_t axis) const;
   [[nodiscard]] bool holds(const Triangle& t, const PlanePoint& p, std::size_t axis) const;
 
-  /// How far the corners of a triangle lie from a facet at most.
+  /// Largest distance of a triangle's corner from a facet.
   [[nodiscard]] double distance(const Triangle& t, Index facet) const;
 
  private:

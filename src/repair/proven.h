@@ -1,5 +1,5 @@
-// Which facets an exact search has found to fit together, for attempts that begin again: most of a surface
-// comes out of them as it came out before.
+// The facets that an exact search has found to fit together. Attempts that start again use them, since most
+// of a surface comes out of each attempt unchanged.
 #pragma once
 
 #include <vector>
@@ -14,8 +14,8 @@ class Proven {
   /// The facets of a state that are known to fit together.
   explicit Proven(const State& state);
 
-  /// Lets another state know of those that it has, too, if it knows of fewer by itself: what is known of it
-  /// from elsewhere is not known to fit together with these.
+  /// Marks these facets as known in another state, unless that state knows of more facets by itself. The two
+  /// sets are never merged: facets of one are not known to fit together with facets of the other.
   void tell(State& state) const;
 
  private:

@@ -1,4 +1,4 @@
-// Vertices of the input that became another, back where they were.
+// Puts input vertices that became others back where they were.
 #pragma once
 
 #include <span>
@@ -9,11 +9,11 @@
 
 namespace holdfast::repairing {
 
-/// Of a valid surface. A vertex of the input that no longer stands where it was (`before`) gets a place in a
-/// facet or a side beside it, which is led through it, or takes some of the facets at the vertex that it
-/// became, if the surface stays valid: that is decided exactly. What finds none within some tries stays
-/// moved, and so does all where that is more than a quarter of the vertices: the surface is there twice.
-/// Returns the largest distance by which anything was bent, rounded up.
+/// For a valid surface. An input vertex that left its place (`before`) goes back in one of two ways: a facet
+/// or a side beside the place is led through it, or it takes some facets of the vertex that it became. The
+/// surface must stay valid, which an exact test decides. A vertex that finds no way within some tries stays
+/// moved. If more than a quarter of the vertices were moved, the surface is there twice, and all of them stay
+/// moved. Returns the largest distance by which anything was bent, rounded up.
 double restore(State& state, std::span<const Point> before, const Step& step, const Threads& threads);
 
 }  // namespace holdfast::repairing

@@ -9,18 +9,18 @@
 
 namespace holdfast::repairing {
 
-/// Told by the edges alone, so that the triangles of several chains that make up a closed surface do so, too,
-/// however crooked these are.
+/// The edges alone decide this. So if several chains bound a closed surface, the triangles of these chains
+/// make up a closed surface, too, however crooked the chains are.
 class RoundChain {
  public:
   using Step = std::array<Index, 2>;  // from a vertex to the next
 
-  /// The triangles turn left, and have no gaps inside chains.
+  /// The triangles must turn left and have no gaps inside chains.
   explicit RoundChain(std::span<const Triangle> triangles);
 
-  /// Those that the chain goes round an odd number of times, ascending: exactly the edges that the chain has
-  /// an odd number of times are edges of an odd number of them. The chain is taken to turn left, which
-  /// makes the search fast, and where it does not, the result is the same.
+  /// The triangles that the chain goes round an odd number of times, ascending. Exactly the edges that occur
+  /// in the chain an odd number of times are edges of an odd number of these triangles. The search assumes
+  /// that the chain turns left, which makes it fast; the result does not depend on it.
   [[nodiscard]] std::vector<Index> inside(std::span<const Step> chain) const;
 
  private:
@@ -30,13 +30,14 @@ class RoundChain {
   };
 
   [[nodiscard]] Index triangle_left_of(const Step& edge) const;
-  /// What lies left of the steps and is not separated from it; false if that is not all and nothing else.
+  /// Collects the triangles left of the steps and all that no step separates from them. False if these are
+  /// not exactly the result.
   [[nodiscard]] bool flood(std::span<const Step> odd, std::vector<Index>& inside) const;
   [[nodiscard]] std::vector<Index> by_parity(std::span<const Step> odd) const;
 
   std::span<const Triangle> triangles_;
   std::vector<EdgeOf> edges_;  // ascending
-  std::vector<Index> beside_;  // by code the triangle on the other side, or no_index
+  std::vector<Index> beside_;  // by code, the triangle on the other side, or no_index
 };
 
 }  // namespace holdfast::repairing

@@ -1,4 +1,4 @@
-// What came of plane surfaces.
+// A cache of arranged and rounded plane surfaces.
 #pragma once
 
 #include <limits>
@@ -10,17 +10,17 @@
 
 namespace holdfast::repairing {
 
-/// The same sheets come again and again while others change, and so do what they are in a projection.
+/// While some sheets change, others return again and again, and so do their projections.
 class RoundedPlanes {
  public:
-  /// Rounds by `round` what has not come before.
+  /// Rounds by `round` each surface that is not in the cache.
   [[nodiscard]] RoundPlane rounding(RoundPlane round) {
     return [this, round = std::move(round)](State plane, double most) {
       const auto [at, is_new] = all_.try_emplace({plane.vertices, plane.facets, plane.segments});
       Known& known = at->second;
       if (is_new || (!known.rounded.is_valid && known.most < most)) {
         known.rounded = round(std::move(plane), most);
-        // What did not move further is not valid for another reason.
+        // A result that did not move further is invalid for another reason.
         constexpr double kAny = std::numeric_limits<double>::infinity();
         known.most = known.rounded.displacement > most ? most : kAny;
       }

@@ -10,17 +10,17 @@ namespace holdfast::repairing {
 struct Rounded {
   bool is_valid = false;
   State state;
-  double displacement = 0;  ///< of points by rounding, all rounds together; rounded up
+  double displacement = 0;  ///< of points by rounding, all rounds added; rounded up
   bool has_united = false;  ///< facets went since: see RepairOptions::unite
 };
 
 /// How much is tried.
 enum class Trials {
   all,
-  near_trouble,  ///< nothing that joins sheets or vertices all over the surface
+  near_trouble,  ///< only steps near facets in trouble; no joining of sheets or vertices all over the surface
 };
 
-/// Arranges and rounds until nothing is left to arrange. What stands in `report` and `exact` is filled in.
+/// Arranges and rounds until nothing is left to arrange. Fills `report` and `exact`.
 [[nodiscard]] Rounded round_arranged(State state, const RepairOptions& options, RepairReport& report,
                                      ExactSurface& exact, const Step& step, const Threads& threads,
                                      Trials trials = Trials::all);

@@ -1,5 +1,4 @@
-// What sides are led through, where each of several sheets that have a side leads it through vertices of its
-// own.
+// The vertices that shared sides are led through, when several sheets lead a side through their own vertices.
 #pragma once
 
 #include <algorithm>
@@ -12,46 +11,46 @@
 
 namespace holdfast::repairing {
 
-/// Chains are told one after the other, each from one end of its side to the other. Vertices of two that are
-/// near to each other become one; others follow each other along the side, and so each part of a chain is led
-/// through what comes to lie between its ends. What a side is led through in the end depends on its ends
-/// alone, in whatever facet it is, so that no crack opens.
+/// Chains are added one after the other, each from one end of its side to the other. Nearby vertices of two
+/// chains become one. The other vertices are merged in order along the side, so each part of a chain is led
+/// through the vertices that come to lie between its ends. The final chain of a side depends only on the ends
+/// of the side, in every facet, so no crack opens.
 class SharedSides {
  public:
-  /// Of the vertices, to which new ones may be added, those that are there now do not become others.
+  /// New vertices may be added to `vertices`. The vertices there now never become others.
   SharedSides(const std::vector<Point>& vertices, double gap)
       : vertices_(vertices), gap_(gap), old_(vertices.size()) {}
 
-  /// Whether a chain can follow what the side is led through already.
+  /// Whether a chain is compatible with the chains that the side already has.
   [[nodiscard]] bool fits(Index a, Index b, std::span<const Index> chain) const;
   void add(Index a, Index b, std::span<const Index> chain);
-  /// Whether any chain, be it empty, was told of a side, whose ends ascend.
+  /// Whether a side, with its ends ascending, has any chain, even an empty one.
   [[nodiscard]] bool is_told(const std::array<Index, 2>& side) const { return chains_.contains(side); }
-  /// The later of two vertices becomes the other one, if it is not one of the first.
+  /// The later of two vertices becomes the earlier one, unless it is one of the first vertices.
   void unite(Index v, Index w, std::size_t first);
 
-  /// Ends with what was told; false where that contradicts itself.
+  /// Resolves all chains; false if they contradict each other.
   [[nodiscard]] bool finish();
-  /// What a vertex has become.
+  /// The vertex that a vertex has become.
   [[nodiscard]] Index root(Index v) const;
-  /// What a side is led through from a to b, without these.
+  /// The vertices of the side from a to b, without a and b.
   [[nodiscard]] std::vector<Index> chain(Index a, Index b) const;
-  /// Whether that is anything.
+  /// Whether there are any.
   [[nodiscard]] bool is_led(Index a, Index b) const {
     return !known({std::min(a, b), std::max(a, b)}).empty();
   }
   [[nodiscard]] bool has_united() const { return !into_.empty(); }
-  /// The furthest that a vertex went to become another one, rounded up.
+  /// The largest distance between a vertex and the one that it became, rounded up.
   [[nodiscard]] double most() const { return most_; }
 
  private:
   using Side = std::array<Index, 2>;  // ascending
   using Chains = std::map<Side, std::vector<Index>>;
 
-  /// Two chains in one.
+  /// Two chains merged.
   struct Joined {
     std::vector<Index> all;
-    std::vector<std::array<Index, 2>> same;  // vertices of the one that are near to one of the other
+    std::vector<std::array<Index, 2>> same;  // pairs of nearby vertices, one of each chain
   };
 
   [[nodiscard]] const Point& at(Index v) const { return vertices_[v]; }
@@ -69,7 +68,7 @@ class SharedSides {
   double gap_;
   const std::size_t old_;
   Chains chains_;
-  std::map<Index, Index> into_;  // vertices that became others of lower numbers
+  std::map<Index, Index> into_;  // vertices that became others, with lower numbers
   double most_ = 0;
   bool contradicts_ = false;
 };

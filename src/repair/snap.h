@@ -1,4 +1,4 @@
-// Vertices of later parts put on earlier ones.
+// Puts vertices of later parts on earlier parts.
 #pragma once
 
 #include <span>
@@ -8,13 +8,13 @@
 
 namespace holdfast::repairing {
 
-/// What vertices may be put on.
+/// The elements that vertices may be put on.
 enum class SnapTo { vertices, all };
 
-/// Moves vertices of parts that are at most `tolerance` away from an earlier part: onto its nearest vertex,
-/// else onto a side, else onto a facet (if these count, too), each vertex once. A move that makes a part
-/// invalid by itself is not done. `part` tells the part of each facet, which `state` has as the input has
-/// them. Returns the largest distance, rounded up.
+/// Moves vertices at most `tolerance` away from an earlier part onto its nearest vertex, else onto a side,
+/// else onto a facet (if sides and facets count), each vertex once. A move is left out if it makes a part
+/// invalid by itself. `part` holds the part of each facet; `state` has the facets of the input. Returns the
+/// largest distance moved, rounded up.
 double snap(State& state, std::span<const Index> part, SnapTo to, double tolerance, const Step& step,
             const Threads& threads);
 

@@ -1,4 +1,4 @@
-// Parts of facets that are thinner than doubles can tell.
+// Restores parts of facets that are too thin for doubles.
 #pragma once
 
 #include "mesh/parallel.h"
@@ -7,10 +7,10 @@
 
 namespace holdfast::repairing {
 
-/// Of a valid surface. Where the new points on both sides of a thin part of a facet of the input stand at the
-/// same doubles, the part is nothing but a line, and where nothing else has it, the corner beyond is lost.
-/// Such lines become facets of some last bits' width, if the surface stays valid: that is decided exactly.
-/// `given`: the input; `most`: how far the surface is from it. Returns how far it is then, rounded up.
+/// For a valid surface. If the new points on both sides of a thin part of an input facet have the same
+/// doubles, the part is only a line; if no other part has this line, the corner beyond it is lost. Such lines
+/// become facets some last bits wide if the surface stays valid, which an exact test decides. `given`: the
+/// input; `most`: the distance of the surface from it. Returns the new distance, rounded up.
 [[nodiscard]] double keep_strips(State& state, const State& given, double most, const Step& step,
                                  const Threads& threads);
 

@@ -1,4 +1,4 @@
-// What a report says of the rounds of cutting and rounding.
+// Counts the rounds of cutting and rounding in the report.
 #pragma once
 
 #include "arrange/arrange.h"
@@ -6,7 +6,7 @@
 
 namespace holdfast::repairing {
 
-/// Tells one more round, whose arrangement this is.
+/// Adds a round, with its arrangement.
 inline void tell_round(RepairReport& report, const arrange::Arrangement& arrangement) {
   if (++report.rounds == 1) {
     report.pairs = arrangement.pairs;

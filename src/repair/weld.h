@@ -1,4 +1,4 @@
-// Vertices that lie near to each other, or to a side or facet, joined within the user's tolerance.
+// Joins vertices near each other, or near a side or facet, within the user's tolerance.
 #pragma once
 
 #include <optional>
@@ -13,9 +13,9 @@ namespace holdfast::repairing {
 /// than the tolerance, with room left for rounding where that is possible.
 double weld(State& state, double tolerance, const Step& step);
 
-/// The distance within which more than half of the vertices of the input that are in trouble have another one
-/// of them at another place, as they do where a surface is there twice but for rounding, or its triangles
-/// were written one by one. None where it is more than `widest`.
+/// The distance within which more than half of the input vertices in trouble have another of them at a
+/// different place. This is so if a surface is there twice up to rounding, or if its triangles were written
+/// one by one. No value if the distance is more than `widest`.
 [[nodiscard]] std::optional<double> distance_of_twins(const State& state, const Trouble& trouble,
                                                       double widest, const Step& step);
 
