@@ -1,12 +1,12 @@
-// The exact arrangement of a complex: its elements cut where they meet, so that what comes out is a complex
+// The exact arrangement of a complex: elements are cut where they meet, so that the result is a complex
 // again. Nothing is rounded.
 //
-// Pairs of elements that do not fit come from the search (surface/search.h), and what the two have in common
-// from their exact contacts. Its ends are vertices or new points: where a side pierces a facet, or two sides
-// cross. Facets of one plane that share area are one sheet, triangulated once; any other facet that something
-// meets is a sheet of its own (sheet.h). Where three facets meet in a point, each of their sheets finds it as
-// the crossing of two traces; the pool of points makes it one. So two sheets agree along their common lines:
-// whatever cuts the line in one of them is an element that meets the other there, too.
+// The search (surface/search.h) finds pairs of elements that do not fit. The exact contacts of a pair give
+// its intersection, whose ends are vertices or new points: a side pierces a facet, or two sides cross. Facets
+// of one plane that share area form a sheet, triangulated once. Any other facet that something meets is a
+// sheet of its own (sheet.h). If three facets meet in a point, each of their sheets finds the point as the
+// crossing of two traces, and the pool of points makes it one. So two sheets agree along their common line:
+// an element that cuts the line in one sheet meets the other sheet there, too.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ namespace holdfast::arrange {
 
 /// Lists of parents, one list an entity.
 struct Parents {
-  std::vector<Index> first{0};  ///< where each list begins in `all`, and where the last ends
+  std::vector<Index> first{0};  ///< where each list begins in `all`, and where the last one ends
   std::vector<Index> all;
 
   [[nodiscard]] std::size_t size() const { return first.size() - 1; }
@@ -37,24 +37,25 @@ struct Parents {
 };
 
 struct Arrangement {
-  /// Points that are no vertices of the complex: if it has n, point k is vertex n + k of what follows.
+  /// Points that are not vertices of the complex: if the complex has n vertices, point k is vertex n + k
+  /// below.
   std::vector<exact::SpacePoint> points;
-  std::vector<Point> nearest;  ///< the doubles nearest to each
-  /// In the order of their first parents, turned as these. Corners are the first vertices at their places.
+  std::vector<Point> nearest;  ///< the nearest doubles of each point
+  /// In the order and orientation of their first parents. Corners are the first vertices at their places.
   std::vector<Triangle> facets;
   Parents facet_parents;  ///< facets of the complex, in ascending order: several where these overlapped
-  /// For each facet its sheet, if the facets of that fit together where their corners stand at the nearest
-  /// doubles, too; else `no_index`.
+  /// For each facet, its sheet if the sheet's facets still fit together with all corners at their nearest
+  /// doubles; else `no_index`.
   std::vector<Index> facet_sheet;
   std::size_t sheets = 0;
-  std::vector<Segment> segments;  ///< pieces of the complex's, each once
+  std::vector<Segment> segments;  ///< pieces of the complex's segments, each once
   Parents segment_parents;
-  /// Facets and segments of the complex that are left out, as they are none: see Elements::flaws.
+  /// Degenerate facets and segments of the complex, which are left out: see Elements::flaws.
   std::vector<Flaw> left_out;
   std::size_t pairs = 0;  ///< of elements that did not fit
-  /// For each facet of the complex whether it fitted together with all others of which that is said.
+  /// For each facet of the complex, whether it fitted together with all other facets marked so.
   std::vector<std::uint8_t> fitted;
-  bool is_same = false;  ///< there was nothing to do, and nothing of the above is filled in
+  bool is_same = false;  ///< there was nothing to do; the members above stay empty
 };
 
 struct ArrangeOptions {
@@ -73,8 +74,8 @@ class TooManyPoints : public std::exception {
   std::size_t count_;
 };
 
-/// `elements` are the complex's. `step` is called now and then from the calling thread with the share of the
-/// work that is done, and may throw. The result does not depend on the threads.
+/// `elements` are the complex's. `step` is called from time to time from the calling thread, with the share
+/// of the work that is done; it may throw. The result does not depend on the number of threads.
 [[nodiscard]] Arrangement arrange(const Complex& complex, const Elements& elements, const Step& step,
                                   const ArrangeOptions& options = {});
 

@@ -1,5 +1,5 @@
-// Where three facets cross each other: each of their sheets finds the point as the crossing of two traces,
-// and it is computed once.
+// Points where three facets cross. Each of the three sheets finds the point as the crossing of two traces; it
+// is computed once.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct CrossingPoint {
   Index number = no_index;  ///< in the pool of points, once it is there
 };
 
-/// May be used by several threads. Points stay where they are, and do not depend on who asks first.
+/// Thread-safe. Points keep their address, and do not depend on which thread asks first.
 class Crossings {
  public:
   explicit Crossings(const FacetPlanes& planes) : planes_(planes) {}
@@ -31,7 +31,7 @@ class Crossings {
   CrossingPoint& add(exact::SpacePoint point);
 
  private:
-  /// Points by the facets that make them, in parts that are locked one by one.
+  /// Points by the facets that define them, in shards with a lock each.
   struct Part {
     std::mutex mutex;
     std::deque<CrossingPoint> all;

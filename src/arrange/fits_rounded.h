@@ -6,9 +6,9 @@
 
 namespace holdfast::arrange {
 
-/// True only if the triangles meet in common vertices and edges alone where all points stand at their nearest
-/// doubles; false says nothing. They triangulate a triangle whose corners are points 0, 1, 2 in some order;
-/// other points may lie on its sides.
+/// If true, the triangles meet only in common vertices and edges when all points stand at their nearest
+/// doubles; false says nothing. The triangles triangulate a triangle whose corners are points 0, 1, 2 in some
+/// order; other points may lie on its sides.
 ///
 /// If all triangles turn left and the border is a simple polygon, the map from the exact triangulation to the
 /// rounded one is injective: as many triangles hold a point inside as the border winds round it, once.

@@ -1,4 +1,5 @@
-// A triangulation in the plane that grows by points and segments; segments that cross are cut where they do.
+// A triangulation in the plane that grows by points and segments. Segments that cross are cut at the
+// crossing.
 #pragma once
 
 #include <array>
@@ -17,23 +18,22 @@ namespace holdfast::arrange {
 using plane::EdgeCode;
 using plane::Vertex;
 
-/// Begins with one positive triangle, within which all else lies. After each step it is as good as Delaunay,
-/// but for edges that are pieces of segments and where that would need more than a floating-point filter to
-/// tell.
+/// Begins with one positive triangle that contains all else. After each step the triangulation is Delaunay,
+/// except at pieces of segments and where a floating-point filter cannot decide.
 class FlatMesh {
  public:
-  /// The points are the caller's; a, b, c turn left.
+  /// The caller owns the points; a, b, c turn left.
   FlatMesh(plane::Points& points, Vertex a, Vertex b, Vertex c);
 
-  /// Puts in a vertex that no other is at the place of, the last of the points. `sides`: those of the first
-  /// triangle on which it is known to lie, bit i for the one opposite to corner i. That saves arithmetic,
-  /// since points on a line are what filters cannot tell.
+  /// Inserts the last of the points, whose place no other vertex has. `sides`: the sides of the first
+  /// triangle on which the point is known to lie, bit i for the side opposite corner i. This saves exact
+  /// arithmetic, because filters cannot decide points on a line.
   void insert(Vertex p, unsigned sides = 0);
 
   /// The point where the lines of two segments cross, by the segments' numbers; added to the points.
   using Crossing = std::function<Vertex(std::uint32_t line, std::uint32_t other)>;
-  /// Makes edges of the segment ab: it is cut where it passes through vertices, and together with the pieces
-  /// of other segments that it crosses.
+  /// Makes the segment ab a chain of edges: it is cut at vertices that it passes through, and where it
+  /// crosses pieces of other segments, which are cut there, too.
   void insert_segment(Vertex a, Vertex b, std::uint32_t line, const Crossing& crossing);
 
   [[nodiscard]] const plane::Triangles& triangles() const { return mesh_; }

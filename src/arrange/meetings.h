@@ -1,4 +1,4 @@
-// What pairs of elements have in common, as points of the pool and traces on each of them.
+// The intersections of pairs of elements, as points of the pool and traces on both elements.
 #pragma once
 
 #include <array>
@@ -16,13 +16,13 @@ namespace holdfast::arrange {
 /// Two elements that do not fit together and share no area.
 struct Meeting {
   std::array<Index, 2> elements;  ///< of Elements::all
-  /// One or two points (else no_index), and for each element the face, as a mask of corners, in whose
-  /// interior the point lies.
+  /// One or two points (else no_index), and for each element the face (vertex, side or facet, as a mask of
+  /// corners) in whose interior the point lies.
   std::array<Index, 2> points{no_index, no_index};
   std::array<std::array<std::uint8_t, 2>, 2> faces{};  ///< [point][element]
 
-  /// Faces of an element in whose interiors the points lie, as one mask: if it is no facet's whole, the
-  /// meeting lies on a side, or is a corner.
+  /// The union of the masks of an element's faces in whose interiors the points lie. If it is not the whole
+  /// facet, the meeting lies on a side or is a corner.
   [[nodiscard]] unsigned mask(std::size_t element) const {
     return faces[0][element] | (points[1] == no_index ? 0u : faces[1][element]);
   }
@@ -34,7 +34,7 @@ struct Meetings {
   std::vector<std::array<Index, 2>> overlapping;  ///< pairs of facets that share area
 };
 
-/// Two elements that do not fit together, the lesser index first, and what they have in common.
+/// Two elements that do not fit together, the lower index first, and their intersection.
 struct OffendingPair {
   std::array<Index, 2> elements;
   Common part;

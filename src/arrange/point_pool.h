@@ -1,5 +1,5 @@
-// The points of an arrangement: the vertices of the complex and those where its elements cross, each place
-// once, however it was found.
+// The points of an arrangement: the vertices of the complex and the points where its elements cross. Each
+// place is there once, however it was found.
 #pragma once
 
 #include <span>
@@ -42,8 +42,8 @@ class PointPool {
   std::span<const Point> vertices_;
   std::vector<exact::SpacePoint> exact_;
   std::vector<Point> nearest_;
-  PlaceTable table_;         // by the nearest doubles, the first point that has them
-  std::vector<Index> next_;  // the next with the same nearest doubles, by point
+  PlaceTable table_;         // by nearest doubles, the first point with these
+  std::vector<Index> next_;  // by point, the next one with the same nearest doubles
 };
 
 }  // namespace holdfast::arrange

@@ -1,5 +1,5 @@
-// A sheet: facets of one plane that overlap, or a single facet, with all that other elements leave in it,
-// triangulated once.
+// A sheet: overlapping facets of one plane, or a single facet. It is triangulated once, with all traces of
+// other elements.
 #pragma once
 
 #include <array>
@@ -16,11 +16,11 @@
 
 namespace holdfast::arrange {
 
-/// A straight line in the plane of a sheet: through two vertices of the complex, or where the plane of a
-/// facet cuts it.
+/// A straight line in the plane of a sheet: through two vertices of the complex, or the intersection with the
+/// plane of a facet.
 struct Line {
   std::array<Index, 2> vertices{no_index, no_index};
-  Index facet = no_index;  ///< in Elements::all, where there are no vertices
+  Index facet = no_index;  ///< in Elements::all, if there are no vertices
 };
 
 /// A piece of a line, with its two ends, that must become edges.
@@ -40,23 +40,24 @@ struct SheetInput {
   std::span<const Index> facets;
   std::span<const Index> points;
   std::span<const Trace> traces;
-  std::span<const PointOnSide> on_sides;  ///< of points and ends of traces; need not be all
-  std::size_t most_crossings = SIZE_MAX;  ///< of traces; more of them throw TooManyPoints
+  std::span<const PointOnSide> on_sides;  ///< points and ends of traces known to lie on sides; may be
+                                          ///< incomplete
+  std::size_t most_crossings = SIZE_MAX;  ///< largest number of crossings of traces; more throw TooManyPoints
 };
 
 struct SheetTriangles {
-  std::vector<Triangle> triangles;  ///< points of the pool, then those below; turned as the first parent
+  std::vector<Triangle> triangles;  ///< points of the pool, then of `points`; oriented as the first parent
   std::vector<Index> first_parent, parents;  ///< of each, in ascending order, as indices of Elements::all
   std::vector<CrossingPoint*> points;        ///< where traces cross: numbers from the pool's size on
-  /// Where it is made of several facets, the points on each of their sides in order, from end to end.
+  /// For a sheet of several facets: the points on each side of the facets, in order from end to end.
   std::vector<std::vector<Index>> sides;
-  /// Whether the triangles still meet in common vertices and edges only where all points stand at their
-  /// nearest doubles; false where that is not known.
+  /// Whether the triangles are known to meet only in common vertices and edges when all points stand at their
+  /// nearest doubles.
   bool fits_rounded = false;
 };
 
-/// Triangulates a sheet. Points on the sides of its facets must be among `points`; where traces cross, it
-/// finds out itself.
+/// Triangulates a sheet. Points on the sides of its facets must be among `points`. Crossings of traces are
+/// found here.
 [[nodiscard]] SheetTriangles triangulate(const SheetInput& input, const Complex& complex,
                                          const Elements& elements, const PointPool& pool,
                                          Crossings& crossings, const plane::Poll& poll);
