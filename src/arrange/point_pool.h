@@ -11,10 +11,12 @@
 
 namespace holdfast::arrange {
 
-/// Numbers 0 to n - 1 are the complex's vertices; then follow the others, in the order in which they came.
+/// Numbers 0 to n - 1 are the complex's vertices. The other points follow in the order in which they were
+/// added.
 class PointPool {
  public:
-  /// `first`: for each vertex the first at its place (surface/places.h). The vertices must outlive the pool.
+  /// `first`: for each vertex, the first vertex at its place (surface/places.h). The vertices must outlive
+  /// the pool.
   PointPool(std::span<const Point> vertices, std::span<const Index> first);
 
   /// The number of the point at this place; `nearest` are the doubles nearest to it.
