@@ -51,14 +51,14 @@ inline constexpr int edge_between(int i, int j) {
   return kEdgeOf[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
 }
 
-/// Where a vertex is among four that differ, or -1. Without branches: it is anywhere, so that every other one
-/// would be mispredicted.
+/// The position of a vertex among four distinct ones, or -1. Without branches, because the position is random
+/// and every other branch would be mispredicted.
 inline constexpr int index_among(const std::array<Vertex, 4>& corners, Vertex v) {
   return static_cast<int>(corners[0] == v) + 2 * static_cast<int>(corners[1] == v) +
          3 * static_cast<int>(corners[2] == v) + 4 * static_cast<int>(corners[3] == v) - 1;
 }
 
-/// What an array of four, one a corner, holds at the corners of face i, and at the ends of edge k.
+/// The entries of an array, one a corner, at the corners of face i, and at the ends of edge k.
 template <typename T>
 constexpr std::array<T, 3> corners_of_face(const std::array<T, 4>& at, int i) {
   const auto& k = kFaceVertex[static_cast<std::size_t>(i)];
@@ -71,7 +71,7 @@ constexpr std::array<T, 2> ends_of_edge(const std::array<T, 4>& at, int k) {
   return {at[static_cast<std::size_t>(e[0])], at[static_cast<std::size_t>(e[1])]};
 }
 
-/// For local vertices a != b the other two, ordered so that (a b c d) is an even permutation.
+/// For local vertices a != b, the other two, ordered so that (a b c d) is an even permutation.
 inline constexpr std::array<std::array<std::array<int, 2>, 4>, 4> kOpposite{{
     {{{-1, -1}, {2, 3}, {3, 1}, {1, 2}}},
     {{{3, 2}, {-1, -1}, {0, 3}, {2, 0}}},

@@ -1,5 +1,5 @@
-// Normals and volumes that are right to a few digits however much their terms cancel: where floating point
-// cannot tell, exact differences and products do. A measure of thin elements: it decides nothing.
+// Normals and volumes that are right to a few digits however much their terms cancel: where floating point is
+// not enough, exact differences and products are used. They measure thin elements and decide nothing.
 #pragma once
 
 #include <algorithm>

@@ -1,9 +1,9 @@
-// The plan of any change: these tetrahedra go, those come, and both fill the same space.
+// The plan of any change: old tetrahedra are replaced by new ones that fill the same space.
 //
-// A flip, a split, a collapse, a cut-and-cone are all of this kind. Faces are matched before anything is
-// touched: each outer face of the cavity with one of a new tetrahedron, and the other faces of these with
-// each other. A face is found by a number that is the same for any order of its corners, and compared in full
-// only where that agrees; facets on the cavity's faces are known from outside.
+// Flips, splits, collapses and cut-and-cone are all of this kind. Faces are matched before the mesh changes:
+// each outer face of the cavity with a face of a new tetrahedron, and the other new faces with each other. A
+// face is looked up by a hash that does not depend on the order of its corners, and compared in full only if
+// the hash agrees. Facets on the cavity's faces are read from the tetrahedra outside.
 #pragma once
 
 #include <array>
@@ -18,15 +18,14 @@
 
 namespace holdfast {
 
-/// What goes and what comes; the new tetrahedra are strictly positive. Constraint bits of faces and edges
-/// that stand before and after are kept; `facets` and `segments` name those that come to stand inside the
-/// cavity.
+/// The old and the new tetrahedra; the new ones are strictly positive. Faces and edges that exist before and
+/// after keep their constraint bits. `facets` and `segments` name constraints that are new inside the cavity.
 struct Replacement {
   std::span<const Tet> old_tets;
   std::span<const TetMesh::Corners> new_tets;
   std::span<const std::array<Vertex, 3>> facets = {};
   std::span<const std::array<Vertex, 2>> segments = {};
-  /// A vertex of the cavity that the new tetrahedra hold at another place.
+  /// A vertex of the cavity that the change moves to another place.
   struct Move {
     Vertex vertex;
     Point to;
@@ -36,7 +35,7 @@ struct Replacement {
 
 class CavityPlan {
  public:
-  /// Throws std::logic_error where the faces do not match. The mesh's visited bits serve as scratch.
+  /// Throws std::logic_error if the faces do not match. Uses the mesh's visited bits as scratch.
   CavityPlan(TetMesh& mesh, const Replacement& replacement, Scratch& memory);
 
   [[nodiscard]] Change change() const { return {replacement_.old_tets, new_tets_}; }

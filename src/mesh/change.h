@@ -1,4 +1,4 @@
-// What one operation does to the tetrahedra, worked out before anything is touched.
+// The changes of one operation to the tetrahedra, computed before the mesh is changed.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace holdfast {
 
-/// A tetrahedron to come. A neighbour is a face of the mesh outside the change, or one of the new tetrahedra.
+/// A new tetrahedron. A neighbour is a face of the mesh outside the change, or one of the new tetrahedra.
 struct NewTet {
   TetMesh::Corners corners;
   TetMesh::Neighbours neighbours;
@@ -25,12 +25,13 @@ inline constexpr Face kNewFace = 0x80000000u;
 [[nodiscard]] inline constexpr bool is_new_face(Face f) { return (f & kNewFace) != 0; }
 [[nodiscard]] inline constexpr std::size_t number_of_new(Face f) { return (f & ~kNewFace) >> 2; }
 
-/// The old tetrahedra go, the new ones come, and both fill the same space. Nothing is left to fail: all
-/// neighbours and flags are known, and the new tetrahedra are positive.
+/// Replaces old tetrahedra by new ones that fill the same space. Applying it cannot fail: all neighbours and
+/// flags are known, and the new tetrahedra are positive.
 struct Change {
   std::span<const Tet> old_tets;
   std::span<const NewTet> new_tets;
-  /// A vertex that all new tetrahedra hold keeps the first of them as incident(); others keep the last.
+  /// A vertex of all new tetrahedra gets the first of them as incident(); other vertices get the last of
+  /// theirs.
   Vertex centre = kNone;
 };
 

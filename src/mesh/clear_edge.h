@@ -1,5 +1,5 @@
-// Removing an edge by flips, others first where they clear its way: one recursion for every objective
-// (George, Hecht, Saltel 1991; Si 2015, flipnm).
+// Removes an edge by flips, after other flips that clear its way: one recursion for every objective (George,
+// Hecht, Saltel 1991; Si 2015, flipnm).
 //
 //        b         The edge ab goes where its link can be triangulated. An ear (p q r) of the link is in the
 //      / | \       way where the objective takes it at one end of ab for none of the new tetrahedra. Without
@@ -23,8 +23,8 @@ struct ShellSpoke {
   bool at_b;
 };
 
-/// Removes edge ab of tetrahedron t by flips of at most `depth` levels. `avoided`, where it is a vertex, gets
-/// no new edge. Returns whether the edge is gone; flips on the way stay even if it is not.
+/// Removes edge ab of tetrahedron t by flips of at most `depth` levels. `avoided`, if it is a vertex, gets no
+/// new edge. Returns whether the edge is gone; flips on the way stay in either case.
 ///
 /// A Policy has
 ///   bool may_try(Tet, a, b, int depth)               whether the edge is worth a look

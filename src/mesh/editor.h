@@ -1,4 +1,4 @@
-// The one way to change the mesh: TetMesh gives its mutators to nobody else.
+// The only way to change the mesh: TetMesh opens its mutators to no other class.
 //
 // Every operation is planned, checked and applied.
 //   plan     is pure: while the mesh is whole it works out each new tetrahedron, with its neighbours and its
@@ -37,7 +37,7 @@ class MeshEditor {
 
   // --- vertices in no tetrahedron
   void reserve(std::size_t vertices, std::size_t tets) { mesh_.reserve(vertices, tets); }
-  /// From now on vertices get no doubles but those of this grid.
+  /// From now on vertices only get doubles of this grid.
   void set_grid(const exact::DoubleGrid& grid) { mesh_.grid_ = grid; }
   /// A vertex at the point of the grid nearest to p.
   Vertex add_vertex(const Point& p) { return mesh_.add_vertex(p); }
@@ -50,7 +50,7 @@ class MeshEditor {
   Vertex add_vertex(const Position& place) {
     return std::visit([&](const auto& p) { return add_vertex(p); }, place);
   }
-  /// Takes back the position of a vertex that is in no tetrahedron.
+  /// Removes the position of a vertex that is in no tetrahedron.
   void remove_vertex(Vertex v) { mesh_.remove_vertex(v); }
   /// Takes back the vertex added last, which no tetrahedron may hold.
   void remove_last_vertex() { mesh_.remove_last_vertex(); }
@@ -60,14 +60,14 @@ class MeshEditor {
   /// `created`, where given, receives the new tetrahedra in order. Vertices that lose their last tetrahedron
   /// have incident() == kNone afterwards.
   void replace(const Replacement& replacement, std::vector<Tet>* created = nullptr);
-  /// Replaces the shell of an edge by the tetrahedra of its triangulated link, all positive. `created`, where
-  /// given, receives the new ones in the order of tetrahedra_of. No segment and no facet may be lost: the
-  /// edge is none, and no face at it.
+  /// Replaces the shell of an edge by the tetrahedra of its triangulated link, all positive. `created`, if
+  /// given, receives the new tetrahedra in the order of tetrahedra_of. No constraint may be lost: the edge
+  /// must not be a segment, and no face at it a facet.
   void replace_shell(const EdgeShell& shell, const std::vector<LinkTriangle>& triangles,
                      std::vector<Tet>* created = nullptr);
-  /// Makes the 2-3 flip of a face that is no facet. The three tetrahedra must be positive.
+  /// Makes the 2-3 flip of a face that is not a facet. The three tetrahedra must be positive.
   std::array<Tet, 3> swap_face(Face f);
-  /// Makes a change that is planned. `created` receives the new tetrahedra in order.
+  /// Applies a planned change. `created` receives the new tetrahedra in order.
   void apply(const Change& change, std::vector<Tet>& created);
 
   // --- positions
@@ -77,8 +77,8 @@ class MeshEditor {
   void move_vertex(Vertex v, const Position& place) {
     std::visit([&](const auto& p) { move(v, p); }, place);
   }
-  /// Moves an explicit vertex and asks `is_right()` about the mesh as it is then; puts it back where that is
-  /// false. `ball` is that of the vertex.
+  /// Moves an explicit vertex, then calls `is_right()`, and moves the vertex back if that is false. `ball` is
+  /// the ball of the vertex.
   template <typename Check>
   bool move_if(Vertex v, const Point& p, std::span<const Tet> ball, Check&& is_right) {
     const Point before = mesh_.position(v);
@@ -96,7 +96,7 @@ class MeshEditor {
   void set_facet(Face f);
   /// Marks edge ab of tetrahedron t in its whole shell as part of an input segment.
   void set_segment(Tet t, Vertex a, Vertex b);
-  /// Takes that back.
+  /// Removes the mark of a segment.
   void release_facet(Face f);
   void release_segment(Tet t, Vertex a, Vertex b);
   /// Marks constraints of one tetrahedron; threads may mark different ones at the same time. They are set
@@ -117,19 +117,19 @@ class MeshEditor {
   }
 
   // --- taking back
-  /// Every change from now on is noted in a log, or in none: one at a time.
+  /// Sets the log that notes all changes from now on, or none. There is one log at a time.
   void note_in(UndoLog* log) {
     assert(log == nullptr || mesh_.attached_.log == nullptr);
     mesh_.attached_.log = log;
   }
-  /// Takes back what the log has noted since a mark.
+  /// Undoes all changes that the log has noted since a mark.
   void undo(UndoLog& log, const UndoLog::Mark& mark);
 
   // --- parts that are changed at the same time (in_place_parts.h)
-  /// From now on free slots come from these pools, into which those that there are go, and `spare` a pool
-  /// more if need be. No log may note changes.
+  /// From now on free slots come from these pools. The present free slots go into the pools, and each pool
+  /// gets `spare` more slots if needed. No log may note changes.
   void share_slots(SlotPools& pools, std::size_t count, std::size_t spare);
-  /// The mesh has them again, and no more at the end.
+  /// Returns the free slots to the mesh, and drops those at the end of the array.
   void unshare_slots();
 
   // --- where the validator stands in builds with HOLDFAST_VALIDATE: it throws std::logic_error

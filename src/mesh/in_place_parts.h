@@ -1,17 +1,17 @@
 // Parts of a mesh that threads change at the same time, in place.
 //
-// Every vertex is of one part. Tetrahedra with vertices of several parts are mixed: they stand, and the faces
-// and edges of theirs that have all vertices in one part are held as if they were facets and segments. So
+// Every vertex belongs to one part. Tetrahedra with vertices of several parts are mixed: they stay, and their
+// faces and edges with all vertices in one part are treated as facets and segments. So
 //   1. tetrahedra of different parts have no vertex in common, nor are they neighbours;
 //   2. what changes a part and heeds constraints writes nothing but its tetrahedra and vertices, and of a
 //   mixed one
 //      what is across a face whose vertices are the part's;
 //   3. it reads nothing that another part writes, also where it goes round a vertex.
-// Marks of searches (mark_visited) are the exception: nobody may mark mixed tetrahedra, so that balls of
-// their vertices (is_at_mixed) must not be gathered with marks.
+// Marks of searches (mark_visited) are the exception: mixed tetrahedra must not be marked, so balls of their
+// vertices (is_at_mixed) must be gathered without marks.
 //
-// Nothing is copied, as it is for refine/parts.h, but what is at the cuts cannot be changed at all. The parts
-// are the same on any number of threads, and so is what becomes of them.
+// Unlike with refine/parts.h, nothing is copied, but tetrahedra at the cuts cannot change. The parts, and so
+// the results, do not depend on the number of threads.
 #pragma once
 
 #include <cstdint>

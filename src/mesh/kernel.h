@@ -1,8 +1,8 @@
 // The kernel of a star-shaped cavity: the open set of points that see all of its faces (docs/concepts.md,
 // Elimination).
 //
-// Asked by enforce (where may an apex go), suppress (which neighbour can take a point's place, where is
-// its best place) and optimise alike. Floating point proposes, the exact predicate decides.
+// Used by enforce (where an apex may go), suppress (which neighbour can take a point's place, and the best
+// place of a point) and optimise. Floating point proposes, the exact predicate decides.
 #pragma once
 
 #include <optional>
@@ -56,7 +56,7 @@ class Kernel {
   std::vector<std::array<Vertex, 3>> faces_;
 };
 
-/// That of the ball of v, whose tetrahedra `tets` are: where v may be.
+/// The kernel of the ball of v, whose tetrahedra are `tets`: the places where v may be.
 [[nodiscard]] Kernel kernel_of_ball(const TetMesh& mesh, Vertex v, std::span<const Tet> tets);
 
 }  // namespace holdfast

@@ -1,4 +1,4 @@
-// What a call says that a limit or its caller ended.
+// The message of a call that a limit or its caller ended.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Progress, limits and cancellation: what a long stage polls.
+// Progress, limits and cancellation, polled by long stages.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace holdfast {
 
-/// What the monitors of tasks that run at the same time share.
+/// State shared by the monitors of concurrent tasks.
 struct MonitoredTasks {
   const std::thread::id caller = std::this_thread::get_id();
   std::size_t count = 1;
@@ -24,29 +24,30 @@ struct MonitoredTasks {
   std::atomic<Outcome> why = Outcome::done;  ///< set before `stop`
 };
 
-/// One a call of the API. `poll` is cheap enough for inner loops: where they turn fast, it looks at the clock
-/// now and then.
+/// One for each call of the API. `poll` is cheap enough for inner loops: in fast loops it reads the clock
+/// only from time to time.
 class Monitor {
  public:
-  /// Throws std::invalid_argument for a memory limit where the system does not tell what is in use.
+  /// Throws std::invalid_argument for a memory limit if the system does not report memory in use.
   explicit Monitor(const Options& options) : Monitor(options, options.progress) {}
   /// Both must outlive the monitor. `progress` may be empty.
   Monitor(const Limits& limits, const std::function<bool(const Progress&)>& progress);
-  /// For one of several tasks: it sees to the limits on any thread, but calls back on the caller's alone.
+  /// The monitor of one of several tasks: it checks limits on any thread, but calls back only on the caller's
+  /// thread.
   Monitor(Monitor& whole, MonitoredTasks& tasks);
   /// Throws Interrupted when the time or memory limit is reached, the token is cancelled or the callback
   /// returns false.
   void poll(Stage stage, double fraction) {
     if (++calls_ >= calls_a_look_) look(stage, fraction, false);
   }
-  /// As poll, but looks at once and always tells the caller: a stage begins.
+  /// As poll, but checks at once and always reports: a stage begins.
   void enter(Stage stage) { look(stage, 0, true); }
-  /// As poll, where a loop does not know what is going on, and turns in milliseconds: looks at once, whatever
-  /// the pace of the loop before it was.
+  /// As poll, for loops that take milliseconds a turn and do not know the stage: checks at once, whatever the
+  /// pace of the loop before.
   void poll_again() { look(stage_, fraction_, false); }
-  /// From now on fractions are of this part of the whole call.
+  /// From now on fractions refer to this part of the whole call.
   void begin_part(std::array<double, 2> part) { part_ = part; }
-  /// Whatever fraction was told last, all of it is done.
+  /// Marks the present part as done, whatever its last fraction was.
   void end_part() { overall_ = std::max(overall_, part_[1]); }
   /// Part of the whole call that is done.
   [[nodiscard]] double overall() const { return overall_; }
@@ -80,8 +81,8 @@ class Monitor {
   MonitoredTasks* tasks_ = nullptr;
 };
 
-/// mesh/parallel.h's `parallel` with a monitor for each task. Where one throws, the others end at their next
-/// poll, and what it threw is thrown on. To the caller they are the part of the stage's work between two
+/// mesh/parallel.h's `parallel` with a monitor for each task. If a task throws, the others end at their next
+/// poll, and its exception is rethrown. To the caller, the tasks are the part of the stage's work between two
 /// fractions.
 void parallel_monitored(const Threads& threads, std::size_t count, Monitor& monitor,
                         std::array<double, 2> part, const std::function<void(std::size_t, Monitor&)>& task);

@@ -8,21 +8,21 @@
 
 namespace holdfast {
 
-/// So many threads, the calling one among them. The others start when there is first work for them, and wait
-/// for more as long as there is a copy: a new thread for every piece of work would often begin milliseconds
-/// late, since the system puts it where the one before it was.
+/// A number of threads, including the calling one. The others start with the first work, and wait for more
+/// while a copy of this object exists. A new thread for each piece of work would often start milliseconds
+/// late, because the system puts it on the core of the one before.
 class Threads {
  public:
-  /// For 0, as many as the machine runs at once.
+  /// 0: as many as the machine runs at once.
   Threads(unsigned requested = 1);  // NOLINT(google-explicit-constructor): a number says all
   [[nodiscard]] unsigned count() const { return count_; }
   /// Some of these.
   [[nodiscard]] Threads at_most(unsigned count) const;
-  /// The same, but that the thread that calls `parallel` calls `between`, too: between tasks, and while it
-  /// waits for those of others. What it throws ends the work as soon as may be and is thrown on.
+  /// The same threads, but the thread that calls `parallel` also calls `between`: between tasks, and while it
+  /// waits for other threads. An exception from `between` ends the work as soon as possible and is rethrown.
   [[nodiscard]] Threads polling(std::function<void()> between) const;
-  /// Calls that function, if there is one, on the thread that gave it; for long loops and tasks, and between
-  /// calls of `parallel`.
+  /// Calls `between`, if set, on the thread that set it; for long loops and tasks, and between calls of
+  /// `parallel`.
   void poll() const {
     if (between_ && std::this_thread::get_id() == polls_on_) (*between_)();
   }
@@ -41,9 +41,9 @@ class Threads {
 };
 
 /// Calls task(0) to task(count - 1), each once, on up to `threads` threads, and returns when all are done.
-/// The calling thread takes part and runs task 0, so that a monitor may be polled there. A task may call this
-/// again. Threads that the system refuses are done without. If tasks throw, the exception of the first of
-/// them is thrown on.
+/// The calling thread takes part and runs task 0, so that a monitor may be polled there. A task may call
+/// `parallel` again. If the system refuses threads, the work is done with fewer. If tasks throw, the
+/// exception of the first of them is rethrown.
 void parallel(const Threads& threads, std::size_t count, const std::function<void(std::size_t)>& task);
 
 /// Cuts 0..size-1 into even ranges of some length and calls body(first, last) for each: at most as many as

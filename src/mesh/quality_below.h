@@ -1,4 +1,4 @@
-// The paper's Q where it is below a limit.
+// The paper's Q if it is below a limit.
 #pragma once
 
 #include <optional>
@@ -7,12 +7,12 @@
 
 namespace holdfast {
 
-/// quality(a, b, c, d) where that is below `limit`, which is above 1; what surely is not takes less time, for
-/// the exact quality of flat tetrahedra takes long.
+/// quality(a, b, c, d) if it is below `limit`, which is above 1. Tetrahedra surely above the limit are
+/// rejected quickly, because the exact quality of flat tetrahedra takes long.
 [[nodiscard]] std::optional<double> quality_below(const Point& a, const Point& b, const Point& c,
                                                   const Point& d, double limit);
 
-/// The same for whom Q itself does not matter, which takes no exact quality unless it is near the limit.
+/// Only whether Q is below the limit. Computes the exact quality only near the limit.
 [[nodiscard]] bool is_quality_below(const Point& a, const Point& b, const Point& c, const Point& d,
                                     double limit);
 

@@ -21,7 +21,8 @@ class ShellPlan {
   }
 
  private:
-  // What stays of a shell, at each end of the edge: an outer face and the edge from the end to a corner.
+  // The parts of a shell that stay, at each end of the edge: an outer face, and the edge from the end to a
+  // corner.
   struct AtEnd {
     Face across;
     bool is_facet, is_spoke_segment;

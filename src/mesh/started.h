@@ -1,4 +1,4 @@
-// The time of calls that make others, which all share it.
+// A common start time for a call and the calls that it makes.
 #pragma once
 
 #include <chrono>
@@ -7,7 +7,7 @@
 
 namespace holdfast {
 
-/// The same limits, whose time runs from now on unless it does so already.
+/// The same limits, with their time running from now on unless it is running already.
 [[nodiscard]] inline Limits started(Limits limits) {
   if (!limits.started) limits.started = std::chrono::steady_clock::now();
   return limits;

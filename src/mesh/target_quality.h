@@ -1,4 +1,4 @@
-// The best Q (quality.h) that a mesh can have on given triangles: what facets force, whatever the mesh.
+// The best Q (quality.h) that any mesh can have on given triangles.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@ namespace holdfast {
 /// a triangle without area. (The paper's Target is the largest of them: the worst triangle's.)
 [[nodiscard]] double best_quality_on(const Point& a, const Point& b, const Point& c);
 
-/// The Target of the paper: the best Q of the triangle where that is worst. Zero for none.
+/// The Target of the paper: the largest, over all triangles, of the best Q. Zero without triangles.
 [[nodiscard]] double target_quality(std::span<const Point> vertices, std::span<const Triangle> facets,
                                     const Threads& threads = 1);
 

@@ -11,8 +11,7 @@
 //   3. a facet bit is set on both sides of a face, a segment bit in the whole shell of an edge;
 //   4. incident(v) is a living tetrahedron that holds v, or kNone for a vertex that is not in the mesh.
 //
-// Only MeshEditor (editor.h) changes a mesh: to everybody else it is read-only, but for the notes of
-// searches.
+// Only MeshEditor (editor.h) changes a mesh. All others may only read it and set the marks of searches.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +31,7 @@ class MeshEditor;
 class SlotPools;
 class UndoLog;
 
-/// Where a vertex goes: in doubles, or at an exact position that no double holds.
+/// The place of a vertex: in doubles, or an exact position that doubles cannot represent.
 using Position = std::variant<Point, exact::ExactPoint>;
 
 class TetMesh {
@@ -47,7 +46,7 @@ class TetMesh {
   };
 
   // --- vertices
-  /// Vertices get no doubles but those of this grid.
+  /// Vertices only get doubles of this grid.
   [[nodiscard]] const exact::DoubleGrid& grid() const { return grid_; }
   /// The point of the grid nearest to p.
   [[nodiscard]] Point on_grid(const Point& p) const {
@@ -76,7 +75,7 @@ class TetMesh {
   [[nodiscard]] Vertex corner(Tet t, int i) const { return corners(t)[static_cast<std::size_t>(i)]; }
   [[nodiscard]] Face neighbour(Tet t, int i) const { return neighbours(t)[static_cast<std::size_t>(i)]; }
   [[nodiscard]] Face neighbour(Face f) const { return neighbour(tet_of(f), side_of(f)); }
-  /// Tells the machine that t, or its neighbours, will soon be looked at.
+  /// Prefetches t, or its neighbours.
   void prefetch(Tet t) const { __builtin_prefetch(&cells_[t]); }
   void prefetch_vertex(Vertex v) const { __builtin_prefetch(&positions_[v]); }
   void prefetch_neighbours(Tet t) const {
@@ -86,7 +85,7 @@ class TetMesh {
     }
   }
   [[nodiscard]] Flags flags(Tet t) const { return flags_[t]; }
-  /// Notes of a search, which takes them away again: a mesh between two operations has none.
+  /// Marks of a search. The search clears them again: between two operations a mesh has no marks.
   void mark_visited(Tet t) { flags_[t] = static_cast<Flags>(flags_[t] | kVisited); }
   void clear_visited(Tet t) { flags_[t] = static_cast<Flags>(flags_[t] & ~kVisited); }
   [[nodiscard]] bool is_facet(Face f) const { return (flags_[tet_of(f)] & facet_bit(side_of(f))) != 0; }
@@ -121,7 +120,7 @@ class TetMesh {
     return exact::orient3d(point(a), point(b), point(c), d);
   }
 
-  /// Vertices whose position no double holds.
+  /// Number of vertices whose position doubles cannot represent.
   [[nodiscard]] std::size_t exact_vertex_count() const { return exact_in_use_; }
   [[nodiscard]] std::size_t memory_bytes() const;
 
@@ -142,8 +141,8 @@ class TetMesh {
   void renumber(std::span<const Tet> tets, Vertex first, std::span<const Vertex> vertices);
   void set_tets(std::vector<Cell> cells);
 
-  // A free slot, or one more, for put_tet to fill, from the pool of another where there are pools; and
-  // `count` more, one after another.
+  // A free or new slot for put_tet to fill, from the pool of another slot if there are pools; and `count` new
+  // contiguous slots.
   Tet take_slot(Tet near = kNone);
   Tet add_slots(std::size_t count);
   void drop_last_slots(std::size_t count);

@@ -1,4 +1,4 @@
-// Balls, shells and look-ups: the neighbourhoods that every stage asks for.
+// Balls, shells and look-ups, used by every stage.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace holdfast {
 /// Tetrahedra at v (ghosts included), appended to `out`. The mesh's visited bits serve as scratch.
 void ball(TetMesh& mesh, Vertex v, std::vector<Tet>& out);
 
-/// The vertices of v's link in ascending order, but for the ghost.
+/// The vertices of v's link in ascending order, without the ghost.
 [[nodiscard]] std::vector<Vertex> link_vertices(TetMesh& mesh, Vertex v);
 
 /// The shell of edge ab, starting with t, turning from the face (a b c) to (a b d) where
@@ -23,12 +23,12 @@ void shell(const TetMesh& mesh, Tet t, Vertex a, Vertex b, std::vector<Tet>& out
 
 /// The face abc (one of its two codes), or kNone.
 [[nodiscard]] Face find_face(TetMesh& mesh, Vertex a, Vertex b, Vertex c);
-/// The same, looked for in the shell of edge ab, which tetrahedron t holds.
+/// The same, searched in the shell of edge ab of tetrahedron t.
 [[nodiscard]] Face find_face_round(const TetMesh& mesh, Tet t, Vertex a, Vertex b, Vertex c);
 
 /// The tetrahedron that holds v, inside or on its boundary, or the ghost beyond which v lies, found by a walk
-/// from `start`; kNone where the walk takes too long. Any mesh will do: the random order of the faces makes
-/// the walk arrive nearly always (Devillers, Pion, Teillaud 2002). `random` is its state.
+/// from `start`; kNone if the walk takes too long. The mesh need not be Delaunay: the random order of the
+/// faces makes the walk arrive nearly always (Devillers, Pion, Teillaud 2002). `random` is its state.
 [[nodiscard]] Tet walk_to(const TetMesh& mesh, Vertex v, Tet start, std::uint32_t& random);
 
 }  // namespace holdfast

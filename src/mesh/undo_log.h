@@ -1,8 +1,8 @@
-// An undo log of a mesh: what a search has changed since a mark is taken back slot by slot, in time
-// proportional to the changes and not to the mesh.
+// An undo log of a mesh. It undoes the changes of a search since a mark slot by slot, in time proportional to
+// the changes, not to the mesh.
 //
-// After `undo` the mesh is the one of the mark in every array, the order of its free slots included, so that
-// whatever follows gives the same bits as if the search had not been made.
+// After `undo` every array of the mesh, the order of free slots included, is as at the mark. So later steps
+// give the same bits as if the search had never run.
 #pragma once
 
 #include <cstddef>
@@ -20,9 +20,9 @@ class UndoLog {
   UndoLog(const UndoLog&) = delete;
   UndoLog& operator=(const UndoLog&) = delete;
 
-  /// A state of the mesh. As long as one is held, the mesh must not be renumbered or assigned to, no vertex
-  /// whose position no double holds may come, move or go, and no other log may hold a mark of this mesh.
-  /// Marks nest: undo and release those set last first.
+  /// A state of the mesh. While a mark is held, the mesh must not be renumbered or assigned to, no vertex
+  /// that doubles cannot represent may be added, moved or removed, and no other log may hold a mark of this
+  /// mesh. Marks nest: undo and release the latest first.
   struct Mark {
     std::size_t slots = 0, vertices = 0, free_moves = 0;  // entries of the log
     std::size_t slot_count = 0, vertex_count = 0;         // of the mesh
@@ -30,22 +30,22 @@ class UndoLog {
   [[nodiscard]] Mark mark();
   /// The mark stays.
   void undo(const Mark& mark);
-  /// The last mark is no longer needed; what has changed since it changed after the one before.
+  /// Drops the last mark. Changes since then count as changes since the mark before it.
   void release();
 
-  /// The tetrahedra and vertices as they were at a mark, where they may have changed since; valid until the
-  /// mesh changes again.
+  /// The former state of tetrahedra and vertices that may have changed since a mark; valid until the mesh
+  /// changes again.
   class Before {
    public:
-    /// Slots that may have changed, in ascending order, those that are new included.
+    /// Slots that may have changed, in ascending order, including new ones.
     [[nodiscard]] const std::vector<Tet>& touched() const { return touched_; }
-    /// The slots that now hold another tetrahedron than at the mark, or another state of life.
+    /// The slots that hold a different tetrahedron than at the mark, or were freed or filled since.
     [[nodiscard]] std::vector<Tet> changed() const;
     [[nodiscard]] bool existed(Tet t) const { return t < slot_count_; }
     [[nodiscard]] bool alive(Tet t) const;
     [[nodiscard]] const TetMesh::Corners& corners(Tet t) const;
     [[nodiscard]] const Point& position(Vertex v) const;
-    /// Vertices that have another position now.
+    /// Vertices with a different position now.
     [[nodiscard]] std::vector<Vertex> moved() const;
 
    private:
@@ -80,7 +80,7 @@ class UndoLog {
     bool taken;  // from the list of free slots, or else put there
   };
 
-  // TetMesh calls these before it changes something.
+  // TetMesh calls these before each change.
   void note_slot(Tet t);
   void note_vertex(Vertex v);
   void note_free(Tet t, bool taken) { free_moves_.push_back({t, taken}); }
