@@ -1,6 +1,6 @@
-// The boundary of a cavity as the new vertex sees it: its faces, each with the cell that comes to stand on
-// it, and its vertices in an order of their own, so that edges fit into a small table (the reconnection of
-// HXT: Marot, Pellerin, Remacle 2019).
+// The boundary of a cavity as the new vertex sees it: its faces, each with the new cell on it, and its
+// vertices with local numbers, so that edges fit into a small table (the reconnection of HXT: Marot,
+// Pellerin, Remacle 2019).
 #pragma once
 
 #include <array>
@@ -25,10 +25,10 @@ class CavityBoundary {
   /// `ghost_scratch` is the site in which the ghost's place is kept.
   explicit CavityBoundary(Vertex ghost_scratch);
 
-  /// Takes the boundary of a cavity whose cells are about to go: gives a slot to each face, those of the
-  /// cavity first, and lists the faces, each linked to its outer neighbour. The code of the face of a new
-  /// cell at boundary edge (i, j) goes into `table` at i * side + j, if there are at most `side` vertices;
-  /// true if so.
+  /// Takes the boundary of a cavity whose cells are about to be removed. Gives a slot to each face, the
+  /// cavity's own slots first, and lists the faces, each linked to its outer neighbour. The code of the face
+  /// of a new cell at boundary edge (i, j) goes into `table` at i * side + j, if there are at most `side`
+  /// vertices; true if so.
   bool take(Triangulation& triangulation, std::span<const Face> cavity, std::span<const Face> rim,
             Slots& slots, std::span<Face> table, std::uint32_t side);
   /// Makes the vertices relative to the new one.

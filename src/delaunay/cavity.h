@@ -9,8 +9,8 @@
 
 namespace holdfast {
 
-/// What may stand when a vertex is inserted, and who else works: no vertex above it, any, or any while other
-/// inserters work in their slabs.
+/// Which vertices may be in the triangulation when a vertex is inserted: only lower ones, any, or any while
+/// other inserters work in their slabs.
 enum class Insertion { in_order, late, in_slab };
 
 /// Its cells are marked: the sign bit of `reach` is set.
@@ -21,10 +21,10 @@ class ConflictCavity {
   /// Collects the cells in conflict with q, vertex k, from one of them on; false if one of them is not owned.
   template <Insertion kMode>
   bool dig(Triangulation& triangulation, const Ownership& own, Tet seed, const double* q, Vertex k);
-  /// Takes the marks back.
+  /// Removes the marks.
   void restore(Triangulation& triangulation) const;
 
-  /// By the face through which each was reached.
+  /// The cells, by the face through which each was reached.
   [[nodiscard]] std::span<const Face> cells() const { return {cells_.data(), cell_count_}; }
   /// The faces round the cells, by their code inside.
   [[nodiscard]] std::span<const Face> rim() const { return {rim_.data(), face_count_}; }

@@ -1,4 +1,4 @@
-// What the Delaunay kernel keeps of a tetrahedron: one cache line with its corners, its neighbours and
+// A tetrahedron in the Delaunay kernel: one cache line with its corners, its neighbours and
 // its circumscribed sphere, so that most in-sphere tests read one line and one corner.
 //
 // The sphere. Corner 0 is the base p. With u, v, w the other corners relative to p, the sphere is
@@ -96,8 +96,8 @@ inline void set_half_space(Cell& cell, const Spoke& u, const Spoke& v, double di
   cell.reach = ok ? 4 * diameter * diameter : kUndecided;
 }
 
-/// What the filter says of a point: `f` is negative if it is strictly inside the cell's sphere or
-/// half-space, positive if strictly outside, unless the filter cannot tell.
+/// The filter's answer for a point: `f` is negative if the point is strictly inside the cell's sphere or
+/// half-space, positive if strictly outside, unless the filter cannot decide.
 struct Filtered {
   double f;
   bool decided;

@@ -48,8 +48,8 @@ class Inserter {
   /// Inserts vertex k of the own slab while others work in theirs, or returns false.
   bool insert_in_slab(Vertex k);
 
-  /// Looks for a cell next to the slab from which to walk in it, near vertex k of the slab; no other inserter
-  /// runs. False if there is none, and then nothing can be inserted.
+  /// Looks for a cell near vertex k of the slab from which to start walks in the slab; no other inserter
+  /// runs. False if there is none; then nothing can be inserted.
   bool enter(const Slab& slab, Vertex k, Tet from);
   /// Of the cavity of the last point.
   [[nodiscard]] std::size_t faces() const { return cavity_.rim().size(); }

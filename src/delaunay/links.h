@@ -1,4 +1,4 @@
-// How the cells that a new vertex makes with a boundary find each other: two of them share each edge of it.
+// Links the new cells on a boundary to each other: two of them share each edge of the boundary.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace holdfast {
 
 class EdgeLinks {
  public:
-  /// Boundaries with at most so many vertices go by a table.
+  /// Boundaries with at most so many vertices use a table.
   static constexpr std::uint32_t kTableSide = 64;
 
   EdgeLinks() : table_(kTableSide * kTableSide) {}

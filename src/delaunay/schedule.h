@@ -9,11 +9,11 @@
 
 namespace holdfast {
 
-/// Called from the calling thread now and then with the fraction that is done; may throw.
+/// Called from time to time from the calling thread with the fraction that is done; may throw.
 using InsertionProgress = std::function<void(double fraction)>;
 
-/// Inserts all points but the first four, which start() has inserted. What comes out depends on the numbering
-/// of the vertices alone, but for the order of the cells.
+/// Inserts all points but the first four, which start() has inserted. Up to the order of the cells, the
+/// result depends only on the numbering of the vertices.
 void insert_all(Triangulation& triangulation, std::uint64_t seed, const Threads& threads,
                 const InsertionProgress& progress);
 

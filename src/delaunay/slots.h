@@ -7,7 +7,7 @@
 
 namespace holdfast {
 
-/// Every slot here is no cell's and no other inserter's. A freed one has the sign bit of `reach` set.
+/// A slot here belongs to no cell and to no other inserter. A freed slot has the sign bit of `reach` set.
 class Slots {
  public:
   explicit Slots(Triangulation& triangulation) : triangulation_(triangulation) {}
@@ -28,7 +28,7 @@ class Slots {
     return true;
   }
 
-  /// One of those that were provided: the last freed first.
+  /// Takes a provided slot, the last freed first.
   [[nodiscard]] Tet take() {
     if (freed_.empty()) return next_++;
     const Tet slot = freed_.back();
@@ -36,7 +36,7 @@ class Slots {
     return slot;
   }
 
-  /// Of a cell that is gone; its `reach` has the sign bit set.
+  /// Returns the slot of a removed cell; its `reach` has the sign bit set.
   void put(Tet slot) { freed_.push_back(slot); }
 
   /// Marks the rest of the block as free.

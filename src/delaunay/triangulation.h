@@ -1,5 +1,5 @@
-// The Delaunay triangulation while it is made: points, cells, and who is in conflict with whom. One or
-// several inserters (insert.h) change it.
+// The Delaunay triangulation during construction: points, cells, and the test for conflicts. One or several
+// inserters (insert.h) change it.
 //
 // Vertices are numbered in the order of insertion, so that the youngest corner of a cell, its base, is near
 // in memory to the points that come next; number n is the ghost. Corner 0 of every cell is its highest
@@ -64,23 +64,23 @@ class Triangulation {
   [[nodiscard]] bool is_ghost(const Cell& cell) const { return cell.v[3] == ghost_; }
   /// The point of each vertex: among equal points the first one; and the ends of the rounds.
   [[nodiscard]] const InsertionOrder& order() const { return order_; }
-  /// Keeps the first of two equal points, of which `standing` is in the triangulation.
+  /// Keeps the first of two equal points; `standing` is the one in the triangulation.
   void note_duplicate(Vertex standing, Vertex other);
 
-  /// Slots that are free have the sign bit of `reach` set.
+  /// Free slots have the sign bit of `reach` set.
   [[nodiscard]] LargeArray<Cell>& cells() { return cells_; }
   [[nodiscard]] const LargeArray<Cell>& cells() const { return cells_; }
   /// Slots at the end of the array for `needed` cells or more; cells may move. No other inserter runs.
   SlotBlock grow_slots(std::size_t needed);
-  /// The same while others run: none where the room is not enough that expect_points() made.
+  /// The same while others run: none if expect_points() has not made enough room.
   SlotBlock claim_slots(std::size_t needed);
   /// Makes room for about as many more points, and afterwards for claim_slots().
   void expect_points(std::size_t count, unsigned inserters);
-  /// Counts the slots that were claimed; before anything else, when all inserters have ended.
+  /// Counts the claimed slots. Call this first when all inserters have ended.
   void settle_slots() { cells_.resize(claimed_); }
   /// After the points the ghost, once for each inserter.
   [[nodiscard]] Site* sites() { return sites_.data(); }
-  /// Ends the insertions: frees what only they need.
+  /// Ends the insertions: frees memory that only insertions need.
   void drop_sites() { sites_.clear(); }
   [[nodiscard]] double diameter() const { return diameter_; }
 
