@@ -96,7 +96,7 @@ class MeshEditor {
   void set_facet(Face f);
   /// Marks edge ab of tetrahedron t in its whole shell as part of an input segment.
   void set_segment(Tet t, Vertex a, Vertex b);
-  /// Removes the mark of a segment.
+  /// Remove the marks of a facet, or of a segment.
   void release_facet(Face f);
   void release_segment(Tet t, Vertex a, Vertex b);
   /// Marks constraints of one tetrahedron; threads may mark different ones at the same time. They are set
