@@ -1,9 +1,9 @@
-// Flips that clear a target's way: faces and edges that it crosses go, deeper flips first where needed
-// (George, Hecht, Saltel 1991; Si 2015, flipnm).
+// Flips that clear a target's way: they remove faces and edges that the target crosses, after deeper flips if
+// needed (George, Hecht, Saltel 1991; Si 2015, flipnm).
 //
-// No flip makes the target cross more of the mesh than before, so that none is ever taken back: what a
-// failed attempt leaves is another mesh with as few crossings, from which the next attempt starts. This
-// walk among the meshes finds more than a search that returns to where it began, in an eighth of the time.
+// No flip makes the target cross more of the mesh than before, so no flip is ever undone. A failed attempt
+// leaves a different mesh with as few crossings, from which the next attempt starts. This walk among meshes
+// recovers more than a search that returns to its start, in an eighth of the time.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct FlipCounts {
   [[nodiscard]] std::size_t all() const { return face_flips + edge_removals; }
 };
 
-/// The work of attempts, in sign tests, roughly, and the limit of the one that goes on.
+/// The work of attempts, in sign tests, roughly, and the limit of the present attempt.
 class FlipWork {
  public:
   void begin(std::size_t budget) {
@@ -64,25 +64,24 @@ class Flipper {
   Flipper(TetMesh& mesh, Random& random)
       : mesh_(mesh), piercing_(mesh, random), random_(random), signs_(mesh) {}
 
-  /// So many levels that the budget ends an attempt and not their number. In strips of prisms one flip makes
-  /// way for the next over dozens of them.
+  /// So many levels that the budget ends an attempt, not the depth. In strips of prisms one flip makes way
+  /// for the next over dozens of levels.
   static constexpr int kDeep = 64;
 
-  /// Flips from now on work for this target.
+  /// Sets the target of the flips from now on.
   void aim(const Target& target) { target_ = target; }
 
-  /// Removes a face or edge that the target crosses, by flips of at most `depth` levels and
-  /// with a limit on the work (in sign tests, roughly). Returns true if the target's cost fell. It never
-  /// rises.
+  /// Removes a face or edge that the target crosses, by flips of at most `depth` levels and with limited work
+  /// (in sign tests, roughly). Returns true if the target's cost fell. It never rises.
   bool clear(const Crossing& crossing, int depth, std::size_t budget);
 
   /// Removes edge ab of tetrahedron t for its own sake, by flips of at most `depth` levels, which add no edge
   /// at a or b and none to a target that was aimed at. Returns whether it is gone.
   bool remove(Tet t, Vertex a, Vertex b, int depth, std::size_t budget);
 
-  /// Of the last call, in sign tests, roughly.
+  /// Work of the last call, in sign tests, roughly.
   [[nodiscard]] std::size_t work() const { return work_.of_attempt(); }
-  /// Of all calls.
+  /// Work of all calls.
   [[nodiscard]] std::size_t all_work() const { return work_.all(); }
 
   /// Whether the tetrahedron of a crossing is still alive and holds it.
@@ -104,7 +103,7 @@ class Flipper {
     std::uint8_t bits_ = 0;
   };
   using BlockedSpokes = std::array<BlockedSpoke, 2 * kMostLink>;
-  // An edge that is to go while `depth` more levels may clear its way; kept to allocate nothing.
+  // An edge to remove; `depth` more levels may clear its way. Kept to avoid allocations.
   struct Level {
     EdgeShell shell;
     ShellEars ears;

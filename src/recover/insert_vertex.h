@@ -1,4 +1,4 @@
-// A vertex of any position, with doubles or without, into a mesh that has no constraints yet.
+// Inserts a vertex at any position, in doubles or exact, into a mesh that has no constraints yet.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,10 @@
 
 namespace holdfast {
 
-/// Puts a vertex that is in no tetrahedron into those that hold it, inside or on their boundary: they give
-/// way to its cone, which is positive. Not the Delaunay tetrahedra, but no predicate is needed beyond orient.
-/// Returns false, with the mesh as it was, where none is found that holds it inside the hull. `random` is the
-/// state of the walk that looks for it.
+/// Inserts a vertex that is in no tetrahedron. The tetrahedra that contain it, inside or on their boundary,
+/// are replaced by its cone, which is positive. The result is not Delaunay, but needs only the predicate
+/// orient. Returns false, with the mesh unchanged, if no tetrahedron inside the hull is found that contains
+/// the vertex. `random` is the state of the walk that looks for it.
 bool insert_vertex(TetMesh& mesh, Vertex v, std::uint32_t& random);
 
 }  // namespace holdfast

@@ -1,5 +1,6 @@
-// What is missing from a mesh only because the mesh has the other diagonal of a plane quadrilateral, as
-// Delaunay meshes of grids have it by chance: it needs no test of whether it fits together with what stands.
+// Finds facets that are missing only because the mesh has the other diagonal of a plane quadrilateral, as
+// happens by chance in Delaunay meshes of grids. Such facets need no test of whether they fit together with
+// standing constraints.
 #pragma once
 
 #include "mesh/tet_mesh.h"

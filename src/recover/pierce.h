@@ -1,8 +1,8 @@
-// What stands in the way of a missing constraint: the faces and edges that a segment pierces, the edges
-// that pierce a facet (paper §4).
+// The obstacles to a missing constraint: the faces and edges that a segment pierces, and the edges that
+// pierce a facet (paper §4).
 //
-// Both are for a mesh whose vertices are the constraints' own: of valid input no vertex lies inside a
-// segment or facet, so that a segment that is no edge pierces something in each tetrahedron it meets.
+// Both searches are for a mesh of the constraints' own vertices. In valid input no vertex lies inside a
+// segment or facet, so a missing segment pierces something in each tetrahedron that it meets.
 #pragma once
 
 #include <optional>
@@ -41,16 +41,16 @@ class Piercing {
   [[nodiscard]] Face find_face(Vertex a, Vertex b, Vertex c);
 
   /// The faces and edges that segment ab crosses, from a to b, at most `most`; none where ab is an edge.
-  /// Returns the last tetrahedron on the way, which then holds ab; nothing where a vertex or the hull lies in
-  /// the way.
+  /// Returns the last tetrahedron on the way; if ab is an edge, a tetrahedron of ab. Nothing if a vertex or
+  /// the hull is in the way.
   std::optional<Tet> by_segment(Vertex a, Vertex b, std::vector<Crossing>& out, std::size_t most);
 
   /// The edges that pierce a facet, each once, at most about `most`. Returns the facet's own face (one of its
-  /// two codes) where it stands, else kNone; nothing where a side is no edge.
+  /// two codes) if the facet stands, else kNone; nothing if a side is not an edge.
   std::optional<Face> of_facet(const std::array<Vertex, 3>& facet, std::vector<PiercingEdge>& out,
                                std::size_t most);
 
-  /// The tetrahedra that have such an edge, each once. Returns the same.
+  /// The tetrahedra of such edges, each once. The same return value.
   std::optional<Face> tets_across(const std::array<Vertex, 3>& facet, std::vector<Tet>& out);
 
  private:
@@ -64,8 +64,8 @@ class Piercing {
   [[nodiscard]] Exit leave_by_face(Tet t, Vertex a, const std::array<int, 3>& signs) const;
   [[nodiscard]] Exit pass_face(const Exit& in, Vertex a, Vertex b) const;
   [[nodiscard]] Exit pass_edge(const Exit& in, Vertex a, Vertex b) const;
-  // Where a facet begins at its first side: with its own face, or else with a tetrahedron through whose
-  // inside it passes, if there is one.
+  // The start of a facet at its first side: its own face, or else a tetrahedron whose inside the facet
+  // crosses, if there is one.
   struct Start {
     Face face = kNone;
     Tet across = kNone;

@@ -18,31 +18,31 @@ namespace holdfast {
 
 struct FlipStats {
   std::size_t missing_segments = 0, missing_facets = 0;      ///< before
-  std::size_t recovered_segments = 0, recovered_facets = 0;  ///< standing now that did not before
+  std::size_t recovered_segments = 0, recovered_facets = 0;  ///< missing before and standing now
   std::size_t face_flips = 0, edge_removals = 0;             ///< that were carried out
 };
 
-/// Recovers missing constraints, which get their bits in the mesh and their flag in `standing`. No flip ever
-/// removes what stands. The mesh is that of the complex and whatever other vertices, all of it strictly
-/// inside the hull.
+/// Recovers missing constraints, and sets their bits in the mesh and their flags in `standing`. No flip ever
+/// removes a standing constraint. The mesh has the vertices of the complex, strictly inside the hull, and
+/// possibly others.
 class FlipRecovery {
  public:
   FlipRecovery(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets, Standing& standing,
                std::uint64_t seed);
 
-  /// What a long run calls now and then, with the part that is done; it may throw.
+  /// Called from time to time in long runs, with the part that is done; it may throw.
   using Tell = std::function<void(double)>;
 
-  /// Passes over all that is missing until the flips find no more. Where `tell` throws, the mesh and
-  /// `standing` are as far as the work had come.
+  /// Runs passes over all missing constraints until flips recover no more. If `tell` throws, the mesh and
+  /// `standing` keep all that was done so far.
   FlipStats run(const Tell& tell, int most_passes = tuning::kMostFlipPasses);
 
   struct Effort {
     int depth;           ///< levels of flips
     std::size_t budget;  ///< of work at one crossing, in sign tests roughly
-    bool thorough;       ///< all crossings of a segment, not those near its ends alone
+    bool thorough;       ///< all crossings of a segment, not only those near its ends
   };
-  /// One attempt at a missing segment; whether it stands now.
+  /// Makes one attempt at a missing segment. Returns whether the segment now stands.
   bool segment(Index s, const Effort& effort);
   /// The same for a missing facet.
   bool facet(Index f, const Effort& effort);

@@ -1,4 +1,4 @@
-// What a segment that is to be recovered crosses among the vertices of a shell.
+// Costs of faces and edges among the vertices of a shell, for a segment to recover.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace holdfast {
 
-/// Costs as the target has them, each sign of a pair of vertices computed once. Vertices are told by their
-/// places: corners of the link, then the ends of the edge.
+/// The same costs as those of the target, with the sign of each pair of vertices computed once. Vertices are
+/// given by position: corners of the link, then the ends of the edge.
 class ShellCosts {
  public:
   ShellCosts(const TetMesh& mesh, const EdgeShell& shell, const Target& target)

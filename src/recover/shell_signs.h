@@ -1,4 +1,4 @@
-// How the triangles among the corners of a link see the ends of its edge.
+// The orientation of triangles among the corners of a link towards the ends of its edge.
 #pragma once
 
 #include <algorithm>

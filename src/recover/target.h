@@ -1,4 +1,4 @@
-// The constraint that flips are to recover, and what a face or edge costs that stands in its way.
+// The constraint that flips should recover, and the cost of a face or edge in its way.
 #pragma once
 
 #include <array>
@@ -15,17 +15,18 @@ class Target {
   static constexpr int kFaceCost = 2;
   static constexpr int kEdgeCost = 3;
 
-  /// Nothing stands in the way of nothing.
+  /// An empty target, which nothing crosses.
   static Target none() { return {{kNone, kNone, kNone}, Kind::none}; }
   static Target segment(Vertex a, Vertex b) { return {{a, b, kNone}, Kind::segment}; }
   static Target facet(const std::array<Vertex, 3>& abc) { return {abc, Kind::facet}; }
 
   [[nodiscard]] bool is_segment() const { return kind_ == Kind::segment; }
-  /// False only where nothing among vertices in this box of their doubles costs anything: it is apart.
+  /// False only if no face or edge among vertices in this box (of their doubles) costs anything, because the
+  /// target is apart from the box.
   [[nodiscard]] bool may_meet(const TetMesh& mesh, const Point& low, const Point& high) const;
   /// Cost of the face uvw: its inside crossed by the segment. Facets: 0.
   [[nodiscard]] int face(const TetMesh& mesh, Vertex u, Vertex v, Vertex w) const;
-  /// Of a segment: on which side of it the edge uv passes; 0 where they meet if they are long enough.
+  /// For a segment: the side on which the edge uv passes it; 0 if the lines of the two meet.
   [[nodiscard]] int side(const TetMesh& mesh, Vertex u, Vertex v) const {
     const auto [a, b, none] = v_;
     return u == a || v == a || u == b || v == b ? 0 : mesh.orient(a, b, u, v);

@@ -19,7 +19,7 @@ class TriedEdges {
     count_ = 0;
   }
 
-  /// Notes a trial. Returns false where one with as many levels is noted.
+  /// Notes a trial. Returns false if a trial with as many levels is noted already.
   bool add(Vertex a, Vertex b, int depth) {
     if (2 * count_ >= slots_.size()) grow();
     const EdgeKey key = edge_key(a, b);
