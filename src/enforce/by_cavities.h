@@ -1,5 +1,5 @@
-// A missing facet by its two cavities (recover/facet_cavities.h), with Steiner points in its plane moved
-// away.
+// Recovers a missing facet by its two cavities (recover/facet_cavities.h), after moving Steiner points out of
+// its plane.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@
 
 namespace holdfast {
 
-/// Whether the facet is a mesh face now, with its bit set. `finish` makes everything stand in a cavity.
-/// Points that it adds go to `steiner`. `tell` is called now and then, and may throw.
+/// Returns whether the facet is now a mesh face, with its bit set. `finish` makes everything stand in a
+/// cavity. Points that it adds go to `steiner`. `tell` is called from time to time, and may throw.
 bool recover_by_cavities(TetMesh& mesh, FacetCavities& cavities, const Triangle& facet,
                          SteinerPoints& steiner, const std::function<void()>& tell,
                          const FacetCavities::Finish& finish);

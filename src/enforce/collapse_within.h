@@ -8,12 +8,13 @@
 namespace holdfast {
 
 /// Collapses P onto one of `candidates`, vertices of P's own constraint that are joined to P: its neighbours
-/// on the segment's chain, or corners of the facet's polygon round P. Possible where one sees the whole link
-/// of P strictly but for the faces that it is a corner of; the fattest result wins.
+/// on the segment's chain, or corners of the facet's polygon round P. This is possible for a candidate that
+/// strictly sees all faces of P's link except those of which it is a corner. The fattest result wins.
 ///
-/// The constraint faces at P become those of the fan from the candidate. They stay in their planes, and
-/// each keeps its turn there, since the tetrahedron on it stays positive and its apex does not move: so
-/// they still cover what they covered. `segment`: the chain neighbours of P, which become an edge.
+/// The constraint faces at P become the faces of the fan from the candidate. They stay in their planes and
+/// keep their orientation, because the tetrahedron on each face stays positive and its apex does not move. So
+/// they still cover the same part of the constraint. `segment`: the chain neighbours of P, which become an
+/// edge.
 /// Returns whether P is gone.
 bool collapse_within(TetMesh& mesh, Vertex p, std::span<const Vertex> candidates,
                      std::span<const std::array<Vertex, 2>> segment);

@@ -1,4 +1,4 @@
-// Enforcing what flips left missing: partition and elimination (paper §5, §6; docs/concepts.md).
+// Enforces constraints that flips left missing: partition and elimination (paper §5, §6; docs/concepts.md).
 #pragma once
 
 #include <cstdint>
@@ -28,10 +28,10 @@ struct EnforceStats {
   ConstraintPieces pieces;         ///< if they are not eliminated
 };
 
-/// Makes every facet one face and every segment one edge of the mesh, by partition and elimination,
-/// suppressing and recentring the points that it moves off the constraints as it goes.
+/// Makes every facet one face and every segment one edge of the mesh, by partition and elimination. Points
+/// moved off the constraints are suppressed or recentred along the way.
 ///
-/// `standing` says what stands before, and all of it stands afterwards. Vertices 0 .. first_free-1 are
+/// `standing` holds the constraints that stand before; all stand afterwards. Vertices 0 .. first_free-1 are
 /// the input's and the box's. In exact arithmetic this cannot fail on a valid complex.
 EnforceStats enforce(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets,
                      Standing& standing, Vertex first_free, const EnforceOptions& options, Monitor& monitor);

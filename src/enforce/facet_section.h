@@ -26,12 +26,12 @@ struct FacetSection {
   [[nodiscard]] bool stands() const { return piercing.empty(); }
 };
 
-/// Floods the facet's inside across tetrahedra that straddle its plane and across mesh faces that lie in
-/// it: sides alone would miss holes whose surroundings already stand.
+/// Floods the facet's inside across tetrahedra that straddle its plane and across mesh faces in the plane. A
+/// search from the sides alone would miss holes whose surroundings already stand.
 ///
-/// The sides being mesh edges, a section cell is inside the facet or disjoint from it, so that the flood
-/// needs no point-in-triangle test: it starts inside and never crosses a side. Without piercing edges the
-/// faces found cover the facet, since the flood reaches every cell of its connected inside.
+/// The sides are mesh edges, so a section cell is either inside the facet or disjoint from it. The flood
+/// therefore needs no point-in-triangle test: it starts inside and never crosses a side. Without piercing
+/// edges the faces found cover the facet, since the flood reaches every cell of its connected inside.
 [[nodiscard]] FacetSection facet_section(TetMesh& mesh, const FacetFrame& frame);
 
 }  // namespace holdfast

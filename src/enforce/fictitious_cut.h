@@ -1,4 +1,4 @@
-// Fictitious cuts: what stands in for the second facet at a segment with fewer than two (paper §6.3.2;
+// Fictitious cuts replace the missing facets at a segment with fewer than two (paper §6.3.2;
 // docs/concepts.md, Fictitious cuts).
 #pragma once
 
@@ -13,7 +13,8 @@ namespace holdfast {
 /// round P, none of them of a constraint.
 using CutPath = std::vector<Vertex>;
 
-/// As many fictitious cuts at P, inside a segment with chain neighbours `ends`, as two facets are missing.
+/// Makes fictitious cuts at P, inside a segment with chain neighbours `ends`: as many as facets are missing
+/// from two.
 ///
 /// Way 1: a vertex v for which (A',P,v) and (P,B',v) are mesh faces; the one that splits the angle most
 /// evenly. Way 2, always possible: in a half-plane through AB that avoids the facet and all link vertices,

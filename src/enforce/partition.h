@@ -1,4 +1,4 @@
-// The way that always leads to a missing constraint: its partition (paper §5), and the elimination of its
+// The method that always recovers a missing constraint: its partition (paper §5), and the elimination of its
 // points (paper §6).
 #pragma once
 
@@ -33,7 +33,7 @@ struct ConstraintPieces {
 /// points are eliminated. All segments must come before the first facet.
 class Partition {
  public:
-  /// All that is referred to must outlive the partition. `tell` is called now and then, and may throw.
+  /// All references must outlive the partition. `tell` is called from time to time, and may throw.
   Partition(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets, Vertex first_free,
             Random& random, const std::function<void()>& tell)
       : mesh_(mesh),
@@ -44,15 +44,15 @@ class Partition {
         tell_(tell),
         chains_(table.segments.size()) {}
 
-  /// Puts points where the mesh crosses a segment. Returns how many.
+  /// Puts points where the mesh crosses a segment. Returns their number.
   std::size_t cut_segment(Index s);
-  /// The same for a facet. What it consists of is remembered until its points are eliminated.
+  /// The same for a facet. Its pieces are remembered until its points are eliminated.
   std::size_t cut_facet(Index f);
-  /// Takes the points of a segment's partition off it. It is one edge then.
+  /// Takes the points of its partition off a segment, which is then one edge.
   void eliminate_from_segment(Index s, SteinerPoints& steiner);
-  /// The same for those inside the facet that was cut last. It is one face then.
+  /// The same for the points inside the facet that was cut last, which is then one face.
   void eliminate_from_facet(SteinerPoints& steiner);
-  /// All that has been cut and not eliminated.
+  /// All constraints that are cut and whose points are not eliminated.
   [[nodiscard]] ConstraintPieces take_pieces();
 
  private:

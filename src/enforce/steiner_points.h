@@ -1,7 +1,8 @@
 // The set of Steiner points that enforcement has put into the mesh.
 //
-// A later facet pierces each edge that they keep, so that points beget points (paper §2.4). Hence those that
-// need not stay go between one constraint and the next, and the others move to where they leave room.
+// A later facet may pierce edges of these points, so points lead to more points (paper §2.4). Hence, between
+// one constraint and the next, points that need not stay are suppressed, and the others move to where they
+// leave room.
 #pragma once
 
 #include <span>
@@ -18,7 +19,7 @@ namespace holdfast {
 /// All of them are strictly off every constraint that stands.
 class SteinerPoints {
  public:
-  /// Vertices below first_free are not to be touched. Both mesh and random numbers must outlive the set.
+  /// Vertices below first_free are never changed. Mesh and random numbers must outlive the set.
   SteinerPoints(TetMesh& mesh, Vertex first_free, Random& random)
       : mesh_(mesh), first_free_(first_free), flipper_(mesh, random) {}
 
@@ -28,13 +29,13 @@ class SteinerPoints {
   void settle_new();
   /// The same for these points.
   void settle(std::vector<Vertex> points);
-  /// The same, thoroughly, for all of them, whenever there are half as many more.
+  /// The same, thoroughly, for all points, whenever their number has grown by half.
   void settle_all_now_and_then();
 
   /// Points that still lie on a constraint are left alone.
   void hold(std::span<const Vertex> points) { held_.insert(points.begin(), points.end()); }
   void release(Vertex p) { held_.erase(p); }
-  /// Leaves those of some vertices that may go.
+  /// Keeps those of some vertices that may be removed.
   void keep_added(std::vector<Vertex>& vertices) const {
     std::erase_if(vertices, [&](Vertex v) { return v < first_free_ || held_.contains(v); });
   }
