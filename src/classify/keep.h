@@ -20,8 +20,8 @@ struct Kept {
   std::vector<int> id;        ///< by region: the id that users see; 0 unless seeded for the outside
   std::vector<bool> segment;  ///< by segment of the table: whether it borders on a kept region
   Keep rule = Keep::bounded;  ///< that was applied: never Keep::automatic
-  /// Two facets that leave no winding number, where Keep::automatic met them; and those that are turned
-  /// against others, if that is why.
+  /// Two facets that rule out winding numbers, if Keep::automatic met such; and the facets turned against
+  /// others, if these are the reason.
   std::optional<std::array<Index, 2>> conflict;
   std::vector<Index> turned;
   std::vector<Defect> defects;        ///< of kinds 14 to 16; empty when all is well
@@ -33,22 +33,23 @@ struct Kept {
   }
 };
 
-/// Which regions the user asks for. Holes and seeds are in the complex's units.
+/// The user's choice of regions. Holes and seeds are in the complex's units.
 struct Wanted {
   Keep keep = Keep::automatic;
   std::span<const Point> holes;
   std::span<const RegionSeed> seeds;
-  bool drop_outside = false;  ///< leave out what borders on no kept region, in place of a defect
-  /// Of a surface that was pasted together: what the parts hold is kept and has their ids, but for holes and
-  /// where `seeds` give others.
+  bool drop_outside = false;  ///< leave out elements that border on no kept region, instead of reporting a
+                              ///< defect
+  /// For a pasted surface: the regions of the parts are kept with the parts' ids, except holes and regions to
+  /// which `seeds` give other ids.
   const PartsOfComplex* parts = nullptr;
 };
 
-/// Applies the keep rule, holes and region seeds, then looks for what borders on no kept region.
+/// Applies the keep rule, holes and region seeds, then looks for elements that border on no kept region.
 ///
-/// A region with a seed has the seed's id. The others that are kept have the least positive ids that no
-/// seed takes, in the order of their numbers. Where parts overlap that must not, nothing is chosen. The mesh
-/// is the complex times 2^scale. `names` are those of the complex's vertices.
+/// A region with a seed has the seed's id. Other kept regions have the lowest positive ids that no seed
+/// takes, in the order of their numbers. If parts overlap that must not, no region is chosen. The mesh is the
+/// complex times 2^scale. `names` are those of the complex's vertices.
 ///
 /// Throws std::invalid_argument for a hole or region seed that lies on a facet or in no region that it
 /// could mean, and for seeds that give one region two ids.
@@ -56,7 +57,7 @@ struct Wanted {
                                   const SegmentTable& table, const Wanted& wanted, int scale = 0,
                                   const VertexNames& names = {});
 
-/// What is said of a hole or region seed, as `what` calls it, that cannot be meant where it is.
+/// The exception for a hole or region seed (`what`) at a place where it has no meaning.
 [[nodiscard]] std::invalid_argument on_the_surface(const std::string& what, const Point& p);
 [[nodiscard]] std::invalid_argument in_no_region(const std::string& what, const Point& p);
 [[nodiscard]] std::invalid_argument in_region_not_kept(const Point& seed);
@@ -65,7 +66,7 @@ struct Wanted {
 [[nodiscard]] std::invalid_argument with_two_ids(const RegionSeed& seed, int id, const Complex& complex,
                                                  std::optional<Index> border, const VertexNames& names);
 
-/// Says that every bounded region was kept, since there are no winding numbers.
+/// The warning that every bounded region was kept because there are no winding numbers.
 [[nodiscard]] Warning warn_of_turned(const Complex& complex, const std::vector<Index>& turned);
 
 }  // namespace holdfast

@@ -1,4 +1,4 @@
-// What the chosen regions leave out, told as defects (docs/concepts.md, Regions).
+// Reports elements outside the chosen regions as defects (docs/concepts.md, Regions).
 #pragma once
 
 #include <vector>

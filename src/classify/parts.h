@@ -1,9 +1,9 @@
 // Regions of parts that were pasted together: which parts hold each region, and whose it is
 // (docs/pasting.md).
 //
-// What a part holds is told as if it were alone: facets of the others are air, and regions that they alone
-// divide are one. Its own facets then have a winding number, or, where they are not turned consistently, its
-// bounded regions are what it holds.
+// The space of a part is found as if the part were alone: facets of other parts are ignored, and regions that
+// only they divide are one. The part's own facets then give winding numbers. If they are not oriented
+// consistently, the part holds its bounded regions.
 #pragma once
 
 #include <functional>
@@ -18,7 +18,7 @@
 
 namespace holdfast {
 
-/// That a facet bounds a part.
+/// A facet that bounds a part.
 struct PartWall {
   Index part;
   bool is_turned;  ///< the part's facet is turned against the complex's
@@ -30,8 +30,8 @@ struct PartsOfComplex {
   std::vector<PartWall> walls;
   std::span<const PastedPart> parts;
   Overlap overlap = Overlap::refuse;
-  double gap = 0;  ///< what parts have in common that is no thicker than this is no overlap
-  /// How many of the seeds in the options are the caller's; those after them are the parts', for their sizes.
+  double gap = 0;  ///< common space of parts that is at most this thick is no overlap
+  /// Number of the caller's seeds in the options; the seeds after them are the parts', for their sizes.
   std::size_t seeds = 0;
   std::vector<PartOverlap> overlaps;  ///< that were found
 
@@ -41,7 +41,7 @@ struct PartsOfComplex {
   }
 };
 
-/// By whom regions are held, if each part is alone.
+/// The parts that hold each region, with each part taken alone.
 struct Holders {
   struct Claim {
     Index part;
@@ -53,7 +53,7 @@ struct Holders {
   std::vector<Index> turned;
 };
 
-/// Finds the region of a seed or hole; throws std::invalid_argument for places that cannot be meant.
+/// Finds the region of a seed or hole; throws std::invalid_argument for places without meaning.
 using FindRegion = std::function<RegionId(const Point& where, const char* what)>;
 
 /// `keep` is the rule for each part: automatic, bounded or winding.
@@ -72,7 +72,8 @@ void settle_thin_regions(const Regions& regions, const PartsOfComplex& parts, co
 /// One sentence on the deepest of some overlaps.
 [[nodiscard]] std::string overlap_message(const PartsOfComplex& parts);
 
-/// The id of each region that some part holds, or nothing. What several hold goes where `parts.overlap` says.
+/// The id of each region that some part holds, or nothing. `parts.overlap` decides regions that several parts
+/// hold.
 [[nodiscard]] std::vector<std::optional<int>> ids_of_held(const Holders& holders,
                                                           const PartsOfComplex& parts);
 

@@ -24,8 +24,8 @@ struct Regions {
   std::vector<std::array<RegionId, 2>> of_facet;
 };
 
-/// What hangs together through faces without facet bits; bounded regions are numbered in the order of their
-/// least facet (in front before behind), so that the numbers depend on the complex alone.
+/// Regions are connected through faces without facet bits. Bounded regions are numbered in the order of their
+/// lowest facet (in front before behind), so the numbers depend only on the complex.
 ///
 /// Throws std::logic_error unless the faces with facet bits are exactly the facets.
 [[nodiscard]] Regions find_regions(const TetMesh& mesh, std::span<const Triangle> facets,
@@ -57,8 +57,8 @@ struct Located {
   bool on_facet = false;  ///< in the closed triangle of some facet
 };
 
-/// Exact. Looks at every tetrahedron, most of them by their box alone: a mesh with constraints is no
-/// Delaunay triangulation, in which a walk would be sure to arrive, and there are few such points.
+/// Exact. Tests every tetrahedron, most of them only by their box. A walk is not sure to end, because a mesh
+/// with constraints is not a Delaunay triangulation, and there are few such points.
 [[nodiscard]] Located locate(const TetMesh& mesh, const Regions& regions, exact::PointRef p);
 
 }  // namespace holdfast
