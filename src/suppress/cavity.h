@@ -11,11 +11,12 @@
 
 namespace holdfast {
 
-/// Whether a vertex, or an edge, is one of any of some faces.
+/// Whether a vertex, or an edge, belongs to one of some faces.
 [[nodiscard]] bool any_holds(std::span<const std::array<Vertex, 3>> faces, Vertex v);
 [[nodiscard]] bool any_holds(std::span<const std::array<Vertex, 3>> faces, Vertex u, Vertex v);
 
-/// No constraint ever lies strictly inside, and no vertex but Steiner points, which go with it.
+/// Strictly inside there is never a constraint, and no vertex except Steiner points, which are removed with
+/// the cavity.
 class Cavity {
  public:
   /// Starts with the ball of a Steiner point, in a mesh whose Steiner points are the vertices from

@@ -1,4 +1,4 @@
-// What can happen to one Steiner point: suppressed, or recentred if it has to stay (docs/concepts.md).
+// Suppresses a Steiner point, or recentres it if it has to stay (docs/concepts.md).
 #pragma once
 
 #include "mesh/tet_mesh.h"
@@ -13,9 +13,9 @@ enum class Fate {
   stays,
 };
 
-/// Removes a Steiner point, strictly off every constraint, if that can be had; else moves it to the centre
-/// of its ball's kernel, in doubles where doubles reach inside. `search` bounds the effort of filling the
-/// ball again.
+/// Removes a Steiner point, strictly off every constraint, if possible; else moves it to the centre of its
+/// ball's kernel, in doubles where doubles reach inside. `search` bounds the effort of filling the ball
+/// again.
 Fate remove_or_recentre(TetMesh& mesh, Vertex p, const PolyhedronOptions& search);
 
 }  // namespace holdfast

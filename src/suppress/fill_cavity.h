@@ -18,19 +18,19 @@ namespace holdfast {
 [[nodiscard]] std::vector<TetMesh::Corners> cone_of(std::span<const std::array<Vertex, 3>> faces,
                                                     Vertex apex);
 
-/// Fills a cavity without new points; the Steiner points inside go. Returns false, with the mesh unchanged,
-/// where the search finds nothing. `created`, where given, receives the new tetrahedra.
+/// Fills a cavity without new points; the Steiner points inside are removed. Returns false, with the mesh
+/// unchanged, if the search finds nothing. `created`, where given, receives the new tetrahedra.
 bool fill(TetMesh& mesh, const Cavity& cavity, const PolyhedronOptions& search,
           std::vector<Tet>* created = nullptr);
 
-/// Fills a cavity from an apex in its kernel, or one that moves into it, to `place`; the other Steiner points
-/// inside go.
+/// Fills a cavity from an apex in its kernel, or one that moves into the kernel, to `place`. The other
+/// Steiner points inside are removed.
 void cone(TetMesh& mesh, const Cavity& cavity, Vertex apex, std::vector<Tet>* created = nullptr,
           const std::optional<Point>& place = {});
 
-/// A place for a point that joins all faces. While there is none the cavity grows, by at most `steps`
-/// tetrahedra, across the faces that leave least room. `origin(cavity)` is where the centre of the kernel is
-/// looked for from, `place(kernel, centre)` tells the place, if any.
+/// A place for a point that sees all faces. While there is none, the cavity grows, by at most `steps`
+/// tetrahedra, across the faces that leave least room. The search for the kernel's centre starts at
+/// `origin(cavity)`; `place(kernel, centre)` returns the place, if any.
 template <typename Origin, typename Place>
 [[nodiscard]] std::optional<Point> grow_until_placed(const TetMesh& mesh, Cavity& cavity, int steps,
                                                      Origin&& origin, Place&& place) {

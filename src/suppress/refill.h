@@ -15,8 +15,8 @@ struct Growth {
   PolyhedronOptions search{};
 };
 
-/// What follows asks for Steiner points that are the vertices from `first_free` on and lie on no constraint.
-/// Other Steiner points that a cavity has swallowed go with p.
+/// The functions below require that the Steiner points are the vertices from `first_free` on and lie on no
+/// constraint. Other Steiner points inside a cavity are removed with p.
 
 /// Removes p by filling its ball and some tetrahedra round it again. Returns whether p is gone.
 bool refill_without(TetMesh& mesh, Vertex p, Vertex first_free, const Growth& growth,

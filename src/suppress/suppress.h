@@ -1,4 +1,4 @@
-// Suppressing Steiner points and giving the rest positions in doubles (paper §6.4; docs/concepts.md).
+// Suppresses Steiner points and gives the rest positions in doubles (paper §6.4; docs/concepts.md).
 #pragma once
 
 #include <cstddef>
