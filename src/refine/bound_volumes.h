@@ -11,7 +11,7 @@
 // cavity that the in-sphere test gives, say, as long as every tetrahedron there is below three quarters of
 // the one that was too large.
 //
-// In doubles a tetrahedron may hold no point that parts it: then it is told, and nothing else is to be had.
+// A tetrahedron may contain no point in doubles that divides it. It is then only counted as stuck.
 #pragma once
 
 #include "mesh/monitor.h"

@@ -1,4 +1,4 @@
-// Several elements across every wall and gap, by levels (levels.h).
+// Puts several elements across every wall and gap, by levels (levels.h).
 //
 // Edges that jump over a level are parted at it. A point of level k is joined to the link of the edge that it
 // parts, and no edge from it jumps over level k; so each parting leaves one edge less that does, and level

@@ -25,14 +25,14 @@ class Levels {
   /// Cosine of 43.9 degrees: less than 45, so that a floor and a ceiling never meet at a right angle; and two
   /// facets that face each other at up to 30 degrees are a floor and a ceiling of some direction.
   static constexpr double kCone = 0.72;
-  /// Of vertices that a direction has no demand for.
+  /// The level of vertices for which a direction has no demand.
   static constexpr std::uint8_t kFree = 255;
 
   using OfVertex = std::array<std::uint8_t, kDirections>;
 
   [[nodiscard]] static Vector direction(std::size_t k);
 
-  /// Vertices that are not told of are free.
+  /// Vertices without an entry are free.
   [[nodiscard]] const OfVertex& of(Vertex v) const { return v < levels_.size() ? levels_[v] : all_free(); }
   OfVertex& operator[](Vertex v) {
     if (v >= levels_.size()) levels_.resize(v + std::size_t{1}, all_free());

@@ -1,10 +1,11 @@
-// A mesh cut into parts that are meshes of their own, to be worked on at the same time and joined again.
+// Cuts a mesh into parts that are meshes of their own. Threads change them at the same time, and they are
+// joined again.
 //
-// A part is some of the tetrahedra of the kept regions, closed by ghosts. Its interfaces, the faces between
-// it and the rest that are no facets, are held as if they were, and their edges as if they were segments: so
-// what heeds constraints works on a part as on a whole mesh. What the interfaces forbid has to be done
-// afterwards. The parts depend on the mesh alone and are joined in their order, so that threads make no
-// difference.
+// A part is some of the tetrahedra of the kept regions, closed by ghosts. Its interfaces, the faces to the
+// rest that are not facets, are treated as facets, and their edges as segments. So code that respects
+// constraints works on a part as on a whole mesh. Changes that the interfaces forbid have to be made
+// afterwards. The parts depend only on the mesh and are joined in their order, so the number of threads makes
+// no difference.
 #pragma once
 
 #include <span>

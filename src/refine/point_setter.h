@@ -1,4 +1,4 @@
-// Puts a point where a judge of the elements finds it best.
+// Puts a point where a judge of the elements rates it best.
 #pragma once
 
 #include <optional>
@@ -19,9 +19,8 @@ class PointSetter {
   explicit PointSetter(const VolumeData& volume)
       : volume_(volume), mesh_(volume.mesh), cavity_(volume.mesh, volume.seed) {}
 
-  /// Looks at the change that a point at x would make in the region of t, in the cavity that the in-sphere
-  /// test gives, or in t alone: `judge(old tetrahedra, rim, point)` tells how good it is, nothing where it is
-  /// not to be made. The mesh is as it was afterwards.
+  /// Tries a point at x in the region of t, in the cavity of the in-sphere test or in t alone. `judge(old
+  /// tetrahedra, rim, point)` rates the change; nothing rejects it. The mesh is unchanged afterwards.
   template <typename Judge>
   std::optional<double> try_at(const Point& x, Tet t, bool alone, Judge&& judge) {
     const Vertex p = begin(x);
@@ -33,7 +32,7 @@ class PointSetter {
     end();
     return found;
   }
-  /// Makes a change that was found to be good. Returns the new tetrahedra, until the next call.
+  /// Makes a change that the judge rated. Returns the new tetrahedra, until the next call.
   std::span<const Tet> make(const Point& x, Tet t, bool alone);
 
   /// The centre of the sphere round t, where it is finite.

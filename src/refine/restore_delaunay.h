@@ -1,8 +1,8 @@
-// The volume made Delaunay before it is filled, as far as exchanges of tetrahedra make it so.
+// Makes the volume Delaunay before it is filled, as far as exchanges of tetrahedra can.
 //
-// The cavity of a field point is found by spheres. Recovery leaves a mesh that is not Delaunay; there, what
-// does not see the point is left out of cavities, and stays. Between points that are far apart such
-// tetrahedra are long; each point makes more of them, until a part of the volume is full of slivers.
+// The cavity of a field point is found by spheres. Recovery leaves a mesh that is not Delaunay. There,
+// tetrahedra that do not see the point are left out of cavities, and stay. Between distant points such
+// tetrahedra are long, and each new point makes more of them, until a part of the volume is full of slivers.
 #pragma once
 
 #include <cstddef>
