@@ -9,7 +9,7 @@
 
 namespace holdfast {
 
-/// Finds the tetrahedron by a grid of buckets. Guesses in floating point are good enough for a size.
+/// Finds the tetrahedron by a grid of buckets. Floating point is exact enough for a size.
 class Background {
  public:
   /// Only the vertices and tetrahedra of the field count, which are finite and in range.

@@ -1,12 +1,11 @@
-// What sizes the facets can bear. Elements on a facet that is much larger than the size wanted there, or long
-// and thin, cannot be small and well shaped at the same time, whatever is done: many small ones make many bad
-// ones.
+// The sizes that facets can bear. Elements on a facet that is much larger than the wanted size, or long and
+// thin, cannot be both small and well shaped: many small elements mean many bad ones.
 //
 // So a facet needs a size for points next to it, in proportion to its longest side, but no more than some
-// times what is wanted there. Off the facet the need falls with the distance, until the wanted size is
-// reached. And points keep a distance from such facets: a point beside the tetrahedron on a large facet is
-// not joined to it, so that the cavities of points do not tell how near it is. Facets that can bear what is
-// wanted are left out.
+// times the wanted size. Off the facet the need falls with the distance, until the wanted size is reached.
+// And points keep a distance from such facets: a point beside the tetrahedron on a large facet is not joined
+// to it, so that the cavities of points do not tell how near it is. Facets that can bear what is wanted are
+// left out.
 #pragma once
 
 #include <cstdint>
