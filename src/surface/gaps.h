@@ -1,4 +1,5 @@
-// Surface layer: vertices that lie almost on others. A hint for people: nothing here decides validity.
+// Surface layer: vertices that lie almost on other vertices or sides. A hint for people; it never decides
+// validity.
 #pragma once
 
 #include <optional>

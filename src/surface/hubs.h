@@ -1,6 +1,6 @@
-// Surface layer: vertices of many elements. The boxes of all elements at one vertex overlap, so that the tree
-// of boxes would compare each with each. They are searched by direction instead: two cones from one vertex
-// meet outside it only if the arcs in which they cut a small sphere round it meet.
+// Surface layer: hubs, vertices of many elements. The boxes of all elements at a vertex overlap, so the tree
+// of boxes would compare each pair. These elements are searched by direction instead: two cones from one
+// vertex meet outside it only if the arcs in which they cut a small sphere round it meet.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Surface layer: vertices that stand by themselves.
+// Surface layer: isolated vertices.
 #pragma once
 
 #include <vector>

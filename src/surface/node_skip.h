@@ -1,4 +1,4 @@
-// Surface layer: which pairs of nodes of a tree of boxes a search for elements that do not fit may pass over.
+// Surface layer: pairs of nodes of a tree of boxes that a search for elements that do not fit may skip.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Surface layer: what the facets alone tell of where points lie, before there is any mesh.
+// Surface layer: locates points by the facets alone, before there is a mesh.
 #pragma once
 
 #include <functional>
