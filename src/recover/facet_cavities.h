@@ -21,8 +21,8 @@ namespace holdfast {
 
 class FacetCavities {
  public:
-  /// For a mesh in which some facets or segments of a complex are missing. Vertices from the last argument on
-  /// are added ones.
+  /// Completes a mesh in which some facets or segments of a complex are missing. It may add vertices, which
+  /// are those from the last argument on.
   using Finish =
       std::function<void(TetMesh&, const SegmentTable&, std::span<const Triangle>, Standing&, Vertex)>;
 

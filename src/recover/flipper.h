@@ -41,10 +41,10 @@ class FlipWork {
   std::size_t budget_ = 0, all_ = 0, before_ = 0;
 };
 
-/// By how much the flips of an attempt changed the target's cost: it never rises above where it began.
+/// The change of the target's cost by the flips of an attempt. The cost never rises above its start.
 class CostChange {
  public:
-  /// `most_at_end` is how much of it the flip may leave that ends the attempt.
+  /// `most_at_end`: the largest change that the flip may leave that ends the attempt.
   void begin(int most_at_end) {
     all_ = 0;
     most_at_end_ = most_at_end;
