@@ -13,23 +13,23 @@
 
 namespace holdfast {
 
-/// Every element that was pushed, or that came for one, waits in the agenda, has been given up, or is gone.
+/// Every element that was pushed, or that replaced one, waits in the agenda, has been given up, or is gone.
 class ElementSearch {
  public:
-  /// Vertices from `first_free` on may move and go. `target` is the worst Q that the facets ask for.
+  /// Vertices from `first_free` on may be moved and removed. `target` is the worst Q that the facets ask for.
   ElementSearch(TetMesh& mesh, Qualities& qualities, Vertex first_free, double target, std::uint64_t seed,
                 const Budget& budget, Monitor& monitor);
   ElementSearch(const ElementSearch&) = delete;
   ElementSearch& operator=(const ElementSearch&) = delete;
 
   void push(std::span<const Tet> tets);
-  /// Until the agenda is empty or the budget spent, or as long as `may_go_on` is true. While points come
-  /// later, other ways are tried less hard.
+  /// Runs until the agenda is empty or the budget spent, or while `may_go_on` is true. If points may be added
+  /// later, the other ways are tried less hard.
   void work_off(Ways::Points points, const std::function<bool()>& may_go_on = {});
   [[nodiscard]] bool is_current(const WaitingElement& e);
   void poll() { monitor_.poll(Stage::optimise, budget_.fraction()); }
 
-  /// Elements that are no worse are left alone.
+  /// Elements that are no worse than this are left alone.
   [[nodiscard]] double good() const { return good_; }
   [[nodiscard]] const BadFrom& bad_from() const { return bad_from_; }
   [[nodiscard]] Ways& ways() { return ways_; }
@@ -37,7 +37,7 @@ class ElementSearch {
   [[nodiscard]] Agenda& agenda() { return agenda_; }
   [[nodiscard]] Budget& budget() { return budget_; }
   [[nodiscard]] OptimiseStats& stats() { return stats_; }
-  /// Those that were added, some of which may be gone.
+  /// The vertices that were added; some may be gone.
   [[nodiscard]] std::vector<Vertex>& points() { return points_; }
   [[nodiscard]] const std::vector<Vertex>& points() const { return points_; }
 

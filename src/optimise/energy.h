@@ -1,13 +1,13 @@
-// The energy of a tetrahedron: what improving a volume makes less, summed over tetrahedra.
+// The energy of a tetrahedron. Improvement lowers the sum of the energies of a volume.
 //
-// It is q^-4, and below some q less steep, q^-2: what needles of the surface force would count for more than
-// all that can be helped, otherwise. Here q is the least sine of the six dihedral angles, an obtuse one
-// counting for a little more than its sine, since finite elements suffer more from small angles than from
-// large ones only by degree but users are shown the small ones. The sine of the angle at edge e between faces
-// of doubled areas m and n is |e| D / (m n), where D is six volumes (Freitag, Ollivier-Gooch 1997; Klingner,
-// Shewchuk 2007). The power makes a sum of energies follow the worst elements, and yet see how many there are
-// of each kind. Where a metric is given, elements are seen in the frame of the mean of the metrics at their
-// corners. What is larger than a bound on volumes allows is as bad as what is not positive.
+// The energy is q^-4. Below some q it is less steep, q^-2: otherwise elements forced by needles of the
+// surface would count for more than all elements that can be improved. Here q is the least sine of the six
+// dihedral angles. An obtuse angle counts for a little more than its sine: finite elements suffer only
+// somewhat less from large angles than from small ones, but users are shown the small ones. The sine of the
+// angle at edge e between faces of doubled areas m and n is |e| D / (m n), where D is six volumes (Freitag,
+// Ollivier-Gooch 1997; Klingner, Shewchuk 2007). The power makes a sum of energies follow the worst elements,
+// and yet see how many there are of each kind. With a metric, an element is measured in the frame of the mean
+// metric of its corners. A tetrahedron above a bound on volumes is as bad as one that is not positive.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace holdfast {
 
 inline constexpr double kNoEnergy = std::numeric_limits<double>::infinity();
 
-/// What decides besides the angles.
+/// The criteria besides the angles.
 struct EnergyRule {
   double most = kNoEnergy;                       ///< sixths of a unit of volume that an element may have
   double hopeless_sine = tuning::kHopelessSine;  ///< q below which energies grow less steeply

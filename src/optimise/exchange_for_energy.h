@@ -9,12 +9,12 @@
 
 namespace holdfast {
 
-/// The objective of one choice among exchanges: the energy falls most.
+/// The objective of one choice among exchanges: the largest fall of the energy.
 class LeastEnergy : public ExchangesInMesh {
  public:
   using Cost = double;
 
-  /// Nothing with more energy than `most` goes.
+  /// No tetrahedron with more energy than `most` is removed.
   LeastEnergy(const ImprovedVolume& volume, double most);
 
   [[nodiscard]] std::optional<double> before(std::span<const Tet> tets) const {
@@ -73,8 +73,8 @@ class EnergySwapper {
   explicit EnergySwapper(ImprovedVolume& volume) : volume_(volume) {}
 
   /// Makes the best of the ten exchanges at a tetrahedron if it makes the energy less. Constraints stand.
-  /// With `as_worst`, only those where it is the worst element: the others are tried from there. Returns the
-  /// new tetrahedra, none if there was no such exchange.
+  /// With `as_worst`, only exchanges in which it is the worst element; the others are tried from their own
+  /// worst element. Returns the new tetrahedra, none if there was no such exchange.
   std::span<const Tet> improve(Tet t, bool as_worst = false);
 
  private:

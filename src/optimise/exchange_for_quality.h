@@ -12,9 +12,9 @@
 
 namespace holdfast {
 
-/// The objective of one choice among exchanges: what comes must be better than what goes, and no part of it
-/// as bad. Of several the one that takes most null elements away, then most hopeless, then most flat ones, or
-/// else leaves the least part of the worst Q.
+/// The objective of one choice among exchanges: all new tetrahedra must be better than the worst old one.
+/// Among several exchanges, the best removes most null elements, then most hopeless, then most flat ones;
+/// else it has the lowest ratio of the new worst Q to the old.
 class LeastBadness : public ExchangesInMesh {
  public:
   using Cost = Badness;
@@ -36,7 +36,7 @@ class LeastBadness : public ExchangesInMesh {
   [[nodiscard]] Link link(const EdgeShell& shell, const Badness& before) const;
 
  private:
-  // What changes: numbers of null, hopeless and flat ones, then the ratio of the worst Q.
+  // The changes: numbers of null, hopeless and flat elements, then the ratio of the worst Q.
   using Gain = std::tuple<std::ptrdiff_t, std::ptrdiff_t, std::ptrdiff_t, double>;
   static Gain gain_of(const Badness& before, const Badness& after);
 
@@ -69,9 +69,9 @@ class Exchanger {
   Exchanger(TetMesh& mesh, Qualities& qualities, const BadFrom& bad_from)
       : mesh_(mesh), qualities_(qualities), bad_from_(bad_from) {}
 
-  /// Makes the best of the ten exchanges at a tetrahedron, if what comes is better than what goes.
-  /// Constraints stand. `created` receives the new tetrahedra, whose qualities the caller has to forget.
-  /// Returns whether an exchange was made.
+  /// Makes the best of the ten exchanges at a tetrahedron, if the new tetrahedra are better than the old
+  /// ones. Constraints stand. `created` receives the new tetrahedra, whose qualities the caller has to
+  /// forget. Returns whether an exchange was made.
   bool improve(Tet t, std::vector<Tet>& created);
 
  private:

@@ -12,7 +12,7 @@
 
 namespace holdfast {
 
-/// Of some of the elements of a volume. All bits are the same for any number of threads.
+/// The figures of some elements of a volume. Their bits do not depend on the number of threads.
 class Figures {
  public:
   void add(const Point& a, const Point& b, const Point& c, const Point& d);
@@ -31,7 +31,8 @@ class Figures {
 
  private:
   friend class Standard;
-  // One flat element makes the whole of a mean of Q. So there are two: the other is of what is not flat, too.
+  // One flat element can dominate a mean of Q. So there are two means; the second caps Q lower, so that the
+  // other elements count, too.
   static constexpr std::array<double, 2> kMostQuality{1e15, 1e6};
 
   std::size_t elements_ = 0, below_ = 0, below_30_ = 0;
@@ -50,7 +51,7 @@ class Standard {
  public:
   explicit Standard(const Figures& kept) : kept_(kept), now_(kept) {}
 
-  /// Whether the figures are kept when `fresh` are in the place of `old`; if so, that is taken note of.
+  /// Whether the figures are kept when `fresh` replace `old`. If so, the replacement is recorded.
   [[nodiscard]] bool allows(const Figures& old, const Figures& fresh);
 
  private:

@@ -1,4 +1,4 @@
-// Whether an element is as it is since a facet forces it.
+// Whether a facet forces the shape of an element.
 #pragma once
 
 #include "mesh/parallel.h"
@@ -7,8 +7,8 @@
 
 namespace holdfast {
 
-/// Whether for each facet of the element some vertex of the mesh makes one on it that is better, be it that
-/// it does not see the facet: unless one does, no exchange betters the element.
+/// Whether, for each facet of the element, some vertex of the mesh, visible from the facet or not, makes a
+/// better element on the facet. Otherwise no exchange improves the element.
 [[nodiscard]] bool may_be_better(const TetMesh& mesh, const WaitingElement& e, const Threads& threads);
 
 }  // namespace holdfast

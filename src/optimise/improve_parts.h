@@ -1,4 +1,4 @@
-// The improvement of a large volume in parts, at the same time.
+// Improves the parts of a large volume at the same time.
 #pragma once
 
 #include <memory>
@@ -17,9 +17,9 @@ struct FilledParts {
   const SizeFunction& sizes;
 };
 
-/// As `improve`, but a large mesh is cut into parts, unless it comes in parts. When these are joined, what
-/// the cuts forbade is made up for: what lies near them is filled and improved in the same way, as long as it
-/// has to be cut again. The threads make no difference to the result.
+/// As `improve`, but a large mesh is cut into parts, unless it comes in parts. After the parts are joined,
+/// the elements near the cuts are filled and improved in the same way, in parts again while they are many, to
+/// do what the cuts forbade. The number of threads makes no difference to the result.
 ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledParts> filled, Extent extent,
                               const Threads& threads, Monitor& monitor);
 

@@ -1,5 +1,6 @@
-// What was tried in vain, at vertices and edges where nothing has changed since: it would be in vain again.
-// Elements share their vertices and edges, so that bad ones in a group would have the same tried for each.
+// Failed trials at vertices and edges where nothing has changed since: they would fail again. Elements share
+// vertices and edges, so without these notes the same trial would be repeated for each bad element of a
+// group.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A point for a tetrahedron so flat that nothing else helps: elements come out that one can compute with.
+// Adds a point for a tetrahedron so flat that nothing else helps. The new elements are fit to compute with.
 #pragma once
 
 #include <vector>

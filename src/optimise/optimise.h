@@ -37,8 +37,8 @@ struct OptimiseStats {
   }
 };
 
-/// Points that go in the end where the mesh can do without: all, or those added here alone, where the others
-/// are there for a size.
+/// The points to remove in the end where the mesh does not need them: all, or only those added here, if the
+/// others serve a size.
 enum class PointsToRemove { all, added_here };
 
 /// Tetrahedra that fill a complex: its vertices come first, then those added.
@@ -46,21 +46,21 @@ struct Filling {
   std::vector<Point> added;
   std::vector<Tetrahedron> tetrahedra;
 };
-/// Which Steiner points a filling may have: so many that recovery leaves, and for bad elements some or none.
+/// The Steiner points that a filling may have: so many left by recovery, and for bad elements some or none.
 struct PointsOfFilling {
   std::size_t most_recovered = std::numeric_limits<std::size_t>::max();
   bool may_be_added = true;
   friend bool operator==(const PointsOfFilling&, const PointsOfFilling&) = default;
 };
-/// A polyhedron, and how it is to be filled.
+/// A polyhedron, and how to fill it.
 struct ToFill {
   Surface polyhedron;
   PointsOfFilling points;
 };
-/// What is likely to be asked for next, so much of it or less.
+/// The fillings likely to be asked for next, at most so many.
 using LikelyToFill = std::function<std::vector<ToFill>(std::size_t)>;
-/// Fills what the facets of a complex enclose; nothing where it cannot. Threads may fill what is likely to
-/// come at the same time.
+/// Fills the space that the facets of a complex enclose; nothing if it cannot. Threads may fill the likely
+/// next polyhedra at the same time.
 using Filler = std::function<std::optional<Filling>(const ToFill&, const LikelyToFill&)>;
 
 /// How polyhedra round the worst elements are filled anew.
@@ -76,11 +76,11 @@ struct OptimiseOptions {
   const FillAnew* fill_anew = nullptr;  ///< null: no polyhedron is
 };
 
-/// Improves the worst of `tets`; others of their regions may go for them, and all vertices of these are
-/// explicit. Facets and segments stand, and so do the vertices below `first_free`; the Steiner points, the
-/// vertices from there on, lie on no constraint: they may move, and go where they are in the way. `target` is
-/// the worst Q that the facets ask for (mesh/quality.h). Large meshes are searched in
-/// parts on several threads to begin with (search_in_parts.h), which make no difference to the result.
+/// Improves the worst of `tets`. Other tetrahedra of their regions may be replaced for this; all their
+/// vertices are explicit. Facets and segments stand, and so do the vertices below `first_free`; the Steiner
+/// points, the vertices from there on, lie on no constraint: they may be moved, and removed if they are in
+/// the way. `target` is the worst Q that the facets ask for (mesh/quality.h). Large meshes are first searched
+/// in parts on several threads (search_in_parts.h), whose number makes no difference to the result.
 OptimiseStats optimise(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, double target,
                        const Threads& threads, Monitor& monitor, const OptimiseOptions& options = {});
 

@@ -33,8 +33,8 @@ class Polyhedron {
   [[nodiscard]] double worst(const Filling& filling) const;
   /// Whether a filling has the faces of the polyhedron, and its vertices.
   [[nodiscard]] bool is_filled_by(const Filling& filling) const;
-  /// Puts a filling in its place, and returns the points that came with it. Nothing, and the mesh is as it
-  /// was, where the doubles of the mesh turn a tetrahedron over.
+  /// Replaces the polyhedron by a filling and returns the new points. Nothing, with the mesh unchanged, if
+  /// rounding to the mesh's doubles inverts a tetrahedron.
   [[nodiscard]] std::optional<std::vector<Vertex>> replace(const Filling& filling) const;
 
  private:

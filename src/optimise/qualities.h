@@ -14,7 +14,7 @@
 
 namespace holdfast {
 
-/// Whoever changes tetrahedra, or moves their vertices, has to tell.
+/// Code that changes tetrahedra, or moves their vertices, has to report it here.
 class Qualities {
  public:
   explicit Qualities(const TetMesh& mesh) : mesh_(mesh) {}

@@ -16,9 +16,10 @@ class FlatRemover {
  public:
   explicit FlatRemover(TetMesh& mesh) : mesh_(mesh) {}
 
-  /// Removes one of the wide edges of a tetrahedron whose Q is `bad_from` or more, so that fewer are as bad.
-  /// Flips on the way there make none that bad, but may make some worse, and stay even if the edge does.
-  /// `created` receives the new tetrahedra, some of which may be gone again. Returns whether there are fewer.
+  /// Removes one of the wide edges of a tetrahedron whose Q is `bad_from` or more, so that fewer tetrahedra
+  /// are as bad. Flips on the way make no tetrahedron that bad, but may make some worse. They stay even if
+  /// the edge stays. `created` receives the new tetrahedra, some of which may be gone again. Returns whether
+  /// there are fewer.
   bool remove(Tet t, double bad_from, std::vector<Tet>& created);
 
   /// Of the last call, in shells looked at.

@@ -1,4 +1,4 @@
-// Moving one vertex to where the sum of the energies of its ball is least.
+// Moves one vertex to where the sum of the energies of its ball is least.
 #pragma once
 
 #include <vector>

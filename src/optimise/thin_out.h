@@ -1,4 +1,4 @@
-// Free vertices that do not pay go again, first those that cost the least: field points that facets make
+// Removes free vertices that do not pay, those of the least cost first: field points that facets make
 // useless, and points beside elements that would be better without them.
 #pragma once
 

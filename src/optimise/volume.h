@@ -1,4 +1,4 @@
-// What the improvement of a volume works on: the mesh, its regions, and the energy of each tetrahedron.
+// The data for improving a volume: the mesh, its regions, and the energy of each tetrahedron.
 #pragma once
 
 #include <algorithm>
@@ -103,7 +103,8 @@ class ImprovedVolume {
     std::fill(touched_.begin(), touched_.end(), std::uint8_t{1});
   }
 
-  /// Where nothing has changed near by since this was last called, nothing helps that has not helped before.
+  /// Marks the tetrahedra at vertices touched since the last call as changed. Elsewhere, trials that failed
+  /// before would fail again.
   void touch_beside_touched() {
     for (Tet t = 0; t < mesh_.slot_count(); ++t) {
       const TetMesh::Corners& c = mesh_.corners(t);
@@ -146,7 +147,7 @@ class ImprovedVolume {
     adopt(created_, region);
     return created_;
   }
-  /// Takes note of tetrahedra that were made otherwise.
+  /// Records tetrahedra that were made otherwise.
   void adopt(std::span<const Tet> tets, RegionId region) {
     if (energy_.size() < mesh_.slot_count()) {
       energy_.resize(mesh_.slot_count(), 0);
@@ -164,7 +165,7 @@ class ImprovedVolume {
       note(t, energy_of(mesh_.corners(t)));
     }
   }
-  /// Takes note of the new energy of a tetrahedron one of whose vertices was moved.
+  /// Records the new energy of a tetrahedron after one of its vertices moved.
   void note(Tet t, double energy) {
     energy_[t] = energy;
     changed_[t] = 1;

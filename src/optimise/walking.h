@@ -1,12 +1,12 @@
-// The worst element may go from another mesh round it: random exchanges that make nothing as bad lead there.
+// Walks to another mesh round the worst element, from which it may be removable, by random exchanges that
+// make no element as bad.
 #pragma once
 
 #include "optimise/search.h"
 
 namespace holdfast {
 
-/// Takes the worst that is left away, as long as that succeeds. What a walk comes to is taken back where it
-/// does not pay.
+/// Removes the worst element left, as long as that succeeds. A walk that does not pay is undone.
 void walk_from_the_worst(Search& search);
 
 }  // namespace holdfast

@@ -1,4 +1,4 @@
-// The ways to better an element, from the cheapest to the dearest (paper §8), where energies count.
+// The ways to improve an element by energy, from the cheapest to the most expensive (paper §8).
 #pragma once
 
 #include <cstddef>
@@ -18,17 +18,17 @@ namespace holdfast {
 /// Each changes the volume only where the sum of the energies falls.
 class EnergyWays {
  public:
-  /// What is worse than an element whose least angle has the sine `very_bad` is worth patience.
+  /// Elements worse than one whose least angle has the sine `very_bad` are worth patience.
   EnergyWays(ImprovedVolume& volume, double very_bad);
 
-  /// Better elements, and the way that made them.
+  /// Improved elements, and the way that made them.
   struct Outcome {
     std::span<const Tet> changed;  // until the next call; none where no way helped
     std::size_t ImproveStats::*count = nullptr;
   };
   enum class Patience : std::uint8_t { usual, contractions, all_ways };
-  /// One way after the other on one element, until one helps; usually without those that seldom do for the
-  /// time they take. `work` grows, in elements tried.
+  /// Tries one way after the other on an element until one helps, usually without the ways that seldom help
+  /// for their cost. Adds to `work`, in elements tried.
   Outcome try_all(Tet t, Patience patience, double& work);
 
   /// From now on, whether points may be added.

@@ -1,5 +1,5 @@
-// The ways to take a bad element away, from the cheapest to the dearest (paper §8), for meshes whose Q
-// counts.
+// The ways to remove a bad element, from the cheapest to the most expensive (paper §8), for meshes judged by
+// Q.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ class Ways {
         random_(seed) {}
 
   enum class Points { none, later, now };  ///< whether an element may get a point
-  /// What the ways depend on beside the element, and what they leave.
+  /// The inputs of the ways besides the element, and their results.
   struct Attempt {
     const WaitingElement& element;
     double worst_stuck;  ///< the worst Q that stays: what is better does not better the mesh's worst
@@ -47,7 +47,7 @@ class Ways {
   /// These, by vertex, do not move: others must not look at what is round them while threads change parts of
   /// the mesh (mesh/in_place_parts.h).
   void hold(const std::vector<std::uint8_t>& held) { held_ = &held; }
-  /// The vertices from here on may move and go.
+  /// The vertices from here on may be moved and removed.
   [[nodiscard]] Vertex first_free() const { return first_free_; }
 
  private:
