@@ -1,4 +1,4 @@
-// One attempt at a mesh: all that comes after the input was looked at (docs/architecture.md).
+// One attempt at a mesh: all steps after the input was examined (docs/architecture.md).
 #pragma once
 
 #include <optional>
@@ -9,14 +9,14 @@
 
 namespace holdfast {
 
-/// What recovery leaves: the regions in a mesh that has no points in them but those that no way takes out.
+/// The result of recovery: the regions, in a mesh without added points except those that no way removes.
 struct Recovered {
   BoxMesh box;
   Division division;
 };
 
 /// The first half: a mesh that has every facet and segment (paper §3 to §6). `result` comes with the outcome
-/// `done` and a report of what was before, to which this adds its own. Nothing where the complex is refused.
+/// `done` and the report so far, to which this adds its own. Nothing if the complex is refused.
 [[nodiscard]] std::optional<Recovered> recover(const Attempt& attempt, Result& result);
 
 /// The other half: points for the sizes, better elements (paper §8), and the mesh as it is delivered. Returns

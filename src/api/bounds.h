@@ -1,4 +1,4 @@
-// Whether a volume keeps the bounds that were asked for: looked at when all is done.
+// Checks in the end whether a volume keeps the bounds that were asked for.
 #pragma once
 
 #include "holdfast/holdfast.h"
@@ -6,8 +6,8 @@
 
 namespace holdfast {
 
-/// Fills `Report::bounds` but for the points. A tetrahedron above its bound, decided exactly, makes the
-/// outcome not_representable: it holds no point in doubles that would part it.
+/// Fills `Report::bounds` except the points. A tetrahedron above its bound, decided exactly, makes the
+/// outcome not_representable: it contains no point in doubles that would divide it.
 void judge_bounds(const Options& options, const Threads& threads, Result& result);
 
 }  // namespace holdfast

@@ -1,4 +1,4 @@
-// The steps of a call in their order, and how far the call has come: what its steps usually cost.
+// The steps of a call in their order, and the progress of the call by the usual cost of its steps.
 #pragma once
 
 #include <cstddef>

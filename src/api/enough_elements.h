@@ -1,4 +1,4 @@
-// As many elements as the user's sizes ask for, or nearly.
+// Makes regions have nearly as many elements as the user's sizes ask for.
 //
 // Beside triangles that are much larger than the size elements stay large, and thin walls between such
 // triangles get no points: on such surfaces a size gives far fewer elements than the volume takes of it, most
@@ -21,7 +21,7 @@ class SizesForEnough {
 
   /// By region, what the user's size is multiplied by: 1 at first.
   [[nodiscard]] const std::vector<double>& factors() const { return factors_; }
-  /// Takes note of the elements by region that these factors gave. Returns whether there are others to try.
+  /// Records the elements by region that these factors gave. Returns whether other factors are left to try.
   bool goes_on(std::span<const double> made);
 
  private:

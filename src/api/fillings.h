@@ -1,5 +1,5 @@
 // The fillings of polyhedra that an optimisation asks for one by one, made by several threads: while one
-// makes what is asked for, the others make what is likely to be asked for next.
+// thread makes the present filling, the others make those likely to be asked for next.
 #pragma once
 
 #include <exception>
@@ -13,14 +13,14 @@
 
 namespace holdfast {
 
-/// A filling depends on its polyhedron alone, so that it does not matter when it was made.
+/// A filling depends only on its polyhedron, so it does not matter when it was made.
 class Fillings {
  public:
   /// All of these must outlive it.
   Fillings(const Limits& limits, Monitor& monitor, const Threads& threads)
       : limits_(limits), monitor_(monitor), threads_(threads) {}
 
-  /// As fill_polyhedron. On one thread nothing is made that is not asked for.
+  /// As fill_polyhedron. On one thread, only requested fillings are made.
   [[nodiscard]] std::optional<Filling> fill(const ToFill& asked, const LikelyToFill& likely);
 
  private:

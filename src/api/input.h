@@ -1,5 +1,5 @@
-// The input of a call: what validation finds out about it, once for all attempts. From then on the complex
-// has each place once (surface/places.h); only what goes back to the caller is told as it was given.
+// The input of a call, with all that validation finds out about it, once for all attempts. From then on the
+// complex has each place once (surface/places.h). Only data for the caller uses the given indices.
 #pragma once
 
 #include <cstdint>
@@ -65,9 +65,9 @@ class Input {
         monitor_(monitor),
         parts_(parts) {}
 
-  /// Defects that can be told before Delaunay, and the counts of the input; none where all is well so far.
+  /// Defects that can be found before Delaunay, and the counts of the input; none if all is well so far.
   [[nodiscard]] std::vector<Defect> validate(Report::Input& counts);
-  /// The rest, with Delaunay tetrahedra at hand; nothing to do after the first time.
+  /// The other defects, found with the Delaunay tetrahedra; later calls do nothing.
   [[nodiscard]] std::vector<Defect> validate_missing(TetMesh& mesh, const Standing& standing);
 
   /// All of both, by a search of its own that takes as long as `diagnose`.

@@ -1,4 +1,4 @@
-// What stands where a run ends before regions are found, in numbers of the volume that it delivers.
+// The constraints of a run that ends before regions are found, in the vertex numbers of the delivered volume.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Judging the options of a call before any work is done.
+// Checks the options of a call before any work is done.
 #pragma once
 
 #include "holdfast/holdfast.h"
@@ -8,7 +8,7 @@
 namespace holdfast {
 
 /// Throws std::invalid_argument for options that make no sense or do not suit the complex, as far as that can
-/// be told without a mesh.
+/// be decided without a mesh.
 void require_sensible(const Complex& complex, const Options& options);
 
 /// Throws std::invalid_argument for holes and region seeds that lie on a facet or in no bounded region, for

@@ -1,4 +1,4 @@
-// What parts that are pasted together are called, and their regions.
+// The names of pasted parts and of their regions.
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@ struct NamedParts {
   std::map<int, std::string> regions;  ///< names of the whole, by id
 };
 
-/// As `paste` says it of region ids and names. Where `labels` has one for a part, messages call it so.
+/// As `paste` documents for region ids and names. Messages use the label of a part if `labels` has one.
 [[nodiscard]] NamedParts name_parts(std::span<const Surface> parts, std::span<const std::string> names,
                                     std::span<const std::string> labels);
 

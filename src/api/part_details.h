@@ -1,4 +1,4 @@
-// How fine the details of parts are, where a tolerance for pasting is above that.
+// Finds details of parts that are smaller than a tolerance for pasting.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What calls that repair or paste have in common: limits become outcomes.
+// Shared by calls that repair or paste: turns limits into outcomes.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@
 
 namespace holdfast {
 
-/// Calls work(monitor) and fills in what the report has of any call.
+/// Calls work(monitor) and fills the members that every report has.
 template <class Work>
 void run_within(const Limits& limits, const ProgressFunction& progress, RepairResult& result, Work&& work) {
   const auto begin = std::chrono::steady_clock::now();

@@ -1,4 +1,4 @@
-// Which way the parts of a facet are turned.
+// The orientation of the parts of a facet.
 #pragma once
 
 #include <span>
@@ -7,7 +7,7 @@
 
 namespace holdfast {
 
-/// Whether a part of a facet is turned as the facet is, by their normals.
+/// Whether a part of a facet is oriented as the facet, by their normals.
 [[nodiscard]] inline bool turned_alike(std::span<const Point> points, const Triangle& part,
                                        std::span<const Point> before, const Triangle& facet) {
   const auto normal = [](std::span<const Point> of, const Triangle& t) {

@@ -1,4 +1,4 @@
-// The union of the parts of a surface: facets that have the same on both sides go.
+// The union of the parts of a surface: drops facets with the same material on both sides.
 #pragma once
 
 #include "holdfast/repair.h"
@@ -8,9 +8,9 @@
 namespace holdfast {
 
 /// Drops facets of a valid surface with material on both sides, or on none. Material is what
-/// `Keep::automatic` keeps of any connected component of the input by itself; what belongs to several counts
-/// once. `input` is the surface that the state's parents name. Returns an outcome other than done where the
-/// regions could not be found within the limits. `holes` are what of them is left.
+/// `Keep::automatic` keeps of any connected component of the input by itself; space of several components
+/// counts once. `input` is the surface that the state's parents name. Returns an outcome other than done if
+/// the regions could not be found within the limits. `holes` becomes what is left of the fillings.
 [[nodiscard]] Outcome unite(const Complex& input, repairing::State& state, repairing::Holes& holes,
                             const RepairOptions& options, const Step& step);
 
