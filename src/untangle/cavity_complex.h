@@ -1,4 +1,4 @@
-// The boundary and the constraints of a cavity, as a complex to be meshed.
+// The boundary and the constraints of a cavity, as a complex to mesh.
 #pragma once
 
 #include <span>
@@ -42,8 +42,8 @@ class CavityComplex {
   /// Whether there are no tetrahedra beside it.
   [[nodiscard]] bool is_whole() const { return is_whole_; }
 
-  /// Drops points that do not fit the boundary, or each other; all of them where nothing says which. Returns
-  /// false where there is none.
+  /// Drops points that do not fit the boundary or each other; all points if it is unknown which. Returns
+  /// false if there is no point to drop.
   bool drop_points(const Filled& filled);
 
  private:

@@ -1,4 +1,4 @@
-// The connectivity of a volume that comes in: what bounds it, what must stay, how it is turned.
+// The connectivity of an input volume: its boundary, the fixed elements, its orientation.
 #pragma once
 
 #include <span>

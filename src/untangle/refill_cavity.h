@@ -1,4 +1,4 @@
-// One cavity to be filled again, and whether what the filler made of it may take its place.
+// One cavity to fill again, and the test whether a filling may replace it.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Which step untangling is at: what its loops poll, for progress and limits.
+// The present step of untangling, polled by its loops for progress and limits.
 #pragma once
 
 #include <functional>
