@@ -1,4 +1,4 @@
-// Which regions are kept, and as what: the holes and seeds of the input.
+// The kept regions and their ids, by the holes and seeds of the input.
 #pragma once
 
 #include <vector>

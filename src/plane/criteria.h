@@ -1,5 +1,5 @@
-// What refinement is after: which constraints have to be cut, which triangles need a point, and where it
-// goes. All of it is measured in floating point, at the scale of the mesh.
+// The criteria of refinement: which constraints to cut, which triangles need a point, and where to put it.
+// All measures are floating point, at the scale of the mesh.
 #pragma once
 
 #include "plane/growing_mesh.h"
@@ -30,7 +30,7 @@ class Criteria {
   [[nodiscard]] bool is_large(std::uint32_t t, const Shape& shape) const;
   /// With an angle below the bound.
   [[nodiscard]] bool is_thin(const Shape& shape) const { return shape.cosine > bound_; }
-  /// Thin for the input's sake, so that no point helps.
+  /// Thin because of the input, so that no point helps.
   [[nodiscard]] bool is_left_thin(std::uint32_t t, const Shape& shape) const {
     return is_across(t, shape) || (keep_boundary_ && is_between_constraints(t, shape));
   }

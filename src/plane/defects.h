@@ -1,4 +1,4 @@
-// What makes points and segments in the plane invalid, all of it, by name.
+// All defects that make points and segments in the plane invalid.
 #pragma once
 
 #include "holdfast/plane.h"
@@ -6,7 +6,7 @@
 
 namespace holdfast::plane {
 
-/// Everything that is wrong, at most `most` of each kind; exact.
+/// All defects, at most `most` of each kind; exact.
 [[nodiscard]] std::vector<Defect> find_defects(const Plane& plane, std::size_t most, const Poll& poll);
 
 }  // namespace holdfast::plane

@@ -1,4 +1,4 @@
-// What the stages of a run hand on to each other.
+// The data that the stages of a run pass on.
 #pragma once
 
 #include <vector>

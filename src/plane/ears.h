@@ -1,4 +1,4 @@
-// Triangles of polygons by cutting off their corners (paper §2.1).
+// Triangulates polygons by cutting off their corners (paper §2.1).
 #pragma once
 
 #include <functional>

@@ -10,7 +10,7 @@
 
 namespace holdfast::plane {
 
-/// What holdfast::Plane is for doubles. The doubles nearest to points and holes are finite.
+/// The counterpart of holdfast::Plane for exact points. The doubles nearest to points and holes are finite.
 struct ExactPlane {
   Points points;
   std::vector<Segment> segments;
@@ -18,7 +18,7 @@ struct ExactPlane {
 };
 
 /// The triangles of holdfast::triangulate, by the same code: by any method, turned left, by the numbers of
-/// the points. Nothing where the plane is not valid. Options that refine or end after a stage are not for it.
+/// the points. Nothing if the plane is not valid. Options that refine or stop after a stage are not allowed.
 [[nodiscard]] std::optional<std::vector<Corners3>> triangulate(const ExactPlane& plane,
                                                                const PlaneOptions& options,
                                                                PlaneReport& report, const Poll& poll);

@@ -1,5 +1,5 @@
-// Polygons and facets in space: the triangles of each, or the planes that all lie in. For readers of files,
-// which use this header of the layer alone.
+// Polygons and facets in space: the triangles of each, or their planes. For readers of files, which use only
+// this header of the layer.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace holdfast::plane {
 
-/// Outlines, segments and points in one plane, as a facet of a .poly has them.
+/// Outlines, segments and points in one plane, like a facet of a .poly.
 struct PolygonFacet {
   std::vector<std::vector<Index>> polygons;
   std::vector<Point> holes;
@@ -37,14 +37,14 @@ struct CutPolygon {
 [[nodiscard]] CutPolygon cut_facet(std::span<const Point> vertices, const PolygonFacet& facet,
                                    double tolerance, const Poll& poll);
 
-/// The planes of facets, or the number of the one that has none (from 0), and why.
+/// The planes of facets, or the number (from 0) of a facet that lies in no plane, and the reason.
 struct FoundPlanes {
   PlanesInSpace planes;  ///< without points and remarks
   double deviation = 0;  ///< as of CutPolygon
   std::size_t facet = 0;
   std::string reason;
 };
-/// One plane for all facets where there is one, else one each.
+/// One plane for all facets if there is one, else one for each facet.
 [[nodiscard]] FoundPlanes planes_of(std::span<const Point> vertices, const std::vector<PolygonFacet>& facets,
                                     double tolerance, const Poll& poll);
 

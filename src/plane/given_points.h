@@ -1,4 +1,4 @@
-// Points as a run gets them: doubles, or points some of which are exact. Nothing is copied.
+// The points given to a run: doubles, or points some of which are exact. Nothing is copied.
 #pragma once
 
 #include "plane/points.h"
@@ -27,7 +27,7 @@ class GivenPoints {
   const Points* exact_ = nullptr;
 };
 
-/// Points in another order, which tells for each the number that it had before.
+/// Points in another order, given by the former number of each point.
 [[nodiscard]] Points in_order(const GivenPoints& given, std::span<const Vertex> order);
 
 /// Adds a point that is given.

@@ -1,5 +1,5 @@
-// A mesh in refinement, to which points are added: the triangles, the points, where these are at the scale of
-// measures, and the segments that they were put on, which always tell of the same points.
+// A mesh in refinement, to which points are added: the triangles, the points, their positions at the scale of
+// measures, and the segments that they were put on. All of these always describe the same points.
 #pragma once
 
 #include "plane/input_segments.h"
@@ -36,15 +36,15 @@ class GrowingMesh {
 
   /// Adds a point that is no vertex yet, at the double nearest to a place at the scale.
   Vertex add(const Position& scaled);
-  /// Takes back the points from this one on, which are no vertices.
+  /// Removes the points from this one on, which are not vertices.
   void take_back(Vertex first);
 
-  /// Where p lies, seen from the middle of triangle t; nowhere if the middle is not inside as doubles tell
-  /// it.
+  /// Locates p by a line from the middle of triangle t; nowhere if the middle, in doubles, is not inside t.
   [[nodiscard]] Insertion::Place locate(Vertex p, std::uint32_t t);
   void insert_inside(std::uint32_t t, Vertex p) { insertion_.insert_inside(t, p); }
   [[nodiscard]] bool insert_on(EdgeCode e, Vertex p) { return insertion_.insert_on(e, p); }
-  /// Cuts a constraint. The point there, or kNoVertex where doubles are too coarse for one between the ends.
+  /// Cuts a constraint. Returns the new point, or kNoVertex if doubles are too coarse for a point between the
+  /// ends.
   Vertex cut(EdgeCode e);
 
   /// Calls `visit` for the triangles at a vertex that was put in.

@@ -1,4 +1,4 @@
-// Triangles of planes in space, each of which is triangulated by itself.
+// Triangles of planes in space. Each plane is triangulated by itself.
 #pragma once
 
 #include "holdfast/plane.h"
@@ -6,7 +6,7 @@
 
 namespace holdfast::plane {
 
-/// As holdfast::triangulate, but that limits throw.
+/// As holdfast::triangulate, but limits throw.
 [[nodiscard]] PlaneResult triangulate(const PlanesInSpace& planes, const PlaneOptions& options,
                                       const Poll& poll);
 

@@ -1,5 +1,5 @@
-// The segments of the input while they are cut: which one a piece belongs to, where to cut, and the angles
-// between them.
+// The segments of the input while they are cut: the segment of each piece, the places to cut, and the angles
+// between segments.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ class InputSegments {
   InputSegments(const Triangles& mesh, const std::vector<Position>& at, const std::vector<Ends>& segments);
 
   [[nodiscard]] const std::vector<Ends>& ends() const { return ends_; }
-  /// Whether a segment is one of those given.
+  /// Whether a segment is given in the input.
   [[nodiscard]] bool is_given(std::uint32_t s) const { return s < given_; }
   /// The segment that a point was put on, or kNoSegment.
   [[nodiscard]] std::uint32_t below(Vertex p) const { return below_[p]; }
@@ -32,8 +32,8 @@ class InputSegments {
   [[nodiscard]] Position cut_of(Vertex a, Vertex b) const;
   /// The corner that two segments have in common, or kNoVertex.
   [[nodiscard]] Vertex common_corner(std::uint32_t s, std::uint32_t r) const;
-  /// Whether two segments meet at so small an angle that its inside is left as it is: good triangles there
-  /// would be as many as its sine's inverse, towards the corner again and again.
+  /// Whether two segments meet at so small an angle that refinement leaves its inside alone: good triangles
+  /// there would be as many as the inverse of the angle's sine, again and again towards the corner.
   [[nodiscard]] bool make_needle(std::uint32_t s, std::uint32_t r) const;
   /// The same for any two segments that the points are on, or end in.
   [[nodiscard]] bool any_make_needle(Vertex a, Vertex b) const;

@@ -1,4 +1,4 @@
-// Points put into constrained Delaunay triangles that are not closed: the mesh ends at its constraints.
+// Inserts points into constrained Delaunay triangles that are not closed: the mesh ends at its constraints.
 #pragma once
 
 #include "plane/triangles.h"
@@ -15,7 +15,7 @@ class Insertion {
   template <typename Visit>
   void each_at(Vertex v, Visit&& visit) const;
 
-  /// Where a point lies, seen along a straight line from within a triangle.
+  /// Locates a point along a straight line from inside a triangle.
   struct Place {
     enum class Kind { inside, on_edge, behind_constraint, nowhere };
     Kind kind = Kind::nowhere;
@@ -25,9 +25,11 @@ class Insertion {
   /// Of p, from `start`, which lies strictly inside triangle t.
   [[nodiscard]] Place locate(Vertex p, Vertex start, std::uint32_t t) const;
 
-  /// Puts p into a triangle, which must hold it strictly, and makes the mesh constrained Delaunay again.
+  /// Inserts p into a triangle, which must contain it strictly, and makes the mesh constrained Delaunay
+  /// again.
   void insert_inside(std::uint32_t t, Vertex p);
-  /// The same on an edge. False, and nothing done, where p makes no positive triangles with the edge's ends.
+  /// The same on an edge. False, with the mesh unchanged, if p does not make positive triangles with the
+  /// edge's ends.
   bool insert_on(EdgeCode e, Vertex p);
 
  private:

@@ -7,7 +7,7 @@
 
 namespace holdfast::plane {
 
-/// Nothing but kept triangles, which have their regions as marks and end at constraints.
+/// Only kept triangles. Their marks are their regions, and they end at constraints.
 [[nodiscard]] Triangles kept_part(const Triangles& mesh, const Regions& regions,
                                   const std::vector<bool>& kept);
 

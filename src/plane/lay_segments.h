@@ -1,4 +1,4 @@
-// Segments that the mesh lacks come into it, one after the other, by swaps or by partition.
+// Recovers missing segments one after the other, by swaps or by partition.
 #pragma once
 
 #include "holdfast/plane.h"
@@ -6,10 +6,9 @@
 
 namespace holdfast::plane {
 
-/// Makes every segment of a closed Delaunay triangulation a constraint, and the hull where it is asked for.
-/// With swaps the triangles are constrained Delaunay in the end, if they are to be. Counts go to the report
-/// of `result`, and chains of pieces to what it tells of a run that stops. False where segments meet other
-/// than in common ends.
+/// Makes every segment of a closed Delaunay triangulation a constraint, and the hull if asked for. With swaps
+/// the triangles end constrained Delaunay, if this is asked for. Counts go to the report of `result`, and
+/// chains of pieces to its `intermediate` if the run stops early. False if segments meet outside common ends.
 [[nodiscard]] bool lay_segments(Draft& draft, const PlaneOptions& options, PlaneResult& result,
                                 const Poll& poll);
 

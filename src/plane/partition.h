@@ -1,4 +1,4 @@
-// Segments made edges by points where they cross the mesh, which then are removed again (paper §2.3).
+// Makes segments edges by points where they cross the mesh, and removes these points again (paper §2.3).
 #pragma once
 
 #include "plane/segments.h"
@@ -13,12 +13,12 @@ class Partition {
   /// A closed triangulation with its stars.
   Partition(Triangles& mesh, Points& points) : mesh_(mesh), points_(points) {}
 
-  /// Adds points where the segment ab crosses edges; `crossed` is its passage. Its pieces are constraints
-  /// then.
+  /// Adds points where the segment ab crosses edges; `crossed` is its passage. The pieces are then
+  /// constraints.
   [[nodiscard]] Pieces insert(Vertex a, Vertex b, const std::vector<EdgeCode>& crossed);
 
-  /// Removes the points on a segment by swaps, so that it is an edge. Points of no use any more stay in
-  /// `points`. The number of swaps.
+  /// Removes the points on a segment by swaps, so that it is an edge. Removed points stay in `points`.
+  /// Returns the number of swaps.
   std::size_t remove(const Pieces& pieces);
 
  private:

@@ -34,16 +34,16 @@ class Points {
   [[nodiscard]] const Positions& positions() const { return positions_; }
 
   [[nodiscard]] bool all_explicit() const { return exact_.empty(); }
-  /// Asks for its position, which will be needed soon.
+  /// Prefetches the position of a point.
   void fetch(Vertex v) const { __builtin_prefetch(&positions_[v]); }
 
   Vertex add(const Position& p);
   Vertex add(exact::RationalPoint p);
   /// The same for callers that know the doubles nearest to it.
   Vertex add(exact::RationalPoint p, const Position& nearest);
-  /// A point of others.
+  /// Adds a point of other points.
   Vertex add(const Points& others, Vertex v);
-  /// Takes back the points from number `count` on.
+  /// Removes the points from number `count` on.
   void shrink(std::size_t count);
   [[nodiscard]] exact::RationalPoint rational(Vertex v) const;
 

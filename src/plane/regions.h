@@ -18,7 +18,7 @@ struct Regions {
 };
 [[nodiscard]] Regions find_regions(const Triangles& mesh);
 
-/// For each place a triangle that holds it, kNoVertex for one that none holds.
+/// For each place, a triangle that contains it, or kNoVertex.
 struct Found {
   std::uint32_t triangle = kNoVertex;
   bool on_constraint = false;  ///< it lies on a constrained edge, or at a vertex of one

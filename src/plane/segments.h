@@ -1,4 +1,4 @@
-// Where a segment passes through a closed triangulation.
+// The passage of a segment through a closed triangulation.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Numbers in an order that their owner knows.
+// A sequence of numbers in an order defined by its owner.
 #pragma once
 
 #include <algorithm>
@@ -86,7 +86,7 @@ class Sequence {
     return b;
   }
 
-  /// Half of a block's numbers become one behind it.
+  /// Moves half of a block's numbers to a new block behind it.
   void split(std::uint32_t b) {
     const std::uint32_t other = add_block();
     order_.insert(std::find(order_.begin(), order_.end(), b) + 1, other);

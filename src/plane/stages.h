@@ -1,4 +1,4 @@
-// The stages of a run: how much of the work each takes, and how long.
+// The stages of a run: the share of work and the time of each.
 #pragma once
 
 #include <chrono>

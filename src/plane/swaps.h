@@ -1,4 +1,4 @@
-// Segments made edges by swaps (paper §2.2), and constrained Delaunay triangles by swaps (Lawson 1977).
+// Makes segments edges by swaps (paper §2.2), and triangles constrained Delaunay by swaps (Lawson 1977).
 #pragma once
 
 #include "numbers/random.h"
@@ -11,8 +11,8 @@ class SegmentSwaps {
  public:
   SegmentSwaps(Triangles& mesh, const Points& points) : mesh_(mesh), points_(points) {}
 
-  /// For the segment ab, of which `crossed` is the passage. Edges that were swapped are added to `swapped`,
-  /// as seen from both sides. The number of swaps, which ends at `most`.
+  /// For the segment ab with the passage `crossed`. Swapped edges are added to `swapped`, as seen from both
+  /// sides. Returns the number of swaps; stops at `most`.
   std::size_t lay(Vertex a, Vertex b, const std::vector<EdgeCode>& crossed, numbers::Random& random,
                   std::vector<EdgeCode>& swapped, std::size_t most = SIZE_MAX);
 

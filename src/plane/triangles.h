@@ -32,7 +32,7 @@ inline constexpr EdgeCode kNoEdge = ~EdgeCode{0};
 [[nodiscard]] inline EdgeCode next_edge(EdgeCode e) { return edge_of(e) == 2 ? e - 2 : e + 1; }
 [[nodiscard]] inline EdgeCode previous_edge(EdgeCode e) { return edge_of(e) == 0 ? e + 2 : e - 1; }
 
-/// What long loops call now and then with the share that is done; may throw.
+/// Called from time to time in long loops with the share that is done; may throw.
 using Poll = std::function<void(double)>;
 
 struct alignas(32) Corners {
@@ -89,7 +89,7 @@ class Triangles {
     const EdgeCode other = across(e);
     return other == kNoEdge ? kNoEdge : next_edge(other);
   }
-  /// Ask for memory that will be needed soon: of a vertex, which triangle is at it, and then this triangle.
+  /// Prefetch for a vertex: first the number of its triangle, then the triangle.
   void fetch_star(Vertex v) const { __builtin_prefetch(&star_[v]); }
   void fetch_triangle(Vertex v) const {
     if (const std::uint32_t t = star_[v]; t != kNoVertex) __builtin_prefetch(&all_[t]);

@@ -6,7 +6,7 @@
 
 namespace holdfast::plane {
 
-/// As holdfast::triangulate, but that limits throw: `poll` is called with the share of the work that is done.
+/// As holdfast::triangulate, but limits throw. `poll` is called with the share of the work that is done.
 [[nodiscard]] PlaneResult triangulate(const Plane& plane, const PlaneOptions& options, const Poll& poll);
 
 }  // namespace holdfast::plane
