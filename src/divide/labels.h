@@ -1,4 +1,4 @@
-// Which part a tetrahedron of the coarse mesh belongs to.
+// The part of each tetrahedron of the coarse mesh.
 #pragma once
 
 #include <span>
@@ -9,9 +9,9 @@
 
 namespace holdfast::division {
 
-/// Of each tetrahedron the cell of its centre, but that those which stick out go to the part that has most of
-/// their sides: interfaces get smaller and flatter so. Numbers are consecutive; cells without tetrahedra have
-/// none.
+/// The label of a tetrahedron is the cell of its centre. But a tetrahedron that sticks out gets the label of
+/// most of its neighbours, which makes interfaces smaller and flatter. Labels are consecutive; cells without
+/// tetrahedra have none.
 [[nodiscard]] std::vector<Index> label(const Volume& volume, std::span<const Neighbours> neighbours,
                                        const Bisection& cells);
 

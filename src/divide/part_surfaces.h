@@ -9,15 +9,16 @@
 
 namespace holdfast::division {
 
-/// What a facet of a part's surface has in front and behind: the id of a region of the part, or nothing where
-/// the part is not.
+/// The two sides of a facet of a part's surface, in front and behind: the id of a region of the part, or
+/// nothing outside the part.
 struct CutSurface {
   SurfacePart part;
   std::vector<FacetRegions> sides;  ///< one a facet of `part.surface`
 };
 
-/// One a label, in order. `marker` is that of interfaces. Facets are turned so that the outside of the part
-/// is in front, and inside so that winding numbers are positive where there are such.
+/// One surface for each label, in order. `marker` is the marker of interfaces. Facets on the part's boundary
+/// have its outside in front. Facets inside are oriented so that winding numbers are positive, if there are
+/// winding numbers.
 [[nodiscard]] std::vector<CutSurface> part_surfaces(const Volume& volume,
                                                     std::span<const Neighbours> neighbours,
                                                     std::span<const Index> labels, int marker);

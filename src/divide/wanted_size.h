@@ -1,5 +1,5 @@
-// The size that elements should have at a point, before there is any mesh: what the field points of a part
-// make of its surface (docs/sizes.md).
+// The size that elements should have at a point, before there is a mesh: an estimate of the sizes that field
+// points will get from the surface (docs/sizes.md).
 #pragma once
 
 #include <functional>
