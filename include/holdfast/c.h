@@ -1,15 +1,16 @@
 /* Holdfast for C and for everything that calls C: the same library behind opaque handles.
  *
- * - Every function that can fail returns a holdfast_status and fills `error`, which may be NULL. No C++
- * exception leaves a function, and running out of memory is HOLDFAST_OUT_OF_MEMORY.
- * - Handles are made by functions that write to their last but one argument `out`, which stays NULL unless
- * the status is HOLDFAST_OK (holdfast_mesh has exceptions). Release each handle by its own _free, which
- *   accepts NULL.
- * - Arrays that a handle returns belong to the handle, are read-only and valid until it is freed. None is
- * copied. Shapes are given as (rows, columns); rows are contiguous. A count of 0 comes with NULL.
+ * - Every function that can fail returns a holdfast_status and fills `error`, which may be NULL.
+ *   No C++ exception leaves a function, and running out of memory is HOLDFAST_OUT_OF_MEMORY.
+ * - Functions that make a handle write it to their last but one argument `out`, which stays NULL
+ *   unless the status is HOLDFAST_OK (holdfast_mesh lists exceptions).
+ *   Release each handle by its own _free, which accepts NULL.
+ * - Arrays that a handle returns belong to the handle, are read-only and valid until it is freed.
+ *   None is copied. Shapes are given as (rows, columns); rows are contiguous.
+ *   A count of 0 comes with NULL.
  * - A handle may be read from several threads at once.
- * - Callbacks get the context pointer given with them, run in the thread that made the call, and must not
- * throw or jump out of it.
+ * - Callbacks get the context pointer given with them, run in the thread that made the call,
+ *   and must not throw or jump out of it.
  */
 #ifndef HOLDFAST_C_H
 #define HOLDFAST_C_H
@@ -253,8 +254,7 @@ HOLDFAST_API void holdfast_defects_free(holdfast_defects* defects);
 /* ---- Check, Delaunay, untangle ---- */
 
 /* Decides exactly whether a volume keeps a surface. `holds` gets 1 or 0; `error`, if given, the first broken
- * rule.
- */
+ * rule. */
 HOLDFAST_API holdfast_status holdfast_check(const holdfast_surface* surface, const holdfast_volume* volume,
                                             const holdfast_control* control, int* holds,
                                             holdfast_error* error);
