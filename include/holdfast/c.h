@@ -3,7 +3,7 @@
  * - Every function that can fail returns a holdfast_status and fills `error`, which may be NULL.
  *   No C++ exception leaves a function, and running out of memory is HOLDFAST_OUT_OF_MEMORY.
  * - Functions that make a handle write it to their last but one argument `out`, which stays NULL
- *   unless the status is HOLDFAST_OK (holdfast_mesh lists exceptions).
+ *   unless the status is HOLDFAST_OK (holdfast_mesh lists the exceptions).
  *   Release each handle by its own _free, which accepts NULL.
  * - Arrays that a handle returns belong to the handle, are read-only and valid until it is freed.
  *   None is copied. Shapes are given as (rows, columns); rows are contiguous.

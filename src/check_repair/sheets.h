@@ -1,8 +1,8 @@
 // Check of repairs: which parts of a surface may meet.
 //
-// What repairs make of a triangle of the input lies near to a plane. Two such sheets can only meet near to
-// the line of their planes, while the boxes of their parts overlap all over them: those of 150 pages of a
-// book that cross in its spine, 150 parts each, do so 100 million times.
+// The parts that a repair makes of an input triangle lie near a plane. Two such sheets can only meet near the
+// line of their planes, but the boxes of their parts overlap all over the sheets. For 150 pages of a book
+// that cross in its spine, with 150 parts each, boxes overlap 100 million times.
 #pragma once
 
 #include <cstdint>
