@@ -1,4 +1,4 @@
-// A file that holds a volume or a surface: which of the two, the file tells.
+// A file that holds a volume or a surface; its contents decide which.
 #pragma once
 
 #include <filesystem>

@@ -27,10 +27,10 @@ void add_bounds(CLI::App& command, BoundArguments& arguments);
 /// the names of the files are there. Throws UsageError.
 void set_bounds(const BoundArguments& arguments, const Names& names, Options& options);
 
-/// Throws UsageError for what is no bound; reads no file.
+/// Throws UsageError for invalid bounds; reads no file.
 void require_bounds(const BoundArguments& arguments);
 
-/// How far the bounds are met, for the summary of a run; empty without bounds.
+/// How well the bounds are met, for the summary of a run; empty without bounds.
 [[nodiscard]] std::string bounds_text(const Options& options, const Report& report);
 
 }  // namespace holdfast::cli

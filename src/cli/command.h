@@ -1,4 +1,4 @@
-// What every command of the program shares: exit codes, failures, how a command is registered.
+// Shared by all commands of the program: exit codes, failures, the registration of commands.
 #pragma once
 
 #include <fmt/core.h>
@@ -30,7 +30,7 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Tells the user something, on stderr. That nobody may be there to read it is no failure of the work.
+/// Tells the user something, on stderr. A closed stderr is not a failure of the command.
 template <typename... Values>
 void say(fmt::format_string<Values...> text, Values&&... values) {
   const std::string said = fmt::format(text, std::forward<Values>(values)...);

@@ -1,4 +1,4 @@
-// What `diagnose` proposes, as options of `holdfast repair`.
+// The proposals of `diagnose`, as options of `holdfast repair`.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What is told of defects: a summary by cause, then the list.
+// Prints defects: a summary by cause, then the list.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ inline constexpr std::size_t shown_in_passing = 20;
 /// The defect's message, with the options that stand for what it says is to be done.
 [[nodiscard]] std::string message_of(const Defect& defect);
 
-/// Whether the surface itself breaks no rule: only what is to be kept of it does not suit it.
+/// Whether the surface itself breaks no rule, and only the choice of regions to keep does not suit it.
 [[nodiscard]] bool is_valid(const std::vector<Defect>& defects);
 
 /// One line a cause: how many, the worst, what to do.

@@ -1,4 +1,4 @@
-// The files that a command reads and writes: none is lost.
+// The files that a command reads and writes. Ensures that no file overwrites another.
 #pragma once
 
 #include <sys/stat.h>
@@ -12,7 +12,8 @@
 
 namespace holdfast::cli {
 
-/// "-" as the system names standard input or output, any other path as it is: for CLI::Option::transform.
+/// Replaces "-" by the system's name of standard input or output; other paths stay. For
+/// CLI::Option::transform.
 [[nodiscard]] std::string or_standard_input(const std::string& path);
 [[nodiscard]] std::string or_standard_output(const std::string& path);
 
@@ -26,8 +27,8 @@ struct VolumeTarget {
 [[nodiscard]] std::string format_of(const VolumeTarget& target);
 
 /// Every file of a run. A command names them all before it does any work; each is compared with those named
-/// before it. What is written must be none that is read or written otherwise, whatever it is called: files
-/// are compared by identity, so that links and other spellings count, and those that are not there yet by
+/// before it. A file that is written must not be read or written under another option, whatever its name:
+/// files are compared by identity, which covers links and other spellings, and files that do not exist yet by
 /// folder and name. `option` is what the user knows a file by ("-o", "the input"). An empty path names no
 /// file.
 class FilesOfRun {
@@ -52,7 +53,7 @@ class FilesOfRun {
   [[nodiscard]] WriteOptions write_surface(std::string_view option, const std::filesystem::path& path,
                                            std::string format);
 
-  /// Prints what a command has found: to stderr if a file goes to stdout. Throws FileError.
+  /// Prints the findings of a command: to stderr if a file goes to stdout. Throws FileError.
   void list(std::string_view text) const;
   [[nodiscard]] bool list_is_on_terminal() const;
 

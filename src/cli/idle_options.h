@@ -1,4 +1,4 @@
-// Options that do nothing beside others: wrong usage, since their user expects something of them.
+// Options that have no effect beside others. They are wrong usage, because their user expects an effect.
 #pragma once
 
 #include "holdfast/holdfast.h"
@@ -6,7 +6,7 @@
 
 namespace holdfast::cli {
 
-/// Throws UsageError for the first option that does nothing beside another one.
+/// Throws UsageError for the first option that has no effect beside another one.
 void refuse_idle_options(const MeshArguments& arguments);
 
 /// The same, once files are read: a size field may be a metric, and surfaces may bring holes.

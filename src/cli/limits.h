@@ -27,12 +27,13 @@ void add_limits(CLI::App& command, LimitArguments& arguments);
 /// numbers that are no limits.
 [[nodiscard]] Limits limits_of(const LimitArguments& arguments);
 
-/// How a limit or a signal ended a call that has no outcome, in the words of those that have one.
+/// The message for a call without an outcome that a limit or a signal ended, in the words of calls with an
+/// outcome.
 [[nodiscard]] std::string message_of(const Interrupted& interrupted, const Limits& limits);
 
-/// Works: reads, writes, or calls what has no outcome. Where a limit or a signal ends that, or it needs more
-/// memory or numbers than there are, `report` gets the outcome and its message, as where one ends what has an
-/// outcome, before the exception goes on.
+/// Runs work that has no outcome: reading, writing, some calls. If a limit or a signal ends the work, or it
+/// needs more memory or numbers than there are, `report` gets the outcome and its message, as for calls with
+/// an outcome, before the exception is rethrown.
 template <class Work, class Report>
 auto work_or_report(const Limits& limits, const Work& work, const Report& report) {
   try {
@@ -49,7 +50,7 @@ auto work_or_report(const Limits& limits, const Work& work, const Report& report
   }
 }
 
-/// The report of a command that found nothing before it was ended.
+/// The report of a command that was ended before it found anything.
 void write_end(const std::filesystem::path& path, Outcome outcome, const std::string& message);
 
 /// As work_or_report, where all that there is to report is how it ended, in each of these files.
@@ -61,7 +62,7 @@ auto work_or_write_end(const Limits& limits, const Work& work,
   });
 }
 
-/// For reading, which heeds signals once `cancel_by_flag` was called.
+/// Limits for reading, which obeys signals once `cancel_by_flag` was called.
 [[nodiscard]] ReadOptions reading(const Limits& limits, const std::string& format, double tolerance = 0);
 
 /// Why text is no number of 64 bits without a sign, which would become another one without a word; else "".

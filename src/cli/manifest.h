@@ -1,4 +1,4 @@
-// The manifest of a divided surface: what `split` writes, and `join` and `check DIR` read (docs/divide.md).
+// The manifest of a divided surface: `split` writes it, `join` and `check DIR` read it (docs/divide.md).
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,5 @@
-// What `holdfast mesh` fills, and once more where a repair left what has no mesh in doubles.
+// Runs the mesher for `holdfast mesh`, and again after a further repair if the repaired surface has no mesh
+// in doubles.
 #pragma once
 
 #include "holdfast/holdfast.h"

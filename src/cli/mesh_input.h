@@ -1,4 +1,4 @@
-// What `mesh` fills: surfaces read from files, the parts of several, and what is told of them before.
+// The input of `mesh`: surfaces read from files, parts from several files, and the messages about them.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace holdfast::cli {
 
-/// What is meshed: one surface, or the parts of several files.
+/// The input to mesh: one surface, or the parts of several files.
 struct MeshInput {
   Surface surface;
   std::vector<Surface> parts;  ///< empty where the surface is meshed as it is

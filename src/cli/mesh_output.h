@@ -1,4 +1,4 @@
-// Where a volume goes: a file of volumes, one of surfaces alone, or a file for each region.
+// The output of a volume: a volume file, a surface file, or a file for each region.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What `holdfast mesh` says of a surface that it does not fill.
+// The messages of `holdfast mesh` for a surface that it does not fill.
 #pragma once
 
 #include "holdfast/holdfast.h"
