@@ -111,7 +111,7 @@ enum class FitKind : int {
   vertices_there = 3,      ///< every place is a vertex of a part
   interfaces_matched = 4,  ///< a face of a single part on its boundary is a facet of the surface; one of two
                            ///< parts is such a facet, or both parts have the same region there
-  nothing_twice = 5,  ///< a face has at most two parts: one in front, one behind
+  nothing_twice = 5,       ///< a face has at most two parts: one in front, one behind
 };
 [[nodiscard]] HOLDFAST_API const char* name(FitKind kind);
 
