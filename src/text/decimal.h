@@ -1,14 +1,14 @@
-// Numbers in messages. The program that the library works in may have set a locale, in which printf writes
-// 1,5 for one and a half; here it is 1.5 always.
+// Numbers in messages. They always have a decimal point: printf follows the locale of the host program, which
+// may write 1,5 for one and a half.
 #pragma once
 
 #include <string>
 
 namespace holdfast {
 
-/// In as few digits as tell `value` from all other doubles.
+/// The shortest text that distinguishes `value` from all other doubles.
 [[nodiscard]] std::string decimal(double value);
-/// Rounded to at most `digits` significant digits, between 1 and 17, like printf's %g in the C locale.
+/// `value` rounded to at most `digits` significant digits (1 to 17), like printf's %g in the C locale.
 [[nodiscard]] std::string decimal(double value, int digits);
 
 }  // namespace holdfast

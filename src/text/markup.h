@@ -1,11 +1,11 @@
-// Characters that mean something in XML and HTML, and how these spell them.
+// The characters with a special meaning in XML and HTML, and their entities.
 #pragma once
 
 #include <string_view>
 
 namespace holdfast {
 
-/// The entity of a character, or nothing where it stands for itself, as it may between double quotes.
+/// The entity of a character; empty if the character may stand for itself between double quotes.
 [[nodiscard]] constexpr std::string_view entity_of(char c) {
   switch (c) {
     case '&':
