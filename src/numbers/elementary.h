@@ -13,24 +13,24 @@
 namespace holdfast::numbers {
 
 [[nodiscard]] double exp(double x);
-/// NaN below zero.
+/// NaN for x < 0.
 [[nodiscard]] double log(double x);
 [[nodiscard]] double cbrt(double x);
-/// Where neither squares nor their sum leave the range, the root of the sum; else of numbers scaled by a
-/// power of two.
+/// The root of the sum of squares. If a square or the sum would leave the range of doubles, the arguments are
+/// first scaled by a power of two.
 [[nodiscard]] double hypot(double x, double y);
 [[nodiscard]] double hypot(double x, double y, double z);
-/// Of two points anywhere in the range of doubles.
+/// The distance of two points anywhere in the range of doubles.
 [[nodiscard]] inline double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
   return hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-/// Of angles in radians, up to some thousands.
+/// For angles in radians, up to some thousands.
 [[nodiscard]] double sin(double x);
 [[nodiscard]] double cos(double x);
 /// The angle of (x, y) in radians, from -pi to pi.
 [[nodiscard]] double atan2(double y, double x);
-/// Of a number from -1 to 1.
+/// For numbers from -1 to 1.
 [[nodiscard]] double acos(double x);
 
 }  // namespace holdfast::numbers

@@ -1,4 +1,4 @@
-// Points that files may give, and that no predicate takes.
+// Tests for points that are not finite: files may contain them, but no predicate accepts them.
 #pragma once
 
 #include <array>

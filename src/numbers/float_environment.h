@@ -18,8 +18,8 @@
 
 namespace holdfast {
 
-/// As long as one lives, its thread rounds to nearest, keeps denormals and traps nothing; then the caller's
-/// ways are back. Every public function begins with one, and so does every thread.
+/// While an object lives, its thread rounds to nearest, keeps denormals and traps nothing; the destructor
+/// restores the caller's settings. Every public function begins with one, and so does every thread.
 class FloatEnvironment {
  public:
   FloatEnvironment();
@@ -29,7 +29,7 @@ class FloatEnvironment {
 
  private:
   int rounding_;
-  unsigned long long control_;  // of the processor, where denormals and traps are its matter
+  unsigned long long control_;  // the processor's control word, if denormals and traps are set there
 };
 
 }  // namespace holdfast

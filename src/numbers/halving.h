@@ -8,7 +8,7 @@
 
 namespace holdfast::numbers {
 
-/// The middle element, those in the middle of both halves, then of all quarters, and so on.
+/// The order: the middle element, then the middle of each half, then of each quarter, and so on.
 template <typename T>
 [[nodiscard]] std::vector<T> halved(const std::vector<T>& elements) {
   std::vector<T> order;

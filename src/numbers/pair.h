@@ -1,4 +1,4 @@
-// Some numbers that the machine computes at once.
+// A few numbers that the processor computes with at once.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,9 @@
 
 namespace holdfast {
 
-/// Two doubles in one register, on every processor that the compiler knows how to do it for. Elementwise
-/// arithmetic and comparisons as for one number, so that one and two take the same code.
+/// Two doubles in one register, on every processor for which the compiler supports this. Arithmetic and
+/// comparisons work elementwise and are written as for one number, so that the same code serves one number
+/// and two.
 using Pair = double __attribute__((vector_size(16)));
 
 [[nodiscard]] inline Pair load_pair(const double* from) {
@@ -20,7 +21,7 @@ using Pair = double __attribute__((vector_size(16)));
   return pair;
 }
 
-/// What a comparison of pairs gives, as bits 0 and 1.
+/// The result of a comparison of pairs, as bits 0 and 1.
 using PairOfBools = decltype(Pair{} < Pair{});
 [[nodiscard]] inline std::uint32_t bits(PairOfBools pair) {
 #if defined(__SSE2__)
@@ -30,8 +31,8 @@ using PairOfBools = decltype(Pair{} < Pair{});
 #endif
 }
 
-/// Four, where `has_fours` says so, in functions that HOLDFAST_WITH_FOURS marks. Each of them is what it
-/// would be by itself, bit for bit.
+/// Four doubles, available if `has_fours` says so, in functions marked by HOLDFAST_WITH_FOURS. Each result
+/// has the same bits as if it were computed alone.
 using Four = double __attribute__((vector_size(32)));
 
 #if defined(__x86_64__) && defined(__GNUC__)

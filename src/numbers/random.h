@@ -1,7 +1,7 @@
 // Random orders and numbers that are the same everywhere.
 //
-// The standard defines what std::mt19937_64 gives, but neither which of its numbers std::shuffle and the
-// distributions of <random> take, nor what they make of them.
+// The standard defines the output of std::mt19937_64. It does not define which of these numbers std::shuffle
+// and the distributions of <random> use, or how.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace holdfast::numbers {
 
 using Random = std::mt19937_64;
 
-/// From 0 to n - 1, each as likely (Lemire 2019, Fast random integer generation in an interval).
+/// A number from 0 to n - 1, all equally likely (Lemire 2019, Fast random integer generation in an interval).
 [[nodiscard]] inline std::uint64_t below(std::uint64_t n, Random& random) {
   __extension__ using Wide = unsigned __int128;
   Wide product = Wide{random()} * n;
@@ -23,8 +23,9 @@ using Random = std::mt19937_64;
   return static_cast<std::uint64_t>(product >> 64);
 }
 
-/// Any order, each as likely: element k changes places with one of the first k + 1. One number serves two
-/// elements, as below i * j it is a pair of numbers below i and below j; so sizes are below 2^32.
+/// A random order, all equally likely: element k swaps places with one of the first k + 1. One random number
+/// serves two elements, because a number below i * j is a pair of numbers below i and below j; so sizes must
+/// be below 2^32.
 template <typename Iterator>
 void shuffle(Iterator first, Iterator last, Random& random) {
   const auto size = static_cast<std::uint64_t>(last - first);
@@ -45,7 +46,7 @@ void shuffle(Iterator first, Iterator last, Random& random) {
   }
 }
 
-/// Of mean 0 and variance 1, nearly normal: the sum of four numbers that are evenly distributed.
+/// A nearly normal number of mean 0 and variance 1: the sum of four evenly distributed numbers.
 [[nodiscard]] inline double bell(Random& random) {
   std::uint64_t bits = random();
   std::int64_t sum = 0;

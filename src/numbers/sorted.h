@@ -1,4 +1,4 @@
-// Lists in ascending order, each entry once; and short arrays in ascending order.
+// Lists in ascending order without duplicates; and short arrays in ascending order.
 #pragma once
 
 #include <algorithm>
@@ -11,19 +11,19 @@
 
 namespace holdfast {
 
-/// Sorts a list and takes out what is in it more than once.
+/// Sorts a list and removes duplicates.
 template <typename List>
 void sort_unique(List& list) {
   std::sort(list.begin(), list.end());
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
-/// The corners of some faces in ascending order, each once. What came last of those with the same lowest bits
-/// is remembered, so that little is sorted that goes again.
+/// The corners of some faces in ascending order, each once. For each pattern of the lowest bits, the last
+/// corner is remembered: this drops most duplicates before the sort.
 [[nodiscard]] inline std::vector<std::uint32_t> corners_of_all(
     std::span<const std::array<std::uint32_t, 3>> faces) {
   constexpr std::size_t kRemembered = 64;
-  std::array<std::uint64_t, kRemembered> last{};  // one more than the number
+  std::array<std::uint64_t, kRemembered> last{};  // one more than the remembered corner
   std::vector<std::uint32_t> corners;
   corners.reserve(faces.size());
   for (const auto& f : faces)
@@ -34,7 +34,7 @@ void sort_unique(List& list) {
   return corners;
 }
 
-/// Two ends, or three corners, in ascending order: the same for any order in which they come.
+/// Two ends or three corners in ascending order: a key that does not depend on their order.
 template <typename T, std::size_t N>
 [[nodiscard]] constexpr std::array<T, N> ascending(std::array<T, N> of) {
   for (std::size_t i = 1; i < N; ++i)
@@ -42,7 +42,7 @@ template <typename T, std::size_t N>
   return of;
 }
 
-/// Leaves one of each value that is there an odd number of times, in ascending order: a sum modulo 2.
+/// Keeps one copy of each value that occurs an odd number of times, in ascending order: a sum modulo 2.
 template <typename T>
 void sort_odd(std::vector<T>& values) {
   std::sort(values.begin(), values.end());

@@ -1,4 +1,5 @@
-// Vectors of three doubles. They measure and propose: what floating point says here decides no topology.
+// Vectors of three doubles. They measure and propose: no topology is decided by this floating-point
+// arithmetic.
 #pragma once
 
 #include <array>
