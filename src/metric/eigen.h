@@ -1,5 +1,5 @@
-// Eigenvalues and eigenvectors of symmetric matrices of three rows. (In the Eigen library the order of
-// operations, and so the last bits, depend on its version and on the processor's vectors.)
+// Eigenvalues and eigenvectors of symmetric 3 x 3 matrices. (In the Eigen library the order of operations,
+// and so the last bits, depend on the version and on the processor's vector units.)
 #pragma once
 
 #include <array>
@@ -10,11 +10,12 @@ using Matrix = std::array<std::array<double, 3>, 3>;
 
 struct Eigen {
   std::array<double, 3> values;  ///< in no order
-  Matrix vectors;                ///< rows of unit length, at right angles
+  Matrix vectors;                ///< orthonormal rows
 };
 
-/// Of a symmetric matrix, of which the upper triangle is read. Small eigenvalues of positive definite ones
-/// are as accurate, relative to their size, as the matrix determines them (Demmel, Veselic 1992).
+/// The eigenvalues of a symmetric matrix, of which only the upper triangle is read. Small eigenvalues of
+/// positive definite matrices are as accurate, relative to their size, as the matrix determines them (Demmel,
+/// Veselic 1992).
 [[nodiscard]] Eigen eigen(Matrix m);
 
 }  // namespace holdfast

@@ -1,5 +1,5 @@
-// Coordinates in which a metric is the unit one, so that what is written for equal sizes in all directions
-// serves a metric, too.
+// Coordinates in which a metric becomes the unit metric, so that code written for isotropic sizes also serves
+// a metric.
 #pragma once
 
 #include <algorithm>
@@ -8,13 +8,13 @@
 
 namespace holdfast {
 
-/// An affine map of space that keeps orientation: lengths in the frame are those in the metric. Any root of
-/// the metric does, since they differ by rotations alone; the triangular one is the cheapest.
+/// An affine map of space that keeps orientation: lengths in the frame are lengths in the metric. Any root of
+/// the metric would do, since roots differ by rotations only; the triangular one is the cheapest.
 class Frame {
  public:
-  /// Space as it is.
+  /// The identity.
   Frame() = default;
-  /// Of a positive definite metric; the frame's zero is at `origin`.
+  /// The frame of a positive definite metric, with its zero at `origin`.
   Frame(const Metric& m, const Point& origin) : is_plain_(false), origin_(origin) {
     xx_ = std::sqrt(m[0]);
     xy_ = m[1] / xx_;
@@ -37,7 +37,7 @@ class Frame {
   }
 
  private:
-  // A pivot may be lost in rounding where sizes differ by eight orders of magnitude.
+  // Rounding may lose a pivot if sizes differ by eight orders of magnitude.
   static double root_of(double pivot, double diagonal) {
     constexpr double kLeast = 1e-16;
     return std::sqrt(std::max(pivot, kLeast * diagonal));
@@ -45,7 +45,7 @@ class Frame {
 
   bool is_plain_ = true;
   Point origin_{};
-  double xx_ = 1, xy_ = 0, xz_ = 0, yy_ = 1, yz_ = 0, zz_ = 1;  // of the map
+  double xx_ = 1, xy_ = 0, xz_ = 0, yy_ = 1, yz_ = 0, zz_ = 1;  // matrix of the map
 };
 
 }  // namespace holdfast

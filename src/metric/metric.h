@@ -1,7 +1,7 @@
 // Algebra of metric tensors (Frey, George, Mesh Generation, 2008, chapter 10).
 //
-// A metric M measures a vector e as sqrt(e^T M e); where M is given, edges of length 1 in it are wanted. Its
-// eigenvalues are 1 / h^2, with h the size along the eigenvector. The zero tensor asks for nothing.
+// A metric M measures a vector e as sqrt(e^T M e). A given M asks for edges of length 1 in M. Its eigenvalues
+// are 1 / h^2, where h is the size along the eigenvector. The zero tensor asks for nothing.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace holdfast {
 
-/// The metric in which lengths are those in space over this size.
+/// The metric that measures lengths in units of `size`.
 [[nodiscard]] constexpr Metric isotropic_metric(double size) {
   const double m = 1 / (size * size);
   return {m, 0, m, 0, 0, m};
@@ -34,26 +34,26 @@ namespace holdfast {
   return std::sqrt(squared_length(m, e));
 }
 
-/// The length of an edge with these metrics at its ends, where sizes along it form a geometric progression
+/// The length of an edge with these metrics at its ends, if sizes along the edge form a geometric progression
 /// (Alauzet 2010).
 [[nodiscard]] double length(const Metric& a, const Metric& b, const std::array<double, 3>& e);
 
 /// The largest size that a positive definite metric asks for in any direction.
 [[nodiscard]] double largest_size(const Metric& m);
 
-/// Whether all numbers are finite and every vector has a positive length.
+/// Whether all numbers are finite and every nonzero vector has a positive length.
 [[nodiscard]] bool is_positive_definite(const Metric& m);
 
-/// The metric whose unit ball is the largest ellipsoid that simultaneous reduction finds in the unit balls of
-/// both (Alauzet, Frey 2003): no vector is shorter in it than in either. One of them is positive definite,
-/// the other may be zero.
+/// The metric whose unit ball is the largest ellipsoid that simultaneous reduction finds inside both unit
+/// balls (Alauzet, Frey 2003): it measures no vector shorter than either metric does. One metric must be
+/// positive definite, the other may be zero.
 [[nodiscard]] Metric intersection(const Metric& a, const Metric& b);
 
-/// The logarithm of a positive definite tensor. Means of logarithms are what metrics are interpolated by: the
+/// The logarithm of a positive definite tensor. Metrics are interpolated by means of their logarithms: the
 /// result is positive definite, and sizes along common axes have their geometric mean (Arsigny, Fillard,
 /// Pennec, Ayache 2006).
 [[nodiscard]] Metric logarithm(const Metric& m);
-/// Of any symmetric tensor: the inverse of `logarithm`.
+/// The exponential of any symmetric tensor: the inverse of `logarithm`.
 [[nodiscard]] Metric exponential(const Metric& m);
 
 }  // namespace holdfast
