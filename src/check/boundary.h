@@ -39,14 +39,14 @@
 
 namespace holdfast::checking {
 
-/// A point infinitesimally close to `points[0]`: points[0] + e (points[1] - points[0]) + e^2 (...), then
-/// two still smaller steps along y and z that make it generic where there are fewer than four points.
+/// A point infinitesimally close to `points[0]`: points[0] + e (points[1] - points[0]) + e^2 (...). With
+/// fewer than four points, two still smaller steps along y and z make it generic.
 struct Germ {
   std::array<const double*, 4> points{};
   std::size_t count = 0;
-  bool away = false;  ///< the last step goes away from the fourth point, not to it
+  bool away = false;  ///< the last step leads away from the fourth point instead of to it
 
-  [[nodiscard]] int side_of_line(const double* u, const double* v) const;  ///< in projection along x
+  [[nodiscard]] int side_of_line(const double* u, const double* v) const;  ///< in the projection along x
   [[nodiscard]] int side_of_plane(const double* u, const double* v, const double* w) const;
 };
 
@@ -68,20 +68,20 @@ class Boundary {
   /// Pairs of boundary faces that meet outside common vertices and sides; B is embedded if none.
   [[nodiscard]] std::vector<std::array<Index, 2>> crossing_pairs(Pulse& pulse) const;
 
-  /// A face and how many tetrahedra cover the space just inside it.
+  /// A face and the number of tetrahedra that cover the space just inside it.
   struct Cover {
     Index face;
     int count;
   };
-  /// One of every sheet of (3). B must be embedded.
+  /// The cover of one face of each sheet of (3). B must be embedded.
   [[nodiscard]] std::vector<Cover> covers(Pulse& pulse) const;
 
-  /// Bounded regions of space that no tetrahedron covers: one face of each.
-  /// The tetrahedra must be free of overlap.
+  /// One face of each bounded region of space that no tetrahedron covers. The tetrahedra must not overlap.
   [[nodiscard]] std::vector<Index> voids() const;
 
-  /// Whether an entity, of the volume's vertices, is nowhere in or on a tetrahedron except for its own
-  /// vertices and sides. False for degenerate ones. The tetrahedra must be free of overlap.
+  /// Whether no tetrahedron holds any point of the entity, except for the entity's own vertices and sides.
+  /// The entity's vertices are vertices of the volume. False for degenerate entities. The tetrahedra must not
+  /// overlap.
   [[nodiscard]] bool outside(const Triangle& facet) const;
   [[nodiscard]] bool outside(const Segment& segment) const;
   [[nodiscard]] bool outside(Index vertex) const;
@@ -102,7 +102,7 @@ class Boundary {
 
   /// Signed crossings of the ray from `germ` with all faces.
   [[nodiscard]] int cross(const Germ& germ) const;
-  /// How far a face reaches along x.
+  /// The largest x coordinate of a face.
   [[nodiscard]] double reach(Index face) const;
 
   std::span<const Point> vertices_;

@@ -1,5 +1,5 @@
-// Check: a tree of axis-parallel boxes. Boxes have doubles of the input as bounds, nothing is rounded,
-// so whatever a query skips is disjoint in exact arithmetic too.
+// Check: a tree of axis-parallel boxes. The bounds are doubles of the input, without rounding, so boxes that
+// a query skips are disjoint in exact arithmetic too.
 #pragma once
 
 #include <algorithm>
@@ -48,7 +48,8 @@ class BoxTree {
   BoxTree() = default;
   explicit BoxTree(std::vector<Box> boxes);
 
-  /// Calls `visit(item)` for each box that `hits(box)`; `hits` must hold for a box if for a part of it.
+  /// Calls `visit(item)` for each box for which `hits(box)` holds. `hits` must hold for a box if it holds for
+  /// a part of the box.
   template <class Hits, class Visit>
   void query(Hits&& hits, Visit&& visit) const {
     if (nodes_.empty()) return;
@@ -74,7 +75,7 @@ class BoxTree {
     pairs(*this, visit);
   }
 
-  /// The same for each pair of a box of this tree and one of the other that meet.
+  /// The same for each pair of a box of this tree and a box of the other tree that meet.
   template <class Visit>
   void pairs_with(const BoxTree& other, Visit&& visit) const {
     pairs(other, visit);

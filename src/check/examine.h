@@ -7,7 +7,7 @@
 
 namespace holdfast::checking {
 
-/// `step` is called now and then with the share of the work that is done, and may throw to stop.
+/// Calls `step` now and then with the finished share of the work; `step` may throw to stop.
 [[nodiscard]] CheckResult examine(const Complex& surface, const Volume& volume, const CheckOptions& options,
                                   const std::function<void(double)>& step);
 

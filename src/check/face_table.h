@@ -1,7 +1,7 @@
 // Check: the faces of all tetrahedra, grouped by their three vertices.
 //
-// Every tetrahedron lists its four sides under the smallest vertex of each; the lists are sorted, so
-// that the tetrahedra at one face stand together. Nothing of the mesher's adjacency is used.
+// Each of the four sides of a tetrahedron is listed under the smallest vertex of the side. The lists are
+// sorted, so that the tetrahedra at one face are adjacent. Nothing of the mesher's adjacency is used.
 #pragma once
 
 #include <array>
@@ -33,16 +33,16 @@ struct HalfFace {
 class FaceTable {
  public:
   static constexpr std::size_t none = SIZE_MAX;
-  /// Above this many tetrahedra the codes do not fit.
+  /// The codes have room for at most this many tetrahedra.
   static constexpr std::size_t most_tetrahedra = std::size_t{1} << 29;
 
   FaceTable() = default;
   /// All indices must be below `vertex_count` and distinct within a tetrahedron.
   FaceTable(std::span<const Tetrahedron> tetrahedra, std::size_t vertex_count, Pulse& pulse);
 
-  /// Where the half-faces of the face with these vertices begin, or `none`. Any indices are accepted.
+  /// Where the half-faces of the face with these vertices begin, or `none`. All indices are accepted.
   [[nodiscard]] std::size_t find(Triangle face) const;
-  /// Half-faces from `begin` that have the same vertices as the one at `begin`.
+  /// The half-faces, from `begin` on, that have the same vertices as the one at `begin`.
   [[nodiscard]] std::span<const HalfFace> group(std::size_t begin) const;
   [[nodiscard]] std::size_t size() const { return half_faces_.size(); }
 
@@ -62,7 +62,7 @@ class FaceTable {
  private:
   [[nodiscard]] std::size_t group_end(std::size_t begin, std::size_t limit) const;
 
-  std::vector<std::size_t> start_;  ///< of the list of each vertex, and the end of the last
+  std::vector<std::size_t> start_;  ///< start of each vertex's list, and the end of the last
   std::vector<HalfFace> half_faces_;
 };
 
@@ -72,7 +72,7 @@ class FaceTable {
   return {tetrahedron[corner[0]], tetrahedron[corner[1]], tetrahedron[corner[2]]};
 }
 
-/// Sorts three vertices; true when that is an odd permutation.
+/// Sorts three vertices. Returns true if the permutation is odd.
 bool sort_corners(Triangle& face);
 
 }  // namespace holdfast::checking

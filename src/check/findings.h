@@ -1,4 +1,5 @@
-// Check: what a rule finds. Keeps the first offending entities in words and counts all of them.
+// Check: the findings of a rule. All offending entities are counted, and the first ones are described in
+// words.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +12,10 @@
 
 namespace holdfast::checking {
 
-/// The offending entities of one rule: all are counted, the first ones described.
+/// The offending entities of one rule: all are counted, the first ones are described.
 class Findings {
  public:
-  /// Counts one entity; `describe` gives its words and is called for the first few only.
+  /// Counts one entity. `describe` returns its description and is called for the first few only.
   template <class Describe>
   void add(Describe&& describe) {
     if (count_++ < most_described) append(std::forward<Describe>(describe)());
@@ -32,14 +33,14 @@ class Findings {
   std::string described_;
 };
 
-/// A rule that holds when nothing was found; `good` is its detail then.
+/// A rule that holds if there are no findings; then `good` is its detail.
 [[nodiscard]] Rule judge(RuleKind kind, const Findings& findings, std::string_view what, std::string good);
-/// A rule that cannot be decided, because of `reason`: it counts as not holding.
+/// A rule that cannot be decided, for this `reason`. It counts as broken.
 [[nodiscard]] Rule not_examined(RuleKind kind, const std::string& reason);
 
 /// "(x, y, z)", in the fewest digits that give the same doubles.
 [[nodiscard]] std::string words(const Point& point);
-/// "facet 7 (1, 2, 3)" with its corners' coordinates; indices out of range are named without.
+/// "facet 7 (1, 2, 3)" with the coordinates of its corners; an index out of range has no coordinates.
 [[nodiscard]] std::string words(std::string_view kind, std::size_t index, std::span<const Index> corners,
                                 std::span<const Point> vertices);
 /// The same for an entity that has no index of its own.

@@ -1,4 +1,4 @@
-// Check: the input as the mesh should have it. Vertices at one place are one vertex, and a mesh begins with
+// Check: the input as the mesh should contain it. Vertices at one place are one vertex. A mesh begins with
 // the distinct places, in the order of their first vertices.
 #pragma once
 
@@ -10,20 +10,20 @@
 
 namespace holdfast::checking {
 
-/// Stands for a vertex that the mesh leaves out, or that does not exist.
+/// Stands for a vertex that is left out of the mesh or does not exist.
 inline constexpr Index no_vertex = ~Index{0};
 
-/// Facets and segments here name vertices of the mesh; their own indices are those of the surface.
+/// Facets and segments of the input by vertices of the mesh; they keep the order of the surface.
 struct Input {
-  /// For each distinct place the first of the surface's vertices there that a facet or segment uses, else the
-  /// first. What is unused and not finite, or at the place of another vertex, is left out.
+  /// For each distinct place, the first vertex of the surface there that a facet or segment uses, or else the
+  /// first one. An unused vertex is left out if it is not finite or shares its place with another vertex.
   std::vector<Index> first;
-  std::vector<Index> vertex;  ///< by vertex of the surface that of the mesh, or `no_vertex`
+  std::vector<Index> vertex;  ///< for each vertex of the surface, that of the mesh, or `no_vertex`
   std::vector<Triangle> facets;
   std::vector<Segment> segments;
 };
 
-/// Any indices and coordinates are accepted.
+/// All indices and coordinates are accepted.
 [[nodiscard]] Input input_of(const Complex& surface, Pulse& pulse);
 
 }  // namespace holdfast::checking

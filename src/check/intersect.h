@@ -18,15 +18,15 @@ using Corners = std::array<const double*, 3>;
 /// Whether p lies on the closed triangle, which may be of zero area.
 [[nodiscard]] bool on_triangle(const double* p, const Corners& triangle);
 
-/// Whether two triangles meet elsewhere than in the vertices and the side that they share.
+/// Whether two triangles meet anywhere except in the vertices and the side that they share.
 ///
-/// Vertices are shared by index; triangles of zero area and pairs of three shared vertices are not
-/// accepted. Each gives its vertices and their coordinates.
+/// Vertices are shared by index. Triangles of zero area and pairs with three shared vertices are not
+/// accepted. Each triangle is given by its vertices and their coordinates.
 [[nodiscard]] bool meet_badly(const Triangle& x, const Corners& x_corners, const Triangle& y,
                               const Corners& y_corners);
 
-/// Whether a segment meets a triangle (of non-zero area) elsewhere than in a vertex that they share.
-/// A segment that is a side of the triangle does not.
+/// Whether a segment meets a triangle (of non-zero area) anywhere except in a vertex that they share. False
+/// for a segment that is a side of the triangle.
 [[nodiscard]] bool meet_badly(const Segment& segment, const double* p, const double* q,
                               const Triangle& triangle, const Corners& corners);
 

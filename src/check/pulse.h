@@ -1,4 +1,4 @@
-// Check: what long loops call, so that an examination can be watched and stopped.
+// Check: called by long loops, so that the caller can watch and stop an examination.
 #pragma once
 
 #include <functional>
@@ -12,14 +12,14 @@ class Pulse {
   void operator()() {
     if (++beats_ % kBeatsAStep == 0) step_(share_);
   }
-  /// So much of the whole is done.
+  /// Reports the finished share of the whole work.
   void reach(double share) {
     share_ = share;
     step_(share_);
   }
 
  private:
-  static constexpr unsigned kBeatsAStep = 512;  // below a millisecond, of the slowest loop
+  static constexpr unsigned kBeatsAStep = 512;  // less than a millisecond of the slowest loop
   const std::function<void(double)>& step_;
   unsigned beats_ = 0;
   double share_ = 0;
