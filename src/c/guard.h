@@ -1,4 +1,4 @@
-// What every function of the C interface does alike: no exception leaves, and each becomes a status with
+// The frame of every function of the C interface: no exception leaves it, and each becomes a status with a
 // text.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace holdfast::c {
 
-/// Copies as much of `text` as there is room for. Asks for no memory.
+/// Copies as much of `text` as fits. Allocates no memory.
 template <std::size_t room>
 void copy_text(char (&to)[room], std::string_view text) noexcept {
   const std::size_t size = text.copy(to, room - 1);
@@ -44,7 +44,7 @@ inline holdfast_status status_of(Outcome outcome) noexcept {
   return HOLDFAST_INTERNAL_ERROR;
 }
 
-/// Does `work`, which returns a status.
+/// Runs `work`, which returns a status.
 template <class Work>
 holdfast_status guarded(holdfast_error* error, Work&& work) noexcept {
   if (error != nullptr) *error = {};
@@ -71,7 +71,7 @@ holdfast_status guarded(holdfast_error* error, Work&& work) noexcept {
   }
 }
 
-/// Throws std::invalid_argument for a pointer that must not be null.
+/// Throws std::invalid_argument if the pointer is null.
 inline void require(const void* pointer, const char* what) {
   if (pointer == nullptr) throw std::invalid_argument(what);
 }

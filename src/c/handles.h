@@ -1,4 +1,4 @@
-// What the handles of the C interface hold.
+// The contents of the handles of the C interface.
 #pragma once
 
 #include <atomic>
@@ -13,7 +13,7 @@ struct holdfast_cancel {
   holdfast::CancelToken token;
 };
 
-/// Its arrays are the caller's, converted ones, or those of a file.
+/// The arrays are the caller's, converted copies of these, or those of a file.
 struct holdfast_surface {
   holdfast::Arrays arrays;
   holdfast::Surface owned;
@@ -35,7 +35,7 @@ struct VolumeOwner {
   void operator()(holdfast_volume* volume) const { holdfast_volume_free(volume); }
 };
 
-/// The volume stands apart, so that it may outlive the rest.
+/// The volume is separate, so that it may outlive the rest.
 struct holdfast_result {
   holdfast::Result rest;
   holdfast_defects defects;
