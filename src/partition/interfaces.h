@@ -1,4 +1,4 @@
-// The faces between a piece and others, in the order that both sides have.
+// The faces between a piece and other pieces, in an order on which both sides agree.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +11,11 @@ namespace holdfast::partitions {
 
 class InterfaceFaces {
  public:
-  /// A face of the piece's own, by its vertices, seen from outside.
+  /// Adds a face of this piece by its vertices, counterclockwise from outside.
   void add(Index other, const Triangle& face) { faces_[other].push_back(face); }
 
-  /// By `numbers` of the vertices in the whole: each face begins with its least, and faces are in order.
+  /// Orders the faces by `numbers`, the vertices' numbers in the whole mesh: each face begins with its least
+  /// vertex.
   [[nodiscard]] std::vector<MeshPiece::Interface> take(const std::vector<std::uint64_t>& numbers) {
     const auto less = [&](Index a, Index b) { return numbers[a] < numbers[b]; };
     const auto key = [&](Triangle face) {
