@@ -1,4 +1,4 @@
-// Numbers for edges, in the order in which they come.
+// Numbers edges in the order in which they first appear.
 #pragma once
 
 #include <cstdint>
@@ -8,15 +8,15 @@
 
 namespace holdfast {
 
-/// A hash table with open addressing: half full at most, so that searches are short.
+/// A hash table with open addressing, at most half full so that searches are short.
 class EdgeNumbers {
  public:
   explicit EdgeNumbers(std::size_t expected = 0) {
     while (slots_.size() < 2 * expected) slots_.resize(2 * slots_.size(), no_entity);
   }
 
-  /// The number of an edge, whichever of its ends comes first: the next one where it has none yet. Throws
-  /// std::length_error where numbers from `first` on would be beyond 32 bits.
+  /// The number of an edge, in either direction; a new edge gets the next number. Throws std::length_error if
+  /// numbers from `first` on would exceed 32 bits.
   Index of(Index a, Index b, std::size_t first = 0);
   /// The number of an edge, or `no_entity`.
   [[nodiscard]] Index find(Index a, Index b) const { return slots_[slot_of(sorted(a, b))]; }
@@ -29,7 +29,7 @@ class EdgeNumbers {
   void grow();
 
   std::vector<Segment> edges_;
-  std::vector<Index> slots_ = std::vector<Index>(64, no_entity);  // a power of two of them
+  std::vector<Index> slots_ = std::vector<Index>(64, no_entity);  // their count is a power of two
 };
 
 }  // namespace holdfast

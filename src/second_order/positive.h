@@ -7,8 +7,8 @@
 
 namespace holdfast {
 
-/// The Jacobian of a tetrahedron with mid-edge nodes is proven positive everywhere. All its numbers are
-/// finite.
+/// Whether the Jacobian of a tetrahedron with mid-edge nodes is proven positive everywhere. All coordinates
+/// must be finite.
 [[nodiscard]] bool is_positive_everywhere(const Volume& volume, std::size_t tetrahedron);
 
 }  // namespace holdfast
