@@ -1,4 +1,4 @@
-// What a page knows of its parts: a header and arrays.
+// The data of a page: a header and the arrays of its parts.
 #pragma once
 
 #include <string>
@@ -8,8 +8,7 @@
 
 namespace holdfast::view {
 
-/// Entries of the lists of a page, in the order in which its text has them: causes, gaps, defects, part by
-/// part.
+/// Entries of the lists of a page, in the order of its text: causes, gaps, defects, part by part.
 struct Entry {
   std::size_t part;
   std::string message;
@@ -18,12 +17,13 @@ struct Entry {
   std::span<const Point> where;
 };
 
-/// More than this of a part are too many to read; the text says how many are left out.
+/// Nobody reads more entries of one part than this; the text says how many are left out.
 inline constexpr std::size_t kMostEntries = 20'000;
 
 [[nodiscard]] std::vector<Entry> entries_of(const Page& page);
 
-/// The header and the arrays, packed. Throws std::invalid_argument for tags of another number than entities.
+/// The header and the arrays, packed. Throws std::invalid_argument if the numbers of tags and entities
+/// differ.
 [[nodiscard]] std::string packed(const Page& page, const std::vector<Entry>& entries,
                                  std::size_t most_tetrahedra, io::Watch& watch);
 

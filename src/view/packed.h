@@ -1,4 +1,4 @@
-// The stream that holds a page's data, as viewer/src/container.ts reads it.
+// The stream of a page's data, in the format that viewer/src/container.ts reads.
 #pragma once
 
 #include <zlib.h>
@@ -12,7 +12,7 @@
 
 namespace holdfast::view {
 
-/// A zlib stream that grows by bytes, and by arrays in planes.
+/// A growing zlib stream. Bytes are appended as they are, arrays in byte planes.
 class Packed {
  public:
   explicit Packed(io::Watch& watch);
@@ -21,11 +21,12 @@ class Packed {
   Packed& operator=(const Packed&) = delete;
 
   void bytes(std::string_view text) { feed(text, Z_NO_FLUSH); }
-  /// All first bytes of the values, then all second ones, and so on: neighbours in a plane are alike.
+  /// Appends the first bytes of all values, then the second bytes, and so on: neighbours in a plane are
+  /// alike.
   void doubles(std::span<const double> values);
-  /// Likewise, each less the value `step` before it unless that is 0.
+  /// Likewise. Unless `step` is 0, each value is replaced by its difference to the value `step` before it.
   void words(std::span<const std::uint32_t> values, std::size_t step);
-  /// Ends the stream and gives it.
+  /// Ends the stream and returns it.
   [[nodiscard]] std::string finish();
 
  private:
@@ -36,7 +37,7 @@ class Packed {
   std::string out_;
 };
 
-/// By RFC 4648, in which nothing is markup.
+/// Base64 by RFC 4648; its alphabet contains no markup.
 [[nodiscard]] std::string base64(std::string_view bytes);
 
 }  // namespace holdfast::view

@@ -1,4 +1,4 @@
-// Foreign text inside a page: in HTML and in JSON, where nothing of it may become markup or script.
+// Foreign text inside a page, escaped for HTML and JSON so that none of it becomes markup or script.
 #pragma once
 
 #include <string>
@@ -6,16 +6,16 @@
 
 namespace holdfast::view {
 
-/// What is no UTF-8, and control characters but for the line feed, as U+FFFD.
+/// Replaces invalid UTF-8, and control characters other than the line feed, by U+FFFD.
 [[nodiscard]] std::string clean(std::string_view text);
 
-/// For the content of an element or an attribute in quotes: & < > " ' become references.
+/// For the content of an element or a quoted attribute: & < > " ' become references.
 [[nodiscard]] std::string html(std::string_view text);
 
-/// As a JSON string with its quotes.
+/// A JSON string with its quotes.
 [[nodiscard]] std::string json(std::string_view text);
 
-/// A number, or null for one that JSON does not know.
+/// A number, or null if JSON has no such number.
 [[nodiscard]] std::string json(double value);
 
 }  // namespace holdfast::view
