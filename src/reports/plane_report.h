@@ -6,7 +6,8 @@
 
 namespace holdfast::reports {
 
-/// `options` is what the user asked for; `stopped`: with what stands after the stage where the run ended.
+/// `options`: what the user asked for. `stopped`: also reports the intermediate state after the stage where
+/// the run ended.
 [[nodiscard]] Json to_json(const PlaneResult& result, Json options, bool stopped);
 
 [[nodiscard]] std::size_t points_of(const PlaneMesh& mesh);

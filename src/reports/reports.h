@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 /// Keys "facets", "regions", "segments" and "vertices", each an object of names by id.
 [[nodiscard]] Json to_json(const Names& names);
 
-/// What stands where a run was stopped, for `stop_after`.
+/// The intermediate state of a run that `stop_after` stopped.
 [[nodiscard]] Json to_json(const Intermediate& intermediate);
 
 /// The whole report of `mesh`; `options` is what the user asked for.
@@ -35,10 +35,10 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json to_json(const CheckResult& result);
 [[nodiscard]] Json to_json(const Statistics& statistics);
 
-/// The parts of a pasted surface as `parts` of reports lists them.
+/// The parts of a pasted surface, as reports list them under `parts`.
 [[nodiscard]] Json parts_of(const PasteResult& pasted);
 
-/// As text of one line, or indented. Bytes that are no UTF-8, as paths may hold, are replaced.
+/// The text on one line, or indented. Bytes that are not UTF-8, which paths may contain, are replaced.
 [[nodiscard]] std::string text_of(const Json& json, int indent = -1);
 
 }  // namespace holdfast::reports
