@@ -1,8 +1,8 @@
-// Surface layer: a tree of axis-aligned boxes that finds all pairs of boxes that overlap.
+// Surface layer: a tree of axis-aligned boxes that finds all pairs of overlapping boxes.
 //
-// Built top-down at the middle of the boxes' centres along the longest axis (at the median where that
-// would be lopsided), depth O(log n). Boxes are closed and compared as they are, so that nothing is
-// rounded: simplices that touch have boxes that overlap.
+// It is built top-down: a node is split at the middle of the boxes' centres along the longest axis, or at the
+// median if that split would be lopsided. Its depth is O(log n). Boxes are closed and compared without
+// rounding, so the boxes of simplices that touch overlap.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ namespace holdfast {
 struct Box {
   std::array<double, 3> low, high;
 
-  /// Without branches, which could not be predicted.
+  /// Without branches, because they would be unpredictable.
   [[nodiscard]] bool overlaps(const Box& other) const {
     const auto in = [&](std::size_t k) {
       return static_cast<unsigned>(low[k] <= other.high[k]) & static_cast<unsigned>(other.low[k] <= high[k]);
@@ -39,29 +39,29 @@ class AabbTree {
     Index id;
   };
 
-  /// Item i is boxes[i]. Items with the same entry of `group`, if given, other than ~0 get a subtree of
-  /// their own (as a rule: groups with the same centre may mix). O(n log n) time, O(n) memory.
+  /// Item i is boxes[i]. If `group` is given, items with the same entry other than ~0 get a subtree of their
+  /// own (as a rule: groups with the same centre may mix). O(n log n) time, O(n) memory.
   explicit AabbTree(std::span<const Box> boxes, std::span<const Index> group = {},
                     const Threads& threads = 1);
-  /// Without items.
+  /// A tree without items.
   AabbTree() = default;
 
   /// Number of nodes.
   [[nodiscard]] std::size_t nodes() const { return nodes_.size(); }
-  /// Items of a node's subtree.
+  /// The items of a node's subtree.
   [[nodiscard]] std::span<const Item> items(Index node) const {
     return {items_.data() + nodes_[node].first, nodes_[node].count};
   }
 
-  /// Calls visit(i, j) once for each pair of items i != j whose boxes overlap, in an order that depends on
-  /// the boxes alone, until it returns false. Leaves out what lies in nodes for which skip(node, node) is
-  /// true. Calls step(fraction) every few thousand tests with the share of items whose pairs are done.
+  /// Calls visit(i, j) once for each pair of items i != j whose boxes overlap, until it returns false. The
+  /// order depends on the boxes alone. Pairs within nodes for which skip(node, node) is true are left out.
+  /// Calls step(fraction) every few thousand tests with the share of items whose pairs are done.
   template <class Visit, class Skip, class Step>
   void for_each_overlap(Visit&& visit, Skip&& skip, Step&& step) const {
     if (!items_.empty()) for_each_overlap(NodePair{0, 0}, visit, skip, step);
   }
 
-  /// Calls visit(item) for each item, but for those for whose boxes, or boxes round them, skip(box) is true.
+  /// Calls visit(item) for each item, except if skip(box) is true for its box or for a box round it.
   template <class Skip, class Visit>
   void for_each_item(Skip&& skip, Visit&& visit) const;
 
@@ -70,7 +70,7 @@ class AabbTree {
 
   /// Two nodes, or one twice.
   using NodePair = std::pair<Index, Index>;
-  /// At least `count` pairs of nodes, if there are as many, that hold all pairs of items between them.
+  /// At least `count` pairs of nodes, if there are as many, that together hold all pairs of items.
   [[nodiscard]] std::vector<NodePair> divided(std::size_t count) const;
   /// The same for pairs with one item below each of two nodes. May be called from several threads.
   template <class Visit, class Skip, class Step>
@@ -81,7 +81,7 @@ class AabbTree {
   struct Node {
     Box box;
     Index first, count, left;
-    bool one_group;  // or no groups: split by the items' own centres
+    bool one_group;  // or without groups: split by the items' own centres
   };
   static constexpr Index kLeafItems = 4;
 
@@ -102,7 +102,7 @@ class AabbTree {
   std::vector<Box> group_boxes_;
 };
 
-// Calls push(a, b) for the pairs of their children that stand for a pair of nodes, not both leaves.
+// Calls push(a, b) for the pairs of children that replace a pair of nodes, not both leaves.
 template <class Push>
 void AabbTree::for_each_part(NodePair pair, Push&& push) const {
   const auto [a, b] = pair;

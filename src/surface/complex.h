@@ -18,7 +18,7 @@ namespace holdfast {
 /// "No such entity" in tables of indices.
 inline constexpr Index no_index = ~Index{0};
 
-/// Every edge of a complex, once, and what meets there.
+/// Every edge of a complex, once, with the facets round it.
 struct SegmentTable {
   /// Vertex pairs with the lesser index first, in lexicographic order.
   std::vector<Segment> segments;
@@ -30,45 +30,46 @@ struct SegmentTable {
   std::vector<Index> facets;
   /// The first of the complex's own segments that is this one, or `no_index` for mere sides.
   std::vector<Index> input_segment;
-  /// Where the segments begin whose lesser end is vertex v, in `segments`; one entry more than vertices.
+  /// The index in `segments` where the segments whose lesser end is vertex v begin; one entry more than
+  /// vertices.
   std::vector<Index> first_of_vertex;
 
   /// Facets round segment `s`.
   [[nodiscard]] std::span<const Index> facets_of(Index s) const {
     return {facets.data() + first_facet[s], facets.data() + first_facet[s + 1]};
   }
-  /// Index of the segment with ends `a` and `b` in any order, or `no_index`, also for ends that are no
-  /// vertices of the complex; O(log of the segments at the lesser end).
+  /// Index of the segment with ends `a` and `b` in any order, or `no_index`, which is also returned for ends
+  /// that are not vertices of the complex. O(log of the segments at the lesser end).
   [[nodiscard]] Index find(Index a, Index b) const;
 };
 
-/// Whether every facet and segment names vertices that there are.
+/// Whether every facet and segment names existing vertices.
 [[nodiscard]] bool has_indices_in_range(const Complex& complex);
 
-/// Builds the table in O(vertices + facets + segments), but for sorting the segments at each vertex.
+/// Builds the table in O(vertices + facets + segments), plus the time to sort the segments at each vertex.
 ///
-/// Every index must be in range. Facets and segments that name a vertex twice give segments with
-/// equal ends (callers refuse those before: see surface/diagnose.h). One thread does it, and polls.
+/// Every index must be in range. Facets and segments that name a vertex twice give segments with equal ends
+/// (callers refuse those first: see surface/diagnose.h). One thread builds the table, and polls.
 [[nodiscard]] SegmentTable segment_table(const Complex& complex, const Threads& polled = {});
 
-/// For each facet whether it goes when facets with a side that no other has are taken away until there is
-/// none.
+/// Peels off facets with a side that no other facet has, until there are none. For each facet, whether it was
+/// peeled off.
 [[nodiscard]] std::vector<char> peeled_from_borders(const SegmentTable& table);
 
 /// How the complex hangs together; combinatorial numbers only.
 struct SurfaceTopology {
   std::size_t vertices = 0, facets = 0;
-  std::size_t segments = 0;              ///< of the table: sides and the complex's own, merged
+  std::size_t segments = 0;              ///< in the table: sides and the complex's own, merged
   std::size_t components = 0;            ///< connected by sides and segments; an isolated vertex is one
   std::size_t isolated_vertices = 0;     ///< used by no facet and no segment
   std::size_t dangling_segments = 0;     ///< of no facet
   std::size_t border_segments = 0;       ///< of one facet
   std::size_t nonmanifold_segments = 0;  ///< of three facets or more
   std::size_t odd_segments = 0;          ///< of an odd number of facets, border included
-  /// Facets that are gone once facets with a border side have been peeled off as long as there are
-  /// any. They bound no region, whatever the coordinates: the same volume lies on both sides.
+  /// Facets that disappear when facets with a border side are peeled off until there are none. They bound no
+  /// region, whatever the coordinates: the same region lies on both sides.
   std::size_t dangling_facets = 0;
-  /// There are facets, and each of their sides has another facet too.
+  /// There are facets, and each of their sides belongs to another facet too.
   bool closed = false;
 };
 

@@ -1,9 +1,8 @@
 // Surface layer: how two simplices of a complex meet, faces included.
 //
-// Two simplices fit if they meet in a common face or not at all, that is if no face of one and a
-// different face of the other have interiors that meet (intersect.h). `surely_fit` lets nearly all
-// neighbouring pairs of a good surface pass by a few signs; `contacts` looks at all pairs of faces and
-// is the one that decides.
+// Two simplices fit if they meet in a common face or not at all, that is, if no face of one and a different
+// face of the other have interiors that meet (intersect.h). `surely_fit` certifies nearly all neighbouring
+// pairs of a good surface by a few signs. `contacts` looks at all pairs of faces and decides.
 #pragma once
 
 #include <array>
@@ -14,16 +13,16 @@
 
 namespace holdfast {
 
-/// What two simplices have in common, a convex set.
+/// The intersection of two simplices, a convex set.
 struct Common {
-  /// A corner of it: faces of A and B, as masks, whose interiors meet in this point alone. No two touches are
-  /// the same point.
+  /// A corner of the intersection: faces of A and B, as masks, whose interiors meet in this point alone.
+  /// Different touches are different points.
   struct Touch {
     unsigned a, b;
   };
   std::array<Touch, 2> touches{};
   unsigned count = 0;    ///< 0: disjoint; 1: a point; 2: a segment
-  bool is_area = false;  ///< it is a polygon, and touches are not told
+  bool is_area = false;  ///< a polygon; then touches are not listed
 };
 
 /// Pairs of faces of two simplices A and B whose interiors meet. A face is a mask of corners (bit i:
@@ -44,8 +43,8 @@ struct Contacts {
 /// All pairs of faces that meet. A and B fit if and only if `distinct` is zero.
 [[nodiscard]] Contacts contacts(const Simplex& a, const Simplex& b);
 
-/// Corners of the convex set that A and B have in common, rounded (error at most two units in the last
-/// place). None: they are disjoint; one: a point; two: a segment; more: a polygon, in no particular order.
+/// Corners of the intersection of A and B, rounded (error at most two units in the last place). None: A and B
+/// are disjoint; one: a point; two: a segment; more: a polygon, in no particular order.
 [[nodiscard]] std::vector<Point> common_corners(const Simplex& a, const Simplex& b);
 
 }  // namespace holdfast

@@ -1,4 +1,4 @@
-// Surface layer: reports findings as defects, with entities, places and one sentence each.
+// Surface layer: turns findings into defects, with entities, places and one sentence each.
 #pragma once
 
 #include <span>

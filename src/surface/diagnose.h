@@ -28,11 +28,11 @@ namespace holdfast {
                                                const Threads& threads = 1,
                                                SamePlace same_place = SamePlace::one_vertex);
 
-/// The same, with the complex's elements at hand.
+/// The same for a caller that already has the complex's elements.
 [[nodiscard]] std::vector<Defect> find_defects(const Complex& complex, const Elements& elements,
                                                std::size_t most, const Step& step, const Threads& threads);
 
-/// An element of the complex: a facet, a segment that is no facet's side, a vertex that neither uses.
+/// An element of the complex: a facet, a segment that is no facet's side, or a vertex that neither uses.
 struct ElementRef {
   unsigned corners;  ///< 3: a facet, 2: a segment, 1: a vertex
   Index id;          ///< of the facet, segment or vertex
@@ -40,9 +40,9 @@ struct ElementRef {
   friend bool operator==(const ElementRef&, const ElementRef&) = default;
 };
 
-/// Every pair of elements that do not meet in a common face or not at all, one by one: what an all-pairs
-/// test would find once vertices at one place are one vertex and facets of zero area left out. Ordered;
-/// facets before segments before vertices. May be quadratic in size: `most` bounds it.
+/// Every pair of elements that neither meet in a common face nor are disjoint. An all-pairs test would find
+/// the same pairs, after vertices at one place are identified and facets of zero area are left out. Ordered:
+/// facets before segments before vertices. The number may be quadratic: `most` bounds it.
 [[nodiscard]] std::vector<std::array<ElementRef, 2>> offending_pairs(const Complex& complex, std::size_t most,
                                                                      const Step& step);
 

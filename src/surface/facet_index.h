@@ -8,11 +8,11 @@
 
 namespace holdfast {
 
-/// Finds the facet with given corners in any order: those with the same least corner lie together, sorted by
-/// the two others. Nearly always these are a handful.
+/// Finds the facet with given corners in any order. Facets with the same least corner are adjacent, sorted by
+/// the two other corners. There are rarely more than a handful.
 class FacetIndex {
  public:
-  /// Corners are below `vertices`. Repeated facets are found as one of them.
+  /// Corners are below `vertices`. For repeated facets, one of them is found.
   FacetIndex(std::size_t vertices, std::span<const Triangle> facets);
 
   /// The facet, or `no_index`.
@@ -22,7 +22,7 @@ class FacetIndex {
   struct Entry {
     Index middle, most, facet;
   };
-  std::vector<Index> first_;  // by least corner, in entries_; one more than vertices
+  std::vector<Index> first_;  // start in entries_ by least corner; one more than vertices
   std::vector<Entry> entries_;
 };
 

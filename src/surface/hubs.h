@@ -1,6 +1,6 @@
 // Surface layer: hubs, vertices of many elements. The boxes of all elements at a vertex overlap, so the tree
-// of boxes would compare each pair. These elements are searched by direction instead: two cones from one
-// vertex meet outside it only if the arcs in which they cut a small sphere round it meet.
+// of boxes would compare all pairs. These elements are searched by direction instead: two cones from one
+// vertex meet outside it only if their arcs on a small sphere round it meet.
 #pragma once
 
 #include <array>
@@ -26,10 +26,10 @@ class Hubs {
   [[nodiscard]] const std::array<Index, 3>& of(Index element) const { return of_[element]; }
   /// The least hub that two elements share, or `no_index`.
   [[nodiscard]] Index shared(Index a, Index b) const;
-  /// For each element its hub with most elements, or `no_index`: an arrangement in fans.
+  /// For each element, its hub with the most elements, or `no_index`: this groups the elements in fans.
   [[nodiscard]] std::vector<Index> fans() const;
-  /// Boxes round the directions in which the hub's elements lie, in their order. Of two elements whose boxes
-  /// are disjoint, the common part is the hub's vertex.
+  /// Boxes round the directions of the hub's elements, in the order of the elements. If two boxes are
+  /// disjoint, their elements meet in the hub's vertex only.
   [[nodiscard]] std::vector<Box> directions(const Hub& hub) const;
 
  private:

@@ -1,5 +1,5 @@
-// The point of a surface's triangles that is nearest to a point, in doubles: it measures, and decides
-// nothing.
+// The point of a surface's triangles that is nearest to a point, in doubles: this is a measurement and
+// decides nothing.
 #pragma once
 
 #include <span>
@@ -10,13 +10,13 @@
 
 namespace holdfast {
 
-/// A tree of boxes, halved at the median of the triangles' centres. The arrays must outlive it.
+/// A tree of boxes, split at the median of the triangles' centres. The arrays must outlive it.
 class NearestOnSurface {
  public:
-  /// All vertices of the triangles exist and are finite. O(n log n) time.
+  /// All vertices of the triangles must exist and be finite. O(n log n) time.
   NearestOnSurface(std::span<const Point> vertices, std::span<const Triangle> triangles);
 
-  /// The nearest point within a distance, or nothing. `distance` becomes its own.
+  /// Finds the nearest point within `distance`, and sets `distance` to its distance. False if there is none.
   [[nodiscard]] bool find(const Point& p, double& distance, Point& nearest) const;
 
  private:

@@ -1,4 +1,4 @@
-// Surface layer: pairs of nodes of a tree of boxes that a search for elements that do not fit may skip.
+// Surface layer: pairs of nodes of a tree of boxes that the search for offending pairs may skip.
 #pragma once
 
 #include <array>
@@ -17,15 +17,15 @@ namespace holdfast {
 
 class NodeSkip {
  public:
-  /// `known`: for each element whether it is known to fit together with all others of which that is said;
-  /// `done`: for each its sheet, or `no_index`, where pairs of facets of sheets need no look. Both may be
-  /// empty. `all` is the box of all elements. Oriented boxes come in after `patience` tests.
+  /// `known`: for each element, whether it is known to fit together with all other elements marked so.
+  /// `done`: for each element its sheet, or `no_index`; pairs of facets of sheets are not tested. Both may be
+  /// empty. `all` is the box of all elements. After `patience` tests, oriented boxes are used too.
   NodeSkip(const Complex& complex, const Elements& elements, std::span<const std::uint8_t> known,
            std::span<const Index> done, const Hubs& hubs, const AabbTree& tree, const Box& all,
            std::size_t patience);
 
-  /// All elements of the nodes are known, or of sheets that are done, all of node a share a hub with all of
-  /// node b, or oriented boxes separate them.
+  /// True if all elements of both nodes are known or belong to done sheets, if all elements of a share a hub
+  /// with all of b, or if oriented boxes separate them.
   bool operator()(Index a, Index b) {
     if (!known_.empty() && is_known(a) && is_known(b)) return true;
     if (!done_.empty() && is_done(a) && is_done(b)) return true;
@@ -35,7 +35,7 @@ class NodeSkip {
     return surely_apart(oriented(a), oriented(b));
   }
 
-  /// Pairs of elements were tested, too.
+  /// Counts a test of a pair of elements.
   void count_pair() { ++tests_; }
 
  private:

@@ -1,8 +1,8 @@
-// Surface layer: oriented boxes round sets of points, to tell bundles of long needles apart that every
-// axis-aligned box mixes up (after Gottschalk, Lin, Manocha 1996, "OBBTree").
+// Surface layer: oriented boxes round sets of points. They separate bundles of long needles whose
+// axis-aligned boxes all overlap (after Gottschalk, Lin, Manocha 1996, "OBBTree").
 //
-// A means of search only: boxes are computed in floating point with a margin far above its rounding
-// errors, so that "apart" is sure, and "not apart" says nothing.
+// They serve the search only: boxes are computed in floating point with a margin far above the rounding
+// errors, so "apart" is certain and "not apart" says nothing.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace holdfast {
 
-/// Coordinates of the cube [-1, 1]^3 for all that lies in `box`.
+/// Maps `box` to the cube [-1, 1]^3.
 class UnitFrame {
  public:
   explicit UnitFrame(const Box& box);
@@ -24,7 +24,7 @@ class UnitFrame {
   double scale_;
 };
 
-/// The points c + sum s_i axis_i with |s_i| <= half_i; in unit coordinates, the axes orthonormal.
+/// The points c + sum s_i axis_i with |s_i| <= half_i, in unit coordinates; the axes are orthonormal.
 struct OrientedBox {
   Point centre{};
   std::array<Point, 3> axis{};
@@ -32,7 +32,8 @@ struct OrientedBox {
 };
 
 /// A box of the points, parallel to the longest side of the triangles that successive points form, and to
-/// that triangle's plane. `corners` holds three unit coordinates a triangle, at least one triangle.
+/// that triangle's plane. `corners` holds three points a triangle in unit coordinates, for at least one
+/// triangle.
 [[nodiscard]] OrientedBox oriented_box(const std::vector<std::array<Point, 3>>& corners);
 
 /// True only if the boxes are disjoint.

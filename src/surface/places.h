@@ -1,9 +1,9 @@
 // Surface layer: vertices with identical coordinates are one vertex, whatever format or program wrote them
-// (many split vertices at seams of textures and normals).
+// (many programs split vertices at seams of textures and normals).
 //
-// A mesh has each place once, in the order of their first vertices. Facets and segments stay what they were,
-// so that of all that names them only indices of vertices change. Messages, and whatever else goes back to
-// the caller, name vertices as the caller does: by the first of a place.
+// A mesh has each place once, in the order of the first vertices. Facets and segments stay; only the vertex
+// indices in them change. Messages and everything else that goes back to the caller use the caller's names:
+// the first vertex of a place.
 #pragma once
 
 #include <cstddef>
@@ -16,14 +16,14 @@
 
 namespace holdfast {
 
-/// Which vertices of a complex are one.
+/// Which vertices of a complex are identical.
 struct Places {
-  /// For each vertex the first at its place, or `no_index` where it is left out: what no facet and no segment
-  /// uses is left out if it is not finite or if another vertex is at its place (of which one stays, a used
-  /// one where there is any). A vertex that is not finite, but used, is a place of its own.
+  /// For each vertex the first one at its place, or `no_index` if it is left out. A vertex that no facet or
+  /// segment uses is left out if it is not finite, or if another vertex is at its place (one of them stays, a
+  /// used one if possible). A used vertex that is not finite is a place of its own.
   std::vector<Index> first;
   std::size_t merged = 0;    ///< vertices in use that are not the first at their place
-  std::size_t left_out = 0;  ///< vertices
+  std::size_t left_out = 0;  ///< vertices that are left out
 
   /// Each vertex is a place of its own.
   [[nodiscard]] bool all_distinct() const { return merged == 0 && left_out == 0; }
@@ -32,13 +32,13 @@ struct Places {
 /// Indices may be out of range.
 [[nodiscard]] Places places_of(const Complex& complex);
 
-/// The same without a look at what is used: each finite vertex and the first with its coordinates.
+/// The same for all vertices, used or not: for each finite vertex the first one with its coordinates.
 [[nodiscard]] std::vector<Index> first_at_places(std::span<const Point> vertices);
 
-/// For each vertex its index where each place is one vertex, or `no_index` where it is left out.
+/// For each vertex, the index of its place, or `no_index` if it is left out.
 [[nodiscard]] std::vector<Index> index_of(const Places& places);
 
-/// The same as a public map has it: -1 for what is left out.
+/// The same as a public map: -1 for vertices that are left out.
 [[nodiscard]] std::vector<std::int64_t> as_map(std::span<const Index> index);
 
 /// A complex in which each place is one vertex.
@@ -46,18 +46,18 @@ struct Merged {
   std::vector<Point> vertices;  ///< with the bits of the first vertex at the place
   std::vector<Triangle> facets;
   std::vector<Segment> segments;
-  std::vector<int> vertex_markers;  ///< of each place the first that is not 0; empty if the original's are
-  std::vector<Index> first;         ///< for each vertex here, the first of the original's
-  std::vector<Index> index;         ///< for each vertex of the original, see index_of
+  std::vector<int> vertex_markers;  ///< for each place, the first that is not 0; empty if the input's are
+  std::vector<Index> first;         ///< for each vertex here, the first vertex of the original
+  std::vector<Index> index;         ///< for each vertex of the original, its index here; see index_of
 };
 
 /// Indices must be in range.
 [[nodiscard]] Merged merge(const Complex& complex, const Places& places);
 
-/// The least positive one of each place's sizes, and 0 where there is none.
+/// The smallest positive size of each place, or 0 if there is none.
 [[nodiscard]] std::vector<double> merged_sizes(const Merged& merged, std::span<const double> sizes);
 
-/// What messages call the vertices of a complex that may have been merged.
+/// The names that messages use for the vertices of a complex that may have been merged.
 class VertexNames {
  public:
   VertexNames() = default;

@@ -40,23 +40,23 @@ struct Finding {
 
 /// Called for each pair i < j of Elements::all that does not fit; returns false to stop.
 using VisitPair = std::function<bool(Index i, Index j, const Contacts& contacts)>;
-/// Called now and then with the share of the work that is done; throws to stop.
+/// Called now and then with the finished share of the work; throws to stop.
 using Step = std::function<void(double fraction)>;
 
-/// When the search turns to means that cost more than they bring on good surfaces. They change its speed
-/// and its order, never its result.
+/// When the search switches to methods that do not pay off on good surfaces. They change its speed and its
+/// order, never its result.
 struct SearchTuning {
   std::size_t hub_degree = 64;  ///< facets and segments at a vertex that make it a hub (hubs.h)
-  /// Tests of two nodes of the tree, an element, after which oriented boxes (oriented_box.h) come in. Good
+  /// Oriented boxes (oriented_box.h) are used after this many tests of two nodes of the tree an element. Good
   /// surfaces need about 5 to 10.
   std::size_t patience = 20;
-  /// The same where there are sheets (Known::sheet) whose pairs are too many to go through them
-  /// (sheet_pairs.h): they are decided by fewer signs than two oriented boxes.
+  /// The same if there are sheets (Known::sheet) with too many pairs to visit them one by one
+  /// (sheet_pairs.h): a pair of facets of sheets is decided by fewer signs than two oriented boxes.
   std::size_t sheet_patience = 100;
   Threads threads = 1;
 };
 
-/// Which elements are known to fit together; empty lists where nothing is known.
+/// Which elements are known to fit together; empty lists if nothing is known.
 struct Known {
   Known() = default;
   Known(const std::vector<std::uint8_t>& of_all) : each(of_all) {}  // NOLINT(*-explicit-*): the usual case
@@ -64,19 +64,20 @@ struct Known {
         std::span<const std::uint8_t> found_before = {})
       : each(of_all), sheet(of_sheet), found(found_before) {}
 
-  /// For each element whether it fits together with all others of which that is said, as faces of one
+  /// For each element, whether it fits together with all other elements marked so, as the faces of one
   /// triangulation do.
   std::span<const std::uint8_t> each;
-  /// The number of its sheet, or `no_index`: facets of one sheet lie in a plane but for rounding and fit
+  /// The number of its sheet, or `no_index`: facets of one sheet lie in a plane except for rounding and fit
   /// together.
   std::span<const Index> sheet;
-  /// For each element whether the visitor has it already: pairs of two such are passed over. The visitor may
-  /// change it from visit to visit.
+  /// For each element, whether the visitor has already found it: pairs of two such elements are skipped. The
+  /// visitor may change this from visit to visit.
   std::span<const std::uint8_t> found;
 };
 
-/// Visits every pair of elements that do not meet in a common face or not at all, in no useful order; but
-/// for pairs of known ones. Takes little more than a look at each element where few are not known.
+/// Visits every pair of elements that neither meet in a common face nor are disjoint, in no useful order;
+/// pairs of known elements are left out. If few elements are not known, this takes little more than a look at
+/// each element.
 void for_each_offending_pair(const Complex& complex, const Elements& elements, const VisitPair& visit,
                              const Step& step, const SearchTuning& tuning = {}, Known known = {});
 
@@ -84,7 +85,7 @@ void for_each_offending_pair(const Complex& complex, const Elements& elements, c
 [[nodiscard]] bool all_fit(const Complex& complex, const Elements& elements, Known known, const Step& step,
                            const Threads& threads = 1);
 
-/// Root causes, ordered by `pair`; `most` of them at most, the first that turn up.
+/// Root causes, ordered by `pair`; at most `most` of them, the first that are found.
 [[nodiscard]] std::vector<Finding> find_root_causes(const Complex& complex, const Elements& elements,
                                                     std::size_t most, const Step& step,
                                                     const Threads& threads = 1);

@@ -38,19 +38,19 @@ namespace holdfast {
 
 class SheetPairs {
  public:
-  /// `sheet`: for each element the number of its sheet, or `no_index`. `known`: for each whether it fits
-  /// together with all others of which that is said; empty where nothing is known.
+  /// `sheet`: for each element the number of its sheet, or `no_index`. `known`: for each element, whether it
+  /// fits together with all others marked so; empty if nothing is known.
   SheetPairs(const Complex& complex, const Elements& elements, std::span<const Index> sheet,
              std::span<const std::uint8_t> known, const Threads& threads);
 
-  /// Whether boxes of sheets overlap more often than there are elements, as those of needles side by side do.
-  /// Then nothing is prepared.
+  /// Whether there are more overlaps of boxes of sheets than elements, as for needles side by side. Then
+  /// nothing is prepared.
   [[nodiscard]] bool are_too_many() const { return too_many_; }
-  /// Pairs of parts, of different sheets, whose boxes overlap; but for those that are wholly known.
+  /// Pairs of parts of different sheets whose boxes overlap, except for parts that are wholly known.
   [[nodiscard]] const std::vector<std::array<Index, 2>>& all() const { return pairs_; }
 
-  /// Visits facets of two parts, as indices of Elements::all, that may have more in common than a vertex of
-  /// both, until that returns false.
+  /// Visits pairs of facets of two parts, as indices of Elements::all, that may meet in more than a common
+  /// vertex, until `visit` returns false.
   using Visit = std::function<bool(Index i, Index j)>;
   bool for_each(const std::array<Index, 2>& parts, const Visit& visit) const;
 
@@ -61,26 +61,26 @@ class SheetPairs {
     std::vector<Index> facets;
     Box box{};
     AabbTree tree;                              // of the facets' boxes
-    std::vector<std::array<Point, 3>> corners;  // of its items, side by side in memory
-    std::vector<Triangle> vertices;             // the same
+    std::vector<std::array<Point, 3>> corners;  // of the tree's items, contiguous in memory
+    std::vector<Triangle> vertices;             // likewise
     Point normal{};
     double offset = 0;
     double most = 0, most_share = 0;  // |h(x)| <= most + most_share |x| on all facets
   };
-  /// A facet as one that is flat in its sheet, seen from one of its corners: t, and (t / r)^2.
+  /// How flat a facet lies in its sheet, seen from one of its corners: t, and (t / r)^2.
   struct Flatness {
     double layer, share;
   };
   /// A facet that touches the plane of another part.
   struct Near {
-    Box box;          // of what is near to it
+    Box box;          // of its portion near that plane
     Index element;    // of Elements::all
-    Index vertex;     // the only corner that is, or `no_index`
+    Index vertex;     // the only near corner, or `no_index`
     double rise = 0;  // m, and (m / l)^2
     double slope = 0;
     Flatness flatness{};  // at this corner
   };
-  /// Such facets at one vertex, or a single one.
+  /// Such facets at one vertex, or a single facet.
   struct Fan {
     Box box;
     Index first, last;  // of Touching::elements

@@ -1,4 +1,4 @@
-// Surface layer: the signs that the tests of two simplices are made of. Private to the layer.
+// Surface layer: the signs from which the tests of two simplices are built. Private to the layer.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace holdfast {
 
-/// Sides of a plane of the three corners of a facet, or of a line: +1, 0, -1 each.
+/// The sides of a plane or line on which the three corners of a facet lie: each +1, 0 or -1.
 using Sides = std::array<int, 3>;
 
 /// Sign of the area of abc in the projection along `axis`.
@@ -21,18 +21,18 @@ inline int turn_of(const double* a, const double* b, const double* c, unsigned a
   return exact::orient2d(pa, pb, pc);
 }
 
-/// Side of the plane of facet `t` that holds `p`.
+/// The side of the plane of facet `t` on which `p` lies.
 inline int side_of(const Simplex& t, const double* p) {
   return exact::orient3d(t.point[0], t.point[1], t.point[2], p);
 }
 
-/// Sides of the plane of `t` that hold the corners of `u`.
+/// The sides of the plane of `t` on which the corners of `u` lie.
 inline Sides sides_of(const Simplex& t, const Simplex& u) {
   return {side_of(t, u.point[0]), side_of(t, u.point[1]), side_of(t, u.point[2])};
 }
 
-/// +1 where `p`, projected along t's axis, lies inside side i of `t` (the one from corner i to i + 1), 0
-/// on its line, -1 beyond.
+/// +1 if `p`, projected along t's axis, lies inside side i of `t` (from corner i to i + 1), 0 on its line, -1
+/// beyond.
 inline int inside_of(const Simplex& t, unsigned i, const double* p) {
   return t.turn * turn_of(t.point[i], t.point[(i + 1) % 3], p, t.axis);
 }
@@ -41,7 +41,7 @@ inline bool both_signs(const Sides& s) {
   return (s[0] < 0 || s[1] < 0 || s[2] < 0) && (s[0] > 0 || s[1] > 0 || s[2] > 0);
 }
 
-/// A corner strictly on one side, with the others on the opposite closed side; 3 if there is none.
+/// A corner strictly on one side with the others on the opposite closed side; 3 if there is none.
 inline unsigned lone_corner(const Sides& s) {
   for (unsigned i = 0; i < 3; ++i) {
     if (s[i] != 0 && s[(i + 1) % 3] * s[i] <= 0 && s[(i + 2) % 3] * s[i] <= 0) return i;

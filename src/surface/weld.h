@@ -1,5 +1,5 @@
-// Surface layer: points with identical coordinates are one place. +0 and -0 are the same; numbers that are
-// not finite are the same if their bits are.
+// Surface layer: points with identical coordinates are one place. +0 and -0 are equal; numbers that are not
+// finite are equal if their bits are.
 #pragma once
 
 #include <algorithm>
@@ -14,23 +14,23 @@ namespace holdfast {
 
 /// Finds the entry at a place. The points stay with the caller.
 ///
-/// An open hash table with linear probing that also keeps half of each hash, so that a look-up seldom
-/// touches a point that it does not want.
+/// An open hash table with linear probing. It also keeps half of each hash, so that a look-up seldom touches
+/// the wrong point.
 class PlaceTable {
  public:
-  /// `expected` distinct places, as far as known.
+  /// `expected`: the number of distinct places, if known.
   explicit PlaceTable(std::size_t expected) {
     slots_.resize(std::bit_ceil(std::max<std::size_t>(2 * expected, 64)));
   }
 
-  /// The hash of a point that is looked up soon: its slot is fetched meanwhile.
+  /// The hash of a point that is looked up soon. Prefetches its slot.
   [[nodiscard]] std::uint64_t announce(const Point& point) const {
     const std::uint64_t hash = hash_of(point);
     __builtin_prefetch(&slots_[hash & (slots_.size() - 1)]);
     return hash;
   }
 
-  /// The entry at the place of `point`, which has this hash; if there is none, `fresh` is entered for it.
+  /// The entry at the place of `point`, which has this hash; if there is none, enters `fresh` for it.
   /// `point_of(entry)` is the point of an entry.
   template <class PointOf>
   Index find_or_add(const Point& point, std::uint64_t hash, Index fresh, const PointOf& point_of) {
@@ -72,7 +72,7 @@ class PlaceTable {
     std::uint32_t tag = 0;
   };
 
-  /// The bits that are compared: of +0 for -0.
+  /// The bits to compare; -0 has those of +0.
   static std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x); }
   static bool same(const Point& a, const Point& b) {
     return bits(a[0]) == bits(b[0]) && bits(a[1]) == bits(b[1]) && bits(a[2]) == bits(b[2]);
@@ -93,17 +93,17 @@ class PlaceTable {
   std::size_t count_ = 0;
 };
 
-/// Gives points indices, the same one to points at one place: for formats that repeat vertices in every
-/// triangle. The first that came keeps its bits.
+/// Gives points at one place the same index: for formats that repeat vertices in every triangle. The first
+/// point at a place keeps its bits.
 class Welder {
  public:
-  /// `expected` distinct points, as far as known.
+  /// `expected`: the number of distinct points, if known.
   explicit Welder(std::vector<Point>& points, std::size_t expected = 0) : points_(points), table_(expected) {}
 
   /// The index of `point`, which is appended if it is new.
   Index add(const Point& point) { return add(point, PlaceTable::hash_of(point)); }
 
-  /// The index of what is at the place of `point`, or `no_entity`.
+  /// The index of the point at the place of `point`, or `no_entity`.
   [[nodiscard]] Index find(const Point& point) const {
     return table_.find(point, [&](Index i) { return points_[i]; });
   }

@@ -11,12 +11,12 @@
 namespace holdfast {
 
 struct Whereabouts {
-  bool on_facet = false;      ///< in the closed triangle of some facet
-  Separation::Region region;  ///< where it lies otherwise; empty for the unbounded one
+  bool on_facet = false;      ///< in the closed triangle of a facet
+  Separation::Region region;  ///< the region of any other point; empty for the unbounded one
 };
 
 /// Exact. Coordinates of vertices and points must be finite, and indices in range; facets of zero area are
-/// passed over. Regions are those of `separation`, that of the complex, if the complex is valid. `step` is
+/// skipped. `separation` is that of the complex; regions are meaningful if the complex is valid. `step` is
 /// called for each facet.
 [[nodiscard]] std::vector<Whereabouts> whereabouts(const Complex& complex, const Separation& separation,
                                                    std::span<const Point> points,
