@@ -1,4 +1,5 @@
-// Writes a file beside its name and renames it, so that a partial file never has that name.
+// Writes a file beside its target and then renames it, so that the target's name never belongs to a partial
+// file.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +14,11 @@ namespace holdfast::io {
 
 /// A file that appears under its name complete or not at all.
 ///
-/// Bytes go to a temporary in the target's folder; `commit` closes and renames it. Until
-/// then the destructor removes it, so that an exception or a cancellation leaves nothing behind.
-/// What is no regular file, a pipe or a device, is written directly, and so is an open descriptor
-/// ("/dev/stdout", "/dev/fd/3"), at its place. Every function throws FileError, and Interrupted by the watch.
+/// Bytes go to a temporary file in the target's folder; `commit` closes and renames it. Without a commit the
+/// destructor removes it, so that an exception or a cancellation leaves nothing behind. A target that is not
+/// a regular file (a pipe, a device) is written directly, and so is an open descriptor ("/dev/stdout",
+/// "/dev/fd/3"), from its current position on. Every function throws FileError, and the watch throws
+/// Interrupted.
 class AtomicWriter {
  public:
   explicit AtomicWriter(std::filesystem::path target, Watch* watch = nullptr);
@@ -30,23 +32,23 @@ class AtomicWriter {
   }
   AtomicWriter& operator<<(std::string_view text) { return write(text), *this; }
   AtomicWriter& operator<<(char c) { return write({&c, 1}), *this; }
-  /// The shortest text that reads back as the same double.
+  /// Writes the shortest text that reads back as the same double.
   AtomicWriter& operator<<(double value);
   AtomicWriter& operator<<(std::int64_t value);
   AtomicWriter& operator<<(std::uint64_t value);
   AtomicWriter& operator<<(int value) { return *this << std::int64_t{value}; }
   AtomicWriter& operator<<(std::uint32_t value) { return *this << std::uint64_t{value}; }
 
-  /// How many bytes there are by now.
+  /// The number of bytes written so far.
   [[nodiscard]] std::uint64_t position() const { return written_through_ + used_; }
-  /// What is written directly may be a pipe.
+  /// False for a target that is written directly: it may be a pipe.
   [[nodiscard]] bool can_be_patched() const { return nameless_ || !temporary_.empty(); }
-  /// Puts bytes in the place of others that were written before.
+  /// Overwrites bytes that were written before.
   void patch(std::uint64_t position, std::string_view bytes);
 
   [[nodiscard]] Watch* watch() const { return watch_; }
-  /// Gives every byte to the system; after it only `commit` may follow. Files that belong together are
-  /// all finished before the first is committed.
+  /// Gives all bytes to the system; only `commit` may follow. Files that belong together are all finished
+  /// before the first of them is committed.
   void finish();
   /// Finishes the file and gives it its name.
   void commit();
@@ -66,10 +68,10 @@ class AtomicWriter {
 
   std::filesystem::path target_;
   Watch* watch_;
-  std::filesystem::path written_;    ///< the target where its links lead
-  std::filesystem::path temporary_;  ///< empty when written directly, committed, or as yet without a name
-  bool nameless_ = false;            ///< the file is to get a name when it is complete
-  bool may_wait_ = false;            ///< it is a pipe, and there is a watch to be asked meanwhile
+  std::filesystem::path written_;    ///< the target with its links resolved
+  std::filesystem::path temporary_;  ///< empty if written directly, committed, or still without a name
+  bool nameless_ = false;            ///< the file gets its name when it is complete
+  bool may_wait_ = false;            ///< a pipe, with a watch to poll while it blocks
   int file_ = -1;
   std::unique_ptr<char[]> buffer_;
   std::size_t used_ = 0;

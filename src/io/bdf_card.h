@@ -8,19 +8,19 @@
 
 namespace holdfast::io {
 
-/// A card and the fields of its lines, eight of each, or four where they are wide; without the first and the
-/// last of a line, which join lines.
+/// A card and the fields of its lines: eight a line, or four if they are wide. The first and the last field
+/// of a line, which join lines, are not counted.
 class BdfCard {
  public:
-  /// Takes its first line, or one more. The text of the lines must outlive it.
+  /// Adds the first line of the card or a continuation. The text of the lines must outlive the card.
   void add(std::string_view line);
 
-  /// Whether the line goes on with the card before it.
+  /// Whether the line continues the card before it.
   [[nodiscard]] static bool continues(std::string_view line);
 
   /// In lower case, without the * of wide fields.
   [[nodiscard]] const std::string& name() const { return name_; }
-  /// Empty where there is none.
+  /// Empty if the card has no such field.
   [[nodiscard]] std::string_view field(std::size_t i) const {
     return i < fields_.size() ? fields_[i] : std::string_view();
   }

@@ -52,7 +52,7 @@ class ByteReader {
     position_ += count;
     return source_.bytes.substr(position_ - count, count);
   }
-  /// Throws unless `count` things of `bytes_each` bytes follow: a reader may then reserve for them.
+  /// Throws unless `count` items of `bytes_each` bytes follow, so that a reader may reserve memory for them.
   void require_items(std::uint64_t count, std::size_t bytes_each, const char* what) const {
     if (count > left() / bytes_each)
       fail(std::to_string(count) + " " + what + " are announced, but only " + std::to_string(left()) +

@@ -1,4 +1,4 @@
-// Ids of elements in files that have groups of entities: where an entity is in no group, its own tag.
+// Ids of elements in files with groups of entities: an element without a group has the tag of its entity.
 #pragma once
 
 #include <array>
@@ -13,16 +13,18 @@
 
 namespace holdfast::io {
 
-/// The ids that elements get while a file is read, by dimension, and whose they are.
+/// The ids that elements get while a file is read, by dimension, and whether they are ids of groups or of
+/// entities.
 class EntityIds {
  public:
   using Ids = std::array<int, 4>;  ///< by dimension
 
-  /// The elements that the mesh has since the last time have these ids, of their group or of their entity.
+  /// Records the ids of the elements that were added to the mesh since the last call: ids of their group or
+  /// of their entity.
   void note(const MeshData& mesh, bool are_of_group, const Ids& ids);
 
-  /// Gives entities whose tag is a group's id the first free number, from 1, and takes away names of groups
-  /// without elements where an entity has the number.
+  /// Gives each entity whose tag is also a group's id the first free number, from 1, and removes names of
+  /// groups without elements if an entity has the number.
   void part(MeshData& mesh) const;
 
  private:

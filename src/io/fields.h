@@ -1,4 +1,4 @@
-// Lines whose fields stand between separators or in columns: what the readers of solvers' formats take.
+// Lines of fields between separators or in columns, for the readers of solvers' formats.
 #pragma once
 
 #include <charconv>
@@ -19,7 +19,7 @@ namespace holdfast::io {
   return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
 }
 
-/// The parts between separators, without blanks round them.
+/// The parts between separators, with surrounding blanks removed.
 [[nodiscard]] inline std::vector<std::string_view> split(std::string_view line, char separator) {
   std::vector<std::string_view> fields;
   for (;;) {
@@ -30,7 +30,7 @@ namespace holdfast::io {
   }
 }
 
-/// A field as an integer. Throws for the line of `text` that was read last.
+/// A field as an integer. Errors name the line of `text` that was read last.
 [[nodiscard]] inline std::int64_t integer_of(const TextReader& text, std::string_view field,
                                              std::string_view what) {
   std::int64_t value = 0;
@@ -49,7 +49,7 @@ namespace holdfast::io {
   return static_cast<int>(value);
 }
 
-/// A field as a number; Fortran's exponents "1.5D+3" and "1.5+3" are read, too.
+/// A field as a number; Fortran's exponents "1.5D+3" and "1.5+3" are accepted.
 [[nodiscard]] inline double real_of(const TextReader& text, std::string_view field, std::string_view what) {
   std::string number(field.starts_with('+') ? field.substr(1) : field);
   for (char& c : number)

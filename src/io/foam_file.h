@@ -1,4 +1,4 @@
-// One file of OpenFOAM's: its head, then text that may be packed by gzip on its way.
+// One OpenFOAM file: its header, then text that gzip may pack as it is written.
 #pragma once
 
 #include <zlib.h>
@@ -15,7 +15,7 @@
 
 namespace holdfast::io {
 
-/// Text of a file that may be packed by gzip on its way.
+/// The text of a file, which gzip may pack as it is written.
 class FoamFile {
  public:
   FoamFile(const std::filesystem::path& folder, std::string_view object, std::string_view type, bool gzip,

@@ -1,7 +1,7 @@
-// A volume as OpenFOAM has it: faces with their owners, patches and zones.
+// A volume in OpenFOAM's layout: faces with their owners, patches and zones.
 //
-// Faces inside come first, by the cell that they belong to and then by their neighbour, which has the larger
-// number (upper-triangular order); then those of each patch. A face's normal leads out of its owner.
+// Inner faces come first, ordered by owner and then by neighbour, which has the larger number
+// (upper-triangular order); then the faces of each patch. A face's normal points out of its owner.
 #pragma once
 
 #include <filesystem>
@@ -15,11 +15,12 @@
 
 namespace holdfast::io {
 
-/// OpenFOAM's words have neither blanks nor quotes, brackets, slashes or semicolons; others are wildcards.
+/// Words in OpenFOAM contain no blanks, quotes, brackets, slashes or semicolons; some other characters are
+/// wildcards.
 inline constexpr NameRule kFoamNames{128, "_-."};
 inline constexpr IdRule kFoamIds{false};
 
-/// A face of the mesh: its owner, its other cell, and the facet that lies on it.
+/// A face of the mesh: its owner, its other cell, and the facet on it.
 struct FoamFace {
   Triangle corners;  ///< seen from outside the owner
   Index owner = no_entity, neighbour = no_entity;
@@ -31,7 +32,7 @@ struct FoamMesh {
   struct Patch {
     std::string name;
     std::size_t first, count;
-    Index other = no_entity;  ///< the process on the other side, if there is one
+    Index other = no_entity;  ///< the process on the other side, if any
   };
   std::vector<Patch> patches;
   Labels regions, facets;
@@ -40,14 +41,14 @@ struct FoamMesh {
 
 [[nodiscard]] FoamMesh foam_mesh(const Volume& volume, Watch& watch);
 
-/// What all processes of a case must have alike: names of zones and patches.
+/// What all processes of a case must agree on: names of zones and patches.
 struct FoamNames {
   Labels regions, facets;  ///< of the whole; no ids of entities
   std::set<int> patches, zones;
   bool has_rest = false;  ///< faces on the boundary without a marker
 };
 
-/// Enters what a process has.
+/// Adds the names of one process.
 class FoamNamesOfPieces {
  public:
   void add(const Volume& own, const MeshPiece& piece, Watch& watch);
@@ -59,18 +60,18 @@ class FoamNamesOfPieces {
   Names names_;
 };
 
-/// The own tetrahedra of a piece as a volume.
+/// The tetrahedra that a piece owns, as a volume.
 [[nodiscard]] Volume own_volume(const MeshPiece& piece);
 
-/// Of process `number`. Behind all other patches, one for each interface.
+/// The mesh of process `number`. The patches of its interfaces, one each, follow all other patches.
 [[nodiscard]] FoamMesh foam_mesh(const Volume& own, const MeshPiece& piece, const FoamNames& names,
                                  Watch& watch);
 
-/// The files of a polyMesh in its folder.
+/// The files of a polyMesh, with their folder.
 [[nodiscard]] std::vector<std::filesystem::path> files_of_poly_mesh(const std::filesystem::path& folder);
 
-/// Writes the files of a polyMesh into a folder, which is made where it is not there; `process` is the number
-/// of the process that it is of, if it is one's.
+/// Writes the files of a polyMesh into a folder, which is created if necessary; `process` is the number of
+/// the process that the mesh belongs to, if any.
 void write_foam_mesh(const std::filesystem::path& folder, const FoamMesh& mesh, const Volume& volume,
                      bool gzip, Watch& watch, Index process = no_entity);
 

@@ -14,51 +14,51 @@ namespace holdfast::io {
 [[nodiscard]] MeshData read_ply(const Source& source);
 [[nodiscard]] MeshData read_3mf(const Source& source);
 [[nodiscard]] MeshData read_amf(const Source& source);
-/// glTF and its binary form, with the buffers that it names.
+/// glTF and its binary form, with the buffers that the file names.
 [[nodiscard]] MeshData read_gltf(const Source& source);
-/// The file and those beside it that its buffers are in; it alone if it cannot be read.
+/// The file and the files of its buffers; only the file itself if it cannot be read.
 [[nodiscard]] std::vector<std::filesystem::path> gltf_files(const std::filesystem::path& path);
 /// GOCAD's TSurf, PLine and VSet.
 [[nodiscard]] MeshData read_gocad(const Source& source);
 [[nodiscard]] MeshData read_poly(const Source& source);
 [[nodiscard]] MeshData read_smesh(const Source& source);
-/// The vertices of a .node file alone.
+/// A .node file: vertices only.
 [[nodiscard]] MeshData read_node(const Source& source);
 [[nodiscard]] MeshData read_xyz(const Source& source);
-/// The .node, .ele, .face and .edge files beside the source, whose own bytes are not used.
+/// The .node, .ele, .face and .edge files beside the source. The source's own bytes are not used.
 [[nodiscard]] MeshData read_tetgen_volume(const Source& source);
 [[nodiscard]] MeshData read_medit(const Source& source);
 
 [[nodiscard]] MeshData read_gmf(const Source& source);
-/// Numbers at the vertices of a mesh in another file.
+/// Numbers at the vertices of a mesh that is in another file.
 struct GmfSolution {
   std::size_t vertices = 0;
   std::size_t columns = 0;     ///< 1: scalars, 6: symmetric tensors
   std::vector<double> values;  ///< of all columns, vertex by vertex
 };
-/// The one scalar or symmetric tensor a vertex of a .solb.
+/// The single scalar or symmetric tensor a vertex of a .solb file.
 [[nodiscard]] GmfSolution read_gmf_solution(const Source& source);
 [[nodiscard]] MeshData read_msh(const Source& source);
 [[nodiscard]] MeshData read_vtk(const Source& source);
-/// Also reads NAME_surface.vtu where the file says that there is one.
+/// Also reads NAME_surface.vtu if the file says that it exists.
 [[nodiscard]] MeshData read_vtu(const Source& source);
-/// Numbers at the points of a grid, the components of each one together.
+/// Numbers at the points of a grid; the components of each point are adjacent.
 struct PointArray {
   std::size_t components = 1;
   std::vector<double> values;
 };
-/// The same; `array` gets the first of these point arrays that is there. Throws FileError without any.
+/// The same; `array` gets the first of these point arrays that exists. Throws FileError if there is none.
 [[nodiscard]] MeshData read_vtu(const Source& source, std::span<const char* const> names, PointArray& array);
 
 void write_medit(AtomicWriter& out, const Volume& volume);
 void write_msh(AtomicWriter& out, const Volume& volume, const WriteOptions& options);
 [[nodiscard]] std::vector<Remark> not_in_msh(const Volume& volume, const WriteOptions& options);
-/// Abaqus's and CalculiX's, or UCD, which begins with a number.
+/// .inp of Abaqus and CalculiX, or UCD, which begins with a number.
 [[nodiscard]] MeshData read_inp(const Source& source);
-/// The file and those that it includes; it alone if they cannot be read.
+/// The file and the files it includes; only the file itself if they cannot be read.
 [[nodiscard]] std::vector<std::filesystem::path> inp_files(const std::filesystem::path& path);
 [[nodiscard]] MeshData read_avs(const Source& source);
-/// Whether the first word, after comments, is a number, as no keyword of an .inp file is.
+/// Whether the first word after comments is a number: no keyword of an .inp file is.
 [[nodiscard]] bool is_avs(std::string_view bytes);
 void write_inp(AtomicWriter& out, const Volume& volume, const WriteOptions& options);
 [[nodiscard]] std::vector<Remark> not_in_inp(const Volume& volume, const WriteOptions& options);
@@ -75,55 +75,55 @@ void write_mfem(AtomicWriter& out, const Volume& volume);
 void write_vol(AtomicWriter& out, const Volume& volume);
 [[nodiscard]] std::vector<Remark> not_in_vol(const Volume& volume, const WriteOptions& options);
 [[nodiscard]] MeshData read_bdf(const Source& source);
-/// Throws std::invalid_argument for more nodes or elements than eight digits count.
+/// Throws std::invalid_argument if there are more nodes or elements than eight digits can number.
 void write_bdf(AtomicWriter& out, const Volume& volume);
 [[nodiscard]] std::vector<Remark> not_in_bdf(const Volume& volume, const WriteOptions& options);
-/// A number in at most 16 characters, as near as they allow.
+/// A number in at most 16 characters, as precise as they allow.
 [[nodiscard]] std::string nastran_real(double value);
 /// Writes .node, .ele, .face and .edge beside `path`.
 void write_tetgen(const std::filesystem::path& path, const Volume& volume, Watch* watch = nullptr);
 void write_gmf(AtomicWriter& out, const Volume& volume);
 void write_vtk(AtomicWriter& out, const Volume& volume);
-/// Writes NAME.vtu, and what bounds the tetrahedra to NAME_surface.vtu beside it where that can be.
+/// Writes NAME.vtu, and the boundary of the tetrahedra to NAME_surface.vtu beside it if that is possible.
 void write_vtu(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options,
                Watch& watch);
-/// Writes both, and NAME.vtm, which names them as blocks.
+/// Writes both files, and NAME.vtm, which names them as blocks.
 void write_vtm(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options,
                Watch& watch);
-/// Also reads the .h5 files that it names, and NAME_surface.xdmf where the file says that there is one.
+/// Also reads the .h5 files that the file names, and NAME_surface.xdmf if the file says that it exists.
 [[nodiscard]] MeshData read_xdmf(const Source& source);
-/// Writes NAME.xdmf and NAME_surface.xdmf, each with its arrays in a file .h5 of its name.
+/// Writes NAME.xdmf and NAME_surface.xdmf, each with its arrays in an .h5 file of the same name.
 void write_xdmf(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options,
                 Watch& watch);
 [[nodiscard]] std::vector<Remark> not_in_xdmf(const Volume& volume, const WriteOptions& options);
 [[nodiscard]] MeshData read_med(const Source& source);
 void write_med(AtomicWriter& out, const Volume& volume);
 [[nodiscard]] std::vector<Remark> not_in_med(const Volume& volume, const WriteOptions& options);
-/// The folder that the source names; it has no bytes of its own.
+/// Reads the folder that the source names; the source has no bytes of its own.
 [[nodiscard]] MeshData read_openfoam(const Source& source);
-/// Writes OpenFOAM's polyMesh into a folder, which is made where it is not there.
+/// Writes OpenFOAM's polyMesh into a folder, which is created if necessary.
 void write_openfoam(const std::filesystem::path& folder, const Volume& volume, const WriteOptions& options,
                     Watch& watch);
 [[nodiscard]] std::vector<Remark> not_in_openfoam(const Volume& volume, const WriteOptions& options);
-/// Whether a path names a folder polyMesh, or one of a case that has it, which tells the format as an ending
+/// Whether a path names a folder polyMesh or a case that contains one; this tells the format, as an extension
 /// does.
 [[nodiscard]] bool is_poly_mesh(const std::filesystem::path& path);
-/// The polyMesh folder that a path names: this itself, or constant/polyMesh in the case.
+/// The polyMesh folder that a path names: the path itself, or constant/polyMesh in the case.
 [[nodiscard]] std::filesystem::path poly_mesh_of(const std::filesystem::path& path);
-/// The files in it, as they are written.
+/// The files of the polyMesh, as they are written.
 [[nodiscard]] std::vector<std::filesystem::path> openfoam_files(const std::filesystem::path& path);
 [[nodiscard]] MeshData read_vtm(const Source& source);
-/// The pieces that the file names, joined.
+/// Joins the pieces that the file names.
 [[nodiscard]] MeshData read_pvtu(const Source& source);
-/// The file and its pieces, with the files beside these; it alone if it cannot be read.
+/// The file, its pieces and the files beside these; only the file itself if it cannot be read.
 [[nodiscard]] std::vector<std::filesystem::path> pvtu_files(const std::filesystem::path& path);
 /// NAME_surface with the same ending.
 [[nodiscard]] std::filesystem::path surface_beside(const std::filesystem::path& path);
 [[nodiscard]] std::filesystem::path with_ending(const std::filesystem::path& path, const char* ending);
-/// Whether a path names a file, or none yet: what can have others beside it, as a pipe cannot.
+/// Whether a path names a file or nothing yet: such a path can have other files beside it, unlike a pipe.
 [[nodiscard]] bool can_have_a_file_beside(const std::filesystem::path& path);
 
-/// Parses bytes as the format of an extension such as ".off", or else of the path's own. Throws
+/// Parses bytes in the format of an extension such as ".off", or by default of the path's own. Throws
 /// FileError.
 [[nodiscard]] MeshData parse_surface(const Source& source, std::string_view format = {});
 [[nodiscard]] MeshData parse_volume(const Source& source, std::string_view format = {});

@@ -21,38 +21,38 @@ class GltfFile {
   explicit GltfFile(const Source& source);
 
   [[nodiscard]] const Json& root() const { return root_; }
-  /// What an array of an object holds; nothing where it is missing.
+  /// The elements of an object's array; empty if it is missing.
   [[nodiscard]] std::span<const Json> list(const Json& object, std::string_view key) const;
-  /// A member that is a count or the like.
+  /// A member that is a count or a similar number.
   [[nodiscard]] std::optional<std::size_t> number(const Json& object, std::string_view key) const;
-  /// A member that is the number of an entry of an array of the file.
+  /// A member that is the index of an entry in one of the file's arrays.
   [[nodiscard]] std::optional<std::size_t> entry(const Json& object, std::string_view key,
                                                  std::string_view array) const;
   [[nodiscard]] std::size_t entry_of(const Json& value, std::string_view array) const;
-  /// A member that is an array of so many real numbers.
+  /// A member that is an array of this many real numbers.
   [[nodiscard]] std::optional<std::vector<double>> reals(const Json& object, std::string_view key,
                                                          std::size_t count) const;
-  /// The name that an object has.
+  /// The name of an object.
   [[nodiscard]] static std::string name(const Json& object);
 
-  /// The values of an accessor that has so many components; those of an element are together.
+  /// The values of an accessor with this many components; those of an element are adjacent.
   [[nodiscard]] std::vector<double> values(std::size_t accessor, std::size_t components);
-  /// Whether the file itself has them, and not only what an extension makes of its bytes.
+  /// Whether the file itself contains the values. Otherwise an extension computes them from its bytes.
   [[nodiscard]] bool has_values(std::size_t accessor) const;
 
-  /// `at` is in the tree.
+  /// `at` must be a node of the tree.
   [[noreturn]] void fail(const Json& at, const std::string& reason) const {
     fail_in_json(source_, root_, at, reason);
   }
-  /// The files beside it that its buffers are in.
+  /// The separate files that contain its buffers.
   [[nodiscard]] std::vector<std::filesystem::path> files_beside() const;
-  /// The length of the file and of those beside it that were read.
+  /// The total length of the file and of the separate files that were read.
   [[nodiscard]] std::size_t bytes() const;
-  /// Bytes behind the last chunk.
+  /// The number of bytes after the last chunk.
   [[nodiscard]] std::size_t behind() const { return behind_; }
 
  private:
-  /// Elements at equal distances.
+  /// Elements at a constant stride.
   struct View {
     std::string_view bytes;
     std::size_t stride = 0;

@@ -1,4 +1,4 @@
-// What zlib unpacks: files compressed by gzip, and the deflated files of an archive.
+// Unpacks by zlib: files compressed by gzip, and the deflated files of an archive.
 #pragma once
 
 #include <string>
@@ -8,20 +8,20 @@
 
 namespace holdfast::io {
 
-/// Whether bytes begin as gzip's do (RFC 1952), and as no mesh does.
+/// Whether bytes begin with gzip's signature (RFC 1952), with which no mesh begins.
 [[nodiscard]] inline bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1F\x8B\x08"); }
 
 struct Unpacked {
   std::string bytes;
-  /// How many bytes stand behind the last member, if they are not zeros, which pad tapes.
+  /// The number of bytes after the last member, unless they are zeros, which pad tapes.
   std::size_t behind = 0;
 };
 
-/// What is in a gzip file. Throws FileError with the byte for one that is damaged, or packed more tightly
-/// than meshes are.
+/// The content of a gzip file. Throws FileError with the byte if the file is damaged or packed more tightly
+/// than any mesh.
 [[nodiscard]] Unpacked gunzipped(const Source& source);
 
-/// What the bytes of a file from `begin` to `end` unpack to by deflate (RFC 1951). Throws likewise.
+/// The bytes of a file from `begin` to `end`, unpacked by deflate (RFC 1951). Throws likewise.
 [[nodiscard]] std::string inflated(const Source& source, std::size_t begin, std::size_t end);
 
 }  // namespace holdfast::io

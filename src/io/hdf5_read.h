@@ -1,5 +1,6 @@
-// As much of HDF5 as meshes need, read from bytes in memory: groups, attributes, and arrays of numbers and
-// texts. Nothing in a file is trusted: every address, size and depth is checked against the bytes there are.
+// The part of HDF5 that meshes need, read from bytes in memory: groups, attributes, and arrays of numbers and
+// texts. Nothing in a file is trusted: every address, size and depth is checked against the length of the
+// file.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +15,10 @@
 
 namespace holdfast::io {
 
-/// Whether bytes begin as those of HDF5 do.
+/// Whether bytes begin with HDF5's signature.
 [[nodiscard]] bool is_hdf5(std::string_view bytes);
 
-/// What values are, and how they lie in the file.
+/// The type of values and their layout in the file.
 struct Hdf5Datatype {
   enum class Kind { integer, real, text };
   Kind kind = Kind::integer;
@@ -32,8 +33,8 @@ struct Hdf5Message {
   std::size_t size;
 };
 
-/// A file. An object is named by the address of its header. All functions throw FileError with the byte where
-/// the file is damaged, or holds what is not read.
+/// An HDF5 file. An object is named by the address of its header. All functions throw FileError with the byte
+/// if the file is damaged or uses a feature that is not supported.
 class Hdf5File {
  public:
   using Object = std::uint64_t;
@@ -41,22 +42,22 @@ class Hdf5File {
   explicit Hdf5File(const Source& source);
 
   [[nodiscard]] Object root() const { return root_; }
-  /// What a group holds by name; empty for an array.
+  /// The members of a group by name; empty for an array.
   [[nodiscard]] std::map<std::string, Object> links(Object group) const;
-  /// What a path such as "/Mesh/points" leads to, from a group.
+  /// The object at a path such as "/Mesh/points", relative to a group.
   [[nodiscard]] std::optional<Object> find(Object from, std::string_view path) const;
 
-  /// How many values an array has in each direction, slowest first.
+  /// The extent of an array in each direction, slowest first.
   [[nodiscard]] std::vector<std::uint64_t> shape(Object array) const;
   [[nodiscard]] bool holds_integers(Object array) const;
-  /// The values of an array of numbers, of any type. Integers beyond 64 bits, and reals that are none in an
-  /// array of integers, are refused.
+  /// The values of an array of numbers, of any type. Integers beyond 64 bits, and non-integers where integers
+  /// are asked for, are refused.
   [[nodiscard]] std::vector<double> reals(Object array) const;
   [[nodiscard]] std::vector<std::int64_t> integers(Object array) const;
-  /// Texts: of fixed length, or arrays of bytes; without zeros and blanks at their ends.
+  /// Texts of fixed length, or arrays of bytes, without trailing zeros and blanks.
   [[nodiscard]] std::vector<std::string> texts(Object array) const;
 
-  /// The first value of an attribute, if there is one of this name and kind.
+  /// The first value of an attribute, if there is one with this name and kind.
   [[nodiscard]] std::optional<std::int64_t> integer_attribute(Object object, std::string_view name) const;
   [[nodiscard]] std::optional<std::string> text_attribute(Object object, std::string_view name) const;
 
@@ -68,13 +69,13 @@ class Hdf5File {
     std::uint16_t id;
     std::uint32_t parameter;
   };
-  /// Of an array or attribute: its values' type, shape and bytes.
+  /// The type, shape and bytes of an array or attribute.
   struct Values {
     Hdf5Datatype type;
     std::vector<std::uint64_t> shape;
     std::uint64_t count = 1;
     std::string owned;       ///< unpacked bytes
-    std::string_view bytes;  ///< those, or bytes of the file
+    std::string_view bytes;  ///< `owned`, or bytes of the file
   };
   struct Chunks;
 
@@ -83,7 +84,7 @@ class Hdf5File {
   /// A number of 1 to 8 bytes.
   [[nodiscard]] std::uint64_t number(std::uint64_t at, std::size_t size) const;
   [[nodiscard]] std::string_view bytes(std::uint64_t at, std::uint64_t size) const;
-  /// Counts the entries of a tree that are read: more than the file can hold run in circles.
+  /// Counts the entries of a tree as they are read: more than the file has room for form a cycle.
   void count_block(std::size_t& blocks, std::uint64_t at) const;
   void require_signature(std::uint64_t at, std::string_view signature) const;
 
@@ -94,8 +95,8 @@ class Hdf5File {
 
   void links_of_table(std::uint64_t tree, std::uint64_t heap, std::map<std::string, Object>& found) const;
   void link_of_message(std::uint64_t at, std::uint64_t size, std::map<std::string, Object>& found) const;
-  /// Calls `visit` with place and size of every object that a tree lists in a heap; its records have the
-  /// object's id behind `id_in_record` bytes.
+  /// Calls `visit` with the position and size of every object in a heap that a tree lists; the tree's records
+  /// have the object's id after `id_in_record` bytes.
   void each_in_heap(std::uint64_t heap, std::uint64_t tree, std::size_t id_in_record,
                     const std::function<void(std::uint64_t, std::uint64_t)>& visit) const;
 
@@ -104,11 +105,11 @@ class Hdf5File {
   [[nodiscard]] std::vector<Filter> filters(std::uint64_t at, std::uint64_t size) const;
   void set_type(Values& values, const Hdf5Message& message) const;
   void set_shape(Values& values, std::vector<std::uint64_t> shape) const;
-  /// Type and shape, and all of an array.
+  /// The type, shape and all values of an array.
   [[nodiscard]] Values described(Object array) const;
   [[nodiscard]] Values values(Object array) const;
   [[nodiscard]] std::optional<Values> attribute(Object object, std::string_view name) const;
-  /// An attribute's message, if it is of this name.
+  /// The values of an attribute's message, if the attribute has this name.
   [[nodiscard]] std::optional<Values> attribute_of_message(std::uint64_t at, std::uint64_t size,
                                                            std::string_view name) const;
   void read_layout(const Hdf5Message& layout, const std::vector<Filter>& filters, Values& values) const;

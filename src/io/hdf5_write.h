@@ -1,4 +1,4 @@
-// As much of HDF5 as a mesh needs: groups with attributes, and arrays of numbers and texts.
+// The part of HDF5 that a mesh needs: groups with attributes, and arrays of numbers and texts.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +20,12 @@ enum class Hdf5Type {
   int32,
   int64,
   float64,
-  text80,  ///< 80 bytes, of which those behind the text are zeros, as MED has its names
+  text80,  ///< 80 bytes, padded with zeros, as MED stores names
 };
 
 /// An array of rows of numbers; its values stay with the caller.
 struct Hdf5Array {
-  std::string name;  ///< not empty, without slashes; names in a group differ
+  std::string name;  ///< not empty, without slashes, unique in its group
   Hdf5Type type;
   std::uint64_t rows, columns;
   const void* values;  ///< rows * columns of the type, in the machine's byte order
@@ -39,7 +39,7 @@ struct Hdf5Group {
   std::vector<Hdf5Group> groups = {};
 };
 
-/// Writes a file. Throws std::invalid_argument for more than 65,000 members of a group.
+/// Writes a file. Throws std::invalid_argument if a group has more than 65,000 members.
 void write_hdf5(AtomicWriter& out, const Hdf5Group& root);
 
 }  // namespace holdfast::io

@@ -1,4 +1,4 @@
-// The nodes and elements of an .inp file, by the numbers that it gives them.
+// The nodes and elements of an .inp file, by their numbers in the file.
 #pragma once
 
 #include <array>
@@ -13,45 +13,45 @@
 namespace holdfast::io {
 
 struct InpElement {
-  int dimension;  ///< 0: it has no shape, and is no entity
-  Index entity;   ///< of the mesh: its index among those of the dimension, the first of a polygon
-  Index count;    ///< of a polygon or cell that is cut: how many facets or tetrahedra
-  Index cell;     ///< of a hexahedron, prism or pyramid: its index among the cells; else no_entity
+  int dimension;  ///< 0: no shape, and so no entity
+  Index entity;   ///< in the mesh, among those of its dimension; the first of a polygon's
+  Index count;    ///< of a polygon or cell that is cut: its facets or tetrahedra
+  Index cell;     ///< of a hexahedron, prism or pyramid: its index; else no_entity
 };
 
-/// What few lines make of others: a short file may make much.
+/// Counts generated nodes and elements: a few lines of a short file may generate very many.
 class InpMade {
  public:
-  /// Throws for the line where it is more than any mesh has.
+  /// Throws for the line if it exceeds what any mesh has.
   void count(const InpText& text, std::int64_t more);
 
  private:
   std::int64_t made_ = 0;
 };
 
-/// Every node is a vertex of the mesh, every element with a shape an entity of it, or a run of facets.
+/// Every node is a vertex of the mesh; every element with a shape is an entity or a run of facets.
 class InpElements {
  public:
-  /// `has_copies`: the file makes elements of others.
+  /// `has_copies`: the file generates elements from others.
   InpElements(MeshData& mesh, bool has_copies) : mesh_(mesh), has_copies_(has_copies) {}
 
-  /// Their numbers in order.
+  /// Returns their numbers in order.
   std::vector<std::int64_t> read_nodes(InpText& text);
-  /// A node at a place of the mesh.
+  /// Adds a node at a position of the mesh.
   void add_node(std::int64_t number, const Point& point);
-  /// Where a node is that came before. Throws for the line.
+  /// The position of an earlier node. Throws for the line.
   [[nodiscard]] Point place_of_node(const InpText& text, std::int64_t number);
-  /// The elements behind a keyword: their numbers in order.
+  /// The elements after a keyword. Returns their numbers in order.
   std::vector<std::int64_t> read(InpText& text, const InpKeyword& key);
-  /// The lines behind *ELGEN, which make rows, layers and stacks of an element: the numbers of all of them.
+  /// The lines after *ELGEN, which generate rows, layers and stacks of an element. Returns all numbers.
   std::vector<std::int64_t> read_copies(InpText& text);
-  /// Before `find`. Throws if a number is there twice.
+  /// To be called before `find`. Throws if a number occurs twice.
   void finish(const Source& source);
 
   [[nodiscard]] std::size_t size() const { return elements_.size(); }
-  /// Springs, masses and the like: how many elements of a type.
+  /// Springs, masses and similar elements: their number by type.
   [[nodiscard]] const std::map<std::string, std::size_t>& shapeless() const { return shapeless_; }
-  /// The element of a number, or null.
+  /// The element with this number, or null.
   [[nodiscard]] const InpElement* find(std::int64_t number) const {
     const std::optional<Index> found = numbers_.find(number);
     return found ? &elements_[*found] : nullptr;
@@ -70,7 +70,7 @@ class InpElements {
   struct Type;
   static const Type& type_of(const TextReader& text, const InpKeyword& key);
   std::vector<std::int64_t> read_shapeless(InpText& text, const std::string& type);
-  /// Errors are those of the element's first line, at `place`.
+  /// Errors name the first line of the element, at `place`.
   [[nodiscard]] Index vertex(const TextReader& text, std::size_t place, std::int64_t number) const;
   using Nodes = std::array<Index, 27>;
   void add(const TextReader& text, std::size_t place, const Type& type, const Nodes& nodes,

@@ -1,6 +1,6 @@
-// Coordinates of .inp. Abaqus and CalculiX read 20 characters of a number (Abaqus: "Input syntax rules";
-// CalculiX reads by Fortran's f20.0), so that an exponent behind them is lost: what 20 characters do not hold
-// is rounded, and stands in a comment as it was, from which it is read.
+// Coordinates in .inp. Abaqus and CalculiX read 20 characters of a number (Abaqus: "Input syntax rules";
+// CalculiX reads with Fortran's f20.0), so an exponent after them would be lost. A coordinate that needs more
+// than 20 characters is rounded; its exact value is written in a comment, from which it is read back.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,19 @@
 
 namespace holdfast::io {
 
-/// A number in at most 20 characters, the nearest to `value` of those; exact if one is.
+/// The number of at most 20 characters that is nearest to `value`; exact if possible.
 [[nodiscard]] std::string inp_real(double value);
 
-/// A comment for each node that .inp rounds: `** exact NODE X Y Z`.
+/// Writes a comment for each node that .inp rounds: `** exact NODE X Y Z`.
 void write_exact_nodes(AtomicWriter& out, const Volume& volume);
 
-/// The nodes of such comments.
+/// The nodes in such comments.
 class ExactNodes {
  public:
-  /// Takes a comment, without the two asterisks; others are left alone.
+  /// Reads a comment, without its two asterisks. Other comments are ignored.
   void read(std::string_view comment);
-  /// The exact place of a node, where `point` is that one rounded, or else `point`: it may have moved since.
+  /// The exact position of a node if `point` is that position rounded; otherwise `point`, since the node may
+  /// have been moved.
   [[nodiscard]] const Point& of(std::int64_t node, const Point& point) const;
 
  private:

@@ -1,5 +1,5 @@
-// The nodes that an .inp file makes of others, *NGEN and *NFILL, and the sets of nodes that the latter joins
-// (Abaqus Keywords Guide).
+// The nodes that an .inp file generates from others by *NGEN and *NFILL, and the sets of nodes that *NFILL
+// joins (Abaqus Keywords Guide).
 #pragma once
 
 #include <map>
@@ -10,7 +10,7 @@
 
 namespace holdfast::io {
 
-/// Whether a keyword, in lower case and without its star, is somewhere in a file.
+/// Whether a keyword, given in lower case and without its star, occurs in a file.
 [[nodiscard]] bool has_inp_keyword(std::string_view bytes, std::string_view name);
 
 class InpGenerated {
@@ -19,13 +19,13 @@ class InpGenerated {
 
   explicit InpGenerated(InpElements& elements) : elements_(elements) {}
 
-  /// The lines behind *NGEN: nodes on a straight line between two.
+  /// The lines after *NGEN: nodes on a straight line between two nodes.
   void read_ngen(InpText& text, const InpKeyword& key);
-  /// The lines behind *NFILL: nodes on straight lines between those of two sets.
+  /// The lines after *NFILL: nodes on straight lines between the nodes of two sets.
   void read_nfill(InpText& text, const InpKeyword& key);
-  /// The lines behind *NSET.
+  /// The lines after *NSET.
   void read_set(InpText& text, const InpKeyword& key);
-  /// Nodes that were listed in a set.
+  /// Adds nodes that a keyword listed in a set.
   void add_listed(const InpText& text, const InpKeyword& key, const Numbers& numbers);
 
  private:

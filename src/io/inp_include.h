@@ -1,5 +1,5 @@
-// *INCLUDE of .inp files: the text of the files that are named, in place of the lines that name them; and
-// files that INPUT of *NODE and *ELEMENT names, behind these.
+// *INCLUDE in .inp files: the text of the named file replaces the line that names it. A file named by INPUT
+// of *NODE or *ELEMENT is inserted after the keyword.
 #pragma once
 
 #include <deque>
@@ -14,16 +14,15 @@
 
 namespace holdfast::io {
 
-/// Names are relative to the folder of the first file, where Abaqus and CalculiX run.
+/// Names are relative to the folder of the first file, in which Abaqus and CalculiX run.
 class InpIncludes {
  public:
-  /// Reads all of the files. Throws FileError, also for files that include each other. The source must
-  /// outlive it.
+  /// Reads all files. Throws FileError, also if files include each other. The source must outlive the object.
   explicit InpIncludes(const Source& source);
 
-  /// The whole text, whose errors name the file and line that they are in.
+  /// The whole text; its errors name the file and line where they occur.
   [[nodiscard]] Source source() const;
-  /// Those that are included, each as often as it is.
+  /// The included files, each as often as it is included.
   [[nodiscard]] const std::deque<std::filesystem::path>& files() const { return files_; }
 
  private:
@@ -32,9 +31,9 @@ class InpIncludes {
                 std::size_t end);
 
   Source source_;
-  std::string text_;  ///< empty where nothing is included
+  std::string text_;  ///< empty if nothing is included
   std::vector<Origin> origins_;
-  std::deque<std::filesystem::path> files_;  // whose places do not change
+  std::deque<std::filesystem::path> files_;  // a deque, so that its paths do not move
 };
 
 }  // namespace holdfast::io

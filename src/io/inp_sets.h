@@ -1,4 +1,4 @@
-// The sets of elements of an .inp file: those of *ELSET, those that elements are listed in, and surfaces of
+// The sets of elements of an .inp file: sets from *ELSET, sets in which elements are listed, and surfaces of
 // elements and their sides.
 #pragma once
 
@@ -11,20 +11,20 @@
 
 namespace holdfast::io {
 
-/// Members are numbers of elements, which need not exist.
+/// Members are numbers of elements; such elements need not exist.
 class InpSets {
  public:
   using Members = std::vector<std::int64_t>;
 
-  /// Elements that were listed in a set.
+  /// Adds elements that were listed in a set.
   void add_listed(const std::string& name, const Members& members);
-  /// The lines behind *ELSET, where there are `elements` elements.
+  /// The lines after *ELSET; there are `elements` elements.
   void read(InpText& text, const InpKeyword& key, std::size_t elements);
 
-  /// By a name in upper or lower case, first among those of the scope; or null.
+  /// The set with this name (in any case), preferably one of the scope; or null.
   [[nodiscard]] const Members* find(const std::string& name, const InpScope& scope) const;
-  /// But for those that are marked as internal, which surfaces are made of; the largest set first, so that
-  /// the smaller ones count; at last those that elements are listed in.
+  /// All sets except those marked as internal, from which surfaces are built. The largest set comes first, so
+  /// that smaller sets overwrite it; sets in which elements are listed come last.
   [[nodiscard]] std::vector<std::pair<std::string, const Members*>> largest_first() const;
 
  private:
@@ -41,11 +41,11 @@ class InpSets {
 /// The name of a set as users see it.
 using InpShownName = std::function<std::string(const std::string&)>;
 
-/// Surfaces: sides of tetrahedra and other cells become facets, and those of shells give these their marker.
+/// Surfaces: sides of tetrahedra and other cells become facets; shells in a surface get its marker.
 class InpSurfaces {
  public:
   void read(InpText& text, const std::string& name);
-  /// Adds facets to the mesh; the marker of each facet, or 0.
+  /// Adds facets to the mesh. Returns the marker of each facet, or 0.
   [[nodiscard]] std::vector<int> apply(MeshData& mesh, InpText& text, const InpElements& elements,
                                        const InpSets& sets, const InpShownName& shown, NamedIds& names) const;
 

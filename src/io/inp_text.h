@@ -27,45 +27,45 @@ struct InpNames {
   NamedIds regions{kRegionStem}, markers{kFacetStem}, segments{kSegmentStem};
 };
 
-/// What the lines of an instance of a part, or of sets of one, speak of: numbers and names that other
-/// instances have, too.
+/// The scope of the lines of an instance of a part, or of its sets: other instances use the same numbers and
+/// names.
 struct InpScope {
-  std::int64_t offset = 0;  ///< of numbers of nodes and elements
+  std::int64_t offset = 0;  ///< added to numbers of nodes and elements
   std::string prefix;       ///< of names of sets, as Abaqus writes it: "NAME."
-  bool names_too = false;   ///< names that are given have the prefix, as those within the instance
+  bool names_too = false;   ///< defined names get the prefix too, as within the instance
   Placement placement;
 
   [[nodiscard]] std::string given(const std::string& name) const { return names_too ? prefix + name : name; }
 };
 
-/// Numbers that each instance has for itself; those of a file without instances are not bounded.
+/// The range of numbers of each instance; without instances, numbers are not bounded.
 inline constexpr std::int64_t kNumbersOfAnInstance = std::int64_t{1} << 40;
-/// A number as the file has it.
+/// A number as it is in the file.
 [[nodiscard]] inline std::int64_t number_in_file(std::int64_t number) {
   return number < kNumbersOfAnInstance ? number : number % kNumbersOfAnInstance;
 }
 
-/// Stands at a line that is no comment, or at the end.
+/// The current line is never a comment; the reader may be at the end.
 class InpText {
  public:
-  /// Comments that keep ids go into `names`, those that keep places of nodes into exact_nodes(). Throws for a
+  /// Comments with ids are stored in `names`, comments with positions of nodes in exact_nodes(). Throws for a
   /// file without a line.
   InpText(const Source& source, InpNames& names) : text_(source, '\0'), names_(names) {
     if (!next()) text_.fail_truncated("a keyword");
   }
 
-  /// Goes to the next line; whether there is one.
+  /// Moves to the next line. False if there is none.
   bool next();
   [[nodiscard]] bool at_end() const { return line_.empty(); }
   [[nodiscard]] bool is_data() const { return !line_.empty() && line_[0] != '*'; }
   [[nodiscard]] std::string_view line() const { return line_; }
   [[nodiscard]] std::vector<std::string_view> fields() const { return split(line_, ','); }
-  /// Reads the keyword of this line and goes behind it. Throws if it has none.
+  /// Reads the keyword of this line and moves past it. Throws if there is none.
   InpKeyword keyword();
-  /// Whether the line is this keyword, blanks and case apart.
+  /// Whether the line is this keyword, ignoring blanks and case.
   [[nodiscard]] bool is_keyword(std::string_view name) const;
 
-  /// Where the line begins, and back there.
+  /// The position of the line, and a way back to it.
   [[nodiscard]] std::size_t place() const { return at_end() ? text_.source().bytes.size() : text_.last(); }
   void go_to(std::size_t place) {
     text_.seek(place);
@@ -74,14 +74,14 @@ class InpText {
 
   [[nodiscard]] const InpScope& scope() const { return scope_; }
   void set_scope(InpScope scope) { scope_ = std::move(scope); }
-  /// A field as the number of a node or an element, in the scope. Throws for the line.
+  /// A field as the number of a node or an element in the scope. Throws for the line.
   [[nodiscard]] std::int64_t number(std::string_view field, std::string_view what) const;
 
   [[nodiscard]] const ExactNodes& exact_nodes() const { return exact_nodes_; }
 
-  /// For what is wrong with the line.
+  /// For errors in the current line.
   [[nodiscard]] const TextReader& reader() const { return text_; }
-  /// For what is wrong with the line at a place where the reader has been.
+  /// For errors in a line at a position where the reader has been.
   void seek(std::size_t position) { text_.seek(position); }
 
  private:

@@ -1,4 +1,4 @@
-// A JSON text (RFC 8259) as a tree of nlohmann's values, with what a file of meshes asks of one.
+// A JSON text (RFC 8259) as a tree of nlohmann's values, with helpers for files of meshes.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,17 +11,17 @@ namespace holdfast::io {
 
 using Json = nlohmann::json;
 
-/// The value that is the text from `begin` to `end`. Throws FileError: with the line, or in a text of a
-/// single line with the byte.
+/// The value of the text from `begin` to `end`. Throws FileError with the line, or with the byte if the text
+/// is a single line.
 [[nodiscard]] Json read_json(const Source& source, std::size_t begin, std::size_t end);
 
 /// The member of an object; null if there is none.
 [[nodiscard]] const Json* member(const Json& object, std::string_view key);
 
-/// What a string says, or how a number or a word is spelled, or what else the value is.
+/// The content of a string, the spelling of a number or a word, or the kind of any other value.
 [[nodiscard]] std::string shown(const Json& value);
 
-/// Throws a FileError whose place is the JSON pointer (RFC 6901) of a value in a tree.
+/// Throws a FileError whose place is the JSON pointer (RFC 6901) of a value in the tree.
 [[noreturn]] void fail_in_json(const Source& source, const Json& root, const Json& value,
                                const std::string& reason);
 

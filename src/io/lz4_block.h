@@ -8,11 +8,11 @@
 
 namespace holdfast::io {
 
-/// A byte of a block stands for at most so many: one more in the length of a match.
+/// A byte of a block stands for at most this many bytes: by one more byte in the length of a match.
 inline constexpr std::uint64_t kBestRatioOfLz4 = 255;
 
-/// Appends what a block holds, if that is exactly `size` bytes; else returns false, with some of them
-/// appended.
+/// Appends the content of a block and returns true if it has exactly `size` bytes; otherwise returns false,
+/// with a part of it appended.
 [[nodiscard]] bool append_lz4_block(std::string& bytes, std::string_view block, std::size_t size);
 
 }  // namespace holdfast::io

@@ -1,4 +1,5 @@
-// What reader and writer of MED files share (the layout of MED 3 and 4 in HDF5): element types and names.
+// Shared by the reader and the writer of MED files (the layout of MED 3 and 4 in HDF5): element types and
+// names.
 #pragma once
 
 #include <array>
@@ -7,8 +8,8 @@
 
 namespace holdfast::io {
 
-/// MED sees a tetrahedron's first three corners turn the other way: of ours, its corners and nodes on edges.
-/// The order of edges is the same once the corners are exchanged.
+/// MED orders the first three corners of a tetrahedron the other way round. The table gives our corner or
+/// mid-edge node for each of MED's. Once the corners are swapped, the order of edges is the same.
 inline constexpr std::array<std::size_t, 10> kMedTetrahedron{0, 2, 1, 3, 6, 5, 4, 7, 9, 8};
 
 /// Groups of the file.

@@ -1,5 +1,5 @@
-// What every reader fills: the union of a surface and a volume. A file format seldom says which of
-// the two it holds, so one reader serves `read_surface` and `read_volume`.
+// The result of every reader: the union of a surface and a volume. A file format seldom says which of the two
+// a file contains, so one reader serves `read_surface` and `read_volume`.
 #pragma once
 
 #include <algorithm>
@@ -16,22 +16,23 @@
 
 namespace holdfast::io {
 
-/// From a byte of a text on, it is that of another file, from a line on. The path must outlive it.
+/// From this byte on, the text comes from another file, starting at this line of it. The path must outlive
+/// it.
 struct Origin {
   std::size_t begin;
   std::reference_wrapper<const std::filesystem::path> path;
   std::size_t line;
 };
 
-/// A file's bytes and the name that errors give it.
+/// A file's bytes and the name to use in errors.
 struct Source {
   const std::filesystem::path& path;
   std::string_view bytes;
-  bool finite = false;  ///< numbers that are not finite are refused, as where nothing judges them later
+  bool finite = false;  ///< refuse numbers that are not finite, because nothing checks them later
   Watch* watch = nullptr;
   double tolerance = 0;  ///< how far corners of a polygon may lie from its plane; see ReadOptions
   bool keeps_polygons = false;
-  std::span<const Origin> origins = {};  ///< of a text of several files, ascending, from its begin on
+  std::span<const Origin> origins = {};  ///< for a text joined from several files: ascending, from its begin
 };
 
 /// Tags of entities of one kind that stay empty as long as every tag is 0.
@@ -46,7 +47,7 @@ class Tags {
     values_.push_back(tag);
   }
   [[nodiscard]] int of(std::size_t i) const { return i < values_.size() ? values_[i] : 0; }
-  /// Another tag for an entity that has one.
+  /// Changes the tag of an entity that already has one.
   void set(std::size_t i, int tag) { values_[i] = tag; }
   /// The tags, one an entity, or empty if all are 0.
   [[nodiscard]] std::vector<int> take(std::size_t count) {
@@ -80,7 +81,7 @@ struct MeshData {
   /// Cells that became tetrahedra (cells.h).
   struct Cells {
     std::size_t hexahedra = 0, prisms = 0, pyramids = 0;
-    std::size_t tetrahedra = 0;  ///< of all of these
+    std::size_t tetrahedra = 0;  ///< of all these cells
   } cells;
   std::vector<Index> quadrangles;  ///< the first of the two facets of each polygon of four corners
   std::size_t polygons_cut = 0;    ///< polygons of more than three corners, which became triangles
@@ -89,17 +90,17 @@ struct MeshData {
   bool keeps_polygons = false;  ///< polygons are kept as they are
   std::vector<plane::PolygonFacet> polygons = {};
   Watch* watch = nullptr;
-  /// Nodes on edges, as vertices of the file: of elements of second order, empty where there are none. The
-  /// edges are those of MidNodes; `no_entity` stands for a node of an element of first order.
+  /// Mid-edge nodes of elements of second order, as vertices of the file; empty if there are none. The edges
+  /// are those of MidNodes; `no_entity` stands for a node of an element of first order.
   struct FileMids {
     std::vector<std::array<Index, 6>> tetrahedra;
     std::vector<std::array<Index, 3>> facets;
     std::vector<Index> segments;
-    std::vector<Index> others;  ///< nodes that are no corners, of elements that keep none
+    std::vector<Index> others;  ///< nodes that are not corners, of elements that keep none
   } mids;
-  MidNodes mid_nodes;  ///< what `settle_mid_nodes` (mid_nodes.h) makes of these
+  MidNodes mid_nodes;  ///< the result of `settle_mid_nodes` (mid_nodes.h)
 
-  /// Says that `count` of `what` (a plural, which `one` is the singular of) are in the file and left out.
+  /// Records that `count` of `what` (a plural; `one` is its singular) are in the file and were left out.
   void leave_out(std::size_t count, std::string_view what, std::string_view one = {}) {
     if (count == 0) return;
     const std::string_view words = count == 1 && !one.empty() ? one : what;

@@ -1,4 +1,4 @@
-// What the writers for solvers share: second-order nodes, and which tetrahedra lie at a facet.
+// Shared by the writers for solvers: second-order nodes, and the tetrahedra at a facet.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace holdfast::io {
 
 [[nodiscard]] inline bool is_second_order(const Volume& volume) { return !volume.mid_nodes.empty(); }
 
-/// Vertices, and the nodes on edges behind them.
+/// The number of vertices and of mid-edge nodes, which are numbered after them.
 [[nodiscard]] inline std::size_t node_count(const Volume& volume) {
   return volume.vertices.size() + volume.mid_nodes.points.size();
 }
@@ -29,8 +29,8 @@ struct Nodes {
   [[nodiscard]] const Index* end() const { return of.data() + count; }
 };
 
-/// How a format orders the nodes on a tetrahedron's edges 01 12 02 03 13 23, which is Abaqus's order and
-/// VTK's, too.
+/// The order of a format for the nodes on a tetrahedron's edges 01 12 02 03 13 23, which is the order of
+/// Abaqus and VTK.
 using EdgeOrder = std::array<std::size_t, 6>;
 inline constexpr EdgeOrder kVtkEdges{0, 1, 2, 3, 4, 5};
 inline constexpr EdgeOrder kGmshEdges{0, 1, 2, 3, 5, 4};
@@ -43,13 +43,14 @@ inline constexpr EdgeOrder kNetgenEdges{0, 2, 3, 1, 4, 5};
 /// Both ends, then the node between them.
 [[nodiscard]] Nodes segment_nodes(const Volume& volume, std::size_t i);
 
-/// A tetrahedron at a facet, and which of its faces this is: the one opposite corner `side`.
+/// A tetrahedron at a facet, and its face there: the one opposite corner `side`.
 struct SideOfTet {
   Index tetrahedron;
   std::uint8_t side;
 };
 
-/// The tetrahedra behind a facet, from where it is seen as its corners turn counter-clockwise, and in front.
+/// The tetrahedra behind and in front of a facet; its corners turn counter-clockwise as seen from the one
+/// behind.
 struct SidesOfFacet {
   std::optional<SideOfTet> behind, front;
 };

@@ -1,4 +1,4 @@
-// Elements of second order in files: their nodes on edges are vertices there like all others.
+// Elements of second order in files: their mid-edge nodes are vertices of the file like all others.
 #pragma once
 
 #include <span>
@@ -12,13 +12,13 @@ void add_second_order(MeshData& mesh, const Tetrahedron& corners, const std::arr
 void add_second_order(MeshData& mesh, const Triangle& corners, const std::array<Index, 3>& mids, int marker);
 void add_second_order(MeshData& mesh, const Segment& corners, Index mid, int marker);
 
-/// Says that nodes of an element that has been added by its corners are none: those of quadrangles of second
-/// order and of elements of higher order, which nothing here has a place for.
+/// Marks nodes of an element that was added by its corners as non-corners: nodes of quadrangles of second
+/// order and of elements of higher order, which a mesh here cannot store.
 void add_no_corners(MeshData& mesh, std::span<const Index> nodes);
 
-/// Takes nodes that are no corners out of the vertices; the others keep their order. They become
-/// `mid_nodes` if `keep` and if every tetrahedron, facet and segment has them all and no others, and are left
-/// out, with a remark, otherwise.
+/// Removes nodes that are not corners from the vertices; the others keep their order. They become `mid_nodes`
+/// if `keep` is set and every tetrahedron, facet and segment has all of its mid-edge nodes and no others.
+/// Otherwise they are left out, with a remark.
 void settle_mid_nodes(MeshData& mesh, bool keep);
 
 }  // namespace holdfast::io

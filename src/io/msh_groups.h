@@ -1,5 +1,5 @@
-// The physical groups of a .msh file. An element of Holdfast has one: of several the first counts, and the
-// others are told.
+// The physical groups of a .msh file. An element of Holdfast has one group: the first of several counts, and
+// the others are reported.
 #pragma once
 
 #include <cstddef>
@@ -20,18 +20,18 @@ class MshGroups {
  public:
   using Entity = std::pair<std::size_t, std::int64_t>;  ///< dimension and tag
 
-  /// An entity of version 3 or 4 is in this group.
+  /// Records that an entity of version 3 or 4 is in this group.
   void note(const Entity& entity, int group) {
     if (!first_.try_emplace(entity, group).second) further_.insert({entity.first, group});
   }
-  /// 0 where the entity is in none.
+  /// The group of an entity, or 0 if it is in none.
   [[nodiscard]] int of(const Entity& entity) const {
     const auto found = first_.find(entity);
     return found == first_.end() ? 0 : found->second;
   }
 
-  /// Before version 3 Gmsh writes an element of several groups once for each of them, one after the other.
-  /// Whether the element whose nodes come next is the one before in a further group; then its nodes are read.
+  /// Before version 3, Gmsh writes an element of several groups once for each group, in succession. Whether
+  /// the element whose nodes follow is the previous one in a further group; if so, its nodes are read.
   bool is_one_before(MshNumbers& in, std::int64_t type, int group, int entity) {
     const Element before = std::exchange(last_, {type, group, entity, in.text().position()});
     if (type != before.type || entity != before.entity || group == before.group) return false;

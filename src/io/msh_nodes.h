@@ -1,4 +1,4 @@
-// The nodes of a .msh file: what its elements name by tags.
+// The nodes of a .msh file, which its elements name by tags.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace holdfast::io {
 
-/// Nodes in file order, and then indices by node tag.
+/// Nodes in file order, then a look-up by node tag.
 class MshNodes {
  public:
   void reserve(std::size_t count) {
@@ -24,7 +24,7 @@ class MshNodes {
   void add_tag(std::int64_t tag) { tags_.push_back(tag); }
   void add_point(const Point& point) { points_.push_back(point); }
 
-  /// Sorts by tag; a tag that occurs twice fails at the numbers' position.
+  /// Sorts by tag; a repeated tag is an error at the current position of `numbers`.
   void finish(const MshNumbers& numbers) {
     if (std::is_sorted(tags_.begin(), tags_.end(), std::less_equal<>())) return;
     std::vector<std::size_t> order(tags_.size());
@@ -42,9 +42,9 @@ class MshNodes {
   }
 
   [[nodiscard]] Index index(const MshNumbers& numbers, std::int64_t tag) const {
-    // Tags without gaps are the rule; then no search is needed.
+    // Tags usually have no gaps; then no search is needed.
     if (!tags_.empty() && tag >= tags_.front() && tag <= tags_.back()) {
-      // The difference may be beyond 63 bits.
+      // The difference may not fit 63 bits.
       const std::uint64_t guess = static_cast<std::uint64_t>(tag) - static_cast<std::uint64_t>(tags_.front());
       if (guess < tags_.size() && tags_[static_cast<std::size_t>(guess)] == tag)
         return static_cast<Index>(guess);

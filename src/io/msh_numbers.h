@@ -1,4 +1,4 @@
-// The numbers of a .msh file, which stand there as text or as bytes: what one reader takes from both.
+// The numbers of a .msh file, as text or as bytes: one reader serves both.
 #pragma once
 
 #include <bit>
@@ -9,18 +9,18 @@
 
 namespace holdfast::io {
 
-/// A cursor over words, which are always text, and over numbers. Errors have the line, or the byte.
+/// A cursor over words, which are always text, and numbers. Errors name the line or the byte.
 class MshNumbers {
  public:
   explicit MshNumbers(const Source& source) : text_(source, '\0') {}
 
-  /// From now on numbers are bytes in this order; counts and tags of version 4 have `size_bytes` of them.
+  /// From now on numbers are bytes in this order; counts and tags of version 4 have `size_bytes` bytes.
   void set_binary(std::endian order, std::size_t size_bytes) {
     binary_ = true;
     order_ = order;
     size_bytes_ = size_bytes;
   }
-  /// The numbers begin: as bytes, in the next line.
+  /// Numbers follow; bytes start on the next line.
   void begin() {
     if (binary_) text_.skip_line();
   }
@@ -43,15 +43,15 @@ class MshNumbers {
       fail(std::string(what) + " is beyond 63 bits: " + std::to_string(value));
     return static_cast<std::int64_t>(value);
   }
-  /// A size that counts things of at least so many bytes as text, or as bytes.
+  /// A size that counts items of at least this many bytes as text or as bytes.
   std::size_t count(std::string_view what, std::size_t bytes_text, std::size_t bytes_binary) {
     return binary_ ? counted(size(what), what, bytes_binary) : text_.count(what, bytes_text);
   }
-  /// The same, where an integer counts.
+  /// The same for a count that is stored as an integer.
   std::size_t short_count(std::string_view what, std::size_t bytes_text, std::size_t bytes_binary) {
     return binary_ ? counted(integer(what), what, bytes_binary) : text_.count(what, bytes_text);
   }
-  /// A count that is text even where numbers are bytes.
+  /// A count that is text even if numbers are bytes.
   std::size_t text_count(std::string_view what, std::size_t bytes_text, std::size_t bytes_binary) {
     return text_.count(what, binary_ ? bytes_binary : bytes_text);
   }

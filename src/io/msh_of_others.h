@@ -1,4 +1,4 @@
-// Files of other programs that end in .msh, as Gmsh's do.
+// Files of other programs with Gmsh's extension .msh.
 #pragma once
 
 #include <string>
@@ -6,11 +6,11 @@
 
 namespace holdfast::io {
 
-/// Whether they are those of Abaqus and CalculiX, whose cgx writes "all.msh": a keyword or a comment comes
-/// first.
+/// Whether the file is one of Abaqus or CalculiX, whose cgx writes "all.msh": it starts with a keyword or a
+/// comment.
 [[nodiscard]] bool is_inp(std::string_view bytes);
 
-/// Why a file whose first word is no section is no mesh of Gmsh.
+/// Why a file whose first word is not a section is not a Gmsh mesh.
 [[nodiscard]] std::string why_no_gmsh_mesh(std::string_view first_word);
 
 }  // namespace holdfast::io

@@ -1,4 +1,4 @@
-// What the writers of Gmsh's .msh share: numbers as text or as bytes, and what names may be.
+// Shared by the writers of Gmsh's .msh: numbers as text or as bytes, and the rule for names.
 #pragma once
 
 #include <bit>
@@ -14,7 +14,7 @@
 
 namespace holdfast::io {
 
-/// Gmsh cuts names off behind 127 bytes, and a quote ends them.
+/// Gmsh truncates names after 127 bytes, and a quote ends them.
 inline constexpr NameRule kMshNames{127, "!#$%&'()*+,-./:;<=>?@[]^_`{|}~", true, true, false, true};
 
 /// Gmsh's types of elements.
@@ -37,7 +37,7 @@ class MshOut {
     if (!binary_) out_ << '\n';
     first_ = true;
   }
-  /// Behind the numbers of a section.
+  /// After the numbers of a section.
   void end_section(std::string_view end) {
     if (binary_) out_ << '\n';
     out_ << end << '\n';
@@ -64,7 +64,7 @@ class MshOut {
   bool binary_, first_ = true;
 };
 
-/// $MeshFormat, and $PhysicalNames where there are any: by dimension, of each id.
+/// Writes $MeshFormat and, if there are names, $PhysicalNames: by dimension, one name for each id.
 void write_msh_head(MshOut& to, std::string_view version, const std::array<const Labels*, 4>& labels);
 
 }  // namespace holdfast::io

@@ -1,4 +1,4 @@
-// Gmsh's elements that are read by their corners, which come before all other nodes (Gmsh reference manual,
+// Gmsh's elements of which only the corners are read; these precede all other nodes (Gmsh reference manual,
 // "MSH file format": element types).
 #pragma once
 
@@ -21,7 +21,7 @@ struct MshByCorners {
   std::size_t nodes;
 };
 
-/// What a type is, or null if it is none of these.
+/// The description of a type, or null if it is none of these.
 [[nodiscard]] inline const MshByCorners* by_corners(std::int64_t type) {
   using enum MshShape;
   static constexpr MshByCorners kTypes[] = {
@@ -53,7 +53,7 @@ struct MshKind {
   std::size_t dimension, nodes;
 };
 
-/// The same of all types that are read.
+/// The same for all types that are read.
 [[nodiscard]] inline std::optional<MshKind> kind_of(std::int64_t type) {
   switch (type) {
     case 1:

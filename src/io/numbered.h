@@ -1,4 +1,4 @@
-// Nodes and elements that a file numbers as it likes, by these numbers.
+// Nodes and elements with arbitrary numbers in a file, found by these numbers.
 #pragma once
 
 #include <algorithm>
@@ -11,14 +11,14 @@
 
 namespace holdfast::io {
 
-/// Numbers in the order in which they come, and then where each stands.
+/// Numbers in the order of the file, then the position of each.
 class Numbered {
  public:
   void add(std::int64_t number) {
     sorted_ = sorted_ && (entries_.empty() || entries_.back().first < number);
     entries_.emplace_back(number, static_cast<Index>(entries_.size()));
   }
-  /// A number that occurs twice, if any does. To be called before `find`.
+  /// A number that occurs twice, if any. To be called before `find`.
   [[nodiscard]] std::optional<std::int64_t> finish() {
     if (!sorted_) std::sort(entries_.begin(), entries_.end());
     sorted_ = true;
@@ -29,7 +29,7 @@ class Numbered {
   }
   [[nodiscard]] std::optional<Index> find(std::int64_t number) const {
     if (entries_.empty()) return std::nullopt;
-    // Numbers without gaps are the rule; then no search is needed.
+    // Numbers usually have no gaps; then no search is needed.
     const std::uint64_t guess =
         static_cast<std::uint64_t>(number) - static_cast<std::uint64_t>(entries_.front().first);
     if (guess < entries_.size())

@@ -1,4 +1,4 @@
-// Names that several parts give to different things, told apart.
+// Distinguishes names that several parts give to different things.
 #pragma once
 
 #include <map>
@@ -8,8 +8,8 @@
 
 namespace holdfast::io {
 
-/// The names by id that each part gives. A name that parts have under different ids comes with the part's own
-/// name before it, `part.name`, if the parts have names.
+/// The names by id in each part. If parts use a name for different ids, it is prefixed with the part's name,
+/// `part.name`, provided that the parts have names.
 [[nodiscard]] std::vector<std::map<int, std::string>> names_apart(
     std::vector<std::map<int, std::string>> of_parts, std::span<const std::string> parts);
 

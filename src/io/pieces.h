@@ -1,4 +1,4 @@
-// Writers of volumes in pieces, one a format.
+// Writers of volumes in pieces, one for each format.
 #pragma once
 
 #include "holdfast/partition.h"
@@ -6,7 +6,7 @@
 
 namespace holdfast::io {
 
-/// Of a piece: the faces between it and others, in the fields of its .vtu.
+/// The faces between a piece and others, in the fields of its .vtu.
 inline constexpr const char* kInterfaces = "holdfast:interfaces";
 
 void write_pvtu(const std::filesystem::path& path, std::size_t parts, const PieceLoader& load,
@@ -24,7 +24,7 @@ void write_xdmf_pieces(const std::filesystem::path& path, std::size_t parts, con
 /// Writes processork/constant/polyMesh into a case.
 void write_processors(const std::filesystem::path& path, std::size_t parts, const PieceLoader& load,
                       const WriteOptions& options, Watch& watch);
-/// The polyMesh of process k in the case that a path names as `poly_mesh_of` has it.
+/// The polyMesh of process k in the case that the path names, in the sense of `poly_mesh_of`.
 [[nodiscard]] std::filesystem::path processor_mesh(const std::filesystem::path& path, std::size_t k);
 
 }  // namespace holdfast::io

@@ -1,4 +1,4 @@
-// Where a file places a copy of what it describes once.
+// The transform by which a file places a copy of an object.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@ struct Placement {
   std::array<double, 12> m = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
 
   [[nodiscard]] static Placement moved_by(const Point& shift);
-  /// Turned about an axis through `a`, seen against the unit vector `axis` counterclockwise. Right angles and
-  /// axes along the coordinates are exact.
+  /// A rotation about an axis through `a`, counterclockwise as seen against the unit vector `axis`. Exact for
+  /// right angles and axes along the coordinates.
   [[nodiscard]] static Placement turned(const Point& a, const Point& axis, double degrees);
 
   [[nodiscard]] Point of(const Point& p) const;
-  /// This placement of what `inner` has placed.
+  /// This placement applied after `inner`.
   [[nodiscard]] Placement after(const Placement& inner) const;
-  /// Whether it turns what is seen from outside inside out.
+  /// Whether the placement is a reflection, which turns surfaces inside out.
   [[nodiscard]] bool mirrors() const;
   bool operator==(const Placement&) const = default;
 };

@@ -1,4 +1,4 @@
-// What the readers of planes share.
+// Shared by the readers of planes.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace holdfast::io {
 
 /// In lower case, with a dot.
 [[nodiscard]] std::string plane_extension_of(const std::filesystem::path& path, std::string_view format);
-/// A .poly or .node of two dimensions. Throws FileError.
+/// A two-dimensional .poly or .node. Throws FileError.
 [[nodiscard]] Plane parse_plane(const Source& source, std::string_view extension);
 
 }  // namespace holdfast::io

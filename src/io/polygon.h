@@ -1,4 +1,4 @@
-// Polygons of more than three corners, and facets of several polygons, which some formats carry.
+// Polygons of more than three corners and facets of several polygons, which some formats contain.
 #pragma once
 
 #include <span>
@@ -9,19 +9,19 @@
 
 namespace holdfast::io {
 
-/// What long work on polygons calls now and then.
+/// Polled now and then by long work on polygons.
 [[nodiscard]] inline plane::Poll poll_of(Watch* watch) {
   return [watch](double) { step(watch); };
 }
 
-/// The corners without those at the place of the one before them, which the first follows.
+/// The corners without those at the place of their predecessor; the last corner precedes the first.
 [[nodiscard]] std::vector<Index> without_repeats(std::span<const Point> vertices,
                                                  std::span<const Index> corners);
 
-/// Adds a "face" of any number of corners to `mesh`: a triangle as it is, two corners as a segment,
-/// one as nothing more than the vertex that it names, more as plane::cut_polygon has it. A corner that
-/// repeats the place of the one before it does not count. `fail` is called with the reason, and must throw,
-/// if there are no triangles.
+/// Adds a "face" of any number of corners to `mesh`: a triangle unchanged, two corners as a segment, one
+/// corner as nothing but the vertex it names, more corners by plane::cut_polygon. A corner at the place of
+/// its predecessor does not count. If there is no triangulation, `fail` is called with the reason, and must
+/// throw.
 template <typename Fail>
 void add_polygon(MeshData& mesh, std::span<const Index> corners, int marker, Fail&& fail) {
   if (mesh.keeps_polygons && !corners.empty()) {
@@ -44,7 +44,7 @@ void add_polygon(MeshData& mesh, std::span<const Index> corners, int marker, Fai
       break;
   }
   const std::vector<Index> distinct = without_repeats(mesh.vertices, corners);
-  if (distinct.size() <= 3) {  // of one or two places: a triangle that `diagnose` calls degenerate
+  if (distinct.size() <= 3) {  // at one or two places: a triangle that `diagnose` calls degenerate
     const std::span<const Index> triangle = distinct.size() == 3 ? std::span<const Index>(distinct) : corners;
     return mesh.add_facet({triangle[0], triangle[1], triangle[2]}, marker);
   }
@@ -54,8 +54,8 @@ void add_polygon(MeshData& mesh, std::span<const Index> corners, int marker, Fai
   mesh.add_cut(cut.triangles, cut.deviation, marker);
 }
 
-/// Adds the triangles of a strip: corners i, i + 1, i + 2, with every other one turned round. Those that name
-/// a vertex twice only join strips.
+/// Adds the triangles of a strip: corners i, i + 1, i + 2, with every other one reversed. Triangles that name
+/// a vertex twice only join strips and are left out.
 inline void add_strip(MeshData& mesh, std::span<const Index> corners, int marker) {
   for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
     const Triangle triangle{corners[i + i % 2], corners[i + 1 - i % 2], corners[i + 2]};

@@ -1,5 +1,5 @@
-// What PrusaSlicer says beside a 3MF model of the volumes of each object: runs of its triangles, of which
-// some change how it is printed and are no material.
+// PrusaSlicer's description of the volumes of each object beside a 3MF model: runs of its triangles. Some
+// volumes only change how the object is printed and are not material.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 namespace holdfast::io {
 
 struct SlicerVolume {
-  std::uint64_t first = 0, last = 0;  ///< triangles of the object, both included
+  std::uint64_t first = 0, last = 0;  ///< of the object's triangles, both included
   std::string name;
   std::string kind =
       "ModelPart";  ///< or "NegativeVolume", "ParameterModifier", "SupportBlocker" and the like

@@ -1,5 +1,5 @@
-// The solids of a file that places copies of its objects, as 3MF and AMF do. Markers are the copies and,
-// within each, its materials.
+// The solids of a file that places copies of its objects, such as 3MF and AMF. Markers stand for the copies
+// and, within each copy, for its materials.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace holdfast::io {
 
-/// What an object of the file holds itself.
+/// The geometry of an object of the file, without its placed components.
 struct Solid {
   std::string name;
   std::vector<Point> vertices;
@@ -23,12 +23,12 @@ class Solids {
  public:
   explicit Solids(const Source& source) : source_(source), bytes_(source.bytes.size()), mesh_(source) {}
 
-  /// What the files of the source have together, where it is not the source's own length.
+  /// Sets the total size of the source's files, if it is not the source's own length.
   void set_bytes(std::size_t bytes) { bytes_ = bytes; }
 
-  /// Puts a copy of a solid. Throws FileError where copies of copies grow beyond what a mesh is.
+  /// Adds a copy of a solid. Throws FileError if copies of copies grow beyond the size of any mesh.
   void add(const Solid& solid, const std::string& name, const Placement& placement);
-  /// All copies. There are no markers but a name where all is of one copy and material.
+  /// All copies. If all belong to one copy and material, there are no markers but a name.
   [[nodiscard]] MeshData take();
 
  private:
@@ -38,7 +38,7 @@ class Solids {
   /// Triangles of one copy and material.
   struct Group {
     std::string copy, material;
-    bool alone = false;  ///< all of the copy
+    bool alone = false;  ///< the whole copy
   };
 
   Source source_;

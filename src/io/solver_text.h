@@ -1,4 +1,4 @@
-// Text formats of solvers that are short enough to be written here: SU2, MFEM, Netgen's .vol, Nastran's .bdf.
+// Text formats of solvers with short writers: SU2, MFEM, Netgen's .vol, Nastran's .bdf.
 #pragma once
 
 #include "io/formats.h"
@@ -7,7 +7,7 @@
 
 namespace holdfast::io {
 
-/// The labels of the three kinds of entities that solvers' formats have.
+/// The labels of the three kinds of entities in solvers' formats.
 struct SolverLabels {
   Labels regions, facets, segments;
 
@@ -20,7 +20,7 @@ struct SolverLabels {
                            volume.names.segments, names, ids)) {}
 };
 
-/// Says what formats without segments, without vertex markers or without second order do not hold.
+/// Reports what formats without segments, vertex markers or second order leave out.
 inline void tell_left_out(const Volume& volume, std::string_view format, bool segments, bool second_order,
                           std::vector<Remark>& remarks) {
   const auto say = [&](std::size_t count, std::string_view what) {

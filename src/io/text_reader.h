@@ -1,4 +1,4 @@
-// Reads numbers and words from a text that is in memory, and knows the line of each.
+// Reads numbers and words from a text in memory and knows the line of each.
 #pragma once
 
 #include <cstdint>
@@ -16,17 +16,17 @@ namespace holdfast::io {
 /// for the error. All of them throw FileError with the line.
 class TextReader {
  public:
-  /// `comment` starts a comment that reaches to the end of the line; 0: there are none.
+  /// `comment` starts a comment that ends with the line; 0: there are no comments.
   explicit TextReader(const Source& source, char comment = '#');
 
-  /// Skips blanks, line ends and comments; whether nothing follows.
+  /// Skips blanks, line ends and comments. True at the end of the text.
   bool at_end();
-  /// Skips blanks within the line; whether nothing but a comment follows on it.
+  /// Skips blanks within the line. True if only a comment follows on the line.
   bool at_line_end();
   /// Moves to the start of the next line.
   void skip_line();
 
-  /// The next word, on whatever line.
+  /// The next word, on this or a later line.
   std::string_view word(std::string_view what);
   /// The next word of this line; empty at its end.
   std::string_view word_on_line();
@@ -43,11 +43,11 @@ class TextReader {
   Point point();
   /// An index of one of `size` things, numbered from `base`; returned zero-based.
   Index index(std::string_view what, std::int64_t base, std::size_t size);
-  /// A number of things of at least `bytes_each` bytes of text, which the rest of the file must be
-  /// able to hold: a reader may reserve memory for them.
+  /// A count of things of at least `bytes_each` bytes of text each. It is checked against the rest of the
+  /// file, so that a reader may reserve memory for them.
   std::size_t count(std::string_view what, std::size_t bytes_each);
 
-  /// Whether a number would be read next (not the end and not a word such as "End").
+  /// Whether a number follows (not the end, and not a word such as "End").
   bool number_follows();
 
   /// Throws a FileError for the line of what was read last.
@@ -77,13 +77,13 @@ class TextReader {
   std::size_t last_ = 0;
 };
 
-/// The line that a position is in, from 1.
+/// The line of a position, from 1.
 [[nodiscard]] std::size_t line_of(std::string_view text, std::size_t position);
 
 /// `word` in lower case (ASCII).
 [[nodiscard]] std::string lower(std::string_view word);
 
-/// `text` in quotes for a message: shortened, and without bytes that a terminal would act on.
+/// `text` in quotes for a message: shortened, and without bytes that control a terminal.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
 }  // namespace holdfast::io

@@ -1,4 +1,4 @@
-// Tetrahedra that a program turned the other way than the format says.
+// Tetrahedra with the orientation opposite to the format's.
 #pragma once
 
 #include <string>
@@ -7,12 +7,11 @@
 
 namespace holdfast::io {
 
-/// Turns all tetrahedra, and says `remark`, where all of them are negative: some programs (meshio) write them
-/// so. Where only some are, the file is as wrong as it stands.
+/// If all tetrahedra are negative, as some programs (meshio) write them, reverses all and adds `remark`. If
+/// only some are negative, the file is wrong and stays as it is.
 void turn_if_all_are_turned(MeshData& mesh, const std::string& remark);
 
-/// Whether the volume of a tetrahedron is negative in plain arithmetic: nothing of the topology depends on
-/// it.
+/// Whether the volume of a tetrahedron is negative in plain arithmetic: no topology depends on it.
 [[nodiscard]] bool is_turned(const Tetrahedron& t, const std::vector<Point>& vertices);
 
 }  // namespace holdfast::io

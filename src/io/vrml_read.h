@@ -1,4 +1,4 @@
-// Reads VRML 1.0 and 2.0 (VRML97): the sets of indexed faces that the scene places.
+// Reads VRML 1.0 and 2.0 (VRML97): the indexed face sets that the scene places.
 #pragma once
 
 #include "io/mesh_data.h"

@@ -1,5 +1,5 @@
-// The nodes of a VRML file, as versions 1.0 and 2.0 (ISO/IEC 14772-1, VRML97) write them: whatever they are,
-// by their braces and fields.
+// The nodes of a VRML file in versions 1.0 and 2.0 (ISO/IEC 14772-1, VRML97): nodes of any type, parsed by
+// their braces and fields.
 #pragma once
 
 #include <deque>
@@ -17,22 +17,22 @@ struct VrmlNode;
 struct VrmlField {
   std::vector<double> numbers;
   std::vector<const VrmlNode*> nodes;  ///< nullptr for NULL
-  std::string word;  ///< the last that is neither: TRUE, an enumerator, a text
+  std::string word;                    ///< the last value that is neither: TRUE, an enumerator, a text
 };
 
 struct VrmlNode {
-  std::string type, name;  ///< the name that DEF gives it
+  std::string type, name;  ///< `name`: given by DEF
   std::size_t position = 0;
   std::map<std::string, VrmlField, std::less<>> fields;
-  std::vector<const VrmlNode*> children;  ///< of version 1.0: nodes that stand in it
+  std::vector<const VrmlNode*> children;  ///< in version 1.0: nodes inside the node
 
-  /// Of a field that is not there: an empty one.
+  /// An empty field if there is none with this name.
   [[nodiscard]] const VrmlField& field(std::string_view field) const;
 };
 
 class VrmlScene {
  public:
-  /// Parses the whole. Throws FileError.
+  /// Parses the whole file. Throws FileError.
   explicit VrmlScene(const Source& source);
 
   [[nodiscard]] bool is_first_version() const { return is_first_version_; }
@@ -53,7 +53,7 @@ class VrmlScene {
   [[nodiscard]] Token peek();
   Token expect(std::string_view what);
   [[nodiscard]] double number(const Token& token) const;
-  /// After its opening bracket or brace.
+  /// To be called after the opening bracket or brace.
   void skip_to_end();
   bool skip_statement(std::string_view word);
   [[nodiscard]] const VrmlNode* read_node(const Token& first);

@@ -16,9 +16,9 @@
 
 namespace holdfast::io {
 
-/// Says, in the fields of a file, that facets and segments are in another one beside it.
+/// A field of a file: facets and segments are in another file beside it.
 inline constexpr const char* kSurfaceBeside = "holdfast:surface_beside";
-/// Of a surface in a file beside its volume: each point's index there.
+/// In a surface beside a volume: each point's index in the volume.
 inline constexpr const char* kVolumeVertex = "volume_vertex";
 
 /// Cell types of vtkCellType.h.
@@ -60,11 +60,11 @@ enum class VtkCell : std::uint8_t {
   lagrange_pyramid = 74,
 };
 
-/// Arrays of a whole file: of names, pairs of an id and a dimension by name, as meshio has them from Gmsh.
+/// Arrays of a whole file: by name, pairs of an id and a dimension, as meshio takes them from Gmsh.
 using VtkFields = std::map<std::string, std::vector<std::array<int, 2>>>;
 [[nodiscard]] VtkFields vtk_fields(const Names& names);
 
-/// Names out of such arrays, which may be of any kind.
+/// Collects names from such arrays, which may be of any kind.
 class VtkNames {
  public:
   void add(const std::string& name, std::span<const std::int64_t> pairs);
@@ -75,21 +75,21 @@ class VtkNames {
                                         NamedIds(kRegionStem)};
 };
 
-/// Whether Holdfast reads an array of this name, or writes it for viewers and solvers alone.
+/// Whether Holdfast reads an array of this name, or writes it only for viewers and solvers.
 [[nodiscard]] inline bool is_known_array(std::string_view name) {
   return name == "region" || name == "marker" || name == "kind" || name == "mat_id" ||
          name == "input_vertex" || name == kVolumeVertex;
 }
 
-/// Arrays that other programs have the ids of cells in, of tetrahedra and of what else there is: read where
-/// there is no "region" or "marker".
+/// Arrays in which other programs store ids of cells, of tetrahedra and of others: read if there is no
+/// "region" or "marker".
 inline constexpr std::array<std::string_view, 7> kRegionArrays{
     "mat_id", "gmsh:physical", "medit:ref", "cell_tags", "CellEntityIds", "material", "attribute"};
 inline constexpr std::array<std::string_view, 8> kMarkerArrays{
     "gmsh:physical", "medit:ref",        "facet_tags", "CellEntityIds",
     "BoundaryId",    "STLSolidLabeling", "PatchID",    "attribute"};
 
-/// Cells as they come from a file, not yet checked.
+/// Cells as read from a file, not yet checked.
 struct VtkGrid {
   std::vector<Point> points;
   std::vector<std::uint8_t> types;         ///< VtkCell, one a cell
@@ -97,15 +97,15 @@ struct VtkGrid {
   std::vector<std::int64_t> connectivity;  ///< the corners of all cells
   std::vector<int> regions, markers;       ///< empty, or one a cell
   std::vector<int> point_markers;          ///< empty, or one a point
-  std::vector<std::string> other_arrays;   ///< names of arrays that have no place in a mesh
+  std::vector<std::string> other_arrays;   ///< names of arrays that a mesh cannot store
   Names names = {};
 };
 
-/// Appends the cells of a part, which names the same points.
+/// Appends the cells of a part that names the same points.
 void append_cells(VtkGrid& grid, const VtkGrid& part);
 
-/// The mesh of a grid. Polygons are fanned where they are convex. Throws FileError with the cell's
-/// number for types that cannot be used, and for corners that do not exist.
+/// The mesh of a grid. Convex polygons are fanned. Throws FileError with the cell's number for unsupported
+/// types and for corners that do not exist.
 [[nodiscard]] MeshData mesh_of(const Source& source, VtkGrid&& grid);
 
 }  // namespace holdfast::io

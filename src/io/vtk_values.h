@@ -1,4 +1,4 @@
-// Values of the number types that the VTK formats name, as coordinates or integers.
+// Values of the number types of the VTK formats, as coordinates or integers.
 #pragma once
 
 #include <charconv>
@@ -22,13 +22,13 @@ enum class VtkType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, f
   return kSizes[static_cast<std::size_t>(type)];
 }
 
-/// A number as T; nothing if T is an integer type that does not hold it.
+/// A number as T; empty if T is an integer type that cannot hold it.
 template <typename T, typename From>
 [[nodiscard]] std::optional<T> converted(From value) {
   if constexpr (std::floating_point<T>) {
     return static_cast<T>(value);
   } else if constexpr (std::floating_point<From>) {
-    // 2^53 bounds what a real counts exactly; NaN fails too.
+    // Reals count exactly up to 2^53; NaN fails too.
     if (!(std::abs(value) <= 0x1p53) || value != std::trunc(value)) return std::nullopt;
     return converted<T>(static_cast<std::int64_t>(value));
   } else {
@@ -37,7 +37,7 @@ template <typename T, typename From>
   }
 }
 
-/// A number as a message tells it.
+/// A number as a message shows it.
 template <typename From>
 [[nodiscard]] std::string words(From value) {
   if constexpr (std::floating_point<From>) {
@@ -47,7 +47,7 @@ template <typename From>
   }
 }
 
-/// Calls `visit` with one value of a type after the other out of `bytes`.
+/// Calls `visit` for each value of a type in `bytes`, in order.
 template <typename T, typename Visit>
 void visit_binary(std::string_view bytes, std::endian order, Visit&& visit) {
   for (std::size_t i = 0; i + sizeof(T) <= bytes.size(); i += sizeof(T))
@@ -95,7 +95,7 @@ template <typename T, typename Fail>
   return values;
 }
 
-/// The next number of a text as T, which may be an integer spelled as a real.
+/// The next number of a text as T; an integer may be spelled as a real.
 template <typename T>
 [[nodiscard]] T text_value(TextReader& text) {
   if constexpr (std::floating_point<T>) {
@@ -108,7 +108,7 @@ template <typename T>
   }
 }
 
-/// Points out of their coordinates, three each; the rest of the division is ignored.
+/// Points from their coordinates, three each; incomplete points are ignored.
 [[nodiscard]] inline std::vector<Point> points_of(const std::vector<double>& coordinates) {
   std::vector<Point> points(coordinates.size() / 3);
   for (std::size_t i = 0; i < points.size(); ++i)

@@ -13,7 +13,7 @@
 
 namespace holdfast::io {
 
-/// One array in the machine's own byte order; its values stay with the caller.
+/// An array in the machine's own byte order; its values stay with the caller.
 struct VtuArray {
   const char* type;
   const char* name;
@@ -77,7 +77,7 @@ class VtuCells {
 
  private:
   std::vector<Index> connectivity_;
-  std::vector<std::int64_t> offsets_;  // there may be more than 2^32 corners
+  std::vector<std::int64_t> offsets_;  // 64 bits: there may be more than 2^32 corners
   std::vector<std::uint8_t> types_;
 };
 

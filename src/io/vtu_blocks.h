@@ -15,33 +15,33 @@
 
 namespace holdfast::io {
 
-/// Large enough that block headers cost nothing, small enough for readers that fetch single blocks.
+/// Large enough that block headers cost nothing, and small enough for readers that fetch single blocks.
 inline constexpr std::size_t kVtuBlock = std::size_t{1} << 18;
 
 [[nodiscard]] constexpr std::uint64_t vtu_blocks_of(std::uint64_t bytes) {
   return (bytes + kVtuBlock - 1) / kVtuBlock;
 }
-/// Appends a number as headers of arrays have it.
+/// Appends a number in the form of the headers of arrays.
 void append_vtu_size(std::string& bytes, std::uint64_t size);
 /// The blocks of some bytes, compressed.
 [[nodiscard]] std::vector<std::string> deflated_blocks(std::string_view bytes, const Threads& threads);
-/// What stands before the blocks of an array of so many bytes.
+/// The header before the blocks of an array of this many bytes.
 [[nodiscard]] std::string vtu_block_header(std::uint64_t bytes, const std::vector<std::uint64_t>& sizes);
 
-/// The appended section of a file that is never in memory: offsets of arrays and their sizes are put in when
-/// they are known.
+/// The appended section of a file that is never in memory as a whole: offsets of arrays and their sizes are
+/// patched in when they are known.
 class VtuAppended {
  public:
-  /// Compresses where it is asked for and `out` can be patched. Both must outlive it.
+  /// Compresses if asked to and if `out` can be patched. Both must outlive the object.
   VtuAppended(AtomicWriter& out, bool compress, const Threads& threads)
       : out_(out), compresses_(compress && out.can_be_patched()), threads_(threads) {}
 
   [[nodiscard]] bool compresses() const { return compresses_; }
-  /// Writes the offset of the next array, of so many bytes, into the header: the value of an attribute.
+  /// Writes the value of an attribute in the header: the offset of the next array, which has this many bytes.
   void write_offset(std::uint64_t bytes);
-  /// Where the header is complete: the section begins here.
+  /// To be called after the header: the section begins here.
   void begin();
-  /// The arrays' bytes, one array after the other.
+  /// Writes the bytes of the arrays, one array after the other.
   template <typename T>
   void put(T value) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -53,10 +53,10 @@ class VtuAppended {
   }
 
  private:
-  // Whole blocks, so that only the last of an array is a shorter one.
+  // A multiple of a block, so that only the last block of an array is shorter.
   static constexpr std::size_t kBuffer = 16 * kVtuBlock;
   struct Array {
-    std::uint64_t bytes, offset_at;  ///< where its offset stands in the file
+    std::uint64_t bytes, offset_at;  ///< `offset_at`: position of its offset in the file
   };
 
   void begin_array();

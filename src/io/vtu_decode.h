@@ -1,4 +1,4 @@
-// Decodes the arrays of VTK's XML files: base64, size headers, blocks packed by zlib, LZ4 or LZMA.
+// Decodes the arrays of VTK's XML files: base64, size headers, and blocks packed by zlib, LZ4 or LZMA.
 #pragma once
 
 #include <bit>
@@ -18,13 +18,13 @@ struct VtuEncoding {
   VtuCompressor compressor = VtuCompressor::none;
 };
 
-/// How many bytes the array whose header starts at `position` says it has, before it is unpacked. Throws
-/// FileError with the byte.
+/// The size in bytes that the header at `position` announces for its array, before the array is unpacked.
+/// Throws FileError with the byte.
 [[nodiscard]] std::uint64_t announced_size(const Source& source, const VtuEncoding& encoding, bool base64,
                                            std::size_t position);
 
-/// The bytes of the array whose header starts at `position`. Throws FileError with the byte. Never
-/// allocates more than the data that is there can stand for.
+/// The bytes of the array whose header starts at `position`. Throws FileError with the byte. Never allocates
+/// more than the available data can unpack to.
 [[nodiscard]] std::string decode_vtu_array(const Source& source, const VtuEncoding& encoding, bool base64,
                                            std::size_t position);
 

@@ -1,4 +1,4 @@
-// A VTK XML file as its arrays: ASCII, base64 and raw, uncompressed and in zlib blocks.
+// The arrays of a VTK XML file: ASCII, base64 and raw, uncompressed and in compressed blocks.
 #pragma once
 
 #include <cstdint>
@@ -19,32 +19,32 @@ struct DataArray {
   std::size_t content = 0;  ///< offset behind the tag
 };
 
-/// A whole file. Its arrays are decoded when they are asked for. What it tells of is one of its pieces, the
-/// first to begin with.
+/// A whole file. Its arrays are decoded on demand. All queries concern the current piece, which at first is
+/// the first one.
 class VtuFile {
  public:
-  /// Throws FileError for what is no such file, or is truncated.
+  /// Throws FileError if the file is of another kind or truncated.
   explicit VtuFile(const Source& source);
 
   [[nodiscard]] const Source& source() const { return source_; }
-  /// PolyData; else an UnstructuredGrid.
+  /// PolyData; otherwise an UnstructuredGrid.
   [[nodiscard]] bool is_polydata() const { return polydata_; }
   [[nodiscard]] std::size_t pieces() const { return pieces_.size(); }
   void turn_to(std::size_t piece) { piece_ = piece; }
   [[nodiscard]] std::uint64_t points() const { return piece().points; }
   [[nodiscard]] std::uint64_t cells() const { return piece().cells; }
-  /// Of polygonal data, in a section.
+  /// The number of cells in a section of polygonal data.
   [[nodiscard]] std::uint64_t cells_of(const std::string& section) const {
     const auto found = piece().counts.find(section);
     return found == piece().counts.end() ? 0 : found->second;
   }
 
-  /// By "section/name"; the points' array has no name.
+  /// By "section/name"; the name of the points' array is empty.
   [[nodiscard]] const std::map<std::string, DataArray>& arrays() const { return piece().arrays; }
   [[nodiscard]] const std::vector<std::string>& arrays_of_strings() const { return piece().strings; }
   [[nodiscard]] const DataArray* find(const std::string& name) const;
-  /// The values of an array that must exist, `count` of them if that is known. T: double, int, std::int64_t
-  /// or std::uint8_t.
+  /// The values of an array that must exist; there must be `count` of them if that is known. T: double, int,
+  /// std::int64_t or std::uint8_t.
   template <typename T>
   [[nodiscard]] std::vector<T> values(const std::string& name, std::optional<std::uint64_t> count) const;
   /// The number of values a point or cell, 1 to 9.
@@ -55,7 +55,7 @@ class VtuFile {
   struct Piece {
     std::uint64_t points = 0, cells = 0;
     std::map<std::string, std::uint64_t> counts;
-    std::map<std::string, DataArray> arrays;  ///< with those of the whole file
+    std::map<std::string, DataArray> arrays;  ///< including those of the whole file
     std::vector<std::string> strings;         ///< names of arrays of strings, of points and cells
   };
   struct Appended {

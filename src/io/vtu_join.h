@@ -1,5 +1,5 @@
-// One mesh of pieces in VTK's XML formats, be they files or parts of one: points are joined by their ids in
-// the whole, or by their places where they have none.
+// Joins pieces in VTK's XML formats, separate files or parts of one, into one mesh. Points are identified by
+// their ids in the whole, or by their places if they have no ids.
 #pragma once
 
 #include <filesystem>
@@ -12,12 +12,12 @@ namespace holdfast::io {
 
 struct VtuPiece {
   std::filesystem::path path;
-  std::string told_as;  ///< what remarks about it begin with
+  std::string told_as;  ///< prefix of remarks about it
   VtuBlock block;
   std::vector<Index> number = {};  ///< of its vertices in the whole
 };
 
-/// Takes the meshes of the pieces, and numbers their vertices.
+/// Takes the meshes of the pieces and numbers their vertices.
 [[nodiscard]] MeshData joined(std::vector<VtuPiece>& pieces);
 
 }  // namespace holdfast::io

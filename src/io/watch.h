@@ -1,4 +1,4 @@
-// What bounds the reading or writing of a file: asked by loops over what may be many.
+// The limits on reading or writing a file, polled by loops over many items.
 #pragma once
 
 #include "mesh/plain_monitor.h"
@@ -11,15 +11,16 @@ class Watch {
     monitor_.tell(0);
   }
 
-  /// For a loop that turns in nanoseconds. Throws Interrupted where a limit is reached or the caller cancels.
+  /// For a loop with iterations of nanoseconds. Throws Interrupted if a limit is reached or the caller
+  /// cancels.
   void beat() {
     if (++beats_ % kBeatsAStep == 0) monitor_.poll(share_);
   }
-  /// For a loop that turns in a millisecond or more.
+  /// For a loop with iterations of a millisecond or more.
   void step() { monitor_.poll(share_); }
   void step(double share) { monitor_.poll(share_ = share); }
   void finish() { monitor_.tell(1); }
-  /// Files that were written have their names by now: it is too late for limits.
+  /// The files now have their names: it is too late for limits.
   void finish_written() {
     try {
       finish();

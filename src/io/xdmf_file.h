@@ -1,4 +1,4 @@
-// An XDMF file as its grids, whose arrays are in HDF5 files, in raw ones or in the text.
+// An XDMF file as its grids. Their arrays are in HDF5 files, in raw files or in the text.
 #pragma once
 
 #include <map>
@@ -36,25 +36,26 @@ struct XdmfGrid {
   bool takes_topology = false;  ///< by xi:include from the first grid
 };
 
-/// A whole file. Arrays are read when they are asked for; the HDF5 files stay open.
+/// A whole file. Arrays are read on demand; the HDF5 files stay open.
 class XdmfFile {
  public:
-  /// Throws FileError for what is no such file, or is truncated.
+  /// Throws FileError if the file is of another kind or truncated.
   explicit XdmfFile(const Source& source);
 
   [[nodiscard]] const Source& source() const { return source_; }
-  /// Those with cells or attributes of cells; of a collection in time the first.
+  /// The grids with cells or attributes of cells; for a collection in time, only its first grid.
   [[nodiscard]] const std::vector<XdmfGrid>& grids() const { return grids_; }
-  /// Grids of later times.
+  /// The number of grids of later times.
   [[nodiscard]] std::size_t left_out() const { return left_out_; }
-  /// Whether there should be a file with what bounds the tetrahedra.
+  /// Whether a file with the boundary of the tetrahedra should exist.
   [[nodiscard]] bool surface_is_beside() const { return surface_is_beside_; }
   [[nodiscard]] Names take_names() { return names_.take(); }
 
-  /// The values of the first item that has some, in an element `of` the file. T: double or std::int64_t.
+  /// The values of the first item that has values, in an element `of` the file. T: double or std::int64_t.
   template <typename T>
   [[nodiscard]] std::vector<T> values_of(const std::vector<XdmfItem>& items, const XmlTag& of) const;
-  /// What an item's type says, or the array itself where it says none, as DOLFINx's do not.
+  /// Whether an item holds integers by its type, or by the array itself if the item states no type, as in
+  /// DOLFINx's files.
   [[nodiscard]] bool holds_integers(const XdmfItem& item) const;
   /// An attribute that must be a count.
   [[nodiscard]] std::uint64_t number(const XmlTag& tag, std::string_view key) const {

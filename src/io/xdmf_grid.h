@@ -11,7 +11,7 @@
 
 namespace holdfast::io {
 
-/// Where XDMF finds the arrays and the points, and how many these are.
+/// Where the arrays and the points are, and the number of points.
 struct XdmfHeavy {
   std::string file, file_of_points;
   std::uint64_t points;
@@ -23,13 +23,13 @@ struct XdmfCells {
   std::vector<std::string_view> attributes;  ///< arrays of 32-bit integers, one a cell
 };
 
-/// A grid among others in a file.
+/// Writes a grid of a file with several.
 void put_xdmf_grid(AtomicWriter& out, const XdmfHeavy& heavy, std::string_view name, const XdmfCells& cells,
                    const Names& names, bool surface_is_beside = false);
 void begin_xdmf(AtomicWriter& out);
 void end_xdmf(AtomicWriter& out);
 
-/// A file of the grid "mesh" alone.
+/// Writes a file with the single grid "mesh".
 void write_xdmf_grid(AtomicWriter& out, const XdmfHeavy& heavy, const XdmfCells& cells, const Names& names,
                      bool surface_is_beside = false);
 

@@ -1,4 +1,4 @@
-// The tags of an XML text one after the other: as much of XML as files of meshes use.
+// The tags of an XML text, one after the other: the subset of XML that files of meshes use.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@
 
 namespace holdfast::io {
 
-/// Text as an attribute between double quotes holds it.
+/// A text escaped for an attribute between double quotes.
 [[nodiscard]] std::string escaped(std::string_view text);
-/// The reverse: its five named entities are characters again; others stay as they are.
+/// The reverse: the five named entities become characters; other entities stay unchanged.
 [[nodiscard]] std::string unescaped(std::string_view text);
 
 struct XmlTag {
@@ -30,20 +30,20 @@ struct XmlTag {
 class XmlReader {
  public:
   explicit XmlReader(const Source& source) : source_(source) {}
-  /// The next tag; declarations and comments are skipped. Nothing at the end.
+  /// The next tag; declarations and comments are skipped. Empty at the end.
   std::optional<XmlTag> next();
-  /// Offset behind the last tag.
+  /// Offset after the last tag.
   [[nodiscard]] std::size_t position() const { return position_; }
   /// An attribute that must be a count. Throws FileError.
   [[nodiscard]] std::uint64_t number(const XmlTag& tag, std::string_view key) const;
   /// An attribute that must be a real number. Throws FileError.
   [[nodiscard]] double real(const XmlTag& tag, std::string_view key) const;
-  /// The text behind the last tag, up to the next one, without blanks at its ends.
+  /// The text after the last tag, up to the next one, without surrounding blanks.
   [[nodiscard]] std::string_view text() const;
-  /// The same, which must be a count, or a real number. Throws FileError for the line of `tag`.
+  /// The same for a text that must be a count, or a real number. Throws FileError for the line of `tag`.
   [[nodiscard]] std::uint64_t number_in_text(const XmlTag& tag) const;
   [[nodiscard]] double real_in_text(const XmlTag& tag) const;
-  /// A list of real numbers between blanks. Throws FileError unless there are `count`.
+  /// A list of real numbers separated by blanks. Throws FileError unless there are `count`.
   [[nodiscard]] std::vector<double> reals(const XmlTag& tag, std::string_view key, std::size_t count) const;
   /// Throws a FileError for the line of a tag.
   [[noreturn]] void fail(const XmlTag& tag, const std::string& reason) const;

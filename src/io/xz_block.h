@@ -1,4 +1,4 @@
-// Unpacks .xz streams, as VTK packs its blocks, by liblzma.
+// Unpacks .xz streams, in which VTK packs blocks, by liblzma.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@ namespace holdfast::io {
 /// Whether this build has liblzma.
 [[nodiscard]] bool has_xz();
 
-/// A byte stands for at most so many: a repeated match of 273 bytes takes 14 bits of the range coder, each of
-/// which costs a forty-fifth of a bit at least.
+/// A byte stands for at most this many bytes: a repeated match of 273 bytes takes 14 bits of the range coder,
+/// each of which costs at least a forty-fifth of a bit.
 inline constexpr std::uint64_t kBestRatioOfXz = 8192;
 
-/// Appends what a stream holds, if that is exactly `size` bytes; else, and without liblzma, returns false,
-/// with some bytes appended.
+/// Appends the content of a stream and returns true if it has exactly `size` bytes. Otherwise, and without
+/// liblzma, returns false, with a part of it appended.
 [[nodiscard]] bool append_xz(std::string& bytes, std::string_view stream, std::size_t size);
 
 }  // namespace holdfast::io
