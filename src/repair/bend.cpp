@@ -19,7 +19,7 @@ namespace {
 
 bool has_repeated_corners(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-/// The corners with one vertex in the place of another.
+/// The corners with vertex `old` replaced by `fresh`.
 Triangle with(Index fresh, Index old, Triangle corners) {
   std::replace(corners.begin(), corners.end(), old, fresh);
   return corners;
@@ -43,12 +43,13 @@ bool is_near(const State& state, Index v, const Triangle& facet, double distance
          beside_facet(at(v), at(a), at(b), at(c)).distance <= distance;
 }
 
-/// For each facet, and then each segment, in trouble the vertices near it, with room for bending.
+/// The vertices near each facet and then near each segment in trouble, including those that bending may bring
+/// into reach.
 std::vector<std::vector<Index>> list_near(const State& state, const Trouble& trouble,
                                           std::span<const Index> vertices, double gap, Work& work,
                                           const Step& step) {
   constexpr double kRoom = 4;
-  constexpr std::size_t kWork = 4;  // that finding a pair is
+  constexpr std::size_t kWork = 4;  // relative to finding a pair
   std::vector<Box> boxes;
   for (const Index v : vertices) boxes.push_back(box_round(state, std::array{v}, 0));
   const AabbTree tree(boxes);
@@ -97,11 +98,12 @@ void begin(const State& state, const Trouble& trouble, std::span<const Index> ve
 // --- 2. and 3. Sides and facets
 // -----------------------------------------------------------------------------
 
-/// One side at a time is led through one vertex, in all that have it: (a b x) becomes (a p x) and (p b x),
-/// and vanishes where x is p. So the boundary of the facets stays what it was, and what was closed is.
+/// One side at a time is led through one vertex, in all facets that have the side: (a b x) becomes (a p x)
+/// and (p b x), and vanishes if x is p. So the boundary of the facets stays the same, and closed surfaces
+/// stay closed.
 class Bending {
  public:
-  /// `near` has the vertices near to each facet and segment, by the numbers in their `lists`.
+  /// `near` holds the vertices near each facet and segment, by the numbers in their `lists`.
   Bending(const State& state, std::vector<std::vector<Index>> near, BentSurface& surface, const Bend& how,
           Work& work)
       : state_(state),
@@ -113,8 +115,8 @@ class Bending {
         room_(how.room),
         work_(work) {}
 
-  /// The longest sides first: a facet that is thinner than the gap vanishes into its longest side. Ends early
-  /// where far more facets come of it than there were: what is left then is a surface, too.
+  /// The longest sides come first: a facet thinner than the gap vanishes into its longest side. Ends early if
+  /// this multiplies the facets: the state is a surface at every step.
   void run(const Step& step) {
     constexpr std::size_t kGrowth = 8, kRoom = 200;
     const std::size_t most_steps = 1000 + 60 * surface_.facets().size();
@@ -163,9 +165,9 @@ class Bending {
     }
   }
 
-  /// Whether a facet or a segment would come back that was taken out before. Two vertices near a side may
-  /// each pass the side that ends in the other: the two ways to part what is between them would follow each
-  /// other for ever.
+  /// Whether a facet or a segment that was removed before would come back. Two vertices near a side may each
+  /// pass the side that ends in the other; without this test, the two ways to divide the space between them
+  /// would alternate for ever.
   [[nodiscard]] bool comes_back(const Side& side, const BentSurface::AtSide& here, Index through) const {
     const auto of_facet = [&](Index f) {
       const Triangle& corners = surface_.facet(f).corners;
@@ -225,7 +227,7 @@ class Bending {
       for (const Index v : near_[list]) {
         if (v == a || v == b || v == c) continue;
         const Nearness near = beside_facet(at(v), at(a), at(b), at(c));
-        // A sliver has its points beside its sides, which are led through what is near.
+        // All points of a sliver are near its sides, and these are led through nearby vertices.
         if (!(near.distance <= gap_) || near.tilt > gap_) continue;
         if (!(surface_.facet(f).bent + near.bound() <= room_)) continue;
         const BentFacet facet = surface_.take(f, near.bound());
@@ -241,7 +243,7 @@ class Bending {
 
   const State& state_;
   const std::vector<std::vector<Index>> near_;
-  std::vector<std::size_t> looked_at_;  // by lists: the last side for which they were looked at
+  std::vector<std::size_t> looked_at_;  // by list: the last side for which it was searched
   std::size_t looked_ = 0;              // sides
   BentSurface& surface_;
   const Bend how_;

@@ -10,7 +10,7 @@
 namespace holdfast::repairing {
 namespace {
 
-/// Both ascend, and are the same more often than not.
+/// Both lists ascend, and usually they are equal.
 void join(std::vector<Index>& list, const std::vector<Index>& other) {
   if (std::includes(list.begin(), list.end(), other.begin(), other.end())) return;
   std::vector<Index> both;

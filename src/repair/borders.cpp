@@ -9,7 +9,7 @@
 namespace holdfast::repairing {
 namespace {
 
-/// Border sides, each turned against its facet, as it runs round the hole.
+/// Border sides, each directed against its facet, as the hole's border runs.
 class Borders {
  public:
   explicit Borders(const Complex& surface) {
@@ -28,7 +28,7 @@ class Borders {
     used_.assign(sides_.size(), 0);
   }
 
-  /// Every side is in one loop at most, and no loop has a vertex twice.
+  /// Every side is in at most one loop, and no loop visits a vertex twice.
   [[nodiscard]] std::vector<Loop> loops() {
     std::vector<Loop> found;
     for (Index s = 0; s < sides_.size(); ++s) {
@@ -53,7 +53,7 @@ class Borders {
   }
 
  private:
-  /// An unused side, one that leaves the vertex if there is any.
+  /// An unused side, preferably one that leaves the vertex.
   [[nodiscard]] Index next_from(Index v) const {
     Index next = no_index;
     for (const Index s : at_.at(v)) {

@@ -12,7 +12,7 @@
 namespace holdfast::repairing {
 namespace {
 
-/// The planes of some facets, as often as they are asked for.
+/// The planes of some facets, computed when first asked for.
 struct Planes {
   std::vector<Vector> normal;  // by facet
   std::vector<double> size;    // of each normal
@@ -26,7 +26,7 @@ struct Planes {
   }
 };
 
-/// The coordinate axis that is steepest to a plane with this normal.
+/// The coordinate axis closest to the normal.
 unsigned axis_of(const Vector& n) {
   unsigned axis = 0;
   for (unsigned k = 1; k < 3; ++k)
@@ -41,13 +41,13 @@ int turn_of(const Point& a, const Point& b, const Point& c, unsigned axis) {
   return exact::orient2d(p.data(), q.data(), r.data());
 }
 
-/// Whether two facets share area in the projection along an axis: if not, a side of one of them has the other
-/// one beyond it.
+/// Whether two facets share area in the projection along an axis. If not, a side of one of them separates it
+/// from the other.
 bool overlap(const State& state, Index f, Index g, unsigned axis) {
   const auto turn = [&](Index a, Index b, Index c) {
     return turn_of(state.vertices[a], state.vertices[b], state.vertices[c], axis);
   };
-  // Sides that the two share come first: most pairs are neighbours, and lie on both sides of these.
+  // Common sides first: most pairs are neighbours and lie on opposite sides of them.
   const auto is_parted = [&](const Triangle& t, int turn_t, const Triangle& other) {
     const auto is_beyond = [&](Index a, Index b) {
       return std::all_of(other.begin(), other.end(),
@@ -69,7 +69,7 @@ bool overlap(const State& state, Index f, Index g, unsigned axis) {
   return turn_u != 0 && !is_parted(u, turn_u, t);
 }
 
-/// Whether all of the first facet is near to the plane of the second.
+/// Whether the first facet lies entirely near the plane of the second.
 bool lies_in(const State& state, const Planes& planes, Index f, Index g, double gap) {
   const Vector& n = planes.normal[g];
   const double size = planes.size[g];
@@ -79,7 +79,7 @@ bool lies_in(const State& state, const Planes& planes, Index f, Index g, double 
   const auto is_near = [&](Index v) {
     return std::fabs(dot(minus(state.vertices[v], origin), n)) / size <= gap;
   };
-  // Most pairs are neighbours: what they do not share comes first.
+  // Most pairs are neighbours: their unshared corners come first.
   const auto is_shared = [&](Index v) { return v == corners[0] || v == corners[1] || v == corners[2]; };
   for (const bool shared : {false, true})
     for (const Index v : state.facets[f])
@@ -87,7 +87,8 @@ bool lies_in(const State& state, const Planes& planes, Index f, Index g, double 
   return true;
 }
 
-/// Facets whose corners are points, and boxes round them; of few of them only what is near these.
+/// Facets whose corners exist and are finite, and boxes round them. If `some` are few, only the facets near
+/// them.
 std::pair<std::vector<Index>, std::vector<Box>> boxes_near(const State& state, double gap,
                                                            std::span<const Index> some) {
   const auto box_of = [&](Index f) { return box_round(state, state.facets[f], gap); };
@@ -96,7 +97,7 @@ std::pair<std::vector<Index>, std::vector<Box>> boxes_near(const State& state, d
     return std::all_of(t.begin(), t.end(),
                        [&](Index v) { return v < state.vertices.size() && is_finite(state.vertices[v]); });
   };
-  constexpr std::size_t kFew = 4;  // a part of all
+  constexpr std::size_t kFew = 4;  // share of all facets
   const bool are_few = !some.empty() && some.size() < state.facets.size() / kFew;
   AabbTree near;
   if (are_few) {
@@ -116,7 +117,8 @@ std::pair<std::vector<Index>, std::vector<Box>> boxes_near(const State& state, d
   return found;
 }
 
-/// Takes the axis that is steepest to the largest facet, and leaves out what has no area along it.
+/// Projects along the axis closest to the normal of the largest facet, and leaves out facets without area in
+/// that projection.
 void keep_projected(const State& state, const Planes& planes, Cluster& cluster) {
   const Index largest = *std::max_element(cluster.facets.begin(), cluster.facets.end(),
                                           [&](Index f, Index g) { return planes.size[f] < planes.size[g]; });

@@ -34,7 +34,7 @@ class Covers {
     for (Index v = 0; v < place_.size(); ++v) place_[v] = place_[first[v]];
   }
 
-  /// None where no multiple of `most` is found.
+  /// Nothing if no multiple up to `most` works.
   std::optional<double> run(double most) {
     std::vector<Index> open;
     const checking::Reach near(most);
@@ -55,7 +55,7 @@ class Covers {
   }
 
  private:
-  /// Whether a facet is its only part.
+  /// Whether a facet is its own only part.
   [[nodiscard]] bool is_whole(Index g) const {
     const auto parts = children_.of(g);
     return parts.size() == 1 && state_.facets[parts[0]] == given_.facets[g] && has_kept_corners(g);
@@ -66,7 +66,7 @@ class Covers {
     return std::all_of(t.begin(), t.end(), [&](Index v) { return at(v) == given_.vertices[v]; });
   }
 
-  /// The sides that an odd number of some facets have.
+  /// The sides that an odd number of these facets have.
   void list_odd(std::span<const Index> facets) {
     sides_.clear();
     constexpr std::size_t kFew = 32;
@@ -94,7 +94,7 @@ class Covers {
     std::sort(sides_.begin(), sides_.end());
   }
 
-  /// The sides that an odd number of the parts of a facet have, once from each of their ends.
+  /// The sides that an odd number of the parts of a facet have, once from each end.
   void list_odd_sides(Index g) {
     list_odd(children_.of(g));
     const std::size_t odd = sides_.size();
@@ -103,7 +103,7 @@ class Covers {
     std::sort(sides_.begin(), sides_.end());
   }
 
-  /// The two ways on along them; none where there are others, or fewer.
+  /// The two odd sides from a vertex; nothing if there are more or fewer.
   [[nodiscard]] std::optional<std::array<Index, 2>> ways_from(Index v) const {
     const auto from = std::lower_bound(sides_.begin(), sides_.end(), Side{v, 0});
     const auto left = sides_.end() - from;
@@ -111,7 +111,8 @@ class Covers {
     return std::array{(*from)[1], from[1][1]};
   }
 
-  /// Whether one line goes round the parts of a facet, through its corners, and as near to each of its sides.
+  /// Whether one closed line bounds the parts of a facet, passes through its corners, and stays as near to
+  /// each of its sides.
   [[nodiscard]] bool has_its_sides_round_it(Index g, const checking::Reach& reach) {
     list_odd_sides(g);
     const Triangle& t = given_.facets[g];
@@ -123,7 +124,7 @@ class Covers {
         const auto ways = v == no_index || steps > sides_.size() ? std::nullopt : ways_from(v);
         if (!ways) return false;
         Index next = (*ways)[(*ways)[0] == before ? 1 : 0];
-        // The first step goes the way on which the second corner comes before the third.
+        // Start in the direction in which the second corner comes before the third.
         if (before == no_index && !leads_to(v, next, end, place_[t[2]])) next = (*ways)[1];
         before = std::exchange(v, next);
         if (v != end && !reach.of_segment(at(v), given_.vertices[t[i]], given_.vertices[t[(i + 1) % 3]]))
@@ -133,7 +134,7 @@ class Covers {
     return 2 * steps == sides_.size();
   }
 
-  /// Whether the line from v by way of `next` comes to one vertex before another.
+  /// Whether the line from v by way of `next` reaches `first` before `second`.
   [[nodiscard]] bool leads_to(Index v, Index next, Index first, Index second) const {
     for (std::size_t steps = 0; next != first && next != second && steps < sides_.size(); ++steps) {
       const auto ways = ways_from(next);
@@ -155,11 +156,11 @@ class Covers {
   const State& state_;
   const State& given_;
   const Step& step_;
-  std::vector<Index> place_;  // by vertex a used one at its place, or none
+  std::vector<Index> place_;  // by vertex: a used vertex at its place, or none
   const Children children_;
   std::vector<Side> sides_;
-  std::optional<NumberedSides> numbered_;  // where a facet has many parts
-  std::vector<std::uint8_t> is_odd_;       // by number, so far
+  std::optional<NumberedSides> numbered_;  // for a facet with many parts
+  std::vector<std::uint8_t> is_odd_;       // by number, up to now
   std::vector<Index> touched_;
 };
 

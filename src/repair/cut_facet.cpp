@@ -46,7 +46,7 @@ class FacetCut {
     for (const Side& piece : pieces)
       if (is_on(piece[0], points) && is_on(piece[1], points) && own_.count(ascending(piece)) == 0)
         segments.insert(ascending(piece));
-    // What crosses something goes, all of it at once; then what is left is tried.
+    // Everything that crosses something is removed at once; then the rest is tried.
     constexpr int kMostTrials = 4;
     for (int trial = 0; trial < kMostTrials; ++trial) {
       const PlaneResult result = triangulate(points, segments);
@@ -88,7 +88,7 @@ class FacetCut {
     return plane::triangulate(plane, options, [&](double) { step_(0.7); });
   }
 
-  /// False if nothing of what is in the way may go.
+  /// False if nothing that is in the way may be left out.
   [[nodiscard]] bool leave_out(const std::vector<Defect>& defects, std::set<Index>& points,
                                std::set<Side>& segments) const {
     const std::size_t before = points.size() + segments.size();
@@ -135,7 +135,7 @@ class FacetCut {
   const std::size_t axis_;
   const bool is_turned_;
   const Step& step_;
-  std::vector<Side> chain_;  // turns left in the projection
+  std::vector<Side> chain_;  // a left turn in the projection
   std::set<Index> round_;    // its vertices
   std::set<Side> own_;       // its sides, ascending
   // Of the last trial.

@@ -1,4 +1,4 @@
-// What a repaired surface is told as.
+// The description of a repaired surface for the caller.
 #include "repair/deliver.h"
 
 #include <algorithm>
@@ -21,7 +21,8 @@
 namespace holdfast::repairing {
 namespace {
 
-/// One marker for each set of parents' markers: itself if there is one, else the next free number.
+/// One marker for each set of parents' markers: the marker itself if the set has only one, else the next free
+/// number.
 class MarkerSets {
  public:
   MarkerSets(std::span<const int> markers, const std::map<int, std::string>& names)
@@ -43,7 +44,7 @@ class MarkerSets {
     return sets;
   }
 
-  /// A set is called as all of its markers are, `rim+root`, if all have names.
+  /// A set of named markers gets the joined name, `rim+root`, if all have names.
   void name(std::map<int, std::string>& names) const {
     for (const auto& [set, number] : number_) {
       std::string name;
@@ -62,7 +63,7 @@ class MarkerSets {
  private:
   [[nodiscard]] int next_free() const {
     int id = std::max(0, *used_.rbegin());
-    if (id == std::numeric_limits<int>::max())  // the first gap, then
+    if (id == std::numeric_limits<int>::max())  // from now on, the first gap
       for (id = 0; used_.contains(id + 1);) ++id;
     return id + 1;
   }
@@ -114,8 +115,8 @@ double distance_above(const Point& p, const Point& q) {
   }
 }
 
-/// A vertex that is where it was keeps its bits: it may have become one with another whose zeros have other
-/// signs.
+/// A vertex that stays at its place keeps its bits: it may have been joined with a vertex whose zeros have
+/// other signs.
 void list_moved(const Complex& input, RepairResult& result) {
   for (Index v = 0; v < input.vertices.size(); ++v) {
     const Point& before = input.vertices[v];

@@ -1,4 +1,4 @@
-// The exact arrangement as it is told to the caller.
+// The exact arrangement in the form that the caller receives.
 #include "repair/exact_surface.h"
 
 namespace holdfast::repairing {

@@ -1,4 +1,4 @@
-// Which facets of different parts lie on each other.
+// Finds facets of different parts that lie on each other.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -32,7 +32,8 @@ void for_each_close(const PartFacets& facets, double gap, const Step& step, Visi
       [](Index, Index) { return false; }, step);
 }
 
-// Whether a corner of one comes within the gap of the other, or a side of one passes a side of the other so.
+// Whether a corner of one facet comes within the gap of the other, or a side of one within the gap of a side
+// of the other.
 bool touch(const PartFacets& facets, const Triangle& f, const Triangle& g, double gap) {
   const auto at = [&](Index v) -> const Point& { return facets.at(v); };
   const auto near = [&](const Triangle& corners, const Triangle& t) {
@@ -46,7 +47,7 @@ bool touch(const PartFacets& facets, const Triangle& f, const Triangle& g, doubl
   return false;
 }
 
-// No line along a side parts them, nor cuts off a strip alone.
+// Whether no line along a side separates the facets or cuts off only a strip.
 bool share_area(const PartFacets& facets, const Triangle& f, const Triangle& g, std::size_t axis,
                 double rounding) {
   const auto extent = [&](const Triangle& t, const PlanePoint& n) {
@@ -71,7 +72,7 @@ bool share_area(const PartFacets& facets, const Triangle& f, const Triangle& g, 
   return true;
 }
 
-// Whether two facets nearly lie in one plane, and share more of it than rounding makes.
+// Whether two facets nearly lie in one plane and share more area than rounding produces.
 bool overlap(const PartFacets& facets, Index f, Index g, double gap, double rounding) {
   const PlaneOf &of_f = *facets.plane(f), &of_g = *facets.plane(g);
   if (std::fabs(dot(of_f.normal, of_g.normal)) < kParallel) return false;

@@ -22,7 +22,7 @@
 namespace holdfast::repairing {
 namespace {
 
-using Side = std::array<Index, 2>;  // ascending, the first vertices at their places
+using Side = std::array<Index, 2>;  // ascending; each end is the first vertex at its place
 
 class Fins {
  public:
@@ -70,7 +70,7 @@ class Fins {
     return {facets_.data() + begin_[side], facets_.data() + begin_[side + 1]};
   }
 
-  /// Facets with the side that are still there.
+  /// The number of remaining facets at the side.
   [[nodiscard]] std::size_t left(Index side) const {
     const std::span<const Index> all = facets_at(side);
     return static_cast<std::size_t>(
@@ -103,7 +103,8 @@ class Fins {
     }
   }
 
-  /// What went first may be beside what went later: the distances of each fin, by one of its facets, add up.
+  /// An earlier fin may lie on a later one, so their distances add up: the sums by fin, named by one of its
+  /// facets.
   [[nodiscard]] std::map<Index, double> sums() const {
     std::map<Index, double> sums;
     for (const auto& [f, distance] : order_) {
@@ -113,8 +114,9 @@ class Fins {
     return sums;
   }
 
-  /// How far points of a facet are from its sides that others have. The distance from a side is convex, so
-  /// that corners decide; from two sides it is so on either part that the foot of their corner divides.
+  /// The largest distance of points of a facet from its shared sides. The distance from a side is convex, so
+  /// corners decide. For two sides, the facet is divided at the foot of their common corner, and the same
+  /// holds for each half.
   [[nodiscard]] double thickness(Index f) const {
     const std::array<Index, 3>& sides = sides_of(f);
     std::array<bool, 3> is_free{};
@@ -134,13 +136,13 @@ class Fins {
     return least;
   }
 
-  /// Of a vertex and a side, rounded up.
+  /// The distance of a vertex from a side, rounded up.
   [[nodiscard]] double distance(Index v, Index a, Index b) const {
     const double to_ends = std::min(length(minus(at(v), at(a))), length(minus(at(v), at(b)))) * (1 + 0x1p-48);
     return std::min(beside_side(at(v), at(a), at(b)).bound(), to_ends);
   }
 
-  /// For each fin and each facet of the input that it has parts of, where these end: sides modulo 2.
+  /// For each fin and each input facet that it has parts of, the boundary of these parts: sides modulo 2.
   [[nodiscard]] std::map<std::array<Index, 2>, std::set<Side>> ends() const {
     std::map<std::array<Index, 2>, std::set<Side>> ends;
     for (const auto& [f, distance] : order_)
@@ -152,8 +154,9 @@ class Fins {
     return ends;
   }
 
-  /// Fins that take what a side of a facet of the input begins with, at its corner, where nothing else that
-  /// stays leads along it. What it displaces is told besides what was displaced before, and may be used up.
+  /// Fins that contain the start of a side of an input facet, at its corner, if no other remaining facet
+  /// leads along it. Their distance is reported in addition to earlier displacements and may exceed what is
+  /// left.
   [[nodiscard]] std::set<Index> at_corners() const {
     const auto all = ends();
     const std::map<Index, double> thickness = sums();
@@ -171,7 +174,7 @@ class Fins {
     return found;
   }
 
-  /// Whether one of the sides of a facet of the input loses its beginning to a fin that ends so.
+  /// Whether a side of an input facet loses its start to a fin with these ends.
   [[nodiscard]] bool takes_corner(const std::set<Side>& ends, const Triangle& facet, double most) const {
     for (std::size_t i = 0; i < 3; ++i) {
       const Index corner = first_[facet[i]];
@@ -183,8 +186,8 @@ class Fins {
     return false;
   }
 
-  /// Whether sides of facets that stay lead from a vertex of the input to another one, no further than `most`
-  /// from the straight way between them.
+  /// Whether sides of remaining facets lead from one input vertex to another and stay within `most` of the
+  /// straight line between them.
   [[nodiscard]] bool is_led(Index from, Index to, double most) const {
     const Point &a = given_.vertices[from], &b = given_.vertices[to];
     const auto is_near = [&](Index v) {
@@ -203,7 +206,7 @@ class Fins {
     return false;
   }
 
-  /// Other ends of sides of facets that stay.
+  /// The other ends of sides of remaining facets.
   [[nodiscard]] std::vector<Index> neighbours(Index v) const {
     std::vector<Index> found;
     if (sides_at_.empty()) {
@@ -216,10 +219,10 @@ class Fins {
     return found;
   }
 
-  /// Fins that leave a free side, are too thick, take the last part of a facet or the last facet of a vertex
-  /// of the input, or what a side begins with.
+  /// Puts back fins that leave a free side, are too thick, contain the last part of a facet or the last facet
+  /// of an input vertex, or contain the start of a side.
   void put_back_bad() {
-    std::map<Index, std::size_t> parts, uses;  // of facets and vertices of the input that fins have
+    std::map<Index, std::size_t> parts, uses;  // of input facets and vertices in fins
     const auto each = [&](Index f, auto&& part, auto&& use) {
       for (const Index p : state_.facet_parents.of(f)) part(p);
       for (const Index v : state_.facets[f])
@@ -279,16 +282,16 @@ class Fins {
   const std::vector<Index> first_;
   const NumberedSides numbered_;
   std::vector<Index> begin_, facets_;                 // the facets of each side, and where they begin
-  mutable std::vector<std::vector<Index>> sides_at_;  // each vertex, once asked for
+  mutable std::vector<std::vector<Index>> sides_at_;  // by vertex, once asked for
   std::set<Side> held_;                               // sides that are segments
   std::vector<std::uint8_t> is_gone_;
-  std::vector<Index> fin_;                       // of facets that are gone, one that is of the same fin
-  std::vector<std::pair<Index, double>> order_;  // facets that went, and how far they are from what stays
+  std::vector<Index> fin_;                       // for each removed facet, another facet of its fin
+  std::vector<std::pair<Index, double>> order_;  // removed facets and their distances from the rest
 };
 
 }  // namespace
 
-/// Thicker ones come second: what hangs together goes as a whole or not at all.
+/// Thicker fins get a second try: connected facets are removed together or not at all.
 double drop_fins(State& state, const State& given, double displaced) {
   const double thin = Fins(state, given, displaced, displaced).run();
   displaced = sum_above(displaced, thin);

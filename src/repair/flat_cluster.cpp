@@ -45,7 +45,7 @@ namespace {
 
 using Edges = std::map<Index, std::set<Side>>;  // by facet of a cluster
 
-/// Where the parts of a facet do not have the chains of its sides as their boundary, modulo 2.
+/// The edges where the boundary of a facet's parts differs from the chains of its sides, modulo 2.
 Edges odd_edges(const Cluster& cluster, const Flat& before, const State& after,
                 std::span<const std::vector<Index>> chains) {
   std::vector<std::pair<Index, Side>> edges;
@@ -74,14 +74,14 @@ Edges odd_edges(const Cluster& cluster, const Flat& before, const State& after,
   return odd;
 }
 
-/// Facets of a plane that change sides for a facet of the cluster: what was no part of it becomes one, and
-/// what was no longer is.
+/// Reassigns facets of the plane for a facet of the cluster: a facet that was not one of its parts becomes
+/// one, and a part ceases to be one.
 class Exchange {
  public:
   Exchange(const State& plane, Edges odd)
       : plane_(plane), odd_(std::move(odd)), changed_(plane.facets.size()) {}
 
-  /// False where edges are left that are odd.
+  /// False if odd edges are left.
   bool run() {
     for (Index f = 0; f < plane_.facets.size(); ++f)
       for (auto& [k, edges] : odd_) {
@@ -124,7 +124,7 @@ class Exchange {
     }
   }
 
-  /// What edges that are odd enclose: few facets, in a strip that was so thin that its sides changed places.
+  /// Reassigns what odd edges enclose: few facets, in a strip so thin that its sides were exchanged.
   bool change_within(Index k, std::set<Side>& edges) {
     for (const Side& edge : edges)
       for (const Index f : at_.at(edge))
@@ -136,8 +136,8 @@ class Exchange {
     return false;
   }
 
-  /// All facets that are reached from one without crossing an odd edge; none where there are too many, or
-  /// where they end at the border of the plane.
+  /// All facets that can be reached from one without crossing an odd edge; none if there are too many or they
+  /// reach the border of the plane.
   [[nodiscard]] std::vector<Index> enclosed_with(Index start, const std::set<Side>& edges) const {
     constexpr std::size_t kMost = 256;
     std::vector<Index> facets{start};
@@ -155,7 +155,7 @@ class Exchange {
 
   const State& plane_;
   Edges odd_;
-  std::vector<std::vector<Index>> changed_;  // by facet of the plane, those of the cluster
+  std::vector<std::vector<Index>> changed_;  // by facet of the plane, facets of the cluster
   std::map<Side, std::vector<Index>> at_;    // facets by side
 };
 
@@ -183,7 +183,7 @@ bool make_whole(const Cluster& cluster, const Flat& before, State& after,
 bool chain_of(const std::vector<Segment>& pieces, const Segment& side, std::vector<Index>& chain) {
   std::map<Index, std::vector<Index>> next;
   for (const auto& [a, b] : pieces) {
-    if (a == b) continue;  // its ends have become one
+    if (a == b) continue;  // its ends have been joined
     next[a].push_back(b);
     next[b].push_back(a);
   }

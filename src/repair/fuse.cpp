@@ -21,7 +21,7 @@
 namespace holdfast::repairing {
 namespace {
 
-// Each place has one vertex, the first.
+// Each place keeps one vertex, the first.
 void name_places(State& state) {
   const std::vector<Index> first = first_at_places(state.vertices);
   const auto rename = [&](auto& entities) {

@@ -10,7 +10,7 @@
 namespace holdfast::repairing {
 namespace {
 
-/// Facets in the order of their corners' places, and for each of them the corners.
+/// Facets ordered by the places of their corners, and the corners of each.
 class ByCorners {
  public:
   explicit ByCorners(const State& state) : order_(state.facets.size()) {

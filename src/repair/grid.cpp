@@ -17,7 +17,7 @@ Point nearest_on_grid(const Point& p, double cell) {
   return q;
 }
 
-/// The points of the grid to which corners of what is in trouble go.
+/// The grid points to which the corners of elements in trouble move.
 std::set<Point> taken_by(const State& state, const Trouble& trouble, double cell) {
   std::set<Point> taken;
   const auto take = [&](const auto& corners) {
@@ -30,7 +30,7 @@ std::set<Point> taken_by(const State& state, const Trouble& trouble, double cell
   return taken;
 }
 
-/// By vertex, whether a facet or segment has it.
+/// For each vertex, whether a facet or segment uses it.
 std::vector<std::uint8_t> used_in(const State& state) {
   std::vector<std::uint8_t> used(state.vertices.size(), 0);
   const auto use = [&](const auto& entities) {
@@ -50,7 +50,7 @@ double snap_to_grid(State& state, const Trouble& trouble, double cell) {
   const std::vector<std::uint8_t> used = used_in(state);
   std::map<Point, Point> goes;
   std::map<Point, Index> first_at;
-  std::map<Index, Index> becomes;  // of those that moved, or are not the first at their place
+  std::map<Index, Index> becomes;  // for vertices that moved or are not the first at their place
   double most = 0;
   for (Index v = 0; v < used.size(); ++v) {
     Point& p = state.vertices[v];
@@ -64,7 +64,7 @@ double snap_to_grid(State& state, const Trouble& trouble, double cell) {
     most = std::max(most, length(minus(p, q)) * (1 + 0x1p-48));
     p = q;
   }
-  // What had become one of these before keeps its place.
+  // Vertices that were joined with one of these earlier keep their place.
   for (Index v = 0; v < state.input_vertices; ++v)
     if (used[v] == 0 && is_finite(state.vertices[v]))
       if (const auto found = goes.find(state.vertices[v]); found != goes.end())

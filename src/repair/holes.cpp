@@ -1,4 +1,4 @@
-// Holes closed.
+// Closes holes.
 #include "repair/holes.h"
 
 #include <algorithm>
@@ -19,10 +19,11 @@
 namespace holdfast::repairing {
 namespace {
 
-/// Triangles of the least area take the cube of the sides as time; longer loops that are not plane stay open.
+/// A triangulation of least area takes time cubic in the number of sides; longer loops that are not plane
+/// stay open.
 constexpr std::size_t kMostSides = 600;
 
-/// A coordinate axis that the loop's plane does not hold, if it has one plane.
+/// A coordinate axis that is not parallel to the loop's plane, if the loop is plane.
 std::optional<unsigned> plane_axis(const State& state, const Loop& loop) {
   const auto at = [&](Index v) { return state.vertices[v].data(); };
   Simplex t;
@@ -39,7 +40,7 @@ std::optional<unsigned> plane_axis(const State& state, const Loop& loop) {
   return std::nullopt;
 }
 
-/// Turned so that the loop's sides run as the loop does.
+/// Orients the facets so that their border runs as the loop does.
 void turn_alike(std::vector<Triangle>& facets, const Loop& loop) {
   std::set<Segment> sides;
   for (std::size_t i = 0; i < loop.size(); ++i) sides.insert({loop[i], loop[(i + 1) % loop.size()]});
@@ -83,7 +84,7 @@ double area_of(const Point& a, const Point& b, const Point& c) {
   return std::sqrt(x * x + y * y + z * z);
 }
 
-/// Of all triangulations of the loop one whose triangles have the least area together.
+/// A triangulation of the loop with the least total area.
 std::vector<Triangle> fill_least(const State& state, const Loop& loop, const Step& step) {
   const std::size_t n = loop.size();
   const auto at = [&](std::size_t i) -> const Point& { return state.vertices[loop[i]]; };
@@ -135,7 +136,7 @@ std::optional<Filling> filling_of(const State& state, const Loop& loop, const St
   return Filling{loop, std::move(facets), axis.has_value()};
 }
 
-/// Fillings that do not fit together with the surface, or with one before them.
+/// Fillings that do not fit together with the surface or with an earlier filling.
 std::set<std::size_t> unfit(const State& state, std::size_t before,
                             const std::vector<std::size_t>& filling_with, const Step& step,
                             const Threads& threads) {
@@ -162,7 +163,7 @@ std::set<std::size_t> unfit(const State& state, std::size_t before,
   return found;
 }
 
-/// Facets in parts of which each is connected by sides.
+/// Facets grouped in parts that are connected by sides.
 std::vector<std::vector<Index>> connected_parts(const State& state, std::span<const Index> facets) {
   DisjointSets sets(facets.size());
   std::map<Segment, Index> with_side;

@@ -89,7 +89,7 @@ bool Ladder::begin_with_twins() {
   const double most = kMostForTwins * extent(given_.vertices);
   const auto distance = distance_of_twins(rounded_.state, trouble_, std::max(near, most), here());
   if (!distance) return false;
-  // Joining displaces less than moving input vertices, but takes long where sheets nearly coincide.
+  // Joining displaces less than moving input vertices, but is slow if sheets nearly coincide.
   is_welded_ = *distance <= near;
   if (is_welded_) begin_flat(kWeldedPlans);
   if (is_welded_ || starts_welded()) return false;
@@ -108,7 +108,7 @@ bool Ladder::begin_with_twins() {
 }
 
 void Ladder::try_next_plans() {
-  // In a plane, if the first plan does not reduce the trouble much, the others do not, either.
+  // In a plane, if the first plan does not reduce the trouble much, the other plans do not either.
   std::size_t most_in_trouble = SIZE_MAX;
   for (; next_plan_ < plans_; ++next_plan_) {
     const Plan& plan = kPlans[next_plan_];
@@ -233,7 +233,7 @@ RoundPlane Ladder::round_plane() {
     options.exact = false;
     ExactSurface exact;
     RoundedPlanes none;
-    const Parents of_plane;  // asked for with the exact surface alone
+    const Parents of_plane;  // needed for the exact surface only
     return Ladder(std::move(plane), options, {}, {exact, of_plane}, none, here(), threads_)
         .run_in_plane(most);
   });

@@ -1,4 +1,4 @@
-// Last resorts, which change the whole surface when changes near the facets in trouble did not help: sheets
+// Last resorts. They change the whole surface, after changes near the facets in trouble did not help: sheets
 // are made one, vertices are welded, and vertices are rounded to the points of a grid.
 #include <algorithm>
 #include <cmath>
@@ -43,7 +43,7 @@ void Ladder::weld_all() {
     if (moved == 0) continue;
     const double displacement = sum_above(given_displacement_, moved);
     if (welding && displacement == welding->given_displacement_ && are_same(state, welding->given_)) {
-      welding->welded_last_bits_ = last_bits;  // the same but for the plans that are tried after all others
+      welding->welded_last_bits_ = last_bits;  // the same, except for the plans that are tried last
       welding->try_next_plans();
     } else {
       welding.emplace(welded(std::move(state), displacement, last_bits));
@@ -51,7 +51,7 @@ void Ladder::weld_all() {
       welding->try_plans(sides_);
     }
     if (take_if_valid(*welding)) return;
-    // Fewer new points are a sign that welding has brought sheets together.
+    // A smaller number of new points is a sign that welding has brought sheets together.
     if (welding->new_points_[0] >= least_points) continue;
     least_points = welding->new_points_[0];
     if (snap_all(*welding)) return;

@@ -31,7 +31,7 @@ bool LedSides::meet(const std::vector<Index>& a, const std::vector<Index>& b) {
   return std::any_of(a.begin(), a.end(), [&](Index p) { return std::binary_search(b.begin(), b.end(), p); });
 }
 
-// Of the sides of a part near a vertex the nearest.
+// Each vertex goes to the nearest of a part's sides near it.
 void LedSides::put_vertices(std::span<const Index> close, const Step& step) {
   std::vector<Index> vertices;
   for (const Index f : close)
@@ -79,7 +79,7 @@ void LedSides::put_vertices(std::span<const Index> close, const Step& step) {
   }
 }
 
-// Two vertices that are within the gap may each pass a side of the other: the later one goes on the side.
+// Two vertices within the gap may each pass a side of the other; then the later vertex goes on the side.
 bool LedSides::is_led_back(Index v, Index end) const {
   return v < end && length(minus(at(v), at(end))) <= gap_;
 }
@@ -89,7 +89,7 @@ bool LedSides::has(const Side& side, const OnSide& on, Index v) {
          std::any_of(on.points.begin(), on.points.end(), [&](const auto& p) { return p.second == v; });
 }
 
-// Whether two sides have a vertex in common by now: then they meet there, and nowhere else.
+// Whether two sides now share a vertex: then they meet there and nowhere else.
 bool LedSides::are_joined(const Side& s, const OnSide& on_s, const Side& t, const OnSide& on_t) {
   if (has(s, on_s, t[0]) || has(s, on_s, t[1])) return true;
   return has(t, on_t, s[0]) || has(t, on_t, s[1]) ||
@@ -116,7 +116,7 @@ void LedSides::cross_sides(std::vector<Point>& vertices, const Step& step) {
         const auto& [s, on_s] = *sides[i];
         const auto& [t, on_t] = *sides[j];
         if (meet(on_s.parts, on_t.parts) || are_joined(s, on_s, t, on_t)) return true;
-        const bool earlier = on_s.parts[0] < on_t.parts[0];  // whose side the new vertex is put on
+        const bool earlier = on_s.parts[0] < on_t.parts[0];  // the part whose side gets the new vertex
         const Passing passing = pass(at(s[0]), at(s[1]), at(t[0]), at(t[1]));
         if (!(passing.distance <= gap_)) return true;
         crossings.push_back({i, j, passing.t, passing.s, earlier ? passing.on_first : passing.on_second});
@@ -130,7 +130,7 @@ void LedSides::cross_sides(std::vector<Point>& vertices, const Step& step) {
   for (const Crossing& crossing : crossings) {
     auto& [s, on_s] = *sides[crossing.first];
     auto& [t, on_t] = *sides[crossing.second];
-    // Where three sides meet in a point, two of them found it first.
+    // If three sides meet in a point, two of them found it first.
     Index v = near_on(s, on_s, crossing.where, t);
     if (v == no_index) v = near_on(t, on_t, crossing.where, s);
     if (v == no_index) {
@@ -142,7 +142,7 @@ void LedSides::cross_sides(std::vector<Point>& vertices, const Step& step) {
   }
 }
 
-// A vertex of one side that is near to where it passes another may still be too far from that one.
+// A vertex of one side near its crossing with another side may still be too far from the other side.
 Index LedSides::near_on(const Side& side, const OnSide& on, const Point& p, const Side& other) const {
   const auto is_near = [&](Index v) { return length(minus(at(v), p)) <= gap_ && distance(v, other) <= gap_; };
   for (const Index v : side)
@@ -158,8 +158,8 @@ double LedSides::distance(Index v, const Side& side) const {
       {beside_side(at(v), at(a), at(b)).distance, length(minus(at(v), at(a))), length(minus(at(v), at(b)))});
 }
 
-// A piece of a side may be a side, which is led through vertices in its turn. Where that would lead back to
-// the first one, a vertex is left out.
+// A piece of a side may itself be a side that is led through vertices. If this would lead back to the first
+// side, a vertex is left out.
 void LedSides::part_from_itself(const Side& side, OnSide& on) {
   if (on.state == OnSide::done || on.points.empty()) return;
   on.state = OnSide::open;
@@ -194,7 +194,7 @@ std::vector<LedSides::Side> LedSides::round(const Triangle& t) const {
   return round;
 }
 
-// Pieces that are sides, too, are led as these are.
+// Pieces that are sides themselves are led as those sides are.
 void LedSides::append(Index from, Index to, std::vector<Index>& chain, int depth) const {
   constexpr int kDeepest = 24;
   const auto found = sides_.find(ascending(Side{from, to}));
@@ -212,7 +212,7 @@ void LedSides::append(Index from, Index to, std::vector<Index>& chain, int depth
 std::vector<Triangle> LedSides::split(const Triangle& t) const {
   std::vector<Triangle> pieces;
   if (!split_deeper(t, pieces, 0)) pieces = fan(t);
-  // Two pieces with the same corners, one folded onto the other, bound nothing.
+  // Two pieces with the same corners are folded onto each other and bound nothing.
   std::sort(pieces.begin(), pieces.end(),
             [](const Triangle& a, const Triangle& b) { return ascending(a) < ascending(b); });
   std::size_t kept = 0;
@@ -226,7 +226,7 @@ std::vector<Triangle> LedSides::split(const Triangle& t) const {
   return pieces;
 }
 
-// Triangles between a corner and all pieces of sides. They may be folded, but leave no crack.
+// Triangles between a corner and all pieces of sides. They may be folded, but they leave no crack.
 std::vector<Triangle> LedSides::fan(const Triangle& t) const {
   std::vector<Triangle> fan;
   for (const Side& side : round(t))
@@ -235,7 +235,7 @@ std::vector<Triangle> LedSides::fan(const Triangle& t) const {
 }
 
 bool LedSides::split_deeper(const Triangle& t, std::vector<Triangle>& pieces, int depth) const {
-  constexpr int kDeepest = 24;  // each level is done with a side
+  constexpr int kDeepest = 24;  // each level completes a side
   if (depth > kDeepest) return false;
   for (std::size_t i = 0; i < 3; ++i) {
     const Index a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];

@@ -15,8 +15,8 @@ struct Parts {
   std::vector<Index> all, open;  // in ascending order
 };
 
-/// Parts with facets, and those with one that is the only one at one of its sides. One that stands for two
-/// of a part, as where a thin place was pressed flat, leaves no crack in it.
+/// Parts with facets, and parts with a facet that is alone at one of its sides. A facet that stands for two
+/// facets of a part, as where a thin place was pressed flat, leaves no crack in the part.
 Parts parts_of(const State& state, std::span<const Index> part) {
   const std::vector<Index> first = first_at_places(state.vertices);
   std::vector<std::array<Index, 3>> sides;  // ends and facet

@@ -1,4 +1,4 @@
-// The common triangles of patches: of a plane one at once, of a curved one facet by facet.
+// The common triangles of patches: a plane patch is cut as a whole, a curved one facet by facet.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -15,7 +15,7 @@
 namespace holdfast::repairing {
 namespace {
 
-constexpr double kFlat = 8;  // of what rounding makes: how thick a plane patch may be
+constexpr double kFlat = 8;  // times the rounding error: the largest thickness of a plane patch
 
 using Side = std::array<Index, 2>;
 
@@ -36,14 +36,14 @@ class PatchCutter {
   PatchCutter(const PartFacets& facets, const LedSides& sides, double gap, const Step& step)
       : facets_(facets), sides_(sides), gap_(gap), step_(step) {}
 
-  /// A patch that is plane, at once. False where that fails.
+  /// Cuts a plane patch as a whole. False if this fails.
   bool cut_flat(const std::vector<Index>& patch);
-  /// One that is not: each facet is cut in its own plane into cells. Cells of several facets with the same
-  /// border have the triangles of one of them in common.
+  /// Cuts a patch that is not plane: each facet is cut in its own plane into cells. Cells of several facets
+  /// with the same border share the triangles of one of them.
   void cut_curved(const std::vector<Index>& patch);
 
   [[nodiscard]] std::vector<Pasted> pasted() && { return std::move(pasted_); }
-  /// The furthest distance of a corner of a triangle from a facet that it stands for.
+  /// The largest distance of a corner of a triangle from a facet that the triangle replaces.
   [[nodiscard]] double most() const { return most_; }
 
  private:
@@ -128,7 +128,8 @@ void PatchCutter::cut_curved(const std::vector<Index>& patch) {
   take(cells);
 }
 
-// Of cells with one border the triangles of the first that has the most, so that no vertex is lost.
+// Of cells with one border, takes the triangles of the first cell with the most triangles, so that no vertex
+// is lost.
 void PatchCutter::take(const std::vector<Cell>& cells) {
   std::map<std::vector<Side>, std::vector<const Cell*>> with_border;
   std::vector<const std::vector<const Cell*>*> in_order;
@@ -151,7 +152,7 @@ void PatchCutter::take(const std::vector<Cell>& cells) {
   }
 }
 
-// By facet the vertices of other parts that lie on it, and on no side of its part.
+// For each facet, the vertices of other parts that lie on it and on no side of its part.
 std::map<Index, std::vector<Index>> PatchCutter::vertices_inside(const std::vector<Index>& patch) const {
   std::vector<Index> vertices;
   for (const Index f : patch)
@@ -184,7 +185,7 @@ std::map<Index, std::vector<Index>> PatchCutter::vertices_inside(const std::vect
   return inside;
 }
 
-// The pieces of the sides of other parts' facets near a facet.
+// The pieces of sides near a facet, from the facets of other parts.
 std::vector<Side> PatchCutter::sides_of_others(Index f, const std::vector<Index>& patch,
                                                const std::vector<Box>& boxes) const {
   std::vector<Side> pieces;

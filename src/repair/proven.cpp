@@ -8,7 +8,7 @@
 namespace holdfast::repairing {
 
 Proven::Words Proven::words_of(const Point& p) {
-  return std::bit_cast<Words>(Point{p[0] + 0.0, p[1] + 0.0, p[2] + 0.0});  // no -0
+  return std::bit_cast<Words>(Point{p[0] + 0.0, p[1] + 0.0, p[2] + 0.0});  // turns -0 into 0
 }
 
 Proven::Proven(const State& state) {
@@ -38,7 +38,7 @@ void Proven::tell(State& state) const {
     const Index facet = facets_.find(ascending(corners));
     if (facet == no_entity) continue;
     known[f] = facet_with[facet] == no_index ? 1 : 0;
-    if (known[f] == 0) known[facet_with[facet]] = 0;  // a facet that is there twice does not fit
+    if (known[f] == 0) known[facet_with[facet]] = 0;  // a repeated facet does not fit
     facet_with[facet] = f;
   }
   const auto count = [](const std::vector<std::uint8_t>& of) {

@@ -19,17 +19,17 @@ namespace {
 
 using Side = std::array<Index, 2>;
 
-/// What takes a vertex in: facets and segments that go, and what comes in their places.
+/// A change that inserts a vertex: the facets and segments to remove, and their replacements.
 struct Change {
   struct Part {
     Triangle corners;
-    Index from;  // the facet in whose place it comes
+    Index from;  // the facet that it replaces
   };
   Index vertex;
   std::vector<Index> facets;
   std::vector<Part> parts;
-  std::optional<Side> side;       // ascending: segments that are led through the vertex
-  double distance = 0, bent = 0;  // of the vertex from them, and the same rounded up
+  std::optional<Side> side;       // ascending: segments along it are led through the vertex
+  double distance = 0, bent = 0;  // of the vertex from the removed facets, and the same rounded up
 };
 
 class Restoring {
@@ -50,11 +50,11 @@ class Restoring {
   }
 
  private:
-  /// A vertex, and others that were at its place.
+  /// A lost vertex, and others that were at its place.
   struct Lost {
     Index vertex;
     std::vector<Index> same;
-    std::set<std::vector<Index>> tried;  // by the corners of the parts
+    std::set<std::vector<Index>> tried;  // by the corners of the new facets
   };
 
   void list_lost() {
@@ -87,8 +87,8 @@ class Restoring {
     }
   }
 
-  /// Two sheets between which no double lies are one: with the vertices of both, the surface would be full of
-  /// sides of some last bits, and no element beside them fit to compute with.
+  /// Two sheets without a double between them are one sheet. With the vertices of both, the surface would be
+  /// full of sides as long as a few last bits, and elements beside them could not be computed with.
   [[nodiscard]] bool is_there_twice() const {
     constexpr std::size_t kShare = 4;
     std::size_t count = 0;
@@ -98,8 +98,8 @@ class Restoring {
 
   [[nodiscard]] const Point& at(Index v) const { return state_.vertices[v]; }
 
-  /// One change for each vertex, as far as they have no facet in common; those that fit are made. False where
-  /// there is none left to try.
+  /// Picks at most one change a vertex, so that no two have a facet in common, and makes those that fit.
+  /// False if none is left to try.
   bool take_round() {
     std::vector<Box> boxes;
     for (const Triangle& t : state_.facets) boxes.push_back(box_round(state_, t, 0));
@@ -133,7 +133,7 @@ class Restoring {
     return std::nullopt;
   }
 
-  /// Nearest first.
+  /// The nearest comes first.
   [[nodiscard]] std::vector<Change> changes_for(const Lost& lost, const AabbTree& tree) const {
     const Point& p = before_[lost.vertex];
     constexpr double kWider = 2;
@@ -172,7 +172,7 @@ class Restoring {
     return sides;
   }
 
-  /// A facet is led through a vertex beside it.
+  /// Leads a facet through a vertex beside it.
   [[nodiscard]] std::optional<Change> through_facet(Index v, Index f) const {
     const Triangle& t = state_.facets[f];
     const Nearness near = beside_any(before_[v], {at(t[0]), at(t[1]), at(t[2])});
@@ -190,7 +190,7 @@ class Restoring {
     }
   }
 
-  /// Differences to what is near are nearly exact, so the nearest corner comes first.
+  /// Differences of nearby points are nearly exact, so the nearest corner comes first.
   [[nodiscard]] static Nearness beside_any(const Point& p, std::array<Point, 3> corners) {
     const auto nearest = std::min_element(
         corners.begin(), corners.end(),
@@ -203,7 +203,7 @@ class Restoring {
     return beside_side(p, ends[is_first ? 0 : 1], ends[is_first ? 1 : 0]);
   }
 
-  /// A side is led through a vertex beside it, in all facets that have it.
+  /// Leads a side through a vertex beside it, in all facets that have the side.
   [[nodiscard]] std::optional<Change> through_side(Index v, const Side& side,
                                                    std::span<const Index> near_facets) const {
     const Nearness near = beside_any(before_[v], std::array{at(side[0]), at(side[1])});
@@ -230,9 +230,9 @@ class Restoring {
     return t[0] == v || t[1] == v || t[2] == v;
   }
 
-  /// The vertex takes the place of the one that it became in all facets, and one of these, or of their sides,
-  /// is led through the other: so where it stands out further. One that is no vertex of the input is not
-  /// needed.
+  /// The vertex takes the place of the vertex that it was joined with in all facets, and one of these facets
+  /// or sides is led through that other vertex: useful if the lost vertex stands out further. The other
+  /// vertex is not needed if it is not one of the input.
   void through_star(Index v, std::span<const Index> near_facets, std::vector<Change>& changes) const {
     const Index w = standing_at(at(v), near_facets);
     if (w == no_index || std::any_of(state_.segments.begin(), state_.segments.end(),
@@ -277,7 +277,7 @@ class Restoring {
           });
   }
 
-  /// The corner of facets that is at a place.
+  /// The corner of these facets at a place.
   [[nodiscard]] Index standing_at(const Point& place, std::span<const Index> facets) const {
     for (const Index f : facets)
       for (const Index v : state_.facets[f])
@@ -289,7 +289,7 @@ class Restoring {
 
   static constexpr Index kNone = no_index;
 
-  /// A surface with changes, and for each facet and segment which of them it comes from.
+  /// A surface with changes; for each facet and segment, the change that it comes from.
   struct Changed {
     State state;
     std::vector<double> bent;
@@ -341,8 +341,8 @@ class Restoring {
     return now;
   }
 
-  /// Changes that do not fit are left out until all do. Where two do not fit together, the latter may be
-  /// tried once more.
+  /// Leaves out changes that do not fit until the rest fits. Of two changes that do not fit together, the
+  /// later one may be tried once more.
   void make(std::vector<Change> changes) {
     while (!changes.empty()) {
       Changed now = changed(changes);
@@ -376,7 +376,7 @@ class Restoring {
     bent_ = std::move(now.bent);
   }
 
-  /// Changes that break the surface by themselves, and such that do not fit together with one before.
+  /// Changes that break the surface by themselves, and changes that do not fit together with an earlier one.
   [[nodiscard]] std::pair<std::set<Index>, std::set<Index>> in_trouble(const Changed& now) const {
     std::pair<std::set<Index>, std::set<Index>> found;
     const Complex complex = now.state.complex();

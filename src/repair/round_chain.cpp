@@ -23,7 +23,7 @@ std::vector<Edge> ascending_edges(std::span<const RoundChain::Step> steps) {
   return edges;
 }
 
-/// One of the steps along each edge that has an odd number of them.
+/// One step along each edge that has an odd number of steps.
 std::vector<RoundChain::Step> odd_steps(std::span<const RoundChain::Step> chain) {
   std::map<Edge, std::vector<RoundChain::Step>> along;
   for (const RoundChain::Step& step : chain) along[ascending(step)].push_back(step);
@@ -77,7 +77,7 @@ bool RoundChain::flood(std::span<const Step> odd, std::vector<Index>& inside) co
     open.pop_back();
     for (Index i = 0; i < 3; ++i) {
       if (has(walls, ascending(Step{triangles_[t][i], triangles_[t][(i + 1) % 3]}))) continue;
-      if (beside_[3 * t + i] == no_index) return false;  // that is outside
+      if (beside_[3 * t + i] == no_index) return false;  // outside
       reach(beside_[3 * t + i]);
     }
   }

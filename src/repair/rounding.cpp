@@ -18,9 +18,9 @@
 namespace holdfast::repairing {
 namespace {
 
-/// Whether all that happened is that the points of an exact arrangement went to their nearest doubles, of
-/// which no two that are used are the same. Then the parts of a facet hang together as those in the
-/// arrangement do, which cover it: their border runs along its sides, as near to them as points went.
+/// Whether the only change was to move the points of an exact arrangement to their nearest doubles, with no
+/// two used points at the same double. Then the parts of a facet are connected as in the arrangement, where
+/// they cover the facet: their border follows its sides as closely as the points moved.
 bool is_rounded_once(const State& state, const RepairReport& report) {
   if (report.rounds != 1 || report.rung > Rung::nearest) return false;
   const std::vector<Index> first = first_at_places(state.vertices);
@@ -31,11 +31,11 @@ bool is_rounded_once(const State& state, const RepairReport& report) {
 
 }  // namespace
 
-/// Sheets that share their sides may leave thin facets between them, which hang on the surface by a side.
-/// Then they are tried one after the other.
+/// Sheets with common sides may leave thin facets between them, attached to the surface by one side. If so,
+/// these are tried one after the other.
 Rounded round_arranged(State state, const RepairOptions& options, RepairReport& report, ExactSurface& exact,
                        const Step& step, const Threads& threads, Trials trials) {
-  // Facets are compared with those that they were, which after welding are parts of the input's.
+  // Facets are compared with the facets before welding, which are parts of the input's.
   const Parents of_given = std::exchange(state.facet_parents, identity(state.facets.size()));
   const State given = state;
   RoundedPlanes planes;
@@ -54,7 +54,7 @@ Rounded round_arranged(State state, const RepairOptions& options, RepairReport& 
   Rounded rounded = together.run(SidesOf::all_sheets);
   report = together.report();
   if (rounded.is_valid && report.rung >= Rung::coarser) {
-    constexpr std::size_t kFewSides = 16;  // where there are more, nearly as many are left
+    constexpr std::size_t kFewSides = 16;  // with more sides, nearly as many are left
     const std::size_t open = open_sides(rounded.state), before = open_sides(given);
     if (!together.starts_welded() && together.has_led() && open > before && open <= before + kFewSides) {
       if (!one_by_one) one_by_one.emplace(begun(told, SidesOf::one_sheet));

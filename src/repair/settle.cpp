@@ -1,4 +1,4 @@
-// What lies within a distance of each other is joined, by bending facets rather than by moving vertices.
+// Joins what lies within a distance of each other by bending facets instead of moving vertices.
 #include "repair/settle.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 using Side = std::array<Index, 2>;
 
-/// How many gaps facets are bent by in one pass: what is led to and fro ends there.
+/// Most gaps by which facets bend in one pass: this ends chains that are led to and fro.
 constexpr double kMostGaps = 64;
 
 class Settling {
@@ -38,7 +38,7 @@ class Settling {
  private:
   [[nodiscard]] const Point& at(Index v) const { return state_.vertices[v]; }
 
-  /// Those of what is in trouble, and all others near it.
+  /// The vertices of elements in trouble, and all others near them.
   void list_vertices() {
     std::vector<std::uint8_t> used(state_.vertices.size(), 0);
     std::vector<Box> boxes;
@@ -99,8 +99,8 @@ class Settling {
     return most;
   }
 
-  /// A vertex of the input keeps its slot, which takes the place of what it became; so do those that had
-  /// become the vertex before.
+  /// An input vertex keeps its slot, which replaces the vertex it was joined with; so do those joined with it
+  /// earlier.
   void move_slots(const std::map<Index, Index>& into) {
     std::map<Point, Index> goes;
     for (const auto& [w, v] : into) goes.emplace(at(w), v);
@@ -139,7 +139,7 @@ class Settling {
     return once;
   }
 
-  /// New vertices where two sides pass each other at most the gap away, unless a vertex is there.
+  /// Adds vertices where two sides pass each other within the gap, unless there already is a vertex.
   void add_passings() {
     const std::vector<Side> sides = passing_sides();
     std::vector<Box> boxes;

@@ -47,13 +47,13 @@ std::size_t SharedSides::same_as(Index v, std::span<const Index> before, std::si
   return same;
 }
 
-/// Nothing where the one would change the order of the other.
+/// Nothing if joining would change the order of the other chain.
 std::optional<SharedSides::Joined> SharedSides::joined(const Side& side, std::span<const Index> before,
                                                        std::span<const Index> chain) const {
   Joined joined;
   const Vector along = minus(at(side[1]), at(side[0]));
   const auto t = [&](Index v) { return dot(minus(at(v), at(side[0])), along); };
-  std::size_t next = 0;  // of those before
+  std::size_t next = 0;  // after the earlier ones
   for (const Index v : chain) {
     const std::size_t same = same_as(v, before, next, chain);
     if (same < before.size()) {
@@ -84,7 +84,7 @@ void SharedSides::add(const Side& side, std::vector<Index> chain) {
   divide(side, chain, both->all);
 }
 
-/// The parts of a chain are led through what comes between their ends.
+/// Leads the parts of a chain through the vertices between their ends.
 void SharedSides::divide(const Side& side, std::span<const Index> chain, std::span<const Index> all) {
   const std::vector<Index> mine = whole(side, chain), both = whole(side, all);
   std::size_t next = 0;
@@ -100,7 +100,7 @@ void SharedSides::divide(const Side& side, std::span<const Index> chain, std::sp
   }
 }
 
-/// With its ends; those that have become one are told once.
+/// The chain with its ends; joined vertices are listed once.
 std::vector<Index> SharedSides::whole(const Side& side, std::span<const Index> chain) const {
   std::vector<Index> all{root(side[0])};
   for (const Index v : chain) all.push_back(root(v));
@@ -124,7 +124,7 @@ void SharedSides::unite(Index v, Index w, std::size_t first) {
 }
 
 bool SharedSides::finish() {
-  gap_ = -1;  // no more become one
+  gap_ = -1;  // joins no more vertices
   const Chains told = std::move(chains_);
   chains_.clear();
   for (const auto& [side, chain] : told) {
@@ -141,7 +141,7 @@ bool SharedSides::finish() {
          std::all_of(sides.begin(), sides.end(), [&](const Side& s) { return expand(s, is_done); });
 }
 
-/// Puts what the parts of a chain are led through into it; false where a side is a part of itself.
+/// Inserts into a chain the vertices through which its parts are led. False if a side is a part of itself.
 bool SharedSides::expand(const Side& side, std::map<Side, bool>& is_done) {
   const auto found = chains_.find(side);
   if (found == chains_.end()) return true;

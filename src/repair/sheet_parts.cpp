@@ -60,14 +60,14 @@ class Delivery {
     return distance_above(state_.vertices[v], state_.vertices[a], state_.vertices[b], state_.vertices[c]);
   }
 
-  /// Facets with the same corners are one, whose parents are those of which they are an odd number of parts:
-  /// a sheet that was folded would end at its folds else.
+  /// Facets with the same corners become one. Its parents are those that have an odd number of these facets
+  /// as parts: otherwise a folded sheet would end at its folds.
   void deliver_facets(std::span<const Triangle> facets, const Parents& parents,
                       std::span<const std::uint8_t> known, std::span<const Index> sheet,
                       std::span<const std::uint8_t> changed) {
     arrange::IndexTable<3> first_with;
     std::vector<std::uint8_t> is_first(facets.size(), 0);
-    std::map<Index, std::vector<Index>> of_several;  // by the first of them, their parents
+    std::map<Index, std::vector<Index>> of_several;  // by the first of them
     for (Index f = 0; f < facets.size(); ++f) {
       const Index first = first_with.find_or_add(ascending(facets[f]), f);
       is_first[f] = first == f ? 1 : 0;
@@ -125,7 +125,7 @@ class Delivery {
     return true;
   }
 
-  /// One side after the other: each fan leaves the other two sides whole.
+  /// Cuts one side after the other: each fan keeps the other two sides whole.
   [[nodiscard]] std::vector<Triangle> cut(Triangle facet) const {
     for (Index& v : facet) v = sides_.root(v);
     std::vector<Triangle> parts{facet};

@@ -51,7 +51,7 @@ class Snapping {
     return vertices;
   }
 
-  /// Where a vertex may go: lesser kinds first, then lesser distances.
+  /// Where a vertex may go. Lower kinds come first, then smaller distances.
   struct Target {
     int kind;
     double distance;
@@ -104,7 +104,7 @@ class Snapping {
     return best;
   }
 
-  /// Takes back moves until the part is as valid as it was.
+  /// Withdraws moves until the part is as valid as it was.
   void withdraw_invalid(Index part, std::map<Index, Point>& moves) const {
     if (moves.empty()) return;
     const std::set<std::array<Index, 2>> before = broken(part, {});
@@ -124,10 +124,9 @@ class Snapping {
     moves.clear();
   }
 
-  /// Pairs of facets of a part that do not fit together once its vertices have moved, and single ones of no
-  /// area.
+  /// Pairs of facets of a part that do not fit together after the moves, and single facets without area.
   [[nodiscard]] std::set<std::array<Index, 2>> broken(Index part, const std::map<Index, Point>& moves) const {
-    // Vertices of other parts are none of this one's.
+    // No vertex of another part belongs to this one.
     const std::vector<Index> own = vertices_of(part);
     const auto number = [&](Index v) {
       return static_cast<Index>(std::lower_bound(own.begin(), own.end(), v) - own.begin());

@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// What is connected to what.
+/// Connected groups.
 class Groups {
  public:
   void clear() {
@@ -81,7 +81,7 @@ class Strips {
     return {first_[t[0]], first_[t[1]], first_[t[2]]};
   }
 
-  /// Whether the parts of a facet hang together and have its corners; also where it has none.
+  /// Whether the parts of a facet are connected and contain its corners; true if it has no parts.
   [[nodiscard]] bool is_whole(Index g) {
     const std::span<const Index> children = children_.of(g);
     if (children.empty()) return true;
@@ -108,7 +108,7 @@ class Strips {
            groups_.root(corners[0]) == groups_.root(corners[2]);
   }
 
-  /// What is near to a facet, and how far it is at most from it.
+  /// The parts near a facet, and their largest distance from it.
   struct Near {
     std::vector<Index> facets;
     std::map<Index, double> vertices;
@@ -135,7 +135,7 @@ class Strips {
     return near;
   }
 
-  /// Leads from a corner that is not connected with the others to what is nearest, and on from there.
+  /// Connects a corner that is separate from the others to the nearest part, and continues from there.
   void mend(Index g) {
     const Triangle corners = corners_of(g);
     const Near near = near_to(g);
@@ -153,7 +153,7 @@ class Strips {
     }
   }
 
-  /// From what is connected with one of the corners, to what is not.
+  /// The shortest link from the group of a corner to something not connected with it.
   std::optional<Segment> shortest_link(const Triangle& corners, const Near& near) {
     std::optional<Segment> link;
     double least = kInfinity;
@@ -172,7 +172,7 @@ class Strips {
     return link;
   }
 
-  /// A facet on a line, with a third corner beside one of its ends.
+  /// Adds a facet on a line, with a third corner beside one of its ends.
   bool add_strip(Index g, const Segment& link, const Near& near) {
     const double far = std::max(near.vertices.at(link[0]), near.vertices.at(link[1]));
     const bool is_first = near.vertices.at(link[0]) <= near.vertices.at(link[1]);
@@ -202,7 +202,7 @@ class Strips {
     state_.facet_parents.add(given_.facet_parents.of(g));
   }
 
-  /// Whether a facet meets those beside it as it may.
+  /// Whether a facet fits together with its neighbours.
   [[nodiscard]] bool fits(const Segment& link, const Point& p) {
     Box box = box_round(state_, link, 0);
     box.extend({p, p});
@@ -259,11 +259,11 @@ class Strips {
   const double before_;  // how far the surface was from the input
   double most_;          // and is by now
   std::vector<Index> first_;
-  std::vector<std::uint8_t> used_;  // at its place
+  std::vector<std::uint8_t> used_;  // at their places
   const Children children_;
   AabbTree tree_;
   bool has_tree_ = false;
-  std::vector<Index> added_;  // facets that are not in the tree
+  std::vector<Index> added_;  // facets not yet in the tree
   Groups groups_;
 };
 

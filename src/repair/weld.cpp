@@ -1,4 +1,4 @@
-// Vertices that lie near to each other, or to a side or facet, joined within the user's tolerance.
+// Joins vertices that lie close to each other, or to a side or facet, within the user's tolerance.
 #include "repair/weld.h"
 
 #include <algorithm>
@@ -25,11 +25,10 @@ double weld(State& state, double tolerance, const Step& step) {
     if (is_usable(state, state.facets[f])) all.facets.push_back(f);
   for (Index s = 0; s < state.segments.size(); ++s)
     if (is_usable(state, state.segments[s])) all.segments.push_back(s);
-  constexpr double kRoomForRounding = 0x1p-20;  // of the tolerance
+  constexpr double kRoomForRounding = 0x1p-20;  // as a share of the tolerance
   const double gap = tolerance * (1 - kRoomForRounding);
   Work work;
-  // Where two patches cut the curve between them each in its own way, their sides cross on the way from
-  // vertex to vertex.
+  // If two patches cut the curve between them differently, their sides cross between the vertices.
   return settle(state, all, {gap, gap, true, Passings::free}, work, step);
 }
 
