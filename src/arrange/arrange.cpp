@@ -19,7 +19,7 @@
 namespace holdfast::arrange {
 namespace {
 
-/// A sheet to be: what SheetInput shows.
+/// A sheet in preparation: the data that SheetInput views.
 struct Gathered {
   std::vector<Index> facets, points;
   std::vector<Trace> traces;
@@ -66,7 +66,7 @@ class Arranging {
 
   // --- Sheets -----------------------------------------------------------------------------------------
 
-  /// The sheet of a facet, a new one if it has none.
+  /// The sheet of a facet; a new one if the facet has none.
   Gathered& sheet_at(Index element) {
     const Index root = roots_->root(element);
     const auto [at, is_new] = sheet_of_root_.try_emplace(root, static_cast<Index>(sheets_.size()));
@@ -91,7 +91,7 @@ class Arranging {
     }
   }
 
-  /// What a meeting leaves on the facet that is its element e.
+  /// Records the meeting's trace on the facet that is its element e.
   void gather(const Meeting& meeting, std::size_t e) {
     const unsigned mask = meeting.mask(e);
     if (std::popcount(mask) == 1) return;  // a corner
@@ -117,7 +117,7 @@ class Arranging {
       if (flaw.corners == 3) result_.fitted[flaw.id] = 0;
   }
 
-  /// For each element whether it is a facet of some pair.
+  /// For each element, whether it is a facet of some pair.
   [[nodiscard]] std::vector<std::uint8_t> facets_of(std::span<const OffendingPair> pairs) const {
     std::vector<std::uint8_t> is_facet(elements_.all.size(), 0);
     for (const OffendingPair& pair : pairs)
@@ -130,7 +130,7 @@ class Arranging {
     cut_.resize(sheets_.size());
     const std::thread::id caller = std::this_thread::get_id();
     std::size_t done = 0;
-    // Points of one sheet may be counted again by others; so many are too many without them.
+    // Other sheets may count the points of a sheet again; this many are too many even without that.
     constexpr std::size_t kFar = 16;
     const std::size_t far_too_many =
         options_.most_points < SIZE_MAX / kFar ? kFar * options_.most_points : SIZE_MAX;
@@ -150,7 +150,7 @@ class Arranging {
     });
   }
 
-  /// Crossings of traces get their numbers in the sheets' order.
+  /// Crossings of traces are numbered in the order of the sheets.
   void number_points() {
     const Index before = pool_.size();
     for (SheetTriangles& cut : cut_) {
@@ -208,7 +208,7 @@ class Arranging {
     result_.facet_parents.add(parents);
   }
 
-  /// Segments by their ends, and the points on each.
+  /// Segments by their ends, and the points on each segment.
   struct PointsOn {
     IndexTable<2> number;  // by the ends, ascending
     std::vector<std::vector<Index>> all;
@@ -219,7 +219,7 @@ class Arranging {
     }
   };
 
-  /// Cuts segments at the points that meetings leave on them or on the sides that they are.
+  /// Cuts segments at the points that meetings leave on them, or on the sides with which they coincide.
   void deliver_segments(const Meetings& meetings) {
     if (complex_.segments.empty()) return;
     PointsOn points_on;
@@ -255,7 +255,7 @@ class Arranging {
     for (const std::vector<Index>& p : parents) result_.segment_parents.add(p);
   }
 
-  /// Those that a meeting leaves on a side of its element e.
+  /// Records the points that a meeting leaves on a side of its element e.
   void note_points(const Meeting& meeting, std::size_t e, PointsOn& points_on) const {
     const Element& element = elements_.all[meeting.elements[e]];
     for (std::size_t k = 0; k < 2 && meeting.points[k] != no_index; ++k) {
@@ -269,7 +269,8 @@ class Arranging {
     }
   }
 
-  /// Sides of facets that share area with others cross these in the sheet, without a meeting.
+  /// Sides of facets that share area with other facets cross the sides of these within the sheet, without a
+  /// meeting.
   void note_sides_in_sheets(PointsOn& points_on) const {
     for (const SheetTriangles& cut : cut_)
       for (const std::vector<Index>& side : cut.sides)
@@ -277,7 +278,7 @@ class Arranging {
           points->insert(points->end(), side.begin() + 1, side.end() - 1);
   }
 
-  /// Points of a segment, in order from its first end to its second.
+  /// The points of a segment, in order from its first end to its second.
   [[nodiscard]] std::vector<Index> chain_of(const std::array<Index, 2>& ends,
                                             std::span<const Index> between) const {
     std::vector<Index> chain(between.begin(), between.end());
@@ -287,7 +288,7 @@ class Arranging {
     const int direction = pool_.compare(ends[0], ends[1]);
     std::sort(chain.begin(), chain.end(), [&](Index p, Index q) {
       if (p == q) return false;
-      // Each coordinate rises or falls all along, and rounding to nearest is monotonic.
+      // Each coordinate is monotonic along the segment, and so is rounding to nearest.
       for (std::size_t k = 0; k < 3; ++k)
         if (const double x = pool_.nearest(p)[k], y = pool_.nearest(q)[k]; x != y)
           return (x < y) == (a[k] < b[k]);
@@ -330,7 +331,7 @@ Arrangement arrange(const Complex& complex, const Elements& elements, const Step
   };
   for_each_offending_pair(
       complex, elements, visit, [&](double fraction) { step(0.3 * fraction); }, tuning, options.known);
-  // What has a corner that is not finite is no element, and only the corner's flaw tells it.
+  // An entity with a corner that is not finite is not an element; only the flaw of the corner reports it.
   const bool whole = std::all_of(elements.flaws.begin(), elements.flaws.end(), [](const Flaw& flaw) {
     return flaw.corners == 1 && flaw.kind != DefectKind::non_finite_coordinate;
   });

@@ -1,4 +1,4 @@
-// Whether the triangles of a sheet still fit together once its points are rounded.
+// Whether the triangles of a sheet still fit together after its points are rounded.
 #include "arrange/fits_rounded.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ int turn(const Position& a, const Position& b, const Position& c) {
 
 Position middle(const Position& a, const Position& b) { return {a[0] / 2 + b[0] / 2, a[1] / 2 + b[1] / 2}; }
 
-/// The points of the border, from point 0 to itself, counterclockwise.
+/// The points of the border, counterclockwise from point 0 back to itself.
 std::vector<Vertex> border_of(const plane::Triangles& triangles) {
   std::unordered_map<Vertex, Vertex> next;
   for (std::size_t t = 0; t < triangles.size(); ++t)
@@ -33,8 +33,8 @@ std::vector<Vertex> border_of(const plane::Triangles& triangles) {
   return border;
 }
 
-/// Whether the rounded border is surely a simple polygon: each side is monotone, and where two meet, the line
-/// from their corner to the middle of the third side separates them.
+/// Whether the rounded border is certainly a simple polygon: each side is monotone, and at each corner of two
+/// sides, the line from the corner to the middle of the third side separates them.
 bool border_is_simple(const std::vector<Vertex>& border, const plane::Points& points) {
   const Vertex second = *std::find_if(border.begin() + 1, border.end(), [](Vertex v) { return v < 3; });
   const std::array<Vertex, 3> corner{0, second, 3 - second};

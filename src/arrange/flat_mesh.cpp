@@ -1,4 +1,4 @@
-// A triangulation in the plane that grows by points and segments.
+// A plane triangulation that grows by points and segments.
 #include "arrange/flat_mesh.h"
 
 #include <array>
@@ -37,8 +37,9 @@ void FlatMesh::put(std::uint32_t t, std::array<Vertex, 3> v) {
   for (const Vertex corner : v) mesh_.set_star(corner, t);
 }
 
-/// A walk towards p (Devillers, Pion, Teillaud 2002: by a random choice of edges it ends in any mesh). The
-/// code of the triangle that holds p: edge 0 where p is inside; the edge where it is on one.
+/// Walks towards p (Devillers, Pion, Teillaud 2002: with random choices of edges the walk ends in any mesh).
+/// Returns the code of the triangle that holds p: with edge 0 if p is inside, else with the edge that p is
+/// on.
 EdgeCode FlatMesh::locate(Vertex p, unsigned& zeros) const {
   std::uint32_t t = last_, turn = 1;
   for (;;) {
@@ -93,7 +94,7 @@ void FlatMesh::split_triangle(std::uint32_t t, Vertex p) {
   for (std::uint32_t i = 0; i < 3; ++i) mesh_.join(code(part[i], 1), code(part[(i + 1) % 3], 2));
 }
 
-/// Edge e = (u, w) with x on its left and y on its right; beyond a border there is no y.
+/// Edge e = (u, w) has x on its left and y on its right; beyond a border there is no y.
 void FlatMesh::split_edge(EdgeCode e, Vertex p) {
   const EdgeCode f = mesh_.across(e);
   const Vertex u = mesh_.from(e), w = mesh_.to(e), x = mesh_.apex(e);
@@ -131,14 +132,14 @@ void FlatMesh::split_edge(EdgeCode e, Vertex p) {
   if (!constrained) return;
   mesh_.constrain(code(t0, 2));
   mesh_.constrain(code(t1, 1));
-  // The whole edge, which never comes back, keeps its entry.
+  // The whole edge never comes back, so its entry may stay.
   if (const std::uint32_t line = line_of_.find(key(u, w)); line != no_entity) {
     line_of_.find_or_add(key(u, p), line);
     line_of_.find_or_add(key(p, w), line);
   }
 }
 
-/// Lawson's exchanges, where the circle surely holds the vertex: each is an improvement, so they end.
+/// Lawson's flips, where the vertex is certainly inside the circle: each one is an improvement, so they end.
 void FlatMesh::legalise() {
   while (!pending_.empty()) {
     const EdgeCode e = pending_.back();
@@ -153,7 +154,7 @@ void FlatMesh::legalise() {
   }
 }
 
-/// Calls visit(corner code) for the triangles at v, until it returns false; edge i of the code lies opposite.
+/// Calls visit(corner code) for the triangles at v until it returns false; edge i of the code is opposite v.
 template <class Visit>
 void FlatMesh::for_each_corner(Vertex v, Visit&& visit) const {
   const EdgeCode start = mesh_.edge_from(v);  // from v: its previous corner is v
@@ -165,7 +166,7 @@ void FlatMesh::for_each_corner(Vertex v, Visit&& visit) const {
     e = next_edge(other);
   } while (e != start);
   if (e == start && mesh_.across(e) != kNoEdge) return;
-  // A border was met: the rest lies the other way round.
+  // The walk reached a border: the remaining triangles are in the other direction.
   e = start;
   for (;;) {
     const EdgeCode other = mesh_.across(previous_edge(e));  // the edge into v
@@ -180,7 +181,7 @@ EdgeCode FlatMesh::edge_between(Vertex a, Vertex b) const {
   for_each_corner(a, [&](EdgeCode opposite) {
     if (mesh_.from(opposite) == b) found = previous_edge(opposite);
     if (found == kNoEdge && mesh_.to(opposite) == b) {
-      // Seen from its right; from its left if there is a triangle.
+      // As seen from the edge's right, or from its left if there is a triangle.
       const EdgeCode in = next_edge(opposite);
       found = mesh_.across(in) != kNoEdge ? mesh_.across(in) : in;
     }
@@ -246,7 +247,7 @@ void FlatMesh::insert_segment(Vertex a, Vertex b, std::uint32_t line, const Cros
         const Vertex p = crossing(line, line_of_.find(key(mesh_.from(leave), mesh_.to(leave))));
         mesh_.add_star(0);
         split_edge(leave, p);
-        // The triangles at the edge have changed; the way to p crosses no segment.
+        // The triangles at the edge have changed, but the way to p crosses no segment.
         const Departure again = depart(at, p, behind);
         crossed.clear();
         next = p;

@@ -1,4 +1,4 @@
-// What pairs of elements have in common.
+// The intersections of pairs of elements.
 #include "arrange/meetings.h"
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 namespace holdfast::arrange {
 namespace {
 
-/// A point by what it is the crossing of: a side with a facet, or two sides. The same for all pairs of
-/// elements that have it.
+/// A point, named by the side and facet or the two sides that cross there. All pairs of elements that contain
+/// it give it the same name.
 struct Crossing {
   std::array<Index, 2> side;
   std::array<Index, 2> other{no_index, no_index};  // a side, or none
@@ -21,7 +21,7 @@ struct Crossing {
   [[nodiscard]] auto tied() const { return std::tie(side, other, facet); }
 };
 
-/// One end of a meeting before it has a number.
+/// One end of a meeting that has no number yet.
 struct End {
   Index meeting;
   std::uint8_t which;
@@ -49,7 +49,7 @@ Crossing crossing_of(const Elements& elements, Index i, unsigned mask_i, Index j
   return crossing;
 }
 
-/// A projection in which two sides that cross are not parallel.
+/// A projection in which the two crossing sides are not parallel.
 unsigned axis_of(const Complex& complex, const Crossing& crossing) {
   const auto at = [&](Index v) { return complex.vertices[v].data(); };
   for (unsigned axis = 0; axis < 2; ++axis) {
@@ -80,7 +80,8 @@ Meeting meeting_of(const OffendingPair& pair) {
   return meeting;
 }
 
-/// Gives numbers to the ends that are no vertices: computed on all threads, numbered in the crossings' order.
+/// Numbers the ends that are not vertices. They are computed on all threads and numbered in the order of the
+/// crossings.
 void number(std::vector<End>& ends, std::vector<Meeting>& meetings, const Complex& complex,
             const FacetPlanes& planes, PointPool& pool, const Step& step, const Threads& threads) {
   std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) {

@@ -45,7 +45,8 @@ Index PointPool::add(exact::SpacePoint point, const Point& at) {
 
 int PointPool::compare(Index p, Index q) const {
   if (p == q) return 0;
-  // Rounding to nearest is monotonic: what differs afterwards differed before, and in the same sense.
+  // Rounding to nearest is monotonic: coordinates that differ after rounding differ in the same sense before
+  // it.
   const Point &a = nearest(p), &b = nearest(q);
   if (a[0] != b[0]) return a[0] < b[0] ? -1 : 1;
   const auto exact_of = [&](Index v) {

@@ -1,4 +1,4 @@
-// A sheet: facets of one plane, triangulated once with all that other elements leave in it.
+// A sheet: facets of one plane, triangulated once together with all traces of other elements.
 #include "arrange/sheet.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using plane::kNoVertex;
 using plane::Position;
 using plane::Vertex;
 
-/// What is given, and how it is seen: without the coordinate along the axis.
+/// The input of a sheet, projected along the axis.
 struct Given {
   const SheetInput& input;
   const Complex& complex;
@@ -36,8 +36,8 @@ struct Given {
   [[nodiscard]] const double* coordinates(Index v) const { return complex.vertices[v].data(); }
   [[nodiscard]] Position flat(const Point& p) const { return {p[(axis + 1) % 3], p[(axis + 2) % 3]}; }
 
-  /// The sign of a facet's area along the axis of the sheet: that of the facet itself may be another one,
-  /// where two components of the normal are equal but for rounding.
+  /// The sign of a facet's area along the axis of the sheet. The facet's own axis may be another one if two
+  /// components of the normal are equal except for rounding.
   [[nodiscard]] int turn(const Element& facet) const {
     if (facet.axis == axis) return facet.turn;
     std::array<Position, 3> p{};
@@ -46,8 +46,8 @@ struct Given {
   }
 };
 
-/// The vertices here: each is a point of the pool, or a crossing found here, whose numbers follow those of
-/// the pool, or a corner far away that is none of both.
+/// The vertices of the sheet. Each is a point of the pool, a crossing found here (these are numbered after
+/// the pool's points), or a corner far away, which is neither.
 class SheetPoints {
  public:
   explicit SheetPoints(const Given& given) : given_(given) {}
@@ -86,7 +86,7 @@ class SheetPoints {
   std::vector<CrossingPoint*> crossings_;
 };
 
-/// The lines of segments, by number, and where two of them cross.
+/// The lines of segments, by number, and the crossings of pairs of lines.
 class SheetLines {
  public:
   SheetLines(const Given& given, Crossings& crossings) : given_(given), crossings_(crossings) {}
@@ -121,7 +121,7 @@ class SheetLines {
 // --- Points
 // -------------------------------------------------------------------------------------------------
 
-/// A triangle round all facets, whose corners are no points of the pool.
+/// A triangle round all facets; its corners are not points of the pool.
 FlatMesh begin_beyond(const Given& given, SheetPoints& points) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Position low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
@@ -135,7 +135,8 @@ FlatMesh begin_beyond(const Given& given, SheetPoints& points) {
         largest = std::max(largest, std::fabs(p[k]));
       }
     }
-  // Far enough that roundings do not matter; as integers where doubles end. Halves of denormals may be zero.
+  // Far enough that rounding does not matter, and still an integer at the limits of doubles. Halves of
+  // denormals may be zero.
   const double margin =
       std::max({largest * 0x1p-20, std::max(high[0] / 2 - low[0] / 2, high[1] / 2 - low[1] / 2) * 2,
                 std::numeric_limits<double>::min()});
@@ -152,7 +153,7 @@ FlatMesh begin_beyond(const Given& given, SheetPoints& points) {
   return {points.all(), a, b, c};
 }
 
-/// The facet itself, where it is a single one.
+/// The facet itself, if it is the only one.
 FlatMesh begin(const Given& given, SheetPoints& points) {
   if (!given.is_single) return begin_beyond(given, points);
   const Element& facet = given.facet(given.input.facets[0]);
@@ -162,7 +163,7 @@ FlatMesh begin(const Given& given, SheetPoints& points) {
   return {points.all(), corner[0], corner[1], corner[2]};
 }
 
-/// As they are inserted best.
+/// The order in which insertion is fastest.
 std::vector<Index> in_order(const Given& given, const std::vector<Index>& points) {
   std::vector<Position> positions;
   positions.reserve(points.size());
@@ -173,8 +174,8 @@ std::vector<Index> in_order(const Given& given, const std::vector<Index>& points
   return ordered;
 }
 
-/// For points that are known to lie on sides of the only facet, these, in the order of the points; bit i for
-/// the side opposite to corner i of the mesh's first triangle, which turns left.
+/// For points that are known to lie on sides of the only facet: these sides, in the order of the points. Bit
+/// i stands for the side opposite corner i of the mesh's first triangle, which turns left.
 std::vector<std::array<Index, 2>> sides_of_points(const Given& given) {
   std::vector<std::array<Index, 2>> sides;
   if (!given.is_single) return sides;
@@ -208,7 +209,7 @@ void insert_points(const Given& given, SheetPoints& all, FlatMesh& mesh, const p
 // --- Traces
 // -------------------------------------------------------------------------------------------------
 
-/// And the sides of facets, where these are several.
+/// Inserts the traces and, if there are several facets, their sides.
 void insert_traces(const Given& given, SheetPoints& points, FlatMesh& mesh, Crossings& crossings,
                    const plane::Poll& poll) {
   SheetLines lines(given, crossings);
@@ -233,7 +234,7 @@ void insert_traces(const Given& given, SheetPoints& points, FlatMesh& mesh, Cros
 // --- Triangles
 // ----------------------------------------------------------------------------------------------
 
-/// A triangle with the facets that have it.
+/// Adds a triangle with the facets that contain it.
 void take(const Given& given, const SheetPoints& points, const std::array<Vertex, 3>& v,
           std::span<const Index> parents, SheetTriangles& result) {
   Triangle t{points.point(v[0]), points.point(v[1]), points.point(v[2])};
@@ -243,8 +244,7 @@ void take(const Given& given, const SheetPoints& points, const std::array<Vertex
   result.first_parent.push_back(static_cast<Index>(result.parents.size()));
 }
 
-/// The edges along the sides of a facet, seen from its inside, in ascending order; the points there are
-/// noted.
+/// The edges along the sides of a facet, seen from its inside, in ascending order. Records the points there.
 std::vector<plane::EdgeCode> edges_of_sides(const Given& given, const SheetPoints& points,
                                             const FlatMesh& mesh, const Element& facet,
                                             SheetTriangles& result) {
@@ -263,7 +263,7 @@ std::vector<plane::EdgeCode> edges_of_sides(const Given& given, const SheetPoint
   return edges;
 }
 
-/// Each facet's triangles are those that can be reached from inside its sides without crossing them.
+/// The triangles of a facet are those that can be reached from inside its sides without crossing them.
 void take_covered(const Given& given, const SheetPoints& points, const FlatMesh& mesh, SheetTriangles& result,
                   const plane::Poll& poll) {
   const plane::Triangles& triangles = mesh.triangles();
