@@ -10,7 +10,7 @@
 namespace holdfast::checking {
 namespace {
 
-/// A sum of unknowns modulo 2, which are told ascending, and what it must be.
+/// A sum of unknowns modulo 2 and its value. The unknowns are listed in ascending order.
 struct Equation {
   std::vector<std::size_t> unknowns;
   bool is_one = false;
@@ -24,10 +24,10 @@ struct Equation {
   }
 };
 
-/// Equations modulo 2, of which each has a last unknown that is the last of no other.
+/// Equations modulo 2 in echelon form: no two have the same last unknown.
 class Equations {
  public:
-  /// False where it contradicts those before.
+  /// False if the equation contradicts the earlier ones.
   bool add(Equation equation) {
     while (!equation.unknowns.empty()) {
       const std::size_t last = equation.unknowns.back();

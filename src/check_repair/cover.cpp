@@ -33,8 +33,7 @@ class Cover {
     for (const Index f : chain) flip(odd_, test_.facets_[f]);
   }
 
-  /// Adds triangles between two odd edges of which the third side is short: what was so thin became a line.
-  /// (d)
+  /// Adds triangles between two odd edges if the third side is short: a part this thin became a line. (d)
   void close_thin_gaps() {
     constexpr std::size_t kMost = 16;
     for (const auto& [tip, ends] : neighbours_of(odd_)) {
@@ -46,8 +45,8 @@ class Cover {
     }
   }
 
-  /// Adds triangles between odd edges that are near to each other along their length, like the two banks of a
-  /// slit, from its far end on: what was so thin there became a line. (d)
+  /// Adds triangles between odd edges that are near each other along their length, like the two banks of a
+  /// slit, starting at its far end: a part this thin became a line there. (d)
   void close_slits() {
     const Neighbours tips = neighbours_of(odd_);
     Neighbours now = tips;
@@ -66,7 +65,7 @@ class Cover {
   }
 
  private:
-  /// For each side of the triangle whether it is within reach of a vertex, as bits.
+  /// The sides of the triangle that are within reach of a vertex, as bits.
   unsigned sides_of(Index v) {
     const auto [at, is_new] = sides_.try_emplace(v, 0);
     if (is_new)
@@ -101,7 +100,7 @@ class Cover {
     }
     return std::nullopt;
   }
-  /// What is left of the distance for a triangle that is no facet, near to one of some edges. (d)
+  /// What remains of the distance for a triangle that is not a facet, near one of these edges. (d)
   [[nodiscard]] std::optional<Reach> reach_beside(std::initializer_list<Segment> edges,
                                                   const Triangle& corners) const {
     std::optional<double> least;
@@ -113,7 +112,7 @@ class Cover {
     const std::optional<Reach> left = least ? reach_without(*least) : std::nullopt;
     return left && all_within(*left, corners) ? left : std::nullopt;
   }
-  /// What is left of the distance where a part of it is used up; nothing where that is all.
+  /// What remains of the distance after a part of it is used up; nothing if no distance remains.
   [[nodiscard]] std::optional<Reach> reach_without(double part) const {
     if (!(part < test_.reach_.distance())) return std::nullopt;
     return Reach(std::nextafter(test_.reach_.distance() - part, 0.0));
@@ -122,7 +121,7 @@ class Cover {
     return std::all_of(vertices.begin(), vertices.end(),
                        [&](Index v) { return reach.of_triangle(test_.vertices_[v], triangle_); });
   }
-  /// The sides that both are within reach of.
+  /// The sides within reach of both vertices.
   [[nodiscard]] unsigned sides_near(const Reach& reach, Index v, Index w) const {
     unsigned sides = 0;
     for (std::size_t i = 0; i < 3; ++i)
@@ -132,7 +131,7 @@ class Cover {
     return sides;
   }
 
-  /// `t`: its tip comes first.
+  /// The first corner of `t` is its tip.
   void close_thin_gap(const Triangle& t) {
     const std::optional<Reach> left = reach_without(width_of(t[1], t[2]) / 2);
     if (!left || !all_within(*left, t)) return;
@@ -142,18 +141,18 @@ class Cover {
     at_gaps_[edge_of(t[1], t[2])] = sides;
   }
 
-  /// Where the odd edges on one bank of a slit have come to, and from where.
+  /// The progress along the odd edges on one bank of a slit: the current vertex and the previous one.
   struct Bank {
     Index at, before;
   };
-  /// The vertex that comes next, if there is only one.
+  /// The next vertex, if there is only one.
   [[nodiscard]] static Index next_on(const Bank& bank, const Neighbours& odd) {
     const auto at = odd.find(bank.at);
     if (at == odd.end() || at->second.size() != 2) return no_entity;
     return at->second[at->second[0] == bank.before ? 1 : 0];
   }
 
-  /// From its far end, where both banks begin, to where they come to one side.
+  /// From the far end, where both banks begin, to where they reach one side.
   bool close_slit(Index tip, const Neighbours& odd) {
     const auto at = odd.find(tip);
     if (at == odd.end() || at->second.size() != 2) return false;
@@ -173,7 +172,8 @@ class Cover {
     return false;
   }
 
-  /// One step on the bank on which that leads less far from the other one; what is left of the distance.
+  /// One step on the bank where the step leads less far from the other bank; returns what remains of the
+  /// distance.
   std::optional<Reach> go_on(std::array<Bank, 2>& banks, const Neighbours& odd,
                              std::vector<Triangle>& between) {
     std::optional<Reach> left;
@@ -200,7 +200,7 @@ class Cover {
     return left;
   }
 
-  /// Makes edges of corners with all vertices within reach of them. (c)
+  /// Joins the corners to all vertices within reach of them by edges. (c)
   void join_corners() {
     if (are_corners_joined_) return;
     are_corners_joined_ = true;
@@ -212,7 +212,7 @@ class Cover {
       });
   }
 
-  /// Takes a chain (b) for a side off what is odd.
+  /// Removes a chain (b) for a side from the odd edges.
   bool take_side(std::size_t side) {
     const Index a = places_[side], b = places_[(side + 1) % 3];
     if (a == b) return true;
@@ -247,7 +247,7 @@ class Cover {
     });
   }
 
-  /// What is odd still must fall into parts of which each is a sum of closed chains of sides.
+  /// The remaining odd edges must fall into parts, each of which is a sum of closed chains of sides.
   bool is_rest_on_sides() {
     const Neighbours neighbours = neighbours_of(odd_);
     std::set<Index> seen;
@@ -275,7 +275,7 @@ class Cover {
     return astray_.empty();
   }
 
-  /// Of several sides: where these meet, edges of the output that lie on two of them may be in both chains.
+  /// For several sides: where they meet, edges of the output that lie on two sides may be in both chains.
   bool is_of_closed_chains(const std::set<Segment>& odd) {
     join_corners();
     if (std::any_of(odd.begin(), odd.end(), [&](const Segment& e) { return sides_of(e) == 0; })) return false;
@@ -298,8 +298,9 @@ class Cover {
 
   using AtEdge = std::map<Segment, std::vector<Index>>;
 
-  /// Takes children off the chain, or adds thin facets near to the triangle, while that leaves less astray.
-  /// All thin ones come first: a large child that goes opens a side that nothing else closes.
+  /// Removes children from the chain, or adds thin facets near the triangle, as long as fewer edges are
+  /// astray afterwards. All thin facets come first: removing a large child opens a side that nothing else
+  /// closes.
   bool fill_rest() {
     AtEdge thin, all;
     Box box(triangle_[0]);
@@ -322,7 +323,7 @@ class Cover {
     return false;
   }
 
-  /// Adds or takes off facets of which two sides or three are odd, from what is astray on.
+  /// Adds or removes facets with two or three odd sides, starting from the edges that are astray.
   void flip_at_astray(const AtEdge& at_edge) {
     std::vector<Segment> open(astray_.begin(), astray_.end());
     while (!open.empty()) {
@@ -383,7 +384,7 @@ const BoxTree& CoverTest::tree() {
 
 template <class Visit>
 void CoverTest::near(Box box, Visit&& visit) {
-  // Rounded outwards: what is within reach is in it.
+  // Rounded outwards: the box contains everything within reach.
   for (std::size_t k = 0; k < 3; ++k) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     box.low[k] = std::nextafter(box.low[k] - reach_.distance(), -kInfinity);

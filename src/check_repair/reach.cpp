@@ -23,7 +23,7 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// Rounded vectors, for what decides nothing or has a bound on its error.
+// Rounded vectors, for steps that decide nothing or have an error bound.
 template <class Real>
 using Rounded = std::array<Real, 3>;
 
@@ -38,14 +38,15 @@ Real dot(const Rounded<Real>& a, const Rounded<Real>& b) {
 double length(const Rounded<double>& a) { return numbers::hypot(a[0], a[1], a[2]); }
 long double length(const Rounded<long double>& a) { return std::sqrt(dot(a, a)); }
 
-/// Where in the triangle a + s u + t v the point a + w has its nearest point, roughly: s, t >= 0, s + t <= 1.
+/// Parameters of the point a + s u + t v of the triangle that is roughly nearest to a + w: s, t >= 0, s + t
+/// <= 1.
 template <class Real>
 std::array<Real, 2> nearest_weights(const Rounded<Real>& u, const Rounded<Real>& v, const Rounded<Real>& w) {
   const Real uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
   const Real det = uu * vv - uv * uv;
   Real s = (uw * vv - vw * uv) / det, t = (vw * uu - uw * uv) / det;
   if (s >= 0 && t >= 0 && s + t <= 1) return {s, t};
-  // Else the best of the three sides.
+  // Otherwise the best point of the three sides.
   const auto clamped = [](Real x) { return x > 0 ? std::min(x, Real{1}) : Real{0}; };
   const Real on_uv = clamped((vv - uv - uw + vw) / (uu - 2 * uv + vv));
   const std::array<std::array<Real, 2>, 3> sides{
@@ -72,10 +73,9 @@ Real residual(const Point& p, const std::array<Point, 3>& t, Real& scale) {
       Rounded<Real>{w[0] - x * u[0] - y * v[0], w[1] - x * u[1] - y * v[1], w[2] - x * u[2] - y * v[2]});
 }
 
-/// A point of the triangle that is near enough, if rounding lets it be seen: differences have a relative
-/// error of half an ulp, and the residual is a sum of five terms none of which exceeds `scale`, each with at
-/// most three roundings. Weights that are not in the triangle, or no numbers, fail the comparison or go to
-/// the exact test.
+/// Whether a point of the triangle is certainly near enough despite rounding: differences have a relative
+/// error of half an ulp, and the residual is a sum of five terms, none larger than `scale`, with at most
+/// three roundings each. Weights outside the triangle, or NaN, fail the comparison or go to the exact test.
 template <class Real>
 bool is_surely_near(const Point& p, const std::array<Point, 3>& t, double distance) {
   constexpr Real kEpsilon = std::numeric_limits<Real>::epsilon();
@@ -89,11 +89,11 @@ Rounded<Real> cross(const Rounded<Real>& a, const Rounded<Real>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Products of lengths so large do not underflow, and so errors are relative to them.
+/// Products of lengths this large do not underflow, so errors are relative to the products.
 constexpr long double kSurelyNormal = 0x1p-900L;
 
-/// Whether the line through a and b is further away, if rounding lets it be seen: each coordinate of the
-/// cross product has an error of some units of the product of both lengths.
+/// Whether the line through a and b is certainly further away despite rounding: each coordinate of the cross
+/// product has an error of a few units of the product of both lengths.
 bool is_surely_far(const Point& p, const Point& a, const Point& b, double distance) {
   constexpr long double kError = 64 * std::numeric_limits<long double>::epsilon();
   const Rounded<long double> d = minus<long double>(b, a), w = minus<long double>(p, a);
@@ -101,7 +101,7 @@ bool is_surely_far(const Point& p, const Point& a, const Point& b, double distan
   return size > kSurelyNormal && found - kError * size > distance * length(d) * (1 + kError);
 }
 
-/// Likewise the plane.
+/// The same for the plane.
 bool is_surely_far(const Point& p, const std::array<Point, 3>& t, double distance) {
   constexpr long double kError = 64 * std::numeric_limits<long double>::epsilon();
   const Rounded<long double> u = minus<long double>(t[1], t[0]), v = minus<long double>(t[2], t[0]),
@@ -149,7 +149,8 @@ bool Reach::of_triangle(const Point& p, const std::array<Point, 3>& t) const {
   return of_segment(p, t[0], t[1]) || of_segment(p, t[1], t[2]) || of_segment(p, t[2], t[0]);
 }
 
-/// Often the distance is that of rounding itself, which only the longer format sees, where there is one.
+/// Often the distance is as small as rounding itself; then only the longer format, if there is one, can
+/// decide.
 bool Reach::surely_of_triangle(const Point& p, const std::array<Point, 3>& t) const {
   return is_surely_near<double>(p, t, distance_) || is_surely_near<long double>(p, t, distance_);
 }
@@ -160,8 +161,8 @@ int compare_distance(const Point& p, const Point& q, double distance) {
   return std::is_lt(order) ? -1 : std::is_gt(order) ? 1 : 0;
 }
 
-/// With the area A and the sides a, b, c the radius is 2 A / (a + b + c). Lengths are rounded up, so what is
-/// near to the distance by a few units in the last place is taken as at most it.
+/// With the area A and the sides a, b, c the radius is 2 A / (a + b + c). Lengths are rounded up, so a radius
+/// that exceeds the distance by only a few units in the last place counts as at most the distance.
 bool inscribed_at_most(const std::array<Point, 3>& t, double distance) {
   const Vector n = cross(difference(t[1], t[0]), difference(t[2], t[0]));
   const double sides =

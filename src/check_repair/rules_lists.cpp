@@ -1,4 +1,4 @@
-// Check of repairs: what is listed as dropped, merged or filled is, what is not is not; and markers.
+// Check of repairs: exactly the dropped, merged and filled entities are listed as such; and markers.
 #include <map>
 #include <set>
 
@@ -19,7 +19,7 @@ std::string input_facet(const RepairExamination& on, std::size_t f) {
 
 bool has_area(const std::array<Point, 3>& t) { return !collinear(t[0].data(), t[1].data(), t[2].data()); }
 
-/// Why a reason that is given for a facet without children is not true; empty where it is.
+/// Why the reason given for a facet without children is false; empty if it is true.
 std::string objection(const RepairExamination& on, Index f, DropReason reason) {
   const bool is_finite = on.is_finite(on.input.facets[f]);
   if (reason == DropReason::not_finite) return is_finite ? "all of its corners are finite" : "";
@@ -33,7 +33,7 @@ std::string objection(const RepairExamination& on, Index f, DropReason reason) {
   return "";
 }
 
-/// For each vertex of the input the first at its place.
+/// For each input vertex, the first one at its place.
 std::vector<Index> first_at_place(std::span<const Point> vertices) {
   std::map<Point, Index> first;
   std::vector<Index> at(vertices.size());

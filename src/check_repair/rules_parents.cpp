@@ -1,5 +1,5 @@
-// Check of repairs: that facets of the output and of the input that belong together lie near to each other,
-// which proves the largest distance both ways.
+// Check of repairs: facets of the output and their parents in the input lie near each other. This proves the
+// largest distance in both directions.
 #include <algorithm>
 #include <set>
 
@@ -26,12 +26,12 @@ std::string facet_words(const char* whose, const Complex& surface, std::size_t f
   return words(std::string(whose) + " triangle", f, surface.facets[f], surface.vertices);
 }
 
-/// By vertex of the input, its place among the vertices of the output.
+/// For input vertices, their places among the vertices of the output.
 std::array<Index, 3> places_of(const RepairExamination& on, const Triangle& t) {
   return {on.place[t[0]], on.place[t[1]], on.place[t[2]]};
 }
 
-/// Corners of the children of an input facet that are out of reach of it. Each is looked at once.
+/// Corners of the children of an input facet that are out of its reach. Each corner is tested once.
 std::set<Index> far_corners(const RepairExamination& on, std::size_t parent, const Reach& reach) {
   std::vector<Index> corners;
   for (const Index f : on.children[parent])
@@ -164,7 +164,7 @@ RepairRule parents_covered(const RepairExamination& on) {
   const Reach reach(on.claims.max_displacement);
   CoverTest test(on.output.vertices, on.output.facets, reach);
   const std::set<Index> lost = dropped(on);
-  std::size_t covered = 0, trimmed = 0;  // the latter: parts went in a union
+  std::size_t covered = 0, trimmed = 0;  // the latter: parts removed in a union
   for (std::size_t p = 0; p < on.children.size(); ++p) {
     on.pulse();
     if (on.children[p].empty() || lost.contains(static_cast<Index>(p))) continue;  // another rule

@@ -1,4 +1,4 @@
-// Check of repairs: the output is a complex, and a valid input is the output.
+// Check of repairs: the output is a complex, and a valid input is left unchanged.
 #include <bit>
 
 #include "check/findings.h"
@@ -16,10 +16,11 @@ bool is_complex(const Complex& surface, Pulse& pulse) {
   return valid;
 }
 
-/// By triangle of the output; what a parent was cut into lies near to its plane.
+/// The first parent of each output triangle; the parts of a parent lie near its plane.
 std::vector<Index> first_parents(const IndexLists& parents) {
   std::vector<Index> first;
-  if (parents.first.empty() || parents.first.back() > parents.all.size()) return first;  // another rule
+  if (parents.first.empty() || parents.first.back() > parents.all.size())
+    return first;  // checked by another rule
   first.reserve(parents.size());
   for (std::size_t f = 0; f < parents.size(); ++f)
     first.push_back(parents[f].empty() ? no_entity : parents[f][0]);
@@ -54,7 +55,7 @@ RepairRule output_valid(RepairExamination& on) {
                          counted(on.output.vertices.size(), "vertex", "vertices") + ": a simplicial complex");
 }
 
-/// Vertices are compared by another rule.
+/// Another rule compares the vertices.
 RepairRule valid_unchanged(const RepairExamination& on) {
   Violations violations = on.violations(RepairRuleKind::valid_unchanged);
   const bool asked = on.claims.weld.value_or(on.claims.max_displacement) > 0 ||

@@ -1,4 +1,4 @@
-// Check of repairs: vertices of the input, and the distances that are told.
+// Check of repairs: vertices of the input, and the reported distances.
 #include <bit>
 #include <set>
 
@@ -10,7 +10,7 @@
 namespace holdfast::checking {
 namespace {
 
-/// NaN is NaN: a file does not keep its bits.
+/// All NaNs are equal: a file does not keep their bits.
 bool same_bits(const Point& x, const Point& y) {
   for (std::size_t k = 0; k < 3; ++k)
     if (std::bit_cast<std::uint64_t>(x[k]) != std::bit_cast<std::uint64_t>(y[k]) &&
@@ -19,7 +19,7 @@ bool same_bits(const Point& x, const Point& y) {
   return true;
 }
 
-/// What rounding up may add to a distance that is told.
+/// What rounding up may add to a reported distance.
 constexpr double kRoundedUp = 1 + 0x1p-48;
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace holdfast::checking {
 namespace {
 
-/// Above what may be lost where numbers are denormal.
+/// Larger than what denormal numbers may lose.
 constexpr double kNoUnderflow = 0x1p-1000;
 
 using Vector = std::array<double, 3>;
@@ -20,7 +20,7 @@ Vector cross(const Vector& u, const Vector& v) {
 double largest(const Vector& v) { return std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])}); }
 double square(const Vector& v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
-/// A vector times a number, so that its largest component is 1 or -1; zero where that is none.
+/// A multiple of a vector whose largest component is 1 or -1; zero if there is none.
 Vector scaled(const Vector& v) {
   const double most = largest(v);
   if (!(most > 0) || !std::isfinite(most)) return {};
@@ -83,13 +83,13 @@ class Pairs {
     BoxTree tree;  // items are positions in `parts`
     Layer layer;
   };
-  /// A sheet, or a part by itself.
+  /// A sheet, or a single part.
   struct Group {
     Index part;
     std::optional<Index> sheet;
   };
 
-  /// The coordinate that makes a part one-sided.
+  /// The coordinate in which a part is one-sided.
   [[nodiscard]] std::optional<std::size_t> one_sided(Index i) const {
     for (std::size_t k = 0; k < 3; ++k) {
       std::size_t positive = 0, negative = 0;
@@ -103,7 +103,7 @@ class Pairs {
     return std::nullopt;
   }
 
-  /// One-sided parts of a sheet are one by themselves.
+  /// The one-sided parts of a sheet form a group of their own.
   void find_groups(std::span<const Index> sheet) {
     std::vector<std::pair<Index, bool>> number(parts_.size(), {no_entity, false});
     for (Index i = 0; i < sheet.size(); ++i)
@@ -135,8 +135,8 @@ class Pairs {
     return {std::move(parts), box, BoxTree(std::move(boxes)), layer};
   }
 
-  /// Through the vertex next to the origin, the one farthest from it, and the one farthest from the line of
-  /// both.
+  /// The layer through the vertex nearest to the origin, the vertex farthest from that one, and the vertex
+  /// farthest from the line through both.
   [[nodiscard]] Layer layer_of(std::span<const Index> parts) const {
     Layer layer;
     if (!has_layers_) return layer;
@@ -179,7 +179,7 @@ class Pairs {
     return layer;
   }
 
-  /// What of one group comes near to another: its parts, and boxes round what of them does.
+  /// The portion of one group near another: its parts, and boxes round their portions.
   struct Near {
     std::vector<Index> parts;
     std::vector<Box> boxes;
@@ -223,7 +223,7 @@ class Pairs {
     return near;
   }
 
-  /// False only where no point of the box is in the layer.
+  /// False only if no point of the box is in the layer.
   [[nodiscard]] static bool reaches(const Layer& layer, const Box& box) {
     Point centre{};
     double size = 0, reach = 0;
@@ -236,14 +236,14 @@ class Pairs {
     return !(std::fabs(layer.height(centre)) > reach);
   }
 
-  /// A corner of a part, and how far from a plane it may be to count as in a layer.
+  /// A corner of a part, and the distance from a plane up to which it counts as in a layer.
   struct Corner {
     const Point& point;
     double height, reach;
   };
 
-  /// A box that holds what of a part is in the layer; nothing where that is sure to be empty. The reach is
-  /// linear on the part, and at least what the layer has there.
+  /// A box that contains the portion of a part in the layer; nothing if that is certainly empty. The reach is
+  /// linear on the part and at least the layer's.
   [[nodiscard]] std::optional<Box> box_in(const Layer& layer, Index i) const {
     const Part& part = parts_[i];
     const std::optional<std::size_t> side = one_sided(i);
@@ -284,8 +284,8 @@ class Pairs {
     return box;
   }
 
-  /// Where a side leaves the layer. From the end next to the origin errors are small in relation to what is
-  /// found.
+  /// The point where a side leaves the layer. Computed from the end nearest to the origin, its errors are
+  /// small in relation to the result.
   template <class Take>
   static void cut(const Corner& a, const Corner& b, double sign, Take&& take) {
     const double of_a = sign * a.height - a.reach, of_b = sign * b.height - b.reach;

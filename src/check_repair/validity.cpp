@@ -41,7 +41,7 @@ class ComplexTest {
     return words(kind_of(part), part.id, part.span(), surface_.vertices);
   }
 
-  /// False if some index cannot be followed.
+  /// False if some index is out of range.
   bool find_parts() {
     used_.assign(surface_.vertices.size(), 0);
     bool follows = true;
@@ -66,7 +66,7 @@ class ComplexTest {
     return follows;
   }
 
-  /// Used vertices at one place; an unused one there is nothing.
+  /// Identifies used vertices at one place. Unused vertices do not count.
   void find_places() {
     place_.resize(used_.size());
     std::iota(place_.begin(), place_.end(), Index{0});
@@ -146,7 +146,7 @@ class ComplexTest {
     });
   }
 
-  /// x has as many corners as y, or more.
+  /// x has at least as many corners as y.
   [[nodiscard]] bool meet(const Part& x, const Part& y) const {
     const auto corners = [&](const Part& part) {
       return Corners{at(part.corners[0]), at(part.corners[1]), at(part.corners[2])};
@@ -168,15 +168,15 @@ class ComplexTest {
   [[nodiscard]] bool segments_meet(const Part& x, const Part& y) const {
     const std::array<Index, 2> p{x.corners[0], x.corners[1]}, q{y.corners[0], y.corners[1]};
     const auto is_end = [](Index v, const std::array<Index, 2>& s) { return v == s[0] || v == s[1]; };
-    if (is_end(p[0], q) && is_end(p[1], q)) return false;  // one segment, twice
-    // An end of one that lies on the other: across a common end, that is the only way to meet again.
+    if (is_end(p[0], q) && is_end(p[1], q)) return false;  // the same segment twice
+    // An end of one segment on the other: segments with a common end can only meet again this way.
     for (const Index v : p)
       if (!is_end(v, q) && on_segment(at(v), at(q[0]), at(q[1]))) return true;
     for (const Index v : q)
       if (!is_end(v, p) && on_segment(at(v), at(p[0]), at(p[1]))) return true;
     if (is_end(p[0], q) || is_end(p[1], q)) return false;
     if (exact::orient3d(at(p[0]), at(p[1]), at(q[0]), at(q[1])) != 0) return false;
-    // Four points of one plane, no end on the other: a projection that keeps some area decides.
+    // Four points of one plane, no end on the other segment: a projection that keeps some area decides.
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const int a = orient_along(axis, at(p[0]), at(p[1]), at(q[0]));
       const int b = orient_along(axis, at(p[0]), at(p[1]), at(q[1]));
