@@ -89,7 +89,7 @@ void for_each_fan(std::vector<Side>& sides, Visit&& visit) {
 }  // namespace
 
 Germ Boundary::beside(Index face, bool inside) const {
-  // From the corner that reaches furthest along x, the ray meets the fewest faces.
+  // A ray along +x from the corner with the largest x meets the fewest faces.
   Corners corner = corners(face);
   std::rotate(corner.begin(),
               std::max_element(corner.begin(), corner.end(), [](auto* x, auto* y) { return x[0] < y[0]; }),
@@ -119,8 +119,8 @@ double Boundary::reach(Index face) const {
   return std::max({t[0][0], t[1][0], t[2][0]});
 }
 
-/// Whether, turning about the axis from its low to its high end, one comes out of the face's tetrahedron
-/// at the face. Its corners are counterclockwise from outside, so that holds if it has low -> high.
+/// Whether a turn about the axis, from its low to its high end, leaves the face's tetrahedron at the face.
+/// The face's corners are counterclockwise from outside, so this holds if the face has low -> high.
 bool Boundary::opens_turning(Index face, const Side& axis) const {
   const Triangle& corner = faces_[face].corners;
   const auto low =
@@ -163,7 +163,7 @@ std::vector<Boundary::Cover> Boundary::covers(Pulse& pulse) const {
   });
   std::vector<Cover> covers;
   for (const std::vector<Index>& sheet : sheets.members()) {
-    // From the face that reaches furthest along x, the ray meets the fewest others.
+    // A ray along +x from the face with the largest x meets the fewest other faces.
     const Index face =
         *std::max_element(sheet.begin(), sheet.end(), [&](Index x, Index y) { return reach(x) < reach(y); });
     covers.push_back({face, cross(beside(face, true))});

@@ -29,7 +29,7 @@ void BoxTree::build(std::uint32_t first, std::uint32_t last) {
     return;
   }
 
-  // Halves, because sums and differences of huge coordinates overflow.
+  // Halves first: sums and differences of huge coordinates would overflow.
   const auto extent = [&](std::size_t axis) { return box.high[axis] / 2 - box.low[axis] / 2; };
   std::size_t axis = 0;
   for (std::size_t i = 1; i < 3; ++i)

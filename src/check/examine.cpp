@@ -8,8 +8,8 @@ CheckResult examine(const Complex& surface, const Volume& volume, const CheckOpt
                     const std::function<void(double)>& step) {
   Pulse pulse(step);
   Examination on{surface, volume, options, input_of(surface, pulse), pulse};
-  // The order of these calls is the order in which rules establish facts for later ones. Shares are what the
-  // steps take of large meshes.
+  // The calls are in the order in which rules establish facts for later ones. Shares are the measured times
+  // of the steps on large meshes.
   pulse.reach(0.05);
   Rule vertices = vertices_kept(on);
   Rule form = well_formed(on);

@@ -1,4 +1,4 @@
-// Check: what a rule finds, in words.
+// Check: the findings of a rule, in words.
 #include "check/findings.h"
 
 #include "text/decimal.h"

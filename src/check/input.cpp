@@ -20,7 +20,7 @@ std::vector<bool> used_vertices(const Complex& surface) {
   return used;
 }
 
-/// For each vertex the one that stands for its place, or `no_vertex`.
+/// For each vertex, the representative of its place, or `no_vertex`.
 std::vector<Index> find_places(const Complex& surface, Pulse& pulse) {
   const std::vector<bool> used = used_vertices(surface);
   std::vector<Index> place(surface.vertices.size(), no_vertex);
@@ -45,7 +45,7 @@ std::vector<Index> find_places(const Complex& surface, Pulse& pulse) {
     if (!repeats)
       place[order[i]] = order[i];
     else if (used[order[i]])
-      place[order[i]] = place[order[i - 1]];  // which is used as well
+      place[order[i]] = place[order[i - 1]];  // this vertex is used as well
   }
   return place;
 }

@@ -25,7 +25,8 @@ int orient_along(std::size_t axis, const double* a, const double* b, const doubl
 
 namespace {
 
-/// A coordinate axis along which a triangle keeps an area, and the sign of that area (0: has none).
+/// A coordinate axis along which a triangle's projection keeps area, and the sign of that area (0: it has
+/// none).
 struct Projection {
   std::size_t axis;
   int sign;
@@ -48,7 +49,7 @@ bool between(double low, double x, double high) {
   return std::min(low, high) <= x && x <= std::max(low, high);
 }
 
-/// Whether two segments of one plane meet; `axis` is one along which the plane keeps areas.
+/// Whether two segments of one plane meet; along `axis` the plane's projection keeps areas.
 bool segments_meet(const double* p, const double* q, const double* a, const double* b, std::size_t axis) {
   const int pq_a = orient_along(axis, p, q, a);
   const int pq_b = orient_along(axis, p, q, b);
@@ -63,8 +64,8 @@ bool segments_meet(const double* p, const double* q, const double* a, const doub
   return touches(pq_a, a, p, q) || touches(pq_b, b, p, q) || touches(ab_p, p, a, b) || touches(ab_q, q, a, b);
 }
 
-/// Whether the closed segment pq meets the closed triangle, given the sides of its plane that the ends
-/// are on; they have no vertex in common.
+/// Whether the closed segment pq meets the closed triangle, given the sides of the triangle's plane on which
+/// p and q lie. They have no vertex in common.
 bool segment_meets(const double* p, const double* q, int side_p, int side_q, const Corners& t) {
   if (side_p * side_q > 0) return false;
   if (side_p != 0 && side_q != 0) {
@@ -91,7 +92,7 @@ bool points_into_corner(const double* w, const Corners& t, std::size_t i) {
          orient_along(along.axis, v, w, t[(i + 2) % 3]) != -along.sign;
 }
 
-/// The corners of x that y has too come first.
+/// The corners of x and y, shared ones first.
 struct Shared {
   std::size_t count = 0;
   std::array<std::size_t, 3> in_x{}, in_y{};  ///< positions: shared ones in the same order, then the rest
@@ -119,7 +120,7 @@ Shared match(const Triangle& x, const Triangle& y) {
 
 int side_of_plane(const Corners& t, const double* p) { return orient3d(t[0], t[1], t[2], p); }
 
-/// Two triangles with the side ab in common, and the third corners c and d.
+/// Two triangles with the common side ab and the third corners c and d.
 bool hinge_meets(const double* a, const double* b, const double* c, const double* d) {
   if (orient3d(a, b, c, d) != 0) return false;
   const Projection along = projection({a, b, c});
@@ -127,7 +128,7 @@ bool hinge_meets(const double* a, const double* b, const double* c, const double
 }
 
 /// Whether the boxes of a segment and a triangle are disjoint. In a large fan or a book of many pages they
-/// mostly are, while the boxes of two triangles have its centre or parts of its spine in common.
+/// mostly are, while the boxes of any two triangles overlap at its centre or spine.
 bool far_apart(const double* p, const double* q, const Corners& t) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto [low, high] = std::minmax({t[0][axis], t[1][axis], t[2][axis]});
@@ -136,7 +137,7 @@ bool far_apart(const double* p, const double* q, const Corners& t) {
   return false;
 }
 
-/// Two triangles with their first corners in common: whether the opposite side of t meets s.
+/// Two triangles with a common first corner: whether the opposite side of t meets s.
 bool opposite_side_meets(const Corners& s, const Corners& t) {
   if (far_apart(t[1], t[2], s)) return false;
   return segment_meets(t[1], t[2], side_of_plane(s, t[1]), side_of_plane(s, t[2]), s);

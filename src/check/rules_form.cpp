@@ -1,4 +1,4 @@
-// Check: rules on vertices and indices. Nothing here assumes that any index can be followed.
+// Check: rules on vertices and indices. Indices may be out of range here.
 #include <algorithm>
 #include <bit>
 #include <cmath>

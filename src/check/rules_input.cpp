@@ -1,6 +1,6 @@
-// Check: rules on the input's facets and segments. A missing one is "lost" if tetrahedra are where it
-// should be (split, swapped, moved), and "dropped" if it lies outside all of them; the difference is
-// decided exactly, and not at all (lost) where the mesh is not one that has an outside.
+// Check: rules on the input's facets and segments. A missing entity is "lost" if tetrahedra are in its place
+// (it was split, swapped or moved), and "dropped" if it lies outside all of them. The difference is decided
+// exactly; if the mesh has no well-defined outside, the entity counts as lost.
 #include <algorithm>
 #include <string>
 
@@ -131,7 +131,7 @@ Rule segments_kept(const Examination& on) {
     if (on.segments[i] == Fate::lost)
       findings.add([&] { return segment_words(on, i) + " is no edge of the mesh"; });
   }
-  // The sides of kept facets are edges since a face's are.
+  // Sides of kept facets are edges, because the sides of faces are.
   std::vector<Segment> sides;
   for (std::size_t i = 0; i < on.facets.size(); ++i)
     if (const Triangle& facet = on.input.facets[i]; on.facets[i] == Fate::lost)

@@ -40,22 +40,22 @@ class Lookup {
   std::vector<std::size_t> index_;
 };
 
-/// One kind of entity of the input, as the input and as the volume list it.
+/// One kind of entity, with its lists in the input and in the volume.
 template <class Entity>
 struct Listing {
   std::string_view kind;
   std::span<const Entity> input;  ///< by vertices of the mesh
-  std::span<const Entity> given;  ///< the same by vertices of the surface
+  std::span<const Entity> given;  ///< the same entities by vertices of the surface
   std::span<const int> input_markers;
   std::span<const Entity> listed;
   std::span<const int> listed_markers;
-  const std::vector<Fate>& fates;  ///< of the input's; empty where they are not known
-  /// Sorted, with sorted corners: what may be listed, too, though it is not in the input.
+  const std::vector<Fate>& fates;  ///< of the input's entities; empty if not known
+  /// Sorted, with sorted corners: entities that may be listed although they are not in the input.
   std::span<const Entity> tolerated = {};
 };
 
-/// Markers of facets that the input has several times, with different ones: such a facet may carry one that
-/// no facet of the input has, always the same for the same set.
+/// Markers of facets that occur several times in the input with different markers: the facet may carry a new
+/// marker that no input facet has, provided it is always the same for the same set.
 class MarkersOfSets {
  public:
   explicit MarkersOfSets(std::span<const int> given) : given_(given.begin(), given.end()) {
@@ -133,7 +133,7 @@ void find_wrong_markers(const Listing<Entity>& on, const Examination& whole, Fin
       });
 }
 
-// Of several vertices at a place the first marker that is not 0 counts.
+// At a place of several vertices, the first marker that is not 0 counts.
 void find_wrong_vertex_markers(const Examination& on, Findings& findings) {
   const std::span<const int> input = on.surface.vertex_markers, kept = on.volume.vertex_markers;
   if (input.empty()) return;
@@ -157,7 +157,7 @@ void find_wrong_vertex_markers(const Examination& on, Findings& findings) {
       });
 }
 
-/// Faces in the sides of an enclosing box, which formats list that want every face of the boundary.
+/// Faces on the sides of the bounding box: formats that need every boundary face list them.
 std::vector<Triangle> faces_of_box(const Examination& on) {
   std::vector<Triangle> found;
   if (!on.options.box || !on.well_formed || on.volume.facets.empty()) return found;
@@ -217,7 +217,7 @@ Rule markers_kept(const Examination& on) {
   find_wrong_markers<Triangle>({"facet", on.input.facets, surface.facets, surface.facet_markers,
                                 volume.facets, volume.facet_markers, on.facets, of_box},
                                on, findings);
-  // Sides of facets are kept with them, and TetGen's .edge lists them.
+  // Sides of kept facets are kept too, and TetGen's .edge files list them.
   std::vector<Segment> sides;
   if (!volume.segments.empty())
     for (const auto& [a, b, c] : on.input.facets)

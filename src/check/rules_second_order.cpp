@@ -15,7 +15,7 @@ constexpr std::array<std::array<std::size_t, 2>, 6> kTetEdges{
     {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
 constexpr std::array<std::array<std::size_t, 2>, 3> kTriangleEdges{{{0, 1}, {1, 2}, {0, 2}}};
 
-/// A node as an element names it.
+/// The use of a node by an element.
 struct Use {
   Index a, b;  // the ends of its edge, a < b
   Index node;
@@ -26,7 +26,7 @@ struct Use {
   }
 };
 
-/// All that name a node, sorted by edges. Whether indices can be followed.
+/// All uses of nodes, sorted by edges, and whether their indices are in range.
 class Uses {
  public:
   Uses(const Volume& volume, Findings& findings, Pulse& pulse)

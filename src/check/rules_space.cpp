@@ -76,7 +76,8 @@ Rule faces_matched(Examination& on) {
       ++alone;
     } else {
       ++shared;
-      // Where a tetrahedron is relative to the sorted face: its parity tells if it is positive.
+      // The side of the sorted face on which a tetrahedron lies: its parity tells, if the tetrahedron is
+      // positive.
       const auto side = [&](const HalfFace& half) {
         const int orientation = on.orientation[half.tetrahedron()];
         return half.odd() ? -orientation : orientation;
@@ -153,7 +154,7 @@ Rule steiner_points_inside(const Examination& on) {
   if (!on.well_formed) return not_examined(kind, not_well_formed);
   const std::span<const Point> vertices = on.volume.vertices;
   const std::size_t first = std::min(on.input_vertices(), vertices.size());
-  std::vector<Index> facet_at(vertices.size(), 0);  // 1 + a boundary face's tetrahedron
+  std::vector<Index> facet_at(vertices.size(), 0);  // by vertex: 1 + the tetrahedron of a boundary face, or 0
   on.faces.for_each([&](std::size_t, const Triangle& face, std::span<const HalfFace> halves) {
     if (halves.size() == 1)
       for (const Index vertex : face) facet_at[vertex] = halves[0].tetrahedron() + 1;
