@@ -34,7 +34,7 @@ class Covers {
     for (Index v = 0; v < place_.size(); ++v) place_[v] = place_[first[v]];
   }
 
-  /// Nothing if no multiple up to `most` works.
+  /// The least multiple of `most` that suffices among those tried; nothing if none does.
   std::optional<double> run(double most) {
     std::vector<Index> open;
     const checking::Reach near(most);

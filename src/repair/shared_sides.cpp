@@ -29,8 +29,8 @@ void SharedSides::add(Index a, Index b, std::span<const Index> chain) {
   add({std::min(a, b), std::max(a, b)}, from_lower(a, b, chain));
 }
 
-/// Of the vertices of a chain that one itself, else from the first on the nearest within the gap that is no
-/// vertex of the other chain; its size where there is none.
+/// The position of v in the chain `before`, or else, from `first` on, of the nearest vertex within the gap
+/// that is not in the other chain; the size of `before` if there is none.
 std::size_t SharedSides::same_as(Index v, std::span<const Index> before, std::size_t first,
                                  std::span<const Index> chain) const {
   const auto itself = std::find(before.begin(), before.end(), v);
