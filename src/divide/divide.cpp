@@ -1,4 +1,4 @@
-// A surface in parts: mesh coarsely, bisect the work, mesh coarsely but for the walls, cut there.
+// A surface in parts: mesh coarsely, bisect the work, mesh coarsely except for the walls, cut there.
 #include "holdfast/divide.h"
 
 #include <algorithm>
@@ -22,17 +22,17 @@ namespace holdfast {
 namespace division {
 namespace {
 
-/// How much sizes grow a unit of length away from the surface and the walls, where nothing will be kept.
+/// Growth of sizes per unit of length away from the surface and the walls, where no element is kept.
 constexpr double kCoarse = 1;
-/// Around walls, this many elements are as fine as they will be in the parts.
+/// Around walls, this many layers of elements are as fine as in the parts.
 constexpr double kLayers = 2;
-/// Of a regular tetrahedron with edges of length one, the number in a unit of volume.
+/// The number of regular tetrahedra with edges of length one in a unit of volume.
 constexpr double kTetrahedra = 8.48528137423857;
 /// Of the work of a part.
 constexpr double kSamples = 200;
 constexpr int kMostHalvings = 40;
 
-/// What went wrong inside.
+/// A failure inside a step.
 struct Ended {
   Outcome outcome;
   std::string message;
@@ -77,8 +77,7 @@ class Divider {
     }
   }
 
-  // A mesh that tells where the volume is, and which regions. Then what users ask of sizes by region can be
-  // asked by place.
+  // A mesh that shows where the volume and its regions are, so that sizes by region become sizes by place.
   std::function<double(const Point&)> coarse_limit() {
     Options options = options_of_mesh(0, 0.25);
     options.sizes->gradation = kCoarse;
@@ -99,7 +98,7 @@ class Divider {
     };
   }
 
-  // The size of its region in each tetrahedron of the coarse mesh, whose vertices are one for each region.
+  // Each tetrahedron of the coarse mesh gets the size of its region; vertices are not shared between regions.
   SizeField sizes_by_region(const std::map<int, double>& of_region, double size) const {
     constexpr double kAny = 1e300;
     SizeField field;
@@ -135,8 +134,8 @@ class Divider {
     return result;
   }
 
-  // As `mesh` does, which would refuse the parts: where they are made so fine, their interfaces take all
-  // memory.
+  // Same limit as in `mesh`, which would refuse the parts: with parts this fine, their interfaces would take
+  // all memory.
   static void require_few_enough(double tetrahedra_of_part) {
     constexpr double kMost = 1u << 30, kLeastMade = 0.1;
     if (!(kLeastMade * tetrahedra_of_part < kMost))

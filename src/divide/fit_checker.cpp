@@ -1,5 +1,6 @@
-// Whether parts fit. Each is known to be a valid mesh of its own surface; so what is to be shown concerns the
-// faces on their boundaries: the boundary of all parts together is the given surface's, each face seen once.
+// Whether parts fit. Each part is known to be a valid mesh of its own surface, so only the faces on the
+// boundaries must be checked: the boundary of all parts together is that of the given surface, with each face
+// once.
 #include <algorithm>
 #include <string>
 

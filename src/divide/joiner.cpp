@@ -1,4 +1,4 @@
-// Parts as one volume: vertices at one place of the surface or of interfaces are one.
+// Joins parts to one volume: vertices at one place of the surface or of interfaces become one.
 #include <stdexcept>
 
 #include "divide/numbered_places.h"
@@ -17,7 +17,7 @@ struct Joiner::State {
     if (complex.names != nullptr) names = *complex.names;
   }
 
-  /// Enters vertices of interfaces; returns for each vertex of the part its place, if it has one.
+  /// Adds vertices of interfaces. Returns the place of each vertex of the part, if it has one.
   std::vector<Index> places_of_vertices(const Volume& part) {
     std::vector<bool> on_interface(part.vertices.size(), false);
     for (std::size_t f = 0; f < part.facets.size(); ++f)
@@ -55,7 +55,7 @@ Joiner::Numbered Joiner::add(const Volume& part) {
       numbered.vertices[v] = s.numbers[places[v]];
       continue;
     }
-    // Places are entered in the order of their vertices.
+    // Places are added in the order of their vertices.
     if (places[v] != no_entity) s.numbers.push_back(s.next);
     numbered.vertices[v] = s.next++;
     numbered.fresh.push_back(static_cast<Index>(v));

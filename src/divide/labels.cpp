@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kMostRounds = 8;
 
-/// The part that most of a tetrahedron's neighbours belong to, if these are three or more.
+/// The part to which most of a tetrahedron's neighbours belong, if they are at least three.
 Index most_common(const Neighbours& sides, std::span<const Index> labels, Index own) {
   for (std::size_t i = 0; i < 2; ++i) {
     if (sides[i] == no_entity) continue;
@@ -22,7 +22,7 @@ Index most_common(const Neighbours& sides, std::span<const Index> labels, Index 
   return own;
 }
 
-/// Numbers without gaps, in the same order.
+/// Renumbers without gaps, in the same order.
 void renumber(std::vector<Index>& labels, std::size_t most) {
   std::vector<Index> number(most, no_entity);
   for (const Index l : labels) number[l] = 0;

@@ -10,7 +10,7 @@
 namespace holdfast::division {
 namespace {
 
-/// Seen from outside, its corners turn counterclockwise.
+/// The side's corners are counterclockwise from outside.
 Triangle side_of(const Tetrahedron& t, std::size_t k) {
   const auto [a, b, c] = corners_of_face(t, static_cast<int>(k));
   return {a, c, b};
@@ -59,7 +59,7 @@ class Cutter {
     return result;
   }
 
-  // Each once: an inner facet by the tetrahedron of the lower number.
+  // Each wall once: an inner facet belongs to the tetrahedron with the lower number.
   void find_walls(Index part) {
     walls_.clear();
     for (const Index t : tets_[part])
@@ -78,7 +78,7 @@ class Cutter {
     });
   }
 
-  // What hangs together in a part without passing a facet.
+  // Components of a part: tetrahedra connected without passing a facet.
   void find_components(Index part) {
     components_ = 0;
     std::vector<Index> open;
@@ -102,7 +102,7 @@ class Cutter {
     }
   }
 
-  // How many facets lie between a component and the outside of the part.
+  // The number of facets between a component and the outside of the part.
   void find_depths() {
     depth_.assign(components_, no_entity);
     std::vector<std::vector<Index>> beside(components_);
@@ -125,7 +125,7 @@ class Cutter {
         }
   }
 
-  // Those of walls, and of dangling segments and isolated points of the input.
+  // Numbers the vertices of walls, dangling segments and isolated input points.
   void number_vertices(Index part, Surface& surface) {
     number_.assign(volume_.vertices.size(), no_entity);
     const auto use = [&](Index v) { number_[v] = 0; };
@@ -163,7 +163,7 @@ class Cutter {
     }
   }
 
-  // Winding numbers are depths where the deeper side is behind.
+  // Winding numbers equal depths if the deeper side is behind.
   [[nodiscard]] bool is_turned(const Wall& wall) const {
     return wall.outer != no_entity && depth_[component_[wall.outer]] > depth_[component_[wall.inner]];
   }

@@ -19,7 +19,7 @@ bool is_inside(const Volume& volume, const Tetrahedron& t, const Point& p) {
   return true;
 }
 
-/// Of a tetrahedron: larger for those whose centre is further from the surface. A guess.
+/// An estimate for a tetrahedron: larger if its centre is further from the surface.
 double room(const Volume& volume, const Tetrahedron& t) {
   const Point& a = volume.vertices[t[0]];
   const Vector u = volume.vertices[t[1]] - a, v = volume.vertices[t[2]] - a, w = volume.vertices[t[3]] - a;
@@ -28,7 +28,7 @@ double room(const Volume& volume, const Tetrahedron& t) {
   return area > 0 ? dot(cross(u, v), w) / area : 0;
 }
 
-/// By region of the filled surface, the roomiest place.
+/// For each region of the filled surface, its roomiest place.
 std::map<int, Point> places_in(const Volume& volume) {
   std::map<int, Point> places;
   std::map<int, double> best;
@@ -50,7 +50,7 @@ double size_of_region(std::span<const RegionSeed> wanted, int id, double size) {
   return size;
 }
 
-/// By region of the filled surface, what the part has there.
+/// For each region of the filled surface, the region of the part there.
 std::map<int, std::optional<int>> contents(const Result& filled, const std::vector<FacetRegions>& sides) {
   std::map<int, std::optional<int>> content;
   for (std::size_t f = 0; f < sides.size(); ++f)

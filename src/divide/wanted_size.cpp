@@ -27,7 +27,7 @@ WantedSize::WantedSize(const Complex& complex, double gradation, std::function<d
       ++count[v];
     }
   };
-  // An edge counts once for each of its facets: near enough, and no table of edges is needed.
+  // An edge counts once for each of its facets: accurate enough, and it saves a table of edges.
   for (const Triangle& t : complex.facets)
     for (std::size_t k = 0; k < 3; ++k) add(t[k], t[(k + 1) % 3]);
   for (const Segment& s : complex.segments) add(s[0], s[1]);
@@ -54,7 +54,7 @@ std::size_t WantedSize::build(std::size_t begin, std::size_t end) {
   const auto first = sources_.begin();
   std::nth_element(first + static_cast<std::ptrdiff_t>(begin), first + static_cast<std::ptrdiff_t>(middle),
                    first + static_cast<std::ptrdiff_t>(end), [axis](const Source& a, const Source& b) {
-                     // Ties by all else, so that the tree depends on the surface alone.
+                     // All other values break ties, so that the tree depends on the surface alone.
                      if (a.where[axis] != b.where[axis]) return a.where[axis] < b.where[axis];
                      return a.where != b.where ? a.where < b.where : a.size < b.size;
                    });
@@ -85,7 +85,7 @@ double WantedSize::operator()(const Point& p) const {
         least = std::min(least, sources_[i].size + gradation_ * distance(sources_[i].where, p));
       continue;
     }
-    // The nearer half last, so that it is looked at first.
+    // Push the nearer half last, so that it is visited first.
     const std::size_t halves[2] = {at + 1, box.second};
     const bool first_nearer = bound(boxes_[halves[0]], p) < bound(boxes_[halves[1]], p);
     open.push_back(halves[first_nearer ? 1 : 0]);
