@@ -5,7 +5,7 @@
 namespace holdfast::plane {
 namespace {
 
-// Kept regions without a seed get the numbers from 1 on that no seed has.
+// Kept regions without a seed get the numbers, from 1, that no seed has.
 void number_regions(const Plane& plane, Chosen& chosen) {
   std::vector<int> taken;
   for (const Plane::Seed& seed : plane.regions) taken.push_back(seed.id);
@@ -35,7 +35,7 @@ Chosen choose_regions(Draft& draft, const Plane& plane, PlaneMethod method) {
   const auto locate = [&](const std::vector<Position>& places, auto&& use) {
     const std::vector<Found> found = find_triangles(draft.mesh, draft.points, places);
     for (std::size_t i = 0; i < found.size(); ++i) {
-      // Ears leave segments out that bound nothing.
+      // Ears leave out segments that bound nothing.
       if (found[i].on_constraint || (method == PlaneMethod::ears && found[i].triangle == kNoVertex))
         chosen.on_constraint = true;
       if (found[i].triangle != kNoVertex && !found[i].on_constraint)

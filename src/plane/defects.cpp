@@ -1,5 +1,5 @@
-// What makes points and segments in the plane invalid: flaws of single entities, then pairs, which a tree of
-// boxes finds.
+// Finds what makes points and segments in the plane invalid: flaws of single entities, then of pairs, which a
+// tree of boxes finds.
 #include "plane/defects.h"
 
 #include <algorithm>
@@ -170,7 +170,7 @@ class Diagnosis {
     return BoxTree(std::move(boxes));
   }
 
-  // Of pairs, of which there may be as many as squares of segments, no more are looked for than are told.
+  // There may be quadratically many pairs; no more are searched for than are reported.
 
   void find_points_in_segments(const BoxTree& tree) {
     for (Index v = 0; v < plane_.points.size() && !is_full(DefectKind::vertex_in_segment); ++v) {
@@ -210,7 +210,7 @@ class Diagnosis {
     return found != count_.end() && found->second >= most_;
   }
 
-  // Holes and seeds of regions, which lie in no region there.
+  // Finds holes and seeds of regions on segments: there they lie in no region.
   void find_places_on_segments(const BoxTree& tree) {
     for (std::size_t i = 0; i < plane_.holes.size(); ++i)
       judge_place(tree, plane_.holes[i], "hole " + number(i), "that it shall empty");

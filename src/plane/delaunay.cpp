@@ -15,15 +15,16 @@ void Inserter::begin(Vertex a, Vertex b, Vertex c) {
   all.push_back({{kNoVertex, a, c}, {}});
   all.push_back({{kNoVertex, b, a}, {}});
   for (std::uint32_t i = 0; i < 3; ++i) mesh_.join(code(0, i), code(i + 1, 0));
-  // Ghost i + 1 is (infinity, end, begin of edge i): its edge 1 is shared with the ghost of the edge before.
+  // Ghost i + 1 is (infinity, end, begin of edge i): it shares its edge 1 with the ghost of the previous
+  // edge.
   mesh_.join(code(1, 1), code(3, 2));
   mesh_.join(code(2, 1), code(1, 2));
   mesh_.join(code(3, 1), code(2, 2));
   last_ = 0;
 }
 
-/// The visibility walk, which ends in Delaunay triangulations (Edelsbrunner 1990): a triangle that holds p,
-/// or a ghost whose edge of the hull has p strictly in front.
+/// The visibility walk, which ends in Delaunay triangulations (Edelsbrunner 1990). Returns a triangle that
+/// holds p, or a ghost whose hull edge has p strictly in front.
 std::uint32_t Inserter::locate(Vertex p) {
   std::uint32_t t = last_;
   EdgeCode came_from = kNoEdge;
@@ -63,7 +64,7 @@ bool Inserter::in_conflict(std::uint32_t t, Vertex p) const {
   return points_.incircle(v[0], v[1], v[2], p) > 0;
 }
 
-/// Depth first, and each triangle's sides counterclockwise, so that the border comes in order.
+/// Depth first, with each triangle's sides counterclockwise, so that the border is found in order.
 void Inserter::find_cavity(std::uint32_t first, Vertex p) {
   cavity_.assign(1, first);
   border_.clear();
@@ -86,7 +87,7 @@ void Inserter::find_cavity(std::uint32_t first, Vertex p) {
   }
 }
 
-/// Joins p to every side of the border; there are two more triangles than before.
+/// Joins p to every side of the border; this adds two triangles.
 void Inserter::fill_cavity(Vertex p) {
   LargeVector<Corners>& all = mesh_.all();
   while (cavity_.size() < border_.size()) {

@@ -91,7 +91,7 @@ class Clipper {
         for (const Corner i : {a, b, c}) remove(i);
         continue;
       }
-      // With other neighbours, too, it waits for that one.
+      // With other neighbours, too, corner b waits for its witness.
       if (const Corner witness = corners_[b].witness; witness != kNone && blocks(witness, a, b, c)) continue;
       const std::optional<Corner> found = blocker(a, b, c);
       if (!found) {
@@ -121,7 +121,7 @@ class Clipper {
 
   // --- Which corner comes next -------------------------------------------------------------------------
 
-  /// Of the triangle that a corner would make, the least height over the longest side, roughly.
+  /// The least height of a corner's triangle over its longest side, roughly.
   [[nodiscard]] double quality(Corner i) const {
     const Place& p = corners_[i];
     const Position &a = points_[corners_[p.before].v], &b = points_[p.v], &c = points_[corners_[p.behind].v];
@@ -201,7 +201,7 @@ class Clipper {
     reflex_.insert(v);
   }
 
-  /// Of a reflex corner that is removed, or is not reflex any more: the vertex may have another one.
+  /// Called for a reflex corner that is removed or no longer reflex: the vertex may have another one.
   void take_out(Corner i) {
     const Vertex v = corners_[i].v;
     for (Corner j = first_at_[v]; j != kNone; j = corners_[j].twin)
@@ -319,7 +319,7 @@ class Clipper {
     corners_[b].before = a;
   }
 
-  // Only convex corners become convex and no others reflex, as corners of a part are parts of its own.
+  // Corners only turn from reflex to convex, because corners of a new part are its own.
   void refresh(Corner i) {
     if (corners_[i].reflex && turn(i) > 0) {
       corners_[i].reflex = false;
