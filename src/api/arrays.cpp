@@ -1,4 +1,4 @@
-// Arrays of other programs as a complex: taken as they lie in memory where that is possible, else converted.
+// Arrays of other programs as a complex: used in place if possible, otherwise converted.
 #include "holdfast/arrays.h"
 
 #include <cstring>
@@ -63,8 +63,8 @@ void convert_any(const ArrayView& array, std::vector<Row>& rows, const char* wha
   throw std::invalid_argument("an array of an unknown type of numbers");
 }
 
-/// Whether rows may be taken as they are. Signed indices are looked through for negative ones, and so
-/// converted.
+/// Whether rows may be used in place. Signed indices are converted, because they must be checked for negative
+/// values.
 template <class Row>
 bool lies_as(const ArrayView& array) {
   using Number = std::remove_cvref_t<decltype(std::declval<Row>()[0])>;

@@ -17,7 +17,7 @@
 namespace holdfast {
 namespace {
 
-// Where memory runs out under a limit, the limit is what was reached.
+// If memory runs out under a limit, the limit counts as reached.
 template <class Work>
 auto within(const Limits& limits, Work&& work) {
   try {

@@ -22,7 +22,7 @@ struct Element {
   std::array<Vector, 4> normals{};  // twice the area vectors
   double six_volumes = 0;
 
-  // Of one that is neither thin nor tiny, plain arithmetic is good enough.
+  // Plain arithmetic is accurate enough unless the element is thin or tiny.
   Element(const std::array<Point, 4>& p, bool is_plain) {
     if (!is_plain) {
       *this = Element(p);
@@ -103,7 +103,7 @@ class Measuring {
       found_.element_eigenvalue = std::max(found_.element_eigenvalue, element.largest_eigenvalue());
   }
 
-  // Traces tell which vertices may have the largest sum; only there eigenvalues are computed.
+  // Traces show which vertices may have the largest sum; eigenvalues are computed only there.
   void bound_eigenvalue() {
     std::vector<double> sums(volume_.vertices.size(), 0);
     for (std::size_t t = 0; t < traces_.size(); ++t)

@@ -17,7 +17,7 @@
 namespace holdfast {
 namespace {
 
-/// The triangles of the hull, seen from outside; they name the first vertex of each place alone.
+/// The triangles of the hull, counterclockwise from outside; each names the first vertex of a place.
 std::vector<Triangle> hull_of(const std::vector<Point>& vertices, const Limits& limits) {
   DelaunayOptions options;
   static_cast<Limits&>(options) = limits;
@@ -30,7 +30,7 @@ std::vector<Triangle> hull_of(const std::vector<Point>& vertices, const Limits& 
   return hull;
 }
 
-/// Hull triangles, the coplanar ones together.
+/// Hull triangles, grouped by plane.
 class HullFaces {
  public:
   HullFaces(const std::vector<Point>& vertices, const std::vector<Triangle>& triangles)
@@ -63,7 +63,8 @@ class HullFaces {
   std::vector<std::vector<Triangle>> faces_;
 };
 
-/// Two coordinates in which a triangle turns left. Leaving one out keeps every incidence in a plane.
+/// Two coordinates in which a triangle turns left. Projecting them keeps every incidence in the triangle's
+/// plane.
 std::array<std::size_t, 2> projection_of(const std::vector<Point>& vertices, const Triangle& t) {
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t x = (k + 1) % 3, y = (k + 2) % 3;
@@ -75,7 +76,8 @@ std::array<std::size_t, 2> projection_of(const std::vector<Point>& vertices, con
   return {0, 1};
 }
 
-/// Triangles of one face of the hull with the surface's sides in it; the hull's own where these do not fit.
+/// Triangles of one face of the hull that contain the surface's sides; the hull's own if the sides do not
+/// fit.
 std::vector<Triangle> triangles_of(const std::vector<Point>& vertices, const std::vector<Triangle>& face,
                                    const std::vector<std::vector<Index>>& sides_at, const Limits& limits) {
   if (face.size() == 1) return face;

@@ -21,7 +21,8 @@ Costs costs(const Options& options) {
   return cost;
 }
 
-// Elimination is part of the partition's loop: the points of one constraint go before those of the next come.
+// Elimination is part of the partition's loop: the points of one constraint are removed before those of the
+// next are added.
 CallStep last_step(const Options& options) {
   switch (options.stop_after.value_or(Stage::optimise)) {
     case Stage::validate:

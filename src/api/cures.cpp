@@ -1,4 +1,4 @@
-// What a repair would need to be asked for: options are tried from the least on.
+// Which options a repair would need: they are tried from the weakest on.
 #include "holdfast/cures.h"
 
 #include <algorithm>
