@@ -154,9 +154,9 @@ class Fins {
     return ends;
   }
 
-  /// Fins that contain the start of a side of an input facet, at its corner, if no other remaining facet
-  /// leads along it. Their distance is reported in addition to earlier displacements and may exceed what is
-  /// left.
+  /// Fins that contain the start of a side of an input facet, at its corner, if no sides of remaining facets
+  /// lead along it. These may deviate from it by the thickness of the fin plus what was displaced before,
+  /// since both are reported.
   [[nodiscard]] std::set<Index> at_corners() const {
     const auto all = ends();
     const std::map<Index, double> thickness = sums();
