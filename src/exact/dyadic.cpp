@@ -17,7 +17,7 @@ std::size_t trailing_zeros(const BigInt& m) {
   return i * 64 + static_cast<std::size_t>(std::countr_zero(limbs[i]));
 }
 
-/// The leading 128 bits of a non-zero mantissa, the uppermost one set.
+/// The leading 128 bits of a non-zero mantissa, with the highest bit set.
 struct Leading {
   Limb first;
   Limb second;
@@ -86,7 +86,7 @@ double Dyadic::to_double() const {
   std::uint64_t leading = leading_bits(*this).first;
   const bool half = precision < size && (leading << precision) >> 63 != 0;
   leading = precision == 0 ? 0 : leading >> (64 - precision);
-  // The mantissa is odd: where two bits or more are dropped the lowest of them is set, so no tie.
+  // The mantissa is odd: if two or more bits are dropped, the lowest of them is set, so there is no tie.
   if (half && (size - precision >= 2 || (leading & 1) != 0)) ++leading;
   const std::int64_t exponent = top + 1 - precision;
   if (exponent >= -1022 && exponent <= 970) {
@@ -149,7 +149,7 @@ Dyadic Dyadic::sum(const Dyadic& a, const Dyadic& b, bool negate_b) {
     result.mantissa_ += a.mantissa_;
     result.exponent_ = a.exponent_;
   }
-  // With different exponents an odd number was added to an even one.
+  // If the exponents differ, the sum of the aligned mantissas is odd.
   if (a.exponent_ == b.exponent_) result.normalise();
   return result;
 }

@@ -34,7 +34,7 @@ std::array<std::array<Expansion<2>, Dimension>, Points - 1> two_term_rows(
   return rows;
 }
 
-/// The same where every difference is a double; else false.
+/// The same rows with one term each, if every difference is a double; else false.
 template <std::size_t Dimension, std::size_t Points>
 bool one_term_rows(const std::array<const double*, Points>& points,
                    std::array<std::array<Expansion<1>, Dimension>, Points - 1>& rows) {
@@ -50,9 +50,9 @@ bool one_term_rows(const std::array<const double*, Points>& points,
 
 }  // namespace
 
-// Bounds of the magnitudes. A double of at least 2^k is a multiple of 2^(k - 52), differences are so
-// too, and products of n of them are multiples of 2^(n (k - 52)); from 2^-1074 on, all their roundings
-// errors are doubles. The upper bounds leave room for the sums and for the factor 2^27 of the split.
+// Bounds of the magnitudes. A double of at least 2^k is a multiple of 2^(k - 52), and so are differences of
+// such doubles. Products of n differences are multiples of 2^(n (k - 52)). If this is at least 2^-1074, all
+// rounding errors are doubles. The upper bounds leave room for the sums and for the factor 2^27 of the split.
 
 std::optional<int> expansion_orient3d(const double* a, const double* b, const double* c, const double* d) {
   const std::array<const double*, 4> points = {a, b, c, d};

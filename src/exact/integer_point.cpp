@@ -6,7 +6,7 @@
 namespace holdfast::exact {
 namespace {
 
-// What integer points know of a half-space: a may be divided by what divides it, and b rounded down.
+// Tightens a half-space without losing integer points: divides a by its common divisor and rounds b down.
 void tighten(IntegerHalfSpace& h) {
   const BigInt divisor = gcd(gcd(h.a[0], h.a[1]), h.a[2]);
   if (divisor.sign() == 0 || divisor == 1) return;
@@ -41,7 +41,8 @@ class Search {
     return IntegerVector{floor_of(first + last, 2), 0, 0};
   }
 
-  // In coordinates y = C x, C being unimodular: the last one is fixed to each of its values in turn.
+  // Searches in coordinates y = C x with C unimodular: fixes the last coordinate to each of its values in
+  // turn.
   std::optional<IntegerVector> across_planes(int dimension, const Polytope& polytope) {
     const auto d = static_cast<std::size_t>(dimension);
     IntegerMatrix forms = reduced_basis(dimension, extent_of(polytope, d));
@@ -81,7 +82,8 @@ class Search {
   }
 
   // The sum of (c.(v - v0))^2 over all vertices v, in units of 2^-kBits, is about the square of the extent
-  // across c. A little of c.c keeps c short where the polytope is thinner than matters.
+  // across c. A small multiple of c.c is added: it keeps c short where the polytope is too thin for its
+  // extent to matter.
   static IntegerMatrix extent_of(const Polytope& polytope, std::size_t dimension) {
     constexpr unsigned kBits = 96, kNothing = 64;
     std::vector<IntegerVector> at;

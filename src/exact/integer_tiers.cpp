@@ -1,5 +1,5 @@
-// Integer tiers of the predicates on doubles: in a common unit, a power of two, most coordinates of one
-// call are integers of one or two limbs.
+// Integer tiers of the predicates on doubles. In a common unit, a power of two, the coordinates of most calls
+// are integers of one or two limbs.
 #include <algorithm>
 
 #include "exact/determinant.h"
@@ -11,7 +11,7 @@
 namespace holdfast::exact::detail {
 namespace {
 
-/// An e with |x| < 2^e, from the bits of |x|.
+/// An exponent e with |x| < 2^e, from the bits of |x|.
 int top_exponent(std::uint64_t magnitude) { return std::max(static_cast<int>(magnitude >> 52), 1) - 1022; }
 
 /// Doubles of one predicate call as integers of N limbs in a common unit.
@@ -23,7 +23,7 @@ class DoubleLoader {
 
   [[nodiscard]] bool usable() const { return true; }
 
-  /// False where x is no multiple of the unit.
+  /// False if x is not a multiple of the unit.
   [[nodiscard]] bool load(double x, FixedInt<N>& out) const {
     FloatParts parts = float_parts(magnitude_bits(x));
     out = {};
@@ -62,7 +62,7 @@ class DoubleLoader<1> {
   [[nodiscard]] bool load(double x, FixedInt<1>& out) const {
     const auto integer = static_cast<std::int64_t>(x * scale_);
     out.limb[0] = static_cast<std::uint64_t>(integer);
-    return static_cast<double>(integer) * unscale_ == x;  // also false where the scaling underflowed
+    return static_cast<double>(integer) * unscale_ == x;  // also false if the scaling underflowed
   }
 
  private:
@@ -80,7 +80,7 @@ std::uint64_t max_magnitude(const std::array<const double*, Points>& points) {
   return result;
 }
 
-/// Rows points[i] - points[0], i >= 1, in a common unit; false where N limbs do not hold them.
+/// Rows points[i] - points[0], i >= 1, in a common unit; false if they do not fit into N limbs.
 template <std::size_t N, std::size_t Dimension, std::size_t Points>
 bool load_rows(const std::array<const double*, Points>& points,
                std::array<std::array<FixedInt<N>, Dimension>, Points - 1>& rows) {

@@ -17,7 +17,8 @@ constexpr std::size_t kCoefficients = 20;
 // The node between two corners, or a corner with itself.
 constexpr std::size_t kNode[4][4] = {{0, 4, 6, 7}, {4, 1, 5, 8}, {6, 5, 2, 9}, {7, 8, 9, 3}};
 
-/// Exponents of the barycentric coordinates of a Bernstein polynomial of degree 3, and their numbers.
+/// Exponents of the barycentric coordinates in the Bernstein polynomials of degree 3, and the polynomials'
+/// numbers.
 struct Exponents {
   std::array<std::array<std::size_t, 4>, kCoefficients> of{};
   std::size_t number[4][4][4]{};  // by the first three
@@ -42,16 +43,16 @@ Dyadic half(const Dyadic& x, int times) { return x.scaled(-times); }
 int sign_of(double x) { return (x > 0) - (x < 0); }
 int sign_of(const Dyadic& x) { return x.sign(); }
 
-/// Bernstein coefficients, each times the same number, in doubles or exact.
+/// Bernstein coefficients, all multiplied by the same number, in doubles or exact.
 template <typename Number>
 using Coefficients = std::array<Number, kCoefficients>;
 
 /// Six times the coefficients of an eighth of the determinant. Twice a control point of the map on an edge is
-/// four nodes less two corners, so that everything is a sum of products of coordinates. `largest` gets the
-/// largest of the differences that are multiplied.
+/// four times the node less the two corners, so every coefficient is a sum of products of coordinates.
+/// `largest` gets the largest difference that is multiplied.
 template <typename Number>
 Coefficients<Number> coefficients_of(const Nodes& nodes, Number* largest) {
-  // Relative to the first corner, or differences would cancel.
+  // Relative to the first corner; otherwise differences would cancel.
   std::array<std::array<Number, 3>, 10> x;
   for (std::size_t n = 0; n < 10; ++n)
     for (std::size_t k = 0; k < 3; ++k) x[n][k] = Number(nodes[n][k]) - Number(nodes[0][k]);
@@ -93,7 +94,7 @@ Coefficients<Number> coefficients_of(const Nodes& nodes, Number* largest) {
   return sums;
 }
 
-/// Of the part of the element with corner `gone` moved to the middle of its edge with `stays`.
+/// Coefficients on the part of the element with corner `gone` moved to the middle of its edge with `stays`.
 template <typename Number>
 Coefficients<Number> halved(const Coefficients<Number>& of, std::size_t stays, std::size_t gone) {
   constexpr double kBinomial[4][4] = {{1, 0, 0, 0}, {1, 1, 0, 0}, {1, 2, 1, 0}, {1, 3, 3, 1}};
@@ -116,7 +117,7 @@ bool is_corner(std::size_t n) {
   return *std::max_element(kExponents.of[n].begin(), kExponents.of[n].end()) == 3;
 }
 
-/// Halves parts that are not decided, along one edge after another. `error` bounds what a coefficient misses.
+/// Halves undecided parts along one edge after another. `error` bounds the error of a coefficient.
 template <typename Number>
 Jacobian decide(const Coefficients<Number>& whole, const Number& error, int most_depth) {
   struct Part {
@@ -144,7 +145,7 @@ Jacobian decide(const Coefficients<Number>& whole, const Number& error, int most
   return Jacobian::positive;
 }
 
-/// In doubles, with a bound on all that is rounded; unknown where that does not decide.
+/// Decides in doubles with a bound on all rounding errors; unknown if that is not enough.
 Jacobian decide_in_doubles(const Nodes& nodes) {
   constexpr double kUlp = 0x1p-52, kTiny = 0x1p-900;
   constexpr int kDepth = 18;
@@ -153,9 +154,10 @@ Jacobian decide_in_doubles(const Nodes& nodes) {
   double extent = 0;
   for (const auto& node : nodes)
     for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, std::abs(node[k] - nodes[0][k]));
-  // A difference d misses 32 ulps of the extent at most: each x one half, control points 4 x's and their
-  // sums. Of a determinant of three columns all products together miss 18 D^2 times that, and 6 D^3 times 12
-  // ulps in sums; a coefficient is a sum of six of them, and halving rounds it 20 times more.
+  // A difference d errs by at most 32 ulps of the extent: each x errs by half an ulp, and control points are
+  // sums of 4 x's. In a determinant of three columns all products together err by 18 D^2 times the error of
+  // d, and the sums by 12 ulps of 6 D^3. A coefficient is a sum of six determinants; halving rounds it 20
+  // times.
   const double missed = 32 * kUlp * extent;
   const double d = largest + missed;
   const double error = 6 * (18 * d * d * missed + 6 * d * d * d * 12 * kUlp) + 36 * d * d * d * 160 * kUlp;

@@ -7,7 +7,7 @@
 namespace holdfast::exact {
 namespace {
 
-// A basis and the products of its vectors, which change together.
+// A basis and the products of its vectors, updated together.
 class Basis {
  public:
   Basis(std::size_t dimension, IntegerMatrix gram) : dimension_(dimension), gram_(std::move(gram)) {
@@ -37,7 +37,7 @@ class Basis {
 
 BigInt nearest_quotient(const BigInt& a, const BigInt& b) { return floor_of(2 * a + b, 2 * b); }
 
-// Vectors 0 and 1.
+// Reduces vectors 0 and 1.
 void reduce_two(Basis& basis) {
   for (;;) {
     if (basis.square(1) < basis.square(0)) basis.swap(0, 1);
@@ -47,15 +47,15 @@ void reduce_two(Basis& basis) {
   }
 }
 
-// Vector 2, by the nearest combination of the other two, which are reduced: one of the four round its
-// projection to their plane.
+// Reduces vector 2 by the nearest combination of the other two, which are reduced: it is one of the four
+// round the projection of vector 2 to their plane.
 void reduce_third(Basis& basis) {
   const BigInt &g00 = basis.square(0), &g11 = basis.square(1), &g01 = basis.product(0, 1);
   const BigInt &g02 = basis.product(0, 2), &g12 = basis.product(1, 2);
   const BigInt determinant = g00 * g11 - g01 * g01;
   const BigInt low0 = floor_of(g01 * g12 - g11 * g02, determinant);
   const BigInt low1 = floor_of(g01 * g02 - g00 * g12, determinant);
-  BigInt best0 = 0, best1 = 0, least = 0;  // least: of the change of the square
+  BigInt best0 = 0, best1 = 0, least = 0;  // least: the least change of the square
   for (const int up0 : {0, 1})
     for (const int up1 : {0, 1}) {
       const BigInt y0 = low0 + up0, y1 = low1 + up1;
@@ -76,7 +76,7 @@ BigInt cofactor(const IntegerMatrix& m, std::size_t i, std::size_t j) {
 
 }  // namespace
 
-// Each turn shortens the longest vector, whose square is an integer.
+// Each pass shortens the longest vector, whose square is an integer; so the loop ends.
 IntegerMatrix reduced_basis(int dimension, const IntegerMatrix& gram) {
   Basis basis(static_cast<std::size_t>(dimension), gram);
   if (dimension >= 2) reduce_two(basis);

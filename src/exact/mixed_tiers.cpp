@@ -1,5 +1,5 @@
 // Tiers of the predicates on points that may be exact: fixed-width integers, then unbounded ones. The
-// latter serve doubles too where everything else would over- or underflow.
+// unbounded tier also serves doubles for which all other tiers would over- or underflow.
 #include <algorithm>
 #include <limits>
 
@@ -71,7 +71,7 @@ class Coordinate {
   bool negative_ = false;
 };
 
-/// The coordinates of one predicate call and the range of binary digits that they take.
+/// The coordinates of one predicate call and the range of their binary digits.
 template <std::size_t Dimension, std::size_t Points>
 class Coordinates {
  public:
@@ -94,7 +94,7 @@ class Coordinates {
     return high_ <= low_ || high_ - low_ <= kFixedWidth<N>;
   }
 
-  /// Rows points[i] - points[0], i >= 1, in units of the lowest digit; for fit<N>().
+  /// Rows points[i] - points[0], i >= 1, in units of the lowest digit; requires fit<N>().
   template <std::size_t N>
   [[nodiscard]] Rows<FixedInt<N>> fixed_rows() const {
     return rows<FixedInt<N>>([this](const Coordinate& c) { return c.fixed<N>(low_); });
@@ -196,7 +196,7 @@ int big_insphere(const double* a, const double* b, const double* c, const double
 
 int big_incircle(const double* a, const double* b, const double* c, const double* d) {
   const auto flat = [](const double* p) {
-    const double lifted[3] = {p[0], p[1], 0};  // a third coordinate serves the interface only
+    const double lifted[3] = {p[0], p[1], 0};  // the third coordinate only satisfies the interface
     return projected({lifted}, 2);
   };
   const Coordinates<2, 4> points({flat(d), flat(a), flat(b), flat(c)});

@@ -14,8 +14,8 @@ TwoTerms two_doubles(PointRef p, std::size_t i) {
   return p.exact != nullptr ? p.exact->c[i].to_two_doubles() : TwoTerms{p.approx[i], 0};
 }
 
-/// a - b. Sums of pairs of doubles err by at most 2^-103 size, size = |a| + |b|, which is below 2^-54 of
-/// the result unless 49 leading bits cancel.
+/// a - b. A sum of pairs of doubles errs by at most 2^-103 size, size = |a| + |b|. That is below 2^-54 of the
+/// result unless 49 leading bits cancel.
 double coordinate_difference(PointRef a, PointRef b, std::size_t i) {
   const double size = std::fabs(a.approx[i]) + std::fabs(b.approx[i]);
   if (size > 0x1p-800 && size < 0x1p1000) {

@@ -57,7 +57,7 @@ Polytope::Polytope(int dimension, std::span<const BigInt> low, std::span<const B
   }
   for (std::size_t corner = 0; corner < std::size_t{1} << dimension_; ++corner) {
     Vertex v{{}, 1, {}};
-    bool is_new = true;  // a box without thickness has each corner once
+    bool is_new = true;  // a box without thickness lists each corner once
     for (std::size_t k = 0; k < dimension_; ++k) {
       const bool is_high = ((corner >> k) & 1u) != 0;
       const bool is_flat = low[k] == high[k];
@@ -107,8 +107,8 @@ void Polytope::cut(const IntegerHalfSpace& half_space) {
   std::move(fresh.begin(), fresh.end(), std::back_inserter(vertices_));
 }
 
-// The combinatorial test (Fukuda, Prodon 1996, proposition 7): no third vertex lies on all borders on which
-// both lie.
+// The combinatorial test (Fukuda, Prodon 1996, proposition 7): no third vertex lies on all borders that
+// contain both p and q.
 bool Polytope::share_an_edge(const Vertex& p, const Vertex& q) const {
   const std::size_t words = std::min(p.tight.size(), q.tight.size());
   std::size_t common = 0;

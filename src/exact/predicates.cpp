@@ -1,4 +1,4 @@
-// The predicates beyond their inline filters: filter for exact points, order of the tiers.
+// The predicates beyond their inline filters: the filter for exact points and the order of the tiers.
 #include "exact/predicates.h"
 
 #include "exact/incircle.h"
@@ -9,7 +9,7 @@ namespace holdfast::exact {
 namespace detail {
 namespace {
 
-// One instruction each, where references (std::max) may become branches.
+// Each compiles to one instruction; references (std::max) may become branches.
 double larger(double a, double b) { return a < b ? b : a; }
 double smaller(double a, double b) { return b < a ? b : a; }
 
@@ -68,7 +68,7 @@ Decision decide_orient2d(const double* a, const double* b, const double* c) {
   if (const auto sign = integer_orient2d<1>(a, b, c)) return {*sign, Tier::integer64};
   if (const auto sign = integer_orient2d<2>(a, b, c)) return {*sign, Tier::integer128};
   if (const auto sign = expansion_orient2d(a, b, c)) return {*sign, Tier::expansion};
-  // A third coordinate serves the interface only.
+  // The third coordinate only satisfies the interface.
   const double pa[3] = {a[0], a[1], 0}, pb[3] = {b[0], b[1], 0}, pc[3] = {c[0], c[1], 0};
   return {big_orient2d({pa}, {pb}, {pc}, 2), Tier::big_integer};
 }
@@ -88,7 +88,7 @@ Decision decide_incircle(const double* a, const double* b, const double* c, cons
 }
 
 int orient3d_slow(const double* a, const double* b, const double* c, const double* d) {
-  // Boxes are full of points in a plane across an axis.
+  // Boxes have many points in one plane across an axis.
   for (std::size_t k = 0; k < 3; ++k)
     if (a[k] == b[k] && a[k] == c[k] && a[k] == d[k]) return 0;
   return decide_orient3d(a, b, c, d).sign;
@@ -100,7 +100,7 @@ int orient3d_mixed(PointRef a, PointRef b, PointRef c, PointRef d) {
 }
 
 int orient2d_slow(const double* a, const double* b, const double* c) {
-  // Grids and drawings are full of points along an axis, and sweeps ask for ends of segments.
+  // Grids and drawings have many points along an axis, and sweeps ask about ends of segments.
   const bool ab[] = {a[0] == b[0], a[1] == b[1]}, bc[] = {b[0] == c[0], b[1] == c[1]};
   if ((ab[0] && bc[0]) || (ab[1] && bc[1]) || (ab[0] && ab[1]) || (bc[0] && bc[1])) return 0;
   if (a[0] == c[0] && a[1] == c[1]) return 0;

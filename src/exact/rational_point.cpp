@@ -27,7 +27,7 @@ Row<BigInt> cross(const Row<BigInt>& u, const Row<BigInt>& v) {
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
-/// |m| = (bits + rest) 2^exponent with 0 <= rest < 1, where `bits` has 128 of them, the uppermost one set.
+/// |m| = (bits + rest) 2^exponent with 0 <= rest < 1; `bits` has 128 bits, the highest one set.
 struct Leading {
   Uint128 bits;
   std::int64_t exponent;
@@ -45,11 +45,11 @@ Leading leading(const BigInt& m) {
   return {bits, 64 * (static_cast<std::int64_t>(size) - 2) - zeros};
 }
 
-/// The double nearest to |n / d|, where the leading bits tell and it is no denormal; else none.
+/// The double nearest to |n / d|, if the leading bits determine it and it is no denormal; else none.
 ///
-/// Let m be half the first number's bits, rounded down, and e the upper 64 bits of the second's. The quotient
+/// Let m be half the bits of n, rounded down, and e the upper 64 bits of d. The quotient
 /// is v 2^k with m / (e + 1) < v < (m + 1) / e. Now q = floor(m / e) is in (2^62 - 1, 2^64), so v > m / e - 2
-/// and v < q + 2. Rounding is monotonic: v has the double of q - 2 and of q + 2 if these are one.
+/// and v < q + 2. Rounding is monotonic: if q - 2 and q + 2 round to the same double, v rounds to it, too.
 std::optional<double> nearest_by_leading_bits(const BigInt& n, const BigInt& d) {
   const Leading a = leading(n), b = leading(d);
   const Uint128 quotient = (a.bits >> 1) / static_cast<std::uint64_t>(b.bits >> 64);
@@ -67,8 +67,8 @@ std::int64_t bits(const BigInt& m) {
 
 }  // namespace
 
-/// Where the leading bits do not tell, the quotient has 66 bits or more; a last bit that stands for the rest
-/// makes its rounding that of the exact value.
+/// Where the leading bits are not enough, the quotient has at least 66 bits. A last bit that stands for the
+/// rest makes it round like the exact value.
 double nearest_quotient(const BigInt& n, const BigInt& d) {
   if (n.is_zero()) return 0;
   if (const auto nearest = nearest_by_leading_bits(n, d)) return n.sign() < 0 ? -*nearest : *nearest;
@@ -80,8 +80,9 @@ double nearest_quotient(const BigInt& n, const BigInt& d) {
   return Dyadic(n.sign() < 0 ? BigInt(-quotient) : quotient, -shift - 1).to_double();
 }
 
-/// Two doubles for each number have 106 of its leading bits. With q the rounded quotient of the first ones
-/// and r = n - q d, which is 2^-52 of n and errs by 2^-104 of it, q + r / d errs by 2^-103 at most.
+/// Two doubles for each number hold 106 of its leading bits. Let q be the rounded quotient of the first
+/// doubles and r = n - q d, which is 2^-52 of n and errs by 2^-104 of n. Then q + r / d errs by at most
+/// 2^-103.
 double rest_of_quotient(const BigInt& n, const BigInt& d, double high) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   if (n.is_zero()) return 0;
@@ -117,7 +118,7 @@ RationalPoint crossing(const RationalPoint& a, const RationalPoint& b, const Rat
   const Row<BigInt> p = cross(cross(row(a), row(b)), cross(row(c), row(d)));
   RationalPoint point{p[0], p[1], p[2]};
   if (point.w < 0) point = {-point.x, -point.y, -point.w};
-  // In lowest terms, so that points on lines through such points do not grow more than they must.
+  // In lowest terms, so that points on lines through this point do not grow more than necessary.
   const BigInt common = gcd(gcd(abs(point.x), abs(point.y)), point.w);
   if (common > 1) point = {point.x / common, point.y / common, point.w / common};
   return point;

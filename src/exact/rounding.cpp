@@ -28,7 +28,7 @@ Dyadic quotient(const Dyadic& a, const Dyadic& b, int bits) {
 
 Dyadic shortest_between(const Dyadic& low, const Dyadic& high) {
   if (low.sign() <= 0 && high.sign() >= 0) return {};
-  // 2^g <= high - low: some multiple of 2^g lies between; the coarsest grid may be one step above.
+  // 2^g <= high - low: a multiple of 2^g lies in between. The coarsest possible grid may be one step above.
   for (std::int64_t grid = top_exponent(high - low) + 1;; --grid) {
     Dyadic middle = rounded_to((low + high).scaled(-1), grid);
     if (low <= middle && middle <= high) return middle;

@@ -20,17 +20,18 @@ std::size_t trailing_zeros(const BigInt& m) {
   return i * 64 + static_cast<std::size_t>(std::countr_zero(limbs[i]));
 }
 
-/// Divides by the largest power of two that is in all of them.
+/// Divides by the largest power of two that divides all of them.
 void reduce(std::array<BigInt*, 4> numbers) {
   std::size_t zeros = std::numeric_limits<std::size_t>::max();
   for (const BigInt* n : numbers)
     if (!n->is_zero()) zeros = std::min(zeros, trailing_zeros(*n));
   if (zeros == 0 || zeros == std::numeric_limits<std::size_t>::max()) return;
   for (BigInt* n : numbers)
-    if (!n->is_zero()) *n >>= zeros;  // rounding to minus infinity does no harm: only zeros go
+    if (!n->is_zero()) *n >>= zeros;  // rounding to minus infinity does no harm: only zeros are shifted out
 }
 
-/// Several points on one grid: integers, of which 2^-exponent is the unit; 0 where they are integers anyhow.
+/// Several points on one grid: integers in units of 2^-exponent; the exponent is 0 if they are integers
+/// anyway.
 template <std::size_t N>
 struct OnGrid {
   std::array<Row<BigInt>, N> points;
@@ -99,7 +100,7 @@ SpacePlane upright_plane(const double* p, const double* q, unsigned axis) {
   return plane_of(normal, grid.points[0], grid.shift);
 }
 
-/// With sides s_p and s_q of the plane, p s_q - q s_p has side 0.
+/// Let s_p and s_q be the sides of p and q: then p s_q - q s_p has side 0.
 SpacePoint crossing(const double* p, const double* q, const SpacePlane& plane) {
   const OnGrid<2> grid = on_grid<2>({p, q});
   const auto& [a, b] = grid.points;
@@ -162,7 +163,7 @@ double distance_bound(const SpacePoint& p, const double* q) {
   if (most == 0 || most == kInfinity) return most;
   double sum = 0;
   for (const double a : apart) sum += (a / most) * (a / most);
-  // Four roundings each within half a unit, and one of the product.
+  // Four roundings, each within half a unit, and one of the product.
   return std::nextafter(most * (std::sqrt(sum) * (1 + 0x1p-50)), kInfinity);
 }
 

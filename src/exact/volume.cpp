@@ -8,9 +8,9 @@ namespace holdfast::exact {
 namespace {
 
 constexpr double kHalfUlp = 0x1p-53;
-// What products that underflow lose; coordinates are near one.
+// The loss of products that underflow; coordinates are near one.
 constexpr double kUnderflow = 0x1p-1060;
-// Bounds are themselves computed in doubles.
+// The bounds are themselves computed in doubles.
 constexpr double kRoundedUp = 1 + 0x1p-40;
 
 }  // namespace
@@ -41,7 +41,7 @@ Bounded bounded_determinant(const std::array<double, 3>& a, const std::array<dou
   return out;
 }
 
-// Coordinates far from one under- or overflow; then the bounds decide nothing.
+// Coordinates far from one over- or underflow; then the bounds do not decide.
 bool is_volume_above(const std::array<double, 3>& a, const std::array<double, 3>& b,
                      const std::array<double, 3>& c, const std::array<double, 3>& d, double most) {
   const Bounded six = bounded_determinant(a, b, c, d);
