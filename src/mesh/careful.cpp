@@ -9,11 +9,12 @@
 namespace holdfast::careful {
 namespace {
 
-// Part of the sum of its terms below which a sum is computed exactly: some six digits are left above it.
+// A sum below this part of the sum of its terms' magnitudes is computed exactly: above it, about six digits
+// are left.
 constexpr double kCancelled = 1e-9;
 
 // Differences as expansions, whose products of three neither over- nor underflow (magnitudes are checked
-// first), or as dyadic numbers, which hold any.
+// first), or as dyadic numbers, which have no range.
 struct ByExpansions {
   using Number = exact::Expansion<2>;
   static Number minus(double a, double b) { return Number(exact::two_diff(a, b)); }

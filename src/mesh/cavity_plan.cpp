@@ -111,7 +111,7 @@ CavityPlan::Marks CavityPlan::marks_of(const TetMesh::Corners& c) {
   return {all - of[0], all - of[1], all - of[2], all - of[3]};
 }
 
-// The face met before with the same vertices; none if this is the first.
+// The earlier face with the same vertices; none if this is the first.
 Face CavityPlan::partner_of(Face face, std::uint64_t mark) {
   const std::size_t mask = slots_.size() - 1;
   for (std::size_t h = (mark >> 32) & mask;; h = (h + 1) & mask) {

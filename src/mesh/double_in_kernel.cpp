@@ -27,7 +27,7 @@ BigInt at_exponent(const Dyadic& x, std::int64_t exponent) {
   return shifted(x.mantissa(), x.sign() == 0 ? 0 : x.exponent() - exponent);
 }
 
-// a.x <= b, multiplied by the power of two that makes all of it integers.
+// a.x <= b, multiplied by the power of two that makes all its numbers integers.
 IntegerHalfSpace integer_half_space(const std::array<Dyadic, 3>& a, const Dyadic& b) {
   std::int64_t least = INT64_MAX;
   for (const Dyadic* x : {&a[0], &a[1], &a[2], &b})
@@ -56,10 +56,10 @@ struct Ratio {
   }
 };
 
-// Where the kernel's coordinates lie among the powers of two.
+// The range of the kernel's coordinates among the powers of two.
 struct Span {
   std::int64_t coarsest = 0, finest = 0;  // exponents of the spacing of doubles
-  std::int64_t border = 0;                // 2^border is the greatest power of two inside, if they differ
+  std::int64_t border = 0;  // 2^border is the greatest power of two inside, if the exponents differ
   bool is_border_positive = true;
 };
 
@@ -96,7 +96,7 @@ class Search {
  private:
   static constexpr std::size_t kBoxSides = 6;
 
-  // orient(f0, f1, f2, x) = n.(x - f0), n being the cross product of two sides; -n.x < -n.f0 is wanted.
+  // orient(f0, f1, f2, x) = n.(x - f0), where n is the cross product of two sides; -n.x < -n.f0 is wanted.
   void add_face(const std::array<ExactPoint, 3>& f) {
     std::array<Dyadic, 3> u, v, a;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -130,7 +130,8 @@ class Search {
     if (auto found = on_lattice(polytope, coarsest)) return found;
     if (coarsest == finest || !is_complete_) return std::nullopt;
     if (!on_lattice(polytope, finest) && is_complete_) return std::nullopt;
-    is_complete_ = true;  // of the finest lattice it need not be: parts have their own
+    is_complete_ =
+        true;  // the search on the finest lattice need not be complete: the parts have lattices of their own
     const auto axis = static_cast<std::size_t>(
         std::find_if(spans.begin(), spans.end(), [](const Span& s) { return s.coarsest != s.finest; }) -
         spans.begin());
@@ -173,7 +174,7 @@ class Search {
     return integer_half_space(a, border * Dyadic(side));
   }
 
-  // The point with coordinates u_k 2^spacing_k inside, strictly, for integers u.
+  // A point strictly inside with coordinates u_k 2^spacing_k for integers u.
   std::optional<Point> on_lattice(const Polytope& polytope, const std::array<std::int64_t, 3>& spacing) {
     std::vector<BigInt> low(3), high(3);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -201,7 +202,7 @@ class Search {
     return out;
   }
 
-  // Of integers, a.u < b is a.u <= b - 1.
+  // For integers, a.u < b means a.u <= b - 1.
   [[nodiscard]] std::vector<IntegerHalfSpace> faces_on_lattice(
       const Polytope& polytope, const std::array<std::int64_t, 3>& spacing) const {
     std::vector<IntegerHalfSpace> out;
@@ -217,7 +218,7 @@ class Search {
   }
 
   std::int64_t grid_;      // no double of the mesh has a bit below 2^grid_
-  std::int64_t unit_ = 0;  // 2^unit_ is one in the polytope's coordinates
+  std::int64_t unit_ = 0;  // the unit of the polytope's coordinates is 2^unit_
   std::vector<IntegerHalfSpace> faces_;
   std::size_t parts_left_ = 100;
   bool is_complete_ = true;

@@ -46,7 +46,7 @@ void MeshEditor::apply(const Change& change, std::vector<Tet>& created) {
   put(change, std::span(created).subspan(first));
 }
 
-// Where the new tetrahedra come to stand goes to `slots`.
+// Writes the slots of the new tetrahedra to `slots`.
 void MeshEditor::put(const Change& change, std::span<Tet> slots) {
   for (const Tet t : change.old_tets) mesh_.remove_tet(t);
   const Tet near = change.old_tets.empty() ? kNone : change.old_tets.front();
@@ -71,7 +71,7 @@ void MeshEditor::put(const Change& change, std::span<Tet> slots) {
   finish(slots);
 }
 
-// By value: the corners may be those of a slot, which may move.
+// By value: the corners may be in a slot, which may move.
 Tet MeshEditor::add_tet(TetMesh::Corners v) {
   const Tet t = mesh_.take_slot();
   mesh_.put_tet(t, v, {kNone, kNone, kNone, kNone}, 0);
@@ -106,7 +106,7 @@ void MeshEditor::release_segment(Tet t, Vertex a, Vertex b) {
   finish(tets);
 }
 
-// New slots come last in the pools, so that they are filled when no others are left.
+// New slots come last in the pools, so they are filled only when no others are left.
 void MeshEditor::share_slots(SlotPools& pools, std::size_t count, std::size_t spare) {
   assert(mesh_.attached_.log == nullptr && mesh_.attached_.pools == nullptr);
   const std::size_t more = count * spare - std::min(count * spare, mesh_.free_.size());
@@ -136,7 +136,7 @@ void MeshEditor::unshare_slots() {
 
 void MeshEditor::undo(UndoLog& log, const UndoLog::Mark& mark) {
   std::vector<Tet> restored;
-  // The newest first, so that the oldest note of a slot, which is that of the mark, decides.
+  // Newest first: a slot's oldest note since the mark is applied last and decides.
   while (log.slots_.size() > mark.slots) {
     const UndoLog::Slot& old = log.slots_.back();
     mesh_.cells_[old.tet] = {old.corners, old.neighbours};

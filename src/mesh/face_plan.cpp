@@ -3,8 +3,8 @@
 namespace holdfast {
 namespace {
 
-// What stays of one of the two tetrahedra: by k, the face at f_k, f_k+1 and the apex, the edge from f_k to
-// the apex, and the edge from f_k to f_k+1.
+// What remains of one of the two tetrahedra, by k: the face at f_k, f_k+1 and the apex; the edge from f_k to
+// the apex; the edge from f_k to f_k+1.
 struct Side {
   std::array<Face, 3> across{};
   std::array<bool, 3> is_facet{}, is_spoke_segment{}, is_rim_segment{};

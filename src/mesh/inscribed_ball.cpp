@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kColumns = 7;  // y = (c0 - c1, c2 - c3, c4 - c5), radius = c6
 
-// A dense tableau that starts feasible, since every b is at least zero: no phase one is needed.
+// A dense tableau that starts feasible because every b is at least zero; so phase one is not needed.
 class Tableau {
  public:
   explicit Tableau(std::span<const HalfSpace> half_spaces)
@@ -24,7 +24,7 @@ class Tableau {
   // False if the programme is unbounded.
   bool solve() {
     constexpr int kSteepest = 60;     // then Bland's rule, which cannot cycle
-    constexpr int kMostPivots = 600;  // a guess is all that is wanted
+    constexpr int kMostPivots = 600;  // a guess is enough
     for (int step = 0; step < kMostPivots; ++step) {
       const std::size_t column = entering(step < kSteepest);
       if (column == kColumns) return true;

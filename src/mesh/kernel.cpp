@@ -32,14 +32,14 @@ std::int64_t top_exponent(const ExactVector& a) {
 ExactVector scaled(const ExactVector& a, std::int64_t exponent) {
   return {a[0].scaled(exponent), a[1].scaled(exponent), a[2].scaled(exponent)};
 }
-// By a power of two, so that the largest coordinate is near one.
+// Scales by a power of two, so that the largest coordinate is near one.
 ExactVector normalised(const ExactVector& a) { return scaled(a, -top_exponent(a)); }
 
 double largest(const Vector& a) { return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])}); }
 
-// A direction that leaves both planes on their positive sides. For normals at an obtuse angle, with
-// c = n1.n2 < 0, alpha n1 + n2 does so exactly for -c/|n1|^2 < alpha < |n2|^2/(-c), an interval that is
-// open by Cauchy-Schwarz; sums of unit normals in floating point do fail.
+// A direction strictly to the positive side of both planes. For normals at an obtuse angle, c = n1.n2 < 0,
+// the direction alpha n1 + n2 is one exactly for -c/|n1|^2 < alpha < |n2|^2/(-c). This interval is not empty
+// by Cauchy-Schwarz. Sums of unit normals in floating point sometimes fail.
 ExactVector direction_above(const ExactVector& n1, const ExactVector& n2) {
   const Dyadic c = dot(n1, n2);
   if (c.sign() >= 0) return {n1[0] + n2[0], n1[1] + n2[1], n1[2] + n2[2]};
@@ -53,7 +53,7 @@ ExactVector direction_above(const ExactVector& n1, const ExactVector& n2) {
   }
 }
 
-// The greatest exponent up to `start` that is good, where all below some one are.
+// The greatest good exponent up to `start`, if all exponents below some bound are good.
 template <typename Good>
 std::int64_t greatest_exponent(std::int64_t start, Good good) {
   if (good(start)) return start;
@@ -98,8 +98,8 @@ std::optional<Position> Kernel::find(PointRef origin) const {
   return along_direction(origin, best.size);
 }
 
-// In coordinates relative to the origin, scaled by the cavity's size. The programme starts from the origin;
-// where that lies behind a face by -b, all faces are moved back by as much.
+// In coordinates relative to the origin, scaled by the cavity's size. The linear programme starts at the
+// origin; if the origin lies behind a face by -b, all faces are moved back by that distance.
 Kernel::Centre Kernel::centre(PointRef origin) const {
   Centre out;
   for (const auto& f : faces_) {
@@ -127,8 +127,8 @@ Kernel::Centre Kernel::centre(PointRef origin) const {
 }
 
 // Differences are exact before they are rounded once. That is too coarse for the normal of a sliver, and for
-// kernels as thin as the spacing of doubles where the origin is next to the plane: then both come from exact
-// coordinates.
+// kernels as thin as the spacing of doubles if the origin is next to the plane. In both cases the numbers are
+// computed from exact coordinates.
 HalfSpace Kernel::half_space_over(const std::array<Vertex, 3>& f, PointRef origin, double unit) const {
   constexpr double kNear = 1e-8, kSliver = 1e-4;
   std::array<double, 3> u{}, w{}, a{};
@@ -142,7 +142,7 @@ HalfSpace Kernel::half_space_over(const std::array<Vertex, 3>& f, PointRef origi
     a[k] /= unit;
   }
   std::array<double, 3> n = cross(u, w);
-  // The true cross product is n times scale * 2^exponent: that may be out of the range of doubles.
+  // The true cross product is n times scale * 2^exponent, which may be out of the range of doubles.
   int exponent_u = 0, exponent_w = 0, exponent_unit = 0;
   double scale = std::frexp(su, &exponent_u) * std::frexp(sw, &exponent_w);
   std::int64_t exponent = std::int64_t{exponent_u} + exponent_w;
@@ -168,7 +168,7 @@ HalfSpace Kernel::half_space_over(const std::array<Vertex, 3>& f, PointRef origi
   return out;
 }
 
-// A kernel thinner than the spacing of doubles may still hold one next to the centre.
+// A kernel thinner than the spacing of doubles may still hold a double next to the centre.
 std::optional<Point> Kernel::double_next_to(const Point& centre) const {
   const Point middle = mesh_.on_grid(centre);
   for (int code = 0; code < 27; ++code) {
@@ -181,7 +181,8 @@ std::optional<Point> Kernel::double_next_to(const Point& centre) const {
   return std::nullopt;
 }
 
-// Far from the origin, rounded normals blur a thin kernel's centre; seen from there it is sharp.
+// Far from the origin, rounded normals blur the centre of a thin kernel; seen from the centre itself it is
+// sharp.
 std::optional<Point> Kernel::double_at(PointRef origin, const Centre& centre) const {
   constexpr double kThin = 1e-8;
   constexpr int kRefinements = 3;
@@ -200,7 +201,7 @@ std::optional<Position> Kernel::on_grid(PointRef origin, const Centre& centre) c
   const ExactPoint o = exact::lift(origin);
   const int start = std::ilogb(centre.radius) - 1;
   constexpr int kFiner = 4;
-  constexpr int kTries = 4;  // beyond them the guess itself is wrong
+  constexpr int kTries = 4;  // if more are needed, the guess itself is wrong
   for (int k = 0; k < kTries; ++k) {
     ExactPoint p;
     for (std::size_t i = 0; i < 3; ++i)
@@ -211,8 +212,8 @@ std::optional<Position> Kernel::on_grid(PointRef origin, const Centre& centre) c
   return std::nullopt;
 }
 
-// Every plane through the origin is one of at most two; all others leave room round it, so that a short
-// enough step in a direction strictly above both stays inside.
+// At most two different planes pass through the origin. All others leave room round it, so a short enough
+// step in a direction strictly above these two stays inside.
 std::optional<Position> Kernel::along_direction(PointRef origin, double size) const {
   const ExactPoint o = exact::lift(origin);
   std::vector<ExactVector> normals;
@@ -245,7 +246,7 @@ std::optional<Position> Kernel::along_direction(PointRef origin, double size) co
   const auto inside = [&](std::int64_t e) { return holds(View(step(e)).ref()); };
   constexpr double kLargest = std::numeric_limits<double>::max();
   const std::int64_t e = greatest_exponent(size > 0 ? std::ilogb(std::min(size, kLargest)) : 0, inside);
-  for (std::int64_t grid = e - 2; grid > e - 64; grid -= 4) {  // few bits, where few will do
+  for (std::int64_t grid = e - 2; grid > e - 64; grid -= 4) {  // few bits if few are enough
     ExactPoint p = step(e - 1);
     for (Dyadic& x : p.c) x = exact::rounded_to(x, grid);
     const View coarse(std::move(p));

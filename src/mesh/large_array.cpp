@@ -19,7 +19,7 @@ std::align_val_t alignment_of(std::size_t bytes) {
 }
 
 #ifdef __linux__
-// Calls madvise on the pages that lie in the block as a whole.
+// Calls madvise on the pages that lie wholly in the block.
 void advise(void* block, std::size_t bytes, std::size_t page, int advice) {
   const std::size_t before = reinterpret_cast<std::uintptr_t>(block) % page;
   const std::size_t first = before == 0 ? 0 : page - before;

@@ -13,14 +13,14 @@ namespace holdfast {
 
 #ifdef __EMSCRIPTEN__
 
-// A module's memory grows and never shrinks, so its size now is its peak, too.
+// The memory of a module never shrinks, so its present size is also its peak.
 std::optional<std::uint64_t> resident_memory_bytes(const char*) { return emscripten_get_heap_size(); }
 std::uint64_t peak_memory_bytes() { return emscripten_get_heap_size(); }
 
 #else
 
-// No other source stands in: getrusage knows the peak alone, which on Linux begins with that of the program
-// that started this one, so that a limit kept by it would be reached where it is not.
+// There is no other source: getrusage knows only the peak. On Linux that peak starts with that of the program
+// that started this one, so a limit checked against it would trigger too early.
 std::optional<std::uint64_t> resident_memory_bytes(const char* statm) {
   std::ifstream file(statm);
   std::uint64_t total = 0;

@@ -48,7 +48,7 @@ void Monitor::look(Stage stage, double fraction, bool tell) {
   call_back(stage, fraction, tell);
 }
 
-// A loop may turn in nanoseconds or in tens of milliseconds.
+// A turn of a loop may take nanoseconds or tens of milliseconds.
 void Monitor::choose_pace(std::chrono::steady_clock::time_point now) {
   constexpr std::chrono::microseconds kOften{100}, kSeldom{1000};
   const auto since = now - std::exchange(last_looked_, now);
@@ -98,7 +98,7 @@ void parallel_monitored(const Threads& threads, std::size_t count, Monitor& moni
                         std::array<double, 2> part, const std::function<void(std::size_t, Monitor&)>& task) {
   MonitoredTasks tasks{.count = count, .part = part, .stage = monitor.stage()};
   std::once_flag first;
-  std::exception_ptr cause;  // those of other tasks may be what came of it
+  std::exception_ptr cause;  // exceptions of other tasks may only follow from it
   const auto end_all = [&](Outcome why) {
     std::call_once(first, [&] { cause = std::current_exception(); });
     tasks.why = why;

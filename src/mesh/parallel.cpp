@@ -27,8 +27,8 @@ class Job {
     errors_.resize(count);
   }
 
-  std::size_t wanted = 0;   // threads that may yet join in
-  std::size_t helping = 0;  // threads that did
+  std::size_t wanted = 0;   // threads that may still join
+  std::size_t helping = 0;  // threads that have joined
 
   void run(std::size_t k) {
     try {
@@ -48,7 +48,7 @@ class Job {
       poll();
     }
   }
-  // By the caller alone.
+  // Called by the caller alone.
   void poll() {
     if (between_ == nullptr || interruption_) return;
     try {
@@ -75,8 +75,8 @@ class Job {
 
 }  // namespace
 
-// Jobs stand in a list as long as threads may join in. Whoever calls for help works too, and waits only for
-// those that did join: so jobs within jobs end.
+// A job is in the list as long as threads may join it. A thread that calls for help works too, and waits only
+// for the threads that did join; so nested jobs end.
 class Threads::Helpers {
  public:
   Helpers() = default;
@@ -112,7 +112,7 @@ class Threads::Helpers {
     try {
       while (threads_.size() < most) threads_.emplace_back([this] { help(); });
     } catch (const std::system_error&) {
-      // Those that there are do the work.
+      // The threads that exist do the work.
     }
     job.wanted = most;
     jobs_.push_back(&job);

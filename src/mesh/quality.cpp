@@ -19,7 +19,7 @@ constexpr std::array<std::array<std::size_t, 2>, 6> kFacesAt{
 // Normals of the faces opposite a, b, c, d, all inward or all outward.
 using Normals = std::array<Vector, 4>;
 
-// What Q stands on, in plain arithmetic.
+// The quantities that determine Q, in plain arithmetic.
 struct Plain {
   Normals normals;
   std::array<double, 4> lengths;  // of the normals
@@ -32,7 +32,7 @@ struct Plain {
   [[nodiscard]] double quality() const { return kQualityOfRegular * longest * twice_area / six_volumes; }
 };
 
-// Nothing for a tetrahedron too small or too large for that.
+// None if the tetrahedron is too small or too large for plain arithmetic.
 std::optional<Plain> plain_of(const Point& a, const Point& b, const Point& c, const Point& d) {
   constexpr double kSmall = 1e-50, kLarge = 1e50;
   const Vector u = b - a, v = c - a, w = d - a;
@@ -47,7 +47,7 @@ std::optional<Plain> plain_of(const Point& a, const Point& b, const Point& c, co
   return Plain{normals, l, longest, std::abs(dot(n, w)), l[3] + l[1] + l[2] + l[0]};
 }
 
-// The same with care for what cancels.
+// The same quantities, computed with care where terms cancel.
 struct Careful {
   Normals normals;
   double six_volumes;
@@ -88,12 +88,12 @@ Careful careful_of(const Point& a, const Point& b, const Point& c, const Point& 
   return Careful(careful::brought_in_range<4>({a, b, c, d}));
 }
 
-// Six volumes from here on, in cubes of the longest edge, leave ten digits in plain arithmetic.
+// Where six volumes, in cubes of the longest edge, exceed this, plain arithmetic keeps ten digits.
 constexpr double kThin = 1e-5;
 
-// Q lies between these, whatever is rounded. The length of each normal errs by less than 10 eps times the
-// square of the longest edge, the volume by less than 30 eps times its cube, and what is computed with care
-// errs by a millionth.
+// Q lies between these bounds in spite of rounding. The length of each normal errs by less than 10 eps times
+// the square of the longest edge, the volume by less than 30 eps times its cube, and values computed with
+// care err by a millionth.
 struct Bounds {
   double lower, upper;
 };
@@ -108,14 +108,14 @@ Bounds bounds_of_quality(const Plain& plain) {
                            : std::numeric_limits<double>::infinity()};
 }
 
-// What products alone tell of Q, which for most tetrahedra will do: no face is larger than an equilateral
-// triangle on the longest edge l, and two faces are as large as any other, so that with n, twice the area of
-// abc, 2 n l <= Q 6V / (sqrt(6)/12) and Q <= sqrt(1/2) l^3 / 6V.
+// What products alone tell about Q, which is enough for most tetrahedra. No face is larger than an
+// equilateral triangle on the longest edge l, and any two faces together are at least as large as a third. So
+// with n, twice the area of abc: 2 n l <= Q 6V / (sqrt(6)/12) and Q <= sqrt(1/2) l^3 / 6V.
 enum class Told { below, not_below, neither };
 Told compared_by_products(const Point& a, const Point& b, const Point& c, const Point& d, double limit) {
   constexpr double kSmall = 1e-60, kLarge = 1e100;
-  // Six volumes and n err by less than 30 and 10 eps times a cube and a square of l: below these parts of l^6
-  // and l^4 their squares may tell nothing.
+  // Six volumes and n err by less than 30 and 10 eps times a cube and a square of l. Squares below these
+  // parts of l^6 and l^4 may be meaningless.
   constexpr double kRoundedVolume = 1e-20, kRoundedArea = 1e-8;
   constexpr double kCare = 1.01, kTwoAreas = 4 * kQualityOfRegular * kQualityOfRegular / kCare;
   const Vector u = b - a, v = c - a, w = d - a;
@@ -179,7 +179,7 @@ std::array<double, 6> dihedral_angles(const Point& a, const Point& b, const Poin
 }
 
 std::optional<PlainShape> plain_shape(const Point& a, const Point& b, const Point& c, const Point& d) {
-  constexpr double kThinForAngles = 1e-3;  // of a cosine nine digits are left
+  constexpr double kThinForAngles = 1e-3;  // a cosine keeps nine digits
   const std::optional<Plain> plain = plain_of(a, b, c, d);
   if (!plain || plain->is_thinner_than(kThinForAngles)) return std::nullopt;
   const Normals& n = plain->normals;

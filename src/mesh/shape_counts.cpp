@@ -13,7 +13,7 @@ double degrees_of(double cosine) {
   return numbers::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
 }
 
-// Gathers the angles of a volume: cosines where they are good enough, which is nearly everywhere.
+// Gathers the angles of a volume, as cosines where these are accurate enough, which is nearly everywhere.
 class AngleHistogram {
  public:
   using Counts = decltype(VolumeShape::dihedrals);
@@ -59,7 +59,7 @@ class AngleHistogram {
   Angle least_{0, -1}, most_{0, 1};
 };
 
-// Of some of the elements of a volume.
+// Figures of some elements of a volume.
 struct Measured {
   double worst = 0;
   AngleHistogram angles;
@@ -93,7 +93,7 @@ CosineBins<kBins>::CosineBins(double degrees) {
     const double end = degrees * static_cast<double>(k + 1);
     end_[k] = end == 90 ? 0 : numbers::cos(end * std::numbers::pi / 180);
   }
-  // Of a cosine half a cell before, which no rounding takes into the cell.
+  // Starts from a cosine half a cell before, which no rounding moves into the cell.
   for (std::size_t cell = 0; cell < kCells; ++cell) {
     const double before = 1 - (static_cast<double>(cell) - 0.5) * (2.0 / kCells);
     first_[cell] = static_cast<std::uint8_t>(

@@ -30,7 +30,8 @@ void ShellPlan::look_at_shell(const TetMesh& mesh) {
 }
 
 // The two tetrahedra of a link triangle, in the order of tetrahedra_of: (p_i p_k p_j b) and (p_j p_k p_i a).
-// They join each other, those of the triangles beside theirs, and what lies across the shell's outer faces.
+// They are joined to each other, to those of adjacent triangles, and to the tetrahedra across the shell's
+// outer faces.
 void ShellPlan::join(const LinkTriangle& triangle, std::size_t first) {
   const auto [i, k, j] = triangle;
   const Vertex pi = shell_.link[i], pk = shell_.link[k], pj = shell_.link[j];
@@ -49,7 +50,7 @@ void ShellPlan::join(const LinkTriangle& triangle, std::size_t first) {
   }
 }
 
-// The face opposite corner `c`, which has the corners x < y of the link.
+// The face opposite corner `c`; its corners x < y are in the link.
 void ShellPlan::join_side(std::size_t end, std::size_t tet, std::size_t x, std::size_t y, int c) {
   const bool closes = x == 0 && y + 1 == shell_.size();
   if (!closes && y != x + 1) {

@@ -16,15 +16,15 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The tetrahedra on a triangle that compete for the least Q.
+// The tetrahedra on a triangle abc that compete for the least Q.
 //
-// Let L be the longest side. Over a given foot the inradius grows with the height h of the apex p:
-// r = A h / (A + sum of l_i sqrt(d_i^2 + h^2) / 2), with A the area, l_i the sides and d_i the distances of
-// the foot from them. So p lies as high as the longest edge allows, and of the longest edge more than L
-// never pays. That leaves p on a sphere of radius L round a corner, and the best one lies on two of them:
-// those round the ends of the longest side, so that p makes an equilateral triangle with it. What remains
-// is one number, the angle between that triangle and abc. (That the best p is of this kind was found by
-// search over all p; the unit test repeats it.)
+// Let L be the longest side. Over a given foot the inradius grows with the height h of the apex p: r = A h /
+// (A + sum of l_i sqrt(d_i^2 + h^2) / 2), with A the area, l_i the sides and d_i the distances of the foot
+// from them. So p lies as high as the longest edge allows, and a longest edge above L never pays. Hence p
+// lies on a sphere of radius L round a corner. The best p lies on two of them, round the ends of the longest
+// side, so that p makes an equilateral triangle with this side. One number remains: the angle between that
+// triangle and abc. (That the best p is of this kind was found by a search over all p; the unit test repeats
+// it.)
 class BestTetrahedron {
  public:
   BestTetrahedron(const Point& a, const Point& b, const Point& c) {
@@ -80,8 +80,8 @@ class BestTetrahedron {
 };
 
 double target_of(std::span<const Point> vertices, std::span<const Triangle> facets) {
-  // Any candidate bounds the best one from above: that of the worst triangle so far settles most triangles,
-  // and all of its shape.
+  // Any candidate bounds the best one from above: the one for the worst triangle so far rules out most
+  // triangles, and all of its shape.
   constexpr double kRounding = 1e-12;
   double target = 0, angle = 1.3;
   for (const Triangle& f : facets) {
@@ -107,7 +107,8 @@ double best_quality_on(const Point& a, const Point& b, const Point& c) {
 
 double target_quality(std::span<const Point> vertices, std::span<const Triangle> facets,
                       const Threads& threads) {
-  constexpr std::size_t kBlock = 8192;  // whatever the threads, since the last bits may depend on it
+  constexpr std::size_t kBlock =
+      8192;  // the same for any number of threads, since the last bits may depend on it
   std::vector<double> targets(1 + facets.size() / kBlock);
   parallel(threads, targets.size(), [&](std::size_t k) {
     const std::size_t first = k * kBlock;

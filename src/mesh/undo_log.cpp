@@ -8,7 +8,7 @@
 namespace holdfast {
 namespace {
 
-// Of several notes of one number the first is that of the mark.
+// The first of several notes of one number is the state at the mark.
 template <typename Number>
 void keep_first(std::vector<std::pair<Number, std::size_t>>& notes) {
   std::sort(notes.begin(), notes.end());
@@ -47,7 +47,7 @@ void UndoLog::release() {
 void UndoLog::note_slot(Tet t) {
   if (t >= slot_epoch_.size()) slot_epoch_.resize(mesh_.slot_count(), 0);
   if (std::exchange(slot_epoch_[t], epoch_) == epoch_) return;
-  // A mesh between two operations has no visited tetrahedra.
+  // Between two operations a mesh has no visited tetrahedra.
   const auto flags = static_cast<Flags>(mesh_.flags(t) & ~kVisited);
   slots_.push_back({t, mesh_.corners(t), mesh_.neighbours(t), flags});
 }
