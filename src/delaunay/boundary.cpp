@@ -45,8 +45,8 @@ void CavityBoundary::give_slots(std::span<const Face> cavity, Slots& slots) {
   for (std::size_t j = own; j < face_count_; ++j) faces_[j].slot = slots.take();
 }
 
-// Reads the faces round the cavity off its cells, whose slots are about to be used again.
-// The boundary face (v0, v1, v2) sees the new vertex p; the new cell is (p, v1, v0, v2), with the ghost last.
+// Reads the faces round the cavity from its cells, before their slots are used again. The new vertex p sees
+// the boundary face (v0, v1, v2); the new cell is (p, v1, v0, v2), with the ghost last.
 template <bool kByTable>
 void CavityBoundary::list(Triangulation& triangulation, std::span<const Face> rim, Face* table,
                           std::uint32_t side) {
@@ -55,8 +55,8 @@ void CavityBoundary::list(Triangulation& triangulation, std::span<const Face> ri
   Vertex* const ring = ring_.data();
   const Vertex ghost = triangulation.ghost(), ghost_scratch = ghost_scratch_;
   std::uint32_t fresh = 0;
-  // The place of v in the ring, with v added if it is not there: without a branch, which would be hard
-  // to predict. The ring has room for one entry more than it comes to hold.
+  // The place of v in the ring; adds v if it is not there. It has no branch, because that would be hard to
+  // predict. The ring has room for one more entry than it ever holds.
   const auto local_index = [&](Vertex v) {
     std::uint32_t& place = sites[v == ghost ? ghost_scratch : v].local;
     const std::uint32_t old = std::min(place, fresh);

@@ -15,8 +15,8 @@ std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x); }
 
 ConflictCavity::ConflictCavity() : cells_(kFirstScratch), rim_(kFirstScratch) {}
 
-// The outcome of a test is a coin toss to the processor, so both lists are written always and only
-// their lengths depend on it; sign bits do the marking.
+// The processor cannot predict the outcome of a test, so both lists are always written and only their lengths
+// depend on it. Sign bits do the marking.
 template <Insertion kMode>
 bool ConflictCavity::dig(Triangulation& triangulation, const Ownership& own, Tet seed, const double* q,
                          Vertex k) {
@@ -39,7 +39,7 @@ bool ConflictCavity::dig(Triangulation& triangulation, const Ownership& own, Tet
     const std::uint64_t before = bits_of(next.reach);
     const std::uint64_t after = before | conflict;
     if constexpr (kMode == Insertion::in_slab) {
-      // Three of its corners are owned, for they are those of the cell that it was reached from.
+      // The inserter owns three of its corners: they belong to the cell from which it was reached.
       const bool is_own = own.has(next.v[across & 3u]);
       *(is_own ? &next.reach : &nowhere) = std::bit_cast<double>(after);
       escapes = escapes | (!is_own && after != before);

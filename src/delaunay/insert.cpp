@@ -9,7 +9,7 @@ namespace {
 
 // Puts the highest vertex of a cell first.
 void turn(Triangulation& triangulation, Tet t) {
-  // Even permutations, which leave the ghost in its place.
+  // Even permutations that leave the ghost in its place.
   static constexpr std::array<std::array<std::size_t, 4>, 4> kTurn{
       {{0, 1, 2, 3}, {1, 2, 0, 3}, {2, 0, 1, 3}, {3, 2, 1, 0}}};
   Cell* const cells = triangulation.cells().data();
@@ -33,7 +33,7 @@ void turn(Triangulation& triangulation, Tet t) {
   triangulation.set_geometry(cell);
 }
 
-// Puts the highest vertex first in the cells of a boundary where it is not the new one, k.
+// Puts the highest vertex first in the new cells whose highest vertex is not the new vertex k.
 void turn_new_cells(Triangulation& triangulation, const CavityBoundary& boundary, Vertex k) {
   const auto above = [&](Vertex v) { return v > k && v != triangulation.ghost(); };
   const auto ring = boundary.vertices();
@@ -67,7 +67,7 @@ bool Inserter::insert_as(Vertex k) {
   return true;
 }
 
-// Where k is beyond the hull, the cell inside is entered: a walk begins in a finite one.
+// If k is beyond the hull, enters the cell inside, because a walk begins in a finite cell.
 bool Inserter::enter(const Slab& slab, Vertex k, Tet from) {
   own_.move_to(slab);
   last_ = from;
@@ -77,10 +77,9 @@ bool Inserter::enter(const Slab& slab, Vertex k, Tet from) {
   return own_.touches(cells[last_]);
 }
 
-// Remembering stochastic visibility walk (Devillers, Pion, Teillaud 2002): ends with probability one in
-// any triangulation, from a finite cell. It may stop at any cell in strict conflict, which the cell that
-// holds q is, unless q is one of its corners. A ghost is entered only through a face that q is strictly
-// beyond.
+// Remembering stochastic visibility walk (Devillers, Pion, Teillaud 2002). From a finite cell, it ends with
+// probability one in any triangulation. It may stop at any cell in strict conflict; the cell that contains q
+// is one, unless q is one of its corners. A ghost is entered only through a face that q lies strictly beyond.
 template <bool kInSlab>
 Inserter::Located Inserter::locate(const double* q) {
   const Cell* const cells = triangulation_.cells().data();
@@ -129,7 +128,7 @@ void Inserter::fill(Vertex k) {
     links_.by_hash(boundary_.faces(), cells);
 }
 
-// The number of faces of a closed surface is even, so they go in pairs.
+// A closed surface has an even number of faces, so they are processed in pairs.
 void Inserter::set_geometry(Vertex k) {
   Cell* const cells = triangulation_.cells().data();
   const Spoke* const spokes = boundary_.spokes();

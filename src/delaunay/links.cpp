@@ -19,7 +19,7 @@ void EdgeLinks::by_table(std::span<const CavityFace> faces, Cell* cells) const {
   }
 }
 
-// Each edge is met twice: the first face leaves its code, the second links the two.
+// Each edge is visited twice: the first face stores its code, the second links the two.
 void EdgeLinks::by_hash(std::span<const CavityFace> faces, Cell* cells) {
   const std::size_t size = std::bit_ceil(3 * faces.size());
   if (hash_.size() < size) hash_.resize(size);

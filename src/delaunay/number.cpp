@@ -10,11 +10,12 @@
 namespace holdfast {
 namespace {
 
-// Corner i of a turned cell is corner kTurned[turn][i] of the cell as it was made, and the other way round.
+// Corner i of a turned cell is corner kTurned[turn][i] of the original cell, and vice versa.
 constexpr std::array<std::array<std::uint32_t, 4>, 3> kTurned{{{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}}};
 constexpr std::array<std::array<std::uint32_t, 4>, 3> kTurnedFrom{{{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}}};
 
-// The turn that makes the lowest of corners 1, 2, 3 corner 1; without a branch, for it is random.
+// The turn that makes the lowest of corners 1, 2, 3 corner 1. It has no branch, because the lowest corner is
+// random.
 std::uint32_t turn_of(const std::array<Vertex, 4>& v) {
   const Vertex lowest = std::min(v[1], std::min(v[2], v[3]));
   return static_cast<std::uint32_t>(v[2] == lowest) + 2 * static_cast<std::uint32_t>(v[3] == lowest);
@@ -25,7 +26,7 @@ std::array<std::uint32_t, 4> turned(const std::array<std::uint32_t, 4>& a, std::
   return {a[k[0]], a[k[1]], a[k[2]], a[k[3]]};
 }
 
-// The cells of a highest vertex as they are sorted: by corners alone, or with all that they have.
+// Cells with a common highest vertex, as they are sorted: by corners alone, or with all their data.
 using BareCell = std::array<Vertex, 4>;
 struct FullCell {
   std::array<Vertex, 4> v;
@@ -40,14 +41,14 @@ void set(FullCell& out, const Cell& cell, Tet slot, std::uint32_t turn) {
   out = {turned(cell.v, turn), turned(cell.n, turn), slot << 2 | turn};
 }
 
-// Two cells with corners 0, 1, 2 in common turn in different ways round that face, so that the second has
-// them in another order.
+// Two cells with common corners 0, 1, 2 turn in opposite ways round that face, so the second one has these
+// corners in another order.
 template <class C>
 std::uint64_t key_of(const C& cell) {
   return std::uint64_t{corners_of(cell)[1]} << 32 | corners_of(cell)[2];
 }
 
-// A vertex of the box may be that of half of the cells.
+// Half of the cells may share one vertex of the box.
 template <class C>
 void sort_many_cells(C* first, C* last, const Threads& threads) {
   constexpr std::ptrdiff_t kAtOnce = 1 << 15;  // some milliseconds' work
@@ -74,7 +75,7 @@ void sort_cells(C* first, C* last, const Threads& threads) {
   }
 }
 
-// Sorts the cells by vertices, those of a highest vertex together.
+// Sorts the cells by vertices; cells with the same highest vertex are adjacent.
 template <class C>
 class Numbering {
  public:
@@ -88,7 +89,7 @@ class Numbering {
 
   /// Number of cells without the ghost.
   [[nodiscard]] std::size_t size() const { return cells_.size(); }
-  /// In no order.
+  /// The ghosts, in no order.
   [[nodiscard]] std::vector<C>& ghosts() { return ghosts_; }
 
   /// Calls put(place, cell) for every cell without the ghost.
@@ -98,7 +99,7 @@ class Numbering {
     std::vector<std::size_t> starts(parts + 1, size());
     for (std::size_t part = 0; part < parts; ++part) starts[part] = start_of_run(size() * part / parts);
     parallel(threads_, parts, [&](std::size_t part) {
-      // What stands beyond its part, another thread is sorting.
+      // Another thread is sorting the cells beyond this part.
       const std::size_t last = starts[part + 1];
       std::size_t poll_at = starts[part] + kPollCells;
       for (std::size_t place = starts[part]; place < last;) {
@@ -116,13 +117,13 @@ class Numbering {
  private:
   static constexpr std::size_t kPollCells = std::size_t{1} << 15;  // some milliseconds' work
 
-  // Into which so many cells are cut, one a thread.
+  // The number of parts into which so many cells are cut, one part a thread.
   [[nodiscard]] std::size_t parts_of(std::size_t cells) const {
     constexpr std::size_t kLeastPart = 8192;  // cells that are worth a thread
     return std::clamp<std::size_t>(cells / kLeastPart, 1, threads_.count());
   }
 
-  // Where the cells of each vertex come to stand, and how many they are in all.
+  // Computes the place of each vertex's cells, and the number of all cells.
   std::size_t make_room() {
     const Triangulation::Site* const sites = triangulation_.sites();
     const std::size_t vertices = triangulation_.size();
@@ -137,9 +138,9 @@ class Numbering {
     return sum;
   }
 
-  // Puts every cell next to those of its highest vertex. Two threads fill the room of a vertex from its two
-  // ends; a counter that more could share would have to be atomic, which stops the processor from waiting for
-  // several cells at once, and takes two threads as long as one.
+  // Puts every cell next to the others with the same highest vertex. Two threads fill the room of a vertex
+  // from its two ends. A counter for more threads would have to be atomic: then the processor cannot wait for
+  // several cells at once, and two threads take as long as one.
   void distribute() {
     const std::size_t count = triangulation_.cells().size();
     const std::size_t parts = std::min<std::size_t>(parts_of(count), 2);
@@ -158,7 +159,7 @@ class Numbering {
   template <class NextPlace>
   void distribute(std::size_t first, std::size_t last, std::vector<C>& ghosts, const NextPlace& next_place) {
     constexpr std::size_t kBlock = (std::size_t{1} << 21) / sizeof(Cell);
-    // Each of the first cells may be the first on its huge page, which the system empties.
+    // Each of the first cells may be the first on its huge page, which the system clears.
     constexpr std::size_t kFirstCells = std::size_t{1} << 16, kPolledFirst = 16, kPolled = 256;
     LargeArray<Cell>& cells = triangulation_.cells();
     const Vertex ghost = triangulation_.ghost();
@@ -176,7 +177,7 @@ class Numbering {
   }
 
   [[nodiscard]] Vertex highest(std::size_t place) const { return corners_of(cells_[place])[0]; }
-  // Of the first run of cells with the same highest vertex that starts at `place` or behind.
+  // The start of the first run of cells with one highest vertex at or after `place`.
   [[nodiscard]] std::size_t start_of_run(std::size_t place) const {
     return place == 0 || place == size() ? place : end_of_run(place - 1, size());
   }
@@ -194,7 +195,7 @@ class Numbering {
   std::vector<C> ghosts_;
 };
 
-// With room for what changes a mesh to add some slots without a copy of all.
+// Reserves room, so that changes of the mesh can add some slots without a copy of all.
 template <class T>
 std::vector<T> sized_vector(std::size_t size, const Threads& threads) {
   std::vector<T> vector;
@@ -220,7 +221,7 @@ std::vector<Tetrahedron> finite_cells(Triangulation& triangulation, const Thread
 }
 
 std::vector<TetMesh::Cell> all_cells(Triangulation& triangulation, const Threads& threads) {
-  LargeArray<std::uint32_t> placed(triangulation.cells().size());  // of a slot: 4 * place + turn
+  LargeArray<std::uint32_t> placed(triangulation.cells().size());  // by slot: 4 * place + turn
   Numbering<FullCell> numbering(triangulation, threads);
   std::vector<FullCell>& ghosts = numbering.ghosts();
   std::sort(ghosts.begin(), ghosts.end(), [](const FullCell& a, const FullCell& b) { return a.v < b.v; });

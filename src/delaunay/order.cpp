@@ -19,12 +19,13 @@ struct Entry {
   std::uint32_t point;
 };
 
-constexpr unsigned kMostBits = 20;    // of the curve, an axis; leaves four bits of the key to the round
+constexpr unsigned kMostBits = 20;    // of the curve, an axis; leaves four bits of the key for the round
 constexpr unsigned kMostRounds = 15;  // fits those four bits
 constexpr unsigned kRoundShift = 3;   // a round holds 2^3 times the points of all rounds before it
 constexpr std::size_t kFirstRound = 256;
-constexpr std::size_t kLongRun = kDuplicateDistance;  // points in one cell of the grid worth another sort
-constexpr std::size_t kLeastPart = 8192;              // entries that are worth a thread
+constexpr std::size_t kLongRun =
+    kDuplicateDistance;                   // points in one cell of the grid that are worth another sort
+constexpr std::size_t kLeastPart = 8192;  // entries that are worth a thread
 
 std::uint64_t scramble(std::uint64_t x) {
   x += 0x9E3779B97F4A7C15ull;
@@ -33,14 +34,14 @@ std::uint64_t scramble(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// Bits an axis that tell n points on a surface apart, more or less; runs that still share a cell are
-// sorted again in a grid of their own.
+// Bits an axis that roughly separate n points on a surface. Runs that still share a cell are sorted again in
+// a grid of their own.
 unsigned bits_for(std::size_t n) {
   return std::clamp((static_cast<unsigned>(std::bit_width(n)) + 1) / 2 + 1, 4u, kMostBits);
 }
 
-// The cube round a set of points, as a map to integers. Halving keeps extents near the end of the
-// exponent range finite and is exact above the denormals, whose last bit does not matter here.
+// The cube round a set of points, as a map to integers. Halving keeps extents finite near the end of the
+// exponent range. It is exact above the denormals, whose last bit does not matter here.
 class Grid {
  public:
   Grid(std::span<const Point> points, std::span<const Entry> entries, unsigned bits) : bits_(bits) {
@@ -65,7 +66,7 @@ class Grid {
     cells_ = std::ldexp(1.0, static_cast<int>(bits));
   }
 
-  // All points are one.
+  // Whether all points are equal.
   [[nodiscard]] bool flat() const { return flat_; }
 
   [[nodiscard]] std::uint64_t key(const Point& p) const {
@@ -154,9 +155,9 @@ void radix_sort(std::span<Entry> entries, unsigned bits, const Threads& threads)
   if (from != entries.data()) std::copy(from, from + entries.size(), entries.data());
 }
 
-// Sorts entries whose keys hold their round above the curve's bits; then each run of points that share
-// a cell of the grid again, in the grid of their own extent. That keeps clusters at any scale local.
-// Every run is a proper subset, for the extreme points of an extent lie in different cells.
+// Sorts entries whose keys hold their round above the curve's bits. Then it sorts each run of points that
+// share a cell again, in a grid of their own extent. That keeps clusters of any scale local. Every run is a
+// proper subset, because the extreme points of an extent lie in different cells.
 void sort_along_curve(std::span<const Point> points, std::span<Entry> entries, unsigned round_bits,
                       const Threads& threads) {
   const unsigned bits = bits_for(entries.size());

@@ -1,8 +1,9 @@
-// Several threads take the rounds of the insertion order one by one. A round goes through phases: space is
-// cut into slabs with equally many of the points left, one a thread, across another axis each time; points
-// whose cavity leaves their slab wait for the next phase, and what is left when phases do not pay any more is
-// inserted by one thread. (Marot, Pellerin, Remacle 2019 cut a space-filling curve instead, and do not wait
-// for the end of a round. That is needed here, for of equal points the first must be the one that stands.)
+// Several threads work on the rounds of the insertion order one by one. A round has phases. Each phase cuts
+// space into slabs with equally many of the remaining points, one a thread, across another axis each time.
+// Points whose cavity leaves their slab wait for the next phase. When phases do not pay any more, one thread
+// inserts the rest. (Marot, Pellerin, Remacle 2019 cut a space-filling curve instead, and do not wait for the
+// end of a round. Waiting is needed here, because of equal points the first must be the one that is
+// inserted.)
 #include "delaunay/schedule.h"
 
 #include <algorithm>
@@ -18,10 +19,10 @@ namespace holdfast {
 namespace {
 
 constexpr std::size_t kPollInterval = 2048;  // faces of cavities; most have some thirty
-constexpr std::size_t kFewPoints = 200;      // a thread, that are not worth a phase
-constexpr std::size_t kSamplePerSlab = 512;  // points to find the slabs by
+constexpr std::size_t kFewPoints = 200;      // a thread: so few are not worth a phase
+constexpr std::size_t kSamplePerSlab = 512;  // sample points that define the slabs
 constexpr double kMostShare = 1.7;           // of points in a slab, over the mean
-constexpr std::size_t kEntrances = 8;        // points to try to enter a slab by
+constexpr std::size_t kEntrances = 8;        // points from which to try to enter a slab
 
 class Schedule {
  public:
@@ -68,7 +69,7 @@ class Schedule {
     }
   }
 
-  // One slab a thread, none if too many points have the same coordinate.
+  // One slab a thread; none if too many points have the same coordinate.
   [[nodiscard]] std::vector<Slab> slabs_across(std::size_t axis, const std::vector<Vertex>& points) const {
     std::vector<double> sample;
     const std::size_t step = std::max<std::size_t>(1, points.size() / (kSamplePerSlab * threads_.count()));
@@ -87,7 +88,7 @@ class Schedule {
     return slabs;
   }
 
-  // Returns the points that are left.
+  // Returns the remaining points.
   std::vector<Vertex> run_phase(const std::vector<Slab>& slabs, const std::vector<Vertex>& points) {
     triangulation_.expect_points(points.size(), threads_.count());
     std::vector<char> entered(slabs.size(), 0);
@@ -140,7 +141,8 @@ class Schedule {
     return left;
   }
 
-  // Of equal points the first is to be inserted first.
+  // Whether k is equal to an earlier point that is not yet inserted: of equal points the first is inserted
+  // first.
   [[nodiscard]] bool waits_for_equal(Vertex k, const std::vector<Vertex>& left) const {
     const double* q = triangulation_.at(k);
     for (auto v = left.rbegin(); v != left.rend() && *v + kDuplicateDistance >= k; ++v)

@@ -23,7 +23,7 @@ bool collinear(const double* a, const double* b, const double* c) {
   return true;
 }
 
-// Slots for the cells of so many points. Several inserters leave parts of blocks unused, and cannot grow the
+// Slots for the cells of so many points. Several inserters leave parts of blocks unused and cannot grow the
 // array.
 std::size_t room_for(std::size_t points, unsigned inserters) {
   const std::size_t room = kCellsAPoint * points + kSlotBlock;
@@ -106,7 +106,7 @@ void Triangulation::make_first_cells() {
     std::rotate(corner.begin(), std::max_element(corner.begin(), corner.end()), corner.end());
     cells_[1 + i].v = {corner[0], corner[1], corner[2], ghost_};
   }
-  // Each cell lacks one of the five vertices, and its neighbour at corner v is the cell that lacks v.
+  // Each cell lacks one of the five vertices; its neighbour at corner v is the cell that lacks v.
   const auto lacking = [this](Tet t) { return t == 0 ? ghost_ : cells_[0].v[t - 1]; };
   const auto that_lacks = [&](Vertex v) {
     Tet t = 0;
@@ -164,8 +164,8 @@ void Triangulation::set_geometry(Cell& cell) const {
   }
 }
 
-// The cell whose sphere decides in the plane of a ghost's hull face: that sphere cuts the plane in the face's
-// circumcircle.
+// The cell whose sphere decides for points in the plane of a ghost's hull face: that sphere cuts the plane in
+// the face's circumcircle.
 const Cell& Triangulation::sphere_of(const Cell& cell) const {
   return is_ghost(cell) ? cells_[tet_of(cell.n[3])] : cell;
 }
@@ -190,10 +190,10 @@ bool Triangulation::in_conflict_exact(const Cell& cell, const double* q, Vertex 
 template bool Triangulation::in_conflict_exact<true>(const Cell&, const double*, Vertex) const;
 template bool Triangulation::in_conflict_exact<false>(const Cell&, const double*, Vertex) const;
 
-// Vertex k, at q, is on the sphere of a positive cell. Lowering it puts it inside; lowering corner i puts it
-// inside iff q lies strictly beyond the face opposite the corner: insphere (a b c d q) = -insphere (q b c d
-// a), which rises as a falls if (q b c d) is negative. That is 0 for a corner that is not in the plane of a
-// hull face and q, so that ghosts are decided in their plane.
+// Vertex k, at q, is on the sphere of a positive cell. Lowering k puts it inside. Lowering corner i puts k
+// inside iff q lies strictly beyond the face opposite that corner: insphere (a b c d q) = -insphere (q b c d
+// a), which rises as a falls if (q b c d) is negative. That orientation is 0 for a corner outside the common
+// plane of a hull face and q, so ghosts are decided in their plane.
 bool Triangulation::lowered_into_conflict(const Cell& cell, const double* q, Vertex k) const {
   std::array<std::size_t, 4> corners{0, 1, 2, 3};
   std::sort(corners.begin(), corners.end(),
