@@ -26,7 +26,7 @@ namespace {
 using FaceCorners = FaceKey;
 using Tell = std::function<void()>;
 
-// Tetrahedra that fill a cavity, and the points that were added for them: vertex kAdded + k is the k-th.
+// Tetrahedra that fill a cavity, and the points added for them: vertex kAdded + k is the k-th point.
 struct Filling {
   static constexpr Vertex kAdded = 0x80000000u;
   std::vector<TetMesh::Corners> tets;
@@ -43,7 +43,7 @@ struct Filling {
   }
 };
 
-// One of the two cavities. Its inside sees the corners of its faces turn counterclockwise.
+// One of the two cavities. Seen from its inside, the corners of its faces turn counterclockwise.
 class Cavity {
  public:
   Cavity(const TetMesh& mesh, const FaceCorners& facet) : mesh_(mesh), facet_(facet) {}
@@ -52,12 +52,12 @@ class Cavity {
   void add_face(Face f) {
     faces_.emplace(face_key(mesh_.face_vertices(f)), Outer{mesh_.face_vertices(f), mesh_.neighbour(f)});
   }
-  // What the cavity may hold inside: facets and segments that do not meet the one to be recovered.
+  // Adds a facet or segment that the cavity may contain: one that does not meet the facet to be recovered.
   void add_inner_facet(const FaceCorners& f) { inner_facets_.push_back(f); }
   void add_inner_segment(const Segment& s) { inner_segments_.push_back(s); }
 
-  // Takes in the tetrahedra behind faces that no filling had. `taken` is what both cavities hold. Returns
-  // whether there were any.
+  // Adds the tetrahedra behind the faces that no filling had. `taken` holds the tetrahedra of both cavities.
+  // Returns whether any was added.
   bool grow(std::unordered_set<Tet>& taken) {
     bool grown = false;
     for (const FaceCorners& f : missing_) {
@@ -68,7 +68,8 @@ class Cavity {
   }
   [[nodiscard]] const std::vector<Tet>& grown() const { return grown_; }
 
-  // Positive tetrahedra that fill the cavity, or nothing; `missing_` then are faces that could not be had.
+  // Positive tetrahedra that fill the cavity, or nothing; then `missing_` holds the faces that could not be
+  // recovered.
   std::optional<Filling> fill(std::uint64_t seed, const FacetCavities::Finish& finish, const Tell& tell) {
     missing_.clear();
     sort_unique(vertices_);
@@ -104,7 +105,7 @@ class Cavity {
     }
   };
 
-  // The cavity as a complex of its own; the facet comes first.
+  // The cavity as a complex of its own, with the facet first.
   struct Local {
     std::vector<Point> points;
     std::vector<Triangle> facets;
@@ -122,8 +123,9 @@ class Cavity {
     }
   };
 
-  // Delaunay tetrahedra of the vertices that have doubles and of the far points; then come the others, which
-  // have waited in the place of a corner of the facet, where Delaunay leaves them out.
+  // Makes Delaunay tetrahedra of the vertices that have doubles and of the far points. Then it inserts the
+  // other vertices. Until then they stand at a corner of the facet, so that Delaunay leaves them out as
+  // duplicates.
   bool triangulate(const Local& local, std::uint64_t seed, TetMesh& mesh) const {
     for (const Vertex v : vertices_)
       MeshEditor(mesh).add_vertex(mesh_.position(mesh_.is_explicit(v) ? v : facet_[0]));
@@ -139,8 +141,9 @@ class Cavity {
     return true;
   }
 
-  // Corners of a box above the facet, and one point so far below it that a sphere through that point and the
-  // facet's corners holds no vertex of the cavity: the facet is a Delaunay triangle, inside the hull.
+  // Corners of a box above the facet, and one point far below it. That point is so far away that a sphere
+  // through it and the facet's corners contains no vertex of the cavity; so the facet is a Delaunay triangle
+  // inside the hull.
   [[nodiscard]] std::vector<Point> far_points(const Local& local) const {
     const Triangle& f = local.facets.front();
     const std::array<Point, 3> p{local.points[f[0]], local.points[f[1]], local.points[f[2]]};
@@ -193,7 +196,7 @@ class Cavity {
     return true;
   }
 
-  // From the facet through all faces but the cavity's own.
+  // Searches from the facet through all faces except the cavity's own.
   [[nodiscard]] std::optional<Filling> inside_of(TetMesh& mesh, Vertex first_free, std::uint64_t seed) const {
     const auto is_boundary = [&](Face f) {
       if (!mesh.is_facet(f)) return false;
@@ -238,16 +241,16 @@ class Cavity {
   }
 
   const TetMesh& mesh_;
-  const FaceCorners facet_;  // as this cavity's inside sees it
+  const FaceCorners facet_;  // as seen from the cavity's inside
   std::vector<Vertex> vertices_;
-  std::unordered_map<FaceCorners, Outer, FaceHash> faces_;  // but the facet
+  std::unordered_map<FaceCorners, Outer, FaceHash> faces_;  // without the facet
   std::vector<FaceCorners> inner_facets_;
   std::vector<Segment> inner_segments_;
   std::vector<Tet> grown_;
   std::vector<FaceCorners> missing_;
 };
 
-// The two cavities of a facet, above (where its corners turn counterclockwise) and below.
+// The two cavities of a facet: above (from where its corners turn counterclockwise) and below.
 class TwoCavities {
  public:
   TwoCavities(const TetMesh& mesh, const FaceCorners& facet, const std::vector<Tet>& crossing)
@@ -256,9 +259,9 @@ class TwoCavities {
         halves_{Cavity(mesh, facet), Cavity(mesh, {facet[0], facet[2], facet[1]})},
         taken_(crossing.begin(), crossing.end()) {}
 
-  // Returns the vertices that lie in the facet: a tetrahedron's section is inside the facet
-  // (docs/concepts.md), so that all of its vertices in the plane are. With any, the cavities cannot be
-  // filled.
+  // Returns the vertices that lie in the facet. A tetrahedron's section is inside the facet
+  // (docs/concepts.md), so all of its vertices in the plane are in the facet. If there are any, the cavities
+  // cannot be filled.
   std::vector<Vertex> split(const std::vector<Tet>& crossing) {
     std::vector<Vertex> in_the_way;
     for (const Tet t : crossing) {
@@ -300,7 +303,7 @@ class TwoCavities {
   }
 
  private:
-  // A face with vertices on both sides lies inside the cavity, since it crosses the facet.
+  // A face with vertices on both sides crosses the facet, so it lies inside the cavity.
   void split_face(Face f, const std::array<int, 4>& signs) {
     bool above = false, below = false;
     for (const int k : kFaceVertex[static_cast<std::size_t>(side_of(f))]) {
@@ -336,7 +339,7 @@ std::size_t FacetCavities::crossing(const FaceCorners& facet) {
   return tets_.size();
 }
 
-// Where nothing crosses a missing facet next to its first side, a vertex lies in it there.
+// If nothing crosses a missing facet next to its first side, a vertex lies in the facet there.
 bool FacetCavities::list_coplanar(const FaceCorners& facet) {
   const auto [a, b, inside] = facet;
   tets_.clear();

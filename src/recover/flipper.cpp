@@ -12,8 +12,8 @@
 
 namespace holdfast {
 
-// Counts what a triangulated link puts in the target's way; among equals, the fewest edges at the vertex to
-// be avoided.
+// Costs a triangulated link by the crossings of the target that it makes; among equals, the fewest edges at
+// the avoided vertex.
 class Flipper::ForTarget {
  public:
   using Cost = int;
@@ -67,15 +67,16 @@ class Flipper::ForTarget {
   const EdgeShell& shell_;
   const ShellEars& ears_;
   const ShellSigns& signs_;
-  const bool is_near_;  // else all of these cost nothing
+  const bool is_near_;  // otherwise none of these costs anything
   Vertex avoided_;
   std::optional<ShellCosts> costs_;
 };
 
 namespace {
 
-// The triangles that a search for the best triangulation of a link with four corners would look at, where it
-// would find none, or only the one whose diagonal ends at the vertex to be avoided, whatever these cost.
+// For a link with four corners: the number of triangles that the search for the best triangulation looks at,
+// if it must end with none, or only with the one whose diagonal ends at the avoided vertex, whatever the
+// costs.
 std::optional<std::size_t> looks_in_vain_at_four(const EdgeShell& shell, const ShellEars& ears,
                                                  Vertex avoided) {
   const std::array<bool, 4> sees{ears.sees_both(0), ears.sees_both(1), ears.sees_both(2), ears.sees_both(3)};
@@ -86,7 +87,8 @@ std::optional<std::size_t> looks_in_vain_at_four(const EdgeShell& shell, const S
   };
   if (!has_1_3 && !has_0_2) return between;
   if (!has_1_3 && !avoids(0, 2)) return between;
-  // With corner 1 as well, it depends on costs whether the triangles of the other diagonal are looked at.
+  // If corner 1 is visible as well, the costs decide whether the triangles of the other diagonal are looked
+  // at.
   if (has_1_3 && !sees[1] && !avoids(1, 3)) return between;
   return std::nullopt;
 }
@@ -157,7 +159,7 @@ bool Flipper::may_try(Tet t, Vertex a, Vertex b, int depth) {
 
 bool Flipper::gather(Tet t, Vertex a, Vertex b, Vertex avoided, Level& level) {
   EdgeShell& shell = level.shell;
-  // Edges inside a facet that is cut into pieces are no segments.
+  // Edges inside a facet that is cut into pieces are not segments.
   const auto beyond = [&](Tet s, int i) {
     const Tet next = tet_of(mesh_.neighbour(s, i));
     mesh_.prefetch_vertex(mesh_.corner(s, i));
@@ -172,7 +174,7 @@ bool Flipper::gather(Tet t, Vertex a, Vertex b, Vertex avoided, Level& level) {
   return true;
 }
 
-// An edge that the target crosses (nothing is avoided) is to lessen the crossings.
+// If nothing is avoided, the edge crosses the target, and its removal must reduce the crossings.
 bool Flipper::remove_now(const Level& level, Vertex avoided) {
   const EdgeShell& shell = level.shell;
   work_.add(shell.size());
@@ -200,7 +202,7 @@ bool Flipper::remove_now(const Level& level, Vertex avoided) {
   return true;
 }
 
-// Shells that are too large for the dynamic programme first lose tetrahedra by 2-3 flips, ear by ear.
+// Shells too large for the dynamic programme first lose tetrahedra by 2-3 flips, ear by ear.
 bool Flipper::clip_ears(EdgeShell& shell) {
   std::size_t i = random_() % shell.size(), misses = 0;
   while (shell.size() > kMostLink && misses < shell.size()) {
@@ -234,8 +236,8 @@ bool Flipper::clip_ear(EdgeShell& shell, std::size_t i) {
   return true;
 }
 
-// An ear is blocked at an end where it sees that end wrongly: then the spoke there is reflex. In random
-// order, but those first that are blocked at one end only.
+// An ear is blocked at an end of the edge if it sees that end from the wrong side; then the spoke there is
+// reflex. The order is random, but ears blocked at only one end come first.
 void Flipper::begin_spokes(Level& level) {
   BlockedSpokes mixed;
   std::size_t count = 0;

@@ -13,7 +13,7 @@ int side_of_face(const TetMesh& mesh, Face f, Vertex v) {
   return mesh.orient(corners[0], corners[1], corners[2], v);
 }
 
-// The tetrahedron, or those that share the face or edge that holds the vertex; none on the hull.
+// The tetrahedron that contains the vertex, or all at the face or edge that contains it; none on the hull.
 std::vector<Tet> all_that_hold(TetMesh& mesh, Vertex v, Tet t) {
   std::vector<Tet> tets{t};
   mesh.mark_visited(t);

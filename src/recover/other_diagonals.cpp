@@ -12,7 +12,7 @@
 namespace holdfast {
 namespace {
 
-/// A missing segment and the diagonal, lesser end first, that the mesh has in its place.
+/// A missing segment and the diagonal that the mesh has instead, lesser end first.
 struct Exchange {
   std::pair<Vertex, Vertex> diagonal;
   Index segment;

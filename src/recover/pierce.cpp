@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t next3(std::size_t k) { return k == 2 ? 0 : k + 1; }
 
-// The two other vertices of a tetrahedron at edge cd, ordered so that (c d x y) is positive.
+// The two vertices of a tetrahedron that are not on edge cd, ordered so that (c d x y) is positive.
 std::array<Vertex, 2> opposite_edge(const TetMesh& mesh, Tet t, Vertex c, Vertex d) {
   const auto& xy =
       kOpposite[static_cast<std::size_t>(mesh.index_of(t, c))][static_cast<std::size_t>(mesh.index_of(t, d))];
@@ -31,14 +31,14 @@ Face code_of(const TetMesh& mesh, const Crossing& face) {
 
 }  // namespace
 
-// Signs of b against the three planes through a of the cone (f0 f1 f2 a): all >= 0 where the ray ab is in
-// the cone, and those that are 0 name the cone's sides that it lies in.
+// Signs of b against the three planes through a of the cone (f0 f1 f2 a). All are >= 0 if the ray ab is in
+// the cone; zeros name the sides of the cone that contain the ray.
 std::array<int, 3> Piercing::cone_signs(const std::array<Vertex, 3>& f, Vertex a, Vertex b) const {
   const auto [of_1, of_2] = mesh_.orient_both(a, b, f[0], f[1], f[2]);
   return {-mesh_.orient(a, b, f[1], f[2]), of_2, -of_1};
 }
 
-// The same where b is known to lie beyond the plane of the cone's side opposite d, a corner of f.
+// The same if b is known to lie beyond the plane of the cone's side opposite d, a corner of f.
 std::array<int, 3> Piercing::cone_signs_beyond(const std::array<Vertex, 3>& f, Vertex d, Vertex a,
                                                Vertex b) const {
   const std::size_t k = f[0] == d ? 0 : f[1] == d ? 1 : 2, l = next3(k), m = next3(l);
@@ -59,12 +59,12 @@ Piercing::Exit Piercing::leave_by_face(Tet t, Vertex a, const std::array<int, 3>
   return exit;
 }
 
-// A visibility walk in the star of a, at random among the sides that it may cross (Devillers, Pion,
-// Teillaud 2002); the ball as a whole where the walk meets the hull or takes too long.
+// A visibility walk in the star of a, which chooses at random among the sides it may cross (Devillers, Pion,
+// Teillaud 2002). Where the walk meets the hull or takes too long, all of the ball is searched.
 Piercing::Exit Piercing::leave_vertex(Vertex a, Vertex b) {
   Tet t = mesh_.incident(a);
   if (t == kNone) return {};
-  Vertex d = kNone;  // the corner that the last step brought
+  Vertex d = kNone;  // the corner that the last step added
   for (int step = 0; step < tuning::kMostWalk && !mesh_.is_ghost(t); ++step) {
     const int i = mesh_.index_of(t, a);
     const auto f = mesh_.face_vertices(face_code(t, i));
@@ -89,7 +89,8 @@ Piercing::Exit Piercing::leave_vertex(Vertex a, Vertex b) {
   return {};
 }
 
-// Seen along ab, the face (f0 f1 f2) turns left round the line's image, and the apex d lies somewhere.
+// Seen along ab, the face (f0 f1 f2) turns left round the image of the line; the position of the apex d is
+// open.
 Piercing::Exit Piercing::pass_face(const Exit& in, Vertex a, Vertex b) const {
   const Face f = mesh_.neighbour(code_of(mesh_, in));
   const Tet t = tet_of(f);
@@ -108,7 +109,8 @@ Piercing::Exit Piercing::pass_face(const Exit& in, Vertex a, Vertex b) const {
   return {t, {d}, 1};
 }
 
-// The wedge (c d x y) of the edge's shell, face (c d x) included, that holds b; then where ab leaves it.
+// Finds the wedge (c d x y) of the edge's shell that contains b, face (c d x) included; then where ab leaves
+// it.
 Piercing::Exit Piercing::pass_edge(const Exit& in, Vertex a, Vertex b) const {
   const Vertex c = in.corners[0], d = in.corners[1];
   Tet t = in.tet;
@@ -167,7 +169,7 @@ std::optional<Face> Piercing::of_facet(const std::array<Vertex, 3>& facet, std::
   };
   const std::optional<Face> face = flood(facet, collect);
   const auto key = [](const PiercingEdge& e) { return std::pair(e.above, e.below); };
-  // Of each edge the tetrahedron met first stays, with every standard library.
+  // Of each edge the tetrahedron met first is kept, with every standard library.
   std::stable_sort(out.begin(), out.end(), [&](const auto& l, const auto& r) { return key(l) < key(r); });
   out.erase(
       std::unique(out.begin(), out.end(), [&](const auto& l, const auto& r) { return key(l) == key(r); }),
@@ -182,7 +184,7 @@ std::optional<Face> Piercing::tets_across(const std::array<Vertex, 3>& facet, st
   });
 }
 
-// Nothing where a side is no edge.
+// None if a side is not an edge.
 std::optional<Piercing::Start> Piercing::start_of(const std::array<Vertex, 3>& facet) {
   const auto [a, b, inside] = facet;
   const Tet start = find_edge(a, b);
@@ -201,9 +203,9 @@ std::optional<Piercing::Start> Piercing::start_of(const std::array<Vertex, 3>& f
   return found;
 }
 
-// Across faces with vertices strictly on both sides of the plane. The sides being edges, a section cell
-// never leaves the facet (docs/concepts.md), and no mesh face or edge lies in the facet's inside, since none
-// of the mesh's vertices does.
+// Searches across faces with vertices strictly on both sides of the plane. The facet's sides are edges, so a
+// section cell never leaves the facet (docs/concepts.md). No mesh face or edge lies inside the facet, because
+// no vertex of the mesh does.
 template <typename Visit>
 std::optional<Face> Piercing::flood(const std::array<Vertex, 3>& facet, Visit visit) {
   const std::optional<Start> start = start_of(facet);

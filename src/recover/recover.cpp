@@ -36,7 +36,7 @@ FlipStats FlipRecovery::run(const Tell& tell, int most_passes) {
   return stats;
 }
 
-// Pass after pass goes twice as deep, with little work for each entity.
+// Each pass goes twice as deep as the one before, with little work for each entity.
 template <typename Attempt>
 void FlipRecovery::pass_over(std::vector<std::uint8_t>& stands, int most_passes, Attempt attempt,
                              const Tell& tell) {
@@ -51,14 +51,14 @@ void FlipRecovery::pass_over(std::vector<std::uint8_t>& stands, int most_passes,
       tell(static_cast<double>(pass) / most_passes);
       return attempt(k, {depth, tuning::kPassBudget, false});
     });
-    if (flipper_.all_work() == work_before) return;  // nothing is left that flips are tried for
+    if (flipper_.all_work() == work_before) return;  // no flips are left to try
     idle = tuning::kIdlePass * (before - missing.size()) > before ? 0 : idle + 1;
     depth = std::min(2 * depth, Flipper::kDeep);
   }
 }
 
-// In random order, since an attempt stands a better chance where others have changed the mesh meanwhile; in
-// blocks, since numbers that are close are mostly close in space, so that the mesh there is in the caches.
+// In random order, because an attempt has a better chance after others have changed the mesh. In blocks,
+// because close numbers are mostly close in space, so that the mesh there is in the caches.
 void FlipRecovery::shuffle_in_blocks(std::vector<Index>& missing) {
   constexpr std::ptrdiff_t kBlock = tuning::kShuffledBlock;
   std::sort(missing.begin(), missing.end());
@@ -69,8 +69,8 @@ void FlipRecovery::shuffle_in_blocks(std::vector<Index>& missing) {
   }
 }
 
-// Clears the first crossing seen from a as long as it can, then likewise from b; a thorough attempt goes on
-// with the crossings in between.
+// Clears the first crossing seen from a as long as possible, then the first one seen from b. A thorough
+// attempt continues with the crossings in between.
 bool FlipRecovery::segment(Index s, const Effort& effort) {
   enum class Way { open, blocked, invalid };
   Tet edge = kNone;
@@ -97,7 +97,7 @@ bool FlipRecovery::segment(Index s, const Effort& effort) {
   return true;
 }
 
-// Whether one of the crossings could be cleared, in random order.
+// Tries the crossings in random order; returns whether one could be cleared.
 bool FlipRecovery::clear_between(Vertex a, Vertex b, const Effort& effort) {
   crossings_.clear();
   piercing_.by_segment(a, b, crossings_, tuning::kMostCrossings);

@@ -56,12 +56,12 @@ class Marker {
     if (flags != 0) MeshEditor(mesh_).mark_constraints(t, flags);
   }
 
-  // Tetrahedra that several threads look at share it.
+  // Threads share the flag, because several may look at its tetrahedra.
   // (std::atomic_ref, which libc++ lacks before version 19.)
   static void stands(std::uint8_t& flag) { __atomic_store_n(&flag, std::uint8_t{1}, __ATOMIC_RELAXED); }
 
-  // The facet with these sides, looked for at the side of fewest facets: some have thousands. Two sides tell
-  // a facet from others.
+  // The facet with these sides. It is looked for at the side with the fewest facets, because some sides have
+  // thousands. Two sides identify a facet.
   [[nodiscard]] Index facet_between(std::array<Index, 3> sides) const {
     if (std::find(sides.begin(), sides.end(), no_index) != sides.end()) return no_index;
     const auto count = [&](std::size_t k) { return table_.facets_of(sides[k]).size(); };

@@ -19,8 +19,8 @@ bool coplanar_edges_cross(const TetMesh& mesh, Vertex a, Vertex b, Vertex u, Ver
 
 }  // namespace
 
-// Rounding never changes the order of two numbers, so what is apart in the doubles nearest to exact positions
-// is apart.
+// Rounding never reverses the order of two numbers. So exact positions are apart if the doubles nearest to
+// them are apart.
 bool Target::may_meet(const TetMesh& mesh, const Point& low, const Point& high) const {
   if (kind_ == Kind::none) return false;
   const Point &a = mesh.position(v_[0]), &b = mesh.position(v_[1]);
