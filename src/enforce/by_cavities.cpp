@@ -10,8 +10,8 @@
 namespace holdfast {
 namespace {
 
-// The part of v's kernel above the facet is not empty: v lies in its closure, and in no other of its
-// planes.
+// Moves v out of the facet's plane, to above the facet. The part of v's kernel above the facet is not empty:
+// v lies in the closure of that part, and on no plane of it except the facet's.
 void leave_plane(TetMesh& mesh, Vertex v, const Triangle& facet) {
   if (mesh.orient(facet[0], facet[1], facet[2], v) != 0) return;
   std::vector<Tet> tets;
@@ -31,7 +31,7 @@ bool recover_by_cavities(TetMesh& mesh, FacetCavities& cavities, const Triangle&
     std::vector<Vertex> in_the_way = cavities.in_the_way();
     steiner.keep_added(in_the_way);
     if (tries == tuning::kCavityTries || in_the_way.empty()) return false;
-    if (tries == 0) steiner.settle(in_the_way);  // some may go; the others move a little
+    if (tries == 0) steiner.settle(in_the_way);  // some may be removed; the others move a little
     for (const Vertex v : in_the_way)
       if (mesh.in_mesh(v)) leave_plane(mesh, v, facet);
   }

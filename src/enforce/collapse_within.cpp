@@ -11,7 +11,7 @@
 namespace holdfast {
 namespace {
 
-// The facet faces at P that do not hold v, with v in the place of P.
+// The facet faces at P that do not contain v, with P replaced by v.
 std::vector<std::array<Vertex, 3>> moved_facets(const TetMesh& mesh, const std::vector<Tet>& tets, Vertex p,
                                                 Vertex v) {
   std::vector<std::array<Vertex, 3>> facets;

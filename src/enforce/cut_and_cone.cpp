@@ -18,25 +18,25 @@ namespace {
 
 using Triangle3 = std::array<Vertex, 3>;
 
-// A polygon of constraint faces through P: its corners in the plane without P, and its triangles, which
-// turn the way the corners do.
+// A polygon of constraint faces through P: its corners in the plane without P, and its triangles, which have
+// the same orientation as the corners.
 struct Cut {
   std::vector<Vertex> path;
-  bool facet = true;  // or fictitious
+  bool facet = true;  // else fictitious
   std::vector<Triangle3> triangles;
 };
 
-// A connected part of the link between cuts.
+// A connected part of the link between the cuts.
 struct Sector {
   std::vector<Triangle3> faces;  // orient(f, P) > 0
   struct Side {
     std::size_t cut;
-    bool along;  // whether the cut's triangles, as they turn, see the sector's inside positively
+    bool along;  // whether the cut's triangles, as oriented, see the sector's inside positively
   };
   std::vector<Side> sides;
 };
 
-// The ball of P with the constraint faces in it.
+// The ball of P with its constraint faces.
 class BallCutter {
  public:
   BallCutter(TetMesh& mesh, Vertex p, std::optional<std::array<Vertex, 2>> ends,
@@ -75,7 +75,7 @@ class BallCutter {
     }
   }
 
-  // The link edge of t opposite w, directed as t's link face turns: orient(e0, e1, w, P) > 0.
+  // The link edge of t opposite w, directed like t's link face: orient(e0, e1, w, P) > 0.
   [[nodiscard]] Edge link_edge(Tet t, Vertex w) const {
     const auto& rs = kOpposite[static_cast<std::size_t>(mesh_.index_of(t, w))]
                               [static_cast<std::size_t>(mesh_.index_of(t, p_))];
@@ -137,7 +137,7 @@ class BallCutter {
     }
     above_.assign(cuts_.size(), kNone);
     std::vector<double> height(cuts_.size(), -1);
-    for (const Tet t : tets_) mesh_.mark_visited(t);  // set: of the ball, not yet in a sector
+    for (const Tet t : tets_) mesh_.mark_visited(t);  // marked: in the ball, not yet in a sector
     for (const Tet seed : tets_) {
       if ((mesh_.flags(seed) & kVisited) == 0) continue;
       Sector sector;
@@ -179,7 +179,8 @@ class BallCutter {
     sector.sides.push_back(side);
   }
 
-  // A vertex strictly off the cut's plane, as far from it as can be had: the polygon's turns are told by it.
+  // Notes a vertex strictly off the cut's plane, as far away as possible; the turns of the polygon are
+  // computed from it.
   void note_above(std::size_t cut, const Edge& e, Vertex w, std::vector<double>& height) {
     const double h = height_over(mesh_, e[0], e[1], p_, w);
     if (above_[cut] != kNone && h <= height[cut]) return;
@@ -229,8 +230,8 @@ std::vector<Vertex> cut_and_cone(TetMesh& mesh, Vertex p, std::optional<std::arr
     Vertex apex = best_apex(mesh, kernel);
     if (apex == kNone) {
       const auto position = kernel.find(mesh.point(p));
-      // P is on one plane or two that the sector must see, and strictly before all others: the kernel finds a
-      // place.
+      // P is on one or two of the planes that the sector must see, and strictly before all others; so the
+      // kernel finds a place.
       if (!position) throw std::logic_error("holdfast: a sector has no kernel");
       apex = MeshEditor(mesh).add_vertex(*position);
       created.push_back(apex);

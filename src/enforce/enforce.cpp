@@ -1,7 +1,7 @@
-// All segments, then all facets, each group in random order unless another is asked for, and the points of
-// one are eliminated before the next is laid: else points beget points (paper §2.4). A missing segment has no
-// facet yet, so that its points are eliminated as those of a dangling one, whatever its degree in the end;
-// then every missing facet has three single edges for sides.
+// Lays all segments, then all facets, each group in random order unless another order is asked for. The
+// points of one constraint are eliminated before the next constraint is laid; otherwise points beget points
+// (paper §2.4). A missing segment has no facet yet, so its points are eliminated as those of a dangling
+// segment, whatever its final degree. After that, every missing facet has three single edges as sides.
 #include "enforce/enforce.h"
 
 #include <functional>
@@ -19,10 +19,10 @@
 namespace holdfast {
 namespace {
 
-// A way to lay a missing constraint: whether it stands now.
+// A way to lay a missing constraint; returns whether the constraint now stands.
 using Way = std::function<bool(Index)>;
 
-// Tries the ways in their order; the last never fails.
+// Tries the ways in order; the last one never fails.
 void lay_by_first_way(const std::vector<Way>& ways, Index constraint) {
   for (const Way& way : ways)
     if (way(constraint)) return;
@@ -56,7 +56,8 @@ EnforceStats enforce(TetMesh& mesh, const SegmentTable& table, std::span<const T
   const Way segment_by_flips = [&](Index s) { return flips.segment(s, tuning::kRetry); };
   const Way facet_by_flips = [&](Index f) { return flips.facet(f, tuning::kRetry); };
 
-  // Without a point for each edge that pierces the facet. Flips cost the less the fewer edges there are.
+  // Cavities need no point for each edge that pierces the facet. The fewer edges pierce it, the less flips
+  // cost.
   FacetCavities cavities(mesh, options.seed);
   const Way facet_by_few_flips = [&](Index f) {
     return cavities.crossing(facets[f]) < tuning::kManyCrossing && facet_by_flips(f);
@@ -91,7 +92,7 @@ EnforceStats enforce(TetMesh& mesh, const SegmentTable& table, std::span<const T
 
   std::vector<Way> for_segments, for_facets;
   if (options.flips && options.eliminate) {
-    // One by one: where memory runs out in a list of several, g++ 12 destroys one that it has not made.
+    // One by one: if memory runs out in a list of several, g++ 12 destroys an element that it has not made.
     for_segments.push_back(segment_by_flips);
     for_facets.push_back(options.cavities ? facet_by_few_flips : facet_by_flips);
     if (options.cavities) for_facets.push_back(facet_by_cavities);

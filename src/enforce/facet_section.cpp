@@ -54,7 +54,7 @@ class Flood {
     return it->second;
   }
 
-  // The cell on the facet's side of one side edge: the wedge of the edge's shell that holds the opposite
+  // The cell on the facet's side of one side edge: the wedge of the edge's shell that contains the opposite
   // corner, or the coplanar face on that side.
   void start() {
     const Vertex a = frame_.sides[0][0];
@@ -131,7 +131,7 @@ class Flood {
     }
   }
 
-  // An in-plane edge inside the facet has a cell on either side, somewhere in its shell.
+  // An in-plane edge inside the facet has a cell on each side, somewhere in its shell.
   void visit_edge(const InnerEdge& e) {
     std::vector<Tet> ring;
     shell(mesh_, e.tet, e.a, e.b, ring);

@@ -30,7 +30,7 @@ Vector scaled_to_one(Vector a) {
   return a;
 }
 
-// A half-plane through A'B', by a point of it, and the link edges that it crosses from A' to B'.
+// A half-plane bounded by A'B', given by one of its points, and the link edges that it crosses from A' to B'.
 struct HalfPlane {
   ExactPoint through;
   Point approx{};
@@ -64,7 +64,7 @@ class CutMaker {
     return std::find(taken_.begin(), taken_.end(), ascending(e)) != taken_.end();
   }
 
-  // From the segment towards a point, at right angles to it.
+  // The vector from the segment to a point, at right angles to the segment.
   [[nodiscard]] Vector distance_to(exact::PointRef x) const {
     Vector axis{};
     Vector d{};
@@ -75,10 +75,10 @@ class CutMaker {
     for (std::size_t k = 0; k < 3; ++k) d[k] -= along * axis[k];
     return d;
   }
-  // The same, of length one.
+  // The same, scaled to length one.
   [[nodiscard]] Vector across(Vertex v) const { return scaled_to_one(distance_to(mesh_.point(v))); }
 
-  // The faces of the facet, where there is one: its fan at A' gives its direction.
+  // Collects the faces of the facet, if there is one: its fan at A' gives its direction.
   void collect_facet_directions() {
     std::vector<Tet> tets;
     ball(mesh_, p_, tets);
@@ -98,7 +98,7 @@ class CutMaker {
       }
   }
 
-  // Vertices that span mesh faces with P and `end`.
+  // Vertices that form mesh faces with P and `end`.
   [[nodiscard]] std::vector<Vertex> shell_link(Vertex end) {
     std::vector<Tet> ring;
     shell(mesh_, find_edge(mesh_, p_, end), p_, end, ring);
@@ -110,7 +110,7 @@ class CutMaker {
     return link;
   }
 
-  // Towards the taken cuts: the nearest of them counts.
+  // The closeness of direction d to the nearest cut so far.
   [[nodiscard]] double closeness(const Vector& d) const {
     double worst = -1;
     for (const Vector& taken : directions_) worst = std::max(worst, dot(taken, d));
@@ -150,9 +150,9 @@ class CutMaker {
     return first;
   }
 
-  // The half-planes of one gap between directions to link vertices cross the same link edges, and those of
-  // the cuts there are lie in the directions of their vertices: so any gap will do. Of the widest the one
-  // whose half-planes cross the fewest link edges, the more even angle on a tie.
+  // The half-planes of one gap between directions to link vertices cross the same link edges. The existing
+  // cuts lie in the directions of their vertices, so any gap is possible. Among the widest gaps, chooses the
+  // one whose half-planes cross the fewest link edges; on a tie, the one that divides the angle more evenly.
   HalfPlane choose_half_plane() {
     const std::vector<Edge> gaps = widest_gaps(tuning::kMostGaps);
     std::optional<HalfPlane> best;
@@ -170,7 +170,7 @@ class CutMaker {
     return *best;
   }
 
-  // Two link vertices each, between whose directions there is no other.
+  // Pairs of link vertices with no other direction in between.
   [[nodiscard]] std::vector<Edge> widest_gaps(std::size_t most) const {
     const std::vector<Vertex> around = directions_round();
     struct Gap {
@@ -189,9 +189,9 @@ class CutMaker {
     return widest;
   }
 
-  // A link vertex for each direction that the link is seen in along the segment, as they turn round it. P
-  // lies inside its ball and on the segment, so that there is one in each open half of the circle: three at
-  // least, and less than 180 degrees from one to the next.
+  // One link vertex for each direction from the segment to the link, in order round the segment. P lies
+  // inside its ball and on the segment, so there is a direction in each open half of the circle: at least
+  // three, and less than 180 degrees from one to the next.
   [[nodiscard]] std::vector<Vertex> directions_round() const {
     std::vector<Tet> tets;
     ball(mesh_, p_, tets);
@@ -201,7 +201,7 @@ class CutMaker {
         if (v != p_ && v != a_ && v != b_) link.push_back(v);
     sort_unique(link);
 
-    // From 0 to 180 degrees ahead of the first, or from 180 to 360.
+    // 0 to 180 degrees ahead of the first, or 180 to 360.
     const auto turn = [&](Vertex v, Vertex w) { return mesh_.orient(a_, b_, v, w); };
     const Vertex first = link.front();
     const Vertex beside =
@@ -226,8 +226,8 @@ class CutMaker {
     return around;
   }
 
-  // A sum of positive multiples of two directions less than 180 degrees apart is strictly between them;
-  // exactly, and rounded to doubles where that holds as well.
+  // A sum of positive multiples of two directions less than 180 degrees apart is strictly between them. It is
+  // computed exactly, and rounded to doubles if the rounded sum is strictly between them as well.
   [[nodiscard]] HalfPlane half_plane_between(const Edge& gap) const {
     const ExactPoint p = mesh_.exact_position(p_);
     HalfPlane plane{p, {}, false, {}};
@@ -245,13 +245,13 @@ class CutMaker {
     if (plane.is_double) plane.through = exact::lift(plane.approx.data());
     return plane;
   }
-  // Of its length; of some number where that is lost in rounding.
+  // The exponent of d's length; an arbitrary one if the length is lost in rounding.
   [[nodiscard]] static int exponent_of(const Vector& d) {
     const double length = std::sqrt(dot(d, d));
     return length > 0 && std::isfinite(length) ? std::ilogb(length) : 0;
   }
 
-  // The link edges crossed by the half-plane, from A' to B'.
+  // Finds the link edges that the half-plane crosses, from A' to B'.
   void trace(HalfPlane& plane) {
     std::vector<Tet> ring;
     shell(mesh_, find_edge(mesh_, a_, p_), a_, p_, ring);
@@ -292,11 +292,12 @@ class CutMaker {
            exact::orient3d(p, x, y, a) * exact::orient3d(p, x, y, w) < 0;
   }
 
-  // Splits the face (P, e_j) at a point w so close to P that the way from A' over it to B' stays inside the
-  // faces (P, e_i). Let c_i be the point where e_i crosses the half-plane. From A' to a w on the ray from P
-  // through c_j the way crosses the rays through all c_i in between, as close to P as w is; beside the
-  // half-plane, where e_j need not cross it in a binary fraction, by less than a 2^30-th of that distance,
-  // and a quarter of this each step closer. So the way ends inside the faces, and some step is the last.
+  // Splits the face (P, e_j) at a point w so close to P that the path from A' over w to B' stays inside the
+  // faces (P, e_i). Let c_i be the point where e_i crosses the half-plane. From A' to a point w on the ray
+  // from P through c_j, the path crosses the rays through all c_i in between, as close to P as w is. But e_j
+  // need not cross the half-plane in a binary fraction: so w lies beside the half-plane, by less than a
+  // 2^-30-th of that distance, and each step reduces this to a quarter. So the path is inside the faces in
+  // the end, and some step is the last.
   Vertex put_vertex(const HalfPlane& plane, std::size_t j) {
     const Edge e = plane.crossed[j];
     const ExactPoint x = mesh_.exact_position(e[0]);
@@ -341,7 +342,7 @@ class CutMaker {
   const Vertex p_, a_, b_;
   std::vector<Vertex>& created_;
   std::size_t facet_fans_ = 0;
-  std::vector<Edge> taken_;         // link edges of the cuts there are
+  std::vector<Edge> taken_;         // link edges of the existing cuts
   std::vector<Vector> directions_;  // of the cuts, at right angles to the segment
 };
 

@@ -13,7 +13,7 @@
 namespace holdfast {
 namespace {
 
-// Along its own constraint where that can be had: then no point is added at all.
+// Eliminates the point along its own constraint if possible: then no point is added at all.
 void eliminate(TetMesh& mesh, Vertex p, std::optional<std::array<Vertex, 2>> ends, SteinerPoints& steiner) {
   const bool gone = ends ? collapse_within(mesh, p, *ends, std::span(&*ends, 1))
                          : collapse_within(mesh, p, facet_neighbours(mesh, p), {});
@@ -41,7 +41,7 @@ ConstraintPieces Partition::take_pieces() {
   return pieces;
 }
 
-// In random order: in sequence the kernels decay geometrically.
+// In random order: in sequence, the kernels shrink geometrically.
 void Partition::eliminate_from_segment(Index s, SteinerPoints& steiner) {
   std::vector<Vertex>& chain = chains_[s];
   std::vector<Vertex> points(chain.begin() + 1, chain.end() - 1);

@@ -23,8 +23,8 @@ class Plane {
         b_(mesh.exact_position(corners[1])),
         c_(mesh.exact_position(corners[2])) {}
 
-  // Where the line pq meets the plane: the barycentric coordinates are the ratios of the volumes that the
-  // line spans with the sides, all of one sign since the line passes inside the facet.
+  // The point where the line pq meets the plane. Its barycentric coordinates are the ratios of the volumes
+  // that the line spans with the sides; all have one sign, because the line passes inside the facet.
   struct Crossing {
     Dyadic at_b, at_c, sum;
   };
@@ -36,7 +36,7 @@ class Plane {
     return {std::move(at_b), std::move(at_c), std::move(sum)};
   }
 
-  // The point of the plane whose coordinates are the crossing's, rounded to multiples of 2^-bits.
+  // The point of the plane with the crossing's coordinates, rounded to multiples of 2^-bits.
   [[nodiscard]] ExactPoint near(const Crossing& x, int bits) const {
     const Dyadic u = exact::rounded_to(exact::quotient(x.at_b, x.sum, bits + 2), -bits);
     const Dyadic v = exact::rounded_to(exact::quotient(x.at_c, x.sum, bits + 2), -bits);

@@ -28,7 +28,7 @@ Exit find_exit(TetMesh& mesh, Vertex from, Vertex towards) {
   for (const Tet t : tets) {
     if (mesh.is_ghost(t)) continue;
     const auto [a, b, c] = mesh.face_vertices(face_code(t, mesh.index_of(t, from)));
-    // (a b c from) is positive; the ray is inside when it sees no side of the cone from the back.
+    // (a b c from) is positive; the ray is inside the cone if it sees no side of the cone from the back.
     const std::array<int, 3> sign{mesh.orient(towards, b, c, from), mesh.orient(a, towards, c, from),
                                   mesh.orient(a, b, towards, from)};
     if (sign[0] < 0 || sign[1] < 0 || sign[2] < 0) continue;
@@ -42,7 +42,7 @@ Exit find_exit(TetMesh& mesh, Vertex from, Vertex towards) {
   throw std::logic_error("holdfast: a ray leaves a ball nowhere");
 }
 
-// The tetrahedra that a point inside a face or edge replaces, and the outer faces that it must see.
+// The tetrahedra replaced by a point inside a face or edge, and the outer faces that the point must see.
 struct Cavity {
   std::vector<Tet> tets;
   std::vector<std::array<Vertex, 3>> faces;  // orient(f0, f1, f2, P) > 0 is wanted
@@ -100,7 +100,7 @@ class Slide {
         const Dyadic root = exact::quotient(-f.at_a, rise, bits);
         if (rise.sign() > 0 ? root > low : root < high) (rise.sign() > 0 ? low : high) = root;
       }
-      if (low >= high) continue;  // the interval is narrower than the roots are known
+      if (low >= high) continue;  // the interval is narrower than the error of the roots
       const Dyadic quarter = (high - low).scaled(-2);
       Dyadic t = exact::shortest_between(low + quarter, high - quarter);
       const Dyadic rest = Dyadic(1.0) - t;

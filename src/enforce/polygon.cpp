@@ -64,8 +64,8 @@ class EarClipper {
     return c.convex;
   }
 
-  // A chain that enters a convex corner's triangle has its foremost point there at a corner that is not
-  // convex: only those are looked at.
+  // If a chain enters the triangle of a convex corner, its foremost point there is a corner that is not
+  // convex. So only such corners are tested.
   bool is_ear(std::size_t k) {
     if (!convex(k)) return false;
     const auto [a, b, c] = corner(k);
@@ -82,13 +82,13 @@ class EarClipper {
     corners_[k].rank = is_ear(k) ? shape(mesh_, a, b, c) : kNoEar;
   }
 
-  // There is one: a simple polygon, with its flat corners, has a triangulation without flat triangles (from a
-  // strictly convex corner either the diagonal between its neighbours is free, or one to the corner in its
-  // closed triangle that is farthest from that diagonal), and of more than three corners it has two triangles
-  // with two sides on the border.
+  // A best ear exists. A simple polygon, with its flat corners, has a triangulation without flat triangles:
+  // at a strictly convex corner, either the diagonal between its neighbours is free, or the one to the corner
+  // in its closed triangle that is farthest from that diagonal. With more than three corners, the
+  // triangulation has two triangles with two sides on the border.
   std::size_t best_ear() {
     std::size_t best = find_best();
-    if (best == rest_.size()) {  // a clipped ear may have uncovered others than its neighbours
+    if (best == rest_.size()) {  // clipping an ear may have made other ears than its neighbours
       for (Corner& c : corners_) c.rank = kUnknown;
       best = find_best();
     }
