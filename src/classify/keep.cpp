@@ -111,7 +111,8 @@ class Chooser {
     return wanted_.parts != nullptr && wanted_.parts->overlap == Overlap::refuse && !kept_.overlaps.empty();
   }
 
-  // Holes and seeds in the complex's units: a scale that suits the complex may not suit them, so exactly.
+  // Holes and seeds in the complex's units. A scale that suits the complex may not suit them, so they are
+  // scaled exactly.
   [[nodiscard]] RegionId region_at(const Point& p, const std::string& what) const {
     exact::ExactPoint moved = exact::lift(p.data());
     for (exact::Dyadic& x : moved.c) x = x.scaled(scale_);
@@ -122,7 +123,7 @@ class Chooser {
     return located.region;
   }
 
-  // What may have made one region of two.
+  // A segment at which an open border may have merged two regions into one.
   [[nodiscard]] std::optional<Index> open_border_in(RegionId r) const {
     for (Index f = 0; f < complex_.facets.size(); ++f) {
       if (regions_.of_facet[f] != std::array<RegionId, 2>{r, r}) continue;
@@ -159,7 +160,7 @@ class Chooser {
     }
   }
 
-  // Nearly all are sides of facets that a kept region lies at; only for the others one has to look at all.
+  // Nearly all segments are sides of facets at a kept region; only the others need a search.
   void find_kept_segments() {
     kept_.segment.assign(table_.segments.size(), false);
     for (Index f = 0; f < complex_.facets.size(); ++f) {
@@ -188,7 +189,7 @@ class Chooser {
   const Wanted& wanted_;
   const int scale_;
   const VertexNames& names_;
-  std::vector<std::optional<int>> of_parts_;  // ids, by region, where there are parts
+  std::vector<std::optional<int>> of_parts_;  // ids, by region, if there are parts
   Kept kept_;
 };
 

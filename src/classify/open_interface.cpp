@@ -16,12 +16,12 @@ namespace {
 
 using Tell = std::function<void()>;
 
-// Facets that hang together at edges where no other facet meets them, all with one region on both sides.
+// Facets connected at edges without further facets, all with the same region on both sides.
 struct Sheet {
   RegionId region;
   std::vector<Index> facets;
-  std::vector<bool> is_turned;  // by facet of these: against the first one
-  std::vector<Index> border;    // segments that no other facet has
+  std::vector<bool> is_turned;  // by facet of the sheet: relative to the first one
+  std::vector<Index> border;    // segments at only one facet
   bool is_attached = false;     // to facets that are not of the sheet
   bool has_two_sides = true;
 };
@@ -57,7 +57,7 @@ class SheetFinder {
         if (around.size() > 2) sheet.is_attached = true;
         if (around.size() != 2) continue;
         const Index g = around[0] == f ? around[1] : around[0];
-        // Facets that are turned alike run through their common side in opposite directions.
+        // Two facets with the same orientation run through their common side in opposite directions.
         const bool is_turned = sheet.is_turned[k] != (direction(f, s) == direction(g, s));
         const auto [place, added] = turned.emplace(g, is_turned);
         if (added) {
@@ -87,7 +87,7 @@ class SheetFinder {
   std::vector<bool> seen_;
 };
 
-// The fewest faces that part some tetrahedra of a region from others. Facets part already.
+// The fewest faces that separate some tetrahedra of a region from others. Facets separate already.
 class LeastCut {
  public:
   LeastCut(const TetMesh& mesh, const Tell& tell)
@@ -98,7 +98,7 @@ class LeastCut {
         next_(mesh.slot_count()),
         is_sink_(mesh.slot_count()) {}
 
-  // How many they are; nothing if they are more than `most`, or none part these.
+  // The number of these faces; none if it exceeds `most`, or if no faces can separate them.
   std::optional<std::size_t> run(const std::vector<Tet>& sources, const std::vector<Tet>& sinks,
                                  std::size_t most) {
     clear();
@@ -113,7 +113,7 @@ class LeastCut {
     return cut;
   }
 
-  // After a cut: whether t lies on the side of the sources.
+  // After a cut: whether t is on the side of the sources.
   [[nodiscard]] bool is_on_near_side(Tet t) const { return level_[t] != kUnseen; }
 
  private:
@@ -131,7 +131,7 @@ class LeastCut {
 
   [[nodiscard]] bool has_room(Face f) const { return flow_[f] < 1 && !mesh_.is_facet(f); }
 
-  // Levels by distance from the sources; whether a sink is reached, where this ends.
+  // Computes levels by distance from the sources, until a sink is reached; returns whether one is.
   bool reach(const std::vector<Tet>& sources) {
     forget_levels();
     for (const Tet t : sources) see(t, 0);
@@ -157,7 +157,7 @@ class LeastCut {
     seen_.push_back(t);
   }
 
-  // One more path to a sink, level by level.
+  // Finds one more path to a sink, level by level.
   bool push_from(Tet source) {
     path_.clear();
     Tet t = source;
@@ -192,7 +192,7 @@ class LeastCut {
   const Tell& tell_;
   std::vector<std::int8_t> flow_;    // by face
   std::vector<std::int32_t> level_;  // by slot
-  std::vector<std::uint8_t> next_;   // by slot: the face that is tried next
+  std::vector<std::uint8_t> next_;   // by slot: the next face to try
   std::vector<std::uint8_t> is_sink_;
   std::vector<Tet> seen_;
   std::vector<Face> used_, path_;
@@ -250,7 +250,7 @@ class Finder {
     return false;
   }
 
-  // Of the facets, not of the sheet, at the two parts that the cut makes of its region.
+  // The markers of facets outside the sheet, at each of the two parts into which the cut divides its region.
   std::array<std::set<int>, 2> markers_round(const Sheet& sheet) {
     if (!index_) index_.emplace(complex_.vertices.size(), complex_.facets);
     const std::set<Index> own(sheet.facets.begin(), sheet.facets.end());

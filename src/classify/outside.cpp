@@ -12,13 +12,13 @@ namespace {
 
 constexpr std::size_t kListed = 3;
 
-// Facets, segments of the table and vertices that hang together.
+// Connected facets, segments of the table, and vertices.
 struct Piece {
   std::vector<Index> facets, segments, vertices;
-  std::size_t border = 0;  // sides that only one facet has
+  std::size_t border = 0;  // sides at only one facet
 };
 
-// Pieces of the complex that are left out, found by joining their vertices.
+// Pieces of the complex that are left out, found by uniting their vertices.
 class PieceFinder {
  public:
   PieceFinder(const Complex& complex, const SegmentTable& table)
@@ -37,7 +37,7 @@ class PieceFinder {
   }
   void add_vertex(Index v) { vertices_.push_back(v); }
 
-  // In the order of their first facets, then segments, then vertices.
+  // Ordered by their first facets, then segments, then vertices.
   std::vector<Piece> pieces() {
     std::vector<Piece> pieces;
     std::map<Index, std::size_t> of_root;

@@ -14,7 +14,7 @@
 namespace holdfast {
 namespace {
 
-/// Regions as one part sees them: those with nothing but other parts' facets between them are one.
+/// Regions as one part sees them: regions separated only by facets of other parts are one region.
 class Alone {
  public:
   Alone(const Regions& regions, const PartsOfComplex& parts, Index part, const std::vector<Index>& facets,
@@ -39,7 +39,7 @@ class Alone {
       }
   }
 
-  /// By region as the part sees them: whether the part holds it. Conflicts are told to `holders`.
+  /// By region as the part sees it: whether the part holds it. Conflicts are reported to `holders`.
   [[nodiscard]] std::vector<bool> held(Keep keep, Holders& holders) const {
     std::vector<bool> held(seen_.count, true);
     held[0] = false;
@@ -55,7 +55,7 @@ class Alone {
     return held;
   }
 
-  /// As the part sees it.
+  /// The region as the part sees it.
   [[nodiscard]] RegionId operator[](RegionId r) const { return of_region_[r]; }
 
  private:
@@ -65,10 +65,10 @@ class Alone {
   std::vector<Index> facets_;        // by facet of seen_
 };
 
-/// Regions on the sides of some facet, with the parts that have a facet there, in ascending order.
+/// Pairs of regions on the sides of some facet, with the parts that have a facet there, in ascending order.
 using Between = std::map<std::array<RegionId, 2>, std::vector<Index>>;
 
-/// The pairs of regions that hang together where a part's facets are not.
+/// The pairs of regions that are connected where a part has no facets.
 class Airs {
  public:
   Airs(const Regions& regions, const PartsOfComplex& parts) {

@@ -13,9 +13,9 @@
 namespace holdfast {
 namespace {
 
-// The tetrahedra that no facet separates, united, and all ghosts. Neighbours have slots close to each other,
-// so that a sweep over slots stays in the caches, which a walk from neighbour to neighbour does not. Each
-// range of slots is united in itself first; what joins ranges is little.
+// Unites the tetrahedra that no facet separates, and all ghosts. Neighbours have slots close to each other,
+// so a sweep over slots stays in the caches; a walk from neighbour to neighbour does not. Each range of slots
+// is first united by itself; few pairs join ranges.
 class Unification {
  public:
   Unification(const TetMesh& mesh, const Threads& threads) : mesh_(mesh), sets_(mesh.slot_count()) {
@@ -34,7 +34,7 @@ class Unification {
   [[nodiscard]] Tet outside() const { return ghosts_.empty() ? kNone : sets_.root_of(ghosts_.front()); }
 
  private:
-  // Returns the pairs that lead to lower ranges. Members of a range have their parents there.
+  // Returns the pairs that lead to lower ranges. The members of a range have parents in the same range.
   std::vector<std::array<Tet, 2>> unite_within(Tet first, Tet last) {
     std::vector<std::array<Tet, 2>> across;
     Tet ghost = kNone;
@@ -62,11 +62,11 @@ class Unification {
   DisjointSets sets_;
   std::mutex mutex_;
   std::vector<std::vector<std::array<Tet, 2>>> across_;
-  std::vector<Tet> ghosts_;  // one a range that has some
+  std::vector<Tet> ghosts_;  // one for each range that has any
 };
 
-// Numbers the regions, by slot: 0 is the outside, where ghosts are, others come in the order of their first
-// slots. Returns how many they are.
+// Numbers the regions, by slot: 0 is the outside, which contains the ghosts; others follow in the order of
+// their first slots. Returns the number of regions.
 RegionId number_regions(const TetMesh& mesh, std::vector<RegionId>& of_tet, const Threads& threads) {
   const Unification united(mesh, threads);
   const DisjointSets& sets = united.sets();
@@ -90,14 +90,14 @@ RegionId number_regions(const TetMesh& mesh, std::vector<RegionId>& of_tet, cons
   return count;
 }
 
-// Whether two triangles with the same corners turn the same way.
+// Whether two triangles with the same corners have the same orientation.
 bool same_turn(const Triangle& f, const Triangle& g) {
   for (std::size_t k = 0; k < 3; ++k)
     if (f[0] == g[k]) return f[1] == g[(k + 1) % 3];
   return false;
 }
 
-// The regions on the sides of each facet, by the mesh faces that carry facet bits.
+// Finds the regions on the sides of each facet, from the mesh faces that carry facet bits.
 void find_sides(const TetMesh& mesh, std::span<const Triangle> facets, Regions& regions,
                 const Threads& threads) {
   const FacetIndex index(mesh.vertex_count(), facets);
@@ -106,7 +106,7 @@ void find_sides(const TetMesh& mesh, std::span<const Triangle> facets, Regions& 
     if (!mesh.alive(t) || (mesh.flags(t) & kFacetBits) == 0) return;
     for (int i = 0; i < 4; ++i) {
       if (!mesh.is_facet(face_code(t, i))) continue;
-      // (f0 f1 f2 t's apex) is positive: t lies in front of the face as it turns.
+      // (f0 f1 f2 t's apex) is positive: t lies in front of the face as oriented.
       const Triangle corners = mesh.face_vertices(face_code(t, i));
       const Index f = index.find(corners);
       if (f == no_index) throw std::logic_error("holdfast: a face with a facet bit is no facet");
@@ -134,7 +134,7 @@ void number_by_least_facet(Regions& regions, const Threads& threads) {
   for (auto& sides : regions.of_facet) sides = {rank[sides[0]], rank[sides[1]]};
 }
 
-// The region graph, breadth first from the outside.
+// Breadth-first search of the region graph from the outside.
 class WindingSearch {
  public:
   explicit WindingSearch(const Regions& regions)
@@ -175,13 +175,13 @@ class WindingSearch {
 
  private:
   const Regions& regions_;
-  std::vector<std::vector<Index>> facets_of_;  // by region: the facets between it and others
+  std::vector<std::vector<Index>> facets_of_;  // by region: its facets towards other regions
   std::vector<Index> reached_by_;              // by region: the facet through which it was found
   Winding winding_;
 };
 
-// Whether the box of t's corners holds p. Rounding is monotonic, so a strict order of the nearest doubles
-// is one of the exact coordinates too.
+// Whether the box of t's corners contains p. Rounding is monotonic, so a strict order of the nearest doubles
+// is also one of the exact coordinates.
 bool box_holds(const TetMesh& mesh, Tet t, const double* p) {
   for (std::size_t i = 0; i < 3; ++i) {
     bool below = false;
@@ -237,7 +237,7 @@ std::vector<Index> turned_facets(const Regions& regions) {
   }
   std::vector<Index> turned;
   for (const auto& [pair, ways] : between) {
-    // Of equally many, those that have not the least facet among them.
+    // Of equally many, the ones without the least facet.
     const bool second = ways[1].size() != ways[0].size() ? ways[1].size() < ways[0].size()
                                                          : ways[1].front() > ways[0].front();
     const std::vector<Index>& fewer = ways[second ? 1 : 0];
