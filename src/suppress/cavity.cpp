@@ -25,7 +25,7 @@ Cavity::Cavity(const TetMesh& mesh, std::span<const Tet> ball, Vertex first_free
 }
 
 bool Cavity::grow(std::mt19937_64& random) {
-  // Twice the tetrahedron, and one more where it brings a vertex: one across several faces brings none.
+  // Twice the tetrahedron, plus one if it adds a vertex. A tetrahedron across several faces adds none.
   candidates_.clear();
   const std::vector<Vertex>& boundary = corners();
   for (std::size_t k = 0; k < across_.size(); ++k) {
@@ -95,7 +95,7 @@ bool Cavity::add(Tet t) {
   return false;
 }
 
-// Corners of the tetrahedron that was added may have come, or gone inside.
+// Corners of the added tetrahedron may be new, or may now be inside.
 void Cavity::renew_corners(Tet t) {
   if (corners_.empty()) return;
   for (const Vertex v : mesh_.corners(t)) {
@@ -114,7 +114,7 @@ void Cavity::drop_from(std::size_t size) {
   collect_faces();
 }
 
-// A vertex of the input or a segment that its tetrahedron t brought inside.
+// Whether adding tetrahedron t has enclosed an input vertex or a segment.
 bool Cavity::encloses_a_constraint(Tet t) const {
   const auto& v = mesh_.corners(t);
   if (std::any_of(v.begin(), v.end(), [&](Vertex x) { return x < first_free_ && !on_boundary(x); }))

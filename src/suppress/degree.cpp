@@ -12,21 +12,22 @@
 namespace holdfast {
 namespace {
 
-// An edge from p to a neighbour, with a tetrahedron that holds it.
+// An edge from p to a neighbour, with a tetrahedron that contains it.
 struct EdgeAt {
   Vertex to;
   Tet tet;
 };
 
-// Each with the lowest of the tetrahedra that hold it, six on the mean. Of hundreds of neighbours, sorting is
-// most of the work: hence numbers, not pairs, and few that are of the same edge. Where the last one with the
-// same lowest bits is of the same edge, it becomes that of the lower tetrahedron.
+// All edges at p, each with the lowest tetrahedron that contains it; an edge is in six on average. With
+// hundreds of neighbours, sorting is most of the work. Hence the keys are numbers, not pairs, and few keys
+// are of the same edge: if the last key with the same lowest bits is of the same edge, it gets the lower
+// tetrahedron instead of a second key.
 std::vector<EdgeAt> edges_at(TetMesh& mesh, Vertex p) {
   std::vector<Tet> tets;
   ball(mesh, p, tets);
   std::vector<std::uint64_t> keys;
   keys.reserve(tets.size());
-  std::vector<std::size_t> last(std::bit_ceil(tets.size() + 1), 0);  // in `keys`, by the lowest bits
+  std::vector<std::size_t> last(std::bit_ceil(tets.size() + 1), 0);  // index into `keys`, by the lowest bits
   for (const Tet t : tets)
     for (const Vertex q : mesh.corners(t)) {
       if (q == p || q == kGhost) continue;
@@ -54,7 +55,7 @@ bool lower_degree(TetMesh& mesh, Flipper& flipper, Vertex p, int depth, std::siz
   auto edges = edges_at(mesh, p);
   const std::size_t before = edges.size();
   std::size_t left = tuning::kMostEdges * budget;
-  // Flips that clear the way for others can join p to more, so that the loop needs a measure.
+  // Flips that clear the way for others can join p to more vertices, so the loop needs a measure.
   for (std::size_t last = before + 1; edges.size() < last && left > 0;) {
     last = edges.size();
     const std::size_t flips = flipper.counts().all();

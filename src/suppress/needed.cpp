@@ -11,7 +11,8 @@
 namespace holdfast {
 namespace {
 
-// The tetrahedra that can be reached from p without crossing a facet; fewer than all where there are many.
+// The tetrahedra that can be reached from p without crossing a facet; the search stops early if there are
+// many.
 std::vector<Tet> component_of(TetMesh& mesh, Vertex p) {
   std::vector<Tet> tets;
   ball(mesh, p, tets);
@@ -24,15 +25,15 @@ std::vector<Tet> component_of(TetMesh& mesh, Vertex p) {
   return tets;
 }
 
-// Whether the component has an end: the outside of an open surface, ghosts and all, has none.
+// Whether the component is bounded: the outside of an open surface, with its ghosts, is not.
 bool is_small_solid(const TetMesh& mesh, const std::vector<Tet>& tets) {
   return tets.size() <= tuning::kMostTetsOfProof &&
          std::none_of(tets.begin(), tets.end(), [&](Tet t) { return mesh.is_ghost(t); });
 }
 
-using Faces = std::vector<std::array<Vertex, 3>>;  // from inside
+using Faces = std::vector<std::array<Vertex, 3>>;  // as seen from inside
 
-// Whether nothing but p stands inside: no vertex, segment or facet that a filling would have to keep.
+// Whether only p is inside: no vertex, segment or facet that a filling would have to keep.
 bool holds_only(const TetMesh& mesh, const std::vector<Tet>& tets, const Faces& boundary, Vertex p) {
   const auto is_inside = [&](Tet t) { return std::find(tets.begin(), tets.end(), t) != tets.end(); };
   return std::all_of(tets.begin(), tets.end(), [&](Tet t) {

@@ -10,7 +10,7 @@
 namespace holdfast {
 namespace {
 
-// `tell`, called before each, asks for complete searches.
+// A non-empty `tell` asks for complete searches and is called before each.
 std::optional<Point> place_in(const TetMesh& mesh, const Kernel& kernel, Vertex apex,
                               const Kernel::Centre& centre, const Tell& tell) {
   if (const auto place = kernel.double_at(mesh.point(apex), centre)) return place;
@@ -42,7 +42,7 @@ bool refill_without(TetMesh& mesh, Vertex p, Vertex first_free, const Growth& gr
                     std::mt19937_64& random) {
   std::vector<Tet> tets;
   ball(mesh, p, tets);
-  if (tets.size() > 2 * growth.search.most_vertices) return false;  // Euler: 2 n - 4 of them
+  if (tets.size() > 2 * growth.search.most_vertices) return false;  // Euler: there are 2 n - 4 faces
   for (int attempt = 0; attempt < growth.attempts; ++attempt) {
     Cavity cavity(mesh, tets, first_free);
     for (int step = 0; step < growth.steps; ++step) {

@@ -8,7 +8,7 @@
 namespace holdfast {
 namespace {
 
-// Some steps from t across faces that are no facets.
+// Walks some steps from t across faces that are not facets.
 Tet wander(const TetMesh& mesh, Tet t, std::mt19937_64& random) {
   for (std::size_t steps = random() % tuning::kMostWander; steps > 0; --steps) {
     const Face f = face_code(t, static_cast<int>(random() % 4));

@@ -20,8 +20,8 @@ using LocalFace = std::array<Local, 3>;
 
 constexpr std::size_t kMostVertices = 31;
 
-// Numbers the sets of four: a < b < c < d is the binomial sum (a 1) + (b 2) + (c 3) + (d 4). Without d, those
-// of three.
+// Numbers the sets of four: a < b < c < d has the binomial sum (a 1) + (b 2) + (c 3) + (d 4). Without d, it
+// numbers the sets of three.
 constexpr std::array<std::array<std::uint16_t, 5>, kMostVertices + 1> kBinomial = [] {
   std::array<std::array<std::uint16_t, 5>, kMostVertices + 1> table{};
   for (std::size_t n = 0; n <= kMostVertices; ++n) {
@@ -32,7 +32,7 @@ constexpr std::array<std::array<std::uint16_t, 5>, kMostVertices + 1> kBinomial 
   return table;
 }();
 
-// By number, the sets of three; the least comes first.
+// The sets of three by number; the least corner comes first.
 constexpr std::array<LocalFace, kBinomial[kMostVertices][3]> kTriangles = [] {
   std::array<LocalFace, kBinomial[kMostVertices][3]> table{};
   std::size_t number = 0;
@@ -42,8 +42,8 @@ constexpr std::array<LocalFace, kBinomial[kMostVertices][3]> kTriangles = [] {
   return table;
 }();
 
-// Numbers faces with their orientations: twice that of the three corners, and one more where they take an odd
-// permutation to come by size.
+// Numbers oriented faces: twice the number of the three corners, plus one if sorting them takes an odd
+// permutation.
 using FaceNumber = std::uint16_t;
 
 FaceNumber number_of(LocalFace f) {
@@ -65,7 +65,7 @@ LocalFace corners_of(FaceNumber number) {
   const LocalFace f = kTriangles[number / 2];
   return number % 2 == 0 ? f : LocalFace{f[0], f[2], f[1]};
 }
-// Of a face and another vertex, which may be anywhere in their order.
+// The number of the set of a face and another vertex, which may be anywhere in their order.
 std::size_t number_of_four(const LocalFace& triangle, Local d) {
   const auto [a, b, c] = triangle;
   if (d > c) return std::size_t{a} + kBinomial[b][2] + kBinomial[c][3] + kBinomial[d][4];
@@ -78,14 +78,14 @@ constexpr std::size_t face_numbers(std::size_t vertices) { return 2 * std::size_
 // A set of vertices, one bit each.
 using Mask = std::uint32_t;
 
-// One value for each of many numbers, few of which are ever asked for: those that have one are marked, so
-// that memory is written where it is used.
+// Values by number, of which few are ever asked for. Numbers that have a value are marked, so memory is
+// written only where it is used.
 template <typename Value>
 class Sparse {
  public:
   explicit Sparse(std::size_t count) : values_(new Value[count]), has_((count + 63) / 64, 0) {}
 
-  /// The value of a number, and whether it has none yet; from now on it has one.
+  /// The value of a number, and whether it was missing until now.
   std::pair<Value&, bool> take(std::size_t number) {
     std::uint64_t& word = has_[number / 64];
     const std::uint64_t bit = std::uint64_t{1} << number % 64;
@@ -95,13 +95,13 @@ class Sparse {
   }
 
  private:
-  std::unique_ptr<Value[]> values_;  // NOLINT(modernize-avoid-c-arrays): a vector would write to all of it
+  std::unique_ptr<Value[]> values_;  // a vector would write to all of it
   std::vector<std::uint64_t> has_;
 };
 
-// The vertices above and below every triangle, where above sees its corners turn counterclockwise, computed
-// when a triangle is asked for. Signs that the filter leaves open are computed for whoever needs them, each
-// once: most of those that are of one plane do not matter.
+// The vertices above and below every triangle (from above, its corners turn counterclockwise), computed when
+// a triangle is asked for. Signs that the filter leaves open are computed on demand, each once: most of those
+// for coplanar vertices do not matter.
 class Sides {
  public:
   Sides(const TetMesh& mesh, std::vector<Vertex> vertices)
@@ -114,12 +114,12 @@ class Sides {
 
   [[nodiscard]] const std::vector<Vertex>& vertices() const { return vertices_; }
 
-  /// Those that are not known to be in its plane or below.
+  /// The vertices not known to be in the plane of f or below it.
   Mask maybe_above(FaceNumber f) {
     const Known& sides = of(f / 2);
     return (f % 2 != 0 ? sides.below : sides.above) | sides.open;
   }
-  /// Those that are not known to be below.
+  /// The vertices not known to be below the plane of f.
   Mask maybe_not_below(FaceNumber f) {
     const Known& sides = of(f / 2);
     return ~(f % 2 != 0 ? sides.above : sides.below);
@@ -128,7 +128,7 @@ class Sides {
     settle(f, Mask{1} << d);
     return (maybe_above(f) >> d & 1) != 0;
   }
-  /// From now on it is known on which sides these are.
+  /// Makes the sides of these vertices known.
   void settle(FaceNumber f, Mask which) {
     Known& sides = of(f / 2);
     for (Mask open = sides.open & which; open != 0; open &= open - 1) {
@@ -179,12 +179,12 @@ class Sides {
   const std::vector<Vertex> vertices_;
   const bool all_are_explicit_;
   const exact::OrientAmong filter_;  // of positions
-  std::vector<std::int8_t> sign_;    // by the number of the four corners; empty until one is asked for
+  std::vector<std::int8_t> sign_;    // by the number of the four corners; empty until a sign is asked for
   Sparse<Known> of_triangle_;        // by the number of the three corners
 };
 
-// The faces that are still to be covered, seen positively from what is left to fill: by number, with the
-// place of each in the list, so that all is constant time.
+// The faces still to be covered, seen positively from what is left to fill: by number, with the place of each
+// in the list, so that every operation takes constant time.
 class OpenFaces {
  public:
   using Number = FaceNumber;
@@ -236,11 +236,11 @@ class Search {
 
  private:
   using Number = OpenFaces::Number;
-  // Of a face: the vertices that are known to make a positive, good, empty tetrahedron with it, and those not
-  // looked at.
+  // Of a face: the vertices known to make a positive, good, empty tetrahedron with it, and those not yet
+  // examined.
   struct Apexes {
     Mask found, rest;
-    int count;  // of those found
+    int count;  // number of vertices found
   };
   enum class Fits : std::uint8_t { unknown, no, yes };
 
@@ -250,7 +250,7 @@ class Search {
     return static_cast<Local>(std::lower_bound(all.begin(), all.end(), v) - all.begin());
   }
 
-  // A tetrahedron that holds another vertex of the polyhedron in its closure cannot be part of a filling.
+  // A tetrahedron whose closure contains another vertex of the polyhedron cannot be part of a filling.
   bool is_empty(FaceNumber number, Local d) {
     const LocalFace f = corners_of(number);
     std::array<FaceNumber, 4> faces{number};
@@ -274,7 +274,7 @@ class Search {
     return measure_(at(f[0]), at(f[1]), at(f[2]), at(d)) < worst_quality_;
   }
 
-  // Each of the four faces asks.
+  // Asked by each of the four faces, so the answer is kept.
   bool fits(FaceNumber number, Local d) {
     Fits& known = fits_[number_of_four(kTriangles[number / 2], d)];
     if (known == Fits::no || !sides_.is_above(number, d)) return false;
@@ -283,7 +283,7 @@ class Search {
     return known == Fits::yes;
   }
 
-  // Looks for apexes of the face until there are so many, or all that it has.
+  // Looks for apexes of the face until there are `most`, or until all are found.
   const Apexes& look_for_apexes(Number number, int most) {
     const auto [apexes, is_new] = apexes_.take(number);
     if (is_new) apexes = {0, sides_.maybe_above(number), 0};
@@ -301,7 +301,7 @@ class Search {
     std::size_t count = 0;
   };
 
-  // The fattest tetrahedron first.
+  // Ranks the fattest tetrahedron first.
   [[nodiscard]] Ranking ranked(const LocalFace& f, Mask mask) const {
     Ranking order;
     for (; mask != 0; mask &= mask - 1) {
@@ -313,8 +313,8 @@ class Search {
     return order;
   }
 
-  // The open face with the fewest possible apexes, and these, where each has some. Of the others it is enough
-  // to know that they have as many.
+  // The open face with the fewest possible apexes, and these apexes, if every open face has one. Of the other
+  // faces it is enough to know that they have as many.
   std::pair<Number, Mask> tightest() {
     std::pair<Number, Mask> found{0, 0};
     int fewest = kMostVertices + 1;
@@ -352,7 +352,7 @@ class Search {
     return false;
   }
 
-  // With that tetrahedron. Where a face that it opens has no apex, this is the node that would tell so.
+  // Fills with that tetrahedron. If a face that it opens has no apex, the search would find out at this node.
   bool fill_at(Number number, const LocalFace& face, Local apex) {
     Changes changes;
     if (place(number, apex, changes)) {
@@ -380,7 +380,7 @@ class Search {
     add ? open_.add(f) : open_.remove(f);
     changes.list[changes.count++] = {f, add};
   }
-  // The faces that were opened: all others had apexes before.
+  // Whether the opened faces have apexes: all others had some before.
   bool have_apexes(const Changes& changes) {
     return std::all_of(changes.list.begin(), changes.list.begin() + changes.count,
                        [&](const Changes::Change& c) { return !c.added || has_apexes(c.face); });
@@ -395,7 +395,7 @@ class Search {
     const LocalFace f = corners_of(number);
     change(number, false, changes);
     for (std::size_t k = 0; k < 3; ++k) {
-      const Number own = number_of({f[(k + 1) % 3], f[k], d});  // as the tetrahedron's inside sees it
+      const Number own = number_of({f[(k + 1) % 3], f[k], d});  // as the inside of the tetrahedron sees it
       const Number rest = own ^ Number { 1 };                   // as what is left to fill sees it
       if (open_.holds(own)) {
         change(own, false, changes);
@@ -419,12 +419,12 @@ class Search {
   std::vector<std::array<Local, 4>> tets_;
 };
 
-// Nothing where the polyhedron is too large.
+// None if the polyhedron is too large.
 std::optional<Search> search_of(const TetMesh& mesh, std::span<const std::array<Vertex, 3>> faces,
                                 const PolyhedronOptions& options) {
   const std::size_t most = std::min(options.most_vertices, kMostVertices);
   if (faces.empty() || faces.size() > 2 * most)
-    return std::nullopt;  // Euler: a sphere on n vertices has 2 n - 4
+    return std::nullopt;  // Euler: a sphere on n vertices has 2 n - 4 faces
   std::vector<Vertex> vertices = corners_of_all(faces);
   if (vertices.size() > most) return std::nullopt;
   return std::optional<Search>(std::in_place, mesh, faces, std::move(vertices), options);

@@ -14,9 +14,9 @@
 namespace holdfast {
 namespace {
 
-using Points = std::vector<Vertex>;  // those that are left
+using Points = std::vector<Vertex>;  // the remaining points
 
-// What the steps share: a mesh whose vertices from `first_free` on may go, and its random flips.
+// What the steps share: a mesh whose vertices from `first_free` on may be removed, and its random flips.
 struct Site {
   TetMesh& mesh;
   Vertex first_free;
@@ -34,7 +34,7 @@ std::size_t drop_the_gone(const TetMesh& mesh, Points& points) {
   return std::erase_if(points, [&](Vertex p) { return !mesh.in_mesh(p); });
 }
 
-// Round after round until none removes or rounds a point.
+// Repeats rounds until one removes or rounds no point.
 void shrink(const Site& site, Points& points, SuppressStats& stats) {
   int idle = 0;
   for (int round = 0; round < tuning::kShrinkRounds && idle < tuning::kShrinkIdle && !points.empty();
@@ -52,7 +52,7 @@ void shrink(const Site& site, Points& points, SuppressStats& stats) {
   }
 }
 
-// Points that no double holds are worth more effort.
+// Points that no double can replace are worth more effort.
 void remove_harder(const Site& site, Vertex p) {
   TetMesh& mesh = site.mesh;
   const bool is_explicit = mesh.is_explicit(p);
@@ -73,7 +73,7 @@ void merge_with_neighbours(const Site& site, Vertex p) {
       merge(mesh, p, q, site.first_free, tuning::kMergeSteps, tuning::kMergeSearch);
 }
 
-// Larger cavities, of one point and then of two. Returns whether another go is worth its time.
+// Tries larger cavities, of one point and then of two. Returns whether another try is worth its time.
 bool refill(const Site& site, Points& points, SuppressStats& stats) {
   TetMesh& mesh = site.mesh;
   const std::size_t before = points.size(), unrounded_before = count_unrounded(mesh, points);
@@ -89,10 +89,10 @@ bool refill(const Site& site, Points& points, SuppressStats& stats) {
   return gone * tuning::kWorthwhile > before || (unrounded > 0 && (gone > 0 || unrounded < unrounded_before));
 }
 
-// What is left may go from another mesh round it, but for what is proven to stay.
+// Removes remaining points from other meshes round them, except those that are proven necessary.
 void insist(const Site& site, Points& points, SuppressStats& stats) {
   TetMesh& mesh = site.mesh;
-  // In proportion to the rest of the work, so that it matters where few are left.
+  // In proportion to the rest of the work, so that it has an effect where few points are left.
   const std::size_t most_shakes =
       std::min(tuning::kMostPointShakes, tuning::kFewShakes + mesh.tet_count() / tuning::kTetsAShake);
   Points spare = points;
@@ -121,7 +121,7 @@ bool round_at_random(const Site& site, Vertex p) {
   return false;
 }
 
-// Nothing but complete searches is left to try, and other meshes round what they do not find.
+// Only complete searches are left to try, and other meshes round the points that they do not remove.
 void round_the_rest(const Site& site, Points& points, SuppressStats& stats) {
   TetMesh& mesh = site.mesh;
   for (int round = 0; round < tuning::kRoundingRounds; ++round) {
