@@ -19,7 +19,7 @@ double six_volumes(const Point& a, const Point& b, const Point& c, const Point& 
   return dot(b - a, cross(c - a, d - a));
 }
 
-/// The powers of two by which the largest coordinate along each axis is about 1.
+/// The powers of two that scale the largest coordinate along each axis to about 1.
 Point scale_of(const std::vector<Point>& points) {
   Point most{};
   for (const Point& p : points)
@@ -45,7 +45,7 @@ Background::Background(SizeField field) : field_(std::move(field)), scale_(scale
         low_[k] = std::min(low_[k], field_.vertices[v][k]);
         high[k] = std::max(high[k], field_.vertices[v][k]);
       }
-  // About a bucket a tetrahedron, as near to cubes as the extents allow.
+  // About one bucket a tetrahedron, as close to cubes as the extents allow.
   constexpr double kMostAlong = 512;
   double extent = 0;
   for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, high[k] - low_[k]);
@@ -68,7 +68,7 @@ Background::Background(SizeField field) : field_(std::move(field)), scale_(scale
 std::size_t Background::bucket_along(double x, std::size_t axis) const {
   if (!(step_[axis] > 0)) return 0;
   const double k = (x - low_[axis]) / step_[axis];
-  if (!(k > 0)) return 0;  // nor is a NaN a number of a bucket
+  if (!(k > 0)) return 0;  // a NaN is not the number of a bucket either
   return static_cast<std::size_t>(std::min(k, static_cast<double>(count_[axis] - 1)));
 }
 
@@ -114,7 +114,7 @@ std::optional<Background::Place> Background::place_in(const Tetrahedron& t, cons
   return place;
 }
 
-// The slack of a place may lead out of the range of its corners, and even below zero where they differ much.
+// The slack of a place may lead out of the range of its corners' sizes, even below zero if these differ much.
 double Background::size_at(const Place& place) const {
   double size = 0, least = std::numeric_limits<double>::infinity(), most = 0;
   for (std::size_t i = 0; i < 4; ++i) {

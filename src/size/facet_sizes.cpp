@@ -13,7 +13,7 @@ namespace holdfast {
 namespace {
 
 constexpr std::uint32_t kLeaf = 4;
-constexpr std::uint32_t kFacetsALook = 1 << 14;  // parted in some milliseconds
+constexpr std::uint32_t kFacetsALook = 1 << 14;  // this many are parted in some milliseconds
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::pair<Point, Point> kNothing{{kInfinity, kInfinity, kInfinity},
                                            {-kInfinity, -kInfinity, -kInfinity}};
@@ -34,7 +34,7 @@ double distance2_to_side(const Point& x, const Point& a, const Point& b) {
   return dot(r, r);
 }
 
-// To a triangle: over its inside to the plane, else to the nearest side.
+// Distance to a triangle: to its plane over its inside, else to the nearest side.
 double distance_to(const Point& x, const std::array<Point, 3>& t) {
   const Vector n = cross(t[1] - t[0], t[2] - t[0]);
   bool inside = true;
@@ -69,7 +69,8 @@ void extend(Point& low, Point& high, const Point& other_low, const Point& other_
   }
 }
 
-// By the place along an axis, and no two alike: which ones are in which half does not depend on the library.
+// Parts by the place along an axis. No two places compare equal, so the halves do not depend on the standard
+// library.
 void part_in_middle(std::span<Centre> centres) {
   auto [low, high] = kNothing;
   for (const Centre& c : centres) extend(low, high, c.place, c.place);
@@ -96,11 +97,11 @@ FacetSizes::FacetSizes(std::span<const Facet> facets, Wanted wanted, const Threa
   threads.poll();
   if (facets_.empty()) return;
   part_facets(threads);
-  // Children stand behind their parents.
+  // Children come after their parents.
   for (std::size_t node = nodes_.size(); node-- > 0;) enclose(nodes_[node]);
 }
 
-// Parts each node in the middle of its facets along the longest extent of their centres, and leaves the
+// Parts each node at the median of its facets along the longest extent of their centres, and leaves the
 // facets in the order of the leaves.
 void FacetSizes::part_facets(const Threads& threads) {
   std::vector<Centre> centres(facets_.size());

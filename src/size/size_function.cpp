@@ -16,8 +16,8 @@ namespace {
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 constexpr std::size_t kFacetsALook = 1 << 16;  // some milliseconds
 
-// The edge of the regular tetrahedron of a volume. Elements of a field mesh vary in volume, and most are
-// below that of a regular one with edges of the size.
+// The edge of the regular tetrahedron with this volume. Elements of a field mesh vary in volume; most have
+// less than a regular one with edges of the wanted size.
 double size_of_volume(double volume) {
   constexpr double kEdgeOfVolumeOne = 2.0396489026555056;  // (6 sqrt(2))^(1/3)
   return volume < kNoLimit ? kEdgeOfVolumeOne * numbers::cbrt(volume) : kNoLimit;
@@ -45,14 +45,15 @@ struct Lengths {
     most = std::max(most, length);
     ++count;
   }
-  // Where some are far longer than others, these count for more: the root of their mean square.
+  // Where some edges are far longer than others, the long ones count for more: the root of the mean square.
   [[nodiscard]] double size() const {
     if (count == 0) return kNoLimit;
     return most > tuning::kUnlike * least ? std::sqrt(squares / count) : sum / count;
   }
 };
 
-// The size that the edges at each vertex ask for, times 2^scale: where lengths neither over- nor underflow.
+// The size that the edges at each vertex ask for, times 2^scale, at which lengths neither over- nor
+// underflow.
 std::vector<double> edge_lengths(const Complex& complex, const SegmentTable& table, int scale) {
   std::vector<Lengths> lengths(complex.vertices.size());
   for (const Segment& s : table.segments) {
@@ -64,7 +65,7 @@ std::vector<double> edge_lengths(const Complex& complex, const SegmentTable& tab
   return sizes;
 }
 
-// The share of the vertices from which sizes grow along some edge by more than its length.
+// The share of the vertices whose sizes grow along some edge by more than its length.
 double share_of_steep(std::span<const double> of_vertex, const Complex& complex, const SegmentTable& table,
                       int scale) {
   std::vector<std::uint8_t> has_edge(of_vertex.size(), 0), is_steep(of_vertex.size(), 0);
@@ -78,8 +79,8 @@ double share_of_steep(std::span<const double> of_vertex, const Complex& complex,
   return static_cast<double>(steep) / static_cast<double>(std::max<std::ptrdiff_t>(all, 1));
 }
 
-// Where the sizes of the surface grow much faster than those inside, as they do where it is full of needles,
-// slow growth fills the volume with small elements and makes few of them better.
+// Where the sizes of the surface grow much faster than those inside, as on surfaces full of needles, slow
+// growth would fill the volume with small elements and improve few of them.
 double default_gradation(double steepness) {
   return tuning::kGradation + (tuning::kGradationOfSteep - tuning::kGradation) * steepness;
 }
@@ -125,7 +126,7 @@ SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds
       return h;
     };
   limit_regions(sizes, seeds, kept);
-  // A metric is kept to as it is, and a bound on volumes is exact.
+  // A metric is obeyed as given, and a bound on volumes is exact.
   if (heeds_facets()) of_facets_ = sizes_of_facets(complex, threads);
 }
 
@@ -153,7 +154,7 @@ FacetSizes SizeFunction::sizes_of_facets(const Complex& complex, const Threads& 
     facets.push_back(f);
     if (facets.size() % kFacetsALook == 0) threads.poll();
   }
-  // A function may ask for any size anywhere.
+  // A function may want any size anywhere.
   return FacetSizes(facets, field_ ? FacetSizes::Wanted::anywhere : FacetSizes::Wanted::at_corners, threads);
 }
 
