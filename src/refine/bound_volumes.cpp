@@ -17,9 +17,9 @@
 namespace holdfast {
 namespace {
 
-// Of a tetrahedron that was put down: its slot may have been given to another since.
+// An entry for a tetrahedron; its slot may have been given to another one since.
 struct Waiting {
-  double value;  // the larger the sooner
+  double value;  // larger values come first
   Tet tet;
   TetMesh::Corners corners;
   friend bool operator<(const Waiting& x, const Waiting& y) {
@@ -32,7 +32,7 @@ class Queue {
   explicit Queue(const VolumeData& volume) : volume_(volume) {}
 
   void push(double value, Tet t) { queue_.push({value, t, volume_.mesh.corners(t)}); }
-  /// The one of the largest value that is still there, or kNone.
+  /// Takes the tetrahedron with the largest value that still exists, or kNone.
   Tet take() {
     while (!queue_.empty()) {
       const Waiting next = queue_.top();
@@ -65,7 +65,7 @@ class VolumeBounder {
   }
 
  private:
-  // Between the levels of the proof.
+  // The ratio of the levels in the proof.
   static constexpr double kLevel = 0.75;
 
   void push_if_large(Tet t) {
@@ -100,7 +100,7 @@ class VolumeBounder {
     ++stats_.points;
   }
 
-  // Takes the place where every new tetrahedron is of a lower level, and the thinnest one is fattest.
+  // Takes the place at which every new tetrahedron is of a lower level and the thinnest new one is fattest.
   void try_at(const Point& x, Tet t, bool alone, Place& best) {
     const double limit = kLevel * six_volumes(mesh_, mesh_.corners(t));
     const std::optional<double> thinnest = setter_.try_at(
@@ -118,7 +118,7 @@ class VolumeBounder {
     if (thinnest && *thinnest > best.thinnest) best = {x, alone, *thinnest};
   }
 
-  // The double that is farthest inside, where the centroid is rounded to the outside.
+  // The double that is farthest inside, if the centroid is rounded to the outside.
   [[nodiscard]] std::optional<Point> deepest(Tet t) const {
     const Point middle = centroid(mesh_, t);
     Kernel kernel(mesh_);
@@ -160,7 +160,8 @@ class RatioLowerer {
   }
 
  private:
-  static constexpr double kLeastFatness = 0.05;  // an element as flat may come where none flatter goes
+  static constexpr double kLeastFatness =
+      0.05;  // new elements may be as flat as this, or as the flattest that goes
 
   [[nodiscard]] double ratio(const TetMesh::Corners& c) const {
     return radius_over_edge(mesh_.position(c[0]), mesh_.position(c[1]), mesh_.position(c[2]),
@@ -215,10 +216,10 @@ BoundStats bound_volumes(const VolumeData& volume, Monitor& monitor) {
 
 void require_few_enough(const VolumeData& volume, const SizeFunction& sizes) {
   constexpr double kMostTets = 1u << 30;
-  // Of the regular tetrahedra of a size: where facets are large beside it, fewer are made, a fifth at least
-  // of those that were measured (docs/field.md).
+  // Part of the number of regular tetrahedra of a size. Where facets are large compared to the size, fewer
+  // are made: at least a fifth in those measured (docs/field.md).
   constexpr double kPartOfRegular = 0.1;
-  double for_volumes = 0;  // tetrahedra that they take at least
+  double for_volumes = 0;  // the least number of tetrahedra that they take
   for (Tet t = 0; volume.most_volumes != nullptr && t < volume.mesh.slot_count(); ++t) {
     if (!volume.is_inside(t)) continue;
     const double six = six_volumes(volume.mesh, volume.mesh.corners(t));

@@ -19,14 +19,14 @@ Cuts cuts_of(const TetMesh& mesh, const std::vector<Tet>& tets, double worth_cut
   return {std::move(samples), levels_for(static_cast<double>(tets.size()), worth_cutting), least_share};
 }
 
-// To join parts once more takes sweeps over the whole mesh: a large one's are dear.
+// Joining parts once more takes sweeps over the whole mesh, which are expensive if it is large.
 double worth_cutting_again(const TetMesh& mesh) {
   return std::clamp(tuning::kShareWorthCuttingAgain * static_cast<double>(mesh.tet_count()),
                     tuning::kWorthCuttingAgain, tuning::kWorthCutting);
 }
 
-// The tetrahedra at these vertices and one ring more: cavities need room to grow. Two sweeps over all take
-// less time than gathering balls.
+// The tetrahedra at these vertices and one more ring, because cavities need room to grow. Two sweeps over all
+// tetrahedra take less time than gathering balls.
 std::vector<Tet> rings_round(const VolumeData& volume, const std::vector<Vertex>& vertices,
                              const Threads& threads) {
   std::vector<std::uint8_t> reached(volume.mesh.vertex_count(), 0);
@@ -71,8 +71,8 @@ std::unique_ptr<Parts> join_and_cut_again(Parts& parts, const Threads& threads) 
   const std::vector<Vertex> between = parts.vertices_between();
   const std::vector<Tet> tets = rings_round(volume, between, threads);
   if (tets.empty()) return {};
-  // What is left lies along the planes that cut it before: where they halve it, so do these planes again, and
-  // all that lies along one would be left once more.
+  // What is left lies along the planes of the last cut. If these halve it, the same planes would be chosen
+  // again, and everything along them would be left once more.
   std::unique_ptr<Parts> again;
   if (static_cast<double>(tets.size()) < tuning::kMostLeft * before)
     if (const Cuts cuts = cuts_of(volume.mesh, tets, worth_cutting_again(volume.mesh), tuning::kLeastShare);

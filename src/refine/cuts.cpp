@@ -9,8 +9,8 @@
 namespace holdfast {
 namespace {
 
-// The samples along one axis, and a plane across it, which has `below` of them on its lower side and samples
-// of the weight `close` near it.
+// The samples along one axis, and a plane across it with `below` samples on its lower side and samples of
+// total weight `close` near it.
 struct Split {
   std::vector<Cuts::Sample> samples;
   Cuts::Plane plane{0, 0};
@@ -18,14 +18,14 @@ struct Split {
   double close = std::numeric_limits<double>::infinity();
 };
 
-// Of the planes that leave one of these shares of the weight on their lower side, the one with the least near
-// it.
+// Of the planes that leave one of these shares of the weight on their lower side, the one with the least
+// weight near it.
 Split split_across(std::size_t axis, std::span<const Cuts::Sample> samples, std::span<const double> shares,
                    double margin) {
   Split best{{samples.begin(), samples.end()}, {axis, 0}};
   std::stable_sort(best.samples.begin(), best.samples.end(),
                    [&](const Cuts::Sample& x, const Cuts::Sample& y) { return x.at[axis] < y.at[axis]; });
-  std::vector<double> sums{0};  // of the weights before a sample
+  std::vector<double> sums{0};  // sum of the weights before each sample
   for (const Cuts::Sample& s : best.samples) sums.push_back(sums.back() + s.weight);
   const auto weight_below = [&](double at) {
     const auto end = std::partition_point(best.samples.begin(), best.samples.end(),

@@ -12,10 +12,12 @@
 namespace holdfast {
 namespace {
 
-constexpr std::size_t kTetsACall = 4096;  ///< that points are gathered of, as functions like to be asked
+constexpr std::size_t kTetsACall =
+    4096;  ///< points are gathered from so many, because functions prefer to be asked about many at once
 
-// How many elements of edge 1 a volume of 1 has in a metric, over those of space: the root of the
-// determinant. By Cholesky's pivots, as the sum of products is rounding alone where sizes differ much.
+// The number of elements of edge 1 in a volume of 1 in a metric, relative to Euclidean space: the root of the
+// determinant. Computed from Cholesky's pivots, because the sum of products is pure rounding where sizes
+// differ much.
 double density(const Metric& m) {
   const auto& [xx, xy, yy, xz, yz, zz] = m;
   const double u = xy / xx, w = xz / xx, second = yy - u * xy, v = (yz - u * xz) / second,
@@ -24,7 +26,7 @@ double density(const Metric& m) {
   return is_regular ? std::sqrt(xx) * std::sqrt(second) * std::sqrt(third) : 0;
 }
 
-// Elements that a unit of volume has, by place.
+// Elements per unit of volume, by place.
 std::vector<double> densities(const SizeFunction& sizes, std::span<const Point> points,
                               std::span<const RegionId> regions) {
   std::vector<double> found(points.size());
@@ -55,7 +57,7 @@ void add_corners_and_middles(const VolumeData& volume, Tet t, std::vector<Point>
     }
 }
 
-// The elements of tetrahedra, of which each has the least density of the points that `add` gives it.
+// The elements in tetrahedra. Each tetrahedron has the least density of the points that `add` gives it.
 template <typename Add>
 double elements_in(const VolumeData& volume, const SizeFunction& sizes, std::span<const Tet> tets,
                    Add&& add) {
@@ -69,7 +71,7 @@ double elements_in(const VolumeData& volume, const SizeFunction& sizes, std::spa
   for (std::size_t k = 0; k < tets.size(); ++k) {
     const double six = six_volumes(volume.mesh, volume.mesh.corners(tets[k]));
     const double least = *std::min_element(&found[k * each], &found[k * each] + each);
-    // Beyond the range of doubles nothing is known.
+    // Beyond the range of doubles the number is unknown.
     if (std::isfinite(six) && six > 0 && least > 0) elements += std::numbers::sqrt2 * six * least;
   }
   return elements;
@@ -92,7 +94,7 @@ bool exceed(double most, const VolumeData& volume, const SizeFunction& sizes, Ad
 
 bool asks_for_more_than(double most, const SizeFunction& sizes, const VolumeData& volume) {
   if (!sizes.has_field() && !sizes.has_metric()) return false;
-  // Nearly always the centres, of which there are fewest, show that it does not.
+  // The centres are the fewest points, and nearly always they suffice to show that it does not exceed `most`.
   return exceed(most, volume, sizes, add_centre) &&
          exceed(most, volume, sizes, [](const VolumeData& data, Tet t, std::vector<Point>& points) {
            add_centre(data, t, points);

@@ -23,7 +23,7 @@ std::span<const Tet> FieldInserter::insert(const Point& x, Tet start) {
   return cavity_.created();
 }
 
-// Leaves the cavity found where it returns true.
+// Keeps the cavity if it returns true.
 bool FieldInserter::fits(Vertex p, Tet start) {
   const RegionId region = volume_.region_of[start];
   const Tet base = cavity_.locate(p, start);
@@ -38,7 +38,7 @@ bool FieldInserter::fits(Vertex p, Tet start) {
   return false;
 }
 
-// Whether p is in the smallest ball round a face of an interface: then spheres beyond the face may hold it.
+// Whether p is in the smallest ball round a face of an interface: then spheres beyond the face may contain p.
 bool FieldInserter::is_near_an_interface(Vertex p) const {
   return volume_.part != nullptr &&
          std::any_of(cavity_.rim().begin(), cavity_.rim().end(), [&](const RimFace& rim) {
@@ -51,7 +51,8 @@ bool FieldInserter::is_near_an_interface(Vertex p) const {
          });
 }
 
-// Of t and the tetrahedra next to it: to be too near to one of these saves finding the cavity.
+// The vertices of t and the tetrahedra next to it. If p is too near to one of them, finding the cavity is
+// saved.
 std::span<const Vertex> FieldInserter::vertices_round(Tet t) {
   const auto& c = mesh_.corners(t);
   std::copy(c.begin(), c.end(), round_.begin());
@@ -64,13 +65,13 @@ std::span<const Vertex> FieldInserter::vertices_round(Tet t) {
   return {round_.data(), count};
 }
 
-// Whether p keeps its distance from these vertices. Leaves what is wanted there in size_ and
-// wanted_, and the metric and its frame if there are metrics.
+// Whether p keeps its distance from these vertices. Leaves the wanted size in size_ and wanted_, and the
+// metric and its frame if there are metrics.
 bool FieldInserter::is_far_from(Vertex p, std::span<const Vertex> vertices, RegionId region) {
   const Point& x = mesh_.position(p);
   double nearest = std::numeric_limits<double>::infinity();
   size_ = sizes_.limit(x, region);
-  double mean = 0, weights = 0;  // of the sizes, the nearer the more
+  double mean = 0, weights = 0;  // of the sizes; nearer vertices have larger weights
   for (const Vertex v : vertices) {
     const double d = distance(mesh_.position(v), x);
     nearest = std::min(nearest, d);
@@ -87,7 +88,7 @@ bool FieldInserter::is_far_from(Vertex p, std::span<const Vertex> vertices, Regi
   return nearest >= tuning::kNearest * wanted_;
 }
 
-// Makes a metric of the size and the user's metric. Returns the distance of the nearest vertex in it.
+// Combines the size and the user's metric into one metric. Returns the distance of the nearest vertex in it.
 double FieldInserter::want_metric(Vertex p, std::span<const Vertex> vertices) {
   const Point& x = mesh_.position(p);
   metric_ = sizes_.metric(x, size_);
@@ -99,7 +100,8 @@ double FieldInserter::want_metric(Vertex p, std::span<const Vertex> vertices) {
   return nearest;
 }
 
-// Where constraints cut the cavity, or the mesh is not Delaunay, a near vertex may stand just beyond it.
+// Where constraints cut the cavity, or where the mesh is not Delaunay, a near vertex may be just beyond the
+// cavity.
 bool FieldInserter::is_near_beyond(Vertex p) const {
   const double least = tuning::kNearest * wanted_;
   for (const RimFace& rim : cavity_.rim()) {

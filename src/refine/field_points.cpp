@@ -1,7 +1,7 @@
-// A large mesh is refined in parts at the same time. Before there are points inside, though, its tetrahedra
-// span it from side to side, and so do the cavities of points. Therefore the first points are placed on the
-// planes that will cut it, by one thread: then what lies between two parts is small, and the cavities of
-// points on one side seldom reach the other. The few that do are made when the parts are joined.
+// A large mesh is refined in parts at the same time. But before there are points inside, its tetrahedra span
+// it from side to side, and so do the cavities of points. Therefore one thread places the first points on the
+// planes that will cut the mesh. Then what lies between two parts is small, and the cavities of points on one
+// side seldom reach the other. Those few points are inserted when the parts are joined.
 #include "refine/field_points.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 namespace holdfast {
 namespace {
 
-// Tetrahedra of the size that is allowed at its centroid that fill t.
+// The number of tetrahedra of the size allowed at t's centroid that fill t.
 double tets_in(const VolumeData& volume, const SizeFunction& sizes, Tet t, const Point& middle) {
   constexpr double kRegular = 0.118;  // volume over the cube of an edge
   const TetMesh& mesh = volume.mesh;
@@ -39,9 +39,9 @@ struct ExpectedWork {
   double tets;  // in the end
 };
 
-// From some of the tetrahedra. Sizes that do not grow are means of those round a point: in a mesh without
-// points inside, of the sizes of the whole surface; so there are no cuts then. With a metric neither: the
-// points on cuts are for spheres.
+// Estimated from some of the tetrahedra. Sizes that do not grow are means of the sizes round a point. In a
+// mesh without points inside these are means over the whole surface, so there are no cuts then. There are
+// none with a metric either, because the points on cuts are computed for spheres.
 ExpectedWork expected_work(const VolumeData& volume, const SizeFunction& sizes,
                            const std::vector<Tet>& tets) {
   if (!sizes.grows() || sizes.has_metric()) return {{{}, 0}, 0};
@@ -56,8 +56,8 @@ ExpectedWork expected_work(const VolumeData& volume, const SizeFunction& sizes,
   return {{std::move(samples), levels_for(expected, tuning::kWorthCutting)}, expected};
 }
 
-// For as many tetrahedra more as are expected in all: so the mesh is copied once while it is small, and not
-// when the parts are joined. Memory that is not touched costs nothing, but there is an end to it, too.
+// Reserves room for as many more tetrahedra as are expected in all. So the mesh is copied once while it is
+// small, and not when the parts are joined. Untouched memory costs nothing, but even that is limited.
 void make_room(const VolumeData& volume, double expected) {
   const auto more = static_cast<std::size_t>(expected < tuning::kMostRoom ? expected : tuning::kMostRoom);
   const std::size_t slots = volume.mesh.slot_count() + more;
@@ -69,7 +69,7 @@ void make_room(const VolumeData& volume, double expected) {
 
 FieldPoints filled_parts(const VolumeData& volume, const SizeFunction& sizes, const Threads& threads,
                          Monitor& monitor) {
-  // More than for the improvement: the first points inside are on the cuts, so that the surface is joined to
+  // More than for the improvement: the first points inside are on the cuts, so tetrahedra join the surface to
   // them from afar (half of the tetrahedra of a torus of a million triangles).
   const std::vector<Tet> tets = tets_inside(volume, threads);
   const auto [cuts, expected] = expected_work(volume, sizes, tets);

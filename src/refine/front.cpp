@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Circumradius, in sizes, of a tetrahedron to be refined.
+// Circumradius, in sizes, above which a tetrahedron is refined.
 double large_radius(const SizeFunction& sizes) {
   const double steepness = sizes.has_limit() ? 0 : sizes.steepness();
   return tuning::kLargeRadius + (tuning::kLargeRadiusOfSteep - tuning::kLargeRadius) * steepness;
@@ -62,11 +62,11 @@ class Front {
   }
 
  private:
-  // Bit i below these: tried from face i.
+  // Bit i below these: face i was tried.
   static constexpr std::uint8_t kIsLarge = 0x10, kQueued = 0x20, kInRest = 0x40;
 
-  // The first ones come in random order: along the curve, a tenth more of the elements would be slivers. But
-  // random within blocks, so that points find the mesh in the caches, and so on layer after layer.
+  // The first ones come in random order: along the curve, a tenth more of the elements would be slivers. They
+  // are random within blocks, so that points find the mesh in the caches, layer after layer.
   void shuffle_front() {
     std::uint64_t random = volume_.seed;
     for (std::size_t first = 0; first < front_.size(); first += tuning::kFrontBlock) {
@@ -78,13 +78,13 @@ class Front {
     }
   }
 
-  // The front runs through the whole mesh, layer by layer: what comes next is seldom in the cache.
+  // The front runs through the whole mesh, layer by layer, so the next tetrahedron is seldom in the cache.
   void prefetch_ahead() const {
     if (front_.size() > tuning::kPrefetchFar) mesh_.prefetch(front_[tuning::kPrefetchFar]);
     if (front_.size() > tuning::kPrefetchNear) mesh_.prefetch_neighbours(front_[tuning::kPrefetchNear]);
   }
 
-  // How much is left is known when little is: the front is large first and shrinks.
+  // The rest can be estimated only near the end: the front is large first and shrinks.
   [[nodiscard]] double progress() const {
     return 1 - static_cast<double>(front_.size()) / static_cast<double>(front_.size() + mesh_.slot_count());
   }
@@ -105,7 +105,7 @@ class Front {
     }
   }
 
-  // A function of the user is asked for limits at many points at a time, and only where it matters.
+  // A user's function is asked for limits at many points at a time, and only where they matter.
   void queue_large(std::span<const Tet> tets) {
     if (volume_.metrics != nullptr || !sizes_.has_field()) {
       for (const Tet t : tets)
@@ -130,7 +130,8 @@ class Front {
     }
   }
 
-  // Whether the radius of its sphere is. Per tetrahedron made, so without roots and divisions.
+  // Whether the radius of t's sphere is large. Called for every new tetrahedron, so without roots and
+  // divisions.
   [[nodiscard]] bool is_large(Tet t) const {
     if (volume_.metrics != nullptr) return is_large_in_metric(t);
     double allowed = radius_of_corners(t);
@@ -139,7 +140,7 @@ class Front {
     return is_larger_than_bearable(t, sphere_of(t), allowed);
   }
 
-  // Whether the radius of its sphere is larger than what is allowed, and what the facets near by can bear.
+  // Whether the radius of t's sphere exceeds both what is allowed and what nearby facets can bear.
   [[nodiscard]] bool is_larger_than_bearable(Tet t, const ScaledCentre& sphere, double allowed) const {
     if (!is_larger(sphere, large_radius_ * allowed)) return false;
     const double bearable = sizes_.of_facets().bearable(centroid(mesh_, t), allowed,
@@ -157,7 +158,7 @@ class Front {
     return !(dot(centre.at, centre.at) < limit * limit);
   }
 
-  // The same, for its corners, or in the middle, of which these may not know.
+  // The same at its corners, or in the middle, which the corners may not represent.
   [[nodiscard]] bool is_large_in_metric(Tet t) const {
     if (is_larger(volume_.see(mesh_.corners(t), sphere_centre), tuning::kLargeRadius)) return true;
     const Point middle = centroid(mesh_, t);
@@ -170,8 +171,8 @@ class Front {
     return is_larger(sphere_centre(q[0], q[1], q[2], q[3]), tuning::kLargeRadius);
   }
 
-  // What the sizes at the corners allow, over large_radius_. Sizes grow with the distance:
-  // r = large_radius_ (h + gradation r).
+  // The radius that the sizes at the corners allow, over large_radius_. Sizes grow with the distance: r =
+  // large_radius_ (h + gradation r).
   [[nodiscard]] double radius_of_corners(Tet t) const {
     const TetMesh::Corners& c = mesh_.corners(t);
     const std::vector<double>& size = volume_.sizes;
@@ -193,8 +194,8 @@ class Front {
     return false;
   }
 
-  // Where the front does not get on, as over a facet much larger than the size: a point on the longest edge,
-  // one size away from one of its ends.
+  // Where the front does not advance, as over a facet much larger than the size: puts a point on the longest
+  // edge, one size away from one of its ends.
   bool split_long_edge(Tet t) {
     const Frame frame = volume_.frame_of(mesh_.corners(t));
     int longest = -1;
@@ -241,14 +242,14 @@ class Front {
         volume_.size_in_frame(v[0]) + volume_.size_in_frame(v[1]) + volume_.size_in_frame(v[2]);
     double length = sum / 3 * (1 + 0.4 * sizes_.gradation());
     if (!sizes_.of_facets().empty()) length = bearable_at(middle_of(v), volume_.region_of[tet_of(f)], length);
-    // The centre of the circle through the corners, or where that is far away, of the triangle.
+    // The centre of the circle through the corners, or, if that is far away, of the triangle.
     Vector foot = circle_centre(u, w);
     const double radius2 = dot(foot, foot);
     const bool round = radius2 < 0.6 * length * length;
     const double top = dot(n, d - a) / area;
     double height = round ? std::sqrt(length * length - radius2) : 0.75 * length;
     if (round) {
-      // The centre of the tetrahedron's sphere lies over the foot, too.
+      // The centre of the tetrahedron's sphere is over the foot as well.
       const double over = sphere_height(d - a, foot, n, area);
       if (over < 0.3 * height) return false;
       height = std::min(height, over);
@@ -262,7 +263,7 @@ class Front {
     return true;
   }
 
-  // Sizes at vertices may have been raised already, but not what a function of the user asks for.
+  // Sizes at vertices may have been raised already, but the sizes of a user's function have not.
   [[nodiscard]] double bearable_at(const Point& x, RegionId region, double size) const {
     const double bearable = sizes_.of_facets().bearable(x, size, sizes_.decider(size, region));
     if (!(bearable > size) || !sizes_.has_field()) return bearable;
@@ -274,15 +275,15 @@ class Front {
     return {(a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3, (a[2] + b[2] + c[2]) / 3};
   }
 
-  // Whether a point of that height over a large facet would come close to the other side of a wall, and one
-  // in its middle would not: where the user asks for the size, the wall is to have points.
+  // Whether a point of that height over a large facet would come close to the other side of a wall, while a
+  // point in the middle of the wall would not. Where the user asks for the size, the wall is to have points.
   [[nodiscard]] bool has_thin_wall_over(Face f, double top, double height) const {
     return sizes_.has_limit() && mesh_.is_facet(f) && top < 2 * height &&
            top > tuning::kThinnestWall * height;
   }
 
-  // Height over the plane of a face of the centre of the tetrahedron's sphere: of equal distance from the
-  // corner that all is seen from and the apex d.
+  // Height of the centre of the tetrahedron's sphere over the plane of a face. The centre has equal distance
+  // from the apex d and from the corner that is the origin.
   [[nodiscard]] static double sphere_height(const Vector& d, const Vector& foot, const Vector& n,
                                             double area) {
     return (dot(d, d) - 2 * dot(d, foot)) * area / (2 * dot(d, n));
@@ -294,7 +295,7 @@ class Front {
     state_.resize(mesh_.slot_count(), 0);
     for (const Tet t : created) state_[t] = 0;
     queue_large(created);
-    // A neighbour may have come to be on the front.
+    // A neighbour may now be on the front.
     for (const RimFace& rim : inserter_.rim()) {
       const Tet n = tet_of(rim.outer);
       if ((state_[n] & kIsLarge) != 0 && (rim.flags & facet_bit(3)) == 0 && (state_[n] & kQueued) == 0)
@@ -315,7 +316,7 @@ class Front {
   std::vector<RegionId> regions_;
   std::vector<double> limits_;
   std::deque<Tet> front_;
-  std::deque<Tet> rest_;  // large ones that the front did not get on with
+  std::deque<Tet> rest_;  // large ones for which the front did not advance
 };
 
 void limit_at_corners(const VolumeData& volume, const SizeFunction& sizes, const std::vector<Tet>& tets,
@@ -341,9 +342,9 @@ void limit_at_corners(const VolumeData& volume, const SizeFunction& sizes, const
   }
 }
 
-// The user's metric with no size above those that are set.
+// Sets the user's metric, limited by the sizes that are set.
 void set_metrics_at_vertices(const VolumeData& volume, const SizeFunction& sizes, Monitor& monitor) {
-  constexpr double kMost = 0x1p200;  // in the place of none
+  constexpr double kMost = 0x1p200;  // in place of no limit
   std::vector<Metric>& metrics = *volume.metrics;
   metrics.resize(volume.mesh.vertex_count());
   for (Vertex v = 0; v < metrics.size(); ++v) {
@@ -355,7 +356,7 @@ void set_metrics_at_vertices(const VolumeData& volume, const SizeFunction& sizes
 
 }  // namespace
 
-// Vertices of the surface have their sizes; others, Steiner points and corners of a box, get what the
+// Vertices of the surface have their sizes. Others (Steiner points and corners of a box) get what the
 // vertices round them allow.
 void set_sizes_at_vertices(const VolumeData& volume, const SizeFunction& sizes, const Threads& threads,
                            Monitor& monitor) {

@@ -15,7 +15,7 @@
 namespace holdfast {
 namespace {
 
-// The levels from 1 to n - 1, each half of them before its halves.
+// The levels from 1 to n - 1, each middle level before those of its halves.
 std::vector<std::uint8_t> in_halves(unsigned n) {
   std::vector<std::uint8_t> order;
   std::vector<std::pair<unsigned, unsigned>> between{{0, n}};
@@ -40,7 +40,7 @@ bool is_between(std::uint8_t level, std::uint8_t x, std::uint8_t y) {
   return x != Levels::kFree && y != Levels::kFree && std::min(x, y) < level && level < std::max(x, y);
 }
 
-// Parts edges of a region at levels.
+// Splits edges of a region at levels.
 class EdgeParter {
  public:
   EdgeParter(const VolumeData& volume, std::span<const Tet> tets, Levels& levels, Monitor& monitor)
@@ -51,11 +51,11 @@ class EdgeParter {
         levels_(levels),
         monitor_(monitor) {}
 
-  /// Of the region, ascending.
+  /// The tetrahedra of the region, ascending.
   [[nodiscard]] std::span<const Tet> tets() const { return tets_; }
   [[nodiscard]] std::size_t points() const { return points_; }
 
-  /// Parts the edges that jump over a level in direction k.
+  /// Splits the edges that jump over a level in direction k.
   void part_at(std::size_t k, std::uint8_t level) {
     std::vector<Tet> waiting(tets_);
     while (!waiting.empty()) {
@@ -121,7 +121,7 @@ class EdgeParter {
     return kernel.double_at(origin, kernel.centre(origin));
   }
 
-  // False, with the mesh as it was, where that place does not see all faces.
+  // False, with the mesh unchanged, if that place does not see all faces.
   bool put(const Point& x) {
     const Vertex p = MeshEditor(mesh_).add_vertex(x);
     fresh_.clear();
@@ -146,7 +146,8 @@ class EdgeParter {
     return true;
   }
 
-  // Of a point on the edge in shell_: that of one of its ends which does for all of the link.
+  // Levels for a point on the edge in shell_: in each direction, the level of an end that fits all of the
+  // link.
   [[nodiscard]] Levels::OfVertex levels_on_edge() const {
     Levels::OfVertex found = levels_.of(shell_.a);
     const Levels::OfVertex& other = levels_.of(shell_.b);
@@ -167,7 +168,7 @@ class EdgeParter {
   const RegionId region_;
   Levels& levels_;
   Monitor& monitor_;
-  EdgeShell shell_;  // of the edge that is parted
+  EdgeShell shell_;  // of the edge that is split
   std::vector<TetMesh::Corners> fresh_;
   std::vector<Tet> created_;
   std::size_t points_ = 0;

@@ -11,13 +11,13 @@
 namespace holdfast {
 namespace {
 
-// What is found in some of the tetrahedra; volumes are six times as large.
+// What is found in some of the tetrahedra; volumes are multiplied by six.
 struct Found {
   double all = 0, limited = 0, asked = 0;
   std::vector<LimitedSizes::AtFacet> facets;  // ascending
 };
 
-// What the corners of t hand on to its centroid.
+// The size that the corners of t pass on to its centroid.
 double handed_on(const VolumeData& volume, const SizeFunction& sizes, Tet t, const Point& centre) {
   double size = std::numeric_limits<double>::infinity(), sum = 0;
   for (const Vertex v : volume.mesh.corners(t)) {
@@ -45,7 +45,7 @@ std::vector<LimitedSizes::AtFacet> joined(std::vector<LimitedSizes::AtFacet> sam
   return facets;
 }
 
-// A block is small, so that a function of the user is asked about all of it at once.
+// Samples a block, which is small, so that a user's function is asked about all of it at once.
 Found found_in(const VolumeData& volume, const SizeFunction& sizes, std::span<const Tet> block) {
   std::vector<Point> places;
   std::vector<RegionId> regions;
@@ -77,7 +77,7 @@ Found found_in(const VolumeData& volume, const SizeFunction& sizes, std::span<co
 LimitedSizes limited_sizes(const VolumeData& volume, const SizeFunction& sizes, const Threads& threads) {
   if (sizes.of_facets().empty()) return {};
   const std::vector<Tet> tets = tets_inside(volume, threads);
-  // Blocks are summed up in their order: the last bits do not depend on the threads.
+  // Blocks are summed in their order, so the last bits do not depend on the threads.
   std::vector<Found> blocks((tets.size() + tuning::kFieldBlock - 1) / tuning::kFieldBlock);
   parallel(sizes.threads_of(threads), blocks.size(), [&](std::size_t b) {
     const std::size_t first = b * tuning::kFieldBlock;

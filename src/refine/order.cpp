@@ -12,7 +12,7 @@ namespace {
 constexpr double kCells = 1024;  // along each axis
 constexpr std::uint32_t kKeys = 1u << 30;
 
-// Two zero bits between each two of ten.
+// Puts two zero bits between any two of ten bits.
 std::uint32_t spread(std::uint32_t x) {
   x = (x | (x << 16)) & 0x030000FFu;
   x = (x | (x << 8)) & 0x0300F00Fu;
@@ -50,8 +50,7 @@ class Curve {
   double scale_ = 0;
 };
 
-// Items in the order of their keys, equal ones as they stood: three passes of 10 bits, whose counts fit in
-// the nearest cache.
+// Sorts items by their keys, stably: three passes of 10 bits, whose counts fit in the nearest cache.
 template <typename KeyOf>
 void sort_by_key(std::vector<std::uint32_t>& items, KeyOf&& key_of) {
   constexpr unsigned kBits = 10, kPasses = 3;

@@ -19,7 +19,7 @@ constexpr std::size_t kSlotsAtOnce = std::size_t{1}
 
 class PartMaker {
  public:
-  /// `local_of`, by slot of the whole, is the number of a tetrahedron in its part: its place in `tets`.
+  /// `local_of`, by slot of the whole mesh, is the number of a tetrahedron in its part: its place in `tets`.
   PartMaker(const VolumeData& whole, const std::vector<std::uint32_t>& part_of,
             const std::vector<Tet>& local_of, const std::vector<Tet>& tets, Part& part)
       : whole_(whole), part_of_(part_of), local_of_(local_of), tets_(tets), part_(part) {}
@@ -35,7 +35,7 @@ class PartMaker {
   }
 
  private:
-  // Ghosts come after the tetrahedra, in the order of the faces that they stand on.
+  // Ghosts follow the tetrahedra, in the order of the faces on which they stand.
   void copy_neighbours() {
     const TetMesh& mesh = whole_.mesh;
     const auto count = static_cast<Tet>(tets_.size());
@@ -57,7 +57,7 @@ class PartMaker {
       }
   }
 
-  // Those that stand come first. As the tetrahedra come along a curve, so do their vertices.
+  // Vertices that must stay come first. The tetrahedra are ordered along a curve, and so are their vertices.
   void number_vertices() {
     const TetMesh& mesh = whole_.mesh;
     enum : std::uint8_t { kOnInterface = 1, kOnCut = 2 };
@@ -119,7 +119,7 @@ class PartMaker {
           .set_flags(t, static_cast<Flags>(whole_.mesh.flags(tets_[t]) & kConstraintBits));
   }
 
-  // Two ghosts are neighbours where turning through the part leads from one to the other.
+  // Two ghosts are neighbours if turning through the part leads from one to the other.
   void hold_and_link() {
     TetMesh& mesh = part_.mesh;
     for (Tet ghost = part_.first_ghost_; ghost < mesh.slot_count(); ++ghost) {
@@ -142,8 +142,8 @@ class PartMaker {
   std::vector<Vertex> place_;  // in the part, by vertex of the whole that is there
 };
 
-// Turns round an edge of the face `in`, which is opposite the vertex `across`, from the tetrahedron of `in`
-// to a ghost. Calls act(t, edge) for every tetrahedron on the way. Returns the face of the ghost at the edge.
+// Turns round an edge of the face `in`, the one opposite the vertex `across`, from the tetrahedron of `in` to
+// a ghost. Calls act(t, edge) for every tetrahedron on the way. Returns the face of the ghost at the edge.
 template <typename Act>
 Face Part::turn(Face in, Vertex across, Act&& act) const {
   while (!mesh.is_ghost(tet_of(in))) {
@@ -207,7 +207,7 @@ std::size_t Part::count_at_cuts() const {
   return count;
 }
 
-// Ghosts, which bounds_ goes by, stay in their order, behind the tetrahedra.
+// Ghosts keep their order, behind the tetrahedra, because bounds_ relies on it.
 void Part::order_along_curve() {
   const auto first_new = static_cast<Vertex>(vertices_.size());
   CurveOrder order = order_of(mesh, first_new);
@@ -220,7 +220,7 @@ void Part::order_along_curve() {
 
 class PartJoiner {
  public:
-  // A face between two parts, by its codes before and after.
+  // A face between two parts, by its codes before and after joining.
   struct Seam {
     Face inner, outer, now;
   };
@@ -248,7 +248,7 @@ class PartJoiner {
     while (part_.vertices_.size() < part_.mesh.vertex_count()) part_.vertices_.push_back(first_vertex++);
   }
 
-  /// Writes what belongs to this part alone.
+  /// Writes what belongs only to this part.
   void write() {
     write_vertices();
     write_tets();
@@ -263,7 +263,7 @@ class PartJoiner {
     return seams;
   }
 
-  /// For one part at a time: slots that are left, and vertices that may be in other parts, too.
+  /// For one part at a time: handles remaining slots, and vertices that may be in other parts as well.
   void tidy() {
     for (std::size_t k = tets_.size(); k < part_.slots_.size(); ++k)
       MeshAssembly(whole_.mesh).remove_tet(part_.slots_[k]);
@@ -275,7 +275,7 @@ class PartJoiner {
   }
 
  private:
-  // The code in the whole of the face on which the k-th ghost stands.
+  // The code in the whole mesh of the face on which the k-th ghost stands.
   [[nodiscard]] Face now_at(Tet k) const {
     const Face inner = part_.mesh.neighbour(part_.first_ghost_ + k, 3);
     return face_code(joined_[tet_of(inner)], side_of(inner));
@@ -316,12 +316,12 @@ class PartJoiner {
   const VolumeData& whole_;
   Part& part_;
   std::vector<Tet> tets_;    // in the order of their new slots
-  std::vector<Tet> joined_;  // by slot: the one in the whole
+  std::vector<Tet> joined_;  // by slot: the tetrahedron in the whole mesh
 };
 
 namespace {
 
-// Faces between two parts, which each part knows from its own side.
+// Links the faces between two parts, which each part knows from its own side.
 void link_seams(TetMesh& mesh, const std::vector<PartJoiner>& joiners) {
   std::vector<PartJoiner::Seam> seams;
   for (const PartJoiner& joiner : joiners) {
@@ -354,7 +354,7 @@ Parts::Parts(const VolumeData& whole, const std::vector<std::uint32_t>& part_of,
   for (Part& part : parts_) part.seed = whole.seed;
   threads.poll();
   const CurveKeys keys(whole.mesh);
-  std::vector<std::vector<Tet>> tets(count);  // as they come along the curve
+  std::vector<std::vector<Tet>> tets(count);  // in their order along the curve
   std::vector<Tet> local_of(whole.mesh.slot_count());
   threads.poll();
   parallel(threads, count, [&](std::size_t k) {

@@ -7,7 +7,7 @@
 namespace holdfast {
 namespace {
 
-// By the facets of a tetrahedron: the corners, and the flags of the edges, that are in none of them.
+// By the facets of a tetrahedron: the corners and edge flags that are on none of these facets.
 struct OffFacets {
   std::uint8_t corners = 0xF;
   Flags segments = kSegmentBits;
@@ -52,7 +52,7 @@ bool PointCavity::find_among(Vertex p, Tet base, std::span<const Tet> tets) {
   return settle(base);
 }
 
-// Takes out of the cavity what does not belong there.
+// Removes tetrahedra that do not belong to the cavity.
 bool PointCavity::settle(Tet base) {
   for (;;) {
     if (!shrink_until_seen(base)) {
@@ -80,7 +80,7 @@ inline bool PointCavity::is_in_sphere(Tet t, const Point& x) const {
                          mesh_.position(c[2]).data(), mesh_.position(c[3]).data(), x.data()) > 0;
 }
 
-// The tetrahedra in conflict with p and the faces between them and others, facets from both sides.
+// Collects the tetrahedra in conflict with p, and the faces between these and others, facets from both sides.
 void PointCavity::spread(Tet base, const Frame& frame, std::size_t most) {
   tets_.clear();
   faces_.clear();
@@ -90,7 +90,7 @@ void PointCavity::spread(Tet base, const Frame& frame, std::size_t most) {
   const Point& x = mesh_.position(p_);
   for (std::size_t k = 0; k < tets_.size() && tets_.size() <= most; ++k) {
     const Tet t = tets_[k];
-    // The spreading waits for memory more than for the tests.
+    // Memory takes more time here than the tests.
     for (int i = 0; i < 4; ++i) {
       const Face g = mesh_.neighbour(t, i);
       mesh_.prefetch(tet_of(g));
@@ -115,7 +115,7 @@ void PointCavity::spread(Tet base, const Frame& frame, std::size_t most) {
   }
 }
 
-// Rounded in the frame, flat tetrahedra may be turned round.
+// Rounding in the frame may invert flat tetrahedra.
 bool PointCavity::is_in_sphere_of(const Frame& frame, Tet t) const {
   std::array<Point, 4> q;
   for (std::size_t i = 0; i < 4; ++i) q[i] = frame.to(mesh_.position(mesh_.corners(t)[i]));
@@ -135,7 +135,7 @@ void PointCavity::gather(std::span<const Tet> tets) {
     }
 }
 
-// Takes a tetrahedron out of the cavity; its faces towards the rest become the boundary's.
+// Removes a tetrahedron from the cavity; its faces towards the rest join the boundary.
 bool PointCavity::release(Tet t, Tet base) {
   if (t == base) return false;
   mesh_.clear_visited(t);
@@ -148,7 +148,7 @@ bool PointCavity::release(Tet t, Tet base) {
 
 bool PointCavity::shrink_until_seen(Tet base) {
   std::size_t kept = 0, next = 0;
-  while (next < faces_.size()) {  // to which releasing adds
+  while (next < faces_.size()) {  // releasing tetrahedra adds faces
     const Face f = faces_[next++];
     const Tet t = tet_of(f);
     if ((mesh_.flags(t) & kVisited) == 0) continue;
@@ -158,7 +158,7 @@ bool PointCavity::shrink_until_seen(Tet base) {
     else if (!release(t, base))
       return false;
   }
-  // A face that was kept may have lost its tetrahedron since.
+  // A face that was kept may have lost its tetrahedron since then.
   faces_.resize(kept);
   std::erase_if(faces_, [&](Face f) { return (mesh_.flags(tet_of(f)) & kVisited) == 0; });
   std::erase_if(tets_, [&](Tet t) { return (mesh_.flags(t) & kVisited) == 0; });
@@ -190,8 +190,8 @@ void PointCavity::list_rim() {
   }
 }
 
-// A tetrahedron of the cavity with a vertex or segment that no face of the boundary holds, or kNone. Facets
-// are faces of the boundary.
+// A tetrahedron of the cavity with a vertex or segment on no face of the boundary, or kNone. Facets are faces
+// of the boundary.
 Tet PointCavity::holder_of_lost_entity(Tet base) const {
   Tet lost = kNone;
   for (const Tet t : tets_) {

@@ -17,7 +17,7 @@ std::vector<double> regular_elements(const VolumeData& volume) {
   for (Tet t = 0; t < volume.mesh.slot_count(); ++t) {
     if (!volume.is_inside(t)) continue;
     const double six = six_volumes(volume.mesh, volume.mesh.corners(t));
-    if (!std::isfinite(six)) continue;  // beyond the range of doubles, as sizes to their third power may be
+    if (!std::isfinite(six)) continue;  // beyond the range of doubles, as cubes of sizes may be
     const RegionId region = volume.region_of[t];
     const double size = volume.most_size(region);
     elements[region] += std::numbers::sqrt2 * (six / size / size / size);

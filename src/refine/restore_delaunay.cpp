@@ -15,7 +15,7 @@ namespace {
                          mesh.position(c[3]).data(), mesh.position(v).data()) > 0;
 }
 
-// Whether the apex beyond a face that is no facet is in the sphere of t.
+// Whether t has a face, not a facet, with the apex beyond it in the sphere of t.
 [[nodiscard]] bool has_bad_face(const TetMesh& mesh, Tet t) {
   for (int i = 0; i < 4; ++i) {
     const Face f = face_code(t, i);
@@ -26,12 +26,12 @@ namespace {
   return false;
 }
 
-// The objective: the tetrahedra that come are positive and Delaunay among themselves, and those that go are
-// not. Among all triangulations of their points, Delaunay ones are lowest when lifted to the paraboloid
-// (Edelsbrunner, Seidel 1986); so no exchange is ever made twice, and exchanges come to an end.
+// The objective: the new tetrahedra are positive and Delaunay among themselves, and the old ones are not.
+// Among all triangulations of their points, Delaunay ones are lowest when lifted to the paraboloid
+// (Edelsbrunner, Seidel 1986). So no exchange is made twice, and the exchanges come to an end.
 class BecomesDelaunay : public ExchangesInMesh {
  public:
-  using Cost = int;  // all that fit are as good: the first is taken
+  using Cost = int;  // all exchanges that fit are equally good: the first is taken
 
   explicit BecomesDelaunay(const TetMesh& mesh) : ExchangesInMesh(mesh, tuning::kMostShellForDelaunay) {}
 
@@ -76,7 +76,7 @@ class BecomesDelaunay : public ExchangesInMesh {
   [[nodiscard]] Link link(const EdgeShell& shell, Cost) const { return {*this, shell}; }
 
  private:
-  // Whether none of the vertices concerned is in the sphere.
+  // Whether no vertex of the exchange is in the sphere.
   [[nodiscard]] bool is_empty(const TetMesh::Corners& c) const {
     return std::none_of(vertices_.begin(), vertices_.end(), [&](Vertex v) {
       return std::find(c.begin(), c.end(), v) == c.end() && is_in_sphere(mesh_, c, v);

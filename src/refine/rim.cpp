@@ -74,7 +74,7 @@ void RimEdges::link_by_table(std::span<const RimFace> rim, std::size_t side,
           table_[rim[k].local[kSide[i][1]] * side + rim[k].local[kSide[i][0]]] | kNewFace;
 }
 
-// The first side of an edge goes with the second.
+// Pairs the first side at an edge with the second.
 void RimEdges::link_by_ends(std::span<NewTet> new_tets) {
   for (std::size_t end = 0; end + 1 < first_.size(); ++end)
     for (std::size_t x = first_[end]; x < first_[end + 1]; ++x) {

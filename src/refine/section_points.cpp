@@ -1,7 +1,7 @@
-// A mesh without points inside has tetrahedra from side to side, and so are the cavities of points. The
-// cavity of a point reaches across a plane only as far as empty spheres do that hold the point and meet the
-// plane; so the circles in which spheres meet the planes are made small, as Delaunay refinement in the plane
-// does it, by points in the middle of them (Chew 1989).
+// A mesh without points inside has tetrahedra from side to side, and the cavities of points are as large. A
+// cavity reaches across a plane only as far as empty spheres that contain the point and meet the plane. So
+// the circles in which spheres meet the planes are made small by points in their middles, as in Delaunay
+// refinement in the plane (Chew 1989).
 #include "refine/section_points.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 namespace holdfast {
 namespace {
 
-// Of the points where edges cross the plane.
+// The middle of the points where edges cross the plane.
 Point middle_of_section(const std::array<Point, 4>& corners, const Cuts::Plane& plane) {
   Point sum{};
   double count = 0;
@@ -48,7 +48,7 @@ class SectionRefiner {
     const std::vector<Tet> large =
         tets_inside(volume_, threads, [&](Tet t) { return large_circle(t).has_value(); });
     large_.assign(large.begin(), large.end());
-    // Dead ones are met, and slots that were filled again: what stands there now is looked at.
+    // The list has dead tetrahedra and slots that were filled again; their present tetrahedra are examined.
     while (!large_.empty() && !inserter_.has_wasted_enough()) {
       const Tet t = large_.front();
       large_.pop_front();
@@ -73,7 +73,7 @@ class SectionRefiner {
   }
 
  private:
-  // In which the sphere of a tetrahedron meets a plane.
+  // The circle in which the sphere of a tetrahedron meets a plane.
   struct Circle {
     Point middle;
     Point in_tet;   // in the middle of where the tetrahedron meets the plane
@@ -81,9 +81,9 @@ class SectionRefiner {
     bool is_of_a_cap, is_huge;
   };
 
-  // Where the sphere meets the plane with a small cap, a vertex beyond the plane may be too near to the
-  // middle: then a point farther inside the sphere serves. Near facets much larger than the size, the middle
-  // may be beyond them.
+  // Where the sphere meets the plane in a small cap, a vertex beyond the plane may be too close to the
+  // circle's middle; then a point farther inside the sphere is used. Near facets much larger than the size,
+  // the middle may be beyond the facets.
   std::span<const Tet> put_point_into(const Circle& circle, Tet t) {
     auto created = inserter_.insert(circle.middle, t);
     if (created.empty() && circle.is_of_a_cap) created = inserter_.insert(circle.towards, t);
@@ -144,7 +144,7 @@ class SectionRefiner {
   Monitor& monitor_;
   FieldInserter inserter_;
   std::deque<Tet> large_;
-  std::vector<char> is_large_;  // of those that have come last
+  std::vector<char> is_large_;  // for the newest tetrahedra
 };
 
 }  // namespace

@@ -45,7 +45,7 @@ namespace {
 
 using Counts = std::vector<std::uint8_t>;  // by vertex; at most as many as layers
 
-// Edges to the nearest of the vertices that are `first`, over those that `for_each_next` leads to.
+// Counts edges to the nearest `first` vertex, over the vertices to which `for_each_next` leads.
 template <typename IsFirst, typename ForEachNext>
 Counts count_edges(std::size_t vertex_count, std::span<const Vertex> vertices, std::uint8_t most,
                    Monitor& monitor, const IsFirst& is_first, const ForEachNext& for_each_next) {
@@ -81,7 +81,7 @@ bool number_levels(const VolumeData& volume, RegionId region, const Walls& walls
   if (std::none_of(vertices.begin(), vertices.end(), floor) ||
       std::none_of(vertices.begin(), vertices.end(), ceiling))
     return false;
-  // Over vertices that are neither.
+  // Along vertices that are neither.
   const auto along_facets = [&](const auto& is_first) {
     return count_edges(mesh.vertex_count(), vertices, layers, monitor, is_first,
                        [&](Vertex v, const auto& act) {
