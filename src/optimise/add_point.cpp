@@ -10,9 +10,9 @@
 namespace holdfast {
 namespace {
 
-// What the elements of a cavity, or of a ball in its place, weigh.
+// The weight of the elements of a cavity, or of the ball in its place.
 struct Burden {
-  double by_number = 0;  // over what new elements may
+  double by_number = 0;  // excess over what new elements may weigh
   double by_volume = 0;
 
   void add(double weight, double volume) {
@@ -51,7 +51,7 @@ Point PointAdder::middle_of_shell() const {
   return middle;
 }
 
-// In the cavity of these tetrahedra, or, without any, in the one that the in-sphere test gives.
+// Adds a point in the cavity of these tetrahedra, or, if there are none, in the cavity of the in-sphere test.
 bool PointAdder::add_at(const Point& place, Tet t, std::span<const Tet> tets) {
   const RegionId region = volume_.region_of(t);
   const Vertex p = volume_.add_vertex(place, volume_.mesh().corners(t));
@@ -78,7 +78,7 @@ bool PointAdder::find_cavity(Vertex p, Tet t, std::span<const Tet> tets) {
   return found;
 }
 
-// Moves p to the best place that sees the same faces, and tells whether that lessens the energy.
+// Moves p to the best place that sees the same faces; returns whether that reduces the energy.
 bool PointAdder::improves(Vertex p) {
   TetMesh& mesh = volume_.mesh();
   star_.clear();
@@ -100,7 +100,7 @@ bool PointAdder::improves(Vertex p) {
          (!must_pay_ || pays(p)) && is_allowed(p);
 }
 
-// The ball has more elements than the cavity, mostly. So it may weigh more, by as much as new elements of a
+// Mostly the ball has more elements than the cavity. So it may weigh more, by as much as new elements of a
 // good mesh would; or less of the volume is bad.
 bool PointAdder::pays(Vertex p) const {
   const TetMesh& mesh = volume_.mesh();
@@ -123,7 +123,7 @@ bool PointAdder::is_allowed(Vertex p) {
   return volume_.allows(cavity_.tets(), fresh);
 }
 
-// What the star, with one metric for all, has only nearly.
+// The exact value; the star has only an approximate one, because it uses one metric for all elements.
 double PointAdder::energy_of_ball(Vertex p) const {
   double sum = 0;
   for (const RimFace& rim : cavity_.rim()) sum += volume_.energy_of({rim.v[0], rim.v[1], rim.v[2], p});

@@ -32,7 +32,7 @@ bool Contraction::turn_to(Vertex v) {
 std::span<const TetMesh::Corners> Contraction::with(Vertex w) {
   candidate_.resize(members_.size());
   const auto is_w = [w](Vertex x) { return static_cast<std::size_t>(x == w); };
-  std::size_t count = 0;  // of those without w; no branch, for which they are is hard to foresee
+  std::size_t count = 0;  // of those without w; branchless, because the choice is unpredictable
   for (const Member& m : members_) {
     const TetMesh::Corners& c = m.corners;
     candidate_[count] = c;

@@ -70,7 +70,7 @@ void ElementSearch::improve(const WaitingElement& e, Ways::Points points) {
     agenda_.give_up(e);
   }
   if (attempt.added != kNone) points_.push_back(attempt.added);
-  // What did not help may have changed something, too.
+  // Attempts without success may have changed something, too.
   stats_.changed += changed.size();
   qualities_.forget(changed);
   push(changed);

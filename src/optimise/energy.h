@@ -24,7 +24,7 @@ inline constexpr double kNoEnergy = std::numeric_limits<double>::infinity();
 
 /// The criteria besides the angles.
 struct EnergyRule {
-  double most = kNoEnergy;                       ///< sixths of a unit of volume that an element may have
+  double most = kNoEnergy;                       ///< the largest volume of an element, in sixths of a unit
   double hopeless_sine = tuning::kHopelessSine;  ///< q below which energies grow less steeply
 };
 

@@ -15,7 +15,7 @@ LeastBadness::Link LeastBadness::link(const EdgeShell& shell, const Badness& bef
 
 std::optional<Badness> LeastBadness::Link::triangle(std::size_t i, std::size_t k, std::size_t j) const {
   const Vertex pi = shell_.link[i], pk = shell_.link[k], pj = shell_.link[j];
-  // The signs cost less than the exact quality of what is flat.
+  // For flat elements, the signs cost less than the exact quality.
   if (!sees_both_ends(mesh_, shell_, i, k, j)) return std::nullopt;
   Badness both;
   both.add(quality_of(mesh_, {pi, pk, pj, shell_.b}), bad_from_);

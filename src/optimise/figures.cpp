@@ -9,13 +9,13 @@ namespace {
 
 constexpr double kRounding = 1e-9;
 
-// Cosines of small angles tell little of them.
+// Above this, a cosine tells little about the small angle.
 constexpr double kGreatCosine = 0.98;
 
-// What is within 1e-6 degrees of 10 is not below it: boxes and wedges make many angles that are round
+// An angle within 1e-6 degrees of 10 does not count as below: boxes and wedges make many angles of round
 // numbers.
 constexpr Angle kTenDegrees{0.17364816047879253, 0.9848077560429404};
-// Not compared, so that they need no such care.
+// These are not compared, so they need no such care.
 constexpr Angle kThirtyDegrees{0.5, 0.8660254037844386};
 
 Angle least_of(const CarefulShape& shape) {
@@ -41,7 +41,7 @@ Element element_of(const Point& a, const Point& b, const Point& c, const Point& 
   return {least_of(careful), careful.quality};
 }
 
-// Over blocks of the same number of tetrahedra, whatever the threads, so that sums are rounded alike.
+// Sums over blocks of a fixed number of tetrahedra, so that rounding does not depend on the threads.
 template <typename Add>
 Figures gather(std::size_t count, const Threads& threads, Add&& add) {
   constexpr std::size_t kBlock = 16384;

@@ -14,7 +14,7 @@
 namespace holdfast {
 namespace {
 
-// As many points more, as many times better, and ten times at least.
+// Points pay if the quality gets better by a factor of at least their number, and of at least ten.
 bool are_points_worth_it(const Search& search, const Search::Trial& trial, double gain) {
   const std::size_t points = search.points_in_mesh();
   return points <= trial.points() ||
@@ -52,8 +52,8 @@ void leave_out(Search& search, const Polyhedron& polyhedron, LeftOut& left_out) 
   for (const Tet t : polyhedron.tets()) left_out.push_back(search.mesh().corners(t));
 }
 
-// What comes after this polyhedron where it pays, or larger ones are in vain, and changes nothing round the
-// others: polyhedra round what is worst elsewhere.
+// What is likely to follow if this polyhedron pays, or if larger ones are in vain, and that does not change
+// the others: polyhedra round the worst elements elsewhere.
 std::vector<ToFill> likely_after(Search& search, const Polyhedron& polyhedron, LeftOut left_out,
                                  double worth_it, std::size_t most) {
   std::vector<ToFill> likely;
@@ -70,7 +70,8 @@ std::vector<ToFill> likely_after(Search& search, const Polyhedron& polyhedron, L
   return likely;
 }
 
-// What is near an element that stays is left out from then on. Others are looked for that are so bad.
+// If an element cannot be improved, everything near it is left out from then on, and others that are as bad
+// are looked for.
 bool fill_anew_round(Search& search, const WaitingElement& worst, const Filler& fill, LeftOut& left_out,
                      double worth_it) {
   left_out.push_back(worst.corners);
@@ -82,18 +83,19 @@ bool fill_anew_round(Search& search, const WaitingElement& worst, const Filler& 
     };
     if (fill_anew(search, polyhedron, fill, likely)) return true;
     if (most == tuning::kFilledAnew.front()) leave_out(search, polyhedron, left_out);
-    if (polyhedron.tets().size() < most) return false;  // more would be the same: these are all there are
+    if (polyhedron.tets().size() < most)
+      return false;  // larger ones would be the same: these are all tetrahedra
   }
   return false;
 }
 
-// What is less bad may be in the way of what is worst. Where it was not, more of it would better nothing.
+// Less bad elements may be in the way of the worst one. If they were not, more of this work improves nothing.
 bool is_left(Search& search, double quality) {
   const std::optional<WaitingElement> worst = search.worst();
   return worst && worst->quality >= quality;
 }
 
-// The place of a point that may go.
+// The polyhedron of a point that may be removed.
 std::optional<Polyhedron> place_of(Search& search, Vertex p) {
   if (!search.mesh().in_mesh(p)) return std::nullopt;
   std::vector<Tet> tets;
@@ -104,7 +106,8 @@ std::optional<Polyhedron> place_of(Search& search, Vertex p) {
   return place;
 }
 
-// What recovery leaves hardly ever goes afterwards, and a point for an element is one that was to go.
+// Points that recovery leaves hardly ever go afterwards, and a point that stands for an element is one that
+// was to go.
 ToFill with_fewer_points(const Polyhedron& place) {
   return place.with({.most_recovered = place.points() - 1, .may_be_added = false});
 }
@@ -116,7 +119,7 @@ std::vector<ToFill> places_of(Search& search, std::span<const Vertex> points, st
   return likely;
 }
 
-// `limit` is the worst Q that the place of a point may have.
+// `limit` is the worst Q allowed in the polyhedron of the removed point.
 bool fill_anew_without_point(Search& search, const Polyhedron& place, const Filler& fill, double limit,
                              const LikelyToFill& likely) {
   const std::optional<Filling> filling = fill(with_fewer_points(place), likely);

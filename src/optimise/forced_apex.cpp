@@ -14,11 +14,11 @@
 namespace holdfast {
 namespace {
 
-constexpr std::size_t kBlock = 1024;  // vertices between two looks at what other threads have found
+constexpr std::size_t kBlock = 1024;  // vertices between two checks of what other threads have found
 constexpr double kAboveRounding = 1.01, kWithSquare = 1e-100;
 
-// Whether some vertex makes an element on face f whose Q is below `limit`, be it that it does not see the
-// facet: unless one does, no exchange betters the element at a facet.
+// Whether some vertex makes an element on face f with Q below `limit`, even if it does not see the facet. If
+// no vertex does, no exchange improves the element at a facet.
 bool has_better_apex(const TetMesh& mesh, Face f, double limit, const Threads& threads) {
   const std::array<Vertex, 3> v = mesh.face_vertices(f);
   const Point &a = mesh.position(v[0]), &b = mesh.position(v[1]), &c = mesh.position(v[2]);
@@ -26,10 +26,10 @@ bool has_better_apex(const TetMesh& mesh, Face f, double limit, const Threads& t
   const std::array<double, 3> lengths{length(u), length(w), length(c - b)};
   const double longest = std::max({lengths[0], lengths[1], lengths[2]});
   const double side = dot(mesh.position(mesh.apex(f)) - a, normal) > 0 ? 1 : -1;
-  // The inradius is below half of the height, so that most vertices need no Q.
+  // The inradius is below half of the height, so most vertices need no Q.
   const double least_height = 2 * kQualityOfRegular * longest / limit;
   const double twice_area = length(normal), least = least_height * twice_area;
-  // And below that of the facet, by which the longest edge must not be too many times as long.
+  // It is also below the facet's inradius, so the longest edge must not be too many times as long.
   const double most =
       kAboveRounding * limit / kQualityOfRegular * twice_area / (lengths[0] + lengths[1] + lengths[2]);
   const double most_squared = most > kWithSquare ? most * most : std::numeric_limits<double>::infinity();

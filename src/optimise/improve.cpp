@@ -28,21 +28,21 @@ class Improver {
 
   /// From now on, no figure may become worse.
   void keep(const Figures& figures) { volume_.keep(figures); }
-  /// From now on, what is bad may be left where it is much; and points go again where they cost little, until
-  /// that part of the tetrahedra that there are is left.
+  /// From now on, many bad elements may be left; and points are removed where that costs little, until only
+  /// this part of the present tetrahedra is left.
   void be_brief(double least_part) {
     is_brief_ = true;
     least_tets_ = thinner_.tets_where_left(least_part);
   }
-  /// From now on, points are added as long as there are less than that many elements more, of those there
-  /// are.
+  /// From now on, points are added only while the number of new elements is below this part of the present
+  /// ones.
   void grow_at_most(double part) {
     std::size_t inside = 0;
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
       if (volume_.is_inside(t)) ++inside;
     most_tets_ = tets() + part * static_cast<double>(inside);
   }
-  /// Progress is that part of the stage's.
+  /// Progress is reported as this part of the stage's progress.
   void tell_as(std::array<double, 2> work) { work_ = work; }
 
   ImproveStats run() {
@@ -93,8 +93,8 @@ class Improver {
     work_on_single_ones(passes_.aim_of_mild, work, First::the_mildest, Patience::usual);
   }
 
-  // Facets force most of what is bad, and make points useless: no more than what shows in figures, and the
-  // very worst.
+  // Facets force most of the bad elements and make points useless. So this works only on elements that show
+  // in figures and on the very worst.
   void work_briefly() {
     const tuning::Brief& brief = tuning::kBrief;
     if (const std::size_t gone = thinner_.run(least_tets_, brief.most_cost); gone > 0) {
@@ -111,7 +111,7 @@ class Improver {
     return is_brief_ ? tuning::kBrief.most_passes : tuning::kMostPasses;
   }
   [[nodiscard]] double tets() const { return static_cast<double>(mesh_.tet_count()); }
-  /// Of a round that has such a part of the usual work.
+  /// The work of a round with this part of the usual work.
   [[nodiscard]] double work(double part) const {
     return passes_.least_work + part * passes_.work_per_tet * tets();
   }
@@ -130,7 +130,7 @@ class Improver {
     monitor_.poll(Stage::optimise, work_[0] + (work_[1] - work_[0]) * done);
   }
 
-  // Whether t is to be looked at, being worse than that.
+  // Whether t is worse than `from` and so is to be worked on.
   [[nodiscard]] bool is_worse(Tet t, double from) const {
     return volume_.energy(t) > from && volume_.is_inside(t) && !is_spared(t);
   }
@@ -142,7 +142,7 @@ class Improver {
   void swap_pass() {
     const double from = volume_.energy_of_sine(passes_.sine);
     const auto count = static_cast<double>(mesh_.slot_count());
-    // Slots that are filled on the way are met again, here or in the next pass.
+    // Slots that are filled during the pass are visited again, in this pass or the next.
     for (Tet t = 0; t < mesh_.slot_count(); ++t) {
       if (!is_worse(t, from) || !volume_.take_changed(t)) continue;
       poll(0.5 * t / count);
@@ -163,7 +163,7 @@ class Improver {
     }
   }
 
-  // So many that passes are the faster way.
+  // So many that passes are faster.
   [[nodiscard]] bool has_many_bad() const { return share_of_bad() > tuning::kManyBad; }
   [[nodiscard]] double share_of_bad() const {
     const double from = volume_.energy_of_sine(passes_.aim);
@@ -173,8 +173,8 @@ class Improver {
     return static_cast<double>(bad) / tets();
   }
 
-  // Nothing forces elements that touch no constraint: where they are a good part of the volume and too many
-  // of them are bad, more work pays. Where most touch one, it hardly does.
+  // Nothing forces elements that touch no constraint. Where these are a good part of the volume and too many
+  // of them are bad, more work pays. Where most elements touch a constraint, it hardly does.
   [[nodiscard]] bool has_many_bad_inside() const {
     std::size_t inside = 0, bad = 0;
     for (Tet t = 0; t < mesh_.slot_count(); ++t) {
@@ -195,7 +195,7 @@ class Improver {
     return first == First::the_worst ? volume_.energy(t) : -volume_.energy(t);
   }
 
-  // One element after another, as long as there is work left to spend. Returns whether any became better.
+  // Works on single elements as long as work is left. Returns whether any became better.
   bool work_on_single_ones(double aim, double share, First first, Patience patience) {
     const double from = volume_.energy_of_sine(aim);
     std::priority_queue<Entry> queue;

@@ -21,14 +21,15 @@ struct Extent {
   Extent(Effort of, bool brief = false) : effort(of), is_brief(brief) {}
 
   Effort effort;
-  /// Where many elements are bad after a pass, most are left: for a result that is compared with another, and
-  /// goes on where it is worse.
+  /// If many elements are bad after a pass, most are left as they are: for a result that is compared with
+  /// another, and is improved further if it is worse.
   bool is_brief;
-  /// Of what is brief: points go again until that part of the elements is left, as long as it costs little.
+  /// If brief: points are removed until this part of the elements is left, as long as that costs little.
   double least_part = 1;
-  /// Of what goes on: facets force so much that the shares of elements with small angles are to become less.
+  /// For further improvement: facets force so many small angles that the shares of elements with small angles
+  /// are to be reduced.
   bool lowers_shares = false;
-  /// Points are added as long as there are less than so many elements more, of those there are.
+  /// Points are added only while the number of new elements is below this part of the present ones.
   double most_growth = std::numeric_limits<double>::infinity();
 };
 
@@ -36,8 +37,8 @@ struct ImproveStats {
   std::size_t moved = 0, swapped = 0, contracted = 0, inserted = 0;
   std::size_t filled_in = 0;  ///< field points that were missing (improve_parts.h)
   bool filling_stopped_early = false;
-  bool was_brief = false;  ///< as it was allowed to be
-  double worst = 0;        ///< energy (energy.h): of what is not spared, nothing worse is left
+  bool was_brief = false;  ///< whether it was brief, as `is_brief` allows
+  double worst = 0;        ///< the worst energy (energy.h) of elements that are not spared
 
   ImproveStats& operator+=(const ImproveStats& other) {
     moved += other.moved;
@@ -53,16 +54,16 @@ struct ImproveStats {
 };
 
 /// Improves the tetrahedra of the kept regions; all their vertices are explicit. Facets, segments and the
-/// vertices below the first free one stand. Regions, sizes and metrics are kept up to date. Tetrahedra at
-/// vertices that `spared` marks, by vertex, are left alone unless they are in the way of others. Passes begin
-/// with those at vertices that `fresh` marks, or that are higher than it tells of, and go on where something
-/// changed.
+/// vertices below the first free one are unchanged. Regions, sizes and metrics are kept up to date.
+/// Tetrahedra at vertices that `spared` marks, by vertex, are left alone unless they are in the way of
+/// others. Passes begin with the tetrahedra at vertices that `fresh` marks, or whose number is beyond its
+/// end, and continue where something changed.
 ImproveStats improve(const VolumeData& volume, Extent extent, Monitor& monitor,
                      std::span<const std::uint8_t> spared = {}, std::span<const std::uint8_t> fresh = {});
 
-/// Goes on with what less effort has left, as far as `extent` goes. Changes keep `figures`, those of the
-/// whole that the volume is, or is a part of, if they are given. Progress is told as that part of the stage's
-/// work.
+/// Continues what less effort has left, as far as `extent` allows. If `figures` is given, changes keep these
+/// figures, which are those of the whole volume even if this is a part of it. Progress is reported as this
+/// part of the stage's work.
 ImproveStats improve_further(const VolumeData& volume, Extent extent, const std::optional<Figures>& figures,
                              std::array<double, 2> work, Monitor& monitor,
                              std::span<const std::uint8_t> spared = {},

@@ -9,12 +9,12 @@
 namespace holdfast {
 namespace {
 
-// In a metric, elements are not to be good in space.
+// With a metric, elements need not be good in Euclidean space.
 std::optional<Figures> figures_to_keep(const VolumeData& volume, const Threads& threads) {
   return volume.metrics == nullptr ? std::optional(figures_of(volume, threads)) : std::nullopt;
 }
 
-/// What is done to a part.
+/// The operation applied to a part.
 using ImprovePart = std::function<ImproveStats(Part&, Monitor&)>;
 
 ImproveStats improve_each(Parts& parts, const ImprovePart& improve_part, std::array<double, 2> work,

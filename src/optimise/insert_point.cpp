@@ -37,7 +37,7 @@ Vertex insert_into(TetMesh& mesh, Cavity cavity, double most, std::vector<Tet>& 
     return {middle.data(), nullptr};
   };
   const auto place_in = [&](const Kernel& kernel, const Kernel::Centre& centre) -> std::optional<Point> {
-    // Null elements would come: looking for a double there is long exact work for nothing.
+    // Null elements would result; a search for a double in such a kernel is long exact work for nothing.
     if (!(centre.radius > kLeastRadius * centre.size)) return std::nullopt;
     std::optional<Point> place = kernel.double_at({middle.data(), nullptr}, centre);
     if (place && !(worst_from(mesh, *place, cavity) < most)) place.reset();

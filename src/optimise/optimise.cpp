@@ -12,18 +12,18 @@ namespace holdfast {
 OptimiseStats optimise(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free, double target,
                        const Threads& threads, Monitor& monitor, const OptimiseOptions& options) {
   Search search(mesh, tets, first_free, target, options.seed, threads, monitor);
-  // Where others of their regions are left alone, these are few, and flat.
+  // If other elements of their regions are left alone, these elements are few and flat.
   if (options.remove == PointsToRemove::added_here)
     search.budget() = Budget(tuning::kWorkOfFlatTimes * tets.size());
   const std::size_t points_before = search.points().size();
   search.move_points();
-  // Where points stand for a size, some more do not matter.
+  // If points are there for a size, some more do not matter.
   const bool saves_points = options.add_points && options.remove == PointsToRemove::all;
   const Ways::Points points_wanted = !options.add_points ? Ways::Points::none
                                      : saves_points      ? Ways::Points::later
                                                          : Ways::Points::now;
   search.compute(tets);
-  // Others of their regions, or points that it adds, are nothing that a part could keep to.
+  // A part could not respect other elements of these regions or points that it adds.
   const bool is_whole = options.remove == PointsToRemove::all && points_wanted != Ways::Points::now;
   if (!is_whole || !work_off_in_parts(search, tets, points_wanted, options.seed, threads, monitor)) {
     search.push(tets);

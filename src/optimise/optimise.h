@@ -18,11 +18,12 @@ struct OptimiseStats {
   std::size_t exchanged = 0;    ///< face swaps and edge removals
   std::size_t relocated = 0;    ///< moves of a Steiner point
   std::size_t unflattened = 0;  ///< flat tetrahedra removed by several flips
-  std::size_t reconnected = 0;  ///< small polyhedra filled another way
+  std::size_t reconnected = 0;  ///< small polyhedra filled in another way
   std::size_t inserted = 0;     ///< points for flat tetrahedra
-  std::size_t removed = 0;      ///< points, these or others, that the mesh could do without in the end
-  std::size_t filled_anew = 0;  ///< polyhedra
-  std::size_t changed = 0;      ///< tetrahedra made, those of attempts that came to nothing included
+  std::size_t removed =
+      0;  ///< points, these or others, removed in the end because the mesh did not need them
+  std::size_t filled_anew = 0;  ///< polyhedra filled anew
+  std::size_t changed = 0;      ///< tetrahedra made, including those of unsuccessful attempts
 
   OptimiseStats& operator+=(const OptimiseStats& other) {
     exchanged += other.exchanged;
@@ -66,14 +67,14 @@ using Filler = std::function<std::optional<Filling>(const ToFill&, const LikelyT
 /// How polyhedra round the worst elements are filled anew.
 struct FillAnew {
   Filler fill;
-  double from_target = 1;  ///< elements so many times as bad as the facets ask for are worth it
+  double from_target = 1;  ///< elements this many times as bad as the facets force are worth the work
 };
 
 struct OptimiseOptions {
-  bool add_points = true;  ///< a few, for tetrahedra that are flat otherwise
+  bool add_points = true;  ///< a few, for tetrahedra that would stay flat
   PointsToRemove remove = PointsToRemove::all;
   std::uint64_t seed = 1;               ///< of the random orders
-  const FillAnew* fill_anew = nullptr;  ///< null: no polyhedron is
+  const FillAnew* fill_anew = nullptr;  ///< null: no polyhedron is filled anew
 };
 
 /// Improves the worst of `tets`. Other tetrahedra of their regions may be replaced for this; all their

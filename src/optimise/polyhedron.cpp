@@ -54,14 +54,14 @@ void Polyhedron::cut_out(Vertex first_free) {
   for (const Vertex v : vertices_) surface_.vertices.push_back(mesh_.position(v));
   for (const auto& f : facets_) {
     surface_.facets.push_back({local(f[0]), local(f[1]), local(f[2])});
-    // A side of a facet is a constraint already.
+    // The sides of a facet are constraints already.
     for (std::size_t i = 0; i < 3; ++i) segments.erase(edge_key(f[i], f[(i + 1) % 3]));
   }
   for (const EdgeKey e : segments)
     surface_.segments.push_back({local(static_cast<Vertex>(e >> 32)), local(static_cast<Vertex>(e))});
 }
 
-// `walls` are the facets met so far that have the polyhedron on both sides.
+// `walls` are the facets found so far with the polyhedron on both sides.
 void Polyhedron::cut_out_faces(Tet t, std::set<FaceKey>& walls) {
   for (int i = 0; i < 4; ++i) {
     const Face f = face_code(t, i);
@@ -111,7 +111,7 @@ double Polyhedron::worst(const Filling& filling) const {
 }
 
 bool Polyhedron::is_filled_by(const Filling& filling) const {
-  std::set<FaceKey> open;  // faces of the filling met once
+  std::set<FaceKey> open;  // faces of the filling found once
   std::vector<bool> has(vertices_.size(), false);
   for (const Tetrahedron& t : filling.tetrahedra)
     for (int i = 0; i < 4; ++i) {

@@ -16,7 +16,7 @@ class Reconnection {
                std::vector<Tet>& created)
       : mesh_(mesh), first_free_(first_free), bad_from_(bad_from), random_(random), created_(created) {}
 
-  // Every attempt grows the cavity from the same tetrahedra another way.
+  // Every attempt grows the cavity from the same tetrahedra in another way.
   bool from(std::span<const Tet> seed, const tuning::Reconnecting& effort) {
     for (int attempt = 0; attempt < effort.attempts; ++attempt) {
       Cavity cavity(mesh_, seed, first_free_);
@@ -46,7 +46,7 @@ class Reconnection {
   const BadFrom& bad_from_;
   std::mt19937_64& random_;
   std::vector<Tet>& created_;
-  // Of the cavity's tetrahedra that were there at the last search.
+  // Number of the cavity's tetrahedra that were in it at the last search.
   std::size_t known_ = 0;
   double worst_ = 0;
 };
@@ -59,7 +59,7 @@ bool reconnect(TetMesh& mesh, Tet t, Vertex first_free, const BadFrom& bad_from,
   const std::array<Tet, 1> alone{t};
   if (quality_of(mesh, mesh.corners(t)) < bad_from.flat) return reconnection.from(alone, tuning::kUsual);
   const tuning::Reconnecting& effort = patient ? tuning::kPatient : tuning::kForFlat;
-  // Some edge of a flat tetrahedron has to go.
+  // Some edge of a flat tetrahedron must be removed.
   for (const int edge : wide_edges(mesh, t)) {
     const auto [a, b] = ends_of_edge(mesh.corners(t), edge);
     EdgeShell shell;

@@ -19,7 +19,7 @@ std::span<const Tet> CavityRefiller::refill(Tet t, bool may_add) {
   do {
     const double before = best_.gain;
     try_point(cavity);
-    // The search measures elements in space.
+    // The search measures elements in Euclidean space.
     if (frame_.is_plain() && cavity.tets().size() >= tuning::kLeastTets &&
         cavity.vertex_count() <= tuning::kMostRefillVertices)
       try_without(cavity);
@@ -34,7 +34,7 @@ void CavityRefiller::try_point(const Cavity& cavity) {
   if (may_add_ && star_.energy() < kNoEnergy) offer(cavity, volume_.energy(cavity.tets()) - star_.energy());
 }
 
-// Without a point no element may be half as bad as the worst that goes.
+// Fills without a point; no new element may be half as bad as the worst old one.
 void CavityRefiller::try_without(const Cavity& cavity) {
   const TetMesh& mesh = volume_.mesh();
   double worst = 0;
@@ -61,7 +61,8 @@ void CavityRefiller::offer(const Cavity& cavity, double gain) {
            .fresh = {}};
 }
 
-// Where a point that joins the faces is best. If none sees them all, where one is least behind any of them.
+// Finds the best place for a point joined to the faces. If no place sees all faces, takes the one that is
+// least far behind any of them.
 void CavityRefiller::find_place(const Cavity& cavity) {
   const TetMesh& mesh = volume_.mesh();
   star_.clear();
@@ -89,7 +90,7 @@ void CavityRefiller::find_place(const Cavity& cavity) {
   if (star_.energy() < tuning::kFarFromGain * volume_.energy(cavity.tets())) star_.descend();
 }
 
-// Across the face that is worst for the point.
+// Grows the cavity across the face that is worst for the point.
 bool CavityRefiller::grow(Cavity& cavity) const {
   if (!heights_.empty()) return cavity.grow_across_lowest(heights_);
   std::vector<double> order(cavity.faces().size());
@@ -116,7 +117,7 @@ std::span<const Tet> CavityRefiller::apply() {
   return created;
 }
 
-// In a frame the gain is only nearly that of the elements, each of which has a metric of its own.
+// In a frame the gain is only approximate, because each element has a metric of its own.
 bool CavityRefiller::is_better(const Filling& filling) const {
   if (frame_.is_plain()) return true;
   double after = 0;

@@ -28,7 +28,7 @@ class Relocation {
   }
 
  private:
-  // Infinite for what is not below `limit`.
+  // Infinite if it is not below `limit`.
   [[nodiscard]] double worst_at(const Point& x, double limit) const {
     double worst = 0;
     for (const auto& f : kernel_.faces()) {
@@ -56,7 +56,7 @@ class Relocation {
     step_to(x);
   }
 
-  // Random directions, the step twice as long after a success and half as long after some failures.
+  // Searches in random directions. The step doubles after a success and is halved after some failures.
   void search(std::mt19937_64& random) {
     double step = tuning::kFirstStep * size_;
     int failures = 0;

@@ -38,7 +38,7 @@ bool FlatRemover::remove_now(const Level& level, Vertex avoided) {
   return true;
 }
 
-// A spoke is in the way where the ear at its corner would be bad or negative.
+// A spoke is in the way if the ear at its corner would be bad or negative.
 std::optional<ShellSpoke> FlatRemover::next_blocked(Level& level) const {
   const EdgeShell& shell = level.shell;
   const std::size_t n = shell.size();
@@ -51,8 +51,8 @@ std::optional<ShellSpoke> FlatRemover::next_blocked(Level& level) const {
   return std::nullopt;
 }
 
-// As holdfast::find_edge, but without marks, which threads that change parts of the mesh must not set
-// (mesh/in_place_parts.h). It is seldom asked for, and balls are small.
+// Like holdfast::find_edge, but without marks: threads that change parts of the mesh must not set them
+// (mesh/in_place_parts.h). It is seldom called, and balls are small.
 Tet FlatRemover::find_edge(Vertex a, Vertex b) {
   round_.assign(1, mesh_.incident(a));
   for (std::size_t k = 0; k < round_.size(); ++k) {

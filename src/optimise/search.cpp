@@ -21,7 +21,7 @@ std::vector<Vertex> free_vertices(const TetMesh& mesh, const std::vector<Tet>& t
   return points;
 }
 
-// The slots that hold other tetrahedra than those that are to be better.
+// The slots of tetrahedra other than those to be improved.
 std::vector<bool> slots_of_others(const TetMesh& mesh, const std::vector<Tet>& tets) {
   std::vector<bool> others(mesh.slot_count());
   for (Tet t = 0; t < mesh.slot_count(); ++t) others[t] = mesh.alive(t);
@@ -106,7 +106,7 @@ bool Search::Trial::has_paid() const {
   const BadFrom& bad_from = search_.bad_from();
   const UndoLog::Before was_there = before();
   Badness was, is;
-  // All that has changed is of our regions, whichever slots of them the search began with.
+  // Everything that has changed belongs to our regions, whatever slots the search began with.
   for (const Tet t : was_there.changed()) {
     if (was_there.existed(t) && was_there.alive(t)) was.add(quality_before(was_there, t), bad_from);
     if (mesh.alive(t)) is.add(quality_of(mesh, mesh.corners(t)), bad_from);

@@ -40,7 +40,7 @@ class SearchInParts {
   }
 
  private:
-  // What the search of a part leaves.
+  // The results of the search of a part.
   struct Done {
     std::optional<Agenda> agenda;
     OptimiseStats stats;
@@ -48,8 +48,8 @@ class SearchInParts {
     std::vector<Tet> near;  // bad ones at vertices of mixed tetrahedra
   };
   struct Lists {
-    std::vector<std::vector<Tet>> of_part;  // those to be better
-    std::vector<std::size_t> tets;          // all of a part
+    std::vector<std::vector<Tet>> of_part;  // tetrahedra to be improved
+    std::vector<std::size_t> tets;          // number of all tetrahedra of a part
   };
 
   [[nodiscard]] Cuts cuts_by_work() const {
@@ -74,7 +74,7 @@ class SearchInParts {
     return part_of;
   }
 
-  // Each part on its own, with what is near the cuts as far as that is possible.
+  // Works on each part by itself, including what is near the cuts as far as possible.
   bool work_off_apart(const Cuts& cuts) {
     const std::size_t count = cuts.part_count();
     const InPlaceParts parts(mesh_, tets_, parts_of_vertices(cuts), count,
@@ -94,7 +94,7 @@ class SearchInParts {
     return true;
   }
 
-  // By the first tetrahedron of a range of them.
+  // By the first tetrahedron of a range.
   [[nodiscard]] std::map<std::size_t, Lists> bad_by_part(const InPlaceParts& parts, std::size_t count) const {
     std::mutex mutex;
     std::map<std::size_t, Lists> lists;
@@ -150,7 +150,7 @@ class SearchInParts {
     search_.budget().spend(spent);
   }
 
-  // Those that would be a whole mesh's worst have had as much patience as those that are a part's.
+  // So far the worst elements of the whole mesh have had no more patience than the worst of each part.
   void try_worst_again() {
     const Budget whole = search_.budget();
     const std::size_t before = whole.spent();

@@ -18,15 +18,15 @@ void shake_and_improve(Search& search, const WaitingElement& worst, Search::Tria
   trial.improve_what_changed();
 }
 
-// Points take hopeless elements away, one or two each: so without null ones, the worst gets better as many
-// times as it is worse than hopeless, or little more.
+// One or two points remove a hopeless element. So unless there are null elements, the worst Q improves at
+// most by about the factor by which it is worse than hopeless.
 bool may_points_be_worth_it(const Search& search, const Badness& was) {
   const double factor = std::max(tuning::kLeastPointGain, was.worst / search.bad_from().hopeless);
   return was.null > 0 || static_cast<double>(was.hopeless) <= tuning::kCuredByOnePoint * factor;
 }
 
-// As many null elements gone as there are more points, or the worst as many times better, and ten times at
-// least.
+// Points pay if as many null elements are gone, or if the worst Q gets better by a factor of their number,
+// and of at least ten.
 bool are_points_worth_it(Search& search, const Search::Trial& trial, const Badness& was) {
   const auto more = static_cast<double>(search.points_in_mesh()) - static_cast<double>(trial.points());
   const Badness is = search.badness();
@@ -97,7 +97,7 @@ void remove_points(Search& search, std::size_t from) {
     ++search.stats().removed;
     ++search.stats().changed;
   }
-  // Cavities grow, so that there is no list of what is new.
+  // Cavities grow, so there is no list of new elements.
   if (search.stats().removed > removed_before) search.forget_all();
 }
 

@@ -8,8 +8,8 @@
 namespace holdfast {
 namespace {
 
-// Calls act(corners, own) for each, with one `own` a range of them, and join(own) for each of these at the
-// end.
+// Calls act(corners, own) for each tetrahedron, with one `own` for each range, and join(own) for each range
+// at the end.
 template <typename Own, typename Act, typename Join>
 void for_each_inside(const VolumeData& volume, const Threads& threads, Act&& act, Join&& join) {
   std::mutex mutex;

@@ -28,7 +28,7 @@ bool VertexSmoother::smooth(Vertex v, bool patient) {
   return settle(v, before);
 }
 
-// Faces whose tetrahedra are bad have more to say.
+// Faces with bad tetrahedra get more weight.
 void VertexSmoother::gather_star(Vertex v) {
   const TetMesh& mesh = volume_.mesh();
   star_.clear();
@@ -41,7 +41,7 @@ void VertexSmoother::gather_star(Vertex v) {
   }
 }
 
-// Makes the move if the exact signs agree.
+// Makes the move if the exact signs allow it.
 bool VertexSmoother::settle(Vertex v, double before) {
   TetMesh& mesh = volume_.mesh();
   const auto is_positive = [&](Tet t) { return volume_.is_positive(mesh.corners(t)); };
@@ -58,8 +58,8 @@ bool VertexSmoother::settle(Vertex v, double before) {
   return true;
 }
 
-// Computes the energies after the move. In a frame, the star has one metric for all elements, and its
-// energies are only nearly theirs.
+// Computes the energies after the move. In a frame, the star has one metric for all elements, so its energies
+// only approximate theirs.
 bool VertexSmoother::is_better(double before) {
   energies_.resize(tets_.size());
   double after = 0;

@@ -38,14 +38,14 @@ void Star::add(const Point& a, const Point& b, const Point& c, double weight) {
   two.count = i + 1;
 }
 
-// Infinite, or at least `limit`, where it is not below that. Both ways add up the same numbers in the same
-// order.
+// The energy at x; infinite, or at least `limit`, if it is not below `limit`. Both ways add the same numbers
+// in the same order.
 double Star::energy_at(const Point& x, double limit) {
   static const bool by_fours = has_fours();
   return by_fours ? energy_by_fours(x, limit) : energy_by_pairs(x, limit);
 }
 
-// Adds the energies on the k-th faces. What decides comes sooner next time.
+// Adds the energies on the k-th faces. A face that decides is tried sooner next time.
 bool Star::reaches(double limit, std::size_t k, const double* energies, double& sum) {
   sum += faces_[k].count == 2 ? energies[0] + energies[1] : energies[0];
   if (!(sum >= limit)) return false;
@@ -103,7 +103,7 @@ bool Star::step_to_ideal_place() {
   return false;
 }
 
-// The mean of the places over the centres of the faces, as high as a regular tetrahedron.
+// The mean of the places over the centres of the faces, at the height of a regular tetrahedron.
 Point Star::ideal_place() const {
   constexpr double kHeight = 0.8164965809277260;  // of a regular tetrahedron of unit edges
   // A triangle of this area has edges of length sqrt(4 / sqrt(3) * area).
@@ -134,7 +134,7 @@ void Star::descend() {
   }
 }
 
-// A mean length of the faces' sides.
+// A mean side length of the faces.
 double Star::size() const {
   Pair sum{};
   for (const TwoFaces& two : faces_)
@@ -142,7 +142,8 @@ double Star::size() const {
   return std::sqrt((sum[0] + sum[1]) / static_cast<double>(2 * faces_.size()));
 }
 
-// One step down the gradient, by differences: the length of the first trial is a part of the star's size.
+// One step down the gradient, which is computed by differences. The first trial step is a part of the star's
+// size.
 bool Star::step_down(double size) {
   const double h = tuning::kDifference * size;
   Point gradient;

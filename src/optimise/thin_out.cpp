@@ -9,8 +9,8 @@
 namespace holdfast {
 namespace {
 
-// The logarithm to the base 2, but straight between powers of 2: that has the same bits everywhere. A double
-// is its exponent, and then its fraction.
+// The logarithm to base 2, linear between powers of 2, so that it has the same bits everywhere: a double is
+// its exponent plus its fraction.
 double rough_log2(double x) {
   constexpr double kFractions = 0x1p52, kBias = 1023;
   return static_cast<double>(std::bit_cast<std::int64_t>(x)) / kFractions - kBias;
@@ -46,7 +46,7 @@ std::size_t Thinner::run(double least_tets, double most_cost) {
     is_queued_[next.v] = 0;
     if (!mesh.in_mesh(next.v)) continue;
     poll_();
-    // Neighbours that went may have made it dearer since.
+    // Removed neighbours may have raised its cost since.
     const double cost = cost_of(next.v, most_cost);
     if (!contraction_.has_choice()) continue;
     if (cost > next.cost && !queue_.empty() && cost > queue_.top().cost) {
@@ -75,7 +75,7 @@ void Thinner::push(Vertex v, double most_cost) {
   is_queued_[v] = 1;
 }
 
-// The least, if it is at most `most`, and then it is chosen.
+// The least cost; if it is at most `most`, its contraction is chosen.
 double Thinner::cost_of(Vertex v, double most) {
   if (!contraction_.turn_to(v)) return most;
   const std::span<const Tet> ball = contraction_.ball();
@@ -98,15 +98,16 @@ double Thinner::cost_of(Vertex v, double most) {
   return best;
 }
 
-// Beside v, a corner of t, where a limit on sizes holds. Facets may ask for larger ones than it, and edges
-// that are longer already may be replaced by others.
+// The longest edge allowed beside v, a corner of t, where a limit on sizes holds. Facets may want larger
+// sizes, and edges that are already longer may be replaced by others.
 double Thinner::longest_at(Vertex v, Tet t) const {
   const double limit = volume_.most_size(t);
   if (limit == std::numeric_limits<double>::infinity()) return limit;
   return std::max(tuning::kLongestThinned * std::max(limit, volume_.size(v)), contraction_.longest());
 }
 
-// Of what the contraction has listed; at least `limit` where it is no less, or an element is worse than that.
+// The burden of the listed elements; at least `limit` if it is not less, or if an element is worse than
+// `worst`.
 double Thinner::burden_of_listed(double worst, double limit) const {
   const std::span<const TetMesh::Corners> tets = contraction_.listed();
   double sum = 0;
@@ -121,7 +122,7 @@ double Thinner::burden_of_listed(double worst, double limit) const {
   return sum;
 }
 
-// Energies decide between those that weigh the same.
+// Energies decide between contractions of equal weight.
 double Thinner::burden_of(double energy) const {
   constexpr double kMostEnergy = 1e30;
   return small_->weight(energy) + tuning::kWeightOfTwiceTheEnergy * rough_log2(std::min(energy, kMostEnergy));

@@ -18,20 +18,20 @@ namespace holdfast {
 
 class Thinner {
  public:
-  /// Vertices that `fresh` does not mark stay, unless they are higher than it tells of; none is marked where
-  /// it is empty, and all may go. `poll` is called now and then.
+  /// Vertices that `fresh` does not mark stay, unless their number is beyond the end of `fresh`. An empty
+  /// `fresh` marks no vertex, and all may be removed. `poll` is called from time to time.
   Thinner(ImprovedVolume& volume, std::span<const std::uint8_t> fresh, std::function<void()> poll)
       : volume_(volume), contraction_(volume), fresh_(fresh), poll_(std::move(poll)) {}
 
-  /// Contracts vertices onto neighbours, as long as more than `least_tets` tetrahedra, ghosts included, are
-  /// left in the mesh. A contraction costs what the elements there weigh more than before (small_angles.h),
-  /// for each that goes. None is made that costs more than `most_cost`, or leaves an element below 1 degree
-  /// that is as bad as the worst was. Of sizes, those that the user allows are heeded. What has cost too much
-  /// is not looked at again where nothing has changed: later calls must not allow more. Returns how many
-  /// vertices went.
+  /// Contracts vertices onto neighbours while the mesh has more than `least_tets` tetrahedra, ghosts
+  /// included. The cost of a contraction is the increase in the weight of the elements there
+  /// (small_angles.h), for each element removed. No contraction costs more than `most_cost`, or leaves an
+  /// element below 1 degree that is as bad as the worst was. Of sizes, only the user's limits are respected.
+  /// A vertex that cost too much is not tried again until something changes there, so later calls must not
+  /// allow more. Returns the number of removed vertices.
   std::size_t run(double least_tets, double most_cost);
 
-  /// All tetrahedra, if of those at vertices that may go only that part is left.
+  /// The number of all tetrahedra when only this part of the tetrahedra at removable vertices is left.
   [[nodiscard]] double tets_where_left(double part) const;
 
  private:

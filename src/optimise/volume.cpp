@@ -43,7 +43,7 @@ void ImprovedVolume::compute_energies(const Threads& threads) {
   }
 }
 
-// Four at a time, where elements of all regions are judged alike.
+// Four at a time if elements of all regions are judged by the same measure.
 void ImprovedVolume::compute_energies(Tet first, Tet last) {
   std::array<Tet, 4> tets{};
   std::array<TetMesh::Corners, 4> corners;
@@ -113,7 +113,7 @@ Figures ImprovedVolume::figures(std::span<const TetMesh::Corners> tets) const {
   return sum;
 }
 
-// A frame does not keep volumes.
+// A frame does not preserve volumes.
 double ImprovedVolume::energy_in_frame(const TetMesh::Corners& c) const {
   if (rule_.most < kNoEnergy && six_volumes(mesh_, c) > rule_.most) return kNoEnergy;
   const EnergyRule rule{kNoEnergy, rule_.hopeless_sine};

@@ -34,7 +34,7 @@ class Walk {
       ++made;
       if (is_gone() || exchanger_.exchange(from_.tet, limit_, search_.random(), created_)) return true;
       if (made % tuning::kWalkStepsARemoval == 0 && remover_.remove(from_.tet, limit_, created_)) return true;
-      // What flips in vain have left may lack the element, too.
+      // Flips without success may have removed the element as well.
       if (is_gone()) return true;
       if (made % tuning::kWalkStepsASearch == 0 && reconnect_round()) return true;
     }
@@ -53,7 +53,7 @@ class Walk {
     return exchanger_.exchange(t, limit_, search_.random(), created_);
   }
 
-  // One of the edges of the element has to go.
+  // One of the element's edges must be removed.
   Tet near_an_edge() {
     const auto [a, b] = ends_of_edge(from_.corners, static_cast<int>(search_.random()() % 6));
     if (!gather_shell(mesh_, from_.tet, a, b, shell_)) return kNone;
@@ -66,7 +66,7 @@ class Walk {
     return tets_.size() > tuning::kMostWalkedBall ? kNone : wander(tets_, tuning::kMostSteppedFromCorner);
   }
 
-  // Some steps from one of the tetrahedra across faces that are no facets.
+  // Walks some steps from one of the tetrahedra across faces that are not facets.
   Tet wander(std::span<const Tet> from, std::size_t most_steps) {
     Tet t = from[search_.random()() % from.size()];
     for (std::size_t steps = search_.random()() % most_steps; steps > 0; --steps) {
@@ -101,7 +101,7 @@ void walk_from_the_worst(Search& search) {
   std::optional<WaitingElement> worst;
   int vain = 0;
   for (int k = 0; k < tuning::kMostWalks && vain < tuning::kWalksInVain; ++k) {
-    // A walk in vain leaves the mesh as it was.
+    // An unsuccessful walk leaves the mesh unchanged.
     if (vain == 0) {
       worst = search.worst();
       if (!worst || worst->quality < worth_walking || !may_be_better(search.mesh(), *worst, search.threads()))
@@ -109,7 +109,7 @@ void walk_from_the_worst(Search& search) {
     }
     Search::Trial trial(search, Search::Trial::Agenda::set_aside);
     if (Walk(search, *worst).run()) {
-      // Its neighbourhood may have got worse, up to the limit.
+      // Its neighbourhood may have become worse, up to the limit.
       trial.improve_what_changed();
       if (trial.has_paid()) {
         ++search.stats().changed;

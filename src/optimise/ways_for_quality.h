@@ -31,10 +31,11 @@ class Ways {
   /// The inputs of the ways besides the element, and their results.
   struct Attempt {
     const WaitingElement& element;
-    double worst_stuck;  ///< the worst Q that stays: what is better does not better the mesh's worst
+    double worst_stuck;  ///< the worst Q that cannot be improved: improving better elements does not improve
+                         ///< the mesh's worst
     Points points;
     Budget& budget;
-    std::vector<Tet>& changed;  ///< tetrahedra made or moved, some of which may be gone again
+    std::vector<Tet>& changed;  ///< tetrahedra made or moved; some may be gone again
     Vertex added = kNone;       ///< the point that was added
   };
   /// The count of the cheapest way that helped; null if none has. Even then something may have changed.
