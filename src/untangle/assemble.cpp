@@ -34,7 +34,7 @@ class Assembly {
     out_.removed = gaps_.size();
   }
 
-  // The gaps at the very end close by themselves.
+  // Gaps at the very end need no filling.
   void fill_gaps() {
     std::size_t needed = gaps_.size();
     for (auto end = static_cast<Vertex>(before_.vertices.size()); needed > 0 && gaps_[needed - 1] == end - 1;
@@ -58,7 +58,7 @@ class Assembly {
     }
   }
 
-  // One tetrahedron becomes four round its centroid, unless that is not strictly inside in doubles.
+  // Splits a tetrahedron into four round its centroid, unless the centroid is not strictly inside in doubles.
   bool split(Tet t) {
     const Tangle::Corners c = tangle_.corners(t);
     Point centre{};

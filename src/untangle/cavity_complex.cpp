@@ -24,7 +24,7 @@ Index CavityComplex::local(Vertex v) {
   return at->second;
 }
 
-// Tetrahedra that faces connect which are not constraints.
+// Finds the tetrahedra connected by faces that are not constraints.
 void CavityComplex::find_parts() {
   constexpr Index kPending = kOutside - 1;
   for (const Tet t : tets_) part_[t] = kPending;
@@ -70,7 +70,7 @@ void CavityComplex::take_segments() {
   sort_unique(surface_.segments);
 }
 
-// Those that must stay; then the free ones that are well placed, as far as signs tell.
+// Takes the points that must stay, then the free ones that are well placed as far as signs tell.
 void CavityComplex::take_points() {
   const auto well_placed = [this](Vertex v) {
     const auto star = tangle_.star(v);
@@ -84,7 +84,7 @@ void CavityComplex::take_points() {
   }
 }
 
-// Points that do not fit the boundary, or each other, go; all of them where nothing says which.
+// Drops points that do not fit the boundary or each other; if nothing tells which these are, drops all.
 bool CavityComplex::drop_points(const Filled& filled) {
   if (first_point_ == vertex_.size()) return false;
   std::vector<bool> drop(vertex_.size(), filled.outcome != Filled::Outcome::invalid);

@@ -14,7 +14,7 @@ using Key = std::array<Vertex, 3>;
 struct HalfFace {
   Key key;
   Face code;
-  bool odd;  // the listed tetrahedron sees the ascending corners from behind
+  bool odd;  // the listed tetrahedron sees the corners, in ascending order, from behind
 };
 
 std::string text(std::span<const Vertex> corners) {
@@ -88,7 +88,7 @@ class Reader {
     return out_.tets[tet_of(half.code)][static_cast<std::size_t>(side_of(half.code))];
   }
 
-  // Finds partners and the faces that must stay.
+  // Finds partners, and the faces that must stay.
   bool pair_faces() {
     partner_.assign(4 * out_.tets.size(), {kNone, false});
     for (std::size_t i = 0, end = 0; i < halves_.size(); i = end) {
@@ -174,7 +174,7 @@ class Reader {
       queue.assign(1, seed);
       for (std::size_t k = 0; k < queue.size(); ++k)
         if (!visit_neighbours(queue[k], turn, queue)) return;
-      // Which way is right is not known yet; it costs least to keep the listed way of most.
+      // The right orientation is not known yet; keeping the listed one of most is cheapest.
       const auto turned =
           static_cast<std::size_t>(std::count_if(queue.begin(), queue.end(), [&](Tet t) { return turn[t]; }));
       if (2 * turned > queue.size())
@@ -191,7 +191,7 @@ class Reader {
       const auto [code, alike] = partner_[face_code(t, i)];
       if (code == kNone) continue;
       const Tet s = tet_of(code);
-      const bool wanted = turn[t] != alike;  // seen from one side: one of the two must turn
+      const bool wanted = turn[t] != alike;  // seen from the same side: one of the two must turn
       if (out_.component[s] == no_component) {
         out_.component[s] = out_.component[t];
         turn[s] = wanted;
@@ -265,7 +265,8 @@ Surface boundary_surface(const Volume& volume, const Connectivity& connectivity)
     if (fixed[v])
       for (const double x : volume.vertices[v])
         if (std::isfinite(x)) reach = std::max(reach, std::abs(x));
-  // On a line outside the box of the fixed ones. Near the end of the range the line grows finer instead.
+  // Puts points on a line outside the box of the fixed ones. Near the end of the range the steps get smaller
+  // instead.
   const double step = std::min(reach, (1.7e308 - reach) / (2.0 + static_cast<double>(fixed.size())));
   double x = reach;
   for (std::size_t v = 0; v < fixed.size(); ++v)

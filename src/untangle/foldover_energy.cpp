@@ -72,7 +72,7 @@ double FoldoverEnergy::operator()(std::span<const double> x, std::span<double> g
     const double d = dot(j[0], cofactor[0]);
     const double root = std::sqrt(epsilon_ * epsilon_ + d * d);
     const double chi = d > 0 ? (d + root) / 2 : epsilon_ * epsilon_ / (2 * (root - d));
-    const double slope = chi / root;  // of chi
+    const double slope = chi / root;  // derivative of chi
     const double trace = (dot(j[0], j[0]) + dot(j[1], j[1]) + dot(j[2], j[2])) / 3;
     const double root3 = numbers::cbrt(chi), power = root3 * root3;
     const double f = trace / power, g = (d * d + 1) / (2 * chi);
@@ -88,9 +88,9 @@ double FoldoverEnergy::operator()(std::span<const double> x, std::span<double> g
   return energy;
 }
 
-// From the derivative by J to those by the edges, and by the corners.
+// Passes on the derivative by J to the edges, and from these to the corners.
 void FoldoverEnergy::add_to_corners(std::size_t t, const Matrix& dj, std::span<double> gradient) const {
-  Matrix at{};  // by corners 1, 2, 3; corner 0 takes the opposite of their sum
+  Matrix at{};  // for corners 1, 2, 3; corner 0 gets the negative of their sum
   for (std::size_t c = 0; c < 3; ++c) {
     at[0][c] = (dj[0][c] + kInverse01 * dj[1][c] + kInverse02 * dj[2][c]) * inverse_size_[t];
     at[1][c] = (kInverse11 * dj[1][c] + kInverse02 * dj[2][c]) * inverse_size_[t];

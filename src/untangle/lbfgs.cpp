@@ -22,7 +22,7 @@ void add(Vector& a, double factor, const Vector& b) {
   for (std::size_t i = 0; i < a.size(); ++i) a[i] += factor * b[i];
 }
 
-// The last steps and changes of the gradient: what stands for the second derivatives.
+// The last steps and changes of the gradient, which replace the second derivatives.
 class History {
  public:
   void remember(Vector step, Vector change) {
@@ -34,7 +34,7 @@ class History {
   void forget() { pairs_.clear(); }
   [[nodiscard]] bool empty() const { return pairs_.empty(); }
 
-  // The direction of descent: minus the inverse Hessian's approximation times the gradient.
+  // The direction of descent: minus the approximation of the inverse Hessian times the gradient.
   [[nodiscard]] Vector direction(const Vector& gradient) const {
     Vector q = gradient;
     std::vector<double> alpha(pairs_.size());
@@ -68,8 +68,8 @@ struct State {
   double value = 0;
 };
 
-// A step along `direction` that satisfies the weak Wolfe conditions, or at least lessens the value. False
-// where none was found.
+// A step along `direction` that satisfies the weak Wolfe conditions, or at least reduces the value. False if
+// none is found.
 bool search(const State& from, const Vector& direction, double first, const ValueAndGradient& function,
             State& to) {
   const double slope = dot(from.gradient, direction);

@@ -10,7 +10,7 @@ namespace {
 
 bool is_tangled(const Tangle& tangle) { return tangle.nonpositive_count() > 0; }
 
-// Of the tetrahedra, those that are not positive.
+// The share of the tetrahedra that are not positive.
 double share_tangled(const Tangle& tangle) {
   return static_cast<double>(tangle.nonpositive_count()) / static_cast<double>(tangle.tet_count());
 }
@@ -35,7 +35,7 @@ void move_vertices(Tangle& tangle, Watch& watch) {
       relocate_vertices(tangle, watch);
 }
 
-// Each swap may open another's way, and a vertex's. Returns how many there were.
+// Each swap may make another one possible, or the move of a vertex. Returns the number of swaps.
 std::size_t swap_and_relocate(Tangle& tangle, Watch& watch) {
   std::size_t swapped = 0;
   for (std::size_t swaps = 1; swaps > 0 && is_tangled(tangle);) {
@@ -51,7 +51,7 @@ std::size_t swap_and_relocate(Tangle& tangle, Watch& watch) {
 
 UntangleStats make_positive(Tangle& tangle, const Filler* filler, Watch& watch) {
   UntangleStats stats;
-  // The connectivity is right for some positions, most often: as long as moving helps it stays as it is.
+  // The connectivity is mostly right for some positions, so it stays unchanged as long as moving helps.
   move_vertices(tangle, watch);
   for (bool gained = true; gained && is_tangled(tangle) && stats.rounds < tuning::kMostUntangleRounds;) {
     const Deficit before = tangle.deficit();

@@ -7,7 +7,7 @@
 namespace holdfast {
 namespace {
 
-// A set of tetrahedra that grows by those that share a vertex with it.
+// A set of tetrahedra that grows by the tetrahedra that share a vertex with it.
 class Growing {
  public:
   explicit Growing(const Tangle& tangle) : tangle_(tangle) {}
@@ -15,7 +15,7 @@ class Growing {
   void add(Tet t) {
     if (taken_.insert(t).second) tets_.push_back(t);
   }
-  /// Returns false where there is nothing left to add.
+  /// Returns false if there is nothing left to add.
   bool grow() {
     const std::size_t end = tets_.size();
     for (std::size_t k = grown_; k < end; ++k)
@@ -28,12 +28,12 @@ class Growing {
 
  private:
   const Tangle& tangle_;
-  std::unordered_set<Tet> taken_;  // cavities are small, most often, and many
+  std::unordered_set<Tet> taken_;  // a hash set, because cavities are mostly small, and many
   std::vector<Tet> tets_;
   std::size_t grown_ = 0;
 };
 
-// Non-positive tetrahedra that hang together by vertices.
+// Adds the non-positive tetrahedra connected by vertices.
 void add_cluster(const Tangle& tangle, Tet seed, Growing& cavity) {
   cavity.add(seed);
   for (std::size_t k = 0; k < cavity.tets().size(); ++k) {
@@ -44,7 +44,7 @@ void add_cluster(const Tangle& tangle, Tet seed, Growing& cavity) {
   }
 }
 
-// Grows the cavity until the filler can fill it, or it is everything that hangs together.
+// Grows the cavity until the filler can fill it, or until it is the whole connected part.
 RefillCavity::Outcome fill_round(Tangle& tangle, Tet seed, const Filler& filler, Watch& watch) {
   Growing growing(tangle);
   add_cluster(tangle, seed, growing);
@@ -64,7 +64,7 @@ RefillCavity::Outcome fill_round(Tangle& tangle, Tet seed, const Filler& filler,
 RefillStats refill(Tangle& tangle, const Filler& filler, Watch& watch) {
   RefillStats stats;
   for (const Tet t : tangle.nonpositive()) {
-    // Gone with another's cavity. (Its slot may be taken by a new one, which is positive.)
+    // Removed with another cavity. (A new tetrahedron, which is positive, may have its slot.)
     if (!tangle.alive(t) || tangle.sign(t) > 0) continue;
     const auto outcome = fill_round(tangle, t, filler, watch);
     if (outcome != RefillCavity::Outcome::filled) {

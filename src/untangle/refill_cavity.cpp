@@ -19,7 +19,7 @@ class FacetIndex {
 
   struct Found {
     Index facet;
-    bool is_above;  // what sees the corners in the order given lies above
+    bool is_above;  // whether the corners in the given order are seen from above
   };
   [[nodiscard]] std::optional<Found> find(const Triangle& corners) const {
     const auto at =
@@ -63,8 +63,8 @@ RefillCavity::Outcome RefillCavity::judge(Volume volume) {
   return keeps_segments_and_vertices() ? Outcome::filled : Outcome::outside;
 }
 
-// Each facet says to whom the regions on its two sides belong; all facets of a region must say the same, and
-// every side that is the cavity's must be filled.
+// Each facet tells the owners of the regions on its two sides. All facets of a region must agree, and every
+// side that belongs to the cavity must be filled.
 std::optional<RefillCavity::Owners> RefillCavity::owners_in(const Volume& volume) const {
   const int most =
       volume.regions.empty() ? 0 : *std::max_element(volume.regions.begin(), volume.regions.end());
@@ -91,11 +91,12 @@ std::optional<RefillCavity::Owners> RefillCavity::owners_in(const Volume& volume
   return owners;
 }
 
-// Whether parts of space that do not hang together fill one part of the cavity. Its boundary may do so where
-// tetrahedra that the cavity surrounds lie inside out beside it: one part would fill up the cavity's own
-// place, the other close these off, all boundary lost. They could never become positive then.
+// Whether disconnected parts of space fill one part of the cavity. The boundary allows this if tetrahedra
+// surrounded by the cavity lie inside out beside it. Then one part would fill the cavity's own place, and the
+// other would close these tetrahedra off. They would be enclosed by the volume and could never become
+// positive.
 bool RefillCavity::splits(const Owners& owners) const {
-  if (cavity_.is_whole()) return false;  // what is filled then has boundary of the volume only
+  if (cavity_.is_whole()) return false;  // a filling then has only boundary of the volume
   std::vector<bool> met(cavity_.regions().size(), false);
   for (const std::optional<Index>& owner : owners) {
     if (!owner || *owner == kOutside) continue;
@@ -105,7 +106,8 @@ bool RefillCavity::splits(const Owners& owners) const {
   return false;
 }
 
-// A new edge or face that exists outside the cavity already: the mesh there is still tangled with this one.
+// Whether a new edge or face already exists outside the cavity: the mesh there is still tangled with the
+// cavity.
 bool RefillCavity::joins_outside() const {
   const std::vector<Vertex>& vertex = cavity_.vertices();
   const auto only_outside = [&](std::span<const Index> corners) {
@@ -128,7 +130,7 @@ bool RefillCavity::joins_outside() const {
   return false;
 }
 
-// The filler drops what lies outside: free vertices may, what is to stay must not.
+// The filler drops everything outside: this may include free vertices, but nothing that must stay.
 bool RefillCavity::keeps_segments_and_vertices() const {
   std::vector<bool> held(cavity_.vertices().size(), false);
   std::vector<Segment> edges;

@@ -23,7 +23,8 @@ class Relocation {
       const Entry next = queue_.top();
       queue_.pop();
       watch_.poll();
-      // An entry is stale once its vertex was dealt with or the ball changed; a fresh one then exists.
+      // An entry is stale if its vertex has been handled or its ball has changed; then there is a newer
+      // entry.
       if (next.version != versions_[next.vertex]) continue;
       if (move_to_better_place(next.vertex)) {
         ++moves_;
@@ -73,7 +74,7 @@ class Relocation {
     return best.has_value();
   }
 
-  // The kernel first: it ends the search.
+  // The kernel's point comes first, because it ends the search.
   void collect_candidates(Vertex v) {
     candidates_.clear();
     const Point& p = tangle_.position(v);
@@ -99,7 +100,7 @@ class Relocation {
     for (const double omega : tuning::kOmegas) candidates_.push_back(towards(p, star_point, 1 - omega));
   }
 
-  // Whether the face opposite v has; nothing sees one without, and a kernel must not be asked.
+  // Whether the face opposite v has an area. Nothing sees a face without one, and a kernel must not be asked.
   [[nodiscard]] bool has_area(Tet t, Vertex v) const {
     const auto f = tangle_.face(t, tangle_.index_of(t, v));
     const TetMesh& points = tangle_.points();
@@ -125,8 +126,8 @@ class Relocation {
     return {sum[0] / count, sum[1] / count, sum[2] / count};
   }
 
-  // P* of equation (4): the mean of v mirrored at the opposite faces of its negative tetrahedra (5); where
-  // there are only null ones, the mean of the centroids of the faces opposite in the positive ones.
+  // P* of equation (4): the mean of the mirror images of v in the opposite faces of its negative tetrahedra
+  // (5). If there are only null ones, the mean of the centroids of the opposite faces of the positive ones.
   [[nodiscard]] Point papers_place(Vertex v) const {
     Point mirrored{}, centroids{};
     double negative = 0, positive = 0;

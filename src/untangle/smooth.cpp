@@ -26,7 +26,8 @@ class Smoothing {
     const std::vector<Point> start = positions();
     const Deficit before = tangle_.deficit(tets_);
     best_ = {start, before};
-    // Far from any mesh, the mean of the neighbours is a better start than what there is; near one, a worse.
+    // Far from any valid mesh, the mean of the neighbours is a better start than the present positions; near
+    // one, it is worse.
     relax();
     descend(energy);
     if (best_.deficit.count > 0) {
@@ -48,7 +49,7 @@ class Smoothing {
     if (found.better_than(best_.deficit)) best_ = {positions(), found};
   }
 
-  // Each vertex to the mean of its neighbours, over and over (successive over-relaxation).
+  // Moves each vertex to the mean of its neighbours, repeatedly (successive over-relaxation).
   void relax() {
     std::vector<std::vector<Vertex>> neighbours;
     for (const Vertex v : vertices_) neighbours.push_back(neighbours_of(v));
@@ -76,7 +77,8 @@ class Smoothing {
     return out;
   }
 
-  // Minimises for a regularisation that shrinks. A few iterations for each: the next one changes the goal.
+  // Minimises for a shrinking regularisation, with a few iterations for each value, because the next value
+  // changes the goal.
   void descend(FoldoverEnergy energy) {
     std::vector<double> x = coordinates();
     energy.take_sizes(x);
@@ -135,7 +137,7 @@ class Smoothing {
     std::sort(tets_.begin(), tets_.end());
   }
 
-  // Variables are of the order of one: relative to the middle, in units of the mean edge.
+  // Variables are of order one: relative to the middle, in units of the mean edge.
   void set_frame() {
     double sum = 0;
     for (const Tet t : tets_)
@@ -191,8 +193,8 @@ class Smoothing {
     };
   }
 
-  // Such that chi of the worst tetrahedron shrinks by a tenth at least, and by more where the energy fell by
-  // more: then a finite number of rounds untangles what can be (§3.2 of the paper).
+  // Chosen so that chi of the worst tetrahedron shrinks by at least a tenth, and by more if the energy fell
+  // by more. Then a finite number of rounds untangles every mesh that can be untangled (§3.2 of the paper).
   [[nodiscard]] static double next_epsilon(double epsilon, double least_determinant, double ratio) {
     const double d = least_determinant;
     const double root = numbers::hypot(epsilon, d);
@@ -220,7 +222,7 @@ class Smoothing {
 
   Tangle& tangle_;
   Watch& watch_;
-  std::vector<Vertex> vertices_;  // that move
+  std::vector<Vertex> vertices_;  // that may move
   std::vector<Tet> tets_;         // at them
   Point middle_{};
   double unit_ = 1;

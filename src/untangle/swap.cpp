@@ -9,7 +9,7 @@
 namespace holdfast {
 namespace {
 
-// The shell of edge ab where it is a closed ring within a region, without constraints; else nothing.
+// The shell of edge ab if it is a closed ring within a region, without constraints; else none.
 bool gather_ring(const Tangle& tangle, Tet first, Vertex a, Vertex b, EdgeShell& out) {
   if (tangle.is_segment(a, b)) return false;
   return gather_round(tangle, first, a, b, out, kMostLink, [&](Tet t, int i) {
@@ -49,8 +49,8 @@ class LinkDeficit {
   std::array<std::array<bool, kMostLink>, kMostLink> taken_{};
 };
 
-// The objective of one choice among exchanges in a tangle: the negative volume falls most. No edge or face is
-// made twice (paper, Fig. 12).
+// The objective of one choice among exchanges in a tangle: the greatest decrease of negative volume. No edge
+// or face is made twice (paper, Fig. 12).
 class LeastDeficit {
  public:
   using Cost = Deficit;
@@ -129,7 +129,7 @@ class Swaps {
     if (best == nullptr) return;
     tangle_.exchange(best->old_tets, best->new_tets);
     ++swaps_;
-    // Whatever is left near by may have become possible.
+    // Other exchanges nearby may now be possible.
     for (const Tangle::Corners& corners : best->new_tets)
       for (const Vertex v : corners)
         for (const Tet s : tangle_.star(v))
