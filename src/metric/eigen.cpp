@@ -9,7 +9,7 @@ struct Rotation {
   double sine, cosine, tangent;
 };
 
-// The one of the two that makes entry pq zero by the smaller angle.
+// Of the two rotations that make entry pq zero, the one with the smaller angle.
 Rotation rotation_of(double pp, double qq, double pq) {
   const double theta = (qq - pp) / (2 * pq);
   const double root = std::abs(theta) + std::sqrt(theta * theta + 1);
@@ -19,7 +19,7 @@ Rotation rotation_of(double pp, double qq, double pq) {
 
 }  // namespace
 
-// Jacobi's rotations, by rows, until what is off the diagonal is nothing beside it. Three or four sweeps do.
+// Jacobi's rotations, by rows, until the off-diagonal entries are negligible. Three or four sweeps suffice.
 Eigen eigen(Matrix m) {
   constexpr int kMostSweeps = 30;
   constexpr double kNothing = 0x1p-54;
@@ -37,7 +37,7 @@ Eigen eigen(Matrix m) {
         m[p][p] -= turn.tangent * pq;
         m[q][q] += turn.tangent * pq;
         m[p][q] = 0;
-        const std::size_t r = 3 - p - q;  // the third
+        const std::size_t r = 3 - p - q;  // the third index
         double& rp = r < p ? m[r][p] : m[p][r];
         double& rq = r < q ? m[r][q] : m[q][r];
         const double old = rp;

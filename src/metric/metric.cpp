@@ -19,7 +19,7 @@ Metric metric_of(const Matrix& axes, const std::array<double, 3>& values) {
   return {entry(0, 0), entry(0, 1), entry(1, 1), entry(0, 2), entry(1, 2), entry(2, 2)};
 }
 
-// With f of each eigenvalue in its place.
+// Replaces each eigenvalue by f of it.
 template <typename Function>
 Metric with_eigenvalues(const Metric& m, Function&& f) {
   auto [values, axes] = eigen(matrix_of(m));
@@ -27,7 +27,7 @@ Metric with_eigenvalues(const Metric& m, Function&& f) {
   return metric_of(axes, values);
 }
 
-// The lower triangle L of L L^T = m. A pivot may be lost in rounding where sizes differ by eight orders of
+// The lower triangle L of L L^T = m. Rounding may lose a pivot where sizes differ by eight orders of
 // magnitude.
 Matrix root_of(const Metric& m) {
   constexpr double kLeast = 1e-16;
@@ -52,14 +52,14 @@ Matrix solved(const Matrix& l, const Matrix& m) {
   return out;
 }
 
-// By the pivots of elimination.
+// Decides by the pivots of elimination.
 bool is_positive(const Metric& m) {
   const double first = m[0], m22 = m[2] - m[1] * m[1] / first, m23 = m[4] - m[1] * m[3] / first;
   const double last = m[5] - m[3] * m[3] / first - m23 * m23 / m22;
   return first > 0 && m22 > 0 && last > 0;
 }
 
-// Whether no vector is shorter in a than in b; nearly equal counts.
+// Whether no vector is shorter in a than in b; nearly equal lengths count as equal.
 bool dominates(const Metric& a, const Metric& b) {
   constexpr double kSlack = 1 + 1e-9;
   return is_positive(kSlack * a + -1.0 * b);
@@ -75,7 +75,7 @@ double length(const Metric& a, const Metric& b, const std::array<double, 3>& e) 
 
 double largest_size(const Metric& m) {
   const auto values = eigen(matrix_of(m)).values;
-  // Rounding may lose a small one: see Frame.
+  // Rounding may lose a small eigenvalue: see Frame.
   constexpr double kLeast = 1e-16;
   const auto [least, most] = std::minmax({values[0], values[1], values[2]});
   return 1 / std::sqrt(std::max(least, kLeast * most));
@@ -88,7 +88,7 @@ bool is_positive_definite(const Metric& m) {
 Metric intersection(const Metric& a, const Metric& b) {
   if (dominates(a, b)) return a;
   if (dominates(b, a)) return b;
-  // In coordinates where `a` is the unit metric, both are diagonal along the axes of b.
+  // In coordinates where `a` is the unit metric, both metrics are diagonal along the axes of b.
   const Matrix to_space = root_of(a);
   auto [values, axes] = eigen(solved(to_space, solved(to_space, matrix_of(b))));
   for (std::size_t k = 0; k < 3; ++k) {
