@@ -77,7 +77,7 @@ class Curver {
       }
   }
 
-  // Nodes only ever become straight, so that there is an end.
+  // Nodes are only ever straightened, so the loop ends.
   void straighten() {
     std::vector<std::uint8_t> proven(volume_.tetrahedra.size(), 0);
     for (bool changed = true; changed;) {
@@ -107,7 +107,7 @@ class Curver {
         curved_[n] = false;
         nodes()[n] = straight_[n];
       }
-      // What shares a node with these has another shape now.
+      // Elements that share a node with these have a new shape.
       if (changed)
         for (std::size_t t = 0; t < volume_.tetrahedra.size(); ++t)
           for (const Index node : volume_.mid_nodes.tetrahedra[t])

@@ -19,9 +19,10 @@ Index EdgeNumbers::of(Index a, Index b, std::size_t first) {
   return slots_[slot];
 }
 
-// Where the edge is, or where it would be.
+// The slot of the edge, or the one where it would be inserted.
 std::size_t EdgeNumbers::slot_of(const Segment& edge) const {
-  // Fibonacci hashing (Knuth, The Art of Computer Programming 3, section 6.4): the high bits are mixed best.
+  // Fibonacci hashing (Knuth, The Art of Computer Programming 3, section 6.4): the high bits are the best
+  // mixed.
   constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15;
   std::uint64_t hash = (std::uint64_t{edge[0]} << 32 | edge[1]) * kGolden;
   hash ^= hash >> 32;

@@ -23,7 +23,7 @@ Shape shape_of(const Volume& volume, std::size_t t) {
   return shape;
 }
 
-/// How far a node is from the middle of its edge at most, in any coordinate.
+/// The greatest distance of a node from the middle of its edge, in any coordinate.
 double farthest_from_middle(const Shape& shape) {
   double most = 0, largest = 0;
   for (std::size_t e = 0; e < 6; ++e) {
@@ -37,11 +37,11 @@ double farthest_from_middle(const Shape& shape) {
   return most * (1 + 0x1p-50) + largest * 0x1p-52;
 }
 
-/// Nodes that are at most d from the middles of their edges, in each coordinate, change a column of the
-/// Jacobian matrix by at most 8 d in each coordinate: the derivatives of the six shape functions 4 u v by one
-/// barycentric coordinate add up to 8 at most, in absolute values. With edges of length L at most, and h = 14
-/// d > 8 sqrt(3) d, the determinant changes by at most 3 L^2 h + 3 L h^2 + h^3 from that of the straight
-/// element.
+/// If nodes are at most d from the middles of their edges, in each coordinate, a column of the Jacobian
+/// matrix changes by at most 8 d in each coordinate: the absolute values of the derivatives of the six shape
+/// functions 4 u v by one barycentric coordinate add up to at most 8. Let L be the greatest edge length and h
+/// = 14 d > 8 sqrt(3) d. Then the determinant differs from that of the straight element by at most 3 L^2 h +
+/// 3 L h^2 + h^3.
 bool is_surely_positive(const Shape& shape) {
   std::array<Point, 3> edge{};
   double longest = 0;
@@ -58,7 +58,7 @@ bool is_surely_positive(const Shape& shape) {
                              u[2] * (v[0] * w[1] - v[1] * w[0]);
   const double h = 14 * farthest_from_middle(shape);
   const double change = 3 * longest * longest * h + 3 * longest * h * h + h * h * h;
-  constexpr double kRounding = 0x1p-46;  // of the determinant, by the product of three lengths
+  constexpr double kRounding = 0x1p-46;  // of the determinant, relative to the product of three lengths
   const double least = 1.01 * change + kRounding * longest * longest * longest;
   return determinant > least && least > 0x1p-900;  // nothing has underflowed
 }
