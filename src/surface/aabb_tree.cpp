@@ -42,7 +42,8 @@ AabbTree::AabbTree(std::span<const Box> boxes, std::span<const Index> group, con
   group_boxes_.clear();
 }
 
-// Nodes from the root down, until there are enough subtrees for all threads; these each on one thread.
+// Builds nodes from the root down until there are enough subtrees for all threads, then each subtree on one
+// thread.
 void AabbTree::build_all(const Threads& threads) {
   constexpr Index kLeastSubtree = 2048;  // items that are worth a thread
   std::vector<Index> roots{0};
@@ -133,7 +134,7 @@ void AabbTree::build(Nodes& nodes, Index node) {
     part.count = current.count - (middle - current.first);
     nodes.push_back(part);
   } else {
-    // How a library partitions decides on the order of the items, but not on what a part holds.
+    // The order of the items depends on how a library partitions; their set does not.
     std::sort(items_.begin() + current.first, items_.begin() + current.first + current.count,
               [](const Item& a, const Item& b) { return a.id < b.id; });
   }
@@ -145,7 +146,8 @@ double AabbTree::centre(const Node& node, const Item& item, std::size_t k) const
   return group_boxes_[group_[item.id]].centre(k);
 }
 
-// Divides the node's items along the longest axis of their centres' box; returns the second part's first.
+// Divides the node's items along the longest axis of their centres' box; returns the first item of the second
+// part.
 Index AabbTree::partition(Node& node) {
   const auto begin = items_.begin() + node.first, end = begin + node.count;
   Box centres;
@@ -173,7 +175,7 @@ Index AabbTree::partition(Node& node) {
   const auto half = [&](std::size_t k) { return centres.high[k] / 2 - centres.low[k] / 2; };
   std::size_t axis = 0;
   for (std::size_t k = 1; k < 3; ++k) {
-    // Half of the least double is 0.
+    // Half of the smallest double is 0.
     if (half(k) > half(axis) || centres.low[axis] == centres.high[axis]) axis = k;
   }
   const double cut = centres.centre(axis);

@@ -13,7 +13,7 @@ namespace {
 constexpr Index kOwn = 3;
 constexpr std::size_t kPolledTurns = 1u << 14;  // a few milliseconds' work
 
-// A side of a facet, opposite a corner, or one of the complex's own segments, at its lesser end.
+// A side of a facet, opposite a corner, or a segment of the complex, stored at its lesser end.
 struct Side {
   Index high, item, corner;  // `corner` is kOwn for a segment
 
@@ -37,8 +37,8 @@ void for_each_side(const Complex& complex, Act&& act) {
     tell(complex.segments[s][0], complex.segments[s][1], s, kOwn);
 }
 
-// All of them by their lesser ends: those of v are sides[first[v]] .. sides[first[v + 1] - 1], in ascending
-// order. Few are at one vertex, so that the caches hold what is sorted.
+// All sides by their lesser ends: those of v are sides[first[v]] .. sides[first[v + 1] - 1], in ascending
+// order. Each vertex has few, so the caches hold what is sorted.
 struct SortedSides {
   std::vector<std::size_t> first;
   std::vector<Side> sides;
@@ -55,7 +55,7 @@ struct SortedSides {
       std::sort(at(v), at(v + 1));
     }
   }
-  /// Different pairs of ends.
+  /// The number of different pairs of ends.
   [[nodiscard]] std::size_t segment_count() const {
     std::size_t count = 0;
     for (std::size_t v = 0; v + 1 < first.size(); ++v)
@@ -98,7 +98,7 @@ Index SegmentTable::find(Index a, Index b) const {
   const auto begin = segments.begin() + first_of_vertex[low];
   const auto end = segments.begin() + first_of_vertex[low + std::size_t{1}];
   const auto is_below = [high = high](const Segment& s) { return s[1] < high; };
-  // Mostly there are three, and a search by halves would be mispredicted.
+  // Mostly there are three, for which a binary search would be mispredicted.
   constexpr std::ptrdiff_t kFew = 8;
   const auto at = end - begin <= kFew ? begin + std::count_if(begin, end, is_below)
                                       : std::partition_point(begin, end, is_below);

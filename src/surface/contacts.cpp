@@ -19,13 +19,13 @@ using exact::Dyadic;
 constexpr std::array<std::array<unsigned, 3>, 8> kCorners = {
     {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}, {0, 2, 0}, {1, 2, 0}, {0, 1, 2}}};
 constexpr std::array<unsigned, 8> kCount = {0, 1, 1, 2, 1, 2, 2, 3};
-// The corner that the face begins with where its corners follow each other counterclockwise: so side i leads
+// The corner at which the face begins so that its corners follow each other counterclockwise: side i leads
 // from corner i to the next one.
 constexpr std::array<unsigned, 8> kBegin = {0, 0, 1, 0, 2, 2, 1, 0};
 
 // --- Certificates -----------------------------------------------------------------------------------
 
-// Corners of a simplex as a mask, narrowed down to those that the common part can depend on.
+// Corners of a simplex as a mask, narrowed down to those on which the common part can depend.
 struct Narrowed {
   const Simplex& simplex;
   unsigned mask;
@@ -36,7 +36,7 @@ struct Narrowed {
       if (simplex.point[i][k] != value) mask &= ~(1u << i);
     }
   }
-  // Least and greatest coordinate k.
+  // The least and the greatest coordinate k.
   [[nodiscard]] std::pair<double, double> range(unsigned k) const {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (unsigned i = 0; i < simplex.corners; ++i) {
@@ -46,7 +46,7 @@ struct Narrowed {
     }
     return {low, high};
   }
-  // Whether each of its corners is one of the other's.
+  // Whether each of its corners is also a corner of the other.
   [[nodiscard]] bool is_face_of(const Narrowed& other) const {
     for (unsigned i = 0; i < simplex.corners; ++i) {
       bool found = (mask >> i & 1u) == 0;
@@ -59,9 +59,9 @@ struct Narrowed {
   }
 };
 
-// Comparisons of coordinates alone. Where two boxes only touch, at x_k = c, the simplices meet in the common
-// part of their faces in this plane, and another coordinate may tell these apart: the normal case in
-// grids and in parts that are parallel to the axes, where the signs below are mostly zero.
+// Comparisons of coordinates alone. If two boxes only touch, at x_k = c, the simplices meet in the common
+// part of their faces in this plane, and another coordinate may separate these. That is the normal case in
+// grids and in parts parallel to the axes, where the signs below are mostly zero.
 bool coordinates_separate(const Simplex& a, const Simplex& b) {
   Narrowed m{a, (1u << a.corners) - 1}, n{b, (1u << b.corners) - 1};
   for (unsigned k = 0, settled = 0; settled < 3; k = (k + 1) % 3) {
@@ -79,8 +79,8 @@ bool coordinates_separate(const Simplex& a, const Simplex& b) {
   return m.is_face_of(n) || n.is_face_of(m);
 }
 
-// The signs as the filters give them, where 0 means "not known", or as they are. Certificates that rest on
-// strict signs hold with both, and most pairs need no sign that is zero.
+// The signs, either from the filters, where 0 means "not known", or exact. Certificates that need strict
+// signs hold with both, and most pairs need no sign that is zero.
 struct Filtered {
   static constexpr bool kZeroIsKnown = false;
   static int turn(const double* a, const double* b, const double* c, unsigned axis) {
@@ -177,8 +177,8 @@ struct Certificates {
     const int side_t = side(u, t.point[t1]) * side(u, t.point[t2]);
     if (side_t > 0) return true;
     if (side_u == 0 || side_t == 0) return false;
-    // Each cuts an interval out of the common line that ends at the vertex v. They leave it in opposite
-    // directions if v - p and q - v have one sign, p and q being the other ends (LineOrder).
+    // Each facet cuts an interval out of the common line that ends at the vertex v. The intervals leave v in
+    // opposite directions if v - p and q - v have one sign, where p and q are the other ends (LineOrder).
     const int v_minus_p = Signs::volume(t.point[t1], t.point[t2], u.point[u1], u.point[j]);
     return v_minus_p != 0 && v_minus_p == Signs::volume(t.point[t1], t.point[i], u.point[u1], u.point[u2]);
   }
@@ -206,7 +206,7 @@ struct Certificates {
 
 // --- All pairs of faces -----------------------------------------------------------------------------
 
-// Sides of the plane of `t`, if it is a facet, of the corners of the other simplex.
+// Sides of the plane of `t`, if it is a facet, on which the corners of the other simplex lie.
 Sides sides_of_corners(const Simplex& t, const Simplex& other) {
   Sides sides{0, 0, 0};
   if (t.corners == 3) {
@@ -227,8 +227,8 @@ bool same_face(const Simplex& a, unsigned mask_a, const Simplex& b, unsigned mas
   return true;
 }
 
-// The faces of a simplex whose interiors may meet a plane, bit m for mask m: some corners are on each side of
-// it, or all are on it.
+// The faces of a simplex whose interiors may meet a plane, bit m for mask m: faces with corners on both sides
+// of the plane, or with all corners on it.
 unsigned faces_at_plane(const Sides& sides, unsigned corners) {
   unsigned faces = 0;
   for (unsigned mask = 1; mask < 1u << corners; ++mask) {
@@ -243,7 +243,7 @@ unsigned faces_at_plane(const Sides& sides, unsigned corners) {
   return faces;
 }
 
-// Two simplices with the signs that several pairs of their faces ask for.
+// Two simplices with the signs that several pairs of their faces need.
 class FacePairs {
  public:
   FacePairs(const Simplex& a, const Simplex& b)
@@ -270,7 +270,7 @@ class FacePairs {
   }
 
  private:
-  // Interiors of different faces.
+  // Meeting of the interiors of different faces.
   Meet faces_meet(unsigned mask_a, unsigned mask_b) {
     const unsigned count_a = kCount[mask_a], count_b = kCount[mask_b];
     const unsigned i = kBegin[mask_a], j = kBegin[mask_b];
@@ -291,7 +291,7 @@ class FacePairs {
     return in ? Meet::point : Meet::none;
   }
 
-  // Side i of one simplex, and the other one, which is a facet; way(k): of the side and the facet's side k.
+  // Side i of one simplex against the other one, a facet; way(k) is for the side and the facet's side k.
   template <class Way>
   static Meet side_meets_facet(const Simplex& simplex, unsigned i, const Sides& sides, const Simplex& facet,
                                Way&& way) {
@@ -299,13 +299,13 @@ class FacePairs {
     if (side_p == 0 && side_q == 0)
       return segment_meets_facet(simplex.point[i], 0, end(simplex, i), 0, facet);
     if (side_p * side_q >= 0) return Meet::none;
-    // The line passes all three sides of the facet the same way round.
+    // Whether the line passes all three sides of the facet in the same direction.
     const int first = way(0);
     return first != 0 && way(1) == first && way(2) == first ? Meet::point : Meet::none;
   }
 
-  // Of two facets, as holdfast::facets_meet. The signs of LineOrder are those of sides, which lead to the
-  // lone corner or away from it.
+  // For two facets, like holdfast::facets_meet. The signs of LineOrder are those of sides to or from the lone
+  // corner.
   Meet facets_meet() {
     if (sides_a_ == Sides{0, 0, 0} || !both_signs(sides_a_) || !both_signs(sides_b_))
       return holdfast::facets_meet(a_, sides_a_, b_, sides_b_);
@@ -320,7 +320,7 @@ class FacePairs {
   static unsigned next(const Simplex& simplex, unsigned i) { return i + 1 == simplex.corners ? 0 : i + 1; }
   static const double* end(const Simplex& simplex, unsigned i) { return simplex.point[next(simplex, i)]; }
 
-  // Which way round the sides i of a and j of b, from corners i and j to the next ones, pass each other.
+  // The direction in which sides i of a and j of b, from corners i and j to the next ones, pass each other.
   int way(unsigned i, unsigned j) {
     std::int8_t& known = ways_[3 * i + j];
     if (known == kUnknown)

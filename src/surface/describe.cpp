@@ -1,4 +1,4 @@
-// Surface layer: findings told as defects.
+// Surface layer: findings described as defects.
 #include "surface/describe.h"
 
 #include <algorithm>
@@ -94,7 +94,7 @@ void append(const Elements& elements, std::span<const Index> at, Defect& defect)
   }
 }
 
-// Facets and segments that have the simplex as a face or are it.
+// Appends the facets and segments that are the simplex or have it as a face.
 void append(const Elements& elements, const Stars& stars, const Corners& corners, Defect& defect) {
   append(elements, stars.elements_at(corners), defect);
   const Index own = count_of(corners) == 2 ? stars.input_segment(corners) : no_index;
@@ -117,7 +117,7 @@ std::string name(const Elements& elements, std::span<const Index> at, const Corn
 std::string message_of(const Complex& complex, const Elements& elements, const Stars& stars,
                        const Finding& finding, const Defect& defect) {
   const std::string where = places(defect.where);
-  // Of a pair each is named alone, even if another element has the same corners.
+  // Each element of a pair is named separately, even if another element has the same corners.
   const bool swapped = elements.all[finding.pair[1]].corners < elements.all[finding.pair[0]].corners;
   const auto name_of = [&](const Corners& corners, std::size_t which) {
     const std::array<Index, 1> alone{finding.pair[swapped ? 1 - which : which]};
@@ -238,7 +238,7 @@ Defect describe(const Complex& complex, const Flaw& flaw) {
   const auto [low, high] = std::minmax_element(corners.begin(), corners.end(), less);
   defect.where = {complex.vertices[*low]};
   if (complex.vertices[*high] != complex.vertices[*low]) defect.where.push_back(complex.vertices[*high]);
-  // Corners at one place stand together.
+  // Corners at one place are adjacent.
   std::sort(corners.begin(), corners.end(),
             [&](Index a, Index b) { return less(a, b) || (!less(b, a) && a < b); });
   const auto same_place = [&](Index a, Index b) { return complex.vertices[a] == complex.vertices[b]; };

@@ -9,7 +9,7 @@
 namespace holdfast {
 namespace {
 
-// A segment of the complex by the first vertices at its ends' places, the lesser first.
+// A segment of the complex by the first vertices at the places of its ends, the lesser first.
 struct Candidate {
   Segment ends;
   Index id;
@@ -52,7 +52,8 @@ class Sorter {
     }
   }
 
-  // Replaces the corners by the first at their places; false, with a flaw or without, if they are no good.
+  // Replaces the corners by the first vertices at their places; false, with or without a flaw, if the element
+  // is invalid.
   template <std::size_t N>
   bool resolve(std::array<Index, N>& corners, Index id, std::vector<Flaw>& flaws) const {
     for (const Index v : corners) {
@@ -69,7 +70,7 @@ class Sorter {
     return good;
   }
 
-  // In blocks, so that a thread that is done with other work can join in.
+  // In blocks, so that a thread that has finished other work can join.
   void add_facets() {
     constexpr std::size_t kBlock = 16384;
     const std::size_t count = complex_.facets.size();
@@ -86,7 +87,7 @@ class Sorter {
     for (const auto& own : flaws) result_.flaws.insert(result_.flaws.end(), own.begin(), own.end());
   }
 
-  // Without corners if it is no good.
+  // Without corners if the facet is invalid.
   Element facet_element(Index f, std::vector<Flaw>& flaws) const {
     Triangle corners = complex_.facets[f];
     if (!resolve(corners, f, flaws)) return {};
@@ -123,7 +124,7 @@ class Sorter {
     }
   }
 
-  // Marks the candidates that are a facet's side; `all` holds nothing but facets yet.
+  // Marks the candidates that are a facet's side; so far `all` holds only facets.
   void mark_sides(std::vector<Candidate>& candidates) const {
     if (candidates.empty()) return;
     std::vector<char> is_end(complex_.vertices.size(), 0);

@@ -14,11 +14,11 @@
 namespace holdfast {
 namespace {
 
-/// Of the shortest edge at a vertex: how near another must be to look like the same. Wide enough for gaps
-/// that people overlook, too narrow for what was modelled.
+/// Part of the shortest edge at a vertex within which another vertex looks like the same one. Wide enough for
+/// gaps that people overlook, too narrow for modelled details.
 constexpr double kReach = 0.02;
 
-/// How far p is from the middle of ab, and where: 0 at a, 1 at b.
+/// The distance of p from the nearest point of ab, and that point's parameter: 0 at a, 1 at b.
 std::pair<double, double> from_side(const Point& p, const Point& a, const Point& b) {
   double along = 0, square = 0;
   const double length = numbers::distance(a, b);
@@ -106,7 +106,7 @@ std::vector<Nearness> GapFinder::between_borders() const {
 
   std::vector<Nearness> gaps;
   for (const auto& [vertex, gap] : nearest) {
-    // Two vertices close to each other are told once.
+    // Two vertices close to each other are reported once.
     const Index other = gap.other[0];
     const bool mutual = gap.other[0] == gap.other[1] && nearest.contains(other) &&
                         nearest.at(other).other == Segment{vertex, vertex};

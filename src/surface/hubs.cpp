@@ -93,7 +93,7 @@ std::vector<Box> Hubs::directions(const Hub& hub) const {
       continue;
     }
     if (count == 1) ends[1] = ends[0];
-    // With chord c, the arc is at most 1 - sqrt(1 - c^2 / 4) <= c^2 / 4 away from the chord.
+    // With chord c, the arc is at most 1 - sqrt(1 - c^2 / 4) <= c^2 / 4 away from it.
     double chord = 0;
     for (std::size_t k = 0; k < 3; ++k) chord += (ends[1][k] - ends[0][k]) * (ends[1][k] - ends[0][k]);
     const double margin = chord / 4 + 1e-13;

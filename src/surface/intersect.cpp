@@ -33,8 +33,8 @@ bool boxes_apart(const std::array<const double*, M>& p, const std::array<const d
   return false;
 }
 
-// Whether the open intervals (p1, p2) and (q1, q2) on the common line overlap: neither all q come after all
-// p, ends included, nor before.
+// Whether the open intervals (p1, p2) and (q1, q2) on the common line overlap: not all q are after all p,
+// ends included, nor before.
 bool open_intervals_overlap(const LineOrder& order) {
   bool before = false, behind = false;
   for (unsigned m = 1; m <= 2; ++m) {
@@ -48,7 +48,7 @@ bool open_intervals_overlap(const LineOrder& order) {
   return false;
 }
 
-// Whether the line along a side of `t` separates the facets, both of the plane of `t`.
+// Whether the line along a side of `t` separates the facets, which are both in the plane of `t`.
 bool side_separates(const Simplex& t, const Simplex& u) {
   for (unsigned i = 0; i < 3; ++i) {
     if (inside_of(t, i, u.point[0]) <= 0 && inside_of(t, i, u.point[1]) <= 0 &&
@@ -62,7 +62,8 @@ bool coplanar_facets_overlap(const Simplex& t, const Simplex& u) {
   return !side_separates(t, u) && !side_separates(u, t);
 }
 
-// Interior of ab with that of `t`, both of one plane: separated by a side's line or by the line ab.
+// Whether the interiors of ab and `t`, both in one plane, meet: neither the line of a side nor the line ab
+// separates them.
 bool coplanar_segment_overlaps(const double* a, const double* b, const Simplex& t) {
   for (unsigned i = 0; i < 3; ++i) {
     if (inside_of(t, i, a) <= 0 && inside_of(t, i, b) <= 0) return false;
@@ -74,7 +75,7 @@ bool coplanar_segment_overlaps(const double* a, const double* b, const Simplex& 
 }  // namespace
 
 bool set_projection(Simplex& t) {
-  // The longest component of the normal first: a guess that saves the other two.
+  // Tries the longest component of the normal first: a guess that mostly saves the other two.
   double u[3], v[3], n[3];
   for (unsigned k = 0; k < 3; ++k) {
     u[k] = t.point[1][k] - t.point[0][k];
@@ -123,7 +124,7 @@ Meet segments_meet(const double* a, const double* b, const double* c, const doub
 Meet segment_meets_facet(const double* a, int side_a, const double* b, int side_b, const Simplex& t) {
   if (side_a == 0 && side_b == 0) return coplanar_segment_overlaps(a, b, t) ? Meet::length : Meet::none;
   if (side_a * side_b >= 0) return Meet::none;
-  // The line ab passes all three sides of t the same way round.
+  // Whether the line ab passes all three sides of t in the same direction.
   const int way = exact::orient3d(a, b, t.point[0], t.point[1]);
   if (way == 0 || exact::orient3d(a, b, t.point[1], t.point[2]) != way) return Meet::none;
   return exact::orient3d(a, b, t.point[2], t.point[0]) == way ? Meet::point : Meet::none;

@@ -1,4 +1,4 @@
-// Surface layer: vertices that stand by themselves.
+// Surface layer: vertices used by no element.
 #include "surface/isolated.h"
 
 #include <algorithm>

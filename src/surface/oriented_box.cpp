@@ -15,8 +15,8 @@ constexpr double kMargin = 1e-13;
 
 Point times(double s, const Point& a) { return {s * a[0], s * a[1], s * a[2]}; }
 
-// The part of `v` that is orthogonal to the unit vector `u`, normalised; any orthogonal direction where that
-// is too short to be accurate.
+// The part of `v` orthogonal to the unit vector `u`, normalised; if it is too short to be accurate, any
+// orthogonal direction.
 Point orthogonal(const Point& v, const Point& u) {
   const double size = length(v);
   if (size > 0) {
@@ -95,7 +95,7 @@ bool surely_apart(const OrientedBox& a, const OrientedBox& b) {
       size[i][j] = std::fabs(cosine[i][j]) + kMargin;
     }
   }
-  // A comparison with NaN (coordinates at the end of the range) is false: not sure.
+  // A comparison with NaN (from coordinates at the end of the range) is false, which means "not sure".
   double on_a[3];
   for (std::size_t i = 0; i < 3; ++i) {
     on_a[i] = dot(between, a.axis[i]);

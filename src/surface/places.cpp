@@ -31,7 +31,7 @@ std::vector<Index> first_at_places(std::span<const Point> vertices) {
   std::iota(first.begin(), first.end(), Index{0});
   PlaceTable table(vertices.size());
   const auto point_of = [&](Index v) -> const Point& { return vertices[v]; };
-  // A batch is announced before the first of it is looked up.
+  // Each batch is announced before its first entry is looked up.
   constexpr std::size_t kBatch = 16;
   std::array<std::uint64_t, kBatch> hashes;
   for (std::size_t begin = 0; begin < vertices.size(); begin += kBatch) {
@@ -53,7 +53,7 @@ Places places_of(const Complex& complex) {
   if (!suspect) return places;
 
   const std::vector<std::uint8_t> used = used_vertices(complex);
-  // By the first vertex of all at a place: the first that is used.
+  // Indexed by the first of all vertices at a place: the first one that is used.
   std::vector<Index> first_used(places.first.size(), no_index);
   for (Index v = 0; v < places.first.size(); ++v)
     if (Index& at = first_used[places.first[v]]; used[v] != 0 && at == no_index) at = v;
@@ -74,7 +74,7 @@ Places places_of(const Complex& complex) {
 std::vector<Index> index_of(const Places& places) {
   std::vector<Index> index(places.first.size(), no_index);
   Index next = 0;
-  // The first at a place comes before the others.
+  // The first vertex at a place comes before the others.
   for (Index v = 0; v < index.size(); ++v) {
     const Index first = places.first[v];
     if (first != no_index) index[v] = first == v ? next++ : index[first];

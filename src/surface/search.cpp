@@ -20,7 +20,8 @@ namespace holdfast {
 namespace {
 
 constexpr std::size_t kWorthThreads = 5000;  // elements
-constexpr std::size_t kTopsAThread = 64;  // parts of the tree: many, since some take much longer than others
+constexpr std::size_t kTopsAThread =
+    64;  // parts of the tree: many, because some take much longer than others
 
 Box box_of(const Complex& complex, const Element& element) {
   const Point& p = complex.vertices[element.vertex[0]];
@@ -73,7 +74,7 @@ class RootCauses {
                 {i, j});
     });
     if (whole_pair || at_vertex) return;
-    // Sides that overlap share an end or have one inside the other, so what is left does not overlap.
+    // Overlapping sides share an end or one is inside the other, so the remaining pairs do not overlap.
     for_each_distinct(a, b, contacts, [&](const Corners& first, const Corners& second) {
       const bool cross = count_of(second) == 2;
       add_cause(cross ? DefectKind::segments_cross : DefectKind::segment_pierces_facet, first, second,
@@ -110,7 +111,7 @@ class RootCauses {
     }
   }
 
-  // Adds the pair itself if it is one facet twice or if the interiors meet; elements are no vertices.
+  // Adds the pair itself if it is one facet twice or if the interiors meet; elements are not vertices.
   bool add_whole(Index i, Index j, const Contacts& contacts) {
     const Element &a = elements_.all[i], &b = elements_.all[j];
     const std::uint64_t bit = Contacts::bit(whole(a), whole(b));
@@ -181,7 +182,7 @@ class Search {
   }
 
  private:
-  // Pairs of facets of sheets. False: stopped.
+  // Searches the pairs of facets of sheets. False: stopped.
   bool search_sheets(const SheetPairs& sheets) {
     const std::size_t count = sheets.all().size();
     if (threads_.count() > 1 && elements_.all.size() >= kWorthThreads && all_sheets_fit(sheets)) return true;
@@ -193,7 +194,7 @@ class Search {
     return true;
   }
 
-  // Whether no pair of facets of sheets is offending: on all threads, as all_fit_in.
+  // Whether no pair of facets of sheets is offending; works on all threads, like all_fit_in.
   [[nodiscard]] bool all_sheets_fit(const SheetPairs& sheets) const {
     std::atomic<bool> stop = false;
     const std::thread::id calling_thread = std::this_thread::get_id();
@@ -213,7 +214,7 @@ class Search {
     return !stop;
   }
 
-  // Pairs that share no hub. False: stopped.
+  // Searches the pairs that share no hub. False: stopped.
   bool search_space() {
     std::vector<Box> boxes = boxes_of(complex_, elements_.all);
     const AabbTree tree(boxes, hubs_.fans(), threads_);
@@ -233,7 +234,7 @@ class Search {
     return go_on;
   }
 
-  // Whether no pair that shares no hub is offending. Which pair is met first depends on the threads; so where
+  // Whether no pair that shares no hub is offending. Which pair is found first depends on the threads; so if
   // there is one, the search starts again on one thread.
   [[nodiscard]] bool all_fit_in(const AabbTree& tree, const Box& all) const {
     const std::vector<AabbTree::NodePair> tops = tree.divided(kTopsAThread * threads_.count());
@@ -274,7 +275,7 @@ class Search {
     return (!hubs_.all().empty() && hubs_.shared(i, j) != no_index) || are_done(i, j) || test(i, j, visit);
   }
 
-  // Pairs whose least common hub this is.
+  // Searches the pairs whose least common hub this is.
   bool search_hub(Index index) {
     const Hub& hub = hubs_.all()[index];
     const AabbTree tree(hubs_.directions(hub));
@@ -288,7 +289,7 @@ class Search {
     return go_on;
   }
 
-  // Pairs of facets of sheets that were searched by themselves.
+  // Whether i and j are facets of sheets whose pairs have been searched.
   [[nodiscard]] bool are_done(Index i, Index j) const {
     return !done_.empty() && done_[i] != no_index && done_[j] != no_index;
   }
@@ -306,13 +307,13 @@ class Search {
     return (found.distinct == 0 && !repeated) || visit(i, j, found);
   }
 
-  // Facets of one sheet do; those of two are most often on one side of each other.
+  // Facets of one sheet fit; a facet of one sheet is mostly on one side of a facet of another.
   [[nodiscard]] bool fit_as_sheets(Index i, Index j) const {
     if (known_.sheet[i] == no_index || known_.sheet[j] == no_index) return false;
     return known_.sheet[i] == known_.sheet[j] || is_on_one_side(i, j) || is_on_one_side(j, i);
   }
 
-  // Whether all corners of j that are none of i's are surely strictly on one side of i's plane.
+  // Whether all corners of j that are not corners of i are surely strictly on one side of i's plane.
   [[nodiscard]] bool is_on_one_side(Index i, Index j) const {
     const std::array<Index, 3>& t = elements_.all[i].vertex;
     int sides = 0, count = 0;
@@ -332,16 +333,16 @@ class Search {
   std::size_t patience_;
   Threads threads_;
   Hubs hubs_;
-  std::vector<exact::OrientFilter> sides_;  // of each facet's plane, where there are sheets
+  std::vector<exact::OrientFilter> sides_;  // of each facet's plane, if there are sheets
   std::span<const Index> done_;             // sheets, once their pairs are searched
 };
 
-// The elements that are not known and those whose boxes overlap one of theirs.
+// The unknown elements, and those whose boxes overlap the box of an unknown one.
 struct NearUnknown {
   Elements elements;
   std::vector<std::uint8_t> known;
-  std::vector<Index> sheet;   // where there are any
-  std::vector<Index> number;  // of each, among all elements
+  std::vector<Index> sheet;   // if there are any
+  std::vector<Index> number;  // of each element, among all elements
 
   NearUnknown(const Complex& complex, const Elements& all, const Known& of_all, const Threads& threads) {
     const std::span known_of_all = of_all.each;

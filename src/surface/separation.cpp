@@ -9,7 +9,7 @@
 namespace holdfast {
 namespace {
 
-/// Facets joined across segments of two facets that are left.
+/// Facets, joined across segments with exactly two remaining facets.
 class Patches {
  public:
   explicit Patches(std::size_t facets) : parent_(facets) { std::iota(parent_.begin(), parent_.end(), 0u); }
@@ -26,7 +26,7 @@ class Patches {
 /// Vectors over Z/2 as ascending lists of their ones.
 using Row = Separation::Region;
 
-// Of each patch, whether it occurs an odd number of times.
+// The patches that occur an odd number of times.
 Row odd_ones(std::vector<Index> patches) {
   std::sort(patches.begin(), patches.end());
   Row odd;
@@ -88,7 +88,7 @@ Separation::Separation(const SegmentTable& table) {
   }
 }
 
-// Modulo the equations, with no patch left that is the first of one, which is unique.
+// Reduced by the equations: no patch is left that is the first of an equation; so the result is unique.
 Separation::Region Separation::beyond(std::span<const Index> facets) const {
   std::vector<Index> patches;
   for (const Index f : facets)

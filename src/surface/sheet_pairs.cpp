@@ -26,10 +26,10 @@ Point cross(const Point& u, const Point& v) {
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
-/// Across a triangle and twice its area long; not finite where that overflows.
+/// A normal of a triangle, twice its area long; not finite if that overflows.
 Point normal_of(const Point& a, const Point& b, const Point& c) { return cross(minus(b, a), minus(c, a)); }
 
-/// Whether a fan of one part surely has nothing but its vertex in common with facets at it that are so flat.
+/// Whether a fan of one part surely shares only its vertex with facets there that are this flat.
 bool is_steep(double rise, double slope, double layer, double share) {
   return rise > 2 * layer && slope > share;
 }
@@ -83,7 +83,8 @@ void SheetPairs::divide(std::span<const Index> sheet, std::span<const std::uint8
   }
 }
 
-/// Whether no coordinate of all corners has one sign and is at least a quarter of their size.
+/// Whether no coordinate has the same sign at all corners and is at least a quarter of the corner's size at
+/// each.
 bool SheetPairs::is_round_origin(const Triangle& facet) const {
   for (std::size_t k = 0; k < 3; ++k) {
     unsigned positive = 0, negative = 0;
@@ -128,8 +129,8 @@ void SheetPairs::measure(Part& part) const {
         least = size;
         part.offset = product(part.normal, complex_.vertices[v]);
       }
-  // Three roundings of products and three of sums err by 2^-51 (|x| + |d|) at most, and where something is
-  // denormal by less than 2^-1070.
+  // Three roundings of products and three of sums err by at most 2^-51 (|x| + |d|), and by less than 2^-1070
+  // where something is denormal.
   constexpr double kShare = 0x1p-50, kDenormal = 0x1p-1070;
   const double least_error = kShare * std::fabs(part.offset) + kDenormal;
   for (const Index e : part.facets)
@@ -142,13 +143,13 @@ void SheetPairs::measure(Part& part) const {
       else
         part.most_share = std::max(part.most_share, h / size);
     }
-  // With room for the roundings of these numbers, and for those of the points that are compared with them.
+  // With room for the rounding errors of these numbers, and of the points compared with them.
   part.most = part.most * (1 + 0x1p-40) + least_error;
   part.most_share = 4 * part.most_share * (1 + 0x1p-40) + kShare;
 }
 
-/// How flat a facet of a part is, seen from a corner. Squares: 64 (t / r)^2, in place of the 16 that are
-/// needed, leaves room for roundings where the area is not all rounding; and sums of them are not so small
+/// The flatness of a facet of a part, seen from a corner. As squares: 64 (t / r)^2, where 16 are needed,
+/// leaves room for rounding errors where the area is not only rounding; and sums of these are not so small
 /// that they underflow.
 SheetPairs::Flatness SheetPairs::flatness(const Part& part, const std::array<Point, 3>& corners,
                                           std::size_t corner) {
@@ -162,7 +163,7 @@ SheetPairs::Flatness SheetPairs::flatness(const Part& part, const std::array<Poi
   return {t, is_known ? 64 * (t * t) * product(side, side) / area : kInfinity};
 }
 
-/// False where a facet does not touch the plane of another part.
+/// False if the facet does not touch the plane of the other part.
 bool SheetPairs::find_near(const Part& part, std::size_t item, const Part& plane, Near& near) {
   const std::array<Point, 3>& corners = part.corners[item];
   std::array<double, 3> h{};
@@ -180,7 +181,8 @@ bool SheetPairs::find_near(const Part& part, std::size_t item, const Part& plane
   near.vertex = no_index;
   const unsigned beyond = above | below;
   if (beyond == 0 || (above != 0 && below != 0)) return true;
-  // What is near to the plane is so near to the corners that are: h <= 4 most there, by linearity.
+  // The part of the facet near the plane is that near to the corners near the plane: h <= 4 most there, by
+  // linearity.
   double rise = kInfinity, far = 0;
   Point low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -228,7 +230,7 @@ bool SheetPairs::is_beyond(const Box& box, const Part& plane) {
          most[0] + most[1] + most[2] - plane.offset < -bound;
 }
 
-/// The facets of a part that touch the plane of another one within a box.
+/// The facets of a part that touch the plane of another part within a box.
 SheetPairs::Touching SheetPairs::touching(const Part& part, const Part& plane, const Box& box) {
   const AabbTree::Item* const first = part.tree.items(0).data();
   Touching found;
@@ -267,7 +269,7 @@ SheetPairs::Touching SheetPairs::touching(const Part& part, const Part& plane, c
   return found;
 }
 
-/// Compares what touches the planes of each other of two parts.
+/// Compares the facets of two parts that touch each other's planes.
 class SheetPairs::Sweep {
  public:
   Sweep(const SheetPairs& sheets, const Part& a, const Part& b, const Visit& visit)
@@ -297,7 +299,7 @@ class SheetPairs::Sweep {
   }
 
  private:
-  /// Along the axis in which the box of the first part's reaches furthest.
+  /// Sorts along the longest axis of the box of the first part's facets.
   void sort(const Box& box) {
     for (std::size_t k = 1; k < 3; ++k)
       if (box.high[k] / 2 - box.low[k] / 2 > box.high[axis_] / 2 - box.low[axis_] / 2) axis_ = k;
@@ -323,7 +325,7 @@ class SheetPairs::Sweep {
     return true;
   }
 
-  /// Whether a fan surely has nothing but its vertex in common with the facets of another one, of `part`.
+  /// Whether a fan surely shares only its vertex with the facets of another fan, of `part`.
   [[nodiscard]] bool is_apart(const Fan& fan, const Part& part, const Touching& of_part,
                               const Fan& other) const {
     if (fan.vertex == no_index) return false;

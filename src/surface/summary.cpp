@@ -1,4 +1,4 @@
-// Surface layer: defects grouped by what has probably gone wrong.
+// Surface layer: defects grouped by their probable cause.
 #include "holdfast/summary.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kDigits = 3;  // of distances
 
-/// The complex with vertices at one place as one, without what names a vertex that does not exist or one
+/// The complex with all vertices at one place as one, without elements that name a missing vertex or one
 /// twice.
 struct Identified {
   std::vector<Index> first;  ///< for each vertex the first at its place
@@ -45,7 +45,7 @@ struct Identified {
   Identified& operator=(const Identified&) = delete;
 };
 
-/// Parts of the surface: what is joined by sides and segments.
+/// Parts of the surface, connected by sides and segments.
 class Parts {
  public:
   Parts(const Identified& identified, const SegmentTable& table) : parent_(identified.first.size()) {
@@ -70,7 +70,7 @@ std::string counted(std::size_t count, const char* one, const char* many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-/// How a group is told: what it is, singular and plural, and what to do.
+/// How a group is described: what it is, singular and plural, and what to do.
 struct Words {
   const char *one, *many, *cure;
 };
@@ -133,7 +133,7 @@ Words words_of(Cause cause) {
   return {"defect", "defects", "see each"};
 }
 
-/// "triangles 4 and 7", "vertex 3": by what a defect is found again.
+/// "triangles 4 and 7", "vertex 3": the entities by which a defect is found again.
 std::string entities(const Defect& defect) {
   const auto list = [](const char* one, const char* many, const std::vector<Index>& ids) {
     constexpr std::size_t kShown = 2;
@@ -237,7 +237,7 @@ class Summariser {
     return std::any_of(vertices.begin(), vertices.end(), other) ? Cause::parts_cross : Cause::self_crossing;
   }
 
-  /// Of everything that the defect names; of stars as large as hubs have, the first.
+  /// Vertices of everything that the defect names; of stars as large as those of hubs, the first ones.
   [[nodiscard]] std::vector<Index> vertices_of(const Defect& defect) const {
     constexpr std::size_t kMost = 32;
     std::vector<Index> all;
@@ -247,7 +247,7 @@ class Summariser {
       if (all.size() < kMost && std::find(all.begin(), all.end(), first) == all.end()) all.push_back(first);
     };
     for (const Index v : defect.vertices) add_vertex(v);
-    // From both ends: the elements of the first simplex stand behind all those of the second.
+    // From both ends: the elements of the first simplex precede those of the second.
     for (std::size_t i = 0; i < defect.facets.size(); ++i) {
       const std::size_t k = i % 2 == 0 ? i / 2 : defect.facets.size() - 1 - i / 2;
       for (const Index v : complex_.facets[defect.facets[k]]) add_vertex(v);
@@ -299,7 +299,7 @@ class Summariser {
     return numbers::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
   }
 
-  /// Finds the worst of a group and says where it is.
+  /// Finds the worst defect of a group and tells where it is.
   [[nodiscard]] std::string worst_of(DefectGroup& group) const {
     if (group.cause == Cause::open_border)
       return group.count == 1 ? place_of(group.worst) : ", the longest" + place_of(group.worst);

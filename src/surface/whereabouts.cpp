@@ -9,7 +9,7 @@
 namespace holdfast {
 namespace {
 
-// Points along one coordinate, so that a facet asks for those in its range alone.
+// Points sorted along one coordinate, so that a facet examines only those in its range.
 class Sorted {
  public:
   Sorted(std::span<const Point> points, std::size_t by) : points_(points), by_(by), order_(points.size()) {
@@ -32,8 +32,8 @@ class Sorted {
   std::vector<std::size_t> order_;
 };
 
-// Lines up along the last axis, moved by (e, e^2) for a positive e without end small, so that they meet no
-// side and no facet that is seen from its edge (Edelsbrunner and Mücke 1990).
+// Shoots lines up along the last axis, moved by (e, e^2) for an infinitesimal positive e, so that they meet
+// no side and no facet seen edge-on (Edelsbrunner and Mücke 1990).
 class Search {
  public:
   Search(const Complex& complex, std::span<const Point> points)
@@ -74,7 +74,7 @@ class Search {
     return exact::orient2d({a, nullptr}, {b, nullptr}, {p, nullptr}, axis);
   }
 
-  // In its plane, and in its shadow along an axis that the plane is not parallel to.
+  // Whether p is in the facet's plane, and in its projection along an axis not parallel to that plane.
   static bool holds(const Corners& c, const double* p) {
     for (int axis = 0; axis < 3; ++axis) {
       const int shadow = turn(c[0], c[1], c[2], axis);
@@ -86,14 +86,14 @@ class Search {
     return false;
   }
 
-  // Derivatives of the turn by p's first coordinate, then by its second, where it is zero itself.
+  // The sign of the turn; if it is zero, of its derivative by p's first coordinate, then by its second.
   static int turn_of_moved(const double* a, const double* b, const double* p) {
     if (const int sign = turn(a, b, p, 2); sign != 0) return sign;
     if (a[1] != b[1]) return a[1] > b[1] ? 1 : -1;
     return a[0] < b[0] ? 1 : -1;
   }
 
-  // The facet's normal looks up where its shadow turns counterclockwise.
+  // The facet's normal points up if its projection turns counterclockwise.
   static bool is_crossed(const Corners& c, const double* p) {
     const int shadow = turn(c[0], c[1], c[2], 2);
     if (shadow == 0) return false;
