@@ -1,4 +1,4 @@
-// Small meshes made by hand, with the surface that they fill, to examine check() on.
+// Small handmade meshes, with the surfaces that they fill, as cases for check().
 #pragma once
 
 #include <algorithm>
@@ -41,7 +41,7 @@ inline bool contains(const std::string& text, const std::string& part) {
 }
 
 using Cell = std::array<int, 3>;
-/// Region id of the cell at (x, y, z), or 0 to leave it out.
+/// The region id of the cell at (x, y, z), or 0 to leave the cell out.
 using RegionOf = std::function<int(int, int, int)>;
 
 inline const RegionOf one_region = [](int, int, int) { return 1; };
@@ -80,7 +80,7 @@ inline Triangle sorted(Triangle t) {
   return t;
 }
 
-/// The surface that a volume fills: faces of one tetrahedron, and of two with different ids.
+/// The surface that a volume fills: faces of only one tetrahedron, and faces between different ids.
 inline Surface surface_of(const Volume& volume) {
   std::map<Triangle, std::vector<int>> ids;
   for (std::size_t i = 0; i < volume.tetrahedra.size(); ++i) {
@@ -130,7 +130,7 @@ inline Case with_steiner() {
   return c;
 }
 
-/// A 3x3x3 grid in which the input is the middle cell only: the rest reaches to a box.
+/// A 3x3x3 grid whose input is only the middle cell: the rest reaches to a box.
 inline Case in_box() {
   Case c = grid({3, 3, 3}, [](int x, int y, int z) { return x == 1 && y == 1 && z == 1 ? 2 : 1; });
   const auto outer = [&](Index v) {
@@ -149,7 +149,7 @@ inline void drop_tetrahedron(Volume& volume, std::size_t i) {
   volume.regions.erase(volume.regions.begin() + static_cast<std::ptrdiff_t>(i));
 }
 
-/// One tetrahedron with the surface that it fills.
+/// One tetrahedron and the surface that it fills.
 inline Case one_tetrahedron() {
   Volume volume;
   volume.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

@@ -1,4 +1,4 @@
-// A surface meshed as far as its regions, for tests of what is kept.
+// A surface meshed up to its regions, for tests of what is kept.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 
 namespace holdfast::testing {
 
-// A surface, the mesh that conforms to it in a box from -9 to 9, and the regions there.
+// A surface, the mesh that conforms to it in a box from -9 to 9, and the mesh's regions.
 struct Classified {
   Surface surface;
   SegmentTable table;

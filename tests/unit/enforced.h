@@ -1,4 +1,4 @@
-// A complex and a mesh that is to conform to it, and what is asked of the mesh then.
+// A complex, a mesh that is to conform to it, and the conditions that the mesh must satisfy then.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ using exact::Dyadic;
 using Random = std::mt19937_64;
 using Ends = std::array<Vertex, 2>;
 
-// A complex, and the Delaunay mesh of its vertices, a box's and some Steiner points.
+// A complex, and the Delaunay mesh of its vertices, the corners of a box, and some Steiner points.
 struct Task {
   Surface surface;
   TetMesh mesh;
@@ -57,7 +57,7 @@ inline EnforceStats run(Task& t, const EnforceOptions& how) {
   return enforce(t.mesh, t.table, t.surface.facets, t.standing, t.first_free, how, monitor);
 }
 
-// --- what lies where, exactly
+// --- exact positions
 
 inline bool on_line(const TetMesh& mesh, Vertex a, Vertex b, Vertex v) {
   for (int axis = 0; axis < 3; ++axis)
@@ -84,7 +84,7 @@ inline std::vector<Vertex> vertices_on(const TetMesh& mesh, Vertex a, Vertex b) 
   return out;
 }
 
-// A facet, turned so that `above` sees it positively.
+// A facet, oriented so that `above` sees it positively.
 struct Plane {
   Triangle corners{};
   Vertex above = 0;
@@ -103,8 +103,8 @@ struct Plane {
   }
 };
 
-// Faces of a mesh do not overlap, so that they cover a facet where they lie in it and their areas add up to
-// its own; volumes under one apex stand for areas.
+// Faces of a mesh do not overlap, so they cover a facet if they lie in it and their areas add up to its area;
+// volumes under one apex stand for areas.
 inline std::size_t expect_covered(const Task& t, const Triangle& facet, const std::set<FaceKey>& faces) {
   const Plane plane(t, facet);
   std::vector<TetMesh::Corners> pieces;
@@ -120,7 +120,8 @@ inline std::size_t expect_covered(const Task& t, const Triangle& facet, const st
   return pieces.size();
 }
 
-// Segments as chains of segment edges, facets covered by facet faces, and no such edge or face elsewhere.
+// Every segment is a chain of segment edges, every facet is covered by facet faces, and there are no other
+// such edges or faces.
 inline void expect_laid(const Task& t) {
   ASSERT_EQ(find_fault(t.mesh), "");
   ASSERT_EQ(volume_of(t.mesh), t.volume);
@@ -146,7 +147,7 @@ inline void expect_off_constraints(const Task& t, Vertex v) {
   for (const Triangle& f : t.surface.facets) ASSERT_FALSE(Plane(t, f).holds(t.mesh, v));
 }
 
-// Every segment is one edge, every facet one face, and all Steiner points are off them.
+// Every segment is one edge, every facet is one face, and no Steiner point is on them.
 inline void expect_enforced(const Task& t) {
   expect_laid(t);
   std::set<FaceKey> facets;
@@ -159,7 +160,7 @@ inline void expect_enforced(const Task& t) {
     if (t.mesh.in_mesh(v)) expect_off_constraints(t, v);
 }
 
-// k triangles round the segment 0 1, evenly, at random or all in one quarter, in a cloud of points.
+// k triangles round the segment 0 1 in a cloud of points: evenly, at random, or all in one quarter.
 inline Surface pages(int k, std::uint64_t seed) {
   Random random(seed);
   Surface surface;
@@ -175,7 +176,7 @@ inline Surface pages(int k, std::uint64_t seed) {
   return surface;
 }
 
-// A grid among random points: segments between its points leave through edges, too.
+// A grid among random points: segments between its points also leave through edges.
 inline std::vector<Point> points_and_grid(std::uint64_t seed) {
   std::vector<Point> points = random_points(40, seed);
   for (int k = 0; k < 27; ++k)

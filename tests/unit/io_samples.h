@@ -1,4 +1,4 @@
-// What the tests of the file formats share: a folder of their own, sample meshes, valid sample files.
+// Shared by the tests of the file formats: a temporary folder, sample meshes, valid sample files.
 #pragma once
 
 #include <unistd.h>
@@ -152,7 +152,7 @@ _top_S1, S1
 *End Step
 )";
 
-/// What the FileError of a call says behind the path; "read" where there is none.
+/// The message of a call's FileError after the path; "read" if there is none.
 template <typename Read>
 std::string refusal_of(Read&& read) {
   try {
@@ -163,7 +163,7 @@ std::string refusal_of(Read&& read) {
   return "read";
 }
 
-/// A folder that is removed with all that is in it.
+/// A folder that is removed with its contents.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -227,7 +227,7 @@ inline Volume sample_volume() {
   return volume;
 }
 
-/// The bits of a coordinate list, for comparisons that tell -0 from +0.
+/// The bits of a coordinate list, for comparisons that distinguish -0 from +0.
 inline std::vector<std::uint64_t> bits(const std::vector<Point>& points) {
   std::vector<std::uint64_t> result;
   for (const Point& point : points)
@@ -292,8 +292,7 @@ inline const char* const kVtu =
     "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">10 5 3</DataArray>\n"
     "</Cells></Piece></UnstructuredGrid></VTKFile>\n";
 
-/// Polygonal data whose sections do not stand in the order of its cell data: vertices, lines, polygons,
-/// strips.
+/// Polygonal data whose sections are not in the order of its cell data: vertices, lines, polygons, strips.
 inline const char* const kStrips =
     "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 6 float\n0 0 0 1 0 0 0 1 0 1 1 0 0 2 0 "
     "1 2 1\n"

@@ -1,4 +1,4 @@
-// Volumes out of bytes, and the errors that these give.
+// Volumes read from bytes, and the errors of reading them.
 #pragma once
 
 #include "io_samples.h"
@@ -11,7 +11,7 @@ inline Volume volume(const std::string& bytes, const std::string& name) {
   return read_volume(folder / name);
 }
 
-/// The place and reason of the error that reading gives, without the path.
+/// The place and reason of the reading error, without the path.
 inline std::string error(const std::string& bytes, const std::string& name) {
   try {
     static_cast<void>(volume(bytes, name));

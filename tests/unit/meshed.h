@@ -1,4 +1,4 @@
-// What is asked of the result of a call, and a surface that takes long enough to interrupt it.
+// Conditions on the result of a call, and a surface that takes long enough to be interrupted.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 
 namespace holdfast::testing {
 
-// The rules that do not hold, one a line.
+// The broken rules, one a line.
 std::string broken_rules(const Surface& surface, const Result& result, const CheckOptions& options = {}) {
   std::string text;
   for (const Rule& rule : check(surface.view(), result.volume, options).rules)
@@ -54,7 +54,7 @@ inline bool same(const Volume& a, const Volume& b) {
 
 inline std::set<int> ids(const Volume& volume) { return {volume.regions.begin(), volume.regions.end()}; }
 
-// The regions on the sides of every facet, from the tetrahedra alone.
+// The regions on the sides of every facet, computed only from the tetrahedra.
 inline std::vector<FacetRegions> sides(const Volume& volume) {
   std::vector<FacetRegions> found(volume.facets.size());
   const auto turned = [](Triangle t) {  // least corner first, the orientation kept

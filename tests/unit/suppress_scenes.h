@@ -22,11 +22,11 @@ using Faces = std::vector<FaceKey>;
 const double kMostTwist = std::acos(-1.0) / 3;
 
 struct Polyhedron {
-  TetMesh mesh;  // vertices alone
+  TetMesh mesh;  // only vertices
   Faces faces;   // seen positively from inside
 };
 
-// Two triangles and three quadrilaterals, bent inwards along their diagonals where twist > 0: Schönhardt's.
+// Schönhardt's: two triangles and three quadrilaterals, bent inwards along their diagonals if twist > 0.
 inline Polyhedron twisted_prism(double twist, double height) {
   Polyhedron prism;
   for (int k = 0; k < 6; ++k) {
@@ -46,7 +46,7 @@ inline FaceKey rotated(FaceKey f) {
   return f;
 }
 
-// Faces that are left when those of equal corners and opposite turns have cancelled.
+// Faces that remain after those with equal corners and opposite orientations have cancelled.
 inline std::set<FaceKey> boundary_of(const std::vector<TetMesh::Corners>& tets) {
   std::set<FaceKey> open;
   for (const auto& c : tets)

@@ -1,4 +1,4 @@
-// Meshes to tangle, ways to do it, and what is asked of the result.
+// Meshes to tangle, ways to tangle them, and the conditions on the result.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -77,7 +77,7 @@ inline Grid grid(int n, double jitter, Random& random, bool halves = false) {
   return out;
 }
 
-// --- what is asked of a result
+// --- conditions on a result
 
 inline std::size_t nonpositive(const Volume& volume) {
   const auto p = [&](Index v) { return volume.vertices[v].data(); };

@@ -3,7 +3,7 @@
 
 namespace holdfast::samples {
 
-// The way of programs that export CAD: a mantle of quadrangles, and what is used again and turned.
+// As CAD programs export it: a mantle of quadrangles, and a node that is used again and rotated.
 inline const char* const kVrml2 = R"(#VRML V2.0 utf8
 # a comment {
 WorldInfo { title "a # no comment, } no end" info [ "x" "y \" z" ] }
@@ -35,7 +35,7 @@ DEF clock TimeSensor { loop TRUE }
 ROUTE clock.fraction_changed TO T.set_scale
 )";
 
-// Nodes of the first version change what follows them.
+// Nodes of version 1 change the nodes that follow them.
 inline const char* const kVrml1 = R"(#VRML V1.0 ascii
 Separator {
   ShapeHints { vertexOrdering CLOCKWISE shapeType SOLID }
