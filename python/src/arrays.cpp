@@ -30,7 +30,7 @@ Scalar scalar_of_dtype(const py::dtype& dtype, const char* what) {
                         text_of(array.attr("shape")));
 }
 
-// Reads through the memory of the array; nothing else is told of it but the view.
+// Sets a view of the memory of the array, if there is an array.
 template <class Set>
 void set_if_given(const py::object& object, std::size_t columns, const char* what, Set&& set) {
   if (!object.is_none()) set(view_of(py::cast<py::array>(object), columns, what));
@@ -88,7 +88,7 @@ std::vector<Segment> rows_from<Segment>(const py::object& object, const char* wh
   return copy(arrays.view().segments);
 }
 
-// The library has no view for rows of four: pairs of columns.
+// The library has no view of rows of four, so these are pairs of columns.
 template <>
 std::vector<Tetrahedron> rows_from<Tetrahedron>(const py::object& object, const char* what) {
   if (object.is_none()) return {};

@@ -1,4 +1,4 @@
-// numpy arrays in and out: taken as they lie in memory where that is possible, and given without a copy.
+// Conversion of numpy arrays: inputs are read in place where possible, results are given without a copy.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -15,11 +15,11 @@ namespace holdfast::python {
 
 namespace py = pybind11;
 
-/// An array of one or two dimensions, of a type that `Scalar` has and native byte order. `columns` is 0 for
+/// An array of one or two dimensions, in native byte order, with a type that `Scalar` has. `columns` is 0 for
 /// one dimension. Throws TypeError and ValueError that name `what`.
 [[nodiscard]] ArrayView view_of(const py::array& array, std::size_t columns, const char* what);
 
-/// The arrays of a surface; each may be None but the vertices.
+/// The arrays of a surface; all except the vertices may be None.
 struct SurfaceArrays {
   py::array vertices;
   py::object facets, segments, vertex_markers, facet_markers, segment_markers, names;
@@ -27,13 +27,13 @@ struct SurfaceArrays {
 /// Fills `arrays`, which refers to memory of `from`. Needs the interpreter lock.
 void set(Arrays& arrays, const SurfaceArrays& from);
 
-/// Numbers of an array as rows of the library. `what` names them.
+/// The numbers of an array as rows of the library; errors call the array `what`.
 template <class Row>
 [[nodiscard]] std::vector<Row> rows_from(const py::object& object, const char* what);
 [[nodiscard]] std::vector<int> markers_from(const py::object& object, const char* what);
 
-/// A read-only array of `rows` rows of `columns` numbers, one dimension where `columns` is 0, in memory that
-/// `owner` keeps.
+/// A read-only array of `rows` rows of `columns` numbers, or of one dimension if `columns` is 0, in memory
+/// that `owner` keeps alive.
 template <class Number>
 [[nodiscard]] py::array view_on(const Number* data, std::size_t rows, std::size_t columns, py::handle owner) {
   std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(rows)};
@@ -43,7 +43,7 @@ template <class Number>
   return array;
 }
 
-/// Rows of indices are at most 2^28, so that they are the same as signed numbers.
+/// Indices are at most 2^28, so they have the same bits as signed numbers.
 template <class Row>
 [[nodiscard]] py::array indices_on(const std::vector<Row>& rows, py::handle owner) {
   return view_on(reinterpret_cast<const std::int32_t*>(rows.data()), rows.size(), std::tuple_size_v<Row>,
@@ -59,7 +59,7 @@ template <class Row>
   return indices_on(there, owner);
 }
 
-/// As _defects of errors.py takes them.
+/// In the form that _defects of errors.py takes.
 [[nodiscard]] py::list defects_of(const std::vector<Defect>& defects);
 
 }  // namespace holdfast::python

@@ -1,5 +1,4 @@
-// The calls that work: mesh, diagnose, check, delaunay, untangle. The interpreter lock is released while they
-// run.
+// The calls mesh, diagnose, check, delaunay and untangle. The interpreter lock is released while they run.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -38,8 +37,8 @@ Enum named(const py::dict& options, const char* key) {
   return python::named<Enum>(value_of<std::string>(options, key), key);
 }
 
-// A function of the user takes an array of points (m, 3) and gives m sizes, or m metrics of six numbers, or
-// one for all.
+// Calls a function of the user, which takes an array of points (m, 3) and returns m sizes, or m metrics of
+// six numbers, or one for all.
 py::array_t<double> asked_at(const py::object& function, std::span<const Point> at, std::size_t numbers,
                              const char* what) {
   const py::array_t<double> points({static_cast<py::ssize_t>(at.size()), py::ssize_t{3}}, at.front().data());
@@ -83,7 +82,8 @@ std::function<Metric(const Point&)> metric_asked_of(const py::object& function) 
   };
 }
 
-// `size_function` and `metric_function` keep the user's callables by reference: they outlive the call.
+// `size_function` and `metric_function` hold the user's callables by reference: the callables outlive the
+// call.
 struct Fields {
   py::object size = py::none(), metric = py::none();
 };
@@ -138,7 +138,7 @@ SurfaceArrays surface_from(const py::tuple& arrays) {
   return {py::cast<py::array>(arrays[0]), arrays[1], arrays[2], arrays[3], arrays[4], arrays[5], arrays[6]};
 }
 
-// Ids in front of and behind each facet, and where there is no region.
+// The ids in front of and behind each facet, and where there is no region.
 py::tuple facet_regions(const std::vector<FacetRegions>& regions) {
   const auto count = static_cast<py::ssize_t>(regions.size());
   py::array_t<std::int32_t> ids({count, py::ssize_t{2}});
@@ -154,7 +154,7 @@ py::tuple facet_regions(const std::vector<FacetRegions>& regions) {
   return py::make_tuple(ids, none);
 }
 
-/// What a call of `mesh` is asked for. It stays where it is: sizes and progress refer to it.
+/// The arguments of a call of `mesh`. The object must not move, because sizes and progress refer to it.
 struct MeshCall {
   MeshCall(const py::dict& options, const py::object& size, const py::object& metric,
            const py::object& progress)
@@ -188,8 +188,8 @@ std::shared_ptr<Result> mesh_pasted(const std::shared_ptr<PasteResult>& pasted, 
   return std::make_shared<Result>(mesh(*pasted, call.how));
 }
 
-/// Where a repaired surface has no mesh in doubles, (repair, mesh) after sheets were joined, or the same two
-/// with the limit that ended this; None where there is nothing to join.
+/// If a repaired surface has no mesh in doubles: (repair, mesh) after sheets were joined, or the same two
+/// with the limit that ended this. None if there is nothing to join.
 py::object mesh_joined_arrays(const py::tuple& surface, const Repair& before, const Result& without,
                               const py::dict& options, const py::object& size, const py::object& metric,
                               const py::object& progress) {

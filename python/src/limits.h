@@ -1,4 +1,4 @@
-// Options of calls out of keyword arguments.
+// Reads options of calls from keyword arguments.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -14,7 +14,7 @@ namespace holdfast::python {
 
 namespace py = pybind11;
 
-/// The value of an option; one that is of another type, or out of range, is told by its name.
+/// The value of an option; errors about its type or range give the option's name.
 template <class Value>
 Value value_of(const py::dict& options, const char* name) {
   const py::object given = options[name];
@@ -28,7 +28,7 @@ Value value_of(const py::dict& options, const char* name) {
   }
 }
 
-/// Sets `to` where the dictionary has a value that is not None.
+/// Sets `to` if the dictionary has a value other than None.
 template <class Value>
 void take(const py::dict& options, const char* name, Value& to) {
   if (options.contains(name) && !options[name].is_none()) to = value_of<Value>(options, name);

@@ -1,4 +1,5 @@
-// The extension holdfast._core: the library's calls on numpy arrays. holdfast/*.py is what people use.
+// The extension holdfast._core: the library's calls on numpy arrays. Users import the modules in
+// holdfast/*.py.
 #include <pybind11/pybind11.h>
 
 #include <chrono>

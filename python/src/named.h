@@ -1,4 +1,4 @@
-// Values of enumerations by their names, as Python spells them.
+// Values of enumerations by their Python names.
 #pragma once
 
 #include <stdexcept>

@@ -1,4 +1,4 @@
-// Names as Python has them: dictionaries for triangles, regions, segments and points, in this order.
+// Names in Python: dictionaries for triangles, regions, segments and points, in this order.
 #pragma once
 
 #include <pybind11/pybind11.h>

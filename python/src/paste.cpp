@@ -1,4 +1,4 @@
-// Pasting of parts, and meshes of what came out.
+// Pasting of parts, and meshing of the result.
 #include "holdfast/paste.h"
 
 #include <pybind11/numpy.h>
@@ -26,7 +26,7 @@ namespace {
 
 using Seeds = std::vector<std::tuple<double, double, double, int, double>>;
 
-/// (arrays, regions, holes) as a surface of the library, which copies them.
+/// Makes a surface of the library from (arrays, regions, holes); copies them.
 Surface surface_from(const py::tuple& part) {
   const auto arrays = py::cast<py::tuple>(part[0]);
   Arrays views;

@@ -27,7 +27,7 @@ struct PlaneRun {
   std::vector<Remark> remarks;
   bool stopped = false;
   std::size_t input_points = 0;
-  std::string report;  ///< of one that was pickled
+  std::string report;  ///< of a run that was pickled
 };
 
 using Seeds = std::vector<std::tuple<double, double, int, double>>;
@@ -57,7 +57,7 @@ PlaneOptions options_from(const py::dict& options) {
   return how;
 }
 
-/// (points, segments, point markers, segment markers, holes, regions), of two dimensions.
+/// From (points, segments, point markers, segment markers, holes, regions), in two dimensions.
 Plane plane_from(const py::tuple& given) {
   Plane plane;
   const auto points = py::array_t<double, py::array::c_style | py::array::forcecast>(given[0]);
@@ -98,7 +98,7 @@ std::shared_ptr<PlaneRun> plane_arrays(const py::tuple& given, const py::dict& o
   return solve(options, progress, [&](const Watch&, const PlaneOptions&) { return std::move(plane); });
 }
 
-/// (points, segments, holes) of three dimensions.
+/// From (points, segments, holes) in three dimensions.
 std::shared_ptr<PlaneRun> plane_in_space_arrays(const py::tuple& given, double tolerance,
                                                 const py::dict& options, const py::object& progress) {
   const std::vector<Point> points = rows_from<Point>(given[0], "points");

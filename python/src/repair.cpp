@@ -1,4 +1,4 @@
-// The calls round a repair. The interpreter lock is released while they run.
+// The calls related to repair. The interpreter lock is released while they run.
 #include "holdfast/repair.h"
 
 #include <pybind11/numpy.h>
@@ -77,7 +77,7 @@ std::string report_of(const Repair& repaired) {
   return reports::text_of(reports::to_json(repaired.result, std::move(asked)));
 }
 
-/// Where the list of each facet begins, and all of them behind one another.
+/// The start of each facet's list, and all lists concatenated.
 py::tuple parents_of(const RepairResult& result) {
   const std::vector<std::size_t>& first = result.parents.first;
   py::array_t<std::int64_t> begins(static_cast<py::ssize_t>(first.size()));

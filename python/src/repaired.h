@@ -1,11 +1,11 @@
-// What a repair is to Python.
+// A repair as Python holds it.
 #pragma once
 
 #include "holdfast/repair.h"
 
 namespace holdfast::python {
 
-/// A repair with what it was asked for, of which a check needs to know.
+/// A repair with its options, which a check of it needs.
 struct Repair {
   RepairResult result;
   RepairOptions options;

@@ -1,7 +1,7 @@
 // Results as tuples that Python can pickle: field by field, and back.
 //
-// `fields_of` names what a result has. Numbers in a row are arrays, so that neither their size nor the order
-// of their bytes depends on the machine, and text is bytes, since names of files may be no UTF-8.
+// `fields_of` lists the fields of a result. Numbers in a row are arrays, so neither their size nor their byte
+// order depends on the machine. Text is bytes, because names of files may not be UTF-8.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -28,7 +28,7 @@ namespace py = pybind11;
 template <class A, class B>
 concept Is = std::same_as<std::remove_const_t<A>, B>;
 
-/// `To` as constant as `From`.
+/// `To`, const if `From` is const.
 template <class To, class From>
 [[nodiscard]] auto& as(From& from) {
   return static_cast<std::conditional_t<std::is_const_v<From>, const To, To>&>(from);
@@ -66,7 +66,7 @@ template <Is<RepairResult> T> auto fields_of(T& r) {
   return std::tie(r.outcome, r.surface, r.parents, r.segment_parents, r.moved, r.dropped, r.merged, r.filled,
                   r.left_open, r.marker_sets, r.max_displacement, r.report, r.message);
 }
-/// Of its options those that its report and a check of it name.
+/// Of its options, only those that its report and a check of it name.
 template <Is<Repair> T> auto fields_of(T& r) {
   return std::tie(r.result, r.options.weld, r.options.join, r.options.fill_holes, r.options.unite, r.options.threads);
 }
@@ -81,7 +81,7 @@ template <Is<PastedVolumes> T> auto fields_of(T& r) {
 
 template <class T>
 concept Number = std::is_arithmetic_v<T>;
-/// As many numbers as it says, one behind the other.
+/// A fixed number of numbers, one after another.
 template <class T>
 concept Row = requires {
   requires Number<typename T::value_type>;
@@ -217,7 +217,7 @@ void set_state(T& value, const py::handle& state) {
   }
 }
 
-/// For py::class_: lets Python pickle and copy a result.
+/// For py::class_: makes a result picklable and copyable in Python.
 template <class T>
 [[nodiscard]] auto pickled() {
   return py::pickle([](const T& result) { return py::cast<py::tuple>(state_of(result)); },

@@ -1,4 +1,4 @@
-// Volume: a tetrahedral mesh that the library owns, its arrays seen without a copy.
+// Volume: a tetrahedral mesh that the library owns, with views of its arrays without a copy.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
@@ -93,7 +93,8 @@ void register_volume(py::module_& module) {
     auto copy = std::make_shared<Volume>(volume);
     MidNodes& mid = copy->mid_nodes;
     mid.points = rows_from<Point>(points, "points");
-    const std::vector<Segment> pairs = rows_from<Segment>(tetrahedra, "tetrahedra");  // three a tetrahedron
+    const std::vector<Segment> pairs =
+        rows_from<Segment>(tetrahedra, "tetrahedra");  // three for each tetrahedron
     for (std::size_t i = 0; i + 2 < pairs.size(); i += 3)
       mid.tetrahedra.push_back(
           {pairs[i][0], pairs[i][1], pairs[i + 1][0], pairs[i + 1][1], pairs[i + 2][0], pairs[i + 2][1]});

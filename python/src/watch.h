@@ -1,4 +1,4 @@
-// What a running call asks of Python, from the thread that made it: signals such as Ctrl-C, and its progress.
+// Calls from a running call into Python, on the thread that made it: signals such as Ctrl-C, and progress.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -11,10 +11,10 @@ namespace py = pybind11;
 
 class Watch {
  public:
-  /// `progress` is None or takes (stage, fraction); it cancels by returning False.
+  /// `progress` is None or a callable of (stage, fraction); it cancels by returning False.
   explicit Watch(py::object progress) : progress_(std::move(progress)) {}
 
-  /// Called without the interpreter lock. Python's exceptions leave as py::error_already_set.
+  /// Called without the interpreter lock. Throws Python's exceptions as py::error_already_set.
   [[nodiscard]] bool go_on(const char* stage, double fraction) const {
     const py::gil_scoped_acquire lock;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
