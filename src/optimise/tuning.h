@@ -19,10 +19,9 @@ inline constexpr double kWorthReconnecting = 200;  ///< from here on a search ma
 inline constexpr double kHopeless = 1000;          ///< from here on, and from kHopelessForTarget targets on,
 inline constexpr double kHopelessForTarget = 30;   ///< an element is worth a point
 inline constexpr double kNull = 1e10;              ///< from here on Q is only rounding: four coplanar points
-inline constexpr double kLeastGain =
-    0.98;  ///< part of the worst Q that remains after a change worth its time
-inline constexpr double kLeastPointGain = 10;  ///< factor by which points that stay improve the worst Q
-inline constexpr double kCuredByOnePoint = 2;  ///< hopeless elements that one point removes, at most
+inline constexpr double kLeastGain = 0.98;         ///< part of the worst Q that a worthwhile change leaves
+inline constexpr double kLeastPointGain = 10;      ///< factor by which points that stay improve the worst Q
+inline constexpr double kCuredByOnePoint = 2;      ///< hopeless elements that one point removes, at most
 
 // Work, in exchanges tried, some 10 microseconds each.
 inline constexpr std::size_t kLeastWork = 1200;  ///< so that small meshes are done thoroughly
@@ -45,8 +44,7 @@ inline constexpr std::size_t kShakeWork = 200;      ///< for repairs after a sha
 inline constexpr std::size_t kWeightOfFlat = 50,
                              kWeightOfBad = 10;  ///< work on an element; others weigh 1
 inline constexpr std::size_t kWorstTriedAgain = 64, kWorkOnWorst = 3000;  ///< when the parts are done
-inline constexpr double kMostMixed =
-    0.25;  ///< share of the tetrahedra between parts: above it the mesh is not cut
+inline constexpr double kMostMixed = 0.25;           ///< share of tetrahedra between parts: above it no cut
 inline constexpr std::size_t kSpareSlots = 2048;     ///< that the ways for an element may use
 inline constexpr std::size_t kTetsASpareSlot = 128;  ///< one more slot for this many tetrahedra of a part
 
@@ -73,9 +71,8 @@ inline constexpr int kPointsInVain = 2;
 /// Tetrahedra of a shell that is exchanged: larger shells hardly ever pay, and their cost is cubic. With
 /// field points there are many elements, so the rest is not worth the time.
 inline constexpr std::size_t kMostShellForQ = 12, kMostShellForEnergy = 9;
-inline constexpr int kMostInsertSteps = 16;  ///< tetrahedra by which the cavity of a point grows
-inline constexpr std::size_t kMostMovedBall =
-    200;  ///< tetrahedra at a vertex that is moved: computing Q takes time
+inline constexpr int kMostInsertSteps = 16;         ///< tetrahedra by which the cavity of a point grows
+inline constexpr std::size_t kMostMovedBall = 200;  ///< tetrahedra at a moved vertex: Q takes time
 
 // Grows a cavity from a bad element until it can be filled in another way.
 struct Reconnecting {
@@ -101,11 +98,10 @@ inline constexpr std::size_t kFlatShells = 200;       ///< shells examined for o
 
 // --- With field points. Angles are given by their sines.
 /// Which of the bad elements comes first. On surfaces full of needles the facets force most of the worst
-/// elements, so the elements nearest to being good are improved most quickly. But with the least effort, and
+/// elements, so the elements nearest to being good come first. But with the least effort, and
 /// where the result is compared with that of --fill, the worst must not be left over.
 enum class First : std::uint8_t { the_worst, the_mildest };
-inline constexpr double kHopelessSine =
-    0.14;  ///< 8 degrees: below this, energies grow more slowly, because much is forced
+inline constexpr double kHopelessSine = 0.14;  ///< 8 degrees: below, energies grow less: much is forced
 /// Passes over the whole volume, then work on single elements.
 struct Passes {
   int passes;
