@@ -56,9 +56,8 @@ std::size_t tell_not_positive(const Volume& volume, const Limits& limits, bool q
   const Point& at = volume.vertices[volume.tetrahedra[elements[0]][0]];
   const bool is_one = elements.size() == 1;
   say("holdfast: warning: {} not positive everywhere with nodes in the middle of edges, since {} flat to the "
-      "last "
-      "bits, or inverted; first tetrahedron {} at ({:.10g}, {:.10g}, {:.10g}). Most solvers refuse {}: use "
-      "--order 1, or repair what is so thin\n",
+      "last bits, or inverted; first tetrahedron {} at ({:.10g}, {:.10g}, {:.10g}). Most solvers refuse {}: "
+      "use --order 1, or repair what is so thin\n",
       counted(elements.size(), "element is", "elements are"), is_one ? "it is" : "they are", elements[0],
       at[0], at[1], at[2], is_one ? "it" : "them");
   return elements.size();
