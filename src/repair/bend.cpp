@@ -60,20 +60,40 @@ std::vector<std::vector<Index>> list_near(const State& state, const Trouble& tro
     const Box box =
         is_facet ? box_round(state, state.facets[trouble.facets[k]], kRoom * gap)
                  : box_round(state, state.segments[trouble.segments[k - trouble.facets.size()]], kRoom * gap);
-    tree.for_each_item([&](const Box& other) { return !box.overlaps(other); },
-                       [&](const AabbTree::Item& item) {
-                         work.done += kWork;
-                         const Index v = vertices[item.id];
-                         if (!is_facet || is_near(state, v, state.facets[trouble.facets[k]], kRoom * gap))
-                           near[k].push_back(v);
-                       });
+    const auto visit_all = [&](auto&& is_near_it) {
+      tree.for_each_item([&](const Box& other) { return !box.overlaps(other); },
+                         [&](const AabbTree::Item& item) {
+                           work.done += kWork;
+                           if (is_near_it(vertices[item.id])) near[k].push_back(vertices[item.id]);
+                         });
+    };
+    if (is_facet) {
+      const Triangle& facet = state.facets[trouble.facets[k]];
+      const auto at = [&](std::size_t i) -> const Point& { return state.vertices[facet[i]]; };
+      const FarFromFacet is_far(at(0), at(1), at(2), kRoom * gap);
+      visit_all([&](Index v) { return !is_far(state.vertices[v]) && is_near(state, v, facet, kRoom * gap); });
+    } else {
+      visit_all([](Index) { return true; });
+    }
     std::sort(near[k].begin(), near[k].end());
   }
   return near;
 }
 
-/// Facets and segments with a side between two of the vertices.
-void begin(const State& state, const Trouble& trouble, std::span<const Index> vertices, BentSurface& bent) {
+/// Whether no side of a facet is within the gap of a vertex. `near` has the vertices near the facet.
+bool is_idle(const State& state, const Triangle& t, std::span<const Index> near, double gap) {
+  const auto is_corner = [&](Index v) { return v == t[0] || v == t[1] || v == t[2]; };
+  if (!std::all_of(near.begin(), near.end(), is_corner)) return false;
+  const auto is_flat = [&](std::size_t i) {
+    const auto at = [&](std::size_t k) -> const Point& { return state.vertices[t[k % 3]]; };
+    return beside_side(at(i), at(i + 1), at(i + 2)).distance <= gap;
+  };
+  return !is_flat(0) && !is_flat(1) && !is_flat(2);
+}
+
+/// Facets and segments with a side between two of the vertices. `near` is that of `list_near`.
+void begin(const State& state, const Trouble& trouble, std::span<const Index> vertices,
+           std::span<const std::vector<Index>> near, double gap, BentSurface& bent) {
   std::vector<std::uint8_t> is_vertex(state.vertices.size(), 0);
   for (const Index v : vertices) is_vertex[v] = 1;
   std::size_t next = 0;
@@ -83,7 +103,9 @@ void begin(const State& state, const Trouble& trouble, std::span<const Index> ve
     std::vector<Index> lists;
     if (listed) lists.push_back(static_cast<Index>(next++));
     if (has_repeated_corners(t)) continue;
-    if (is_vertex[t[0]] + is_vertex[t[1]] + is_vertex[t[2]] >= 2) bent.add(BentFacet{t, {f}, lists});
+    if (is_vertex[t[0]] + is_vertex[t[1]] + is_vertex[t[2]] < 2) continue;
+    const bool idle = !listed || is_idle(state, t, near[lists[0]], gap);
+    bent.add(BentFacet{t, {f}, std::move(lists)}, idle);
   }
   next = 0;
   for (Index s = 0; s < state.segments.size(); ++s) {
@@ -91,7 +113,7 @@ void begin(const State& state, const Trouble& trouble, std::span<const Index> ve
     std::vector<Index> lists;
     if (listed) lists.push_back(static_cast<Index>(trouble.facets.size() + next++));
     const Segment& ends = state.segments[s];
-    if (is_vertex[ends[0]] + is_vertex[ends[1]] == 2) bent.add(BentSegment{ends, s, lists});
+    if (is_vertex[ends[0]] + is_vertex[ends[1]] == 2) bent.add(BentSegment{ends, s, lists}, !listed);
   }
 }
 
@@ -324,8 +346,9 @@ void deliver_segments(const BentSurface& bent, State& state) {
 double bend(State& state, const Trouble& trouble, std::span<const Index> vertices, const Bend& how,
             Work& work, const Step& step) {
   BentSurface bent(state.vertices);
-  begin(state, trouble, vertices, bent);
-  Bending(state, list_near(state, trouble, vertices, how.gap, work, step), bent, how, work).run(step);
+  std::vector<std::vector<Index>> near = list_near(state, trouble, vertices, how.gap, work, step);
+  begin(state, trouble, vertices, near, how.gap, bent);
+  Bending(state, std::move(near), bent, how, work).run(step);
   deliver_facets(bent, state);
   deliver_segments(bent, state);
   return bent.most();

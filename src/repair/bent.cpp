@@ -21,7 +21,7 @@ void join(std::vector<Index>& list, const std::vector<Index>& other) {
 
 }  // namespace
 
-void BentSurface::add(BentFacet facet) {
+void BentSurface::add(BentFacet facet, bool is_idle) {
   most_ = std::max(most_, facet.bent);
   const auto fresh = static_cast<Index>(facets_.size());
   const auto next = static_cast<Index>(facet_with_.size());
@@ -32,17 +32,18 @@ void BentSurface::add(BentFacet facet) {
     join(other.origins, facet.origins);
     join(other.lists, facet.lists);
     other.bent = std::max(other.bent, facet.bent);
+    if (!is_idle) wake_sides(other.corners);
     return;
   }
   facet_with_[number] = fresh;
   for (std::size_t i = 0; i < 3; ++i)
-    note(ascending(Side{facet.corners[i], facet.corners[(i + 1) % 3]})).facets.push_back(fresh);
+    note(ascending(Side{facet.corners[i], facet.corners[(i + 1) % 3]}), is_idle).facets.push_back(fresh);
   if (!facet.lists.empty()) whole_.push_back(fresh);
   facets_.push_back(std::move(facet));
   ++living_;
 }
 
-void BentSurface::add(const BentSegment& segment) {
+void BentSurface::add(const BentSegment& segment, bool is_idle) {
   most_ = std::max(most_, segment.bent);
   const auto fresh = static_cast<Index>(segments_.size());
   const Side ends = ascending(Side(segment.ends));
@@ -56,7 +57,7 @@ void BentSurface::add(const BentSegment& segment) {
   }
   segment_with_[number] = fresh;
   segments_.push_back(segment);
-  note(ends).segments.push_back(fresh);
+  note(ends, is_idle).segments.push_back(fresh);
 }
 
 bool BentSurface::had(const Triangle& corners) const {
@@ -88,14 +89,27 @@ BentSegment BentSurface::take_segment(Index segment, double more) {
   return taken;
 }
 
-BentSurface::AtSide& BentSurface::note(const Side& side) {
+BentSurface::AtSide& BentSurface::note(const Side& side, bool is_idle) {
   const auto next = static_cast<Index>(at_side_.size());
   const Index number = side_numbers_.find_or_add(side, next);
   if (number == next) at_side_.emplace_back();
   SideNote& note = at_side_[number];
-  if (!std::exchange(note.is_there, true))
-    sides_.emplace(length(minus(vertices_[side[0]], vertices_[side[1]])), side);
+  const bool was_there = std::exchange(note.is_there, true);
+  if (!was_there) note.is_queued = false;
+  if (is_idle || note.is_queued) return note.at;
+  const Waiting waiting(length(minus(vertices_[side[0]], vertices_[side[1]])), side);
+  // The turn of a side that was idle is past when a shorter one was looked at.
+  if (was_there && least_ && *least_ < waiting) return note.at;
+  note.is_queued = true;
+  if (least_)
+    sides_.push(waiting);
+  else
+    first_sides_.push_back(waiting);
   return note.at;
+}
+
+void BentSurface::wake_sides(const Triangle& corners) {
+  for (std::size_t i = 0; i < 3; ++i) note(ascending(Side{corners[i], corners[(i + 1) % 3]}), false);
 }
 
 const BentSurface::AtSide* BentSurface::at(const Side& side) const {
@@ -111,10 +125,18 @@ BentSurface::AtSide BentSurface::forget(const Side& side) {
 }
 
 std::optional<Side> BentSurface::next_side() {
-  if (sides_.empty()) return std::nullopt;
-  const Side side = sides_.top().second;
-  sides_.pop();
-  return side;
+  if (!least_) std::sort(first_sides_.begin(), first_sides_.end());
+  if (first_sides_.empty() && sides_.empty()) return std::nullopt;
+  Waiting longest;
+  if (sides_.empty() || (!first_sides_.empty() && sides_.top() < first_sides_.back())) {
+    longest = first_sides_.back();
+    first_sides_.pop_back();
+  } else {
+    longest = sides_.top();
+    sides_.pop();
+  }
+  least_ = least_ ? std::min(*least_, longest) : longest;
+  return longest.second;
 }
 
 std::optional<Index> BentSurface::next_facet() {

@@ -47,10 +47,11 @@ class BentSurface {
   /// The largest distance by which anything was bent.
   [[nodiscard]] double most() const { return most_; }
 
-  void add(BentFacet facet);
+  /// `is_idle`: nothing near the facet can lead its sides, so they need not be examined because of it.
+  void add(BentFacet facet, bool is_idle = false);
   /// Takes out the facet with these corners. Returns whether there was one.
   [[nodiscard]] bool had(const Triangle& corners) const;
-  void add(const BentSegment& segment);
+  void add(const BentSegment& segment, bool is_idle = false);
   /// Takes out the segment of this origin. Returns whether there was one.
   [[nodiscard]] bool had(const Segment& ends, Index origin) const;
   /// Takes out what lives, for its parts to be added: it comes back, bent by some more.
@@ -72,9 +73,12 @@ class BentSurface {
  private:
   struct SideNote {
     AtSide at;
-    bool is_there = false;  // nobody forgot it
+    bool is_there = false;   // nobody forgot it
+    bool is_queued = false;  // since then
   };
-  AtSide& note(const Side& side);
+  using Waiting = std::pair<double, Side>;  // a side and its length
+  AtSide& note(const Side& side, bool is_idle);
+  void wake_sides(const Triangle& corners);
 
   const std::vector<Point>& vertices_;
   std::vector<BentFacet> facets_;
@@ -85,9 +89,12 @@ class BentSurface {
   arrange::IndexTable<3> ends_;      // the numbers of ends, ascending, and an origin
   std::vector<Index> segment_with_;  // by their numbers, the last that had them
   arrange::IndexTable<2> side_numbers_;
-  std::vector<SideNote> at_side_;                       // by their numbers
-  std::priority_queue<std::pair<double, Side>> sides_;  // to look at, by their lengths
-  std::vector<Index> whole_;                            // facets to look at
+  std::vector<SideNote> at_side_;  // by their numbers
+  // Sides to look at: most are there before the first one is looked at, so a sorted list holds these.
+  std::vector<Waiting> first_sides_;
+  std::priority_queue<Waiting> sides_;
+  std::optional<Waiting> least_;  // of those that were looked at
+  std::vector<Index> whole_;      // facets to look at
   double most_ = 0;
 };
 

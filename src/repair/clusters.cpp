@@ -5,9 +5,11 @@
 #include <map>
 #include <set>
 
-#include "exact/predicates.h"
 #include "mesh/disjoint_sets.h"
+#include "repair/flat_fans.h"
+#include "repair/projection.h"
 #include "surface/aabb_tree.h"
+#include "surface/node_groups.h"
 
 namespace holdfast::repairing {
 namespace {
@@ -25,21 +27,6 @@ struct Planes {
     }
   }
 };
-
-/// The coordinate axis closest to the normal.
-unsigned axis_of(const Vector& n) {
-  unsigned axis = 0;
-  for (unsigned k = 1; k < 3; ++k)
-    if (std::fabs(n[k]) > std::fabs(n[axis])) axis = k;
-  return axis;
-}
-
-/// The sign of the area of a triangle in the projection along an axis.
-int turn_of(const Point& a, const Point& b, const Point& c, unsigned axis) {
-  const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
-  const std::array<double, 2> p{a[x], a[y]}, q{b[x], b[y]}, r{c[x], c[y]};
-  return exact::orient2d(p.data(), q.data(), r.data());
-}
 
 /// Whether two facets share area in the projection along an axis. If not, a side of one of them separates it
 /// from the other.
@@ -158,10 +145,17 @@ Clusters find_clusters(const State& state, double gap, std::span<const Index> so
   };
   DisjointSets sets(state.facets.size());
   std::set<Index> together;
-  AabbTree(boxes).for_each_overlap(
+  std::vector<std::uint8_t> axis;
+  axis.reserve(facet.size());
+  for (const Index f : facet) axis.push_back(static_cast<std::uint8_t>(axis_of(planes.normal[f])));
+  const FlatFans fans(state, facet, axis);
+  const AabbTree tree(boxes, fans.first());
+  NodeGroups in_fans(tree, fans.of());
+  tree.for_each_overlap(
       [&](Index i, Index j) {
         const Index f = facet[i], g = facet[j];
         if (is_some[f] + is_some[g] == 0) return true;
+        if (!fans.of().empty() && NodeGroups::share_any(fans.of()[i], fans.of()[j])) return true;
         if (sets.root(f) != sets.root(g) && share_area(f, g)) {
           sets.unite(f, g);
           together.insert(f);
@@ -169,7 +163,7 @@ Clusters find_clusters(const State& state, double gap, std::span<const Index> so
         }
         return true;
       },
-      [](Index, Index) { return false; }, step);
+      [&](Index a, Index b) { return in_fans.share(a, b); }, step);
   std::map<Index, Cluster> by_first;
   for (const Index f : together) by_first[sets.root(f)].facets.push_back(f);
   Clusters found;

@@ -34,6 +34,18 @@ Nearness beside_facet(const Point& p, const Point& a, const Point& b, const Poin
   return near;
 }
 
+FarFromFacet::FarFromFacet(const Point& a, const Point& b, const Point& c, double distance) : origin_(a) {
+  const Vector u = minus(b, a), v = minus(c, a), normal = cross(u, v);
+  const double extent = length(u) + length(v), size = length(u) * length(v);
+  const auto beyond = [&](const Vector& n, const Vector& at, double magnitude) {
+    const double error = 0x1p-45 * magnitude;
+    return Plane{n, dot(n, at) + 2 * distance * length(n) + error * extent, error};
+  };
+  planes_ = {beyond(normal, {}, size), beyond(minus({}, normal), {}, size),
+             beyond(cross(u, normal), {}, size * extent), beyond(cross(normal, v), {}, size * extent),
+             beyond(cross(minus(v, u), normal), u, size * extent)};
+}
+
 Passing pass(const Point& a, const Point& b, const Point& c, const Point& d) {
   const Vector u = minus(b, a), v = minus(d, c), w = minus(c, a);
   const double long_u = length(u), long_v = length(v);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -43,6 +44,33 @@ struct Nearness {
 [[nodiscard]] Nearness beside_side(const Point& p, const Point& a, const Point& b);
 /// Beside the inside of the facet abc.
 [[nodiscard]] Nearness beside_facet(const Point& p, const Point& a, const Point& b, const Point& c);
+
+/// Tells points that are surely farther than a distance from a facet, in a few products: they are farther
+/// from its plane, or from the facet across one of its sides. The margins are several times the rounding
+/// errors, for slivers, too.
+class FarFromFacet {
+ public:
+  FarFromFacet(const Point& a, const Point& b, const Point& c, double distance);
+
+  [[nodiscard]] bool operator()(const Point& p) const {
+    const Vector w = minus(p, origin_);
+    const double size = std::fabs(w[0]) + std::fabs(w[1]) + std::fabs(w[2]);
+    return std::any_of(planes_.begin(), planes_.end(), [&](const Plane& plane) {
+      return dot(w, plane.normal) > plane.least + plane.error * size;
+    });
+  }
+
+ private:
+  /// Points w beyond it have a product with the normal of more than `least`, with an error of `error` times
+  /// the size of w.
+  struct Plane {
+    Vector normal;
+    double least, error;
+  };
+
+  Point origin_;
+  std::array<Plane, 5> planes_;
+};
 
 /// The nearest points of two sides, if they are inside both; an infinite distance otherwise.
 struct Passing {

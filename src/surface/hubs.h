@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "surface/aabb_tree.h"
@@ -24,6 +25,8 @@ class Hubs {
   [[nodiscard]] const std::vector<Hub>& all() const { return hubs_; }
   /// The hubs (indices of `all`) among an element's corners; unused places hold `no_index`.
   [[nodiscard]] const std::array<Index, 3>& of(Index element) const { return of_[element]; }
+  /// The same of all elements; empty if there is no hub.
+  [[nodiscard]] std::span<const std::array<Index, 3>> of() const { return of_; }
   /// The least hub that two elements share, or `no_index`.
   [[nodiscard]] Index shared(Index a, Index b) const;
   /// For each element, its hub with the most elements, or `no_index`: this groups the elements in fans.

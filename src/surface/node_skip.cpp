@@ -12,20 +12,12 @@ NodeSkip::NodeSkip(const Complex& complex, const Elements& elements, std::span<c
       elements_(elements),
       known_(known),
       done_(done),
-      hubs_(hubs),
       tree_(tree),
       frame_(all),
       patience_(patience),
-      common_(hubs.all().empty() ? 0 : tree.nodes()),
+      common_hubs_(tree, hubs.of()),
       all_known_(known.empty() ? 0 : tree.nodes()),
       all_done_(done.empty() ? 0 : tree.nodes()) {}
-
-bool NodeSkip::share_hub(const HubSet& a, const HubSet& b) {
-  for (const Index hub : a) {
-    if (hub != no_index && std::find(b.begin(), b.end(), hub) != b.end()) return true;
-  }
-  return false;
-}
 
 bool NodeSkip::is_all_known(Index node) const {
   const auto items = tree_.items(node);
@@ -37,21 +29,6 @@ bool NodeSkip::is_all_done(Index node) const {
   const auto items = tree_.items(node);
   return std::all_of(items.begin(), items.end(),
                      [&](const AabbTree::Item& item) { return done_[item.id] != no_index; });
-}
-
-NodeSkip::HubSet NodeSkip::find_common_hubs(Index node) const {
-  const auto items = tree_.items(node);
-  HubSet common = hubs_.of(items[0].id);
-  for (const AabbTree::Item& item : items) {
-    const HubSet& hubs = hubs_.of(item.id);
-    bool none = true;
-    for (Index& hub : common) {
-      if (std::find(hubs.begin(), hubs.end(), hub) == hubs.end()) hub = no_index;
-      none = none && hub == no_index;
-    }
-    if (none) break;
-  }
-  return common;
 }
 
 OrientedBox NodeSkip::box_round(Index node) {

@@ -11,6 +11,7 @@
 #include "surface/complex.h"
 #include "surface/elements.h"
 #include "surface/hubs.h"
+#include "surface/node_groups.h"
 #include "surface/oriented_box.h"
 
 namespace holdfast {
@@ -29,7 +30,7 @@ class NodeSkip {
   bool operator()(Index a, Index b) {
     if (!known_.empty() && is_known(a) && is_known(b)) return true;
     if (!done_.empty() && is_done(a) && is_done(b)) return true;
-    if (!common_.empty() && share_hub(common_hubs(a), common_hubs(b))) return true;
+    if (common_hubs_.share(a, b)) return true;
     if (a == b || ++tests_ <= patience_) return false;
     boxes_.resize(tree_.nodes());
     return surely_apart(oriented(a), oriented(b));
@@ -39,8 +40,6 @@ class NodeSkip {
   void count_pair() { ++tests_; }
 
  private:
-  using HubSet = std::array<Index, 3>;
-
   bool is_known(Index node) {
     std::optional<bool>& all = all_known_[node];
     if (!all) all = is_all_known(node);
@@ -51,32 +50,24 @@ class NodeSkip {
     if (!all) all = is_all_done(node);
     return *all;
   }
-  const HubSet& common_hubs(Index node) {
-    std::optional<HubSet>& common = common_[node];
-    if (!common) common = find_common_hubs(node);
-    return *common;
-  }
   const OrientedBox& oriented(Index node) {
     std::optional<OrientedBox>& box = boxes_[node];
     if (!box) box = box_round(node);
     return *box;
   }
 
-  static bool share_hub(const HubSet& a, const HubSet& b);
   [[nodiscard]] bool is_all_known(Index node) const;
   [[nodiscard]] bool is_all_done(Index node) const;
-  [[nodiscard]] HubSet find_common_hubs(Index node) const;
   [[nodiscard]] OrientedBox box_round(Index node);
 
   const Complex& complex_;
   const Elements& elements_;
   const std::span<const std::uint8_t> known_;
   const std::span<const Index> done_;
-  const Hubs& hubs_;
   const AabbTree& tree_;
   UnitFrame frame_;
   std::size_t patience_, tests_ = 0;
-  std::vector<std::optional<HubSet>> common_;
+  NodeGroups common_hubs_;
   std::vector<std::optional<bool>> all_known_, all_done_;
   std::vector<std::optional<OrientedBox>> boxes_;
   std::vector<std::array<Point, 3>> corners_;

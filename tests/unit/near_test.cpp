@@ -57,5 +57,43 @@ TEST(Near, TheDistanceFromASliverIsAsUncertainAsItIsTold) {
   EXPECT_GT(beyond_rounding, 10);
 }
 
+/// Facets of all shapes, down to slivers whose corners are a last bit beside a line; points on them, about as
+/// far away as is asked for, and anywhere.
+TEST(Near, FarFromFacetNeverTellsAPointThatIsNear) {
+  std::mt19937_64 random(11);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  const auto vector = [&](double size) {
+    return Point{between(-size, size), between(-size, size), between(-size, size)};
+  };
+  int near = 0, far = 0;
+  for (int trial = 0; trial < 200'000; ++trial) {
+    const double size = std::exp2(between(-60, 60)), width = size * std::exp2(between(-56, 0));
+    const double distance = size * std::exp2(between(-54, -2)), away = distance * std::exp2(between(-2, 6));
+    const Point a = vector(size), b = vector(size), aside = vector(width), off = vector(away);
+    const double along = between(-1, 2), s = between(-1, 2), t = between(-1, 2);
+    Point c{}, p{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      c[k] = a[k] + along * (b[k] - a[k]) + aside[k];
+      p[k] = a[k] + s * (b[k] - a[k]) + t * (c[k] - a[k]) + off[k];
+    }
+    const bool is_near = distance_to(p, a, b, c) <= distance;
+    const bool is_far = FarFromFacet(a, b, c, distance)(p);
+    EXPECT_FALSE(is_near && is_far);
+    near += is_near;
+    far += is_far;
+  }
+  EXPECT_GT(near, 10'000);
+  EXPECT_GT(far, 50'000);
+}
+
+TEST(Near, FarFromFacetTellsNothingOfAFacetWithoutAreaOrBeyondTheRangeOfProducts) {
+  const Point a{0, 0, 0}, b{1, 1, 1};
+  EXPECT_FALSE(FarFromFacet(a, a, a, 0.1)({0, 0, 0.05}));
+  EXPECT_FALSE(FarFromFacet(a, b, b, 0.1)({0.5, 0.5, 0.55}));
+  EXPECT_FALSE(FarFromFacet({1e200, 0, 0}, {0, 1e200, 0}, {0, 0, 1e200}, 1)({0, 0, 1e200}));
+}
+
 }  // namespace
 }  // namespace holdfast::repairing
