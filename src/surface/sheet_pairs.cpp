@@ -13,6 +13,7 @@
 namespace holdfast {
 namespace {
 
+constexpr std::size_t kMostVisits = 64;  // of pairs of sheets, an element
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double product(const Point& n, const Point& p) { return n[0] * p[0] + n[1] * p[1] + n[2] * p[2]; }
@@ -48,18 +49,43 @@ SheetPairs::SheetPairs(const Complex& complex, const Elements& elements, std::sp
 }
 
 void SheetPairs::list_pairs(std::size_t most) {
+  if (parts_.empty()) return;
   std::vector<Box> boxes;
   for (const Part& part : parts_) boxes.push_back(part.box);
+  Box all = boxes[0];
+  for (const Box& box : boxes) all.extend(box);
+  const std::vector<OrientedBox> oriented = oriented_boxes(all);
+  std::size_t visited = 0;
   AabbTree(boxes).for_each_overlap(
       [&](Index p, Index q) {
         const Part &a = parts_[p], &b = parts_[q];
-        if (a.sheet != b.sheet && !(a.is_known && b.is_known))
-          pairs_.push_back({std::min(p, q), std::max(p, q)});
-        too_many_ = pairs_.size() > most;
+        if (a.sheet == b.sheet || (a.is_known && b.is_known)) return true;
+        ++visited;
+        if (!surely_apart(oriented[p], oriented[q])) pairs_.push_back({std::min(p, q), std::max(p, q)});
+        too_many_ = pairs_.size() > most || visited > kMostVisits * most;
         return !too_many_;
       },
       [](Index, Index) { return false; }, [](double) {});
   std::sort(pairs_.begin(), pairs_.end());
+}
+
+/// A box round each part, in the frame of a box round all.
+std::vector<OrientedBox> SheetPairs::oriented_boxes(const Box& all) const {
+  const UnitFrame frame(all);
+  std::vector<OrientedBox> boxes;
+  boxes.reserve(parts_.size());
+  std::vector<std::array<Point, 3>> corners;
+  for (const Part& part : parts_) {
+    corners.clear();
+    for (const Index e : part.facets) {
+      const auto at = [&](std::size_t i) {
+        return frame(complex_.vertices[elements_.all[e].vertex[i]].data());
+      };
+      corners.push_back({at(0), at(1), at(2)});
+    }
+    boxes.push_back(oriented_box(corners));
+  }
+  return boxes;
 }
 
 void SheetPairs::divide(std::span<const Index> sheet, std::span<const std::uint8_t> known) {

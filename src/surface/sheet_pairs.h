@@ -33,6 +33,7 @@
 #include "mesh/parallel.h"
 #include "surface/aabb_tree.h"
 #include "surface/elements.h"
+#include "surface/oriented_box.h"
 
 namespace holdfast {
 
@@ -43,10 +44,11 @@ class SheetPairs {
   SheetPairs(const Complex& complex, const Elements& elements, std::span<const Index> sheet,
              std::span<const std::uint8_t> known, const Threads& threads);
 
-  /// Whether there are more overlaps of boxes of sheets than elements, as for needles side by side. Then
+  /// Whether more sheets are near each other than there are elements. Then
   /// nothing is prepared.
   [[nodiscard]] bool are_too_many() const { return too_many_; }
-  /// Pairs of parts of different sheets whose boxes overlap, except for parts that are wholly known.
+  /// Pairs of parts of different sheets whose boxes overlap, oriented ones too, except for parts that are
+  /// wholly known.
   [[nodiscard]] const std::vector<std::array<Index, 2>>& all() const { return pairs_; }
 
   /// Visits pairs of facets of two parts, as indices of Elements::all, that may meet in more than a common
@@ -97,6 +99,7 @@ class SheetPairs {
   void divide(std::span<const Index> sheet, std::span<const std::uint8_t> known);
   [[nodiscard]] bool is_round_origin(const Triangle& facet) const;
   void list_pairs(std::size_t most);
+  [[nodiscard]] std::vector<OrientedBox> oriented_boxes(const Box& all) const;
   void measure(Part& part) const;
   [[nodiscard]] static bool is_beyond(const Box& box, const Part& plane);
   [[nodiscard]] static Touching touching(const Part& part, const Part& plane, const Box& box);

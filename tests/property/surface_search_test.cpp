@@ -335,6 +335,29 @@ TEST(SheetPairs, LoseNoPairThatMeets) {
   EXPECT_LT(visited, boxes * 9 / 10) << "planes tell some apart that boxes do not";
 }
 
+// The boxes of long strips that lie side by side across all axes overlap, strips do not.
+TEST(SheetPairs, StripsSideBySideAreNoPairs) {
+  constexpr Index kStrips = 60;
+  Surface s;
+  std::vector<Index> sheet;
+  for (Index k = 0; k < kStrips; ++k) {
+    const auto first = static_cast<Index>(s.vertices.size());
+    for (int i = 0; i < 4; ++i) {
+      const double across = 4e-3 * k + 5e-4 * (i % 2), along = i / 2;
+      s.vertices.push_back({along + across, along - across, along});
+    }
+    for (const Triangle& t : {Triangle{0, 1, 2}, Triangle{1, 3, 2}}) {
+      s.facets.push_back({first + t[0], first + t[1], first + t[2]});
+      sheet.push_back(k);
+    }
+  }
+  const Complex complex = s.view();
+  const Elements elements = elements_of(complex);
+  const SheetPairs sheets(complex, elements, sheet, {}, 1);
+  EXPECT_FALSE(sheets.are_too_many());
+  EXPECT_TRUE(sheets.all().empty());
+}
+
 // Facets on planes through one line, at vertices on that; planes may be nearly the same, facets nearly flat,
 // and some corners beside their plane by what rounding does, or by more.
 Surface sheets_at_a_line(Random& random, bool are_flat, std::vector<Index>& sheet) {
