@@ -101,14 +101,12 @@ class Restoring {
   /// Picks at most one change a vertex, so that no two have a facet in common, and makes those that fit.
   /// False if none is left to try.
   bool take_round() {
-    std::vector<Box> boxes;
-    for (const Triangle& t : state_.facets) boxes.push_back(box_round(state_, t, 0));
-    const AabbTree tree(boxes);
+    const std::vector<std::vector<Index>> near = facets_near_lost();
     std::vector<Change> changes;
     std::vector<std::uint8_t> is_used(state_.facets.size(), 0);
     bool any = false;
-    for (Lost& lost : lost_) {
-      std::optional<Change> change = next_change(lost, tree);
+    for (std::size_t k = 0; k < lost_.size(); ++k) {
+      std::optional<Change> change = next_change(lost_[k], near[k]);
       if (!change) continue;
       any = true;
       if (std::any_of(change->facets.begin(), change->facets.end(), [&](Index f) { return is_used[f] != 0; }))
@@ -120,6 +118,31 @@ class Restoring {
     return any;
   }
 
+  /// The distance within which facets may be changed for a lost vertex.
+  [[nodiscard]] double reach(const Lost& lost) const {
+    constexpr double kWider = 2;
+    return kWider * length(minus(before_[lost.vertex], at(lost.vertex)));
+  }
+
+  /// For each lost vertex the facets within its reach, ascending. A tree of the few vertices is built sooner
+  /// than one of all facets.
+  [[nodiscard]] std::vector<std::vector<Index>> facets_near_lost() const {
+    std::vector<Box> boxes;
+    for (const Lost& lost : lost_) {
+      const Point& p = before_[lost.vertex];
+      const double far = reach(lost);
+      boxes.push_back({{p[0] - far, p[1] - far, p[2] - far}, {p[0] + far, p[1] + far, p[2] + far}});
+    }
+    const AabbTree tree(boxes);
+    std::vector<std::vector<Index>> near(lost_.size());
+    for (Index f = 0; f < state_.facets.size(); ++f) {
+      const Box box = box_round(state_, state_.facets[f], 0);
+      tree.for_each_item([&](const Box& other) { return !box.overlaps(other); },
+                         [&](const AabbTree::Item& item) { near[item.id].push_back(f); });
+    }
+    return near;
+  }
+
   [[nodiscard]] static std::vector<Index> key_of(const Change& change) {
     std::vector<Index> key;
     for (const Change::Part& part : change.parts)
@@ -127,26 +150,15 @@ class Restoring {
     return key;
   }
 
-  std::optional<Change> next_change(const Lost& lost, const AabbTree& tree) const {
-    for (Change& change : changes_for(lost, tree))
+  std::optional<Change> next_change(const Lost& lost, std::span<const Index> near) const {
+    for (Change& change : changes_for(lost, near))
       if (lost.tried.count(key_of(change)) == 0) return std::move(change);
     return std::nullopt;
   }
 
   /// The nearest comes first.
-  [[nodiscard]] std::vector<Change> changes_for(const Lost& lost, const AabbTree& tree) const {
-    const Point& p = before_[lost.vertex];
-    constexpr double kWider = 2;
-    const double far = kWider * length(minus(p, at(lost.vertex)));
-    Box box{p, p};
-    for (std::size_t k = 0; k < 3; ++k) {
-      box.low[k] -= far;
-      box.high[k] += far;
-    }
-    std::vector<Index> near;
-    tree.for_each_item([&](const Box& other) { return !box.overlaps(other); },
-                       [&](const AabbTree::Item& item) { near.push_back(item.id); });
-    std::sort(near.begin(), near.end());
+  [[nodiscard]] std::vector<Change> changes_for(const Lost& lost, std::span<const Index> near) const {
+    const double far = reach(lost);
     std::vector<Change> changes;
     for (const Index f : near)
       if (std::optional<Change> change = through_facet(lost.vertex, f); change && change->distance <= far)
