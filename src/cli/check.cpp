@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "check_folder.h"
@@ -80,6 +81,18 @@ int run_repaired(const CheckArguments& arguments) {
   return check_repaired_files(files, limits_of(arguments.limits), arguments.quiet);
 }
 
+/// Whether all that is broken is that something lies outside every tetrahedron.
+bool holds_but_outside(const Complex& surface, const Volume& volume, CheckOptions options,
+                       const CheckResult& result) {
+  const auto may_be_outside = [](const Rule& rule) {
+    return rule.holds || rule.kind == RuleKind::no_vertex_unused || rule.kind == RuleKind::nothing_dropped;
+  };
+  if (options.outside_dropped || !std::all_of(result.rules.begin(), result.rules.end(), may_be_outside))
+    return false;
+  options.outside_dropped = true;
+  return check(surface, volume, options).holds();
+}
+
 int check_files(const CheckArguments& arguments, const CheckOptions& options,
                 const std::vector<std::filesystem::path>& surfaces, const FilesOfRun& files) {
   const std::filesystem::path& volume_path = arguments.files.back();
@@ -94,6 +107,9 @@ int check_files(const CheckArguments& arguments, const CheckOptions& options,
   write_html(arguments, options, surface, volume, result);
   if (result.holds()) return exit_done;
   say("holdfast: {} does not keep the surface; the rules marked BROKEN say where\n", volume_path.string());
+  if (holds_but_outside(surface.view(), volume, options, result))
+    say("holdfast: it keeps all but what lies outside every tetrahedron, as meshes of --drop-outside and "
+        "--union do; --outside-dropped accepts that\n");
   return exit_check_failed;
 }
 

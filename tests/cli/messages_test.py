@@ -71,6 +71,17 @@ class DiagnoseAndMesh(CliTest):
             self.assertRegex(told, rf"^valid: .*; encloses {regions}\n")
             self.assertNotIn("outside", told)
 
+    def test_check_names_the_option_that_accepts_what_lies_outside(self):
+        self.write("wing.off", off(CUBE_POINTS + [(3, 0, 0), (3, 1, 0)], CUBE_FACETS + [(1, 8, 9)]))
+        self.run_program("mesh", "wing.off", "-o", "a.vtu", "--drop-outside")
+        said = self.run_program("check", "wing.off", "a.vtu", expect=6).stderr
+        self.assertIn("--outside-dropped accepts that", said)
+        self.run_program("check", "wing.off", "a.vtu", "--outside-dropped")
+        self.write("more.off", off(CUBE_POINTS + [(3, 0, 0), (3, 1, 0), (0.5, 0.4, 0.3)],
+                                   CUBE_FACETS + [(1, 8, 9), (0, 1, 10)]))
+        said = self.run_program("check", "more.off", "a.vtu", expect=6).stderr
+        self.assertNotIn("--outside-dropped", said)
+
     def test_what_does_not_suit_the_kept_regions_leaves_the_surface_valid(self):
         self.write("wing.off", off(CUBE_POINTS + [(3, 0, 0), (3, 1, 0)], CUBE_FACETS + [(1, 8, 9)]))
         said = self.run_program("mesh", "wing.off", "-o", "a.vtu", expect=4).stderr
