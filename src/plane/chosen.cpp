@@ -5,7 +5,7 @@
 namespace holdfast::plane {
 namespace {
 
-// Kept regions without a seed get the numbers, from 1, that no seed has.
+// Kept regions without a seed get the numbers from 1 on that no seed has.
 void number_regions(const Plane& plane, Chosen& chosen) {
   std::vector<int> taken;
   for (const Plane::Seed& seed : plane.regions) taken.push_back(seed.id);

@@ -12,18 +12,17 @@ Criteria::Criteria(const GrowingMesh& growing, const RefineOptions& options)
     : growing_(growing), keep_boundary_(options.keep_boundary) {
   constexpr double kDegree = 3.14159265358979323846 / 180;
   bound_ = options.angle > 0 ? numbers::cos(options.angle * kDegree) : 1;
-  // The height of the isosceles triangle with the bound as its least angle, over its base; a little less,
-  // so that rounding leaves the angle above the bound.
+  // The height over the base of the isosceles triangle whose least angle is the bound; a little less, so that
+  // rounding leaves the angle above the bound.
   const double half = options.angle * kDegree / 2;
   off_ = options.angle > 0 ? 0.475 * numbers::cos(half) / numbers::sin(half) : 0;
   const double size = growing.scale().length_down(options.size);
-  // A square below the range of doubles would be 0, which is no size.
+  // A square below the range of doubles would round to 0, which means no limit.
   size2_ = options.size > 0 ? std::max(size * size, std::numeric_limits<double>::min()) : 0;
   for (const double area : options.areas) areas_.push_back(area > 0 ? growing.scale().area_down(area) : 0);
 }
 
-// --- Constraints
-// --------------------------------------------------------------------------------------------
+// --- Constraints ---
 
 bool Criteria::must_cut(EdgeCode e) const {
   const Triangles& mesh = growing_.mesh();
@@ -52,8 +51,7 @@ bool Criteria::hurts(Vertex p, EdgeCode e, bool for_size) const {
   return cosine > bound_ && cosine > growing_.shape_of(triangle_of(e)).cosine;
 }
 
-// --- Triangles
-// ----------------------------------------------------------------------------------------------
+// --- Triangles ---
 
 bool Criteria::is_large(std::uint32_t t, const Shape& shape) const {
   const Triangles& mesh = growing_.mesh();
@@ -71,7 +69,7 @@ bool Criteria::is_thin_for_input(std::uint32_t t, const Shape& shape) const {
          growing_.segments().any_make_needle(growing_.mesh().from(e), growing_.mesh().to(e));
 }
 
-// Whether the least angle lies across from cuts at the same distance from a corner of the input, where two
+// Whether the least angle lies opposite two cuts at the same distance from a corner of the input where two
 // segments meet at less than 60 degrees, or at such a corner itself.
 bool Criteria::is_across(std::uint32_t t, const Shape& shape) const {
   const InputSegments& segments = growing_.segments();
@@ -82,20 +80,19 @@ bool Criteria::is_across(std::uint32_t t, const Shape& shape) const {
   const Vertex v = segments.common_corner(s, r);
   if (v == kNoVertex) return false;
   if (segments.make_needle(s, r)) return true;
-  // At 60 degrees or more the edge between them would not be the shortest.
+  // At 60 degrees or more the edge between them is not the shortest.
   const double p = std::sqrt(squared(growing_.at(v), growing_.at(a)));
   const double q = std::sqrt(squared(growing_.at(v), growing_.at(b)));
   return std::abs(p - q) <= kSame * std::max(p, q) && shape.edges[shape.shortest] < p * q;
 }
 
-// Whether the least angle lies between two constraints, so that no point makes it larger.
+// Whether the least angle lies between two constraints; then no point makes it larger.
 bool Criteria::is_between_constraints(std::uint32_t t, const Shape& shape) const {
   return growing_.mesh().constrained(code(t, (shape.shortest + 1) % 3)) &&
          growing_.mesh().constrained(code(t, (shape.shortest + 2) % 3));
 }
 
-// --- Places
-// -------------------------------------------------------------------------------------------------
+// --- Places ---
 
 Position Criteria::centre_of(std::uint32_t t) const {
   const std::array<Vertex, 3>& v = growing_.mesh()[t].v;
@@ -107,7 +104,7 @@ Position Criteria::off_centre(std::uint32_t t, const Shape& shape, const Positio
   const EdgeCode e = code(t, shape.shortest);
   const Position &a = growing_.from(e), &b = growing_.to(e);
   const Position m = middle(a, b);
-  // At a right angle to ab, to its left.
+  // Perpendicular to ab, on its left.
   const Position off{m[0] - off_ * (b[1] - a[1]), m[1] + off_ * (b[0] - a[0])};
   return squared(m, off) < squared(m, centre) || !std::isfinite(centre[0] + centre[1]) ? off : centre;
 }

@@ -11,40 +11,39 @@ class Criteria {
  public:
   Criteria(const GrowingMesh& growing, const RefineOptions& options);
 
-  // Constraints.
+  // --- Constraints
 
-  /// Whether a constraint is too long, or its diametral circle holds the corner opposite to it.
+  /// Whether a constraint is too long, or its diametral circle contains the opposite corner.
   [[nodiscard]] bool must_cut(EdgeCode e) const;
-  /// Whether a point at p would be the reason to cut constraint e; where the boundary is kept, whether it
-  /// would make a triangle there with an angle below the bound and below what stands there, or, for the sake
-  /// of a size, a flat one.
+  /// Whether a point at p would make constraint e need a cut. If the boundary is kept: whether it would make
+  /// a triangle there with an angle below the bound and below those present or, if `for_size`, a flat one.
   [[nodiscard]] bool hurts(Vertex p, EdgeCode e, bool for_size) const;
-  /// Points for the sake of a size keep a distance from all others, so that they are finitely many.
+  /// Points added for size keep a distance from all others, so their number is finite.
   [[nodiscard]] bool is_close(Vertex p, Vertex v) const {
     return squared(growing_.at(p), growing_.at(v)) < kClose * kClose * size2_;
   }
 
-  // Triangles.
+  // --- Triangles
 
-  /// Above a limit of size.
+  /// Whether the triangle exceeds a limit on size.
   [[nodiscard]] bool is_large(std::uint32_t t, const Shape& shape) const;
-  /// With an angle below the bound.
+  /// Whether an angle is below the bound.
   [[nodiscard]] bool is_thin(const Shape& shape) const { return shape.cosine > bound_; }
-  /// Thin because of the input, so that no point helps.
+  /// Whether the input forces the small angle, so that no point helps.
   [[nodiscard]] bool is_left_thin(std::uint32_t t, const Shape& shape) const {
     return is_across(t, shape) || (keep_boundary_ && is_between_constraints(t, shape));
   }
-  /// The same at the end of the run, where an end of the shortest edge may be a corner of the input, too.
+  /// The same at the end of the run, when an end of the shortest edge may also be a corner of the input.
   [[nodiscard]] bool is_thin_for_input(std::uint32_t t, const Shape& shape) const;
 
-  // Places.
+  // --- Places
 
   [[nodiscard]] bool has_size() const { return size2_ > 0; }
   [[nodiscard]] Position centre_of(std::uint32_t t) const;
-  /// The point on the line from the middle of the shortest edge to the centre from which that edge is seen at
-  /// the bound, where it is nearer than the centre (Ungor).
+  /// The point from which the shortest edge is seen under the bound, on the line from the middle of that edge
+  /// to the circumcentre, if it is nearer than the circumcentre (Ungor).
   [[nodiscard]] Position off_centre(std::uint32_t t, const Shape& shape, const Position& centre) const;
-  /// Of the edges that are no constraints.
+  /// The middle of the longest edge that is no constraint.
   [[nodiscard]] Position middle_of_longest(std::uint32_t t, const Shape& shape) const;
 
  private:
@@ -55,13 +54,13 @@ class Criteria {
   [[nodiscard]] bool is_across(std::uint32_t t, const Shape& shape) const;
   [[nodiscard]] bool is_between_constraints(std::uint32_t t, const Shape& shape) const;
 
-  static constexpr double kClose = 0.4;     // of the size, that points keep from others and from constraints
-  static constexpr double kSame = 0x1p-10;  // between distances that are the same but for rounding
+  static constexpr double kClose = 0.4;  // of the size: the least distance from other points and constraints
+  static constexpr double kSame = 0x1p-10;  // relative: distances that differ by rounding alone
 
   const GrowingMesh& growing_;
   double bound_;  // cosine of the least angle
-  double off_;    // height of an off-centre, over the length of the edge below
-  double size2_;  // square of the most that an edge may measure, or 0
+  double off_;    // height of an off-centre over the length of its edge
+  double size2_;  // square of the longest edge allowed, or 0
   std::vector<double> areas_;
   bool keep_boundary_;
 };

@@ -1,5 +1,5 @@
-// Finds what makes points and segments in the plane invalid: flaws of single entities, then of pairs, which a
-// tree of boxes finds.
+// Finds what makes points and segments in the plane invalid: first defects of single entities, then of pairs,
+// found by a tree of boxes.
 #include "plane/defects.h"
 
 #include <algorithm>
@@ -170,7 +170,7 @@ class Diagnosis {
     return BoxTree(std::move(boxes));
   }
 
-  // There may be quadratically many pairs; no more are searched for than are reported.
+  // There may be quadratically many pairs; the search ends at the most that is reported.
 
   void find_points_in_segments(const BoxTree& tree) {
     for (Index v = 0; v < plane_.points.size() && !is_full(DefectKind::vertex_in_segment); ++v) {
@@ -210,7 +210,7 @@ class Diagnosis {
     return found != count_.end() && found->second >= most_;
   }
 
-  // Finds holes and seeds of regions on segments: there they lie in no region.
+  // A hole or seed on a segment lies in no region.
   void find_places_on_segments(const BoxTree& tree) {
     for (std::size_t i = 0; i < plane_.holes.size(); ++i)
       judge_place(tree, plane_.holes[i], "hole " + number(i), "that it shall empty");
@@ -277,8 +277,8 @@ class Diagnosis {
   const Poll& poll_;
   Points points_;
   std::vector<bool> finite_;
-  std::vector<Index> place_;  // of points, the first at the same place
-  std::vector<Index> sound_;  // segments that may be one of a pair
+  std::vector<Index> place_;  // by point, the first point at the same place
+  std::vector<Index> sound_;  // segments that can be part of a defective pair
   std::map<DefectKind, std::size_t> count_;
   std::vector<Defect> defects_;
 };

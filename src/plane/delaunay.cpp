@@ -15,7 +15,7 @@ void Inserter::begin(Vertex a, Vertex b, Vertex c) {
   all.push_back({{kNoVertex, a, c}, {}});
   all.push_back({{kNoVertex, b, a}, {}});
   for (std::uint32_t i = 0; i < 3; ++i) mesh_.join(code(0, i), code(i + 1, 0));
-  // Ghost i + 1 is (infinity, end, begin of edge i): it shares its edge 1 with the ghost of the previous
+  // Ghost i + 1 is (infinity, end, begin of edge i); its edge 1 is shared with the ghost of the previous
   // edge.
   mesh_.join(code(1, 1), code(3, 2));
   mesh_.join(code(2, 1), code(1, 2));
@@ -23,8 +23,8 @@ void Inserter::begin(Vertex a, Vertex b, Vertex c) {
   last_ = 0;
 }
 
-/// The visibility walk, which ends in Delaunay triangulations (Edelsbrunner 1990). Returns a triangle that
-/// holds p, or a ghost whose hull edge has p strictly in front.
+/// The visibility walk, which terminates in Delaunay triangulations (Edelsbrunner 1990). Returns a triangle
+/// that contains p, or a ghost whose hull edge has p strictly in front.
 std::uint32_t Inserter::locate(Vertex p) {
   std::uint32_t t = last_;
   EdgeCode came_from = kNoEdge;
@@ -64,7 +64,7 @@ bool Inserter::in_conflict(std::uint32_t t, Vertex p) const {
   return points_.incircle(v[0], v[1], v[2], p) > 0;
 }
 
-/// Depth first, with each triangle's sides counterclockwise, so that the border is found in order.
+/// Depth first, with each triangle's sides counterclockwise; this yields the border in order.
 void Inserter::find_cavity(std::uint32_t first, Vertex p) {
   cavity_.assign(1, first);
   border_.clear();
@@ -87,7 +87,7 @@ void Inserter::find_cavity(std::uint32_t first, Vertex p) {
   }
 }
 
-/// Joins p to every side of the border; this adds two triangles.
+/// Joins p to every side of the border, which adds two triangles.
 void Inserter::fill_cavity(Vertex p) {
   LargeVector<Corners>& all = mesh_.all();
   while (cavity_.size() < border_.size()) {
@@ -118,7 +118,8 @@ bool Inserter::insert(Vertex p) {
 std::optional<Triangles> delaunay(const Points& points, const Poll& poll) {
   const std::size_t n = points.size();
   Triangles mesh;
-  // The first triangle: the first point, the next one elsewhere, and the first that is not on their line.
+  // The first triangle takes the first point, the next one, and the first point that is not collinear with
+  // them.
   Vertex third = 2;
   while (third < n && points.orient(0, 1, third) == 0) ++third;
   if (n > 1 && points.compare(0, 1) == 0) return std::nullopt;

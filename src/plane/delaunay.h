@@ -7,8 +7,8 @@
 
 namespace holdfast::plane {
 
-/// The Delaunay triangles of all points, closed by ghosts, by insertion in their own order; empty where they
-/// lie on one line. Nothing where two points are at one place.
+/// The Delaunay triangles of all points, closed by ghosts, by insertion in the order of the points; empty if
+/// they are collinear. Returns nullopt if two points coincide.
 [[nodiscard]] std::optional<Triangles> delaunay(const Points& points, const Poll& poll);
 
 /// A closed triangulation to which points are added one by one (Bowyer 1981, Watson 1981).
@@ -16,9 +16,10 @@ class Inserter {
  public:
   Inserter(Triangles& mesh, const Points& points) : mesh_(mesh), points_(points) {}
 
-  /// The triangle abc and its three ghosts.
+  /// Starts with the triangle abc and its three ghosts.
   void begin(Vertex a, Vertex b, Vertex c);
-  /// Inserts a vertex so that the triangulation is Delaunay again. False where another one is at its place.
+  /// Inserts a vertex so that the triangulation is Delaunay again. Returns false if another vertex has its
+  /// place.
   bool insert(Vertex p);
 
  private:
@@ -36,7 +37,7 @@ class Inserter {
   };
   std::vector<std::uint32_t> cavity_;
   std::vector<Side> border_;       // counterclockwise
-  std::vector<EdgeCode> pending_;  // edges whose other side is to be looked at, the next one last
+  std::vector<EdgeCode> pending_;  // edges whose other side is still to be tested, the next one last
 };
 
 }  // namespace holdfast::plane

@@ -13,7 +13,7 @@ struct Draft {
   Triangles mesh;
   std::vector<Vertex> order = {};  ///< of each point of the input its number there, if it is not the same
 
-  /// The number of a point in the input; of one that is added, behind these.
+  /// The number of a point in the input; added points come after these.
   [[nodiscard]] Vertex number(Vertex v) const { return v < order.size() ? order[v] : v; }
 };
 

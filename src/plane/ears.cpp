@@ -1,11 +1,11 @@
 // Triangles of a polygon by cutting off its corners.
 //
-// Corners are those of a closed walk round a face; several may lie at one vertex. Corner b with a before and
-// c behind it is an ear if abc is positive and holds no vertex of the walk but a, b and c, on its sides
-// neither: no edge can then enter it, as an edge that enters by ac would have to leave by ac. It is enough to
-// ask corners that are reflex or straight. For of the vertices in abc, the one furthest from ac has nothing
-// of the walk beyond it, and so its corner on that side is of 180 degrees or more. Vertices are numbered from
-// left to right, so that a set of them tells which may lie between the ends of a triangle.
+// Corners belong to a closed walk round a face; several may lie at one vertex. Corner b, between corners a
+// and c, is an ear if abc is positive and contains no vertex of the walk but a, b and c, not even on its
+// sides: then no edge can enter it, because an edge that enters through ac would have to leave through ac.
+// Only corners that are reflex or straight need testing: nothing of the walk lies beyond the vertex in abc
+// that is furthest from ac, so its corner on that side has 180 degrees or more. Vertices are numbered from
+// left to right, so a set of them shows which may lie between the ends of a triangle.
 #include "plane/ears.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 using Corner = std::uint32_t;
 constexpr Corner kNone = ~Corner{0};
 
-/// Of corner i to the one behind it: the edge of a triangle on its outside, or a side of the walk.
+/// What lies outside the side from corner i to the next: the edge of a triangle, or a side of the walk.
 class Beyond {
  public:
   [[nodiscard]] static Beyond triangle(EdgeCode e) { return Beyond(e, false); }
@@ -52,11 +52,11 @@ class Clipper {
   struct Place {
     Vertex v;
     Corner before, behind;
-    Beyond beyond;  // of the side to the corner behind
+    Beyond beyond;  // outside the side to the next corner
     bool reflex = false, removed = false, queued = false;
-    std::uint32_t waiting = kNone;  // first of a list of corners of which this one is the witness
-    Corner witness = kNone;         // in the triangle that the corner made when it was last looked for
-    std::uint32_t item = kNone;     // in the tree, of the first reflex corner at a vertex
+    std::uint32_t waiting = kNone;  // first in the list of corners that have this one as witness
+    Corner witness = kNone;         // a corner in this corner's triangle when it was last examined
+    std::uint32_t item = kNone;     // in the tree, for the first reflex corner at a vertex
     Corner twin = kNone;            // another corner at the vertex that is or was reflex
   };
   struct Waiting {
@@ -91,7 +91,7 @@ class Clipper {
         for (const Corner i : {a, b, c}) remove(i);
         continue;
       }
-      // With other neighbours, too, corner b waits for its witness.
+      // Even with new neighbours, corner b waits for its witness.
       if (const Corner witness = corners_[b].witness; witness != kNone && blocks(witness, a, b, c)) continue;
       const std::optional<Corner> found = blocker(a, b, c);
       if (!found) {
@@ -104,7 +104,7 @@ class Clipper {
       } else if (choice_ == PlaneEars::join) {
         join(a, b, c);
       } else {
-        // Not before the witness is cut off, or convex, can this corner be an ear with these neighbours.
+        // With these neighbours the corner is no ear until the witness is cut off or becomes convex.
         corners_[b].witness = witness;
         waiting_.push_back({b, corners_[witness].waiting});
         corners_[witness].waiting = static_cast<std::uint32_t>(waiting_.size() - 1);
@@ -121,7 +121,7 @@ class Clipper {
 
   // --- Which corner comes next -------------------------------------------------------------------------
 
-  /// The least height of a corner's triangle over its longest side, roughly.
+  /// The least height of a corner's triangle over its longest side, approximately.
   [[nodiscard]] double quality(Corner i) const {
     const Place& p = corners_[i];
     const Position &a = points_[corners_[p.before].v], &b = points_[p.v], &c = points_[corners_[p.behind].v];
@@ -134,7 +134,7 @@ class Clipper {
     const double squares = part(ux) * part(ux) + part(uy) * part(uy) + part(vx) * part(vx) +
                            part(vy) * part(vy) + part(wx) * part(wx) + part(wy) * part(wy);
     const double q = area / squares;
-    return q > 0 ? q : 0;  // also where the doubles tell nothing
+    return q > 0 ? q : 0;  // also if the result is NaN
   }
 
   struct Candidate {
@@ -157,8 +157,8 @@ class Clipper {
     }
   }
 
-  /// The best, or the one that has waited longest: those with new neighbours come behind the others, so that
-  /// corners are cut off all round, and triangles stay small as long as they can.
+  /// The best corner, or the one that has waited longest: corners with new neighbours join the end of the
+  /// queue, so that corners are cut off all round and triangles stay small for long.
   Corner take() {
     if (choice_ != PlaneEars::best) {
       may_wait_ = next_ < queue_.size();
@@ -171,13 +171,13 @@ class Clipper {
       std::pop_heap(candidates_.begin(), candidates_.end());
       const Candidate candidate = candidates_.back();
       candidates_.pop_back();
-      // With other neighbours by now, it comes again.
+      // If its neighbours have changed, the corner has a newer entry.
       if (candidate.quality == quality(candidate.corner)) return candidate.corner;
     }
     return kNone;
   }
 
-  /// Until the first queue is empty.
+  /// The corner waits until the first queue is empty.
   void postpone(Corner b) {
     corners_[b].queued = true;
     late_queue_.push_back(b);
@@ -201,7 +201,7 @@ class Clipper {
     reflex_.insert(v);
   }
 
-  /// Called for a reflex corner that is removed or no longer reflex: the vertex may have another one.
+  /// Called for a reflex corner that is removed or becomes convex; the vertex may have another one.
   void take_out(Corner i) {
     const Vertex v = corners_[i].v;
     for (Corner j = first_at_[v]; j != kNone; j = corners_[j].twin)
@@ -222,7 +222,7 @@ class Clipper {
     return *tree_;
   }
 
-  /// Whether the vertex lies in the triangle, but not at a vertex of it.
+  /// Whether the vertex lies in the closed triangle but is not one of its corners.
   [[nodiscard]] bool is_inside(Vertex v, Vertex a, Vertex b, Vertex c) const {
     return v != a && v != b && v != c && points_.orient(c, a, v) >= 0 && points_.orient(a, b, v) >= 0 &&
            points_.orient(b, c, v) >= 0;
@@ -231,7 +231,7 @@ class Clipper {
     return stands_reflex(i) && is_inside(corners_[i].v, corners_[a].v, corners_[b].v, corners_[c].v);
   }
 
-  /// Calls `visit` for reflex corners at a vertex, if it lies in the triangle, until it returns false.
+  /// Calls `visit` for the reflex corners at a vertex in the triangle until it returns false.
   template <typename Visit>
   bool go_on_at(Vertex v, Vertex a, Vertex b, Vertex c, Visit&& visit) const {
     if (!is_inside(v, a, b, c)) return true;
@@ -240,7 +240,7 @@ class Clipper {
     return true;
   }
 
-  /// For those in a triangle, but not at its own vertices.
+  /// Calls `visit` for reflex corners in a triangle, but not at its own vertices.
   template <typename Visit>
   void each_inside(Corner a, Corner b, Corner c, Visit&& visit) {
     const Vertex va = corners_[a].v, vb = corners_[b].v, vc = corners_[c].v;
@@ -248,12 +248,12 @@ class Clipper {
                      [&](std::uint32_t item) { return go_on_at(planted_[item], va, vb, vc, visit); });
   }
 
-  /// A reflex corner in the triangle, or kNone. Where few vertices are numbered from its left end to its
-  /// right one, their heights tell. Else the first few of these that are reflex are looked at, which are
-  /// mostly all; and then the tree tells. Nothing is returned for a wide triangle that may wait: when the
-  /// others are cut off, little may be left in its way.
+  /// A reflex corner in the triangle, or kNone. If few vertices are numbered between its left and right ends,
+  /// their heights decide. Otherwise the first few reflex ones among them are tested, which is usually all,
+  /// and then the tree is used. Returns nullopt for a wide triangle that may wait: once other corners are cut
+  /// off, little may be left in it.
   [[nodiscard]] std::optional<Corner> blocker(Corner a, Corner b, Corner c) {
-    constexpr int kFew = 2, kWide = 4;  // wide: from one end to the other a quarter of all vertices
+    constexpr int kFew = 2, kWide = 4;  // wide: a quarter of all vertices between its ends
     constexpr std::size_t kShort = 256;
     const Vertex va = corners_[a].v, vb = corners_[b].v, vc = corners_[c].v;
     const Vertex left = std::min(std::min(va, vb), vc), right = std::max(std::max(va, vb), vc);
@@ -284,7 +284,7 @@ class Clipper {
 
   // --- Triangles ---------------------------------------------------------------------------------------
 
-  /// A side of a triangle, and what is beyond it.
+  /// Records what lies beyond a side of a triangle.
   void meet(EdgeCode e, Beyond beyond) {
     if (beyond.is_walk())
       ears_.sides[sides_[beyond.number()]] = e;
@@ -292,7 +292,7 @@ class Clipper {
       ears_.mesh.join(e, beyond.number());
   }
 
-  /// The triangle of side ab with corner c.
+  /// The triangle on side ab with corner c.
   std::size_t make_triangle(Corner a, Corner b, Corner c) {
     const std::size_t t = ears_.mesh.size();
     ears_.mesh.all().push_back({{corners_[a].v, corners_[b].v, corners_[c].v}, {kNoEdge, kNoEdge, kNoEdge}});
@@ -300,7 +300,7 @@ class Clipper {
     return t;
   }
 
-  /// That of sides ab and bc.
+  /// The triangle on sides ab and bc.
   std::size_t emit(Corner a, Corner b, Corner c) {
     const std::size_t t = make_triangle(a, b, c);
     meet(code(t, 0), corners_[b].beyond);
@@ -319,7 +319,7 @@ class Clipper {
     corners_[b].before = a;
   }
 
-  // Corners only turn from reflex to convex, because corners of a new part are its own.
+  // A corner only turns from reflex to convex, because each new part has corners of its own.
   void refresh(Corner i) {
     if (corners_[i].reflex && turn(i) > 0) {
       corners_[i].reflex = false;
@@ -338,9 +338,9 @@ class Clipper {
     refresh(c);
   }
 
-  /// The second construction of §2.1.2: side ab with the reflex corner of the triangle abc nearest to it, as
-  /// the angle at a sees it, makes a triangle that holds no vertex, and splits the polygon. The angle, and
-  /// not the height, decides: below a vertex of less height an edge may pass that enters by ac.
+  /// The second construction of §2.1.2: side ab and the reflex corner of abc with the smallest angle at a
+  /// make a triangle that contains no vertex, and it splits the polygon. The angle decides, not the height:
+  /// an edge that enters through ac may pass below the vertex of least height.
   void join(Corner a, Corner b, Corner c) {
     Corner nearest = kNone;
     each_inside(a, b, c, [&](Corner i) {
@@ -352,15 +352,15 @@ class Clipper {
     if (r == kNone) throw std::logic_error("holdfast: no corner sees the side of a triangle that holds some");
     const std::size_t t = make_triangle(a, b, r);
     ++ears_.counts.joined;
-    // One part is b, c, ..., r; the other one r', ..., a, with a corner of its own at r.
+    // One part is b, c, ..., r; the other r', ..., a, with its own corner at r.
     const auto other = static_cast<Corner>(corners_.size());
     Place place = corners_[r];
     place.before = a;
     place.waiting = kNone;
     place.queued = false;
-    corners_.push_back(place);  // which is a twin of r's twin, too
+    corners_.push_back(place);  // which also copies r's twin
     corners_[r].twin = other;
-    // Where r is before a, this part has two corners and is an edge.
+    // If r is before a, this part has two corners and is an edge.
     corners_[corners_[other].behind].before = other;
     connect(a, other, code(t, 1));
     connect(r, b, code(t, 0));
@@ -375,7 +375,7 @@ class Clipper {
     return points_.orient(v, before, to) <= 0 || points_.orient(v, to, behind) <= 0;
   }
 
-  /// Whether, from corner a, reflex corner i comes before j when one turns from the side behind a inward.
+  /// Whether the turn at corner a, from its next side inward, meets reflex corner i before j.
   [[nodiscard]] bool nearer(Corner a, Corner i, Corner j) const {
     const Vertex va = corners_[a].v, vi = corners_[i].v, vj = corners_[j].v;
     const int side = points_.orient(va, vi, vj);
@@ -398,15 +398,15 @@ class Clipper {
   const Points& points_;
   PlaneEars choice_;
   EarMesh& ears_;
-  VertexSet reflex_;              // those with a reflex corner
-  std::vector<Corner> first_at_;  // of these, the first one that is or was reflex
-  // Of the face at hand:
-  std::span<const std::uint32_t> sides_;  // of the graph, along the walk
+  VertexSet reflex_;              // vertices with a reflex corner
+  std::vector<Corner> first_at_;  // by vertex, the first corner that is or was reflex
+  // The current face:
+  std::span<const std::uint32_t> sides_;  // edges of the graph, along the walk
   std::vector<Place> corners_;
-  std::vector<Candidate> candidates_;       // a heap, for the best
-  std::vector<Corner> queue_, late_queue_;  // for the others
+  std::vector<Candidate> candidates_;       // a heap, for `best`
+  std::vector<Corner> queue_, late_queue_;  // for the other choices
   std::size_t next_ = 0, next_late_ = 0;    // in the queues
-  bool may_wait_ = false;                   // the corner at hand, until the first queue is empty
+  bool may_wait_ = false;  // whether the current corner may wait until the first queue is empty
   std::vector<Waiting> waiting_;
   std::vector<Vertex> planted_;    // in the tree
   std::optional<PointTree> tree_;  // of reflex corners, once it is asked for

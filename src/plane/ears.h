@@ -23,12 +23,12 @@ struct EarMesh {
   EarCounts counts;
 };
 
-/// Triangulates the faces of a graph of so many edges for which `wanted` returns true. Their walks may pass
-/// vertices and edges twice. Points stand from left to right (sorted.h).
+/// Triangulates the faces for which `wanted` returns true, in a graph with `edges` edges. Their walks may
+/// pass vertices and edges twice. Points are sorted from left to right (sorted.h).
 [[nodiscard]] EarMesh cut_ears(const Points& points, const Walks& faces, std::size_t edges, PlaneEars choice,
                                const std::function<bool(std::size_t)>& wanted);
 
-/// Joins the faces along the graph's edges, of which those from `first_segment` on become constraints.
+/// Joins the faces along the graph's edges. The edges from `first_segment` on become constraints.
 [[nodiscard]] Triangles join_faces(EarMesh&& ears, std::size_t first_segment);
 
 }  // namespace holdfast::plane

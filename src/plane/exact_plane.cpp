@@ -23,8 +23,8 @@ bool is_sound(const ExactPlane& plane) {
          });
 }
 
-/// Whether any points or segments meet other than in common ends: what lies on one line has no triangles that
-/// would tell.
+/// Whether any points or segments meet other than in common ends. This needs a test of its own if all points
+/// are collinear, because then no triangles show it.
 bool meets_itself(const ExactPlane& plane, const Poll& poll) {
   PlaneOptions options;
   options.method = PlaneMethod::ears;
@@ -46,8 +46,8 @@ bool lies_on_segment(const ExactPlane& plane, Vertex hole, Draft& draft) {
   return on;
 }
 
-/// By region, whether it is kept. Nothing where a hole lies on a segment. A constraint may be a side of the
-/// hull, and ears leave segments out that bound nothing.
+/// By region, whether it is kept; nullopt if a hole lies on a segment. A hole may lie on a side of the hull
+/// that is no segment, and ears leave out segments that bound nothing.
 std::optional<std::vector<bool>> kept_regions(const ExactPlane& plane, Draft& draft, const Regions& regions) {
   std::vector<bool> kept(regions.count + std::size_t{1}, true);
   kept[kOutside] = false;

@@ -26,17 +26,18 @@ class Graph {
   [[nodiscard]] std::size_t size() const { return next_.size(); }
   [[nodiscard]] Vertex from(std::uint32_t h) const { return edges_[h / 2][h % 2]; }
   [[nodiscard]] Vertex to(std::uint32_t h) const { return edges_[h / 2][1 - h % 2]; }
-  /// The half-edge behind h on the border of the face on its left: clockwise from where h came from.
+  /// The next half-edge after h on the border of the face on its left: the first one clockwise from h
+  /// reversed.
   [[nodiscard]] std::uint32_t next(std::uint32_t h) const { return next_[h]; }
 
  private:
   void link_around(Vertex v, std::span<std::uint32_t> around) {
-    if (around.size() > 2) sort_around(v, around);  // any order of two is cyclic
+    if (around.size() > 2) sort_around(v, around);  // two are in cyclic order anyway
     for (std::size_t i = 0; i < around.size(); ++i)
       next_[around[i + 1 < around.size() ? i + 1 : 0] ^ 1] = around[i];
   }
 
-  // Counterclockwise, from straight down: first what lies to the right in the order of the sweep.
+  // Counterclockwise from straight down, so what lies to the right in the order of the sweep comes first.
   void sort_around(Vertex v, std::span<std::uint32_t> around) const {
     std::sort(around.begin(), around.end(), [&](std::uint32_t g, std::uint32_t h) {
       const bool g_left = to(g) < v, h_left = to(h) < v;
@@ -50,7 +51,7 @@ class Graph {
   std::vector<std::uint32_t> next_;
 };
 
-/// The outer face is that of a walk whose leftmost vertex has the side away from the others in the face.
+/// The outer face is the one whose walk has it on the outer side at the leftmost vertex.
 bool is_bounded(const Points& points, const std::vector<Vertex>& walk, std::size_t first) {
   const std::size_t n = walk.size() - first;
   const Vertex least = *std::min_element(walk.begin() + static_cast<std::ptrdiff_t>(first), walk.end());

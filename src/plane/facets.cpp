@@ -1,9 +1,9 @@
 // Polygons of more than three corners, and facets of several polygons.
 //
-// What floating point says here chooses among ways to cut, or between them and an error: whether a polygon
-// that lies in no plane is convex, its mean plane, the coordinate plane that it leans from least. That a
-// polygon lies in a plane, that its projection takes no two places to one, and its triangles there, exact
-// signs decide. `diagnose` then judges the triangles in space.
+// Floating point only chooses how to cut, or whether to report an error: whether a polygon that lies in no
+// plane is convex, its mean plane, and the coordinate plane that is least inclined to it. Exact signs decide
+// whether a polygon lies in a plane, whether its projection keeps places distinct, and which triangles it
+// gets there. `diagnose` then judges the triangles in space.
 #include "plane/facets.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 namespace holdfast::plane {
 namespace {
 
-/// The corners relative to the first, scaled to size 1 so that products neither over- nor underflow.
+/// The corners relative to the first, scaled to size 1 so that products neither overflow nor underflow.
 std::vector<Point> local_corners(std::span<const Point> vertices, std::span<const Index> corners) {
   std::vector<Point> local;
   double size = 0;
@@ -33,8 +33,8 @@ std::vector<Point> local_corners(std::span<const Point> vertices, std::span<cons
   return local;
 }
 
-/// The fan of triangles that covers a convex polygon, in its orientation; empty if the polygon is not convex,
-/// seen along its mean normal, or no corner sees every other without a flat triangle.
+/// The fan of triangles that covers a convex polygon, with its orientation; empty if the polygon, seen along
+/// its mean normal, is not convex, or if every apex gives a flat triangle.
 std::vector<Triangle> fan(std::span<const Point> vertices, std::span<const Index> corners) {
   const std::size_t n = corners.size();
   const std::vector<Point> local = local_corners(vertices, corners);
@@ -52,21 +52,21 @@ std::vector<Triangle> fan(std::span<const Point> vertices, std::span<const Index
     if (!(turn >= 0)) return {};
     strict[i] = turn > 0;
   }
-  // A straight corner next to the apex would make a flat triangle with it.
+  // A straight corner next to the apex makes a flat triangle with it.
   std::size_t apex = 0;
   while (apex < n && !(strict[(apex + n - 1) % n] && strict[(apex + 1) % n])) ++apex;
   if (apex == n) return {};
   std::vector<Triangle> triangles;
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const std::size_t b = (apex + i) % n, c = (apex + i + 1) % n;
-    // Turning left everywhere is not enough: a pentagram does too.
+    // A left turn everywhere is not enough: a pentagram has that too.
     if (!(area(apex, b, c) > 0)) return {};
     triangles.push_back({corners[apex], corners[b], corners[c]});
   }
   return triangles;
 }
 
-/// Whether triangles that are convex by floating point turn one way, exactly, seen along the axis.
+/// Whether triangles that are convex in floating point have one orientation, exactly, seen along the axis.
 bool turn_alike(std::span<const Point> vertices, const std::vector<Triangle>& triangles, std::size_t axis) {
   const auto sign = [&](const Triangle& t) {
     return turn(vertices[t[0]], vertices[t[1]], vertices[t[2]], axis);
@@ -96,8 +96,8 @@ std::vector<Triangle> in_space(const Places& places, const std::vector<Corners3>
   return triangles;
 }
 
-/// The first sides that cross, or the corner on a side, by corners from 1; nothing where a polygon only winds
-/// round itself, or has so many sides that it would take long to find out.
+/// The first sides that cross, or the corner on a side, as corner numbers from 1; empty if a polygon only
+/// winds round itself, or has so many sides that the search would take long.
 std::string crossing_of(std::vector<Position> positions, const std::vector<Vertex>& walk) {
   constexpr std::size_t kMostSides = 1000;
   if (walk.size() > kMostSides) return {};
@@ -164,7 +164,7 @@ CutPolygon cut_facet(std::span<const Point> vertices, const PolygonFacet& facet,
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   const Level level(places, sides_of(first), tolerance);
   if (level.straight()) return {{}, "whose corners lie on one line", 0};
-  // Without holes its polygons may stand by themselves, in planes that are close to each other.
+  // Without holes, its polygons may lie separately, in planes that are close to each other.
   if (!(facet.holes.empty() ? level.near() : level.near_in_file())) return {{}, not_plane(level, "that"), 0};
   std::vector<Position> holes;
   for (const Point& hole : facet.holes) holes.push_back(level.project(hole));

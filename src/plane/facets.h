@@ -1,5 +1,5 @@
-// Polygons and facets in space: the triangles of each, or their planes. For readers of files, which use only
-// this header of the layer.
+// Polygons and facets in space: their triangles or their planes. For readers of files, which use only this
+// header of the layer.
 #pragma once
 
 #include <span>
@@ -17,23 +17,23 @@ struct PolygonFacet {
   std::vector<Point> holes;
 };
 
-/// A "face" of any number of corners, or why it cannot be one.
+/// The triangles of a "face" of any number of corners, or why it has none.
 struct CutPolygon {
   std::vector<Triangle> triangles;  ///< empty if `reason` is not
   std::string reason;
   double deviation = 0;  ///< largest distance of a corner from the mean plane; 0 where rounding explains it
 };
 
-/// The triangles of a polygon of four places or more, turned as it is: a fan if it is convex, seen along its
-/// mean normal; else constrained Delaunay triangles in the coordinate plane that its plane leans from least,
-/// the same whatever corner comes first, with all corners kept. A polygon that is not convex must lie in a
-/// plane, up to the rounding of its coordinates to six digits or to `tolerance`, and its sides must not
-/// cross.
+/// The triangles of a polygon of at least four places, with its orientation. A polygon that is convex, seen
+/// along its mean normal, becomes a fan; any other becomes constrained Delaunay triangles in the coordinate
+/// plane least inclined to its own, with all corners kept and independent of the first corner. A polygon that
+/// is not convex must lie in a plane, up to rounding of its coordinates to six digits or to `tolerance`, and
+/// its sides must not cross.
 [[nodiscard]] CutPolygon cut_polygon(std::span<const Point> vertices, std::span<const Index> corners,
                                      double tolerance, const Poll& poll);
 
-/// The triangles of all that the polygons of a facet enclose but the regions of its holes, turned as its
-/// first polygon of three corners or more.
+/// The triangles of all that the polygons of a facet enclose, except the regions of its holes. They are
+/// oriented as its first polygon of three corners or more.
 [[nodiscard]] CutPolygon cut_facet(std::span<const Point> vertices, const PolygonFacet& facet,
                                    double tolerance, const Poll& poll);
 
@@ -44,7 +44,7 @@ struct FoundPlanes {
   std::size_t facet = 0;
   std::string reason;
 };
-/// One plane for all facets if there is one, else one for each facet.
+/// One plane for all facets if possible, otherwise one for each facet.
 [[nodiscard]] FoundPlanes planes_of(std::span<const Point> vertices, const std::vector<PolygonFacet>& facets,
                                     double tolerance, const Poll& poll);
 

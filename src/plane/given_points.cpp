@@ -1,4 +1,4 @@
-// Points as a run gets them.
+// Points as they are given to a run.
 #include "plane/given_points.h"
 
 namespace holdfast::plane {

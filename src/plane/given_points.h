@@ -1,4 +1,4 @@
-// The points given to a run: doubles, or points some of which are exact. Nothing is copied.
+// The points given to a run: doubles, or points some of which are exact. They are not copied.
 #pragma once
 
 #include "plane/points.h"
@@ -16,10 +16,10 @@ class GivenPoints {
 
   [[nodiscard]] std::size_t size() const { return positions_.size(); }
   [[nodiscard]] bool empty() const { return positions_.empty(); }
-  /// Doubles, or those nearest to exact points.
+  /// The doubles, or the doubles nearest to exact points.
   [[nodiscard]] std::span<const Position> positions() const { return positions_; }
   [[nodiscard]] const Position& operator[](Vertex v) const { return positions_[v]; }
-  /// Points some of which are exact, or null where all are doubles.
+  /// Points some of which are exact, or null if all are doubles.
   [[nodiscard]] const Points* exact() const { return exact_; }
 
  private:
@@ -30,7 +30,7 @@ class GivenPoints {
 /// Points in another order, given by the former number of each point.
 [[nodiscard]] Points in_order(const GivenPoints& given, std::span<const Vertex> order);
 
-/// Adds a point that is given.
+/// Adds one of the given points.
 Vertex add(Points& points, const GivenPoints& given, Vertex v);
 
 }  // namespace holdfast::plane

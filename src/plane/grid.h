@@ -8,8 +8,8 @@
 
 namespace holdfast::plane {
 
-/// Numbers cells from 0 to n - 1 along each axis. The number of a cell grows with the coordinate, exactly so,
-/// whatever the magnitudes: halves, and extents that are no denormals, keep it from over- and underflow.
+/// Numbers cells from 0 to n - 1 along each axis. A cell's number is an exactly monotonic function of the
+/// coordinate at any magnitude: halving and extents that are not denormal avoid overflow and underflow.
 class Grid {
  public:
   Grid() = default;  ///< of one cell
@@ -24,14 +24,14 @@ class Grid {
       const double extent = most / 2 - least / 2;
       scale_[k] = extent > 0x1p-900 ? (n - 0.5) / extent : 0;
     }
-    // Of points on one line along an axis any scale will do.
+    // Points with the same coordinate on an axis allow any scale.
     for (std::size_t k = 0; k < 2; ++k)
       if (scale_[k] == 0) scale_[k] = scale_[1 - k];
     last_ = n - 1;
   }
-  /// Where a point lies, measured in cells from the first one; beyond the grid, too.
+  /// Where a point lies, in cells from the first one; it may lie outside the grid.
   [[nodiscard]] Position place(const Position& p) const { return {place(p[0], 0), place(p[1], 1)}; }
-  /// The cell of a coordinate so measured, or the nearest one.
+  /// The cell of such a coordinate, or the nearest one.
   [[nodiscard]] std::uint32_t cell_at(double place) const {
     return static_cast<std::uint32_t>(std::min(last_, std::max(0.0, place)));
   }

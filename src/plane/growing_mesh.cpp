@@ -71,7 +71,7 @@ Vertex GrowingMesh::cut(EdgeCode e) {
 
 bool GrowingMesh::is_too_fine(const Position& a, const Position& b) const {
   constexpr double kFinest = 0x1p-46;          // times the coordinates
-  constexpr double kLeastSquared = 0x1p-1000;  // whatever is smaller loses digits
+  constexpr double kLeastSquared = 0x1p-1000;  // smaller products lose digits
   const double most = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(b[0]), std::abs(b[1])});
   const double finest = std::max(scale_.finest(), kFinest * most);
   return squared(a, b) < std::max(finest * finest, kLeastSquared);

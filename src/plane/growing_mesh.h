@@ -1,5 +1,5 @@
-// A mesh in refinement, to which points are added: the triangles, the points, their positions at the scale of
-// measures, and the segments that they were put on. All of these always describe the same points.
+// A mesh during refinement: its triangles, its points, their positions at the scale of measures, and the
+// segments on which they lie. All of these always describe the same points.
 #pragma once
 
 #include "plane/input_segments.h"
@@ -10,14 +10,14 @@ namespace holdfast::plane {
 
 class GrowingMesh {
  public:
-  /// Triangles that are bounded by constraints, and the segments among these.
+  /// `mesh` is bounded by constraints; `segments` are those given among them.
   GrowingMesh(Triangles& mesh, Points& points, const std::vector<Ends>& segments);
 
   [[nodiscard]] const Triangles& mesh() const { return mesh_; }
   [[nodiscard]] const Points& points() const { return points_; }
   [[nodiscard]] const Scale& scale() const { return scale_; }
   [[nodiscard]] const InputSegments& segments() const { return segments_; }
-  /// Where a point is, at the scale; all lengths and areas are measured there.
+  /// The position of a point at the scale in which all lengths and areas are measured.
   [[nodiscard]] const Position& at(Vertex v) const { return at_[v]; }
   [[nodiscard]] const Position& from(EdgeCode e) const { return at_[mesh_.from(e)]; }
   [[nodiscard]] const Position& to(EdgeCode e) const { return at_[mesh_.to(e)]; }
@@ -34,12 +34,13 @@ class GrowingMesh {
   [[nodiscard]] Vertex first_added() const { return first_added_; }
   [[nodiscard]] std::size_t added() const { return points_.size() - first_added_; }
 
-  /// Adds a point that is no vertex yet, at the double nearest to a place at the scale.
+  /// Adds a point, not yet a vertex, at the double nearest to a scaled place.
   Vertex add(const Position& scaled);
-  /// Removes the points from this one on, which are not vertices.
+  /// Removes the points from `first` on, which must not be vertices.
   void take_back(Vertex first);
 
-  /// Locates p by a line from the middle of triangle t; nowhere if the middle, in doubles, is not inside t.
+  /// Locates p along a line from the centre of triangle t; nowhere if the centre, in doubles, is not inside
+  /// t.
   [[nodiscard]] Insertion::Place locate(Vertex p, std::uint32_t t);
   void insert_inside(std::uint32_t t, Vertex p) { insertion_.insert_inside(t, p); }
   [[nodiscard]] bool insert_on(EdgeCode e, Vertex p) { return insertion_.insert_on(e, p); }
@@ -47,7 +48,7 @@ class GrowingMesh {
   /// ends.
   Vertex cut(EdgeCode e);
 
-  /// Calls `visit` for the triangles at a vertex that was put in.
+  /// Calls `visit` for the triangles at an inserted vertex.
   template <typename Visit>
   void each_at(Vertex v, Visit&& visit) const {
     insertion_.each_at(v, visit);

@@ -11,7 +11,7 @@ void add_hull(const Points& points, std::vector<Ends>& segments) {
   std::vector<Vertex> order(points.size());
   std::iota(order.begin(), order.end(), Vertex{0});
   std::sort(order.begin(), order.end(), [&](Vertex v, Vertex w) { return points.compare(v, w) < 0; });
-  // Below and above; points on a side stay.
+  // The lower and the upper chain; points on a side stay.
   const auto chain = [&](int side) {
     std::vector<Vertex> hull;
     for (const Vertex v : order) {

@@ -7,8 +7,8 @@
 
 namespace holdfast::plane {
 
-/// Adds the sides of the convex hull, cut at the points on them, that are not among the segments yet. Points
-/// on one line have no such sides.
+/// Adds the sides of the convex hull that are not segments yet, cut at the points on them. Collinear points
+/// have no such sides.
 void add_hull(const Points& points, std::vector<Ends>& segments);
 
 }  // namespace holdfast::plane

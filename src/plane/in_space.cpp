@@ -13,7 +13,7 @@ namespace {
 
 using Part = PlanesInSpace::Part;
 
-/// Puts points of a plane back into space.
+/// Maps points of a plane back into space.
 class Lift {
  public:
   Lift(const PlanesInSpace& planes, const Part& part) : planes_(planes), part_(part) {
@@ -22,14 +22,14 @@ class Lift {
       for (std::size_t k = 0; k < 3; ++k) middle_[k] += planes.points[number][k] / count;
   }
 
-  /// Onto the mean plane.
+  /// Maps a point onto the mean plane.
   [[nodiscard]] Point operator()(const PlanePoint& p) const {
     const std::size_t u = (part_.axis + 1) % 3, v = (part_.axis + 2) % 3;
     const Point& n = part_.normal;
     return place(p, middle_[part_.axis] - (n[u] / n[part_.axis] * (p[0] - middle_[u]) +
                                            n[v] / n[part_.axis] * (p[1] - middle_[v])));
   }
-  /// Onto the segment from a to b, by their numbers in the plane.
+  /// Maps a point onto the segment from a to b, by their numbers in the plane.
   [[nodiscard]] Point on_segment(const PlanePoint& p, Index a, Index b) const {
     const PlanePoint &q = part_.plane.points[a], &r = part_.plane.points[b];
     const double whole = std::abs(r[0] / 2 - q[0] / 2) + std::abs(r[1] / 2 - q[1] / 2);
@@ -91,7 +91,7 @@ class Together {
     add(sum_.report, result.report);
   }
 
-  /// What is wrong in a plane, with the numbers that its points have in the file.
+  /// The defects of a plane, with the vertex numbers of the file.
   PlaneResult refuse(const Part& part, PlaneResult&& result) const {
     const Lift lift(planes_, part);
     for (Defect& defect : result.defects) {
@@ -116,7 +116,7 @@ class Together {
   PlaneResult take() { return std::move(sum_); }
 
  private:
-  // Pieces of segments come in order; their inner points lie on them, and not on the mean plane.
+  // Pieces of segments come in order; their inner points lie on the segments and not on the mean plane.
   void put_on_segments(const Part& part, const PlaneMesh& mesh, const Lift& lift,
                        const std::vector<Index>& number) {
     std::size_t s = 0;

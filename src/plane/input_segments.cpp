@@ -34,7 +34,7 @@ void InputSegments::list(const Triangles& mesh) {
   std::sort(by_ends_.begin(), by_ends_.end());
 }
 
-// And a little more than 60 degrees.
+// The bound is slightly above 60 degrees.
 void InputSegments::find_acute_corners() {
   constexpr double kCosine = 0.49;
   acute_.assign(at_.size(), false);
@@ -44,7 +44,7 @@ void InputSegments::find_acute_corners() {
   for (std::size_t i = 0, j = 0; i < at_corners_.size(); i = j) {
     const Vertex v = at_corners_[i].first;
     while (j < at_corners_.size() && at_corners_[j].first == v) ++j;
-    // Of seven or more some are closer than 60 degrees.
+    // Of seven or more segments, two are less than 60 degrees apart.
     acute_[v] = j - i > 6;
     for (std::size_t k = i; k < j && !acute_[v]; ++k)
       for (std::size_t l = k + 1; l < j && !acute_[v]; ++l) {
@@ -66,7 +66,7 @@ Position InputSegments::cut_of(Vertex a, Vertex b) const {
   if (is_acute(b)) std::swap(a, b);
   if (!is_acute(a) || is_acute(b)) return middle(at_[a], at_[b]);
   const double length = std::sqrt(squared(at_[a], at_[b]));
-  // 2^k next to half the length: between 0.35 and 0.71 of the whole.
+  // The power of two 2^k nearest to half the length: between 0.35 and 0.71 of the whole.
   const double part = std::scalbn(1.0, std::ilogb(length * 0x1.6a09e667f3bcdp-1)) / length;
   return {at_[a][0] + part * (at_[b][0] - at_[a][0]), at_[a][1] + part * (at_[b][1] - at_[a][1])};
 }
@@ -90,7 +90,7 @@ template <typename Visit>
 void InputSegments::each_at(Vertex v, Visit&& visit) const {
   if (below_[v] != kNoSegment) return visit(below_[v]);
   auto it = std::lower_bound(at_corners_.begin(), at_corners_.end(), std::pair(v, std::uint32_t{0}));
-  constexpr int kMost = 64;  // of a hub some stand for all, as a bound on time
+  constexpr int kMost = 64;  // bounds the time: at a vertex with more segments, the first ones stand for all
   for (int k = 0; k < kMost && it != at_corners_.end() && it->first == v; ++it, ++k) visit(it->second);
 }
 

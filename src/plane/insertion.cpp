@@ -6,7 +6,7 @@
 namespace holdfast::plane {
 
 Insertion::Place Insertion::locate(Vertex p, Vertex start, std::uint32_t t) const {
-  constexpr int kMostSteps = 1 << 20;  // where the line meets vertices it might go round one for ever
+  constexpr int kMostSteps = 1 << 20;  // an exact walk past vertices on the line may cycle
   EdgeCode came_from = kNoEdge;
   for (int step = 0; step < kMostSteps; ++step) {
     EdgeCode leave = kNoEdge, on = kNoEdge;
@@ -53,7 +53,7 @@ void Insertion::set(std::uint32_t t, std::array<Vertex, 3> corners) {
   for (const Vertex v : corners) mesh_.set_star(v, t);
 }
 
-/// Gives an edge the other side, and the constraint, that it had.
+/// Restores the neighbour and the constraint flag of an edge.
 void Insertion::take(EdgeCode e, std::pair<EdgeCode, bool> outside) {
   mesh_.join(e, outside.first);
   if (outside.second) mesh_[triangle_of(e)].constrained |= 1u << edge_of(e);
@@ -78,9 +78,8 @@ void Insertion::insert_inside(std::uint32_t t, Vertex p) {
   swap_round();
 }
 
-//          b                     Edge e = (a, b) of t, with x on its left; y on its right, unless it is on
-//          the
-//        / | \                   border. The pieces are constraints if the edge is one.
+//          b                     Edge e = (a, b) of t, with x on its left and, except on a border, y on its
+//        / | \                   right. The pieces are constraints if the edge is one.
 //      x t p u y                 .
 //        \ | /
 //          a
@@ -134,7 +133,7 @@ void Insertion::swap_round() {
     const auto& [a, b, c] = mesh_[triangle_of(e)].v;
     if (points_.incircle(a, b, c, mesh_.apex(f)) <= 0) continue;
     mesh_.flip(e);
-    // The new point, which was opposite to e, is corner 0 of the one triangle and corner 2 of the other.
+    // The new point was opposite e: it is corner 0 of the one triangle and corner 2 of the other.
     pending_.push_back(code(triangle_of(e), 0));
     pending_.push_back(code(triangle_of(f), 2));
   }

@@ -7,11 +7,11 @@ namespace holdfast::plane {
 
 class Insertion {
  public:
-  /// `mesh` has its stars.
+  /// `mesh` must have its stars (find_stars).
   Insertion(Triangles& mesh, const Points& points) : mesh_(mesh), points_(points) {}
 
-  /// Calls `visit` for the triangles at a vertex that was put in: those at another one may fall into parts,
-  /// between which nothing is.
+  /// Calls `visit` for the triangles at an inserted vertex. Those at another vertex may not be connected over
+  /// edges.
   template <typename Visit>
   void each_at(Vertex v, Visit&& visit) const;
 
@@ -22,14 +22,14 @@ class Insertion {
     std::uint32_t triangle = kNoVertex;  ///< inside
     EdgeCode edge = kNoEdge;             ///< that it lies on, or first constraint that hides it
   };
-  /// Of p, from `start`, which lies strictly inside triangle t.
+  /// Locates p from `start`, which lies strictly inside triangle t.
   [[nodiscard]] Place locate(Vertex p, Vertex start, std::uint32_t t) const;
 
   /// Inserts p into a triangle, which must contain it strictly, and makes the mesh constrained Delaunay
   /// again.
   void insert_inside(std::uint32_t t, Vertex p);
-  /// The same on an edge. False, with the mesh unchanged, if p does not make positive triangles with the
-  /// edge's ends.
+  /// The same on an edge. Returns false, with the mesh unchanged, if p does not make positive triangles with
+  /// the edge's ends.
   bool insert_on(EdgeCode e, Vertex p);
 
  private:
@@ -43,7 +43,7 @@ class Insertion {
 
   Triangles& mesh_;
   const Points& points_;
-  std::vector<EdgeCode> pending_;  // edges opposite to the new point that may not be Delaunay
+  std::vector<EdgeCode> pending_;  // edges opposite the new point that may not be Delaunay
 };
 
 template <typename Visit>
@@ -56,7 +56,7 @@ void Insertion::each_at(Vertex v, Visit&& visit) const {
     e = mesh_.turn_right(e);
   } while (e != kNoEdge && e != first);
   if (e == first) return;
-  // Beyond a border: the others are to the left of the first.
+  // At a border: the other triangles are to the left of the first.
   for (e = mesh_.across(previous_edge(first)); e != kNoEdge; e = mesh_.across(previous_edge(e)))
     visit(triangle_of(e));
 }

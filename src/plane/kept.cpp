@@ -25,8 +25,8 @@ Triangles kept_part(const Triangles& mesh, const Regions& regions, const std::ve
 
 namespace {
 
-/// Where points of the input have no markers, those at ends of segments get that of the first one that has
-/// any.
+/// If points of the input have no markers, the ends of segments get the marker of their first segment that
+/// has one.
 void mark_ends(const Plane& plane, PlaneMesh& mesh) {
   if (!plane.point_markers.empty() || plane.segment_markers.empty()) return;
   mesh.point_markers.assign(mesh.points.size(), 0);

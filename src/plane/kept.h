@@ -1,4 +1,4 @@
-// The triangles of the regions that are kept, as refinement takes and leaves them.
+// The triangles of the kept regions, before and after refinement.
 #pragma once
 
 #include "holdfast/plane.h"
@@ -7,12 +7,12 @@
 
 namespace holdfast::plane {
 
-/// Only kept triangles. Their marks are their regions, and they end at constraints.
+/// Only the kept triangles, bounded by constraints. Their marks are their regions.
 [[nodiscard]] Triangles kept_part(const Triangles& mesh, const Regions& regions,
                                   const std::vector<bool>& kept);
 
-/// Gives a refined mesh the pieces of segments, in their direction and with their markers, which points on
-/// them have, too; so have the points of the input at their ends, if none of these came with a marker.
+/// Gives a refined mesh the pieces of segments, with the direction and marker of each segment. Points on a
+/// segment get its marker, and so do its ends if no point of the input came with a marker.
 void cut_segments(const Plane& plane, const Refined& refined, PlaneMesh& mesh);
 
 }  // namespace holdfast::plane

@@ -1,4 +1,4 @@
-// Segments come in an order, each in the same way: find its passage, clear it, constrain the edge.
+// Inserts segments one after the other: find the passage, clear it, constrain the edge.
 #include "plane/lay_segments.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace holdfast::plane {
 namespace {
 
-// As their last points were inserted, so that each is near the one before.
+// In the order in which their last points were inserted, so that each segment is near the one before.
 std::vector<Index> order_by_points(const Draft& draft) {
   const std::vector<Ends>& segments = draft.segments;
   std::vector<Index> next(draft.points.size() + 1, 0), order(segments.size());
@@ -32,7 +32,7 @@ std::vector<Index> laying_order(const Draft& draft, std::optional<LayingOrder> a
   return asked_for == LayingOrder::halving ? numbers::halved(order) : order;
 }
 
-// Segments come in any order, so that each begins where nothing has been lately.
+// The order of segments has no locality, so each starts at memory that is not cached.
 void fetch_ahead(const Draft& draft, const std::vector<Index>& order, std::size_t laid) {
   constexpr std::size_t kStars = 24, kTriangles = 16, kCorners = 8;
   const Triangles& mesh = draft.mesh;
@@ -47,7 +47,8 @@ void fetch_ahead(const Draft& draft, const std::vector<Index>& order, std::size_
   for (const EdgeCode across : mesh[triangle_of(e)].across) mesh.fetch(triangle_of(across));
 }
 
-/// Lays segments by swaps. Between two of them the triangles are constrained Delaunay, if they are to be.
+/// Inserts segments by swaps. Between two of them the triangles are constrained Delaunay, if this is asked
+/// for.
 class BySwaps {
  public:
   BySwaps(Draft& draft, const PlaneOptions& options, PlaneReport& report)
@@ -57,7 +58,7 @@ class BySwaps {
         report_(report),
         swaps_(mesh_, points_) {}
 
-  /// The edge that the segment ab is then: none where the run stops after some swaps.
+  /// Returns the edge that the segment becomes, or kNoEdge if the run stops after some swaps.
   EdgeCode lay(const Ends& ab, const std::vector<EdgeCode>& crossed, numbers::Random& random) {
     const std::size_t left =
         options_.stop_after == PlaneStage::swap ? options_.stop_after_swaps - report_.swaps : SIZE_MAX;
@@ -65,7 +66,7 @@ class BySwaps {
     return mesh_.find_edge(ab[0], ab[1]);
   }
 
-  // At once, while the triangles that swaps have changed are still at hand.
+  // Done after each segment, while the triangles that swaps have changed are still cached.
   void restore_delaunay(const Poll& poll) {
     if (options_.delaunay || refines(options_)) {
       pending_.clear();
@@ -84,8 +85,8 @@ class BySwaps {
   std::vector<EdgeCode> swapped_, pending_;
 };
 
-/// Lays segments by points where they cross edges, which go at once or, as §2.3 tells it, when all segments
-/// stand.
+/// Inserts segments by points where they cross edges. The points are removed at once or, as in §2.3, after
+/// all segments are present.
 class ByPartition {
  public:
   ByPartition(Draft& draft, const PlaneOptions& options, PlaneReport& report)
@@ -104,7 +105,7 @@ class ByPartition {
     return pieces_.back();
   }
 
-  /// Takes out the points that are still there, unless the run stops before.
+  /// Removes the points that are left, unless the run stops before.
   void remove_points() {
     if (options_.stop_after == PlaneStage::partition) return;
     for (const Pieces& pieces : pieces_) report_.swaps += partition_.remove(pieces);
@@ -120,10 +121,10 @@ class ByPartition {
   const PlaneOptions& options_;
   PlaneReport& report_;
   Partition partition_;
-  std::vector<Pieces> pieces_;  // of segments whose points are still there
+  std::vector<Pieces> pieces_;  // of segments whose points are not removed yet
 };
 
-// After partition: a segment in pieces.
+// After partition: records a segment in pieces.
 void tell_chain(const Draft& draft, const Ends& ab, const Pieces& pieces, Intermediate& told) {
   const Segment segment{draft.number(ab[0]), draft.number(ab[1])};
   told.missing_segments.push_back(segment);

@@ -1,4 +1,4 @@
-// Recovers missing segments one after the other, by swaps or by partition.
+// Inserts missing segments one after the other, by swaps or by partition.
 #pragma once
 
 #include "holdfast/plane.h"
@@ -6,9 +6,10 @@
 
 namespace holdfast::plane {
 
-/// Makes every segment of a closed Delaunay triangulation a constraint, and the hull if asked for. With swaps
-/// the triangles end constrained Delaunay, if this is asked for. Counts go to the report of `result`, and
-/// chains of pieces to its `intermediate` if the run stops early. False if segments meet outside common ends.
+/// Makes every segment of a closed Delaunay triangulation a constraint, and the hull if asked for. By swaps,
+/// the triangles end constrained Delaunay if this is asked for. Counts go to the report of `result`, and
+/// chains of pieces to its `intermediate` if the run stops early. Returns false if segments meet outside
+/// common ends.
 [[nodiscard]] bool lay_segments(Draft& draft, const PlaneOptions& options, PlaneResult& result,
                                 const Poll& poll);
 

@@ -88,7 +88,7 @@ void Level::measure(const Sides& sides) {
   double most = 0;
   for (Vertex v = 0; v < places_.size(); ++v)
     for (const double x : places_.at(v)) most = std::max(most, std::abs(x));
-  // A power of two takes coordinates to the size 1, exactly but for what is negligible.
+  // A power of two scales coordinates to size 1; the scaling is exact up to negligible terms.
   const int exponent = std::ilogb(most);
   const auto scaled = [&](const Point& p) {
     return Point{std::scalbn(p[0], -exponent), std::scalbn(p[1], -exponent), std::scalbn(p[2], -exponent)};
@@ -100,12 +100,12 @@ void Level::measure(const Sides& sides) {
     local.push_back(scaled(places_.at(v)) - origin);
     for (const double x : local.back()) size = std::max(size, std::abs(x));
   }
-  // A few units in the last place of the largest coordinate: of a double, and of six digits.
+  // A few units in the last place of the largest coordinate: of a double, and of six decimal digits.
   constexpr int kRounding = -50, kRoundingInFile = -16;
   const double unit = std::scalbn(most, -exponent);
   rounding_ = std::scalbn(unit, exponent + kRounding);
   rounding_in_file_ = std::scalbn(unit, exponent + kRoundingInFile);
-  if (size == 0) return;  // so near to each other that doubles hold no normal
+  if (size == 0) return;  // places so close together that doubles have no normal
   Point middle{};
   for (Point& p : local)
     for (std::size_t k = 0; k < 3; ++k) middle[k] += (p[k] /= size) / static_cast<double>(local.size());
@@ -113,7 +113,7 @@ void Level::measure(const Sides& sides) {
     const Point area = cross(local[a], local[b]);
     for (std::size_t k = 0; k < 3; ++k) normal_[k] += area[k];
   }
-  // Without sides, or an area on the whole, as an eight has none, there is no mean plane: one through three.
+  // Without sides, or with a total area of 0 as a figure eight has, there is no mean plane: use three places.
   if (!(length(normal_) > 0)) normal_ = cross(local[1] - local[0], local[third_] - local[0]);
   const double norm = length(normal_);
   double furthest = 0;
@@ -121,7 +121,8 @@ void Level::measure(const Sides& sides) {
   deviation_ = std::scalbn(norm > 0 ? furthest / norm * size : size, exponent);
 }
 
-// Onto it no two places of a plane fall together, if the three of the base do not fall on a line.
+// If the three places of the base are not collinear in the projection, no two places of the plane coincide
+// there.
 void Level::choose_axis() {
   std::array<std::size_t, 3> axes{0, 1, 2};
   std::stable_sort(axes.begin(), axes.end(),
@@ -132,7 +133,7 @@ void Level::choose_axis() {
     axis_ = axis;
     break;
   }
-  if (normal_[axis_] != 0) return;  // by which what is put back into space is divided
+  if (normal_[axis_] != 0) return;  // a divisor when points are mapped back into space
   normal_ = {};
   normal_[axis_] = 1;
 }

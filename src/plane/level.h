@@ -1,8 +1,8 @@
 // The plane of a polygon or facet in space, and its projection onto a coordinate plane.
 //
-// Floating point measures: the mean plane, how far places lie from it, the coordinate plane that it leans
-// from least. Exact signs decide whether places lie in one plane or on one line, and see to it that no two of
-// a plane fall together.
+// Floating point only measures: the mean plane, how far places lie from it, the coordinate plane least
+// inclined to it. Exact signs decide whether places are coplanar or collinear, and ensure that no two places
+// of a plane coincide in the projection.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ namespace holdfast::plane {
 
 using Sides = std::vector<Ends>;
 
-/// The places of corners, in lexicographic order, so that nothing depends on the order of corners.
+/// The places of corners in lexicographic order, so that nothing depends on the order of corners.
 class Places {
  public:
   Places(std::span<const Point> vertices, std::span<const Index> corners);
@@ -35,13 +35,13 @@ class Places {
 /// The sides of a closed walk, sorted.
 [[nodiscard]] Sides sides_of(const std::vector<Vertex>& walk);
 
-/// Whether a simple walk goes clockwise, which its leftmost corner tells.
+/// Whether a simple walk is clockwise, decided at its leftmost corner.
 [[nodiscard]] bool turns_right(const std::vector<Position>& positions, const std::vector<Vertex>& walk);
 
 /// Sign of the triangle abc, seen along an axis.
 [[nodiscard]] int turn(const Point& a, const Point& b, const Point& c, std::size_t axis);
 
-/// The plane of three places or more.
+/// The plane of at least three places.
 class Level {
  public:
   /// The mean plane is that of `sides` (Newell), through the mean place.
@@ -50,9 +50,9 @@ class Level {
   [[nodiscard]] bool straight() const { return straight_; }  ///< all places lie on one line
   [[nodiscard]] bool flat() const { return flat_; }          ///< exactly
   [[nodiscard]] bool near() const { return near_; }          ///< within the tolerance, or rounding
-  /// The same, or as near as places of a plane are that a file has in six digits or in single precision.
+  /// The same, or within the rounding of a file with six digits or single precision.
   [[nodiscard]] bool near_in_file() const { return near_in_file_; }
-  /// Of the place furthest from the mean plane; 0 where rounding explains it.
+  /// The distance of the furthest place from the mean plane; 0 if rounding explains it.
   [[nodiscard]] double deviation() const { return deviation_ <= rounding_ ? 0 : deviation_; }
   [[nodiscard]] std::size_t axis() const { return axis_; }
   [[nodiscard]] Position project(const Point& p) const { return {p[(axis_ + 1) % 3], p[(axis_ + 2) % 3]}; }
@@ -65,7 +65,7 @@ class Level {
   void choose_axis();
 
   const Places& places_;
-  Vertex third_ = 0;  // on no line with the first two
+  Vertex third_ = 0;  // not collinear with the first two
   bool straight_ = false, flat_ = false, near_ = false, near_in_file_ = false;
   Point normal_{};
   double deviation_ = 0, rounding_ = 0, rounding_in_file_ = 0;

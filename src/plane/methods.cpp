@@ -14,7 +14,7 @@
 namespace holdfast::plane {
 namespace {
 
-constexpr double kLawson = 0.85;  // share of the work when it ends
+constexpr double kLawson = 0.85;  // share of the work at its end
 
 std::vector<Ends> renumbered(std::span<const Segment> segments, const std::vector<Vertex>& number) {
   std::vector<Ends> ends;
@@ -23,7 +23,7 @@ std::vector<Ends> renumbered(std::span<const Segment> segments, const std::vecto
   return ends;
 }
 
-/// Paper §2.1. The faces between segments and links, each cut into triangles. Nothing where the input is
+/// Paper §2.1: the faces between segments and links, each cut into triangles. Returns nullopt if the input is
 /// invalid.
 std::optional<Draft> make_by_ears(const GivenPoints& points, std::span<const Segment> segments,
                                   const PlaneOptions& options, PlaneReport& report, Stages& stages) {
@@ -52,7 +52,7 @@ std::optional<Draft> make_by_ears(const GivenPoints& points, std::span<const Seg
   return draft;
 }
 
-/// Points are numbered as they are inserted, so that those near each other are so in memory, too.
+/// Points are numbered in the order of insertion, so neighbours in the plane are neighbours in memory.
 Draft ordered(const GivenPoints& points, std::span<const Segment> segments) {
   Draft draft;
   draft.order = insertion_order(points.positions());
@@ -63,8 +63,8 @@ Draft ordered(const GivenPoints& points, std::span<const Segment> segments) {
   return draft;
 }
 
-/// Paper §2.2 and §2.3. The Delaunay triangles of all points, in which the segments are laid; none where all
-/// points lie on one line. Nothing where the input is invalid.
+/// Paper §2.2 and §2.3: the Delaunay triangles of all points, with the segments inserted; empty if all points
+/// are collinear. Returns nullopt if the input is invalid.
 std::optional<Draft> make_by_delaunay(const GivenPoints& points, std::span<const Segment> segments,
                                       const PlaneOptions& options, PlaneResult& result, Stages& stages) {
   Draft draft = stages.run("order", 0.1, [&](const Poll&) { return ordered(points, segments); });
@@ -88,7 +88,7 @@ std::optional<Draft> triangles_by_method(const GivenPoints& points, std::span<co
                                    : make_by_delaunay(points, segments, options, result, stages);
   const bool stopped = options.stop_after && options.method != PlaneMethod::ears;
   if (!draft || stopped) return draft;
-  // Swaps have made them so on the way.
+  // The method by swaps has done this already.
   if ((options.delaunay || refines(options)) && options.method != PlaneMethod::swaps)
     stages.run("lawson", kLawson, [&](const Poll& share) {
       result.report.delaunay_swaps = swap_to_delaunay(draft->mesh, draft->points, share);

@@ -11,9 +11,9 @@
 
 namespace holdfast::plane {
 
-/// The triangles of the whole, constrained Delaunay where that is asked for, unless the run stops before; of
-/// swaps and partition none where all points lie on one line, whatever the segments are. Nothing where points
-/// are at one place, or segments meet other than in common ends. Counts go to `result`, and what stands where
+/// The triangles of the whole, constrained Delaunay if that is asked for, unless the run stops before. Swaps
+/// and partition give none if all points are collinear, whatever the segments are. Returns nullopt if points
+/// coincide or segments meet other than in common ends. Counts go to `result`, and so does the state at which
 /// the run stops.
 [[nodiscard]] std::optional<Draft> triangles_by_method(const GivenPoints& points,
                                                        std::span<const Segment> segments,

@@ -1,4 +1,4 @@
-// A set of numbers below a bound, of which the next one from some number on is asked for.
+// A set of numbers below a bound, which finds the next one from a given number on.
 #pragma once
 
 #include <bit>
@@ -7,7 +7,7 @@
 
 namespace holdfast::plane {
 
-/// Bits, above them one for each word of bits that are not all 0, and so on to a single word.
+/// Bits; above them one bit for each word that is not 0, and so on up to a single word.
 class NumberSet {
  public:
   explicit NumberSet(std::size_t bound) {
@@ -31,7 +31,7 @@ class NumberSet {
   }
   [[nodiscard]] bool contains(std::size_t i) const { return (levels_[0][i / kBits] & bit(i)) != 0; }
 
-  /// The least number in it that is at least `i`, or `none`.
+  /// The least number in the set that is at least `i`, or `none`.
   static constexpr std::size_t none = ~std::size_t{0};
   [[nodiscard]] std::size_t from(std::size_t i) const {
     for (std::size_t level = 0; level < levels_.size(); ++level) {
@@ -48,7 +48,7 @@ class NumberSet {
   static constexpr std::size_t kBits = 64;
 
   [[nodiscard]] static std::uint64_t bit(std::size_t i) { return std::uint64_t{1} << i % kBits; }
-  /// The least number below bit `i` of a level.
+  /// Descends to the least number below bit `i` of a level.
   [[nodiscard]] std::size_t down(std::size_t level, std::size_t i) const {
     while (level-- > 0) i = i * kBits + static_cast<std::size_t>(std::countr_zero(levels_[level][i]));
     return i;

@@ -13,11 +13,11 @@ namespace holdfast::plane {
 namespace {
 
 constexpr unsigned kBits = 20;  // of a cell's number along an axis
-constexpr unsigned kStep = 4;   // of these that the tables take at once
+constexpr unsigned kStep = 4;   // of these, how many the tables take at once
 static_assert(kBits % kStep == 0);
 
-/// Places along the Hilbert curve of a cell in a square of 2^kStep cells, and how the curve lies in the cell,
-/// for the four ways in which it may lie in the square: turned round, mirrored, both, neither (Skilling 2004,
+/// Positions along the Hilbert curve of a cell in a square of 2^kStep cells, and the orientation of the curve
+/// in the cell, for the four orientations in the square: rotated, mirrored, both, neither (Skilling 2004,
 /// Programming the Hilbert curve).
 struct HilbertTable {
   struct Entry {
@@ -62,7 +62,7 @@ std::uint64_t hilbert(std::uint32_t x, std::uint32_t y) {
   return place;
 }
 
-/// A number of an index that looks random (Vigna, splitmix64).
+/// A hash of an index (Vigna, splitmix64).
 std::uint64_t scattered(std::uint64_t i) {
   i += 0x9E3779B97F4A7C15u;
   i = (i ^ i >> 30) * 0xBF58476D1CE4E5B9u;
@@ -77,7 +77,7 @@ struct Entry {
 
 constexpr unsigned kDigit = 11;
 
-/// Stable, by the low `bits` bits of the keys, least significant digit first.
+/// Stable radix sort by the low `bits` bits of the keys, least significant digit first.
 void sort(std::vector<Entry>& entries, unsigned bits) {
   constexpr std::size_t kFew = 2048;
   if (entries.size() < kFew) {
@@ -100,12 +100,12 @@ void sort(std::vector<Entry>& entries, unsigned bits) {
 
 constexpr unsigned kCellBits = 2 * kDigit;
 
-/// Numbers below `count` by the cells in which `cell` puts them; in cells of more than `few` as `before`
-/// tells.
+/// Numbers below `count`, sorted by the cell that `cell` gives, and by `before` within cells of more than
+/// `few` numbers.
 template <typename Cell, typename Before>
 std::vector<Vertex> order_by_cells(std::size_t count, std::size_t few, const Cell& cell,
                                    const Before& before) {
-  std::vector<std::uint64_t> keys(count), other(count);  // cells, and what is in them in the low half
+  std::vector<std::uint64_t> keys(count), other(count);  // cells, with their contents in the low half
   std::array<std::vector<std::uint32_t>, 2> next;
   for (std::vector<std::uint32_t>& n : next) n.assign(std::size_t{1} << kDigit, 0);
   constexpr std::uint64_t kMask = (1u << kDigit) - 1;
@@ -132,7 +132,7 @@ std::vector<Vertex> order_by_cells(std::size_t count, std::size_t few, const Cel
   return order;
 }
 
-/// Half of the points come in the last round, a quarter in the one before, and so on.
+/// Half of the points are in the last round, a quarter in the one before, and so on.
 std::vector<Vertex> order_in_rounds(std::span<const Position> points, int rounds) {
   if (points.empty()) return {};
   const Grid grid(points, 1u << kBits);

@@ -1,12 +1,12 @@
-// Segments made edges by points where they cross the mesh, which then are removed again.
+// Makes segments edges by adding points where they cross the mesh, then removes these points.
 //
 // clang-format off
-//            S              A missing segment AB with the points P on it. The triangles at these make two
-//      S-   / \    S+       polygons, above and below. Of the vertices above, S is the furthest from AB: S-, S,
-//       \  / | \   /        S+ and the outer two of the points that it is joined to bound a convex region,
-//        \/  |  \ /         since S- and S+ are no further away and S- is nearer (of several at the same
-//   A----P---P---P----B     distance S is the first). So its edges to the points can be swapped one after
-//                           another, until S is joined to S- and S+ alone.
+//            S              A missing segment AB with the points P on it, whose triangles make two polygons,
+//      S-   / \    S+       above and below. S is the vertex above that is furthest from AB, the first one at
+//       \  / | \   /        that distance. So S- is nearer than S, and S+ is not further: S-, S, S+ and the
+//        \/  |  \ /         outer two of the points joined to S bound a convex region. Therefore the edges
+//   A----P---P---P----B     from S to the points can be swapped one after another, until S is joined only to
+//                           S- and S+.
 // clang-format on
 #include "plane/partition.h"
 
@@ -23,7 +23,7 @@ Pieces Partition::insert(Vertex a, Vertex b, const std::vector<EdgeCode>& crosse
   for (std::size_t k = 0; k < edges.size(); ++k) {
     const Vertex p = points_.add(exact::crossing(ra, rb, points_.rational(mesh_.from(edges[k])),
                                                  points_.rational(mesh_.to(edges[k]))));
-    // Of the next edge the far side stays as it is, and tells where the near one is afterwards.
+    // The far side of the next edge keeps its code, and gives the near side after the change.
     const EdgeCode far = k + 1 < edges.size() ? mesh_.across(edges[k + 1]) : kNoEdge;
     split(edges[k], p);
     if (far != kNoEdge) edges[k + 1] = mesh_.across(far);
@@ -45,7 +45,7 @@ std::uint32_t Partition::unused_triangle() {
   return t;
 }
 
-/// Puts p on edge e = (u, w) between the triangles (x, u, w) and (y, w, u), which makes four.
+/// Puts p on edge e = (u, w) between the triangles (x, u, w) and (y, w, u), which become four.
 void Partition::split(EdgeCode e, Vertex p) {
   const EdgeCode f = mesh_.across(e);
   const std::uint32_t xu = triangle_of(e), wx = unused_triangle(), yw = triangle_of(f),
@@ -73,7 +73,7 @@ void Partition::split(EdgeCode e, Vertex p) {
     if (v != kNoVertex) mesh_.set_star(v, t);
 }
 
-/// What the pieces see on their left, from the first end to the last.
+/// The vertices opposite the pieces on their left, from the first end to the last.
 std::vector<Vertex> Partition::vertices_above(const Pieces& pieces) const {
   EdgeCode e = mesh_.find_edge(pieces[0], pieces[1]);
   std::vector<Vertex> above{mesh_.apex(e)};
@@ -91,7 +91,7 @@ std::vector<Vertex> Partition::vertices_above(const Pieces& pieces) const {
   return above;
 }
 
-/// Swaps until one vertex above alone is joined to the points; that vertex.
+/// Swaps until only one vertex above is joined to the points; returns that vertex.
 Vertex Partition::disconnect_above(const Pieces& pieces) {
   const std::vector<Vertex> above = vertices_above(pieces);
   const Vertex a = pieces.front(), b = pieces.back();
@@ -101,7 +101,7 @@ Vertex Partition::disconnect_above(const Pieces& pieces) {
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
     return points_.compare_heights(a, b, above[j], above[i]) > 0;
   });
-  // Places 1 to n are those above, 0 and n + 1 the ends of the segment.
+  // Places 1 to n are the vertices above; 0 and n + 1 are the ends of the segment.
   const auto vertex = [&](std::uint32_t place) {
     return place == 0 ? a : place == n + 1 ? b : above[place - 1];
   };
@@ -121,7 +121,7 @@ Vertex Partition::disconnect_above(const Pieces& pieces) {
   return above[order.back()];
 }
 
-/// Swaps the edges from s to the points onto the vertex before it, from the left to the right.
+/// Swaps the edges from s to the points onto the vertex before it, from left to right.
 void Partition::disconnect_to_the_left(Vertex s, Vertex before, Vertex behind) {
   EdgeCode e = mesh_.find_edge(s, before);  // with the leftmost point as its apex
   for (;;) {
@@ -135,8 +135,8 @@ void Partition::disconnect_to_the_left(Vertex s, Vertex before, Vertex behind) {
   }
 }
 
-/// Where the vertex before s is the end of the segment, and so on a line with the points: onto the one behind
-/// it, from the right to the left.
+/// If the vertex before s is the end of the segment, it is collinear with the points: the edges are swapped
+/// onto the vertex after s, from right to left.
 void Partition::disconnect_to_the_right(Vertex s, Vertex before, Vertex behind) {
   EdgeCode e = mesh_.find_edge(behind, s);  // with the rightmost point as its apex
   for (;;) {
@@ -149,8 +149,8 @@ void Partition::disconnect_to_the_right(Vertex s, Vertex before, Vertex behind) 
   }
 }
 
-/// Makes one triangle of the pencil of those between the pieces, edges seen from above, and one vertex. Its
-/// edge 2 is the segment.
+/// Replaces the fan of triangles between the pieces, given as edges seen from above, and one vertex by one
+/// triangle. Its edge 2 is the segment.
 std::uint32_t Partition::close(const std::vector<EdgeCode>& pieces) {
   const std::uint32_t t = triangle_of(pieces.front());
   const EdgeCode front = previous_edge(pieces.front()), back = next_edge(pieces.back());
@@ -163,7 +163,7 @@ std::uint32_t Partition::close(const std::vector<EdgeCode>& pieces) {
   mesh_[t].constrained = constrained;
   mesh_.join(code(t, 0), behind_back);
   mesh_.join(code(t, 1), behind_front);
-  // Nothing looks at the others until they are used again.
+  // The other triangles are not read until they are used again.
   for (std::size_t i = 1; i < pieces.size(); ++i) {
     unused_.push_back(triangle_of(pieces[i]));
     mesh_[unused_.back()] = {{kNoVertex, kNoVertex, kNoVertex}, {kNoEdge, kNoEdge, kNoEdge}};
@@ -171,7 +171,7 @@ std::uint32_t Partition::close(const std::vector<EdgeCode>& pieces) {
   return t;
 }
 
-/// The edges that the pieces are, seen from above.
+/// The edges of the pieces, seen from above.
 std::vector<EdgeCode> Partition::edges_of(const Pieces& pieces) const {
   std::vector<EdgeCode> edges;
   for (std::size_t i = 0; i + 1 < pieces.size(); ++i)

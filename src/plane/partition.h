@@ -10,14 +10,14 @@ using Pieces = std::vector<Vertex>;
 
 class Partition {
  public:
-  /// A closed triangulation with its stars.
+  /// `mesh` must be closed and have its stars (find_stars).
   Partition(Triangles& mesh, Points& points) : mesh_(mesh), points_(points) {}
 
-  /// Adds points where the segment ab crosses edges; `crossed` is its passage. The pieces are then
+  /// Adds points where the segment ab crosses the edges of its passage `crossed`. The pieces are then
   /// constraints.
   [[nodiscard]] Pieces insert(Vertex a, Vertex b, const std::vector<EdgeCode>& crossed);
 
-  /// Removes the points on a segment by swaps, so that it is an edge. Removed points stay in `points`.
+  /// Removes the points on a segment by swaps, which makes it an edge. Removed points stay in `points`.
   /// Returns the number of swaps.
   std::size_t remove(const Pieces& pieces);
 

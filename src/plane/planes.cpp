@@ -30,8 +30,9 @@ class Planes {
   }
 
  private:
-  /// The plane of a facet; false, with the reason, if it has none. What is `alone` may have been rounded in
-  /// its file; of all together that would hide what lies in planes close to each other.
+  /// Adds the plane of a facet; returns false, with the reason, if it has none. A facet that is `alone` may
+  /// have been rounded in its file; with several facets, this allowance would merge planes that are close to
+  /// each other.
   bool add(const PolygonFacet& facet, bool alone) {
     std::vector<Index> corners;
     for (const std::vector<Index>& polygon : facet.polygons)
@@ -75,7 +76,8 @@ class Planes {
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     return edges;
   }
-  /// Of the first polygon with an area, which tells the mean plane, and how the triangles turn.
+  /// The walk of the first polygon of three corners or more, which gives the mean plane and the orientation
+  /// of the triangles.
   static std::vector<Vertex> first_walk(const PolygonFacet& facet, const Places& places) {
     for (const std::vector<Index>& polygon : facet.polygons)
       if (polygon.size() >= 3) return walk_of(polygon, places);

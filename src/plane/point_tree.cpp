@@ -1,4 +1,4 @@
-// Points of which those in a triangle are asked for.
+// A tree of points that finds those in a triangle.
 #include "plane/point_tree.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ PointTree::PointTree(const Points& points, std::span<const Vertex> vertices) : p
   }
 }
 
-/// Each over eight of a level.
+/// One box over each eight boxes of a level.
 std::vector<PointTree::Box> PointTree::boxes_over(const std::vector<Box>& parts) {
   std::vector<Box> boxes;
   boxes.reserve(parts.size() / kFan + 1);
@@ -92,20 +92,20 @@ PointTree::Query::Query(const PointTree& tree, const std::array<Vertex, 3>& corn
 
 void PointTree::Query::find_sides() {
   has_sides_ = true;
-  // Exact points are not where their doubles are.
+  // The doubles of exact points are not their positions.
   if (!tree_.points_.all_explicit()) return;
   for (std::size_t i = 0; i < 3; ++i) sides_[i] = side(corners_[i], corners_[i < 2 ? i + 1 : 0]);
 }
 
 /// A place (X, Y) lies to the right of pq if x X + y Y - (x px + y py) < 0 with (x, y) = (py - qy, qx - px).
-/// Let M bound the places, of corners and in the grid. They err by 2^-51 M, so that x and y err by 2^-49 M
-/// and are at most 2 M; each of the four products errs by 2^-48 M M, sums by less, and all together by less
-/// than 2^-45 M M.
+/// Let M bound the places of corners and of the grid. Places err by 2^-51 M, so x and y err by 2^-49 M and
+/// are at most 2 M; each of the four products errs by 2^-48 M M, sums by less, and the total by less than
+/// 2^-45 M M.
 PointTree::Query::Side PointTree::Query::side(const Position& p, const Position& q) {
   constexpr double kGrid = kCells, kError = 0x1p-45;
   const double most = std::max({kGrid, std::fabs(p[0]), std::fabs(p[1]), std::fabs(q[0]), std::fabs(q[1])});
   const double x = p[1] - q[1], y = q[0] - p[0];
-  // Where it overflows, nothing is less.
+  // If the bound overflows, nothing is less than it.
   return {x, y, x * p[0] + y * p[1] - kError * most * most, x > 0 ? kHigh : kLow, y > 0 ? kHigh : kLow};
 }
 

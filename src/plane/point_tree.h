@@ -1,14 +1,14 @@
-// Points of which those in a triangle are asked for, and which are taken out one by one.
+// A tree of points that finds those in a triangle, and from which points are removed one by one.
 //
 // clang-format off
 //        [ all ]          Boxes over points along a Hilbert curve, eight by eight, and over eight boxes, and
-//       /   |    \        so on (Kamel, Faloutsos 1993, On packing R-trees). A box that no point is left in,
-//    [  ] [  ] [  ]       or that lies outside one side of the triangle, is passed by.
+//       /   |    \        so on (Kamel, Faloutsos 1993, On packing R-trees). Empty boxes, and boxes outside
+//    [  ] [  ] [  ]       one side of the triangle, are skipped.
 //    .... .... ....
 // clang-format on
 //
-// Eight boxes are compared with that of the triangle at once, by the cells of a grid that their corners lie
-// in. Where several are left, its sides tell which of them to look into.
+// Eight boxes are compared with the triangle's box at once, by the grid cells of their corners. If several
+// are left, the sides of the triangle decide which of them to search.
 #pragma once
 
 #include <array>
@@ -23,13 +23,13 @@ namespace holdfast::plane {
 
 class PointTree {
  public:
-  /// `vertices` are numbered from 0, as items.
+  /// The vertices are items 0, 1, ...
   PointTree(const Points& points, std::span<const Vertex> vertices);
 
   void erase(std::uint32_t item);
 
-  /// Calls `visit` for items in the positive triangle abc, on its sides too, and some outside, until it
-  /// returns false.
+  /// Calls `visit` for the items in the closed positive triangle abc, and some outside it, until it returns
+  /// false.
   template <typename Visit>
   void each_near(Vertex a, Vertex b, Vertex c, Visit&& visit) const {
     if (order_.empty()) return;
@@ -42,16 +42,16 @@ class PointTree {
   static constexpr std::size_t kLow = 0, kHigh = 1;
   using Lanes = std::int16_t __attribute__((vector_size(2 * kFan)));
 
-  /// Its corners, and how many points are left in it.
+  /// The corners of a box, and how many points are left in it.
   struct Box {
     std::array<Position, 2> at;
     std::uint32_t left;
   };
-  /// Cells of eight boxes, or of eight points, which have their high corners at the low ones.
+  /// The cells of eight boxes, or of eight points, whose low and high corners are equal.
   struct Group {
     std::array<Lanes, 2> low, high;
 
-    /// Cells are not negative, so that nothing is near a box that ends below them.
+    /// Cells are never negative, so a box that ends below them is near nothing.
     void clear(std::size_t lane) {
       for (std::size_t k = 0; k < 2; ++k) low[k][lane] = high[k][lane] = -1;
     }
@@ -68,7 +68,7 @@ class PointTree {
   class Query {
    public:
     Query(const PointTree& tree, const std::array<Vertex, 3>& corners);
-    /// Which boxes of a group may meet that of the triangle: a byte each, the first one lowest, 1 for yes.
+    /// Which boxes of a group may meet the triangle's box: one byte each, the first one lowest, 1 for yes.
     [[nodiscard]] std::uint64_t near(const Group& group) const {
       using Bytes = std::int8_t __attribute__((vector_size(kFan)));
       const Lanes apart = (group.low[0] > high_[0]) | (low_[0] > group.high[0]) | (group.low[1] > high_[1]) |
@@ -86,8 +86,8 @@ class PointTree {
     }
 
    private:
-    /// Of a place (X, Y) to the right x X + y Y is less than the bound; X and Y are those of the corner of a
-    /// box that is furthest to the left.
+    /// A place (X, Y) is to the right if x X + y Y is less than the bound; X and Y are taken at the corner of
+    /// a box that is furthest to the left.
     struct Side {
       double x = 0, y = 0, bound = 0;
       std::size_t x_end = kLow, y_end = kLow;
@@ -102,7 +102,7 @@ class PointTree {
     std::array<Side, 3> sides_;
   };
 
-  /// The cell of a place, or the nearest one.
+  /// The cell of a place, or the nearest cell.
   [[nodiscard]] std::array<std::int16_t, 2> cell(const Position& place) const {
     return {static_cast<std::int16_t>(grid_.cell_at(place[0])),
             static_cast<std::int16_t>(grid_.cell_at(place[1]))};
@@ -110,7 +110,7 @@ class PointTree {
   [[nodiscard]] static std::vector<Box> boxes_over(const std::vector<Box>& parts);
   void add_groups(const std::vector<Box>& boxes);
 
-  // Of a group at a level, 0 for points.
+  // Visits a group at a level; level 0 has points.
   template <typename Visit>
   bool walk(Query& query, std::size_t level, std::size_t group, Visit& visit) const {
     std::uint64_t near = query.near(groups_[level][group]);
@@ -129,8 +129,8 @@ class PointTree {
   const Points& points_;
   Grid grid_;
   std::vector<std::uint32_t> order_;        // items along the curve
-  std::vector<std::uint32_t> place_;        // of an item in this order
-  std::vector<std::vector<Box>> boxes_;     // from below, measured in cells
+  std::vector<std::uint32_t> place_;        // by item, its place in this order
+  std::vector<std::vector<Box>> boxes_;     // from the lowest level up, measured in cells
   std::vector<std::vector<Group>> groups_;  // of points, then of boxes
 };
 

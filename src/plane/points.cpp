@@ -1,4 +1,4 @@
-// Predicates on points some of which are exact: a filter on their nearest doubles, then integers.
+// Predicates on points, some of which are exact: a filter on their nearest doubles, then integers.
 #include "plane/points.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ int rough_incircle(const Position& a, const Position& b, const Position& c, cons
   constexpr double kLeast = 0x1p-200, kMost = 0x1p200;
   if (!(extent > 0) || !(largest / extent < 0x1p45)) return 0;
   if (!(extent > kLeast && extent < kMost)) {
-    // Powers of two leave signs as they are, but for denormals.
+    // Scaling by a power of two keeps signs, except for denormals.
     const int by = -std::ilogb(extent);
     if (!(extent > 0x1p-900) || !(largest < 0x1p1000)) return 0;
     const auto scaled = [&](const Position& p) {
@@ -95,7 +95,7 @@ int Points::mixed_orient(Vertex a, Vertex b, Vertex c) const {
   return fine != 0 ? fine : exact::orient2d(rational(a), rational(b), rational(c));
 }
 
-/// Decides orient from two doubles a coordinate, or 0: where points lie as near to a line as rounding lets
+/// Decides orient from two doubles a coordinate, or returns 0: for points as near to a line as rounding puts
 /// them.
 ///
 /// Let M be the largest coordinate of an axis and D the largest difference. Coordinates err by 2^-100 M, so
@@ -141,7 +141,7 @@ bool Points::surely_in_circle(Vertex a, Vertex b, Vertex c, Vertex d) const {
 
 int Points::mixed_compare(Vertex a, Vertex b) const {
   if (!is_exact(a) && !is_exact(b)) return compare_positions(a, b);
-  // Rounding to nearest is monotonic: what differs afterwards differed before, and in the same sense.
+  // Rounding to nearest is monotonic: rounded coordinates that differ have the order of the exact ones.
   if (positions_[a][0] != positions_[b][0]) return positions_[a][0] < positions_[b][0] ? -1 : 1;
   return exact::compare(rational(a), rational(b));
 }
@@ -149,8 +149,7 @@ int Points::mixed_compare(Vertex a, Vertex b) const {
 int Points::compare_heights(Vertex a, Vertex b, Vertex c, Vertex d) const {
   if (!is_exact(a) && !is_exact(b) && !is_exact(c) && !is_exact(d)) {
     const Position &pa = positions_[a], &pb = positions_[b], &pc = positions_[c], &pd = positions_[d];
-    // The filter of orient2d, whose two differences have an origin in common; that plays no part in its
-    // bound.
+    // The filter of orient2d. There the two differences share an origin, but its bound does not rely on that.
     const double left = (pb[0] - pa[0]) * (pd[1] - pc[1]), right = (pb[1] - pa[1]) * (pd[0] - pc[0]);
     const double bound =
         (3 + 16 * exact::detail::kEpsilon) * exact::detail::kEpsilon * (std::fabs(left) + std::fabs(right)) +

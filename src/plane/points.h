@@ -17,7 +17,7 @@ namespace holdfast::plane {
 
 using Vertex = std::uint32_t;
 inline constexpr Vertex kNoVertex = ~Vertex{0};
-/// The doubles of a point, or those nearest to an exact one.
+/// The coordinates of a point, or the doubles nearest to an exact one.
 using Position = std::array<double, 2>;
 using Positions = LargeVector<Position>;
 
@@ -39,35 +39,36 @@ class Points {
 
   Vertex add(const Position& p);
   Vertex add(exact::RationalPoint p);
-  /// The same for callers that know the doubles nearest to it.
+  /// The same for callers that know the nearest doubles.
   Vertex add(exact::RationalPoint p, const Position& nearest);
-  /// Adds a point of other points.
+  /// Adds a point of another set.
   Vertex add(const Points& others, Vertex v);
-  /// Removes the points from number `count` on.
+  /// Keeps only the first `count` points.
   void shrink(std::size_t count);
   [[nodiscard]] exact::RationalPoint rational(Vertex v) const;
 
-  /// As exact::orient2d: +1 where abc turns left.
+  /// As exact::orient2d: +1 if abc turns left.
   [[nodiscard]] int orient(Vertex a, Vertex b, Vertex c) const {
     if (exact_.empty()) [[likely]]
       return exact::orient2d(at(a), at(b), at(c));
     return mixed_orient(a, b, c);
   }
-  /// As exact::incircle: +1 where d lies inside the circle through the positive triangle abc.
+  /// As exact::incircle: +1 if d lies inside the circle through the positive triangle abc.
   [[nodiscard]] int incircle(Vertex a, Vertex b, Vertex c, Vertex d) const {
     if (exact_.empty()) [[likely]]
       return exact::incircle(at(a), at(b), at(c), at(d));
     return mixed_incircle(a, b, c, d);
   }
-  /// True only if d lies inside the circle through the positive triangle abc; false says nothing. Cheap.
+  /// A cheap filter: true only if d lies inside the circle through the positive triangle abc; false is
+  /// undecided.
   [[nodiscard]] bool surely_in_circle(Vertex a, Vertex b, Vertex c, Vertex d) const;
-  /// Sign of a - b in lexicographic order; 0 for points at one place.
+  /// Sign of a - b in lexicographic order; 0 for coincident points.
   [[nodiscard]] int compare(Vertex a, Vertex b) const {
     if (exact_.empty()) [[likely]]
       return compare_positions(a, b);
     return mixed_compare(a, b);
   }
-  /// +1 where d lies further to the left of the line ab than c.
+  /// +1 if d lies further to the left of the line ab than c.
   [[nodiscard]] int compare_heights(Vertex a, Vertex b, Vertex c, Vertex d) const;
   /// Whether p, which lies on the line ab, lies strictly between a and b.
   [[nodiscard]] bool between(Vertex a, Vertex b, Vertex p) const {
@@ -91,14 +92,14 @@ class Points {
 
   struct ExactPoint {
     exact::RationalPoint at;
-    Position rest;  // what its position lacks, to 2^-100 of that, or NaN
+    Position rest;  // the difference from its position, accurate to 2^-100 of that, or NaN
   };
   Vertex add(ExactPoint p, const Position& nearest);
 
   Positions positions_;
-  // Of exact points, by vertex; null for explicit ones, and too short where none follows.
+  // By vertex; null for explicit points, and not longer than up to the last exact one.
   std::vector<const ExactPoint*> exact_;
-  std::deque<ExactPoint> store_;  // which keeps its addresses
+  std::deque<ExactPoint> store_;  // a deque, whose addresses are stable
 };
 
 }  // namespace holdfast::plane

@@ -1,7 +1,7 @@
 // The triangles of one polygon, or of a facet of several outlines.
 //
-// Points are numbered anew from left to right, and edges sorted by their ends, before anything else looks at
-// them. So the result depends on places alone.
+// Points are first renumbered from left to right, and edges sorted by their ends. So the result depends on
+// places alone.
 #include "plane/polygon.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace holdfast::plane {
 namespace {
 
-/// How often a walk passes an edge from its lower end to the upper one, less how often back.
+/// How often a walk passes an edge from its lower end to the upper one, minus how often it passes back.
 struct Side {
   Ends ends;
   int net;
@@ -41,8 +41,8 @@ std::vector<Side> sides_of(std::span<const Vertex> walk, const std::vector<Verte
   return sides;
 }
 
-/// How often a walk winds round the faces between its sides. The graph is connected, so that each face but
-/// the one outside has one border.
+/// Winding numbers of a walk round the faces between its sides. The graph is connected, so each face but the
+/// outer one has one border.
 class Windings {
  public:
   Windings(const std::vector<Side>& sides, const Walks& faces) : sides_(sides), faces_(faces) {
@@ -54,8 +54,8 @@ class Windings {
       neighbours_[slot(face_of_[half])].push_back(half);
   }
 
-  /// +1 or -1 for the direction of a walk that winds round every place once or not at all, and about nothing
-  /// in between; 0 for any other.
+  /// The direction, +1 or -1, of a walk whose winding numbers are all 0 or that, with no fold outside what it
+  /// encloses; 0 for any other walk.
   [[nodiscard]] int direction() {
     winding_.assign(faces_.count() + 1, kUnknown);
     winding_[slot(kOuter)] = 0;
@@ -67,7 +67,8 @@ class Windings {
       for (const std::size_t half : neighbours_[f]) {
         const int net = half % 2 == 0 ? sides_[half / 2].net : -sides_[half / 2].net;
         const std::size_t g = slot(face_of_[half ^ 1]);
-        // Beyond the side, on its right, it is less by what passes with the face on the left.
+        // The face on the right of the side has a winding number lower by the net passages with f on the
+        // left.
         const int beyond = winding_[f] - net;
         if (winding_[g] == kUnknown) {
           if (beyond != 0 && direction == 0) direction = beyond;
@@ -75,7 +76,7 @@ class Windings {
           winding_[g] = beyond;
           pending.push_back(g);
         }
-        // A fold that reaches where the walk encloses nothing would leave corners without triangles.
+        // A fold outside what the walk encloses leaves corners without triangles.
         if (net == 0 && winding_[f] == 0) return 0;
       }
     }
@@ -104,12 +105,12 @@ class Windings {
 
   const std::vector<Side>& sides_;
   const Walks& faces_;
-  std::vector<std::uint32_t> face_of_;                // on the left of each half
-  std::vector<std::vector<std::size_t>> neighbours_;  // of each face, the halves that have it on their left
+  std::vector<std::uint32_t> face_of_;                // the face on the left of each half
+  std::vector<std::vector<std::size_t>> neighbours_;  // by face, the halves that have it on their left
   std::vector<int> winding_;
 };
 
-/// By the numbers that the points had before.
+/// The corners of a triangle by the original numbers of the points.
 Corners3 corners_of(const Triangles& mesh, std::size_t t, const Sorted& sorted) {
   const Corners3& v = mesh[t].v;
   return {sorted.order[v[0]], sorted.order[v[1]], sorted.order[v[2]]};

@@ -1,13 +1,13 @@
 // Delaunay refinement in the plane.
 //
-// Constrained edges whose diametral circle holds a corner next to them are halved; triangles with a small
-// angle or too large get a point at the centre of their circle, or at an off-centre nearer to their shortest
-// edge, unless that would lie in the diametral circle of a constraint, which is then halved instead. Where
-// segments meet at less than 60 degrees they are cut at distances from their common end that are powers of
-// two (Ruppert's concentric shells), and a triangle whose shortest edge joins two such cuts at the same
-// distance stays as it is: it lies across from a small angle of the input (Miller, Pav, Walkington). All
-// measures are floating point, since they only choose places (criteria.h); where a place lies, and what
-// becomes of the triangles, exact signs decide (insertion.h).
+// Constrained edges whose diametral circle contains an adjacent corner are halved. Triangles that are too
+// large or have a small angle get a point at their circumcentre, or at an off-centre nearer to their shortest
+// edge, unless that point lies in the diametral circle of a constraint, which is then halved instead.
+// Segments that meet at less than 60 degrees are cut at distances from their common end that are powers of
+// two (Ruppert's concentric shells). A triangle whose shortest edge joins two such cuts at the same distance
+// stays as it is: it lies opposite a small angle of the input (Miller, Pav, Walkington). Measures are
+// floating point, since they only choose places (criteria.h); exact signs decide where a place lies and how
+// the triangles change (insertion.h).
 #include "plane/refine.h"
 
 #include <queue>
@@ -19,8 +19,7 @@
 namespace holdfast::plane {
 namespace {
 
-/// An edge. Where its triangle has changed since, the new triangles were looked at, so that it does not
-/// count.
+/// An edge. If its triangle has changed since, this entry is void: the new triangles have their own.
 struct Side {
   EdgeCode code;
   Ends ends;
@@ -31,18 +30,18 @@ bool stands(const Triangles& mesh, const Side& side) {
          mesh.constrained(side.code);
 }
 
-/// A triangle that is too large or too thin; likewise.
+/// A triangle that is too large or too thin; void like a Side once it has changed.
 struct Bad {
   double shortest;
   std::uint64_t number;
   std::uint32_t triangle;
   std::array<Vertex, 3> corners;
-  bool operator<(const Bad& other) const {  // the shortest edge goes first
+  bool operator<(const Bad& other) const {  // the shortest edge first
     return shortest != other.shortest ? shortest > other.shortest : number > other.number;
   }
 };
 
-/// What is to be treated: constraints, the last one first, and then triangles.
+/// What is left to treat: constraints, last in first out, and then triangles.
 class Agenda {
  public:
   [[nodiscard]] bool is_empty() const { return sides_.empty() && bad_.empty(); }
@@ -70,11 +69,11 @@ class Agenda {
   std::uint64_t looks_ = 0;
 };
 
-/// The triangles whose circles hold a point.
+/// The triangles whose circumcircles contain a point.
 class ConflictRegion {
  public:
-  /// Calls `visit` for all edges of the triangles in conflict with p, of which `first` is one, as far as they
-  /// hang together over edges that are no constraints.
+  /// Calls `visit` for all edges of the triangles in conflict with p that are connected with `first`, one of
+  /// them, over edges that are no constraints.
   template <typename Visit>
   void each_edge(const GrowingMesh& growing, Vertex p, std::uint32_t first, Visit&& visit) {
     const Triangles& mesh = growing.mesh();
@@ -102,7 +101,7 @@ class ConflictRegion {
   std::uint32_t visit_ = 0;
 };
 
-/// The last place on the way from one to another that doubles reach, which is beyond all points.
+/// The last place from one to the other within the range of doubles, which is beyond all points.
 Position within_range(const Position& from, const Position& to) {
   constexpr double kMost = 2 - 0x1p-52;
   double share = 1;
@@ -113,14 +112,14 @@ Position within_range(const Position& from, const Position& to) {
           std::clamp(from[1] + share * (to[1] - from[1]), -kMost, kMost)};
 }
 
-/// The treatment of an agenda. Whatever is made is looked at, so that all that is bad is on the agenda, and
-/// an empty one is the end.
+/// Treats an agenda. All new edges and triangles are examined, so every bad one is on the agenda, and an
+/// empty agenda is the end.
 class Refinement {
  public:
   Refinement(GrowingMesh& growing, const RefineOptions& options)
       : growing_(growing), mesh_(growing.mesh()), options_(options), criteria_(growing, options) {}
 
-  /// Returns whether it stopped at the most points that may be added.
+  /// Returns whether it stopped at the limit on added points.
   bool run(const Poll& poll) {
     for (std::uint32_t t = 0; t < mesh_.size(); ++t) look_at(t);
     double share = 0;
@@ -140,7 +139,7 @@ class Refinement {
   }
 
   [[nodiscard]] const Criteria& criteria() const { return criteria_; }
-  /// Points that were put on no constraint.
+  /// The number of points not on a constraint.
   [[nodiscard]] std::size_t inside() const { return inside_; }
 
  private:
@@ -182,8 +181,8 @@ class Refinement {
     static_cast<void>(put(criteria_.off_centre(t, shape, centre), bad, false));
   }
 
-  /// Adds a point for a triangle, or cuts what stands in its way, after which the triangle is looked at
-  /// again. False where neither can be.
+  /// Adds a point for a triangle, or cuts the constraint that it would crowd, after which the triangle is
+  /// examined again. Returns false if neither is possible.
   bool put(const Position& place, const Bad& bad, bool large) {
     if (!std::isfinite(place[0] + place[1])) return false;
     const Vertex p = growing_.add(within_range(growing_.middle_of(bad.triangle), place));
@@ -210,7 +209,7 @@ class Refinement {
     return true;
   }
 
-  /// Constraints at the border of the region in conflict with p that p would crowd.
+  /// The constraints on the border of the region in conflict with p that p would crowd.
   [[nodiscard]] std::vector<Side> find_hurt(Vertex p, std::uint32_t first, bool large) {
     std::vector<Side> hurt;
     region_.each_edge(growing_, p, first, [&](EdgeCode e) {

@@ -1,9 +1,9 @@
-// Points that make triangles well shaped and small enough: Delaunay refinement.
+// Delaunay refinement: adds points until triangles are well shaped and small enough.
 //
 // After J. Ruppert, "A Delaunay refinement algorithm for quality 2-dimensional mesh generation" (J.
 // Algorithms 1995); G.L. Miller, S.E. Pav, N.J. Walkington, "When and why Ruppert's algorithm works" (12th
-// International Meshing Roundtable, 2003), whose variant ends for every input and every bound up to 26.45
-// degrees; and A. Ungor, "Off-centers" (LATIN 2004), which takes fewer points.
+// International Meshing Roundtable, 2003), whose variant terminates for every input and every bound up to
+// 26.45 degrees; and A. Ungor, "Off-centers" (LATIN 2004), which needs fewer points.
 #pragma once
 
 #include "plane/sweep.h"
@@ -34,9 +34,9 @@ struct Refined {
   bool capped = false;         ///< stopped at `most_points`
 };
 
-/// Adds points to constrained Delaunay triangles that are not closed, but bounded by constraints, and keeps
-/// them constrained Delaunay. `mark` of a triangle is its region, which new ones inherit. Points on a segment
-/// are rounded to doubles, so that its pieces are no exact line; all triangles stay positive, exactly.
+/// Adds points to constrained Delaunay triangles that are bounded by constraints, not closed, and keeps them
+/// constrained Delaunay. The `mark` of a triangle is its region, which new ones inherit. Points on a segment
+/// are rounded to doubles, so its pieces are not exactly collinear; all triangles stay exactly positive.
 [[nodiscard]] Refined refine(Triangles& mesh, Points& points, const std::vector<Ends>& segments,
                              const RefineOptions& options, const Poll& poll);
 

@@ -6,7 +6,7 @@
 namespace holdfast::plane {
 namespace {
 
-/// Breadth first, so that the triangles of the queue can be fetched ahead.
+/// Breadth first, so the triangles in the queue can be prefetched.
 void flood(const Triangles& mesh, std::uint32_t first, std::uint32_t region,
            LargeVector<std::uint32_t>& of_triangle, std::vector<std::uint32_t>& queue) {
   queue.assign(1, first);

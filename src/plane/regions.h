@@ -10,8 +10,8 @@ namespace holdfast::plane {
 
 inline constexpr std::uint32_t kOutside = 0;
 
-/// The region of each triangle: kOutside for what no constraints separate from the outside (ghosts, or
-/// borders that are none), then numbers from 1 as their first triangles come.
+/// The region of each triangle: kOutside if no constraints separate it from the ghosts or from unconstrained
+/// borders; the others are numbered from 1 in the order of their first triangles.
 struct Regions {
   LargeVector<std::uint32_t> of_triangle;
   std::uint32_t count = 0;

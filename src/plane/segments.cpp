@@ -23,7 +23,7 @@ bool find_passage(const Triangles& mesh, const Points& points, Vertex a, Vertex 
     e = mesh.turn_right(e);
   } while (e != first);
 
-  // The corner across the edge lies on one side of ab, and so tells the edge by which ab leaves.
+  // The side of ab on which the corner opposite the edge lies gives the edge through which ab leaves.
   while (leave != kNoEdge) {
     if (mesh.constrained(leave)) return false;
     found.crossed.push_back(leave);

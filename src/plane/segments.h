@@ -12,7 +12,8 @@ struct Passage {
   std::vector<EdgeCode> crossed;
 };
 /// The edge ab, seen from its left, or the edges that the segment ab crosses, from a to b, each seen from the
-/// side of a. False if it passes through a vertex or through a constrained edge. `mesh` has its stars.
+/// side of a. Returns false if it passes through a vertex or a constrained edge. `mesh` must have its stars
+/// (find_stars).
 [[nodiscard]] bool find_passage(const Triangles& mesh, const Points& points, Vertex a, Vertex b,
                                 Passage& found);
 

@@ -8,8 +8,8 @@
 
 namespace holdfast::plane {
 
-/// Each number below a bound may stand in it once. They lie in short blocks, so that the place for a new one
-/// is found by halving, and are linked to each other besides.
+/// Each number below a bound may occur once. Numbers are stored in short blocks, in which the place for a new
+/// one is found by bisection, and are also linked to each other.
 class Sequence {
  public:
   using Number = std::uint32_t;
@@ -20,12 +20,12 @@ class Sequence {
         previous_(bound + 1, end_),
         block_of_(bound + 1) {}
 
-  /// Stands before the first number and behind the last one.
+  /// The position before the first number and after the last one.
   [[nodiscard]] Number end() const { return end_; }
   [[nodiscard]] Number next(Number i) const { return next_[i]; }
   [[nodiscard]] Number previous(Number i) const { return previous_[i]; }
 
-  /// Of numbers that begin with those for which `is_before` is true, the first for which it is not, or end().
+  /// The first number for which `is_before` is false, or end(). Those for which it is true must come first.
   template <typename Before>
   [[nodiscard]] Number find(const Before& is_before) const {
     const auto block = std::partition_point(order_.begin(), order_.end(), [&](std::uint32_t b) {
@@ -36,7 +36,7 @@ class Sequence {
     return *std::partition_point(found.numbers.begin(), found.numbers.begin() + found.size - 1, is_before);
   }
 
-  /// Puts `i`, which does not stand in it, before `at`.
+  /// Inserts `i`, which must not be in it, before `at`.
   void insert(Number at, Number i) {
     next_[i] = at;
     previous_[i] = previous_[at];
@@ -86,7 +86,7 @@ class Sequence {
     return b;
   }
 
-  /// Moves half of a block's numbers to a new block behind it.
+  /// Moves half of a block's numbers to a new block after it.
   void split(std::uint32_t b) {
     const std::uint32_t other = add_block();
     order_.insert(std::find(order_.begin(), order_.end(), b) + 1, other);

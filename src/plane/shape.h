@@ -1,4 +1,4 @@
-// Shapes of triangles, measured in floating point, at a scale at which nothing over- or underflows.
+// Shapes of triangles, measured in floating point at a scale that avoids overflow and underflow.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace holdfast::plane {
 
-/// Coordinates times a power of two, so that the largest is about 1.
+/// Scales coordinates by a power of two, so that the largest is about 1.
 class Scale {
  public:
   explicit Scale(std::span<const Position> points) {
@@ -26,7 +26,7 @@ class Scale {
   [[nodiscard]] Position up(const Position& p) const {
     return {std::scalbn(p[0], exponent_), std::scalbn(p[1], exponent_)};
   }
-  /// A length of some subnormal steps, below which doubles are too coarse to cut an edge.
+  /// The length of a few subnormal steps; shorter edges are too fine to cut in doubles.
   [[nodiscard]] double finest() const { return std::scalbn(0x1p-1068, -exponent_); }
   [[nodiscard]] double length_down(double length) const { return std::scalbn(length, -exponent_); }
   [[nodiscard]] double area_down(double area) const {
@@ -35,14 +35,14 @@ class Scale {
 
  private:
   int exponent_ = 0;
-  double factor_ = 0;  // 0 where it is no normal number
+  double factor_ = 0;  // 0 if it is not a normal number
 };
 
 [[nodiscard]] inline double squared(const Position& a, const Position& b) {
   const double x = a[0] - b[0], y = a[1] - b[1];
   return x * x + y * y;
 }
-/// Of the vectors from p to a and to b.
+/// The dot product of the vectors from p to a and to b.
 [[nodiscard]] inline double dot_from(const Position& p, const Position& a, const Position& b) {
   return (a[0] - p[0]) * (b[0] - p[0]) + (a[1] - p[1]) * (b[1] - p[1]);
 }
@@ -53,7 +53,7 @@ class Scale {
   return {a[0] + (b[0] - a[0]) / 2, a[1] + (b[1] - a[1]) / 2};
 }
 
-/// Edge i lies opposite to corner i.
+/// Edge i lies opposite corner i.
 struct Shape {
   Shape(const Position& a, const Position& b, const Position& c)
       : edges{squared(b, c), squared(c, a), squared(a, b)} {
@@ -75,8 +75,8 @@ class LeastAngle {
   void take(const Position& a, const Position& b, const Position& c) {
     const Position p = scale_.down(a), q = scale_.down(b), r = scale_.down(c);
     const double pq = squared(p, q), qr = squared(q, r), rp = squared(r, p);
-    // Roots and quotients only for triangles that may have the least: its shortest edge has the largest
-    // cosine, n / (2 sqrt(product of the others)). Far above what underflows.
+    // Roots and quotients are computed only for triangles that may have the least angle: the shortest edge
+    // has the largest cosine, n / (2 sqrt(product of the others)). No product is near underflow.
     const double shortest = std::min(std::min(pq, qr), rp), n = pq + qr + rp - 2 * shortest;
     if (n * n * shortest + 0x1p-900 < bound_ * (pq * qr * rp)) return;
     const double cosine = Shape(p, q, r).cosine;
@@ -93,7 +93,7 @@ class LeastAngle {
   double cosine_ = -1, bound_ = 0;
 };
 
-/// The centre of the circle through a, b and c; not finite where they lie on a line as far as doubles tell.
+/// The circumcentre of a, b and c; not finite if they are collinear in doubles.
 [[nodiscard]] inline Position circumcentre(const Position& a, const Position& b, const Position& c) {
   const double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
   const double twice = 2 * (bx * cy - by * cx), b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;

@@ -1,11 +1,11 @@
-// Points from left to right, and on one vertical line upwards, as a sweep passes them.
+// Points in the order of a sweep: from left to right, and upwards on a vertical line.
 #pragma once
 
 #include "plane/order.h"
 
 namespace holdfast::plane {
 
-/// `order` has the numbers that the points had before, `number` those that they have here.
+/// `order` has the original numbers of the points, `number` the numbers here by original number.
 struct Sorted {
   explicit Sorted(const GivenPoints& given)
       : order(order_from_left(given)), number(given.size()), points(in_order(given, order)) {

@@ -11,11 +11,11 @@ namespace holdfast::plane {
 
 class Stages {
  public:
-  /// `poll` is called with the share of all work that is done; seconds are added by the stages' names.
+  /// `poll` is called with the share of all work that is done; seconds are added under the stages' names.
   Stages(const Poll& poll, std::map<std::string, double>& seconds) : poll_(poll), seconds_(seconds) {}
 
-  /// Runs a stage, which takes the work from where the last one ended to the share `until`. `work` is called
-  /// with a poll that takes the share of the stage, and its result is returned.
+  /// Runs a stage, whose share of the work lasts from the end of the previous stage to `until`. Calls `work`
+  /// with a poll that takes the share of the stage, and returns its result.
   template <typename Work>
   auto run(const char* name, double until, Work&& work) {
     const double from = done_;
@@ -25,7 +25,7 @@ class Stages {
     return work(share);
   }
 
-  /// Adds the seconds that it lives.
+  /// Adds the seconds of its lifetime.
   struct Timer {
     double& seconds;
     const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();

@@ -1,10 +1,10 @@
-// Segments made edges by swaps, and constrained Delaunay triangles by swaps.
+// Makes segments edges by swaps, and triangles constrained Delaunay by swaps.
 #include "plane/swaps.h"
 
 namespace holdfast::plane {
 
-/// Some edge can be swapped as long as one is crossed, and a sequence of swaps that never increases their
-/// number ends with none; random ones find it with probability 1.
+/// As long as an edge is crossed, some crossed edge can be swapped, and some sequence of swaps that never
+/// increases their number removes them all. Random swaps find one with probability 1.
 std::size_t SegmentSwaps::lay(Vertex a, Vertex b, const std::vector<EdgeCode>& crossed,
                               numbers::Random& random, std::vector<EdgeCode>& swapped, std::size_t most) {
   a_ = a;
@@ -28,14 +28,14 @@ std::size_t SegmentSwaps::lay(Vertex a, Vertex b, const std::vector<EdgeCode>& c
   return swaps;
 }
 
-/// Tries to swap the k-th of those that stand; the edge that came of it, or kNoEdge if it cannot be.
+/// Tries to swap the k-th crossed edge. Returns the new edge, or kNoEdge if the swap is impossible.
 EdgeCode SegmentSwaps::swap(std::size_t k) {
   const std::uint32_t link = standing_[k];
   const EdgeCode e = links_[link].edge;
   const Vertex p = mesh_.apex(e), from = mesh_.from(e), to = mesh_.to(e), q = mesh_.apex(mesh_.across(e));
   if (points_.orient(p, from, q) <= 0 || points_.orient(q, to, p) <= 0) return kNoEdge;
   const std::uint32_t before = links_[link].before, after = links_[link].after;
-  // Of the next edge the far side stays as it is, and tells where the near one is afterwards.
+  // The far side of the next edge keeps its code, and gives the near side after the flip.
   const EdgeCode far = after == kNone ? kNoEdge : mesh_.across(links_[after].edge);
   mesh_.flip(e);
   if (after != kNone) links_[after].edge = mesh_.across(far);
@@ -49,7 +49,8 @@ EdgeCode SegmentSwaps::swap(std::size_t k) {
   return diagonal;
 }
 
-/// The diagonal from the triangle that the segment enters first: the one behind the edge before, or at a.
+/// The diagonal, seen from the triangle that the segment enters first: the one after the previous edge, or at
+/// a.
 EdgeCode SegmentSwaps::near_side(EdgeCode diagonal, std::uint32_t before) const {
   const std::uint32_t t = triangle_of(diagonal);
   const bool here = before != kNone ? triangle_of(mesh_.across(links_[before].edge)) == t

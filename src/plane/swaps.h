@@ -6,12 +6,12 @@
 
 namespace holdfast::plane {
 
-/// Swaps edges that segments cross, at random, until they cross none.
+/// Swaps edges crossed by a segment, at random, until it crosses none.
 class SegmentSwaps {
  public:
   SegmentSwaps(Triangles& mesh, const Points& points) : mesh_(mesh), points_(points) {}
 
-  /// For the segment ab with the passage `crossed`. Swapped edges are added to `swapped`, as seen from both
+  /// Swaps for the segment ab with the passage `crossed`. Adds swapped edges to `swapped`, seen from both
   /// sides. Returns the number of swaps; stops at `most`.
   std::size_t lay(Vertex a, Vertex b, const std::vector<EdgeCode>& crossed, numbers::Random& random,
                   std::vector<EdgeCode>& swapped, std::size_t most = SIZE_MAX);
@@ -32,12 +32,12 @@ class SegmentSwaps {
   const Points& points_;
   Vertex a_ = kNoVertex, b_ = kNoVertex;
   std::vector<Link> links_;              // in order from a
-  std::vector<std::uint32_t> standing_;  // of these the ones that are crossed, in any order
+  std::vector<std::uint32_t> standing_;  // those still crossed, in any order
 };
 
-/// Swaps edges that are no constraints until the circle of each triangle has no corner of a neighbour inside
-/// (but behind constraints), beginning with the edges of the triangles of `pending`, which is empty then. The
-/// number of swaps.
+/// Swaps unconstrained edges until no triangle's circumcircle contains the opposite corner of a neighbour,
+/// except across constraints. Starts with the edges of the triangles of `pending`, which ends empty. Returns
+/// the number of swaps.
 std::size_t swap_to_delaunay(Triangles& mesh, const Points& points, std::vector<EdgeCode>& pending,
                              const Poll& poll);
 /// The same for all edges.

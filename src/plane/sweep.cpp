@@ -42,21 +42,21 @@ class Sweep {
   std::vector<Ends> links;
 
  private:
-  using Item = std::uint32_t;  // a segment
-  // A seat in the status, with the number of the segment that first held it. Where one segment ends another
-  // one nearly always starts, and takes its seat.
+  using Item = std::uint32_t;  // the number of a segment
+  // A place in the status, numbered by the segment that first held it. If one segment ends at a vertex,
+  // another one nearly always starts there and takes its seat.
   using Seat = std::uint32_t;
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
   [[nodiscard]] int side(Item s, Vertex v) const { return points_.orient(ends_[s][0], ends_[s][1], v); }
 
-  // --- Parts of the graph: trees of disjoint sets, with path halving -----------------------------------
+  // --- Parts of the graph: disjoint-set trees with path halving ------------------------------------------
 
   Vertex part_of(Vertex v) {
     while (part_[v] != v) v = part_[v] = part_[part_[v]];
     return v;
   }
-  /// False where both are in one part already.
+  /// Returns false if both are in one part already.
   bool unite(Vertex v, Vertex w) {
     v = part_of(v);
     w = part_of(w);
@@ -65,7 +65,7 @@ class Sweep {
     return true;
   }
 
-  // Segments by their first ends.
+  // Lists segments by their first ends.
   void list_starts() {
     first_.assign(points_.size() + 1, 0);
     for (const Ends& e : ends_) ++first_[e[0] + std::size_t{1}];
@@ -75,7 +75,7 @@ class Sweep {
     for (Item s = 0; s < ends_.size(); ++s) starts_[next[ends_[s][0]]++] = s;
   }
 
-  // False where two segments have a point in common other than a common end.
+  // False if two segments meet other than in a common end.
   [[nodiscard]] bool fit(Item s, Item t) const {
     const Ends &p = ends_[s], &q = ends_[t];
     if (p[0] == q[0]) return points_.orient(p[0], p[1], q[1]) != 0;
@@ -85,19 +85,19 @@ class Sweep {
     const int a = points_.orient(q[0], q[1], p[0]), b = points_.orient(q[0], q[1], p[1]);
     if (a * b > 0) return true;
     if (c * d < 0 && a * b < 0) return false;
-    // On one line: from the later of the first ends to the earlier of the last ones.
+    // Collinear: the later first end against the earlier last end.
     if (c == 0 && d == 0) return std::max(p[0], q[0]) >= std::min(p[1], q[1]);
-    // One end at most touches: it must be an end of both.
+    // One end may touch, but only as an end of both.
     return p[0] == q[1] || p[1] == q[0];
   }
 
-  /// What ends at a vertex stands together in the status, above what is below the vertex.
+  /// The segments that end at a vertex are consecutive in the status, above those below the vertex.
   struct Ending {
     Seat first, last;
     std::size_t count = 0;
   };
 
-  // Nothing where the vertex lies inside a segment.
+  // Returns nullopt if the vertex lies inside a segment.
   std::optional<Ending> find_ending(Vertex v) {
     Ending found;
     if (const Item s = ending_[v]; s != kNone) {
@@ -125,8 +125,8 @@ class Sweep {
     const bool has_below = lower != status_.end(), has_above = upper != status_.end();
     const Item below = has_below ? held_by_[lower] : kNone;
     const Item above = has_above ? held_by_[upper] : kNone;
-    // The last vertex that came between the two segments is seen from v. A part is linked by its leftmost
-    // vertex; further links would only make cycles, outside of all faces, too.
+    // v sees the last vertex that came between the two segments. A part is linked by its leftmost vertex;
+    // further links would only make cycles, even in the outer face.
     if (ending->count == 0 && has_below && has_above && unite(helper_[below], v))
       links.push_back({helper_[below], v});
     if (has_below) helper_[below] = v;
@@ -150,7 +150,7 @@ class Sweep {
     return true;
   }
 
-  /// Gives the seats of what ends to what starts, in the same order from below.
+  /// Gives the seats of ending segments to starting ones, both in order from below.
   void seat(const Item* first, const Item* last, const Ending& ending) {
     Seat it = ending.first;
     for (; first < last && it != ending.last; ++first, it = status_.next(it)) {
@@ -171,13 +171,13 @@ class Sweep {
   const Points& points_;
   std::vector<Ends> ends_;  // in the order of the sweep
   std::vector<Vertex> part_;
-  std::vector<Vertex> helper_;  // of what is just above a segment, the last vertex that came
+  std::vector<Vertex> helper_;  // by segment, the last vertex that came just above it
   std::vector<std::uint32_t> first_;
   std::vector<Item> starts_;
-  Sequence status_;            // from below, of what the sweep line crosses
-  std::vector<Item> held_by_;  // of a seat
-  std::vector<Seat> seat_of_;  // of a segment in the status
-  std::vector<Item> ending_;   // of a vertex, a segment in the status that ends there
+  Sequence status_;            // the seats that the sweep line crosses, from below
+  std::vector<Item> held_by_;  // by seat
+  std::vector<Seat> seat_of_;  // by segment in the status
+  std::vector<Item> ending_;   // by vertex, a segment in the status that ends there
 };
 
 }  // namespace

@@ -28,11 +28,11 @@ inline constexpr EdgeCode kNoEdge = ~EdgeCode{0};
 [[nodiscard]] inline EdgeCode code(std::size_t triangle, std::uint32_t edge) {
   return static_cast<EdgeCode>(triangle << 2) | edge;
 }
-/// The edge, or corner, behind edge e in its triangle, counterclockwise.
+/// The edge, or corner, after edge e in its triangle, counterclockwise.
 [[nodiscard]] inline EdgeCode next_edge(EdgeCode e) { return edge_of(e) == 2 ? e - 2 : e + 1; }
 [[nodiscard]] inline EdgeCode previous_edge(EdgeCode e) { return edge_of(e) == 0 ? e + 2 : e - 1; }
 
-/// Called from time to time in long loops with the share that is done; may throw.
+/// Called from time to time in long loops with the share of work done; may throw.
 using Poll = std::function<void(double)>;
 
 struct alignas(32) Corners {
@@ -54,7 +54,7 @@ class Triangles {
     return v[0] == kNoVertex || v[1] == kNoVertex || v[2] == kNoVertex;
   }
   [[nodiscard]] EdgeCode across(EdgeCode e) const { return all_[triangle_of(e)].across[edge_of(e)]; }
-  /// The corner opposite to an edge, and the edge's ends.
+  /// The corner opposite an edge, and the edge's ends.
   [[nodiscard]] Vertex apex(EdgeCode e) const { return all_[triangle_of(e)].v[edge_of(e)]; }
   [[nodiscard]] Vertex from(EdgeCode e) const { return apex(next_edge(e)); }
   [[nodiscard]] Vertex to(EdgeCode e) const { return apex(previous_edge(e)); }
@@ -80,16 +80,16 @@ class Triangles {
   /// Sets, for each vertex, a triangle at it.
   void find_stars(std::size_t vertices);
   [[nodiscard]] bool has_stars() const { return !star_.empty(); }
-  /// Some edge whose first end is `v`, or kNoEdge for a vertex without triangles. After find_stars.
+  /// Some edge whose first end is `v`, or kNoEdge for a vertex without triangles. Needs find_stars.
   [[nodiscard]] EdgeCode edge_from(Vertex v) const;
-  /// The edge ab, seen from its left, or kNoEdge. In closed meshes, after find_stars.
+  /// The edge ab, seen from its left, or kNoEdge. Needs a closed mesh and find_stars.
   [[nodiscard]] EdgeCode find_edge(Vertex a, Vertex b) const;
-  /// The next edge from the same vertex, clockwise: kNoEdge beyond a border.
+  /// The next edge from the same vertex, clockwise, or kNoEdge at a border.
   [[nodiscard]] EdgeCode turn_right(EdgeCode e) const {
     const EdgeCode other = across(e);
     return other == kNoEdge ? kNoEdge : next_edge(other);
   }
-  /// Prefetch for a vertex: first the number of its triangle, then the triangle.
+  /// Prefetches for a vertex: first the number of its triangle, then the triangle.
   void fetch_star(Vertex v) const { __builtin_prefetch(&star_[v]); }
   void fetch_triangle(Vertex v) const {
     if (const std::uint32_t t = star_[v]; t != kNoVertex) __builtin_prefetch(&all_[t]);

@@ -18,9 +18,9 @@ namespace {
 
 constexpr double kAngleOfSizes = 20;
 constexpr std::size_t kMostDefects = 100;  // of a kind
-constexpr double kRegions = 0.9;           // share of the work when it ends
+constexpr double kRegions = 0.9;           // share of the work at its end
 
-/// What single entities need so that the stages can begin.
+/// The requirements on single entities without which no stage can begin.
 bool is_sound(const Plane& plane) {
   const auto finite = [](const PlanePoint& p) { return std::isfinite(p[0]) && std::isfinite(p[1]); };
   return std::all_of(plane.points.begin(), plane.points.end(), finite) &&
@@ -37,7 +37,7 @@ void encloses_nothing(const Plane& plane, PlaneResult& result) {
   result.defects.push_back({DefectKind::encloses_nothing, {}, {}, {}, {}, result.message});
 }
 
-/// After Delaunay, and some swaps: segments that are no edges.
+/// After Delaunay and some swaps: the segments that are not edges yet.
 void tell_missing(Draft& draft, const Plane& plane, PlaneResult& result) {
   draft.mesh.find_stars(draft.points.size());
   std::vector<Segment>& missing = result.intermediate.missing_segments;
@@ -47,10 +47,9 @@ void tell_missing(Draft& draft, const Plane& plane, PlaneResult& result) {
   result.report.missing_segments = missing.size();
 }
 
-// --- What is kept of them
-// -----------------------------------------------------------------------------------
+// --- The kept triangles ---
 
-/// Takes the triangles that `kept` tells, with the region that `id` tells.
+/// Takes the triangles for which `kept` is true, with the region given by `id`.
 template <typename Kept, typename Id>
 void deliver(const Draft& draft, const Plane& plane, PlaneResult& result, Kept&& kept, Id&& id) {
   const Points& points = draft.points;
@@ -70,7 +69,7 @@ void deliver(const Draft& draft, const Plane& plane, PlaneResult& result, Kept&&
   mesh.point_markers = plane.point_markers;
   mesh.segments = plane.segments;
   mesh.segment_markers = plane.segment_markers;
-  // Points that are added, those of the partition to the nearest doubles.
+  // Added points; those of the partition are rounded to the nearest doubles.
   for (std::size_t v = plane.points.size(); v < points.size(); ++v)
     mesh.points.push_back(points[static_cast<Vertex>(v)]);
   if (!mesh.point_markers.empty()) mesh.point_markers.resize(mesh.points.size(), 0);
@@ -94,7 +93,7 @@ Refined refine_kept(Draft& draft, const PlaneOptions& options, std::vector<doubl
   return refined;
 }
 
-/// False where a hole or seed lies on a segment.
+/// Returns false if a hole or seed lies on a segment.
 bool keep_regions(Draft& draft, const Plane& plane, const PlaneOptions& options, PlaneResult& result,
                   Stages& stages, const Poll& poll) {
   const Chosen chosen = stages.run("regions", kRegions, [&](const Poll&) {
@@ -122,17 +121,16 @@ bool keep_regions(Draft& draft, const Plane& plane, const PlaneOptions& options,
   return true;
 }
 
-// --- The run
-// ------------------------------------------------------------------------------------------------
+// --- The run ---
 
-/// False where the input turns out to be invalid.
+/// Returns false if the input turns out to be invalid.
 bool make(const Plane& plane, const PlaneOptions& options, PlaneResult& result, const Poll& poll) {
   Stages stages(poll, result.report.seconds);
   const bool by_ears = options.method == PlaneMethod::ears;
   std::optional<Draft> draft = triangles_by_method(plane.points, plane.segments, options, result, stages);
   if (!draft) return false;
   if (!by_ears && draft->mesh.size() == 0) {
-    // Points on one line: there is nothing to make a triangle of, but they may be invalid all the same.
+    // Collinear points have no triangles, but they may still be invalid.
     result.defects = find_defects(plane, kMostDefects, poll);
     if (!result.defects.empty()) return false;
     encloses_nothing(plane, result);

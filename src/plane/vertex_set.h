@@ -1,5 +1,5 @@
-// A set of vertices that are numbered from left to right: the next one from some number on, and of those
-// between two numbers the ones that lie between two heights.
+// A set of vertices numbered from left to right. It finds the next one from a number on, and those between
+// two numbers whose heights lie between two bounds.
 #pragma once
 
 #include <bit>
@@ -12,8 +12,7 @@
 
 namespace holdfast::plane {
 
-/// Heights are compared eight at once, by the rows of a grid that they lie in, which are found when they are
-/// first asked for.
+/// Heights are compared eight at once, as rows of a grid, which are computed on first use.
 class VertexSet {
  public:
   static constexpr std::size_t none = NumberSet::none;
@@ -29,11 +28,11 @@ class VertexSet {
     if (!rows_.empty()) rows_[v] = kAbsent;
   }
   [[nodiscard]] bool contains(Vertex v) const { return numbers_.contains(v); }
-  /// The least number in it that is at least `i`, or `none`.
+  /// The least number in the set that is at least `i`, or `none`.
   [[nodiscard]] std::size_t from(std::size_t i) const { return numbers_.from(i); }
 
-  /// Calls `visit` for vertices from `first` on and before `last`, in order, whose heights are from `low` to
-  /// `high`, and some that lie just outside, until it returns false.
+  /// Calls `visit` in order for vertices with `first` <= number < `last` and heights from `low` to `high`,
+  /// and for some just outside these heights, until it returns false.
   template <typename Visit>
   void each_between(Vertex first, Vertex last, double low, double high, Visit&& visit) {
     using Bytes = std::int8_t __attribute__((vector_size(kLanes)));
@@ -71,7 +70,7 @@ class VertexSet {
   const Points& points_;
   NumberSet numbers_;
   Grid grid_;
-  std::vector<std::int16_t> rows_;  // of each vertex, once they are asked for
+  std::vector<std::int16_t> rows_;  // by vertex, computed on first use
 };
 
 }  // namespace holdfast::plane
